@@ -3,6 +3,7 @@
 import io
 import pathlib
 import pickle
+import sys
 
 import numpy as np
 import ppum
@@ -115,3 +116,21 @@ def test_all_classes_are_of_the_package():
 def test_the_version_is_that_of_the_crates():
     cargo = (pathlib.Path(__file__).parents[3] / "Cargo.toml").read_text()
     assert f'version = "{ppum.__version__}"' in cargo
+
+
+@pytest.mark.parametrize(
+    "package, remedy, use",
+    [
+        ("xarray", "ppum[plot]", lambda f: f.line((0, 0), (1, 1))),
+        ("xarray", "ppum[plot]", lambda f: f.grid(3, 3)),
+        ("xarray", "ppum[sweep]", lambda f: ppum.sweep(lambda a: 1 / 0, a=[1]).run()),
+        ("matplotlib", "ppum[plot]", lambda f: f.plot()),
+        ("pandas", "pandas", lambda f: f.step.tips.to_pandas()),
+        ("anywidget", "ppum[notebook]", lambda f: f.view()),
+    ],
+)
+def test_packages_that_are_missing_have_a_remedy(f, monkeypatch, package, remedy, use):
+    """Before any work: a sweep would be lost."""
+    monkeypatch.setitem(sys.modules, package, None)
+    error = caught(lambda: use(f))
+    assert type(error) is ImportError and f"need {package}: pip install '{remedy}'" in str(error)

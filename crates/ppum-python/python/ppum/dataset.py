@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
+from .extras import needed
 
 if TYPE_CHECKING:
     from .field import Field
@@ -195,8 +196,7 @@ class Table(tuple[_Row, ...], Generic[_Row]):
 
     def to_pandas(self) -> Any:
         """The rows as a `pandas.DataFrame`; those attributes that are arrays are left out."""
-        import pandas
-
+        pandas = needed("pandas", "pandas", "tables")
         return pandas.DataFrame(self._records(), columns=self._columns() or None)
 
     def _columns(self) -> list[str]:

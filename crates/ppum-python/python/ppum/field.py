@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .errors import QuantityError
+from .extras import needed
 from .pictures import (
     Animation,
     Extremum,
@@ -140,11 +141,9 @@ class Values:
 
 def _widget() -> Any:
     """The module of views, whose needs are extra ones."""
-    try:
-        from . import widget
-    except ImportError as error:
-        remedy = "views in notebooks need anywidget: pip install 'ppum[notebook]'"
-        raise ImportError(remedy) from error
+    needed("anywidget", "ppum[notebook]", "views in notebooks")
+    from . import widget
+
     return widget
 
 
@@ -704,6 +703,7 @@ class Field:
         Returns:
             The artist, a `matplotlib.image.AxesImage`.
         """
+        needed("matplotlib", "ppum[plot]", "pictures in matplotlib")
         from .plotting import plot
 
         return plot(self, quantity, **options)

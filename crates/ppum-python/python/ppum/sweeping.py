@@ -16,6 +16,7 @@ from . import _core
 from .dataset import Dataset
 from .dataset import open as open_dataset
 from .errors import PpumError
+from .extras import needed
 from .problem import Problem, solve
 
 __all__ = ["Sweep", "sweep"]
@@ -103,6 +104,8 @@ class Sweep:
             An `xarray.Dataset` over the parameters: energy, unknowns, patches, warnings, status; and over `tip` as well: k1, k2,
             t_stress, j, g, growth_angle, error, and the place x, y.
         """
+        # before hours of work, not after
+        xarray = needed("xarray", "ppum[sweep]", "results of sweeps")
         folder = None if save is None else Path(save).absolute()
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
@@ -113,11 +116,9 @@ class Sweep:
         for done, (k, row) in enumerate(found(problems, folder, threads), 1):
             rows[k] = row
             tell(done)
-        return self._gathered(rows)
+        return self._gathered(rows, xarray)
 
-    def _gathered(self, rows: list[_Row]) -> Any:
-        import xarray
-
+    def _gathered(self, rows: list[_Row], xarray: Any) -> Any:
         shape, dims = tuple(len(v) for v in self._values.values()), tuple(self._values)
         count = max((len(row.get("tips", ())) for row in rows), default=0)
         per_tip = np.full((len(rows), count, len(TIPS) + 2), np.nan)

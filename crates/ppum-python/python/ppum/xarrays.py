@@ -7,10 +7,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .extras import needed
+
 if TYPE_CHECKING:
     from .field import Field
 
 Floats = NDArray[np.float64]
+
+#: Where xarray comes from, and for what.
+EXTRA = ("ppum[plot]", "values along curves and on grids")
 
 
 def _named(name: str) -> str:
@@ -27,8 +32,7 @@ def _words(field: Field, name: str) -> dict[str, str]:
 
 def curve(field: Field, along: str, num: int, names: list[str]) -> Any:
     """The table of a curve: the first column is the dimension, x, y and side are coordinates."""
-    import xarray
-
+    xarray = needed("xarray", *EXTRA)
     heads, rows = field._core.table(along, num, names)
     dimension = heads[0][0]
     units = {"theta": "deg"}
@@ -53,8 +57,7 @@ def grid(
     side: str,
 ) -> Any:
     """Values over y and x, both as they are given, or evenly from border to border."""
-    import xarray
-
+    xarray = needed("xarray", *EXTRA)
     (x0, y0), (x1, y1) = field.dataset.domain
     x, y = _axis("x", *columns, x0, x1), _axis("y", *rows, y0, y1)
     found: Floats = field.evaluate(x[None, :], y[:, None], names, side=side)  # type: ignore[arg-type]
