@@ -1,24 +1,35 @@
 #!/usr/bin/env python3
 """What a wheel and a source distribution of the Python package must be: small, licensed, for Python 3.11 and later.
 
-    tools/wheel.py FOLDER
+    tools/wheel.py FOLDER             a wheel and a source distribution that were built
+    tools/wheel.py --release FOLDER   builds there what is published, with zig, and checks it; skipped where zig is not
+
+With zig (`pip install ziglang`) wheels are linked against an old C library, so that they run on clusters of 2012 and later.
 """
 
+import importlib.util
 import pathlib
+import re
+import subprocess
 import sys
 import tarfile
 import zipfile
 
 #: Longest wheel, in bytes: a little more than it has. A sixth of it are kernels, once for each set of vector instructions.
-LONGEST = 6_600_000
+LONGEST = 6_700_000
+#: Longest published wheel: the whole program is optimised at once, so generic code is there once.
+LONGEST_RELEASE = 6_000_000
+#: The C library that published wheels need, that of CentOS 7.
+OLDEST = (2, 17)
 LICENSES = ("LICENSE-MIT", "LICENSE-APACHE")
+RELEASE = ("maturin", "build", "--profile", "wheel", "--locked", "--zig", "--compression-level", "9")
 
 
-def check(folder):
+def check(folder, longest=LONGEST):
     (wheel,) = folder.glob("*.whl")
     (source,) = folder.glob("*.tar.gz")
     size = wheel.stat().st_size
-    assert size <= LONGEST, f"{wheel.name} has {size} bytes, more than {LONGEST}"
+    assert size <= longest, f"{wheel.name} has {size} bytes, more than {longest}"
     assert "-cp311-abi3-" in wheel.name, f"{wheel.name} is for one Python alone"
     inside = zipfile.ZipFile(wheel).namelist()
     outside = tarfile.open(source).getnames()
@@ -30,5 +41,30 @@ def check(folder):
     print(f"ok  {wheel.name}: {size / 1e6:.1f} MB; {source.name}: {source.stat().st_size / 1e6:.1f} MB")
 
 
+def check_platform(folder):
+    """The name of the wheel says an old C library, and its code asks for nothing newer."""
+    (wheel,) = folder.glob("*.whl")
+    tag = "manylinux_{}_{}_".format(*OLDEST)
+    assert tag in wheel.name, f"{wheel.name} is not for {tag}"
+    archive = zipfile.ZipFile(wheel)
+    (library,) = (name for name in archive.namelist() if name.endswith(".so"))
+    versions = re.findall(rb"\bGLIBC_(\d+)\.(\d+)", archive.read(library))
+    newest = max((int(major), int(minor)) for major, minor in versions)
+    assert newest <= OLDEST, f"{wheel.name} needs glibc {newest}"
+    print(f"ok  {wheel.name}: needs glibc {newest[0]}.{newest[1]}")
+
+
+def release(folder):
+    if importlib.util.find_spec("ziglang") is None:
+        print("skipped  the wheel that is published: no zig (pip install ziglang)")
+        return
+    compatible = "manylinux_{}_{}".format(*OLDEST)
+    subprocess.run([*RELEASE, "--compatibility", compatible, "--out", folder], check=True)
+    subprocess.run(["maturin", "sdist", "--out", folder], check=True)
+    check(folder, LONGEST_RELEASE)
+    check_platform(folder)
+
+
 if __name__ == "__main__":
-    check(pathlib.Path(sys.argv[1]))
+    *options, folder = sys.argv[1:]
+    (release if options == ["--release"] else check)(pathlib.Path(folder))
