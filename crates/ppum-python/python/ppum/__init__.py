@@ -35,11 +35,12 @@ from .dataset import (
     from_bytes,
     open,
 )
-from .field import Field, Quantity, Values
+from .field import Field
 from .linking import link
 from .pictures import Animation, Extremum, Figure, View
 from .problem import Elastic, Poisson, Problem, solve
 from .sweeping import Sweep, sweep
+from .values import Quantity, Values
 
 __version__ = _core.VERSION
 

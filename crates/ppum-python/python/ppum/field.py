@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -12,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from .errors import QuantityError
 from .extras import needed
 from .pictures import (
     Animation,
@@ -24,119 +22,18 @@ from .pictures import (
     milliseconds,
     spot,
 )
+from .values import Quantities, Quantity, Values, pair
 
 if TYPE_CHECKING:
     from .comparing import Comparison, Resampling
     from .dataset import Dataset, Step
     from .widget import Viewer
 
-__all__ = ["Field", "Quantity", "Values"]
+__all__ = ["Field"]
 
 Floats = NDArray[np.float64]
 SideName = Literal["above", "below", "both"]
 ResamplingMethod = Literal["nearest", "bilinear", "bicubic", "cells"]
-_SIDES = ("above", "below", "both")
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A quantity of a field.
-
-    Attributes:
-        name: Its name as the program writes it, e.g. ``von-mises``.
-        symbol: For labels, with subscripts as ``_{…}``.
-        unit: For labels; may be empty.
-        formula: The text, if it is one that the dataset names.
-    """
-
-    name: str
-    symbol: str
-    unit: str
-    formula: str | None
-
-
-class Values:
-    """A field at points; made by `Field.at`. Evaluates when it is asked.
-
-    Attributes are quantities with ``_`` for ``-``, items are quantities and formulas of them. Results have the
-    shape of the points, with one axis more for ``side="both"``: above, below. They are NaN outside the domain.
-
-    Example:
-        >>> v = f.at([0.0, 0.5], [1.0, 0.25])
-        >>> v.ux.shape, v["sxx + syy"].shape
-        ((2,), (2,))
-    """
-
-    __slots__ = ("_anchor", "_field", "_is_one", "_shape", "_side", "_x", "_y")
-
-    def __init__(
-        self, field: Field, x: ArrayLike, y: ArrayLike, side: str, anchor: ArrayLike | None
-    ) -> None:
-        if side not in _SIDES:
-            raise ValueError(f"side: {side!r} is none; there are above, below, both")
-        self._field, self._side = field, side
-        self._anchor = None if anchor is None else _pair(anchor)
-        self._x: Any
-        self._y: Any
-        self._shape: tuple[int, ...]
-        self._is_one: bool
-        if isinstance(x, (float, int)) and isinstance(y, (float, int)):
-            self._x, self._y, self._shape = x, y, ()
-            self._is_one = anchor is None and side != "both"
-            return
-        self._is_one = False
-        x, y = _floats(x), _floats(y)
-        if x.shape != y.shape:
-            x, y = np.broadcast_arrays(x, y)
-        self._shape = x.shape
-        self._x, self._y = np.ravel(x), np.ravel(y)
-
-    def __getattr__(self, name: str) -> Floats:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        try:
-            return self[name]
-        except QuantityError as error:
-            raise AttributeError(str(error)) from error
-
-    def __getitem__(self, quantity: str) -> Floats:
-        if self._is_one:
-            value = self._field._core.value(quantity, self._x, self._y, self._side == "below")
-            return np.float64(value)  # type: ignore[return-value]
-        return self._evaluate([quantity], False, None)[..., 0]
-
-    def gradient(self, quantity: str) -> Floats:
-        """The exact gradient of a quantity, no difference: shape (..., 2) with ∂/∂x and ∂/∂y last."""
-        return self._evaluate([quantity], True, None)[..., 0, 1:]
-
-    def _evaluate(self, names: list[str], gradient: bool, out: Floats | None) -> Floats:
-        """Shape (..., q), (..., q, 3) with gradients; before these an axis of two for both sides."""
-        tail = (len(names), 3) if gradient else (len(names),)
-        if self._side == "both":
-            sides = [self._run(names, below, gradient, None) for below in (False, True)]
-            both = np.stack(sides, axis=-1).reshape(*self._shape, *tail, 2)
-            return np.moveaxis(both, -1, len(self._shape))
-        if out is not None:
-            _check_out(out, self._shape + tail)
-            if any(np.may_share_memory(out, points) for points in (self._x, self._y)):
-                raise ValueError("`out` shares memory with the coordinates")
-            self._run(names, self._side == "below", gradient, out.reshape(-1))
-            return out
-        return self._run(names, self._side == "below", gradient, None).reshape(self._shape + tail)
-
-    def _run(self, names: list[str], below: bool, gradient: bool, out: Floats | None) -> Floats:
-        x, y = np.atleast_1d(self._x), np.atleast_1d(self._y)
-        if self._shape == ():
-            x, y = x.astype(np.float64), y.astype(np.float64)
-        found = self._field._core.evaluate(names, x, y, below, self._anchor, gradient, out)
-        return found if found is not None else out  # type: ignore[return-value]
-
-    def __dir__(self) -> list[str]:
-        names = (name.replace("-", "_") for name in self._field.quantities)
-        return [*super().__dir__(), *(name for name in names if name.isidentifier())]
-
-    def __repr__(self) -> str:
-        return f"<ppum.Values at {'a point' if self._shape == () else f'points of shape {self._shape}'}>"
 
 
 def _widget() -> Any:
@@ -145,49 +42,6 @@ def _widget() -> Any:
     from . import widget
 
     return widget
-
-
-def _floats(values: ArrayLike) -> Floats:
-    """An array of float64, one number after the other where that is so already; no copy where it need not be."""
-    if isinstance(values, np.ma.MaskedArray):
-        values = np.ma.filled(values.astype(np.float64), np.nan)
-    array = np.asarray(values)
-    if array.dtype.kind not in "fiub":
-        raise TypeError(f"coordinates are real numbers, not {array.dtype}")
-    return np.asarray(array, dtype=np.float64)
-
-
-def _pair(point: ArrayLike) -> tuple[float, float]:
-    array = _floats(point)
-    if array.shape != (2,) or not np.isfinite(array).all():
-        raise ValueError("a point is two finite numbers: x, y")
-    return float(array[0]), float(array[1])
-
-
-def _check_out(out: Floats, shape: tuple[int, ...]) -> None:
-    if not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != shape:
-        raise ValueError(f"`out` has to be a float64 array of shape {shape}")
-    if not out.flags.c_contiguous or not out.flags.writeable:
-        raise ValueError("`out` has to be writeable and in C order")
-
-
-class _Quantities(Mapping[str, Quantity]):
-    """Quantities by name, found under names with `_` too."""
-
-    def __init__(self, all: list[Quantity]) -> None:
-        self._all = {quantity.name: quantity for quantity in all}
-
-    def __getitem__(self, name: str) -> Quantity:
-        return self._all[name if name in self._all else name.replace("_", "-")]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._all)
-
-    def __len__(self) -> int:
-        return len(self._all)
-
-    def __repr__(self) -> str:
-        return f"<ppum quantities: {', '.join(self._all)}>"
 
 
 class Field:
@@ -224,7 +78,7 @@ class Field:
     @cached_property
     def quantities(self) -> Mapping[str, Quantity]:
         """All quantities that have a name. Formulas of them are quantities too."""
-        return _Quantities([Quantity(**q) for q in self._core.known()])
+        return Quantities([Quantity(**q) for q in self._core.known()])
 
     def at(
         self, x: ArrayLike, y: ArrayLike, *, side: SideName = "above", anchor: ArrayLike | None = None
@@ -353,14 +207,14 @@ class Field:
             >>> line.uy.shape
             (6,)
         """
-        along = {"line": {"from": _pair(start), "to": _pair(end)}}
+        along = {"line": {"from": pair(start), "to": pair(end)}}
         return self._curve(along, num, quantities)
 
     def circle(
         self, center: ArrayLike, radius: float, *, num: int = 201, quantities: Sequence[str] | None = None
     ) -> Any:
         """Values on a circle, as an `xarray.Dataset` over the angle `theta`, degrees from the x axis."""
-        along = {"circle": {"center": _pair(center), "radius": radius}}
+        along = {"circle": {"center": pair(center), "radius": radius}}
         return self._curve(along, num, quantities)
 
     def along(self, crack: Any, *, num: int = 201, quantities: Sequence[str] | None = None) -> Any:
@@ -688,7 +542,7 @@ class Field:
         tip: int | None = None,
         zoom: float | None = None,
     ) -> tuple[tuple[float, float], float]:
-        at = None if center is None else _pair(center)
+        at = None if center is None else pair(center)
         if tip is not None:
             at = self.step.tips[tip].xy
         return spot(self.dataset.domain, size, at, width, zoom)
@@ -718,5 +572,4 @@ class Field:
         return f"<ppum.Field {names} of {self.dataset.title!r}, step {self._number}{changed}>"
 
 
-for _class in (Field, Quantity, Values):
-    _class.__module__ = "ppum"
+Field.__module__ = "ppum"

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from collections.abc import Iterable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from . import _core
+from .drawn import Drawn, Page
 
 __all__ = ["Animation", "Extremum", "Figure", "View"]
 
@@ -142,55 +140,28 @@ def _levels(isolines: Any) -> str:
     return str(isolines)
 
 
-class Figure:
-    """A figure; drawn when its bytes are asked for. Made by `Field.figure`."""
+class Figure(Page):
+    """A figure; drawn when its bytes are asked for. Made by `Field.figure`. Notebooks show it."""
 
     def __init__(self, core: _core.Field, scene: str, spot: Spot | None, look: str) -> None:
+        super().__init__()
         self._core, self._scene, self._spot, self._look = core, scene, spot, look
-        self._known: dict[str, bytes] = {}
 
-    def to_bytes(self, form: str = "png") -> bytes:
-        """The bytes of its file, as ``png``, ``svg`` or ``pdf``.
-
-        Raises:
-            QuantityError, RenderError: What cannot be drawn.
-        """
-        if form not in self._known:
-            self._known[form] = _core.figure(self._core, self._scene, self._spot, self._look, form)
-        return self._known[form]
-
-    def png(self) -> bytes:
-        """Pixels."""
-        return self.to_bytes("png")
-
-    def svg(self) -> str:
-        """Vector lines and text, for the web."""
-        return self.to_bytes("svg").decode()
-
-    def pdf(self) -> bytes:
-        """Vector lines and text, for papers."""
-        return self.to_bytes("pdf")
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file, of the form that its name ends in: .png, .svg or .pdf. What was there stays until it is complete.
-
-        Raises:
-            ValueError: Another end.
-            OSError: The system refuses.
-        """
-        path = Path(path)
-        replace(path, self.to_bytes(path.suffix[1:].lower()))
-
-    def _repr_png_(self) -> bytes:
-        return self.png()
+    def _draw(self, form: str) -> bytes:
+        return _core.figure(self._core, self._scene, self._spot, self._look, form)
 
     def __repr__(self) -> str:
         size = json.loads(self._look)["size"]
         return f"<ppum.Figure {json.loads(self._scene)['quantity'] or 'of a field'}, {size[0]}x{size[1]}>"
 
 
-class Animation:
-    """A moving picture; drawn when its bytes are asked for. Made by `Field.animate`. Notebooks show it."""
+class Animation(Drawn):
+    """A moving picture; drawn when its bytes are asked for. Made by `Field.animate`. Notebooks show it.
+
+    Its forms are ``gif``, in 256 colours, which is the default, and ``apng``, without loss.
+    """
+
+    _form = "gif"
 
     def __init__(
         self,
@@ -200,21 +171,12 @@ class Animation:
         milliseconds: int,
         progress: Any,
     ) -> None:
+        super().__init__()
         self._core, self._dataset, self._what = core, dataset, what
         self._time, self._progress = milliseconds, progress
-        self._known: dict[str, bytes] = {}
 
-    def to_bytes(self, form: str = "gif") -> bytes:
-        """The bytes of its file, as ``gif``, in 256 colours, or ``apng``, without loss.
-
-        Raises:
-            QuantityError, RenderError: What cannot be drawn.
-            ValueError: Another form.
-        """
-        if form not in self._known:
-            made = _core.animation(self._core, self._dataset, *self._what, self._time, form, self._progress)
-            self._known[form] = made
-        return self._known[form]
+    def _draw(self, form: str) -> bytes:
+        return _core.animation(self._core, self._dataset, *self._what, self._time, form, self._progress)
 
     def gif(self) -> bytes:
         """In 256 colours, for programs that know no other."""
@@ -223,16 +185,6 @@ class Animation:
     def apng(self) -> bytes:
         """Without loss."""
         return self.to_bytes("apng")
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file, of the form that its name ends in: .gif or .apng. What was there stays until it is complete.
-
-        Raises:
-            ValueError: Another end.
-            OSError: The system refuses.
-        """
-        path = Path(path)
-        replace(path, self.to_bytes(path.suffix[1:].lower()))
 
     def _repr_png_(self) -> bytes:
         return self.apng()
@@ -248,25 +200,6 @@ def milliseconds(fps: float) -> int:
     if not 1 / 60 <= fps <= 50:
         raise ValueError(f"fps: {fps} is no rate; give a number of steps a second, from 1/60 to 50")
     return int(1000 / fps + 0.5)
-
-
-def replace(path: Path, data: bytes) -> None:
-    """Puts bytes in the place of a file: what was there stays until they are all written."""
-    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False) as file:
-        try:
-            file.write(data)
-            file.close()
-            os.chmod(file.name, 0o666 & ~_umask())
-            os.replace(file.name, path)
-        except BaseException:
-            os.unlink(file.name)
-            raise
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 for _class in (Animation, Extremum, Figure, View):

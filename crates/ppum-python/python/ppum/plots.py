@@ -13,17 +13,16 @@ Example:
 from __future__ import annotations
 
 import json
-import os
 import warnings
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from .pictures import replace
+from .drawn import Page
+from .values import pair
 
 if TYPE_CHECKING:
     from .dataset import Dataset
@@ -39,12 +38,12 @@ Axes = Literal["", "x", "y", "xy"]
 SIZE: Size = (900, 600)
 
 
-class Plot:
+class Plot(Page):
     """Curves over axes; made by the functions of `ppum.plots`. Notebooks show it."""
 
     def __init__(self, core: _core.Curves, size: Size) -> None:
+        super().__init__()
         self._core, self._size = core, (int(size[0]), int(size[1]))
-        self._known: dict[str, bytes] = {}
         for text in core.warnings():
             warnings.warn(text, stacklevel=4)
 
@@ -53,40 +52,8 @@ class Plot:
         """Labels and points: shape (n, 2); NaN where a curve breaks."""
         return [(label, np.array(points).reshape(-1, 2)) for label, points in self._core.curves()]
 
-    def to_bytes(self, form: str = "png") -> bytes:
-        """The bytes of its file, as ``png``, ``svg`` or ``pdf``.
-
-        Raises:
-            ValueError: Another form; a size without room for a plot.
-        """
-        if form not in self._known:
-            self._known[form] = self._core.bytes(self._size, form)
-        return self._known[form]
-
-    def png(self) -> bytes:
-        """Pixels."""
-        return self.to_bytes("png")
-
-    def svg(self) -> str:
-        """Vector lines and text, for the web."""
-        return self.to_bytes("svg").decode()
-
-    def pdf(self) -> bytes:
-        """Vector lines and text, for papers."""
-        return self.to_bytes("pdf")
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file, of the form that its name ends in: .png, .svg or .pdf. What was there stays until it is complete.
-
-        Raises:
-            ValueError: Another end.
-            OSError: The system refuses.
-        """
-        path = Path(path)
-        replace(path, self.to_bytes(path.suffix[1:].lower()))
-
-    def _repr_png_(self) -> bytes:
-        return self.png()
+    def _draw(self, form: str) -> bytes:
+        return self._core.bytes(self._size, form)
 
     def __repr__(self) -> str:
         labels = ", ".join(label for label, _ in self._core.curves())
@@ -117,7 +84,7 @@ def line(
         QuantityError: No quantity of a field; two points that are one.
         RenderError: Nothing would be seen.
     """
-    along = {"line": {"from": _pair(start), "to": _pair(end)}}
+    along = {"line": {"from": pair(start), "to": pair(end)}}
     return _profiles(fields, along, quantities, num, log, size)
 
 
@@ -132,7 +99,7 @@ def circle(
     size: Size = SIZE,
 ) -> Plot:
     """Quantities on a circle, over the angle from the x axis; further arguments as for `line`."""
-    along = {"circle": {"center": _pair(center), "radius": radius}}
+    along = {"circle": {"center": pair(center), "radius": radius}}
     return _profiles(fields, along, quantities, num, log, size)
 
 
@@ -302,9 +269,3 @@ def _list(names: Sequence[str], what: str) -> list[str]:
     if isinstance(names, str):
         raise TypeError(f"{what}: give a list of names")
     return list(names)
-
-
-def _pair(point: ArrayLike) -> tuple[float, float]:
-    from .field import _pair as pair
-
-    return pair(point)

@@ -1,0 +1,89 @@
+"""What is drawn into files."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+from typing import ClassVar
+
+__all__ = ["Drawn", "Page", "replace"]
+
+
+class Drawn:
+    """Drawn when its bytes are asked for, once for each form of file."""
+
+    #: The form that is drawn if none is asked for.
+    _form: ClassVar[str]
+
+    def __init__(self) -> None:
+        self._known: dict[str, bytes] = {}
+
+    def _draw(self, form: str) -> bytes:
+        raise NotImplementedError
+
+    def to_bytes(self, form: str | None = None) -> bytes:
+        """The bytes of its file.
+
+        Args:
+            form: The end of the file's name, such as ``png``; by default that of the first form that the class names.
+
+        Raises:
+            QuantityError, RenderError: What cannot be drawn.
+            ValueError: A form that there is not; a size without room.
+        """
+        form = self._form if form is None else form
+        if form not in self._known:
+            self._known[form] = self._draw(form)
+        return self._known[form]
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a file, of the form that its name ends in. What was there stays until it is complete.
+
+        Raises:
+            QuantityError, RenderError: What cannot be drawn.
+            ValueError: Another end than the forms that there are.
+            OSError: The system refuses.
+        """
+        path = Path(path)
+        replace(path, self.to_bytes(path.suffix[1:].lower()))
+
+
+class Page(Drawn):
+    """A page, as ``png``, the default, ``svg`` or ``pdf``."""
+
+    _form = "png"
+
+    def png(self) -> bytes:
+        """Pixels."""
+        return self.to_bytes("png")
+
+    def svg(self) -> str:
+        """Vector lines and text, for the web."""
+        return self.to_bytes("svg").decode()
+
+    def pdf(self) -> bytes:
+        """Vector lines and text, for papers."""
+        return self.to_bytes("pdf")
+
+    def _repr_png_(self) -> bytes:
+        return self.png()
+
+
+def replace(path: Path, data: bytes) -> None:
+    """Puts bytes in the place of a file: what was there stays until they are all written."""
+    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False) as file:
+        try:
+            file.write(data)
+            file.close()
+            os.chmod(file.name, 0o666 & ~_umask())
+            os.replace(file.name, path)
+        except BaseException:
+            os.unlink(file.name)
+            raise
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
