@@ -16,7 +16,7 @@ import tarfile
 import zipfile
 
 #: Longest wheel, in bytes: a little more than it has. A sixth of it are kernels, once for each set of vector instructions.
-LONGEST = 6_700_000
+LONGEST = 6_800_000
 #: Longest published wheel: the whole program is optimised at once, so generic code is there once.
 LONGEST_RELEASE = 6_000_000
 #: The C library that published wheels need, that of CentOS 7.

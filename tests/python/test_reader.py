@@ -3,7 +3,7 @@
     pip install -r tests/python/requirements.txt
     python tests/python/test_reader.py          (from the repository's root; or: pytest tests/python)
 
-Needs cargo: the datasets come from the example `fixture` of `ppum-format`.
+Needs cargo: the datasets come from the example `fixture` of `ppum-format` (see programs.py).
 """
 
 import math
@@ -17,6 +17,7 @@ import mpmath
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import programs
 from h5py_files import DATA, LAYOUTS, LIBVERS, rewrite
 from ppum_formulas import Extended
 from ppum_reader import Field, is_right, seal, text, texts
@@ -31,8 +32,7 @@ mpmath.mp.dps = 40
 
 def fixture(*arguments, input=None):
     """Runs the example: exit status, answer, complaints."""
-    command = ["cargo", "run", "-q", "-p", "ppum-format", "--example", "fixture", "--"]
-    command += [str(a) for a in arguments]
+    command = programs.fixture(*arguments)
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, input=input)
     return done.returncode, done.stdout, done.stderr
 
@@ -323,9 +323,9 @@ def test_holes_are_cut_out_sharply():
 def test_numpy_reads_samples():
     """A grid as NPY: the values are those of the independent reader."""
     path, output = files()[0], FOLDER / "grid.npy"
-    command = ["cargo", "run", "-q", "-p", "ppum-cli", "--", "sample", path, "--grid", "7x5"]
-    command += ["--step", "0", "-q", "gradient,if(x > 0, 1, 2)", "-o", output]
-    done = subprocess.run(list(map(str, command)), cwd=ROOT, capture_output=True, text=True)
+    asked = ["--grid", "7x5", "--step", "0", "-q", "gradient,if(x > 0, 1, 2)", "-o", output]
+    command = programs.ppum("sample", path, *asked)
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     grid = np.load(output)
     assert grid.shape == (5, 7)

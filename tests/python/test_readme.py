@@ -3,7 +3,7 @@
     pip install -r tests/python/requirements.txt
     python tests/python/test_readme.py          (from the repository's root; or: pytest tests/python)
 
-Needs cargo: the problem is solved by the program. What imports the package `ppum` runs where that is installed.
+Needs cargo: the problem is solved by the program (see programs.py). What imports the package `ppum` runs where that is installed.
 """
 
 import importlib.util
@@ -12,6 +12,9 @@ import re
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import programs
 
 ROOT = pathlib.Path(__file__).parents[2]
 PAGE = (ROOT / "README.md").read_text()
@@ -25,7 +28,7 @@ def test_readme_snippets_run():
     with tempfile.TemporaryDirectory(prefix="ppum-") as name:
         folder = pathlib.Path(name)
         (folder / "plate.toml").write_text(blocks("toml")[0])
-        solve = ["cargo", "run", "-q", "-p", "ppum-cli", "--", "solve", folder / "plate.toml"]
+        solve = programs.ppum("solve", folder / "plate.toml")
         subprocess.run(solve, cwd=ROOT, check=True, capture_output=True)
         (folder / "tests").symlink_to(ROOT / "tests")
         snippets = blocks("python")
