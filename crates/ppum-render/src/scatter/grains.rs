@@ -25,7 +25,7 @@ use super::tile::{Scratch, Tile};
 use crate::pixels::Pixels;
 
 /// Pixels of a patch, on average, below which the patches of a picture are drawn as grains.
-pub(super) const MOST_PIXELS: usize = 5;
+pub(super) const MOST_PIXELS: usize = 4;
 
 /// Columns of a patch up to which its pixels are taken one by one.
 const NARROW: usize = 2;
