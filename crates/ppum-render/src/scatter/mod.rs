@@ -173,7 +173,12 @@ struct Scene<'f, T> {
 
 impl<'f, T: Sample> Scene<'f, T> {
     fn new(field: &'f Field<'f>, view: &View, quantity: &'f Quantity) -> Self {
-        Self::with(field, view, quantity, MOST_PIXELS)
+        let functions = field.functions.at(&field.step.cracks, view.center);
+        let mut groups = 0..functions.table().groups();
+        // formulas are run for many pixels of strips at a time, and would be dear one by one
+        let most_pixels =
+            if groups.all(|group| functions.is_native(group)) { MOST_PIXELS } else { 0 };
+        Self::with(field, view, quantity, most_pixels)
     }
 
     /// The scene, as grains if its patches have fewer pixels than so many.

@@ -1,6 +1,7 @@
 //! What saves work changes rounding alone.
 
 use ppum::dataset::Dataset;
+use ppum::function::{Frame, FunctionKind};
 use ppum::progress::unwatched;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
@@ -174,6 +175,16 @@ fn many_patches_are_grains() {
         let is_same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
         assert!(whole.len() == strips.len() && whole.iter().zip(&strips).all(is_same));
     }
+}
+
+/// Functions that are formulas are run for many pixels at a time, as small as cells may be.
+#[test]
+fn formulas_are_strips() {
+    let extra = vec![FunctionKind::formula("x*y^2", Frame::World)];
+    let dataset = Recipe { level: 5, tip_level: 5, extra, ..Recipe::default() }.dataset();
+    let field = Field::new(&dataset, 0).expect("a field");
+    let view = View::fit(dataset.domain.bounds, [48, 36]).expect("a view");
+    assert!(!Scene::<f64>::new(&field, &view, &Quantity::VonMises).plan.has_grains);
 }
 
 /// Patches and strips of the first tile of a cover.
