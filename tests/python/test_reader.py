@@ -3,7 +3,7 @@
     pip install -r tests/python/requirements.txt
     python tests/python/test_reader.py          (from the repository's root; or: pytest tests/python)
 
-Needs cargo: the datasets come from the example `fixture` of `ppum-format` (see programs.py).
+Needs cargo: the datasets come from the example `fixture` of `ppum-bench` (see programs.py).
 """
 
 import math

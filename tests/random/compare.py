@@ -1,7 +1,7 @@
 """The program's answers to the random problems, held against their values.
 
-    cargo build -p ppum-solve --example answers
-    python tests/random/compare.py target/debug/examples/answers [NUMBER …]
+    cargo build -p ppum-bench --example answers
+    python tests/random/compare.py target/release/examples/answers [NUMBER …]
 
 A line a problem: the largest error of K at its tips, |ΔK|/|K| with K = (K_I, K_II), where weak tips are measured against a
 fifth of the problem's scale of K; the error of the energy; unknowns, seconds, warnings. FAIL is what is wrong

@@ -49,7 +49,7 @@ mod decode;
 mod encode;
 mod error;
 #[cfg(test)]
-#[path = "../examples/fixture/everything.rs"]
+#[path = "../tests/fixture/everything.rs"]
 mod everything;
 mod file;
 mod hdf5;

@@ -82,9 +82,9 @@ def grown():
 @pytest.fixture(scope="session")
 def program():
     """Runs the program, where it has been built."""
-    path = pathlib.Path(os.environ.get("PPUM", ROOT / "target/debug/ppum"))
+    path = pathlib.Path(os.environ.get("PPUM", ROOT / "target/release/ppum"))
     if not path.exists():
-        pytest.skip("the program has not been built: cargo build")
+        pytest.skip("the program has not been built: cargo build --release")
 
     def run(*args):
         done = subprocess.run([path, *map(str, args)], capture_output=True, text=True)

@@ -2,9 +2,8 @@
 
 use ppum::dataset::monomials;
 use ppum::field::Field;
-
-use crate::raster::Raster;
-use crate::view::View;
+use ppum_raster::raster::Raster;
+use ppum_raster::view::View;
 
 /// Names of what every field knows of its patches, and the words for them.
 const OWN: [(&str, &str); 4] =

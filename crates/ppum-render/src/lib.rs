@@ -1,13 +1,16 @@
 //! Draws fields exactly at every pixel.
 //!
-//! A [`View`](view::View) says which part of the plane is shown on how many pixels,
-//! [`render`](scatter::render) evaluates a quantity at the centre of each pixel into a
-//! [`Raster`](raster::Raster), and [`Picture`](picture::Picture) gives its values colours. [`png`]
-//! encodes the result together with what it shows, [`animation`] several of them; [`samples`] takes means over pixels; `ppum-figure` draws on it and around it. Nothing is resampled, interpolated or triangulated on the way.
-//! [`deform`] shows the plate as its displacements move it; [`resample`] does what other programs do, to compare.
+//! [`ppum_raster`], whose modules are re-exported here, evaluates a quantity at the centre of each
+//! pixel of a [`View`](view::View) into a [`Raster`](raster::Raster), and
+//! [`Picture`](picture::Picture) gives its values colours. [`png`] encodes a picture together with
+//! what it shows, [`animation`] encodes several pictures; [`samples`] takes means over pixels;
+//! `ppum-figure` draws on pictures and around them. Nothing is resampled, interpolated or
+//! triangulated on the way. [`deform`] shows the plate as its displacements move it; [`resample`]
+//! does what other programs do, to compare.
 //!
-//! What is drawn on pictures comes from the exact field too: [`isolines`](isoline::isolines), arrows and crosses ([`glyph`]), and the
-//! true [`extrema`](extrema::extrema) of a view. [`pieces`] cuts squares where fields jump.
+//! What is drawn on pictures comes from the exact field too: [`isolines`](isoline::isolines), arrows
+//! and crosses ([`glyph`]), and the true [`extrema`](extrema::extrema) of a view. [`pieces`] cuts
+//! squares where fields jump.
 //!
 //! ```
 //! use ppum::prelude::*;
@@ -33,42 +36,25 @@
 //! assert_eq!(&file[1..4], b"PNG");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-//!
-//! # Values
-//!
-//! [`reference`](mod@reference) evaluates a picture point by point; the renderer is held to it. Its values are
-//! those of the points, whatever is drawn around them. Those of the renderer are summed tile by tile, in an
-//! order and about a displacement that depend on where in its picture a point lies: alone, in a row or amid
-//! other pixels it agrees to 10⁻¹⁵ of the largest value in f64 and 6·10⁻⁷ in f32, as measured with stresses. No value depends on the number of threads. Work runs on the
-//! pool of `rayon` that calls (`ThreadPool::install`), and no other is needed.
-//!
-//! Rendering takes a [`Watcher`](ppum::progress::Watcher), which follows it and can stop it.
 
 pub mod animation;
 pub mod cells;
 pub mod colormap;
 pub mod deform;
-mod error;
 pub mod extrema;
 pub mod glyph;
 pub mod image;
 pub mod isoline;
-mod parts;
 pub mod picture;
 pub mod pieces;
-pub mod pixels;
 pub mod png;
 pub mod range;
-pub mod raster;
-pub mod reference;
 pub mod resample;
 pub mod samples;
 pub mod scale;
-pub mod scatter;
 pub mod shades;
-pub mod view;
 
-pub use error::RenderError;
+pub use ppum_raster::{RenderError, pixels, raster, reference, scatter, view};
 
 #[cfg(test)]
 mod tests {
@@ -77,36 +63,30 @@ mod tests {
     use ppum_testkit::rooms::{Floors, check, check_page};
 
     const FLOORS: Floors<'_> = &[
-        &[("image", &[]), ("parts", &[]), ("pieces", &[]), ("scale", &[]), ("view", &[])],
+        &[
+            ("cells", &[]),
+            ("extrema", &[]),
+            ("image", &[]),
+            ("pieces", &[]),
+            ("resample", &[]),
+            ("samples", &[]),
+            ("scale", &[]),
+        ],
         &[
             ("colormap", &["image"]),
-            ("error", &["view"]),
-            ("pixels", &["view"]),
+            ("deform", &["pieces"]),
+            ("isoline", &["pieces"]),
             ("png", &["image"]),
+            ("range", &["extrema", "scale"]),
         ],
-        &[("shades", &["colormap", "image", "scale"])],
-        &[("raster", &["error", "image", "shades", "view"])],
         &[
             ("animation", &["image", "png"]),
-            ("cells", &["raster", "view"]),
-            ("deform", &["parts", "pieces", "raster", "view"]),
-            ("isoline", &["error", "parts", "pieces", "raster", "view"]),
-            ("reference", &["error", "parts", "raster", "view"]),
-            ("resample", &["error", "parts", "raster", "view"]),
-            ("extrema", &["error", "parts", "raster", "view"]),
-            ("scatter", &["error", "image", "parts", "pixels", "raster", "shades", "view"]),
-        ],
-        &[
-            ("glyph", &["deform", "error", "parts", "view"]),
-            ("range", &["extrema", "raster", "scale"]),
-            ("samples", &["error", "raster", "scatter", "view"]),
+            ("glyph", &["deform"]),
+            ("shades", &["colormap", "image", "scale"]),
         ],
         &[(
             "picture",
-            &[
-                "colormap", "extrema", "image", "png", "range", "raster", "samples", "scale",
-                "shades", "view",
-            ],
+            &["colormap", "extrema", "image", "png", "range", "samples", "scale", "shades"],
         )],
     ];
 
@@ -120,10 +100,8 @@ mod tests {
     #[test]
     fn errors_cross_threads() {
         fn check<E: std::error::Error + Send + Sync + 'static>() {}
-        check::<super::RenderError>();
         check::<super::animation::AnimationError>();
         check::<super::colormap::ColormapError>();
         check::<super::range::RangeError>();
-        check::<super::view::ViewError>();
     }
 }

@@ -3,6 +3,8 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use ppum::vec2::Vec2;
+use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::view::View;
 use rayon::prelude::*;
 
 use crate::colormap::{Colormap, ColormapError, HALF};
@@ -10,11 +12,9 @@ use crate::extrema::Extrema;
 use crate::image::{Image, Rgba};
 use crate::png::Text;
 use crate::range::{Range, RangeError, Span};
-use crate::raster::{Raster, Sample};
 use crate::samples::Samples;
 use crate::scale::{Normalization, Scale};
 use crate::shades::Shades;
-use crate::view::View;
 
 /// The way values become colours.
 #[derive(Clone, Debug, PartialEq)]
@@ -209,7 +209,7 @@ fn painted<T: Sample>(shades: &Shades, values: &[T]) -> (Vec<u8>, [bool; 2]) {
     let beyond = [const { AtomicBool::new(false) }; 2];
     let block = |values: &[T]| {
         let mut block = [[0; 4]; BLOCK];
-        let seen = T::paint(shades, values, &mut block[..values.len()]);
+        let seen = shades.paint(T::sample_slice(values), &mut block[..values.len()]);
         for (beyond, _) in beyond.iter().zip(seen).filter(|(_, seen)| *seen) {
             beyond.store(true, Ordering::Relaxed);
         }

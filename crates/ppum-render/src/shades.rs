@@ -8,6 +8,7 @@
 //! The table stays in the first cache, where a look-up takes about a cycle.
 
 use ppum::real::{Job, Real, Scalar};
+use ppum_raster::raster::SampleSlice;
 
 use crate::colormap::Colormap;
 use crate::image::Rgba;
@@ -70,8 +71,16 @@ impl Shades {
         }
     }
 
-    /// Colours a row; tells whether a value lay below, and above, the range.
-    pub(crate) fn paint<T: Entry>(&self, values: &[T], pixels: &mut [Rgba]) -> [bool; 2] {
+    /// Colours values; returns whether one of them lies below, and above, the range. It is not
+    /// generic, so that the kernels are compiled once, here, and not in every crate that draws.
+    pub(crate) fn paint(&self, values: SampleSlice<'_>, pixels: &mut [Rgba]) -> [bool; 2] {
+        match values {
+            SampleSlice::Double(values) => self.paint_values(values, pixels),
+            SampleSlice::Single(values) => self.paint_values(values, pixels),
+        }
+    }
+
+    fn paint_values<T: Entry>(&self, values: &[T], pixels: &mut [Rgba]) -> [bool; 2] {
         let ramp = Some(&self.norm).filter(|_| self.jumping.is_none()).and_then(Ramp::new);
         if let Some(ramp) = ramp {
             return T::dispatch(Paint { ramp, table: &self.table, values, pixels });
@@ -214,10 +223,10 @@ mod tests {
 
     use super::*;
 
-    /// The colours of values in a type, and what lay beyond, by `paint` and one by one.
+    /// The colours of values in a type, and what lay beyond, by `paint_values` and one by one.
     fn compared<T: Entry>(shades: &Shades, values: &[T]) -> usize {
         let mut pixels = vec![[0; 4]; values.len()];
-        let beyond = shades.paint(values, &mut pixels);
+        let beyond = shades.paint_values(values, &mut pixels);
         let wide: Vec<f64> = values.iter().map(|v| v.to_f64()).collect();
         let norm = &shades.norm;
         let expected = [wide.iter().any(|v| *v < norm.min()), wide.iter().any(|v| *v > norm.max())];

@@ -3,8 +3,8 @@
 //! - [`synthetic`] makes datasets that no solver has to make, [`costly`] small ones that ask for much.
 //! - [`exact`] holds exact solutions of fracture mechanics, [`extended`] evaluates with 31 digits.
 //! - [`corpus`] are the cases that every back end of formulas is held to, [`fields`] the pictures that every
-//!   renderer is held to; [`wgsl`] runs shaders without a device.
-//! - [`random`] numbers are the same on every machine.
+//!   renderer is held to; `wgsl`, a feature, runs shaders without a device.
+//! - [`random`] numbers are the same on every machine; [`processor`] measures processor time.
 //!
 //! ```
 //! use ppum::prelude::*;
@@ -24,8 +24,10 @@ pub mod costly;
 pub mod exact;
 pub mod extended;
 pub mod fields;
+pub mod processor;
 pub mod random;
 pub mod rooms;
 pub mod skipped;
 pub mod synthetic;
+#[cfg(feature = "wgsl")]
 pub mod wgsl;

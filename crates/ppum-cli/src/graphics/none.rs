@@ -14,12 +14,13 @@ use ppum_scene::drawing::{Drawn, Job};
 
 /// The answer of `ppum info --gpu`.
 pub(crate) const MISSING: &str = "\
-no graphics adapter: this program was built without graphics devices (feature `gpu`).
-Pictures are drawn on the CPU, which is exact and quick.";
+no graphics adapter: this program was built without graphics cards; build it with
+`cargo install --locked --path crates/ppum-cli --features window` (or `--features gpu`, without the window).
+Images are drawn on the CPU instead, the same to rounding.";
 
 /// The reason why no device draws.
 const REASON: &str =
-    "no graphics adapter: this program was built without graphics devices (feature `gpu`)";
+    "no graphics adapter: this program was built without graphics cards (`--features gpu`)";
 
 pub(crate) fn draw(_: Job<'_>, _: Samples, _: Device, _: Method) -> Result<Drawn, Failure> {
     Err(Failure { message: format!("{REASON}; `--backend cpu` needs none"), is_normal: true })

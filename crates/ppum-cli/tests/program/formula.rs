@@ -1,3 +1,4 @@
+#[cfg(feature = "gpu")]
 use ppum_testkit::wgsl::Module;
 use serde_json::{Value, json};
 
@@ -280,6 +281,7 @@ fn hostile_formulas() {
 }
 
 /// The printed module is valid WGSL, and its functions give what `--at` prints, in single precision.
+#[cfg(feature = "gpu")]
 #[test]
 fn wgsl_is_valid_and_the_same_function() {
     let lab = Lab::new();

@@ -2,11 +2,15 @@
 
 mod rules;
 
+use std::sync::LazyLock;
+
 use super::*;
 use crate::{checksum, encode, everything};
 
 fn content() -> Content {
-    encode::content(&everything::dataset(1)).unwrap()
+    static CONTENT: LazyLock<Content> =
+        LazyLock::new(|| encode::content(&everything::dataset(1)).unwrap());
+    CONTENT.clone()
 }
 
 /// The object that decoding complains about.

@@ -1,10 +1,13 @@
 //! Round trips, damaged files, and files that must not be lost.
 
-#[path = "../../examples/fixture/everything.rs"]
+#[path = "../fixture/everything.rs"]
 pub(crate) mod everything;
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::time::{Duration, Instant};
+use std::ops::Range;
+use std::sync::LazyLock;
+use std::time::Duration;
 
 use ppum::cover::Cover;
 use ppum::crack::Side;
@@ -17,13 +20,28 @@ use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_format::damage::{damaged, object_headers, seal, sealed_parts};
 use ppum_format::{ReadError, WriteError, from_bytes, read, to_bytes, write};
+use ppum_testkit::processor::thread_time;
 use ppum_testkit::random::Random;
 
 use everything::dataset;
 
 /// Debug output tells every double apart, and a NaN is equal to a NaN.
 fn same(a: &Dataset, b: &Dataset) -> bool {
-    format!("{a:?}") == format!("{b:?}")
+    Original::new(a).is(b)
+}
+
+/// A dataset that many others are compared with, as its debug output.
+struct Original(String);
+
+impl Original {
+    fn new(dataset: &Dataset) -> Self {
+        Self(format!("{dataset:?}"))
+    }
+
+    /// True if a dataset is the same.
+    fn is(&self, dataset: &Dataset) -> bool {
+        format!("{dataset:?}") == self.0
+    }
 }
 
 #[test]
@@ -253,11 +271,15 @@ fn truncated_files_are_errors() {
 /// Changed bytes: an error, or the very same dataset where the bytes mean nothing.
 #[test]
 fn damaged_files_are_errors() {
-    let original = dataset(5);
-    let bytes = to_bytes(&original).unwrap();
+    damage_files(200);
+}
+
+fn damage_files(count: usize) {
+    let data = dataset(5);
+    let (original, bytes) = (Original::new(&data), to_bytes(&data).unwrap());
     let mut random = Random(2);
     let mut found = 0;
-    for k in 0..1000 {
+    for k in 0..count {
         let mut damaged = bytes.clone();
         for _ in 0..=k % 4 {
             let at = random.below(damaged.len());
@@ -265,19 +287,23 @@ fn damaged_files_are_errors() {
         }
         match from_bytes(damaged) {
             Err(_) => found += 1,
-            Ok(read) => assert!(same(&read, &original), "damage {k}"),
+            Ok(read) => assert!(original.is(&read), "damage {k}"),
         }
     }
-    assert!(found > 500, "only {found} of 1000 were found");
+    assert!(found > count / 2, "only {found} of {count} were found");
 }
 
 /// Metadata is where damage could make the library allocate: bytes replaced by extreme values.
 #[test]
 fn damaged_metadata_is_an_error() {
+    damage_metadata(400);
+}
+
+fn damage_metadata(count: usize) {
     let mut data = dataset(5);
     data.steps.truncate(1);
     data.problem = None;
-    let bytes = to_bytes(&data).unwrap();
+    let (original, bytes) = (Original::new(&data), to_bytes(&data).unwrap());
     let mut random = Random(3);
     let headers: Vec<usize> = bytes
         .windows(4)
@@ -286,7 +312,7 @@ fn damaged_metadata_is_an_error() {
         .map(|(at, _)| at)
         .collect();
     assert!(headers.len() > 30, "{} headers", headers.len());
-    for _ in 0..2000 {
+    for _ in 0..count {
         let mut damaged = bytes.clone();
         let header = headers[random.below(headers.len())];
         let at = (header + random.below(200)).min(bytes.len() - 8);
@@ -294,7 +320,7 @@ fn damaged_metadata_is_an_error() {
         let fill = [0x00, 0x01, 0x7f, 0x80, 0xff][random.below(5)];
         damaged[at..at + width].fill(fill);
         if let Ok(read) = from_bytes(damaged) {
-            assert!(same(&read, &data));
+            assert!(original.is(&read));
         }
     }
 }
@@ -303,13 +329,17 @@ fn damaged_metadata_is_an_error() {
 /// are recomputed, as by somebody who means it.
 #[test]
 fn forged_metadata_is_an_error() {
+    forge_metadata(400);
+}
+
+fn forge_metadata(count: usize) {
     let mut data = dataset(5);
     data.steps.truncate(1);
-    let bytes = to_bytes(&data).unwrap();
+    let (original, bytes) = (Original::new(&data), to_bytes(&data).unwrap());
     let headers = object_headers(&bytes);
     assert!(headers.len() > 30, "{} headers", headers.len());
     let mut random = Random(4);
-    for _ in 0..2000 {
+    for _ in 0..count {
         let mut forged = bytes.clone();
         let header = &headers[random.below(headers.len())];
         let at = header.start + 6 + random.below(header.len() - 10);
@@ -318,7 +348,7 @@ fn forged_metadata_is_an_error() {
         forged[at..at + width].fill(fill);
         seal(&mut forged, header);
         if let Ok(read) = from_bytes(forged) {
-            assert!(same(&read, &data));
+            assert!(original.is(&read));
         }
     }
 }
@@ -327,68 +357,94 @@ fn forged_metadata_is_an_error() {
 /// effect, and at once.
 #[test]
 fn forged_files_of_other_programs_are_errors() {
+    forge_files_of_other_programs(60);
+}
+
+/// Forges each of the files so many times.
+fn forge_files_of_other_programs(count: usize) {
     let own = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).unwrap();
+    let own = Original::new(&own);
     let mut random = Random(8);
-    let mut kinds = std::collections::BTreeSet::new();
+    let mut kinds = BTreeSet::new();
     for (name, bytes) in files_of_h5py() {
-        let parts = sealed_parts(&bytes);
-        for _ in 0..200 {
+        let mut parts: BTreeMap<&[u8], Vec<Range<usize>>> = BTreeMap::new();
+        for part in sealed_parts(&bytes) {
+            parts.entry(&bytes[part.start..part.start + 4]).or_default().push(part);
+        }
+        kinds.extend(parts.keys().map(|kind| kind.to_vec()));
+        // version 1 of trees and headers has no checksums
+        let parts: Vec<_> = parts.into_values().collect();
+        for round in 0..count {
             let mut forged = bytes.clone();
-            // version 1 of trees and headers has no checksums
-            let part = if parts.is_empty() {
-                0..bytes.len()
-            } else {
-                parts[random.below(parts.len())].clone()
+            let part = match round.checked_rem(parts.len()) {
+                None => 0..bytes.len(),
+                Some(kind) => parts[kind][random.below(parts[kind].len())].clone(),
             };
             let at = part.start + 6 + random.below(part.len() - 10);
             let width = [1, 2, 4, 8][random.below(4)].min(part.end - 4 - at);
             let fill = [0x00, 0x01, 0x10, 0x7f, 0x80, 0xff][random.below(6)];
             forged[at..at + width].fill(fill);
             if !parts.is_empty() {
-                kinds.insert(bytes[part.start..part.start + 4].to_vec());
                 seal(&mut forged, &part);
             }
-            let start = Instant::now();
-            if let Ok(read) = from_bytes(forged) {
+            if let Ok(read) = run_within_limit(&format!("{name} at {at}"), || from_bytes(forged)) {
                 // bytes of the values of arrays are looked at by the checksum of the content, which such a
                 // change can hide
-                assert!(same(&read, &own) || !parts.is_empty(), "{name} at {at}");
+                assert!(own.is(&read) || !parts.is_empty(), "{name} at {at}");
             }
-            assert!(start.elapsed() < LONG, "{name} at {at}: {:?}", start.elapsed());
         }
     }
     assert!(kinds.len() >= 12, "{} kinds of parts", kinds.len());
 }
 
-/// Far longer than any small file may take, on a machine that has much else to do.
-const LONG: Duration = Duration::from_secs(10);
+/// Runs work on a single thread, and checks that it takes no more than some seconds of processor time.
+fn run_within_limit<T: Send>(what: &str, work: impl FnOnce() -> T + Send) -> T {
+    static POOL: LazyLock<rayon::ThreadPool> =
+        LazyLock::new(|| rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool"));
+    POOL.install(|| {
+        let start = thread_time();
+        let result = work();
+        let time = thread_time().saturating_sub(start);
+        assert!(time < Duration::from_secs(10), "{what}: {time:?}");
+        result
+    })
+}
 
 /// Files of other programs, damaged in all ways that the fuzzer knows.
 #[test]
 fn damaged_files_of_other_programs_are_errors() {
+    damage_files_of_other_programs(30);
+}
+
+/// Damages each of the files so many times.
+fn damage_files_of_other_programs(count: usize) {
     let own = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).unwrap();
+    let own = Original::new(&own);
     let mut random = Random(9);
     let mut refused = 0;
     for (name, bytes) in files_of_h5py() {
-        for _ in 0..100 {
+        for _ in 0..count {
             let damaged = damaged(&bytes, &mut |below| random.below(below));
-            let start = Instant::now();
-            match from_bytes(damaged.bytes) {
+            let what = format!("{name}, {}", damaged.what);
+            match run_within_limit(&what, || from_bytes(damaged.bytes)) {
                 Err(_) => refused += 1,
                 Ok(read) => {
-                    assert!(damaged.is_sealed || same(&read, &own), "{name}: {}", damaged.what)
+                    assert!(damaged.is_sealed || own.is(&read), "{what}")
                 }
             }
-            assert!(start.elapsed() < LONG, "{name}, {}: {:?}", damaged.what, start.elapsed());
         }
     }
-    assert!(refused > 400, "{refused} were refused");
+    assert!(refused > 4 * count, "{refused} were refused");
 }
 
 /// Without the checksum of the content the checks of the data stand alone: an error or a dataset that
 /// can be evaluated, and never a panic.
 #[test]
 fn damage_that_no_checksum_finds() {
+    damage_without_checksum(240);
+}
+
+fn damage_without_checksum(count: usize) {
     let mut data = dataset(3);
     data.steps.truncate(1);
     let mut bytes = to_bytes(&data).unwrap();
@@ -401,7 +457,7 @@ fn damage_that_no_checksum_finds() {
     let headers = object_headers(&bytes);
     let mut random = Random(6);
     let mut readable = 0;
-    for k in 0..1000 {
+    for k in 0..count {
         let mut damaged = bytes.clone();
         if k % 2 == 0 {
             let header = &headers[random.below(headers.len())];
@@ -421,14 +477,26 @@ fn damage_that_no_checksum_finds() {
             }
         }
     }
-    assert!(readable > 33, "only {readable} of 1000 were readable: nothing was tested");
+    assert!(30 * readable > count, "only {readable} of {count} were readable: nothing was tested");
+}
+
+/// All of these kinds of damage, many times.
+#[test]
+#[ignore = "slow: thousands of damaged files"]
+fn many_damaged_files_are_errors() {
+    damage_files(500);
+    damage_metadata(1000);
+    forge_metadata(1000);
+    forge_files_of_other_programs(100);
+    damage_files_of_other_programs(70);
+    damage_without_checksum(600);
 }
 
 fn position(bytes: &[u8], pattern: &[u8]) -> usize {
     bytes.windows(pattern.len()).position(|w| w == pattern).expect("the pattern is there")
 }
 
-/// Files that `examples/fuzz_files.rs` has found: an error, or a dataset.
+/// Files that the example `fuzz_files` of `ppum-bench` has found give an error or a dataset.
 #[test]
 fn files_that_were_found_are_survived() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/hostile");

@@ -18,7 +18,6 @@ pub(crate) fn run<J: Job<f64> + Copy>(job: J) -> Vec<(&'static str, J::Output)> 
     #[cfg(target_arch = "x86_64")]
     {
         let level = Level::new();
-        results.extend(level.as_sse2().map(|simd| ("SSE2", on(simd, job))));
         results.extend(level.as_avx2().map(|simd| ("AVX2", on(simd, job))));
         results.extend(level.as_avx512().map(|simd| ("AVX-512", on(simd, job))));
     }

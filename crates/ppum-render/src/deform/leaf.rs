@@ -4,11 +4,11 @@ use ppum::crack::Side;
 use ppum::domain::{Hole, LocalDomain};
 use ppum::progress::Watcher;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_raster::parts::Parts;
 use rayon::prelude::*;
 
 use super::map::{Image, Map};
 use super::{DeformError, DeformedView};
-use crate::parts::Parts;
 use crate::pieces::{INSET, Piece, Pieces};
 
 /// Squares are halved that often before it is asked what is seen of them: displacements vary little enough from one to the next.

@@ -1,9 +1,9 @@
 //! The part of the undeformed plate that a picture of the deformed one shows.
 
 use ppum::vec2::Vec2;
+use ppum_raster::view::View;
 
 use super::DeformedPoints;
-use crate::view::View;
 
 /// Most pixels of such a view, in pixels of the picture.
 const MOST: f64 = 4.0;

@@ -38,8 +38,8 @@ use ppum::field::Field;
 use ppum::progress::Cancelled;
 use ppum::quantity::QuantityError;
 use ppum::vec2::{Rect, Vec2};
+use ppum_raster::view::{View, ViewError};
 
-use crate::view::{View, ViewError};
 pub use automatic::{AutomaticFactor, automatic_factor};
 use map::Map;
 pub use path::Paths;

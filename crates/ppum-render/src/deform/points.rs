@@ -5,14 +5,14 @@ use ppum::crack::Side;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2};
+use ppum_raster::parts::Parts;
+use ppum_raster::raster::Raster;
 use rayon::prelude::*;
 
 use super::inverse::{Found, Inverse};
 use super::leaf::{Leaf, leaves};
 use super::map::Map;
 use super::{DeformError, DeformedView};
-use crate::parts::Parts;
-use crate::raster::Raster;
 
 /// Rows of pixels that are worked on at once: what is found there is kept until it is sorted.
 const ROWS: u32 = 256;

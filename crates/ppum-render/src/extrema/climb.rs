@@ -4,11 +4,11 @@ use ppum::crack::Side;
 use ppum::field::LocalField;
 use ppum::quantity::QuantityGradient;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_raster::raster::{Raster, Sample};
 use rayon::prelude::*;
 
 use super::Promise;
 use super::curves::best_first;
-use crate::raster::{Raster, Sample};
 
 /// Most steps of Newton's method.
 const NEWTON: usize = 12;

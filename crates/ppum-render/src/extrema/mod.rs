@@ -30,12 +30,12 @@ use ppum::field::{Field, LocalField};
 use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, QuantityGradient};
 use ppum::vec2::{Rect, Vec2};
+use ppum_raster::RenderError;
+use ppum_raster::parts::Parts;
+use ppum_raster::raster::{Raster, Sample, Statistics};
+use ppum_raster::view::View;
 use rayon::prelude::*;
 
-use crate::error::RenderError;
-use crate::parts::Parts;
-use crate::raster::{Raster, Sample, Statistics};
-use crate::view::View;
 use climb::Climber;
 use curves::Curve;
 pub use singular::{Singular, SingularKind};

@@ -1,7 +1,6 @@
 //! Extrema against closed forms and brute force.
 
 use super::*;
-use crate::reference::reference;
 use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd, End, TipId};
 use ppum::dataset::{Dataset, FieldData, Step};
@@ -11,6 +10,7 @@ use ppum::function::{Frame, FunctionKind, WESTERGAARD};
 use ppum::progress::unwatched;
 use ppum::vec2::vec2;
 use ppum::weight::WeightFunction;
+use ppum_raster::reference::reference;
 use ppum_testkit::exact::{ElasticField, RoundHole};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
@@ -97,7 +97,7 @@ fn random_fields_against_brute_force() {
             let quantity = Quantity::parse(text, &field).expect("a quantity");
             let mut local = field.at(view.center);
             let mut value = |p| quantity.at(&mut local, p, Side::Above);
-            let fine = View::hug(dataset.domain.bounds, [900, 700]).expect("a view");
+            let fine = View::hug(dataset.domain.bounds, [450, 350]).expect("a view");
             let every = (0..fine.pixels[1]).flat_map(|j| (0..fine.pixels[0]).map(move |i| (i, j)));
             let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
             for v in every.map(|(i, j)| value(fine.offset(i, j))) {
@@ -142,7 +142,7 @@ fn where_cracks_meet() {
             let quantity = Quantity::parse(text, &field).expect("a quantity");
             let mut local = field.at(view.center);
             let mut value = |p| quantity.at(&mut local, p, Side::Above);
-            let fine = View::hug(dataset.domain.bounds, [900, 700]).expect("a view");
+            let fine = View::hug(dataset.domain.bounds, [450, 350]).expect("a view");
             let every = (0..fine.pixels[1]).flat_map(|j| (0..fine.pixels[0]).map(move |i| (i, j)));
             let mut places: Vec<Vec2> = every.map(|(i, j)| fine.offset(i, j)).collect();
             for at in recipe.junctions.iter().map(|place| place.center - view.center) {

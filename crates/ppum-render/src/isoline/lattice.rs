@@ -1,11 +1,11 @@
 //! The lattice of pixel centres and the picture's border.
 
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::view::View;
 use rayon::prelude::*;
 
 use crate::pieces::Pieces;
-use crate::raster::{Raster, Sample};
-use crate::view::View;
 
 /// A square by its row from below and its column from the left: in this order squares are sorted.
 pub(super) type Cell = [u32; 2];

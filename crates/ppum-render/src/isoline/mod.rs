@@ -22,15 +22,15 @@ use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, QuantityGradient, Source};
 use ppum::vec2::Vec2;
+use ppum_raster::RenderError;
+use ppum_raster::parts::Parts;
+use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::view::View;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::error::RenderError;
-use crate::parts::Parts;
 use crate::pieces::Pieces;
-use crate::raster::{Raster, Sample};
-use crate::view::View;
 use lattice::{Cell, Lattice};
 use march::{Marcher, Segment};
 

@@ -1,7 +1,6 @@
 //! Isolines against exact curves.
 
 use super::*;
-use crate::reference::reference;
 use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd, End, LocalCrack, Side, TipId};
 use ppum::dataset::{Dataset, FieldData, Step};
@@ -12,6 +11,7 @@ use ppum::progress::unwatched;
 use ppum::segment;
 use ppum::vec2::{Rect, vec2};
 use ppum::weight::WeightFunction;
+use ppum_raster::reference::reference;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
 
 /// Distance from the exact curve that every point has to keep, pixels.
@@ -236,7 +236,7 @@ fn meeting() -> Dataset {
 fn lines_in_a_plate() {
     for (is_smooth, dataset) in [(true, plate(true)), (false, plate(false)), (true, meeting())] {
         let field = Field::new(&dataset, 0).expect("a field");
-        let view = View::hug(dataset.domain.bounds, [220, 200]).expect("a view");
+        let view = View::hug(dataset.domain.bounds, [110, 100]).expect("a view");
         let of_ux = [-0.4, 0.1, 0.5, 0.9];
         let of_stress = [0.3, 0.6, 1.0, 2.0];
         for (text, levels) in
@@ -444,15 +444,16 @@ fn it_can_be_stopped() {
     assert!(matches!(found, Err(RenderError::Cancelled(_))));
 }
 
-/// What passes a thousand levels everywhere is refused before it takes memory without end.
+/// A quantity that passes thousands of levels in each pixel is refused before its lines take memory without end.
 #[test]
 fn too_many_lines_are_refused() {
-    let dataset = Recipe { cracks: vec![], ..Recipe::default() }.dataset();
+    let plain = Recipe { cracks: vec![], cells: [1, 1], level: 0, ..Recipe::default() };
+    let dataset = plain.dataset();
     let field = Field::new(&dataset, 0).expect("a field");
-    let view = View::hug(dataset.domain.bounds, [200, 150]).expect("a view");
-    let quantity = Quantity::parse("sin(1e4*x)*sin(1e4*y)", &field).expect("a quantity");
+    let view = View::hug(dataset.domain.bounds, [12, 9]).expect("a view");
+    let quantity = Quantity::parse("x + 0.3*y", &field).expect("a quantity");
     let raster = f64::render(&field, &view, &quantity, unwatched()).expect("a raster");
-    let levels: Vec<f64> = (1..1000).map(|k| f64::from(k) * 2e-3 - 1.0).collect();
+    let levels: Vec<f64> = (0..100_000).map(|k| f64::from(k) * 1.8e-5).collect();
     let found = isolines(&field, &view, &quantity, &levels, &raster, unwatched());
     assert!(
         matches!(found, Err(RenderError::TooManyLines(MOST_POINTS))),

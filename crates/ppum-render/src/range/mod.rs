@@ -22,9 +22,9 @@ use std::fmt;
 use std::str::FromStr;
 
 use ppum::text::exact;
+use ppum_raster::raster::{Raster, Sample, Statistics};
 
 use crate::extrema::{Extrema, Extremum};
-use crate::raster::{Raster, Sample, Statistics};
 use crate::scale::{Normalization, Scale};
 
 /// The range of values that the colours should span.

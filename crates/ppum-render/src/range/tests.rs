@@ -12,13 +12,13 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
+use ppum_raster::view::View;
 use ppum_testkit::exact::{ElasticField, RoundHole};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
 
 use super::*;
 use crate::extrema::{On, SingularKind, extrema};
-use crate::view::View;
 
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 

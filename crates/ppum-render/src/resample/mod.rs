@@ -27,12 +27,12 @@ use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use ppum::text::hint;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_raster::RenderError;
+use ppum_raster::parts::Parts;
+use ppum_raster::raster::Raster;
+use ppum_raster::view::View;
 use rayon::prelude::*;
 
-use crate::error::RenderError;
-use crate::parts::Parts;
-use crate::raster::Raster;
-use crate::view::View;
 use stencil::Stencil;
 
 /// The way values between the points of a grid are found.
@@ -190,7 +190,7 @@ impl Grid {
     /// watcher hears of each.
     ///
     /// # Errors
-    /// As for [`render`](crate::scatter::render).
+    /// As for [`render`](ppum_raster::scatter::render).
     pub fn sample(
         self,
         field: &Field<'_>,
@@ -259,7 +259,7 @@ impl Samples {
 /// cells with their centre in a hole. It is made of 8 bytes per cell.
 ///
 /// # Errors
-/// As for [`render`](crate::scatter::render).
+/// As for [`render`](ppum_raster::scatter::render).
 pub fn cells(
     field: &Field<'_>,
     view: &View,

@@ -15,14 +15,14 @@ use ppum::function::{Frame, FunctionKind};
 use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, Source};
 use ppum::vec2::{Rect, Vec2};
+use ppum_raster::RenderError;
+use ppum_raster::parts::Parts;
+use ppum_raster::view::View;
 use rayon::prelude::*;
 
 use super::norms::{Norms, of_values};
 use super::stencil::Stencil;
 use super::{Grid, Interpolation, at_offsets};
-use crate::error::RenderError;
-use crate::parts::Parts;
-use crate::view::View;
 
 /// Most columns and rows of pixels that errors are measured at.
 pub const PIXELS: u32 = 128;
@@ -81,7 +81,7 @@ pub enum Needed {
 /// [`LARGEST`]. The watcher hears of every grid.
 ///
 /// # Errors
-/// As for [`render`](crate::scatter::render).
+/// As for [`render`](ppum_raster::scatter::render).
 pub fn converge(
     subject: &Subject<'_>,
     target: f64,

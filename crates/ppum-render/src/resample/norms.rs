@@ -1,6 +1,6 @@
 //! How far a picture is from another: norms over the pixels of a view.
 
-use crate::raster::Raster;
+use ppum_raster::raster::Raster;
 
 /// Norms of a difference d over the n pixels where both pictures have a value, as means, so that they do not
 /// depend on the size of the view: Σ|d|/n, √(Σd²/n), max |d|.

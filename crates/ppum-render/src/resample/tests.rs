@@ -4,12 +4,12 @@ use ppum::dataset::{Dataset, Equation, FieldData, Step};
 use ppum::domain::{Domain, Hole};
 use ppum::progress::unwatched;
 use ppum::weight::WeightFunction;
+use ppum_raster::reference::reference;
 use ppum_testkit::random::Random;
 
 use super::need::{Convergence, Needed, Obstacle, Subject, converge};
 use super::norms::{Norms, difference, norms};
 use super::*;
-use crate::reference::reference;
 use ppum::function::Frame;
 
 /// A potential that is one formula on one patch over \[−1, 2\] × \[0, 2\].

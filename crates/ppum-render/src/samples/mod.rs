@@ -24,12 +24,11 @@ use ppum::domain::{Domain, LocalDomain};
 use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
+use ppum_raster::RenderError;
+use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::scatter::render_strips;
+use ppum_raster::view::View;
 use rayon::prelude::*;
-
-use crate::error::RenderError;
-use crate::raster::{Raster, Sample};
-use crate::scatter::render_strips;
-use crate::view::View;
 
 /// N, of N × N samples a pixel: 1, the centre alone, to [`Samples::MOST`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -124,10 +123,10 @@ impl<T: Sample> Means<T> {
 }
 
 /// The means of a quantity over the pixels of a view, computed in `T` = f64 or f32 on the threads of the pool that
-/// calls. Values of samples are those of [`render`](crate::scatter::render).
+/// calls. Values of samples are those of [`render`](ppum_raster::scatter::render).
 ///
 /// # Errors
-/// Those of [`render`](crate::scatter::render); samples finer than f64 has numbers for.
+/// Those of [`render`](ppum_raster::scatter::render); samples finer than f64 has numbers for.
 pub fn means<T: Sample>(
     field: &Field<'_>,
     view: &View,

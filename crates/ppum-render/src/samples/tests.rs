@@ -1,12 +1,12 @@
 //! Means against closed forms, the exact share of pixels, and the reference evaluation.
 
 use super::*;
-use crate::reference::reference;
-use crate::scatter::render;
 use ppum::dataset::Dataset;
 use ppum::domain::Hole;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
+use ppum_raster::reference::reference;
+use ppum_raster::scatter::render;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
 

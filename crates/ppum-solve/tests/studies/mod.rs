@@ -1,4 +1,4 @@
-//! Problems whose answers are known. The tests hold the solver to them; the example `validation` of ppum-cli prints
+//! Problems whose answers are known. The tests hold the solver to them; the example `validation` of ppum-bench prints
 //! what they give.
 
 pub(crate) mod adapted;

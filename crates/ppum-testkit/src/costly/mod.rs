@@ -29,9 +29,15 @@ pub struct Costly {
 /// All of them.
 #[must_use]
 pub fn all() -> Vec<Costly> {
+    chosen(|_, _| true)
+}
+
+/// Those that are chosen by their name and by the words of the error.
+#[must_use]
+pub fn chosen(is_chosen: impl Fn(&str, Option<&str>) -> bool) -> Vec<Costly> {
     let makers: [&[Maker]; 3] = [many::ALL, formulas::ALL, stored::ALL];
-    let made = |&(name, refused, make): &Maker| Costly { name, dataset: make(), refused };
-    makers.into_iter().flatten().map(made).collect()
+    let chosen = makers.into_iter().flatten().filter(|maker| is_chosen(maker.0, maker.1));
+    chosen.map(|&(name, refused, make)| Costly { name, dataset: make(), refused }).collect()
 }
 
 /// The dataset of this name.

@@ -7,13 +7,14 @@ use std::process::Command;
 use serde_json::Value;
 
 /// The crates that each crate may depend on, and does.
-const ARROWS: [(&str, &[&str]); 13] = [
+const ARROWS: [(&str, &[&str]); 15] = [
     ("ppum-formula", &[]),
     ("ppum", &["ppum-formula"]),
     ("ppum-file", &[]),
     ("ppum-format", &["ppum", "ppum-file"]),
     ("ppum-solve", &["ppum", "ppum-file"]),
-    ("ppum-render", &["ppum"]),
+    ("ppum-raster", &["ppum"]),
+    ("ppum-render", &["ppum", "ppum-raster"]),
     ("ppum-figure", &["ppum", "ppum-render"]),
     ("ppum-scene", &["ppum", "ppum-figure", "ppum-render", "ppum-solve"]),
     ("ppum-gpu", &["ppum", "ppum-render"]),
@@ -49,6 +50,20 @@ const ARROWS: [(&str, &[&str]); 13] = [
         &["ppum", "ppum-figure", "ppum-format", "ppum-render", "ppum-scene", "ppum-solve"],
     ),
     ("ppum-testkit", &["ppum"]),
+    (
+        "ppum-bench",
+        &[
+            "ppum",
+            "ppum-file",
+            "ppum-figure",
+            "ppum-format",
+            "ppum-formula",
+            "ppum-gpu",
+            "ppum-render",
+            "ppum-solve",
+            "ppum-testkit",
+        ],
+    ),
 ];
 
 /// Foreign crates that are known in one place only, so that they can be replaced there.
@@ -183,7 +198,8 @@ const FILE_CALLS: [&str; 6] =
 #[test]
 fn files_have_one_door() {
     let others = ARROWS.map(|(name, _)| name);
-    for name in others.into_iter().filter(|name| !["ppum-file", "ppum-testkit"].contains(name)) {
+    let exempt = ["ppum-bench", "ppum-file", "ppum-testkit"];
+    for name in others.into_iter().filter(|name| !exempt.contains(name)) {
         let sources = sources(&root().join("crates").join(name).join("src"));
         assert!(sources.len() > 5, "there are sources of {name}");
         for path in sources {
@@ -211,4 +227,61 @@ fn there_is_one_program() {
     let targets = all.iter().flat_map(|package| list(&package["targets"]));
     let programs = targets.filter(|t| list(&t["kind"]).iter().any(|kind| kind == "bin"));
     assert_eq!(programs.map(|t| text(&t["name"])).collect::<Vec<_>>(), ["ppum"]);
+}
+
+/// Most packages of the README's first command.
+const MOST_PACKAGES: usize = 155;
+
+/// Packages that the program alone does not need: graphics cards, windows, Python, test code.
+const NOT_IN_THE_PROGRAM: [&str; 13] = [
+    "eframe",
+    "egui",
+    "naga",
+    "ppum-bench",
+    "ppum-gpu",
+    "ppum-python",
+    "ppum-testkit",
+    "ppum-viewer",
+    "pyo3",
+    "tempfile",
+    "wgpu",
+    "winit",
+    "zbus",
+];
+
+/// Asks cargo for its plan of `cargo build --release` in the root, which `cargo run` shares, and
+/// returns the names of all packages in it.
+fn packages_of_the_first_command() -> BTreeSet<String> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let output = Command::new(cargo)
+        .args(["build", "--release", "--unit-graph", "-Z", "unstable-options"])
+        // the plan is printed by an unstable option, which stable cargo takes with this variable
+        .env("RUSTC_BOOTSTRAP", "1")
+        .current_dir(root())
+        .output()
+        .expect("cargo runs this test");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let plan: Value = serde_json::from_slice(&output.stdout).expect("the plan is JSON");
+    let identifiers = list(&plan["units"]).iter().map(|unit| text(&unit["pkg_id"]));
+    identifiers.map(str::to_owned).collect()
+}
+
+/// True if a package identifier, `…/ppum-gpu#0.1.0` or `…#wgpu@30.0.1`, is of this name.
+fn is_named(identifier: &str, name: &str) -> bool {
+    let (path, version) = identifier.rsplit_once('#').expect("a package identifier");
+    let end = version.split_once('@').map_or(path.rsplit('/').next(), |(name, _)| Some(name));
+    end == Some(name)
+}
+
+#[test]
+fn the_first_command_builds_what_it_runs() {
+    let packages = packages_of_the_first_command();
+    let extra: Vec<_> = NOT_IN_THE_PROGRAM
+        .iter()
+        .filter(|&name| packages.iter().any(|identifier| is_named(identifier, name)))
+        .collect();
+    assert!(extra.is_empty(), "the first command builds {extra:?}");
+    assert!(packages.iter().any(|identifier| is_named(identifier, "ppum-cli")));
+    assert!(packages.iter().any(|identifier| is_named(identifier, "faer")));
+    assert!(packages.len() <= MOST_PACKAGES, "the first command builds {}", packages.len());
 }

@@ -1,19 +1,21 @@
 //! Texts that try to break evaluators of formulas: kept ones, and mutants of them.
 //!
-//! [`seeds`] reads `tests/corpus/hostile`, [`mutant`] makes new texts, and [`survive()`] sends one through
+//! [`seeds`] reads `tests/corpus/hostile`, [`mutant`] makes new texts, and `survive` sends one through
 //! parser, derivatives and all back ends. Whatever the text, the outcome is an error with a place in it or
 //! numbers, which may be NaN.
 
 mod mutate;
+#[cfg(feature = "wgsl")]
 mod survive;
 
 use super::record::{Record, records};
 use super::{cases, folder, unescaped};
 
 pub use mutate::mutant;
+#[cfg(feature = "wgsl")]
 pub use survive::{Arena, Fate, survive};
 
-/// Stack of the thread that [`survive()`] is run on, in bytes: what wasm32 gives to a program, the least of
+/// Stack of the thread that `survive` is run on, in bytes: what wasm32 gives to a program, the least of
 /// all platforms. The parser needs most, at its deepest nesting with all precedences in each level.
 pub const STACK: usize = 1 << 20;
 

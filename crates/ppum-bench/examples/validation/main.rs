@@ -1,0 +1,53 @@
+//! Computes `docs/validation.md` and its pictures, in some minutes:
+//!
+//! ```text
+//! cargo run --release -p ppum-bench --example validation
+//! cargo run --release -p ppum-bench --example validation -- growth     its last part alone
+//! ```
+
+mod adaptive;
+mod benchmarks;
+mod convergence;
+mod growth;
+mod page;
+mod picture;
+mod series;
+#[path = "../../../ppum-solve/tests/studies/mod.rs"]
+mod studies;
+
+use page::Page;
+use std::path::Path;
+
+const HEAD: &str = "\
+# Validation
+
+What the solver gives, next to what is known. This page and its pictures are computed, not written:
+
+```text
+cargo run --release -p ppum-bench --example validation
+```
+
+Errors are relative, a positive one is a value that is too large. Where nothing else is said: E = 1, ν = 0.3, plane
+strain, order 2, α = 1.3, linear weights, and all else by default. Each benchmark is solved on three covers, each with
+cells half as large as the one before, further refined at tips by the program itself. The pictures show the von Mises
+stress (of Laplace's equation: the gradient) on the middle cover.
+The set-ups are in `crates/ppum-solve/tests/studies`; the tests in `crates/ppum-solve/tests/solver` hold the solver to
+most of these numbers. F = K/(σ√(πa)).
+
+Errors are differences from references. The `error` that `ppum sif` and `ppum info` print is an estimate, compared with
+them below. Their `spread` is the difference between three radii of one integral: a check, no estimate of the error.";
+
+fn main() -> anyhow::Result<()> {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    if std::env::args().nth(1).is_some_and(|part| part == "growth") {
+        let mut page = Page::before(&docs, "validation.md", growth::HEADING)?;
+        growth::write(&mut page)?;
+        return page.save("validation.md");
+    }
+    let mut page = Page::new(&docs, HEAD);
+    benchmarks::write(&mut page)?;
+    convergence::write(&mut page);
+    adaptive::write(&mut page)?;
+    growth::write(&mut page)?;
+    page.save("validation.md")
+}

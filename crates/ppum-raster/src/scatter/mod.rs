@@ -1,0 +1,318 @@
+//! The CPU renderer: exact values at all pixels of a view, patch by patch on vectors of pixels.
+//!
+//! The picture is cut into tiles. Each patch adds to the sums of the tiles it meets
+//!
+//! ```text
+//! S = Σ W_i     U = Σ W_i v_i     ∇S     ∇U
+//! ```
+//!
+//! and when all have, each point is divided once, u = U / S and ∇u = (∇U − u ∇S) / S, and the
+//! quantity made. No patch list is searched at a pixel, and no pixel lies in a special case: any
+//! cover, any degree, any number of functions. On each row a patch's weight and polynomials collapse to polynomials in x
+//! (module `collapse`), those of patches above each other to one (`strips`). Column by column of vectors (`sweep`) these are summed
+//! and divided in registers (`sums`), and the quantity is made while all is in the nearest cache (`finish`). Functions are
+//! evaluated once for a column, and only where a patch needs them. Where patches are too small for that to pay they are summed one by
+//! one instead (`grains`).
+//!
+//! The renderer evaluates the same field as [`LocalField`](ppum::field::LocalField), which
+//! [`reference`](fn@crate::reference::reference) draws with, in another order; they agree to rounding.
+//! Results depend neither on the number of threads nor on chance; they may differ in the last bits
+//! from processor to processor, since lanes fuse multiplication and addition where they can.
+//!
+//! In f32 two measures keep what f64 would show: offsets are taken from the view's centre in f64, so
+//! zoom costs nothing, and each tile subtracts a constant displacement, which the partition of
+//! unity reproduces, before weights and displacements are multiplied.
+
+mod collapse;
+mod finish;
+mod grains;
+mod plan;
+mod schedule;
+mod strips;
+mod sums;
+mod sweep;
+mod tile;
+mod weights;
+
+use std::ops::Range;
+
+use ppum::field::Field;
+use ppum::function::LocalFunctions;
+use ppum::progress::{Cancelled, Watcher};
+use ppum::quantity::{Quantity, Source};
+use ppum::real::{Real, Scalar};
+use ppum::weight::WeightFunction;
+use rayon::prelude::*;
+
+use crate::error::RenderError;
+use crate::parts::Parts;
+use crate::raster::{Raster, Sample, SampleSlice, zeros};
+use crate::summation::{Savings, Summation};
+use crate::view::View;
+use collapse::ROWS;
+use grains::MOST_PIXELS;
+use plan::{COLUMNS, Plan, strips};
+use tile::{Band, Scratch};
+use weights::Weights;
+
+pub use schedule::{Schedule, TileLoad};
+
+/// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 on the threads of the
+/// pool that calls.
+///
+/// Pixels outside the domain are NaN; quantities of the gradient are +∞ at a crack tip. On a crack
+/// the side above is taken. f32 keeps some 5 digits of a stress; a view whose pixels are too small
+/// for squares of f32 is computed in f64.
+///
+/// The watcher hears of every band of 16 rows.
+///
+/// # Errors
+/// [`RenderError::Cancelled`] if the watcher stops the call;
+/// [`QuantityError::Patch`](ppum::quantity::QuantityError::Patch) for the partition function of a patch that does not exist;
+/// [`QuantityError::NoExact`](ppum::quantity::QuantityError::NoExact) for the error of a field whose exact solution is not known.
+pub fn render<T: Sample>(
+    field: &Field<'_>,
+    view: &View,
+    quantity: &Quantity,
+    watcher: &dyn Watcher,
+) -> Result<Raster<T>, RenderError> {
+    T::render(field, view, quantity, watcher)
+}
+
+/// The values of [`render`] by a given summation, for tests and measurements. They differ from
+/// those of other summations by rounding alone.
+///
+/// # Errors
+/// Those of [`render`].
+pub fn render_with<T: Sample>(
+    field: &Field<'_>,
+    view: &View,
+    quantity: &Quantity,
+    summation: Summation,
+    watcher: &dyn Watcher,
+) -> Result<Raster<T>, RenderError> {
+    let mut values = Vec::new();
+    let all = view.pixels[1].max(1);
+    T::render_strips(field, view, quantity, summation, all, watcher, &mut |v| values = v)?;
+    Ok(Raster::new(view.pixels, values))
+}
+
+/// The values of [`render`], to the last bit, a strip at a time, for views of more pixels than are to
+/// be held at once: `take` is given the values of the strips from the top, each of `rows` rows,
+/// rounded up to whole bands of 16, but for the last one.
+///
+/// # Errors
+/// Those of [`render`].
+pub fn render_strips<T: Sample>(
+    field: &Field<'_>,
+    view: &View,
+    quantity: &Quantity,
+    rows: u32,
+    watcher: &dyn Watcher,
+    take: &mut dyn FnMut(Vec<T>),
+) -> Result<(), RenderError> {
+    T::render_strips(field, view, quantity, Summation::Automatic, rows, watcher, take)
+}
+
+macro_rules! sample {
+    ($t:ty, $kind:ident, $same:expr) => {
+        impl Sample for $t {
+            const SAME: f64 = $same;
+
+            fn render(
+                field: &Field<'_>,
+                view: &View,
+                quantity: &Quantity,
+                watcher: &dyn Watcher,
+            ) -> Result<Raster<Self>, RenderError> {
+                render_with(field, view, quantity, Summation::Automatic, watcher)
+            }
+
+            fn sample_slice(values: &[Self]) -> SampleSlice<'_> {
+                SampleSlice::$kind(values)
+            }
+
+            fn render_strips(
+                field: &Field<'_>,
+                view: &View,
+                quantity: &Quantity,
+                summation: Summation,
+                rows: u32,
+                watcher: &dyn Watcher,
+                take: &mut dyn FnMut(Vec<Self>),
+            ) -> Result<(), RenderError> {
+                quantity.check(field)?;
+                if !resolves::<$t>(view.pixel_size()) {
+                    let mut narrowed =
+                        |wide: Vec<f64>| take(wide.into_iter().map(<$t>::from_f64).collect());
+                    let take = &mut narrowed;
+                    return f64::render_strips(
+                        field, view, quantity, summation, rows, watcher, take,
+                    );
+                }
+                let scene = Scene::<$t>::new(field, view, quantity, summation);
+                let bands = (rows as usize).div_ceil(ROWS).max(1);
+                match quantity.source() {
+                    Source::Gradient => scene.draw::<1>(bands, watcher, take)?,
+                    _ => scene.draw::<0>(bands, watcher, take)?,
+                }
+                Ok(())
+            }
+        }
+    };
+}
+
+sample!(f64, Double, 1e-12);
+sample!(f32, Single, 32.0 * f32::EPSILON as f64);
+
+/// True if the square of a hundredth of a length is a normal number of `T`, so that distances to a
+/// tip neither underflow nor overflow.
+fn resolves<T: Scalar>(length: f64) -> bool {
+    let square = (0.01 * length) * (0.01 * length);
+    (T::from_f64(square).to_f64() / square - 1.0).abs() < 1e-6 || T::VECTOR == f64::VECTOR
+}
+
+/// A view of a field, ready to be drawn.
+struct Scene<'f, T> {
+    view: View,
+    quantity: &'f Quantity,
+    weight: &'f WeightFunction,
+    /// Its factors, if it is a formula.
+    weights: Weights<T>,
+    functions: LocalFunctions<'f>,
+    plan: Plan<'f>,
+    /// Offsets of the columns from the view's centre, up to full tiles.
+    xs: Vec<T>,
+    /// Offsets of the rows.
+    ys: Vec<T>,
+    savings: Savings,
+    field: &'f Field<'f>,
+}
+
+impl<'f, T: Sample> Scene<'f, T> {
+    fn new(
+        field: &'f Field<'f>,
+        view: &View,
+        quantity: &'f Quantity,
+        summation: Summation,
+    ) -> Self {
+        let functions = field.functions.at(&field.step.cracks, view.center);
+        let mut groups = 0..functions.table().groups();
+        let (most_pixels, savings) = match summation {
+            Summation::Automatic if groups.all(|group| functions.is_native(group)) => {
+                (MOST_PIXELS, Savings::ALL)
+            }
+            // formulas are run for many pixels of strips at a time, and would be dear one by one
+            Summation::Automatic => (0, Savings::ALL),
+            Summation::ColumnSpans(savings) => (0, savings),
+            Summation::PerPatch => (usize::MAX, Savings::ALL),
+        };
+        let mut plan = Plan::new(field, view, quantity, ROWS, most_pixels);
+        let weight = &field.step.partition.weight;
+        let columns = view.pixels[0].next_multiple_of(COLUMNS as u32);
+        let rows = view.pixels[1].next_multiple_of(ROWS as u32);
+        Self {
+            view: *view,
+            quantity,
+            weight,
+            weights: Weights::new(weight, view, &mut plan.patches),
+            functions,
+            plan,
+            xs: (0..columns).map(|i| T::from_f64(view.column_offset(i))).collect(),
+            ys: (0..rows).map(|j| T::from_f64(view.row_offset(j))).collect(),
+            savings,
+            field,
+        }
+    }
+
+    /// Draws with `D` derivatives, some bands at a time, whose rows `take` is given in order; bands of rows in
+    /// parallel.
+    fn draw<const D: usize>(
+        &self,
+        bands: usize,
+        watcher: &dyn Watcher,
+        take: &mut dyn FnMut(Vec<T>),
+    ) -> Result<(), Cancelled> {
+        let [columns, rows] = self.view.pixels.map(|n| n as usize);
+        let parts = Parts::start(watcher, rows.div_ceil(ROWS))?;
+        let entries = self.plan.entries_of_bands();
+        for first in (0..rows).step_by(bands * ROWS) {
+            let count = (rows - first).min(bands * ROWS);
+            let mut values = zeros(columns * count);
+            let mut rest = values.as_mut_slice();
+            for bands in strips(first / ROWS..(first + count).div_ceil(ROWS), &entries) {
+                let pixels = rest.len().min(bands.len() * columns * ROWS);
+                let (strip, later) = rest.split_at_mut(pixels);
+                self.draw_strip::<D>(bands, strip, &parts)?;
+                rest = later;
+            }
+            take(values);
+        }
+        Ok(())
+    }
+
+    fn draw_strip<const D: usize>(
+        &self,
+        bands: Range<usize>,
+        strip: &mut [T],
+        parts: &Parts<'_>,
+    ) -> Result<(), Cancelled> {
+        let tiles = &self.plan.tiles(&bands);
+        let chunks = strip.par_chunks_mut(self.view.pixels[0] as usize * ROWS).enumerate();
+        chunks.try_for_each_init(Scratch::default, |scratch, (k, out)| {
+            let (scene, band) = (self, bands.start + k);
+            T::dispatch(Band::<'_, '_, T, D> { scene, tiles, band, scratch, out: &mut *out });
+            self.clear_outside(band * ROWS, out);
+            self.clear_holes(band * ROWS, out);
+            parts.finish_one()
+        })
+    }
+
+    /// Sets the pixels outside the domain's box to NaN.
+    fn clear_outside(&self, first_row: usize, out: &mut [T]) {
+        let [columns, rows] = &self.plan.inside;
+        let nan = T::from_f64(f64::NAN);
+        for (k, line) in out.chunks_exact_mut(self.view.pixels[0] as usize).enumerate() {
+            if rows.contains(&(first_row + k)) && !columns.is_empty() {
+                line[..columns.start].fill(nan);
+                line[columns.end..].fill(nan);
+            } else {
+                line.fill(nan);
+            }
+        }
+    }
+
+    /// Sets the pixels in holes to NaN.
+    fn clear_holes(&self, first_row: usize, out: &mut [T]) {
+        let width = self.view.pixels[0] as usize;
+        for seen in &self.plan.holes {
+            let rows = seen.rows.start.max(first_row)..seen.rows.end.min(first_row + ROWS);
+            for row in rows {
+                let line = &mut out[(row - first_row) * width..][..width];
+                for column in seen.columns.clone() {
+                    let offset = self.view.offset(column as u32, row as u32);
+                    // holes may lie over each other
+                    if !line[column].to_f64().is_nan() && seen.hole.contains(offset) {
+                        line[column] = T::from_f64(f64::NAN);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl<T: Scalar> Scene<'_, T> {
+    /// Exact values minus `shift` at the pixels of a vector, component by component.
+    fn load_exact<R: Real<Scalar = T>>(
+        &self,
+        [column, row]: [usize; 2],
+        shift: &[f64],
+        out: &mut [R],
+        zero: R,
+    ) {
+        let point = |lane| self.view.center + self.view.offset((column + lane) as u32, row as u32);
+        for (component, (out, shift)) in out.iter_mut().zip(shift).enumerate() {
+            *out = zero.with_lanes(|lane| self.field.exact(component, point(lane)) - shift);
+        }
+    }
+}

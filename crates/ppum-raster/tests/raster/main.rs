@@ -1,0 +1,8 @@
+//! Views and rasters, and the renderer against the point-by-point reference.
+
+mod errors;
+mod raster;
+mod rooms;
+mod scatter;
+mod summation;
+mod view;
