@@ -6,14 +6,15 @@ With PPUM_SCREENSHOTS=folder the pages are kept as pictures.
 import os
 import pathlib
 import statistics
+import time
 
 import numpy as np
 import ppum
 import pytest
-from browsers import ROUND_TRIPS, SETUP, chromium, frames, jupyterlab, marimo, needed, pixels, rested
+from browsers import ROUND_TRIPS, SETUP, TIME_LIMIT, chromium, frames, jupyterlab, marimo, needed, pixels, rested
 
-#: A round trip that is worse than this is wrong on any machine; what is promised is a median of 40 ms on a quiet one.
-SLOW_MS = 1000
+#: The median of a round trip that is promised on a quiet machine; it is asserted where PPUM_SPEED is set.
+PROMISED_MS = 40
 
 
 @pytest.fixture(scope="module")
@@ -40,11 +41,13 @@ def assert_shows(canvas, field, quantity, center, width, **options):
 
 def timed(canvas, where):
     rested(canvas, 0)
-    times = canvas.evaluate(ROUND_TRIPS, 40)[5:]
+    times = canvas.evaluate(ROUND_TRIPS, 40)
+    assert len(times) == 40
+    times = times[5:]
     median, slow = statistics.median(times), sorted(times)[int(0.9 * len(times))]
     size = canvas.evaluate("c => [c.width, c.height]")
     print(f"{where}: {size[0]}x{size[1]}, a frame there and back in {median:.0f} ms, nine of ten in {slow:.0f} ms")
-    assert median < SLOW_MS
+    assert "PPUM_SPEED" not in os.environ or median <= PROMISED_MS
     rested(canvas, 0)
 
 
@@ -68,7 +71,8 @@ class Notebook:
         self.page.keyboard.insert_text(f"print('<' + str({code}) + '>')")
         self.page.keyboard.press("Control+Enter")
         output = cell.locator(".jp-OutputArea-output pre", has_text="<")
-        for _ in range(200):
+        end = time.monotonic() + TIME_LIMIT
+        while time.monotonic() < end:
             if not cell.locator(".jp-InputPrompt").inner_text().strip("[]: \n") == "*":
                 texts = output.all_inner_texts()
                 if texts and texts[-1].startswith("<") and code in cell.locator(".cm-content").inner_text():

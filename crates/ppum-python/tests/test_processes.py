@@ -4,7 +4,6 @@ import io
 import multiprocessing
 import os
 import pickle
-import signal
 import subprocess
 import sys
 import threading
@@ -66,16 +65,35 @@ def test_many_threads(f):
     assert all(np.array_equal(values, expected, equal_nan=True) for values in found)
 
 
-def test_python_goes_on_meanwhile(problem):
-    """Others can work while a solution is made."""
-    thread = threading.Thread(target=lambda: ppum.solve(problem))
-    thread.start()
-    count = 0
-    while thread.is_alive() and count < 10_000:
-        count += 1
-        time.sleep(0.001)
-    thread.join(60)
-    assert count > 5
+class Enough(Exception):
+    """Ends a solution that would take minutes."""
+
+
+def test_python_goes_on_meanwhile():
+    """Other threads work while a solution is made, not only where Python is called to hear of its progress."""
+    reports, naps = 0, 0
+
+    def nap():
+        nonlocal naps
+        while naps < 200:
+            time.sleep(0.001)
+            naps += 1
+
+    thread = threading.Thread(target=nap)
+
+    def progress(*_):
+        nonlocal reports
+        if reports == 0:
+            thread.start()
+        reports += 1
+        if naps == 200:
+            raise Enough
+
+    with pytest.raises(Enough):
+        ppum.solve(plate((128, 256)), progress=progress)
+    thread.join()
+    # a nap for each report, if Python were locked in between
+    assert reports < 100
 
 
 def test_progress(problem):
@@ -86,28 +104,40 @@ def test_progress(problem):
 
 
 def test_an_exception_of_progress_ends_the_solution(problem):
-    class Enough(Exception):
-        pass
+    reports = []
 
-    def stop(*_):
+    def stop(*report):
+        reports.append(report)
         raise Enough
 
-    start = time.monotonic()
+    start = time.process_time()
     with pytest.raises(Enough):
-        ppum.solve(problem.discretization(cells=(64, 128)), progress=stop)
-    assert time.monotonic() - start < 60
+        ppum.solve(problem.discretization(cells=(128, 256)), progress=stop)
+    # minutes of processor time, if it were not stopped
+    assert len(reports) == 1 and time.process_time() - start < 30
 
 
 SLOW = """
-import signal, sys, numpy as np, ppum
+import os, signal, sys, threading, time
+import numpy as np, ppum
 from conftest import plate
 # who started the tests in the background has signals ignored
 signal.signal(signal.SIGINT, signal.default_int_handler)
 what = sys.argv[1]
 ds = ppum.solve(plate((6, 12)))
 big = np.random.default_rng(0).uniform(-1, 1, (2, 20_000_000)) if what == "evaluate" else None
-print("ready", flush=True)
+
+def interrupt():
+    # in the middle of the work, however slow the machine is
+    while time.process_time() < start + 0.5:
+        time.sleep(0.01)
+    interrupted_at.append(time.process_time())
+    os.kill(os.getpid(), signal.SIGINT)
+
+thread, interrupted_at = threading.Thread(target=interrupt, daemon=True), []
 try:
+    start = time.process_time()
+    thread.start()
     if what == "solve":
         ppum.solve(plate((128, 256)))
     elif what == "evaluate":
@@ -115,7 +145,7 @@ try:
     else:
         ds.field.figure("von_mises", size=(12000, 12000)).png()
 except KeyboardInterrupt:
-    print("interrupted", flush=True)
+    print("interrupted", time.process_time() - interrupted_at[0], flush=True)
     # all goes on as before
     print(ds.field.at(0.5, 0.5).ux, ppum.solve(plate((6, 12))) .tips[0].k1 == ds.tips[0].k1, flush=True)
 """
@@ -126,14 +156,11 @@ def test_ctrl_c(what):
     folder = os.path.dirname(__file__)
     run = [sys.executable, "-c", SLOW, what]
     with subprocess.Popen(run, cwd=folder, stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout.readline() == "ready\n"
-        time.sleep(0.7)
-        process.send_signal(signal.SIGINT)
-        start = time.monotonic()
-        assert process.stdout.readline() == "interrupted\n"
-        assert time.monotonic() - start < 30
+        told, seconds = process.stdout.readline().split()
+        # seconds of the processor, on all threads
+        assert told == "interrupted" and float(seconds) < 30
         assert process.stdout.readline().endswith("True\n")
-        process.wait(60)
+        process.wait(300)
 
 
 def test_results_do_not_depend_on_threads(problem, ds):

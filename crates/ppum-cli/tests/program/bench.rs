@@ -4,12 +4,14 @@ use crate::{Lab, keys};
 
 #[test]
 fn phases_are_measured() {
-    let report = Lab::new().json("bench solver --level 4 --threads 2");
+    let report = Lab::new().json("bench solver --level 4 --solver multilevel --threads 2");
     assert_eq!(report["threads"], 2);
     assert!(report["renderer"].is_null());
     let run = &report["solver"][0];
     assert_eq!(run["level"], 4);
     assert!(run["unknowns"].as_u64().unwrap() > 2 * 6 * 256);
+    assert_eq!(run["kind"], "multilevel");
+    assert!(run["bytes"].as_f64() > Some(0.0) && run["iterations"].as_f64() < Some(30.0));
     let phases = run["phases"].as_array().unwrap();
     let names: Vec<_> = phases.iter().map(|phase| phase["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["cover", "basis", "assembly", "solution", "intensity", "estimate"]);
@@ -17,11 +19,23 @@ fn phases_are_measured() {
     assert!(sum > 0.0 && (sum - run["seconds"].as_f64().unwrap()).abs() < 1e-12);
 }
 
-/// Two levels have a table and a picture, three a line through their times.
+/// Two levels have a table and a picture.
 #[test]
 fn times_grow_with_the_unknowns() {
     let lab = Lab::new();
-    let report = lab.json("bench solver --level 6 --solver multilevel --threads 2 -o times.svg");
+    let text = lab.run("bench solver --level 5 --solver direct -o times.svg");
+    assert!(text.contains("bytes/unknown\n    4 ") && text.contains(" direct "), "{text}");
+    assert!(!text.contains("exponent"), "two points are no fit: {text}");
+    let svg = std::fs::read_to_string(lab.path("times.svg")).unwrap();
+    assert!(svg.contains("all phases, slope ") && svg.contains(">unknowns<"), "{svg}");
+    assert!(lab.fail("bench solver --level 4 -o a.png").contains("two levels"));
+}
+
+/// Three levels have a line through their times.
+#[test]
+#[ignore = "slow: three levels are solved"]
+fn times_of_three_levels_are_fitted() {
+    let report = Lab::new().json("bench solver --level 6 --solver multilevel --threads 2");
     let runs = report["solver"].as_array().unwrap();
     assert_eq!(runs.len(), 3);
     for run in runs {
@@ -33,12 +47,6 @@ fn times_grow_with_the_unknowns() {
         let expected = ["exponent", "largest_deviation", "seconds", "seconds_per_unknown"];
         assert_eq!(keys(fit), expected);
     }
-    let svg = std::fs::read_to_string(lab.path("times.svg")).unwrap();
-    assert!(svg.contains("all phases, slope ") && svg.contains(">unknowns<"), "{svg}");
-    let text = lab.run("bench solver --level 5 --solver direct");
-    assert!(text.contains("bytes/unknown\n    4 ") && text.contains(" direct "), "{text}");
-    assert!(!text.contains("exponent"), "two points are no fit: {text}");
-    assert!(lab.fail("bench solver --level 4 -o a.png").contains("two levels"));
 }
 
 #[test]

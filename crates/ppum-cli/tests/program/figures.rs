@@ -96,7 +96,7 @@ fn a_shared_range_spans_all() {
 
 #[test]
 fn letters_that_the_font_lacks_are_told() {
-    let lab = Lab::solved(&CRACKED.replace("Small plate", "Platte 板"));
+    let lab = Lab::solved(&LINEAR.replace("Plane", "Platte 板"));
     let (_, warning) = lab.warned("render plate.h5 -o a.png --figure");
     assert!(warning.contains("lacks `板`; boxes stand for them"), "{warning}");
     let (_, warning) = lab.warned("render plate.h5 -o a.svg --figure");
@@ -149,7 +149,7 @@ fn what_has_no_room_or_no_value_is_told() {
 fn overlays_are_drawn_over_the_colours() {
     let lab = Lab::solved(CRACKED);
     let draw = |options: &str| {
-        lab.run(&format!("render plate.h5 -o o.png --size 400x400 -q uy {options}"));
+        lab.run(&format!("render plate.h5 -o o.png --size 300x300 -q uy {options}"));
         Png::read(&lab.path("o.png")).rgba
     };
     let plain = draw("");

@@ -18,19 +18,18 @@ domain = { min = [-1, -1], max = [1, 1] }
 material = { young = 1, poisson = 0.3, state = "plane-strain" }
 boundary = [ { on = "bottom", traction = [0, -1] }, { on = "top", traction = [0, 1] } ]
 discretization = { level = 3, order = 1, refine = false, enrichment = "zone" }
-growth = { increment = 0.05, steps = 3 }
+growth = { increment = 0.05, steps = 2 }
 crack = [{ points = [[-1, 0], [0.3, 0]] }]
 "#;
 
-/// Longer than any machine takes for a step.
-const PATIENCE: Duration = Duration::from_secs(120);
+/// The longest wait for a state. Only a test that hangs waits so long.
+const TIME_LIMIT: Duration = Duration::from_secs(300);
 
 impl Lab {
     /// A folder with `plate.toml` and its whole series `whole.h5`.
     fn grown() -> Self {
-        let lab = Self::new();
-        lab.write("plate.toml", GROWING);
-        lab.run("solve plate.toml -o whole.h5");
+        let lab = Self::solved(GROWING);
+        fs::rename(lab.path("plate.h5"), lab.path("whole.h5")).unwrap();
         lab
     }
 
@@ -47,7 +46,7 @@ impl Lab {
         let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         let start = Instant::now();
         while Series::open(&self.path("a.h5")).map_or(0, |series| series.len()) < steps {
-            assert!(start.elapsed() < PATIENCE, "no step is written");
+            assert!(start.elapsed() < TIME_LIMIT, "no step is written");
             sleep(Duration::from_millis(5));
         }
         child
@@ -66,14 +65,24 @@ impl Lab {
 #[test]
 fn a_killed_run_goes_on() {
     let lab = Lab::grown();
+    let (all, start) = (lab.content("whole.h5").steps.len(), Instant::now());
     for steps in [1, 2] {
-        let mut child = lab.running("solve plate.toml -o a.h5 --resume", steps);
-        child.kill().unwrap();
-        child.wait().unwrap();
-        assert!(lab.holds_a_beginning("a.h5") >= steps);
+        loop {
+            let mut child = lab.running("solve plate.toml -o a.h5 --resume", steps);
+            child.kill().unwrap();
+            child.wait().unwrap();
+            let len = lab.holds_a_beginning("a.h5");
+            assert!(len >= steps);
+            if len < all {
+                break;
+            }
+            // on a busy machine a run may end before it is killed
+            assert!(start.elapsed() < TIME_LIMIT, "no run is killed before its end");
+            fs::remove_file(lab.path("a.h5")).unwrap();
+        }
     }
     let told = lab.run("solve plate.toml -o a.h5 --resume");
-    assert!(told.contains("growth ended with step 3"), "{told}");
+    assert!(told.contains("growth ended with step 2"), "{told}");
     assert!(lab.content("a.h5") == lab.content("whole.h5"));
     assert_eq!(lab.files(), ["a.h5", "plate.toml", "whole.h5"]);
     let told = lab.run("solve plate.toml -o a.h5 --resume");
@@ -94,7 +103,7 @@ fn a_full_disk_keeps_the_steps() {
     let told = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1), "{told}");
     let len = lab.holds_a_beginning("a.h5");
-    assert!((1..4).contains(&len), "{len}");
+    assert!((1..3).contains(&len), "{len}");
     let steps = if len == 1 { "1 step".to_owned() } else { format!("{len} steps") };
     let expected = format!("a.h5 holds {steps}; `ppum solve --resume` goes on from there");
     assert!(told.starts_with("error: ") && told.contains(&expected), "{told}");
@@ -109,7 +118,7 @@ fn a_full_disk_keeps_the_steps() {
 fn what_cannot_be_written_stays() {
     let lab = Lab::grown();
     let bytes = fs::read(lab.path("whole.h5")).unwrap();
-    lab.write("plate.toml", &GROWING.replace("steps = 3", "steps = 4"));
+    lab.write("plate.toml", &GROWING.replace("steps = 2", "steps = 3"));
     let mut permissions = fs::metadata(lab.path("whole.h5")).unwrap().permissions();
     permissions.set_readonly(true);
     fs::set_permissions(lab.path("whole.h5"), permissions).unwrap();
@@ -130,7 +139,7 @@ fn what_cannot_be_written_stays() {
 #[test]
 fn one_run_writes_a_series() {
     let lab = Lab::grown();
-    lab.write("long.toml", &GROWING.replace("steps = 3", "steps = 8000").replace("0.05", "1e-5"));
+    lab.write("long.toml", &GROWING.replace("steps = 2", "steps = 8000").replace("0.05", "1e-5"));
     let mut child = lab.running("solve long.toml -o a.h5", 2);
     for arguments in ["long.toml --resume", "long.toml", "plate.toml"] {
         let complaint = lab.fail(&format!("solve {arguments} -o a.h5"));
@@ -156,7 +165,7 @@ fn a_series_does_not_converge() {
 #[test]
 fn a_damaged_step_is_not_gone_on_from() {
     let lab = Lab::grown();
-    lab.write("plate.toml", &GROWING.replace("steps = 3", "steps = 5"));
+    lab.write("plate.toml", &GROWING.replace("steps = 2", "steps = 4"));
     let mut bytes = fs::read(lab.path("whole.h5")).unwrap();
     let last = lab.content("whole.h5").steps.pop().unwrap();
     let way = last.growth.unwrap().tips[0].path[0].x.to_le_bytes();

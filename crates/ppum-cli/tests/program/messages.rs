@@ -56,8 +56,8 @@ fn one_value_is_told() {
     let lab = Lab::solved(&sound());
     for (quantity, value) in [("syy", "1"), ("2+0*ux", "2"), ("1e-30+0*ux", "1e-30")] {
         for more in ["", "--figure", "--precision f32", "--scale log"] {
-            let told =
-                lab.run(&format!("render plate.h5 -o a.png -q {quantity} --backend cpu {more}"));
+            let options = format!("-q {quantity} --size 400x300 --backend cpu {more}");
+            let told = lab.run(&format!("render plate.h5 -o a.png {options}"));
             assert!(told.contains(&format!("one value, {value}, ")), "{quantity} {more}: {told}");
         }
     }

@@ -97,7 +97,7 @@ fn legends_have_the_values_there_are() {
 fn parts_stand_in_panels() {
     let lab = Lab::solved(CRACKED);
     let draw = |options: &str| {
-        lab.run(&format!("render plate.h5 -o a.png --size 900x800 -q uy {options}"));
+        lab.run(&format!("render plate.h5 -o a.png --size 600x520 -q uy {options}"));
         Png::read(&lab.path("a.png"))
     };
     let all = draw("--part all,smooth,jump,tip");

@@ -66,12 +66,12 @@ fn tips_make_ranges_robust_and_are_told() {
     let (told, png) = lab.ranged("--size 200x150 --range full");
     assert!(told.contains("(finite pixels); values from "), "{told}");
     assert_eq!(png.text("ppum:range-basis"), "pixels");
-    let (told, _) = lab.ranged("--tip 0 --zoom 1e9 -q syy");
+    let (told, _) = lab.ranged("--size 200x150 --tip 0 --zoom 1e9 -q syy");
     assert!(told.contains("robust") && told.contains("∞ at tip 0 ("), "{told}");
     // displacements are finite
-    let (told, _) = lab.ranged("-q uy");
+    let (told, _) = lab.ranged("--size 200x150 -q uy");
     assert!(!told.contains("robust") && !told.contains('∞'), "{told}");
-    let (told, _) = lab.ranged("-q syy --deformed auto");
+    let (told, _) = lab.ranged("--size 200x150 -q syy --deformed auto");
     assert!(told.contains("values of pixels from "), "{told}");
     // bars say it, upright and lying, of one panel and of several
     for look in [
@@ -80,7 +80,7 @@ fn tips_make_ranges_robust_and_are_told() {
         "--layout 1x1",
         "--layout 1x1 --shared-range",
     ] {
-        lab.run(&format!("render plate.h5 -o a.svg --backend cpu {look}"));
+        lab.run(&format!("render plate.h5 -o a.svg --size 500x420 --backend cpu {look}"));
         let svg = std::fs::read_to_string(lab.path("a.svg")).unwrap();
         assert!(svg.contains(">to ∞</text>"), "{look}");
     }

@@ -231,7 +231,7 @@ fn steps_have_their_own_tips_and_titles() {
     let dataset = growing(3);
     let lab = Lab::holding(&dataset);
     lab.run("render plate.h5 -o a.png --steps all --tip 0 --zoom 1e6 --size 30x20 -q ux");
-    lab.run("render plate.h5 -o a.svg --steps all --figure --isolines auto -q ux --samples 2");
+    lab.run("render plate.h5 -o a.svg --steps all --size 400x300 --figure --isolines auto -q ux --samples 2");
     for (k, step) in dataset.steps.iter().enumerate() {
         let tip = step.cracks[0].points[2];
         let png = Png::read(&lab.path(&format!("a-{k:03}.png")));

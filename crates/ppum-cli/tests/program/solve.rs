@@ -62,8 +62,8 @@ fn json_has_the_documented_shape() {
 #[test]
 fn adaptation_is_told() {
     let lab = Lab::new();
-    let adaptive = |keys: &str| format!("{CRACKED}[adaptivity]\nsteps = 2\n{keys}\n");
-    lab.write("plate.toml", &adaptive("keep = \"all\""));
+    let adaptive = |keys: &str| format!("{CRACKED}[adaptivity]\n{keys}\n");
+    lab.write("plate.toml", &adaptive("steps = 2\nkeep = \"all\""));
     assert!(lab.run("solve plate.toml --check").contains("the first step: "));
     let told = lab.json("solve plate.toml");
     assert_eq!(told["adaptation"]["stop"], "steps");
@@ -77,7 +77,7 @@ fn adaptation_is_told() {
     assert!(error(2) < error(1) && error(1) < error(0), "{steps:?}");
     assert!(lab.run("plot plate.h5 --convergence -o plate.svg").contains("K_I of tip 1"));
     lab.run("render plate.h5 -q indicator --step 1 --size 64x64 -o cells.png");
-    lab.write("plate.toml", &adaptive("tolerance = 0.001"));
+    lab.write("plate.toml", &adaptive("steps = 1\ntolerance = 0.001"));
     let (text, warnings) = lab.warned("solve plate.toml");
     assert!(text.contains("adaptation ended: steps"), "{text}");
     assert!(warnings.contains("not 1e-3 as wanted"), "{warnings}");

@@ -482,7 +482,7 @@ fn bars_say_what_lies_beyond() {
 fn figures_keep_to_their_page() {
     let mut random = Random(41);
     let (mut count, mut legends) = (0, [0, 0]);
-    for case in 0..300 {
+    for case in 0..120 {
         let (design, labels, half) =
             (random_design(&mut random), random_labels(&mut random), random_half(&mut random));
         let Ok(room) = plot_area(&labels.title, &design) else { continue };
@@ -501,7 +501,7 @@ fn figures_keep_to_their_page() {
         assert!(shown.contains(&first), "case {case}: the title is there");
         count += 1;
     }
-    assert!(count > 200, "{count}");
+    assert!(count > 80, "{count}");
     assert!(legends[0] > legends[1] && legends[1] > 0, "{legends:?}");
 }
 
@@ -509,7 +509,7 @@ fn figures_keep_to_their_page() {
 fn panels_keep_to_their_page() {
     let mut random = Random(43);
     let mut count = 0;
-    for case in 0..60 {
+    for case in 0..24 {
         let [columns, rows] = [1 + random.below(3) as u32, 1 + random.below(3) as u32];
         let grid = Grid { shared_bar: random.below(2) == 0, ..Grid::new([columns, rows]) };
         let mut design = random_design(&mut random);
@@ -530,5 +530,5 @@ fn panels_keep_to_their_page() {
         check(&page, &format!("case {case}, {grid:?}, {half:?}, {design:?}"));
         count += 1;
     }
-    assert!(count > 30, "{count}");
+    assert!(count > 12, "{count}");
 }

@@ -276,7 +276,7 @@ fn damaged_files_are_errors() {
 
 fn damage_files(count: usize) {
     let data = dataset(5);
-    let (original, bytes) = (Original::new(&data), to_bytes(&data).unwrap());
+    let (original, bytes) = (Original::new(&data), to_bytes(&data).expect("it is written"));
     let mut random = Random(2);
     let mut found = 0;
     for k in 0..count {
@@ -303,7 +303,7 @@ fn damage_metadata(count: usize) {
     let mut data = dataset(5);
     data.steps.truncate(1);
     data.problem = None;
-    let (original, bytes) = (Original::new(&data), to_bytes(&data).unwrap());
+    let (original, bytes) = (Original::new(&data), to_bytes(&data).expect("it is written"));
     let mut random = Random(3);
     let headers: Vec<usize> = bytes
         .windows(4)
@@ -335,7 +335,7 @@ fn forged_metadata_is_an_error() {
 fn forge_metadata(count: usize) {
     let mut data = dataset(5);
     data.steps.truncate(1);
-    let (original, bytes) = (Original::new(&data), to_bytes(&data).unwrap());
+    let (original, bytes) = (Original::new(&data), to_bytes(&data).expect("it is written"));
     let headers = object_headers(&bytes);
     assert!(headers.len() > 30, "{} headers", headers.len());
     let mut random = Random(4);
@@ -362,7 +362,7 @@ fn forged_files_of_other_programs_are_errors() {
 
 /// Forges each of the files so many times.
 fn forge_files_of_other_programs(count: usize) {
-    let own = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).unwrap();
+    let own = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).expect("it is read");
     let own = Original::new(&own);
     let mut random = Random(8);
     let mut kinds = BTreeSet::new();
@@ -418,7 +418,7 @@ fn damaged_files_of_other_programs_are_errors() {
 
 /// Damages each of the files so many times.
 fn damage_files_of_other_programs(count: usize) {
-    let own = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).unwrap();
+    let own = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).expect("it is read");
     let own = Original::new(&own);
     let mut random = Random(9);
     let mut refused = 0;
@@ -447,7 +447,7 @@ fn damage_that_no_checksum_finds() {
 fn damage_without_checksum(count: usize) {
     let mut data = dataset(3);
     data.steps.truncate(1);
-    let mut bytes = to_bytes(&data).unwrap();
+    let mut bytes = to_bytes(&data).expect("it is written");
     let header = object_headers(&bytes).remove(0);
     let at = header.start + position(&bytes[header.clone()], b"sha256");
     bytes[at + 5] = b'7';

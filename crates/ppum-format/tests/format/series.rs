@@ -62,24 +62,24 @@ fn all_ways_lead_to_the_same_bytes() {
 }
 
 fn written_in_all_ways(all: &Dataset) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name);
     grow(&at("grown"), all);
-    let mut writer = SeriesWriter::begin(&at("resumed"), &one(all, 0)).unwrap();
+    let mut writer = SeriesWriter::begin(&at("resumed"), &one(all, 0)).expect("a series");
     for (k, step) in all.steps.iter().enumerate().skip(1) {
         assert_eq!(writer.len(), k);
-        writer.append(step).unwrap();
+        writer.append(step).expect("a series");
         drop(writer);
-        writer = SeriesWriter::resume(&at("resumed")).unwrap();
+        writer = SeriesWriter::resume(&at("resumed")).expect("a series");
     }
-    drop(SeriesWriter::begin(&at("begun"), all).unwrap());
-    write(all, &at("written")).unwrap();
-    let bytes = to_bytes(all).unwrap();
+    drop(SeriesWriter::begin(&at("begun"), all).expect("a series"));
+    write(all, &at("written")).expect("a series");
+    let bytes = to_bytes(all).expect("it is written");
     for name in ["grown", "resumed", "begun", "written"] {
-        assert!(fs::read(at(name)).unwrap() == bytes, "{name}");
+        assert!(fs::read(at(name)).expect("a series") == bytes, "{name}");
     }
-    assert_same(&read(&at("grown")).unwrap(), all);
-    assert_same(&from_bytes(bytes).unwrap(), all);
+    assert_same(&read(&at("grown")).expect("a series"), all);
+    assert_same(&from_bytes(bytes).expect("it is read"), all);
 }
 
 #[test]
@@ -359,9 +359,9 @@ fn many_damaged_series_are_errors_or_what_they_hold() {
 }
 
 fn damage_series(count: usize) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.h5");
-    let data = from_bytes(VERSION_1_4.to_vec()).unwrap();
+    let data = from_bytes(VERSION_1_4.to_vec()).expect("it is read");
     let steps_of = |data: &Dataset| -> Vec<String> {
         data.steps.iter().map(|step| format!("{step:?}")).collect()
     };
@@ -370,7 +370,7 @@ fn damage_series(count: usize) {
     let (mut refused, mut whole) = (0, 0);
     for round in 0..count {
         let damaged = damaged(VERSION_1_4, &mut |below| random.below(below));
-        fs::write(&path, &damaged.bytes).unwrap();
+        fs::write(&path, &damaged.bytes).expect("a series");
         let all = from_bytes(damaged.bytes).ok().map(|all| steps_of(&all));
         let Ok(series) = Series::open(&path) else {
             assert!(all.is_none(), "{}", damaged.what);
@@ -394,7 +394,7 @@ fn damage_series(count: usize) {
             let len = writer.len();
             if writer.append(&steps::step(len)).is_ok() {
                 drop(writer);
-                assert!(Series::open(&path).unwrap().dataset(len).is_ok(), "{}", damaged.what);
+                assert!(Series::open(&path).expect("a series").dataset(len).is_ok(), "{}", damaged.what);
             }
         }
     }

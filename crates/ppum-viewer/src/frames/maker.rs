@@ -79,7 +79,7 @@ pub(super) struct Maker {
     pub(super) over: Over,
     pub(super) resampling: Resampling,
     newest: Option<Arc<Frame>>,
-    patience: Patience,
+    pub(super) patience: Patience,
     seconds: f64,
 }
 
@@ -361,7 +361,7 @@ fn ranged(drawn: &Arc<Drawn>, style: &Style) -> Ranged {
 /// How long a picture that is nearly there is made on, although something else is wanted: someone who moves all the time
 /// sees pictures all the same. It grows with each picture that was given up.
 #[derive(Debug)]
-struct Patience(Duration);
+pub(super) struct Patience(pub(super) Duration);
 
 const PATIENCE: Duration = Duration::from_millis(250);
 

@@ -2,12 +2,11 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
-use std::time::Duration;
 
 use egui::{Event, Modifiers, MouseWheelUnit, TouchPhase, pos2, vec2};
 use ppum_viewer::actions::{ALL, Action};
 
-use crate::kit::{plate, settle, window};
+use crate::kit::{TIME_LIMIT, plate, settle, wait_until, window};
 
 /// Keeps all threads of the pool, as long pictures do, until it is dropped.
 struct Busy(Arc<Gate>);
@@ -21,17 +20,14 @@ struct Gate {
     was_needed: AtomicBool,
 }
 
-/// Who waits longer for the pool waits for all of it.
-const LONG: Duration = Duration::from_secs(20);
-
 impl Busy {
     fn new() -> Self {
         let gate = Arc::new(Gate::default());
         let theirs = Arc::clone(&gate);
         rayon::spawn_broadcast(move |_| theirs.hold());
-        while gate.held.load(Ordering::SeqCst) < rayon::current_num_threads() {
-            std::thread::sleep(Duration::from_millis(1));
-        }
+        wait_until("all threads of the pool are held", || {
+            gate.held.load(Ordering::SeqCst) == rayon::current_num_threads()
+        });
         Self(gate)
     }
 
@@ -44,7 +40,7 @@ impl Gate {
     fn hold(&self) {
         self.held.fetch_add(1, Ordering::SeqCst);
         let is_open = self.is_open.lock().unwrap_or_else(PoisonError::into_inner);
-        let outcome = self.changed.wait_timeout_while(is_open, LONG, |is_open| !*is_open);
+        let outcome = self.changed.wait_timeout_while(is_open, TIME_LIMIT, |is_open| !*is_open);
         let waited = outcome.unwrap_or_else(PoisonError::into_inner).1;
         self.was_needed.fetch_or(waited.timed_out(), Ordering::SeqCst);
     }
@@ -84,8 +80,12 @@ fn the_window_never_waits_for_work_of_others() {
         let ctx = window.ctx.clone();
         window.state_mut().act(&ctx, entry.action);
         window.step();
-        // a picture that nobody has shown yet may be there when all are busy
-        std::thread::sleep(Duration::from_millis(50));
+        // pictures that are ready but not yet shown are shown while the pool is busy
+        for stage in &mut window.state_mut().stages {
+            wait_until("its next picture is ready", || {
+                stage.frames.poll() || !stage.frames.is_working()
+            });
+        }
         let busy = Busy::new();
         for _ in 0..4 {
             let wheel = Event::MouseWheel {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -29,19 +29,38 @@ pub(crate) fn window(dataset: Dataset, size: [f32; 2]) -> Harness<'static, Viewe
     harness
 }
 
-/// Shows frames until nothing better is on its way.
-pub(crate) fn settle(harness: &mut Harness<'static, Viewer>) {
-    for _ in 0..2000 {
-        harness.step();
-        let is_working =
-            |stage: &ppum_viewer::stage::Stage| stage.is_drawing() || stage.reading.is_working();
-        if !harness.state().stages.iter().any(is_working) {
-            harness.step();
-            return;
-        }
+/// The longest wait for a state. Only a test that hangs waits so long.
+pub(crate) const TIME_LIMIT: Duration = Duration::from_secs(300);
+
+/// Waits until a condition holds.
+pub(crate) fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !is_so() {
+        assert!(start.elapsed() < TIME_LIMIT, "waited {TIME_LIMIT:?} until {what}");
         std::thread::sleep(Duration::from_millis(2));
     }
-    panic!("the window does not come to rest");
+}
+
+/// Shows the window until a condition holds.
+pub(crate) fn show_until(
+    window: &mut Harness<'static, Viewer>,
+    what: &str,
+    mut is_so: impl FnMut(&Harness<'static, Viewer>) -> bool,
+) {
+    wait_until(what, || {
+        window.step();
+        is_so(window)
+    });
+}
+
+/// Shows the window until nothing is drawn or read.
+pub(crate) fn settle(window: &mut Harness<'static, Viewer>) {
+    show_until(window, "the window comes to rest", |window| {
+        let is_working =
+            |stage: &ppum_viewer::stage::Stage| stage.is_drawing() || stage.reading.is_working();
+        !window.state().stages.iter().any(is_working)
+    });
+    window.step();
 }
 
 /// A plate with a crack, solved coarsely.

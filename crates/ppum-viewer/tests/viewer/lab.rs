@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use egui_kittest::Harness;
 use ppum::dataset::Dataset;
 use ppum_viewer::Viewer;
 use ppum_viewer::window::Start;
 use tempfile::TempDir;
+
+use crate::kit::show_until;
 
 /// A window with a folder.
 pub(crate) struct Lab {
@@ -87,15 +88,7 @@ impl Lab {
 
     /// Shows pictures until something is so.
     pub(crate) fn until(&mut self, what: &str, is_so: impl Fn(&Viewer) -> bool) {
-        let start = Instant::now();
-        loop {
-            self.window.step();
-            if is_so(self.window.state()) {
-                return;
-            }
-            assert!(start.elapsed() < Duration::from_secs(120), "{what}: it does not");
-            std::thread::sleep(Duration::from_millis(3));
-        }
+        show_until(&mut self.window, what, |window| is_so(window.state()));
     }
 
     /// The dataset of a pane.

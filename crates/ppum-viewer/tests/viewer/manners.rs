@@ -17,7 +17,7 @@ use ppum_viewer::Viewer;
 use ppum_viewer::reading::words;
 use ppum_viewer::session::{Page, Place};
 
-use crate::kit::{at, hover, plate, settle, window};
+use crate::kit::{at, hover, plate, settle, show_until, window};
 use crate::lab::{Lab, shot};
 
 type Window = Harness<'static, Viewer>;
@@ -298,13 +298,9 @@ fn enter_in_the_name_saves() {
     lab.window.get_by_role_and_label(Role::TextInput, "File").click();
     lab.window.step();
     lab.window.key_press(Key::Enter);
-    for _ in 0..2000 {
-        lab.window.step();
-        if lab.window.query_by_label_contains("wrote ").is_some() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(3));
-    }
+    show_until(&mut lab.window, "the picture is written", |window| {
+        window.query_by_label_contains("wrote ").is_some()
+    });
     assert!(path.with_extension("png").exists());
 }
 

@@ -28,7 +28,7 @@ use ppum_viewer::reading::probe::Probed;
 use ppum_viewer::session::{Place, Session};
 use ppum_viewer::spot::Spot;
 
-use crate::kit::{plate, settle};
+use crate::kit::{plate, settle, show_until};
 
 type Window = Harness<'static, Viewer>;
 
@@ -357,15 +357,15 @@ fn who_moves_sees_differences_and_rests_with_exact_ones() {
     let mut window = pair(refined(3), refined(4), [900.0, 500.0], Backend::Cpu);
     let pixel = frame(&window).drawn.view.pixel_size();
     for _ in 0..12 {
-        let (pane, view) = (1, window.state().stages[1].view.expect("it is shown"));
+        let view = window.state().stages[1].view.expect("it is shown");
         let center = view.center + v(5.0, -2.0) * pixel;
         let place = Some(Place { center: center.into(), width: view.width });
         window.state_mut().session.panes.iter_mut().for_each(|pane| pane.place = place);
-        window.step();
-        std::thread::sleep(std::time::Duration::from_millis(20));
-        window.step();
-        let newest = window.state().stages[pane].frames.newest().expect("a picture");
-        assert!(newest.subtracted.is_some());
+        show_until(&mut window, "the new place is drawn", |window| {
+            let newest = frame(window);
+            assert!(newest.subtracted.is_some());
+            Some(newest.wanted.view) == window.state().stages[1].view
+        });
     }
     settle(&mut window);
     let last = frame(&window);
@@ -448,13 +448,10 @@ fn pictures_of_differences_are_saved() {
 fn the_range_of_the_whole_plate_is_of_the_difference() {
     let mut window = pair(refined(3), refined(4), [1200.0, 1400.0], Backend::Cpu);
     window.get_by_label("whole plate").click();
-    for _ in 0..200 {
-        settle(&mut window);
-        if window.state().session.panes[1].scene.colors.range != Range::Auto {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
+    show_until(&mut window, "the range is found", |window| {
+        window.state().session.panes[1].scene.colors.range != Range::Auto
+    });
+    settle(&mut window);
     let Range::Fixed(min, max) = window.state().session.panes[1].scene.colors.range else {
         panic!("it is found")
     };

@@ -13,7 +13,7 @@ use ppum_viewer::reading::plotted::Values;
 use ppum_viewer::reading::tool::Tool;
 use ppum_viewer::session::{Page, Place};
 
-use crate::kit::{at, plate, settle, window};
+use crate::kit::{at, plate, settle, show_until, window};
 
 type Window = Harness<'static, Viewer>;
 
@@ -254,11 +254,13 @@ fn the_table_of_tips_flies_to_its_rows() {
     let shown = ppum::text::short(k1);
     assert!(window.query_all_by_label_contains(&shown).next().is_some(), "{shown}");
     window.get_by_label("Fly to tip 1").click();
+    let is_at_tip = |window: &Window| {
+        let place = window.state().session.panes[0].place;
+        place.is_some_and(|p| (p.center[0] - 0.5).abs() < 1e-12 && p.center[1].abs() < 1e-12)
+    };
+    show_until(&mut window, "the view flies to the tip", is_at_tip);
     settle(&mut window);
-    std::thread::sleep(std::time::Duration::from_millis(2100));
-    settle(&mut window);
-    let place = window.state().session.panes[0].place.expect("somewhere");
-    assert!((place.center[0] - 0.5).abs() < 1e-12 && place.center[1].abs() < 1e-12);
+    assert!(is_at_tip(&window));
 }
 
 #[test]

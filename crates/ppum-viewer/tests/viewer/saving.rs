@@ -5,7 +5,7 @@ use std::path::Path;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::kit::plate;
+use crate::kit::{plate, show_until};
 use crate::lab::{Lab, shot};
 
 /// A window with a plate that was read from a file, and the window for saving it.
@@ -57,14 +57,10 @@ fn the_name_is_written_next() {
 fn saved(lab: &mut Lab) -> bool {
     lab.window.get_by_label("Save file").click();
     lab.window.run_steps(3);
-    for _ in 0..5000 {
-        if lab.window.query_by_label("Stop").is_none() {
-            return lab.window.query_by_label_contains("wrote ").is_some();
-        }
-        lab.window.step();
-        std::thread::sleep(std::time::Duration::from_millis(3));
-    }
-    panic!("it does not end");
+    show_until(&mut lab.window, "the writing ends", |window| {
+        window.query_by_label("Stop").is_none()
+    });
+    lab.window.query_by_label_contains("wrote ").is_some()
 }
 
 fn pixels(path: &Path) -> ([u32; 2], Vec<u8>) {

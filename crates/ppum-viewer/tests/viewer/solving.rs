@@ -5,16 +5,18 @@ use std::path::Path;
 use std::sync::Arc;
 
 use egui::{Key, Modifiers};
+use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use ppum::crack::End;
 use ppum::progress::unwatched;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
+use ppum_viewer::Viewer;
 use ppum_viewer::session::Place;
 use ppum_viewer::solving::Outcome;
 use ppum_viewer::window::Start;
 
-use crate::kit::plate;
+use crate::kit::{plate, show_until};
 use crate::lab::{Lab, shot};
 
 const TEXT: &str = include_str!("../../../../examples/centre-crack.toml");
@@ -124,25 +126,23 @@ fn a_solution_is_stopped_and_what_was_there_stays() {
     shot(&mut lab, "solving-running");
     lab.window.get_by_label("Cancel").click();
     lab.window.step();
-    let start = std::time::Instant::now();
     lab.settle();
-    // within the time of a cell or of one step of the linear solver, on a machine that does other things too
-    assert!(start.elapsed().as_secs_f64() < 30.0, "{:?}", start.elapsed());
+    // tests of ppum-solve count how little of the work is still done
     assert_eq!(lab.state().solving.outcome, Some(Outcome::Cancelled(0)));
     lab.window.get_by_label("Cancelled. What was there before is still shown.");
     assert!(Arc::ptr_eq(&before, &lab.dataset(0).expect("it stays")));
 }
 
 /// A plate whose crack grows.
-fn growing(steps: u32) -> String {
-    let growth = format!("\n[growth]\nincrement = 0.05\nsteps = {steps}\n");
+fn growing(increment: f64, steps: u32) -> String {
+    let growth = format!("\n[growth]\nincrement = {increment}\nsteps = {steps}\n");
     text(2) + &growth
 }
 
 /// A series is shown with its first step, and all others are there.
 #[test]
 fn a_series_is_solved() {
-    let mut lab = lab(&growing(2));
+    let mut lab = lab(&growing(0.05, 2));
     lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
     lab.window.step();
     lab.settle();
@@ -157,18 +157,19 @@ fn a_series_is_solved() {
 /// What is complete of a series stays when it is stopped.
 #[test]
 fn a_series_is_stopped() {
-    let mut lab = lab(&growing(9));
+    // minutes of work
+    let mut lab = lab(&growing(1e-5, 8000));
     lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
     lab.until("its third step is solved", |viewer| {
         let progress = viewer.solving.running().and_then(|running| running.told().progress);
-        progress.is_some_and(|progress| progress.step == 3)
+        progress.is_some_and(|progress| progress.step >= 3)
     });
     lab.window.get_by_label("Cancel").click();
     lab.window.step();
     lab.settle();
     let steps = lab.dataset(0).expect("some of it is solved").steps.len();
     assert_eq!(lab.state().solving.outcome, Some(Outcome::Cancelled(steps)));
-    assert!((3..10).contains(&steps), "{steps}");
+    assert!(steps >= 3, "{steps}");
     lab.window.get_by_label(&format!("Cancelled. The {steps} steps before are shown."));
 }
 
@@ -336,11 +337,11 @@ fn closes(lab: &mut Lab) -> bool {
     let viewport = viewports.entry(egui::ViewportId::ROOT).or_default();
     viewport.events.push(egui::ViewportEvent::Close);
     lab.window.step();
-    !commands(lab).contains(&egui::ViewportCommand::CancelClose)
+    !commands(&lab.window).contains(&egui::ViewportCommand::CancelClose)
 }
 
-fn commands(lab: &Lab) -> Vec<egui::ViewportCommand> {
-    lab.window.output().viewport_output[&egui::ViewportId::ROOT].commands.clone()
+fn commands(window: &Harness<'static, Viewer>) -> Vec<egui::ViewportCommand> {
+    window.output().viewport_output[&egui::ViewportId::ROOT].commands.clone()
 }
 
 fn click(lab: &mut Lab, label: &str) {
@@ -385,14 +386,10 @@ fn no_solution_is_lost_without_a_word() {
     click(&mut lab, "Save…");
     lab.window.run_steps(3);
     lab.window.key_press(Key::Enter);
-    let mut is_closed = false;
-    for _ in 0..500 {
-        lab.window.step();
-        is_closed |= commands(&lab).contains(&egui::ViewportCommand::Close);
-        std::thread::sleep(std::time::Duration::from_millis(5));
-    }
-    assert!(is_closed, "{}", lab.notes());
-    assert!(closes(&mut lab));
+    show_until(&mut lab.window, "the window closes", |window| {
+        commands(window).contains(&egui::ViewportCommand::Close)
+    });
+    assert!(closes(&mut lab), "{}", lab.notes());
     assert_eq!(ppum_format::read(&lab.path("plate.h5")).expect("a dataset"), *solved);
 }
 
@@ -411,7 +408,7 @@ fn a_solver_is_not_stopped_by_closing_without_a_word() {
     assert!(lab.window.query_by_label("Save…").is_none(), "there is nothing to save yet");
     lab.window.get_by_label("Stop and close").click();
     lab.window.run_steps(1);
-    assert!(commands(&lab).contains(&egui::ViewportCommand::Close));
+    assert!(commands(&lab.window).contains(&egui::ViewportCommand::Close));
     assert!(closes(&mut lab));
 }
 

@@ -7,7 +7,7 @@ use ppum_render::range::Range;
 use ppum_render::scale::Scale;
 
 use super::{bounds, click, frame, plate_window, scene, write};
-use crate::kit::settle;
+use crate::kit::{settle, show_until};
 
 #[test]
 fn a_map_is_found_reversed_and_put_in_steps() {
@@ -128,13 +128,9 @@ fn the_range_of_the_plate_holds_deep_inside() {
     let deep = bounds(&window);
     assert!(deep[1] - deep[0] < 0.9 * (whole[1] - whole[0]), "{deep:?} {whole:?}");
     click(&mut window, "whole plate");
-    for _ in 0..2000 {
-        window.step();
-        if window.query_by_label("stop").is_none() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(2));
-    }
+    show_until(&mut window, "the range of the plate is found", |window| {
+        matches!(scene(window).colors.range, Range::Fixed(..))
+    });
     settle(&mut window);
     let Range::Fixed(min, max) = scene(&window).colors.range else { panic!("it is fixed") };
     // the extrema of a smooth quantity, found from other pixels: to 1e-6 of their size

@@ -5,7 +5,7 @@ use egui_kittest::kittest::Queryable;
 use ppum_scene::deformed::Factor;
 
 use super::{click, frame, open, plate_window, scene};
-use crate::kit::{plate, settle, window};
+use crate::kit::{plate, settle, show_until, window};
 
 #[test]
 fn a_factor_is_chosen() {
@@ -34,13 +34,11 @@ fn the_deformation_plays_without_changing_the_session() {
     window.step();
     assert_eq!(scene(&window).deformed, Some(Factor::Auto));
     let mut factors = Vec::new();
-    for _ in 0..300 {
-        window.step();
-        std::thread::sleep(std::time::Duration::from_millis(10));
-        factors.extend(frame(&window).factor);
-    }
-    factors.dedup();
-    assert!(factors.len() > 5, "{factors:?}");
+    show_until(&mut window, "the factor moves", |window| {
+        factors.extend(frame(window).factor);
+        factors.dedup();
+        factors.len() > 10
+    });
     assert_eq!(scene(&window).deformed, Some(Factor::Auto));
     window.key_press_modifiers(Modifiers::SHIFT, Key::D);
     settle(&mut window);

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, vec2};
@@ -314,10 +314,12 @@ impl Hands {
         }
     }
 
-    /// Waits until there is a picture, but not for ever.
+    /// Waits until there is a picture, but not for ever: a solution may take minutes.
     fn wait(&mut self) {
-        let start = Instant::now();
-        while self.lab.viewer().is_working() && start.elapsed() < Duration::from_millis(400) {
+        for _ in 0..80 {
+            if !self.lab.viewer().is_working() {
+                return;
+            }
             std::thread::sleep(Duration::from_millis(5));
             self.show();
         }

@@ -4,6 +4,7 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use egui::Shape;
+use ppum_testkit::processor::thread_time;
 use ppum_viewer::frames::Fault;
 
 use crate::lab::Lab;
@@ -139,20 +140,13 @@ pub(super) struct Watch {
 
 impl Watch {
     pub(super) fn start() -> Self {
-        Self { start: Instant::now(), core: core() }
+        Self { start: Instant::now(), core: thread_time() }
     }
 
     /// Since then: by the clock, and of the processor in this thread.
     fn times(&self) -> [Duration; 2] {
-        [self.start.elapsed(), core().saturating_sub(self.core)]
+        [self.start.elapsed(), thread_time().saturating_sub(self.core)]
     }
-}
-
-/// Time that the processor has spent in this thread, where the system tells it.
-fn core() -> Duration {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = text.split_whitespace().next().and_then(|text| text.parse().ok());
-    Duration::from_nanos(nanoseconds.unwrap_or_default())
 }
 
 /// Memory of the program in MB, where the system tells it.

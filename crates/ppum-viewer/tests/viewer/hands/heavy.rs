@@ -135,8 +135,8 @@ fn datasets_with_much_of_something_leave_the_window_fluent() {
 
 /// All of them, or the one that `PPUM_HEAVY` names.
 #[test]
-#[ignore = "it takes minutes"]
-fn all_costly_datasets_leave_the_window_fluent() {
+#[ignore = "slow: minutes, run by hand"]
+fn by_hand_all_costly_datasets_leave_the_window_fluent() {
     let only = std::env::var("PPUM_HEAVY").ok();
     for costly in costly::all().into_iter().filter(|costly| costly.refused.is_none()) {
         if only.as_ref().is_none_or(|only| costly.name == only) {
@@ -146,8 +146,8 @@ fn all_costly_datasets_leave_the_window_fluent() {
 }
 
 #[test]
-#[ignore = "it takes minutes"]
-fn a_million_patches_leave_the_window_fluent() {
+#[ignore = "slow: minutes, run by hand"]
+fn by_hand_a_million_patches_leave_the_window_fluent() {
     let recipe = Recipe { cells: [4, 4], level: 8, ..Recipe::default() };
     let dataset = recipe.dataset();
     assert!(dataset.steps[0].partition.len() > 1_000_000);

@@ -1,6 +1,7 @@
 //! Hands that do anything: clicks, drags, keys, words, wheels, other sizes, other files, all seeded.
 //!
 //! `PPUM_HANDS` says how many things they do, `PPUM_HANDS_MINUTES` for how long at most, `PPUM_HANDS_SEED` whose hands they are.
+//! Memory is compared in runs of some thousand deeds.
 
 mod deeds;
 mod eyes;
@@ -119,19 +120,17 @@ const FLAT: f64 = 1.25;
 fn whatever_hands_do_the_window_stays() {
     let minutes = number("PPUM_HANDS_MINUTES");
     let count = number("PPUM_HANDS").unwrap_or(if minutes.is_some() { u64::MAX } else { 150 });
-    let most = Duration::from_secs(60 * minutes.unwrap_or(60));
+    let most = minutes.map(|minutes| Duration::from_secs(60 * minutes));
     let seeds = number("PPUM_HANDS_SEED").map_or(vec![1, 2], |seed| vec![seed]);
     for seed in seeds {
         let mut hands = Hands::new(seed);
         let start = Instant::now();
-        let mut said = start;
-        for k in 0..count {
-            if start.elapsed() > most {
+        for k in 1..=count {
+            if most.is_some_and(|most| start.elapsed() > most) {
                 break;
             }
             hands.act();
-            if said.elapsed() > Duration::from_secs(10) {
-                said = Instant::now();
+            if k % 100 == 0 {
                 hands.eyes.note_memory();
                 println!("{k}: {}", hands.eyes.told());
             }
