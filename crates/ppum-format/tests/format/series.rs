@@ -394,7 +394,11 @@ fn damage_series(count: usize) {
             let len = writer.len();
             if writer.append(&steps::step(len)).is_ok() {
                 drop(writer);
-                assert!(Series::open(&path).expect("a series").dataset(len).is_ok(), "{}", damaged.what);
+                assert!(
+                    Series::open(&path).expect("a series").dataset(len).is_ok(),
+                    "{}",
+                    damaged.what
+                );
             }
         }
     }
