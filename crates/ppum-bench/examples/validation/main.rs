@@ -32,7 +32,7 @@ strain, order 2, α = 1.3, linear weights, and all else by default. Each benchma
 cells half as large as the one before, further refined at tips by the program itself. The pictures show the von Mises
 stress (of Laplace's equation: the gradient) on the middle cover.
 The set-ups are in `crates/ppum-solve/tests/studies`; the tests in `crates/ppum-solve/tests/solver` hold the solver to
-most of these numbers. F = K/(σ√(πa)).
+limits of the errors of most of these benchmarks, mostly on the coarser covers. F = K/(σ√(πa)).
 
 Errors are differences from references. The `error` that `ppum sif` and `ppum info` print is an estimate, compared with
 them below. Their `spread` is the difference between three radii of one integral: a check, no estimate of the error.";

@@ -8,7 +8,8 @@ use ppum::crack::End;
 use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
 use ppum_solve::problem::Problem;
-use ppum_solve::solve::solve;
+use ppum_solve::solve::{Plan, solve};
+use ppum_solve::space::discretise;
 use std::path::Path;
 
 const PULLED: &str = r#"
@@ -29,19 +30,21 @@ on = "top"
 traction = [0.3, 1.0]
 "#;
 
-/// The plate [-1, 1]² of E = 1, ν = 0.3 in plane strain at level 4 with more tables, and more keys of
-/// `[discretization]`.
-fn solved_with(tables: &str, keys: &str) -> Dataset {
+/// The plate [-1, 1]² of E = 1, ν = 0.3 in plane strain with more tables and the keys of `[discretization]`.
+fn plate(tables: &str, keys: &str) -> Problem {
     let text = format!(
         "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
-         state = \"plane-strain\"\n{tables}\n[discretization]\nlevel = 4\n{keys}\n"
+         state = \"plane-strain\"\n{tables}\n[discretization]\n{keys}\n"
     );
-    let problem = Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem");
-    solve(&problem, unwatched()).expect("a solution")
+    Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem")
+}
+
+fn solved_with(tables: &str, keys: &str) -> Dataset {
+    solve(&plate(tables, keys), unwatched()).expect("a solution")
 }
 
 fn solved(tables: &str) -> Dataset {
-    solved_with(tables, "")
+    solved_with(tables, "level = 3")
 }
 
 fn energy(dataset: &Dataset) -> f64 {
@@ -70,24 +73,103 @@ fn kinked(degrees: f64) -> String {
     format!("{PULLED}[[crack]]\npoints = [[-0.45, -0.1], [0.05, -0.13], {end:?}]\n")
 }
 
+/// A plate with corners that turn inwards between free sides, and what is known of it.
+struct Cornered {
+    tables: String,
+    energy: f64,
+    tips: [(End, f64, f64); 2],
+}
+
+impl Cornered {
+    fn kinked(degrees: f64, energy: f64, start: [f64; 2], last: [f64; 2]) -> Self {
+        Self::new(kinked(degrees), energy, start, last)
+    }
+
+    fn new(tables: String, energy: f64, start: [f64; 2], last: [f64; 2]) -> Self {
+        let tips = [(End::Start, start), (End::Last, last)].map(|(end, [k1, k2])| (end, k1, k2));
+        Self { tables, energy, tips }
+    }
+
+    fn right_angle() -> Self {
+        Self::kinked(90.0, 2.09772948, [1.0845755, 0.0044035757], [-0.15368053, 0.48556563])
+    }
+
+    fn sharp() -> Self {
+        Self::kinked(120.0, 2.0449301, [1.0352864, 0.07704593], [-0.1698618, 0.024559574])
+    }
+
+    fn square() -> Self {
+        let tables = format!(
+            "{PULLED}[[hole]]\npoints = [[-0.3, -0.25], [0.3, -0.25], [0.3, 0.25], [-0.3, 0.25]]\n\
+             [[crack]]\npoints = [[-0.75, 0.55], [-0.35, 0.6]]\n"
+        );
+        Self::new(tables, 2.64736017, [1.1099473, 0.22943451], [1.0848125, 0.33963564])
+    }
+
+    fn triangle() -> Self {
+        let tables = format!(
+            "{PULLED}[[hole]]\npoints = [[-0.3, -0.3], [0.35, -0.2], [-0.1, 0.3]]\n\
+             [[crack]]\npoints = [[0.4, 0.1], [0.8, 0.3]]\n"
+        );
+        Self::new(tables, 2.50174376, [1.0771817, 0.52795673], [0.92661204, 0.53215622])
+    }
+
+    /// Asserts what [`assert_near`] does, and the errors of the energy and of the first tip's factors, which fall with the order.
+    fn assert_errors(&self, order: usize) {
+        let (of_energy, of_factors) = match order {
+            2 => (1e-4, 5e-4),
+            3 => (6e-6, 1.5e-5),
+            _ => (2e-6, 2e-6),
+        };
+        let dataset = solved_with(&self.tables, &format!("level = 4\norder = {order}"));
+        assert_near(&dataset, self.energy, &self.tips);
+        let error = 1.0 - energy(&dataset) / self.energy;
+        let (tip, (_, k1, k2)) = (&dataset.steps[0].intensities[0], self.tips[0]);
+        let apart = (tip.k1 - k1).hypot(tip.k2 - k2) / k1.hypot(k2);
+        println!("order {order}: energy off by {error:.1e}, factors by {apart:.1e}");
+        assert!(error.abs() < of_energy && apart < of_factors, "{order}: {error} {apart}");
+    }
+}
+
+/// Corners that turn inwards between free sides have functions r^λ.
 #[test]
 fn sharp_kinks_are_resolved() {
-    let tips = [(End::Start, 1.0845755, 0.0044035757), (End::Last, -0.15368053, 0.48556563)];
-    assert_near(&solved(&kinked(90.0)), 2.09772948, &tips);
-    let tips = [(End::Start, 1.0352864, 0.07704593), (End::Last, -0.1698618, 0.024559574)];
-    assert_near(&solved(&kinked(120.0)), 2.0449301, &tips);
+    Cornered::right_angle().assert_errors(3);
 }
 
 #[test]
 fn corners_of_holes_are_resolved() {
-    let square = "[[hole]]\npoints = [[-0.3, -0.25], [0.3, -0.25], [0.3, 0.25], [-0.3, 0.25]]\n";
-    let crack = "[[crack]]\npoints = [[-0.75, 0.55], [-0.35, 0.6]]\n";
-    let tips = [(End::Start, 1.1099473, 0.22943451), (End::Last, 1.0848125, 0.33963564)];
-    assert_near(&solved(&format!("{PULLED}{square}{crack}")), 2.64736017, &tips);
-    let triangle = "[[hole]]\npoints = [[-0.3, -0.3], [0.35, -0.2], [-0.1, 0.3]]\n";
-    let crack = "[[crack]]\npoints = [[0.4, 0.1], [0.8, 0.3]]\n";
-    let tips = [(End::Start, 1.0771817, 0.52795673), (End::Last, 0.92661204, 0.53215622)];
-    assert_near(&solved(&format!("{PULLED}{triangle}{crack}")), 2.50174376, &tips);
+    Cornered::triangle().assert_errors(2);
+}
+
+#[test]
+#[ignore = "slow: six plates at the orders 2 and 3"]
+fn low_orders_resolve_free_corners() {
+    let order_two = [Cornered::right_angle(), Cornered::sharp(), Cornered::square()];
+    order_two.iter().for_each(|plate| plate.assert_errors(2));
+    let order_three = [Cornered::sharp(), Cornered::square(), Cornered::triangle()];
+    order_three.iter().for_each(|plate| plate.assert_errors(3));
+}
+
+#[test]
+#[ignore = "slow: four plates at order 4"]
+fn order_four_resolves_free_corners() {
+    let all =
+        [Cornered::right_angle(), Cornered::sharp(), Cornered::square(), Cornered::triangle()];
+    all.iter().for_each(|plate| plate.assert_errors(4));
+}
+
+/// Functions r^λ at corners take fewer unknowns than cells that shrink towards the corners.
+#[test]
+fn functions_of_corners_save_unknowns() {
+    for Cornered { tables, .. } in [Cornered::right_angle(), Cornered::square()] {
+        let unknowns = |keys: &str| {
+            let problem = plate(&tables, &format!("level = 4\norder = 1\n{keys}"));
+            Plan::new(&problem, None, unwatched()).expect("a plan").estimate().unknowns
+        };
+        let [with, without] = ["", "enrichment = \"zone\""].map(unknowns);
+        assert!(with < 0.8 * without, "{with} {without}");
+    }
 }
 
 #[test]
@@ -133,10 +215,15 @@ traction = [0.5, 1.0]
 }
 
 #[test]
-fn round_holes_and_ligaments_are_resolved() {
+#[ignore = "slow: small cells at a rim"]
+fn round_holes_are_resolved() {
     let hole = "[[hole]]\ncenter = [0.1, 0.05]\nradius = 0.3\n";
     assert_near(&solved(&format!("{PULLED}{hole}")), 2.32757856, &[]);
-    // 0.15 left on one side, 0.19 on another: one and a half cells of the base cover
+}
+
+#[test]
+fn ligaments_beside_round_holes_are_resolved() {
+    // 0.15 left on one side, 0.19 on another: 0.6 and 0.76 of a cell of the base cover
     let ligaments = "[[hole]]\ncenter = [-0.4, 0.36]\nradius = 0.45\n";
     assert_near(&solved(&format!("{PULLED}{ligaments}")), 4.33068214, &[]);
 }
@@ -149,7 +236,7 @@ fn what_coarse_cells_miss_is_told() {
         (CLAMPED.to_owned(), 2.96615408, 1),
         (kinked(90.0), 2.09772948, 1),
     ] {
-        let dataset = solved_with(&tables, "refine = false\nenrichment = \"zone\"");
+        let dataset = solved_with(&tables, "level = 4\nrefine = false\nenrichment = \"zone\"");
         let missed = 1.0 - energy(&dataset) / exact;
         let all = dataset.steps[0].warnings.iter().filter(|w| w.kind == "singular-point");
         let all: Vec<_> = all.collect();
@@ -159,56 +246,20 @@ fn what_coarse_cells_miss_is_told() {
     }
 }
 
-/// Corners that turn inwards between free sides have functions r^λ: fewer unknowns than cells that shrink towards them,
-/// and errors that fall with the order.
-#[test]
-fn free_corners_have_functions() {
-    let square = "[[hole]]\npoints = [[-0.3, -0.25], [0.3, -0.25], [0.3, 0.25], [-0.3, 0.25]]\n\
-                  [[crack]]\npoints = [[-0.75, 0.55], [-0.35, 0.6]]\n";
-    let triangle = "[[hole]]\npoints = [[-0.3, -0.3], [0.35, -0.2], [-0.1, 0.3]]\n\
-                    [[crack]]\npoints = [[0.4, 0.1], [0.8, 0.3]]\n";
-    let pulled = |tables: &str| format!("{PULLED}{tables}");
-    for (tables, exact, k) in [
-        (kinked(90.0), 2.09772948, [1.0845755, 0.0044035757]),
-        (kinked(120.0), 2.0449301, [1.0352864, 0.07704593]),
-        (pulled(square), 2.64736017, [1.1099473, 0.22943451]),
-        (pulled(triangle), 2.50174376, [1.0771817, 0.52795673]),
-    ] {
-        for (order, of_energy, of_factors) in [(2, 1e-4, 5e-4), (3, 6e-6, 1.5e-5), (4, 2e-6, 2e-6)]
-        {
-            let dataset = solved_with(&tables, &format!("order = {order}"));
-            let error = 1.0 - energy(&dataset) / exact;
-            let tip = &dataset.steps[0].intensities[0];
-            let apart = (tip.k1 - k[0]).hypot(tip.k2 - k[1]) / k[0].hypot(k[1]);
-            assert!(error.abs() < of_energy && apart < of_factors, "{order}: {error} {apart}");
-        }
-    }
-    for tables in [kinked(90.0), pulled(square)] {
-        let unknowns = |keys: &str| dataset_unknowns(&solved_with(&tables, keys));
-        let [with, without] = ["order = 1", "order = 1\nenrichment = \"zone\""].map(unknowns);
-        assert!(with < 0.8 * without, "{with} {without}");
-    }
-}
-
-fn dataset_unknowns(dataset: &Dataset) -> f64 {
-    let mut history = dataset.steps[0].history.iter();
-    history.find(|record| record.name == "unknowns").expect("their number").value
-}
-
 /// Where they are given room, cells need not shrink at all.
 #[test]
 fn functions_of_corners_need_no_small_cells() {
-    let dataset = solved_with(&kinked(90.0), "refine = false");
+    let dataset = solved_with(&kinked(90.0), "level = 4\nrefine = false");
     assert!(dataset.steps[0].warnings.iter().all(|w| w.kind != "singular-point"));
     let error = 1.0 - energy(&dataset) / 2.09772948;
     assert!(error < 2e-4, "{error}");
 }
 
-/// The side of a kink that turns inwards is found whichever way the crack runs, and in the mirror.
-#[test]
-fn kinks_from_both_ends_and_in_the_mirror() {
-    let crack =
-        |points: [[f64; 2]; 3]| solved(&format!("{PULLED}[[crack]]\npoints = {points:?}\n"));
+/// Asserts that the side of a kink that turns inwards is found whichever way the crack runs, and in the mirror.
+fn assert_kink_has_no_direction(keys: &str) {
+    let crack = |points: [[f64; 2]; 3]| {
+        solved_with(&format!("{PULLED}[[crack]]\npoints = {points:?}\n"), keys)
+    };
     let points = [[-0.45, -0.1], [0.05, -0.13], [0.03, 0.29]];
     let [a, b, c] = points;
     let [plain, reversed, mirrored] = [points, [c, b, a], points.map(|[x, y]| [-x, y])].map(crack);
@@ -227,11 +278,19 @@ fn kinks_from_both_ends_and_in_the_mirror() {
     assert!((k1 - seen[0]).abs() < 1e-8 && (k2 + seen[1]).abs() < 1e-8, "{seen:?}");
 }
 
+/// In cells that are divided and in others.
+#[test]
+fn kinks_from_both_ends_and_in_the_mirror() {
+    for keys in ["level = 3\norder = 1\nrefine = false", "level = 2\norder = 1"] {
+        assert_kink_has_no_direction(keys);
+    }
+}
+
 /// A kink and a hole of four corners, both under pressure, oblique, reversed, far from the origin and small; the values
 /// are those of the same solver.
 #[test]
 fn loaded_corners_anywhere() {
-    let of = |scale: f64, shift: [f64; 2], is_reversed: bool| {
+    let solution = |scale: f64, shift: [f64; 2], is_reversed: bool, keys: &str| {
         let place = |p: &[f64; 2]| [0, 1].map(|i| shift[i] + scale * p[i]);
         let mut crack = vec![[0.429901, 0.132984], [0.0, 0.0], [0.099783, 0.438798]];
         let mut hole = vec![[-0.6, -0.6], [-0.2, -0.55], [-0.25, -0.2], [-0.65, -0.25]];
@@ -245,7 +304,7 @@ fn loaded_corners_anywhere() {
             "[domain]\nmin = {min:?}\nmax = {max:?}\n[material]\nyoung = 1.0\npoisson = 0.3\n\
              state = \"plane-strain\"\n{PULLED}[[crack]]\npoints = {crack:?}\n[[hole]]\npoints = {hole:?}\n\
              [[boundary]]\non = {{ crack = 0 }}\npressure = 1.0\n[[boundary]]\non = {{ hole = 0 }}\npressure = 0.5\n\
-             [discretization]\nlevel = 4\norder = 3\n"
+             [discretization]\n{keys}\n"
         );
         let problem = Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem");
         let dataset = solve(&problem, unwatched()).expect("a solution");
@@ -260,39 +319,61 @@ fn loaded_corners_anywhere() {
     let apart = |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| {
         (0..4).fold(0.0f64, |m, k| m.max((a[k / 2][k % 2] - b[k / 2][k % 2]).abs()))
     };
-    let (e, tips) = of(1.0, [0.0; 2], false);
+    let (e, tips) = solution(1.0, [0.0; 2], false, "level = 2\norder = 3");
+    println!("{e} {tips:?}");
     assert!((1.0 - e / 3.183605075).abs() < 1e-5, "{e}");
     let known = [[1.871555454, 0.416979824], [0.550392276, -0.444274214]];
     assert!(apart(tips, known) < 1e-5, "{tips:?}");
+    let coarse = |scale: f64, shift: [f64; 2], is_reversed: bool| {
+        // fine enough for the kink to have its functions
+        solution(scale, shift, is_reversed, "level = 4\norder = 1\nrefine = false")
+    };
+    let (e, tips) = coarse(1.0, [0.0; 2], false);
     for (scale, shift, is_reversed) in
         [(1.0, [0.0; 2], true), (1.0, [1024.0, -512.0], false), (0.5f64.powi(20), [0.0; 2], false)]
     {
-        let (other, same) = of(scale, shift, is_reversed);
+        let (other, same) = coarse(scale, shift, is_reversed);
         assert!((other / e - 1.0).abs() < 1e-9 && apart(tips, same) < 1e-8, "{other} {same:?}");
     }
+}
+
+/// Holes in a plate with a potential, and its energy.
+const TRIANGLE: (&str, f64) = (
+    "[[hole]]\npoints = [[-0.178964, -0.347091], [0.446308, -0.028445], [-0.136296, 0.322371]]\n",
+    2.290_883_648,
+);
+const ELL: (&str, f64) = (
+    "[[hole]]\npoints = [[-0.036187, -0.422718], [0.422718, -0.036187], [0.229453, 0.193265], \
+     [0.0, 0.0], [-0.193265, 0.229453], [-0.422718, 0.036187]]\n",
+    2.433_536_912,
+);
+
+fn assert_potential((hole, exact): (&str, f64), level: u32, order: usize, tolerance: f64) {
+    let text = format!(
+        "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[equation]\nkind = \"poisson\"\n[[boundary]]\n\
+         on = \"bottom\"\nflux = -1.0\n[[boundary]]\non = \"top\"\nflux = 1.0\n{hole}[discretization]\n\
+         level = {level}\norder = {order}\n"
+    );
+    let problem = Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem");
+    let dataset = solve(&problem, unwatched()).expect("a solution");
+    let error = 1.0 - energy(&dataset) / exact;
+    assert!((-1e-7..tolerance).contains(&error), "{order}: {error}");
+    let functions = dataset.steps[0].functions.iter();
+    assert!(functions.filter(|f| f.name.starts_with("r^")).count() >= 6);
 }
 
 /// Poisson's equation has other exponents; the values are those of the same solver.
 #[test]
 fn corners_of_potentials() {
-    let flux = "[equation]\nkind = \"poisson\"\n[[boundary]]\non = \"bottom\"\nflux = -1.0\n\
-                [[boundary]]\non = \"top\"\nflux = 1.0\n";
-    let triangle = "[[hole]]\npoints = [[-0.178964, -0.347091], [0.446308, -0.028445], [-0.136296, 0.322371]]\n";
-    let ell = "[[hole]]\npoints = [[-0.036187, -0.422718], [0.422718, -0.036187], [0.229453, 0.193265], \
-               [0.0, 0.0], [-0.193265, 0.229453], [-0.422718, 0.036187]]\n";
-    for (hole, exact) in [(triangle, 2.290_883_648), (ell, 2.433_536_912)] {
-        for (order, tolerance) in [(2, 1e-4), (3, 1e-5)] {
-            let text = format!(
-                "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n{flux}{hole}[discretization]\nlevel = 4\norder = {order}\n"
-            );
-            let problem = Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem");
-            let dataset = solve(&problem, unwatched()).expect("a solution");
-            let error = 1.0 - energy(&dataset) / exact;
-            assert!((-1e-7..tolerance).contains(&error), "{order}: {error}");
-            let functions = dataset.steps[0].functions.iter();
-            assert!(functions.filter(|f| f.name.starts_with("r^")).count() >= 6);
-        }
-    }
+    assert_potential(TRIANGLE, 3, 2, 1e-4);
+    assert_potential(ELL, 3, 3, 1e-5);
+}
+
+#[test]
+#[ignore = "slow: two more potentials at level 4"]
+fn corners_of_potentials_at_other_orders() {
+    assert_potential(TRIANGLE, 4, 3, 1e-5);
+    assert_potential(ELL, 4, 2, 1e-4);
 }
 
 /// Where the material varies exponents are others, and of very many corners functions would cost more than cells.
@@ -303,16 +384,17 @@ fn corners_without_functions() {
         format!("[[hole]]\npoints = [[{a}, {b}], [{c}, {b}], [{c}, {d}], [{a}, {d}]]\n")
     };
     let has_functions = |tables: &str, keys: &str| {
-        let functions = solved_with(&format!("{PULLED}{tables}"), keys).steps.remove(0).functions;
+        let plate = plate(&format!("{PULLED}{tables}"), &format!("level = 4\norder = 1\n{keys}"));
+        let functions = discretise(&plate, unwatched()).expect("a space").functions;
         functions.iter().any(|f| f.name.starts_with("r^"))
     };
     let one = square(-0.3, -0.3, 0.6);
-    assert!(has_functions(&one, "order = 1"));
-    assert!(!has_functions(&one, "order = 1\nenrichment = \"zone\""));
+    assert!(has_functions(&one, ""));
+    assert!(!has_functions(&one, "enrichment = \"zone\""));
     let many: String = (0..25)
         .map(|k| square(0.36 * f64::from(k % 5) - 0.9, 0.36 * f64::from(k / 5) - 0.9, 0.2))
         .collect();
-    assert!(!has_functions(&many, "order = 1"));
+    assert!(!has_functions(&many, ""));
 }
 
 /// A displacement that jumps along an edge has infinite energy: that is told, with the place, and nothing is told
@@ -341,6 +423,7 @@ displacement = [0.0, 0.0]
 on = "left"
 traction = [-1.0, 0.3]
 "#;
-    let [one, other] = [PIECE, turned].map(|tables| energy(&solved(tables)));
+    let [one, other] =
+        [PIECE, turned].map(|tables| energy(&solved_with(tables, "level = 3\norder = 1")));
     assert!((one / other - 1.0).abs() < 1e-9, "{one} {other}");
 }

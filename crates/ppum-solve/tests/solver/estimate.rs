@@ -31,7 +31,7 @@ fn refused(problem: &Problem, memory: u64) -> bool {
 #[test]
 fn an_estimate_counts_what_the_solution_has() {
     let mut memory = 0.0;
-    for (level, order) in [(3, 1), (3, 3), (4, 4)] {
+    for (level, order) in [(3, 1), (3, 2)] {
         let problem = plate(level, order);
         let plan = Plan::new(&problem, None, unwatched()).expect("a plan");
         let estimate = *plan.estimate();

@@ -34,35 +34,52 @@ fn parsed(text: &str) -> Problem {
     Problem::parse(text, "plate.toml", Path::new(".")).expect("a problem")
 }
 
-/// A field on [−1, 1]² with its body force, given on the border.
+/// Asserts the estimate of a field on [−1, 1]² with its body force, given on the border, at pairs of an order and a level.
+fn assert_manufactured(covers: &[(usize, u32)]) {
+    let field = Smooth { material: MATERIAL };
+    for &(order, level) in covers {
+        let set = discretization(Cells::Level(level), order);
+        let mut problem = held(Problem::elasticity(SQUARE, MATERIAL, set), field.formulas());
+        problem.source = expressions(field.body_force_formulas());
+        let dataset = solved(&problem);
+        let error = errors(&dataset, &|p| both(field.evaluate(p))).energy;
+        assert_effective(&format!("order {order}, level {level}"), &dataset, error, SMOOTH);
+    }
+}
+
 #[test]
 fn manufactured_fields() {
-    let field = Smooth { material: MATERIAL };
-    for order in 1..=6 {
-        for level in 2..=if order < 3 { 5 } else { 3 } {
-            let set = discretization(Cells::Level(level), order);
-            let mut problem = held(Problem::elasticity(SQUARE, MATERIAL, set), field.formulas());
-            problem.source = expressions(field.body_force_formulas());
-            let dataset = solved(&problem);
-            let error = errors(&dataset, &|p| both(field.evaluate(p))).energy;
-            assert_effective(&format!("order {order}, level {level}"), &dataset, error, SMOOTH);
-        }
+    assert_manufactured(&[(1, 2), (1, 3), (2, 3), (3, 2), (3, 3), (4, 2), (5, 2), (6, 2)]);
+}
+
+#[test]
+#[ignore = "slow: levels 4 and 5"]
+fn manufactured_fields_on_fine_covers() {
+    assert_manufactured(&[(1, 4), (1, 5), (2, 4), (2, 5)]);
+}
+
+/// Asserts the estimate of a field that is singular at a tip, at pairs of an order and a level.
+fn assert_tip(covers: &[(usize, u32)]) {
+    let field =
+        OBLIQUE.field().with_intensities(1.0, 0.5).with_t_stress(0.3).with_term(3, 0.4, 0.3);
+    for &(order, level) in covers {
+        let mut set = discretization(Cells::Level(level), order);
+        set.enrichment_radius = Some(0.4);
+        let dataset = solved(&OBLIQUE.problem(&field, set));
+        let error = errors(&dataset, &|p| both(field.evaluate(p))).energy;
+        assert_effective(&format!("order {order}, level {level}"), &dataset, error, SMOOTH);
     }
 }
 
 #[test]
 fn fields_of_tips() {
-    let field =
-        OBLIQUE.field().with_intensities(1.0, 0.5).with_t_stress(0.3).with_term(3, 0.4, 0.3);
-    for order in 1..=4 {
-        for level in 2..=4 {
-            let mut set = discretization(Cells::Level(level), order);
-            set.enrichment_radius = Some(0.4);
-            let dataset = solved(&OBLIQUE.problem(&field, set));
-            let error = errors(&dataset, &|p| both(field.evaluate(p))).energy;
-            assert_effective(&format!("order {order}, level {level}"), &dataset, error, SMOOTH);
-        }
-    }
+    assert_tip(&[(1, 2), (2, 3), (3, 2)]);
+}
+
+#[test]
+#[ignore = "slow: level 4 at order 4"]
+fn fields_of_tips_on_fine_covers() {
+    assert_tip(&[(4, 4)]);
 }
 
 /// A hole in cells of up to twice its radius, which nobody has refined.
@@ -72,7 +89,7 @@ fn round_holes() {
     let field = RoundHole::new(MATERIAL, center, 1.0).with_remote([0.0, 1.0, 0.0]);
     let bounds = Rect::new(vec2(-4.0, -4.0), vec2(4.0, 4.0));
     for order in 1..=3 {
-        for cells in [4, 8, 16] {
+        for cells in [4, 8] {
             let domain = Domain { bounds, holes: vec![Hole::Circle { center, radius: 1.0 }] };
             let set = discretization(Cells::Grid([cells; 2]), order);
             let problem = held(Problem::elasticity(domain, MATERIAL, set), field.formulas());
@@ -99,7 +116,7 @@ fn known_energies() {
         ("force", parsed(&format!("{head}{force}[discretization]\nlevel = 1\n")), 3.504_454_057_8),
         ("crack", crack, 2.428_931_916),
     ] {
-        for (order, level) in [1, 2, 3].into_iter().flat_map(|p| [2, 3, 4].map(|l| (p, l))) {
+        for (order, level) in [(1, 3), (2, 3), (3, 2)] {
             let mut problem = problem.clone();
             problem.discretization.cells = Cells::Level(level);
             problem.discretization.order = Order::Uniform(order);
@@ -128,7 +145,7 @@ fn assert_potential(
     exact: &(dyn Fn(Vec2) -> Both + Sync),
     bounds: [f64; 2],
 ) {
-    for (order, level) in [1, 2, 3].into_iter().flat_map(|p| [3, 4].map(|l| (p, l))) {
+    for (order, level) in [(1, 4), (2, 3), (3, 3)] {
         let mut problem = problem.clone();
         problem.discretization.cells = Cells::Level(level);
         problem.discretization.order = Order::Uniform(order);
@@ -197,7 +214,7 @@ fn nothing_is_estimated_of_nothing_and_scale_plays_no_part() {
         let half = vec2(length, length);
         let crack = [at(-0.4, -0.31), at(0.4, 0.27)];
         let mut problem = pulled(Rect::new(-half, half), [8, 8], &[&crack]);
-        problem.discretization.order = Order::Uniform(2);
+        problem.discretization.refine = false;
         problem.boundary.iter_mut().for_each(|condition| {
             let pull = if condition.on == problem_top(length) { load } else { -load };
             condition.components = crate::studies::plates::traction(0.0.into(), pull.into());
@@ -216,25 +233,37 @@ fn problem_top(length: f64) -> ppum_solve::problem::BorderPart {
     ppum_solve::problem::BorderPart::edge(Edge::Top, &Rect::new(-half, half))
 }
 
-/// Between the arms of sharp kinks, where patches have little of a wedge and never for themselves. The energies are those of
-/// finite elements of order 10 (NGSolve 6.2.2608), good to 2e-7.
+/// Kinked cracks in [−1, 1]², the angle by which they turn, their ends, and energies by finite elements of order 10 (NGSolve
+/// 6.2.2608), good to 2e-7.
+const KINKS: [(u32, [f64; 2], f64); 4] = [
+    (120, [0.099783, 0.438798], 2.004413623),
+    (150, [0.305814, 0.330118], 1.977975139),
+    (165, [0.380834, 0.239719], 1.973402427),
+    (172, [0.40721, 0.191521], 1.969746373),
+];
+
+fn assert_effective_at_kinks(kinks: &[(u32, [f64; 2], f64)], cells: u32, order: usize) {
+    for (degrees, to, energy) in kinks {
+        let crack = [[0.429901, 0.132984], [0.0, 0.0], *to];
+        let mut problem = pulled(SQUARE, [cells; 2], &[&crack]);
+        problem.discretization.order = Order::Uniform(order);
+        let dataset = solved(&problem);
+        let error = (1.0 - record(&dataset.steps[0], "energy") / energy).sqrt();
+        assert_effective(&format!("{degrees}°, {order}"), &dataset, error, SMOOTH);
+    }
+}
+
+/// Between the arms of sharp kinks patches have little of a wedge and never for themselves.
 #[test]
 fn sharp_kinks() {
-    let (from, kink) = ([0.429901, 0.132984], [0.0, 0.0]);
-    for (degrees, to, energy) in [
-        (120, [0.099783, 0.438798], 2.004413623),
-        (150, [0.305814, 0.330118], 1.977975139),
-        (165, [0.380834, 0.239719], 1.973402427),
-        (172, [0.40721, 0.191521], 1.969746373),
-    ] {
-        for order in 1..=3 {
-            let mut problem = pulled(SQUARE, [8, 8], &[&[from, kink, to]]);
-            problem.discretization.order = Order::Uniform(order);
-            let dataset = solved(&problem);
-            let error = (1.0 - record(&dataset.steps[0], "energy") / energy).sqrt();
-            assert_effective(&format!("{degrees}°, {order}"), &dataset, error, SMOOTH);
-        }
-    }
+    assert_effective_at_kinks(&[KINKS[0], KINKS[3]], 4, 1);
+}
+
+#[test]
+#[ignore = "slow: hundreds of small cells around each kink"]
+fn sharp_kinks_at_higher_orders() {
+    assert_effective_at_kinks(&KINKS[..3], 8, 2);
+    assert_effective_at_kinks(&KINKS[3..], 8, 3);
 }
 
 /// The parts of a field, which the estimate compares, add up to the field, and their shares to one.

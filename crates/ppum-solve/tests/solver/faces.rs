@@ -84,7 +84,7 @@ impl Flux {
     }
 }
 
-/// A plate with cracks, round holes, and a uniform flux.
+/// A plate with cracks, round holes, and a uniform flux, whose cells are divided on request.
 #[derive(Clone, Debug)]
 struct Case {
     bounds: Rect,
@@ -92,13 +92,14 @@ struct Case {
     holes: Vec<(Vec2, f64)>,
     level: u32,
     order: usize,
+    refine: bool,
     flux: Flux,
 }
 
 impl Case {
     fn new(cracks: Vec<Vec<Vec2>>, level: u32, order: usize, flux: Flux) -> Self {
         let bounds = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
-        Self { bounds, cracks, holes: Vec::new(), level, order, flux }
+        Self { bounds, cracks, holes: Vec::new(), level, order, refine: false, flux }
     }
 
     /// The same elsewhere. Edges move by the very numbers that points move by.
@@ -119,8 +120,8 @@ impl Case {
         let hole = |&(center, radius): &(Vec2, f64)| Hole::Circle { center, radius };
         let domain = Domain { bounds: self.bounds, holes: self.holes.iter().map(hole).collect() };
         let cells = Cells::Level(self.level);
-        let set =
-            Discretization { order: Order::Uniform(self.order), ..Discretization::new(cells) };
+        let mut set = Discretization::new(cells);
+        (set.order, set.refine) = (Order::Uniform(self.order), self.refine);
         let problem = match self.flux.components {
             1 => Problem::poisson(domain, CONDUCTIVITY, set),
             _ => Problem::elasticity(domain, MATERIAL, set),
@@ -222,40 +223,56 @@ fn kinked(random: &mut Random) -> Vec<Vec2> {
     vec![kink - arm * random.between(0.3, 0.6), kink, kink + other * random.between(0.3, 0.6)]
 }
 
-/// An oblique crack in coarse and in fine cells: the finer, the farther its start for the points.
-#[test]
-fn pressure_is_tension_whatever_the_cells() {
+/// An oblique crack under all-round tension in cells that are divided.
+fn oblique(level: u32, order: usize) -> Case {
     let crack = vec![vec2(-0.4, -0.15), vec2(0.45, 0.2)];
-    for level in [2, 4] {
-        Case::new(vec![crack.clone()], level, 1, ALL_ROUND).check();
-    }
+    Case { refine: true, ..Case::new(vec![crack], level, order, ALL_ROUND) }
+}
+
+/// In coarse cells, and against what is known of it in finer ones.
+#[test]
+fn pressure_is_tension() {
+    oblique(2, 1).check();
     // hp finite elements of an independent solver, good to the digits given; cells of this size come as
     // near as 1e-4
-    let dataset = Case::new(vec![crack], 4, 2, ALL_ROUND).on_faces();
+    let dataset = oblique(4, 2).on_faces();
     for ([k1, _], expected) in factors(&dataset).into_iter().zip([1.53939, 1.55280]) {
         assert!((k1 / expected - 1.0).abs() < 2e-4, "{k1} instead of {expected}");
     }
 }
 
+/// The finer the cells, the farther the crack's start is for the points.
+#[test]
+#[ignore = "slow: level 4"]
+fn pressure_is_tension_in_fine_cells() {
+    oblique(4, 1).check();
+}
+
 #[test]
 fn any_stress_on_straight_cracks() {
     let mut random = Random(1);
-    for round in 0..3 {
+    for far in [0.0, 1e4] {
         let flux = Flux::stress(&mut random);
-        let way = random.direction() * [0.0, 10.0, 1e4][round % 3];
-        let case =
-            Case::new(vec![straight(&mut random)], 2 + (round % 2) as u32, 1 + round % 2, flux);
-        case.moved(way).check();
+        let way = random.direction() * far;
+        Case::new(vec![straight(&mut random)], 3, 2, flux).moved(way).check();
     }
 }
 
 #[test]
 fn all_orders() {
     let mut random = Random(2);
-    for order in [1, 3, 5, 8] {
+    for order in [1, 3, 5] {
         let flux = Flux::stress(&mut random);
-        Case::new(vec![straight(&mut random)], if order < 4 { 2 } else { 1 }, order, flux).check();
+        Case::new(vec![straight(&mut random)], 2, order, flux).check();
     }
+}
+
+#[test]
+#[ignore = "slow: the rules of order 8"]
+fn the_highest_order() {
+    let mut random = Random(2);
+    let flux = Flux::stress(&mut random);
+    Case { refine: true, ..Case::new(vec![straight(&mut random)], 1, 8, flux) }.check();
 }
 
 #[test]

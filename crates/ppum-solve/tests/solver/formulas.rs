@@ -1,6 +1,7 @@
 //! Problems made of formulas: enrichments of one's own against exact solutions, with and without them.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 use std::path::Path;
 
 use ppum::dataset::Dataset;
@@ -76,38 +77,45 @@ fn listed(errors: &[f64]) -> String {
     errors.iter().map(|error| format!("{error:.2e}")).collect::<Vec<_>>().join(" ")
 }
 
-/// Errors at some levels, and the rate between the last two.
-pub(crate) fn study(levels: [u32; 3], error: impl Fn(u32) -> f64) -> ([f64; 3], f64) {
-    let errors = levels.map(error);
-    let rate = (errors[1] / errors[2]).log2();
-    println!("levels {levels:?}: errors {}, last rate {rate:.2}", listed(&errors));
+/// Errors at a level and at the next one, and the rate between them.
+pub(crate) fn study(level: u32, error: impl Fn(u32) -> f64) -> ([f64; 2], f64) {
+    let errors = [level, level + 1].map(error);
+    let rate = (errors[0] / errors[1]).log2();
+    println!("from level {level} on: errors {}, rate {rate:.2}", listed(&errors));
     (errors, rate)
 }
 
-/// Mean rate of errors at three levels.
-fn mean_rate(errors: [f64; 3]) -> f64 {
-    0.5 * (errors[0] / errors[2]).log2()
+/// The mean rate of errors at three levels from a level on.
+fn mean_rate(level: u32, error: impl Fn(u32) -> f64) -> f64 {
+    let errors = [level, level + 1, level + 2].map(error);
+    let rate = 0.5 * (errors[0] / errors[2]).log2();
+    println!("from level {level} on: errors {}, mean rate {rate:.2}", listed(&errors));
+    rate
 }
 
 /// |d| times polynomials of degree p − 1 make the rate p of a smooth solution in a plate of two
 /// materials; without it the rate is 1/2, that of a kink across the cells.
 #[test]
 fn a_weak_discontinuity_restores_the_rate() {
-    for (order, levels) in [(1, [2, 3, 4]), (2, [2, 3, 4]), (3, [1, 2, 3])] {
+    let mut with = [0.0; 3];
+    for (order, level) in [(1, 2), (2, 2), (3, 2)] {
         let error = |level| {
             let mut problem = example("bimaterial-plate.toml", order, level);
             problem.enrichments[0].degree = Some(order - 1);
             energy_error(&solved(&problem), &problem, &given(&problem))
         };
-        let (_, rate) = study(levels, error);
+        let (errors, rate) = study(level, error);
         assert!((rate - order as f64).abs() < 0.1, "order {order}: rate {rate}");
+        with[order - 1] = errors[1];
     }
     let without = |level| {
         let fine = example("bimaterial-plate.toml", 2, level);
         energy_error(&solved(&bare(&fine)), &fine, &given(&fine))
     };
-    let rate = mean_rate(study([2, 3, 4], without).0);
+    let (errors, rate) = study(2, without);
     assert!((0.4..0.8).contains(&rate), "{rate}");
+    // examples/README.md: 0.93 and 8.9 %
+    assert!(with[1] < 1.1e-2 && errors[1] > 5.0 * with[1], "{with:?} {errors:?}");
 }
 
 /// The exponent of the corner of two conductivities 10 and 1, opening ω: the smallest root of
@@ -156,30 +164,51 @@ fn corner_problem(order: usize, level: u32) -> Problem {
     problem
 }
 
-/// The corner's function in a fixed zone and kinks along the interfaces make the rate p; without the
-/// function it is about λ = 0.7, without kinks 1/2.
+/// Errors at the levels 3 and 4, and the rate, with the corner's function in a fixed zone and kinks along the interfaces.
+fn study_of_corner(order: usize) -> ([f64; 2], f64) {
+    study(3, |level| {
+        let problem = corner_problem(order, level);
+        energy_error(&solved(&problem), &problem, &corner)
+    })
+}
+
+/// The corner's function in a fixed zone and kinks along the interfaces make the rate p.
 #[test]
 fn a_corner_function_restores_the_rate() {
     let (_, lambda) = corner_problem(2, 1).enrichments[0].parameters[0];
     assert!((lambda - corner_exponent(1.2)).abs() < 1e-12);
-    for (order, least) in [(2, 1.85), (3, 2.75)] {
-        let error = |level| {
-            let problem = corner_problem(order, level);
-            energy_error(&solved(&problem), &problem, &corner)
-        };
-        let (_, rate) = study([2, 3, 4], error);
-        assert!(rate > least, "order {order}: rate {rate}");
+    let (errors, rate) = study_of_corner(2);
+    // examples/README.md: 0.21 %
+    assert!(rate > 1.85 && errors[0] < 3e-3, "{errors:?}");
+}
+
+/// Errors at a level and the next one, and the rate, with some of the enrichments of the corner's problem.
+fn study_of_part(enrichments: Range<usize>, level: u32) -> ([f64; 2], f64) {
+    study(level, |level| {
+        let fine = corner_problem(2, level);
+        let mut part = bare(&fine);
+        part.enrichments = fine.enrichments[enrichments.clone()].to_vec();
+        energy_error(&solved(&part), &fine, &corner)
+    })
+}
+
+/// With kinks alone the rate is about λ = 0.7; with nothing the error on level 3 is 18 %, as examples/README.md says.
+#[test]
+fn without_the_corner_function_the_rate_is_low() {
+    for (enrichments, rate_bound, least) in [(1..3, 0.8, 0.03), (0..0, 0.9, 0.15)] {
+        let (errors, rate) = study_of_part(enrichments, 2);
+        assert!(rate < rate_bound && errors[1] > least, "{errors:?}");
     }
-    for (kept, most) in [(1..3, 0.8), (0..1, 0.7)] {
-        let error = |level| {
-            let fine = corner_problem(2, level);
-            let mut part = bare(&fine);
-            part.enrichments = fine.enrichments[kept.clone()].to_vec();
-            energy_error(&solved(&part), &fine, &corner)
-        };
-        let (errors, _) = study([2, 3, 4], error);
-        assert!(mean_rate(errors) < most && errors[2] > 0.02, "{kept:?}: {errors:?}");
-    }
+}
+
+/// At order 3, and without kinks, where the rate is 1/2.
+#[test]
+#[ignore = "slow: a corner and interfaces on level 4"]
+fn a_corner_function_on_fine_covers() {
+    let (errors, rate) = study_of_corner(3);
+    assert!(rate > 2.75, "{errors:?}");
+    let (errors, rate) = study_of_part(0..1, 3);
+    assert!(rate < 0.7 && errors[1] > 0.02, "{errors:?}");
 }
 
 /// If all patches have the corner's function, the solution is in the space.
@@ -201,14 +230,12 @@ fn a_layer_is_resolved() {
         let problem = example("boundary-layer.toml", 2, level);
         energy_error(&solved(&problem), &problem, &given(&problem))
     };
-    let (errors, rate) = study([1, 2, 3], error);
-    assert!(rate > 1.95 && errors[2] < 2e-4, "{rate}");
-    let without = |level| {
-        let fine = example("boundary-layer.toml", 2, level);
-        energy_error(&solved(&bare(&fine)), &fine, &given(&fine))
-    };
-    let (errors, _) = study([1, 2, 3], without);
-    assert!(errors.iter().all(|error| *error > 0.5), "{errors:?}");
+    let (errors, rate) = study(1, error);
+    // four times the 2e-4 of level 3, at the rate 2
+    assert!(rate > 1.95 && errors[1] < 8e-4, "{rate}");
+    let fine = example("boundary-layer.toml", 2, 2);
+    let without = energy_error(&solved(&bare(&fine)), &fine, &given(&fine));
+    assert!(without > 0.5, "{without}");
 }
 
 /// The same with a function that only a table gives.
@@ -218,14 +245,11 @@ fn a_tabulated_function_is_as_good_as_a_formula() {
         let problem = example("tabulated-profile.toml", 2, level);
         energy_error(&solved(&problem), &problem, &given(&problem))
     };
-    let (errors, rate) = study([1, 2, 3], error);
-    assert!(rate > 1.95 && errors[2] < 2e-5, "{rate}");
-    let without = |level| {
-        let fine = example("tabulated-profile.toml", 2, level);
-        energy_error(&solved(&bare(&fine)), &fine, &given(&fine))
-    };
-    let (errors, _) = study([2, 3, 4], without);
-    assert!(errors.iter().all(|error| *error > 0.1), "{errors:?}");
+    let (errors, rate) = study(2, error);
+    assert!(rate > 1.95 && errors[1] < 2e-5, "{rate}");
+    let fine = example("tabulated-profile.toml", 2, 3);
+    let without = energy_error(&solved(&bare(&fine)), &fine, &given(&fine));
+    assert!(without > 0.2, "{without}");
 }
 
 /// A disc of conductivity 5 in a uniform field.
@@ -274,13 +298,13 @@ fn a_round_inclusion() {
         energy_error(&solved(&problem), &problem, &given(&problem))
     };
     // 1.66, 1.80, 1.93, 1.96 from level 2 on
-    let (_, rate) = study([2, 3, 4], error);
+    let (_, rate) = study(3, error);
     assert!(rate > 1.75, "{rate}");
     let without = |level| {
         let fine = problem(level);
         energy_error(&solved(&bare(&fine)), &fine, &given(&fine))
     };
-    let rate = mean_rate(study([2, 3, 4], without).0);
+    let rate = mean_rate(1, without);
     assert!(rate < 0.8, "{rate}");
 }
 

@@ -3,7 +3,9 @@
 use crate::studies::exact_fields::{OBLIQUE, discretization};
 use crate::studies::support::solved;
 use ppum::crack::Side;
-use ppum::dataset::{Dataset, Elasticity, Equation, Material, Ring, StressState, TipIntensity};
+use ppum::dataset::{
+    Dataset, Elasticity, Equation, Material, Ring, Step, StressState, TipIntensity,
+};
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
@@ -157,19 +159,16 @@ fn exact_fields_in_graded_bodies() {
         let mut dataset = solved(&OBLIQUE.problem_of(material, &field, set));
         let uniform = error(&factors(&dataset, Loads::default()));
         assert!(uniform < 1e-8, "uniform: {uniform:.1e}");
-        for _ in 0..6 {
+        for _ in 0..2 {
             let grading = Grading::random(&mut random, state);
             dataset.equation = Equation::Elasticity(grading.elasticity());
             let force = |p: Vec2| grading.body_force(&field, p);
             let face = |_: u32, side: Side, p: Vec2| grading.traction(side, p);
-            let found =
-                error(&factors(&dataset, Loads { force: Some(&force), faces: Some(&face) }));
-            let without = error(&factors(&dataset, Loads::default()));
-            println!("{found:.1e}, without the loads {without:.1e}");
-            assert!(found < 1e-7, "{found:.1e}");
+            let found = factors(&dataset, Loads { force: Some(&force), faces: Some(&face) });
+            let (off, without) = (error(&found), error(&factors(&dataset, Loads::default())));
+            println!("{off:.1e}, without the loads {without:.1e}");
+            assert!(off < 1e-7, "{off:.1e}");
             assert!(without > 1e-2, "{without:.1e}");
-            let loads = Loads { force: Some(&force), faces: Some(&face) };
-            let found = factors(&dataset, loads);
             let (t, j) = (found.t_stress.expect("a value"), found.j.expect("a value"));
             let energy = found.energy_release(&grading.at_tip());
             println!("T off by {:.1e}, J/G − 1 {:.1e}", t - T_STRESS, j / energy - 1.0);
@@ -188,6 +187,7 @@ struct Plate<'a> {
     rest: &'a str,
     level: u32,
     order: usize,
+    refine: bool,
 }
 
 const PLATE: Plate<'_> = Plate {
@@ -199,6 +199,7 @@ const PLATE: Plate<'_> = Plate {
     rest: TENSION,
     level: 3,
     order: 2,
+    refine: true,
 };
 
 const TENSION: &str = "[[boundary]]\non = \"bottom\"\ntraction = [0, -1]\n[[boundary]]\non = \"top\"\n\
@@ -206,12 +207,12 @@ const TENSION: &str = "[[boundary]]\non = \"bottom\"\ntraction = [0, -1]\n[[boun
 
 impl Plate<'_> {
     fn solve(&self) -> Dataset {
-        let Self { young, poisson, state, half, crack, rest, level, order } = self;
+        let Self { young, poisson, state, half, crack, rest, level, order, refine } = self;
         let left = if *half { "0.0" } else { "-1.0" };
         let text = format!(
             "[domain]\nmin = [{left}, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = \"{young}\"\n\
              poisson = \"{poisson}\"\nstate = \"{state}\"\n[[crack]]\npoints = {crack}\n{rest}\n\
-             [discretization]\nlevel = {level}\norder = {order}\n"
+             [discretization]\nlevel = {level}\norder = {order}\nrefine = {refine}\n"
         );
         solved(&Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem"))
     }
@@ -253,23 +254,71 @@ fn convergence_along_a_grading() {
     assert!(best.0 < 5e-5 && best.1 < 5e-6, "{best:?}");
 }
 
-/// Values of finite elements of order 10 on meshes graded towards tips and fitted to interfaces, good to
+/// A plate and K_I and K_II of its tips.
+type Case<'a> = (&'static str, Plate<'a>, Vec<[f64; 2]>);
+
+/// Asserts values of finite elements of order 10 on meshes graded towards tips and fitted to interfaces, good to
 /// 1e-6. The bounds are what other problems of such cells are off by: 2e-3 in uniform materials.
+fn assert_references(cases: &[Case<'_>]) {
+    for (name, plate, expected) in cases {
+        let tips = plate.tips();
+        assert_eq!(tips.len(), expected.len());
+        for (tip, expected) in tips.iter().zip(expected) {
+            let (error, spread) = (distance(tip, *expected), spread(tip));
+            println!("{name}: {error:.1e}, radii {spread:.1e}");
+            assert!(error < 2e-3 && spread < 2e-4, "{name}: {tip:?} instead of {expected:?}");
+        }
+    }
+}
+
+/// Tension, and a kink along a line.
+fn with_kink(ends: &str) -> String {
+    format!("{TENSION}\n[[enrichment]]\nfunction = \"kink\"\nalong = {ends}\n")
+}
+
+/// A crack parallel to the x axis.
+const LEVEL: &str = "[[-0.5, 0.1], [0.4, 0.1]]";
+
 #[test]
 fn references() {
     let clamped = "[[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n[body_force]\n\
                    value = [\"0.3*sin(2*y)\", \"1 + x^2\"]\n";
+    let oblique = with_kink("[[-1.0, 0.1], [1.0, 0.5]]");
+    assert_references(&[
+        (
+            "body force",
+            Plate {
+                young: "exp(x - 0.5*y)",
+                crack: "[[-1.0, 0.0], [-0.1, 0.1]]",
+                rest: clamped,
+                ..PLATE
+            },
+            vec![[5.162007, -0.599679]],
+        ),
+        (
+            "oblique interface",
+            Plate {
+                young: "if(y > 0.3 + 0.2*x, 5, 1)",
+                poisson: "if(y > 0.3 + 0.2*x, 0.2, 0.35)",
+                crack: LEVEL,
+                rest: &oblique,
+                ..PLATE
+            },
+            vec![[1.249857, -0.103349], [1.307021, 0.158146]],
+        ),
+    ]);
+}
+
+#[test]
+#[ignore = "slow: six more plates"]
+fn more_references() {
     let pressed = "[[boundary]]\non = { crack = 0 }\npressure = \"1 + x\"\n";
-    let kink =
-        |ends: &str| format!("{TENSION}\n[[enrichment]]\nfunction = \"kink\"\nalong = {ends}\n");
-    let upright = kink("[[0.55, -1.0], [0.55, 1.0]]");
-    let oblique = kink("[[-1.0, 0.1], [1.0, 0.5]]");
+    let upright = with_kink("[[0.55, -1.0], [0.55, 1.0]]");
     let both = Plate { young: "2 + x*y", poisson: "0.25 + 0.15*sin(2*x + y)", ..PLATE };
-    let level = "[[-0.5, 0.1], [0.4, 0.1]]";
-    let cases = [
+    assert_references(&[
         (
             "across the crack",
-            Plate { young: "exp(x + 0.8*y)", state: "plane-stress", crack: level, ..PLATE },
+            Plate { young: "exp(x + 0.8*y)", state: "plane-stress", crack: LEVEL, ..PLATE },
             vec![[1.416651, -0.069585], [1.920760, 0.128596]],
         ),
         ("E and ν", Plate { ..both }, vec![[1.320226, 0.611483], [1.420251, 0.630701]]),
@@ -284,80 +333,54 @@ fn references() {
             vec![[1.289640, 0.596548], [1.421410, 0.641349]],
         ),
         (
-            "body force",
-            Plate {
-                young: "exp(x - 0.5*y)",
-                crack: "[[-1.0, 0.0], [-0.1, 0.1]]",
-                rest: clamped,
-                ..PLATE
-            },
-            vec![[5.162007, -0.599679]],
-        ),
-        (
             "loaded faces",
             Plate { young: "exp(x - 0.5*y)", poisson: "0.3 - 0.1*x", rest: pressed, ..PLATE },
             vec![[1.213781, 0.118438], [2.115380, -0.144568]],
         ),
         (
             "interface across",
-            Plate { young: "if(x > 0.55, 4, 1)", crack: level, rest: &upright, ..PLATE },
+            Plate { young: "if(x > 0.55, 4, 1)", crack: LEVEL, rest: &upright, ..PLATE },
             vec![[1.418802, 0.036468], [1.080575, -0.017683]],
         ),
-        (
-            "oblique interface",
-            Plate {
-                young: "if(y > 0.3 + 0.2*x, 5, 1)",
-                poisson: "if(y > 0.3 + 0.2*x, 0.2, 0.35)",
-                crack: level,
-                rest: &oblique,
-                ..PLATE
-            },
-            vec![[1.249857, -0.103349], [1.307021, 0.158146]],
-        ),
-    ];
-    for (name, plate, expected) in cases {
-        let tips = plate.tips();
-        assert_eq!(tips.len(), expected.len());
-        for (tip, expected) in tips.iter().zip(expected) {
-            let (error, spread) = (distance(tip, expected), spread(tip));
-            println!("{name}: {error:.1e}, radii {spread:.1e}");
-            assert!(error < 2e-3 && spread < 2e-4, "{name}: {tip:?} instead of {expected:?}");
-        }
-    }
+    ]);
 }
 
-/// Plate, load and grading turned by 90°, or seen in a mirror: the same K_I, and K_II with its sign.
-#[test]
-fn rotations_and_reflections() {
-    let mut random = Random(21);
+/// Asserts that plate, load and grading turned by 90°, or seen in a mirror, have the same K_I, and K_II with its sign.
+fn assert_turned_and_mirrored(state: &str, random: &mut Random) {
     let ends = |on: [&str; 2], traction: [[f64; 2]; 2]| {
         let end =
             |k: usize| format!("[[boundary]]\non = \"{}\"\ntraction = {:?}\n", on[k], traction[k]);
         end(0) + &end(1)
     };
+    let [a, b, c, d] = [0; 4].map(|_| random.between(-0.8, 0.8));
+    let [p, q] =
+        [0, 1].map(|k| vec2(random.between(0.2, 0.5), random.between(-0.3, 0.3)) * [-1.0, 1.0][k]);
+    // the old coordinates in the new ones, and the new place of a point
+    let solve = |bind: &str, place: &dyn Fn(Vec2) -> Vec2, rest: &str| {
+        let young = format!("{bind} exp({a}*p + {b}*q)");
+        let poisson = format!("{bind} 0.25 + 0.2*sin({c}*p + {d}*q)");
+        let [p, q]: [[f64; 2]; 2] = [p, q].map(|end| place(end).into());
+        let crack = format!("[{p:?}, {q:?}]");
+        let (young, poisson, crack) = (young.as_str(), poisson.as_str(), crack.as_str());
+        Plate { young, poisson, state, crack, rest, order: 1, refine: false, ..PLATE }.tips()
+    };
+    let upright = ends(["bottom", "top"], [[0.0, -1.0], [0.0, 1.0]]);
+    let lying = ends(["right", "left"], [[1.0, 0.0], [-1.0, 0.0]]);
+    let own = solve("let p = x; let q = y;", &|p| p, &upright);
+    let turned = solve("let p = y; let q = -x;", &|p| vec2(-p.y, p.x), &lying);
+    let mirrored = solve("let p = -x; let q = y;", &|p| vec2(-p.x, p.y), &upright);
+    for ((own, turned), mirrored) in own.iter().zip(&turned).zip(&mirrored) {
+        let errors = [distance(turned, [own.k1, own.k2]), distance(mirrored, [own.k1, -own.k2])];
+        println!("{errors:?}");
+        assert!(own.k2.abs() > 1e-2 && errors.iter().all(|e| *e < 1e-9), "{own:?} {errors:?}");
+    }
+}
+
+#[test]
+fn rotations_and_reflections() {
+    let mut random = Random(21);
     for state in ["plane-strain", "plane-stress"] {
-        let [a, b, c, d] = [0; 4].map(|_| random.between(-0.8, 0.8));
-        let [p, q] = [0, 1]
-            .map(|k| vec2(random.between(0.2, 0.5), random.between(-0.3, 0.3)) * [-1.0, 1.0][k]);
-        // the old coordinates in the new ones, and the new place of a point
-        let solve = |bind: &str, place: &dyn Fn(Vec2) -> Vec2, rest: &str| {
-            let young = format!("{bind} exp({a}*p + {b}*q)");
-            let poisson = format!("{bind} 0.25 + 0.2*sin({c}*p + {d}*q)");
-            let [p, q]: [[f64; 2]; 2] = [p, q].map(|end| place(end).into());
-            let crack = format!("[{p:?}, {q:?}]");
-            Plate { young: &young, poisson: &poisson, state, crack: &crack, rest, ..PLATE }.tips()
-        };
-        let upright = ends(["bottom", "top"], [[0.0, -1.0], [0.0, 1.0]]);
-        let lying = ends(["right", "left"], [[1.0, 0.0], [-1.0, 0.0]]);
-        let own = solve("let p = x; let q = y;", &|p| p, &upright);
-        let turned = solve("let p = y; let q = -x;", &|p| vec2(-p.y, p.x), &lying);
-        let mirrored = solve("let p = -x; let q = y;", &|p| vec2(-p.x, p.y), &upright);
-        for ((own, turned), mirrored) in own.iter().zip(&turned).zip(&mirrored) {
-            let errors =
-                [distance(turned, [own.k1, own.k2]), distance(mirrored, [own.k1, -own.k2])];
-            println!("{errors:?}");
-            assert!(own.k2.abs() > 1e-2 && errors.iter().all(|e| *e < 1e-9), "{own:?} {errors:?}");
-        }
+        assert_turned_and_mirrored(state, &mut random);
     }
 }
 
@@ -387,26 +410,34 @@ fn tips_at_interfaces() {
     assert_eq!(plate("1 + abs(x - 0.5)").intensities.len(), 2);
 }
 
+/// The step of a plate with an interface beyond the right tip of a crack.
+fn before_interface(gap: f64) -> Step {
+    let x = 0.4 + gap;
+    let (young, rest) =
+        (format!("if(x > {x}, 4, 1)"), with_kink(&format!("[[{x}, -1], [{x}, 1]]")));
+    Plate { young: &young, crack: LEVEL, rest: &rest, ..PLATE }.solve().steps.remove(0)
+}
+
+/// Asserts values by finite elements of order 10, as above; what is left is that of the tip far from the interface.
+fn assert_before_interface(gap: f64, expected: [f64; 2]) {
+    let step = before_interface(gap);
+    let error = distance(&step.intensities[1], expected);
+    println!("{gap}: {error:.1e}");
+    assert!(error < 2e-3 && step.warnings.is_empty(), "{gap}: {error:.1e} {:?}", step.warnings);
+}
+
+#[test]
+#[ignore = "slow: small cells at a tip"]
+fn tips_at_some_distance_from_interfaces() {
+    assert_before_interface(0.02, [0.698063, -0.020478]);
+}
+
 /// Cells at a tip become as small as the next interface asks for; without that, and closer than they may
 /// become, there is a warning with the place.
 #[test]
 fn tips_near_interfaces() {
-    let interface = |gap: f64, rest: &str| {
-        let x = 0.4 + gap;
-        let kink =
-            format!("\n[[enrichment]]\nfunction = \"kink\"\nalong = [[{x}, -1], [{x}, 1]]\n");
-        let (young, rest) = (format!("if(x > {x}, 4, 1)"), format!("{TENSION}{kink}{rest}"));
-        let crack = "[[-0.5, 0.1], [0.4, 0.1]]";
-        Plate { young: &young, crack, rest: &rest, ..PLATE }.solve().steps.remove(0)
-    };
-    // by finite elements of order 10, as above; what is left is that of the tip far from the interface
-    for (gap, expected) in [(0.02, [0.698063, -0.020478]), (0.005, [0.571446, -0.017543])] {
-        let step = interface(gap, "");
-        let error = distance(&step.intensities[1], expected);
-        println!("{gap}: {error:.1e}");
-        assert!(error < 2e-3 && step.warnings.is_empty(), "{gap}: {error:.1e} {:?}", step.warnings);
-    }
-    let step = interface(1e-4, "");
+    assert_before_interface(0.005, [0.571446, -0.017543]);
+    let step = before_interface(1e-4);
     let [warning] = &step.warnings[..] else { panic!("{:?}", step.warnings) };
     assert_eq!((warning.kind.as_str(), warning.at), (kind::NEAR_INTERFACE, Some(vec2(0.4, 0.1))));
     assert!((warning.value - 1e-4).abs() < 1e-6 && warning.limit > 2e-4, "{warning:?}");

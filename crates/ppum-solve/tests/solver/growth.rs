@@ -45,8 +45,14 @@ fn sheared(growth: &str) -> String {
     )
 }
 
-/// A square plate under tension with a crack and whatever else is given.
+/// A square plate under tension with a crack and whatever else is given, in coarse cells: what becomes of paths is decided by signs
+/// and sizes of factors, not by their digits.
 fn pulled(crack: &str, more: &str, growth: &str) -> String {
+    pulled_in(3, crack, more, growth)
+}
+
+/// The plate in cells of a level.
+fn pulled_in(level: u32, crack: &str, more: &str, growth: &str) -> String {
     format!(
         r#"
         domain = {{ min = [-1, -1], max = [1, 1] }}
@@ -55,7 +61,7 @@ fn pulled(crack: &str, more: &str, growth: &str) -> String {
             {{ on = "bottom", traction = [0, -1] }},
             {{ on = "top", traction = [0, 1] }},
         ]
-        discretization = {{ level = 3, order = 2 }}
+        discretization = {{ level = {level}, order = 1, refine = false }}
         growth = {{ {growth} }}
         {more}
         [[crack]]
@@ -92,36 +98,34 @@ fn kinks_of_local_symmetry() {
                 {{ on = "top", displacement = {field} }},
                 {{ on = "bottom", displacement = {field} }},
             ]
-            discretization = {{ level = 3, order = 3 }}
+            discretization = {{ level = 3, order = 2 }}
             "#
         );
         let dataset = ppum_solve::solve::solve(&parsed(&text), unwatched()).expect("a solution");
         let tip = &dataset.steps[0].intensities[0];
         [tip.k1, tip.k2]
     };
-    for ratio in [0.15, 2.0] {
-        let k = [1.0, ratio];
-        let factors = TipIntensity::new(TipId { crack: 0, end: End::Last }, k[0], k[1]);
-        let found = kink(Criterion::LocalSymmetry, &factors).expect("an open crack");
-        let Kink { angle, strength } = found;
-        let [long, short] = [0.02, 0.01].map(|length| kinked(k, angle, length));
-        let limit = [0, 1].map(|i| 2.0 * short[i] - long[i]);
-        println!(
-            "K_II = {ratio} K_I: {:.4}°, {strength:.5}: {long:?} {short:?} {limit:?}",
-            angle.to_degrees()
-        );
-        assert!((limit[0] / strength - 1.0).abs() < 2e-3, "{limit:?}, {strength}");
-        assert!(limit[1].abs() < 2e-3 * strength, "{limit:?}");
-    }
+    let ratio = 2.0;
+    let k = [1.0, ratio];
+    let factors = TipIntensity::new(TipId { crack: 0, end: End::Last }, k[0], k[1]);
+    let found = kink(Criterion::LocalSymmetry, &factors).expect("an open crack");
+    let Kink { angle, strength } = found;
+    let [long, short] = [0.04, 0.02].map(|length| kinked(k, angle, length));
+    let limit = [0, 1].map(|i| 2.0 * short[i] - long[i]);
+    println!(
+        "K_II = {ratio} K_I: {:.4}°, {strength:.5}: {long:?} {short:?} {limit:?}",
+        angle.to_degrees()
+    );
+    assert!((limit[0] / strength - 1.0).abs() < 2e-3, "{limit:?}, {strength}");
+    assert!(limit[1].abs() < 2e-3 * strength, "{limit:?}");
 }
 
-/// Behind the first kink K_II is next to nothing: below 3 % of K_I by hoop stress, 1 % by local symmetry.
-#[test]
-fn sliding_ends_with_the_first_kink() {
-    for (criterion, bound) in [("hoop", 0.03), ("energy", 0.03), ("local-symmetry", 1e-3)] {
-        let steps =
-            grown(&sheared(&format!(r#"criterion = "{criterion}", increment = 0.5, steps = 3"#)));
-        assert_eq!(steps.len(), 4);
+/// Asserts that behind the first kink K_II is next to nothing: below a part of K_I by hoop stress and by energy, 0.1 % by local symmetry.
+fn assert_sliding_ends(increments: usize, part: f64) {
+    for (criterion, bound) in [("hoop", part), ("energy", part), ("local-symmetry", 1e-3)] {
+        let rule = format!(r#"criterion = "{criterion}", increment = 0.5, steps = {increments}"#);
+        let steps = grown(&sheared(&rule));
+        assert_eq!(steps.len(), increments + 1);
         let ratio = |step: &Step| step.intensities[0].k2 / step.intensities[0].k1;
         assert!((ratio(&steps[0]) - 4.5369 / 34.0425).abs() < 1e-4);
         for step in &steps[1..] {
@@ -131,27 +135,55 @@ fn sliding_ends_with_the_first_kink() {
     }
 }
 
-/// The place of the tip after a given length of growth converges as increments are halved, with an order between 1 and 2: the path
-/// begins like x^3/2 behind a kink. Both criteria lead to one place.
+#[test]
+fn sliding_ends_with_the_first_kink() {
+    assert_sliding_ends(1, 0.01);
+}
+
+#[test]
+#[ignore = "slow: three increments by three criteria"]
+fn sliding_does_not_come_back() {
+    assert_sliding_ends(3, 0.03);
+}
+
+/// Asserts that the place of the tip after a given length of growth converges as increments are halved, with an order between 1 and
+/// 2: the path begins like x^3/2 behind a kink. docs/validation.md has more increments.
+fn assert_path_converges(criterion: &str, length: f64, parts: [usize; 3]) {
+    let [a, b, c] = parts.map(|n| {
+        let increment = length / n as f64;
+        let rule = format!(r#"criterion = "{criterion}", increment = {increment}, steps = {n}"#);
+        let steps = grown(&sheared(&rule).replace("[7, 16], order", "[4, 9], order"));
+        steps[n].cracks[0].end_point(End::Last)
+    });
+    let order = ((b - a).length() / (c - b).length()).log2();
+    println!("{criterion}: {a:?} {b:?} {c:?}: order {order:.2}");
+    assert!(order > 1.3, "{criterion}: {order}");
+}
+
 #[test]
 fn paths_converge() {
-    let tip = |criterion: &str, n: u32| {
-        let increment = 2.0 / f64::from(n);
+    assert_path_converges("local-symmetry", 1.0, [1, 2, 4]);
+}
+
+#[test]
+#[ignore = "slow: 28 increments"]
+fn paths_by_hoop_stress_converge() {
+    assert_path_converges("hoop", 2.0, [4, 8, 16]);
+}
+
+/// docs/validation.md has paths of more increments: that by hoop stress with eight of them is 4e-3 off at its end, that by local
+/// symmetry with four 5e-3.
+#[test]
+#[ignore = "slow: twelve increments, a third of them bent"]
+fn criteria_lead_to_one_place() {
+    let end = |criterion: &str, n: usize| {
+        let increment = 2.0 / n as f64;
         let rule = format!(r#"criterion = "{criterion}", increment = {increment}, steps = {n}"#);
-        let steps = grown(&sheared(&rule));
-        steps[n as usize].cracks[0].end_point(End::Last)
+        grown(&sheared(&rule))[n].cracks[0].end_point(End::Last)
     };
-    let mut limits = Vec::new();
-    for (criterion, parts) in [("hoop", [4, 8, 16]), ("local-symmetry", [2, 4, 8])] {
-        let [a, b, c] = parts.map(|n| tip(criterion, n));
-        let (first, second) = ((b - a).length(), (c - b).length());
-        let order = (first / second).log2();
-        println!("{criterion}: {a:?} {b:?} {c:?}: order {order:.2}");
-        assert!(order > 1.3, "{criterion}: {order}");
-        limits.push((c, second));
-    }
-    let apart = (limits[0].0 - limits[1].0).length();
-    assert!(apart < 2.0 * (limits[0].1 + limits[1].1), "{apart}");
+    let apart = (end("hoop", 8) - end("local-symmetry", 4)).length();
+    println!("{apart:.1e}");
+    assert!(apart < 1e-2, "{apart}");
 }
 
 /// A map of the plane, and what it does to the plate's sides.
@@ -181,7 +213,7 @@ fn paths_do_not_depend_on_the_frame() {
             material = {{ young = 1, poisson = 0.3, state = "plane-strain" }}
             crack = [{{ points = [[{}, {}], [{}, {}]] }}]
             boundary = [{}, {}]
-            discretization = {{ level = 3, order = 2 }}
+            discretization = {{ level = 3, order = 1, refine = false }}
             growth = {{ increment = {}, steps = 2 }}
             "#,
             min.x,
@@ -239,12 +271,12 @@ fn symmetric_paths() {
             { on = "bottom", traction = [0, -1] },
             { on = "top", traction = [0, 1] },
         ]
-        discretization = { cells = [16, 8], order = 2, refine = false }
+        discretization = { cells = [16, 8], order = 1, refine = false }
         refine = [{ size = 0.625 }, { hole = 0, size = 0.32 }, { hole = 1, size = 0.32 }]
-        growth = { increment = 0.5, steps = 3 }
+        growth = { increment = 0.5, steps = 2 }
         "#,
     );
-    let [one, other] = [0, 1].map(|k| steps[3].cracks[k].points.clone());
+    let [one, other] = [0, 1].map(|k| steps[2].cracks[k].points.clone());
     assert_eq!(one.len(), other.len());
     let apart = one.iter().zip(&other).map(|(p, q)| (*p + *q).length()).fold(0.0, f64::max);
     println!("{apart:.1e}");
@@ -310,7 +342,8 @@ fn tips_that_meet() {
 /// A plate that tears apart: the crack reaches the other side, and both halves are free of each other, with loads that do not balance.
 #[test]
 fn pieces_come_off() {
-    let steps = grown(&pulled("[[-1, 0], [0.5, 0]]", "", "increment = 0.2, steps = 9"));
+    let text = pulled("[[-1, 0], [0.5, 0]]", "", "increment = 0.2, steps = 9");
+    let steps = grown(&text.replace(", refine = false", ""));
     assert_eq!(stop(&steps), Some(GrowthStop::PieceComesOff));
     let last = steps.last().expect("steps");
     assert_eq!(row(last, 0, End::Last).fate, Fate::LeavesPlate);
@@ -322,10 +355,11 @@ fn pieces_come_off() {
 /// Tips stay where K_I is negative or their strength below the toughness, and so does a series that has no tips or none that grows.
 #[test]
 fn tips_that_stay() {
-    let steps = grown(&pulled("[[-0.3, 0], [0.3, 0]]", "", "steps = 5, toughness = 10"));
+    let steps = grown(&pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", "steps = 5, toughness = 10"));
     assert_eq!((steps.len(), stop(&steps)), (1, Some(GrowthStop::AllHeld)));
     assert_eq!(row(&steps[0], 0, End::Start).fate, Fate::Held);
-    let closed = pulled("[[-0.3, 0], [0.3, 0]]", "", "steps = 5").replace("[0, 1]", "[0, -1]");
+    let closed =
+        pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", "steps = 5").replace("[0, 1]", "[0, -1]");
     let steps = grown(&closed.replace(
         "[0, -1] },\n            { on = \"top\"",
         "[0, 1] },\n            { on = \"top\"",
@@ -333,7 +367,8 @@ fn tips_that_stay() {
     assert_eq!((steps.len(), stop(&steps)), (1, Some(GrowthStop::AllHeld)));
     assert_eq!(row(&steps[0], 0, End::Last).fate, Fate::Closed);
     // a toughness that differs from place to place holds one end
-    let steps = grown(&pulled(
+    let steps = grown(&pulled_in(
+        2,
         "[[-0.3, 0], [0.3, 0]]",
         "",
         r#"steps = 2, increment = 0.05, toughness = "if(x > 0, 10, 0.1)""#,
@@ -342,7 +377,7 @@ fn tips_that_stay() {
     assert_eq!(steps[2].cracks[0].end_point(End::Last), vec2(0.3, 0.0));
     assert!((steps[2].cracks[0].end_point(End::Start) - vec2(-0.4, 0.0)).length() < 1e-3);
     // a corner of the left edge that is cut out, and that nothing acts on
-    let steps = grown(&pulled("[[-1, -0.3], [-0.6, 0], [-1, 0.3]]", "", "steps = 5"));
+    let steps = grown(&pulled_in(2, "[[-1, -0.3], [-0.6, 0], [-1, 0.3]]", "", "steps = 5"));
     assert_eq!(steps.len(), 1);
     assert_eq!(stop(&steps), Some(GrowthStop::NoTips));
 }
@@ -395,15 +430,15 @@ fn factors(dataset: &Dataset) -> f64 {
 #[test]
 fn cycles() {
     let text = r#"
-        domain = { min = [0, -3], max = [1, 3] }
+        domain = { min = [0, -2], max = [1, 2] }
         material = { young = 1, poisson = 0.3, state = "plane-strain" }
         crack = [{ points = [[0, 0], [0.2, 0]] }]
         boundary = [
             { on = "bottom", traction = [0, -1] },
             { on = "top", traction = [0, 1] },
         ]
-        discretization = { cells = [8, 48], order = 2 }
-        growth = { steps = 6, increment = 0.05, paris = { c = 1e-3, m = 3, ratio = 0.5 } }
+        discretization = { cells = [8, 32], order = 2, refine = false }
+        growth = { steps = 3, increment = 0.05, paris = { c = 1e-3, m = 3, ratio = 0.5 } }
     "#;
     let steps = grown(text);
     let factor = |a: f64| {
@@ -459,7 +494,7 @@ fn powers_out_of_range() {
 #[test]
 fn what_cannot_be_decided() {
     let first = |growth: &str| {
-        let text = pulled("[[-0.3, 0], [0.3, 0]]", "", growth);
+        let text = pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", growth);
         series(&parsed(&text), None, unwatched()).expect_err("no decision").to_string()
     };
     for toughness in ["sqrt(-1 - x^2)", "1/(x - x)", "-1 - x^2"] {
@@ -481,27 +516,40 @@ fn what_cannot_be_decided() {
         ),
     ];
     for (growth, reason) in later {
-        let steps = grown(&pulled("[[-0.3, 0], [0.3, 0]]", "", growth));
+        let steps = grown(&pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", growth));
         assert_eq!((steps.len(), stop(&steps)), (2, Some(GrowthStop::Unsolvable)));
         let told = &steps[1].warnings.last().expect("a warning").message;
         assert!(told.contains(reason), "{told}");
     }
 }
 
+/// Asserts that K_II vanishes at the ends of arcs, or that a warning says how far it does not, and returns in how many steps there
+/// is one.
+fn unsettled_steps(increments: usize) -> usize {
+    let rule = format!("steps = {increments}, increment = 0.2, criterion = 'local-symmetry'");
+    let beside = "[[crack]]\npoints = [[0.1, -0.3], [0.5, -0.15]]";
+    let steps = grown(&pulled_in(2, "[[-1, 0.1], [-0.4, 0.05]]", beside, &rule));
+    assert_eq!(steps.len(), increments + 1);
+    let is_unsettled = |step: &&Step| {
+        let ratio = step.intensities.iter().map(|tip| (tip.k2 / tip.k1).abs()).fold(0.0, f64::max);
+        let warning = step.warnings.iter().find(|w| w.message.contains("could not be bent"));
+        println!("{ratio:.1e} {:?}", warning.map(|warning| warning.value));
+        assert!(warning.map_or(ratio < 6e-5, |warning| warning.value <= ratio && ratio > 4e-5));
+        warning.is_some()
+    };
+    steps[1..].iter().filter(is_unsettled).count()
+}
+
+#[test]
+fn arcs_are_settled_or_a_warning_says_so() {
+    unsettled_steps(1);
+}
+
 /// Arcs that turn too much for their length are not bent until K_II vanishes, and a warning says so.
 #[test]
+#[ignore = "slow: arcs are bent many times"]
 fn unsettled_arcs() {
-    let steps = grown(&pulled(
-        "[[-1, 0.1], [-0.4, 0.05]]",
-        "[[crack]]\npoints = [[0.1, -0.3], [0.5, -0.15]]",
-        "steps = 4, increment = 0.2, criterion = 'local-symmetry'",
-    ));
-    for step in &steps[1..] {
-        let ratio = step.intensities.iter().map(|tip| (tip.k2 / tip.k1).abs()).fold(0.0, f64::max);
-        let told = step.warnings.iter().find(|w| w.message.contains("could not be bent"));
-        println!("{ratio:.1e} {:?}", told.map(|warning| warning.value));
-        assert!(told.map_or(ratio < 6e-5, |warning| warning.value <= ratio && ratio > 4e-5));
-    }
+    assert!(unsettled_steps(2) > 0);
 }
 
 /// The slower of two cracks has grown what the law says of its strength in the same cycles; it may lag by half an increment.
@@ -543,7 +591,7 @@ fn series_go_on_from_their_steps() {
     let held = r#"steps = 2, criterion = "hoop", increment = 0.1"#;
     let bent = r#"steps = 2, criterion = "local-symmetry", increment = 0.05"#;
     for (crack, more, rule, number) in [(edge, beside, held, 1), (inclined, "", bent, 0)] {
-        let text = pulled(crack, more, rule);
+        let text = pulled_in(2, crack, more, rule);
         let (problem, whole) = (parsed(&text), grown(&text));
         let mut rest = Vec::new();
         let last = Last { number, step: &whole[number] };
@@ -575,7 +623,7 @@ fn timeless(step: &Step) -> String {
 /// Whoever cancels a series has all steps that are complete; a place that takes no more steps ends it.
 #[test]
 fn series_are_cancelled() {
-    let problem = parsed(&pulled("[[-0.3, 0], [0.3, 0]]", "", "steps = 5, increment = 0.05"));
+    let problem = parsed(&pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", "steps = 5, increment = 0.05"));
     let until = |progress: Progress| Verdict::go_on_unless(progress.step == 3);
     let mut kept = 0;
     let ended = grow(&problem, None, None, &until, |_| {

@@ -73,16 +73,27 @@ fn stress(dataset: &Dataset, quantity: &Quantity, p: Vec2) -> f64 {
     quantity.at(&mut field.at(p), Vec2::ZERO, Side::Above)
 }
 
-/// The study's errors in the energy norm (numerics, section 16), cells 1 and 1/2 wide.
+/// Asserts the study's error in the energy norm (numerics, section 16), up to a tenth; eight cells are 1 wide.
+fn assert_as_in_the_study(order: usize, cells: u32, expected: f64) {
+    let found = energy_error(&solved(&kirsch_plate(cells, order)), &kirsch());
+    println!("order {order}, {cells} cells: {found:.4}, study {expected}");
+    assert!(found < 1.1 * expected, "order {order}, {cells} cells: {found}");
+}
+
+/// Errors at the rim are in [`rims`](super::rims).
 #[test]
+fn the_field_at_a_round_hole() {
+    assert_as_in_the_study(3, 8, 0.030);
+}
+
+#[test]
+#[ignore = "slow: sixteen cells at order 3"]
 fn kirsch_converges() {
-    for (order, expected) in [(1, [0.153, 0.103]), (2, [0.065, 0.028]), (3, [0.030, 0.0096])] {
-        for (cells, expected) in [8, 16].into_iter().zip(expected) {
-            let found = energy_error(&solved(&kirsch_plate(cells, order)), &kirsch());
-            println!("order {order}, {cells} cells: {found:.4}, study {expected}");
-            assert!(found < 1.1 * expected, "order {order}, {cells} cells: {found}");
-        }
+    for (order, expected) in [(1, [0.153, 0.103]), (2, [0.065, 0.028])] {
+        assert_as_in_the_study(order, 8, expected[0]);
+        assert_as_in_the_study(order, 16, expected[1]);
     }
+    assert_as_in_the_study(3, 16, 0.0096);
 }
 
 /// A crack under pressure on its faces opens as under the same tension far away.
@@ -134,7 +145,7 @@ fn pressure_in_a_hole() {
 #[test]
 fn a_rim_that_is_held() {
     let hole = Hole::Circle { center: CENTER, radius: 1.0 };
-    let problem = plate(square(4.0), hole, set(16, 2));
+    let problem = plate(square(4.0), hole, set(8, 2));
     let mut problem =
         Edge::ALL.into_iter().fold(problem, |p, edge| with_tractions(p, &kirsch(), edge));
     let values = kirsch().formulas().map(|text| Condition::Dirichlet(formula(&text)));
@@ -144,8 +155,8 @@ fn a_rim_that_is_held() {
     assert!(error < 0.04, "{error}");
 }
 
-/// The stress concentration at the rim, on the whole plate and on its quarter between two planes of
-/// symmetry; the hole sits in a corner of the quarter.
+/// The stress concentration at the rim of a quarter of the plate between two planes of symmetry; the hole sits in its corner. That
+/// of whole plates is in [`rims`](super::rims).
 #[test]
 fn stress_concentration() {
     let field = RoundHole::new(MATERIAL, Vec2::ZERO, 1.0).with_remote([0.0, 1.0, 0.0]);
@@ -156,52 +167,46 @@ fn stress_concentration() {
         let held = if along { [Condition::Free, zero()] } else { [zero(), Condition::Free] };
         p.with_boundary(edge, held.into())
     };
-    let whole = plate(square(4.0), hole.clone(), set(16, 4));
-    let whole = Edge::ALL.into_iter().fold(whole, |p, edge| with_tractions(p, &field, edge));
     let quarter = plate(Rect::new(Vec2::ZERO, vec2(4.0, 4.0)), hole, set(8, 4));
     let quarter =
         [Edge::Right, Edge::Top].into_iter().fold(quarter, |p, e| with_tractions(p, &field, e));
     let quarter = [Edge::Left, Edge::Bottom].into_iter().fold(quarter, symmetry);
     let syy = Quantity::Stress(ppum::quantity::Axis::Y, ppum::quantity::Axis::Y);
     let outside = vec2(1.0 + 1e-9, 0.0);
-    for problem in [whole, quarter] {
-        let found = stress(&solved(&problem), &syy, outside);
-        println!("stress concentration {found}");
-        assert!((found - 3.0).abs() < 0.03, "{found}");
-    }
+    let found = stress(&solved(&quarter), &syy, outside);
+    println!("stress concentration {found}");
+    assert!((found - 3.0).abs() < 0.03, "{found}");
 }
 
-/// Two equal cracks of length a from opposite sides of a round hole of radius 1, across the tension.
+/// Two equal cracks of length a from opposite sides of a round hole of radius 1, across the tension; the second pair is given as one
+/// crack through the hole.
 ///
 /// References K/(σ√(πa)): the singular integral equation for dislocations beside a round hole in the
 /// plane, solved with 400 Gauss–Chebyshev points, right to 1e-5; Bowie's table (1956) has 1.83 and 1.45.
 /// The plate is 64 times as large as the hole: that raises K by some 1e-3.
 #[test]
 fn cracks_from_a_hole() {
-    for (length, known) in [(0.5, 1.83279), (1.0, 1.47213)] {
-        let out = 1.0 + length;
-        let two = [vec![[1.0, 0.0], [out, 0.0]], vec![[-out, 0.0], [-1.0, 0.0]]];
-        let one = [vec![[-out, 0.0], [out, 0.0]]];
-        for cracks in [&two[..], &one[..]] {
-            let hole = Hole::Circle { center: Vec2::ZERO, radius: 1.0 };
-            let set = Discretization {
-                order: Order::Uniform(3),
-                ..Discretization::new(Cells::Points(around_a_hole()))
-            };
-            let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-            let problem = plate(square(64.0), hole, set)
-                .with_boundary(Edge::Top, pull(1.0))
-                .with_boundary(Edge::Bottom, pull(-1.0));
-            let problem = cracks.iter().fold(problem, |p, points| p.with_crack(points));
-            let dataset = solved(&problem);
-            let tips = &dataset.steps[0].intensities;
-            assert_eq!(tips.len(), 2);
-            for tip in tips {
-                let found = tip.k1 / (std::f64::consts::PI * length).sqrt();
-                println!("a = {length}, {} cracks: {found:.5}, known {known}", cracks.len());
-                assert!((found / known - 1.0).abs() < 3e-3, "{found} instead of {known}");
-                assert!(tip.k2.abs() < 1e-3 * tip.k1);
-            }
+    let two = vec![[[1.0, 0.0], [1.5, 0.0]], [[-1.5, 0.0], [-1.0, 0.0]]];
+    let one = vec![[[-2.0, 0.0], [2.0, 0.0]]];
+    for (length, known, cracks) in [(0.5, 1.83279, two), (1.0, 1.47213, one)] {
+        let hole = Hole::Circle { center: Vec2::ZERO, radius: 1.0 };
+        let set = Discretization {
+            order: Order::Uniform(3),
+            ..Discretization::new(Cells::Points(around_a_hole()))
+        };
+        let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
+        let problem = plate(square(64.0), hole, set)
+            .with_boundary(Edge::Top, pull(1.0))
+            .with_boundary(Edge::Bottom, pull(-1.0));
+        let problem = cracks.iter().fold(problem, |p, points| p.with_crack(points));
+        let dataset = solved(&problem);
+        let tips = &dataset.steps[0].intensities;
+        assert_eq!(tips.len(), 2);
+        for tip in tips {
+            let found = tip.k1 / (std::f64::consts::PI * length).sqrt();
+            println!("a = {length}, {} cracks: {found:.5}, known {known}", cracks.len());
+            assert!((found / known - 1.0).abs() < 3e-3, "{found} instead of {known}");
+            assert!(tip.k2.abs() < 1e-3 * tip.k1);
         }
     }
 }
@@ -243,14 +248,12 @@ fn slivers_at_rims() {
             (spectrum.largest / spectrum.smallest, error)
         };
         let (condition, error) = state(1.0);
-        for shift in [1e-2, 1e-4, 1e-6] {
-            for radius in [1.0 - shift, 1.0 + shift] {
-                let (found, off) = state(radius);
-                // Held rims: cusps between rim and lines of cells ask for a large β in their cells.
-                let (times, part) = if held { (15.0, 0.3) } else { (1.01, 0.01) };
-                assert!(found < times * condition, "{found:e} instead of {condition:e}");
-                assert!((off / error - 1.0).abs() < part, "{off} instead of {error}");
-            }
+        for radius in [0.99, 1.0 - 1e-6, 1.0 + 1e-6] {
+            let (found, off) = state(radius);
+            // Held rims: cusps between rim and lines of cells ask for a large β in their cells.
+            let (times, part) = if held { (15.0, 0.3) } else { (1.01, 0.01) };
+            assert!(found < times * condition, "{found:e} instead of {condition:e}");
+            assert!((off / error - 1.0).abs() < part, "{off} instead of {error}");
         }
     }
 }
@@ -264,7 +267,7 @@ fn short_intervals() {
     let zero = || Condition::Dirichlet(0.0.into());
     let ways = |half: f64| {
         let load = Condition::Neumann((-0.5 / half).into());
-        let mut problem = Problem::elasticity(square(1.0), MATERIAL, set(8, 2));
+        let mut problem = Problem::elasticity(square(1.0), MATERIAL, set(8, 1));
         problem.boundary = vec![
             BoundaryCondition::new(on(Edge::Top, 0.13, half), vec![Condition::Free, load]),
             BoundaryCondition::new(on(Edge::Bottom, -0.6, 1e-3), vec![zero(), zero()]),

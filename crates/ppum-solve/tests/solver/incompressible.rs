@@ -41,15 +41,13 @@ fn the_order_follows_the_material_where_none_is_given() {
 /// order 2 it was off by 2e-3 … 1e-2.
 #[test]
 fn k_is_right_by_default() {
-    for poisson in ["0.499", "0.4999"] {
-        let dataset = solved(&cracked(&strain(poisson), "level = 3"));
-        for tip in &dataset.steps[0].intensities {
-            let error = (tip.k1 / K - 1.0).hypot(tip.k2 / K);
-            println!("ν = {poisson}: K off by {error:.1e}");
-            assert!(error < 2e-4, "ν = {poisson}: {error}");
-        }
-        assert!(dataset.steps[0].warnings.is_empty(), "{:?}", dataset.steps[0].warnings);
+    let dataset = solved(&cracked(&strain("0.4999"), "level = 2"));
+    for tip in &dataset.steps[0].intensities {
+        let error = (tip.k1 / K - 1.0).hypot(tip.k2 / K);
+        println!("K off by {error:.1e}");
+        assert!(error < 2e-4, "{error}");
     }
+    assert!(dataset.steps[0].warnings.is_empty(), "{:?}", dataset.steps[0].warnings);
 }
 
 /// K_I of the centre crack.

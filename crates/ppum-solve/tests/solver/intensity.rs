@@ -47,17 +47,15 @@ fn half_of_two_cracks(gap: f64, order: usize, refine: bool) -> (Problem, [f64; 2
 /// Bounds are those of the study in `intensity`: 0.2 % from two cells on at order 2.
 #[test]
 fn tips_near_the_border() {
-    for gap in [0.1, 0.02] {
-        let (problem, [_, exact]) = half_of_two_cracks(gap, 2, true);
-        let dataset = solved(&problem);
-        let [inner, _] = outcomes(&dataset, Loads::default()).try_into().expect("two tips");
-        let factors = inner.factors.expect("room enough in refined cells");
-        let error = factors.k1 / exact - 1.0;
-        println!("gap {gap}: {error:.1e}, clearance {:?}, cell {}", inner.clearance, inner.cell);
-        assert!(error.abs() < 3e-3 && factors.k2.abs() < 3e-3 * exact, "{factors:?} {exact}");
-        assert_eq!(inner.clearance.end, Obstacle::Border);
-        assert_eq!(dataset.steps[0].intensities.len(), 2);
-    }
+    let (problem, [_, exact]) = half_of_two_cracks(0.02, 2, true);
+    let dataset = solved(&problem);
+    let [inner, _] = outcomes(&dataset, Loads::default()).try_into().expect("two tips");
+    let factors = inner.factors.expect("room enough in refined cells");
+    let error = factors.k1 / exact - 1.0;
+    println!("{error:.1e}, clearance {:?}, cell {}", inner.clearance, inner.cell);
+    assert!(error.abs() < 3e-3 && factors.k2.abs() < 3e-3 * exact, "{factors:?} {exact}");
+    assert_eq!(inner.clearance.end, Obstacle::Border);
+    assert_eq!(dataset.steps[0].intensities.len(), 2);
 }
 
 #[test]

@@ -120,17 +120,23 @@ fn disc_in_a_field(k: f64) -> Problem {
 
 /// Rates in the energy norm. Cut patches are better than others, and the ring that they fill shrinks: of the
 /// rate p at each place, up to 0.35 are missing in the sum. Unresolved interfaces have the rate 1/2.
+fn assert_rate(problem: &Problem, order: usize) {
+    let (_, rate) = study(3, |level| error(&with(problem, order, level)));
+    let near = order as f64 - 0.35..order as f64 + 0.3;
+    assert!(near.contains(&rate), "order {order}: rate {rate}");
+}
+
 #[test]
 fn rates_at_a_round_inclusion() {
-    for problem in [goodier(20.0, 0.2, "plane-strain"), disc_in_a_field(20.0)] {
-        for (order, levels) in [(1, [2, 3, 4]), (2, [2, 3, 4]), (3, [2, 3, 4])] {
-            let (_, rate) = study(levels, |level| error(&with(&problem, order, level)));
-            assert!(
-                (order as f64 - 0.35..order as f64 + 0.3).contains(&rate),
-                "order {order}: rate {rate}"
-            );
-        }
-    }
+    assert_rate(&goodier(20.0, 0.2, "plane-strain"), 1);
+    assert_rate(&disc_in_a_field(20.0), 2);
+}
+
+#[test]
+#[ignore = "slow: curved interfaces on level 4 at the other orders"]
+fn rates_of_all_orders_at_a_round_inclusion() {
+    [2, 3].into_iter().for_each(|order| assert_rate(&goodier(20.0, 0.2, "plane-strain"), order));
+    [1, 3].into_iter().for_each(|order| assert_rate(&disc_in_a_field(20.0), order));
 }
 
 /// A plate with a crack and materials given by formulas.

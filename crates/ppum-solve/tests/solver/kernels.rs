@@ -33,14 +33,16 @@ traction = [0.0, 1.0]
 
 const WILLIAMS: &str = r#"
 [discretization]
-level = 4
+level = 3
+refine = false
 enrichment_radius = 0.2
 "#;
 
 /// The first term of the series alone, its components free.
 const ZONE: &str = r#"
 [discretization]
-level = 4
+level = 3
+refine = false
 enrichment = "zone"
 enrichment_radius = 0.2
 "#;
@@ -49,7 +51,8 @@ enrichment_radius = 0.2
 /// as at any formula and chooses its points by itself.
 const OWN: &str = r#"
 [discretization]
-level = 4
+level = 3
+refine = false
 enrichment = "jumps"
 [[enrichment]]
 at = "tips"

@@ -59,27 +59,36 @@ fn vertices_on_a_straight_crack() {
 const KINKED: ([[f64; 2]; 4], [f64; 2]) =
     ([[-1.0, 0.1], [-0.6, 0.0], [-0.3, 0.15], [0.1, 0.05]], [6.3503997, -0.7922601]);
 
-/// Discs without a kink, with one and with two of them, of a crack that bends both ways.
-#[test]
-fn discs_with_kinks() {
+/// Asserts factors from discs without a kink, with one and with two of them, of a crack that bends both ways: the error is that of the
+/// solution, and the same in all discs but for its tenth part.
+fn assert_discs(level: u32, bound: f64) {
     let (points, exact) = KINKED;
     let reversed: Vec<[f64; 2]> = points.iter().rev().copied().collect();
-    // the error is that of the solution, 1.9e-5 and 5.2e-6, and the same in all discs but for its tenth part
-    for (level, bound) in [(4, 4e-5), (5, 1e-5)] {
-        for (points, end) in [(points.to_vec(), End::Last), (reversed.clone(), End::Start)] {
-            let mut set = discretization(Cells::Level(level), 3);
-            set.refine = true;
-            let dataset = solved(&pulled(SQUARE, &points, [0.0, 1.0], set));
-            let small = circle(&dataset, end, 0.35);
-            for radius in [0.35, 0.5, 0.7, 0.89] {
-                let TipIntensity { k1, k2, .. } = circle(&dataset, end, radius);
-                let (error, change) =
-                    (apart([k1, k2], exact), apart([k1, k2], [small.k1, small.k2]));
-                println!("level {level}, R {radius}: {error:.1e}, against R 0.35 {change:.1e}");
-                assert!(error < bound && change < 0.1 * bound, "{k1} {k2}");
-            }
+    for (points, end) in [(points.to_vec(), End::Last), (reversed, End::Start)] {
+        let mut set = discretization(Cells::Level(level), 3);
+        set.refine = true;
+        let dataset = solved(&pulled(SQUARE, &points, [0.0, 1.0], set));
+        let small = circle(&dataset, end, 0.35);
+        for radius in [0.35, 0.5, 0.7, 0.89] {
+            let TipIntensity { k1, k2, .. } = circle(&dataset, end, radius);
+            let (error, change) = (apart([k1, k2], exact), apart([k1, k2], [small.k1, small.k2]));
+            println!("level {level}, R {radius}: {error:.1e}, against R 0.35 {change:.1e}");
+            assert!(error < bound && change < 0.1 * bound, "{k1} {k2}");
         }
     }
+}
+
+/// The error is 1.9e-5.
+#[test]
+fn discs_with_kinks() {
+    assert_discs(4, 4e-5);
+}
+
+/// The error is 5.2e-6.
+#[test]
+#[ignore = "slow: level 5 at order 3"]
+fn discs_with_kinks_on_fine_covers() {
+    assert_discs(5, 1e-5);
 }
 
 /// The discs end where they should, not at the first kink.
@@ -103,7 +112,7 @@ fn the_radius_that_is_allowed() {
 #[test]
 fn pressure_on_faces_behind_kinks() {
     let points = [[-0.5, 0.1], [-0.2, -0.05], [0.1, 0.0], [0.45, 0.25]];
-    let set = || discretization(Cells::Level(5), 2);
+    let set = || discretization(Cells::Level(4), 2);
     let pulled_out = factors(&solved(&pulled(PLATE, &points, [1.0, 1.0], set())));
     let pressed = pulled(PLATE, &points, [0.0, 0.0], set())
         .with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
@@ -124,6 +133,7 @@ fn pressure_on_faces_behind_kinks() {
 ///
 /// Its polygons of n segments end at an angle of α/n to it, and go to it like 1/n.
 #[test]
+#[ignore = "slow: plates with up to 32 segments at level 5"]
 fn an_arc_of_many_segments() {
     const HALF: f64 = 0.75;
     let scale = (std::f64::consts::PI * HALF.sin()).sqrt() / (1.0 + (0.5 * HALF).sin().powi(2));
@@ -142,11 +152,11 @@ fn an_arc_of_many_segments() {
         assert!(apart([start[0], -start[1]], last) < 1e-6, "{start:?} {last:?}");
         [start[0], start[1].abs()]
     };
-    let all = [4, 8, 16, 32].map(of);
+    let all = [8, 16, 32].map(of);
     let errors = all.map(|k| apart(k, exact));
     println!("{all:?} {exact:?} {errors:?}");
     assert!(errors.windows(2).all(|e| e[1] < 0.6 * e[0]), "{errors:?}");
-    let limit = std::array::from_fn(|mode| 2.0 * all[3][mode] - all[2][mode]);
+    let limit = std::array::from_fn(|mode| 2.0 * all[2][mode] - all[1][mode]);
     println!("limit {limit:?}: {:.1e}", apart(limit, exact));
     assert!(apart(limit, exact) < 3e-3, "{limit:?} {exact:?}");
 }

@@ -18,12 +18,16 @@ use std::path::Path;
 /// Adaptive rules aim at 1e-10 of the load.
 const ACCURACY: f64 = 1e-9;
 
-/// A plate [−1, 1]² held at the bottom, 2^level cells along each side.
+/// A plate [−1, 1]² held at the bottom, 2^level cells along each side, none of which is divided.
 fn plate(rest: &str, level: u32, order: u32) -> Dataset {
+    solution(rest, &format!("level = {level}\norder = {order}\nrefine = false"))
+}
+
+fn solution(rest: &str, discretization: &str) -> Dataset {
     let text = format!(
         "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
          state = \"plane-strain\"\n[[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n{rest}\n\
-         [discretization]\nlevel = {level}\norder = {order}\n"
+         [discretization]\n{discretization}\n"
     );
     solved(&Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem"))
 }
@@ -60,7 +64,7 @@ fn points(dataset: &Dataset) -> f64 {
 
 /// Holds force and moment of a load, with the size of the load.
 fn assert_resultant(rest: &str, [force, moment]: [f64; 2], size: f64) {
-    for (level, order) in [(1, 1), (2, 0), (2, 3), (3, 2)] {
+    for (level, order) in [(1, 3), (2, 0), (3, 1)] {
         let dataset = plate(rest, level, order);
         let [f, m] = resultant(&dataset);
         // constants do not turn, so that nothing says that moments balance
@@ -68,33 +72,32 @@ fn assert_resultant(rest: &str, [force, moment]: [f64; 2], size: f64) {
         let error = (f - force).abs().max(moment_error);
         println!("{error:e} {}", points(&dataset));
         assert!(error <= ACCURACY * size, "{rest} at level {level}, order {order}: {f} {m}");
-        // of stresses, which are not looked at
-        let others = warnings(&dataset).iter().filter(|w| w.kind != "coarse-hole");
+        // of stresses, which are not looked at: cells at rims and, as none is divided, at the corners that are held are coarse
+        let of_stresses = ["coarse-hole", "singular-point"];
+        let others = warnings(&dataset).iter().filter(|w| !of_stresses.contains(&&*w.kind));
         assert_eq!(others.count(), 0, "{rest}: {:?}", warnings(&dataset));
     }
 }
 
-/// Boxes, ramps, spikes and layers along the top; the moment of a load t(x) is ∫ x t.
+/// Boxes, ramps, spikes and layers of 1e-5 along the top; the moment of a load t(x) is ∫ x t.
 #[test]
 fn tractions_on_an_edge() {
     let mut random = Random(1);
-    for _ in 0..4 {
-        let (c, w) = (random.between(-0.5, 0.5), random.between(0.01, 0.4));
-        assert_resultant(&top(&format!("if(abs(x - {c}) < {w}, 1, 0)")), [2.0 * w, 2.0 * w * c], w);
-        // 0 up to c, w beyond c + w, moments of the triangle and of the rest
-        let (end, rest) = (c + w, 1.0 - c - w);
-        let (slope, flat) = (0.5 * w * w, w * rest);
-        let moment = slope * (c + 2.0 / 3.0 * w) + flat * 0.5 * (1.0 + end);
-        assert_resultant(&top(&format!("max(0, min({w}, x - {c}))")), [slope + flat, moment], w);
-        let narrow = 10.0_f64.powf(random.between(-6.0, -2.0));
-        let spike = narrow * PI.sqrt();
-        let text = format!("exp(-((x - {c})/{narrow})^2)");
-        assert_resultant(&top(&text), [spike, spike * c], spike);
-        // tanh is odd about c, and 1 to rounding where that does not cancel
-        let text = format!("tanh((x - {c})/{narrow})/2 + 1/2");
-        let moment = 0.5 * (1.0 - c * c) - narrow * narrow * PI * PI / 24.0;
-        assert_resultant(&top(&text), [1.0 - c, moment], 1.0);
-    }
+    let (c, w) = (random.between(-0.5, 0.5), random.between(0.01, 0.4));
+    assert_resultant(&top(&format!("if(abs(x - {c}) < {w}, 1, 0)")), [2.0 * w, 2.0 * w * c], w);
+    // 0 up to c, w beyond c + w, moments of the triangle and of the rest
+    let (end, rest) = (c + w, 1.0 - c - w);
+    let (slope, flat) = (0.5 * w * w, w * rest);
+    let moment = slope * (c + 2.0 / 3.0 * w) + flat * 0.5 * (1.0 + end);
+    assert_resultant(&top(&format!("max(0, min({w}, x - {c}))")), [slope + flat, moment], w);
+    let narrow = 1e-5;
+    let spike = narrow * PI.sqrt();
+    let text = format!("exp(-((x - {c})/{narrow})^2)");
+    assert_resultant(&top(&text), [spike, spike * c], spike);
+    // tanh is odd about c, and 1 to rounding where that does not cancel
+    let text = format!("tanh((x - {c})/{narrow})/2 + 1/2");
+    let moment = 0.5 * (1.0 - c * c) - narrow * narrow * PI * PI / 24.0;
+    assert_resultant(&top(&text), [1.0 - c, moment], 1.0);
 }
 
 /// A hat as a table: a cubic spline through 0, 1, 0 with its ends constant beyond, and its mirror image.
@@ -114,22 +117,20 @@ fn tabulated_tractions() {
 #[test]
 fn body_forces() {
     let mut random = Random(2);
-    for _ in 0..2 {
-        let (x, y, r) =
-            (random.between(-0.4, 0.4), random.between(-0.4, 0.4), random.between(0.1, 0.5));
-        let disc = PI * r * r;
-        let text = inside(&format!("if(hypot(x - {x}, y - {y}) < {r}, 1, 0)"));
-        assert_resultant(&text, [disc, disc * x], disc);
-        // the line through (x, 0) with slope s: its part of each row y is 1 − x − s y long
-        let s = random.between(-0.5, 0.5);
-        let text = inside(&format!("if(x - {s}*y > {x}, 1, 0)"));
-        let moment = 1.0 - x * x - s * s / 3.0;
-        assert_resultant(&text, [2.0 * (1.0 - x), moment], 1.0);
-        let narrow = 10.0_f64.powf(random.between(-4.0, -2.0));
-        let spike = PI * narrow * narrow;
-        let text = inside(&format!("exp(-((x - {x})^2 + (y - {y})^2)/{}^2)", narrow));
-        assert_resultant(&text, [spike, spike * x], spike);
-    }
+    let (x, y, r) =
+        (random.between(-0.4, 0.4), random.between(-0.4, 0.4), random.between(0.1, 0.5));
+    let disc = PI * r * r;
+    let text = inside(&format!("if(hypot(x - {x}, y - {y}) < {r}, 1, 0)"));
+    assert_resultant(&text, [disc, disc * x], disc);
+    // the line through (x, 0) with slope s: its part of each row y is 1 − x − s y long
+    let s = random.between(-0.5, 0.5);
+    let text = inside(&format!("if(x - {s}*y > {x}, 1, 0)"));
+    let moment = 1.0 - x * x - s * s / 3.0;
+    assert_resultant(&text, [2.0 * (1.0 - x), moment], 1.0);
+    let narrow = 10.0_f64.powf(random.between(-4.0, -2.0));
+    let spike = PI * narrow * narrow;
+    let text = inside(&format!("exp(-((x - {x})^2 + (y - {y})^2)/{narrow}^2)"));
+    assert_resultant(&text, [spike, spike * x], spike);
 }
 
 /// The upper part of a rim, and a part of one face of a crack in a refined cover.
@@ -141,7 +142,7 @@ fn rims_and_faces() {
     assert_resultant(&(upper + hole), [force, 0.1 * force], force);
     let crack = "[[crack]]\npoints = [[-0.5, 0.1], [0.6, 0.1]]\n";
     let part = on("{ crack = 0, face = \"above\" }", "if(abs(x - 0.07) < 0.123, 1, 0)");
-    let dataset = plate(&(part + crack), 2, 2);
+    let dataset = solution(&(part + crack), "level = 2");
     let [force, moment] = resultant(&dataset);
     assert!((force - 0.246).abs() < ACCURACY && (moment - 0.246 * 0.07).abs() < ACCURACY);
 }

@@ -25,7 +25,6 @@ mod physics;
 mod pieces;
 mod plates;
 mod positions;
-mod problem_files;
 mod random;
 mod reactions;
 mod refined;

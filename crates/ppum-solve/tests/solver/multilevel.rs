@@ -32,12 +32,15 @@ fn parse(text: &str, level: u32, order: usize) -> Problem {
     Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem")
 }
 
+/// The solution by a solver. A multilevel one has several levels: on one alone it would be the direct solver.
 fn by(kind: SolverKind, problem: &Problem) -> Dataset {
     let mut problem = problem.clone();
     problem.solver.kind = kind;
     let dataset = solved(&problem);
     let report = SolverReport::of(&dataset.steps[0].history);
     assert_eq!(report.solver_levels.is_some(), kind == SolverKind::Multilevel);
+    let is_multilevel = report.solver_levels.is_none_or(|levels| levels > 1.0);
+    assert!(is_multilevel, "{} unknowns on one level", unknowns(&dataset));
     dataset
 }
 
@@ -86,8 +89,6 @@ fn energy_apart(a: &Dataset, b: &Dataset) -> f64 {
 fn agree(name: &str, problem: &Problem) {
     let (direct, multilevel) =
         (by(SolverKind::Direct, problem), by(SolverKind::Multilevel, problem));
-    let levels = record(&multilevel.steps[0], "solver levels");
-    assert!(levels > 1.0, "{name}: {} unknowns on one level", unknowns(&direct));
     let field = apart(&values(&direct), &values(&multilevel));
     assert!(field < 1e-9, "{name}: fields {field:.1e} apart");
     let norm = energy_apart(&direct, &multilevel);
@@ -100,25 +101,31 @@ fn agree(name: &str, problem: &Problem) {
     assert!(steps < 60.0, "{name}: {steps} steps");
 }
 
-/// Steps to 1e-10 with cells of half and a quarter of the width, without and with a crack, held and free: theory has them bounded.
+/// Asserts that steps to 1e-10 do not grow with cells of half the width: theory has them bounded.
+fn assert_bounded(text: &str, level: u32, order: usize) {
+    let steps = |level| {
+        let mut problem = parse(text, level, order);
+        (problem.solver.kind, problem.solver.tolerance) = (SolverKind::Multilevel, 1e-10);
+        record(&solved(&problem).steps[0], "iterations")
+    };
+    let found = [steps(level), steps(level + 1)];
+    println!("{found:?}");
+    assert!((found[1] - found[0]).abs() <= 4.0, "{found:?}");
+    assert!(found[1] < 25.0, "{found:?}");
+}
+
 #[test]
 fn steps_do_not_grow_with_the_level() {
-    let free = format!("{HEAD}{STEEL}{PULLED}");
-    let cracked = free.clone() + &crack("[[-0.5, 0.013], [0.5, 0.013]]");
-    for (text, first, last, order) in [
-        (format!("{HEAD}{STEEL}{HELD}"), 5, 6, 1),
-        (free, 5, 6, 1),
-        (cracked.clone(), 5, 6, 1),
-        (cracked, 4, 5, 2),
-    ] {
-        let steps = |level| {
-            let mut problem = parse(&text, level, order);
-            (problem.solver.kind, problem.solver.tolerance) = (SolverKind::Multilevel, 1e-10);
-            record(&solved(&problem).steps[0], "iterations")
-        };
-        let found = [steps(first), steps(last)];
-        assert!((found[1] - found[0]).abs() <= 4.0, "{found:?}");
-        assert!(found[1] < 25.0, "{found:?}");
+    let middle = crack("[[-0.5, 0.013], [0.5, 0.013]]");
+    assert_bounded(&format!("{HEAD}{STEEL}{PULLED}{middle}"), 4, 2);
+}
+
+#[test]
+#[ignore = "slow: level 6"]
+fn steps_do_not_grow_up_to_level_six() {
+    let middle = crack("[[-0.5, 0.013], [0.5, 0.013]]");
+    for text in [HELD.to_owned(), PULLED.to_owned(), format!("{PULLED}{middle}")] {
+        assert_bounded(&format!("{HEAD}{STEEL}{text}"), 5, 1);
     }
 }
 
@@ -132,15 +139,24 @@ fn uniform_covers() {
     agree("a grid of odd numbers", &strip);
 }
 
+/// Three cracks that meet in a point.
+fn branch() -> String {
+    crack("[[-0.6, 0.01], [0.0, 0.01]]")
+        + &crack("[[0.0, 0.01], [0.4, 0.41]]")
+        + &crack("[[0.0, 0.01], [0.4, -0.39]]")
+}
+
 #[test]
 fn cracks() {
     let two = crack("[[-0.6, -0.11], [0.4, 0.12]]") + &crack("[[0.02, -0.5], [-0.03, 0.45]]");
-    agree("two that cross", &parse(&format!("{HEAD}{STEEL}{PULLED}{two}"), 4, 2));
-    let y = crack("[[-0.6, 0.01], [0.0, 0.01]]")
-        + &crack("[[0.0, 0.01], [0.4, 0.41]]")
-        + &crack("[[0.0, 0.01], [0.4, -0.39]]");
-    agree("a branch", &parse(&format!("{HEAD}{STEEL}{HELD}{y}"), 4, 2));
-    agree("a branch in pure traction", &parse(&format!("{HEAD}{STEEL}{PULLED}{y}"), 4, 2));
+    agree("two that cross", &parse(&format!("{HEAD}{STEEL}{PULLED}{two}"), 4, 1));
+    agree("a branch", &parse(&format!("{HEAD}{STEEL}{HELD}{}", branch()), 4, 2));
+}
+
+#[test]
+#[ignore = "slow: free motions at order 2"]
+fn free_cracks() {
+    agree("a branch in pure traction", &parse(&format!("{HEAD}{STEEL}{PULLED}{}", branch()), 4, 2));
     let star: String = (0..5)
         .map(|k| {
             let (y, x) = (0.3 + 0.4 * std::f64::consts::PI * f64::from(k)).sin_cos();
@@ -149,49 +165,51 @@ fn cracks() {
         .collect();
     agree("a star in pure traction", &parse(&format!("{HEAD}{STEEL}{PULLED}{star}"), 4, 2));
     let through = crack("[[-1.0, 0.013], [1.0, 0.013]]");
-    agree(
-        "two free pieces",
-        &parse(
-            &format!(
-                "{HEAD}{STEEL}{}{through}",
-                "[[boundary]]\non = \"left\"\ntraction = [-1.0, 0.0]\n[[boundary]]\non = \"right\"\ntraction = [1.0, 0.0]\n"
-            ),
-            4,
-            2,
-        ),
-    );
+    let ends = "[[boundary]]\non = \"left\"\ntraction = [-1.0, 0.0]\n[[boundary]]\non = \"right\"\n\
+                traction = [1.0, 0.0]\n";
+    agree("two free pieces", &parse(&format!("{HEAD}{STEEL}{ends}{through}"), 4, 2));
 }
 
-/// Where cracks branch, functions of two patches nearly depend on each other. It took 47 and 28 steps to 1e-12 before knots were
-/// relaxed together, at a condition of 5,400 and 22; without junctions it takes about 20.
+/// Asserts few steps to 1e-12 where cracks branch, and functions of two patches nearly depend on each other. Without junctions it
+/// takes about 20.
+fn assert_few_steps_at_a_junction(level: u32) {
+    let problem = parse(&format!("{HEAD}{STEEL}{HELD}{}", branch()), level, 2);
+    let dataset = by(SolverKind::Multilevel, &problem);
+    let [steps, condition] =
+        ["iterations", "preconditioned condition"].map(|name| record(&dataset.steps[0], name));
+    println!("level {level}: {steps} steps, {condition}");
+    assert!(steps <= 25.0 && condition < 8.0, "level {level}: {steps} steps, {condition}");
+}
+
 #[test]
 fn junctions_cost_no_steps() {
-    let y = crack("[[-0.6, 0.01], [0.0, 0.01]]")
-        + &crack("[[0.0, 0.01], [0.4, 0.41]]")
-        + &crack("[[0.0, 0.01], [0.4, -0.39]]");
-    for level in [4, 5] {
-        let dataset =
-            by(SolverKind::Multilevel, &parse(&format!("{HEAD}{STEEL}{HELD}{y}"), level, 2));
-        let [steps, condition] =
-            ["iterations", "preconditioned condition"].map(|name| record(&dataset.steps[0], name));
-        assert!(steps <= 25.0 && condition < 8.0, "level {level}: {steps} steps, {condition}");
-    }
+    assert_few_steps_at_a_junction(4);
+}
+
+/// Unless strongly coupled clusters are relaxed together, it takes 37 steps at a condition of 283.
+#[test]
+#[ignore = "slow: level 5 at order 2"]
+fn junctions_cost_no_steps_on_fine_covers() {
+    assert_few_steps_at_a_junction(5);
 }
 
 #[test]
-fn holes_materials_weights_and_other_equations() {
+fn holes_and_other_equations() {
     let hole = "[[hole]]\ncenter = [0.13, -0.07]\nradius = 0.31\n";
-    agree("a hole", &parse(&format!("{HEAD}{STEEL}{PULLED}{hole}"), 4, 2));
-    let two =
-        "[material]\nyoung = \"if(y > 0.137, 1000, 1)\"\npoisson = 0.3\nstate = \"plane-stress\"\n";
-    agree("contrast", &parse(&format!("{HEAD}{two}{HELD}"), 4, 2));
+    agree("a hole", &parse(&format!("{HEAD}{STEEL}{PULLED}{hole}"), 4, 1));
     let slit = "[equation]\nkind = \"poisson\"\n[source]\nvalue = \"x + 2\"\n[[boundary]]\non = \"left\"\nvalue = 0.0\n";
     let slit = format!("{HEAD}{slit}{}", crack("[[-0.5, 0.01], [0.5, 0.01]]"));
-    agree("a potential", &parse(&slit, 5, 2));
-    let mut quadratic = parse(&format!("{HEAD}{STEEL}{HELD}"), 4, 2);
+    agree("a potential", &parse(&slit, 5, 1));
+}
+
+#[test]
+fn contrast_and_other_weights() {
+    let two =
+        "[material]\nyoung = \"if(y > 0.137, 1000, 1)\"\npoisson = 0.3\nstate = \"plane-stress\"\n";
+    let mut quadratic = parse(&format!("{HEAD}{two}{HELD}"), 4, 2);
     quadratic.discretization.weight = ppum::weight::WeightFunction::Quadratic;
     quadratic.discretization.overlap = 1.5;
-    agree("another weight", &quadratic);
+    agree("contrast and another weight", &quadratic);
 }
 
 /// The bits of a solution on one thread and on three.

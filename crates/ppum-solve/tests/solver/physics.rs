@@ -4,8 +4,8 @@
 //! it is used.
 
 use crate::studies::exact_fields::{
-    MATERIAL, OBLIQUE, SLIT_SQUARES, SQUARE, STUDY, Strip, TipPlate, discretization, held,
-    slit_plate, smooth, tip_energies, tip_points,
+    MATERIAL, OBLIQUE, SLIT_SQUARES, SQUARE, STUDY, Strip, StudyRow, TipPlate, discretization,
+    held, slit_plate, smooth, tip_energies, tip_points,
 };
 use crate::studies::support::{errors, solved, squares};
 use ppum::vec2::{Vec2, vec2};
@@ -47,8 +47,8 @@ fn rollers() {
 /// Rates p in the energy norm for a smooth field.
 #[test]
 fn smooth_field_converges_at_the_optimal_rate() {
-    for (order, levels) in [(1, [3, 4, 5]), (2, [2, 3, 4]), (3, [1, 2, 3])] {
-        let e = levels.map(|level| smooth(level, order));
+    for (order, level) in [(1, 2), (2, 2), (3, 2)] {
+        let e = [level, level + 1].map(|level| smooth(level, order));
         for pair in e.windows(2) {
             let rate = (pair[0].energy / pair[1].energy).log2();
             let rate_l2 = (pair[0].l2 / pair[1].l2).log2();
@@ -70,18 +70,28 @@ fn every_patch_enriched_is_exact() {
     }
 }
 
+fn assert_as_in_the_study(row: &StudyRow, level: u32, expected: f64) {
+    let error = row.error(level);
+    println!("{row:?}, level {level}: {error:.3e}");
+    assert!((error / expected - 1.0).abs() < 0.2, "{row:?}, level {level}: {error}");
+}
+
 #[test]
 fn tables_of_the_numerical_study() {
-    for row in STUDY {
-        for (level, expected) in (2..).zip(row.expected) {
-            let error = row.error(level);
-            println!("{row:?}, level {level}: {error:.3e}");
-            assert!((error / expected - 1.0).abs() < 0.2, "{row:?}, level {level}: {error}");
-        }
+    STUDY.iter().step_by(2).for_each(|row| assert_as_in_the_study(row, 2, row.expected[0]));
+}
+
+#[test]
+#[ignore = "slow: twenty-two solutions up to level 4"]
+fn all_rows_of_the_numerical_study() {
+    STUDY.iter().skip(1).step_by(2).for_each(|r| assert_as_in_the_study(r, 2, r.expected[0]));
+    for row in &STUDY {
+        assert_as_in_the_study(row, 3, row.expected[1]);
+        assert_as_in_the_study(row, 4, row.expected[2]);
     }
 }
 
-/// A zone of fixed radius restores the optimal rate for the pure tip field.
+/// Asserts that a zone of fixed radius restores the optimal rate for the pure tip field, between two covers.
 ///
 /// The zone is made of whole patches: all that meet the disc. On a square plate its border creeps in
 /// by about a cell toward the disc as the cells shrink; as the error is O(h^p R^{1/2 − p}) in the
@@ -90,16 +100,22 @@ fn tables_of_the_numerical_study() {
 /// p = 3 are cut off as dependent. So the statement is tested where the zone is one and the same set
 /// of points on all covers: a strip, low against the radius, whose patches meet the disc just for
 /// |x| < 1.
+fn assert_rate_in_a_fixed_zone(order: usize) {
+    let e = [0, 1].map(|level| Strip::errors(level, order).energy);
+    let rate = (e[0] / e[1]).log2();
+    println!("p = {order}: {:.3e}, rate {rate:.2}", e[1]);
+    assert!(rate >= order as f64 - 0.15, "p = {order}: rate {rate}, {e:?}");
+}
+
 #[test]
 fn a_fixed_zone_restores_the_rate() {
-    for order in [1, 2, 3] {
-        let e = [0, 1, 2].map(|level| Strip::errors(level, order).energy);
-        for pair in e.windows(2) {
-            let rate = (pair[0] / pair[1]).log2();
-            println!("p = {order}: {:.3e}, rate {rate:.2}", pair[1]);
-            assert!(rate >= order as f64 - 0.15, "p = {order}: rate {rate}, {e:?}");
-        }
-    }
+    [1, 2].into_iter().for_each(assert_rate_in_a_fixed_zone);
+}
+
+#[test]
+#[ignore = "slow: a long strip at order 3"]
+fn a_fixed_zone_restores_the_rate_of_order_three() {
+    assert_rate_in_a_fixed_zone(3);
 }
 
 /// Strain energy, displacements and stresses of the pure tip field on [−1,1]², both states and modes.

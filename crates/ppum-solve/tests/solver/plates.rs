@@ -31,22 +31,31 @@ fn centre_crack_in_a_square_plate() {
 
 #[test]
 fn centre_cracks_of_the_table() {
-    for plate in centre_cracks() {
-        check(&plate, 1, 1e-3);
+    for plate in centre_cracks().iter().skip(1).step_by(3) {
+        check(plate, 0, 1e-3);
     }
+}
+
+/// The widest plate with the shortest crack has most of the error that is allowed, 9.2e-4; on the next cover it has 5.6e-4.
+#[test]
+#[ignore = "slow: eleven plates"]
+fn other_cracks_of_the_tables() {
+    centre_cracks().iter().step_by(3).for_each(|plate| check(plate, 0, 1e-3));
+    centre_cracks().iter().skip(2).step_by(3).for_each(|plate| check(plate, 0, 1e-3));
+    edge_cracks().iter().skip(1).step_by(2).for_each(|plate| check(plate, 0, 2e-3));
 }
 
 #[test]
 fn slanted_cracks_of_the_table() {
     for plate in slanted_cracks() {
-        check(&plate, 1, 2e-3);
+        check(&plate, 0, 2e-3);
     }
 }
 
 #[test]
 fn single_edge_cracks_of_the_table() {
-    for plate in edge_cracks() {
-        check(&plate, 1, 2e-3);
+    for plate in edge_cracks().iter().step_by(2) {
+        check(plate, 0, 2e-3);
     }
 }
 
@@ -63,7 +72,7 @@ fn two_collinear_cracks() {
 /// The references are good to 1e-4, half a per cent of the smallest factor.
 #[test]
 fn kinked_crack_in_the_plane() {
-    check(&kinked_in_plane(), 1, 5e-3);
+    check(&kinked_in_plane(), 0, 5e-3);
 }
 
 #[test]
@@ -74,7 +83,7 @@ fn two_stacked_cracks() {
 /// Irwin's relation at the tip of a kinked crack.
 #[test]
 fn the_energy_released_by_a_kinked_crack() {
-    let release = kinked_crack(32);
+    let release = kinked_crack(12);
     println!("{release:?}");
     assert!((release.by_energy / release.by_intensities() - 1.0).abs() < 5e-4, "{release:?}");
 }

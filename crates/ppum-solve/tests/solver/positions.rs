@@ -93,49 +93,74 @@ fn condition(problem: &Problem) -> f64 {
     spectrum(problem, unwatched()).expect("a system").condition()
 }
 
-/// K is found to 2e-4 everywhere, and the condition number is that of the same cover without a
+/// Asserts that K is found to 2e-4 everywhere, and that the condition number is that of the same cover without a
 /// crack, up to a quarter: of 60 random positions the worst had 1.6e-4 and 1.23.
-#[test]
-fn neither_k_nor_the_condition_depends_on_the_position() {
-    let mut uncracked = positions()[0].problem();
+fn assert_good(positions: &[Position]) {
+    let mut uncracked = positions[0].problem();
     uncracked.cracks.clear();
     let uncracked = condition(&uncracked);
     println!("uncracked: condition {uncracked:.3e}");
-    for position in positions() {
-        let (error, condition) = (error_of_k(&position), condition(&position.problem()));
+    for position in positions {
+        let (error, condition) = (error_of_k(position), condition(&position.problem()));
         println!("{}: K off by {error:.1e}, condition {condition:.3e}", position.name);
         assert!(error < 5e-4, "{position:?}: {error}");
         assert!(condition < 2.0 * uncracked, "{position:?}: {condition}");
     }
 }
 
-/// Cracks that cut cells at held edges into slivers: Nitsche's β is larger than usual by up to 4e4 times,
-/// and the condition number of the same cover without a crack is not exceeded by the factor of ten that the
-/// method is meant to keep. Without damping of the basis it would be exceeded by up to 2e7.
+/// Through corners of patches, and 1e-6 of a cell beside one.
 #[test]
-fn slivers_at_held_edges_do_not_spoil_the_condition() {
+fn neither_k_nor_the_condition_depends_on_the_position() {
+    let all = positions();
+    assert_good(&[all[6], all[9]]);
+}
+
+#[test]
+#[ignore = "slow: solutions and spectra of eleven positions"]
+fn neither_k_nor_the_condition_depends_on_any_position() {
+    let mut all = positions();
+    all.remove(9);
+    all.remove(6);
+    assert_good(&all);
+}
+
+/// What a crack leaves between itself and a held edge.
+const GAP: f64 = 1e-4 * CELL;
+
+/// Asserts that the condition number of the same cover without a crack is not exceeded by the factor of ten that the method is meant
+/// to keep, and returns the largest of Nitsche's β.
+fn assert_slivers_do_not_spoil_the_condition(cracks: &[[[f64; 2]; 2]]) -> f64 {
     let mut plate = Position { name: "", tip: vec2(0.5, 0.0), angle: 0.0 }.problem();
     plate.cracks.clear();
-    let with = |a: [f64; 2], b: [f64; 2]| plate.clone().with_crack(&[a, b]);
     let uncracked = condition(&plate);
     let mut largest = 0.0f64;
-    for part in [1e-2, 1e-4] {
-        let gap = part * CELL;
-        for problem in [
-            with([-0.5, 1.0 - gap], [0.5, 1.0 - gap]),
-            with([0.03, 1.0 - gap], [0.03, 0.2]),
-            with([gap - 1.0, 1.0], [gap - 0.95, 0.2]),
-            with([-1.0, 1.0 - gap], [0.1, 0.95]),
-        ] {
-            let condition = condition(&problem);
-            let history = &solved(&problem).steps[0].history;
-            let nitsche = history.iter().find(|r| r.name == "nitsche").expect("a record").value;
-            println!(
-                "{part}: condition {condition:.2e}, without crack {uncracked:.2e}, β {nitsche:.0}"
-            );
-            assert!(condition < 10.0 * uncracked, "{:?}: {condition}", problem.cracks);
-            largest = largest.max(nitsche);
-        }
+    for crack in cracks {
+        let problem = plate.clone().with_crack(crack);
+        let condition = condition(&problem);
+        let history = &solved(&problem).steps[0].history;
+        let nitsche = history.iter().find(|r| r.name == "nitsche").expect("a record").value;
+        println!("condition {condition:.2e}, without crack {uncracked:.2e}, β {nitsche:.0}");
+        assert!(condition < 10.0 * uncracked, "{:?}: {condition}", problem.cracks);
+        largest = largest.max(nitsche);
     }
+    largest
+}
+
+/// Cracks that cut cells at held edges into slivers: Nitsche's β is larger than usual by up to 4e4 times. Without damping of the
+/// basis the condition number would be exceeded by up to 2e7.
+#[test]
+fn slivers_at_held_edges_do_not_spoil_the_condition() {
+    let largest = assert_slivers_do_not_spoil_the_condition(&[
+        [[-0.5, 1.0 - GAP], [0.5, 1.0 - GAP]],
+        [[0.03, 1.0 - GAP], [0.03, 0.2]],
+        [[GAP - 1.0, 1.0], [GAP - 0.95, 0.2]],
+    ]);
     assert!(largest > 1e4, "slivers have large β: {largest}");
+}
+
+/// The sliver is a wedge in a corner of the plate.
+#[test]
+#[ignore = "slow: two spectra"]
+fn a_wedge_at_held_edges_does_not_spoil_the_condition() {
+    assert_slivers_do_not_spoil_the_condition(&[[[-1.0, 1.0 - GAP], [0.1, 0.95]]]);
 }

@@ -62,6 +62,11 @@ fn files() -> Vec<PathBuf> {
     files
 }
 
+/// The number of the problem of a file.
+fn number_of(file: &Path) -> String {
+    file.file_stem().expect("a name").to_string_lossy().into_owned()
+}
+
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or(f64::NAN)
 }
@@ -124,29 +129,41 @@ fn complaint(problem: &Problem, dataset: &Dataset, known: &Value) -> Option<Stri
     (worst > 0.0 && !warned).then_some(words)
 }
 
-/// K within 0.5 %, energies within 0.1 %, or a warning with a place and an error of the right size.
-#[test]
-fn right_or_said_to_be_wrong() {
+/// Asserts that the problems whose numbers pass a filter have K within 0.5 %, energies within 0.1 %, or a warning with a place
+/// and an error of the right size.
+fn assert_right_or_warned(is_wanted: impl Fn(&str) -> bool) {
     let values = values();
     let silent: Vec<String> = files()
         .iter()
         .filter_map(|file| {
-            let name = file.file_stem().expect("a name").to_string_lossy().into_owned();
-            let problem = Problem::read(file).expect("a problem in order");
+            let name = number_of(file);
+            let problem = is_wanted(&name).then(|| Problem::read(file).expect("in order"))?;
             complaint(&problem, &solved(&problem), &values[&name])
         })
         .collect();
     assert!(silent.is_empty(), "{} problems:\n{}", silent.len(), silent.join("\n"));
 }
 
+/// Problems of different kinds that are solved quickly: a kinked edge crack, a potential, held pieces, a potential around a hole,
+/// pressure and traction on faces.
+const QUICK: [&str; 6] = ["032", "052", "127", "134", "151", "152"];
+
+#[test]
+fn right_or_said_to_be_wrong() {
+    assert_right_or_warned(|name| QUICK.contains(&name));
+}
+
+#[test]
+#[ignore = "slow: 34 plates with holes, gradings and sharp kinks"]
+fn all_kinds_are_right_or_said_to_be_wrong() {
+    assert_right_or_warned(|name| !QUICK.contains(&name));
+}
+
 /// Forty files, all with values, and values for two hundred problems.
 #[test]
 fn all_are_there() {
     let (files, values) = (files(), values());
-    let has_value = |file: &PathBuf| {
-        let name = file.file_stem().expect("a name").to_string_lossy().into_owned();
-        number(&values[&name]["energy"]) > 0.0
-    };
+    let has_value = |file: &PathBuf| number(&values[&number_of(file)]["energy"]) > 0.0;
     assert_eq!(files.len(), 40);
     assert!(files.iter().all(has_value));
     assert_eq!(values.as_object().map(serde_json::Map::len), Some(200));

@@ -64,44 +64,60 @@ fn measured(dataset: &Dataset, random: &mut Random) -> f64 {
     (0..150).map(|_| error()).fold(0.0, f64::max)
 }
 
-/// Stresses of the file are right to 1e-8 of their local size, wherever the crack is; they were to 1e-6 … 3
+/// Asserts that stresses of the file are right to 1e-8 of their local size, wherever the crack is; they were to 1e-6 … 3
 /// with smooth weights while sliver functions had coefficients up to 1e20. What is reported is of that size.
+fn assert_eight_digits(orders: impl Fn(usize) -> usize) {
+    let mut random = Random(11);
+    for (k, entry) in WEIGHTS.iter().enumerate() {
+        let order = orders(k);
+        let part = 10.0_f64.powf(random.between(-8.0, -1.0));
+        let angle = random.between(0.3, 1.27);
+        let dataset = solved(&plate(entry.name, order, part, angle));
+        let error = measured(&dataset, &mut random);
+        let reported = rounding(&dataset, 0).expect("a field").largest;
+        println!("{} {order} {part:.0e}: {error:.1e}, reported {reported:.1e}", entry.name);
+        assert!(error < 1e-8, "{} {order} {part:e}: {error:e}", entry.name);
+        assert!(error < 10.0 * reported.max(1e-13), "{error:e}, reported {reported:e}");
+    }
+}
+
 #[test]
 fn coefficients_bear_eight_digits_wherever_a_crack_is() {
-    let mut random = Random(11);
-    for entry in &WEIGHTS {
-        for order in [1, 2, 4] {
-            let part = 10.0_f64.powf(random.between(-8.0, -1.0));
-            let angle = random.between(0.3, 1.27);
-            let dataset = solved(&plate(entry.name, order, part, angle));
-            let error = measured(&dataset, &mut random);
-            let reported = rounding(&dataset, 0).expect("a field").largest;
-            println!("{} {order} {part:.0e}: {error:.1e}, reported {reported:.1e}", entry.name);
-            assert!(error < 1e-8, "{} {order} {part:e}: {error:e}", entry.name);
-            assert!(error < 10.0 * reported.max(1e-13), "{error:e}, reported {reported:e}");
+    assert_eight_digits(|k| 1 + k % 3);
+}
+
+#[test]
+#[ignore = "slow: order 4"]
+fn coefficients_of_order_four_bear_eight_digits() {
+    assert_eight_digits(|_| 4);
+}
+
+/// Asserts that K of a crack does not depend on how little of a patch it leaves: it is that of larger patches, where the crack
+/// leaves more, up to the error of the discretisation, 1e-3.
+fn assert_slivers_do_not_change_k(cases: [(&str, f64); 2]) {
+    let mut random = Random(12);
+    for (weight, part) in cases {
+        let problem = plate(weight, 2, part, random.between(0.3, 1.27));
+        let mut other = problem.clone();
+        other.discretization.overlap = 1.5;
+        let [a, b] = [problem, other].map(|p| solved(&p).steps.remove(0).intensities);
+        for (a, b) in a.iter().zip(&b) {
+            let change = (a.k1 - b.k1).hypot(a.k2 - b.k2) / b.k1.hypot(b.k2);
+            println!("{weight} {part:e}: K changes by {change:.1e}");
+            assert!(change < 2e-3, "{weight} {part:e}: {change}");
         }
     }
 }
 
-/// K of a crack does not depend on how little of a patch it leaves: it is that of larger patches, where the crack
-/// leaves more, up to the error of the discretisation, 1e-3.
 #[test]
 fn slivers_of_smooth_weights_do_not_change_k() {
-    let mut random = Random(12);
-    for weight in ["quadratic", "cubic", "bump", "wendland"] {
-        for part in [1e-4, 1e-7] {
-            let angle = random.between(0.3, 1.27);
-            let problem = plate(weight, 2, part, angle);
-            let mut other = problem.clone();
-            other.discretization.overlap = 1.5;
-            let [a, b] = [problem, other].map(|p| solved(&p).steps.remove(0).intensities);
-            for (a, b) in a.iter().zip(&b) {
-                let change = (a.k1 - b.k1).hypot(a.k2 - b.k2) / b.k1.hypot(b.k2);
-                println!("{weight} {part:e}: K changes by {change:.1e}");
-                assert!(change < 2e-3, "{weight} {part:e}: {change}");
-            }
-        }
-    }
+    assert_slivers_do_not_change_k([("cubic", 1e-4), ("bump", 1e-7)]);
+}
+
+#[test]
+#[ignore = "slow: four more solutions"]
+fn slivers_of_other_smooth_weights_do_not_change_k() {
+    assert_slivers_do_not_change_k([("quadratic", 1e-7), ("wendland", 1e-4)]);
 }
 
 /// A ξ (1 − side) is nothing on the large part of the patch, but takes log10(A) digits there.

@@ -27,9 +27,9 @@ fn check(tip: &TipIntensity) -> f64 {
 /// The field of given K and T is in the space: only rounding and quadrature are left, in discs of any size.
 #[test]
 fn given_terms_are_found() {
-    for (k1, k2, t) in [(1.0, 0.5, 0.3), (0.0, 1.0, -2.0), (0.7, 0.0, 0.0)] {
+    for (k1, k2, t) in [(1.0, 0.5, 0.3), (0.0, 1.0, -2.0)] {
         let field = OBLIQUE.field().with_intensities(k1, k2).with_t_stress(t);
-        let mut set = discretization(Cells::Level(3), 2);
+        let mut set = discretization(Cells::Level(2), 2);
         set.enrichment_radius = Some(10.0);
         let dataset = solved(&OBLIQUE.problem(&field, set));
         let tip = TipId { crack: 0, end: End::Last };
@@ -48,7 +48,7 @@ fn in_plane(remote: [f64; 3], angle: f64) -> (Problem, CrackInPlane) {
     let (center, along) = (vec2(0.03, 0.02), vec2(angle.cos(), angle.sin()));
     let field = CrackInPlane::biaxial(MATERIAL, center, along, 0.4, 1.0).with_remote(remote);
     let ends = [center - along * 0.4, center + along * 0.4];
-    let plate = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(5), 3))
+    let plate = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 3))
         .with_crack(&ends.map(Into::into));
     (plate, field)
 }
@@ -56,15 +56,14 @@ fn in_plane(remote: [f64; 3], angle: f64) -> (Problem, CrackInPlane) {
 /// T = N_x − N_y at both tips, of any crack in the plane.
 #[test]
 fn t_in_the_infinite_plane() {
-    for (remote, angle) in [([1.0, 1.0, 0.0], 0.3), ([0.0, 1.0, 0.0], 0.3), ([0.5, 0.2, 0.7], -0.8)]
-    {
+    for (remote, angle) in [([0.0, 1.0, 0.0], 0.3), ([0.5, 0.2, 0.7], -0.8)] {
         let (plate, field) = in_plane(remote, angle);
         let dataset = solved(&held(plate, field.formulas()));
         for tip in stored(&dataset) {
             let error = t_stress(tip) - (remote[0] - remote[1]);
             println!("{remote:?}: T off by {error:.1e}, J/G − 1 {:.1e}", check(tip));
-            // what the cells leave, as of K
-            assert!(error.abs() < 1e-5 && check(tip).abs() < 2e-6, "{tip:?}");
+            // what the cells leave, as of K: with the rate 3 eight times the 1e-5 and 2e-6 of cells half as large
+            assert!(error.abs() < 8e-5 && check(tip).abs() < 1.6e-5, "{tip:?}");
         }
     }
 }
@@ -83,7 +82,8 @@ fn t_and_j_under_pressure() {
     let dataset = solved(&held(plate, [less(ux, "x"), less(uy, "y")]));
     for tip in stored(&dataset) {
         println!("T off by {:.1e}, J/G − 1 {:.1e}", t_stress(tip) + 1.0, check(tip));
-        assert!((t_stress(tip) + 1.0).abs() < 2e-5 && check(tip).abs() < 2e-6, "{tip:?}");
+        // what the cells leave, as above
+        assert!((t_stress(tip) + 1.0).abs() < 8e-5 && check(tip).abs() < 1.6e-5, "{tip:?}");
     }
 }
 
@@ -91,7 +91,7 @@ fn t_and_j_under_pressure() {
 #[test]
 fn j_under_loads_that_jump() {
     let mut random = Random(3);
-    for _ in 0..3 {
+    for _ in 0..2 {
         let at = random.between(-0.1, 0.3);
         let pressure = Expression::parse(&format!("if(x > {at}, 1, 0.3)")).expect("a formula");
         let mut plate = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 3))
@@ -162,45 +162,43 @@ fn near_on_other_pieces(a: &[f64; 3], b: &[f64; 3]) -> bool {
 fn superposition_and_invariance() {
     let mut random = Random(8);
     let domain = Rect::new(vec2(-1.0, -1.2), vec2(1.1, 1.0));
-    for _ in 0..3 {
-        let mut point =
-            |x: f64, y: f64| vec2(x + random.between(-0.05, 0.05), y + random.between(-0.05, 0.05));
-        let points = [point(-0.5, 0.1), point(-0.1, -0.1), point(0.2, 0.0), point(0.5, 0.2)];
-        let loads = [[1.0, 0.2, -0.3], [random.between(-1.0, 1.0), 0.9, random.between(-1.0, 1.0)]];
-        let grid = [21, 22];
-        let [a, b] = loads.map(|load| terms(&plate(domain, &points, load, grid)));
-        let combined = |s: f64| {
-            let load = std::array::from_fn(|k| loads[0][k] + s * loads[1][k]);
-            terms(&plate(domain, &points, load, grid))
-        };
-        let (sum, less) = (combined(1.0), combined(-1.0));
-        for k in 0..2 {
-            let expected = std::array::from_fn(|i| a[k].0[i] + b[k].0[i]);
-            assert!(near(&sum[k].0, &expected), "{:?} {expected:?}", sum[k]);
-            // the law of the parallelogram
-            let energies = sum[k].1 + less[k].1 - 2.0 * (a[k].1 + b[k].1);
-            assert!(energies.abs() < 1e-9, "{energies:.1e}");
-        }
-        let reversed: Vec<Vec2> = points.iter().rev().copied().collect();
-        let back = terms(&plate(domain, &reversed, loads[0], grid));
-        let turn = |p: Vec2| vec2(-p.y, p.x);
-        let turned_domain = Rect::new(vec2(-1.0, -1.0), vec2(1.2, 1.1));
-        let [xx, yy, xy] = loads[0];
-        let turned = terms(&plate(turned_domain, &points.map(turn), [yy, xx, -xy], [22, 21]));
-        let (length, stress) = (7.0, 0.2);
-        let larger = Rect::new(domain.min * length, domain.max * length);
-        let scaled = plate(larger, &points.map(|p| p * length), loads[0].map(|s| s * stress), grid);
-        let scaled = terms(&scaled);
-        for k in 0..2 {
-            assert!(near_on_other_pieces(&back[1 - k].0, &a[k].0), "{back:?} {a:?}");
-            assert!(near_on_other_pieces(&turned[k].0, &a[k].0), "{turned:?} {a:?}");
-            let units = [stress * length.sqrt(), stress * length.sqrt(), stress];
-            let unscaled = std::array::from_fn(|i| scaled[k].0[i] / units[i]);
-            assert!(near_on_other_pieces(&unscaled, &a[k].0), "{unscaled:?} {a:?}");
-            let j = scaled[k].1 / (stress * stress * length);
-            let apart = [j - a[k].1, turned[k].1 - j, back[1 - k].1 - j];
-            // of strains, in which rounding decides over functions that are nearly dependent
-            assert!(apart.iter().all(|d| d.abs() < 1e-8), "{apart:?}");
-        }
+    let mut point =
+        |x: f64, y: f64| vec2(x + random.between(-0.05, 0.05), y + random.between(-0.05, 0.05));
+    let points = [point(-0.5, 0.1), point(-0.1, -0.1), point(0.2, 0.0), point(0.5, 0.2)];
+    let loads = [[1.0, 0.2, -0.3], [random.between(-1.0, 1.0), 0.9, random.between(-1.0, 1.0)]];
+    let grid = [11, 12];
+    let [a, b] = loads.map(|load| terms(&plate(domain, &points, load, grid)));
+    let combined = |s: f64| {
+        let load = std::array::from_fn(|k| loads[0][k] + s * loads[1][k]);
+        terms(&plate(domain, &points, load, grid))
+    };
+    let (sum, less) = (combined(1.0), combined(-1.0));
+    for k in 0..2 {
+        let expected = std::array::from_fn(|i| a[k].0[i] + b[k].0[i]);
+        assert!(near(&sum[k].0, &expected), "{:?} {expected:?}", sum[k]);
+        // the law of the parallelogram
+        let energies = sum[k].1 + less[k].1 - 2.0 * (a[k].1 + b[k].1);
+        assert!(energies.abs() < 1e-9, "{energies:.1e}");
+    }
+    let reversed: Vec<Vec2> = points.iter().rev().copied().collect();
+    let back = terms(&plate(domain, &reversed, loads[0], grid));
+    let turn = |p: Vec2| vec2(-p.y, p.x);
+    let turned_domain = Rect::new(vec2(-1.0, -1.0), vec2(1.2, 1.1));
+    let [xx, yy, xy] = loads[0];
+    let turned = terms(&plate(turned_domain, &points.map(turn), [yy, xx, -xy], [12, 11]));
+    let (length, stress) = (7.0, 0.2);
+    let larger = Rect::new(domain.min * length, domain.max * length);
+    let scaled = plate(larger, &points.map(|p| p * length), loads[0].map(|s| s * stress), grid);
+    let scaled = terms(&scaled);
+    for k in 0..2 {
+        assert!(near_on_other_pieces(&back[1 - k].0, &a[k].0), "{back:?} {a:?}");
+        assert!(near_on_other_pieces(&turned[k].0, &a[k].0), "{turned:?} {a:?}");
+        let units = [stress * length.sqrt(), stress * length.sqrt(), stress];
+        let unscaled = std::array::from_fn(|i| scaled[k].0[i] / units[i]);
+        assert!(near_on_other_pieces(&unscaled, &a[k].0), "{unscaled:?} {a:?}");
+        let j = scaled[k].1 / (stress * stress * length);
+        let apart = [j - a[k].1, turned[k].1 - j, back[1 - k].1 - j];
+        // of strains, in which rounding decides over functions that are nearly dependent
+        assert!(apart.iter().all(|d| d.abs() < 1e-8), "{apart:?}");
     }
 }
