@@ -75,10 +75,10 @@ fn backends_agree() {
 /// Formulas of a dataset and those that replace them are compiled for the device.
 #[test]
 fn formulas_are_drawn_by_any_backend() {
-    let lab = Lab::solved(&with_formulas());
-    if !has_adapter(&lab) {
+    if !has_adapter(&Lab::new()) {
         return;
     }
+    let lab = Lab::solved(&with_formulas());
     for options in [
         "-q stretch --range 0,8",
         "-q uy --range=-4,4 --weight bump",

@@ -38,7 +38,7 @@ struct Original {
 
 #[test]
 fn damaged_files_are_errors_or_what_they_hold() {
-    survive_damages(210);
+    survive_damages(147);
 }
 
 #[test]

@@ -90,7 +90,7 @@ fn legends_have_the_values_there_are() {
     let told = lab.run("render plate.h5 -o c.svg -q few --range -5,15");
     assert!(told.contains("colours from -5 to 15"), "{told}");
     // on the deformed plate too
-    lab.run("render plate.h5 -o d.png -q level,few --deformed auto --shared-range");
+    lab.run("render plate.h5 -o d.png -q level,few --deformed auto --shared-range --size 600x300");
 }
 
 #[test]

@@ -62,7 +62,7 @@ fn formulas_are_drawn() {
     assert_eq!(stretch.text("ppum:quantity"), "stretch");
     assert_eq!(stretch.text("ppum:formula"), "hypot(ux, uy)*2");
     let long = format!("{}ux", "ux + ".repeat(200));
-    lab.run_with("render plate.h5 -o a.png --figure", &["-q", &long]);
+    lab.run_with("render plate.h5 -o a.png --figure --size 400x300", &["-q", &long]);
     assert_eq!(Png::read(&lab.path("a.png")).text("ppum:formula"), long);
 }
 

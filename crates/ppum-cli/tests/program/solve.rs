@@ -184,11 +184,9 @@ fn the_number_of_threads_changes_no_bit() {
     };
     let one = bits(1);
     assert!(one.len() > 500);
-    for threads in [2, 3] {
-        let other = bits(threads);
-        let different = one.iter().zip(&other).filter(|(a, b)| a != b).count();
-        assert_eq!((different, other.len()), (0, one.len()), "{threads} threads");
-    }
+    let three = bits(3);
+    let different = one.iter().zip(&three).filter(|(a, b)| a != b).count();
+    assert_eq!((different, three.len()), (0, one.len()));
 }
 
 #[test]

@@ -202,7 +202,7 @@ fn random_formulas_agree_with_numerical_jets() {
     let scope = scope();
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let mut compared = 0;
-    for _ in 0..20_000 {
+    for _ in 0..10_000 {
         let (x, y) = (random.between(-2.0, 2.0), random.between(-2.0, 2.0));
         let sample = sample(&mut random, &point(x, y), 5);
         let text = &sample.text;
@@ -219,7 +219,7 @@ fn random_formulas_agree_with_numerical_jets() {
             assert!((a - b).abs() < 1e-11 * scale, "{text}\ncomponent {i} at {x}, {y}: {a} or {b}");
         }
     }
-    assert!(compared > 10_000, "only {compared} formulas compared");
+    assert!(compared > 5_000, "only {compared} formulas compared");
 }
 
 #[test]
