@@ -1,7 +1,8 @@
 //! What egui shows, drawn on a texture: the window without a display.
 
 use eframe::egui_wgpu::{
-    self, RenderState, RendererOptions, ScreenDescriptor, WgpuError, WgpuSetup, wgpu,
+    self, RenderState, RendererOptions, ScreenDescriptor, WgpuError, WgpuSetup, WgpuSetupCreateNew,
+    wgpu,
 };
 use egui::{ClippedPrimitive, Context, FullOutput, TexturesDelta};
 use pollster::block_on;
@@ -103,9 +104,12 @@ impl Surface {
     }
 }
 
-/// A device as the window would take it.
+/// A device as the window would take it. OpenGL is left out, which the program is built without, but not its tests: what
+/// drives windows in them brings it along.
 fn device(options: RendererOptions) -> Result<RenderState, WgpuError> {
-    let setup = WgpuSetup::without_display_handle();
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends = wgpu::Backends::PRIMARY;
+    let setup = WgpuSetup::from(setup);
     let instance = block_on(setup.new_instance());
     let configuration = egui_wgpu::WgpuConfiguration { wgpu_setup: setup, ..Default::default() };
     block_on(RenderState::create(&configuration, &instance, None, options))
