@@ -206,7 +206,7 @@ fn unary(op: Unary, a: &str) -> String {
         Unary::Sqrt => "sqrt",
         Unary::Cbrt => "ppum_cbrt",
         Unary::Exp => "ppum_exp",
-        Unary::Log => "log",
+        Unary::Log => "ppum_log",
         Unary::Log10 => "ppum_log10",
         Unary::Sin => "ppum_sin",
         Unary::Cos => "ppum_cos",

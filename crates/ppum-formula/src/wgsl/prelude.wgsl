@@ -50,8 +50,26 @@ fn ppum_cbrt(a: f32) -> f32 {
     return select(root, -root, a < 0.0);
 }
 
+// log(a) to two units of the last place, where WGSL promises 2^-21 near 1: a = 2^e (1 + x) with
+// 1/sqrt(2) <= 1 + x < sqrt(2), the polynomial is the one of Cephes (Moshier 1992).
+fn ppum_log(a: f32) -> f32 {
+    if !((a >= 0x1p-126) & (a <= 3.4028234e38)) {
+        return log(a);
+    }
+    // the bits of sqrt(1/2) are 0x3f3504f3
+    let bits = bitcast<u32>(a) + (0x3f800000u - 0x3f3504f3u);
+    let e = f32(bits >> 23u) - 127.0;
+    let x = bitcast<f32>((bits & 0x7fffffu) + 0x3f3504f3u) - 1.0;
+    let p = (((((((7.0376836292e-2 * x - 1.1514610310e-1) * x + 1.1676998740e-1) * x - 1.2420140846e-1) * x
+        + 1.4249322787e-1) * x - 1.6668057665e-1) * x + 2.0000714765e-1) * x - 2.4999993993e-1) * x
+        + 3.3333331174e-1;
+    let z = x * x;
+    // log(2) in two parts, the product with the first one is exact
+    return x + (ppum_apart(x * z * p - e * 2.12194440e-4) - 0.5 * z) + e * 0.693359375;
+}
+
 fn ppum_log10(a: f32) -> f32 {
-    return log(a) * 0.4342944819;
+    return ppum_log(a) * 0.4342944819;
 }
 
 // e^a 2^n to two units of the last place, where WGSL promises 3 + 2|a|; n is whole, in [-8, 8].
@@ -226,7 +244,8 @@ fn ppum_atan2(y: f32, x: f32) -> f32 {
     return select(angle, -angle, y < 0.0);
 }
 
-// sqrt(a^2 + b^2) without overflow; infinite if a or b is.
+// sqrt(a^2 + b^2) without overflow; infinite if a or b is. No product of powers of two scales a and b: compilers for cards
+// form such constants first, as 2^100 * 2^100, which is infinite.
 fn ppum_hypot(a: f32, b: f32) -> f32 {
     if abs(a) > 3.4028234e38 {
         return abs(a);
@@ -234,15 +253,17 @@ fn ppum_hypot(a: f32, b: f32) -> f32 {
     if abs(b) > 3.4028234e38 {
         return abs(b);
     }
-    let larger = max(abs(a), abs(b));
-    // powers of two: exact
-    if larger > 0x1p60 {
-        return sqrt((a * 0x1p-66) * (a * 0x1p-66) + (b * 0x1p-66) * (b * 0x1p-66)) * 0x1p66;
+    let is_wide = abs(a) > abs(b);
+    let larger = select(abs(b), abs(a), is_wide);
+    let smaller = select(abs(a), abs(b), is_wide);
+    // nothing, or not a number
+    if !(larger > 0.0) {
+        return larger + smaller;
     }
-    if larger < 0x1p-40 {
-        return sqrt((a * 0x1p100) * (a * 0x1p100) + (b * 0x1p100) * (b * 0x1p100)) * 0x1p-100;
-    }
-    return sqrt(a * a + b * b);
+    // quotients by numbers from 2^126 on may be 0
+    let scale = select(1.0, 0x1p-60, larger > 0x1p60);
+    let slope = (smaller * scale) / (larger * scale);
+    return larger * sqrt(1.0 + slope * slope);
 }
 
 // a^b as of `pow` of IEEE 754: of a negative number only if b is whole, which pow of WGSL does not promise.

@@ -154,7 +154,7 @@ fn quotients_of_jets() {
 }
 
 /// Places where weights begin, end and have knots, on both sides of each, and between. Knots ±1/3 are no
-/// numbers of single precision: there the neighbours decide.
+/// numbers of single precision: there the neighbours decide. Cards take subnormal numbers for 0.
 fn places() -> Vec<f32> {
     let knots = [-1.0f32, -0.5, 0.0, 0.5, 1.0];
     let mut places: Vec<f32> = (-60..=60).map(|k| k as f32 * 0.021).collect();
@@ -165,6 +165,8 @@ fn places() -> Vec<f32> {
     for t in [third.next_up(), third.next_down()] {
         places.extend([t, -t]);
     }
+    places.retain(|place| *place == 0.0 || place.is_normal());
+    places.extend([f32::MIN_POSITIVE, -f32::MIN_POSITIVE]);
     places
 }
 

@@ -47,6 +47,8 @@ pub struct Differences {
     pub relative: f64,
     /// Pixels that are NaN or infinite on one side only.
     pub strange: usize,
+    /// The last of them: its index, the expected value and the one found.
+    pub strangest: Option<(usize, f64, f64)>,
     /// Pixels, and those of them in the band.
     pub pixels: [usize; 2],
 }
@@ -138,14 +140,24 @@ impl Expected<'_> {
     pub fn compare(&self, found: impl ExactSizeIterator<Item = f64>) -> Differences {
         assert_eq!(found.len(), self.values.len(), "pictures of one size");
         let outside = self.band.iter().filter(|&&band| band).count();
-        let mut out =
-            Differences { worst: 0.0, at: 0, most: 0.0, relative: 0.0, strange: 0, pixels: [0; 2] };
+        let mut out = Differences {
+            worst: 0.0,
+            at: 0,
+            most: 0.0,
+            relative: 0.0,
+            strange: 0,
+            strangest: None,
+            pixels: [0; 2],
+        };
         out.pixels = [self.band.len(), outside];
         let (mut relative, mut all) = (vec![0.0], vec![0.0]);
         for (k, found) in found.enumerate().filter(|&(k, _)| !self.band[k]) {
             let expected = self.values[k];
             if !expected.is_finite() || !found.is_finite() {
-                out.strange += usize::from(class(found) != class(expected));
+                if class(found) != class(expected) {
+                    out.strange += 1;
+                    out.strangest = Some((k, expected, found));
+                }
                 continue;
             }
             let difference = self.difference(k, found);

@@ -21,7 +21,7 @@ const fn over(text: &'static str, [low, high]: [f64; 2], absolute: f64) -> Eleme
 
 /// Functions wherever they are finite. Far angles are reduced to 3e-9 of a quarter turn, near ones to a rounding
 /// of the third part of their π/2.
-pub const ELEMENTARY: [Elementary; 18] = [
+pub const ELEMENTARY: [Elementary; 21] = [
     over("exp(a)", [-87.3, 88.7], 0.0),
     over("exp(a)", [-1.0, 1.0], 0.0),
     over("sinh(a)", [-89.4, 89.4], 0.0),
@@ -33,6 +33,9 @@ pub const ELEMENTARY: [Elementary; 18] = [
     over("acos(a)", [-1.0, 1.0], 0.0),
     over("atan(a)", [-5.0, 5.0], 0.0),
     over("atan(a)", [-1e6, 1e6], 0.0),
+    over("log(a)", [0.5, 2.0], 0.0),
+    over("log(a)", [1e-30, 3e38], 0.0),
+    over("log10(a)", [0.9, 1.1], 0.0),
     over("cbrt(a)", [-20.0, 20.0], 0.0),
     over("sin(a)", [-7.0, 7.0], 1e-9),
     over("cos(a)", [-7.0, 7.0], 1e-9),
