@@ -321,10 +321,13 @@ class Field:
             yield (tx, ty), along, distance, distance**2 + before**2 + beyond**2, length
 
     def nearest(self, p, crack):
-        """Signed line distance of the nearest segment; of equally near ones the largest."""
-        segments = [(square, distance) for _, _, distance, square, _ in self.segments(p, crack)]
-        limit = min(segments)[0] * (1 + self.real(1e-6))
-        return max((d for square, d in segments if square <= limit), key=abs)
+        """Signed line distance of the nearest segment; at a vertex the larger one of its two segments."""
+        segments = list(self.segments(p, crack))
+        k = min(range(len(segments)), key=lambda k: segments[k][3])
+        _, along, distance, square, length = segments[k]
+        if square == distance**2:
+            return distance
+        return max(distance, segments[k + 1 if along > length else k - 1][2], key=abs)
 
     def in_frame(self, p, row):
         """A formula of x, y, r, theta of its frame, with derivatives in the world."""

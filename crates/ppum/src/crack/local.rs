@@ -13,11 +13,6 @@ use crate::vec2::Vec2;
 use ppum_formula::elementary::Atan;
 use ppum_formula::real::Real;
 
-/// Two squared distances closer than this, relatively, count as equal: they belong to the vertex two
-/// segments share, and rounding (of f32 as well) must not choose between them. Elsewhere the two
-/// lines agree on the side where the distances are that close.
-const TIE: f64 = 1e-6;
-
 /// A crack seen from an anchor.
 #[derive(Clone, Debug)]
 pub struct LocalCrack {
@@ -67,6 +62,13 @@ impl LocalSegment {
         let [x, y] = offset;
         x.lit(self.tangent.x).mul_add(x, x.lit(self.tangent.y) * y)
     }
+
+    /// How far a point lies beyond the end of the segment, along it; negative before its begin, zero between them.
+    #[inline(always)]
+    fn beyond<R: Real>(&self, offset: [R; 2]) -> R {
+        let along = self.along(offset);
+        along - along.max(along.lit(self.lo)).min(along.lit(self.hi))
+    }
 }
 
 impl LocalCrack {
@@ -103,42 +105,36 @@ impl LocalCrack {
     /// +1 on the left of the crack, −1 on its right; `side` decides on the crack itself.
     ///
     /// The first and the last segment are extended to infinity. The line of the nearest segment
-    /// decides; where two are equally near (the sector behind a kink) that with the larger line
-    /// distance.
+    /// decides; where its nearest point is a vertex (the sector behind a kink), that of the two
+    /// segments there with the larger line distance.
     #[inline(always)]
     pub fn side<R: Real>(&self, offset: [R; 2], side: Side) -> R {
         sign(self.nearest_distance(offset), side)
     }
 
+    /// Both segments at a vertex name the same line behind it, and the one that is nearest beside that sector, so it
+    /// does not matter which of the two rounding takes for the nearer one.
     #[inline(always)]
     fn nearest_distance<R: Real>(&self, offset: [R; 2]) -> R {
-        let mut nearest = self.segments[0].distance_of(offset);
-        if self.segments.len() == 1 {
-            return nearest;
+        let mut own = self.segments[0].distance_of(offset);
+        let last = self.segments.len() - 1;
+        if last == 0 {
+            return own;
         }
-        let mut square = self.square(0, offset, nearest);
-        let mut k = 1;
-        while k < self.segments.len() {
-            let distance = self.segments[k].distance_of(offset);
-            let candidate = self.square(k, offset, distance);
-            let nearer = (square * square.lit(1.0 - TIE)).gt(candidate);
-            let farther = candidate.gt(square * square.lit(1.0 + TIE));
-            let larger = distance.abs().gt(nearest.abs());
-            let tied = R::select(larger, distance, nearest);
-            nearest = R::select(nearer, distance, R::select(farther, nearest, tied));
-            square = square.min(candidate);
-            k += 1;
+        let zero = own.lit(0.0);
+        let (mut before, mut nearest, mut least) = (own, own, own.lit(f64::INFINITY));
+        let mut k = 0;
+        while k <= last {
+            let after = self.segments[(k + 1).min(last)].distance_of(offset);
+            let beyond = self.segments[k].beyond(offset);
+            let other = R::select(beyond.gt(zero), after, R::select(zero.gt(beyond), before, own));
+            let decides = R::select(other.abs().gt(own.abs()), other, own);
+            let square = beyond.mul_add(beyond, own * own);
+            nearest = R::select(least.gt(square), decides, nearest);
+            least = least.min(square);
+            (before, own, k) = (own, after, k + 1);
         }
         nearest
-    }
-
-    /// Squared distance to the (extended) segment.
-    #[inline(always)]
-    fn square<R: Real>(&self, k: usize, offset: [R; 2], distance: R) -> R {
-        let s = &self.segments[k];
-        let along = s.along(offset);
-        let beyond = along - along.max(along.lit(s.lo)).min(along.lit(s.hi));
-        beyond.mul_add(beyond, distance * distance)
     }
 }
 

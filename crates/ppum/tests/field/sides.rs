@@ -5,20 +5,27 @@ use ppum::function::{
     Frame, Function, FunctionKind, FunctionTable, GROUP, LocalFunctions, WESTERGAARD,
 };
 use ppum::jet::Jet;
+use ppum::real::Scalar;
 use ppum::vec2::{Vec2, vec2};
 use ppum_testkit::extended::{point, side};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::crack;
 
 /// Compares, unless the point lies on the crack up to a `margin`. Returns whether it did.
-fn compare(crack: &Crack, anchor: Vec2, offset: Vec2, margin: f64) -> bool {
+fn compare<T: Scalar>(crack: &Crack, anchor: Vec2, offset: Vec2, margin: f64) -> bool {
     let at = |d: Vec2| side(crack, point(anchor, offset + d));
     let around = [vec2(1.0, 0.7), vec2(-0.7, 1.0), vec2(-1.0, -0.7), vec2(0.7, -1.0)];
     let exact = at(Vec2::ZERO);
     let sure = around.iter().all(|&d| at(d * margin) == exact);
     if sure {
-        let found = LocalCrack::new(crack, anchor).side(offset.into(), Side::Above);
-        assert_eq!(found, exact, "{offset:?} from {anchor:?}, crack {:?}", crack.points);
+        let offset = [offset.x, offset.y].map(T::from_f64);
+        let found = LocalCrack::new(crack, anchor).side(offset, Side::Above);
+        assert_eq!(
+            found,
+            T::from_f64(exact),
+            "{offset:?} from {anchor:?}, crack {:?}",
+            crack.points
+        );
     }
     sure
 }
@@ -35,8 +42,8 @@ fn beside_the_faces() {
         let tangent = (b - a).unit();
         let beside = tangent.left() * 10f64.powf(random.between(-26.0, -13.0));
         let offset = tangent * random.between(-1e-13, 1e-13) + beside;
-        sure += usize::from(compare(&crack, anchor, offset, 1e-27));
-        sure += usize::from(compare(&crack, anchor, -offset, 1e-27));
+        sure += usize::from(compare::<f64>(&crack, anchor, offset, 1e-27));
+        sure += usize::from(compare::<f64>(&crack, anchor, -offset, 1e-27));
     }
     assert!(sure > 3500, "{sure}");
 }
@@ -55,7 +62,25 @@ fn around_kinks() {
         let anchor = kink + random.direction() * 1e-9;
         let r = 10f64.powf(random.between(-16.0, -9.0));
         let offset = (kink - anchor) + random.direction() * r;
-        sure += usize::from(compare(&crack, anchor, offset, 1e-5 * r));
+        sure += usize::from(compare::<f64>(&crack, anchor, offset, 1e-5 * r));
+    }
+    assert!(sure > 4900, "{sure}");
+}
+
+/// All round blunt and sharp kinks, in single precision: right but for the roundings of coordinates, however far the anchor
+/// is, as it is in a picture.
+#[test]
+fn around_kinks_in_single_precision() {
+    let (mut random, mut sure) = (Random(4), 0);
+    for _ in 0..5000 {
+        let (kink, arm) = (random.direction() * 0.7, random.direction());
+        let (turn, sign) = (random.between(0.1, 3.0), [-1.0, 1.0][random.below(2)]);
+        let other = arm * turn.cos() + arm.left() * (sign * turn.sin());
+        let points = [kink + arm * 0.4, kink, kink + other * 0.3];
+        let crack = crack(&points.map(<[f64; 2]>::from), [CrackEnd::Tip; 2]);
+        let anchor = kink + random.direction() * random.between(0.0, 1.0);
+        let place = kink + random.direction() * 10f64.powf(random.between(-3.0, 0.0));
+        sure += usize::from(compare::<f32>(&crack, anchor, place - anchor, 2e-6));
     }
     assert!(sure > 4900, "{sure}");
 }

@@ -6,10 +6,6 @@ struct Crack { first: u32, count: u32 }
 // The signed distance from the line of the nearest segment, and which segment that is.
 struct Nearest { distance: f32, segment: u32 }
 
-// Two squared distances closer than this, relatively, count as equal: they belong to the vertex that two
-// segments share, and rounding must not choose between them.
-const CRACK_TIE = 1e-6;
-
 // +1 on the left of the crack, -1 on its right, +1 on it.
 fn crack_side(crack: Crack, offset: vec2<f32>) -> f32 {
     return crack_sign(crack_nearest(crack, offset));
@@ -25,26 +21,27 @@ fn crack_nearest(crack: Crack, offset: vec2<f32>) -> f32 {
     return crack_nearest_segment(crack, offset).distance;
 }
 
-// The nearest segment; of two that are equally near (the sector behind a kink) that with the larger line
-// distance.
+// The nearest segment; where its nearest point is a vertex (the sector behind a kink), that of the two segments
+// there with the larger line distance. Both name the same one, so rounding may choose between them.
 fn crack_nearest_segment(crack: Crack, offset: vec2<f32>) -> Nearest {
     var nearest = Nearest(crack_line_distance(crack, 0u, offset), 0u);
     if !HAS_KINKS {
         return nearest;
     }
-    var closest = crack_vector(crack, 0u, offset);
-    for (var k = 1u; k < crack.count; k++) {
+    var closest = vec2<f32>(0.0, 0.0);
+    for (var k = 0u; k < crack.count; k++) {
         let vector = crack_vector(crack, k, offset);
         let scale = crack_scale(max(abs(closest), abs(vector)));
-        let square = dot(closest * scale, closest * scale);
-        let candidate = dot(vector * scale, vector * scale);
-        let nearer = square * (1.0 - CRACK_TIE) > candidate;
-        let farther = candidate > square * (1.0 + CRACK_TIE);
-        if nearer | (!farther & (abs(vector.y) > abs(nearest.distance))) {
-            nearest = Nearest(vector.y, k);
-        }
-        if candidate < square {
+        if k == 0u || dot(closest * scale, closest * scale) > dot(vector * scale, vector * scale) {
             closest = vector;
+            nearest = Nearest(vector.y, k);
+            if vector.x != 0.0 {
+                let other = select(k - 1u, k + 1u, vector.x > 0.0);
+                let distance = crack_line_distance(crack, other, offset);
+                if abs(distance) > abs(vector.y) {
+                    nearest = Nearest(distance, other);
+                }
+            }
         }
     }
     return nearest;
