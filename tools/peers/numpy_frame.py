@@ -2,7 +2,7 @@
 
     numpy_frame.py FOLDER FRAMES        reads FOLDER/plate.h5, writes FOLDER/numpy-VIEW.png
 
-Written from FORMAT.md for datasets with one straight crack along x whose functions are one, its side and Westergaard's.
+Written from FORMAT.md for datasets with one straight crack along x whose functions are one, its sides and Westergaard's.
 """
 
 import h5py
@@ -20,7 +20,14 @@ class Plate:
             assert part.attrs["weight"] == b"linear" and (part["origin"][()] == self.center).all()
             self.tips = step["cracks/points"][()]
             kinds = [k.decode() for k in step["functions/kind"][()]]
-            assert kinds == ["one", "side"] + ["formula"] * 8 and (self.tips[:, 1] == 0).all()
+            components = len(kinds) - 10
+            assert kinds == ["one", "side"] + ["formula"] * 8 + ["component"] * components
+            assert (self.tips[:, 1] == 0).all()
+            # each has one cut: what it is above and below the crack
+            cuts = step["functions/cuts"][()] if components else np.zeros((0, 4))
+            assert len(cuts) == components
+            self.sides = {1: (1.0, -1.0)} | {10 + k: tuple(cut[2:] == -2) for k, cut in enumerate(cuts)}
+            self.count = len(kinds)
             self.read_blocks({k: field[k][()] for k in field})
             material = file["equation"].attrs
             young, poisson = material["young"], material["poisson"]
@@ -33,7 +40,7 @@ class Plate:
         patch = np.repeat(np.arange(n), np.diff(blocks))
         assert (data["block_degree"] == 2).all()
         at = data["block_offset"].astype(int)[:, None] + np.arange(6)
-        self.blocks = np.zeros((2, 10, 6, n))
+        self.blocks = np.zeros((2, self.count, 6, n))
         self.blocks[:, data["block_function"], :, patch] = data["coefficients"][:, at].swapaxes(0, 1)
         self.has = self.blocks.any(axis=(0, 2))
 
@@ -71,7 +78,7 @@ class Plate:
         """A component of the patches' own fields, with its gradient."""
         to = 1 / self.scale[patch].T
         total = [np.zeros(len(patch)) for _ in range(3)]
-        for function in range(10):
+        for function in range(self.count):
             here = np.flatnonzero(self.has[function][patch])
             p, px, py = polynomial(self.blocks[c, function][:, patch[here]], xi[here], eta[here])
             f, fx, fy = self.function(function, x[here], y[here])
@@ -82,8 +89,10 @@ class Plate:
 
     def function(self, function, x, y):
         """A function of the table, with its gradient."""
-        if function < 2:
-            return (1.0 if function == 0 else np.where(y >= 0, 1.0, -1.0)), 0.0, 0.0
+        if function == 0:
+            return 1.0, 0.0, 0.0
+        if function in self.sides:
+            return np.where(y >= 0, *map(float, self.sides[function])), 0.0, 0.0
         tip, which = divmod(function - 2, 4)
         return westergaard(x, y, self.tips[tip], (-1, 1)[tip], which)
 

@@ -204,7 +204,7 @@ impl<'f> Group<'f> {
         let n = self.names.len();
         match self.kinds[0] {
             FunctionKind::Side { .. } => format!("of {}", count(n, "crack", "cracks")),
-            FunctionKind::Component { .. } => self.patches(),
+            FunctionKind::Component { .. } => self.owners(),
             FunctionKind::Formula { frame: Frame::Tip(_), .. } => {
                 format!("at {}", count(n, "tip", "tips"))
             }
@@ -213,14 +213,15 @@ impl<'f> Group<'f> {
         }
     }
 
-    /// The patches of components, by their names.
-    fn patches(&self) -> String {
-        let place = |name: &&'f str| name.find(" of patch ").map(|at| &name[at + 1..]);
-        let patches: BTreeSet<&str> = self.names.iter().filter_map(place).collect();
-        match patches.first() {
+    /// The patches or cracks of components, by their names.
+    fn owners(&self) -> String {
+        let place = |name: &&'f str| name.find(" of ").map(|at| &name[at + 1..]);
+        let owners: BTreeSet<&str> = self.names.iter().filter_map(place).collect();
+        match owners.first() {
             None => String::new(),
-            Some(only) if patches.len() == 1 => (*only).to_owned(),
-            Some(_) => format!("of {} patches", patches.len()),
+            Some(only) if owners.len() == 1 => (*only).to_owned(),
+            Some(first) if first.starts_with("of crack") => format!("of {} cracks", owners.len()),
+            Some(_) => format!("of {} patches", owners.len()),
         }
     }
 
@@ -293,6 +294,11 @@ mod tests {
         let two = [component(2, 7), component(2, 9)];
         assert_eq!(told(&two), ["0–1 component 2 of 2 patches 4"]);
         assert_eq!(told(&two[..1]), ["0 component 2 of patch 7 2"]);
+        let beside = [0, 0, 3].map(|crack| {
+            let name = format!("one side of crack {crack}");
+            function(&name, FunctionKind::Component { cuts: Vec::new() })
+        });
+        assert_eq!(told(&beside), ["0–2 one side of 2 cracks 6"]);
         let nowhere = ["component 1", "component 2"]
             .map(|name| function(name, FunctionKind::Component { cuts: Vec::new() }));
         assert_eq!(told(&nowhere), ["0–1 component 1–2 4"]);

@@ -42,7 +42,11 @@ fn json_has_the_documented_shape() {
     assert_eq!(step["tips"][1], json!({ "crack": 0, "end": "end", "at": [0.5, 0.0] }));
     let cells = step["levels"].as_array().unwrap().iter().map(|l| l["cells"].as_u64().unwrap());
     assert_eq!(cells.sum::<u64>(), step["patches"].as_u64().unwrap());
-    assert_eq!(step["functions"].as_array().unwrap().len(), 10, "1, side, 2 × 4 at the tips");
+    assert_eq!(
+        step["functions"].as_array().unwrap().len(),
+        12,
+        "1, side, 2 × 4 at the tips, 2 slivers"
+    );
     assert_eq!(keys(&step["functions"][0]), ["blocks", "kind", "name"]);
     assert_eq!(keys(&step["functions"][1]), ["blocks", "crack", "kind", "name"]);
     assert_eq!((&step["weight"], &step["weight_formula"]), (&json!("linear"), &json!("1 - t")));

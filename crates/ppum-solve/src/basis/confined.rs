@@ -193,9 +193,13 @@ pub(super) fn lonely(space: &Space<'_>, patch: usize, gram: &Gram) -> Vec<usize>
         let turn = before.cross(after).atan2(before.dot(after)).abs();
         turn > CORNER && support.contains(points[1])
     };
+    let bends = |crack: u32| step.cracks[crack as usize].points.windows(3).any(turns);
     let is_wedge = |kind: &FunctionKind| match kind {
-        FunctionKind::Component { .. } => true,
-        FunctionKind::Side { crack } => step.cracks[*crack as usize].points.windows(3).any(turns),
+        FunctionKind::Component { cuts } => {
+            let first = cuts[0].segment.crack;
+            cuts.iter().any(|cut| cut.segment.crack != first) || bends(first)
+        }
+        FunctionKind::Side { crack } => bends(*crack),
         _ => false,
     };
     let jumps = lonely_jumps(space, patch, gram, is_wedge);

@@ -3,13 +3,18 @@
 //! The side of a crack serves where it says what the crack does to the patch: the crack passes through once, meets no
 //! other one there, and its straight extensions, across which the side jumps too, stay away. Wherever cracks meet,
 //! come back or end on holes the patch has the indicators of its [`Components`].
+//!
+//! A crack that leaves the middle of the patch whole cuts a sliver off it, where the weight is small and the polynomials
+//! vary little. Its side is not small outside of the sliver: the solution there would be a small difference of large
+//! parts. So it gives the patch the indicator of the sliver.
 
 use super::clearance::led_away;
 use super::clip::{clipped, inside, meets, segment_inside, solid_part};
-use super::components::Components;
+use super::components::{Components, middle};
 use super::placed::{Placed, around, wider};
 use ppum::crack::{Crack, End, SegmentId, TipId};
 use ppum::domain::{Domain, Hole};
+use ppum::function::FunctionKind;
 use ppum::segment::{Segment, gap, polyline_distance};
 use ppum::vec2::{Rect, Vec2};
 
@@ -32,16 +37,6 @@ pub(crate) struct Jumps<'p> {
     touch: f64,
 }
 
-/// The functions of a patch.
-pub(crate) enum Jump {
-    /// The sides of these cracks.
-    Sides(Vec<u32>),
-    /// Indicators of components.
-    Components(Components),
-    /// More segments meet each other in the patch than can be looked at.
-    TooMany,
-}
-
 impl<'p> Jumps<'p> {
     /// The cracks of a domain; things not farther apart than `touch` meet.
     pub(crate) fn new(cracks: &'p [Crack], domain: &'p Domain, touch: f64) -> Self {
@@ -58,21 +53,38 @@ impl<'p> Jumps<'p> {
         }
     }
 
-    /// The functions of a patch with this open box.
-    pub(crate) fn of(&self, open: &Rect) -> Jump {
-        let cut: Vec<_> =
-            self.segments.near(open).filter(|(_, s)| meets(*s, open)).copied().collect();
+    /// The functions of a patch with this open box; none if more segments meet each other there than can be looked at.
+    pub(crate) fn of(&self, open: &Rect) -> Vec<FunctionKind> {
+        let cut = self.cut(open);
         let holes: Vec<_> = self.holes.near(open).copied().collect();
         if holes.is_empty() && self.are_apart(&cut, open) {
-            return Jump::Sides(self.sides(&cut, open));
+            return self.passing(&cut, open).flat_map(|run| self.across(run, open)).collect();
         }
-        if cut.len() > MOST {
-            return Jump::TooMany;
+        if cut.len() > MOST || !self.is_cut(&cut, open, &holes) {
+            return Vec::new();
         }
-        if !self.is_cut(&cut, open, &holes) {
-            return Jump::Sides(Vec::new());
+        self.indicators(&cut, open, &holes)
+    }
+
+    /// The function that jumps on a crack which passes through a box: its side, or the indicator of the sliver that it
+    /// cuts off.
+    fn across(&self, run: &[(SegmentId, Segment)], open: &Rect) -> Vec<FunctionKind> {
+        let middle = middle(open);
+        if run.len() > MOST || run.iter().any(|(_, s)| meets(*s, &middle)) {
+            return vec![FunctionKind::Side { crack: run[0].0.crack }];
         }
-        Jump::Components(Components::new(open, cut.into_iter(), &holes, 2.0 * self.touch))
+        self.indicators(run, open, &[])
+    }
+
+    /// The indicators of the components that some segments and holes leave of a box.
+    fn indicators(
+        &self,
+        cut: &[(SegmentId, Segment)],
+        open: &Rect,
+        holes: &[&Hole],
+    ) -> Vec<FunctionKind> {
+        let all = Components::new(open, cut.iter().copied(), holes, 2.0 * self.touch);
+        all.indicators().into_iter().map(|cuts| FunctionKind::Component { cuts }).collect()
     }
 
     /// True if more segments meet each other in a patch than can be looked at.
@@ -137,11 +149,16 @@ impl<'p> Jumps<'p> {
         all > LEAST_CUT * size.x.min(size.y)
     }
 
-    /// The cracks that cut a box through, by their numbers.
-    fn sides(&self, cut: &[(SegmentId, Segment)], open: &Rect) -> Vec<u32> {
-        let runs = cut.chunk_by(|a, b| a.0.crack == b.0.crack);
-        let through = runs.filter(|run| self.is_cut(run, open, &[])).map(|run| run[0].0.crack);
-        through.filter(|&crack| !self.has_tip(crack, open)).collect()
+    /// The segments of each crack that cuts a box through.
+    fn passing<'c>(
+        &self,
+        cut: &'c [(SegmentId, Segment)],
+        open: &Rect,
+    ) -> impl Iterator<Item = &'c [(SegmentId, Segment)]> {
+        let passes = |run: &&[(SegmentId, Segment)]| {
+            self.is_cut(run, open, &[]) && !self.has_tip(run[0].0.crack, open)
+        };
+        cut.chunk_by(|a, b| a.0.crack == b.0.crack).filter(passes)
     }
 
     /// True if a tip of a crack lies in a box.

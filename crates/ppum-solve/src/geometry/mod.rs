@@ -14,6 +14,6 @@ pub use clearance::{Obstacle, TipClearance};
 pub(crate) use clip::{
     clipped, distance, inside, length_inside, meets, rim_crossings, runs_of_rim, segment_inside,
 };
-pub(crate) use jumps::{Jump, Jumps};
+pub(crate) use jumps::Jumps;
 pub(crate) use material::interface_distance;
 pub(crate) use placed::{Placed, around, wider};

@@ -28,19 +28,24 @@ fn centre() -> Vec2 {
     vec2(-1.0, -1.0) + vec2(CUT[0], CUT[1]) * (2.0 / f64::from(CELLS))
 }
 
-/// A plate under tension whose crack leaves `part` of the patch beyond it, in its upper right corner.
-fn plate(weight: &str, order: usize, part: f64, angle: f64) -> Problem {
+/// A plate under tension with a crack.
+fn cracked(weight: &str, order: usize, crack: &[[f64; 2]]) -> Problem {
     let mut set = discretization(Cells::Grid([CELLS; 2]), order);
     set.weight = WeightFunction::from_library(weight).expect("of the library");
+    let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
+    Problem::elasticity(SQUARE, MATERIAL, set)
+        .with_crack(crack)
+        .with_boundary(Edge::Bottom, pull(-1.0))
+        .with_boundary(Edge::Top, pull(1.0))
+}
+
+/// One whose crack leaves `part` of the patch beyond it, in its upper right corner.
+fn plate(weight: &str, order: usize, part: f64, angle: f64) -> Problem {
     let normal = vec2(angle.cos(), angle.sin());
     let distance = (8.0 * part * normal.x * normal.y).sqrt() * HALF;
     let at = centre() + vec2(HALF, HALF) - normal * distance;
     let [a, b] = [-0.47, 0.41].map(|s| at + normal.left() * s);
-    let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-    Problem::elasticity(SQUARE, MATERIAL, set)
-        .with_crack(&[a.into(), b.into()])
-        .with_boundary(Edge::Bottom, pull(-1.0))
-        .with_boundary(Edge::Top, pull(1.0))
+    cracked(weight, order, &[a.into(), b.into()])
 }
 
 /// Largest relative difference of ∇u as evaluated and in extended precision, around the patch.
@@ -64,9 +69,9 @@ fn measured(dataset: &Dataset, random: &mut Random) -> f64 {
     (0..150).map(|_| error()).fold(0.0, f64::max)
 }
 
-/// Asserts that stresses of the file are right to 1e-8 of their local size, wherever the crack is; they were to 1e-6 … 3
+/// Asserts that stresses of the file are right to 1e-12 of their local size, wherever the crack is; they were to 1e-6 … 3
 /// with smooth weights while sliver functions had coefficients up to 1e20. What is reported is of that size.
-fn assert_eight_digits(orders: impl Fn(usize) -> usize) {
+fn assert_twelve_digits(orders: impl Fn(usize) -> usize) {
     let mut random = Random(11);
     for (k, entry) in WEIGHTS.iter().enumerate() {
         let order = orders(k);
@@ -76,20 +81,41 @@ fn assert_eight_digits(orders: impl Fn(usize) -> usize) {
         let error = measured(&dataset, &mut random);
         let reported = rounding(&dataset, 0).expect("a field").largest;
         println!("{} {order} {part:.0e}: {error:.1e}, reported {reported:.1e}", entry.name);
-        assert!(error < 1e-8, "{} {order} {part:e}: {error:e}", entry.name);
+        assert!(error < 1e-12, "{} {order} {part:e}: {error:e}", entry.name);
         assert!(error < 10.0 * reported.max(1e-13), "{error:e}, reported {reported:e}");
     }
 }
 
+/// Parts of stresses are of the size of the field wherever a crack is, straight or bent: single precision has three
+/// digits of them.
 #[test]
-fn coefficients_bear_eight_digits_wherever_a_crack_is() {
-    assert_eight_digits(|k| 1 + k % 3);
+fn parts_are_of_the_size_of_the_field() {
+    let mut random = Random(13);
+    for (k, weight) in WEIGHTS.iter().map(|entry| entry.name).enumerate() {
+        let (order, mut angle) = (2 + k % 2, random.between(-0.5, 0.5));
+        let mut points = vec![vec2(-0.4, random.between(-0.4, 0.4))];
+        for _ in 0..=k % 3 {
+            points.push(points[points.len() - 1] + vec2(angle.cos(), angle.sin()) * 0.3);
+            angle += random.between(-0.9, 0.9);
+        }
+        let points: Vec<[f64; 2]> = points.into_iter().map(Into::into).collect();
+        let dataset = solved(&cracked(weight, order, &points));
+        let double = rounding(&dataset, 0).expect("a field").largest;
+        let single = double * f64::from(f32::EPSILON) / f64::EPSILON;
+        println!("{weight} {order}, {} segments: {single:.1e}", points.len() - 1);
+        assert!(single < 1e-3, "{weight} {order} {points:?}: {single:e}");
+    }
+}
+
+#[test]
+fn coefficients_bear_twelve_digits_wherever_a_crack_is() {
+    assert_twelve_digits(|k| 1 + k % 3);
 }
 
 #[test]
 #[ignore = "slow: order 4"]
-fn coefficients_of_order_four_bear_eight_digits() {
-    assert_eight_digits(|_| 4);
+fn coefficients_of_order_four_bear_twelve_digits() {
+    assert_twelve_digits(|_| 4);
 }
 
 /// Asserts that K of a crack does not depend on how little of a patch it leaves: it is that of larger patches, where the crack
@@ -130,12 +156,16 @@ fn coefficients_that_cancel_are_reported_with_their_place() {
     let patch = step.partition.center.iter().position(|c| (*c - centre()).length() < 1e-9);
     let patch = patch.expect("the patch");
     let data = &mut step.fields[0];
-    let is_side = |&b: &usize| {
+    let is_sliver = |&b: &usize| {
         let function = &step.functions[data.block_function[b] as usize];
-        matches!(function.kind, FunctionKind::Side { .. })
+        matches!(function.kind, FunctionKind::Component { .. })
     };
-    let jump = data.blocks(patch).find(is_side).expect("a jump");
+    let jump = data.blocks(patch).find(is_sliver).expect("a jump");
+    // the side of the crack, the first after the function 1, in place of the sliver's indicator: as older files have
+    // it; what is on the sliver alone goes
+    data.block_function[jump] = 1;
     let [smooth, jump] = [data.blocks(patch).start, jump].map(|b| data.block_offset[b] as usize);
+    data.coefficients.iter_mut().for_each(|row| row[jump..jump + 6].fill(0.0));
     // the large part is on the left of the crack, where the side is 1
     for (block, amplitude) in [(smooth, 1e9), (jump, -1e9)] {
         data.coefficients[0][block + 1] += amplitude;

@@ -185,7 +185,7 @@ fn cracks_that_meet() {
 /// What the components of patches are, and the pieces of a plate that is the patch: found in two ways, the same.
 #[test]
 fn pieces_of_a_box_are_its_components() {
-    use ppum::function::{Function, FunctionKind, FunctionTable, GROUP};
+    use ppum::function::{Function, FunctionTable, GROUP};
     let (mut random, bounds) = (ppum_testkit::random::Random(17), bounds());
     for round in 0..100 {
         let mut point = || vec2(random.between(-1.5, 1.5), random.between(-1.5, 1.5));
@@ -194,16 +194,7 @@ fn pieces_of_a_box_are_its_components() {
         let around = Rect::around(Vec2::ZERO, vec2(9.0, 9.0)).into();
         let whole = crate::problem::cracks(lines.iter().cloned(), &around);
         let pieces = Pieces::new(&domain(&[]), &whole);
-        let jump = crate::geometry::Jumps::new(&whole, &bounds.into(), 1e-9).of(&bounds);
-        let kinds: Vec<FunctionKind> = match jump {
-            crate::geometry::Jump::Sides(all) => {
-                all.into_iter().map(|crack| FunctionKind::Side { crack }).collect()
-            }
-            crate::geometry::Jump::Components(all) => {
-                all.indicators().into_iter().map(|cuts| FunctionKind::Component { cuts }).collect()
-            }
-            crate::geometry::Jump::TooMany => panic!("a few cracks"),
-        };
+        let kinds = crate::geometry::Jumps::new(&whole, &bounds.into(), 1e-9).of(&bounds);
         let functions: Vec<_> =
             kinds.into_iter().map(|kind| Function { name: "any".into(), kind }).collect();
         let table = FunctionTable::new(&functions, whole.len(), &[]).expect("jumps");

@@ -33,6 +33,11 @@ const ELSEWHERE: f64 = 1e-3;
 /// The same in parts of the coordinates.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// The middle of a box.
+pub(crate) fn middle(open: &Rect) -> Rect {
+    Rect::around(open.center(), open.size() * (0.5 * MIDDLE))
+}
+
 /// The components of a box.
 pub(crate) struct Components {
     tree: Tree,
@@ -146,7 +151,7 @@ impl Building {
             }
         }
         self.join_crumbs(&mut joined, gap);
-        let middle = Rect::around(open.center(), open.size() * (0.5 * MIDDLE));
+        let middle = middle(open);
         let (mut weights, mut of_leaf, mut numbers) =
             (Vec::new(), Vec::new(), vec![None; joined.len()]);
         for leaf in 0..joined.len() {

@@ -4,26 +4,27 @@
 //! them, the degree of the polynomials that multiply them.
 //!
 //! A patch that cracks cut into several parts gets functions that jump there times its polynomials: the
-//! sides of cracks, or where these meet indicators of the parts ([`Jumps`]). A patch with a tip
+//! sides of cracks, or where these meet or cut slivers off indicators of the parts ([`Jumps`]). A patch with a tip
 //! inside gets the Westergaard functions of the tip, times linear polynomials by default: the far
 //! part of such a patch is cut but holds no jump, and without them the r^{3/2} term of the solution
 //! is badly seen there. In a zone of fixed radius around a tip all patches get the Westergaard
 //! functions, beside jumps where they are cut.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::OnceLock;
 
 use super::williams::of_corner;
 use crate::corner::corners;
 use crate::geometry::{
-    Jump, Jumps, Placed, around, distance, inside, length_inside, segment_inside, wider,
+    Jumps, Placed, around, distance, inside, length_inside, segment_inside, wider,
 };
 use crate::problem::{Enrichment, LocalEnrichment, Problem, Region, Site, touch};
-use ppum::crack::{Crack, End, TipId, tips};
+use ppum::crack::{Crack, End, SegmentId, TipId, tips};
 use ppum::dataset::Partition;
 use ppum::domain::Hole;
 use ppum::expression::Expression;
-use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
+use ppum::function::{Cut, Frame, Function, FunctionKind, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// Shortest part of a crack or segment inside a patch, in half-sizes of the patch, that counts as a
@@ -39,6 +40,8 @@ pub(crate) struct Enrichments<'p> {
     problem: &'p Problem,
     /// What jumps, if anything does.
     jumps: Option<Jumps<'p>>,
+    /// The numbers of components by a single crack, by their cuts.
+    one_sided: BTreeMap<Vec<(SegmentId, i64, i64)>, u32>,
     instances: Vec<Instance>,
     /// The numbers of the instances, by the places of their patches, once all are there.
     placed: OnceLock<Placed<usize>>,
@@ -109,6 +112,7 @@ impl<'p> Enrichments<'p> {
             table: vec![one],
             problem,
             jumps: None,
+            one_sided: BTreeMap::new(),
             instances: Vec::new(),
             placed: OnceLock::new(),
             own: 0..0,
@@ -227,19 +231,32 @@ impl<'p> Enrichments<'p> {
 
     /// The functions that jump in a patch; those of its own come to the table.
     fn jumps(&mut self, patch: &Patch<'_>) -> Vec<u32> {
-        let all = match self.jumps.as_ref().map(|jumps| jumps.of(&patch.open)) {
-            None | Some(Jump::TooMany) => return Vec::new(),
-            Some(Jump::Sides(cracks)) => {
-                return cracks.into_iter().map(|crack| crack + 1).collect();
-            }
-            Some(Jump::Components(all)) => all.indicators(),
+        let all = self.jumps.as_ref().map_or_else(Vec::new, |jumps| jumps.of(&patch.open));
+        all.into_iter().enumerate().map(|(k, kind)| self.jump(k, kind, patch)).collect()
+    }
+
+    /// The number of a patch's k-th jump in the table. Patches that one crack cuts in the same way share it.
+    fn jump(&mut self, k: usize, kind: FunctionKind, patch: &Patch<'_>) -> u32 {
+        let new = self.table.len() as u32;
+        let cuts = match &kind {
+            FunctionKind::Side { crack } => return crack + 1,
+            FunctionKind::Component { cuts } => cuts,
+            _ => &Vec::new(),
         };
-        let first = self.table.len() as u32;
-        let name = |k: usize| format!("component {} of patch {}", k + 1, patch.index);
-        let function =
-            |(k, cuts)| Function { name: name(k), kind: FunctionKind::Component { cuts } };
-        self.table.extend(all.into_iter().enumerate().map(function));
-        (first..self.table.len() as u32).collect()
+        let cracks: BTreeSet<u32> = cuts.iter().map(|cut| cut.segment.crack).collect();
+        let name = match cracks.first() {
+            Some(only) if cracks.len() == 1 => {
+                let number = |cut: &Cut| (cut.segment, cut.left.number(), cut.right.number());
+                let known = self.one_sided.entry(cuts.iter().map(number).collect()).or_insert(new);
+                if *known != new {
+                    return *known;
+                }
+                format!("one side of crack {only}")
+            }
+            _ => format!("component {} of patch {}", k + 1, patch.index),
+        };
+        self.table.push(Function { name, kind });
+        new
     }
 }
 
