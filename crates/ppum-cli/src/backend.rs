@@ -4,6 +4,7 @@
 //! and figures are made of it by the same code.
 
 use std::num::NonZeroUsize;
+use std::sync::Once;
 
 use clap::ValueEnum;
 use ppum::quantity::Source;
@@ -15,7 +16,10 @@ use crate::graphics::{Device, Method};
 use crate::output::tell;
 use crate::progress::Bar;
 use crate::{graphics, threads};
-use ppum_scene::drawing::{Drawn, Job, Values};
+use ppum_scene::drawing::{Drawn, Job, Values, single_precision_warning};
+
+/// The warning about single precision is given once, not for each picture of a series.
+static TOLD: Once = Once::new();
 
 /// The options that choose who draws.
 #[derive(Debug, clap::Args)]
@@ -66,8 +70,18 @@ impl Engine {
         self.average(job, Samples::CENTER)
     }
 
-    /// Draws the means of so many samples a pixel.
+    /// Draws the means of so many samples a pixel, and warns where these are wrong.
     pub(crate) fn average(&self, job: Job<'_>, samples: Samples) -> anyhow::Result<Drawn> {
+        let drawn = self.drawn(job, samples)?;
+        if let (Values::Single(_), Some(text)) =
+            (&drawn.values, single_precision_warning(job.field.step))
+        {
+            TOLD.call_once(|| tell(&format!("warning: {text}")));
+        }
+        Ok(drawn)
+    }
+
+    fn drawn(&self, job: Job<'_>, samples: Samples) -> anyhow::Result<Drawn> {
         let on = |device, method| graphics::draw(job, samples, device, method);
         match self.backend {
             Backend::Cpu => self.on_cpu(job, samples),
@@ -84,9 +98,11 @@ impl Engine {
         }
     }
 
-    /// True for what no graphics device can do.
+    /// True for what no graphics device can do, or not well.
     fn needs_cpu(&self, job: Job<'_>) -> bool {
-        self.precision == Some(Precision::F64) || job.quantity.source() == Source::Exact
+        self.precision == Some(Precision::F64)
+            || job.quantity.source() == Source::Exact
+            || self.precision.is_none() && single_precision_warning(job.field.step).is_some()
     }
 
     /// Does what only the processor can, in double precision.

@@ -9,6 +9,7 @@ use ppum::dataset::Dataset as Data;
 use ppum::quantity::{Quantity, QuantityGradient};
 use ppum::sample::Wanted;
 use ppum::vec2::Vec2;
+use ppum_scene::drawing::single_precision_warning;
 use ppum_scene::profile::Along;
 use ppum_scene::scene::{Subject, default_quantity};
 use ppum_scene::shot::of_step;
@@ -184,6 +185,11 @@ impl Field {
     /// The quantity that is shown where nothing is said.
     fn default_quantity(&self) -> String {
         default_quantity(self.owned.field()).to_owned()
+    }
+
+    /// The warning about pictures in single precision, if they are wrong.
+    fn single_precision_warning(&self) -> Option<String> {
+        single_precision_warning(self.owned.field().step)
     }
 
     fn components(&self) -> Vec<String> {

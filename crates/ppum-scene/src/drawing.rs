@@ -1,8 +1,10 @@
 //! What is seen of a plate, and its values once they are drawn; colours come afterwards.
 
 use ppum::crack::Crack;
+use ppum::dataset::Step;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
+use ppum::text::trimmed_to;
 use ppum_render::cells;
 use ppum_render::deform::DeformedPoints;
 use ppum_render::extrema::Extrema;
@@ -105,6 +107,29 @@ pub struct Job<'a> {
     pub view: &'a View,
     /// The quantity.
     pub quantity: &'a Quantity,
+}
+
+/// Relative error of stresses above which fewer than three digits remain, which pictures show.
+const FEW_DIGITS: f64 = 1e-3;
+
+/// The relative error of stresses in single precision, of a step that keeps fewer than three digits in it. The solver's
+/// record `rounding` tells that of double precision; a step without one counts as good.
+#[must_use]
+pub fn single_precision_error(step: &Step) -> Option<f64> {
+    let rounding = step.record("rounding")?;
+    let error = rounding * f64::from(f32::EPSILON) / f64::EPSILON;
+    (error > FEW_DIGITS).then_some(error)
+}
+
+/// The warning about pictures of a step in single precision, if its coefficients do not bear it.
+#[must_use]
+pub fn single_precision_warning(step: &Step) -> Option<String> {
+    let error = single_precision_error(step)?;
+    Some(format!(
+        "coefficients cancel: in single precision stresses are wrong by up to {} of their size in places; double \
+         precision shows them",
+        trimmed_to(error, 1)
+    ))
 }
 
 /// Values at the centres of a view's pixels, and what drew them: `cpu f64`, `gpu f32, NAME`.

@@ -221,3 +221,23 @@ fn slivers_look_the_same_in_single_precision() {
         assert_eq!(far(&draw("f32"), &draw("f64")), 0, "{window}");
     }
 }
+
+/// A step whose stresses have no three digits in single precision: a warning says so, and nothing of one that has them.
+#[test]
+fn too_few_digits_of_single_precision_are_told() {
+    let lab = Lab::solved(CRACKED);
+    let mut dataset = ppum_format::read(&lab.path("plate.h5")).unwrap();
+    for (rounding, is_told) in [(1.8e-12, false), (1.9e-12, true)] {
+        let history = &mut dataset.steps[0].history;
+        history.iter_mut().find(|record| record.name == "rounding").unwrap().value = rounding;
+        ppum_format::write(&dataset, &lab.path("plate.h5")).unwrap();
+        for (precision, is_single) in [("f32", true), ("f64", false)] {
+            let arguments =
+                format!("render plate.h5 -o a.png --size 40x40 --precision {precision}");
+            let output = lab.command(&format!("{arguments} --backend cpu")).output().unwrap();
+            let complaint = String::from_utf8(output.stderr).unwrap();
+            let warns = complaint.contains("in single precision stresses are wrong");
+            assert_eq!(warns, is_told && is_single, "{rounding} {precision}: {complaint}");
+        }
+    }
+}

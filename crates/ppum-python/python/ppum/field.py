@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -293,7 +294,7 @@ class Field:
 
         Args:
             quantity: A quantity, a formula or a value of cells; by default von Mises' stress, of a potential itself.
-            dtype: float64 or float32, in which the values are computed too.
+            dtype: float64 or float32, in which the values are computed too; warns where float32 has no three digits.
             progress: Is called with phase, parts done, all parts, step.
             view: `View`, or as in `view_at`: center, width, tip, zoom, size.
 
@@ -306,7 +307,10 @@ class Field:
             raise ValueError(f"dtype: values are float64 or float32, not {kind}")
         seen = self.view_at(**view)
         name = quantity or self._core.default_quantity()
-        return _core.render(self._core, name, seen._spot, seen.size, kind == np.float32, progress)
+        is_single = kind == np.float32
+        if is_single and (text := self._core.single_precision_warning()):
+            warnings.warn(text, stacklevel=2)
+        return _core.render(self._core, name, seen._spot, seen.size, is_single, progress)
 
     def rgba(self, quantity: str | None = None, *, view: Any = None, **options: Any) -> NDArray[np.uint8]:
         """The colours of a picture: shape (rows, columns, 4), rows from the top; transparent outside.

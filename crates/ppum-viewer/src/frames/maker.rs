@@ -8,7 +8,7 @@ use ppum::progress::{Progress, Verdict, Watcher};
 use ppum_render::picture::Style;
 use ppum_render::range::Span;
 use ppum_render::scale::Scale;
-use ppum_scene::drawing::{Drawn, Shown};
+use ppum_scene::drawing::{Drawn, Shown, Values as Pixels, single_precision_warning};
 use ppum_scene::minus;
 use ppum_scene::range;
 use web_time::Instant;
@@ -116,7 +116,7 @@ impl Maker {
         let (span, is_there) =
             self.span(wanted, (&place.subject, &drawn), &style, goal.as_ref(), now);
         let painted = self.paint(&drawn, &style, span)?;
-        let note = self.values.renderer.note().map(str::to_owned);
+        let note = self.note(&place.subject, &drawn);
         let is_shown = |frame: &Arc<Frame>| {
             Arc::ptr_eq(&frame.picture, &painted) && frame.wanted == *wanted && frame.note == note
         };
@@ -241,6 +241,14 @@ impl Maker {
         Ok(())
     }
 
+    /// The reason why no card draws, or what is wrong with the pictures of the card.
+    fn note(&self, subject: &Subject, drawn: &Drawn) -> Option<String> {
+        let note = self.values.renderer.note().map(str::to_owned);
+        let is_single = matches!(drawn.values, Pixels::Single(_));
+        let warning = || single_precision_warning(subject.field.0.field().step);
+        note.or_else(|| is_single.then(warning).flatten())
+    }
+
     fn paint(
         &mut self,
         drawn: &Arc<Drawn>,
@@ -292,6 +300,7 @@ impl Maker {
     ) -> Step {
         let (layers, layers_view, other) = self.carried(wanted, place);
         let subject = &place.subject;
+        let note = self.note(subject, &drawn);
         let frame = Frame {
             wanted: wanted.clone(),
             field: Arc::clone(&subject.field.0),
@@ -304,7 +313,7 @@ impl Maker {
             factor: subject.factor,
             other,
             is_final: false,
-            note: self.values.renderer.note().map(str::to_owned),
+            note,
             seconds: self.seconds,
         };
         self.publish(frame, next)

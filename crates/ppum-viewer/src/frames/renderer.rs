@@ -177,7 +177,8 @@ mod cards {
             view: &View,
             quantity: &Quantity,
         ) -> Option<(Raster<f32>, String)> {
-            if quantity.source() == Source::Exact {
+            let is_auto = self.backend == Backend::Auto;
+            if quantity.source() == Source::Exact || is_auto && !subject.bears_single() {
                 return None;
             }
             if self.compiled.as_ref().is_none_or(|(known, _)| known != subject) {

@@ -7,7 +7,7 @@ use ppum::progress::Watcher;
 use ppum_render::deform::{DeformError, Deformation};
 use ppum_render::view::View;
 use ppum_scene::deformed::Factor;
-use ppum_scene::drawing::{Seen, Shown};
+use ppum_scene::drawing::{Seen, Shown, single_precision_error};
 use ppum_scene::minus::{self, Side};
 use ppum_scene::scene::{self, default_quantity, shown};
 use self_cell::self_cell;
@@ -36,6 +36,11 @@ pub(super) struct Left {
 }
 
 impl Subject {
+    /// True if single precision shows the field.
+    pub(super) fn bears_single(&self) -> bool {
+        single_precision_error(self.field.0.field().step).is_none()
+    }
+
     /// The two sides of a difference, if it is one.
     pub(super) fn minus(&self) -> Option<minus::Minus<'_>> {
         let left = self.minus.as_ref()?;

@@ -8,7 +8,7 @@ use ppum_render::resample::norms::Norms;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::deformed;
-use ppum_scene::drawing::{Drawn, Seen, Shown};
+use ppum_scene::drawing::{Drawn, PROCESSOR, Seen, Shown};
 use web_time::Instant;
 
 use super::Fault;
@@ -122,6 +122,10 @@ impl Values {
             })?,
             (Shown::Quantity(quantity), None) => self.draw_soon(place, |subject, view| {
                 let field = subject.field.0.field();
+                if !subject.bears_single() {
+                    let raster = render::<f64>(field, view, quantity, watcher)?;
+                    return Ok(Drawn::new(raster, field, view, PROCESSOR));
+                }
                 let raster = render::<f32>(field, view, quantity, watcher)?;
                 Ok(Drawn::new(raster, field, view, "cpu f32"))
             })?,
