@@ -121,9 +121,10 @@ impl Quadrature<'_> {
         normal: Vec2,
     ) -> Vec<EdgeRule> {
         let line = Line::new(cell.center(), [from, to], normal);
-        let inside = line.inside(cell, line.ends, line.slack).filter(|_| line.belongs_to(cell));
-        let Some((lo, hi)) = inside else { return Vec::new() };
         let tolerance = TOLERANCE * cell.size().length();
+        let counts = |(lo, hi): &(f64, f64)| hi - lo > tolerance && line.belongs_to(cell);
+        let inside = line.inside(cell, line.ends, line.slack).filter(counts);
+        let Some((lo, hi)) = inside else { return Vec::new() };
         let left = Cell::new(self.divisions);
         let mut run = Run { quadrature: self, line, tolerance, cell, rules: Vec::new(), left };
         run.add(lo, hi, coverers);
@@ -158,8 +159,8 @@ impl Line {
         Self { anchor, tangent, normal, foot, segment, ends, slack }
     }
 
-    /// The part of \[ends\] inside a box, if it has a length. A line along a border is inside for a
-    /// positive `slack`, a distance.
+    /// The part of \[ends\] inside a box, if it has a length, however short: boxes of different sizes must agree. A line
+    /// along a border is inside for a positive `slack`, a distance.
     fn inside(&self, rect: &Rect, ends: [f64; 2], slack: f64) -> Option<(f64, f64)> {
         let [mut lo, mut hi] = ends;
         let main = usize::from(self.tangent.y.abs() > self.tangent.x.abs());
@@ -174,7 +175,7 @@ impl Line {
                 (lo, hi) = (lo.max(a.min(b)), hi.min(a.max(b)));
             }
         }
-        (hi - lo > TOLERANCE * rect.size().length()).then_some((lo, hi))
+        (hi > lo).then_some((lo, hi))
     }
 
     /// The borders of a box across an axis, relative to the anchor.

@@ -248,3 +248,28 @@ fn faces_keep_their_resultants() {
         }
     }
 }
+
+/// Segments that end beside lines of the cover by rounding or more: the own patch of a cell is among those of each rule in it.
+#[test]
+fn shortest_parts_have_the_patches_of_their_cells() {
+    let mut random = Random(31);
+    for _ in 0..300 {
+        let case = Case::new(graded(&mut random, WeightFunction::Linear), Vec::new(), Vec::new());
+        let Partition { cell: cells, .. } = &case.partition;
+        let mut beside = || {
+            let off = random.between(-1.0, 1.0) * 10f64.powf(-random.between(8.0, 15.0));
+            let cell = cells[random.below(cells.len())];
+            let inside = random.point(&cell);
+            vec2(cell.min.x + off, if random.below(2) == 0 { inside.y } else { 0.137 })
+        };
+        let ends = [beside(), beside()];
+        let quadrature = case.quadrature(Orders::for_degree(1));
+        let normal = (ends[1] - ends[0]).unit().left();
+        for (k, cell) in (0..).zip(cells) {
+            let coverers = coverers(&case.partition, cell);
+            for rule in quadrature.edge(cell, &coverers, ends, normal) {
+                assert!(rule.patches.contains(&k), "{ends:?} in {cell:?}: {:?}", rule.patches);
+            }
+        }
+    }
+}
