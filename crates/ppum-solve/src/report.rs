@@ -30,6 +30,8 @@ pub struct SolverReport {
     pub solver: Option<f64>,
     /// Bytes that the linear solver has held: matrices of all levels, factors.
     pub solver_bytes: Option<f64>,
+    /// 1 where the direct solver took the place of the multilevel one, whose levels did not serve.
+    pub fallback: Option<f64>,
     /// Levels of the multilevel solver, the finest and the coarsest among them.
     pub solver_levels: Option<f64>,
     /// Its steps, of the solution without those of other right-hand sides.
@@ -182,7 +184,7 @@ impl Stop {
 type Entry = (&'static str, fn(&mut SolverReport) -> &mut Option<f64>);
 
 /// All numbers but the seconds, in the order of files.
-const ENTRIES: [Entry; 20] = [
+const ENTRIES: [Entry; 21] = [
     ("crossed twice", |r| &mut r.crossed_twice),
     ("unknowns", |r| &mut r.unknowns),
     ("cut-off", |r| &mut r.cut_off),
@@ -190,6 +192,7 @@ const ENTRIES: [Entry; 20] = [
     ("dependent", |r| &mut r.dependent),
     (SOLVER, |r| &mut r.solver),
     (BYTES, |r| &mut r.solver_bytes),
+    ("solver fallback", |r| &mut r.fallback),
     ("solver levels", |r| &mut r.solver_levels),
     ("iterations", |r| &mut r.iterations),
     ("preconditioned condition", |r| &mut r.preconditioned_condition),

@@ -79,6 +79,8 @@ pub mod kind {
     pub const IMBALANCE: &str = "imbalance";
     /// The linear system has a large residual.
     pub const RESIDUAL: &str = "residual";
+    /// The direct solver took the place of the multilevel one.
+    pub const SOLVER: &str = "solver";
     /// Many functions were cut off as dependent.
     pub const CUT_OFF: &str = "cut-off";
     /// A crack cuts a cell at a held edge into a sliver.

@@ -19,6 +19,7 @@ pub(super) fn of_report(
         (kind::CUT_OFF, report.cut_off_part(), LARGE_CUT_OFF, cut_off),
         (kind::NITSCHE, report.nitsche, LARGE_NITSCHE, nitsche),
         (kind::CROSSED_TWICE, report.crossed_twice, 0.0, crossed_twice),
+        (kind::SOLVER, report.fallback, 0.0, fallback),
     ];
     let passed = rules.into_iter().filter_map(|(kind, value, limit, message)| {
         value.filter(|value| *value > limit).map(|value| (kind, value, limit, message))
@@ -105,6 +106,12 @@ fn imbalance(value: f64, _: Cutters) -> String {
         "{value:.1e} of the loads remain unbalanced on a plate that nothing holds, and are left \
          out; balance the loads, or hold the plate"
     )
+}
+
+fn fallback(_: f64, _: Cutters) -> String {
+    "the multilevel solver does not come to a solution here, and the direct one took its place, which needs more memory \
+     and time on fine covers; ask for it by `kind = \"direct\"`, or hold the pieces of the plate"
+        .to_owned()
 }
 
 fn cut_off(value: f64, cutters: Cutters) -> String {

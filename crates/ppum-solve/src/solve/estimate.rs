@@ -123,15 +123,21 @@ impl Estimate {
         };
         match problem.solver.kind {
             SolverKind::Direct => direct(),
-            SolverKind::Multilevel => multilevel(),
-            SolverKind::Auto if sizes.len() > TOO_MANY_TO_COUNT => multilevel(),
+            SolverKind::Auto | SolverKind::Multilevel if sizes.len() > TOO_MANY_TO_COUNT => {
+                multilevel()
+            }
             SolverKind::Auto => direct().or(multilevel(), memory),
+            SolverKind::Multilevel => Self { falls_back: direct().fits(memory), ..multilevel() },
         }
+    }
+
+    fn fits(&self, memory: Option<u64>) -> bool {
+        memory.is_none_or(|memory| self.memory <= memory as f64)
     }
 
     /// This one of the direct solver, or the other one where that wins or the memory asks for it.
     fn or(self, multilevel: Self, memory: Option<u64>) -> Self {
-        let holds = memory.is_none_or(|memory| self.memory <= memory as f64);
+        let holds = self.fits(memory);
         let is_direct = holds && self.memory <= LARGE_BYTES && self.seconds <= multilevel.seconds;
         if is_direct || multilevel.memory >= self.memory {
             self

@@ -133,7 +133,8 @@ impl Solving<'_> {
         let mut assembled = self.assemble(&given, &plate, &tips, clock)?;
         let found = match self.found(self.kind, &mut assembled, &plate, &tips) {
             Err(error) if self.falls_back && is_of_levels(&error) => {
-                self.found(LinearKind::Direct, &mut assembled, &plate, &tips)
+                let found = self.found(LinearKind::Direct, &mut assembled, &plate, &tips);
+                found.map(|found| found.told_of_fallback())
             }
             other => other,
         };
@@ -240,6 +241,12 @@ struct Found {
     duals: Option<DualSolutions>,
     /// The numbers of the report that the linear solver knows.
     report: SolverReport,
+}
+
+impl Found {
+    fn told_of_fallback(self) -> Self {
+        Self { report: SolverReport { fallback: Some(1.0), ..self.report }, ..self }
+    }
 }
 
 /// True if coarser levels may be the reason of an error.

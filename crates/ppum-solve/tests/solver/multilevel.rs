@@ -9,6 +9,7 @@ use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::progress::{Phase, Progress, Verdict};
 use ppum::vec2::{Vec2, vec2};
+use ppum_solve::diagnostics::kind;
 use ppum_solve::norms::energy;
 use ppum_solve::problem::{Problem, SolverKind};
 use ppum_solve::report::SolverReport;
@@ -259,4 +260,28 @@ fn it_can_be_stopped() {
     let stop = |progress: Progress| Verdict::go_on_unless(progress.phase == Phase::Solution);
     let error = solve(&problem, &stop).expect_err("it was stopped");
     assert!(matches!(error, SolveError::Cancelled(_)), "{error}");
+}
+
+/// Squares that cracks cut out of a plate: nothing holds them, and coarser levels do not know all of their motions.
+#[test]
+#[ignore = "slow: 13,000 unknowns by both solvers"]
+fn the_direct_solver_takes_its_place() {
+    let lines = [
+        "[[-0.6, -0.3], [0.6, -0.3]]",
+        "[[-0.6, 0.3], [0.6, 0.3]]",
+        "[[-0.5, -0.4], [-0.5, 0.4]]",
+        "[[0.0, -0.4], [0.0, 0.4]]",
+        "[[0.5, -0.4], [0.5, 0.4]]",
+    ];
+    let cracks = lines.map(crack).concat();
+    let mut problem = parse(&format!("{HEAD}{STEEL}{PULLED}{cracks}"), 5, 3);
+    let direct = by(SolverKind::Direct, &problem);
+    problem.solver.kind = SolverKind::Multilevel;
+    let step = &solved(&problem).steps[0];
+    assert_eq!(SolverReport::of(&step.history).fallback, Some(1.0));
+    assert!(step.warnings.iter().any(|warning| warning.kind == kind::SOLVER));
+    let known = &direct.steps[0].intensities;
+    for (found, known) in step.intensities.iter().zip(known) {
+        assert!((found.k1 - known.k1).abs() < 1e-9, "{found:?} {known:?}");
+    }
 }
