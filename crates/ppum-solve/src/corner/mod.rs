@@ -10,8 +10,8 @@ mod exponent;
 mod sectors;
 mod wedge;
 
-use crate::geometry::rim_crossings;
-use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem};
+use crate::geometry::{rim_crossings, sure_side};
+use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem, touch};
 use crate::quadrature::{sign_changes, tame};
 use crate::smoothness::levels_of_data;
 use exponent::smallest;
@@ -22,9 +22,6 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use sectors::{LOOK, Sector, Surroundings};
 use std::f64::consts::TAU;
 pub(crate) use wedge::{Symmetry, Term};
-
-/// Lengths below this part of the domain's longer side count as zero, as they do for cracks.
-const TOUCH: f64 = 1e-9;
 
 /// Rounding of angles.
 const SAME_ANGLE: f64 = 1e-6;
@@ -63,6 +60,8 @@ pub(crate) struct Corner {
 pub(crate) struct Wedge {
     /// Angle of its bisector from the plate's x axis.
     pub(crate) bisector: f64,
+    /// Radius of the disc in which it is all there is.
+    room: f64,
     /// The side of the crack that it lies on, if what is beside it is material, too.
     pub(crate) side: Option<(u32, Side)>,
     /// Its fields that polynomials see badly.
@@ -81,7 +80,8 @@ impl Corner {
 
     /// True if a box lies in the disc around the corner in which its wedge is all there is.
     pub(crate) fn has_room_for(&self, part: &Rect) -> bool {
-        part.corners().iter().all(|p| (*p - self.at).length() < self.room)
+        let room = self.wedge.as_ref().map_or(self.room, |wedge| wedge.room);
+        part.corners().iter().all(|p| (*p - self.at).length() < room)
     }
 
     /// The part of the field around the point that is not smooth: 1 − λ, and a constant where loads jump.
@@ -124,8 +124,7 @@ impl Nature {
 
 /// The singular points of a problem, in the order: box, edges, holes, cracks. Its cost is quadratic in their number.
 pub(crate) fn corners(problem: &Problem) -> Vec<Corner> {
-    let size = problem.domain.bounds.size();
-    let touch = TOUCH * size.x.max(size.y);
+    let touch = touch(&problem.domain.bounds);
     let places = distinct(places(problem), touch);
     let around = Surroundings { problem, touch };
     let scale = scale_of_values(problem);
@@ -216,18 +215,19 @@ fn wedge(
 ) -> Option<Wedge> {
     let bisector = sector.from + 0.5 * sector.opening;
     let fills = sectors.iter().map(|s| s.opening).sum::<f64>() > TAU - SAME_ANGLE;
-    let side = match (nature, sectors.len()) {
-        (_, 1) => None,
+    let (side, room) = match (nature, sectors.len()) {
+        (_, 1) => (None, room),
         (Nature::Kink(crack), 2) if fills => {
             let inside = at + vec2(bisector.cos(), bisector.sin()) * (LOOK * room);
-            let seen = LocalCrack::new(&problem.cracks[crack], inside);
+            let (own, bounds) = (&problem.cracks[crack], &problem.domain.bounds);
+            let seen = LocalCrack::new(own, inside);
             let side =
                 if seen.side([0.0, 0.0], Side::Above) > 0.0 { Side::Above } else { Side::Below };
-            Some((crack as u32, side))
+            (Some((crack as u32, side)), room.min(sure_side(own, at, bounds, touch(bounds))))
         }
         _ => return None,
     };
-    Some(Wedge { bisector, side, terms: wedge::terms(sector.opening, constants) })
+    Some(Wedge { bisector, room, side, terms: wedge::terms(sector.opening, constants) })
 }
 
 /// True if the given values of a component jump from ray to ray, measured by the size of all of them.

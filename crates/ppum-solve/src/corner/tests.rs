@@ -2,6 +2,7 @@ use super::*;
 use crate::problem::{BoundaryCondition, Cells, Condition, Discretization, Edge, Expression};
 use ppum::dataset::{Material, StressState};
 use ppum::vec2::vec2;
+use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 
 const BOUNDS: Rect = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
@@ -142,6 +143,36 @@ fn corners_of_holes_and_kinks_are_found_where_they_are_in_the_plate() {
     assert_eq!(all, expected);
     let kink = corners(&problem).into_iter().find(|c| c.nature == Nature::Kink(0)).expect("it");
     assert!((kink.room - 0.25).abs() < 1e-12);
+}
+
+/// In the room of a kink's functions the side of its crack is that of the two segments there, also where the crack comes
+/// back, as coils, hooks and a Z do, and where its extensions pass.
+#[test]
+fn sides_in_the_rooms_of_kinks() {
+    let mut random = Random(23);
+    let coil = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, -0.2], [0.2, -0.2]];
+    let zigzag = [[-0.6, -0.3], [0.5, -0.3], [-0.5, 0.3], [0.6, 0.3]];
+    let (mut kinks, mut rooms) = (0, 0.0);
+    for points in [&coil[..], &coil[..5], &coil[..4], &coil[1..], &zigzag] {
+        for _ in 0..5 {
+            let mut moved = |x: f64| x + random.between(-0.05, 0.05);
+            let points: Vec<[f64; 2]> = points.iter().map(|p| p.map(&mut moved)).collect();
+            let problem = plate().with_crack(&points);
+            let crack = &problem.cracks[0];
+            for Corner { at, wedge, .. } in corners(&problem) {
+                let Some(Wedge { room, side: Some(_), .. }) = wedge else { continue };
+                let k = crack.points.iter().position(|p| *p == at).expect("a vertex");
+                let own = Crack { points: crack.points[k - 1..=k + 1].to_vec(), ..crack.clone() };
+                for _ in 0..100 {
+                    let p = at + random.direction() * (room * random.unit());
+                    let side = |c: &Crack| LocalCrack::new(c, p).side([0.0; 2], Side::Above);
+                    assert_eq!(side(crack), side(&own), "{points:?} {p:?}");
+                }
+                (kinks, rooms) = (kinks + 1, rooms + room);
+            }
+        }
+    }
+    assert!(kinks > 60 && rooms > 0.1 * f64::from(kinks), "{kinks} {rooms}");
 }
 
 /// A half circle out of a held edge leaves two right angles, held on one side; rims that cross make corners

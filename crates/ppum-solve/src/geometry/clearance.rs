@@ -180,6 +180,19 @@ fn led_astray(own: &Crack, end: End, bounds: &Rect) -> f64 {
     0.5 * beyond.min(comes_back(own, end))
 }
 
+/// Distance from a vertex of a crack up to which the crack's side changes nowhere but on the two segments there. Of a hook,
+/// whose side is not that of the whole plane, it ends half way to the next part or extension: there that is as near.
+pub(crate) fn sure_side(crack: &Crack, at: Vec2, bounds: &Rect, touch: f64) -> f64 {
+    let reach = bounds.size().length();
+    if extensions(crack, reach, 0.0).is_some() {
+        return f64::INFINITY;
+    }
+    let rays = [End::Start, End::Last].map(|end| extension(crack, end, reach));
+    let all = crack.points.windows(2).map(|s| [s[0], s[1]]).chain(rays);
+    let others = all.map(|s| segment::distance(s, at)).filter(|distance| *distance > touch);
+    0.5 * others.fold(f64::INFINITY, f64::min)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

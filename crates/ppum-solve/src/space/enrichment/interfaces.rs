@@ -1,6 +1,7 @@
 //! Kinks at the interfaces of materials: what no function of the problem's own has is added.
 
 use super::{Degree, Enrichments, Instance, Patch, Patches};
+use crate::geometry::Jump;
 use crate::problem::Enrichment;
 use crate::smoothness::{BESIDE, Interface, Interfaces, Place, Probe};
 use crate::space::SpaceError;
@@ -76,6 +77,11 @@ impl Enrichments<'_> {
         let own: Vec<_> = own.iter().filter(|new| patch.is_of(&new.patches)).collect();
         let size = patch.support.size();
         let width = size.x.min(size.y);
+        // where cracks meet or come back their sides jump in the material, too
+        let through = || match self.jumps.as_ref().map(|jumps| jumps.of(&patch.open)) {
+            Some(Jump::Sides(cracks)) => cracks,
+            _ => Vec::new(),
+        };
         let mut found: Vec<usize> = Vec::new();
         let mut cuts = Vec::new();
         for (index, interface) in interfaces.all.iter().enumerate() {
@@ -89,10 +95,9 @@ impl Enrichments<'_> {
             }
             found.push(index);
             cuts.push((index, None));
-            let cracks = self.problem.cracks.iter().enumerate();
-            let through = cracks.filter(|(_, crack)| patch.is_cut_through(crack));
-            let parted = through.filter(|(_, crack)| parts(crack, &places));
-            cuts.extend(parted.map(|(k, _)| (index, Some(k))));
+            let cracks = through().into_iter().map(|crack| crack as usize);
+            let parted = cracks.filter(|&k| parts(&self.problem.cracks[k], &places));
+            cuts.extend(parted.map(|k| (index, Some(k))));
         }
         cuts
     }

@@ -423,11 +423,6 @@ impl<'p> Patch<'p> {
         length_inside(crack, &self.open, self.holes) > self.shortest
     }
 
-    /// True if the crack cuts the patch and has no tip in the patch.
-    fn is_cut_through(&self, crack: &Crack) -> bool {
-        self.is_cut(crack) && !crack.tips().any(|end| self.holds(crack.end_point(end)))
-    }
-
     fn nearest_tip(&self, crack: &Crack) -> Option<End> {
         let distance = |&end: &End| (crack.end_point(end) - self.support.center()).length();
         crack.tips().min_by(|a, b| distance(a).total_cmp(&distance(b)))
