@@ -1,5 +1,6 @@
 //! Clearance of crack tips: the largest disc around a tip in which nothing disturbs its field.
 
+use super::AS_LONG;
 use super::jumps::{extension, extensions};
 use super::material::jumps;
 use ppum::crack::{Crack, End, TipId};
@@ -160,8 +161,10 @@ fn comes_back(own: &Crack, end: End) -> f64 {
 pub(super) fn led_away(own: &Crack, end: End) -> [Vec<Vec2>; 2] {
     let points: Vec<Vec2> = from_tip(own, end).collect();
     let (tip, axis) = (points[0], own.growth_direction(end));
-    let leads_away = |s: &[Vec2]| (s[1] - s[0]).dot(s[0] - tip) > 0.0;
-    let is_behind = |p: Vec2| (p - tip).dot(axis) < 0.0;
+    // a right angle leads neither away nor back, whatever its rounding
+    let is_acute = |u: Vec2, v: Vec2| u.dot(v) > AS_LONG * u.length() * v.length();
+    let leads_away = |s: &[Vec2]| is_acute(s[1] - s[0], s[0] - tip);
+    let is_behind = |p: Vec2| is_acute(tip - p, axis);
     let first = |s: &&[Vec2]| s[0] == tip;
     let goes_on = |s: &&[Vec2]| (first(s) || leads_away(s)) && is_behind(s[1]);
     let away = points.windows(2).take_while(goes_on).count();

@@ -3,22 +3,23 @@
 use ppum::crack::{Crack, CrackEnd};
 use ppum::domain::{Domain, Hole};
 use ppum::segment::{Segment, distance, gap};
-use ppum::text::trimmed;
-use ppum::vec2::{Rect, Vec2};
+use ppum::text::{exact, trimmed};
+use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::boundary::Edge;
 use super::check::MistakeAt;
 use super::contacts::{check_contacts, find_junctions};
 use super::key::Key;
 use super::nearby::{TooDense, first_pair};
+use super::straight::straightened;
 use crate::geometry::{Placed, wider};
 
 /// Lengths below this part of the domain's longer side count as zero: nearer things are meant to
 /// touch, and no cover resolves them.
 pub(super) const TOUCH: f64 = 1e-9;
 
-/// A crack along a polyline: ends on the border of the box, and on the rim or inside of a hole (up to
-/// 10⁻⁹ of the domain's size), are mouths, all others tips. Of cracks that meet, see [`cracks`].
+/// A crack along a polyline: ends on the border of the box, to which they are moved, and on the rim or inside of a hole (up
+/// to 10⁻⁹ of the domain's size) are mouths, all others tips. Of cracks that meet, see [`cracks`].
 #[must_use]
 pub fn crack(points: Vec<Vec2>, domain: &Domain) -> Crack {
     let lines = [points];
@@ -27,19 +28,38 @@ pub fn crack(points: Vec<Vec2>, domain: &Domain) -> Crack {
 
 /// Cracks along polylines, with their ends as [`crack`] has them, but for ends on other cracks (up to the same
 /// distance), which are junctions.
+///
+/// What is meant to meet or to be straight, up to that distance, does so and is: the points are those of the lines but for
+/// vertices that are not needed, and for junctions, which are moved onto each other and onto lines.
 #[must_use]
 pub fn cracks(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Domain) -> Vec<Crack> {
+    settled(with_ends(lines, domain), domain)
+}
+
+/// The same of cracks whose ends are known.
+pub(super) fn settled(cracks: Vec<Crack>, domain: &Domain) -> Vec<Crack> {
+    let lines = cracks.into_iter().map(|crack| crack.points);
+    let is_mouth = |p| edges_at(p, &domain.bounds, 0.0).next().is_some();
+    with_ends(straightened(lines, is_mouth, touch(&domain.bounds)), domain)
+}
+
+/// Cracks along polylines as they are, but for ends on edges, which they are moved to.
+pub(super) fn with_ends(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Domain) -> Vec<Crack> {
     let touch = touch(&domain.bounds);
     let holes = holes_of(domain, touch);
-    let end = |point: Option<&Vec2>| match point {
-        Some(p) if edges_at(*p, &domain.bounds, 0.0).next().is_some() => CrackEnd::Mouth,
-        Some(p) if holes_at(&holes, *p).any(|(_, hole)| reaches(hole, *p, touch)) => {
+    let end = |point: Option<&mut Vec2>| {
+        let Some(p) = point else { return CrackEnd::Tip };
+        *p = onto_edges(*p, &domain.bounds, touch);
+        let is_on_edge = edges_at(*p, &domain.bounds, 0.0).next().is_some();
+        let mut near = holes_at(&holes, *p);
+        if is_on_edge || near.any(|(_, hole)| reaches(hole, *p, touch)) {
             CrackEnd::Mouth
+        } else {
+            CrackEnd::Tip
         }
-        _ => CrackEnd::Tip,
     };
-    let crack = |points: Vec<Vec2>| {
-        let ends = [end(points.first()), end(points.last())];
+    let crack = |mut points: Vec<Vec2>| {
+        let ends = [end(points.first_mut()), end(points.last_mut())];
         Crack { points, ends }
     };
     let mut cracks: Vec<_> = lines.into_iter().map(crack).collect();
@@ -69,6 +89,13 @@ pub(crate) fn touch(bounds: &Rect) -> f64 {
 /// True if a point lies in a hole or on its rim.
 fn reaches(hole: &Hole, p: Vec2, touch: f64) -> bool {
     hole.contains(p) || hole.rim_distance(p) <= touch
+}
+
+/// The point on the edges that it misses by no more than `touch`.
+fn onto_edges(p: Vec2, bounds: &Rect, touch: f64) -> Vec2 {
+    let onto = |x: f64, edge: f64| if (x - edge).abs() <= touch { edge } else { x };
+    let (x, y) = (onto(p.x, bounds.min.x), onto(p.y, bounds.min.y));
+    vec2(onto(x, bounds.max.x), onto(y, bounds.max.y))
 }
 
 /// The edges no farther from `p` than `tolerance`.
@@ -129,13 +156,23 @@ fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option
         let near = edges_at(*p, domain, touch).next();
         let message = match near {
             _ if !p.is_finite() => "the point is not finite".to_owned(),
-            Some(edge) if edges_at(*p, domain, 0.0).next().is_none() => format!(
+            Some(edge) if is_end && edges_at(*p, domain, 0.0).next().is_none() => format!(
                 "the point misses the {} edge by {:e}; put it on the edge exactly, or farther away",
                 edge.name(),
                 edge.depth(domain, *p).abs()
             ),
             _ if !domain.contains(*p) => {
-                format!("{} lies outside the domain; move it in, or enlarge the domain", shown(*p))
+                let depths = Edge::ALL.map(|edge| (edge.depth(domain, *p), edge));
+                let farther = |a: (f64, Edge), b: (f64, Edge)| if b.0 < a.0 { b } else { a };
+                let (depth, edge) = depths.into_iter().fold((0.0, Edge::Left), farther);
+                format!(
+                    "[{}, {}] lies outside the domain, {} beyond the {} edge; {}move it in, or enlarge the domain",
+                    exact(p.x),
+                    exact(p.y),
+                    trimmed(-depth),
+                    edge.name(),
+                    if is_end { "put it on the edge, " } else { "" }
+                )
             }
             Some(edge) if !is_end => format!(
                 "the crack touches the {} edge between its ends, at {}; only an end may lie on the border",
@@ -244,8 +281,6 @@ fn folds_back([a, b]: [Vec2; 2], [_, c]: [Vec2; 2], touch: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use ppum::vec2::vec2;
-
     use super::*;
 
     #[test]

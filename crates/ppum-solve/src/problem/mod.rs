@@ -51,6 +51,7 @@ mod restraint;
 mod scopes;
 mod stations;
 mod stiffness;
+mod straight;
 mod table_file;
 #[cfg(test)]
 mod tests;
@@ -66,7 +67,6 @@ use ppum::vec2::Vec2;
 
 pub use adaptivity::{AdaptKind, Adaptivity, Keep};
 pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge};
-use contacts::find_junctions;
 pub(crate) use cracks::touch;
 pub use cracks::{crack, cracks};
 pub(crate) use curve::arc_from;
@@ -259,9 +259,9 @@ impl Problem {
     /// it that lie on it become junctions, too. Cost: that of looking at all cracks; [`cracks()`] makes many at once.
     #[must_use]
     pub fn with_crack(mut self, points: &[[f64; 2]]) -> Self {
-        let points = points.iter().copied().map(Vec2::from).collect();
-        self.cracks.push(crack(points, &self.domain));
-        find_junctions(&mut self.cracks, touch(&self.domain.bounds));
+        let new = points.iter().copied().map(Vec2::from).collect();
+        let all = std::mem::take(&mut self.cracks).into_iter().map(|crack| crack.points);
+        self.cracks = cracks(all.chain([new]), &self.domain);
         self
     }
 

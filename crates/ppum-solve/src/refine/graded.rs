@@ -8,7 +8,7 @@
 
 use super::rim::{Bend, FOR_ENERGY, bends, finest};
 use crate::corner::{Corner, Nature};
-use crate::geometry::{around, wider};
+use crate::geometry::{around, exceeds, wider};
 use crate::problem::Problem;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -122,7 +122,7 @@ impl Graded {
     /// True if a cell is too large.
     pub(super) fn asks(&self, cell: &Rect) -> bool {
         let size = cell.size().x.max(cell.size().y);
-        size > self.finest && size > self.slope * self.from.distance(cell)
+        exceeds(size, self.finest) && exceeds(size, self.slope * self.from.distance(cell))
     }
 
     /// Asks for half as fine cells.

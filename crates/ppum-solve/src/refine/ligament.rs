@@ -2,6 +2,7 @@
 //! plate bends like a beam, and a few cells must lie across.
 
 use super::graded::SMALLEST;
+use crate::geometry::exceeds;
 use crate::problem::{Edge, Problem};
 use ppum::domain::Hole;
 use ppum::segment::polyline_distance;
@@ -83,8 +84,8 @@ impl Ligament<'_> {
     /// True if a cell is too large for what is left where it lies.
     pub(super) fn asks(&self, cell: &Rect) -> bool {
         let (size, center) = (cell.size().x.max(cell.size().y), cell.center());
-        size > self.finest
-            && size > ACROSS * (self.hole.rim_distance(center) + self.other.distance(center))
+        let width = self.hole.rim_distance(center) + self.other.distance(center);
+        exceeds(size, self.finest) && exceeds(size, ACROSS * width)
     }
 }
 

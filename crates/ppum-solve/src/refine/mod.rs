@@ -22,7 +22,7 @@ mod rim;
 
 use crate::corner::corners;
 use crate::geometry::{
-    AMPLE_CLEARANCE, Jumps, Placed, TipClearance, around, bent_part, interface_distance,
+    AMPLE_CLEARANCE, Jumps, Placed, TipClearance, around, bent_part, exceeds, interface_distance,
     rim_crossings, runs_of_rim, wider,
 };
 use crate::problem::{Cells, DEEPEST, Enrichment, Problem, touch};
@@ -330,9 +330,9 @@ impl<'p> Rims<'p> {
     fn cross_twice(&self, patch: &Rect) -> bool {
         let size = patch.size().x.max(patch.size().y) / self.overlap;
         let inside = patch.intersection(&self.domain);
-        self.rims
-            .near(patch)
-            .any(|(points, whole)| size > LEAST_GAP * whole && runs_of_rim(points, &inside) > 1)
+        self.rims.near(patch).any(|(points, whole)| {
+            exceeds(size, LEAST_GAP * whole) && runs_of_rim(points, &inside) > 1
+        })
     }
 }
 
@@ -374,9 +374,9 @@ impl Need {
 
     fn asks(&self, cell: &Rect, patch: &Rect) -> bool {
         let size = cell.size().x.max(cell.size().y);
-        (patch.distance(self.tip) < self.near && size > self.ample)
+        (exceeds(self.near, patch.distance(self.tip)) && exceeds(size, self.ample))
             || (patch.contains(self.tip)
-                && (size > self.largest || self.apart.iter().any(|&p| patch.contains(p))))
+                && (exceeds(size, self.largest) || self.apart.iter().any(|&p| patch.contains(p))))
     }
 }
 

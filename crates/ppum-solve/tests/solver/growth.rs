@@ -307,10 +307,9 @@ fn ends_of_paths() {
         let met = met.unwrap_or_else(|| panic!("{fate:?} is not met"));
         let grown = &steps[met + 1].cracks[own as usize];
         assert_eq!(grown.ends[1], end);
-        assert_eq!(
-            grown.end_point(End::Last),
-            *row(&steps[met], own, End::Last).path.last().expect("a path")
-        );
+        let last = *row(&steps[met], own, End::Last).path.last().expect("a path");
+        // it has been moved onto what it meets
+        assert!((grown.end_point(End::Last) - last).length() < 1e-15);
     }
 }
 

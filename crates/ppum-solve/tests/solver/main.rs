@@ -30,6 +30,7 @@ mod reactions;
 mod refined;
 mod rims;
 mod rooms;
+mod rounding;
 mod slivers;
 #[path = "../studies/mod.rs"]
 mod studies;

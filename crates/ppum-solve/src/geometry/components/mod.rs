@@ -115,7 +115,7 @@ impl Building {
     }
 
     fn cut(&mut self, region: Region, pieces: Vec<Piece>, chosen: usize) -> usize {
-        let Piece { id, line, .. } = pieces[chosen];
+        let Piece { id, line, ends } = pieces[chosen];
         let number = self.sides.len();
         self.sides.push(Sides::new(line));
         let node = self.tree.push(Node::Cut { segment: id, left: 0, right: 0 });
@@ -129,7 +129,7 @@ impl Building {
             left.extend(parts[0]);
             right.extend(parts[1]);
         }
-        let [on_left, on_right] = region.split(&line, number, self.thinnest);
+        let [on_left, on_right] = region.split(&line, ends, number, self.thinnest);
         let left = self.part(on_left, left);
         let right = self.part(on_right, right);
         self.tree.set(node, Node::Cut { segment: id, left, right });

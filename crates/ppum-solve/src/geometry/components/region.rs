@@ -88,8 +88,11 @@ impl Region {
         distances().any(|d| d > thinnest) && distances().any(|d| d < -thinnest)
     }
 
-    /// The parts on the left and on the right of a line.
-    pub(super) fn split(&self, line: &Line, cut: usize, thinnest: f64) -> [Self; 2] {
+    /// The parts on the left and on the right of the line of a segment.
+    ///
+    /// A side that the segment ends on is divided there: the crossing of lines at a small angle is lost in rounding, and
+    /// cracks that meet at a point would leave a way between them.
+    pub(super) fn split(&self, line: &Line, ends: Segment, cut: usize, thinnest: f64) -> [Self; 2] {
         let (mut left, mut right) = (Vec::new(), Vec::new());
         for (k, &(p, side)) in self.0.iter().enumerate() {
             let next = self.0[(k + 1) % self.0.len()].0;
@@ -103,7 +106,13 @@ impl Region {
                 right.push((p, if d == 0.0 && dn > 0.0 { Some(cut) } else { side }));
             }
             if d * dn < 0.0 {
-                let middle = p + (next - p) * (d / (d - dn));
+                let along = Line { from: p, along: (next - p).unit() };
+                let is_on = |end: &Vec2| {
+                    let place = 0.0..=(next - p).length();
+                    along.distance(*end).abs() <= thinnest && place.contains(&along.place(*end))
+                };
+                let crossing = || p + (next - p) * (d / (d - dn));
+                let middle = ends.into_iter().find(is_on).unwrap_or_else(crossing);
                 left.push((middle, if d > 0.0 { Some(cut) } else { side }));
                 right.push((middle, if d < 0.0 { Some(cut) } else { side }));
             }
@@ -143,7 +152,7 @@ impl Region {
         let sides = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]);
         sides.fold(self.clone(), |region, [a, b]| {
             let line = Line { from: a, along: (b - a).unit() };
-            region.split(&line, 0, thinnest).into_iter().next().unwrap_or(region)
+            region.split(&line, [a, b], 0, thinnest).into_iter().next().unwrap_or(region)
         })
     }
 

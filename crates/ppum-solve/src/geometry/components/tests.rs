@@ -99,6 +99,23 @@ fn ends_that_miss_by_rounding_meet() {
     }
 }
 
+/// Cracks that go on from each other at angles down to what counts as none: no way leads through where they meet, also on
+/// the last one that is cut by.
+#[test]
+fn joints_of_small_angles_are_closed() {
+    let mut random = Random(19);
+    for _ in 0..2000 {
+        let joint = random.point(&UNIT) * 0.6 + vec2(0.2, 0.2);
+        let along = random.direction();
+        let apex = joint + along.left() * 10f64.powf(-random.between(2.0, 8.0));
+        let [left, right] = [-3.0, 3.0].map(|s| (joint + along * s).into());
+        let (apex, end) = (apex.into(), (joint + along.left() * 3.0).into());
+        assert_eq!(count(&[&[left, apex], &[apex, right]]), 2, "{left:?} {apex:?} {right:?}");
+        assert_eq!(count(&[&[left, apex, right]]), 2, "{left:?} {apex:?} {right:?}");
+        assert_eq!(count(&[&[apex, end], &[left, apex, right]]), 3, "{left:?} {apex:?} {right:?}");
+    }
+}
+
 #[test]
 fn cracks_that_end_on_holes() {
     let circle = Hole::Circle { center: vec2(0.5, 0.5), radius: 0.2 };

@@ -1,7 +1,7 @@
 //! Cracks and holes that are given as curves: `arc`, `ellipse`, `spline`, `path`.
 
 use ppum::text::trimmed;
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::vec2::{Vec2, vec2};
 
 use super::super::curve::{self, Curve, MOST, Spline, TooSharp};
 use super::super::document::{Section, Value};
@@ -19,33 +19,8 @@ const FEWEST: u32 = 4;
 /// Gap between pieces of a path, in parts of their size, that is rounding of their ends.
 const JOINT: f64 = 1e-6;
 
-/// The course of a crack.
-pub(super) struct Course {
-    pub(super) points: Vec<Vec2>,
-    /// Ends of curves are results of formulas, and meet edges up to rounding.
-    pub(super) is_curved: bool,
-}
-
-impl Course {
-    /// The course with its ends moved to the edges that they miss by no more than `touch`.
-    pub(super) fn on_edges(mut self, bounds: &Rect, touch: f64) -> Vec<Vec2> {
-        let onto = |x: f64, edge: f64| if (x - edge).abs() <= touch { edge } else { x };
-        let snapped = |p: Vec2| {
-            let (x, y) = (onto(p.x, bounds.min.x), onto(p.y, bounds.min.y));
-            vec2(onto(x, bounds.max.x), onto(y, bounds.max.y))
-        };
-        let last = self.points.len().saturating_sub(1);
-        for k in [0, last] {
-            if let Some(p) = self.points.get_mut(k).filter(|_| self.is_curved) {
-                *p = snapped(*p);
-            }
-        }
-        self.points
-    }
-}
-
 /// The course of a `[[crack]]`.
-pub(super) fn course(section: Section<'_>) -> Option<Course> {
+pub(super) fn course(section: Section<'_>) -> Option<Vec<Vec2>> {
     let section = section.only(&["points", "arc", "ellipse", "spline", "path", "segments"], &[]);
     let given: Vec<_> = COURSES.iter().filter(|key| section.mentions(key)).collect();
     if let [_, second, ..] = given[..] {
@@ -56,14 +31,13 @@ pub(super) fn course(section: Section<'_>) -> Option<Course> {
         return self::path(&path, segments);
     }
     if let Some((curve, value)) = CURVES.iter().find_map(|key| open(&section, key)) {
-        return Some(Course { points: vertices(&curve?, segments, &value)?, is_curved: true });
+        return vertices(&curve?, segments, &value);
     }
     if let (Some(_), Some(value)) = (segments, section.get("segments")) {
         return value.error("is for curves; give more points");
     }
     let example = "points = [[-0.5, 0.0], [0.5, 0.0]]";
-    let points = super::points(&section.require("points", example)?)?;
-    Some(Course { points, is_curved: false })
+    super::points(&section.require("points", example)?)
 }
 
 /// The number of segments that is asked for; none if that is left to the program.
@@ -120,7 +94,7 @@ fn told(points: Result<Vec<Vec2>, TooSharp>, value: &Value<'_>) -> Option<Vec<Ve
 }
 
 /// Pieces one after the other, each from where the one before ends.
-fn path(value: &Value<'_>, segments: Option<usize>) -> Option<Course> {
+fn path(value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
     let pieces = value.list("a list of pieces such as { arc = { … } }")?;
     if pieces.is_empty() {
         return value.error("has no pieces; give one at least");
@@ -143,7 +117,7 @@ fn path(value: &Value<'_>, segments: Option<usize>) -> Option<Course> {
         }
         points.extend(&piece[1..]);
     }
-    Some(Course { points, is_curved: true })
+    Some(points)
 }
 
 fn piece(value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {

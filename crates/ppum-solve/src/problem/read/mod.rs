@@ -30,7 +30,7 @@ use super::stiffness::default_order;
 use super::{BorderPart, Order, Place, Problem, Solver, SolverKind, scopes};
 use adaptivity::adaptivity;
 use boundary::boundary;
-use curve::{Course, course};
+use curve::course;
 use discretization::discretization;
 use enrichment::enrichments;
 use growth::growth;
@@ -71,7 +71,9 @@ pub(super) fn read(text: &str, file: &str, files: Files<'_>) -> Result<Problem, 
         "" => Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         title => title.to_owned(),
     };
-    Ok(Problem { title, text: Some(text.to_owned()), files, ..problem })
+    // mistakes are about the vertices of the file
+    let cracks = super::cracks::settled(problem.cracks, &problem.domain);
+    Ok(Problem { title, cracks, text: Some(text.to_owned()), files, ..problem })
 }
 
 /// The message where a bracket is open; every line that follows is then read as a part of the array.
@@ -188,15 +190,13 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
         refinements.retain(|new| !matches!(new.place, Place::Crack(_)));
     }
     let domain = Domain { bounds: domain?, holes: holes? };
-    let touch = super::cracks::touch(&domain.bounds);
-    let cracks = cracks.into_iter().map(|course| course.on_edges(&domain.bounds, touch));
     let mut discretization = discretization?;
     if root.section("discretization").is_some_and(|section| !section.mentions("order")) {
         discretization.order = Order::Uniform(default_order(&equation, &domain));
     }
     Some(Problem {
         title: title.to_owned(),
-        cracks: super::cracks::cracks(cracks, &domain),
+        cracks: super::cracks::with_ends(cracks, &domain),
         domain,
         equation,
         boundary,
@@ -305,7 +305,7 @@ fn material(root: &Section<'_>, scope: &Scope) -> Elasticity {
 }
 
 /// The cracks; none at all if one of them cannot be read, as the checks count them.
-fn cracks(root: &Section<'_>) -> Vec<Course> {
+fn cracks(root: &Section<'_>) -> Vec<Vec<Vec2>> {
     all(root.sections("crack").into_iter().map(course)).unwrap_or_default()
 }
 

@@ -17,7 +17,7 @@ use std::sync::OnceLock;
 use super::williams::of_corner;
 use crate::corner::corners;
 use crate::geometry::{
-    Jumps, Placed, around, distance, inside, length_inside, segment_inside, wider,
+    Jumps, Placed, around, distance, exceeds, inside, length_inside, segment_inside, wider,
 };
 use crate::problem::{Enrichment, LocalEnrichment, Problem, Region, Site, touch};
 use ppum::crack::{Crack, End, SegmentId, TipId, tips};
@@ -416,7 +416,7 @@ impl<'p> Patch<'p> {
     }
 
     fn is_near(&self, p: Vec2, radius: f64) -> bool {
-        self.support.distance(p) < radius
+        exceeds(radius, self.support.distance(p))
     }
 
     fn is_cut(&self, crack: &Crack) -> bool {
