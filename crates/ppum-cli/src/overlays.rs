@@ -24,10 +24,10 @@ pub(crate) struct Overlays {
     /// Write their levels along the isolines
     #[arg(long, requires = "isolines")]
     level_labels: bool,
-    /// Arrows of the displacement (of a potential its gradient), so many pixels apart [default: 36]
+    /// Arrows of the displacement (of a potential its gradient), so many pixels of a bare picture apart [default: 36]
     #[arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true, default_missing_value = "36", value_parser = spacing)]
     arrows: Option<f64>,
-    /// Crosses of the principal stresses, so many pixels apart [default: 36]
+    /// Crosses of the principal stresses, so many pixels of a bare picture apart [default: 36]
     #[arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true, default_missing_value = "36", value_parser = spacing)]
     crosses: Option<f64>,
 }
@@ -125,8 +125,8 @@ impl Overlays {
     }
 
     /// Room around the plate for what stands outside of it, in parts of the plate's larger side.
-    pub(crate) fn margin(&self) -> f64 {
-        self.chosen().margin()
+    pub(crate) fn margin(&self, pixels: [u32; 2], scale: f64) -> f64 {
+        self.chosen().margin(pixels, scale)
     }
 }
 

@@ -203,7 +203,7 @@ pub(crate) fn rgba<'py>(
     let (scene, view) = (this.scene(scene)?, view(spot, size)?);
     let (dataset, field) = (this.owned.dataset(), this.owned.field());
     let drawn = |watcher: &dyn Watcher| -> PyResult<_> {
-        let shot = shot(dataset, (field, None), &scene, &view, false, watcher).map_err(picture)?;
+        let shot = shot(dataset, (field, None), &scene, &view, None, watcher).map_err(picture)?;
         Ok(bare(&shot.picture, shot.layers.items).image())
     };
     let image = long(py, None, None, drawn)??;
@@ -271,7 +271,7 @@ pub(crate) fn frame<'py>(
     let (dataset, field) = (this.owned.dataset(), this.owned.field());
     let drawn = |watcher: &dyn Watcher| -> PyResult<_> {
         let mut shot =
-            shot(dataset, (field, None), &scene, &view, false, watcher).map_err(picture)?;
+            shot(dataset, (field, None), &scene, &view, None, watcher).map_err(picture)?;
         let layers = std::mem::take(&mut shot.layers.items);
         let bytes = encode_quickly(&bare(&shot.picture, layers).image());
         let bytes = bytes.map_err(|error| RenderError::new_err(error.to_string()))?;

@@ -6,6 +6,7 @@ use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::{Axis, Quantity};
 use ppum_figure::canvas::Item;
+use ppum_figure::figure::Design;
 use ppum_figure::levels;
 use ppum_figure::overlay::{self, Entry, Room};
 use ppum_figure::ticks::Notation;
@@ -35,10 +36,17 @@ pub struct Ground<'a> {
     pub picture: &'a Picture,
     /// Values at the centres of its pixels.
     pub values: &'a Values,
-    /// A figure has its cracks whatever is asked for.
-    pub is_figure: bool,
+    /// The design of the figure around it, none of a bare picture: lines and letters have their width by it, and cracks are drawn
+    /// whatever is asked for.
+    pub design: Option<&'a Design>,
     /// True if a colour bar tells how numbers are written.
     pub has_bar: bool,
+}
+
+/// Scale of lines and letters over a picture: that of the figure's design, or of a bare picture of so many pixels.
+#[must_use]
+pub fn scale(design: Option<&Design>, pixels: [u32; 2]) -> f64 {
+    design.map_or_else(|| overlay::line_scale(pixels), Design::scale)
 }
 
 /// What is drawn over a picture.
@@ -84,7 +92,7 @@ impl From<DeformError> for LayersError {
 
 /// Most levels that are chosen by the program.
 const AUTOMATIC: usize = 14;
-/// Distance of supports and loads, in pixels of a picture 768 pixels high.
+/// Distance of supports and loads, in units of the scale.
 const SPACING: f64 = 30.0;
 
 impl Overlays {
@@ -103,7 +111,9 @@ impl Overlays {
         if self.crosses.is_some() && ground.field.equation.elastic().is_none() {
             return Err(LayersError::Crosses);
         }
-        let mut drawing = Drawing { overlays: self, ground, watcher, layers: Layers::default() };
+        let scale = scale(ground.design, ground.picture.view.pixels);
+        let layers = Layers::default();
+        let mut drawing = Drawing { overlays: self, ground, scale, watcher, layers };
         match seen {
             Seen::Plate(_) => drawing.plate()?,
             Seen::Moved(points) => drawing.moved(points, outline)?,
@@ -116,6 +126,7 @@ impl Overlays {
 struct Drawing<'a> {
     overlays: &'a Overlays,
     ground: Ground<'a>,
+    scale: f64,
     watcher: &'a dyn Watcher,
     layers: Layers,
 }
@@ -130,11 +141,11 @@ impl<'a> Drawing<'a> {
         let (mut centers, mut boxes) = (Vec::new(), Vec::new());
         let mut entries = Vec::new();
         if wanted.contains(&Overlay::Boxes) {
-            (boxes, entries) = overlay::boxes(view, field);
+            (boxes, entries) = overlay::boxes(view, self.scale, field);
         }
         if wanted.contains(&Overlay::Centers) {
             // the same colours
-            (centers, entries) = overlay::centers(view, field);
+            (centers, entries) = overlay::centers(view, self.scale, field);
         }
         self.layers.legend.extend(entries);
         self.isolines()?;
@@ -154,7 +165,7 @@ impl<'a> Drawing<'a> {
     /// The overlays in their order, each once.
     fn wanted(&self) -> Vec<Overlay> {
         let mut wanted = self.overlays.shown.clone();
-        wanted.extend(self.ground.is_figure.then_some(Overlay::Cracks));
+        wanted.extend(self.ground.design.map(|_| Overlay::Cracks));
         wanted.sort_unstable();
         wanted.dedup();
         wanted
@@ -162,20 +173,20 @@ impl<'a> Drawing<'a> {
 
     fn overlay(&self, wanted: Overlay, stations: &Stations) -> Vec<Item> {
         let Ground { field, picture, .. } = self.ground;
-        let (view, step) = (&picture.view, field.step);
+        let (view, scale, step) = (&picture.view, self.scale, field.step);
         match wanted {
-            Overlay::Patches => overlay::patches(view, &step.partition),
-            Overlay::Cells => overlay::cells(view, &step.partition),
-            Overlay::Points => overlay::points(view, &step.partition),
-            Overlay::Boxes => overlay::boxes(view, field).0,
-            Overlay::Centers => overlay::centers(view, field).0,
-            Overlay::Rings => overlay::rings(view, &step.cracks, &step.intensities),
+            Overlay::Patches => overlay::patches(view, scale, &step.partition),
+            Overlay::Cells => overlay::cells(view, scale, &step.partition),
+            Overlay::Points => overlay::points(view, scale, &step.partition),
+            Overlay::Boxes => overlay::boxes(view, self.scale, field).0,
+            Overlay::Centers => overlay::centers(view, self.scale, field).0,
+            Overlay::Rings => overlay::rings(view, scale, &step.cracks, &step.intensities),
             Overlay::Cracks => {
-                let rims = overlay::rims(view, &field.domain.holes);
-                [rims, overlay::cracks(view, &step.cracks)].concat()
+                let rims = overlay::rims(view, scale, &field.domain.holes);
+                [rims, overlay::cracks(view, scale, &step.cracks)].concat()
             }
-            Overlay::Supports => overlay::supports(view, &stations.supports),
-            Overlay::Loads => overlay::loads(view, &stations.loads),
+            Overlay::Supports => overlay::supports(view, scale, &stations.supports),
+            Overlay::Loads => overlay::loads(view, scale, &stations.loads),
         }
     }
 
@@ -186,18 +197,18 @@ impl<'a> Drawing<'a> {
         }
         let view = &points.view;
         if outline {
-            self.layers.items.extend(overlay::undeformed_outline(view)?);
+            self.layers.items.extend(overlay::undeformed_outline(view, self.scale)?);
         }
         let glyphs = self.glyphs(|spacing| Lattice::deformed(points, spacing))?;
         self.deformed_isolines(points)?;
         self.layers.items.extend(glyphs);
         let wanted = self.wanted();
         if wanted.contains(&Overlay::Cells) {
-            self.layers.items.extend(overlay::deformed_cells(view));
+            self.layers.items.extend(overlay::deformed_cells(view, self.scale));
         }
         if wanted.contains(&Overlay::Cracks) {
-            self.layers.items.extend(overlay::deformed_outline(view));
-            self.layers.items.extend(overlay::faces(view));
+            self.layers.items.extend(overlay::deformed_outline(view, self.scale));
+            self.layers.items.extend(overlay::faces(view, self.scale));
         }
         Ok(())
     }
@@ -242,7 +253,7 @@ impl<'a> Drawing<'a> {
         if matches!(self.overlays.isolines, Some(Levels::At(_))) {
             self.notice_of_none(lines.len(), Notice::NoIsoline);
         }
-        self.layers.items.extend(overlay::isolines(view, lines, room));
+        self.layers.items.extend(overlay::isolines(view, self.scale, lines, room));
     }
 
     fn notice_of_none(&mut self, count: usize, notice: Notice) {
@@ -256,7 +267,7 @@ impl<'a> Drawing<'a> {
             true => Notation::of(&picture.normalization),
             false => Notation::PLAIN,
         };
-        let legend = overlay::legend_box(view, &self.layers.legend);
+        let legend = overlay::legend_box(view, self.scale, &self.layers.legend);
         let all = self.overlays.level_labels.then(|| Room::new(picture, cracks, notation()));
         all.map(|room| legend.into_iter().fold(room, Room::without))
     }
@@ -282,9 +293,9 @@ impl<'a> Drawing<'a> {
         let Ground { field, picture: Picture { view, .. }, .. } = self.ground;
         let mut items = Vec::new();
         if let Some(spacing) = self.overlays.crosses {
-            let found = lattice(spacing).principal(self.watcher)?;
+            let found = lattice(spacing * self.scale).principal(self.watcher)?;
             self.notice_of_none(found.len(), Notice::NoCross);
-            let (more, meaning) = overlay::crosses(view, &found, spacing);
+            let (more, meaning) = overlay::crosses(view, self.scale, &found, spacing);
             items.extend(more);
             self.layers.legend.extend(meaning);
         }
@@ -293,9 +304,9 @@ impl<'a> Drawing<'a> {
                 2 => [Quantity::Component(0), Quantity::Component(1)],
                 _ => [Quantity::Derivative(0, Axis::X), Quantity::Derivative(0, Axis::Y)],
             };
-            let found = lattice(spacing).vectors(&shown, self.watcher)?;
+            let found = lattice(spacing * self.scale).vectors(&shown, self.watcher)?;
             self.notice_of_none(found.len(), Notice::NoArrow);
-            let (more, meaning) = overlay::arrows(view, &found, spacing);
+            let (more, meaning) = overlay::arrows(view, self.scale, &found, spacing);
             items.extend(more);
             self.layers.legend.extend(meaning);
         }
@@ -307,9 +318,7 @@ impl<'a> Drawing<'a> {
         if !self.overlays.have_stations() {
             return Stations::default();
         }
-        let view = &self.ground.picture.view;
-        let side = f64::from(view.pixels[0].min(view.pixels[1]));
-        let spacing = SPACING * (side / 768.0).max(1.0) * view.pixel_size();
+        let spacing = SPACING * self.scale * self.ground.picture.view.pixel_size();
         Stations::of(self.ground.dataset, spacing).unwrap_or_else(|notice| {
             self.layers.notices.push(notice);
             Stations::default()
@@ -319,7 +328,7 @@ impl<'a> Drawing<'a> {
     /// The layers, with their legend over them if it has room.
     fn with_legend(self) -> Layers {
         let mut layers = self.layers;
-        let inside = overlay::legend(&self.ground.picture.view, &layers.legend);
+        let inside = overlay::legend(&self.ground.picture.view, self.scale, &layers.legend);
         if !inside.is_empty() {
             layers.legend.clear();
         }

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use ppum::text::exact;
 use serde::{Deserialize, Serialize};
 
-/// Distance of arrows and crosses if none is given \[pixels\].
+/// Distance of arrows and crosses if none is given, see [`Overlays::arrows`].
 pub const SPACING: f64 = 36.0;
 
 /// What is drawn over the colours.
@@ -19,9 +19,10 @@ pub struct Overlays {
     pub isolines: Option<Levels>,
     /// True if the isolines bear their levels.
     pub level_labels: bool,
-    /// Arrows of the displacement, of a potential its gradient: their distance \[pixels\].
+    /// Arrows of the displacement, of a potential its gradient: their distance, in pixels of a bare picture of at most 1024 × 768;
+    /// in larger ones and in figures it has the scale of lines and letters.
     pub arrows: Option<f64>,
-    /// Crosses of the principal stresses: their distance \[pixels\].
+    /// Crosses of the principal stresses: their distance, as that of arrows.
     pub crosses: Option<f64>,
 }
 
@@ -122,15 +123,20 @@ impl Overlays {
         self.shown.iter().any(|o| matches!(o, Overlay::Supports | Overlay::Loads))
     }
 
-    /// Room around the plate for what stands outside of it, in parts of the plate's larger side.
+    /// Room around the plate for what stands outside of it, in parts of the plate's larger side, in a picture of so many pixels
+    /// with lines and letters of a scale.
     #[must_use]
-    pub fn margin(&self) -> f64 {
-        if self.have_stations() { MARGIN } else { 0.0 }
+    pub fn margin(&self, pixels: [u32; 2], scale: f64) -> f64 {
+        let side = f64::from(pixels[0].min(pixels[1]));
+        let room = (MARGIN * scale).min(MARGIN_PART * side);
+        if self.have_stations() { room / (side - 2.0 * room) } else { 0.0 }
     }
 }
 
-/// Room for supports and loads around the plate.
-const MARGIN: f64 = 0.09;
+/// Room for supports and loads around the plate: a little more than the longest arrow, in units of the scale.
+const MARGIN: f64 = 48.0;
+/// The same in parts of the picture's shorter side, at most.
+const MARGIN_PART: f64 = 0.15;
 
 /// The levels of isolines: written `auto`, a number, or values with commas between.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

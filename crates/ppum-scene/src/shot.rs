@@ -7,7 +7,7 @@ use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::text::trimmed;
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::{Design, FigureError, Labels, Panel, bare, figure, plot_area};
+use ppum_figure::figure::{BarPlace, Design, FigureError, Labels, Panel, bare, figure, plot_area};
 use ppum_render::RenderError;
 use ppum_render::cells;
 use ppum_render::colormap::ColormapError;
@@ -73,7 +73,7 @@ pub enum ShotError {
 
 /// Draws a scene's picture from a view on the processor, in double precision. The field is that of the scene's subject, see
 /// [`Subject::apply`](crate::scene::Subject::apply). With something on the `left` that is subtracted, and the plate is as it was. With
-/// `is_figure` the cracks are drawn whatever is asked for.
+/// the `design` of a figure its cracks are drawn whatever is asked for.
 ///
 /// # Errors
 /// What the field does not have; a range that does not fit; a watcher that stops it.
@@ -82,10 +82,10 @@ pub fn shot(
     (field, left): (&Field<'_>, Option<Side<'_>>),
     scene: &Scene,
     view: &View,
-    is_figure: bool,
+    design: Option<&Design>,
     watcher: &dyn Watcher,
 ) -> Result<Shot, ShotError> {
-    shot_by(None, dataset, (field, left), scene, view, is_figure, watcher)
+    shot_by(None, dataset, (field, left), scene, view, design, watcher)
 }
 
 /// The shot, its colours being those that are given.
@@ -95,7 +95,7 @@ fn shot_by(
     (field, left): (&Field<'_>, Option<Side<'_>>),
     scene: &Scene,
     view: &View,
-    is_figure: bool,
+    design: Option<&Design>,
     watcher: &dyn Watcher,
 ) -> Result<Shot, ShotError> {
     let shown = shown(scene.quantity.as_deref().unwrap_or(default_quantity(field)), field)?;
@@ -120,8 +120,8 @@ fn shot_by(
         quantity,
         picture: &picture,
         values,
-        is_figure,
-        has_bar: is_figure,
+        design,
+        has_bar: design.is_some_and(|design| design.bar != BarPlace::None),
     };
     let layers = scene.overlays.layers(ground, &seen, scene.outline, watcher).map_err(Box::new)?;
     drop(seen);
@@ -251,7 +251,7 @@ pub fn page(
     watcher: &dyn Watcher,
 ) -> Result<(Canvas, Shot), ShotError> {
     let Some(design) = design else {
-        let shot = shot(dataset, (field, left), scene, view, false, watcher)?;
+        let shot = shot(dataset, (field, left), scene, view, None, watcher)?;
         return Ok((bare(&shot.picture, shot.layers.items.clone()), shot));
     };
     let view = view_in(dataset, field, scene, view, design)?;
@@ -290,7 +290,7 @@ pub(crate) fn page_by(
         let made = figure_by(coloring, dataset, (field, None), scene, view, design, watcher)?;
         return Ok(made.0);
     }
-    let shot = shot_by(coloring, dataset, (field, None), scene, view, false, watcher)?;
+    let shot = shot_by(coloring, dataset, (field, None), scene, view, None, watcher)?;
     Ok(bare(&shot.picture, shot.layers.items))
 }
 
@@ -304,7 +304,7 @@ fn figure_by(
     watcher: &dyn Watcher,
 ) -> Result<(Canvas, Shot), ShotError> {
     let title = title(dataset, field, scene)?;
-    let shot = shot_by(coloring, dataset, (field, left), scene, view, true, watcher)?;
+    let shot = shot_by(coloring, dataset, (field, left), scene, view, Some(design), watcher)?;
     let labels = match left {
         None => labels(&shot.shown, title, field),
         Some(left) => {
@@ -381,5 +381,70 @@ impl Shot {
             add("deformed", format!("{factor:?}"));
         }
         texts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::overlays::{Levels, Overlay, Overlays, SPACING};
+    use ppum::progress::unwatched;
+    use ppum_figure::canvas::Item;
+    use ppum_testkit::synthetic::{Coefficients, Recipe};
+
+    use crate::deformed::Factor;
+
+    /// Widths of all lines of a page, and sizes of its letters.
+    fn widths(page: &Canvas) -> Vec<f64> {
+        let of = |item: &Item| match item {
+            Item::Line { pen, .. } => {
+                vec![pen.width, pen.halo.map_or(0.0, |h| h.width), pen.dashes.map_or(0.0, |d| d[0])]
+            }
+            Item::Text(line) => vec![line.size],
+            Item::Inset { canvas, .. } => widths(canvas),
+            _ => Vec::new(),
+        };
+        page.items.iter().flat_map(of).collect()
+    }
+
+    /// Strokes and letters, those over the picture too, are lengths on paper: the same at any number of pixels per inch.
+    #[test]
+    fn strokes_are_lengths_on_paper() {
+        for seed in 0..4 {
+            let recipe = Recipe { components: 2, ..Recipe::random(seed) };
+            let dataset = Recipe { coefficients: Coefficients::Taylor, ..recipe }.dataset();
+            let field = Field::new(&dataset, 0).unwrap();
+            let overlays = Overlays {
+                shown: vec![Overlay::Patches, Overlay::Points, Overlay::Centers, Overlay::Rings],
+                isolines: Some(Levels::Count(4)),
+                level_labels: true,
+                arrows: Some(SPACING),
+                crosses: Some(SPACING),
+            };
+            let deformed = (seed % 2 == 1).then_some(Factor::Given(0.02));
+            let scene =
+                Scene { overlays, deformed, quantity: Some("ux".into()), ..Scene::default() };
+            let on_paper = |dpi: f64| {
+                let design = Design::inches([3.4, 2.6], dpi);
+                let view = View::fit(dataset.domain.bounds, [340, 260]).unwrap();
+                let made = page(
+                    &dataset,
+                    (&field, None),
+                    &scene.drawn(),
+                    &view,
+                    Some(&design),
+                    unwatched(),
+                );
+                let mut all = widths(&made.unwrap().0);
+                all.iter_mut().for_each(|width| *width *= 72.0 / dpi);
+                all.sort_by(f64::total_cmp);
+                all.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+                all
+            };
+            let [screen, print] = [96.0, 300.0].map(on_paper);
+            assert!(screen.len() > 3, "{screen:?}");
+            let is_in = |width: &f64| print.iter().any(|other| (other - width).abs() < 1e-9);
+            assert!(screen.iter().all(is_in), "seed {seed}: {screen:?} {print:?}");
+        }
     }
 }

@@ -33,7 +33,8 @@ pub(crate) fn draw(path: &Path, dataset: &Dataset, window: Rect) -> anyhow::Resu
     };
     let texts = picture.description(&dataset.title, "", name);
     let cracks = &field.step.cracks;
-    let layers = [overlay::rims(&view, &field.domain.holes), overlay::cracks(&view, cracks)];
+    let (scale, holes) = (design.scale(), &field.domain.holes);
+    let layers = [overlay::rims(&view, scale, holes), overlay::cracks(&view, scale, cracks)];
     let panel = Panel {
         picture: &picture,
         layers: layers.concat(),

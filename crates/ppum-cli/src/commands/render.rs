@@ -32,7 +32,7 @@ use crate::undefined;
 use crate::window::{Frame, Window};
 use ppum_scene::deformed::words;
 use ppum_scene::drawing::{Drawn, Job, Seen, Shown};
-use ppum_scene::layers::{Ground, Layers};
+use ppum_scene::layers::{Ground, Layers, scale};
 use ppum_scene::range::{self, Telling};
 use ppum_scene::shared::Coloring;
 use ppum_scene::shot::of_step;
@@ -258,7 +258,7 @@ impl Args {
             Ok(())
         })?;
         let design = design.context("--steps: there is no step")?;
-        let frame = self.frame(self.room(titles.iter().map(String::as_str), &design)?);
+        let frame = self.frame(self.room(titles.iter().map(String::as_str), &design)?, &design);
         Ok(Common { deforming, design, frame })
     }
 
@@ -373,6 +373,7 @@ impl Args {
         let (Plate { dataset, field, .. }, quantity) = (plate, asked.shown.quantity());
         let is_figure = self.is_figure();
         let has_bar = is_figure && design.bar != BarPlace::None;
+        let design = is_figure.then_some(design);
         let centers;
         let needs_centers = drawn.opacity.is_some() && self.overlays.have_isolines();
         let values = match quantity.filter(|_| needs_centers) {
@@ -383,7 +384,7 @@ impl Args {
             }
             None => &drawn.values,
         };
-        let ground = Ground { dataset, field, quantity, picture, values, is_figure, has_bar };
+        let ground = Ground { dataset, field, quantity, picture, values, design, has_bar };
         let outline = self.deformed.outline;
         self.engine.with_threads(|| self.overlays.layers(ground, seen, outline))?
     }
@@ -410,10 +411,11 @@ impl Args {
     }
 
     /// The room of a picture of so many pixels.
-    fn frame(&self, pixels: [u32; 2]) -> Frame {
+    fn frame(&self, pixels: [u32; 2], design: &Design) -> Frame {
         // A figure centres what it is given; a bare picture has the size that was asked for.
         let may_shrink = self.is_figure() || self.look.given_size().is_none();
-        Frame { pixels, may_shrink, margin: self.overlays.margin() }
+        let scale = scale(self.is_figure().then_some(design), pixels);
+        Frame { pixels, may_shrink, margin: self.overlays.margin(pixels, scale) }
     }
 
     /// The picture with its overlays, as a figure if that is asked for.

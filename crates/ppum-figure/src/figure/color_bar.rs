@@ -418,7 +418,7 @@ impl Placed<'_> {
     fn mark(&self, ink: &mut Ink, position: f64, length: f64) {
         let [low, high] = self.ends();
         let along = low + position * (high - low);
-        let length = (length * ink.scale).round();
+        let length = length * ink.scale;
         let (from, at) = (self.width() + ink.stroke, self.point(along, 0.0));
         let middle = self.point(0.5 * (low + high), 0.0);
         if self.bar.is_upright {

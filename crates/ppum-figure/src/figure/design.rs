@@ -129,8 +129,10 @@ impl Design {
         }
     }
 
-    /// Lengths in units of their length in a figure of 1024 × 768 pixels.
-    pub(super) fn scale(&self) -> f64 {
+    /// Scale of all lines and letters, those over the picture too: 1 where an axis' label is 14 pixels high. A length on paper, the
+    /// same at any number of pixels per inch.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
         self.font_size * self.dpi / 72.0 / LABEL_TEXT
     }
 

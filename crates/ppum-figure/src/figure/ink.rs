@@ -9,6 +9,7 @@ use ppum_render::image::Rgba;
 
 pub(super) const TICK_TEXT: f64 = 13.0;
 pub(super) const TITLE_TEXT: f64 = 17.0;
+const STROKE: f64 = 1.0;
 /// From one line of a title to the next one, in parts of the size.
 pub(super) const LINE: f64 = 1.3;
 
@@ -17,7 +18,7 @@ pub(super) struct Ink {
     pub(super) color: Rgba,
     /// Lengths in units of their length in a figure of 1024 × 768 pixels.
     pub(super) scale: f64,
-    /// Width of frame and tick lines, whole pixels.
+    /// Width of frame and tick lines.
     pub(super) stroke: f64,
     pub(super) items: Vec<Item>,
 }
@@ -25,8 +26,7 @@ pub(super) struct Ink {
 impl Ink {
     pub(super) fn new(design: &Design) -> Self {
         let scale = design.scale();
-        let stroke = scale.round().max(1.0);
-        Self { color: design.ink(), scale, stroke, items: Vec::new() }
+        Self { color: design.ink(), scale, stroke: STROKE * scale, items: Vec::new() }
     }
 
     /// A filled box.
@@ -85,10 +85,10 @@ impl Ink {
     }
 }
 
-/// The start of a line of whole pixels around `at`; halves are rounded away from the middle, so that
+/// The start, at a whole pixel, of a line around `at`; halves are rounded away from the middle, so that
 /// ticks at both ends of an axis continue the frame's lines.
 pub(super) fn snapped(at: f64, stroke: f64, middle: f64) -> f64 {
-    let start = at - 0.5 * stroke;
+    let start = at - 0.5 * stroke.round().max(1.0);
     if at < middle { (start - 0.5).ceil() } else { (start + 0.5).floor() }
 }
 

@@ -129,7 +129,7 @@ impl<'a> Sheet<'a> {
         let places = label_places(&marks, &widths.collect::<Vec<_>>(), BETWEEN * scale);
         for ((tick, at), place) in ticks.iter().zip(marks).zip(places) {
             let left = snapped(at, stroke, middle);
-            ink.rect(vec2(left, top), vec2(left + stroke, top + (TICK * scale).round()));
+            ink.rect(vec2(left, top), vec2(left + stroke, top + TICK * scale));
             ink.text(&tick.label, TICK_TEXT, vec2(place, base), Align::Middle);
         }
         let label = self.x.fitted(LABEL_TEXT * scale, self.room[0]);
@@ -149,7 +149,7 @@ impl<'a> Sheet<'a> {
         let places = label_places(&marks, &heights, BETWEEN_ROWS * scale);
         for ((tick, at), place) in ticks.iter().zip(marks).zip(places) {
             let top = snapped(at, stroke, middle);
-            ink.rect(vec2(right - (TICK * scale).round(), top), vec2(right, top + stroke));
+            ink.rect(vec2(right - TICK * scale, top), vec2(right, top + stroke));
             ink.at_height(&tick.label, vec2(end, place), Align::End);
         }
         let label = self.y.fitted(LABEL_TEXT * scale, self.room[1]);

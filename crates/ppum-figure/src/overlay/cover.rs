@@ -8,7 +8,6 @@ use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
 use super::legend::{Entry, Symbol};
-use super::line_scale;
 use crate::canvas::{Item, Path, Pen};
 
 /// Lines of cells, and their seam; both paler where cells are small.
@@ -94,8 +93,7 @@ pub fn enrichments(field: &Field<'_>) -> Vec<Enrichment> {
 
 /// The points the cover was made from; nothing of a uniform cover.
 #[must_use]
-pub fn points(view: &View, partition: &Partition) -> Vec<Item> {
-    let scale = line_scale(view.pixels);
+pub fn points(view: &View, scale: f64, partition: &Partition) -> Vec<Item> {
     let seen = partition.points.iter().filter(|&&p| is_near(view, Rect::new(p, p)));
     let path = Path { pieces: seen.map(|&p| vec![view.pixel(p)]).collect() };
     let pen = Pen::new(POINT, 2.0 * POINT_RADIUS * scale).with_halo(SEAM, scale);
@@ -104,12 +102,11 @@ pub fn points(view: &View, partition: &Partition) -> Vec<Item> {
 
 /// The borders of the cells.
 #[must_use]
-pub fn cells(view: &View, partition: &Partition) -> Vec<Item> {
+pub fn cells(view: &View, scale: f64, partition: &Partition) -> Vec<Item> {
     let mut path = Path::default();
     let seen = partition.cell.iter().filter(|cell| is_near(view, **cell));
     seen.clone().for_each(|cell| frame(&mut path, view, *cell));
     let smallest = seen.map(|cell| cell.size().x.min(cell.size().y)).fold(f64::INFINITY, f64::min);
-    let scale = line_scale(view.pixels);
     let strength = (smallest / view.pixel_size() / (FULL * scale)).clamp(0.35, 1.0);
     let [line, seam] = [CELL, SEAM].map(|[r, g, b, a]| [r, g, b, (f64::from(a) * strength) as u8]);
     let pen = Pen::new(line, WIDTH * scale).with_halo(seam, 0.6 * scale * strength);
@@ -118,7 +115,7 @@ pub fn cells(view: &View, partition: &Partition) -> Vec<Item> {
 
 /// The supports ω_i of the patches, translucent: darker where more of them overlap.
 #[must_use]
-pub fn patches(view: &View, partition: &Partition) -> Vec<Item> {
+pub fn patches(view: &View, scale: f64, partition: &Partition) -> Vec<Item> {
     let (mut insides, mut borders) = (Vec::new(), Path::default());
     for support in (0..partition.len()).map(|i| partition.support(i)) {
         if is_near(view, support) {
@@ -128,7 +125,7 @@ pub fn patches(view: &View, partition: &Partition) -> Vec<Item> {
             insides.push(Item::Fill { outline, color: PATCH_INSIDE });
         }
     }
-    let pen = Pen::new(PATCH, WIDTH * line_scale(view.pixels));
+    let pen = Pen::new(PATCH, WIDTH * scale);
     insides.push(Item::Line { path: borders, pen });
     insides
 }
@@ -136,9 +133,8 @@ pub fn patches(view: &View, partition: &Partition) -> Vec<Item> {
 /// The centres of the cells as squares, coloured by the kind of enrichment, and what the colours mean.
 /// Üffinger et al. 2011, figure 2.
 #[must_use]
-pub fn centers(view: &View, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
+pub fn centers(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
     let (cells, kinds) = (&field.step.partition.cell, enrichments(field));
-    let scale = line_scale(view.pixels);
     let (mut items, mut entries) = (Vec::new(), Vec::new());
     for kind in Enrichment::ALL {
         let of_kind = cells.iter().zip(&kinds).filter(|(_, k)| **k == kind).map(|(cell, _)| *cell);
@@ -166,7 +162,7 @@ const PLAIN: u8 = 110;
 /// The boxes of the cells in the colour of the kind of enrichment, and what the colours mean: two boxes that share a side
 /// both show theirs. Üffinger et al. 2011, figure 8.
 #[must_use]
-pub fn boxes(view: &View, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
+pub fn boxes(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
     let (cells, kinds) = (&field.step.partition.cell, enrichments(field));
     let (mut items, mut entries) = (Vec::new(), Vec::new());
     for kind in Enrichment::ALL {
@@ -178,15 +174,15 @@ pub fn boxes(view: &View, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
         let [r, g, b, opaque] = kind.color();
         let color = if kind == Enrichment::None { [r, g, b, PLAIN] } else { [r, g, b, opaque] };
         entries.push(Entry::new(Symbol::Square(kind.color()), kind.label()));
-        items.extend(seen.into_iter().map(|cell| frame_inside(view, cell, color)));
+        items.extend(seen.into_iter().map(|cell| frame_inside(view, scale, cell, color)));
     }
     (items, entries)
 }
 
 /// The border of a cell, drawn within it.
-fn frame_inside(view: &View, cell: Rect, color: [u8; 4]) -> Item {
+fn frame_inside(view: &View, scale: f64, cell: Rect, color: [u8; 4]) -> Item {
     let side = cell.size().x.min(cell.size().y) / view.pixel_size();
-    let width = (1.5 * WIDTH * line_scale(view.pixels)).min(BOX_PART * side);
+    let width = (1.5 * WIDTH * scale).min(BOX_PART * side);
     let inset = 0.5 * width * view.pixel_size();
     let mut path = Path::default();
     frame(&mut path, view, Rect::new(cell.min + vec2(inset, inset), cell.max - vec2(inset, inset)));
@@ -200,10 +196,9 @@ fn frame(path: &mut Path, view: &View, rect: Rect) {
     path.rect(corner(rect.min), corner(rect.max));
 }
 
-/// Half a view, and some pixels for lines at its border.
+/// Half a view, and some more for lines at its border.
 fn reach(view: &View) -> Vec2 {
-    let margin = 12.0 * line_scale(view.pixels) * view.pixel_size();
-    view.half() + vec2(margin, margin)
+    view.half() * 1.25
 }
 
 fn is_near(view: &View, rect: Rect) -> bool {
@@ -240,13 +235,16 @@ mod tests {
         let cover = cover(vec![unit, next]);
         let view = View::window(0.0, 0.0, 2.0, 1.0, [201, 101]).unwrap();
         for color in [[0, 0, 0, 255], [128, 128, 128, 255], [255, 255, 255, 255]] {
-            let image = on(color, &view, cells(&view, &cover));
+            let image = on(color, &view, cells(&view, 1.0, &cover));
             let seen =
                 |i: u32| (0..3).map(|k| image.pixel(i, 50)[k].abs_diff(color[k])).max().unwrap();
             assert!(seen(100).max(seen(99)) > 40, "{color:?}");
             assert_eq!(image.pixel(50, 50), color);
-            let alone =
-                on(color, &view, cells(&view, &Partition { cell: vec![unit], ..cover.clone() }));
+            let alone = on(
+                color,
+                &view,
+                cells(&view, 1.0, &Partition { cell: vec![unit], ..cover.clone() }),
+            );
             assert_eq!(image.pixel(100, 50), alone.pixel(100, 50), "the shared border, drawn once");
         }
     }
@@ -258,13 +256,13 @@ mod tests {
         let [red, blue] = [[200, 0, 0, 255], [0, 0, 200, 255]];
         let unit = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
         let next = Rect::new(vec2(1.0, 0.0), vec2(2.0, 1.0));
-        let items = vec![frame_inside(&view, unit, red), frame_inside(&view, next, blue)];
+        let items = vec![frame_inside(&view, 1.0, unit, red), frame_inside(&view, 1.0, next, blue)];
         let image = on([255; 4], &view, items);
         let [left, right] = [99, 101].map(|column| image.pixel(column, 50));
         assert!(left[0] > left[2] && right[2] > right[0], "{left:?} {right:?}");
         assert_eq!(image.pixel(50, 50), [255; 4]);
         let small = Rect::new(vec2(1.0, 0.5), vec2(1.1, 0.6));
-        let image = on([255; 4], &view, vec![frame_inside(&view, small, red)]);
+        let image = on([255; 4], &view, vec![frame_inside(&view, 1.0, small, red)]);
         assert_eq!(image.pixel(105, 45), [255; 4]);
     }
 
@@ -273,7 +271,7 @@ mod tests {
         let corner = vec2(0.3, 0.7);
         let cover = cover(vec![Rect::new(Vec2::ZERO, corner), Rect::new(corner, vec2(1.0, 1.0))]);
         let view = View::new(corner, 1e-12, [101, 101]).unwrap();
-        let image = on([255; 4], &view, cells(&view, &cover));
+        let image = on([255; 4], &view, cells(&view, 1.0, &cover));
         // The first cell lies left of and below its corner, the second right of and above it.
         for (column, row) in [(50, 80), (20, 50), (50, 20), (80, 50)] {
             assert!(image.pixel(column, row)[0] < 120, "{column} {row}");

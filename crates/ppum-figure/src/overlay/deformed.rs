@@ -7,7 +7,7 @@ use ppum_render::image::Rgba;
 use ppum_render::isoline::Isoline;
 use ppum_render::view::View;
 
-use super::{CRACK, CRACK_WIDTH, RIM_WIDTH, SEAM, SEAM_WIDTH, line_scale};
+use super::{CRACK, CRACK_WIDTH, RIM_WIDTH, SEAM, SEAM_WIDTH};
 use crate::canvas::{Item, Path, Pen};
 
 /// Colour of the cells' borders, and of the undeformed plate.
@@ -18,30 +18,27 @@ const DASHES: [f64; 2] = [7.0, 5.0];
 
 /// The faces of all cracks where they have moved to.
 #[must_use]
-pub fn faces(view: &DeformedView<'_>) -> Vec<Item> {
+pub fn faces(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
     let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
     let lines = view.faces_of(&cracks).into_iter().flatten().flatten().collect();
-    let scale = line_scale(view.view.pixels);
     let pen = Pen::new(CRACK, 0.7 * CRACK_WIDTH * scale).with_halo(SEAM, SEAM_WIDTH * scale);
     vec![line(view, lines, pen)]
 }
 
 /// The border of the plate and the rims of its holes where they have moved to.
 #[must_use]
-pub fn deformed_outline(view: &DeformedView<'_>) -> Vec<Item> {
-    let width = RIM_WIDTH * line_scale(view.view.pixels);
-    vec![line(view, view.outline(), Pen::new(CRACK, width))]
+pub fn deformed_outline(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
+    vec![line(view, view.outline(), Pen::new(CRACK, RIM_WIDTH * scale))]
 }
 
 /// The border of the plate, the rims and the cracks where they are without displacement, dashed.
 ///
 /// # Errors
 /// As [`Deformation::new`].
-pub fn undeformed_outline(view: &DeformedView<'_>) -> Result<Vec<Item>, DeformError> {
+pub fn undeformed_outline(view: &DeformedView<'_>, scale: f64) -> Result<Vec<Item>, DeformError> {
     let before = Deformation::new(view.field(), 0.0)?.seen(&view.view);
     let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
     let above = before.faces_of(&cracks).into_iter().flat_map(|[above, _]| above);
-    let scale = line_scale(view.view.pixels);
     let [dash, gap] = DASHES.map(|length| length * scale);
     let pen = Pen::new(BEFORE, RIM_WIDTH * scale).dashed(dash, gap);
     Ok(vec![line(&before, before.outline().into_iter().chain(above).collect(), pen)])
@@ -49,15 +46,14 @@ pub fn undeformed_outline(view: &DeformedView<'_>) -> Result<Vec<Item>, DeformEr
 
 /// The borders of the cover's cells where they have moved to.
 #[must_use]
-pub fn deformed_cells(view: &DeformedView<'_>) -> Vec<Item> {
+pub fn deformed_cells(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
     let offset = |p: Vec2| p - view.anchor;
     // the border of a cell on the right or above is that of its neighbour, or of the plate
     let sides: Vec<[Vec2; 3]> = (view.field().step.partition.cell.iter())
         .map(|c| [vec2(c.min.x, c.max.y), c.min, vec2(c.max.x, c.min.y)].map(offset))
         .collect();
-    let width = line_scale(view.view.pixels);
-    let mut items = vec![line(view, view.paths(&sides), Pen::new(CELL, width))];
-    items.extend(deformed_outline(view));
+    let mut items = vec![line(view, view.paths(&sides), Pen::new(CELL, scale))];
+    items.extend(deformed_outline(view, scale));
     items
 }
 
@@ -129,7 +125,9 @@ mod tests {
         let moved = View { center: view.center + vec2(0.5, -0.25), ..view };
         let draw = |factor: f64, view: &View| {
             let seen = Deformation::new(&field, factor).unwrap().seen(view);
-            let items = [deformed_outline(&seen), deformed_cells(&seen), faces(&seen)].concat();
+            let items =
+                [deformed_outline(&seen, 1.0), deformed_cells(&seen, 1.0), faces(&seen, 1.0)]
+                    .concat();
             on([255; 4], view, items)
         };
         let [before, after] = [draw(0.0, &view), draw(2.0, &moved)];
@@ -143,7 +141,7 @@ mod tests {
         assert!(before.pixel(x, y)[0] < 90, "{:?}", before.pixel(x, y));
         assert!(before.rgba.chunks(4).filter(|p| p[0] > 250).count() > 10_000);
         let seen = Deformation::new(&field, 2.0).unwrap().seen(&moved);
-        let outline = on([255; 4], &moved, undeformed_outline(&seen).unwrap());
+        let outline = on([255; 4], &moved, undeformed_outline(&seen, 1.0).unwrap());
         let grey = outline.rgba.chunks(4).filter(|p| p[0] < 200).count();
         assert!(grey > 50, "{grey}");
     }

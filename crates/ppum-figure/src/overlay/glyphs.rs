@@ -6,7 +6,6 @@ use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
 use super::legend::{Entry, Symbol};
-use super::line_scale;
 use super::supports::arrow;
 use crate::canvas::{Item, Path, Pen};
 use crate::ticks::Notation;
@@ -24,10 +23,14 @@ const LONGEST: f64 = 0.9;
 const PEAKS: usize = 50;
 
 /// Arrows centred on their points, their lengths as the vectors', and what their length means. `spacing` is that of
-/// the points \[pixels\].
+/// the points, in units of the scale as all lengths.
 #[must_use]
-pub fn arrows(view: &View, glyphs: &[Glyph<Vec2>], spacing: f64) -> (Vec<Item>, Vec<Entry>) {
-    let scale = line_scale(view.pixels);
+pub fn arrows(
+    view: &View,
+    scale: f64,
+    glyphs: &[Glyph<Vec2>],
+    spacing: f64,
+) -> (Vec<Item>, Vec<Entry>) {
     let longest = typical(glyphs.iter().map(|glyph| glyph.value.length()));
     let (mut shafts, mut heads) = (Path::default(), Path::default());
     for glyph in glyphs {
@@ -36,7 +39,7 @@ pub fn arrows(view: &View, glyphs: &[Glyph<Vec2>], spacing: f64) -> (Vec<Item>, 
         if !(length > 0.02 && length.is_finite()) {
             continue;
         }
-        let half = way * (0.5 * LONGEST * spacing * length.min(1.0) / length);
+        let half = way * (0.5 * LONGEST * spacing * scale * length.min(1.0) / length);
         let at = view.pixel_of_offset(glyph.offset);
         arrow(&mut shafts, &mut heads, [at - half, at + half], HEAD * scale);
     }
@@ -49,8 +52,12 @@ pub fn arrows(view: &View, glyphs: &[Glyph<Vec2>], spacing: f64) -> (Vec<Item>, 
 /// Crosses along the principal directions, their arms as long as the stresses; tension and compression told apart by
 /// colours, and what their length means.
 #[must_use]
-pub fn crosses(view: &View, glyphs: &[Glyph<Principal>], spacing: f64) -> (Vec<Item>, Vec<Entry>) {
-    let scale = line_scale(view.pixels);
+pub fn crosses(
+    view: &View,
+    scale: f64,
+    glyphs: &[Glyph<Principal>],
+    spacing: f64,
+) -> (Vec<Item>, Vec<Entry>) {
     let longest = typical(glyphs.iter().map(|g| g.value.s1.abs().max(g.value.s2.abs())));
     let (mut tension, mut compression) = (Path::default(), Path::default());
     for Glyph { offset, value: Principal { s1, s2, angle }, .. } in glyphs {
@@ -59,7 +66,7 @@ pub fn crosses(view: &View, glyphs: &[Glyph<Principal>], spacing: f64) -> (Vec<I
         for (stress, axis) in [(*s1, vec2(cos, -sin)), (*s2, vec2(sin, cos))] {
             let part = (stress / longest).abs().min(1.0);
             if part > 0.02 {
-                let half = axis * (0.5 * LONGEST * spacing * part);
+                let half = axis * (0.5 * LONGEST * spacing * scale * part);
                 let path = if stress > 0.0 { &mut tension } else { &mut compression };
                 path.line(at - half, at + half);
             }
@@ -116,7 +123,7 @@ mod tests {
         let glyph = |x: f64, value| Glyph { offset: vec2(x, 0.0), value, face: None };
         let glyphs =
             [glyph(0.5, vec2(0.0, 2.0)), glyph(-0.5, vec2(1.0, 0.0)), glyph(0.0, Vec2::ZERO)];
-        let (items, entries) = arrows(&view(), &glyphs, 40.0);
+        let (items, entries) = arrows(&view(), 1.0, &glyphs, 40.0);
         let Item::Fill { outline, .. } = &items[1] else { panic!("heads") };
         assert_eq!(outline.pieces.len(), 2, "none of a vector without length");
         let tip = |k: usize| outline.pieces[k][0];
@@ -127,9 +134,9 @@ mod tests {
         );
         assert!(((tip(0) + shafts[0][0]) * 0.5 - vec2(150.0, 100.0)).length() < 1e-9);
         assert_eq!(entries[0].label, "longest arrow 2");
-        assert!(arrows(&view(), &[], 40.0).1.is_empty());
+        assert!(arrows(&view(), 1.0, &[], 40.0).1.is_empty());
         let long = [glyph(0.0, vec2(1.909_13e6, 0.0))];
-        assert_eq!(arrows(&view(), &long, 40.0).1[0].label, "longest arrow 1.909×10⁶");
+        assert_eq!(arrows(&view(), 1.0, &long, 40.0).1[0].label, "longest arrow 1.909×10⁶");
     }
 
     /// A peak does not make all others dots.
@@ -145,7 +152,7 @@ mod tests {
     fn crosses_tell_tension_from_compression() {
         let value = Principal { s1: 3.0, s2: -1.5, angle: std::f64::consts::FRAC_PI_2 };
         let glyph = Glyph { offset: Vec2::ZERO, value, face: None };
-        let (items, entries) = crosses(&view(), &[glyph], 40.0);
+        let (items, entries) = crosses(&view(), 1.0, &[glyph], 40.0);
         let [tension, compression] = [0, 1].map(|k| lines(&items[k])[0].clone());
         let way = |line: &[Vec2]| line[1] - line[0];
         assert!((way(&tension).y.abs() - 36.0).abs() < 1e-9 && way(&tension).x.abs() < 1e-9);

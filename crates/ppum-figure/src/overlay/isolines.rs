@@ -8,7 +8,6 @@ use ppum_render::isoline::Isoline;
 use ppum_render::picture::Picture;
 use ppum_render::view::View;
 
-use super::line_scale;
 use crate::canvas::Halo;
 use crate::canvas::{Align, Item, Lettering, Path, Pen};
 use crate::ticks::Notation;
@@ -109,15 +108,14 @@ fn clipped([a, b]: [Vec2; 2], size: Vec2) -> Option<[Vec2; 2]> {
 
 /// Isolines as dark lines with a light seam, of one width everywhere; with their levels, if that is wanted, where there is room.
 #[must_use]
-pub fn isolines(view: &View, lines: &[Isoline], room: Option<Room>) -> Vec<Item> {
-    let scale = line_scale(view.pixels);
+pub fn isolines(view: &View, scale: f64, lines: &[Isoline], room: Option<Room>) -> Vec<Item> {
     let path = Path { pieces: lines.iter().map(|line| points(view, line)).collect() };
     let pen = Pen::new(LINE, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
     let mut items = vec![Item::Line { path: path.clone(), pen }];
     if let Some(room) = room {
         let mut taken = Taken { room, labels: Vec::new() };
         for (line, points) in lines.iter().zip(&path.pieces) {
-            items.extend(label(view, line.level, points, &mut taken).map(Item::Text));
+            items.extend(label(view, scale, line.level, points, &mut taken).map(Item::Text));
         }
     }
     items
@@ -158,8 +156,14 @@ struct Taken {
 
 /// The level along the straightest part of its line, away from other labels, cracks and the plate's border; none
 /// where there is no room.
-fn label(view: &View, level: f64, points: &[Vec2], taken: &mut Taken) -> Option<Lettering> {
-    let size = TEXT * line_scale(view.pixels);
+fn label(
+    view: &View,
+    scale: f64,
+    level: f64,
+    points: &[Vec2],
+    taken: &mut Taken,
+) -> Option<Lettering> {
+    let size = TEXT * scale;
     let line = Lettering::new(taken.room.notation.label(level), size, Vec2::ZERO, LINE);
     let half = 0.5 * line.width();
     let arcs = arc_lengths(points);
@@ -240,7 +244,7 @@ mod tests {
     #[test]
     fn closed_lines_are_closed_and_labels_lie_on_their_lines() {
         let lines = [circle(0.8, 2.5), circle(0.5, -1.0), circle(0.01, 7.0)];
-        let items = isolines(&view(), &lines, Some(room(&[])));
+        let items = isolines(&view(), 1.0, &lines, Some(room(&[])));
         let Item::Line { path, .. } = &items[0] else { panic!("lines first") };
         assert!(path.pieces.iter().all(|p| p.len() > 2 && p.first() == p.last()));
         let texts: Vec<&Lettering> = items
@@ -256,8 +260,8 @@ mod tests {
             assert!((from_center - radius).abs() < 8.0, "{from_center}");
             assert!(text.angle.abs() <= std::f64::consts::FRAC_PI_2 + 1e-9, "upright");
         }
-        assert_eq!(isolines(&view(), &lines, None).len(), 1);
-        assert_eq!(isolines(&view(), &[], Some(room(&[]))).len(), 1);
+        assert_eq!(isolines(&view(), 1.0, &lines, None).len(), 1);
+        assert_eq!(isolines(&view(), 1.0, &[], Some(room(&[]))).len(), 1);
     }
 
     /// Circles keep a point where the chord's sagitta, s²/8r, comes near what is unseen; straight lines their ends.
@@ -303,7 +307,7 @@ mod tests {
             let mut place = || vec2(random.between(-50.0, 600.0), random.between(-50.0, 600.0));
             let (a, b) = (place(), place());
             let [min, max] = [a.min(b), a.max(b)];
-            for item in isolines(&view(), &lines, Some(room(&[]).without([min, max]))) {
+            for item in isolines(&view(), 1.0, &lines, Some(room(&[]).without([min, max]))) {
                 let (true, [lo, hi]) = (matches!(item, Item::Text(_)), item.bounds()) else {
                     continue;
                 };
@@ -323,7 +327,7 @@ mod tests {
             closed: false,
         };
         let places = |cracks: &[Crack], x: f64| -> Vec<Vec2> {
-            let items = isolines(&view(), &[vertical(x)], Some(room(cracks)));
+            let items = isolines(&view(), 1.0, &[vertical(x)], Some(room(cracks)));
             let texts = items.iter().filter_map(|item| match item {
                 Item::Text(text) => Some(text.at),
                 _ => None,

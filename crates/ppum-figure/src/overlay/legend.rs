@@ -4,7 +4,6 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
-use super::line_scale;
 use crate::canvas::{Item, Lettering, Path, Pen};
 use crate::text::{self, CAP_HEIGHT};
 
@@ -49,8 +48,8 @@ const PART: [f64; 2] = [0.75, 0.4];
 /// The corners, upper left and lower right, of a box with a line for each entry in the upper right corner of a view; none
 /// without entries, and none where it would hide most of the view or not fit into it.
 #[must_use]
-pub fn legend_box(view: &View, entries: &[Entry]) -> Option<[Vec2; 2]> {
-    let (scale, pixels) = (line_scale(view.pixels), view.pixels.map(f64::from));
+pub fn legend_box(view: &View, scale: f64, entries: &[Entry]) -> Option<[Vec2; 2]> {
+    let pixels = view.pixels.map(f64::from);
     let size = legend_size(entries, scale);
     let fits = size.x <= PART[0] * pixels[0] && size.y <= PART[1] * pixels[1];
     let corner = corner(view.pixels, size, scale);
@@ -59,9 +58,9 @@ pub fn legend_box(view: &View, entries: &[Entry]) -> Option<[Vec2; 2]> {
 
 /// That box; nothing where there is none.
 #[must_use]
-pub fn legend(view: &View, entries: &[Entry]) -> Vec<Item> {
-    let place = legend_box(view, entries);
-    place.map_or_else(Vec::new, |[min, _]| legend_at(min, entries, line_scale(view.pixels)))
+pub fn legend(view: &View, scale: f64, entries: &[Entry]) -> Vec<Item> {
+    let place = legend_box(view, scale, entries);
+    place.map_or_else(Vec::new, |[min, _]| legend_at(min, entries, scale))
 }
 
 /// The upper left corner of a box in the upper right one of a page.
@@ -133,7 +132,7 @@ mod tests {
             let entries: Vec<Entry> = (0..=random.below(5))
                 .map(|_| Entry::new(Symbol::Square(INK), label.clone()))
                 .collect();
-            let items = legend(&view, &entries);
+            let items = legend(&view, 1.0, &entries);
             found[usize::from(items.is_empty())] += 1;
             let size = Vec2::from(view.pixels.map(f64::from));
             for item in &items {
@@ -141,12 +140,12 @@ mod tests {
                 let inside = lo.x >= 0.0 && lo.y >= 0.0 && hi.x <= size.x && hi.y <= size.y;
                 assert!(inside, "{view:?} {item:?}");
             }
-            if let Some([min, max]) = legend_box(&view, &entries) {
+            if let Some([min, max]) = legend_box(&view, 1.0, &entries) {
                 let part = (max - min).x * (max - min).y / (size.x * size.y);
                 assert!(part < 0.31 && !items.is_empty(), "{view:?}");
             }
         }
         assert!(found.iter().all(|count| *count > 50), "{found:?}");
-        assert!(legend(&View::new(Vec2::ZERO, 1.0, [900; 2]).unwrap(), &[]).is_empty());
+        assert!(legend(&View::new(Vec2::ZERO, 1.0, [900; 2]).unwrap(), 1.0, &[]).is_empty());
     }
 }

@@ -1,7 +1,8 @@
 //! What is drawn over a picture: cracks, rims of holes, the cover and its enrichment, integration discs,
 //! supports and loads.
 //!
-//! Each gives what is to be drawn on a page of the view's pixels. Lines are placed through offsets from the
+//! Each gives what is to be drawn on a page of the view's pixels. Widths of lines and sizes of marks and letters are multiples of
+//! a `scale`, not of pixels, so that in a figure they are lengths on paper. Lines are placed through offsets from the
 //! view's centre, so they are where the field has them at any zoom: an oblique line through a view 1e-12 of
 //! the domain wide is drawn by its distance from the centre and its direction, not between end points that
 //! lie 10^15 pixels away. A line has one colour throughout, and a seam that parts it from its own colour.
@@ -33,23 +34,22 @@ pub use supports::{Load, Support, loads, supports};
 /// Dark line of a crack, and the light seam that parts it from dark colours.
 const CRACK: Rgba = [16, 16, 20, 255];
 const SEAM: Rgba = [255, 255, 255, 150];
-/// Widths and radii in pixels of a picture 768 pixels high.
+/// Widths and radii in pixels of a bare picture of at most 1024 × 768.
 const CRACK_WIDTH: f64 = 1.8;
 const TIP_RADIUS: f64 = 3.0;
 const RIM_WIDTH: f64 = 1.0;
 const SEAM_WIDTH: f64 = 1.0;
 
-/// Width of lines and letters in units of their width in a picture of 1024 × 768 pixels; never narrower, lest
-/// they be unreadable.
+/// Scale of a bare picture's lines and letters: 1 up to 1024 × 768 pixels, lest they be unreadable, and growing with larger
+/// ones. In a figure it is [`Design::scale`](crate::figure::Design::scale).
 #[must_use]
-pub(crate) fn line_scale(size: [u32; 2]) -> f64 {
+pub fn line_scale(size: [u32; 2]) -> f64 {
     (f64::from(size[0]) / 1024.0).min(f64::from(size[1]) / 768.0).clamp(1.0, 20.0)
 }
 
 /// The cracks as lines and their tips as dots.
 #[must_use]
-pub fn cracks(view: &View, cracks: &[Crack]) -> Vec<Item> {
-    let scale = line_scale(view.pixels);
+pub fn cracks(view: &View, scale: f64, cracks: &[Crack]) -> Vec<Item> {
     let segments = cracks.iter().flat_map(|crack| crack.points.windows(2));
     let seen = segments.filter_map(|ends| visible_part(view, ends[0], ends[1]));
     let lines = Path { pieces: seen.map(Vec::from).collect() };
@@ -68,7 +68,7 @@ pub fn cracks(view: &View, cracks: &[Crack]) -> Vec<Item> {
 
 /// The rims of holes as thin lines.
 #[must_use]
-pub fn rims(view: &View, holes: &[Hole]) -> Vec<Item> {
+pub fn rims(view: &View, scale: f64, holes: &[Hole]) -> Vec<Item> {
     let mut path = Path::default();
     for hole in holes {
         if let Hole::Circle { center, radius } = hole {
@@ -77,7 +77,7 @@ pub fn rims(view: &View, holes: &[Hole]) -> Vec<Item> {
         let sides = hole.sides();
         path.pieces.extend(sides.filter_map(|[a, b]| visible_part(view, a, b)).map(Vec::from));
     }
-    vec![Item::Line { path, pen: Pen::new(CRACK, RIM_WIDTH * line_scale(view.pixels)) }]
+    vec![Item::Line { path, pen: Pen::new(CRACK, RIM_WIDTH * scale) }]
 }
 
 /// Points of the part of a circle in or near the view, in continuous pixel coordinates.
@@ -141,7 +141,7 @@ mod tests {
     }
 
     fn draw(view: &View, crack: Crack) -> Image {
-        on(GREY, view, cracks(view, &[crack]))
+        on(GREY, view, cracks(view, 1.0, &[crack]))
     }
 
     #[test]
@@ -200,7 +200,7 @@ mod tests {
             (&polygon, vec2(0.875, 0.75), 1e-12),
         ] {
             let view = View::new(center, width, [101, 101]).unwrap();
-            let image = on(GREY, &view, rims(&view, std::slice::from_ref(hole)));
+            let image = on(GREY, &view, rims(&view, 1.0, std::slice::from_ref(hole)));
             for (column, row) in (0..101).flat_map(|i| (0..101).map(move |j| (i, j))) {
                 // A world coordinate is rounded to a fiftieth of the smallest pixel.
                 let distance = hole.rim_distance(center + view.offset(column, row));

@@ -5,7 +5,7 @@ use ppum::dataset::TipIntensity;
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
-use super::{arc, line_scale};
+use super::arc;
 use crate::canvas::{Item, Path, Pen};
 
 const RING: Rgba = [225, 95, 20, 255];
@@ -15,7 +15,7 @@ const WIDTH: f64 = 1.2;
 /// The borders of the rings of each tip: full lines around the disc that the integral covers, dashed ones
 /// inside of which the cut-off function is one.
 #[must_use]
-pub fn rings(view: &View, cracks: &[Crack], intensities: &[TipIntensity]) -> Vec<Item> {
+pub fn rings(view: &View, scale: f64, cracks: &[Crack], intensities: &[TipIntensity]) -> Vec<Item> {
     let (mut outer, mut inner) = (Path::default(), Path::default());
     for intensity in intensities {
         let Some(crack) = cracks.get(intensity.tip.crack as usize) else { continue };
@@ -27,7 +27,6 @@ pub fn rings(view: &View, cracks: &[Crack], intensities: &[TipIntensity]) -> Vec
             }
         }
     }
-    let scale = line_scale(view.pixels);
     let pen = Pen::new(RING, WIDTH * scale).with_halo(SEAM, 0.8 * scale);
     vec![
         Item::Line { path: outer, pen },

@@ -4,7 +4,6 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
-use super::line_scale;
 use crate::canvas::{Item, Path, Pen};
 
 /// A point of the border with components that are held.
@@ -36,8 +35,9 @@ const WIDTH: f64 = 1.4;
 /// Side of a support's triangle, and its ground's distance where it may roll.
 const TRIANGLE: f64 = 11.0;
 const ROLL: f64 = 3.5;
-/// Length of the longest arrow, and of an arrow's head.
+/// Length of the longest arrow, at most a part of the view's shorter side, and of an arrow's head.
 const ARROW: f64 = 38.0;
+const ARROW_PART: f64 = 0.12;
 const HEAD: f64 = 8.0;
 /// Arrows shorter than this are left out.
 const SHORTEST: f64 = 2.0;
@@ -46,9 +46,8 @@ const SHORTEST: f64 = 2.0;
 /// stands on rollers holds the component along its own axis alone, and lies across the border where that is
 /// its tangent.
 #[must_use]
-pub fn supports(view: &View, supports: &[Support]) -> Vec<Item> {
+pub fn supports(view: &View, scale: f64, supports: &[Support]) -> Vec<Item> {
     let (mut bodies, mut lines) = (Path::default(), Path::default());
-    let scale = line_scale(view.pixels);
     for support in supports {
         let at = view.pixel(support.at);
         match support.held {
@@ -74,12 +73,13 @@ pub fn supports(view: &View, supports: &[Support]) -> Vec<Item> {
 /// Loads as arrows, the longest of one length whatever its traction: those that pull begin at the border, those
 /// that press end there.
 #[must_use]
-pub fn loads(view: &View, loads: &[Load]) -> Vec<Item> {
-    let scale = line_scale(view.pixels);
+pub fn loads(view: &View, scale: f64, loads: &[Load]) -> Vec<Item> {
+    let side = f64::from(view.pixels[0].min(view.pixels[1]));
+    let longest = (ARROW * scale).min(ARROW_PART * side);
     let largest = loads.iter().map(|load| load.traction.length()).fold(0.0, f64::max);
     let (mut shafts, mut heads) = (Path::default(), Path::default());
     for load in loads {
-        let way = on_page(load.traction / largest) * (ARROW * scale);
+        let way = on_page(load.traction / largest) * longest;
         if !way.is_finite() || way.length() < SHORTEST * scale {
             continue;
         }
@@ -166,7 +166,7 @@ mod tests {
         ] {
             let border = view().pixel(at).dot(vec2(outward.x, -outward.y));
             for held in [[true, true], [outward.x != 0.0, outward.y != 0.0]] {
-                let items = supports(&view(), &[Support { at, outward, held }]);
+                let items = supports(&view(), 1.0, &[Support { at, outward, held }]);
                 let points = path_points(&items);
                 assert!(points.len() > 4);
                 for p in points {
@@ -175,7 +175,7 @@ mod tests {
             }
         }
         let free = Support { at: vec2(0.0, 1.0), outward: vec2(0.0, 1.0), held: [false; 2] };
-        assert!(path_points(&supports(&view(), &[free])).is_empty());
+        assert!(path_points(&supports(&view(), 1.0, &[free])).is_empty());
     }
 
     /// Tension points away from the plate, pressure towards it; both are drawn outside.
@@ -184,7 +184,7 @@ mod tests {
         let (at, outward) = (vec2(0.0, 1.0), vec2(0.0, 1.0));
         for (traction, tip_row) in [(2.0, view().pixel(at).y - ARROW), (-2.0, view().pixel(at).y)] {
             let load = Load { at, outward, traction: vec2(0.0, traction) };
-            let items = loads(&view(), &[load]);
+            let items = loads(&view(), 1.0, &[load]);
             let Item::Fill { outline, .. } = &items[1] else { panic!("heads") };
             assert!((outline.pieces[0][0].y - tip_row).abs() < 1e-9);
             assert!(path_points(&items).iter().all(|p| p.y <= view().pixel(at).y + 1e-9));
@@ -195,14 +195,14 @@ mod tests {
     fn lengths_go_with_the_loads() {
         let outward = vec2(0.0, 1.0);
         let load = |x: f64, t: f64| Load { at: vec2(x, 1.0), outward, traction: vec2(0.0, t) };
-        let items = loads(&view(), &[load(-0.5, 1.0), load(0.5, 4.0), load(0.0, 0.0)]);
+        let items = loads(&view(), 1.0, &[load(-0.5, 1.0), load(0.5, 4.0), load(0.0, 0.0)]);
         let Item::Fill { outline, .. } = &items[1] else { panic!("heads") };
         let reach: Vec<_> =
             outline.pieces.iter().map(|head| view().pixel(vec2(0.0, 1.0)).y - head[0].y).collect();
         assert!((reach[1] - ARROW).abs() < 1e-9 && (reach[0] - 0.25 * ARROW).abs() < 1e-9);
         assert_eq!(reach.len(), 2);
         for nothing in [vec![], vec![load(0.0, 0.0)], vec![load(0.0, f64::NAN)]] {
-            assert!(path_points(&loads(&view(), &nothing)).is_empty());
+            assert!(path_points(&loads(&view(), 1.0, &nothing)).is_empty());
         }
     }
 }

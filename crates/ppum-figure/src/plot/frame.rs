@@ -103,7 +103,7 @@ impl Frame {
             let y = self.down(tick.at).round() - 0.5;
             path.line(vec2(self.min[0], y), vec2(self.max[0], y));
         }
-        vec![Item::Line { path, pen: Pen::new(GRID, 1.0) }]
+        vec![Item::Line { path, pen: Pen::new(GRID, self.scale) }]
     }
 
     /// The frame and its ticks.
@@ -120,7 +120,7 @@ impl Frame {
             let row = self.down(at).round() - 0.5;
             path.line(vec2(left, row), vec2(left - length * self.scale, row));
         }
-        vec![Item::Line { path, pen: Pen::new(INK, self.scale.round().max(1.0)) }]
+        vec![Item::Line { path, pen: Pen::new(INK, self.scale) }]
     }
 
     /// Labels of ticks and axes, and the title.

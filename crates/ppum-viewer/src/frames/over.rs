@@ -55,7 +55,7 @@ impl Over {
             quantity: place.subject.shown.0.quantity().filter(|_| place.subject.minus.is_none()),
             picture,
             values: &drawn.values,
-            is_figure: false,
+            design: None,
             has_bar: true,
         };
         let scene = &wanted.scene;

@@ -114,9 +114,9 @@ impl Layout {
             }
         };
         let pictures = self.panels.iter().map(picture).collect::<anyhow::Result<Vec<_>>>()?;
-        let cracks = &field.step.cracks;
-        let rims = overlay::rims(view, &field.domain.holes);
-        let layers = [rims, overlay::cracks(view, cracks)].concat();
+        let (cracks, scale) = (&field.step.cracks, self.design.scale());
+        let rims = overlay::rims(view, scale, &field.domain.holes);
+        let layers = [rims, overlay::cracks(view, scale, cracks)].concat();
         let bar = self.panels.iter().position(|shows| *shows == Shows::Direct);
         let panel = |((shows, labels), picture): ((&Shows, &Labels), _)| Panel {
             picture,

@@ -32,7 +32,7 @@ impl Args {
         let grid = self.grid(&untold, &captions, plates)?;
         let size = [grid.columns, grid.rows];
         let design = self.design(field, Look::page(self.window.aspect(field), size), size);
-        let frame = self.frame(panel_area(&untold, &captions, grid, &design)?);
+        let frame = self.frame(panel_area(&untold, &captions, grid, &design)?, &design);
         let seen = self.deformed.seen(field, &self.window, frame, &self.engine)?;
         let drawn = subjects.iter().map(|(plate, asked)| {
             let drawn = self.drawn(plate.field, &seen, asked)?;
