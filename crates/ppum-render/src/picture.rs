@@ -122,7 +122,12 @@ impl Picture {
         let Style { colormap, scale, undefined, .. } = style;
         let norm = span.normalization(*scale)?;
         let shades = Shades::new(colormap, norm, *undefined);
-        let (rgba, seen) = painted(&shades, &raster.values);
+        let constant = span.values.as_ref().and_then(Extrema::constant);
+        let (rgba, seen) = match constant {
+            None => painted(&shades, &raster.values),
+            // what differs from it is rounding
+            Some(one) => painted(&shades, &evened(raster, one)),
+        };
         let between = span.beyond().map(|value| value.is_some());
         let (has_below, has_above) = (seen[0] | between[0], seen[1] | between[1]);
         Ok(Self {
@@ -131,7 +136,7 @@ impl Picture {
             normalization: norm,
             span,
             colormap: colormap.clone(),
-            one_value: raster.one_value(),
+            one_value: constant.or_else(|| raster.one_value()),
             has_values: raster.values.iter().any(|&v| v.into().is_finite()),
             has_below,
             has_above,
@@ -198,6 +203,12 @@ impl Picture {
         let entries = entries.into_iter().chain([basis]).chain(known);
         entries.map(|(key, text)| (key.to_owned(), text)).collect()
     }
+}
+
+/// One value in place of all finite ones.
+fn evened<T: Sample>(raster: &Raster<T>, one: f64) -> Vec<f64> {
+    let of = |value: f64| if value.is_finite() { one } else { value };
+    raster.values.par_iter().map(|&value| of(value.into())).collect()
 }
 
 /// Pixels that are coloured at a time.

@@ -6,13 +6,12 @@ use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use ppum::text::{Places, apart, beside, trimmed};
-use ppum::vec2::vec2;
+use ppum::vec2::{Vec2, vec2};
 use ppum_render::RenderError;
 use ppum_render::extrema::{Extrema, Extremum, On, SingularKind, extrema};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{Basis, Span};
 use ppum_render::raster::{Raster, Sample};
-use ppum_render::view::View;
 
 use crate::drawing::{Drawn, Seen, Values};
 
@@ -46,7 +45,11 @@ fn extrema_of<T: Sample>(
         Seen::Plate(view) => search(view),
         // nothing has moved
         Seen::Moved(points) if points.view.factor() == 0.0 => search(&points.view.view),
-        Seen::Moved(points) => Ok(Extrema::of_pixels(raster, &points.view.view)),
+        Seen::Moved(points) => {
+            let (field, view) = (points.view.field(), &points.view.view);
+            let known = Extrema::of_constant(field, view, quantity, raster);
+            Ok(known.or_else(|| Extrema::of_pixels(raster, view)))
+        }
     }
 }
 
@@ -107,20 +110,21 @@ impl<'a> Telling<'a> {
             }
         };
         match &span.values {
-            Some(values) => format!("{colors}; {}", self.values(values, &picture.view)),
+            Some(values) => format!("{colors}; {}", self.values(values, picture.view.width)),
             None => colors,
         }
     }
 
-    fn values(&self, values: &Extrema, view: &View) -> String {
-        let [min, max] = self.extrema(values, view);
+    fn values(&self, values: &Extrema, width: f64) -> String {
+        let [min, max] = self.extrema(values, width);
         let whose = if values.is_of_pixels() { "values of pixels" } else { "values" };
         format!("{whose} from {min} to {max}")
     }
 
-    /// The smallest and the largest value with their places: `0.1 at (0.2, 0.3)`, `∞ at tip 0 (0.5, 0)`.
+    /// The smallest and the largest value with their places: `0.1 at (0.2, 0.3)`, `∞ at tip 0 (0.5, 0)`; with the digits that are
+    /// of interest in a view of some width.
     #[must_use]
-    pub fn extrema(&self, values: &Extrema, view: &View) -> [String; 2] {
+    pub fn extrema(&self, values: &Extrema, width: f64) -> [String; 2] {
         let both = [&values.min, &values.max];
         let finite = both.map(|extremum| extremum.value).into_iter().filter(|v| v.is_finite());
         let size = finite.map(f64::abs).fold(0.0, f64::max);
@@ -129,23 +133,24 @@ impl<'a> Telling<'a> {
             true => apart(beside(values.min.value, size), beside(values.max.value, size)),
             false => both.map(|extremum| value(extremum.value, size)),
         };
-        let place = |k: usize| format!("{} at {}", shown[k], self.place(both[k], view));
+        let place =
+            |k: usize| format!("{} at {}", shown[k], self.place(both[k], values.center, width));
         [place(0), place(1)]
     }
 
     /// Where an extremum lies.
-    fn place(&self, extremum: &Extremum, view: &View) -> String {
+    fn place(&self, extremum: &Extremum, center: Vec2, width: f64) -> String {
         let at = match extremum.on {
             // known exactly, and told by its number
-            On::Singular(_) => self.places.show(view.center + extremum.offset),
-            _ if view.width < DEEP * self.size => {
+            On::Singular(_) => self.places.show(center + extremum.offset),
+            _ if width < DEEP * self.size => {
                 let offset = [extremum.offset.x, extremum.offset.y];
-                let [dx, dy] = offset.map(|v| trimmed(rounded(v, view.width)));
-                format!("{} + ({dx}, {dy})", self.places.show(view.center))
+                let [dx, dy] = offset.map(|v| trimmed(rounded(v, width)));
+                format!("{} + ({dx}, {dy})", self.places.show(center))
             }
             _ => {
-                let at = view.center + extremum.offset;
-                self.places.show(vec2(rounded(at.x, view.width), rounded(at.y, view.width)))
+                let at = center + extremum.offset;
+                self.places.show(vec2(rounded(at.x, width), rounded(at.y, width)))
             }
         };
         match extremum.on {
@@ -196,6 +201,7 @@ pub fn words(on: On) -> Option<String> {
         On::Rim(hole) => Some(format!("on the rim of hole {hole}")),
         On::Border => Some("on the border".into()),
         On::Interface => Some("on an interface".into()),
+        On::Everywhere => Some("as everywhere, but for rounding".into()),
         On::Inside | On::Pixel | On::Singular(_) => None,
     }
 }
@@ -209,3 +215,41 @@ fn rounded(x: f64, width: f64) -> f64 {
 
 /// Part of a view that the place of an extremum is told to.
 const KNOWN: f64 = 1e-5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::progress::unwatched;
+    use ppum_render::range::Range;
+    use ppum_render::scatter::render;
+    use ppum_render::view::View;
+    use ppum_testkit::random::Random;
+    use ppum_testkit::synthetic::{Coefficients, Recipe};
+
+    /// While one moves, a picture of another view has the range, and the extrema, of the view before: their places stay where they are.
+    #[test]
+    fn places_stay_when_the_view_moves() {
+        let mut random = Random(9);
+        for seed in 0..6 {
+            let recipe = Recipe { components: 2, ..Recipe::random(seed) };
+            let dataset = Recipe { coefficients: Coefficients::Taylor, ..recipe }.dataset();
+            let field = Field::new(&dataset, 0).unwrap();
+            let quantity = Quantity::parse("uy", &field).unwrap();
+            let view = View::fit(dataset.domain.bounds, [90, 70]).unwrap();
+            let draw = |view: &View| {
+                let raster = render::<f64>(&field, view, &quantity, unwatched()).unwrap();
+                Drawn::new(raster, &field, view, "test")
+            };
+            let (drawn, style) = (draw(&view), Style { range: Range::Auto, ..Style::default() });
+            let seen = Seen::Plate(view);
+            let span = found(&field, &seen, &quantity, &drawn, &style, unwatched()).unwrap();
+            let by = vec2(random.between(-0.2, 0.2), random.between(-0.2, 0.2)) * view.width;
+            let moved = draw(&View { center: view.center + by, ..view });
+            let telling = Telling::new(&dataset, &field);
+            let told =
+                |drawn: &Drawn| telling.colors(&drawn.picture(&style, span.clone()).unwrap());
+            assert!(told(&drawn).contains("values from"));
+            assert_eq!(told(&drawn), told(&moved));
+        }
+    }
+}

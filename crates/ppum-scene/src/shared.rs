@@ -2,6 +2,7 @@
 //!
 //! All are looked at first, which [`Found`] keeps in mind; then each has its colours by the [`Coloring`] of all.
 
+use ppum_render::extrema::Extrema;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{Basis, Range, RangeError, Span};
 use ppum_render::scale::Scale;
@@ -56,10 +57,11 @@ impl Found {
         if found.finite + found.infinite == 0 {
             return;
         }
-        let ends = drawn.values.ends();
+        let constant = span.values.as_ref().and_then(Extrema::constant);
+        let ends = constant.map_or_else(|| drawn.values.ends(), |value| [value; 2]);
         let known = self.values.unwrap_or(ends);
         self.values = Some([known[0].min(ends[0]), known[1].max(ends[1])]);
-        match drawn.values.one_value() {
+        match constant.or_else(|| drawn.values.one_value()) {
             Some(value) if span.basis != Basis::Given && (scale != Scale::Log || value > 0.0) => {
                 self.even.push(span.clone());
                 [span.min, span.max] = [value; 2];

@@ -436,7 +436,8 @@ fn peaked(half: f64, design: &Design, beyond: [f64; 2], scale: Scale) -> Picture
     let view = View::hug(Rect::around(Vec2::ZERO, vec2(half, half)), room).unwrap();
     let raster = Raster::from_fn(view.pixels, |i, _| 1.0 + f64::from(i));
     let at = |value: f64| Extremum { value, offset: Vec2::ZERO, on: On::Inside };
-    let values = Extrema { min: at(beyond[0]), max: at(beyond[1]), singular: vec![] };
+    let values =
+        Extrema { center: Vec2::ZERO, min: at(beyond[0]), max: at(beyond[1]), singular: vec![] };
     let max = f64::from(view.pixels[0]);
     let span = Span { min: 1.0, max, basis: Basis::Robust, values: Some(values) };
     Picture::spanning(&raster, &view, &Style { scale, ..Style::default() }, span).unwrap()

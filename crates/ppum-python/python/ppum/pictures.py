@@ -51,7 +51,8 @@ class Extremum:
         value: To about 1e-6 of its size; infinite at a singular point.
         xy: Its place.
         offset: The way there from the middle of the view, in all digits.
-        on: What it lies on: ``inside``, ``border``, ``face``, ``rim``, ``interface``, ``singular``, ``pixel``.
+        on: What it lies on: ``inside``, ``border``, ``face``, ``rim``, ``interface``, ``singular``, ``pixel``,
+            ``everywhere`` (one value but for rounding).
         side: Of a face, ``above`` or ``below``.
     """
 

@@ -9,8 +9,11 @@
 //! dozens of such points. A valley that is narrower than the 7° between two places of a ring may be missed, or not followed to its end.
 //!
 //! Only places are refined that may still hold the extremum by what their neighbours say, and boundaries have a sample for eight
-//! pixels of the picture at most, together: the search takes a part of what drawing takes. Many boundaries are sampled less
-//! densely, and where there are too many for that, or too many points that may be singular, the pixels decide, [`On::Pixel`].
+//! pixels of a large picture at most, together: the search takes a part of what drawing takes. Many boundaries are sampled less
+//! densely, and where there are too many for that, or too many points that may be singular, whatever the number of pixels, the pixels
+//! decide, [`On::Pixel`].
+//!
+//! A quantity that has one value all over the plate, but for rounding, has it everywhere, [`On::Everywhere`].
 //!
 //! At a crack tip and at other singular points quantities may be infinite. Whether they are is seen in how they grow towards
 //! the point; then the extremum is, and its place is the point. Finite values next to such a point, within a thousandth of a pixel,
@@ -20,6 +23,7 @@
 mod bent;
 mod climb;
 mod curves;
+mod even;
 mod rings;
 mod singular;
 
@@ -45,12 +49,16 @@ pub use singular::{Singular, SingularKind};
 const STARTS: usize = 32;
 const ROUND: usize = 8;
 
-/// Samples of boundaries, at most: one for so many pixels, or this number.
+/// Samples of boundaries and looks at points that may be singular, at most: one for so many pixels, or this number. It alone decides
+/// whether there are too many of them, so that it does not depend on the pixels whether a kink is infinite.
 const PIXELS: usize = 8;
-const SAMPLES: usize = 1 << 13;
+const SAMPLES: usize = 1 << 17;
 
 /// Segments of cracks that take as long as a sample: on each face all of them are seen anew.
 const SEGMENTS: usize = 64;
+
+/// Part of its parts by which a pixel of a quantity may differ that is constant.
+const PART: f64 = 1e-3;
 
 /// Distance of the places that tell a pole from a narrow peak, pixels.
 const BESIDE: f64 = 1e-5;
@@ -67,7 +75,7 @@ const HIDDEN: f64 = 1e-3;
 pub struct Extremum {
     /// The value, to about 10⁻⁶ of its size; ±∞ at a singular point.
     pub value: f64,
-    /// Its place, as an offset from the view's centre.
+    /// Its place, as an offset from [`Extrema::center`].
     pub offset: Vec2,
     /// What the place lies on.
     pub on: On,
@@ -90,11 +98,15 @@ pub enum On {
     Singular(SingularKind),
     /// The centre of a pixel; between pixels nothing was looked at.
     Pixel,
+    /// Any place: the quantity has one value all over the plate, but for rounding.
+    Everywhere,
 }
 
 /// Minimum and maximum of a quantity over a view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extrema {
+    /// The centre of the view that they were found in, from which places are counted: a picture of another view may show them.
+    pub center: Vec2,
     /// The smallest value.
     pub min: Extremum,
     /// The largest value.
@@ -104,7 +116,7 @@ pub struct Extrema {
 }
 
 impl On {
-    /// One word for it: `inside`, `border`, `face`, `rim`, `interface`, `singular`, `pixel`.
+    /// One word for it: `inside`, `border`, `face`, `rim`, `interface`, `singular`, `pixel`, `everywhere`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -115,6 +127,7 @@ impl On {
             Self::Interface => "interface",
             Self::Singular(_) => "singular",
             Self::Pixel => "pixel",
+            Self::Everywhere => "everywhere",
         }
     }
 }
@@ -146,13 +159,42 @@ impl Extrema {
             let offset = view.offset((k % columns) as u32, (k / columns) as u32);
             Extremum { value, offset, on: On::Pixel }
         };
-        Some(Self { min: place(least), max: place(most), singular: Vec::new() })
+        let (center, singular) = (view.center, Vec::new());
+        Some(Self { center, min: place(least), max: place(most), singular })
     }
 
     /// True if the quantity is infinite somewhere, at a singular point or at a pixel.
     #[must_use]
     pub fn is_infinite(&self) -> bool {
         self.min.value.is_infinite() || self.max.value.is_infinite()
+    }
+
+    /// Those of a quantity that has one value all over the plate, but for rounding: what is constant or zero within the digits that the
+    /// file bears. `None` of others, and where a view shows nothing of the plate.
+    #[must_use]
+    pub fn of_constant<T: Sample>(
+        field: &Field<'_>,
+        view: &View,
+        quantity: &Quantity,
+        raster: &Raster<T>,
+    ) -> Option<Self> {
+        let rect = seen(field, view)?;
+        let [value, parts] = even::value(field, quantity)?;
+        // a formula may differ somewhere; single precision does so everywhere
+        let is_same = |v: f64| v.is_nan() || (v - value).abs() <= PART * parts;
+        if !raster.values.iter().all(|&v| is_same(v.into())) {
+            return None;
+        }
+        let offset = Vec2::ZERO.max(rect.min).min(rect.max);
+        let one = Extremum { value, offset, on: On::Everywhere };
+        Some(Self { center: view.center, min: one, max: one, singular: Vec::new() })
+    }
+
+    /// The value of a quantity that has one all over the plate, but for rounding.
+    #[must_use]
+    pub fn constant(&self) -> Option<f64> {
+        let ([min, max], on) = ([self.min, self.max], On::Everywhere);
+        (min.on == on && max.on == on && min.value == max.value).then_some(max.value)
     }
 
     /// True if the pixels alone were looked at.
@@ -183,6 +225,9 @@ pub fn extrema<T: Sample>(
 ) -> Result<Option<Extrema>, RenderError> {
     assert_eq!(raster.size, view.pixels, "a raster of the view");
     quantity.check(field)?;
+    if let Some(constant) = Extrema::of_constant(field, view, quantity, raster) {
+        return Ok(Some(constant));
+    }
     // of a formula whose derivatives are too large
     let Ok(slope) = QuantityGradient::new(quantity, field) else {
         return Ok(Extrema::of_pixels(raster, view));
@@ -212,7 +257,7 @@ pub fn extrema<T: Sample>(
     };
     let [min, max] =
         [(min, -1.0), (max, 1.0)].map(|(best, sign)| search.at_most(best, sign, raster));
-    Ok(Some(Extrema { min, max, singular }))
+    Ok(Some(Extrema { center: view.center, min, max, singular }))
 }
 
 /// The number of samples of each curve; `None` if all of them, and the looks at points that may be singular, are too many.
@@ -221,12 +266,13 @@ fn samples(field: &Field<'_>, view: &View, curves: &[Curve], points: usize) -> O
     let segments: usize = field.step.cracks.iter().map(|crack| crack.points.len()).sum();
     let is_face = |curve: &&Curve| matches!(curve.on, On::Face(..));
     let apart = curves.iter().filter(is_face).count() * (segments / SEGMENTS);
-    let room = (pixels / PIXELS).max(SAMPLES).checked_sub(points * singular::LOOK + apart)?;
+    let least = SAMPLES.checked_sub(points * singular::LOOK + apart)?;
+    let room = (pixels / PIXELS).max(least);
     let wanted = curves.iter().map(|curve| curve.samples(view.pixel_size()));
     let all: usize = wanted.clone().sum();
     let part = (room as f64 / all as f64).min(1.0);
     let thinned = wanted.map(|n| ((n as f64 * part) as usize).max(curves::LEAST));
-    (curves.len() * curves::LEAST <= room).then(|| thinned.collect())
+    (curves.len() * curves::LEAST <= least).then(|| thinned.collect())
 }
 
 /// What a search needs.

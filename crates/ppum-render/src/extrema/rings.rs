@@ -5,13 +5,16 @@ use ppum::vec2::{Vec2, vec2};
 use rayon::prelude::*;
 
 use super::curves::{Curve, best_first};
-use super::{HIDDEN, Promise, ROUND, SAMPLES, Search, climb};
+use super::{HIDDEN, Promise, ROUND, Search, climb};
 
 /// Rings around a point, the radius of the least in units of what is hidden there, and how much larger each is than that before: to
 /// two pixels.
 const RINGS: usize = 20;
 const FIRST: f64 = 1.5;
 const WIDER: f64 = 1.46;
+
+/// Places beside all points together, at most.
+const SAMPLES: usize = 1 << 13;
 
 /// Places on a ring, at least and at most.
 const PLACES: [usize; 2] = [12, 48];

@@ -20,7 +20,7 @@ const DIRECTIONS: u32 = 48;
 /// A point where a quantity may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular {
-    /// Its offset from the view's centre.
+    /// Its offset from [`Extrema::center`](super::Extrema::center).
     pub offset: Vec2,
     /// The kind of point.
     pub kind: SingularKind,

@@ -11,7 +11,7 @@
 //! - a logarithmic scale begins where the robust range does: zeros are peaks of the logarithm;
 //! - values that are nowhere negative and come near zero get a range from zero;
 //! - for a diverging colour map a range that was found is made symmetric if zero lies inside;
-//! - one value c everywhere, but for rounding, gets c ± |c|/2, zero gets −1/2 to 1/2; no usable value at all gets 0 to 1 (on a
+//! - one value c everywhere, but for rounding, in the pixels or [all over the plate](crate::extrema::On::Everywhere), gets c ± |c|/2, zero gets −1/2 to 1/2; no usable value at all gets 0 to 1 (on a
 //!   logarithmic scale 0.1 to 1).
 //!
 //! The *full range* spans all finite values: to the extrema, and to the pixels' largest value where the quantity is infinite.
@@ -24,7 +24,7 @@ use std::str::FromStr;
 use ppum::text::exact;
 use ppum_raster::raster::{Raster, Sample, Statistics};
 
-use crate::extrema::{Extrema, Extremum};
+use crate::extrema::{Extrema, Extremum, Singular};
 use crate::scale::{Normalization, Scale};
 
 /// The range of values that the colours should span.
@@ -211,13 +211,19 @@ impl Span {
 impl Extrema {
     /// Those of both.
     fn with(self, other: &Self) -> Self {
-        let lower = |a: Extremum, b: Extremum| if b.value < a.value { b } else { a };
-        let upper = |a: Extremum, b: Extremum| if b.value > a.value { b } else { a };
-        let mut singular = self.singular;
-        singular.extend(
-            other.singular.iter().filter(|p| !singular.contains(p)).copied().collect::<Vec<_>>(),
-        );
-        Self { min: lower(self.min, other.min), max: upper(self.max, other.max), singular }
+        let away = other.center - self.center;
+        let moved = |e: Extremum| Extremum { offset: e.offset + away, ..e };
+        let lower = |a: Extremum, b: Extremum| if b.value < a.value { moved(b) } else { a };
+        let upper = |a: Extremum, b: Extremum| if b.value > a.value { moved(b) } else { a };
+        let (mut singular, center) = (self.singular, self.center);
+        for point in &other.singular {
+            let point = Singular { offset: point.offset + away, ..*point };
+            if !singular.contains(&point) {
+                singular.push(point);
+            }
+        }
+        let (min, max) = (lower(self.min, other.min), upper(self.max, other.max));
+        Self { center, min, max, singular }
     }
 }
 
@@ -253,7 +259,9 @@ impl Range {
         values: Option<Extrema>,
     ) -> Span {
         let seen = Seen { raster, is_log: scale == Scale::Log, values: values.as_ref() };
+        let constant = values.as_ref().and_then(Extrema::constant).filter(|v| seen.is_usable(*v));
         let (basis, found) = match *self {
+            _ if self.is_found() && constant.is_some() => (Basis::All, constant.map(|v| (v, v))),
             Self::Auto => seen.automatic(),
             Self::Full => seen.full(),
             Self::Fixed(min, max) => return Span { min, max, basis: Basis::Given, values },

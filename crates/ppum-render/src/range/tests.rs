@@ -385,7 +385,7 @@ fn shared_ranges_hold_all() {
 fn zeros_are_peaks_on_logarithmic_scales() {
     let extrema = |min: f64, max: f64| {
         let extremum = |value| Extremum { value, offset: Vec2::ZERO, on: On::Inside };
-        Extrema { min: extremum(min), max: extremum(max), singular: Vec::new() }
+        Extrema { center: Vec2::ZERO, min: extremum(min), max: extremum(max), singular: Vec::new() }
     };
     let at = |i: u32| f64::from(i) - 99.7;
     let error = Raster::from_fn([200, 200], |i, j| at(i).hypot(at(j)) * 1e-5 + 1e-12);

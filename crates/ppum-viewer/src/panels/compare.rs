@@ -67,7 +67,7 @@ fn extrema(ui: &mut Ui, frame: &Frame, unit: &str) {
     let telling = Telling::new(frame.field.dataset(), frame.field.field());
     let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
     let names = ["smallest", "largest"].into_iter();
-    for (name, told) in names.zip(telling.extrema(values, &frame.picture.view)) {
+    for (name, told) in names.zip(telling.extrema(values, frame.picture.view.width)) {
         ui.label(note(ui, format!("{name} {told}{unit}")));
     }
     let text = "Means over the pixels that are seen, and in parts of the left; the extrema are those of the pixels";

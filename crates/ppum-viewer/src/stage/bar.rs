@@ -331,7 +331,7 @@ impl<'a> Standing<'a> {
             let told = || {
                 let dataset = self.frame.field.dataset();
                 let telling = Telling::new(dataset, self.frame.field.field());
-                let all = telling.extrema(extrema, &picture.view);
+                let all = telling.extrema(extrema, picture.view.width);
                 format!("{}: {}", ["smallest value", "largest value"][number], all[number])
             };
             name(&response, ["Smallest value", "Largest value"][number]);
