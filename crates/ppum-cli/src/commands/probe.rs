@@ -70,6 +70,9 @@ struct Row {
     #[serde(skip_serializing_if = "Option::is_none")]
     offset: Option<[f64; 2]>,
     side: Option<&'static str>,
+    /// True on an interface of the material: the values are those of one side.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    interface: bool,
     values: Values,
     #[serde(skip)]
     is_inside: bool,
@@ -114,11 +117,31 @@ impl Args {
             at: place.anchor.into(),
             offset: self.offset.map(Vec2::into),
             side: place.on.map(|_| place.side.name()),
+            // an offset says the side
+            interface: self.offset.is_none() && is_on_interface(field, place.anchor),
             values,
             is_inside: local.contains(place.offset),
         }
     }
 }
+
+/// True where a constant of the material jumps, but for the rounding of the place.
+fn is_on_interface(field: &Field<'_>, at: Vec2) -> bool {
+    let size = field.domain.bounds.size();
+    let step = ROUNDING * size.x.max(size.y);
+    let around = [[step, 0.0], [-step, 0.0], [0.0, step], [0.0, -step]];
+    let mut formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
+    formulas.any(|(_, expression)| {
+        let value = |[dx, dy]: [f64; 2]| expression.formula().evaluate(&[at.x + dx, at.y + dy]);
+        let values = around.map(value);
+        let [low, high] = [f64::min, f64::max].map(|f| values.into_iter().reduce(f).unwrap_or(0.0));
+        high - low > JUMP * high.abs().max(low.abs())
+    })
+}
+
+/// Rounding of a place, in parts of the plate, and the least relative jump: smooth formulas do not change so much within so little.
+const ROUNDING: f64 = 1e-13;
+const JUMP: f64 = 1e-6;
 
 impl Row {
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
@@ -129,6 +152,9 @@ impl Row {
         }
         if let Some(side) = self.side {
             write!(out, ", {side} the crack")?;
+        }
+        if self.interface {
+            write!(out, ", on a material interface: values of one side, --offset takes the other")?;
         }
         if !self.is_inside {
             return writeln!(out, ": outside the domain");

@@ -19,7 +19,7 @@ use crate::number::json;
 use crate::progress::Bar;
 use crate::standard;
 use crate::tips::{Tip, all_tips, table};
-use crate::warnings::{WarningRow, rows, warn};
+use crate::warnings::{WarningRow, rows, warn, warn_of_steps};
 
 /// Print the stress intensity factors of all crack tips, T, the energy release rate and the angle of growth
 ///
@@ -58,7 +58,10 @@ impl Args {
         let (tips, warnings, places) =
             if self.recompute { self.recomputed(&name)? } else { self.stored(&name)? };
         let report = Report { file: self.file.display().to_string(), tips, warnings };
-        warn(&report.warnings);
+        match report.tips.iter().any(|tip| tip.step() > 0) {
+            true => warn_of_steps(&report.warnings),
+            false => warn(&report.warnings),
+        }
         if self.json {
             json(out, &report)?;
         } else if report.tips.is_empty() {

@@ -121,3 +121,13 @@ fn infinite_and_undefined_values() {
     let text = lab.run("probe plate.h5 --at 0.5,0 --at 2,0 -q uy,von-mises");
     assert!(text.contains("inf") && text.contains("(2.0, 0.0): outside the domain"), "{text}");
 }
+
+/// On an interface of the material the values are those of one side, and the words say so; with an offset they are those of its side.
+#[test]
+fn interfaces_are_told() {
+    let lab = Lab::solved(&CRACKED.replace("young = 1.0", "young = \"if(x < 0.25, 1, 2)\""));
+    let told = |at: &str| lab.run(&format!("probe plate.h5 -q syy --at {at}"));
+    assert!(told("0.25,0.3").contains("on a material interface"));
+    assert!(!told("0.25,0.3 --offset 1e-12,0").contains("interface"));
+    assert!(!told("0.2,0.3").contains("interface"));
+}

@@ -218,7 +218,10 @@ fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<
             }
             Some(edge) => (
                 index,
-                format!("the crack runs along the {} edge; move it into the plate", edge.name()),
+                format!(
+                    "the crack runs along the {} edge; move it into the plate, or model both halves of one that is symmetric about it",
+                    edge.name()
+                ),
             ),
             None => return None,
         };

@@ -63,7 +63,7 @@ impl Facts {
         self.places = Some(places(dataset));
         let Some(step) = dataset.steps.get(step) else { return };
         self.is_elastic = dataset.equation.elastic().is_some();
-        self.tips = stored(step);
+        self.tips = stored(dataset, step);
         self.patches = step.partition.len();
         self.weight = weight(&step.partition.weight);
         self.without = without(dataset, step);

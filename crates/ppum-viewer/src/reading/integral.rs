@@ -7,7 +7,7 @@ use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::Watcher;
 use ppum::vec2::Vec2;
 use ppum_scene::profile::Along;
-use ppum_scene::tips::words;
+use ppum_scene::tips::{HEADS, Tip};
 use ppum_solve::diagnostics::effort::check_effort;
 use ppum_solve::intensity::{CircleError, clearance, on_circle};
 use ppum_solve::problem::Problem;
@@ -140,14 +140,26 @@ pub fn usual_radius(dataset: &Dataset, step: usize, tip: TipId) -> Option<f64> {
 /// Part of a tip's clearance that the solver's preferred ring has.
 const PREFERRED: f64 = 0.9;
 
-/// `K_I = 1.23, K_II = 0 (spread 2e-5)`, and below it the factors that the solver stored for the tip.
+/// `K_I = 1.23, K_II = 0, T = …, G = …, angle …` of the circle, and below it the factors that the solver stored for the tip, with their
+/// estimated error. The field of the circle has that error too.
 #[must_use]
-pub fn told(factors: &TipIntensity, stored: &[TipIntensity]) -> String {
+pub fn told(dataset: &Dataset, step: usize, factors: &TipIntensity) -> String {
+    let Some(step) = dataset.steps.get(step) else { return String::new() };
     let line = |factors: &TipIntensity| {
-        let [k1, k2, spread] = words(factors.k1, factors.k2, factors.spread());
-        format!("K_I = {k1}, K_II = {k2}, spread {spread}").replace('-', "−")
+        let words = Tip::new(dataset, step, factors.tip, Some(factors)).words();
+        let known = HEADS.iter().zip(&words).take(5).filter(|(_, word)| *word != "–");
+        let all = known.map(|(head, word)| match *head {
+            "angle" => format!("angle {word}"),
+            head => format!("{head} = {word}"),
+        });
+        let error = if factors.error.is_some() {
+            format!("; estimated error {}", words[5])
+        } else {
+            String::new()
+        };
+        format!("{}{error}", all.collect::<Vec<_>>().join(", ")).replace('-', "−")
     };
-    match stored.iter().find(|known| known.tip == factors.tip) {
+    match step.intensities.iter().find(|known| known.tip == factors.tip) {
         Some(known) => format!("{}\nstored: {}", line(factors), line(known)),
         None => line(factors),
     }

@@ -59,14 +59,6 @@ impl Stage {
         self.told_integral(ui, sight, pane, cracks);
     }
 
-    /// The factors that the solver stored in the step that is shown.
-    #[cfg(feature = "solve")]
-    fn stored_factors(&self, pane: &Pane) -> Vec<ppum::dataset::TipIntensity> {
-        let dataset = self.opened.as_ref().map(|opened| &opened.dataset);
-        let step = dataset.and_then(|d| d.steps.get(pane.scene.subject.step_of(d)));
-        step.map(|step| step.intensities.clone()).unwrap_or_default()
-    }
-
     /// K beside the circle, or the reason why there is none.
     #[cfg(feature = "solve")]
     fn told_integral(&mut self, ui: &mut Ui, sight: &Sight, pane: &Pane, cracks: &[Crack]) {
@@ -74,9 +66,12 @@ impl Stage {
         if !self.reading.integral.is_asked() || self.reading.grip.is_some() {
             return;
         }
-        let stored = self.stored_factors(pane);
+        let Some(dataset) = self.opened.as_ref().map(|opened| Arc::clone(&opened.dataset)) else {
+            return;
+        };
+        let step = pane.scene.subject.step_of(&dataset);
         let text = match self.reading.integral.found() {
-            Some(Ok(factors)) => crate::reading::integral::told(&factors, &stored),
+            Some(Ok(factors)) => crate::reading::integral::told(&dataset, step, &factors),
             Some(Err(reason)) => reason,
             None => "K …".into(),
         };

@@ -173,21 +173,8 @@ struct State {
     writer: Option<SeriesWriter>,
     grown: Grown,
     last: Option<Dataset>,
-    /// Warnings of the last step, and the first of each other kind.
+    /// Warnings of all steps.
     warnings: Vec<WarningRow>,
-}
-
-impl State {
-    /// Takes the warnings of a step up.
-    fn warned(&mut self, number: usize, step: &Step) {
-        let mut kinds = Vec::new();
-        self.warnings.retain(|row| {
-            let is_new = !kinds.contains(&row.kind);
-            kinds.push(row.kind.clone());
-            is_new
-        });
-        self.warnings.extend(rows(number, &step.warnings));
-    }
 }
 
 impl Run<'_> {
@@ -203,7 +190,7 @@ impl Run<'_> {
         state.grown.steps.push(StepRow::new(number, step, growth));
         state.grown.stop = growth.stop.map(|stop| stop.words());
         self.bar.clear();
-        state.warned(number, step);
+        state.warnings.extend(rows(number, &step.warnings));
         // nobody may listen any more
         let _ = self.lines.send(self.lines_of(number, step, growth));
         self.bar.in_series(self.rule.steps, self.left(number));

@@ -4,7 +4,7 @@ use egui::{Grid, RichText, ScrollArea, Ui};
 use ppum::text::Places;
 use ppum_scene::range::places;
 use ppum_scene::table::{Column, Table};
-use ppum_scene::tips::{Tip, words};
+use ppum_scene::tips::{HEADS, MEANING, Tip};
 
 use super::plot::outputs;
 use crate::actions::Action;
@@ -44,8 +44,8 @@ fn rows(ui: &mut Ui, desk: &mut Desk<'_>, places: &Places, tips: &[Tip]) {
         });
         let last = seen.end.saturating_sub(1).min(tips.len());
         grid.min_row_height(height).spacing([18.0, gap]).show(ui, |ui| {
-            for head in ["tip", "crack", "position", "direction", "K_I", "K_II", "spread"] {
-                ui.strong(head);
+            for head in ["tip", "crack", "position", "direction"].into_iter().chain(HEADS) {
+                ui.strong(head).on_hover_text(MEANING);
             }
             ui.end_row();
             for (number, tip) in tips.iter().enumerate().take(last).skip(seen.start) {
@@ -60,10 +60,9 @@ fn rows(ui: &mut Ui, desk: &mut Desk<'_>, places: &Places, tips: &[Tip]) {
 }
 
 fn row(ui: &mut Ui, tip: &Tip, at: &str) {
-    let [k1, k2, spread] = words(tip.k1, tip.k2, tip.spread);
     let angle = number(tip.angle.to_degrees(), 4);
-    let cells = [tip.id.crack.to_string(), at.to_owned(), format!("{angle}°"), k1, k2, spread];
-    for text in cells {
+    let cells = [tip.id.crack.to_string(), at.to_owned(), format!("{angle}°")];
+    for text in cells.into_iter().chain(tip.words()) {
         ui.label(RichText::new(text.replace('-', "−")).monospace());
     }
     ui.end_row();
@@ -72,12 +71,27 @@ fn row(ui: &mut Ui, tip: &Tip, at: &str) {
 /// The tips with all digits.
 #[must_use]
 pub fn table(tips: &[Tip]) -> Table {
-    let names = ["tip", "crack", "x", "y", "angle", "k1", "k2", "spread"];
-    let units = |name: &str| if name == "angle" { "rad" } else { "" };
+    let names = [
+        "tip",
+        "crack",
+        "x",
+        "y",
+        "angle",
+        "k1",
+        "k2",
+        "t_stress",
+        "j",
+        "g",
+        "growth_angle",
+        "relative_error",
+        "spread",
+    ];
+    let units = |name: &str| if name.ends_with("angle") { "rad" } else { "" };
     let columns = names.map(|name| Column::new(name, units(name))).to_vec();
     let row = |(number, tip): (usize, &Tip)| {
-        let crack = f64::from(tip.id.crack);
-        [number as f64, crack, tip.at.x, tip.at.y, tip.angle, tip.k1, tip.k2, tip.spread]
+        let Tip { id, at, angle, k1, k2, t_stress, j, g, growth_angle, error, spread, .. } = *tip;
+        let (number, crack) = (number as f64, f64::from(id.crack));
+        [number, crack, at.x, at.y, angle, k1, k2, t_stress, j, g, growth_angle, error, spread]
     };
     Table::new(columns, tips.iter().enumerate().flat_map(row).collect())
 }
