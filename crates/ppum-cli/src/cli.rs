@@ -5,8 +5,8 @@ use std::ffi::OsString;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::commands::{
-    bench, compare, completions, demo, formula, gallery, info, man, plot, probe, render, sample,
-    sif, solve, view,
+    bench, check, compare, completions, demo, formula, gallery, info, man, plot, probe, render,
+    sample, sif, solve, view,
 };
 use crate::output::Output;
 
@@ -37,6 +37,7 @@ pub(crate) enum Command {
     Demo(demo::Args),
     Solve(solve::Args),
     Info(info::Args),
+    Check(check::Args),
     Sif(sif::Args),
     Probe(probe::Args),
     Sample(sample::Args),
@@ -80,6 +81,7 @@ impl Command {
             Self::Gallery(args) => args.run(out, &line),
             Self::Solve(args) => args.run(out),
             Self::Info(args) => args.run(out),
+            Self::Check(args) => args.run(out),
             Self::Sif(args) => args.run(out),
             Self::Probe(args) => args.run(out),
             Self::Sample(args) => args.run(out),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::{Context as _, ensure};
+use anyhow::{Context as _, anyhow, ensure};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
@@ -48,11 +48,15 @@ fn standard_input() -> anyhow::Result<Dataset> {
     ppum_format::from_bytes(bytes).context("standard input")
 }
 
-/// What was read of a file, or an error that names it.
+/// What was read of a file, or an error that names it, and the command that finds others.
 pub(crate) fn named<T>(path: &Path, read: Result<T, ReadError>) -> anyhow::Result<T> {
+    let path = path.display();
     match read {
         Err(error @ ReadError::Io { .. }) => Err(error.into()),
-        other => other.with_context(|| path.display().to_string()),
+        Err(error) if error.place().is_some() => {
+            Err(anyhow!("{path}: {error}; `ppum check {path}` lists all errors"))
+        }
+        other => other.with_context(|| path.to_string()),
     }
 }
 

@@ -1,11 +1,15 @@
 //! Datasets as the bytes of an HDF5 file.
 
+use std::collections::BTreeSet;
+
+use ppum::check::CheckError;
 use ppum::dataset::{Dataset, Step};
 
-use crate::content::{Content, step_path};
+use crate::content::{Content, join, step_of, step_path};
 use crate::error::{ReadError, WriteError};
 use crate::hdf5::{Ranges, Trunk};
 use crate::limits::FORMAT_VERSION;
+use crate::place::in_file;
 use crate::{checksum, decode, encode, hdf5};
 
 /// The dataset as the bytes of an HDF5 file.
@@ -82,6 +86,20 @@ fn decoded(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
     checked(&content)
 }
 
+/// All that is wrong with the dataset in the bytes of an HDF5 file, nothing if it is one.
+#[must_use]
+pub fn diagnose_bytes(bytes: &[u8]) -> Vec<ReadError> {
+    all_errors(hdf5::from_bytes(bytes))
+}
+
+pub(crate) fn all_errors(content: Result<Content, ReadError>) -> Vec<ReadError> {
+    let errors = match content {
+        Ok(content) => diagnose(&content),
+        Err(error) => vec![error],
+    };
+    errors.into_iter().map(ReadError::shortened).collect()
+}
+
 /// The dataset in a file of so many bytes.
 pub(crate) fn from_file(file: &dyn Ranges, length: u64) -> Result<Dataset, ReadError> {
     let read = hdf5::from_file(file, length).and_then(|content| checked(&content));
@@ -93,12 +111,64 @@ pub(crate) fn checked(content: &Content) -> Result<Dataset, ReadError> {
     let minor = decode::check_version(content)?;
     let dataset = || {
         let dataset = decode::dataset(content)?;
-        dataset.check()?;
+        dataset.check().map_err(|error| invalid(error, content))?;
         Ok(dataset)
     };
     let (verified, dataset) = rayon::join(|| checksum::verify(content), dataset);
     verified?;
     dataset.map_err(|error| newer(error, minor))
+}
+
+/// An error of the dataset as one of its file.
+pub(crate) fn invalid(mut error: CheckError, content: &Content) -> ReadError {
+    error.place = in_file(&error.place, content);
+    ReadError::Invalid(error)
+}
+
+/// Objects whose meaning depends on that of others in the same step, or outside of steps.
+const NEEDS: &[(&str, &[&str])] = &[
+    ("equation", &["domain", "tables"]),
+    ("quantities", &["tables", "equation", "fields"]),
+    ("partition", &["domain", "tables"]),
+    ("functions", &["cracks", "tables"]),
+    ("fields", &["equation", "tables"]),
+    ("intensities", &["cracks"]),
+    ("growth", &["cracks"]),
+    ("reactions", &["fields", "equation"]),
+];
+
+/// All that is wrong with a content: nothing if it is a dataset. Of each object one error, and none that may follow
+/// from another.
+pub(crate) fn diagnose(content: &Content) -> Vec<ReadError> {
+    let minor = match decode::check_version(content) {
+        Ok(minor) => minor,
+        Err(error) => return vec![error],
+    };
+    let (dataset, mut errors) = decode::diagnose(content);
+    let broken: BTreeSet<String> =
+        errors.iter().filter_map(|error| error.place().map(str::to_owned)).collect();
+    let follows = |error: &ReadError| {
+        let (step, name) = error.place().map(part).unwrap_or_default();
+        let needs = NEEDS.iter().find(|(of, _)| *of == name).map_or(&[][..], |(_, needs)| *needs);
+        broken.iter().any(|place| {
+            let (at, broken) = part(place);
+            // where a group is missing as a whole nothing can be said of others
+            let is_whole = place.len() == join(at, broken).len();
+            (at == step || at.is_empty() || step.is_empty())
+                && (broken == name || needs.contains(&broken) || is_whole)
+        })
+    };
+    let invalid = dataset.diagnose().into_iter().map(|error| invalid(error, content));
+    errors.extend(invalid.filter(|error| !follows(error)));
+    errors.extend(checksum::verify(content).err());
+    errors.into_iter().map(|error| newer(error, minor)).collect()
+}
+
+/// The step that an object belongs to, empty if to none, and the group there that it is in.
+fn part(object: &str) -> (&str, &str) {
+    let step = step_of(object).unwrap_or_default();
+    let rest = object[step.len()..].trim_start_matches('/');
+    (step, rest.split(['/', '@', '[', ' ']).next().unwrap_or_default())
 }
 
 /// The same error with the version of the file, if that is later than this program.

@@ -78,6 +78,11 @@ impl Content {
         self.groups.iter().map(String::as_str)
     }
 
+    /// True if there is a group of this path, which is not the root's.
+    pub(crate) fn has_group(&self, path: &str) -> bool {
+        self.groups.contains(path)
+    }
+
     /// True if a group has an object of this name and form.
     ///
     /// # Errors

@@ -7,24 +7,27 @@ mod tables;
 
 use std::sync::Arc;
 
-use ppum::crack::{Crack, CrackEnd, TipId};
+use ppum::crack::{Crack, CrackEnd, End, TipId};
 use ppum::dataset::{
-    Attribute, Dataset, Elasticity, Equation, FieldData, Growth, NamedQuantity, Partition,
-    Reaction, Record, Ring, Step, TipIntensity, Warning,
+    Attribute, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Partition, Reaction,
+    Record, Ring, Step, StressState, TipIntensity, Warning,
 };
 use ppum::domain::{Domain, Hole};
 use ppum::expression::Expression;
 use ppum::formula::Table;
-use ppum::vec2::{Rect, vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::{WeightError, WeightFunction};
 
-use crate::content::{Array, Content, Form, Values};
+use crate::content::{Array, Content, Element, Form};
 use crate::error::ReadError;
 use crate::limits::FORMAT_VERSION;
-use crate::names::{BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ENDS, PLAIN_BOX, POLYGON, STRESS_STATES};
+use crate::names::{
+    BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ELASTICITY, ENDS, EQUATIONS, EquationKind, PLAIN_BOX,
+    POISSON, POLYGON, STRESS_STATES, WEIGHTS,
+};
 use functions::functions;
 pub(crate) use group::missing;
-use group::{Extent, Group, numbered, optional};
+use group::{Group, attempt, numbered, optional, read};
 use growth::growth;
 use tables::{Scopes, tables};
 
@@ -35,31 +38,40 @@ pub(crate) fn check_version(content: &Content) -> Read<u32> {
     if content.get("@format") != Some(&Array::scalar("ppum".to_owned())) {
         return Err(ReadError::NotADataset);
     }
-    match content.get("@format_version").map(|a| &a.values) {
-        Some(Values::U32(v)) if v.len() == 2 => match v[0] {
-            0 => Err(ReadError::object("@format_version", "the major version is at least 1")),
-            major if major > FORMAT_VERSION.0 => {
-                Err(ReadError::TooNew { major: major.into(), minor: v[1].into() })
-            }
-            _ => Ok(v[1]),
-        },
-        _ => Err(ReadError::object("@format_version", "expected two u32: major, minor")),
+    let version = |group: &Group| group.version();
+    let [major, minor] = read(content, version).map_err(first)?;
+    match major {
+        0 => Err(ReadError::object("@format_version", "the major version is at least 1")),
+        major if major > FORMAT_VERSION.0 => {
+            Err(ReadError::TooNew { major: major.into(), minor: minor.into() })
+        }
+        _ => Ok(minor),
     }
+}
+
+fn first(errors: Vec<ReadError>) -> ReadError {
+    errors.into_iter().next().unwrap_or(ReadError::NotADataset)
 }
 
 /// The dataset in a content. Shapes and words are right afterwards, meaning is not yet checked.
 pub(crate) fn dataset(content: &Content) -> Read<Dataset> {
-    let mut dataset = head(content)?;
-    let root = Group { path: String::new(), content };
-    let scopes = Scopes::new(&dataset.tables)?;
-    dataset.steps = numbered(&root, "steps", |group| step(group, &scopes))?;
-    Ok(dataset)
+    read(content, whole).map_err(first)
 }
 
-/// A step of the dataset with these tables, in a content that holds nothing else.
+/// What can be read of a dataset, and all that is wrong with the objects of its content, about which the dataset says nothing.
+pub(crate) fn diagnose(content: &Content) -> (Dataset, Vec<ReadError>) {
+    attempt(content, whole)
+}
+
+fn whole(root: &Group) -> Dataset {
+    let (mut dataset, scopes) = head_of(root);
+    dataset.steps = numbered(root, "steps", |group| step(group, &scopes));
+    dataset
+}
+
+/// The step of the dataset with these tables, in a content that holds nothing else.
 pub(crate) fn one_step(content: &Content, path: &str, tables: &[Arc<Table>]) -> Read<Step> {
-    let root = Group { path: String::new(), content };
-    step(&root.group(path)?, &Scopes::new(tables)?)
+    read(content, |root| step(&root.group(path), &scopes(root, tables))).map_err(first)
 }
 
 /// The members of a step that hold [`results`].
@@ -68,21 +80,22 @@ pub(crate) const RESULTS: &[&str] = &["cracks", "intensities", "history", "warni
 /// The cracks of a step, and what its solver tells of it, in a content that holds this alone. The step has no
 /// patches.
 pub(crate) fn results(content: &Content, path: &str) -> Read<Step> {
-    let mut step = empty(content, path)?;
-    let root = Group { path: String::new(), content };
-    let group = &root.group(path)?;
-    step.cracks = cracks(&group.group("cracks")?)?;
-    step.intensities = optional(group, "intensities", intensities)?;
-    step.history = optional(group, "history", history)?;
-    step.warnings = optional(group, "warnings", warnings)?;
-    step.growth = of_growth(group)?;
-    Ok(step)
+    let results = |root: &Group| {
+        let group = &root.group(path);
+        let mut step = empty_step(group.attribute("load"));
+        step.cracks = cracks(&group.group("cracks"));
+        step.intensities = optional(group, "intensities", intensities);
+        step.history = optional(group, "history", history);
+        step.warnings = optional(group, "warnings", warnings);
+        step.growth = optional(group, "growth", |group| Some(growth(group)));
+        step
+    };
+    read(content, results).map_err(first)
 }
 
 /// A step with its load alone.
 pub(crate) fn empty(content: &Content, path: &str) -> Read<Step> {
-    let root = Group { path: String::new(), content };
-    Ok(empty_step(root.group(path)?.attribute("load")?))
+    read(content, |root| empty_step(root.group(path).attribute("load"))).map_err(first)
 }
 
 /// A step of this load, without patches.
@@ -102,285 +115,286 @@ pub(crate) fn empty_step(load: f64) -> Step {
     step
 }
 
-fn of_growth(group: &Group) -> Read<Option<Growth>> {
-    group.holds("growth", Form::Group)?.then(|| growth(&group.group("growth")?)).transpose()
-}
-
 /// The dataset without its steps.
 pub(crate) fn head(content: &Content) -> Read<Dataset> {
-    let root = Group { path: String::new(), content };
-    let tables = tables(&root)?;
-    let scopes = Scopes::new(&tables)?;
-    let title = root.attribute("title")?;
-    let program = root.attribute("program")?;
-    let problem = problem(&root)?;
-    let domain = domain(&root.group("domain")?)?;
-    let mut dataset = Dataset::new(domain, equation(&root.group("equation")?, &scopes)?);
+    read(content, |root| head_of(root).0).map_err(first)
+}
+
+/// The dataset without its steps, and the scopes of its formulas if nothing is wrong with the tables.
+fn head_of(root: &Group) -> (Dataset, Option<Scopes>) {
+    let tables = tables(root);
+    let scopes = if root.is_fine() { scopes(root, &tables) } else { None };
+    let title = root.attribute("title");
+    let program = root.attribute("program");
+    let problem = root.holds("problem", Form::Dataset).then(|| root.scalar("problem"));
+    let domain = domain(&root.group("domain"));
+    let mut dataset = Dataset::new(domain, equation(&root.group("equation"), &scopes));
     (dataset.title, dataset.program, dataset.problem) = (title, program, problem);
-    dataset.quantities = optional(&root, "quantities", quantities)?;
+    dataset.quantities = optional(root, "quantities", quantities);
     dataset.tables = tables;
-    Ok(dataset)
+    (dataset, scopes)
 }
 
-fn problem(root: &Group) -> Read<Option<String>> {
-    root.holds("problem", Form::Dataset)?.then(|| root.scalar("problem")).transpose()
+/// Scopes of formulas with these tables, if their names do not clash.
+fn scopes(root: &Group, tables: &[Arc<Table>]) -> Option<Scopes> {
+    root.or_report(Scopes::new(tables))
 }
 
-fn domain(group: &Group) -> Read<Domain> {
-    let kind: String = group.attribute("kind")?;
-    let with_holes = group.word(&[(false, PLAIN_BOX), (true, BOX_WITH_HOLES)], &kind, "@kind")?;
-    let bounds = Rect::new(group.attribute_point("min")?, group.attribute_point("max")?);
-    if !with_holes {
-        group.refuse("holes", Form::Group, &kind)?;
-        return Ok(Domain { bounds, holes: Vec::new() });
-    }
-    Ok(Domain { bounds, holes: holes(&group.group("holes")?)? })
+fn domain(group: &Group) -> Domain {
+    let bounds = Rect::new(group.attribute_point("min"), group.attribute_point("max"));
+    let holes = match group.attribute_word(&[(false, PLAIN_BOX), (true, BOX_WITH_HOLES)], "kind") {
+        Some(true) => holes(&group.group("holes")),
+        Some(false) => {
+            group.refuse("holes", Form::Group, PLAIN_BOX);
+            Vec::new()
+        }
+        None => Vec::new(),
+    };
+    Domain { bounds, holes }
 }
 
-fn holes(group: &Group) -> Read<Vec<Hole>> {
-    let kinds = group.vector::<String>("kind")?;
-    let points = group.points("points")?;
-    let parts = group.offsets("offsets", kinds.len(), points.len())?;
-    let radii = group.column::<f64>("radius", kinds.len())?;
+fn holes(group: &Group) -> Vec<Hole> {
+    let n = group.rows_of(&["kind", "radius"]);
+    let (kinds, radii) = (group.column::<String>("kind", n), group.column::<f64>("radius", n));
+    let parts = group.parts("offsets", n, ("points", &group.points("points")));
     let rows = kinds.iter().zip(parts).zip(radii);
-    rows.map(|((kind, part), radius)| {
-        let is_circle = group.word(&[(true, CIRCLE), (false, POLYGON)], kind, "kind")?;
-        match (is_circle, &points[part]) {
-            (true, &[center]) => Ok(Hole::Circle { center, radius }),
+    let hole = |((kind, points), radius): ((&String, Vec<Vec2>), f64)| {
+        match (group.word(&[(true, CIRCLE), (false, POLYGON)], kind, "kind")?, &*points) {
+            (true, &[center]) => return Some(Hole::Circle { center, radius }),
+            (true, _) if group.is_wrong("points") => {}
             (true, other) => {
-                Err(group.error("offsets", format!("a circle has 1 point, not {}", other.len())))
+                group.error("offsets", format!("a circle has 1 point, not {}", other.len()));
             }
-            (false, points) if radius == 0.0 => Ok(Hole::Polygon { points: points.to_vec() }),
-            (false, _) => {
-                Err(group.error("radius", format!("is {radius} of a polygon, must be 0")))
-            }
+            (false, _) if radius == 0.0 => return Some(Hole::Polygon { points }),
+            (false, _) => group.error("radius", format!("is {radius} of a polygon, must be 0")),
         }
-    })
-    .collect()
+        None
+    };
+    rows.filter_map(hole).collect()
 }
 
-fn expect_kind(group: &Group, expected: &'static str) -> Read<()> {
-    let kind: String = group.attribute("kind")?;
-    group.word(&[((), expected)], &kind, "@kind")
-}
-
-fn equation(group: &Group, scopes: &Scopes) -> Read<Equation> {
-    let kind: String = group.attribute("kind")?;
-    match kind.as_str() {
-        "elasticity" => {
-            group.refuse("conductivity", Form::Attribute, &kind)?;
-            let state: String = group.attribute("state")?;
-            Ok(Equation::Elasticity(Elasticity {
-                young: constant(group, "young", scopes)?,
-                poisson: constant(group, "poisson", scopes)?,
-                state: group.word(STRESS_STATES, &state, "@state")?,
-            }))
+fn equation(group: &Group, scopes: &Option<Scopes>) -> Equation {
+    let constant = |name| constant(group, name, scopes);
+    match group.attribute_word(EQUATIONS, "kind") {
+        Some(EquationKind::Elasticity) => {
+            group.refuse("conductivity", Form::Attribute, ELASTICITY);
+            Equation::Elasticity(Elasticity {
+                young: constant("young"),
+                poisson: constant("poisson"),
+                state: group
+                    .attribute_word(STRESS_STATES, "state")
+                    .unwrap_or(StressState::PlaneStrain),
+            })
         }
-        "poisson" => {
+        Some(EquationKind::Poisson) => {
             for name in ["young", "poisson", "state"] {
-                group.refuse(name, Form::Attribute, &kind)?;
+                group.refuse(name, Form::Attribute, POISSON);
             }
-            Ok(Equation::Poisson { conductivity: constant(group, "conductivity", scopes)? })
+            Equation::Poisson { conductivity: constant("conductivity") }
         }
-        _ => Err(group.error("@kind", format!("unknown equation `{kind}`"))),
+        None => Equation::poisson(1.0),
     }
 }
 
 /// A constant of the material: a number, or the text of a formula.
-fn constant(group: &Group, name: &str, scopes: &Scopes) -> Read<Expression> {
+fn constant(group: &Group, name: &str, scopes: &Option<Scopes>) -> Expression {
     if !group.has_text(name) {
-        return group.attribute(name).map(Expression::number);
+        return Expression::number(group.attribute(name));
     }
-    let text: String = group.attribute(name)?;
-    Expression::parse_in(&text, &scopes.plane)
-        .map_err(|error| group.error(&format!("@{name}"), error.to_string()))
+    let text: String = group.attribute(name);
+    let parsed = scopes.as_ref().and_then(|scopes| {
+        let parsed = Expression::parse_in(&text, &scopes.plane);
+        parsed.map_err(|error| group.error(&format!("@{name}"), error.to_string())).ok()
+    });
+    parsed.unwrap_or_else(|| Expression::number(1.0))
 }
 
-fn quantities(group: &Group) -> Read<Vec<NamedQuantity>> {
-    let names = group.vector::<String>("name")?;
-    let formulas = group.column::<String>("formula", names.len())?;
-    let units = group.column::<String>("unit", names.len())?;
+fn quantities(group: &Group) -> Vec<NamedQuantity> {
+    let n = group.rows_of(&["name", "formula", "unit"]);
+    let [names, formulas, units] =
+        ["name", "formula", "unit"].map(|name| group.column::<String>(name, n));
     let all = names.into_iter().zip(formulas).zip(units);
-    Ok(all.map(|((name, text), unit)| NamedQuantity { name, text, unit }).collect())
+    all.map(|((name, text), unit)| NamedQuantity { name, text, unit }).collect()
 }
 
-fn step(group: &Group, scopes: &Scopes) -> Read<Step> {
-    let load = group.attribute("load")?;
-    let mut step = Step::new(partition(&group.group("partition")?, scopes)?);
+fn step(group: &Group, scopes: &Option<Scopes>) -> Step {
+    let load = group.attribute("load");
+    let mut step = Step::new(partition(&group.group("partition"), scopes));
     step.load = load;
-    step.cracks = cracks(&group.group("cracks")?)?;
-    step.functions = functions(&group.group("functions")?)?;
-    step.fields = numbered(group, "fields", field)?;
-    step.attributes = optional(group, "attributes", attributes)?;
-    step.intensities = optional(group, "intensities", intensities)?;
-    step.history = optional(group, "history", history)?;
-    step.warnings = optional(group, "warnings", warnings)?;
-    step.reactions = optional(group, "reactions", reactions)?;
-    step.growth = of_growth(group)?;
-    Ok(step)
+    step.cracks = cracks(&group.group("cracks"));
+    step.functions = functions(&group.group("functions"));
+    step.fields = numbered(group, "fields", field);
+    step.attributes = optional(group, "attributes", attributes);
+    step.intensities = optional(group, "intensities", intensities);
+    step.history = optional(group, "history", history);
+    step.warnings = optional(group, "warnings", warnings);
+    step.reactions = optional(group, "reactions", reactions);
+    step.growth = optional(group, "growth", |group| Some(growth(group)));
+    step
 }
 
-fn partition(group: &Group, scopes: &Scopes) -> Read<Partition> {
-    expect_kind(group, "shepard-box")?;
-    let weight = weight(group, scopes)?;
-    let center = group.points("center")?;
-    let point = group
-        .column::<i64>("point", center.len())?
-        .into_iter()
-        .map(|p| point_index(group, p))
-        .collect::<Read<_>>()?;
-    Ok(Partition {
-        weight,
-        half: group.points("half")?,
-        origin: group.points("origin")?,
-        scale: group.points("scale")?,
-        cell: group
-            .rows("cell")?
-            .iter()
-            .map(|&[x0, y0, x1, y1]| Rect::new(vec2(x0, y0), vec2(x1, y1)))
-            .collect(),
-        level: group.vector("level")?,
-        point,
-        points: group.points("points")?,
-        center,
-    })
+fn partition(group: &Group, scopes: &Option<Scopes>) -> Partition {
+    group.attribute_word(&[((), "shepard-box")], "kind");
+    let n = group.rows_of(&["center", "half", "origin", "scale", "cell", "level", "point"]);
+    let point = group.column::<i64>("point", n);
+    let cell = |[x0, y0, x1, y1]: [f64; 4]| Rect::new(vec2(x0, y0), vec2(x1, y1));
+    Partition {
+        weight: weight(group, scopes).unwrap_or(WeightFunction::Linear),
+        center: group.point_rows("center", n),
+        half: group.point_rows("half", n),
+        origin: group.point_rows("origin", n),
+        scale: group.point_rows("scale", n),
+        cell: group.rows("cell", n).into_iter().map(cell).collect(),
+        level: group.column("level", n),
+        point: point.into_iter().map(|p| point_index(group, p)).collect(),
+        points: group.points("points"),
+    }
 }
 
-fn weight(group: &Group, scopes: &Scopes) -> Read<WeightFunction> {
-    let word: String = group.attribute("weight")?;
-    let breakpoints = group.vector::<f64>("weight_breakpoints")?;
-    if word == "formula" {
-        if !breakpoints.is_sorted_by(|a, b| a < b) {
-            return Err(group.error("weight_breakpoints", "must increase from each to the next"));
+fn weight(group: &Group, scopes: &Option<Scopes>) -> Option<WeightFunction> {
+    let word: Option<Option<WeightFunction>> = group.attribute_word(WEIGHTS, "weight");
+    let breakpoints = group.vector::<f64>("weight_breakpoints");
+    match word? {
+        None => {
+            if !breakpoints.is_sorted_by(|a, b| a < b) {
+                group.error("weight_breakpoints", "must increase from each to the next");
+                return None;
+            }
+            let text: String = group.attribute("weight_formula");
+            let scope = &scopes.as_ref()?.weight;
+            let weight = WeightFunction::formula_with_breakpoints(&text, scope, &breakpoints);
+            let place = |error: &WeightError| match error {
+                WeightError::Breakpoint(_) => "weight_breakpoints",
+                _ => "@weight_formula",
+            };
+            weight.map_err(|error| group.error(place(&error), error.to_string())).ok()
         }
-        let text: String = group.attribute("weight_formula")?;
-        return WeightFunction::formula_with_breakpoints(&text, &scopes.weight, &breakpoints)
-            .map_err(|error| match error {
-                WeightError::Breakpoint(_) => group.error("weight_breakpoints", error.to_string()),
-                _ => group.error("@weight_formula", error.to_string()),
-            });
-    }
-    let weight = WeightFunction::from_name(&word)
-        .ok_or_else(|| group.error("@weight", format!("unknown weight function `{word}`")))?;
-    group.refuse("weight_formula", Form::Attribute, &word)?;
-    if breakpoints != weight.breakpoints() {
-        return Err(group.error("weight_breakpoints", format!("are not those of `{word}`")));
-    }
-    Ok(weight)
-}
-
-fn point_index(group: &Group, p: i64) -> Read<Option<u32>> {
-    match p {
-        -1 => Ok(None),
-        _ => u32::try_from(p)
-            .map(Some)
-            .map_err(|_| group.error("point", format!("{p} is neither an index nor -1"))),
+        Some(weight) => {
+            let name = weight.name();
+            group.refuse("weight_formula", Form::Attribute, name);
+            let right = weight.breakpoints();
+            if breakpoints != right {
+                let mistake = format!("are {breakpoints:?}, but those of `{name}` are {right:?}");
+                group.error("weight_breakpoints", mistake);
+            }
+            Some(weight)
+        }
     }
 }
 
-fn cracks(group: &Group) -> Read<Vec<Crack>> {
-    let points = group.points("points")?;
-    let ends = group.rows::<String, 2>("ends")?;
-    let parts = group.offsets("offsets", ends.len(), points.len())?;
-    let kind = |word: &str| -> Read<CrackEnd> { group.word(CRACK_ENDS, word, "ends") };
-    std::iter::zip(parts, ends)
-        .map(|(part, [start, last])| {
-            Ok(Crack { points: points[part].to_vec(), ends: [kind(start)?, kind(last)?] })
-        })
-        .collect()
+fn point_index(group: &Group, p: i64) -> Option<u32> {
+    let index = u32::try_from(p).ok();
+    if index.is_none() && p != -1 {
+        group.error("point", format!("{p} is neither an index nor -1"));
+    }
+    index
 }
 
-fn field(group: &Group) -> Read<FieldData> {
-    let components = group.vector::<String>("components")?;
-    let mut data = FieldData::new(&group.attribute::<String>("name")?, &[]);
-    data.unit = group.attribute("unit")?;
-    data.exact = exact(group)?;
-    data.patch_blocks = group.vector("patch_blocks")?;
-    data.block_function = group.vector("block_function")?;
-    data.block_degree = group.vector("block_degree")?;
-    data.block_offset = group.vector("block_offset")?;
-    data.coefficients = group.matrix("coefficients", components.len())?;
-    data.components = components;
-    Ok(data)
+fn cracks(group: &Group) -> Vec<Crack> {
+    let by_offsets = || group.rows_of(&["offsets"]).saturating_sub(1);
+    let n = group.row_count("ends").unwrap_or_else(by_offsets);
+    let ends = group.rows::<String, 2>("ends", n);
+    let parts = group.parts("offsets", n, ("points", &group.points("points")));
+    let kind = |word: &str| group.word(CRACK_ENDS, word, "ends").unwrap_or(CrackEnd::Tip);
+    let all = parts.into_iter().zip(ends);
+    all.map(|(points, [start, last])| Crack { points, ends: [kind(&start), kind(&last)] }).collect()
 }
 
-fn exact(group: &Group) -> Read<Vec<String>> {
-    if group.holds("exact", Form::Dataset)? { group.vector("exact") } else { Ok(Vec::new()) }
+fn field(group: &Group) -> FieldData {
+    let components = group.rows_of(&["components", "coefficients"]);
+    let blocks = group.rows_of(&["block_function", "block_degree", "block_offset"]);
+    let mut data = FieldData::new(&group.attribute::<String>("name"), &[]);
+    data.unit = group.attribute("unit");
+    data.exact = optional_vector(group, "exact").unwrap_or_default();
+    data.patch_blocks = group.vector("patch_blocks");
+    data.block_function = group.column("block_function", blocks);
+    data.block_degree = group.column("block_degree", blocks);
+    data.block_offset = group.column("block_offset", blocks);
+    data.coefficients = group.matrix("coefficients", components);
+    data.components = group.column("components", components);
+    data
 }
 
-fn attributes(group: &Group) -> Read<Vec<Attribute>> {
-    let names = group.vector::<String>("name")?;
-    let values = group.matrix("values", names.len())?;
-    Ok(std::iter::zip(names, values).map(|(name, values)| Attribute { name, values }).collect())
+fn optional_vector<T: Element>(group: &Group, name: &str) -> Option<Vec<T>> {
+    group.holds(name, Form::Dataset).then(|| group.vector(name))
 }
 
-fn intensities(group: &Group) -> Read<Vec<TipIntensity>> {
-    let crack = group.vector::<u32>("crack")?;
-    let n = crack.len();
-    let end = group.column::<String>("end", n)?;
-    let (k1, k2) = (group.column::<f64>("k1", n)?, group.column::<f64>("k2", n)?);
-    let ring = |&[r1, r2, k1, k2]: &[f64; 4]| Ring { r1, r2, k1, k2 };
-    let rings: Vec<Ring> = group.rows("rings")?.iter().map(ring).collect();
-    let parts = group.offsets("ring_offsets", n, rings.len())?;
-    let (t_stress, j) = (known(group, "t_stress", n)?, known(group, "j", n)?);
-    let error = known(group, "error", n)?;
-    let intensity = |(k, part): (usize, std::ops::Range<usize>)| {
-        let tip = TipId { crack: crack[k], end: group.word(ENDS, &end[k], "end")? };
-        let (k1, k2, rings) = (k1[k], k2[k], rings[part].to_vec());
-        Ok(TipIntensity { tip, k1, k2, t_stress: t_stress[k], j: j[k], error: error[k], rings })
+fn attributes(group: &Group) -> Vec<Attribute> {
+    let n = group.rows_of(&["name", "values"]);
+    let (names, values) = (group.column::<String>("name", n), group.matrix("values", n));
+    std::iter::zip(names, values).map(|(name, values)| Attribute { name, values }).collect()
+}
+
+fn intensities(group: &Group) -> Vec<TipIntensity> {
+    let n = group.rows_of(&["crack", "end", "k1", "k2"]);
+    let tips = tip_ids(group, n);
+    let (k1, k2) = (group.column::<f64>("k1", n), group.column::<f64>("k2", n));
+    let ring = |[r1, r2, k1, k2]: [f64; 4]| Ring { r1, r2, k1, k2 };
+    let rings: Vec<Ring> = group.all_rows("rings").into_iter().map(ring).collect();
+    let parts = group.parts("ring_offsets", n, ("rings", &rings));
+    let [t_stress, j, error] = ["t_stress", "j", "error"].map(|name| known(group, name, n));
+    let intensity = |(k, rings): (usize, Vec<Ring>)| TipIntensity {
+        t_stress: t_stress[k],
+        j: j[k],
+        error: error[k],
+        rings,
+        ..TipIntensity::new(tips[k], k1[k], k2[k])
     };
     parts.into_iter().enumerate().map(intensity).collect()
 }
 
+/// The tips that the rows of a table are about.
+fn tip_ids(group: &Group, n: usize) -> Vec<TipId> {
+    let (cracks, ends) = (group.column::<u32>("crack", n), group.column::<String>("end", n));
+    let end = |word: &str| group.word(ENDS, word, "end").unwrap_or(End::Start);
+    cracks.into_iter().zip(ends).map(|(crack, word)| TipId { crack, end: end(&word) }).collect()
+}
+
 /// Values that are not there, or NaN, where they are not known.
-fn known(group: &Group, name: &str, n: usize) -> Read<Vec<Option<f64>>> {
-    if !group.holds(name, Form::Dataset)? {
-        return Ok(vec![None; n]);
+fn known(group: &Group, name: &str, n: usize) -> Vec<Option<f64>> {
+    if !group.holds(name, Form::Dataset) {
+        return vec![None; n];
     }
-    let values = group.column::<f64>(name, n)?;
-    Ok(values.into_iter().map(|v| (!v.is_nan()).then_some(v)).collect())
+    let values = group.column::<f64>(name, n);
+    values.into_iter().map(|v| (!v.is_nan()).then_some(v)).collect()
 }
 
-fn history(group: &Group) -> Read<Vec<Record>> {
-    let names = group.vector::<String>("name")?;
-    let values = group.column::<f64>("value", names.len())?;
-    let units = group.column::<String>("unit", names.len())?;
+fn history(group: &Group) -> Vec<Record> {
+    let n = group.rows_of(&["name", "value", "unit"]);
+    let [names, units] = ["name", "unit"].map(|name| group.column::<String>(name, n));
+    let values = group.column::<f64>("value", n);
     let records = names.into_iter().zip(values).zip(units);
-    Ok(records.map(|((name, value), unit)| Record { name, value, unit }).collect())
+    records.map(|((name, value), unit)| Record { name, value, unit }).collect()
 }
 
-fn warnings(group: &Group) -> Read<Vec<Warning>> {
-    let kinds = group.vector::<String>("kind")?;
-    let n = kinds.len();
-    let at = group.array::<f64>("at", &[Extent::Is(n as u64), Extent::Is(2)])?;
-    let messages = group.column::<String>("message", n)?;
-    let (values, limits) = (group.column::<f64>("value", n)?, group.column::<f64>("limit", n)?);
-    let place = |k: usize| {
-        let [x, y] = [at[2 * k], at[2 * k + 1]];
-        (!x.is_nan() || !y.is_nan()).then_some(vec2(x, y))
-    };
+fn warnings(group: &Group) -> Vec<Warning> {
+    let n = group.rows_of(&["kind", "message", "at", "value", "limit"]);
+    let [kinds, messages] = ["kind", "message"].map(|name| group.column::<String>(name, n));
+    let at = group.point_rows("at", n);
+    let [values, limits] = ["value", "limit"].map(|name| group.column::<f64>(name, n));
+    let place = |k: usize| (!at[k].x.is_nan() || !at[k].y.is_nan()).then_some(at[k]);
     let texts = kinds.into_iter().zip(messages).enumerate();
     let warning = |(k, (kind, message))| {
         let (value, limit) = (values[k], limits[k]);
         Warning { kind, at: place(k), value, limit, message }
     };
-    Ok(texts.map(warning).collect())
+    texts.map(warning).collect()
 }
 
-fn reactions(group: &Group) -> Read<Vec<Reaction>> {
-    let places = group.vector::<String>("on")?;
-    let n = places.len();
-    let (held, forces) = (group.matrix("held", n)?, group.matrix("force", n)?);
-    let moments = group.column::<f64>("moment", n)?;
+fn reactions(group: &Group) -> Vec<Reaction> {
+    let n = group.rows_of(&["on", "held", "force", "moment"]);
+    let places = group.column::<String>("on", n);
+    let (held, forces) = (group.matrix("held", n), group.matrix("force", n));
+    let moments = group.column::<f64>("moment", n);
+    let is_held = |h: f64| {
+        if h != 0.0 && h != 1.0 {
+            group.error("held", format!("{h}: expected 0 or 1"));
+        }
+        h == 1.0
+    };
     let results = places.into_iter().zip(held).zip(forces.into_iter().zip(moments));
     let reaction = |((on, held), (force, moment)): ((String, Vec<f64>), (Vec<f64>, f64))| {
-        let is_held = |&h: &f64| match h {
-            0.0 => Ok(false),
-            1.0 => Ok(true),
-            _ => Err(group.error("held", format!("{h}: expected 0 or 1"))),
-        };
-        let held = held.iter().map(is_held).collect::<Read<_>>()?;
-        Ok(Reaction { on, held, force, moment })
+        Reaction { on, held: held.into_iter().map(is_held).collect(), force, moment }
     };
     results.map(reaction).collect()
 }

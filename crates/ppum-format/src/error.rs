@@ -86,6 +86,18 @@ impl ReadError {
         Self::Object { object: object.to_owned(), mistake: mistake.into() }
     }
 
+    /// The object of the file that it is about, if it is about one.
+    #[must_use]
+    pub fn place(&self) -> Option<&str> {
+        match self {
+            Self::Object { object, .. } => Some(object),
+            Self::Checksum { attribute, .. } => Some(attribute),
+            Self::Invalid(CheckError { place, .. }) => Some(place),
+            Self::Newer { source, .. } => source.place(),
+            Self::Io { .. } | Self::Hdf5 { .. } | Self::NotADataset | Self::TooNew { .. } => None,
+        }
+    }
+
     /// The same with the texts of the file that it quotes cut: they may be of any length.
     pub(crate) fn shortened(mut self) -> Self {
         match &mut self {

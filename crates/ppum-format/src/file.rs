@@ -6,8 +6,9 @@ use std::path::Path;
 use ppum::dataset::Dataset;
 use ppum_file::Ranged;
 
-use crate::bytes::{from_file, to_bytes};
+use crate::bytes::{all_errors, from_file, to_bytes};
 use crate::error::{ReadError, WriteError};
+use crate::hdf5;
 use crate::limits::MAX_LENGTH;
 
 /// Reads a dataset from a regular file of at most [`MAX_LENGTH`] bytes.
@@ -19,6 +20,17 @@ pub fn read(path: &Path) -> Result<Dataset, ReadError> {
     let io = |error| ReadError::io(path, error);
     let file = Ranged::open(path, MAX_LENGTH).map_err(io)?;
     from_file(&file, file.length(MAX_LENGTH).map_err(io)?)
+}
+
+/// All that is wrong with the dataset in a file, nothing if [`read`] would return it.
+#[must_use]
+pub fn diagnose(path: &Path) -> Vec<ReadError> {
+    let content = || {
+        let io = |error| ReadError::io(path, error);
+        let file = Ranged::open(path, MAX_LENGTH).map_err(io)?;
+        hdf5::from_file(&file, file.length(MAX_LENGTH).map_err(io)?)
+    };
+    all_errors(content())
 }
 
 /// Writes a dataset to a file, completely or not at all, as [`ppum_file::replace`] does.

@@ -55,12 +55,13 @@ mod file;
 mod hdf5;
 mod limits;
 mod names;
+mod place;
 mod series;
 
 pub use append::SeriesWriter;
-pub use bytes::{check, from_bytes, to_bytes};
+pub use bytes::{check, diagnose_bytes, from_bytes, to_bytes};
 pub use error::{ReadError, WriteError};
-pub use file::{read, write};
+pub use file::{diagnose, read, write};
 pub use limits::{FORMAT_VERSION, MAX_LENGTH, MAX_SERIES_LENGTH};
 pub use series::Series;
 
@@ -79,13 +80,17 @@ mod tests {
             ("decode", &["content", "error", "limits", "names"]),
             ("encode", &["content", "error", "limits", "names"]),
             ("hdf5", &["content", "error", "limits"]),
+            ("place", &["content"]),
         ],
         &[
-            ("bytes", &["checksum", "content", "decode", "encode", "error", "hdf5", "limits"]),
+            (
+                "bytes",
+                &["checksum", "content", "decode", "encode", "error", "hdf5", "limits", "place"],
+            ),
             ("damage", &["checksum", "content", "encode", "error", "hdf5"]),
         ],
         &[
-            ("file", &["bytes", "error", "limits"]),
+            ("file", &["bytes", "error", "hdf5", "limits"]),
             ("series", &["bytes", "checksum", "content", "decode", "error", "hdf5", "limits"]),
         ],
         &[("append", &["bytes", "error", "hdf5", "limits", "series"])],

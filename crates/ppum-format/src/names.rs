@@ -2,12 +2,33 @@
 
 use ppum::crack::{CrackEnd, End};
 use ppum::dataset::{Advance, Fate, GrowthStop, StressState};
+use ppum::weight::WeightFunction;
 
 /// Words of a closed set of values.
 pub(crate) type Words<T> = [(T, &'static str)];
 
 pub(crate) const STRESS_STATES: &Words<StressState> =
     &[(StressState::PlaneStrain, "plane-strain"), (StressState::PlaneStress, "plane-stress")];
+
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum EquationKind {
+    Elasticity,
+    Poisson,
+}
+
+pub(crate) const ELASTICITY: &str = "elasticity";
+pub(crate) const POISSON: &str = "poisson";
+
+pub(crate) const EQUATIONS: &Words<EquationKind> =
+    &[(EquationKind::Elasticity, ELASTICITY), (EquationKind::Poisson, POISSON)];
+
+/// Weight functions that have a name, and none for a formula.
+pub(crate) const WEIGHTS: &Words<Option<WeightFunction>> = &[
+    (Some(WeightFunction::Linear), "linear"),
+    (Some(WeightFunction::Quadratic), "quadratic"),
+    (Some(WeightFunction::Cubic), "cubic"),
+    (None, "formula"),
+];
 
 pub(crate) const CRACK_ENDS: &Words<CrackEnd> =
     &[(CrackEnd::Tip, "tip"), (CrackEnd::Mouth, "mouth"), (CrackEnd::Junction, "junction")];
@@ -68,8 +89,8 @@ pub(crate) fn word<T: PartialEq>(words: &Words<T>, value: T) -> Option<&'static 
 /// # Errors
 ///
 /// A message that lists the words known here.
-pub(crate) fn value<T: Copy>(words: &Words<T>, word: &str) -> Result<T, String> {
-    words.iter().find(|(_, w)| *w == word).map(|(v, _)| *v).ok_or_else(|| {
+pub(crate) fn value<T: Clone>(words: &Words<T>, word: &str) -> Result<T, String> {
+    words.iter().find(|(_, w)| *w == word).map(|(v, _)| v.clone()).ok_or_else(|| {
         let known: Vec<&str> = words.iter().map(|(_, w)| *w).collect();
         format!("unknown word `{word}`, expected one of: {}", known.join(", "))
     })

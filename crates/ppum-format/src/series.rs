@@ -6,7 +6,7 @@ use ppum::check::CheckError;
 use ppum::dataset::{Dataset, Step};
 use ppum_file::Ranged;
 
-use crate::bytes::{from_file, newer};
+use crate::bytes::{from_file, invalid, newer};
 use crate::content::step_path;
 use crate::error::ReadError;
 use crate::hdf5::{Outline, Ranges};
@@ -199,7 +199,7 @@ impl Series {
         let dataset = || {
             let mut dataset = self.head.clone();
             dataset.steps.push(decode::one_step(&content, &path, &self.head.tables)?);
-            dataset.check().map_err(|error| numbered(error, number))?;
+            dataset.check().map_err(|error| invalid(numbered(error, number), &content))?;
             Ok(dataset)
         };
         let (verified, dataset) = rayon::join(|| checksum::verify_step(&content, &path), dataset);
@@ -216,8 +216,10 @@ impl Series {
         let path = path(number, self.len())?;
         let content = outline.step(file, &path, Some(decode::RESULTS))?;
         let step = decode::results(&content, &path)?;
-        let place = |error: CheckError| ReadError::object(&path, error.to_string());
-        step.check_results().map_err(place)?;
+        step.check_results().map_err(|mut error| {
+            error.place = format!("steps[{number}].{}", error.place);
+            invalid(error, &content)
+        })?;
         Ok(step)
     }
 

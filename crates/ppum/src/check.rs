@@ -3,11 +3,14 @@
 //! A dataset from a file or from a caller is data, not an invariant: [`Dataset::check`] is the one
 //! place that decides whether its indices, shapes and numbers make sense. Evaluators rely on it.
 
+mod coverage;
 mod domain;
+mod errors;
 mod fields;
 mod formulas;
 mod functions;
 mod growth;
+mod line;
 mod marks;
 mod partition;
 mod ranks;
@@ -19,12 +22,13 @@ use std::collections::BTreeSet;
 
 use crate::dataset::{Dataset, Equation, Step};
 use crate::vec2::{Rect, Vec2};
+use errors::Errors;
 use fields::check_field;
 use functions::{check_crack, check_function};
 use partition::check_partition;
 use results::{check_intensities, check_reaction, check_warning};
 
-/// The first thing found wrong in a dataset.
+/// A thing that is wrong in a dataset.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {mistake}")]
 #[non_exhaustive]
@@ -42,29 +46,50 @@ impl Dataset {
     /// offsets, finite numbers, positive extents, cracks without zero-length segments, formulas that
     /// can be read with the dataset's tables.
     ///
-    /// Attributes and history may hold NaN ("no value") or infinities; nothing else may. That the cells
-    /// tile the domain is asked, whether the supports cover it is not. O(n log n) in the size of the dataset.
+    /// Attributes and history may hold NaN ("no value") or infinities; nothing else may. The cells tile the
+    /// domain, and the supports cover them. O(n log n) in the size of the dataset.
     ///
     /// # Errors
     ///
     /// The first violation, with its place.
-    pub fn check(&self) -> Checked {
-        domain::check(&self.domain)?;
-        formulas::check(self)?;
-        if let Some((name, mistake)) = self.equation.mistake(&self.domain) {
-            return fail(&format!("equation.{name}"), mistake);
+    pub fn check(&self) -> Result<(), CheckError> {
+        self.diagnose().into_iter().next().map_or(Ok(()), Err)
+    }
+
+    /// Returns all violations that [`check`](Self::check) would find, if each one before were repaired, up to a
+    /// hundred: one of each array, and none that only follows from others.
+    #[must_use]
+    pub fn diagnose(&self) -> Vec<CheckError> {
+        let mut errors = Errors::default();
+        let has_domain = errors.within("domain", |e| domain::check(&self.domain, e));
+        let has_formulas = formulas::check(self, &mut errors);
+        if has_domain
+            && has_formulas
+            && let Some((name, mistake)) = self.equation.mistake(&self.domain)
+        {
+            errors.add(fail(&format!("equation.{name}"), mistake));
         }
-        require(!self.steps.is_empty(), "steps", || "a dataset needs at least one step".into())?;
+        errors.add(require(!self.steps.is_empty(), "steps", || {
+            "a dataset needs at least one step".into()
+        }));
         for (k, step) in self.steps.iter().enumerate() {
-            check_step(step, &self.equation).map_err(|e| e.inside(&format!("steps[{k}]")))?;
-            let known = k > 0 && self.steps[k - 1].partition.cell == step.partition.cell;
-            if !known {
-                tiling::check(&step.partition, &self.domain)
-                    .map_err(|e| e.inside(&format!("steps[{k}].partition")))?;
-            }
+            errors.within(&format!("steps[{k}]"), |errors| {
+                let has_partition = check_step(step, &self.equation, errors);
+                let same_cells = k > 0 && self.steps[k - 1].partition.cell == step.partition.cell;
+                if has_domain && has_partition {
+                    errors.within("partition", |errors| {
+                        if same_cells || errors.add(tiling::check(&step.partition, &self.domain)) {
+                            errors.add(coverage::check(&step.partition, &self.domain));
+                        }
+                    });
+                }
+            });
         }
-        formulas::check_quantities(self)?;
-        work::check(self)
+        formulas::check_quantities(self, &mut errors);
+        if errors.is_empty() {
+            errors.add(work::check(self));
+        }
+        errors.into_list()
     }
 }
 
@@ -75,22 +100,25 @@ impl Step {
     ///
     /// The first violation, with its place in the step.
     pub fn check_results(&self) -> Result<(), CheckError> {
-        check_number("load", self.load)?;
-        for (k, crack) in self.cracks.iter().enumerate() {
-            check_crack(&format!("cracks[{k}]"), crack)?;
-        }
-        check_intensities(self)?;
-        for (k, warning) in self.warnings.iter().enumerate() {
-            check_warning(warning).map_err(|e| e.inside(&format!("warnings[{k}]")))?;
-        }
-        growth::check_growth(self)
+        let mut errors = Errors::default();
+        check_results(self, &mut errors);
+        errors.into_list().into_iter().next().map_or(Ok(()), Err)
     }
+}
+
+fn check_results(step: &Step, errors: &mut Errors) {
+    errors.add(check_number("load", step.load));
+    errors.each("cracks", &step.cracks, |_, crack| check_crack(crack));
+    check_intensities(step, errors);
+    errors.each("warnings", &step.warnings, |_, warning| check_warning(warning));
+    growth::check_growth(step, errors);
 }
 
 impl CheckError {
     /// The same error seen from the object that holds its place.
     fn inside(self, outer: &str) -> Self {
-        Self { place: format!("{outer}.{}", self.place), ..self }
+        let separator = if self.place.is_empty() { "" } else { "." };
+        Self { place: format!("{outer}{separator}{}", self.place), ..self }
     }
 }
 
@@ -181,27 +209,26 @@ fn check_names<'a>(place: &str, names: impl Iterator<Item = &'a String>) -> Chec
     Ok(())
 }
 
-fn check_step(step: &Step, equation: &Equation) -> Checked {
-    step.check_results()?;
-    check_partition(&step.partition).map_err(|e| e.inside("partition"))?;
-    for (k, function) in step.functions.iter().enumerate() {
-        check_function(function, &step.cracks).map_err(|e| e.inside(&format!("functions[{k}]")))?;
-    }
-    check_names("fields", step.fields.iter().map(|f| &f.name))?;
+/// Checks a step by itself. True if its partition is one.
+fn check_step(step: &Step, equation: &Equation, errors: &mut Errors) -> bool {
+    check_results(step, errors);
+    let has_partition = errors.within("partition", |e| check_partition(&step.partition, e));
+    errors.each("functions", &step.functions, |_, f| check_function(f, &step.cracks));
+    errors.add(check_names("fields", step.fields.iter().map(|f| &f.name)));
     for (k, field) in step.fields.iter().enumerate() {
-        check_field(field, step, equation).map_err(|e| e.inside(&format!("fields[{k}]")))?;
+        errors.within(&format!("fields[{k}]"), |e| check_field(field, step, equation, e));
     }
-    check_names("attributes", step.attributes.iter().map(|a| &a.name))?;
+    errors.add(check_names("attributes", step.attributes.iter().map(|a| &a.name)));
     for attribute in &step.attributes {
         let place = format!("attributes `{}`", attribute.name);
-        check_length(&place, attribute.values.len(), step.partition.len(), "one per patch")?;
+        let (length, patches) = (attribute.values.len(), step.partition.len());
+        errors.add(check_length(&place, length, patches, "one per patch"));
     }
     let components = step.fields.first().map_or(0, |field| field.components.len());
-    for (k, reaction) in step.reactions.iter().enumerate() {
+    errors.each("reactions", &step.reactions, |_, reaction| {
         check_reaction(reaction, components, equation)
-            .map_err(|e| e.inside(&format!("reactions[{k}]")))?;
-    }
-    Ok(())
+    });
+    has_partition
 }
 
 #[cfg(test)]
@@ -293,7 +320,7 @@ mod tests {
         };
         assert_eq!(place(|p| p.half.clear()), "half");
         assert_eq!(place(|p| p.half[0].y = 0.0), "half[0]");
-        assert_eq!(place(|p| p.half[0].y = 0.5 * (1.0 + 1e-12)), "half[0]");
+        assert_eq!(place(|p| p.half[0].y = 0.5 * (1.0 + 1e-12)), "half");
         assert_eq!(place(|p| p.scale[0].x = -1.0), "scale[0]");
         assert_eq!(place(|p| p.origin[0].x = f64::NAN), "origin[0]");
         assert_eq!(place(|p| p.cell[0].max.x = -1.0), "cell[0]");

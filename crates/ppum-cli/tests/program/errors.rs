@@ -21,6 +21,27 @@ fn files_that_are_not_there_or_not_datasets() {
 }
 
 #[test]
+fn check_lists_all_errors_of_a_dataset() {
+    let lab = Lab::solved(CRACKED);
+    assert!(lab.run("check plate.h5").contains("plate.h5: no errors"));
+    let mut dataset = ppum_format::read(&lab.path("plate.h5")).unwrap();
+    let step = &mut dataset.steps[0];
+    step.load = f64::NAN;
+    step.partition.half.iter_mut().for_each(|half| *half = *half * 0.5);
+    step.fields[0].block_offset[1] = 0;
+    std::fs::write(lab.path("bad.h5"), ppum_format::damage::unchecked(&dataset).unwrap()).unwrap();
+    let output = lab.command("check bad.h5").output().unwrap();
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert_eq!((output.status.code(), told.lines().count()), (Some(1), 3), "{told}");
+    for place in ["steps/0000@load: ", "partition/half: ", "fields/0000/block_offset[1]: "] {
+        assert!(told.contains(place), "{place}: {told}");
+    }
+    let first = lab.fail("info bad.h5");
+    assert!(first.contains("@load") && first.contains("`ppum check bad.h5` lists all"), "{first}");
+    assert_eq!(lab.command("check missing.h5").output().unwrap().status.code(), Some(1));
+}
+
+#[test]
 fn unknown_quantities_list_the_known() {
     let lab = Lab::solved(CRACKED);
     for command in ["probe plate.h5 --at 0,0 -q mises", "render plate.h5 -o a.png -q mises"] {

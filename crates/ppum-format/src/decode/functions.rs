@@ -4,10 +4,34 @@ use ppum::crack::{SegmentId, TipId};
 use ppum::function::{Cut, Declared, Frame, Function, FunctionKind, Part};
 use ppum::vec2::{Vec2, vec2};
 
-use super::Read;
 use super::group::Group;
 use crate::content::Form;
-use crate::names::ENDS;
+use crate::names::{ENDS, Words};
+
+#[derive(Clone, Copy)]
+enum Kind {
+    One,
+    Side,
+    Formula,
+    Component,
+}
+
+const KINDS: &Words<Kind> = &[
+    (Kind::One, "one"),
+    (Kind::Side, "side"),
+    (Kind::Formula, "formula"),
+    (Kind::Component, "component"),
+];
+
+#[derive(Clone, Copy)]
+enum FrameKind {
+    World,
+    Fixed,
+    Tip,
+}
+
+const FRAMES: &Words<FrameKind> =
+    &[(FrameKind::World, "world"), (FrameKind::Fixed, "fixed"), (FrameKind::Tip, "tip")];
 
 /// The columns of the function table that are not plain names.
 struct Columns {
@@ -22,51 +46,69 @@ struct Columns {
     declared: Vec<Declared>,
 }
 
-pub(super) fn functions(group: &Group) -> Read<Vec<Function>> {
-    let names = group.vector::<String>("name")?;
-    let n = names.len();
-    let kinds = group.column::<String>("kind", n)?;
+/// The columns with a row for each function.
+const COLUMNS: [&str; 8] =
+    ["name", "kind", "crack", "formula", "frame", "frame_end", "frame_origin", "frame_angle"];
+
+pub(super) fn functions(group: &Group) -> Vec<Function> {
+    let n = group.rows_of(&COLUMNS);
+    let names = group.column::<String>("name", n);
+    let kinds = group.column::<String>("kind", n);
     let mut columns = Columns {
-        crack: group.column("crack", n)?,
-        formula: group.column("formula", n)?,
-        frame: group.column("frame", n)?,
-        end: group.column("frame_end", n)?,
-        origin: group.points("frame_origin")?,
-        angle: group.column("frame_angle", n)?,
-        parameters: parameters(group, n)?,
-        cuts: cuts(group, n)?,
-        declared: declared(group, n)?,
+        crack: group.column("crack", n),
+        formula: group.column("formula", n),
+        frame: group.column("frame", n),
+        end: group.column("frame_end", n),
+        origin: group.point_rows("frame_origin", n),
+        angle: group.column("frame_angle", n),
+        parameters: parameters(group, n),
+        cuts: cuts(group, n),
+        declared: declared(group, n),
     };
-    if columns.origin.len() != n {
-        return Err(group.error("frame_origin", format!("expected {n} rows")));
-    }
-    let function = |(k, (name, kind)): (usize, (String, String))| {
-        Ok(Function { name, kind: columns.function_kind(group, k, &kind)? })
+    let function = |(k, (name, word)): (usize, (String, String))| {
+        let kind = columns.function_kind(group, k, &word).unwrap_or(FunctionKind::One);
+        Function { name, kind }
     };
     names.into_iter().zip(kinds).enumerate().map(function).collect()
 }
 
-fn parameters(group: &Group, functions: usize) -> Read<Vec<Vec<(String, f64)>>> {
-    let names = group.vector::<String>("parameter_name")?;
-    let values = group.column::<f64>("parameter_value", names.len())?;
-    let parts = group.offsets("parameter_offsets", functions, names.len())?;
+fn parameters(group: &Group, functions: usize) -> Vec<Vec<(String, f64)>> {
+    let n = group.rows_of(&["parameter_name", "parameter_value"]);
+    let names = group.column::<String>("parameter_name", n);
+    let values = group.column::<f64>("parameter_value", n);
     let pairs: Vec<(String, f64)> = std::iter::zip(names, values).collect();
-    Ok(parts.into_iter().map(|part| pairs[part].to_vec()).collect())
+    group.parts("parameter_offsets", functions, ("parameter_name", &pairs))
 }
 
-/// The cuts of components, which may be missing from the file.
-fn cuts(group: &Group, functions: usize) -> Read<Vec<Vec<Cut>>> {
-    if !(group.holds("cuts", Form::Dataset)? || group.holds("cut_offsets", Form::Dataset)?) {
-        return Ok(vec![Vec::new(); functions]);
+/// A list that belongs to each function, which may be missing from the file together with its offsets.
+fn lists<T: Clone>(
+    group: &Group,
+    [name, offsets]: [&str; 2],
+    functions: usize,
+    list: impl Fn() -> Vec<T>,
+) -> Vec<Vec<T>> {
+    if [name, offsets].map(|name| group.holds(name, Form::Dataset)) == [false; 2] {
+        return vec![Vec::new(); functions];
     }
-    let rows = group.rows::<i64, 4>("cuts")?;
-    let parts = group.offsets("cut_offsets", functions, rows.len())?;
-    let cuts: Vec<_> = rows
-        .iter()
-        .enumerate()
-        .map(|(k, row)| cut(*row).ok_or_else(|| group.error("cuts", format!("row {k} is no cut"))))
-        .collect::<Read<_>>()?;
-    Ok(parts.into_iter().map(|part| cuts[part].to_vec()).collect())
+    group.parts(offsets, functions, (name, &list()))
+}
+
+/// The cuts of components.
+fn cuts(group: &Group, functions: usize) -> Vec<Vec<Cut>> {
+    let none = Cut {
+        segment: SegmentId { crack: 0, segment: 0 },
+        left: Part::Outside,
+        right: Part::Outside,
+    };
+    let cut = |(k, row)| {
+        cut(row).unwrap_or_else(|| {
+            group.error("cuts", format!("row {k} is no cut"));
+            none
+        })
+    };
+    lists(group, ["cuts", "cut_offsets"], functions, || {
+        group.all_rows::<i64, 4>("cuts").into_iter().enumerate().map(cut).collect()
+    })
 }
 
 /// Crack, segment, and the numbers of what follows on the left and on the right.
@@ -80,51 +122,39 @@ fn cut([crack, segment, left, right]: [i64; 4]) -> Option<Cut> {
     })
 }
 
-/// Kinks and singular points, each of which may be missing from the file.
-fn declared(group: &Group, functions: usize) -> Read<Vec<Declared>> {
-    let mut declared = vec![Declared::default(); functions];
-    if group.holds("kinks", Form::Dataset)? || group.holds("kink_offsets", Form::Dataset)? {
-        let segment = |&[x0, y0, x1, y1]: &[f64; 4]| [vec2(x0, y0), vec2(x1, y1)];
-        let kinks: Vec<_> = group.rows("kinks")?.iter().map(segment).collect();
-        let parts = group.offsets("kink_offsets", functions, kinks.len())?;
-        std::iter::zip(&mut declared, parts).for_each(|(d, part)| d.kinks = kinks[part].to_vec());
-    }
-    if group.holds("singular", Form::Dataset)? || group.holds("singular_offsets", Form::Dataset)? {
-        let points = group.points("singular")?;
-        let parts = group.offsets("singular_offsets", functions, points.len())?;
-        std::iter::zip(&mut declared, parts)
-            .for_each(|(d, part)| d.singular = points[part].to_vec());
-    }
-    Ok(declared)
+/// Kinks and singular points.
+fn declared(group: &Group, functions: usize) -> Vec<Declared> {
+    let kinks = lists(group, ["kinks", "kink_offsets"], functions, || {
+        let segment = |[x0, y0, x1, y1]: [f64; 4]| [vec2(x0, y0), vec2(x1, y1)];
+        group.all_rows("kinks").into_iter().map(segment).collect()
+    });
+    let singular =
+        lists(group, ["singular", "singular_offsets"], functions, || group.points("singular"));
+    let all = kinks.into_iter().zip(singular);
+    all.map(|(kinks, singular)| Declared { kinks, singular }).collect()
 }
 
 impl Columns {
     /// Takes the row of a function out of the columns. What its kind does not use must be left there as
     /// nothing: a row that says more than its kind was damaged, or written for another kind.
-    fn function_kind(&mut self, group: &Group, k: usize, kind: &str) -> Read<FunctionKind> {
-        let function = match kind {
-            "one" => FunctionKind::One,
-            "side" => FunctionKind::Side { crack: self.take_crack(group, k)? },
-            "component" => FunctionKind::Component { cuts: std::mem::take(&mut self.cuts[k]) },
-            "formula" => FunctionKind::Formula {
+    fn function_kind(&mut self, group: &Group, k: usize, word: &str) -> Option<FunctionKind> {
+        let function = match group.word(KINDS, word, "kind")? {
+            Kind::One => FunctionKind::One,
+            Kind::Side => FunctionKind::Side { crack: self.take_crack(group, k) },
+            Kind::Component => FunctionKind::Component { cuts: std::mem::take(&mut self.cuts[k]) },
+            Kind::Formula => FunctionKind::Formula {
                 frame: self.take_frame(group, k)?,
                 text: std::mem::take(&mut self.formula[k]),
                 parameters: std::mem::take(&mut self.parameters[k]),
                 declared: std::mem::take(&mut self.declared[k]),
             },
-            _ => {
-                return Err(
-                    group.error("kind", format!("function {k} is of unknown kind `{kind}`"))
-                );
-            }
         };
-        match self.left_over(k) {
-            None => Ok(function),
-            Some((name, nothing)) => Err(group.error(
-                name,
-                format!("function {k} of the kind `{kind}` does not use it: expected {nothing}"),
-            )),
+        if let Some((name, nothing)) = self.left_over(k) {
+            let mistake =
+                format!("function {k} of the kind `{word}` does not use it: expected {nothing}");
+            group.error(name, mistake);
         }
+        Some(function)
     }
 
     /// A column that still says something of a function, and what it says of functions that do not use it.
@@ -146,24 +176,26 @@ impl Columns {
         .find_map(|(name, is_nothing, nothing)| (!is_nothing).then_some((name, nothing)))
     }
 
-    fn take_frame(&mut self, group: &Group, k: usize) -> Read<Frame> {
-        match std::mem::take(&mut self.frame[k]).as_str() {
-            "world" => Ok(Frame::World),
-            "fixed" => Ok(Frame::Fixed {
+    fn take_frame(&mut self, group: &Group, k: usize) -> Option<Frame> {
+        let word = std::mem::take(&mut self.frame[k]);
+        Some(match group.word(FRAMES, &word, "frame")? {
+            FrameKind::World => Frame::World,
+            FrameKind::Fixed => Frame::Fixed {
                 origin: std::mem::replace(&mut self.origin[k], Vec2::ZERO),
                 angle: std::mem::take(&mut self.angle[k]),
-            }),
-            "tip" => Ok(Frame::Tip(TipId {
-                crack: self.take_crack(group, k)?,
+            },
+            FrameKind::Tip => Frame::Tip(TipId {
+                crack: self.take_crack(group, k),
                 end: group.word(ENDS, &std::mem::take(&mut self.end[k]), "frame_end")?,
-            })),
-            other => Err(group.error("frame", format!("function {k} has unknown frame `{other}`"))),
-        }
+            }),
+        })
     }
 
-    fn take_crack(&mut self, group: &Group, k: usize) -> Read<u32> {
+    fn take_crack(&mut self, group: &Group, k: usize) -> u32 {
         let crack = std::mem::replace(&mut self.crack[k], -1);
-        u32::try_from(crack)
-            .map_err(|_| group.error("crack", format!("function {k} has no crack ({crack})")))
+        u32::try_from(crack).unwrap_or_else(|_| {
+            group.error("crack", format!("function {k} has no crack ({crack})"));
+            0
+        })
     }
 }

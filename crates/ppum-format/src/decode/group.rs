@@ -1,4 +1,10 @@
 //! A place in the content: arrays are taken out of it by name, type and shape.
+//!
+//! An object that is not what it should be goes into the list of errors, and something of the right type and shape takes
+//! its place, so that reading goes on and finds all errors. Nobody sees what was read if there are any.
+
+use std::cell::RefCell;
+use std::ops::Range;
 
 use ppum::vec2::{Vec2, vec2};
 
@@ -7,62 +13,125 @@ use crate::content::{Content, Element, Form, Values, join, key};
 use crate::error::ReadError;
 use crate::names::{Words, value};
 
+/// Most errors that are kept.
+const MOST_ERRORS: usize = 100;
+
 /// A place in the file to take arrays from.
 pub(super) struct Group<'a> {
     pub(super) path: String,
     pub(super) content: &'a Content,
+    errors: &'a RefCell<Vec<ReadError>>,
+}
+
+/// What `read` makes of a content, or all that is wrong with it.
+pub(super) fn read<T>(
+    content: &Content,
+    read: impl FnOnce(&Group) -> T,
+) -> Result<T, Vec<ReadError>> {
+    let (found, errors) = attempt(content, read);
+    if errors.is_empty() { Ok(found) } else { Err(errors) }
+}
+
+/// What `read` makes of a content, with placeholders for what is wrong with it.
+pub(super) fn attempt<T>(content: &Content, read: impl FnOnce(&Group) -> T) -> (T, Vec<ReadError>) {
+    let errors = RefCell::default();
+    let found = read(&Group { path: String::new(), content, errors: &errors });
+    (found, errors.into_inner())
 }
 
 impl<'a> Group<'a> {
+    fn at(&self, path: String) -> Self {
+        Self { path, content: self.content, errors: self.errors }
+    }
+
+    /// True if nothing wrong has been found so far.
+    pub(super) fn is_fine(&self) -> bool {
+        self.errors.borrow().is_empty()
+    }
+
+    /// True if something wrong has been found with a dataset of this group.
+    pub(super) fn is_wrong(&self, name: &str) -> bool {
+        let path = self.path_of(name);
+        self.errors.borrow().iter().any(|error| error.place() == Some(&path))
+    }
+
     /// A group in this one.
-    pub(super) fn group(&self, name: &str) -> Read<Group<'a>> {
-        if self.holds(name, Form::Group)? {
-            Ok(Group { path: self.path_of(name), content: self.content })
-        } else {
-            Err(self.error(name, "is missing"))
+    pub(super) fn group(&self, name: &str) -> Self {
+        if self.is_there(name, Form::Group) == Some(false) {
+            self.error(name, "is missing");
         }
+        self.at(self.path_of(name))
     }
 
     pub(super) fn path_of(&self, name: &str) -> String {
         join(&self.path, name)
     }
 
-    /// True if there is an object of this name; an error if it is of another form.
-    pub(super) fn holds(&self, name: &str, form: Form) -> Read<bool> {
-        self.content.holds(&self.path, name, form)
+    /// True if there is an object of this name and form.
+    pub(super) fn holds(&self, name: &str, form: Form) -> bool {
+        self.is_there(name, form) == Some(true)
+    }
+
+    /// As [`holds`](Self::holds); none, and an error, if there is one of another form.
+    fn is_there(&self, name: &str, form: Form) -> Option<bool> {
+        self.or_report(self.content.holds(&self.path, name, form))
     }
 
     /// Refuses an object that belongs to another word than the one the group has.
-    pub(super) fn refuse(&self, name: &str, form: Form, word: &str) -> Read<()> {
-        if !self.holds(name, form)? {
-            return Ok(());
+    pub(super) fn refuse(&self, name: &str, form: Form, word: &str) {
+        if self.holds(name, form) {
+            let key = key(&self.path, name, form);
+            let mistake = format!("does not belong to `{word}`; leave it out");
+            self.report(ReadError::object(&key, mistake));
         }
-        let key = key(&self.path, name, form);
-        Err(ReadError::object(&key, format!("does not belong to `{word}`; leave it out")))
     }
 
-    pub(super) fn error(&self, name: &str, mistake: impl Into<String>) -> ReadError {
-        ReadError::object(&self.path_of(name), mistake)
+    /// Adds an error about an object of this group, `@name` an attribute.
+    pub(super) fn error(&self, name: &str, mistake: impl Into<String>) {
+        self.report(ReadError::object(&self.path_of(name), mistake));
+    }
+
+    /// Adds an error, but not a second one about the same object: that often follows from the first.
+    fn report(&self, error: ReadError) {
+        let mut errors = self.errors.borrow_mut();
+        let is_known = errors.iter().any(|known| known.place() == error.place());
+        if !is_known && errors.len() < MOST_ERRORS {
+            errors.push(error);
+        }
+    }
+
+    pub(super) fn or_report<T>(&self, read: Read<T>) -> Option<T> {
+        read.map_err(|error| self.report(error)).ok()
     }
 
     /// The values of an array or attribute of the given shape.
-    fn look<T: Element>(&self, name: &str, form: Form, shape: &[Extent]) -> Read<&'a [T]> {
+    fn look<T: Element>(&self, name: &str, form: Form, shape: &[Extent]) -> Option<&'a [T]> {
+        let is_there = self.is_there(name, form)?;
         let key = key(&self.path, name, form);
-        self.holds(name, form)?;
-        let array = self.content.get(&key).ok_or_else(|| ReadError::object(&key, "is missing"))?;
+        let Some(array) = self.content.get(&key).filter(|_| is_there) else {
+            // a group that is missing is one error
+            if self.path.is_empty() || self.content.has_group(&self.path) {
+                self.report(ReadError::object(&key, "is missing"));
+            }
+            return None;
+        };
         let fits = array.shape.len() == shape.len()
             && array.shape.iter().zip(shape).all(|(n, extent)| extent.allows(*n));
-        if !fits {
-            let wanted: Vec<String> = shape.iter().map(Extent::to_string).collect();
-            return Err(ReadError::object(
-                &key,
-                format!("has shape {:?}, expected [{}]", array.shape, wanted.join(", ")),
-            ));
-        }
-        T::of(&array.values).ok_or_else(|| {
-            let found = array.values.type_name();
-            ReadError::object(&key, format!("has type {found}, expected {}", T::NAME))
-        })
+        let wanted = || shape.iter().map(Extent::to_string).collect::<Vec<_>>().join(", ");
+        let (found, values) = (array.values.type_name(), T::of(&array.values));
+        let mistake = match (values, fits) {
+            (Some(values), true) => return Some(values),
+            (Some(_), false) => format!("has shape {:?}, expected [{}]", array.shape, wanted()),
+            (None, true) => format!("has type {found}, expected {}", T::NAME),
+            (None, false) => format!(
+                "has type {found} and shape {:?}, expected {} [{}]",
+                array.shape,
+                T::NAME,
+                wanted()
+            ),
+        };
+        self.report(ReadError::object(&key, mistake));
+        None
     }
 
     /// True if the attribute is there and is a text.
@@ -71,77 +140,132 @@ impl<'a> Group<'a> {
         array.is_some_and(|array| matches!(array.values, Values::Text(_)))
     }
 
-    pub(super) fn scalar<T: Element>(&self, name: &str) -> Read<T> {
-        self.one(name, Form::Dataset)
+    pub(super) fn scalar<T: Element + Default>(&self, name: &str) -> T {
+        self.one(name, Form::Dataset).unwrap_or_default()
     }
 
-    pub(super) fn attribute<T: Element>(&self, name: &str) -> Read<T> {
-        self.one(name, Form::Attribute)
+    pub(super) fn attribute<T: Element + Default>(&self, name: &str) -> T {
+        self.one(name, Form::Attribute).unwrap_or_default()
     }
 
-    fn one<T: Element>(&self, name: &str, form: Form) -> Read<T> {
+    fn one<T: Element>(&self, name: &str, form: Form) -> Option<T> {
         let value = self.look::<T>(name, form, &[])?.first();
-        value.cloned().ok_or_else(|| ReadError::object(&key(&self.path, name, form), "is empty"))
+        if value.is_none() {
+            self.report(ReadError::object(&key(&self.path, name, form), "is empty"));
+        }
+        value.cloned()
     }
 
-    pub(super) fn attribute_point(&self, name: &str) -> Read<Vec2> {
-        let p = self.look::<f64>(name, Form::Attribute, &[Extent::Is(2)])?;
-        Ok(vec2(p[0], p[1]))
+    /// The value of a word that is an attribute. None, and an error, if it is not there or unknown.
+    pub(super) fn attribute_word<T: Clone>(&self, words: &Words<T>, name: &str) -> Option<T> {
+        let word = self.one::<String>(name, Form::Attribute)?;
+        self.word(words, &word, &format!("@{name}"))
     }
 
-    /// The values of an array of the given shape, row-major.
-    pub(super) fn array<T: Element>(&self, name: &str, shape: &[Extent]) -> Read<Vec<T>> {
+    /// Major and minor version of the format.
+    pub(super) fn version(&self) -> [u32; 2] {
+        let shape = [Extent::Is(2)];
+        self.look("format_version", Form::Attribute, &shape).map_or([0; 2], |v| [v[0], v[1]])
+    }
+
+    pub(super) fn attribute_point(&self, name: &str) -> Vec2 {
+        let p = self.look::<f64>(name, Form::Attribute, &[Extent::Is(2)]);
+        p.map_or(Vec2::ZERO, |p| vec2(p[0], p[1]))
+    }
+
+    /// The number of rows of an array whose values were read.
+    pub(super) fn row_count(&self, name: &str) -> Option<usize> {
+        let array = self.content.get(&key(&self.path, name, Form::Dataset))?;
+        let is_read = !matches!(array.values, Values::Other(_));
+        array.shape.first().filter(|_| is_read).map(|&n| n as usize)
+    }
+
+    /// The number of rows that most of these arrays have.
+    pub(super) fn rows_of(&self, names: &[&str]) -> usize {
+        let all: Vec<usize> = names.iter().filter_map(|name| self.row_count(name)).collect();
+        let votes = |n: usize| all.iter().filter(|&&other| other == n).count();
+        all.iter().copied().rev().max_by_key(|&n| votes(n)).unwrap_or(0)
+    }
+
+    /// The values of an array of the given shape, row-major, if it is of that.
+    pub(super) fn array<T: Element>(&self, name: &str, shape: &[Extent]) -> Option<Vec<T>> {
         self.look(name, Form::Dataset, shape).map(<[T]>::to_vec)
     }
 
     /// A vector of any length.
-    pub(super) fn vector<T: Element>(&self, name: &str) -> Read<Vec<T>> {
-        self.array(name, &[Extent::Any])
+    pub(super) fn vector<T: Element>(&self, name: &str) -> Vec<T> {
+        self.array(name, &[Extent::Any]).unwrap_or_default()
     }
 
-    /// A vector as long as another.
-    pub(super) fn column<T: Element>(&self, name: &str, length: usize) -> Read<Vec<T>> {
-        self.array(name, &[Extent::Is(length as u64)])
+    /// A vector of this length.
+    pub(super) fn column<T: Element + Default>(&self, name: &str, length: usize) -> Vec<T> {
+        let values = self.look(name, Form::Dataset, &[Extent::Is(length as u64)]);
+        values.map_or_else(|| vec![T::default(); length], <[T]>::to_vec)
+    }
+
+    /// A matrix of `N` columns and this number of rows.
+    pub(super) fn rows<T: Element + Default, const N: usize>(
+        &self,
+        name: &str,
+        rows: usize,
+    ) -> Vec<[T; N]> {
+        let shape = [Extent::Is(rows as u64), Extent::Is(N as u64)];
+        let values = self.look::<T>(name, Form::Dataset, &shape);
+        let none = || vec![std::array::from_fn(|_| T::default()); rows];
+        values.map_or_else(none, |values| values.as_chunks().0.to_vec())
     }
 
     /// A matrix of `N` columns.
-    pub(super) fn rows<T: Element, const N: usize>(&self, name: &str) -> Read<&'a [[T; N]]> {
-        let values = self.look(name, Form::Dataset, &[Extent::Any, Extent::Is(N as u64)])?;
-        Ok(values.as_chunks().0)
+    pub(super) fn all_rows<T: Element + Default, const N: usize>(&self, name: &str) -> Vec<[T; N]> {
+        let values = self.look::<T>(name, Form::Dataset, &[Extent::Any, Extent::Is(N as u64)]);
+        let none = || vec![std::array::from_fn(|_| T::default()); self.rows_of(&[name])];
+        values.map_or_else(none, |values| values.as_chunks().0.to_vec())
     }
 
-    pub(super) fn points(&self, name: &str) -> Read<Vec<Vec2>> {
-        Ok(self.rows(name)?.iter().map(|&p: &[f64; 2]| p.into()).collect())
+    /// Points, as many as there are.
+    pub(super) fn points(&self, name: &str) -> Vec<Vec2> {
+        self.all_rows(name).into_iter().map(|p: [f64; 2]| p.into()).collect()
+    }
+
+    /// A point in each of so many rows.
+    pub(super) fn point_rows(&self, name: &str, rows: usize) -> Vec<Vec2> {
+        self.rows(name, rows).into_iter().map(|p: [f64; 2]| p.into()).collect()
     }
 
     /// The rows of a matrix with a given number of them.
-    pub(super) fn matrix(&self, name: &str, rows: usize) -> Read<Vec<Vec<f64>>> {
+    pub(super) fn matrix(&self, name: &str, rows: usize) -> Vec<Vec<f64>> {
         let shape = [Extent::Is(rows as u64), Extent::Any];
-        let values = self.look::<f64>(name, Form::Dataset, &shape)?;
+        let values = self.look::<f64>(name, Form::Dataset, &shape).unwrap_or_default();
         let columns = values.len().checked_div(rows).unwrap_or(0);
-        Ok((0..rows).map(|k| values[k * columns..(k + 1) * columns].to_vec()).collect())
+        (0..rows).map(|k| values[k * columns..(k + 1) * columns].to_vec()).collect()
     }
 
-    /// Compressed rows of `count` parts over `length` entries, as ranges.
-    pub(super) fn offsets(
+    /// Compressed rows of `count` parts over the entries of a list, as those of each part. Where the offsets are wrong
+    /// or there is no list, all parts are empty.
+    pub(super) fn parts<T: Clone>(
         &self,
         name: &str,
         count: usize,
-        length: usize,
-    ) -> Read<Vec<std::ops::Range<usize>>> {
+        (of, list): (&str, &[T]),
+    ) -> Vec<Vec<T>> {
         let shape = [Extent::Is(count as u64 + 1)];
-        let ends = self.look::<u64>(name, Form::Dataset, &shape)?;
-        let rising = ends.windows(2).all(|w| w[0] <= w[1]);
-        if ends[0] != 0 || !rising || ends[count] != length as u64 {
-            return Err(
-                self.error(name, format!("must rise from 0 to the {length} entries it divides"))
-            );
+        let Some(ends) = self.look::<u64>(name, Form::Dataset, &shape) else {
+            return vec![Vec::new(); count];
+        };
+        let rising = ends.is_sorted();
+        if ends[0] != 0 || !rising || ends[count] != list.len() as u64 {
+            if !self.is_wrong(of) {
+                let length = list.len();
+                self.error(name, format!("must rise from 0 to the {length} entries of `{of}`"));
+            }
+            return vec![Vec::new(); count];
         }
-        Ok(ends.windows(2).map(|w| w[0] as usize..w[1] as usize).collect())
+        let part = |w: &[u64]| -> Range<usize> { w[0] as usize..w[1] as usize };
+        ends.windows(2).map(|w| list[part(w)].to_vec()).collect()
     }
 
-    pub(super) fn word<T: Copy>(&self, words: &Words<T>, word: &str, name: &str) -> Read<T> {
-        value(words, word).map_err(|mistake| self.error(name, mistake))
+    pub(super) fn word<T: Clone>(&self, words: &Words<T>, word: &str, name: &str) -> Option<T> {
+        value(words, word).map_err(|mistake| self.error(name, mistake)).ok()
     }
 }
 
@@ -170,26 +294,22 @@ impl std::fmt::Display for Extent {
 }
 
 /// The groups `0000`, `0001`, … of a group. Members that are no numbers are of no concern.
-pub(super) fn numbered<T>(
-    parent: &Group,
-    name: &str,
-    mut item: impl FnMut(&Group) -> Read<T>,
-) -> Read<Vec<T>> {
-    if !parent.holds(name, Form::Group)? {
-        return Ok(Vec::new());
+pub(super) fn numbered<T>(parent: &Group, name: &str, mut item: impl FnMut(&Group) -> T) -> Vec<T> {
+    if !parent.holds(name, Form::Group) {
+        return Vec::new();
     }
-    let list = parent.group(name)?;
+    let list = parent.group(name);
     let is_number = |name: &&str| name.bytes().all(|b| b.is_ascii_digit());
     let count = list.content.members(&list.path).filter(is_number).count();
-    let mut items = Vec::new();
-    for number in 0..count {
-        let number = format!("{number:04}");
-        if !list.holds(&number, Form::Group)? {
-            return Err(missing(&list.path_of(&number), count));
+    let names = (0..count).map(|number| format!("{number:04}"));
+    let present = names.filter(|number| match list.is_there(number, Form::Group) {
+        Some(false) => {
+            list.report(missing(&list.path_of(number), count));
+            false
         }
-        items.push(item(&list.group(&number)?)?);
-    }
-    Ok(items)
+        found => found.is_some(),
+    });
+    present.map(|number| item(&list.group(&number))).collect()
 }
 
 /// The error that one of so many numbered groups is missing.
@@ -202,10 +322,6 @@ pub(crate) fn missing(path: &str, count: usize) -> ReadError {
 }
 
 /// The content of a group, nothing if it is not there.
-pub(super) fn optional<T>(
-    parent: &Group,
-    name: &str,
-    items: impl Fn(&Group) -> Read<Vec<T>>,
-) -> Read<Vec<T>> {
-    if parent.holds(name, Form::Group)? { items(&parent.group(name)?) } else { Ok(Vec::new()) }
+pub(super) fn optional<T: Default>(parent: &Group, name: &str, items: impl Fn(&Group) -> T) -> T {
+    if parent.holds(name, Form::Group) { items(&parent.group(name)) } else { T::default() }
 }

@@ -1,60 +1,49 @@
 //! `steps/…/growth`: what the tips of a step do next.
 
-use ppum::crack::{End, TipId};
 use ppum::dataset::{Advance, Fate, Growth};
 
-use super::Read;
 use super::group::Group;
+use super::tip_ids;
 use crate::content::Form;
-use crate::names::{ENDS, FATES, GROWTH_NUMBERS, MEETS_CRACK, MEETS_HOLE, STOPS};
+use crate::names::{FATES, GROWTH_NUMBERS, MEETS_CRACK, MEETS_HOLE, STOPS};
 
-pub(super) fn growth(group: &Group) -> Read<Growth> {
+pub(super) fn growth(group: &Group) -> Growth {
     let mut growth = Growth::default();
-    if group.holds("cycles", Form::Attribute)? {
-        growth.cycles = Some(group.attribute("cycles")?);
+    growth.cycles = group.holds("cycles", Form::Attribute).then(|| group.attribute("cycles"));
+    if group.holds("stop", Form::Attribute) {
+        growth.stop = group.attribute_word(STOPS, "stop");
     }
-    if group.holds("stop", Form::Attribute)? {
-        let word: String = group.attribute("stop")?;
-        growth.stop = Some(group.word(STOPS, &word, "@stop")?);
-    }
-    growth.tips = tips(group)?;
-    let points = group.points("path")?;
-    let paths = group.offsets("path_offsets", growth.tips.len(), points.len())?;
-    growth.tips.iter_mut().zip(paths).for_each(|(tip, part)| tip.path = points[part].to_vec());
+    let n = group.rows_of(&["crack", "end", "fate", "other"]);
+    let fates = group.column::<String>("fate", n).into_iter().zip(group.column("other", n));
+    let fates: Vec<Fate> = fates.map(|(word, other)| fate(group, &word, other)).collect();
+    let tips = tip_ids(group, n).into_iter().zip(fates);
+    growth.tips = tips.map(|(tip, fate)| Advance::staying(tip, fate)).collect();
+    let paths = group.parts("path_offsets", n, ("path", &group.points("path")));
+    growth.tips.iter_mut().zip(paths).for_each(|(tip, path)| tip.path = path);
     for (name, value) in GROWTH_NUMBERS {
-        let values = group.column::<f64>(name, growth.tips.len())?;
+        let values = group.column::<f64>(name, n);
         growth.tips.iter_mut().zip(values).for_each(|(tip, v)| *value(tip) = v);
     }
-    Ok(growth)
-}
-
-/// The tips with their fates, and no numbers yet.
-fn tips(group: &Group) -> Read<Vec<Advance>> {
-    let cracks = group.vector::<u32>("crack")?;
-    let n = cracks.len();
-    let ends = group.column::<String>("end", n)?;
-    let fates = group.column::<String>("fate", n)?;
-    let others = group.column::<i64>("other", n)?;
-    let all = cracks.into_iter().zip(ends).zip(fates.into_iter().zip(others));
-    all.map(|((crack, end), (word, other))| {
-        let end: End = group.word(ENDS, &end, "end")?;
-        Ok(Advance::staying(TipId { crack, end }, fate(group, &word, other)?))
-    })
-    .collect()
+    growth
 }
 
 /// A fate from its word, and the index of what is met, −1 for none.
-fn fate(group: &Group, word: &str, other: i64) -> Read<Fate> {
+fn fate(group: &Group, word: &str, other: i64) -> Fate {
     let index = || {
-        let no_index = || group.error("other", format!("{other} is no index of what `{word}`"));
-        u32::try_from(other).map_err(|_| no_index())
+        let index = u32::try_from(other);
+        index.unwrap_or_else(|_| {
+            group.error("other", format!("{other} is no index of what `{word}`"));
+            0
+        })
     };
     match word {
-        MEETS_HOLE => index().map(Fate::MeetsHole),
-        MEETS_CRACK => index().map(Fate::MeetsCrack),
-        _ if other != -1 => {
-            Err(group.error("other", format!("is {other} of `{word}`, must be -1")))
+        MEETS_HOLE => Fate::MeetsHole(index()),
+        MEETS_CRACK => Fate::MeetsCrack(index()),
+        _ => {
+            if other != -1 && !group.is_wrong("fate") {
+                group.error("other", format!("is {other} of `{word}`, must be -1"));
+            }
+            group.word(FATES, word, "fate").unwrap_or(Fate::Unknown)
         }
-        _ => group.word(FATES, word, "fate"),
     }
 }

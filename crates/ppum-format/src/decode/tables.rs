@@ -30,27 +30,33 @@ impl Scopes {
     }
 }
 
-pub(super) fn tables(root: &Group) -> Read<Vec<Arc<Table>>> {
+pub(super) fn tables(root: &Group) -> Vec<Arc<Table>> {
     let mut left = MAX_TABLE_VALUES;
-    numbered(root, "tables", |group| table(group, &mut left).map(Arc::new))
+    let tables = numbered(root, "tables", |group| table(group, &mut left).map(Arc::new));
+    tables.into_iter().flatten().collect()
 }
 
-fn table(group: &Group, left: &mut usize) -> Read<Table> {
-    let name: String = group.attribute("name")?;
-    let x = group.vector::<f64>("x")?;
-    let y = if group.holds("y", Form::Dataset)? { Some(group.vector::<f64>("y")?) } else { None };
-    let rows = y.iter().map(|y| Extent::Is(y.len() as u64));
-    let shape: Vec<Extent> = rows.chain([Extent::Is(x.len() as u64)]).collect();
-    let values = group.array::<f64>("values", &shape)?;
-    *left = left.checked_sub(values.len()).ok_or_else(|| {
-        let mistake = format!("the tables have more than {MAX_TABLE_VALUES} values together");
-        group.error("values", mistake)
-    })?;
-    let table = match y {
-        Some(y) => Table::surface(&name, x, y, values),
-        None => Table::curve(&name, x, values),
+/// A table, if there is nothing wrong with it.
+fn table(group: &Group, left: &mut usize) -> Option<Table> {
+    let name: String = group.attribute("name");
+    let knots = |name| group.array::<f64>(name, &[Extent::Any]);
+    let (x, y) = (knots("x"), group.holds("y", Form::Dataset).then(|| knots("y")));
+    let extent = |knots: &Option<Vec<f64>>| {
+        knots.as_ref().map_or(Extent::Any, |knots| Extent::Is(knots.len() as u64))
     };
-    table.map_err(|error| group.error(at_fault(&error), error.to_string()))
+    let shape: Vec<Extent> = y.iter().chain([&x]).map(extent).collect();
+    let values = group.array::<f64>("values", &shape)?;
+    let Some(rest) = left.checked_sub(values.len()) else {
+        let mistake = format!("the tables have more than {MAX_TABLE_VALUES} values together");
+        group.error("values", mistake);
+        return None;
+    };
+    *left = rest;
+    let table = match y {
+        Some(y) => Table::surface(&name, x?, y?, values),
+        None => Table::curve(&name, x?, values),
+    };
+    table.map_err(|error| group.error(at_fault(&error), error.to_string())).ok()
 }
 
 /// The array that an error is about.

@@ -12,7 +12,7 @@ pub(super) const ALL: &[Maker] = &[
     ("blocks-of-one", Some("at a point"), blocks_of_one),
     ("patches", None, patches),
     ("patches-piled", Some("at a point"), patches_piled),
-    ("patches-columns", Some("half"), patches_columns),
+    ("patches-columns", Some("center"), patches_columns),
     ("components", Some("components"), components),
     ("fields", None, fields),
     ("steps", None, steps),

@@ -1,44 +1,39 @@
 //! The rules for a dataset's domain.
 
-use super::{Checked, check_box, check_number, check_points, require};
+use super::{Checked, Errors, check_box, check_number, check_points, require};
 use crate::domain::{Domain, Hole};
 
 /// Most circles and corners of polygons that holes may have together: whether a point lies in a hole
 /// asks all of them.
 const MAX_RIMS: usize = 1 << 14;
 
-pub(super) fn check(domain: &Domain) -> Checked {
-    check_box("domain", &domain.bounds)?;
+pub(super) fn check(domain: &Domain, errors: &mut Errors) {
+    errors.add(check_box("", &domain.bounds));
     let rims = domain.holes.iter().map(|hole| match hole {
         Hole::Circle { .. } => 1,
         Hole::Polygon { points } => points.len(),
     });
     let count: usize = rims.sum();
-    require(count <= MAX_RIMS, "domain.holes", || {
+    errors.add(require(count <= MAX_RIMS, "holes", || {
         format!("{count} circles and corners of polygons are more than {MAX_RIMS}")
-    })?;
-    for (k, hole) in domain.holes.iter().enumerate() {
-        check_hole(&format!("domain.holes[{k}]"), hole)?;
-    }
-    Ok(())
+    }));
+    errors.each("holes", &domain.holes, |_, hole| check_hole(hole));
 }
 
-fn check_hole(place: &str, hole: &Hole) -> Checked {
+fn check_hole(hole: &Hole) -> Checked {
     match hole {
         Hole::Circle { center, radius } => {
-            check_points(&format!("{place}.center"), &[*center])?;
-            check_number(&format!("{place}.radius"), *radius)?;
-            require(*radius > 0.0, &format!("{place}.radius"), || {
-                format!("{radius} is not positive")
-            })
+            check_points("center", &[*center])?;
+            check_number("radius", *radius)?;
+            require(*radius > 0.0, "radius", || format!("{radius} is not positive"))
         }
         Hole::Polygon { points } => {
-            check_points(&format!("{place}.points"), points)?;
-            require(points.len() >= 3, place, || {
+            check_points("points", points)?;
+            require(points.len() >= 3, "", || {
                 format!("has {} points, a polygon needs three or more", points.len())
             })?;
             let double = hole.sides().position(|[a, b]| a == b);
-            require(double.is_none(), &format!("{place}.points[{}]", double.unwrap_or(0)), || {
+            require(double.is_none(), &format!("points[{}]", double.unwrap_or(0)), || {
                 "is equal to the next point; leave one out".into()
             })
         }

@@ -1,12 +1,45 @@
 //! Fields: components, blocks and their coefficients.
 
-use super::{Checked, check_all, check_length, check_names, check_numbers, fail, require};
+use super::{
+    Checked, Errors, check_all, check_each, check_length, check_names, check_numbers, fail, require,
+};
 use crate::dataset::{Equation, FieldData, MAX_DEGREE, Step, monomials};
 
 /// Most components of a field: each pixel of a picture holds all of them with their derivatives.
 const MAX_COMPONENTS: usize = 64;
 
-pub(super) fn check_field(field: &FieldData, step: &Step, equation: &Equation) -> Checked {
+pub(super) fn check_field(
+    field: &FieldData,
+    step: &Step,
+    equation: &Equation,
+    errors: &mut Errors,
+) {
+    errors.add(check_components(field, equation));
+    if !field.exact.is_empty() {
+        let (length, components) = (field.exact.len(), field.components.len());
+        errors.add(check_length("exact", length, components, "one per component, or none"));
+    }
+    let has_rows = errors.add(check_rows(field, step.partition.len()));
+    let has_coefficients = errors.add(check_coefficients(field));
+    let functions = step.functions.len();
+    errors.add(check_all(
+        "block_function",
+        &field.block_function,
+        |&f| (f as usize) < functions,
+        |f| format!("index {f}, but there are {functions} functions"),
+    ));
+    let has_degrees = errors.add(check_all(
+        "block_degree",
+        &field.block_degree,
+        |&d| d as usize <= MAX_DEGREE,
+        |d| format!("degree {d} is above {MAX_DEGREE}"),
+    ));
+    if has_rows && has_coefficients && has_degrees {
+        errors.add(check_offsets(field));
+    }
+}
+
+fn check_components(field: &FieldData, equation: &Equation) -> Checked {
     let components = field.components.len();
     require(components > 0, "components", || "a field needs at least one".into())?;
     require(components <= MAX_COMPONENTS, "components", || {
@@ -16,12 +49,7 @@ pub(super) fn check_field(field: &FieldData, step: &Step, equation: &Equation) -
     if field.name == "displacement" || field.name == "potential" {
         check_length("components", components, equation.components(), "those of the equation")?;
     }
-    if !field.exact.is_empty() {
-        check_length("exact", field.exact.len(), components, "one per component, or none")?;
-    }
-    check_rows(field, step.partition.len())?;
-    check_coefficients(field)?;
-    check_blocks(field, step.functions.len())
+    Ok(())
 }
 
 /// Compressed rows: start at zero, never fall, end at the number of blocks.
@@ -45,7 +73,7 @@ fn check_rows(field: &FieldData, patches: usize) -> Checked {
 
 fn check_coefficients(field: &FieldData) -> Checked {
     check_length("coefficients", field.coefficients.len(), field.components.len(), "components")?;
-    let count = field.coefficients[0].len();
+    let Some(count) = field.coefficients.first().map(Vec::len) else { return Ok(()) };
     for (k, values) in field.coefficients.iter().enumerate() {
         let place = format!("coefficients[{k}]");
         check_length(&place, values.len(), count, "as in component 0")?;
@@ -54,33 +82,26 @@ fn check_coefficients(field: &FieldData) -> Checked {
     Ok(())
 }
 
-fn check_blocks(field: &FieldData, functions: usize) -> Checked {
-    let count = field.coefficients[0].len() as u64;
-    check_all(
-        "block_function",
-        &field.block_function,
-        |&f| (f as usize) < functions,
-        |f| format!("index {f}, but there are {functions} functions"),
-    )?;
-    check_all(
-        "block_degree",
-        &field.block_degree,
-        |&d| d as usize <= MAX_DEGREE,
-        |d| format!("degree {d} is above {MAX_DEGREE}"),
-    )?;
-    for (b, (&offset, &degree)) in field.block_offset.iter().zip(&field.block_degree).enumerate() {
-        let needed = monomials(degree as usize) as u64;
-        let fits = offset.checked_add(needed).is_some_and(|end| end <= count);
-        require(fits, &format!("block_offset[{b}]"), || {
-            format!("coefficients {offset} + {needed} reach beyond the {count} stored")
-        })?;
+/// Each block has coefficients of its own: blocks that shared them could ask for far more than a file holds.
+fn check_offsets(field: &FieldData) -> Checked {
+    let count = field.coefficients.first().map_or(0, Vec::len) as u64;
+    let offsets = &field.block_offset;
+    let size = |block: usize| monomials(field.block_degree[block].into()) as u64;
+    let fits = |b: usize| offsets[b].checked_add(size(b)).is_some_and(|end| end <= count);
+    check_each("block_offset", offsets.len(), fits, |b| {
+        format!("coefficients {} + {} reach beyond the {count} stored", offsets[b], size(b))
+    })?;
+    let follows = |one: usize, next: usize| offsets[one] + size(one) <= offsets[next];
+    if (1..offsets.len()).all(|b| follows(b - 1, b)) {
+        return Ok(());
     }
-    // blocks that shared theirs could ask for far more than a file holds
-    let sizes = field.block_degree.iter().map(|&degree| monomials(degree.into()) as u64);
-    let all: u64 = sizes.sum();
-    require(all <= count, "block_offset", || {
-        format!(
-            "the blocks take {all} coefficients, but {count} are stored; give each block its own"
-        )
-    })
+    let mut order: Vec<usize> = (0..offsets.len()).collect();
+    order.sort_by_key(|&b| offsets[b]);
+    match order.array_windows().find(|&&[one, next]| !follows(one, next)) {
+        None => Ok(()),
+        Some([one, next]) => fail(
+            &format!("block_offset[{next}]"),
+            format!("shares coefficients with block {one}; give each block its own"),
+        ),
+    }
 }

@@ -4,27 +4,32 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::sync::Arc;
 
-use super::{CheckError, Checked, check_names, fail, require};
+use super::{CheckError, Checked, Errors, check_names, fail, require};
 use crate::dataset::{Dataset, MAX_QUANTITIES, MAX_QUANTITY_TEXT, MAX_TABLES, NamedQuantity, Step};
 use crate::function::{CompileError, FunctionTable};
 use crate::quantity::{QuantityFormula, Vocabulary, names};
 use crate::weight::WeightFunction;
 use ppum_formula::{Formula, Scope, ScopeError, Table, VARIABLES};
 
-/// Checks names of tables, then all formulas but those of quantities, which need checked fields.
-pub(super) fn check(dataset: &Dataset) -> Checked {
+/// Checks names of tables, then all formulas but those of quantities, which need checked fields. True if there
+/// is nothing wrong with them.
+pub(super) fn check(dataset: &Dataset, errors: &mut Errors) -> bool {
     let tables = &dataset.tables;
-    at_most("tables", tables.len(), MAX_TABLES, "tables")?;
-    let plane = with_tables(&VARIABLES, tables)
-        .and_then(|_| with_tables(&["x", "y"], tables))
-        .map_err(|error| mistake("tables", &error))?;
+    let few = errors.add(at_most("tables", tables.len(), MAX_TABLES, "tables"));
+    let plane = with_tables(&VARIABLES, tables).and_then(|_| with_tables(&["x", "y"], tables));
+    let plane = match plane {
+        Ok(plane) if few => plane,
+        Ok(_) => return false,
+        Err(error) => return errors.add(Err(mistake("tables", &error))),
+    };
+    let mut is_fine = true;
     for (name, expression) in dataset.equation.constants() {
-        parse(&format!("equation.{name}"), expression.text(), &plane)?;
+        is_fine &= errors.add(parse(&format!("equation.{name}"), expression.text(), &plane));
     }
     for (k, step) in dataset.steps.iter().enumerate() {
-        check_step(step, tables, &plane).map_err(|e| e.inside(&format!("steps[{k}]")))?;
+        is_fine &= errors.within(&format!("steps[{k}]"), |e| check_step(step, tables, &plane, e));
     }
-    Ok(())
+    is_fine
 }
 
 fn at_most(place: &str, count: usize, most: usize, of: &str) -> Checked {
@@ -43,18 +48,17 @@ fn parse(place: &str, text: &str, scope: &Scope) -> Checked {
     Formula::parse(text, scope).map(drop).map_err(|error| mistake(place, &error))
 }
 
-fn check_step(step: &Step, tables: &[Arc<Table>], plane: &Scope) -> Checked {
+fn check_step(step: &Step, tables: &[Arc<Table>], plane: &Scope, errors: &mut Errors) {
     if let WeightFunction::Formula(weight) = &step.partition.weight {
-        let scope = with_tables(&["t"], tables).map_err(|error| mistake("tables", &error))?;
-        parse("partition.weight", weight.text(), &scope)?;
+        let scope = with_tables(&["t"], tables).map_err(|error| mistake("tables", &error));
+        errors.add(scope.and_then(|scope| parse("partition.weight", weight.text(), &scope)));
     }
-    check_functions(step, tables)?;
+    errors.add(check_functions(step, tables));
     for (k, field) in step.fields.iter().enumerate() {
-        for (c, text) in field.exact.iter().enumerate() {
-            parse(&format!("fields[{k}].exact[{c}]"), text, plane)?;
-        }
+        errors.within(&format!("fields[{k}]"), |errors| {
+            errors.each("exact", &field.exact, |_, text| parse("", text, plane));
+        });
     }
-    Ok(())
 }
 
 fn check_functions(step: &Step, tables: &[Arc<Table>]) -> Checked {
@@ -70,7 +74,15 @@ fn check_functions(step: &Step, tables: &[Arc<Table>]) -> Checked {
 
 /// Checks the quantities that a dataset names: names of their own, and formulas of the first field of
 /// each step, which may use the quantities before them.
-pub(super) fn check_quantities(dataset: &Dataset) -> Checked {
+pub(super) fn check_quantities(dataset: &Dataset, errors: &mut Errors) {
+    let all = || {
+        check_quantity_names(dataset)?;
+        check_quantity_texts(dataset)
+    };
+    errors.add(all());
+}
+
+fn check_quantity_names(dataset: &Dataset) -> Checked {
     at_most("quantities", dataset.quantities.len(), MAX_QUANTITIES, "quantities")?;
     let bytes = dataset.quantities.iter().map(|quantity| quantity.text.len()).sum();
     at_most("quantities", bytes, MAX_QUANTITY_TEXT, "bytes of formulas")?;
@@ -86,7 +98,11 @@ pub(super) fn check_quantities(dataset: &Dataset) -> Checked {
             check_names_of(dataset, &field.components)?;
         }
     }
-    seen.clear();
+    Ok(())
+}
+
+fn check_quantity_texts(dataset: &Dataset) -> Checked {
+    let mut seen = BTreeSet::new();
     for field in dataset.steps.iter().filter_map(|step| step.fields.first()) {
         if seen.insert(&field.components) {
             check_texts(dataset, &field.components)?;

@@ -5,14 +5,14 @@ use crate::crack::{Crack, SegmentId};
 use crate::function::{Cut, Frame, Function, FunctionKind, Part};
 use crate::vec2::Vec2;
 
-pub(super) fn check_crack(place: &str, crack: &Crack) -> Checked {
-    check_points(&format!("{place}.points"), &crack.points)?;
-    require(crack.points.len() >= 2, place, || {
+pub(super) fn check_crack(crack: &Crack) -> Checked {
+    check_points("points", &crack.points)?;
+    require(crack.points.len() >= 2, "", || {
         format!("has {} points, a crack needs two or more", crack.points.len())
     })?;
     let segments: Vec<Vec2> = crack.points.windows(2).map(|p| p[1] - p[0]).collect();
     check_all(
-        &format!("{place}.segment"),
+        "segment",
         &segments,
         |s| s.length() > 0.0 && s.unit().is_finite(),
         |_| "its two points are equal; leave one out".into(),

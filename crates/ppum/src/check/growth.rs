@@ -1,31 +1,30 @@
 //! Rules for what the tips of a step do next.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Checked, fail};
+use super::{Checked, Errors, fail};
 use crate::crack::tips;
 use crate::dataset::Step;
 use crate::growth::Advance;
 
 /// The rows belong to tips of the step, each to another; lengths are none or positive, everything but strengths is finite.
-pub(super) fn check_growth(step: &Step) -> Checked {
-    let Some(growth) = &step.growth else { return Ok(()) };
+pub(super) fn check_growth(step: &Step, errors: &mut Errors) {
+    let Some(growth) = &step.growth else { return };
     if growth.cycles.is_some_and(|cycles| !(cycles >= 0.0 && cycles.is_finite())) {
-        return fail("growth.cycles", "must be a number, not negative".into());
+        errors.add(fail("growth.cycles", "must be a number, not negative".into()));
     }
     let known: BTreeSet<_> = tips(&step.cracks).collect();
-    let mut seen = BTreeSet::new();
-    for (k, row) in growth.tips.iter().enumerate() {
-        let place = format!("growth.tips[{k}]");
+    let first: BTreeMap<_, _> =
+        growth.tips.iter().enumerate().map(|(k, row)| (row.tip, k)).rev().collect();
+    errors.each("growth.tips", &growth.tips, |k, row| {
         if !known.contains(&row.tip) {
-            return fail(&place, "is of no tip of the step".into());
+            return fail("", "is of no tip of the step".into());
         }
-        if !seen.insert(row.tip) {
-            return fail(&place, "is of the same tip as one before; keep one".into());
+        if first[&row.tip] != k {
+            return fail("", "is of the same tip as one before; keep one".into());
         }
-        check_row(row).map_err(|e| e.inside(&place))?;
-    }
-    Ok(())
+        check_row(row)
+    });
 }
 
 fn check_row(row: &Advance) -> Checked {

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{
-    Checked, check_all, check_index, check_length, check_number, check_numbers, check_points, fail,
-    require,
+    Checked, Errors, check_all, check_index, check_length, check_number, check_numbers,
+    check_points, require,
 };
 use crate::crack::{Crack, CrackEnd, End, TipId};
 use crate::dataset::{Equation, Reaction, Step, TipIntensity, Warning};
@@ -13,16 +13,14 @@ use crate::dataset::{Equation, Reaction, Step, TipIntensity, Warning};
 const MAX_RINGS: usize = 64;
 
 /// Each tip has one entry at most, and ends of other kinds have none.
-pub(super) fn check_intensities(step: &Step) -> Checked {
-    let mut seen = BTreeMap::new();
-    for (k, intensity) in step.intensities.iter().enumerate() {
-        let place = format!("intensities[{k}]");
-        check_intensity(intensity, &step.cracks).map_err(|e| e.inside(&place))?;
-        if let Some(other) = seen.insert(intensity.tip, k) {
-            return fail(&place, format!("is of the same tip as intensities[{other}]; keep one"));
-        }
-    }
-    Ok(())
+pub(super) fn check_intensities(step: &Step, errors: &mut Errors) {
+    let tips = step.intensities.iter().enumerate().map(|(k, intensity)| (intensity.tip, k));
+    let first: BTreeMap<_, _> = tips.rev().collect();
+    errors.each("intensities", &step.intensities, |k, intensity| {
+        check_intensity(intensity, &step.cracks)?;
+        let other = first[&intensity.tip];
+        require(other == k, "", || format!("is of the same tip as intensities[{other}]; keep one"))
+    });
 }
 
 fn check_intensity(intensity: &TipIntensity, cracks: &[Crack]) -> Checked {

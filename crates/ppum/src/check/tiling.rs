@@ -37,6 +37,17 @@ pub(super) fn check(partition: &Partition, domain: &Domain) -> Checked {
     }
 }
 
+/// The rectangles of the domain's box that no cell of a tiling covers.
+pub(super) fn gaps(partition: &Partition, domain: &Domain) -> Vec<Rect> {
+    let layout = Layout::new(&partition.cell, &domain.bounds).ok();
+    let found = layout.filter(|layout| !layout.covers_once());
+    let rects = found.and_then(|layout| {
+        let gaps = layout.gaps().ok()?;
+        Some(gaps.into_iter().map(|gap| layout.rect(gap)).collect())
+    });
+    rects.unwrap_or_default()
+}
+
 /// Cells by the numbers of their borders.
 struct Layout {
     x: Borders,

@@ -3,6 +3,7 @@
 //! A small file can say that a hundred thousand patches lie over each other. Every command evaluates at points, so what
 //! a point takes is bounded here, once, and all others rely on it.
 
+use super::line::Line;
 use super::ranks::{Ranks, in_order};
 use super::{Checked, fail};
 use crate::dataset::{Dataset, FieldData, Partition, Step, monomials};
@@ -150,67 +151,11 @@ fn too_much(boxes: &[(Rect, u64)]) -> Option<Vec2> {
         let (at, work) =
             if event % 2 == 0 { (b.min.x, *work as i64) } else { (b.max.x, -(*work as i64)) };
         line.add(row(b.min.y), row(b.max.y), work);
-        if line.most[1] > MOST_WORK as i64 {
+        if line.most() > MOST_WORK as i64 {
             return Some(vec2(at, y.at(line.place() as u32)));
         }
     }
     None
-}
-
-/// Sums over the intervals of a line: a tree whose nodes know what was added to all below them, and the largest sum there.
-struct Line {
-    leaves: usize,
-    added: Vec<i64>,
-    most: Vec<i64>,
-}
-
-impl Line {
-    fn new(intervals: usize) -> Self {
-        let leaves = intervals.next_power_of_two();
-        Self { leaves, added: vec![0; 2 * leaves], most: vec![0; 2 * leaves] }
-    }
-
-    /// Adds to the intervals from one to another, which is not among them.
-    fn add(&mut self, from: usize, to: usize, work: i64) {
-        let (mut low, mut high) = (from + self.leaves, to + self.leaves);
-        let ends = [low, high.saturating_sub(1)];
-        while low < high {
-            if low % 2 == 1 {
-                self.put(low, work);
-                low += 1;
-            }
-            if high % 2 == 1 {
-                high -= 1;
-                self.put(high, work);
-            }
-            (low, high) = (low / 2, high / 2);
-        }
-        ends.into_iter().for_each(|leaf| self.mend(leaf));
-    }
-
-    fn put(&mut self, node: usize, work: i64) {
-        self.added[node] += work;
-        self.most[node] += work;
-    }
-
-    /// Forms the sums of the nodes above a leaf again.
-    fn mend(&mut self, leaf: usize) {
-        let mut node = leaf / 2;
-        while node > 0 {
-            let below = self.most[2 * node].max(self.most[2 * node + 1]);
-            self.most[node] = self.added[node] + below;
-            node /= 2;
-        }
-    }
-
-    /// The interval with the largest sum.
-    fn place(&self) -> usize {
-        let mut node = 1;
-        while node < self.leaves {
-            node = 2 * node + usize::from(self.most[2 * node + 1] > self.most[2 * node]);
-        }
-        node - self.leaves
-    }
 }
 
 #[cfg(test)]
@@ -291,7 +236,7 @@ mod tests {
             field.block_offset.fill(0);
             field.coefficients.iter_mut().for_each(|component| component.truncate(3));
         };
-        assert_eq!(place_after(twice), "steps[0].fields[0].block_offset");
+        assert_eq!(place_after(twice), "steps[0].fields[0].block_offset[1]");
         let components = |d: &mut Dataset| {
             let field = &mut d.steps[0].fields[0];
             field.name = "values".into();

@@ -96,6 +96,8 @@ const MAX_NAMES: usize = 1 << 20;
 const MAX_PARAMETERS: usize = 1 << 10;
 /// Operations of all different formulas of a table with two derivatives: a hundred megabytes.
 const MAX_OPERATIONS: usize = 1 << 20;
+/// Operations that each different formula counts as beside its own: what it takes to compile and keep even `x`.
+const FORMULA: usize = 32;
 
 impl FunctionTable {
     /// Compiles a table for a step with this number of cracks, whose formulas may read `tables`.
@@ -225,7 +227,7 @@ impl Known {
             return Ok(known);
         }
         let new = Formulas::new(formulas, frame)?;
-        self.operations += new.operations();
+        self.operations += new.operations() + FORMULA * new.len();
         limit(self.operations, "operations", MAX_OPERATIONS)?;
         self.compiled.insert(key, new.clone());
         Ok(new)

@@ -6,10 +6,10 @@ mod edit;
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::content::key;
+use crate::content::{Values, key};
 use crate::{checksum, encode, everything, hdf5};
 use broken::RULES;
-use edit::{edit, put, remove, text, texts};
+use edit::{edit, put, remove, set, text, texts};
 
 /// A dataset of elasticity with all that the format has, and one of Poisson's equation with what 1.0 had.
 const FULL: u64 = 1;
@@ -54,6 +54,64 @@ fn each_rule_is_asked() {
         damage(&mut damaged);
         let Some(message) = complaint(damaged) else { panic!("{rule}: the file is read") };
         assert!(parts.iter().all(|part| message.contains(part)), "{rule}: {message}");
+    }
+}
+
+/// The error of each rule is about an object that there is, or that is missing: its path is one of HDF5.
+#[test]
+fn errors_name_objects_of_the_file() {
+    for (rule, seed, damage, _) in RULES {
+        let (good, mut damaged) = (content(*seed), content(*seed));
+        damage(&mut damaged);
+        for error in crate::bytes::diagnose(&damaged) {
+            let Some(place) = error.place() else { continue };
+            let path = &place[..place.find(['[', ' ']).unwrap_or(place.len())];
+            let is_there = |c: &Content| c.contains_key(path) || c.has_group(path);
+            assert!(is_there(&good) || is_there(&damaged), "{rule}: {place}");
+        }
+    }
+}
+
+/// Damages of objects that do not depend on each other, and the objects.
+const INDEPENDENT: &[(&str, fn(&mut Content))] = &[
+    ("@title", |c| put(c, "@title", Array::scalar(1.0))),
+    ("domain/holes/radius[0]", |c| set(c, "domain/holes/radius", 0, -0.1)),
+    ("equation@state", |c| put(c, "equation@state", text("plane"))),
+    ("steps/0000@load", |c| put(c, "steps/0000@load", Array::scalar(1_i64))),
+    ("steps/0000/partition/level", |c| {
+        put(c, "steps/0000/partition/level", Array::vector([0_u32]))
+    }),
+    ("steps/0000/partition/half", |c| {
+        edit(c, "steps/0000/partition/half", |v: &mut Vec<f64>| v.truncate(2));
+        c.get_mut("steps/0000/partition/half").expect("half").shape = vec![1, 2];
+    }),
+    ("steps/0000/partition@weight", |c| put(c, "steps/0000/partition@weight", text("bspline"))),
+    ("steps/0000/cracks/ends", |c| set(c, "steps/0000/cracks/ends", 0, "end".to_owned())),
+    ("steps/0000/functions/kind", |c| {
+        set(c, "steps/0000/functions/kind", 0, "heaviside".to_owned())
+    }),
+    ("steps/0000/fields/0000/block_degree", |c| remove(c, "steps/0000/fields/0000/block_degree")),
+    ("steps/0000/fields/0001@unit", |c| remove(c, "steps/0000/fields/0001@unit")),
+    ("steps/0000/history/value", |c| put(c, "steps/0000/history/value", Array::vector([1.0]))),
+    ("steps/0000/warnings/limit", |c| remove(c, "steps/0000/warnings/limit")),
+    ("steps/0000/reactions/held", |c| set(c, "steps/0000/reactions/held", 0, 0.5)),
+    ("steps/0000/growth/due", |c| remove(c, "steps/0000/growth/due")),
+];
+
+/// One reading finds all errors, whichever there are, and no others.
+#[test]
+fn all_errors_are_found_at_once() {
+    let mut random = ppum_testkit::random::Random(35);
+    for _ in 0..60 {
+        let chosen: Vec<_> = INDEPENDENT.iter().filter(|_| random.unit() < 0.4).collect();
+        let mut damaged = content(FULL);
+        chosen.iter().for_each(|(_, damage)| damage(&mut damaged));
+        let errors = crate::bytes::diagnose(&damaged);
+        let mut found: Vec<_> = errors.iter().filter_map(ReadError::place).collect();
+        let mut expected: Vec<_> = chosen.iter().map(|(place, _)| *place).collect();
+        found.sort_unstable();
+        expected.sort_unstable();
+        assert_eq!(found, expected, "{errors:#?}");
     }
 }
 

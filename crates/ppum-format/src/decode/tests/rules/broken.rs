@@ -25,7 +25,7 @@ pub(super) const RULES: &[Rule] = &[
         "types are those of the page",
         FULL,
         |c| put(c, "steps/0000/partition/level", Array::vector([0u32; 3])),
-        &["partition/level", "type u32, expected u8"],
+        &["partition/level", "type u32", "expected u8"],
     ),
     (
         "the version has two numbers",
@@ -86,13 +86,13 @@ pub(super) const RULES: &[Rule] = &[
         "circles have one",
         FULL,
         |c| set(c, "domain/holes/radius", 0, -0.1),
-        &["domain.holes[0].radius", "not positive"],
+        &["domain/holes/radius[0]", "not positive"],
     ),
     (
         "corners that follow each other differ",
         FULL,
         |c| edit(c, "domain/holes/points", |v: &mut Vec<f64>| v.copy_within(2..4, 4)),
-        &["domain.holes[1].points[0]", "equal to the next"],
+        &["domain/holes/points[1]", "equal to the next"],
     ),
     (
         "the box has a size",
@@ -137,7 +137,7 @@ pub(super) const RULES: &[Rule] = &[
         "splines have their own breakpoints",
         PLAIN,
         |c| put(c, "steps/0000/partition/weight_breakpoints", Array::vector([0.1])),
-        &["partition/weight_breakpoints", "are not those of `"],
+        &["partition/weight_breakpoints", "but those of `"],
     ),
     (
         "splines have no formula",
@@ -155,57 +155,82 @@ pub(super) const RULES: &[Rule] = &[
         "cells leave no gaps",
         PLAIN,
         |c| edit(c, "steps/0000/partition/cell", |v: &mut Vec<f64>| v[2] = 0.5 * (v[0] + v[2])),
-        &["steps[0].partition.cell", "none covers"],
+        &["steps/0000/partition/cell", "none covers"],
     ),
     (
         "cells do not overlap",
         PLAIN,
         |c| edit(c, "steps/0000/partition/cell", |v: &mut Vec<f64>| v.copy_within(4..8, 0)),
-        &["steps[0].partition.cell[", "overlaps another cell"],
+        &["steps/0000/partition/cell[", "overlaps another cell"],
     ),
     (
         "cells lie in the box",
         PLAIN,
         |c| edit(c, "steps/0000/partition/cell", |v: &mut Vec<f64>| v[0] -= 1.0),
-        &["steps[0].partition.cell[0]", "out of the domain's box"],
+        &["steps/0000/partition/cell[0]", "out of the domain's box"],
     ),
     (
         "cells are wider than rounding",
         PLAIN,
         |c| edit(c, "steps/0000/partition/cell", |v: &mut Vec<f64>| v[2] = v[0] + 1e-14),
-        &["steps[0].partition.cell[0]", "thinner than the rounding"],
+        &["steps/0000/partition/cell[0]", "thinner than the rounding"],
     ),
     (
         "a support holds some of its cell",
         PLAIN,
         |c| edit(c, "steps/0000/partition/center", |v: &mut Vec<f64>| v[0] += 9.0),
-        &["steps[0].partition.center[0]", "beside its cell"],
+        &["steps/0000/partition/center[0]", "beside its cell"],
     ),
     (
-        "a support reaches well beyond its cell on each side",
+        "supports cover the cells",
+        PLAIN,
+        |c| {
+            edit(c, "steps/0000/partition/half", |v: &mut Vec<f64>| {
+                v.iter_mut().for_each(|h| *h *= 0.5)
+            })
+        },
+        &["steps/0000/partition/half", "no support holds ("],
+    ),
+    (
+        "supports do not just cover the cells",
         PLAIN,
         |c| {
             let cell = c["steps/0000/partition/cell"].values.clone();
             let Some(cell) = f64::of(&cell) else { panic!("numbers") };
-            edit(c, "steps/0000/partition/center", |center: &mut Vec<f64>| {
-                edit_half(&mut center[0], cell[0], cell[2]);
-            });
-            set(c, "steps/0000/partition/half", 0, 0.6 * (cell[2] - cell[0]));
+            for (name, sign) in [("center", 1.0), ("half", -1.0)] {
+                edit(c, &format!("steps/0000/partition/{name}"), |v: &mut Vec<f64>| {
+                    for (v, cell) in
+                        v.as_chunks_mut::<2>().0.iter_mut().zip(cell.as_chunks::<4>().0)
+                    {
+                        for k in 0..2 {
+                            v[k] = 0.5
+                                * (cell[k + 2] + sign * cell[k])
+                                * if sign < 0.0 { 1.005 } else { 1.0 };
+                        }
+                    }
+                });
+            }
         },
-        &["steps[0].partition.half[0]", "strips too thin"],
+        &["steps/0000/partition/half", "thin strip"],
+    ),
+    (
+        "blocks do not share coefficients",
+        PLAIN,
+        |c| set(c, "steps/0000/fields/0000/block_offset", 1, 0_u64),
+        &["steps/0000/fields/0000/block_offset[1]", "shares coefficients with block 0"],
     ),
     // cracks
     (
         "a crack has two points or more",
         PLAIN,
         |c| edit(c, "steps/0000/cracks/offsets", |v: &mut Vec<u64>| v[1] = 1),
-        &["steps[0].cracks[0]", "two or more"],
+        &["steps/0000/cracks[0]", "two or more"],
     ),
     (
         "points of a crack that follow each other differ",
         PLAIN,
         |c| edit(c, "steps/0000/cracks/points", |v: &mut Vec<f64>| v.copy_within(0..2, 2)),
-        &["steps[0].cracks[0].segment[0]", "equal"],
+        &["steps/0000/cracks/points[0]", "equal"],
     ),
     // functions: what a kind does not use
     (
@@ -278,7 +303,7 @@ pub(super) const RULES: &[Rule] = &[
             let k = function(c, "component", "");
             edit(c, "steps/0000/functions/cut_offsets", |v: &mut Vec<u64>| v[k + 1] = v[k]);
         },
-        &["].cuts", "a component needs at least one"],
+        &["functions/cuts[", "a component needs at least one"],
     ),
     (
         "cuts come with their offsets",
@@ -299,31 +324,31 @@ pub(super) const RULES: &[Rule] = &[
             remove(c, "steps/0000/functions/cuts");
             remove(c, "steps/0000/functions/cut_offsets");
         },
-        &["].cuts", "a component needs at least one"],
+        &["functions/cuts[", "a component needs at least one"],
     ),
     (
         "cuts are of segments that there are",
         FULL,
         |c| set(c, "steps/0000/functions/cuts", 1, 9_i64),
-        &["].cuts[0].segment", "segments"],
+        &["functions/cuts[0][1]", "segments"],
     ),
     (
         "and of cracks that there are",
         FULL,
         |c| set(c, "steps/0000/functions/cuts", 0, 99_i64),
-        &["].cuts[0].crack", "cracks"],
+        &["functions/cuts[0][0]", "cracks"],
     ),
     (
         "what follows stands behind",
         FULL,
         |c| set(c, "steps/0000/functions/cuts", 2, 0_i64),
-        &["].cuts[0].left", "must stand behind it"],
+        &["functions/cuts[0][2]", "must stand behind it"],
     ),
     (
         "what follows is there",
         FULL,
         |c| set(c, "steps/0000/functions/cuts", 3, 1_000_i64),
-        &["].cuts[0].right", "cuts"],
+        &["functions/cuts[0][3]", "cuts"],
     ),
     (
         "a cut has four numbers",
@@ -337,20 +362,20 @@ pub(super) const RULES: &[Rule] = &[
         |c| {
             edit(c, "steps/0000/functions/parameter_name", |v: &mut Vec<String>| v.fill("a".into()))
         },
-        &["].parameters", "already has a meaning"],
+        &["functions/parameter_name[", "already has a meaning"],
     ),
     // fields
     (
         "fields have different names",
         FULL,
         |c| put(c, "steps/0000/fields/0001@name", text("displacement")),
-        &["steps[0].fields", "occurs twice"],
+        &["steps/0000/fields", "occurs twice"],
     ),
     (
         "components have different names",
         FULL,
         |c| put(c, "steps/0000/fields/0001/components", texts(&["a", "a"])),
-        &["steps[0].fields[1].components", "occurs twice"],
+        &["steps/0000/fields/0001/components", "occurs twice"],
     ),
     (
         "degrees are at most 8",
@@ -380,14 +405,14 @@ pub(super) const RULES: &[Rule] = &[
         "exact solutions have all components or none",
         FULL,
         |c| put(c, "steps/0000/fields/0000/exact", texts(&["x"])),
-        &["fields[0].exact", "one per component, or none"],
+        &["fields/0000/exact", "one per component, or none"],
     ),
     // results
     (
         "attributes have different names",
         FULL,
         |c| put(c, "steps/0000/attributes/name", texts(&["a", "a"])),
-        &["steps[0].attributes", "occurs twice"],
+        &["steps/0000/attributes", "occurs twice"],
     ),
     (
         "a tip has one entry of intensities",
@@ -396,7 +421,7 @@ pub(super) const RULES: &[Rule] = &[
             edit(c, "steps/0000/intensities/crack", |v: &mut Vec<u32>| v[1] = v[0]);
             edit(c, "steps/0000/intensities/end", |v: &mut Vec<String>| v[1] = v[0].clone());
         },
-        &["steps[0].intensities[1]", "same tip as intensities[0]"],
+        &["steps/0000/intensities[1]", "same tip as intensities[0]"],
     ),
     (
         "intensities are of tips",
@@ -405,7 +430,7 @@ pub(super) const RULES: &[Rule] = &[
             set(c, "steps/0000/intensities/crack", 0, 1_u32);
             set(c, "steps/0000/intensities/end", 0, "last".to_owned());
         },
-        &["steps[0].intensities[0].end", "no tip"],
+        &["steps/0000/intensities/end[0]", "no tip"],
     ),
     (
         "rings have an inner radius below the outer one",
@@ -420,31 +445,31 @@ pub(super) const RULES: &[Rule] = &[
                 Array::vector(offsets.collect::<Vec<u64>>()),
             );
         },
-        &["steps[0].intensities[0].rings[0]", "r1 < r2"],
+        &["steps/0000/intensities/rings[0]", "r1 < r2"],
     ),
     (
         "what is known of a tip is finite",
         FULL,
         |c| set(c, "steps/0000/intensities/t_stress", 0, f64::INFINITY),
-        &["steps[0].intensities[0].t_stress"],
+        &["steps/0000/intensities/t_stress[0]"],
     ),
     (
         "an error is not negative",
         FULL,
         |c| set(c, "steps/0000/intensities/error", 0, -1.0),
-        &["steps[0].intensities[0].error"],
+        &["steps/0000/intensities/error[0]"],
     ),
     (
         "a place has two coordinates or none",
         FULL,
         |c| set(c, "steps/0000/warnings/at", 0, 0.5),
-        &["steps[0].warnings[0].at"],
+        &["steps/0000/warnings/at[0]"],
     ),
     (
         "warnings are of a kind",
         FULL,
         |c| set(c, "steps/0000/warnings/kind", 0, " ".to_owned()),
-        &["steps[0].warnings[0].kind", "empty"],
+        &["steps/0000/warnings/kind[0]", "empty"],
     ),
     (
         "a component is held or not",
@@ -456,13 +481,13 @@ pub(super) const RULES: &[Rule] = &[
         "where nothing is held is no force",
         FULL,
         |c| set(c, "steps/0000/reactions/force", 1, 1.0),
-        &["steps[0].reactions[0].force", "not held"],
+        &["steps/0000/reactions/force[0]", "not held"],
     ),
     (
         "a potential has no moments",
         5,
         |c| set(c, "steps/0000/reactions/moment", 0, 1.0),
-        &["steps[0].reactions[0].moment", "expected 0"],
+        &["steps/0000/reactions/moment[0]", "expected 0"],
     ),
     // versions
     (
@@ -497,9 +522,4 @@ fn set_function<T: Element>(c: &mut Content, kind: &str, frame: &str, column: &s
 /// Makes the first entry of a list that offsets divide one of the first function, which is `one`.
 fn give_to_the_first(content: &mut Content, offsets: &str) {
     edit(content, offsets, |v: &mut Vec<u64>| v[1..].iter_mut().for_each(|o| *o = (*o).max(1)));
-}
-
-/// Puts the centre of a support of 1.2 times its cell where it reaches just beyond it on the left.
-fn edit_half(center: &mut f64, from: f64, to: f64) {
-    *center = from + (0.6 - 1e-9) * (to - from);
 }

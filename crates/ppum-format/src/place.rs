@@ -1,0 +1,126 @@
+//! The places of a dataset's errors, in the file: a path through the data model becomes that of an HDF5 object.
+
+use crate::content::{Content, Form, Values, join, key, step_path};
+
+/// Lists whose entries are rows of the arrays of a group.
+const TABLES: &[&str] =
+    &["cracks", "functions", "holes", "intensities", "quantities", "reactions", "tips", "warnings"];
+
+/// Lists of an entry of a table, which are parts of an array: the group, the list, its array and its offsets.
+const PARTS: &[(&str, &str, &str, &str)] = &[
+    ("cracks", "points", "points", "offsets"),
+    ("cracks", "segment", "points", "offsets"),
+    ("functions", "cuts", "cuts", "cut_offsets"),
+    ("functions", "kinks", "kinks", "kink_offsets"),
+    ("functions", "parameters", "parameter_name", "parameter_offsets"),
+    ("functions", "singular", "singular", "singular_offsets"),
+    ("growth", "path", "path", "path_offsets"),
+    ("holes", "center", "points", "offsets"),
+    ("holes", "points", "points", "offsets"),
+    ("intensities", "rings", "rings", "ring_offsets"),
+];
+
+/// Names that differ from those in the file: the group, the name, and that in the file.
+const NAMES: &[(&str, &str, &str)] = &[
+    ("equation", "young", "@young"),
+    ("equation", "poisson", "@poisson"),
+    ("equation", "conductivity", "@conductivity"),
+    ("partition", "weight", "@weight_formula"),
+    ("growth", "cycles", "@cycles"),
+    ("functions", "origin", "frame_origin"),
+    ("functions", "angle", "frame_angle"),
+];
+
+/// The object that a place such as `steps[0].functions[2].cuts[1].left` is about, with the indices in its array. What is
+/// between back ticks is a name.
+pub(crate) fn in_file(place: &str, content: &Content) -> String {
+    let (path, name) = place.split_at(place.find(" `").unwrap_or(place.len()));
+    let mut found = String::new();
+    let mut row = None;
+    let mut indices = Vec::new();
+    for part in path.split('.') {
+        let (name, numbers) = part.split_at(part.find('[').unwrap_or(part.len()));
+        let numbers = numbers.split(['[', ']']).filter_map(|number| number.parse().ok());
+        let mut numbers: Vec<usize> = numbers.collect();
+        let group = found.rsplit('/').next().unwrap_or_default();
+        let in_part = PARTS.iter().find(|(of, list, ..)| (*of, *list) == (group, name));
+        if name == "steps" && !numbers.is_empty() {
+            found = step_path(numbers[0]);
+        } else if name == "fields" && !numbers.is_empty() {
+            found = join(&found, &format!("fields/{:04}", numbers[0]));
+        } else if TABLES.contains(&name) {
+            row = numbers.first().copied();
+            found = if name == "tips" { found } else { join(&found, name) };
+        } else if name == "load" {
+            found = join(&found, "@load");
+        } else if let (Some((_, list, array, offsets)), Some(k)) = (in_part, row) {
+            let first = entry(content, &key(&found, offsets, Form::Dataset), k);
+            // kinks are counted by their ends
+            let within = numbers.first().map_or(0, |n| if *list == "kinks" { n / 2 } else { *n });
+            found = join(&found, array);
+            (row, indices) = (None, vec![first + within]);
+        } else if let Some(column) = column(name).filter(|_| found.ends_with("/cuts")) {
+            indices.push(column);
+        } else if !matches!(name, "" | "frame" | "declared") {
+            let names = NAMES.iter().find(|(of, own, _)| (*of, *own) == (group, name));
+            found = join(&found, names.map_or(name, |(.., file)| file));
+            // a point of a row is all of it
+            indices = row.take().map_or_else(|| std::mem::take(&mut numbers), |k| vec![k]);
+        }
+    }
+    let indices = row.into_iter().chain(indices).map(|k| format!("[{k}]"));
+    found + &indices.collect::<String>() + name
+}
+
+fn column(name: &str) -> Option<usize> {
+    ["crack", "segment", "left", "right"].iter().position(|column| *column == name)
+}
+
+/// An entry of an array of offsets, 0 if there is none.
+fn entry(content: &Content, name: &str, k: usize) -> usize {
+    match content.get(name).map(|array| &array.values) {
+        Some(Values::U64(values)) => values.get(k).map_or(0, |v| *v as usize),
+        _ => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::content::Array;
+
+    #[test]
+    fn places_are_those_of_the_file() {
+        let mut content = Content::new();
+        let mut offsets = |name: &str| {
+            content.insert(format!("steps/0002/{name}"), Array::vector([0_u64, 4, 10]));
+        };
+        ["cracks/offsets", "functions/cut_offsets", "functions/kink_offsets"]
+            .into_iter()
+            .for_each(&mut offsets);
+        for (place, expected) in [
+            ("domain", "domain"),
+            ("domain.holes[1].radius", "domain/holes/radius[1]"),
+            ("equation.young", "equation@young"),
+            ("quantities `a.b`", "quantities `a.b`"),
+            ("steps", "steps"),
+            ("steps[0].load", "steps/0000@load"),
+            ("steps[10].fields[1].coefficients[0][3]", "steps/0010/fields/0001/coefficients[0][3]"),
+            ("steps[0].partition.half[7]", "steps/0000/partition/half[7]"),
+            ("steps[0].partition.weight", "steps/0000/partition@weight_formula"),
+            ("steps[0].attributes `order`", "steps/0000/attributes `order`"),
+            ("steps[2].cracks[1].segment[3]", "steps/0002/cracks/points[7]"),
+            ("steps[2].cracks[1]", "steps/0002/cracks[1]"),
+            ("steps[2].functions[1].cuts[2].left", "steps/0002/functions/cuts[6][2]"),
+            ("steps[2].functions[1].declared.kinks[3]", "steps/0002/functions/kinks[5]"),
+            ("steps[2].functions[1].frame.crack", "steps/0002/functions/crack[1]"),
+            ("steps[2].functions[1].frame.origin[0]", "steps/0002/functions/frame_origin[1]"),
+            ("steps[2].functions[1].crack", "steps/0002/functions/crack[1]"),
+            ("steps[0].growth.tips[3].length", "steps/0000/growth/length[3]"),
+            ("steps[0].growth.cycles", "steps/0000/growth@cycles"),
+            ("steps[0].warnings[1].at[0]", "steps/0000/warnings/at[1]"),
+        ] {
+            assert_eq!(in_file(place, &content), expected);
+        }
+    }
+}
