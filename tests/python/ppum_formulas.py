@@ -118,7 +118,8 @@ def total(a, b):
 def polar(x, y, theta, n):
     """The names of a frame's coordinates; `theta` is the polar angle on its branch."""
     r = n.call("hypot", x, y)
-    cos, sin = quotient(x, r), quotient(y, r)
+    # at the origin r has the derivative from the right, and theta none
+    cos, sin = (quotient(x, r), quotient(y, r)) if r else (n.real(1), n.real(0))
     return {
         "x": Jet(x, {"x": n.real(1)}),
         "y": Jet(y, {"y": n.real(1)}),

@@ -195,9 +195,26 @@ class Field:
     def read_partition(self, group):
         assert text(group.attrs["kind"]) == "shepard-box"
         self.partition = {k: v[()] for k, v in group.items()}
+        assert self.covers_cells(), "the supports do not cover the cells"
         self.weight = text(group.attrs["weight"])
         if self.weight == "formula":
             self.weight = self.formula(text(group.attrs["weight_formula"]), ("t",))
+
+    def covers_cells(self):
+        """True if each point of each cell has |s| <= 0.991 in a support: rule 12 of section 7.
+
+        Cells that their own supports do not cover are cut by the borders of all others.
+        """
+        center, half, cells = (self.partition[k] for k in ("center", "half", "cell"))
+        low, high = center - 0.991 * half, center + 0.991 * half
+        for k in np.flatnonzero((low > cells[:, :2]).any(axis=1) | (high < cells[:, 2:]).any(axis=1)):
+            min, max = cells[k, :2], cells[k, 2:]
+            near = np.flatnonzero((low < max).all(axis=1) & (high > min).all(axis=1))
+            cuts = [np.unique(np.clip([*low[near, d], *high[near, d], min[d], max[d]], min[d], max[d])) for d in (0, 1)]
+            for p in np.stack(np.meshgrid(*((c[1:] + c[:-1]) / 2 for c in cuts)), -1).reshape(-1, 2):
+                if not ((low[near] <= p) & (p <= high[near])).all(axis=1).any():
+                    return False
+        return True
 
     def read_functions(self, group):
         plain = lambda d: texts(d) if d.dtype.kind in "SO" else d[()]
@@ -227,7 +244,7 @@ class Field:
         p = self.real(x), self.real(y)
         if not self.contains(p):
             return [(math.nan,) * 3] * len(self.components)
-        self.side, self.cache = side, {}
+        self.side, self.cache, self.has_gradient = side, {}, True
         total, values = Jet(0), [Jet(0)] * len(self.components)
         close = np.abs(self.partition["center"] - [float(x), float(y)])
         for i in np.flatnonzero((close <= self.partition["half"] * (1 + 1e-9)).all(axis=1)):
@@ -236,6 +253,8 @@ class Field:
                 weight = self.spline(s[0]) * self.spline(s[1])
                 total += weight
                 values = [v + weight * local for v, local in zip(values, self.local(p, i))]
+        if not self.has_gradient:
+            return [((v / total).v, math.nan, math.nan) for v in values]
         return [((u := v / total).v, u.slopes.get("x", 0), u.slopes.get("y", 0)) for v in values]
 
     def scaled(self, p, origin, scale):
@@ -289,6 +308,8 @@ class Field:
             else:
                 assert row["kind"] == "formula"
                 self.cache[b] = self.in_frame(p, row)
+            # whatever its coefficients are
+            self.has_gradient &= all(abs(slope) < math.inf for slope in self.cache[b].slopes.values())
         return self.cache[b]
 
     def indicator(self, p, cuts):

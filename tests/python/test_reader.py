@@ -203,6 +203,104 @@ def test_the_angle_at_the_origin_of_a_frame_is_zero():
         assert abs(found - own) < 1e-12, (frame, end, found, own)
 
 
+def smallest():
+    """The file that the page writes."""
+    page = (ROOT / "FORMAT.md").read_text()
+    code = page.split("```python\n")[1].split("```")[0]
+    path = FOLDER / "smallest.h5"
+    exec(code.replace('"smallest.h5"', repr(str(path))), {})
+    return path
+
+
+def run(*arguments):
+    return subprocess.run(programs.ppum(*arguments), cwd=ROOT, capture_output=True, text=True)
+
+
+def test_the_smallest_file_of_the_page():
+    path = smallest()
+    checked = run("check", path)
+    assert checked.returncode == 0 and "no errors" in checked.stdout, checked
+    for x in [0.0, 0.3, 1.0, 1.9]:
+        with h5py.File(path) as file:
+            [(u, dx, dy)] = Field(file).evaluate(x, 0.4)
+        assert max(abs(u - x), abs(dx - 1), abs(dy)) < 1e-12, (x, u, dx, dy)
+        assert abs(program(path, [((x, 0.4), (0.0, 0.0), 1)], "u")[0][0] - x) < 1e-12
+
+
+def test_all_errors_are_listed():
+    path = smallest()
+    with h5py.File(path, "a") as file:
+        file.attrs["format_version"] = [1, 4]
+        step = file["steps/0000"]
+        step.attrs["load"] = 1
+        step["partition"].attrs["weight"] = "bspline"
+        del step["partition/level"], step["fields/0000/block_offset"]
+        step["partition/level"] = [0, 0]
+        step["fields/0000/block_offset"] = [0, 3]
+        step["functions/kind"][0] = "heaviside"
+    lines = run("check", path).stdout.splitlines()
+    assert len(lines) == 1 and lines[0].startswith("@format_version: has type i64, expected u32"), lines
+    with h5py.File(path, "a") as file:
+        file.attrs["format_version"] = np.array([1, 4], "u4")
+    checked = run("check", path)
+    places = sorted(line.split(":")[0] for line in checked.stdout.splitlines())
+    expected = ["fields/0000/block_offset", "functions/kind", "partition/level", "partition@weight"]
+    assert places == sorted([f"steps/0000/{name}" for name in expected] + ["steps/0000@load"]), checked
+    assert checked.returncode == 1 and "linear, quadratic, cubic, formula" in checked.stdout, checked
+    assert "ppum check" in run("info", path).stderr
+
+
+def test_supports_that_do_not_cover_are_refused():
+    """By both readers, and covers of boxes that come from no tree are not, if they overlap well."""
+    random = np.random.default_rng(35)
+    answers = []
+    for half in [0.48, 0.5, 0.502, 0.51] + list(random.uniform(0.495, 0.515, 12)):
+        path = smallest()
+        with h5py.File(path, "a") as file:
+            partition = file["steps/0000/partition"]
+            partition["half"][...] = [[half + random.uniform(-0.01, 0.02), 0.7], [half, 0.7]]
+        program = run("check", path)
+        with h5py.File(path) as file:
+            try:
+                Field(file)
+                own = True
+            except AssertionError:
+                own = False
+        assert (program.returncode == 0) == own, (half, program)
+        assert own or "no support holds (" in program.stdout, program
+        answers.append(own)
+    assert 3 < sum(answers) < 13, answers
+
+
+def test_gradients_at_the_origin_of_a_frame():
+    """The derivative of r is that from the right; where a function has none, no coefficient matters."""
+    for formula, coefficient, has_gradient in [
+        ("r", 1, True),
+        ("r^1.5", 1, True),
+        ("x*r", 1, True),
+        ("0*sqrt(r)", 1, True),
+        ("if(x > 5, 1, 0)*sqrt(r)", 1, True),
+        ("sqrt(r)", 1, False),
+        ("sqrt(r)", 0, False),
+        ("theta", 1, False),
+        ("r^2*theta", 1, False),
+    ]:
+        path = smallest()
+        with h5py.File(path, "a") as file:
+            step = file["steps/0000"]
+            for name, value in [("kind", "formula"), ("formula", formula), ("frame", "fixed")]:
+                step[f"functions/{name}"][0] = value
+            step["functions/frame_origin"][0] = [0.9, 0.3]
+            step["functions/frame_angle"][0] = 0.5
+            step["fields/0000/coefficients"][...] = [[coefficient, 0, 0] * 2]
+        found = program(path, [((0.9, 0.3), (0.0, 0.0), 1)], "u", "du_dx", "du_dy")[0]
+        with h5py.File(path) as file:
+            own = [Field(file).quantity(name, 0.9, 0.3) for name in ("u", "du_dx", "du_dy")]
+        assert math.isfinite(found[1]) == has_gradient, (formula, found)
+        both = [(0, 0) if math.isinf(a) and math.isinf(b) else (a, b) for a, b in zip(found, own)]
+        assert all(abs(a - b) < 1e-12 for a, b in both), (formula, found, own)
+
+
 def junctions(field):
     """Ends of cracks that lie on others, and points where two cross."""
     segments = [(i, a, b) for i, crack in enumerate(field.cracks) for a, b in zip(crack, crack[1:])]
@@ -374,7 +472,7 @@ def test_the_program_reads_what_h5py_writes():
                 group.attrs.pop("sha256", None)
             target["steps/0000/partition/half"][3, 1] = math.nan
         status, _, message = fixture("same", original, copy)
-        assert status != 0 and "partition.half[3]" in message, message
+        assert status != 0 and "partition/half[3]" in message, message
 
 
 def test_mistakes_in_formulas_are_named():

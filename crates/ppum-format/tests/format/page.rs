@@ -22,5 +22,5 @@ fn quantities_are_those_of_the_library() {
 fn the_version_is_that_of_the_page() {
     let (major, minor) = ppum_format::FORMAT_VERSION;
     assert!(PAGE.starts_with(&format!("# The ppum dataset format, version {major}.{minor}\n")));
-    assert!(PAGE.contains(&format!("minor version of this format: {major}, {minor} |")));
+    assert!(PAGE.contains(&format!("minor version of this format: {major}, {minor}\n")));
 }
