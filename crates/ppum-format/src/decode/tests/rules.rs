@@ -72,8 +72,10 @@ fn errors_name_objects_of_the_file() {
     }
 }
 
+type Damage = fn(&mut Content);
+
 /// Damages of objects that do not depend on each other, and the objects.
-const INDEPENDENT: &[(&str, fn(&mut Content))] = &[
+const INDEPENDENT: &[(&str, Damage)] = &[
     ("@title", |c| put(c, "@title", Array::scalar(1.0))),
     ("domain/holes/radius[0]", |c| set(c, "domain/holes/radius", 0, -0.1)),
     ("equation@state", |c| put(c, "equation@state", text("plane"))),
