@@ -45,7 +45,8 @@ pub(super) fn value(field: &Field<'_>, quantity: &Quantity) -> Option<[f64; 2]> 
         (low, high) = (low.min(value), high.max(value));
         parts = parts.max(size_of_parts(field, quantity, *at, u, sizes));
         // infinite and NaN differ too
-        if !(high - low <= borne * parts) {
+        let is_even = high - low <= borne * parts;
+        if !is_even {
             return None;
         }
     }

@@ -66,6 +66,16 @@ impl<'p> Jumps<'p> {
         self.indicators(&cut, open, &holes)
     }
 
+    /// The cracks that pass through a patch with this open box; none where cracks meet, come back or end on holes, whose sides
+    /// jump in the material, too.
+    pub(crate) fn through(&self, open: &Rect) -> Vec<u32> {
+        let cut = self.cut(open);
+        if self.holes.near(open).next().is_some() || !self.are_apart(&cut, open) {
+            return Vec::new();
+        }
+        self.passing(&cut, open).map(|run| run[0].0.crack).collect()
+    }
+
     /// The function that jumps on a crack which passes through a box: its side, or the indicator of the sliver that it
     /// cuts off.
     fn across(&self, run: &[(SegmentId, Segment)], open: &Rect) -> Vec<FunctionKind> {

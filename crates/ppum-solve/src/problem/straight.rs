@@ -187,7 +187,7 @@ fn place(p: Vec2, lines: &[Segment]) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Jump, Jumps};
+    use crate::geometry::Jumps;
     use crate::problem::{cracks, touch};
     use ppum::domain::Domain;
     use ppum::vec2::{Rect, vec2};
@@ -200,11 +200,7 @@ mod tests {
         let domain = Domain::from(around);
         let cracks = cracks(lines.iter().map(moved), &domain);
         let unit = Rect::new(shift, vec2(1.0, 1.0) + shift);
-        match Jumps::new(&cracks, &domain, touch(&around)).of(&unit) {
-            Jump::Sides(sides) => sides.len() + 1,
-            Jump::Components(components) => components.indicators().len() + 1,
-            Jump::TooMany => 0,
-        }
+        Jumps::new(&cracks, &domain, touch(&around)).of(&unit).len() + 1
     }
 
     /// Two cracks that go on from each other on a line, or off it by rounding or more, with vertices beside their joint, a

@@ -1,7 +1,6 @@
 //! Kinks at the interfaces of materials: what no function of the problem's own has is added.
 
 use super::{Degree, Enrichments, Instance, Patch, Patches};
-use crate::geometry::Jump;
 use crate::problem::Enrichment;
 use crate::smoothness::{BESIDE, Interface, Interfaces, Place, Probe};
 use crate::space::SpaceError;
@@ -77,11 +76,8 @@ impl Enrichments<'_> {
         let own: Vec<_> = own.iter().filter(|new| patch.is_of(&new.patches)).collect();
         let size = patch.support.size();
         let width = size.x.min(size.y);
-        // where cracks meet or come back their sides jump in the material, too
-        let through = || match self.jumps.as_ref().map(|jumps| jumps.of(&patch.open)) {
-            Some(Jump::Sides(cracks)) => cracks,
-            _ => Vec::new(),
-        };
+        let through =
+            || self.jumps.as_ref().map_or_else(Vec::new, |jumps| jumps.through(&patch.open));
         let mut found: Vec<usize> = Vec::new();
         let mut cuts = Vec::new();
         for (index, interface) in interfaces.all.iter().enumerate() {
