@@ -403,7 +403,7 @@ mod tests {
         assert_eq!(records.iter().filter(|record| is_of_phase(record)).count(), PHASES.len() + 4);
         assert_eq!(records.iter().filter(|record| is_of_level(record)).count(), 8);
         assert_eq!(records.iter().filter(|record| is_of_course(&record.name)).count(), 6);
-        assert_eq!(records[12].name, "free motions");
+        assert_eq!(records[13].name, "free motions");
         assert_eq!(SolverReport::of(&records), report);
         // a second record of a name, and names of other programs
         for (name, unit) in [

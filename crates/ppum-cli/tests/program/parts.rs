@@ -30,7 +30,8 @@ fn smooth_and_jump_on_the_crack() {
     let [smooth, jump, _] = &parts;
     assert_eq!(value(&smooth[0], "uy"), value(&smooth[1], "uy"));
     let [above, below] = [0, 1].map(|side| value(&jump[side], "uy"));
-    assert!(above > 0.1 && (above + below).abs() < 1e-14, "{above} {below}");
+    // but for patches of which the crack cuts slivers off: of their jumps one side is zero
+    assert!(above > 0.1 && (above + below).abs() < 1e-11, "{above} {below}");
 }
 
 /// `sample` sees the part as well: φ_0 v_0 of the linear field is zero away from patch 0.

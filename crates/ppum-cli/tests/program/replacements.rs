@@ -107,7 +107,7 @@ fn mistakes() {
         (
             "--function",
             "nine=r",
-            "there is no function `nine`; there are `one`, `side`, `westergaard 1`",
+            "there is no function `nine`; there are `one`, `one side`, `side`, `westergaard 1`",
         ),
         ("--function", "10=r", "there is no function `10`"),
         (

@@ -296,7 +296,7 @@ fn steps_are_checked_before_they_are_appended() {
     broken.fields[0].coefficients[0][3] = f64::NAN;
     let error = writer.append(&broken).unwrap_err();
     assert!(matches!(error, WriteError::Invalid(_)));
-    assert!(error.to_string().contains("steps/0002/fields/0000/coefficients[0][3]"), "{error}");
+    assert!(error.to_string().contains("steps[2].fields[0].coefficients[0][3]"), "{error}");
     assert!(fs::read(&path).unwrap() == bytes);
     writer.append(&steps::step(2)).unwrap();
     assert!(fs::read(&path).unwrap() == to_bytes(&fixture(3)).unwrap());

@@ -36,7 +36,7 @@ impl Palette {
             boxes.extend(parts);
         }
         let colors: Vec<_> = boxes.iter().map(Group::mean).collect();
-        let members = boxes.iter().zip(0u8..);
+        let members = boxes.iter().zip(0..=u8::MAX);
         let members = members.flat_map(|(b, place)| b.colors.iter().map(move |c| (c.0, place)));
         Self { places: members.collect(), colors }
     }
@@ -54,7 +54,7 @@ impl Palette {
             color.iter().zip(other).map(|(a, b)| u32::from(a.abs_diff(*b)).pow(2)).sum()
         };
         let nearest = || {
-            let all = self.colors.iter().zip(0u8..);
+            let all = self.colors.iter().zip(0..=u8::MAX);
             all.min_by_key(|(other, _)| apart(other)).map_or(TRANSPARENT, |(_, place)| place)
         };
         self.places.get(&color).copied().unwrap_or_else(nearest)

@@ -12,7 +12,7 @@ use ppum::quantity::{Quantity, Sample, Source};
 use ppum::vec2::{Vec2, vec2};
 
 /// Cells that are looked at, at most, and places in each, from its centre in parts of its size.
-const CELLS: usize = 512;
+const CELLS: usize = 64;
 const PLACES: [Vec2; 3] = [vec2(0.05, -0.02), vec2(-0.37, 0.29), vec2(0.31, 0.41)];
 
 /// Error of the solution of the linear system, in units of the rounding of its evaluation: a condition of fine covers of high order.

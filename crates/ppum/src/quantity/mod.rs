@@ -190,7 +190,7 @@ const ELASTIC: [(&str, Quantity); 15] = [
 #[must_use]
 pub fn names(equation: &Equation, components: &[String]) -> Vec<(String, Quantity)> {
     let mut all = Vec::new();
-    for (c, name) in (0u8..).zip(components) {
+    for (c, name) in (0..=u8::MAX).zip(components) {
         all.push((name.clone(), Q::Component(c)));
         all.push((format!("d{name}_dx"), Q::Derivative(c, Axis::X)));
         all.push((format!("d{name}_dy"), Q::Derivative(c, Axis::Y)));

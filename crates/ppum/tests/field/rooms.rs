@@ -41,10 +41,7 @@ const FLOORS: Floors<'_> = &[
     &[
         (
             "check",
-            &[
-                "cover", "crack", "dataset", "domain", "function", "growth", "quantity", "vec2",
-                "weight",
-            ],
+            &["crack", "dataset", "domain", "function", "growth", "quantity", "vec2", "weight"],
         ),
         (
             "prelude",
