@@ -337,7 +337,6 @@ impl Hands {
             return;
         }
         self.lab.begin_again(Start::default());
-        self.eyes.forget();
     }
 }
 
