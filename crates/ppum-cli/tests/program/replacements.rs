@@ -109,7 +109,7 @@ fn mistakes() {
             "nine=r",
             "there is no function `nine`; there are `one`, `one side`, `side`, `westergaard 1`",
         ),
-        ("--function", "10=r", "there is no function `10`"),
+        ("--function", "99=r", "there is no function `99`"),
         (
             "--function",
             "westergaard 1=r*thet",

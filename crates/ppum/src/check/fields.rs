@@ -6,7 +6,7 @@ use super::{
 use crate::dataset::{Equation, FieldData, MAX_DEGREE, Step, monomials};
 
 /// Most components of a field: each pixel of a picture holds all of them with their derivatives.
-const MAX_COMPONENTS: usize = 64;
+pub(super) const MAX_COMPONENTS: usize = 64;
 
 pub(super) fn check_field(
     field: &FieldData,

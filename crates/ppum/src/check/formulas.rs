@@ -4,8 +4,11 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::sync::Arc;
 
+use super::fields::MAX_COMPONENTS;
 use super::{CheckError, Checked, Errors, check_names, fail, require};
-use crate::dataset::{Dataset, MAX_QUANTITIES, MAX_QUANTITY_TEXT, MAX_TABLES, NamedQuantity, Step};
+use crate::dataset::{
+    Dataset, FieldData, MAX_QUANTITIES, MAX_QUANTITY_TEXT, MAX_TABLES, NamedQuantity, Step,
+};
 use crate::function::{CompileError, FunctionTable};
 use crate::quantity::{QuantityFormula, Vocabulary, names};
 use crate::weight::WeightFunction;
@@ -93,7 +96,7 @@ fn check_quantity_names(dataset: &Dataset) -> Checked {
         })?;
     }
     let mut seen = BTreeSet::new();
-    for field in dataset.steps.iter().flat_map(|step| &step.fields) {
+    for field in dataset.steps.iter().flat_map(|step| &step.fields).filter(is_bounded) {
         if seen.insert(&field.components) {
             check_names_of(dataset, &field.components)?;
         }
@@ -103,12 +106,18 @@ fn check_quantity_names(dataset: &Dataset) -> Checked {
 
 fn check_quantity_texts(dataset: &Dataset) -> Checked {
     let mut seen = BTreeSet::new();
-    for field in dataset.steps.iter().filter_map(|step| step.fields.first()) {
+    let first = dataset.steps.iter().filter_map(|step| step.fields.first());
+    for field in first.filter(is_bounded) {
         if seen.insert(&field.components) {
             check_texts(dataset, &field.components)?;
         }
     }
     Ok(())
+}
+
+/// True for fields whose number of components is no error: what names of thousands mean takes too long to say.
+fn is_bounded(field: &&FieldData) -> bool {
+    field.components.len() <= MAX_COMPONENTS
 }
 
 fn check_names_of(dataset: &Dataset, components: &[String]) -> Checked {
