@@ -32,7 +32,7 @@ pub(super) fn read<T>(
     if errors.is_empty() { Ok(found) } else { Err(errors) }
 }
 
-/// What `read` makes of a content, with placeholders for what is wrong with it.
+/// Returns what `read` makes of a content, and all errors; where there are any, the first is not to be used.
 pub(super) fn attempt<T>(content: &Content, read: impl FnOnce(&Group) -> T) -> (T, Vec<ReadError>) {
     let errors = RefCell::default();
     let found = read(&Group { path: String::new(), content, errors: &errors });
