@@ -8,21 +8,33 @@ set -eu
 program=$1 dataset=$2 folder=$3 size=${4:-1280x800}
 mkdir -p "$folder"
 home=$(mktemp -d)
-number=$((90 + $$ % 9))
-export DISPLAY=":$number" PPUM_CONFIG="$home" XDG_RUNTIME_DIR="$home"
-Xvfb "$DISPLAY" -screen 0 "${size}x24" >/dev/null 2>&1 &
+export PPUM_CONFIG="$home" XDG_RUNTIME_DIR="$home"
+# The server writes its number when it takes clients; without -noreset it takes none for a while each time the last
+# of them has left.
+Xvfb -displayfd 3 -noreset -screen 0 "${size}x24" 3>"$home/display" >/dev/null 2>&1 &
 server=$!
 trap 'kill $server 2>/dev/null; rm -rf "$home"' EXIT
-sleep 1
+
+# Tries a command every half second until it succeeds, a minute at most.
+until_it_does() {
+    tries=0
+    until "$@"; do
+        tries=$((tries + 1))
+        [ "$tries" -lt 120 ] || { echo "never succeeded: $*" >&2; exit 1; }
+        sleep 0.5
+    done
+}
+until_it_does test -s "$home/display"
+DISPLAY=":$(cat "$home/display")"
+export DISPLAY
+
+is_there() { id=$(xdotool search --name '^ppum' 2>/dev/null | tail -1) && [ -n "$id" ]; }
 
 # Begins a window and waits until it is there.
 begin() {
     "$program" view --size "$size" "$@" &
     window=$!
-    for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
-        id=$(xdotool search --name '^ppum' 2>/dev/null | tail -1) && [ -n "$id" ] && break
-        sleep 0.5
-    done
+    until_it_does is_there
     xdotool windowfocus "$id"
     sleep 3
 }
@@ -33,11 +45,14 @@ end() {
     wait "$window"
 }
 
-# Keeps a picture, which shows more than an empty window.
+# Keeps a picture of the screen; fails where it shows an empty window.
+shows_something() {
+    import -window root "$1"
+    [ "$(identify -format %k "$1")" -gt 30 ]
+}
 picture() {
     sleep 1.5
-    import -window root "$folder/$1.png"
-    [ "$(identify -format %k "$folder/$1.png")" -gt 30 ] || { echo "$1: an empty window" >&2; exit 1; }
+    until_it_does shows_something "$folder/$1.png"
 }
 press() { for key in "$@"; do xdotool key "$key"; sleep 0.4; done; }
 move() { xdotool mousemove "$1" "$2"; sleep 0.5; }
