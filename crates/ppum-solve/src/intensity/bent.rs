@@ -3,7 +3,7 @@
 use super::auxiliary::{Gradients, stress, work};
 use super::course::Part;
 use super::integral::{Integrals, Interaction, cut_off, in_frame, square, turned};
-use crate::quadrature::{EdgeRule, Quadrature};
+use crate::quadrature::{EdgeRule, Face, Quadrature};
 use ppum::crack::{SegmentId, Side};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
@@ -19,29 +19,22 @@ pub(super) struct Bend {
 impl Interaction<'_> {
     /// The integrals over both faces of a piece.
     pub(super) fn bend(&self, quadrature: &Quadrature<'_>, bend: &Bend) -> Integrals {
-        let left = self.left(&bend.part);
+        let segment = SegmentId { crack: self.course.tip().crack, segment: bend.part.segment };
         let mut sums = Integrals::default();
-        for (side, normal) in [(Side::Above, -left), (Side::Below, left)] {
+        for side in [Side::Above, Side::Below] {
+            let face = Face { segment, side };
             let cell = &self.space.partition().cell[bend.cell];
             let coverers = &self.space.coverers[bend.cell];
-            for rule in quadrature.edge(cell, coverers, bend.ends, normal) {
-                sums = sums.plus(self.along(&bend.part, side, &rule));
+            for rule in quadrature.part_of_face(cell, coverers, bend.ends, face) {
+                sums = sums.plus(self.along(&bend.part, face, &rule));
                 sums.doubt.add(&rule.doubt);
             }
         }
         sums
     }
 
-    /// Unit vector to the left of the crack on a part of it.
-    fn left(&self, part: &Part) -> Vec2 {
-        let points = &self.field.step.cracks[self.course.tip().crack as usize].points;
-        let k = part.segment as usize;
-        (points[k + 1] - points[k]).unit().left()
-    }
-
     /// The points of a rule on one face.
-    fn along(&self, part: &Part, side: Side, rule: &EdgeRule) -> Integrals {
-        let segment = SegmentId { crack: self.course.tip().crack, segment: part.segment };
+    fn along(&self, part: &Part, Face { segment, side }: Face, rule: &EdgeRule) -> Integrals {
         let tip = self.course.on(part, rule.anchor);
         let mut jets = vec![Jet::constant(0.0); 2 * rule.offsets.len()];
         let local = self.field.on(segment, rule.anchor);

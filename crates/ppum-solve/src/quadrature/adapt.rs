@@ -14,6 +14,7 @@
 //! and vanish almost everywhere. Where division ends before, the error that is left is a [`Doubt`].
 
 use super::doubt::Doubt;
+use super::edge::Face;
 use super::gauss::{Rules1d, closed, gauss};
 use super::geometry::Probes;
 use ppum::vec2::Vec2;
@@ -75,6 +76,8 @@ pub(super) struct Demand<'a> {
     pub(super) active: &'a [u32],
     /// Origin of the offsets.
     pub(super) anchor: Vec2,
+    /// The face of a crack that the parts lie on, if they are on one.
+    pub(super) face: Option<Face>,
     /// True if parts have curved borders: then the integral of 1 is held, too.
     pub(super) curved: bool,
     /// Size of the cell.
@@ -289,7 +292,7 @@ impl Demand<'_> {
         }
         let (mut offsets, mut values) = (Vec::new(), Vec::new());
         part.nodes(gauss, self.order, &mut |x, _| offsets.push(x));
-        loads.for_each(|&f| self.probes.evaluate(f, self.anchor, &offsets, &mut values));
+        loads.for_each(|&f| self.evaluate(f, &offsets, &mut values));
         values.iter().all(|value| value[0].is_finite())
     }
 
@@ -319,6 +322,10 @@ impl Demand<'_> {
         doubt
     }
 
+    fn evaluate(&self, function: u32, offsets: &[Vec2], out: &mut Vec<[f64; 3]>) {
+        self.probes.evaluate(function, (self.anchor, offsets), self.face, out);
+    }
+
     /// The functions at the points of a rule of a part.
     fn samples<P: Part>(&self, part: &P, rules: Rules1d) -> Samples {
         let mut samples = Samples::default();
@@ -327,7 +334,7 @@ impl Demand<'_> {
             samples.weights.push(w);
         });
         for &function in self.active {
-            self.probes.evaluate(function, self.anchor, &samples.offsets, &mut samples.values);
+            self.evaluate(function, &samples.offsets, &mut samples.values);
         }
         samples
     }

@@ -99,12 +99,22 @@ impl Quadrature<'_> {
     /// If there is no such segment.
     #[must_use]
     pub(crate) fn face(&self, cell: &Rect, coverers: &[u32], face: Face) -> Vec<EdgeRule> {
+        self.part_of_face(cell, coverers, face.ends(self.geometry.cracks), face)
+    }
+
+    /// The same along the part of a face between two points of its segment.
+    #[must_use]
+    pub(crate) fn part_of_face(
+        &self,
+        cell: &Rect,
+        coverers: &[u32],
+        part: [Vec2; 2],
+        face: Face,
+    ) -> Vec<EdgeRule> {
         let ends = face.ends(self.geometry.cracks);
         let left = (ends[1] - ends[0]).unit().left();
         let normal = if face.side == Side::Above { -left } else { left };
-        let mut rules = self.edge(cell, coverers, ends, normal);
-        rules.iter_mut().for_each(|rule| rule.face = Some(face));
-        rules
+        self.along(cell, coverers, Line::new(cell.center(), part, normal), Some(face))
     }
 
     /// Rules on the part of a straight segment that belongs to a cell; empty if none does.
@@ -117,16 +127,26 @@ impl Quadrature<'_> {
         &self,
         cell: &Rect,
         coverers: &[u32],
-        [from, to]: [Vec2; 2],
+        ends: [Vec2; 2],
         normal: Vec2,
     ) -> Vec<EdgeRule> {
-        let line = Line::new(cell.center(), [from, to], normal);
+        self.along(cell, coverers, Line::new(cell.center(), ends, normal), None)
+    }
+
+    fn along(
+        &self,
+        cell: &Rect,
+        coverers: &[u32],
+        line: Line,
+        face: Option<Face>,
+    ) -> Vec<EdgeRule> {
         let tolerance = TOLERANCE * cell.size().length();
         let counts = |(lo, hi): &(f64, f64)| hi - lo > tolerance && line.belongs_to(cell);
         let inside = line.inside(cell, line.ends, line.slack).filter(counts);
         let Some((lo, hi)) = inside else { return Vec::new() };
         let left = Cell::new(self.divisions);
-        let mut run = Run { quadrature: self, line, tolerance, cell, rules: Vec::new(), left };
+        let mut run =
+            Run { quadrature: self, line, face, tolerance, cell, rules: Vec::new(), left };
         run.add(lo, hi, coverers);
         run.rules
     }
@@ -223,6 +243,8 @@ impl Line {
 struct Run<'a> {
     quadrature: &'a Quadrature<'a>,
     line: Line,
+    /// The face that the line lies on, if it is on one.
+    face: Option<Face>,
     tolerance: f64,
     cell: &'a Rect,
     rules: Vec<EdgeRule>,
@@ -375,6 +397,7 @@ impl Run<'_> {
             probes: geometry.probes,
             active: &geometry.active_probes(patches),
             anchor,
+            face: self.face,
             curved: false,
             size: self.cell.size().length(),
             points: order.saturating_sub(orders.reserve).max(1),
@@ -383,7 +406,7 @@ impl Run<'_> {
         };
         let same = |r: &EdgeRule| r.anchor == anchor && r.patches == patches;
         let at = self.rules.iter().position(same).unwrap_or_else(|| {
-            self.rules.push(EdgeRule::empty(anchor, patches));
+            self.rules.push(EdgeRule { face: self.face, ..EdgeRule::empty(anchor, patches) });
             self.rules.len() - 1
         });
         let rule = &mut self.rules[at];

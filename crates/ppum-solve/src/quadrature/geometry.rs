@@ -1,5 +1,6 @@
 //! The geometry that decides where integrands are smooth.
 
+use super::edge::Face;
 use super::gauss::MAX_POINTS;
 use ppum::crack::Crack;
 use ppum::dataset::Partition;
@@ -221,8 +222,15 @@ impl fmt::Debug for Kink {
 
 /// Functions that the quadrature may look at to see whether its pieces resolve them.
 pub(crate) trait Probes: Sync {
-    /// Appends \[f, ∂f/∂x, ∂f/∂y\] of one function at each of the points `anchor + offset`.
-    fn evaluate(&self, function: u32, anchor: Vec2, offsets: &[Vec2], out: &mut Vec<[f64; 3]>);
+    /// Appends \[f, ∂f/∂x, ∂f/∂y\] of one function at each of the points `anchor + offset`. Points on a `face` of a crack
+    /// have its side, wherever rounding has put them.
+    fn evaluate(
+        &self,
+        function: u32,
+        points: (Vec2, &[Vec2]),
+        face: Option<Face>,
+        out: &mut Vec<[f64; 3]>,
+    );
 
     /// Of a load the mean of |f| over all that it acts on: integrals of f alone count, and errors that
     /// are small against the load as a whole do not. None for functions of a space and coefficients.
@@ -234,14 +242,26 @@ pub(crate) trait Probes: Sync {
 
 /// No functions.
 impl Probes for () {
-    fn evaluate(&self, _: u32, _: Vec2, offsets: &[Vec2], out: &mut Vec<[f64; 3]>) {
+    fn evaluate(
+        &self,
+        _: u32,
+        (_, offsets): (Vec2, &[Vec2]),
+        _: Option<Face>,
+        out: &mut Vec<[f64; 3]>,
+    ) {
         out.extend(offsets.iter().map(|_| [0.0; 3]));
     }
 }
 
 /// Functions by their place in a list.
 impl<F: Fn(Vec2, Vec2) -> [f64; 3] + Sync> Probes for Vec<F> {
-    fn evaluate(&self, function: u32, anchor: Vec2, offsets: &[Vec2], out: &mut Vec<[f64; 3]>) {
+    fn evaluate(
+        &self,
+        function: u32,
+        (anchor, offsets): (Vec2, &[Vec2]),
+        _: Option<Face>,
+        out: &mut Vec<[f64; 3]>,
+    ) {
         let f = &self[function as usize];
         out.extend(offsets.iter().map(|&x| f(anchor, x)));
     }

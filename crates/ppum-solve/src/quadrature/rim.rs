@@ -136,6 +136,7 @@ impl Quadrature<'_> {
             probes: self.geometry.probes,
             active: &active,
             anchor: rule.anchor,
+            face: None,
             curved: false,
             size: cell.size().length(),
             points: order.saturating_sub(self.orders.reserve).max(1),

@@ -109,6 +109,7 @@ impl Pieces<'_, '_> {
             probes,
             active,
             anchor,
+            face: None,
             curved,
             size: self.size,
             points,

@@ -1,6 +1,6 @@
 //! Functions and coefficients as quadrature looks at them.
 
-use crate::quadrature::Probes;
+use crate::quadrature::{Face, Probes};
 use ppum::crack::{Crack, Side};
 use ppum::formula::{DerivativeError, Formula, Table};
 use ppum::function::{Function, FunctionError, FunctionKind, FunctionTable, GROUP, Slot};
@@ -65,20 +65,24 @@ impl Probe {
     /// Value and gradient at `anchor + offset`.
     pub(crate) fn jet(&self, anchor: Vec2, offset: Vec2) -> [f64; 3] {
         let mut out = Vec::with_capacity(1);
-        self.jets(anchor, &[offset], &mut out);
+        self.jets(anchor, &[offset], None, &mut out);
         out[0]
     }
 
-    /// Appends values and gradients at several points.
-    pub(crate) fn jets(&self, anchor: Vec2, offsets: &[Vec2], out: &mut Vec<[f64; 3]>) {
+    /// Appends values and gradients at several points, which may lie on a face of a crack.
+    fn jets(&self, anchor: Vec2, offsets: &[Vec2], face: Option<Face>, out: &mut Vec<[f64; 3]>) {
         match self {
             Self::Function { table, cracks } => {
                 let Slot::Jet { group, entry } = table.of(0) else { return };
-                let seen = table.at(cracks, anchor);
+                let seen = match face {
+                    Some(Face { segment, .. }) => table.on(cracks, segment, anchor),
+                    None => table.at(cracks, anchor),
+                };
+                let side = face.map_or(Side::Above, |face| face.side);
                 out.extend(offsets.iter().map(|offset| {
                     let mut jets = [Jet::constant(0.0); GROUP];
                     let place = [offset.x, offset.y];
-                    seen.evaluate::<f64, 1>(group as usize, place, Side::Above, &mut jets);
+                    seen.evaluate::<f64, 1>(group as usize, place, side, &mut jets);
                     let jet = jets[entry as usize];
                     [jet.v, jet.x, jet.y]
                 }));
@@ -103,8 +107,14 @@ impl Probe {
 pub(super) struct ProbeList(pub(super) Vec<Probe>);
 
 impl Probes for ProbeList {
-    fn evaluate(&self, function: u32, anchor: Vec2, offsets: &[Vec2], out: &mut Vec<[f64; 3]>) {
-        self.0[function as usize].jets(anchor, offsets, out);
+    fn evaluate(
+        &self,
+        function: u32,
+        (anchor, offsets): (Vec2, &[Vec2]),
+        face: Option<Face>,
+        out: &mut Vec<[f64; 3]>,
+    ) {
+        self.0[function as usize].jets(anchor, offsets, face, out);
     }
 
     fn load(&self, function: u32) -> Option<f64> {

@@ -283,6 +283,7 @@ fn strips_are_divided_where_a_curve_bends() {
         probes: &(),
         active: &[],
         anchor: Vec2::ZERO,
+        face: None,
         curved: true,
         size: 1.0,
         points: 5,
