@@ -35,21 +35,32 @@ impl<T: Scalar> Job<T> for Run<'_, T> {
     #[inline(always)]
     fn run<R: Real<Scalar = T>>(self, zero: R) {
         let (registers, _) = R::arrays_mut(self.registers).as_chunks_mut();
-        let mut machine = Machine { tape: self.tape, registers, zero };
-        for step in &self.tape.steps {
-            machine.run(step);
+        let mut part = 0;
+        while part < Machine::<R>::PARTS {
+            let registers = &mut registers[part..];
+            let mut machine = Machine { tape: self.tape, registers, zero };
+            for step in &self.tape.steps {
+                machine.run(step);
+            }
+            part += 1;
         }
     }
 }
 
-/// The numbers of a register.
+/// The numbers of a register, or of a part of it.
 type Register<R> = [<R as Real>::Array; VECTORS];
 
-/// A tape with its registers.
+/// A tape with its registers, from the first of their parts on that it computes.
 struct Machine<'r, R: Real> {
     tape: &'r Tape,
     registers: &'r mut [Register<R>],
     zero: R,
+}
+
+impl<R: Real> Machine<'_, R> {
+    /// Parts of a register that are computed one after the other: without vectors a block has more points than
+    /// [`VECTORS`].
+    const PARTS: usize = R::Scalar::VECTOR / R::LANES;
 }
 
 /// A function of `N` numbers on lanes.
@@ -73,7 +84,7 @@ struct Each<R> {
 impl<R: Real> Operand<R> for Each<R> {
     #[inline(always)]
     fn at(self, registers: &[Register<R>], k: usize) -> R {
-        self.zero.load_array(&registers[self.register][k])
+        self.zero.load_array(&registers[self.register * Machine::<R>::PARTS][k])
     }
 }
 
@@ -353,6 +364,6 @@ impl<R: Real> Machine<'_, R> {
 
     #[inline(always)]
     fn store(&mut self, value: R, step: &Step, k: usize) {
-        value.store_array(&mut self.registers[step.to as usize][k]);
+        value.store_array(&mut self.registers[step.to as usize * Self::PARTS][k]);
     }
 }

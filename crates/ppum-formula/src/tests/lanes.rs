@@ -5,7 +5,7 @@ use super::{Formula, FormulaJets, Scope, WESTERGAARD, polar, same};
 use crate::graph::Op;
 use crate::lanes::{GREATEST_SQUARE, LEAST_SQUARE};
 use crate::operation::Binary;
-use crate::real::Scalar;
+use crate::real::{Scalar, narrowed};
 use crate::{Block, Scratch, Table};
 use ppum_testkit::random::Random;
 
@@ -47,8 +47,18 @@ fn parse(texts: &[&str], scope: &Scope) -> Vec<Formula> {
     texts.iter().map(|text| Formula::parse(text, scope).expect("valid")).collect()
 }
 
-/// The outputs at each point, by blocks.
+/// The outputs at each point, which are the same on processors without vectors, to the last bit.
 fn on_lanes<T: Scalar, const N: usize>(jets: &FormulaJets, points: &[[f64; N]]) -> Vec<Vec<T>> {
+    let results: Vec<Vec<T>> = by_blocks(jets, points);
+    let narrow = narrowed(|| by_blocks::<T, N>(jets, points));
+    for (a, b) in results.iter().flatten().zip(narrow.iter().flatten()) {
+        assert!(same(a.to_f64(), b.to_f64()), "{a:?} on vectors, {b:?} without");
+    }
+    results
+}
+
+/// The outputs at each point, by blocks.
+fn by_blocks<T: Scalar, const N: usize>(jets: &FormulaJets, points: &[[f64; N]]) -> Vec<Vec<T>> {
     let mut scratch = Scratch::default();
     let mut block = jets.block(&mut scratch);
     let mut results = Vec::new();

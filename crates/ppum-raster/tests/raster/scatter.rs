@@ -9,7 +9,7 @@ use ppum::domain::Hole;
 use ppum::field::Field;
 use ppum::progress::{Cancelled, Phase, Progress, Verdict, unwatched};
 use ppum::quantity::{Axis, Quantity, QuantityError, Source};
-use ppum::real::Scalar;
+use ppum::real::{Scalar, narrowed};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_raster::RenderError;
@@ -105,12 +105,25 @@ fn compare(field: &Field, view: &View, quantity: &Quantity) -> [f64; 3] {
     let gradient = by_gradient.then(|| slow(&Quantity::GradientNorm));
     let mean = gradient.as_ref().map_or(0.0, |g| g.statistics().mean);
     let scale = Scale { values: slow(quantity), gradient, floor: 0.1 * mean };
-    let wide = render::<f64>(field, view, quantity, unwatched()).expect("a quantity");
-    let narrow = render::<f32>(field, view, quantity, unwatched()).expect("a quantity");
-    let (wide, narrow) = (differences(&wide, &scale), differences(&narrow, &scale));
+    let wide = of_all_processors::<f64>(field, view, quantity, &scale);
+    let narrow = of_all_processors::<f32>(field, view, quantity, &scale);
     let found = [quantile(&wide, 1.0), quantile(&narrow, 0.99), quantile(&narrow, 1.0)];
     println!("{quantity:?} width {:e}: {found:?}", view.width);
     found
+}
+
+/// The differences with the vectors of this processor, and with those of any other: the larger ones.
+fn of_all_processors<T: Sample>(
+    field: &Field,
+    view: &View,
+    quantity: &Quantity,
+    scale: &Scale,
+) -> Vec<f64> {
+    let draw = || render::<T>(field, view, quantity, unwatched()).expect("a quantity");
+    // what holds for a thread holds for all of this pool
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let [own, other] = [draw(), alone.install(|| narrowed(draw))].map(|r| differences(&r, scale));
+    own.iter().zip(other).map(|(a, b)| a.max(b)).collect()
 }
 
 fn agree(dataset: &Dataset, view: &View, quantities: &[Quantity]) {
