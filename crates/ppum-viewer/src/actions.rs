@@ -79,6 +79,8 @@ pub enum Action {
     SaveSessionAs,
     /// Solve the problem of the text.
     Solve,
+    /// Solve an example, by its number.
+    Example(usize),
     /// Stop solving.
     CancelSolving,
     /// Write the problem's text to its file.

@@ -35,6 +35,11 @@ impl<T: Clone + PartialEq> Undo<T> {
         }
     }
 
+    /// The state that a step back, or forward, leads to.
+    pub fn next(&self, back: bool) -> Option<&T> {
+        if back { self.past.last() } else { self.future.last() }
+    }
+
     /// The state before, if there is one.
     pub fn back(&mut self) -> Option<&T> {
         let before = self.past.pop()?;

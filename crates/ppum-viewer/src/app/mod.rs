@@ -45,6 +45,9 @@ pub struct Viewer {
     /// What is about to be closed with a solution that is not saved.
     #[cfg(feature = "solve")]
     parting: parting::Question,
+    /// The dataset that is to make place for the solution that is computed.
+    #[cfg(feature = "solve")]
+    replaced: Option<Arc<Dataset>>,
     /// Files that were read and are not shown yet.
     #[cfg(feature = "solve")]
     waiting: std::collections::VecDeque<crate::files::read::Arrived>,
@@ -89,6 +92,8 @@ impl Viewer {
             solving: crate::solving::Solving::new(ctx),
             #[cfg(feature = "solve")]
             parting: parting::Question::default(),
+            #[cfg(feature = "solve")]
+            replaced: None,
             #[cfg(feature = "solve")]
             waiting: std::collections::VecDeque::new(),
             palette: None,
@@ -185,16 +190,24 @@ impl Viewer {
     /// One view, or two side by side.
     pub(crate) fn split(&mut self, ctx: &egui::Context) {
         if self.session.panes.len() == 2 {
-            self.session.subtract(false);
-            self.session.panes.truncate(1);
-            self.stages.truncate(1);
-            self.session.active = 0;
+            #[cfg(feature = "solve")]
+            self.part(ctx, parting::Parting::Pane(1));
+            #[cfg(not(feature = "solve"))]
+            self.merge(1);
         } else {
             self.session.panes.push(self.session.panes[0].clone());
             let mut stage = Stage::new(ctx, self.backend);
             stage.opened.clone_from(&self.stages[0].opened);
             self.stages.push(stage);
         }
+    }
+
+    /// Takes one of two views away.
+    pub(crate) fn merge(&mut self, pane: usize) {
+        self.session.subtract(false);
+        self.session.panes.remove(pane);
+        self.stages.remove(pane);
+        self.session.active = 0;
     }
 
     /// The difference of two views, of which the second one is made if there is none, or its own values.
@@ -209,15 +222,33 @@ impl Viewer {
         }
     }
 
-    /// Goes a step back or forward in the settings; places stay where they are.
+    /// Goes a step back or forward in the settings, or asks first if a view with a solution is to go.
     pub(crate) fn restore(&mut self, ctx: &egui::Context, back: bool) {
         // a change that is not yet at rest is a step too
         self.settings.note(&self.session.settings());
+        #[cfg(feature = "solve")]
+        if self.takes_view(back) {
+            return self.part(ctx, parting::Parting::View(back));
+        }
+        self.take_settings(ctx, back);
+    }
+
+    /// True if a step back or forward in the settings takes the second view away.
+    #[cfg(feature = "solve")]
+    pub(crate) fn takes_view(&self, back: bool) -> bool {
+        let next = self.settings.next(back);
+        next.is_some_and(|state| state.panes.len() < self.session.panes.len())
+    }
+
+    /// Goes a step back or forward in the settings; places stay where they are.
+    pub(crate) fn take_settings(&mut self, ctx: &egui::Context, back: bool) {
         let state = if back { self.settings.back() } else { self.settings.forward() };
         let Some(mut state) = state.cloned() else { return };
         state.take_places(&self.session);
-        if state.panes.len() != self.session.panes.len() {
-            self.split(ctx);
+        match state.panes.len() {
+            count if count < self.session.panes.len() => self.merge(1),
+            count if count > self.session.panes.len() => self.split(ctx),
+            _ => {}
         }
         self.rest = Rest::new(state.settings());
         self.session = state;

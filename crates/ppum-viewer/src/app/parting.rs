@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use egui::{Context, Id, Key, Modal, Modifiers, Ui, ViewportCommand};
+use ppum::dataset::Dataset;
 
 use crate::app::Viewer;
 use crate::files::examples;
@@ -19,6 +20,10 @@ pub enum Parting {
     Window,
     /// What lies where the first file is to be shown that waits for it.
     Arrival,
+    /// The second view, by a step back (or forward) in the settings, if that takes it.
+    View(bool),
+    /// What the active view shows, for the solution of the problem that is written, or of an example, by its number.
+    Solve(Option<usize>),
 }
 
 /// How far one has come with it.
@@ -73,8 +78,23 @@ impl Viewer {
     fn close_at_last(&mut self, ctx: &Context, parting: Parting) {
         self.parting = Question::None;
         match parting {
-            Parting::Pane(pane) if pane < self.session.panes.len() => self.close(pane),
+            Parting::Pane(pane) if pane < self.session.panes.len() => {
+                self.solving.leave_pane(pane);
+                self.close(pane);
+            }
             Parting::Pane(_) => {}
+            Parting::View(back) => {
+                if self.takes_view(back) {
+                    self.solving.leave_pane(1);
+                }
+                self.take_settings(ctx, back);
+            }
+            Parting::Solve(example) => {
+                let active = self.session.active;
+                let opened = self.stages[active].opened.as_ref().filter(|_| !self.is_twice(active));
+                self.replaced = opened.map(|opened| Arc::clone(&opened.dataset));
+                self.solve(example);
+            }
             Parting::Window => {
                 self.parting = Question::LetGo;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
@@ -115,25 +135,67 @@ impl Viewer {
         solution.or(self.is_still_solving(parting).then_some(Loss::Work))
     }
 
-    /// True if the solver works, and would not any more.
+    /// True if the solver works, and would not any more, or for nobody.
     fn is_still_solving(&self, parting: Parting) -> bool {
-        parting == Parting::Window && self.solving.running().is_some()
+        let Some(running) = self.solving.running() else { return false };
+        match parting {
+            Parting::Window | Parting::Solve(_) => true,
+            Parting::Pane(pane) => running.pane() == pane,
+            Parting::View(back) => self.takes_view(back) && running.pane() == 1,
+            Parting::Arrival => false,
+        }
+    }
+
+    /// True if something is asked, or the answer was that all may be lost.
+    #[must_use]
+    pub fn is_asking(&self) -> bool {
+        self.parting != Question::None
+    }
+
+    /// True if a dataset of a view has no file and cannot be had again at once, as examples can.
+    #[must_use]
+    pub fn is_unsaved(&self, pane: usize) -> bool {
+        self.stages.get(pane).and_then(|stage| stage.opened.as_ref()).is_some_and(is_unsaved)
+    }
+
+    /// True if the dataset of a view is to make place for the solution that is computed: that was asked for.
+    #[must_use]
+    pub fn is_given_up(&self, pane: usize) -> bool {
+        let opened = self.stages.get(pane).and_then(|stage| stage.opened.as_ref());
+        let is_it =
+            |replaced: &Arc<Dataset>| opened.is_some_and(|o| Arc::ptr_eq(replaced, &o.dataset));
+        self.replaced.as_ref().is_some_and(is_it)
+    }
+
+    /// The view for a solution: that for which it was computed, another one if a solution has come there meanwhile.
+    pub(super) fn free_pane(&mut self, ctx: &Context, pane: usize) -> usize {
+        let pane = pane.min(self.stages.len() - 1);
+        let is_meant = self.is_given_up(pane);
+        self.replaced = None;
+        if is_meant || !self.is_unsaved(pane) || self.is_twice(pane) {
+            return pane;
+        }
+        if self.stages.len() == 1 {
+            self.split(ctx);
+        }
+        1 - pane
     }
 
     /// A pane whose solution would be lost.
     fn solution_lost_with(&self, parting: Parting) -> Option<usize> {
-        let is_unsaved = |pane: &usize| {
-            let opened = self.stages.get(*pane).and_then(|stage| stage.opened.as_ref());
-            opened.is_some_and(is_unsaved)
-        };
         let mut panes = match parting {
             Parting::Window => 0..self.stages.len(),
             Parting::Pane(pane) => pane..pane + 1,
+            Parting::View(back) if self.takes_view(back) => 1..2,
+            Parting::View(_) => 0..0,
+            // who changes a problem and solves it again, many times, wants the new solution
+            Parting::Solve(None) => 0..0,
+            Parting::Solve(Some(_)) => self.session.active..self.session.active + 1,
             Parting::Arrival => self.waiting.front().map_or(0..0, |first| self.taken_by(first)),
         };
         // of one dataset in two views one may go
         let is_one = panes.len() == 1;
-        panes.find(|pane| is_unsaved(pane) && !(is_one && self.is_twice(*pane)))
+        panes.find(|pane| self.is_unsaved(*pane) && !(is_one && self.is_twice(*pane)))
     }
 
     /// True if the other view has the same dataset.
@@ -205,13 +267,16 @@ fn is_unsaved(opened: &Opened) -> bool {
 }
 
 const UNSAVED: &str = "The solution is not saved.";
+const SOLVING: &str = "A problem is being solved.";
 
 /// Shows the question; what is answered.
 fn ask(ui: &Ui, parting: Parting, loss: Loss) -> Option<Answer> {
     let (text, save, without) = match (loss, parting) {
-        (Loss::Work, _) => ("A problem is being solved.", None, "Stop and close"),
+        (Loss::Work, Parting::Solve(_)) => (SOLVING, None, "Stop and solve this one"),
+        (Loss::Work, _) => (SOLVING, None, "Stop and close"),
         (_, Parting::Arrival) => (UNSAVED, Some("Save…"), "Open without saving"),
-        (_, Parting::Pane(_) | Parting::Window) => (UNSAVED, Some("Save…"), "Close without saving"),
+        (_, Parting::Solve(_)) => (UNSAVED, Some("Save…"), "Solve without saving"),
+        _ => (UNSAVED, Some("Save…"), "Close without saving"),
     };
     let mut answer = None;
     let shown = Modal::new(Id::unique("parting")).show(ui.ctx(), |ui| {

@@ -10,9 +10,10 @@ use crate::actions::Action;
 use crate::app::Viewer;
 use crate::app::parting::Parting;
 use crate::files::dialog::Purpose;
+use crate::files::examples::{self, Example};
 use crate::files::read::{Arrived, Content, Why};
 use crate::files::watch::{Stamp, stamp};
-use crate::files::{What, Written, examples, name, session_file};
+use crate::files::{What, Written, name, session_file};
 use crate::panels::drawer::problem::editor_id;
 use crate::plate;
 use crate::player;
@@ -40,7 +41,7 @@ impl Viewer {
             self.read_again(&path);
         }
         if let Some(solved) = self.solving.poll() {
-            self.show_solved(solved);
+            self.show_solved(&ctx, solved);
         }
         for written in self.files.written() {
             self.wrote(written);
@@ -121,7 +122,8 @@ impl Viewer {
                 None => self.ask_session(),
             },
             Action::SaveSessionAs => self.ask_session(),
-            Action::Solve => self.solve(),
+            Action::Solve => self.part(ctx, Parting::Solve(None)),
+            Action::Example(number) => self.part(ctx, Parting::Solve(Some(number))),
             Action::CancelSolving => self.solving.cancel(),
             Action::SaveProblem => self.save_problem(),
             Action::SaveProblemAs => self.ask_problem(),
@@ -136,6 +138,9 @@ impl Viewer {
 
     /// Asks for the name of a dataset's file: its own, or that of the problem.
     pub(crate) fn ask_dataset(&mut self, pane: usize) {
+        if self.stages[pane].opened.is_none() {
+            return self.files.tell(Path::new(""), NOTHING_TO_SAVE, true);
+        }
         let file = self.session.panes[pane].file.clone();
         let near = file.or_else(|| self.name_of_solution(pane));
         self.files.ask(Purpose::SaveDataset(pane), near.as_deref());
@@ -173,7 +178,13 @@ impl Viewer {
         }
     }
 
-    fn solve(&mut self) {
+    /// Solves the problem of the text, or an example in its place; what the active view shows makes place for the solution.
+    pub(super) fn solve(&mut self, example: Option<usize>) {
+        if let Some(example) = example.and_then(|k| examples::ALL.get(k))
+            && !self.take_example(example)
+        {
+            return;
+        }
         let (_, stage) = (&self.session, &self.stages[self.session.active]);
         let dataset = stage.opened.as_ref().map(|opened| Arc::clone(&opened.dataset));
         if self.session.draft.is_none()
@@ -188,6 +199,24 @@ impl Viewer {
         }
     }
 
+    /// Takes the text of an example, with the files that it names in a folder; tells it if these cannot be put there.
+    fn take_example(&mut self, example: &Example) -> bool {
+        let own = self.files.folder().map_or_else(std::env::temp_dir, Path::to_owned);
+        match example.folder(&own) {
+            Ok(folder) => {
+                self.shelve();
+                let text = example.text.to_owned();
+                self.solving.begin(Some(text.clone()), None);
+                self.session.draft = Some(Draft { path: None, folder, text });
+                true
+            }
+            Err(error) => {
+                self.files.tell(&own, format!("the example cannot be put there: {error}"), true);
+                false
+            }
+        }
+    }
+
     /// A changed text that makes place for another one can be had back.
     fn shelve(&mut self) {
         if let Some(draft) = self.session.draft.clone().filter(|d| self.solving.is_changed(d)) {
@@ -199,10 +228,7 @@ impl Viewer {
     pub fn close(&mut self, pane: usize) {
         self.player.is_playing = false;
         if self.session.panes.len() > 1 {
-            self.session.subtract(false);
-            self.session.panes.remove(pane);
-            self.stages.remove(pane);
-            self.session.active = 0;
+            self.merge(pane);
         } else {
             self.session.panes[pane] = Pane::default();
             self.stages[pane].opened = None;
@@ -232,8 +258,9 @@ impl Viewer {
             Purpose::SaveProblem => self.write_problem(path),
             Purpose::SaveDataset(pane) => {
                 let opened = self.stages.get(pane).and_then(|stage| stage.opened.as_ref());
-                if let Some(opened) = opened {
-                    self.files.write_dataset(path, pane, Arc::clone(&opened.dataset));
+                match opened.map(|opened| Arc::clone(&opened.dataset)) {
+                    Some(dataset) => self.files.write_dataset(path, pane, dataset),
+                    None => self.files.tell(&path, NOTHING_TO_SAVE, true),
                 }
             }
         }
@@ -403,8 +430,8 @@ impl Viewer {
     }
 
     /// Shows what was solved; the view is kept if the plate has the same place.
-    fn show_solved(&mut self, Solved { pane, dataset }: Solved) {
-        let number = pane.min(self.session.panes.len() - 1);
+    fn show_solved(&mut self, ctx: &egui::Context, Solved { pane, dataset }: Solved) {
+        let number = self.free_pane(ctx, pane);
         let (pane, stage) = (&mut self.session.panes[number], &mut self.stages[number]);
         pane.file = None;
         // what was a series may be one step now
@@ -425,6 +452,8 @@ impl Viewer {
         }
     }
 }
+
+const NOTHING_TO_SAVE: &str = "Nothing is saved: this view shows no dataset. Choose the view that shows it by a click, or solve the problem first";
 
 /// A name for a file: the letters and digits of a title.
 fn plain_name(title: &str) -> Option<String> {

@@ -7,10 +7,9 @@ use egui::{Align2, Area, Frame, Id, Label, Order, ProgressBar, RichText, ScrollA
 
 use crate::actions::Action;
 use crate::desk::Desk;
-use crate::files::examples::{self, Example};
+use crate::files::examples;
 use crate::files::name;
 use crate::files::read::{Reading, Why};
-use crate::session::{Draft, Page};
 use crate::widgets::button;
 
 /// The menu.
@@ -32,9 +31,9 @@ pub fn menu(ui: &mut Ui, desk: &mut Desk<'_>) {
         ui.separator();
         ui.menu_button("Recent files", |ui| recent(ui, desk));
         ui.menu_button("Examples", |ui| {
-            for example in &examples::ALL {
+            for (k, example) in examples::ALL.iter().enumerate() {
                 if ui.button(example.title()).clicked() {
-                    open_example(desk, example);
+                    desk.actions.push(Action::Example(k));
                 }
             }
         });
@@ -53,23 +52,6 @@ pub fn recent(ui: &mut Ui, desk: &mut Desk<'_>) {
             desk.files.open(&path, desk.session.active, Why::Opened);
         }
     }
-}
-
-/// Opens an example's problem and solves it.
-pub fn open_example(desk: &mut Desk<'_>, example: &Example) {
-    let own = desk.files.folder().map_or_else(std::env::temp_dir, std::path::Path::to_owned);
-    let folder = match example.folder(&own) {
-        Ok(folder) => folder,
-        Err(error) => {
-            desk.files.tell(&own, format!("the example cannot be put there: {error}"), true);
-            return;
-        }
-    };
-    let draft = Draft { path: None, folder, text: example.text.to_owned() };
-    desk.solving.begin(Some(draft.text.clone()), None);
-    desk.solving.solve(&draft, desk.session.active);
-    desk.session.draft = Some(draft);
-    desk.session.drawer = Some(Page::Problem);
 }
 
 /// What is being read, and what is told of files: over the plate's upper edge, so that nothing moves for it.

@@ -2,7 +2,6 @@
 
 use egui::{RichText, ScrollArea, Ui};
 
-use super::files;
 use crate::actions::Action;
 use crate::desk::Desk;
 use crate::files::examples;
@@ -45,7 +44,7 @@ fn page(ui: &mut Ui, desk: &mut Desk<'_>) {
     egui::Grid::new("examples").num_columns(columns).spacing([16.0, 6.0]).show(ui, |ui| {
         for (k, example) in examples::ALL.iter().enumerate() {
             if ui.button(example.title()).clicked() {
-                files::open_example(desk, example);
+                desk.actions.push(Action::Example(k));
             }
             if (k + 1) % columns == 0 {
                 ui.end_row();

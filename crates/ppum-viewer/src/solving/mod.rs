@@ -222,6 +222,14 @@ impl Solving {
         }
     }
 
+    /// A view goes: what is computed for it is given up, and those after it have another number.
+    pub fn leave_pane(&mut self, pane: usize) {
+        self.running = self.running.take().filter(|running| running.pane != pane);
+        if let Some(running) = self.running.as_mut().filter(|running| running.pane > pane) {
+            running.pane -= 1;
+        }
+    }
+
     /// The solution that is being computed.
     #[must_use]
     pub fn running(&self) -> Option<&Running> {
@@ -280,6 +288,12 @@ fn warnings_of(dataset: &Dataset) -> Vec<String> {
 }
 
 impl Running {
+    /// The view that it is for.
+    #[must_use]
+    pub fn pane(&self) -> usize {
+        self.pane
+    }
+
     /// Seconds since it began.
     #[must_use]
     pub fn seconds(&self) -> f64 {

@@ -12,6 +12,7 @@ use ppum::progress::unwatched;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use ppum_viewer::Viewer;
+use ppum_viewer::actions::{ALL, Action};
 use ppum_viewer::session::Place;
 use ppum_viewer::solving::Outcome;
 use ppum_viewer::window::Start;
@@ -391,6 +392,51 @@ fn no_solution_is_lost_without_a_word() {
     });
     assert!(closes(&mut lab), "{}", lab.notes());
     assert_eq!(ppum_format::read(&lab.path("plate.h5")).expect("a dataset"), *solved);
+}
+
+/// Whatever is done by a key, a menu or the palette: a solution that no file has, and one that is computed, go by no action alone.
+#[test]
+fn no_action_loses_a_solution_unasked() {
+    let mut lab = lab(&text(2));
+    let (ctx, other) = (lab.window.ctx.clone(), lab.write("other.h5", &plate()));
+    lab.open(&other);
+    lab.window.key_press(Key::V);
+    lab.settle();
+    lab.state().session.active = 1;
+    lab.state().act(&ctx, Action::Solve);
+    lab.settle();
+    let solved = lab.dataset(1).expect("it is solved on the right");
+    *draft(&mut lab) = growing(1e-5, 8000);
+    lab.state().act(&ctx, Action::Solve);
+    lab.window.run_steps(2);
+    let all = ALL.iter().map(|entry| entry.action).chain([Action::Example(0)]);
+    let all = all.filter(|action| *action != Action::CancelSolving);
+    // there and back: some show what others hide
+    for action in all.clone().chain(all.clone()) {
+        lab.state().session.active = 1;
+        lab.state().act(&ctx, action);
+        lab.window.run_steps(1);
+        let running = lab.viewer().solving.running();
+        assert!(running.is_some_and(|running| !running.is_cancelled()), "{action:?}: stopped");
+        let is_there = |pane: usize| lab.dataset(pane).is_some_and(|d| Arc::ptr_eq(&d, &solved));
+        assert!((0..lab.viewer().stages.len()).any(is_there), "{action:?}: lost");
+        for _ in 0..4 {
+            lab.window.key_press(Key::Escape);
+            lab.window.step();
+        }
+    }
+    lab.state().act(&ctx, Action::CancelSolving);
+    lab.settle();
+}
+
+/// What shows nothing is not saved, and that is told.
+#[test]
+fn saving_nothing_is_an_error() {
+    let mut lab = Lab::new();
+    let ctx = lab.window.ctx.clone();
+    lab.state().act(&ctx, Action::SaveDataset);
+    lab.window.run_steps(1);
+    assert!(lab.notes().contains("Nothing is saved"), "{}", lab.notes());
 }
 
 #[test]

@@ -162,7 +162,8 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
     }
     let is_solved = matches!(desk.solving.outcome, Some(Outcome::Solved(..)));
     let opened = &desk.active().1.opened;
-    let is_unsaved = opened.as_ref().is_some_and(|opened| opened.path.is_none());
+    let (can_save, opened) = (opened.is_some(), opened.as_ref());
+    let is_unsaved = opened.is_some_and(|opened| opened.path.is_none());
     match &desk.solving.outcome {
         None => {}
         Some(Outcome::Cancelled(0)) => {
@@ -171,7 +172,7 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
         Some(Outcome::Cancelled(steps)) => {
             ui.horizontal_wrapped(|ui| {
                 ui.label(format!("Cancelled. The {steps} steps before are shown."));
-                save(ui, desk.actions);
+                save(ui, can_save, desk.actions);
             });
         }
         Some(Outcome::Failed(error)) => {
@@ -180,7 +181,7 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
         Some(Outcome::Solved(seconds, warnings)) => {
             ui.horizontal_wrapped(|ui| {
                 ui.label(format!("Solved in {} s.", trimmed((10.0 * seconds).round() / 10.0)));
-                save(ui, desk.actions);
+                save(ui, can_save, desk.actions);
             });
             for warning in warnings {
                 ui.colored_label(ui.visuals().warn_fg_color, format!("⚠ {warning}"));
@@ -190,13 +191,13 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
     if is_unsaved && !is_solved {
         ui.horizontal_wrapped(|ui| {
             ui.label("What is shown is not saved.");
-            save(ui, desk.actions);
+            save(ui, can_save, desk.actions);
         });
     }
 }
 
-fn save(ui: &mut Ui, actions: &mut Vec<Action>) {
-    if ui.button("Save the dataset…").clicked() {
+fn save(ui: &mut Ui, can_save: bool, actions: &mut Vec<Action>) {
+    if can_save && ui.button("Save the dataset…").clicked() {
         actions.push(Action::SaveDataset);
     }
 }

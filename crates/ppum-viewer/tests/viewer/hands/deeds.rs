@@ -337,6 +337,7 @@ impl Hands {
             return;
         }
         self.lab.begin_again(Start::default());
+        self.eyes.forget();
     }
 }
 

@@ -1,10 +1,12 @@
 //! What is looked at after everything that hands do.
 
-use std::sync::{LazyLock, Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
 use egui::Shape;
+use ppum::dataset::Dataset;
 use ppum_testkit::processor::thread_time;
+use ppum_viewer::Viewer;
 use ppum_viewer::frames::Fault;
 
 use crate::lab::Lab;
@@ -16,6 +18,11 @@ pub(super) struct Eyes {
     /// Memory in MB, from time to time.
     memory: Vec<f64>,
     frames: usize,
+    /// Solutions that no file had when they were last seen, but for those that were given up.
+    unsaved: Vec<Weak<Dataset>>,
+    /// True if a problem was being solved, and if something was asked.
+    was_solving: bool,
+    was_asking: bool,
 }
 
 /// Pictures whose times are kept.
@@ -34,7 +41,15 @@ static PANICS: LazyLock<Mutex<Vec<String>>> = LazyLock::new(|| {
 impl Eyes {
     pub(super) fn new() -> Self {
         LazyLock::force(&PANICS);
-        Self { longest: Vec::new(), memory: Vec::new(), frames: 0 }
+        let (unsaved, was_solving, was_asking) = (Vec::new(), false, false);
+        Self {
+            longest: Vec::new(),
+            memory: Vec::new(),
+            frames: 0,
+            unsaved,
+            was_solving,
+            was_asking,
+        }
     }
 
     /// Looks at the window that was just shown.
@@ -57,7 +72,33 @@ impl Eyes {
             let is_ours = failure.is_some_and(|failure| failure.fault == Fault::Program);
             assert!(!is_ours, "{doing}: {:?}", viewer.session);
         }
+        self.look_for_losses(viewer, doing);
         self.check_panics();
+    }
+
+    /// No solution goes, and no solver is stopped, unless that was asked for.
+    fn look_for_losses(&mut self, viewer: &Viewer, doing: &str) {
+        let opened = |k: usize| viewer.stages[k].opened.as_ref().map(|opened| &opened.dataset);
+        let is_there = |weak: &Weak<Dataset>| {
+            (0..viewer.stages.len())
+                .filter_map(opened)
+                .any(|there| weak.as_ptr() == Arc::as_ptr(there))
+        };
+        let is_lost = !self.was_asking && !self.unsaved.iter().all(is_there);
+        assert!(!is_lost, "{doing}: a solution is lost");
+        let solving = &viewer.solving;
+        let has_ended = solving.running().is_some() || solving.outcome.is_some();
+        let is_stopped = !self.was_asking && self.was_solving && !has_ended;
+        assert!(!is_stopped, "{doing}: a solver is stopped");
+        let all = 0..viewer.stages.len();
+        let kept = all.filter(|&k| viewer.is_unsaved(k) && !viewer.is_given_up(k));
+        self.unsaved = kept.filter_map(opened).map(Arc::downgrade).collect();
+        (self.was_solving, self.was_asking) = (solving.running().is_some(), viewer.is_asking());
+    }
+
+    /// The window is closed, and everything with it.
+    pub(super) fn forget(&mut self) {
+        (self.unsaved, self.was_solving) = (Vec::new(), false);
     }
 
     pub(super) fn check_panics(&self) {

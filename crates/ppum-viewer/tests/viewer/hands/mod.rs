@@ -100,6 +100,9 @@ impl Hands {
         }
         self.lab.open(&first);
         assert!(self.lab.dataset(0).is_some(), "{}", self.lab.notes());
+        // what was there may have been a solution that no file has
+        self.lab.window.key_press(Key::Escape);
+        self.show();
         assert!(!ctx.egui_wants_keyboard_input(), "something keeps the keys");
         let panels = self.lab.viewer().session.panels;
         self.lab.window.key_press(Key::Tab);
