@@ -5,6 +5,7 @@
 //! again from a dataset, with the stress intensity factors.
 
 mod corners;
+mod curves;
 mod digits;
 pub mod effort;
 mod faces;
@@ -71,6 +72,8 @@ pub mod kind {
     pub const NEAR_INTERFACE: &str = "near-interface";
     /// The factors at the radii of a tip differ.
     pub const SPREAD: &str = "spread";
+    /// T is that of the segments of a crack that may be meant as a curve.
+    pub const CURVE: &str = "curve";
     /// A tip is close to the border, measured by the length of its crack.
     pub const TIP_NEAR_BORDER: &str = "tip-near-border";
     /// A crack is as long as a few cells only.

@@ -1,5 +1,6 @@
 //! Warnings about tips and their stress intensity factors.
 
+use super::curves::of_curve;
 use super::{LARGE_ERROR, kind, short, warning};
 use crate::geometry::AMPLE_CLEARANCE;
 use crate::intensity::{Obstacle, Outcome};
@@ -28,15 +29,17 @@ const LEAST_CELLS: f64 = 4.0;
 /// The warnings about the tips of a step, whose cracks these are.
 pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack], places: &Places) -> Vec<Warning> {
     let of_tip = |outcome: &Outcome| {
-        let length = cracks[outcome.tip.crack as usize].length();
+        let crack = &cracks[outcome.tip.crack as usize];
+        let length = crack.length();
         let at = &places.show(outcome.at);
         let about_factors = match &outcome.factors {
             Some(factors) => [
                 negative(outcome, factors, at),
                 spread(outcome, factors, at),
                 unresolved(outcome, at, &places.show(outcome.doubt.at)),
+                of_curve(outcome, factors, crack, at),
             ],
-            None => [Some(no_room(outcome, at)), None, None],
+            None => [Some(no_room(outcome, at)), None, None, None],
         };
         let about_place = [
             little_room(outcome, at),
