@@ -9,8 +9,9 @@
 //! dozens of such points. A valley that is narrower than the 7° between two places of a ring may be missed, or not followed to its end.
 //!
 //! Only places are refined that may still hold the extremum by what their neighbours say, and boundaries have a sample for eight
-//! pixels of the picture at most, together: the search takes a part of what drawing takes. Many boundaries are sampled less
-//! densely, and where there are too many for that, or too many points that may be singular, the pixels decide, [`On::Pixel`].
+//! pixels of a large picture at most, together: the search takes a part of what drawing takes. Many boundaries are sampled less
+//! densely, and where there are too many for that, or too many points that may be singular, whatever the number of pixels, the pixels
+//! decide, [`On::Pixel`].
 //!
 //! A quantity that has one value all over the plate, but for rounding, has it everywhere, [`On::Everywhere`].
 //!
@@ -30,6 +31,7 @@ use std::fmt;
 
 use ppum::crack::{SegmentId, Side};
 use ppum::field::{Field, LocalField};
+use ppum::function::Slot;
 use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, QuantityGradient};
 use ppum::vec2::{Rect, Vec2};
@@ -48,9 +50,13 @@ pub use singular::{Singular, SingularKind};
 const STARTS: usize = 32;
 const ROUND: usize = 8;
 
-/// Samples of boundaries, at most: one for so many pixels, or this number.
+/// Samples of boundaries and looks at points that may be singular, at most: one for so many pixels, or what is [`affordable`]. That
+/// alone decides whether there are too many of them, so that it does not depend on the pixels whether a kink is infinite.
 const PIXELS: usize = 8;
-const SAMPLES: usize = 1 << 13;
+const SAMPLES: usize = 1 << 15;
+/// As many are looked at in any field, and more as long as their functions take no more than some operations, together.
+const FEWEST: usize = 1 << 13;
+const OPERATIONS: usize = 1 << 28;
 
 /// Segments of cracks that take as long as a sample: on each face all of them are seen anew.
 const SEGMENTS: usize = 64;
@@ -264,12 +270,28 @@ fn samples(field: &Field<'_>, view: &View, curves: &[Curve], points: usize) -> O
     let segments: usize = field.step.cracks.iter().map(|crack| crack.points.len()).sum();
     let is_face = |curve: &&Curve| matches!(curve.on, On::Face(..));
     let apart = curves.iter().filter(is_face).count() * (segments / SEGMENTS);
-    let room = (pixels / PIXELS).max(SAMPLES).checked_sub(points * singular::LOOK + apart)?;
+    let least = affordable(field).checked_sub(points * singular::LOOK + apart)?;
+    let room = (pixels / PIXELS).max(least);
     let wanted = curves.iter().map(|curve| curve.samples(view.pixel_size()));
     let all: usize = wanted.clone().sum();
     let part = (room as f64 / all as f64).min(1.0);
     let thinned = wanted.map(|n| ((n as f64 * part) as usize).max(curves::LEAST));
-    (curves.len() * curves::LEAST <= room).then(|| thinned.collect())
+    (curves.len() * curves::LEAST <= least).then(|| thinned.collect())
+}
+
+/// Samples that a small picture may have, by the operations of the functions of a patch.
+fn affordable(field: &Field<'_>) -> usize {
+    let functions = &field.functions;
+    let cost = |&function: &u32| match functions.of(function) {
+        Slot::One => 0,
+        Slot::Jet { group, .. } => {
+            let group = group as usize;
+            functions.cost(group, &field.step.cracks) / functions.group_len(group)
+        }
+    };
+    let all: usize = field.data.block_function.iter().map(cost).sum();
+    let of_a_patch = 1 + all / field.step.partition.len();
+    (OPERATIONS / of_a_patch).clamp(FEWEST, SAMPLES)
 }
 
 /// What a search needs.

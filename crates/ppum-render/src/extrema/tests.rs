@@ -283,6 +283,22 @@ fn infinite_at_a_tip() {
     }
 }
 
+/// A crack of many segments, more than have a look for some pixels each in a small picture.
+#[test]
+fn infinity_is_in_the_field_not_in_the_pixels() {
+    let (tip, d, kinks) = (vec2(0.3, -0.7), vec2(0.8, 0.6), 200);
+    let mut dataset = opening(tip, d);
+    let points = &mut dataset.steps[0].cracks[0].points;
+    *points =
+        (0..=kinks).map(|k| tip - d * (0.7 * f64::from(kinks - k) / f64::from(kinks))).collect();
+    let field = Field::new(&dataset, 0).expect("a field");
+    for pixels in [[33, 31], [330, 310]] {
+        let view = View::new(tip + vec2(0.1, 0.05), 1.0, pixels).expect("a view");
+        let mises = found(&field, &view, "von-mises");
+        assert_eq!(mises.max.value, f64::INFINITY, "{pixels:?}: {:?}", mises.max);
+    }
+}
+
 /// (± sin(θ/2)/√r − 1/√r₀)² + (1 + cos θ)/r₀ is 0 on one face at the distance r₀ from the tip alone, within its pixel.
 #[test]
 fn valleys_on_the_faces_of_a_tip() {
