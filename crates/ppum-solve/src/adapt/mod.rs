@@ -3,7 +3,7 @@
 //! The estimated error is a sum over the cells, η² = Σ_j η_j², of four parts (`overlap`, `data`):
 //!
 //! ```text
-//! ∫_{C_j} Σ_i s_i w_i |ε(v_i) − ε(u)|²_C      the local fields do not agree
+//! ∫_{C_j} Σ_i s_i φ_i |ε(u_i) − ε(u)|²_C      the local fields do not agree
 //! (d/(π p))² ∫_{C_j} |f − Π f|² / C           the source has what polynomials do not
 //! h/(2p + 2) ∫_Γ |t − σ(u) n|² / C            the traction on the border is not the one given
 //! (p² + 1)/h ∫_Γ C |u − g|²                   nor is the value
@@ -18,7 +18,6 @@ mod advice;
 mod border;
 mod data;
 mod decay;
-mod local;
 mod mark;
 mod overlap;
 mod span;
@@ -26,7 +25,6 @@ mod span;
 pub(crate) use advice::Adviser;
 pub(crate) use mark::mark;
 
-use crate::basis::Projections;
 use crate::problem::Problem;
 use crate::space::Space;
 use crate::watched::{Halt, Stage};
@@ -46,8 +44,8 @@ pub(crate) struct Estimated {
     pub(crate) products: Vec<Mat<f64>>,
 }
 
-/// The estimated error of a field, and what it has in common with those of dual fields. Advances the stage by three times the
-/// number of cells.
+/// The estimated error of a field, and what it has in common with those of dual fields. Local fields do not count
+/// where one of the patch's lonely functions is other than zero. Advances the stage by twice the number of cells.
 ///
 /// # Errors
 /// Cancelled.
@@ -55,12 +53,12 @@ pub(crate) fn estimated(
     problem: &Problem,
     field: &Field<'_>,
     duals: &[FieldData],
-    projections: &Projections,
+    lonely: &[Vec<usize>],
     space: &Space<'_>,
     stage: &Stage<'_>,
 ) -> Result<Estimated, Halt> {
     let all: Vec<&FieldData> = std::iter::once(field.data).chain(duals).collect();
-    let products = disagreements(&all, projections, space, stage)?;
+    let products = disagreements(&all, lonely, space, stage)?;
     let unseen = unseen_data(problem, field, space, stage)?;
     let squares = products.iter().zip(&unseen).map(|(own, unseen)| own[(0, 0)] + unseen).collect();
     Ok(Estimated { squares, unseen, products })

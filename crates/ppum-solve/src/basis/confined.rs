@@ -20,6 +20,7 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use ppum::dataset::monomials;
 use ppum::function::FunctionKind;
+use ppum::vec2::Vec2;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -61,7 +62,7 @@ pub(super) fn reductions(
     stage: &Stage<'_>,
 ) -> Result<BTreeMap<usize, Vec<Part>>, Halt> {
     let jumps: Vec<Jump> =
-        (0..grams.len()).flat_map(|i| lonely_jumps(space, i, &grams[i])).collect();
+        (0..grams.len()).flat_map(|i| lonely_jumps(space, i, &grams[i], is_jump)).collect();
     let shared = Shared { jumps: &jumps, grams, common: common(space, &jumps, stage)? };
     let mut kept = BTreeMap::new();
     for i in shared.all() {
@@ -180,18 +181,48 @@ pub(super) fn matrix(n: usize, parts: &[Part]) -> Mat<f64> {
     matrix
 }
 
+/// Turn of a crack, in radians, from which on what lies in it is a wedge.
+const CORNER: f64 = 0.3;
+
+/// The first functions of the jumps of a patch of which nearly nothing lies where it is alone: of the components at junctions, and
+/// of the sides of a crack that turns in the patch. Slivers beside straight cracks are none of them.
+pub(super) fn lonely(space: &Space<'_>, patch: usize, gram: &Gram) -> Vec<usize> {
+    let (step, support) = (space.step(), space.partition().support(patch));
+    let turns = |points: &[Vec2]| {
+        let [before, after] = [points[1] - points[0], points[2] - points[1]];
+        let turn = before.cross(after).atan2(before.dot(after)).abs();
+        turn > CORNER && support.contains(points[1])
+    };
+    let bends = |crack: u32| step.cracks[crack as usize].points.windows(3).any(turns);
+    let is_wedge = |kind: &FunctionKind| match kind {
+        FunctionKind::Component { cuts } => {
+            let first = cuts[0].segment.crack;
+            cuts.iter().any(|cut| cut.segment.crack != first) || bends(first)
+        }
+        FunctionKind::Side { crack } => bends(*crack),
+        _ => false,
+    };
+    let jumps = lonely_jumps(space, patch, gram, is_wedge);
+    jumps.into_iter().map(|jump| jump.functions.start).collect()
+}
+
 fn is_jump(kind: &FunctionKind) -> bool {
     matches!(kind, FunctionKind::Side { .. } | FunctionKind::Component { .. })
 }
 
-/// The jumps of a patch of which nearly nothing lies where it is alone.
-fn lonely_jumps(space: &Space<'_>, patch: usize, gram: &Gram) -> Vec<Jump> {
+/// The jumps of some kinds of a patch of which nearly nothing lies where it is alone.
+fn lonely_jumps(
+    space: &Space<'_>,
+    patch: usize,
+    gram: &Gram,
+    is_meant: impl Fn(&FunctionKind) -> bool,
+) -> Vec<Jump> {
     let (data, mut first, mut found) = (space.data(), 0, Vec::new());
     for block in data.blocks(patch) {
         let functions = first..first + monomials(data.block_degree[block].into());
         let kind = &space.step().functions[data.block_function[block] as usize].kind;
         let square = gram.plain[first];
-        if is_jump(kind) && gram.alone[first] <= OUTSIDE * square {
+        if is_meant(kind) && gram.alone[first] <= OUTSIDE * square {
             found.push(Jump { patch, functions: functions.clone(), square });
         }
         first = functions.end;

@@ -153,21 +153,6 @@ impl LocalBasis {
         Ok(())
     }
 
-    /// The coefficients of fields, a row for each of their components, from their inner products with the plain functions, a column
-    /// for each: Tᵀ T, or Tᵀ Cᵀ C T where components are tied.
-    pub(super) fn fields_with(&self, products: MatRef<'_, f64>, components: usize) -> Mat<f64> {
-        let mut free = &self.matrix * products;
-        if let Some(tie) = &self.tie {
-            let n = self.len();
-            for k in (0..free.ncols()).step_by(components) {
-                let stacked = Mat::from_fn(components * n, 1, |j, _| free[(j % n, k + j / n)]);
-                let tied = tie.transpose() * (tie * stacked);
-                (0..components * n).for_each(|j| free[(j % n, k + j / n)] = tied[(j, 0)]);
-            }
-        }
-        free.transpose() * &self.matrix
-    }
-
     /// The plain coefficients of each component from the unknowns.
     pub(super) fn plain(&self, unknowns: &[f64], components: usize) -> Vec<Vec<f64>> {
         let free = match &self.tie {

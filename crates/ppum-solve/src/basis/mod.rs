@@ -16,7 +16,7 @@ mod williams;
 use crate::quadrature::{EdgeRule, Rule};
 use crate::space::{Space, Unchanged};
 use crate::watched::{Halt, Stage, each, in_batches};
-use confined::{Part, reductions};
+use confined::{lonely, reductions};
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{BlockStructure, matmul as triangular};
 use faer::{Accum, Mat, MatMut, MatRef, Par};
@@ -45,8 +45,9 @@ pub(crate) struct StableBasis {
     kinds: Vec<Option<usize>>,
     /// Of each patch, the number of functions kept.
     pub(crate) sizes: Vec<usize>,
-    /// Of each patch, the first functions of the jumps that other patches have in part in its place.
-    reduced: Vec<Vec<usize>>,
+    /// Of each patch, the first functions of the jumps around corners and junctions of cracks of which nearly nothing lies
+    /// where it is alone.
+    pub(crate) lonely: Vec<Vec<usize>>,
     grams: Vec<Arc<Gram>>,
 }
 
@@ -97,9 +98,8 @@ impl StableBasis {
                 });
             },
         )?;
-        let starts = |parts: &Vec<Part>| parts.iter().map(|(range, _)| range.start).collect();
-        let reduced = (0..grams.len()).map(|i| reductions.get(&i).map_or_else(Vec::new, starts));
-        Ok(Self { sizes: sizes(&patches), patches, kinds, reduced: reduced.collect(), grams })
+        let lonely = (0..patches.len()).map(|i| lonely(space, i, &grams[i])).collect();
+        Ok(Self { sizes: sizes(&patches), patches, kinds, lonely, grams })
     }
 
     /// The basis of some patches of kinds alone, as of a space that has no others.
@@ -107,8 +107,8 @@ impl StableBasis {
         let patches: Vec<_> =
             patches.iter().map(|&p| Arc::clone(&self.patches[p as usize])).collect();
         let n = patches.len();
-        let (kinds, reduced) = (vec![None; n], vec![Vec::new(); n]);
-        Self { sizes: sizes(&patches), patches, kinds, reduced, grams: Vec::new() }
+        let (kinds, lonely) = (vec![None; n], vec![Vec::new(); n]);
+        Self { sizes: sizes(&patches), patches, kinds, lonely, grams: Vec::new() }
     }
 
     /// The kind of a patch, if it has the functions that all of its kind have.
@@ -178,11 +178,6 @@ impl StableBasis {
         self.patches.iter().map(|patch| patch.least).collect()
     }
 
-    /// The projections onto the local spaces.
-    pub(crate) fn projections(&self) -> Projections {
-        Projections { patches: self.patches.clone(), reduced: self.reduced.clone() }
-    }
-
     /// Bytes of all transformations.
     pub(crate) fn bytes(&self) -> usize {
         let values = |m: &Mat<f64>| m.nrows() * m.ncols();
@@ -234,32 +229,6 @@ impl StableBasis {
             }
         }
         out
-    }
-}
-
-/// The projections onto the local spaces of all patches.
-#[derive(Clone, Debug)]
-pub(crate) struct Projections {
-    patches: Vec<Arc<LocalBasis>>,
-    reduced: Vec<Vec<usize>>,
-}
-
-impl Projections {
-    /// The first functions of the jumps that other patches have in part in the place of this one: it has no field near a
-    /// solution where one of them is other than zero.
-    pub(crate) fn reduced(&self, patch: usize) -> &[usize] {
-        &self.reduced[patch]
-    }
-
-    /// The coefficients of the fields of a patch, a row for each component of each field, given their inner products with
-    /// the plain functions, a column for each. Where the basis is [damped](StableBasis::damp) the fields are smaller.
-    pub(crate) fn fields(
-        &self,
-        patch: usize,
-        products: MatRef<'_, f64>,
-        components: usize,
-    ) -> Mat<f64> {
-        self.patches[patch].fields_with(products, components)
     }
 }
 

@@ -4,7 +4,7 @@
 //! a(u − u_h, z − z_h) (Becker & Rannacher 2001). The disagreements of local fields stand for both errors,
 //!
 //! ```text
-//! |K − K_h| ≈ Σ_j |∫_{C_j} Σ_i s_i w_i (σ(v_i) − σ(u_h)) : (ε(z_i) − ε(z_h))| + Σ_j d_j(u) η_j(z)
+//! |K − K_h| ≈ Σ_j |∫_{C_j} Σ_i s_i φ_i (σ(u_i) − σ(u_h)) : (ε(z_i) − ε(z_h))| + Σ_j d_j(u) η_j(z)
 //! ```
 //!
 //! with the parts d_j of the estimated error that stand for data. Without the absolute values the first sum has the sign of the error,

@@ -6,7 +6,7 @@ use super::clock::Clock;
 use super::goal::DualSolutions;
 use super::shelf::{Reused, Shelf};
 use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Gauge, Given, System, slivers};
-use crate::basis::{Projections, StableBasis};
+use crate::basis::StableBasis;
 use crate::equilibrium::{Pieces, Plate};
 use crate::hierarchy::Finest;
 use crate::intensity::{Sensitivity, sensitivities};
@@ -29,8 +29,8 @@ pub(super) struct Solution {
     reactions: Vec<Reaction>,
     /// Integrands that quadrature did not resolve.
     pub(super) unresolved: Vec<Unresolved>,
-    /// The projections onto the local spaces.
-    pub(super) projections: Projections,
+    /// Of each patch, the first functions of components of which nearly nothing lies where it is alone.
+    pub(super) lonely: Vec<Vec<usize>>,
     /// The dual solutions of stress intensity factors, if there are any.
     pub(super) duals: Option<DualSolutions>,
     /// The numbers of the report that are known with the solution.
@@ -176,7 +176,7 @@ impl Solving<'_> {
             ],
             reactions: system.reactions.of(self.problem, &basis, &system.matrix, &solution),
             unresolved: std::mem::take(&mut system.unresolved),
-            projections: basis.projections(),
+            lonely: basis.lonely.clone(),
             duals,
             report,
         };

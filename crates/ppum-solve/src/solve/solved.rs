@@ -63,13 +63,13 @@ impl<'p> Found<'p> {
     /// Finds the energy and the estimated errors of all.
     pub(super) fn estimated(self, watcher: &dyn Watcher) -> Result<Solved<'p>, SolveError> {
         let Self { mut plan, solution, mut tips } = self;
-        let Solution { mut report, unresolved, projections, duals, .. } = solution;
+        let Solution { mut report, unresolved, lonely, duals, .. } = solution;
         let Plan { problem, dataset, space, clock, .. } = &mut plan;
-        let stage = Stage::new(watcher, Phase::Estimation, 3 * space.partition().len())?;
+        let stage = Stage::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
         let field = Field::new(dataset, 0)?;
         let energy = energy(&field, space);
         let dual_fields = duals.as_ref().map_or_else(Vec::new, |duals| duals.fields(field.data));
-        let found = estimated(problem, &field, &dual_fields, &projections, space, &stage);
+        let found = estimated(problem, &field, &dual_fields, &lonely, space, &stage);
         let found = found.map_err(SolveError::of_data)?;
         let goal = duals.map_or_else(Goal::default, |duals| duals.goal(space, &found));
         let factors = tips.iter_mut().filter_map(|outcome| outcome.factors.as_mut());
