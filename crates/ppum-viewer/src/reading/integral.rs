@@ -63,6 +63,16 @@ impl Integral {
         (*key == asked).then(|| answer.as_ref().clone().map(Arc::new))
     }
 
+    /// What is said of the circle. It is of the dataset and the step that were asked about, also where another one is shown since.
+    pub fn words(&mut self) -> String {
+        let found = self.found();
+        match (found, &self.asked) {
+            (Some(Ok(factors)), Some(Ok(asked))) => told(&asked.dataset, asked.step, &factors),
+            (Some(Err(reason)), _) => reason,
+            _ => "K …".into(),
+        }
+    }
+
     /// True while it is on its way.
     #[must_use]
     pub fn is_working(&self) -> bool {

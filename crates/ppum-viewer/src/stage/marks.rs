@@ -66,15 +66,7 @@ impl Stage {
         if !self.reading.integral.is_asked() || self.reading.grip.is_some() {
             return;
         }
-        let Some(dataset) = self.opened.as_ref().map(|opened| Arc::clone(&opened.dataset)) else {
-            return;
-        };
-        let step = pane.scene.subject.step_of(&dataset);
-        let text = match self.reading.integral.found() {
-            Some(Ok(factors)) => crate::reading::integral::told(&dataset, step, &factors),
-            Some(Err(reason)) => reason,
-            None => "K …".into(),
-        };
+        let text = self.reading.integral.words();
         let seen: Vec<Pos2> =
             outline(along, cracks).iter().filter_map(|spot| sight.position(spot)).collect();
         let Some(top) = seen.into_iter().min_by(|a, b| a.y.total_cmp(&b.y)) else { return };

@@ -18,8 +18,8 @@ pub(super) struct Eyes {
     /// Memory in MB, from time to time.
     memory: Vec<f64>,
     frames: usize,
-    /// Solutions that no file had when they were last seen, but for those that were given up.
-    unsaved: Vec<Weak<Dataset>>,
+    /// Views with solutions that no file had when they were last seen, but for those that were given up.
+    unsaved: Vec<(usize, Weak<Dataset>)>,
     /// True if a problem was being solved, and if something was asked.
     was_solving: bool,
     was_asking: bool,
@@ -79,10 +79,10 @@ impl Eyes {
     /// No solution goes, and no solver is stopped, unless that was asked for.
     fn look_for_losses(&mut self, viewer: &Viewer, doing: &str) {
         let opened = |k: usize| viewer.stages[k].opened.as_ref().map(|opened| &opened.dataset);
-        let is_there = |weak: &Weak<Dataset>| {
-            (0..viewer.stages.len())
-                .filter_map(opened)
-                .any(|there| weak.as_ptr() == Arc::as_ptr(there))
+        let is_there = |(pane, weak): &(usize, Weak<Dataset>)| {
+            let mut all = (0..viewer.stages.len()).filter_map(opened);
+            // or that of the text, solved once more, has come at once
+            all.any(|there| weak.as_ptr() == Arc::as_ptr(there)) || viewer.is_unsaved(*pane)
         };
         let is_lost = !self.was_asking && !self.unsaved.iter().all(is_there);
         assert!(!is_lost, "{doing}: a solution is lost");
@@ -92,7 +92,8 @@ impl Eyes {
         assert!(!is_stopped, "{doing}: a solver is stopped");
         let all = 0..viewer.stages.len();
         let kept = all.filter(|&k| viewer.is_unsaved(k) && !viewer.is_given_up(k));
-        self.unsaved = kept.filter_map(opened).map(Arc::downgrade).collect();
+        let weak = |k: usize| opened(k).map(|dataset| (k, Arc::downgrade(dataset)));
+        self.unsaved = kept.filter_map(weak).collect();
         (self.was_solving, self.was_asking) = (solving.running().is_some(), viewer.is_asking());
     }
 
@@ -102,7 +103,8 @@ impl Eyes {
     }
 
     pub(super) fn check_panics(&self) {
-        let panics = PANICS.lock().unwrap_or_else(PoisonError::into_inner);
+        // a panic of this thread is noted too: the lock must be free again
+        let panics = PANICS.lock().unwrap_or_else(PoisonError::into_inner).clone();
         assert!(panics.is_empty(), "{panics:?}");
     }
 
