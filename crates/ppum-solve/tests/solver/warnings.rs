@@ -5,9 +5,10 @@ use std::path::Path;
 use crate::studies::support::solved;
 use ppum::dataset::{Dataset, Warning};
 use ppum::progress::unwatched;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Vec2, vec2};
 use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::problem::Problem;
+use ppum_testkit::random::Random;
 
 /// A plate with a crack, 8 × 8 cells.
 fn text(points: &str, loads: &str, discretization: &str) -> String {
@@ -249,4 +250,29 @@ fn patches_crossed_twice() {
     let [crossed] = crossed[..] else { panic!("{found:?}") };
     assert_eq!((crossed.value, crossed.limit), (3.0, 0.0));
     assert!(crossed.message.contains("use smaller cells"), "{}", crossed.message);
+}
+
+/// Cracks that turn in an inclusion a fifth as stiff, at random: what their faces look at there is resolved.
+#[test]
+fn cracks_in_inclusions_are_resolved() {
+    for seed in 1..5 {
+        let mut random = Random(seed);
+        let r = random.between(0.25, 0.4);
+        let mut at = vec2(0.55 - r, 0.0);
+        let mut points = vec![[0.0, 0.0], at.into()];
+        for length in [0.04, 0.04, 0.02] {
+            let angle = random.between(-0.6, 0.6);
+            at = at + vec2(angle.cos(), angle.sin()) * length;
+            points.push(at.into());
+        }
+        let text = format!(
+            "[domain]\nmin = [0.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = \"if(hypot(x - 0.6, y) < {r}, 0.2, 1)\"\n\
+             poisson = 0.3\nstate = \"plane-strain\"\n[[crack]]\npoints = {points:?}\n{}\n[discretization]\n\
+             cells = [5, 10]\norder = 1\n",
+            ends("[0, -1]", "[0, 1]")
+        );
+        let dataset = solve_text(&text);
+        let found = warnings(&dataset).iter().find(|w| w.kind == kind::QUADRATURE);
+        assert!(found.is_none(), "seed {seed}: {found:?}");
+    }
 }
