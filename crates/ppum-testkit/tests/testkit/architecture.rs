@@ -249,12 +249,12 @@ const NOT_IN_THE_PROGRAM: [&str; 13] = [
     "zbus",
 ];
 
-/// Asks cargo for its plan of `cargo build --release` in the root, which `cargo run` shares, and
-/// returns the names of all packages in it.
-fn packages_of_the_first_command() -> BTreeSet<String> {
+/// Cargo's plan, unit by unit, of `cargo build --release` in the root, which `cargo run` shares.
+fn planned(arguments: &[&str]) -> Vec<Value> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
         .args(["build", "--release", "--unit-graph", "-Z", "unstable-options"])
+        .args(arguments)
         // the plan is printed by an unstable option, which stable cargo takes with this variable
         .env("RUSTC_BOOTSTRAP", "1")
         .current_dir(root())
@@ -262,8 +262,7 @@ fn packages_of_the_first_command() -> BTreeSet<String> {
         .expect("cargo runs this test");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let plan: Value = serde_json::from_slice(&output.stdout).expect("the plan is JSON");
-    let identifiers = list(&plan["units"]).iter().map(|unit| text(&unit["pkg_id"]));
-    identifiers.map(str::to_owned).collect()
+    list(&plan["units"]).to_vec()
 }
 
 /// True if a package identifier, `…/ppum-gpu#0.1.0` or `…#wgpu@30.0.1`, is of this name.
@@ -275,7 +274,8 @@ fn is_named(identifier: &str, name: &str) -> bool {
 
 #[test]
 fn the_first_command_builds_what_it_runs() {
-    let packages = packages_of_the_first_command();
+    let units = planned(&[]);
+    let packages: BTreeSet<&str> = units.iter().map(|unit| text(&unit["pkg_id"])).collect();
     let extra: Vec<_> = NOT_IN_THE_PROGRAM
         .iter()
         .filter(|&name| packages.iter().any(|identifier| is_named(identifier, name)))
@@ -284,4 +284,14 @@ fn the_first_command_builds_what_it_runs() {
     assert!(packages.iter().any(|identifier| is_named(identifier, "ppum-cli")));
     assert!(packages.iter().any(|identifier| is_named(identifier, "faer")));
     assert!(packages.len() <= MOST_PACKAGES, "the first command builds {}", packages.len());
+}
+
+/// The profile names each of our crates; one that is forgotten would compute slowly.
+#[test]
+fn our_crates_are_optimised() {
+    let units = planned(&["--workspace"]);
+    let ours = units.iter().filter(|unit| text(&unit["pkg_id"]).starts_with("path+"));
+    let slow = ours.filter(|unit| text(&unit["profile"]["opt_level"]) != "3");
+    let names: Vec<&str> = slow.map(|unit| text(&unit["pkg_id"])).collect();
+    assert!(names.is_empty(), "not at level 3 in Cargo.toml: {names:?}");
 }
