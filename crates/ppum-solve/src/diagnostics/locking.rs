@@ -2,8 +2,8 @@
 //!
 //! With λ ≫ μ the energy ½ ∫ 2μ ε:ε + λ (div u)² asks for div u = 0, and polynomials of low order have too few
 //! displacements that are free of divergence: the plate becomes too stiff, and its pressure −λ div u oscillates from
-//! cell to cell. Polynomials of degree four and more keep their rates (Scott & Vogelius 1985), and their stresses are right point
-//! by point, as no reduced integration would have them.
+//! cell to cell. Polynomials of degree four and more keep their rates (Scott & Vogelius 1985); what is left of the oscillation
+//! there, `pressure` tells.
 //!
 //! The loss is seen in the solution. The exact pressure p varies little within a cell and stores the energy
 //! ½ ∫ p²/λ, which vanishes; what the fluctuation of div u within cells stores is therefore error,

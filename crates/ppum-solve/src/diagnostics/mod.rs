@@ -11,6 +11,7 @@ pub mod effort;
 mod faces;
 mod interfaces;
 mod locking;
+mod pressure;
 mod report;
 mod rims;
 mod tips;
@@ -32,6 +33,7 @@ use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::text::{Places, trimmed_to};
 use ppum::vec2::Vec2;
+use pressure::of_pressure;
 use report::{Cutters, of_report};
 use rims::of_rims;
 use tips::of_tips;
@@ -94,6 +96,8 @@ pub mod kind {
     pub const DIGITS: &str = "digits";
     /// The order is too low for a plate that is nearly incompressible.
     pub const LOCKING: &str = "locking";
+    /// The pressure of a plate that is nearly incompressible oscillates.
+    pub const PRESSURE: &str = "pressure";
     /// Patches remain that the rim of a hole crosses twice.
     pub const CROSSED_TWICE: &str = "crossed-twice";
     /// The cells at a singular point of the border are too large for its field.
@@ -203,6 +207,7 @@ impl Case<'_> {
         warnings.extend(of_digits(rounding, cutters, &places));
         stage.advance(0)?;
         warnings.extend(of_locking(field, space));
+        warnings.extend(of_pressure(field));
         warnings.extend(of_quadrature(self.unresolved, &places));
         Ok(Diagnosis { warnings, rounding: rounding.largest })
     }
