@@ -62,12 +62,26 @@ impl Default for Adaptivity {
 /// Steps to an accuracy: each halves the error at least, most take more of it.
 const STEPS_TO_GOAL: usize = 30;
 
+/// Accuracy of K that polynomials of order 2 have after few steps.
+const EASY: f64 = 1e-3;
+
 impl Adaptivity {
     /// The steps to a relative error of the factors, or without tips of the energy: orders are raised and cells divided.
     #[must_use]
     pub fn to(accuracy: f64) -> Self {
         let (steps, accuracy) = (STEPS_TO_GOAL, Some(accuracy));
         Self { steps, accuracy, ..Self::new(AdaptKind::Hp) }
+    }
+
+    /// Level of the cover that the steps to an accuracy begin with, if none is given. Plates with cracks need about that cover,
+    /// and [this order](Self::first_order), so that steps are few.
+    pub(super) fn first_level(accuracy: f64) -> u32 {
+        if accuracy < EASY { 3 } else { 2 }
+    }
+
+    /// Order of the polynomials that the steps to an accuracy begin with.
+    pub(super) fn first_order(accuracy: f64) -> usize {
+        2 + usize::from(accuracy < EASY) + usize::from(accuracy < 0.1 * EASY)
     }
 
     /// The defaults for one kind.

@@ -155,12 +155,13 @@ pub(crate) fn cover(
             || jumps.are_too_many(&patch.intersection(bounds))
             || needs.misleads(&patch, &jumps)
     };
+    // an adaptation from coarse cells finds by itself where small ones pay; one to an accuracy begins near its end
+    let finds_itself = problem.adaptivity.as_ref().is_some_and(|set| set.accuracy.is_none());
     for _ in 0..DEEPEST {
         if cover.n_cells() > most {
             return Err(RefineError::TooMany { most });
         }
-        // an adaptation finds by itself where small cells pay
-        let affordable = problem.adaptivity.is_none() && cover.n_cells() < wishes.most_cells;
+        let affordable = !finds_itself && cover.n_cells() < wishes.most_cells;
         // who is to stop asks for nothing
         let asks = |cell: Rect, level: u8| {
             let goes_on = stage.advance(0).is_ok();

@@ -10,8 +10,9 @@
 //! with the parts d_j of the estimated error that stand for data. Without the absolute values the first sum has the sign of the error,
 //! and may cancel where the error does not; products of norms, Σ_j η_j(u) η_j(z), were up to a hundred times the error (docs/decisions/0018).
 //!
-//! The functionals of all tips are added up, so that two dual solutions serve any number of tips; each tip's error is the sum over
-//! the cells that have no other tip nearer.
+//! The functionals of all tips are added up, so that two dual solutions serve any number of tips. What a cell adds may be due to any of
+//! them, the more the nearer: the strain of a dual solution falls like r^(−3/2) from its tip, so a tip at the distance r counts
+//! (r_nearest / r)^(3/2) of it. A cell far from all tips, as at a corner that pollutes all factors, counts fully for each.
 
 use super::SolveError;
 use super::solution::{Solving, write_coefficients};
@@ -23,6 +24,9 @@ use crate::space::Space;
 use faer::Mat;
 use ppum::dataset::FieldData;
 use ppum::vec2::{Rect, Vec2};
+
+/// Exponent by which the strain of a dual solution falls from its tip.
+const FALL: f64 = 1.5;
 
 /// The dual solutions of K_I and K_II of all tips with factors.
 pub(super) struct DualSolutions {
@@ -86,17 +90,20 @@ impl DualSolutions {
         let mut errors = vec![[0.0; FACTORS]; self.tips.len()];
         let mut of_cells = Vec::with_capacity(cells.len());
         for (cell, part) in cells.iter().zip(parts) {
-            let tip = nearest(&self.tips, cell);
-            errors[tip].iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
-            of_cells.push((tip, part[0].hypot(part[1])));
+            let distances = self.tips.iter().map(|tip| (*tip - cell.center()).length());
+            let distances: Vec<f64> = distances.collect();
+            let nearest = nearest(&distances);
+            for (sums, distance) in errors.iter_mut().zip(&distances) {
+                let share = (distances[nearest] / distance).powf(FALL).min(1.0);
+                sums.iter_mut().zip(part).for_each(|(sum, part)| *sum += share * part);
+            }
+            of_cells.push((nearest, part[0].hypot(part[1])));
         }
         let errors = errors.into_iter().map(|[first, second]| first.hypot(second)).collect();
         Goal { errors, cells: of_cells }
     }
 }
 
-/// The tip that is nearest to the middle of a cell.
-fn nearest(tips: &[Vec2], cell: &Rect) -> usize {
-    let distance = |k: &usize| (tips[*k] - cell.center()).length();
-    (0..tips.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
+fn nearest(distances: &[f64]) -> usize {
+    (0..distances.len()).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap_or(0)
 }

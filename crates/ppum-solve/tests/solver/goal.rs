@@ -1,9 +1,11 @@
 //! Estimated errors of stress intensity factors against the errors, and accuracies that are asked for.
 
 use crate::studies::factors::{errors_of_factors, plates};
-use crate::studies::plates::{Plate, centre_cracks, end_shear, slanted_cracks};
+use crate::studies::plates::{Known, Plate, centre_cracks, end_shear, slanted_cracks};
 use crate::studies::support::solved;
-use ppum_solve::problem::{Adaptivity, Cells, Order};
+use ppum_solve::diagnostics::kind;
+use ppum_solve::problem::{Adaptivity, Cells, Order, Problem};
+use std::path::Path;
 
 /// Limits of the effectivity, the estimated error over the error. Where K is nearly right by chance it is larger.
 const EFFECTIVE: std::ops::Range<f64> = 0.8..20.0;
@@ -38,14 +40,33 @@ fn errors_of_factors_are_known() {
     assert!((1.0..5.0).contains(&all[all.len() / 2]));
 }
 
+/// Slanted crack in a square that is clamped below and nearly incompressible, ν = 0.49: hpfem of order 12, right to 1e-8.
+fn clamped_and_stiff() -> Plate {
+    let text = "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[material]\nyoung = 1\npoisson = 0.49\nstate = \"plane-strain\"\n\
+                [[crack]]\npoints = [[-0.4, -0.2], [0.4, 0.1]]\n[[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n\
+                [[boundary]]\non = \"top\"\ntraction = [0.3, 1]\n[discretization]\nlevel = 3\norder = 3\n";
+    let factors =
+        [(0, 0, 1.050384340), (0, 1, 0.934434056), (1, 0, 0.698332703), (1, 1, 0.772069754)];
+    let known = |(tip, mode, value)| Known { name: "K", tip, mode, value };
+    let mut plate = end_shear();
+    plate.name = "clamped, ν = 0.49".into();
+    plate.problem = Problem::parse(text, "plate.toml", Path::new("")).expect("a problem");
+    plate.known = factors.map(known).to_vec();
+    plate
+}
+
 /// Asserts that an accuracy that is asked for is reached, and that the estimate says so. docs/validation.md has more plates and
 /// accuracies.
 fn assert_reached(plate: &Plate, accuracy: f64) {
     let mut problem = plate.problem.clone().with_adaptivity(Adaptivity::to(accuracy));
-    problem.discretization.cells = Cells::Level(2);
+    if problem.discretization.order == Order::Uniform(2) {
+        problem.discretization.cells = Cells::Level(2);
+    }
     let dataset = solved(&problem);
     let (name, unknowns) = (&plate.name, dataset.steps[0].unknowns());
-    assert!(dataset.steps[0].warnings.is_empty(), "{name}: {:?}", dataset.steps[0].warnings);
+    let warnings =
+        dataset.steps[0].warnings.iter().filter(|warning| warning.kind != kind::PRESSURE);
+    assert_eq!(warnings.count(), 0, "{name}: {:?}", dataset.steps[0].warnings);
     for [size, error, estimated] in errors_of_factors(plate, &dataset) {
         let [error, estimated] = [error, estimated].map(|error| error / size);
         println!("{name}: {unknowns} unknowns, {error:.1e}, estimated {estimated:.1e}");
@@ -56,6 +77,8 @@ fn assert_reached(plate: &Plate, accuracy: f64) {
 #[test]
 fn accuracies_are_reached() {
     assert_reached(&end_shear(), 1e-3);
+    // the clamped corners add to both factors of both tips
+    assert_reached(&clamped_and_stiff(), 1e-3);
 }
 
 #[test]

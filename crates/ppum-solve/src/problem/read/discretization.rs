@@ -7,6 +7,7 @@ use ppum::formula::{Scope, Table};
 use ppum::library;
 use ppum::weight::{WeightError, WeightFunction};
 
+use super::super::adaptivity::Adaptivity;
 use super::super::discretization::{Cells, Discretization, Enrichment, Order};
 use super::super::document::{Section, Value, nearest};
 use super::super::{points, scopes};
@@ -28,9 +29,6 @@ const KEYS: [&str; 13] = [
     "tip_terms",
     "accuracy",
 ];
-
-/// Level of the cover that the steps to an accuracy begin with.
-const FIRST_LEVEL: u32 = 2;
 
 /// Optional values that are wrong are reported, and left at their defaults.
 pub(super) fn discretization(
@@ -115,7 +113,10 @@ fn cells(section: &Section<'_>, files: Files<'_>) -> Option<Cells> {
             }
         },
         // the steps to an accuracy begin somewhere
-        [None, None, None] if section.mentions("accuracy") => Some(Cells::Level(FIRST_LEVEL)),
+        [None, None, None] if section.mentions("accuracy") => {
+            let accuracy = section.get("accuracy")?.number()?;
+            Some(Cells::Level(Adaptivity::first_level(accuracy)))
+        }
         [None, None, None] => {
             if !["level", "cells", "points"].iter().any(|key| section.mentions(key)) {
                 section.error("[discretization] has no cells; add e.g. `level = 5`");

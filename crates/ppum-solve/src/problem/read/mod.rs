@@ -27,7 +27,7 @@ use super::check::mistakes;
 use super::document::{Instead, Report, Section, Value};
 use super::error::ProblemError;
 use super::stiffness::default_order;
-use super::{BorderPart, Order, Place, Problem, Solver, SolverKind, scopes};
+use super::{Adaptivity, BorderPart, Order, Place, Problem, Solver, SolverKind, scopes};
 use adaptivity::adaptivity;
 use boundary::boundary;
 use curve::course;
@@ -190,9 +190,11 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
         refinements.retain(|new| !matches!(new.place, Place::Crack(_)));
     }
     let domain = Domain { bounds: domain?, holes: holes? };
-    let mut discretization = discretization?;
+    let (mut discretization, adaptivity) = (discretization?, adaptivity(root));
     if root.section("discretization").is_some_and(|section| !section.mentions("order")) {
-        discretization.order = Order::Uniform(default_order(&equation, &domain));
+        let accuracy = adaptivity.as_ref().and_then(|set| set.accuracy);
+        let first = accuracy.map_or(0, Adaptivity::first_order);
+        discretization.order = Order::Uniform(default_order(&equation, &domain).max(first));
     }
     Some(Problem {
         title: title.to_owned(),
@@ -206,7 +208,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
         tables,
         enrichments,
         discretization,
-        adaptivity: adaptivity(root),
+        adaptivity,
         growth: growth(root, &scope),
         refinements,
         solver,
