@@ -22,8 +22,12 @@ pub(crate) struct Orders {
     pub overlap: usize,
     /// Order where one patch is alone, φ = 1, and the integrand a polynomial.
     pub flat: usize,
-    /// Near points where a function is singular, and where functions are probed.
+    /// Order near points where a function is singular.
     pub singular: usize,
+    /// Order where a function has kinks: sides of pieces may follow curves there.
+    pub kinked: usize,
+    /// Order where functions are probed, and near singular points where one has kinks as well.
+    pub probed: usize,
     /// Points less in rules that are compared to see whether they resolve a function alone: what is
     /// left for the polynomials that multiply it.
     pub reserve: usize,
@@ -47,19 +51,23 @@ pub(super) struct Active {
 }
 
 impl Orders {
-    /// The default for polynomials of degree p: p + 4, p + 1 and max(p + 5, 8), which keep the
-    /// quadrature's share of the energy below 1e-8. A product of two polynomials is exact where one
-    /// patch is alone, cracks or not.
+    /// The orders for polynomials of degree p and linear weights, with more points in overlaps than
+    /// [`Orders::for_weight`] finds necessary. A product of two polynomials is exact where one patch
+    /// is alone, cracks or not.
+    ///
+    /// On a square that is its diameter away from a tip, max(p + 2, 8) points integrate ξ^2p / r to
+    /// 1e-5 or better (docs/decisions/0030-points.md).
     #[must_use]
     pub(crate) const fn for_degree(p: usize) -> Self {
-        let singular = if p + 5 > 8 { p + 5 } else { 8 };
-        Self { overlap: p + 4, flat: p + 1, singular, reserve: p, parts: 1 }
+        let (singular, probed) = (at_least_8(p + 2), at_least_8(p + 5));
+        Self { overlap: p + 4, flat: p + 1, singular, kinked: p + 4, probed, reserve: p, parts: 1 }
     }
 
     /// The same number everywhere, half of it for polynomials that multiply a probe.
     #[must_use]
     pub(crate) const fn uniform(n: usize) -> Self {
-        Self { overlap: n, flat: n, singular: n, reserve: n / 2, parts: 1 }
+        let reserve = n / 2;
+        Self { overlap: n, flat: n, singular: n, kinked: n, probed: n, reserve, parts: 1 }
     }
 
     /// Orders for polynomials of degree p and any weight function, and the error of the rule in
@@ -82,7 +90,7 @@ impl Orders {
         let line = Line::new(stretch, breakpoints, weight);
         let exact = line.products(p, MOST_POINTS, 4 * PARTS[PARTS.len() - 1]);
         let default = Self::for_degree(p);
-        let mut tried: Vec<(usize, usize)> = (default.overlap..=MOST_POINTS.max(default.overlap))
+        let mut tried: Vec<(usize, usize)> = (default.flat..=MOST_POINTS.max(default.overlap))
             .flat_map(|n| PARTS.map(|parts| (n, parts)))
             .collect();
         tried.sort_by_key(|&(n, parts)| (n * parts, parts));
@@ -102,10 +110,12 @@ impl Orders {
     /// The number for a piece.
     pub(super) fn choose(self, active: &Active) -> usize {
         if active.probes {
-            self.singular.max(self.overlap)
+            self.probed.max(self.overlap)
         } else if active.distance < FAR {
-            self.singular
-        } else if active.distance < f64::INFINITY || active.kinks {
+            if active.kinks { self.probed } else { self.singular }
+        } else if active.kinks {
+            self.overlap.max(self.kinked)
+        } else if active.distance < f64::INFINITY {
             self.overlap.max(self.flat)
         } else if active.patches == 1 {
             self.flat
@@ -113,6 +123,10 @@ impl Orders {
             self.overlap
         }
     }
+}
+
+const fn at_least_8(n: usize) -> usize {
+    if n > 8 { n } else { 8 }
 }
 
 /// Patches on a line.

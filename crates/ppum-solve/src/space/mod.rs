@@ -26,16 +26,18 @@ use ppum::dataset::{Equation, FieldData, Partition, Step, monomials};
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
 use ppum::function::{FunctionError, FunctionKind, FunctionTable};
-use ppum::weight::WeightFunction;
 pub(crate) use prints::{Prints, Unchanged};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 pub(crate) use williams::{Origin, Series};
 
-/// Accuracy of the quadrature of products of partition functions, as [`Orders::for_degree`] has it with
-/// linear weights.
-const WEIGHT_ACCURACY: f64 = 1e-5;
+/// Accuracy of the quadrature of products of partition functions with polynomials of the highest degree.
+///
+/// What a solution has of the highest degree falls with the order as its error does, so the same part
+/// of it is allowed at all orders: 2e-5, which changes factors by less than a thousandth of their error
+/// (docs/decisions/0030-points.md).
+const WEIGHT_ACCURACY: f64 = 2e-5;
 
 /// A step and its walks. Errors, energies and stress intensity factors of a solution are integrated over
 /// the same cells as the system, so one space serves from the first estimate to the last warning: what it
@@ -244,16 +246,12 @@ fn coverers(partition: &Partition) -> Vec<Vec<u32>> {
 
 /// The numbers of Gauss points that polynomials of a degree and the partition's weights need.
 fn orders(partition: &Partition, degree: usize) -> Orders {
-    let weight = &partition.weight;
-    if *weight == WeightFunction::Linear {
-        return Orders::for_degree(degree);
-    }
-    let (half, cell) = (partition.half[0], &partition.cell[0]);
+    let Partition { weight, half, cell, .. } = partition;
     let value = |xi: f64| {
         let [value, slope, _] = weight.spline(xi);
         [value, slope]
     };
-    let stretch = 2.0 * half.x / cell.size().x;
+    let stretch = 2.0 * half[0].x / cell[0].size().x;
     Orders::for_weight(degree, stretch, weight.breakpoints(), &value, WEIGHT_ACCURACY).0
 }
 

@@ -60,9 +60,13 @@ fn overlaps_of_bumps_are_right_to_a_given_accuracy() {
 #[test]
 fn linear_weights_need_no_more_than_the_default() {
     let weight = WeightFunction::Linear;
-    let (orders, _) =
-        Orders::for_weight(2, 1.3, weight.breakpoints(), &spline(weight.clone()), 1e-5);
-    assert_eq!(orders, Orders::for_degree(2));
+    for p in 1..=8 {
+        let (orders, error) =
+            Orders::for_weight(p, 1.3, weight.breakpoints(), &spline(weight.clone()), 2e-5);
+        let default = Orders::for_degree(p);
+        assert!(error <= 2e-5 && orders.overlap <= default.overlap, "order {p}: {orders:?}");
+        assert_eq!(Orders { overlap: default.overlap, ..orders }, default);
+    }
 }
 
 /// ∫ |∇φ_i|² of the first patch of each rule, by differences of the product rule.
