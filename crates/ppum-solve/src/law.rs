@@ -117,13 +117,18 @@ impl LawAt {
         self.components
     }
 
+    /// C_ikjl
+    #[must_use]
+    pub(crate) fn entry(&self, [i, k]: [usize; 2], [j, l]: [usize; 2]) -> f64 {
+        self.tensor[i][k][j][l]
+    }
+
     fn rigidity(&self) -> Rigidity {
-        let entry = |[i, k]: [usize; 2], [j, l]: [usize; 2]| self.tensor[i][k][j][l];
         let pairs: &[[usize; 2]] =
             if self.components == 1 { &[[0, 0], [0, 1]] } else { &[[0, 0], [1, 1], [0, 1]] };
         let mut matrix = [[0.0; 3]; 3];
         for (row, &a) in matrix.iter_mut().zip(pairs) {
-            row.iter_mut().zip(pairs).for_each(|(sum, &b)| *sum = entry(a, b));
+            row.iter_mut().zip(pairs).for_each(|(sum, &b)| *sum = self.entry(a, b));
         }
         Rigidity(matrix)
     }

@@ -6,11 +6,12 @@
 
 use super::Assembly;
 use super::border::{Border, BorderPiece};
+use super::cell_matrix::{CellMatrix, Stiffness};
 use super::cell_system::CellSystem;
 use super::dual::Duals;
 use super::functions::CellFunctions;
 use super::gauge::FreeModes;
-use super::stiffness::{CellMatrix, Stiffness, Strains};
+use super::stiffness::Strains;
 use crate::basis::{BasisEvaluator, Shapes};
 use crate::linear::EigenError;
 use crate::quadrature::Rule;

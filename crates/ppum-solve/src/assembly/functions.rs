@@ -1,7 +1,7 @@
 //! The functions that live in a cell, and the places of their unknowns in the system.
 
 use super::Assembly;
-use super::stiffness::CellMatrix;
+use super::cell_matrix::CellMatrix;
 use crate::basis::StableBasis;
 use crate::linear::{BlockMatrix, add_at, product, taken};
 use faer::{Mat, MatRef};

@@ -9,6 +9,7 @@
 
 mod border;
 mod cell;
+mod cell_matrix;
 mod cell_system;
 mod dual;
 mod functions;

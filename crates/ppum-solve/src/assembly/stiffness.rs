@@ -2,94 +2,37 @@
 //!
 //! ```text
 //! ε = (∂₁u₁, ∂₂u₂, ∂₂u₁ + ∂₁u₂)   or   ∇u of a potential        σ = D ε        K_ab = ∫ ε_a · σ_b
+//! K_(i,a)(j,b) = Σ_kl C_ikjl ∫ ∂_k ψ_a ∂_l ψ_b        of functions ψ that each component has for itself
 //! ```
 //!
-//! A row of strains is that of one unknown at all points of a rule, section by section; products of rows of strains with rows of
-//! weighted stresses are integrals.
+//! A row of strains is that of one vector field at all points of a rule, section by section; products of rows of strains with rows of
+//! weighted stresses are integrals. All components share the products of the slopes of ψ: a third of the operations.
 
 use super::Assembly;
+use super::cell_matrix::CellMatrix;
 use crate::basis::{Fields, Shapes};
-use crate::law::{Law, Rigidity};
+use crate::law::{Law, LawAt, Rigidity};
 use crate::quadrature::Rule;
 use faer::linalg::matmul::matmul;
+use faer::prelude::ReborrowMut;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use ppum::real::{Job, Real, Scalar};
-use std::borrow::Cow;
+use ppum::vec2::Vec2;
+use std::ops::Range;
 
 /// Most components of a strain.
 const SECTIONS: usize = 3;
 
-/// A symmetric matrix over the unknowns of some patches, row-major; of blocks of different patches only those are there of
-/// which the first patch comes before the second.
-#[derive(Clone, Debug)]
-pub(super) struct CellMatrix {
-    /// First unknown of each patch, and their number.
-    first: Vec<usize>,
-    values: Vec<f64>,
-}
-
-impl CellMatrix {
-    /// Zero, for patches with so many unknowns.
-    pub(super) fn new(sizes: impl Iterator<Item = usize>) -> Self {
-        let mut first = vec![0];
-        sizes.for_each(|size| first.push(first[first.len() - 1] + size));
-        let n = first[first.len() - 1];
-        Self { values: vec![0.0; n * n], first }
-    }
-
-    fn n(&self) -> usize {
-        self.first[self.first.len() - 1]
-    }
-
-    /// The unknowns of patch k with those of patch l.
-    pub(super) fn block(&self, k: usize, l: usize) -> MatRef<'_, f64> {
-        let all = MatRef::from_row_major_slice(&self.values, self.n(), self.n());
-        let [rows, columns] = [k, l].map(|k| self.first[k]..self.first[k + 1]);
-        all.submatrix(rows.start, columns.start, rows.len(), columns.len())
-    }
-
-    pub(super) fn block_mut(&mut self, k: usize, l: usize) -> MatMut<'_, f64> {
-        let n = self.n();
-        let [rows, columns] = [k, l].map(|k| self.first[k]..self.first[k + 1]);
-        MatMut::from_row_major_slice_mut(&mut self.values, n, n).submatrix_mut(
-            rows.start,
-            columns.start,
-            rows.len(),
-            columns.len(),
-        )
-    }
-
-    /// Makes all blocks those of one symmetric matrix.
-    pub(super) fn complete(&mut self) {
-        let n = self.n();
-        for a in 0..n {
-            (0..a).for_each(|b| self.values[a * n + b] = self.values[b * n + a]);
-        }
-    }
-}
-
-/// The stiffness of a cell: a matrix over its patches in some order.
-#[derive(Clone, Debug)]
-pub(super) struct Stiffness<'a> {
-    pub(super) matrix: Cow<'a, CellMatrix>,
-    /// The place of each patch of the cell in that order; none if it is their own.
-    pub(super) seats: Option<Vec<usize>>,
-}
-
-impl Stiffness<'_> {
-    /// The unknowns of patch k of the cell with those of patch l, which does not come before it.
-    pub(super) fn block(&self, k: usize, l: usize) -> MatRef<'_, f64> {
-        match &self.seats {
-            Some(seats) => self.matrix.block(seats[k], seats[l]),
-            None => self.matrix.block(k, l),
-        }
-    }
-}
-
-/// Rows of strains and of weighted stresses at the points of a rule.
+/// Slopes, strains and weighted stresses at the points of a rule.
 #[derive(Debug, Default)]
 pub(crate) struct Strains {
-    /// Length of a section: points, and zeros up to whole vectors.
+    /// Of the functions that each component has for itself ∂₁ψ and ∂₂ψ, of each patch [2, functions, points].
+    slopes: Vec<f64>,
+    /// The same times weights and a coefficient of the law.
+    weighted: Vec<f64>,
+    /// ∫ a ∂_k ψ_a ∂_l ψ_b of two patches.
+    products: Vec<f64>,
+    /// Length of a section of the strains and stresses: points, and zeros up to whole vectors.
     stride: usize,
     sections: usize,
     strain: Vec<f64>,
@@ -97,6 +40,18 @@ pub(crate) struct Strains {
     /// D times the weights, [sections · sections, stride].
     rigidity: Vec<f64>,
 }
+
+/// The unknowns of a patch: the first of its slopes and of its strains, and their numbers.
+#[derive(Clone, Copy, Debug)]
+struct Rows {
+    slope: usize,
+    scalars: usize,
+    strain: usize,
+    vectors: usize,
+}
+
+/// Of σ_ik, its section of a row of stresses.
+const SECTION: [[usize; 2]; 2] = [[0, 2], [2, 1]];
 
 impl Strains {
     /// Adds the points of a rule to the stiffness of a cell. `shapes` are the plain functions there; `fields` are the
@@ -108,28 +63,80 @@ impl Strains {
         (fields, numbers): (&[Fields<'_>], &[usize]),
         matrix: &mut CellMatrix,
     ) {
-        let rows: Vec<usize> = fields.iter().map(|fields| fields.len(law.components)).collect();
-        self.clear(law, rule, &rule.weights, rows.iter().sum());
-        let (mut row, mut function) = (0, 0);
-        for (fields, rows) in fields.iter().zip(&rows) {
-            function = self.see(fields, law.components, shapes, function, row);
-            row += rows;
+        let vectors = fields.iter().map(Fields::vectors).sum();
+        self.clear(law, rule, &rule.weights, vectors);
+        let rows = self.see_all(fields, shapes);
+        let n = rows.len();
+        let pairs = || (0..n).flat_map(|k| (k..n).map(move |l| (k, l)));
+        for (m, term) in law.terms.iter().enumerate() {
+            self.weigh(rule, |x| law.coefficients(x)[m]);
+            for (k, l) in pairs() {
+                let places = [numbers[k], numbers[l]];
+                self.add_scalars(term, [rows[k], rows[l]], shapes.points, (matrix, places));
+            }
         }
         f64::dispatch(Stresses(self));
-        let length = self.sections * self.stride;
-        let part = |array, first, rows| part(array, first * length, rows, length, length);
-        let mut first = 0;
-        for (k, &p) in numbers.iter().enumerate() {
-            let strains = part(&self.strain, first, rows[k]);
-            let mut second = first;
-            for (l, &q) in numbers.iter().enumerate().skip(k) {
-                let stresses = part(&self.stress, second, rows[l]).transpose();
-                let block = matrix.block_mut(p, q);
-                matmul(block, Accum::Add, strains, stresses, 1.0, Par::Seq);
-                second += rows[l];
-            }
-            first += rows[k];
+        for (k, l) in pairs().filter(|&(k, l)| rows[k].vectors + rows[l].vectors > 0) {
+            let block = matrix.block_mut(numbers[k], numbers[l]);
+            self.add_vectors([rows[k], rows[l]], shapes.points, block);
         }
+    }
+
+    /// Multiplies the slopes by the weights of a rule and a coefficient.
+    fn weigh(&mut self, rule: &Rule, coefficient: impl Fn(Vec2) -> f64) {
+        let points = rule.offsets.iter().zip(&rule.weights);
+        let factors: Vec<f64> = points.map(|(&o, w)| w * coefficient(rule.anchor + o)).collect();
+        self.weighted.clear();
+        for row in self.slopes.chunks_exact(factors.len().max(1)) {
+            self.weighted.extend(row.iter().zip(&factors).map(|(slope, factor)| slope * factor));
+        }
+    }
+
+    /// K_(i,a)(j,b) += Σ_kl C_ikjl ∫ a ∂_k ψ_a ∂_l ψ_b for the functions that each component has for itself, C a term of the law.
+    fn add_scalars(
+        &mut self,
+        law: &LawAt,
+        [p, q]: [Rows; 2],
+        n: usize,
+        (matrix, places): (&mut CellMatrix, [usize; 2]),
+    ) {
+        let components = law.components();
+        let pairs = || (0..components * components).map(|n| (n / components, n % components));
+        for (k, l) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let factors =
+                pairs().map(|(i, j)| ([i * p.scalars, j * q.scalars], law.entry([i, k], [j, l])));
+            let factors: Vec<_> = factors.filter(|(_, factor)| *factor != 0.0).collect();
+            if factors.is_empty() {
+                continue;
+            }
+            self.products.resize(p.scalars * q.scalars, 0.0);
+            let to = MatMut::from_row_major_slice_mut(&mut self.products, p.scalars, q.scalars);
+            let [left, right] = [p.slopes(&self.slopes, k, n), q.slopes(&self.weighted, l, n)];
+            matmul(to, Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
+            for (at, factor) in factors {
+                matrix.add(places, at, (&self.products, q.scalars), factor);
+            }
+        }
+    }
+
+    /// ∫ ε_a · σ_b where one or both of the unknowns are vector fields.
+    fn add_vectors(&self, [p, q]: [Rows; 2], n: usize, mut block: MatMut<'_, f64>) {
+        let length = self.sections * self.stride;
+        let of =
+            |array, rows: Rows| part(array, rows.strain * length, rows.vectors, length, length);
+        let [own, other] = [p, q].map(|rows| of(&self.stress, rows));
+        let (below, beside) = (2 * p.scalars, 2 * q.scalars);
+        for (i, k) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let first = SECTION[i][k] * self.stride;
+            let (left, right) = (p.slopes(&self.slopes, k, n), other.subcols(first, n).transpose());
+            let to = block.rb_mut().submatrix_mut(i * p.scalars, beside, p.scalars, q.vectors);
+            matmul(to, Accum::Add, left, right, 1.0, Par::Seq);
+            let (left, right) = (own.subcols(first, n), q.slopes(&self.slopes, k, n).transpose());
+            let to = block.rb_mut().submatrix_mut(below, i * q.scalars, p.vectors, q.scalars);
+            matmul(to, Accum::Add, left, right, 1.0, Par::Seq);
+        }
+        let to = block.submatrix_mut(below, beside, p.vectors, q.vectors);
+        matmul(to, Accum::Add, of(&self.strain, p), other.transpose(), 1.0, Par::Seq);
     }
 
     /// Adds ∫ ε_a·σ_b of all pairs of fields to a matrix, with weights of their own at the points of a rule. The slopes by x and y
@@ -189,37 +196,40 @@ impl Strains {
         }
     }
 
-    /// The strains of a patch's unknowns, from a row on; its functions stand from `function` on. Returns the next function.
-    fn see(
-        &mut self,
-        fields: &Fields<'_>,
-        components: usize,
-        shapes: &Shapes,
-        function: usize,
-        row: usize,
-    ) -> usize {
+    /// The slopes and strains of the unknowns of all patches, whose functions stand one after the other.
+    fn see_all(&mut self, fields: &[Fields<'_>], shapes: &Shapes) -> Vec<Rows> {
+        let length = fields.iter().map(|fields| 2 * fields.scalar.nrows() * shapes.points).sum();
+        self.slopes.resize(length, 0.0);
+        let (mut function, mut slope, mut strain) = (0, 0, 0);
+        let of_patch = |fields: &Fields<'_>| {
+            let (scalars, vectors) = (fields.scalar.nrows(), fields.vectors());
+            let rows = Rows { slope, scalars, strain, vectors };
+            self.see(fields, shapes, function, rows);
+            function += fields.plain();
+            slope += 2 * scalars * shapes.points;
+            strain += vectors;
+            rows
+        };
+        fields.iter().map(of_patch).collect()
+    }
+
+    /// The slopes and strains of the unknowns of a patch, whose functions stand from `function` on.
+    fn see(&mut self, fields: &Fields<'_>, shapes: &Shapes, function: usize, rows: Rows) {
         let slopes = |n: usize| {
             [&shapes.dx, &shapes.dy].map(|array| shapes.rows(array, function..function + n))
         };
         let (n, Fields { scalar, vector }) = (shapes.points, *fields);
-        let [dx, dy] = slopes(scalar.ncols());
-        let own = scalar.nrows();
-        if components == 1 {
-            matmul(self.section(row, own, 0, n), Accum::Replace, scalar, dx, 1.0, Par::Seq);
-            matmul(self.section(row, own, 1, n), Accum::Replace, scalar, dy, 1.0, Par::Seq);
-            return function + scalar.ncols();
+        for (k, slope) in slopes(scalar.ncols()).into_iter().enumerate() {
+            let to = &mut self.slopes[rows.section(k, n)];
+            let to = MatMut::from_row_major_slice_mut(to, rows.scalars, n);
+            matmul(to, Accum::Replace, scalar, slope, 1.0, Par::Seq);
         }
-        matmul(self.section(row, own, 0, n), Accum::Replace, scalar, dx, 1.0, Par::Seq);
-        matmul(self.section(row, own, 2, n), Accum::Replace, scalar, dy, 1.0, Par::Seq);
-        (0..own).for_each(|k| self.turn(row + k, row + own + k));
-        let Some([x, y]) = vector else { return function + scalar.ncols() };
-        let [dx, dy] = slopes(x.ncols());
-        let (row, fields) = (row + 2 * own, x.nrows());
+        let Some([x, y]) = vector else { return };
+        let ([dx, dy], (row, fields)) = (slopes(x.ncols()), (rows.strain, rows.vectors));
         matmul(self.section(row, fields, 0, n), Accum::Replace, x, dx, 1.0, Par::Seq);
         matmul(self.section(row, fields, 1, n), Accum::Replace, y, dy, 1.0, Par::Seq);
         matmul(self.section(row, fields, 2, n), Accum::Replace, x, dy, 1.0, Par::Seq);
         matmul(self.section(row, fields, 2, n), Accum::Add, y, dx, 1.0, Par::Seq);
-        function + x.ncols()
     }
 
     /// A section of some rows.
@@ -233,13 +243,18 @@ impl Strains {
         // not `from_row_major_slice_with_stride_mut`: that of faer 0.24.4 swaps the strides and lets products write beyond the slice
         MatMut::from_column_major_slice_with_stride_mut(values, n, rows, length).transpose_mut()
     }
+}
 
-    /// The strains of a function in the second component from those in the first.
-    fn turn(&mut self, from: usize, to: usize) {
-        let (length, stride) = (self.sections * self.stride, self.stride);
-        let (from, to) = (from * length, to * length);
-        self.strain.copy_within(from..from + stride, to + 2 * stride);
-        self.strain.copy_within(from + 2 * stride..from + length, to + stride);
+impl Rows {
+    /// The place of the slopes along an axis.
+    fn section(&self, axis: usize, n: usize) -> Range<usize> {
+        let first = self.slope + axis * self.scalars * n;
+        first..first + self.scalars * n
+    }
+
+    /// The slopes along an axis: [functions, points].
+    fn slopes<'a>(&self, array: &'a [f64], axis: usize, n: usize) -> MatRef<'a, f64> {
+        MatRef::from_row_major_slice(&array[self.section(axis, n)], self.scalars, n)
     }
 }
 

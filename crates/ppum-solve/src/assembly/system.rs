@@ -3,10 +3,10 @@
 use super::Assembly;
 use super::border::BorderPiece;
 use super::cell::{CellAssembler, Functionals};
+use super::cell_matrix::Stiffness;
 use super::cell_system::CellSystem;
 use super::given::Given;
 use super::reaction::Reactions;
-use super::stiffness::Stiffness;
 use super::template::Templates;
 use crate::basis::{Earlier, Penalty};
 use crate::linear::{BlockMatrix, BlockPattern};

@@ -2,7 +2,7 @@
 
 use super::Assembly;
 use super::cell::CellAssembler;
-use super::stiffness::{CellMatrix, Stiffness};
+use super::cell_matrix::{CellMatrix, Stiffness};
 use crate::space::Member;
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -74,9 +74,7 @@ impl<'a> Templates<'a> {
         let kind = &space.alike().kinds()[template.member.kind as usize];
         let (space, basis) = (kind.space(space), basis.of_patches(&template.member.patches));
         let assembly = Assembly { space: &space, basis: &basis, ..self.assembly };
-        let mut matrix = CellAssembler::new(assembly, None).stiffness(0, kind.rules());
-        matrix.complete();
-        matrix
+        CellAssembler::new(assembly, None).stiffness(0, kind.rules())
     }
 }
 

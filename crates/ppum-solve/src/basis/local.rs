@@ -58,7 +58,17 @@ pub(crate) struct Fields<'a> {
 impl Fields<'_> {
     /// Number of unknowns of a field of so many components.
     pub(crate) fn len(&self, components: usize) -> usize {
-        components * self.scalar.nrows() + self.vector.map_or(0, |[x, _]| x.nrows())
+        components * self.scalar.nrows() + self.vectors()
+    }
+
+    /// Number of fields that have both components.
+    pub(crate) fn vectors(&self) -> usize {
+        self.vector.map_or(0, |[x, _]| x.nrows())
+    }
+
+    /// Number of plain functions.
+    pub(crate) fn plain(&self) -> usize {
+        self.vector.map_or(self.scalar.ncols(), |[x, _]| x.ncols())
     }
 }
 
