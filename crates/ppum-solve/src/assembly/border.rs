@@ -169,11 +169,12 @@ impl<'a> Border<'a> {
         shapes: &Shapes,
         load: &mut [f64],
     ) {
-        for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
-            let loads = piece.loads(rule.anchor + offset, rule.normals[q]);
-            let loads = &loads[..self.assembly.components()];
-            shapes.add_load(q, numbers, loads, weight, load);
-        }
+        let points = rule.offsets.iter().zip(&rule.normals).zip(&rule.weights);
+        let at = |((&o, &normal), &weight): ((&Vec2, &Vec2), &f64)| {
+            piece.loads(rule.anchor + o, normal).map(|t| weight * t)
+        };
+        let loads: Vec<[f64; 2]> = points.map(at).collect();
+        shapes.add_loads(&loads, numbers, self.assembly.components(), load);
     }
 
     /// The functions as component i sees them; shapes carry the roots of the weights.

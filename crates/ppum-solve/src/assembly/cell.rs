@@ -78,7 +78,8 @@ impl<'s> CellAssembler<'s> {
         if border.is_empty() {
             return Ok((system, matrix));
         }
-        let unknowns = system.load.len();
+        // where nothing is held there are loads alone, and the matrices stay empty
+        let unknowns = if is_held { system.load.len() } else { 0 };
         let mut on_border = Border::new(self.assembly, unknowns);
         for piece in border {
             on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
@@ -145,12 +146,10 @@ impl<'s> CellAssembler<'s> {
     fn load(&self, rule: &Rule, source: Option<Data<'_>>, system: &mut CellSystem) {
         let Some(source) = source else { return };
         let numbers = system.functions.numbers(&rule.patches);
-        for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
-            let x = rule.anchor + offset;
-            let values = source(x);
-            let values = &values[..self.assembly.law.components];
-            self.shapes.add_load(q, &numbers, values, weight, &mut system.load);
-        }
+        let points = rule.offsets.iter().zip(&rule.weights);
+        let load = |(&o, &weight): (&Vec2, &f64)| source(rule.anchor + o).map(|f| weight * f);
+        let loads: Vec<[f64; 2]> = points.map(load).collect();
+        self.shapes.add_loads(&loads, &numbers, self.assembly.components(), &mut system.load);
     }
 
     /// Adds the points of a rule to the functionals, and to a matrix of fields, or of functions where they are not tied.

@@ -15,6 +15,7 @@ use crate::linear::{BlockMatrix, LinearError, LinearSolver};
 use crate::quadrature::Rule;
 use faer::Mat;
 use faer::linalg::solvers::{DenseSolveCore, Solve};
+use ppum::vec2::Vec2;
 
 /// A free mode of a piece.
 #[derive(Clone, PartialEq)]
@@ -75,14 +76,15 @@ impl<'p> FreeModes<'p> {
         if self.modes.is_empty() {
             return;
         }
-        for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
-            let x = rule.anchor + offset;
-            let piece = self.pieces.of(x);
-            let here = parts.iter_mut().zip(&self.modes).filter(|(_, mode)| mode.piece == piece);
-            for (part, mode) in here {
-                let m = mode.modes.combined(&mode.mode, x);
-                shapes.add_load(q, numbers, &m[..components], weight, part);
-            }
+        let place = |&offset: &Vec2| (rule.anchor + offset, self.pieces.of(rule.anchor + offset));
+        let places: Vec<(Vec2, usize)> = rule.offsets.iter().map(place).collect();
+        for (part, mode) in parts.iter_mut().zip(&self.modes) {
+            let load = |(&(x, piece), weight): (&(Vec2, usize), &f64)| {
+                let weight = if piece == mode.piece { *weight } else { 0.0 };
+                mode.modes.combined(&mode.mode, x).map(|m| weight * m)
+            };
+            let loads: Vec<[f64; 2]> = places.iter().zip(&rule.weights).map(load).collect();
+            shapes.add_loads(&loads, numbers, components, part);
         }
     }
 }

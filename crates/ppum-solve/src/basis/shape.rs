@@ -64,21 +64,19 @@ impl Shapes {
         MatRef::from_row_major_slice(part, functions.len(), self.points)
     }
 
-    /// Adds weight · N · values at point `q` to a load over the functions of a cell, of which `numbers`
-    /// are those of the rows; component i of function a is entry a · components + i.
-    pub(crate) fn add_load(
+    /// Adds Σ N · load over the points, loads times weights, to a load over the functions of a cell, of which
+    /// `numbers` are those of the rows; component i of function a is entry a · components + i.
+    pub(crate) fn add_loads(
         &self,
-        q: usize,
+        loads: &[[f64; 2]],
         numbers: &[usize],
-        values: &[f64],
-        weight: f64,
-        load: &mut [f64],
+        components: usize,
+        sum: &mut [f64],
     ) {
+        let loads = Mat::from_fn(self.points, components, |q, i| loads[q][i]);
+        let sums = self.rows(&self.value, 0..self.functions) * loads;
         for (k, &number) in numbers.iter().enumerate() {
-            let n = self.value[k * self.points + q];
-            for (i, value) in values.iter().enumerate() {
-                load[number * values.len() + i] += weight * value * n;
-            }
+            (0..components).for_each(|i| sum[number * components + i] += sums[(k, i)]);
         }
     }
 
