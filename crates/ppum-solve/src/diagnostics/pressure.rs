@@ -13,11 +13,11 @@
 //! so the median by area is told.
 
 use super::{kind, short, warning};
-use crate::law::Law;
+use crate::law::{Law, LawAt};
 use crate::problem::{STIFF, stiffness_ratio};
 use ppum::crack::Side;
 use ppum::dataset::Warning;
-use ppum::field::Field;
+use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 use rayon::prelude::*;
@@ -33,9 +33,9 @@ const N: usize = 9;
 /// Cells that are looked at, evenly among all.
 const CELLS: usize = 256;
 
-/// What is found around a cell: its area, the squares of the tail and of the stresses.
+/// Pressure around a cell: the cell's area, mean squares of the tail and of the stresses.
 #[derive(Clone, Copy)]
-struct Found {
+struct Oscillation {
     area: f64,
     tail: f64,
     stress: f64,
@@ -47,63 +47,66 @@ pub(super) fn of_pressure(field: &Field<'_>) -> Option<Warning> {
         return None;
     }
     let n_cells = field.step.partition.len();
-    let cells: Vec<usize> = (0..n_cells).step_by(n_cells.div_ceil(CELLS)).collect();
-    let found: Vec<Found> = cells.par_iter().filter_map(|&cell| around(field, cell)).collect();
-    let part = (typical_tail(&found)? / mean_stress(&found)).sqrt();
+    let law = Law::new(field.equation);
+    let cells: Vec<usize> = (0..n_cells).step_by(n_cells.div_ceil(CELLS).max(1)).collect();
+    let of_cell = |&cell: &usize| oscillation(field, &law, cell);
+    let all: Vec<Oscillation> = cells.par_iter().filter_map(of_cell).collect();
+    let part = (typical_tail(&all)? / mean_stress(&all)).sqrt();
     let message = format!(
         "the plate is nearly incompressible, and its pressure oscillates from cell to cell: stresses are off by about {} % \
-         in most places, while displacements, energy and factors are not; use a higher `order`, or smaller cells",
+         in most places, far more than displacements, energy and factors; use a higher `order`, or smaller cells",
         short((1e4 * part).round() / 1e2)
     );
     (part > LARGE).then(|| warning(kind::PRESSURE, None, [part, LARGE], message))
 }
 
 /// The median by area of the squares of tails.
-fn typical_tail(found: &[Found]) -> Option<f64> {
-    let mut sorted = found.to_vec();
+fn typical_tail(all: &[Oscillation]) -> Option<f64> {
+    let mut sorted = all.to_vec();
     sorted.sort_by(|a, b| a.tail.total_cmp(&b.tail));
-    let mut rest = 0.5 * found.iter().map(|f| f.area).sum::<f64>();
-    let is_middle = |f: &&Found| {
+    let mut rest = 0.5 * all.iter().map(|f| f.area).sum::<f64>();
+    let is_middle = |f: &&Oscillation| {
         rest -= f.area;
         rest <= 0.0
     };
     sorted.iter().find(is_middle).map(|f| f.tail)
 }
 
-fn mean_stress(found: &[Found]) -> f64 {
-    let area: f64 = found.iter().map(|f| f.area).sum();
-    found.iter().map(|f| f.area * f.stress).sum::<f64>() / area
+fn mean_stress(all: &[Oscillation]) -> f64 {
+    let area: f64 = all.iter().map(|f| f.area).sum();
+    all.iter().map(|f| f.area * f.stress).sum::<f64>() / area
 }
 
-/// Looks at a cell and what surrounds it at the distance of its size; none if that is not all in the plate, or the
+/// The pressure in a cell and around it up to the distance of its size; `None` if that does not lie in the plate, or the
 /// volume may change there.
-fn around(field: &Field<'_>, cell: usize) -> Option<Found> {
+fn oscillation(field: &Field<'_>, law: &Law<'_>, cell: usize) -> Option<Oscillation> {
     let (rect, data) = (field.step.partition.cell[cell], &field.step.fields[0]);
-    let order = usize::from(data.block_degree[data.blocks(cell).start]);
+    let order =
+        data.blocks(cell).map(|block| data.block_degree[block]).max().map_or(0, usize::from);
     let (half, middle) = (rect.size() * 1.5, rect.center());
     let moduli = field.equation.moduli(middle, [0.0; 2]);
     if moduli.lambda <= STIFF * moduli.mu {
         return None;
     }
-    let mut values = [[(0.0, 0.0); N]; N];
+    let (mut local, mut values) = (field.at(middle), [[(0.0, 0.0); N]; N]);
     for (i, row) in values.iter_mut().enumerate() {
         for (j, value) in row.iter_mut().enumerate() {
-            *value = stresses(field, middle + vec2(half.x * node(i), half.y * node(j)))?;
+            let offset = vec2(half.x * node(i), half.y * node(j));
+            *value = stresses(&mut local, offset, &law.at(middle + offset))?;
         }
     }
     let stress = values.as_flattened().iter().map(|v| v.1).sum::<f64>() / (N * N) as f64;
     let tail = tail(&values.map(|row| row.map(|v| v.0)), order);
-    Some(Found { area: rect.size().x * rect.size().y, tail, stress })
+    Some(Oscillation { area: rect.size().x * rect.size().y, tail, stress })
 }
 
-/// λ div u and σ:σ in the plane at a point; none outside the plate, and where they are infinite.
-fn stresses(field: &Field<'_>, p: Vec2) -> Option<(f64, f64)> {
+/// λ div u and σ:σ in the plane at a point; `None` outside the plate, and where they are infinite.
+fn stresses(local: &mut LocalField<'_>, offset: Vec2, law: &LawAt) -> Option<(f64, f64)> {
     let mut u = [Jet::constant(0.0); 2];
-    let is_inside = field.at(p).evaluate::<1>(Vec2::ZERO, Side::Above, &mut u);
-    let law = Law::new(field.equation).at(p);
+    let is_inside = local.evaluate::<1>(offset, Side::Above, &mut u);
     let [[xx, xy], [yx, yy]] = law.flux(&u.map(|jet| vec2(jet.x, jet.y)));
-    let (pressure, square) =
-        (law.lambda() * (u[0].x + u[1].y), xx * xx + xy * xy + yx * yx + yy * yy);
+    let pressure = law.lambda() * (u[0].x + u[1].y);
+    let square = xx * xx + xy * xy + yx * yx + yy * yy;
     (is_inside && square.is_finite()).then_some((pressure, square))
 }
 

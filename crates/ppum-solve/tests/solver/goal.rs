@@ -75,6 +75,23 @@ fn assert_reached(plate: &Plate, accuracy: f64) {
 }
 
 #[test]
+fn steps_begin_near_their_end() {
+    let first = |text: &str| {
+        let plate = "[domain]\nmin = [0, 0]\nmax = [1, 1]\n[material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
+                     [[boundary]]\non = \"top\"\ndisplacement = [0, 0]\n[discretization]\n";
+        let text = format!("{plate}{text}\n");
+        Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem").discretization
+    };
+    for (accuracy, level, order) in [("1e-2", 2, 2), ("1e-3", 2, 2), ("1e-4", 3, 3), ("1e-6", 3, 4)]
+    {
+        let found = first(&format!("accuracy = {accuracy}"));
+        assert_eq!((found.cells, found.order), (Cells::Level(level), Order::Uniform(order)));
+        let found = first(&format!("accuracy = {accuracy}\nlevel = 1\norder = 1"));
+        assert_eq!((found.cells, found.order), (Cells::Level(1), Order::Uniform(1)));
+    }
+}
+
+#[test]
 fn accuracies_are_reached() {
     assert_reached(&end_shear(), 1e-3);
     // the clamped corners add to both factors of both tips
