@@ -53,7 +53,7 @@ def prepare(ppum, folder):
     call("sample", plate, "--points", folder / "cells.csv", "-q", "von-mises", "-o", folder / "cells.npy")
 
 
-# The options of `ppum render` for the methods of `ppum bench`.
+# The options of `ppum render` for the methods of `ppum-bench`.
 METHODS = {
     "cpu f64": ["--backend", "cpu"],
     "cpu f32": ["--backend", "cpu", "--precision", "f32"],
@@ -77,20 +77,20 @@ def drawn(ppum, folder, method):
 def own(ppum, folder, frames):
     """Frames of ppum: by every method on all threads, and by the CPU on one."""
     versions = {"ppum": called(ppum, "--version").split()[-1]}
-    for threads in (["--threads", "1"], []):
-        words = ["bench", "renderer", folder / "plate.h5", "--frames", frames, "--json", *threads]
-        result = json.loads(called(ppum, *words))
-        for timed in result["renderer"]["rows"][0]["methods"]:
-            method = timed.pop("method")
-            is_cpu = method.startswith("cpu")
-            if is_cpu or not threads:
-                by = f"threads: {result['threads']}" if is_cpu else result["renderer"]["adapter"]["name"]
+    bench = Path(ppum).with_name("ppum-bench")
+    result = json.loads(called(bench, "frames", folder / "plate.h5", "--frames", frames, "--json"))
+    machine = result["machine"]
+    for threads, number in (("one", 1), ("all", machine["threads"])):
+        for timed in result["methods"]:
+            method, spent = timed["method"], timed[threads]
+            by = f"threads: {number}" if method.startswith("cpu") else machine["adapter"]["name"]
+            if spent:
                 yield {
                     "name": f"ppum, the field itself, {method}; {by}",
                     "versions": versions,
                     "pictures": drawn(ppum, folder, method),
-                    "data": timed,
-                    "view": timed,
+                    "data": spent,
+                    "view": spent,
                 }
 
 

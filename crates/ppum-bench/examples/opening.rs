@@ -7,13 +7,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use cpu_time::ProcessTime;
-use ppum::crack::{CrackEnd, End, TipId};
-use ppum::function::{Frame, WESTERGAARD};
-use ppum::prelude::*;
+use ppum::dataset::{Dataset, Step};
+use ppum_bench::synthetic::Recipe;
 use ppum_format::{Series, SeriesWriter};
-
-const DOMAIN: Rect = Rect { min: vec2(-0.65, -0.48), max: vec2(0.68, 0.52) };
-const TIPS: [Vec2; 2] = [vec2(-0.2, 0.0), vec2(0.2, 0.0)];
 
 /// Repetitions of a measurement.
 const TIMES: usize = 9;
@@ -40,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 fn opening(path: &Path, level: u8) -> Result<(), Box<dyn std::error::Error>> {
     if !path.exists() {
         let start = Instant::now();
-        ppum_format::write(&dataset(level)?, path)?;
+        ppum_format::write(&Recipe::new(level, level).dataset()?, path)?;
         println!("writing {}: {:.0} ms", path.display(), milliseconds(start));
     }
     let dataset = ppum_format::read(path)?;
@@ -66,7 +62,7 @@ fn opening(path: &Path, level: u8) -> Result<(), Box<dyn std::error::Error>> {
 
 /// A series of steps of 256 patches.
 fn appending(path: &Path, steps: usize) -> Result<(), Box<dyn std::error::Error>> {
-    let dataset = dataset(4)?;
+    let dataset = Recipe::new(4, 4).dataset()?;
     let step = &dataset.steps[0];
     let mut writer = SeriesWriter::begin(path, &dataset)?;
     for _ in 1..steps {
@@ -121,45 +117,4 @@ fn size(dataset: &Dataset) -> usize {
     let field = &fields[0];
     let coefficients: usize = field.coefficients.iter().map(Vec::len).sum();
     105 * partition.len() + 13 * field.block_degree.len() + 8 * coefficients
-}
-
-/// A uniform cover of 4^level cells of a plate with a crack; a quarter of the patches has tip functions.
-fn dataset(level: u8) -> Result<Dataset, Box<dyn std::error::Error>> {
-    let partition = Cover::uniform(DOMAIN, level)?.partition(1.3, WeightFunction::Linear)?;
-    let mut field = FieldData::new("displacement", &["ux", "uy"]);
-    for patch in 0..partition.len() {
-        let (p, s) = (partition.center[patch], partition.scale[patch]);
-        let tip = usize::from(p.x > 0.0);
-        if (p - TIPS[tip]).length() < 0.23 {
-            let first = 1 + 4 * tip as u32;
-            field.push_patch(&[(0, 2), (first, 0), (first + 1, 0), (first + 2, 0), (first + 3, 0)]);
-        } else {
-            field.push_patch(&[(0, 2)]);
-        }
-        for (k, values) in field.coefficients.iter_mut().enumerate() {
-            let from = field.block_offset[field.patch_blocks[patch] as usize] as usize;
-            let phase = 3.0 * p.x - 2.0 * p.y + k as f64;
-            let (sin, cos) = phase.sin_cos();
-            let taylor = [
-                sin,
-                3.0 * s.x * cos,
-                -2.0 * s.y * cos,
-                -4.5 * s.x * s.x * sin,
-                6.0 * s.x * s.y * sin,
-                -2.0 * s.y * s.y * sin,
-            ];
-            values[from..from + 6].copy_from_slice(&taylor);
-            values[from + 6..].fill(0.3);
-        }
-    }
-    let mut step = Step::new(partition).with_function("one", FunctionKind::One);
-    step.cracks.push(Crack { points: TIPS.to_vec(), ends: [CrackEnd::Tip; 2] });
-    for end in [End::Start, End::Last] {
-        let frame = Frame::Tip(TipId { crack: 0, end });
-        for text in WESTERGAARD {
-            step = step.with_function(text, FunctionKind::formula(text, frame));
-        }
-    }
-    let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
-    Ok(Dataset::new(DOMAIN, Equation::elasticity(material)).with_step(step.with_field(field)))
 }

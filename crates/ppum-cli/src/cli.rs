@@ -5,8 +5,8 @@ use std::ffi::OsString;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::commands::{
-    bench, check, compare, completions, demo, formula, gallery, info, man, plot, probe, render,
-    sample, sif, solve, view,
+    check, compare, completions, demo, formula, gallery, info, man, plot, probe, render, sample,
+    sif, solve, view,
 };
 use crate::output::Output;
 
@@ -47,7 +47,6 @@ pub(crate) enum Command {
     Gallery(gallery::Args),
     View(view::Args),
     Formula(formula::Args),
-    Bench(bench::Args),
     Completions(completions::Args),
     Man(man::Args),
 }
@@ -90,7 +89,6 @@ impl Command {
             Self::Plot(args) => args.run(out),
             Self::View(args) => args.run(out),
             Self::Formula(args) => args.run(out),
-            Self::Bench(args) => args.run(out),
             Self::Completions(args) => args.run(out, Cli::whole()),
             Self::Man(args) => args.run(out, Cli::whole()),
         }

@@ -31,9 +31,7 @@ pub mod solving;
 pub mod spot;
 pub mod stage;
 #[cfg(not(target_arch = "wasm32"))]
-mod surface;
-#[cfg(not(target_arch = "wasm32"))]
-pub mod timing;
+pub mod surface;
 pub mod undo;
 pub mod widgets;
 #[cfg(feature = "solve")]
@@ -111,10 +109,7 @@ mod tests {
             ],
         )],
         &[("surface", &["stage"]), ("window", &["app", "files", "frames", "session", "stage"])],
-        &[
-            ("offscreen", &["app", "surface", "window"]),
-            ("timing", &["app", "frames", "session", "surface"]),
-        ],
+        &[("offscreen", &["app", "surface", "window"])],
     ];
 
     #[test]

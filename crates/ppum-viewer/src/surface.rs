@@ -11,16 +11,16 @@ use std::time::Duration;
 use crate::stage::pixels;
 
 /// A texture of the window's size, and the device that draws on it: a graphics card, or software.
-pub(crate) struct Surface {
+pub struct Surface {
     /// The device.
-    pub(crate) state: RenderState,
+    pub state: RenderState,
     /// What is drawn on.
-    pub(crate) texture: wgpu::Texture,
+    pub texture: wgpu::Texture,
     size: [u32; 2],
 }
 
 /// Shapes on the device, ready to be drawn.
-pub(crate) struct Handed {
+pub struct Handed {
     shapes: Vec<ClippedPrimitive>,
     screen: ScreenDescriptor,
     encoder: wgpu::CommandEncoder,
@@ -29,7 +29,7 @@ pub(crate) struct Handed {
 
 /// A surface that there cannot be.
 #[derive(Debug)]
-pub(crate) enum SurfaceError {
+pub enum SurfaceError {
     /// Nothing to draw with.
     NoDriver(WgpuError),
     /// More pixels than the device draws: at most so many in a row.
@@ -37,11 +37,14 @@ pub(crate) enum SurfaceError {
 }
 
 /// Nobody waits longer for the device.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(120);
+pub const PATIENCE: Duration = Duration::from_secs(120);
 
 impl Surface {
     /// A surface for what a context shows, whose pictures are drawn by our shader as in the window.
-    pub(crate) fn new(
+    ///
+    /// # Errors
+    /// No driver; more pixels than the device draws.
+    pub fn new(
         ctx: &Context,
         size: [u32; 2],
         options: RendererOptions,
@@ -57,7 +60,7 @@ impl Surface {
     }
 
     /// Sends textures to the device, and frees those that are used no more, always in the same order.
-    pub(crate) fn send(&self, delta: &mut TexturesDelta) {
+    pub fn send(&self, delta: &mut TexturesDelta) {
         let RenderState { device, queue, renderer, .. } = &self.state;
         let mut renderer = renderer.write();
         let mut set: Vec<_> = delta.set.drain().collect();
@@ -69,7 +72,7 @@ impl Surface {
     }
 
     /// Makes triangles of an output's shapes and hands them over.
-    pub(crate) fn hand_over(&self, ctx: &Context, output: FullOutput) -> Handed {
+    pub fn hand_over(&self, ctx: &Context, output: FullOutput) -> Handed {
         let RenderState { device, queue, renderer, .. } = &self.state;
         let pixels_per_point = output.pixels_per_point;
         let shapes = ctx.tessellate(output.shapes, pixels_per_point);
@@ -81,7 +84,7 @@ impl Surface {
     }
 
     /// Draws them on a ground.
-    pub(crate) fn draw(&self, handed: Handed, ground: wgpu::Color) {
+    pub fn draw(&self, handed: Handed, ground: wgpu::Color) {
         let Handed { shapes, screen, mut encoder, buffers } = handed;
         let view = &self.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let ops =
@@ -98,7 +101,10 @@ impl Surface {
     }
 
     /// Waits until the device has done all that was asked of it.
-    pub(crate) fn wait(&self) -> Result<(), wgpu::PollError> {
+    ///
+    /// # Errors
+    /// A device that fails.
+    pub fn wait(&self) -> Result<(), wgpu::PollError> {
         let all = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
         self.state.device.poll(all).map(|_| ())
     }

@@ -1,6 +1,5 @@
 //! One command each: its arguments and what it prints.
 
-pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;

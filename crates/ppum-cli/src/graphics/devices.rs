@@ -72,7 +72,7 @@ fn drawn(
 }
 
 /// The error with the remedy that the options of this program offer.
-pub(super) fn message(error: &RenderError) -> String {
+fn message(error: &RenderError) -> String {
     let RenderError::Gpu(error) = error else { return error.to_string() };
     let remedy = match error {
         GpuError::NoAdapter { .. } => "; `--backend cpu` needs none",

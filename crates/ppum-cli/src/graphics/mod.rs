@@ -1,8 +1,6 @@
 //! Graphics devices, all that the program knows of them; without the feature `gpu` there are none.
 
 #[cfg(feature = "gpu")]
-mod cards;
-#[cfg(feature = "gpu")]
 mod devices;
 #[cfg(feature = "gpu")]
 mod drivers;
@@ -12,15 +10,13 @@ mod none;
 use serde::Serialize;
 
 #[cfg(feature = "gpu")]
-pub(crate) use cards::{Card, Cards};
-#[cfg(feature = "gpu")]
 pub(crate) use devices::{MISSING, adapters, draw};
 #[cfg(all(feature = "gpu", feature = "window"))]
 pub(crate) use drivers::opening;
 #[cfg(all(not(feature = "gpu"), feature = "window"))]
 pub(crate) use none::opening;
 #[cfg(not(feature = "gpu"))]
-pub(crate) use none::{Card, Cards, MISSING, adapters, draw};
+pub(crate) use none::{MISSING, adapters, draw};
 
 /// The devices that may draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail anywhere")]
 
 mod backend;
-mod bench;
 mod commands;
 mod compare;
 #[cfg(target_os = "linux")]

@@ -1,11 +1,12 @@
 //! The report as tables.
 
-use super::super::frames::{Summary, WAYS, Way};
-use super::super::table::Table;
 use super::agreement::{Agreement, Difference};
 use super::files::Opening;
 use super::scenes::Group;
-use super::{Report, Row, Spent, Timed};
+use super::turns::{Spent, Timed};
+use super::{Report, Row};
+use crate::frames::{Summary, WAYS, Way};
+use crate::table::Table;
 
 const CPU: [Way; 2] = [Way::CpuF32, Way::CpuF64];
 const DEVICES: [Way; 2] = [Way::Gather, Way::Splat];
@@ -15,7 +16,7 @@ pub(super) fn words(report: &Report) -> String {
     let [columns, rows] = report.pixels;
     format!(
         "{}\n\
-         pictures of {columns}x{rows} pixels: displacement, gradient, von Mises stress, colours; order 2, two components,\n\
+         images of {columns}x{rows} pixels: displacement, gradient, von Mises stress, colours; order 2, two components,\n\
          four tip functions on a quarter of the area, if nothing else is said\n\
          milliseconds a frame, least / median of {} frames; paper: Üffinger et al. 2011, table 1, GeForce GTX 470\n",
         report.machine.words(),
@@ -25,7 +26,8 @@ pub(super) fn words(report: &Report) -> String {
 
 pub(super) fn tables(report: &Report) -> Vec<Table> {
     let groups = Group::ALL.into_iter().map(|group| times(report, group));
-    groups.chain([threads(report), files(report), differences(report)]).collect()
+    let all = groups.chain([threads(report), files(report), differences(report)]);
+    all.filter(|table| !table.rows.is_empty()).collect()
 }
 
 fn owned<const N: usize>(words: [&str; N]) -> Vec<String> {
@@ -90,7 +92,7 @@ fn threads(report: &Report) -> Table {
     }
 }
 
-/// From a file to the first picture.
+/// From a file to the first image.
 fn files(report: &Report) -> Table {
     let line = |opening: &Opening| {
         let Opening { patches, bytes, open_ms, first_ms, upload_ms } = opening;
@@ -105,13 +107,13 @@ fn files(report: &Report) -> Table {
             upload,
         ]
     };
-    let head = ["patches", "MB", "open", "MB/s", "first picture", "upload"];
+    let head = ["patches", "MB", "open", "MB/s", "first image", "upload"];
     Table {
-        title: "From a file to the first picture".to_owned(),
+        title: "From a file to the first image".to_owned(),
         words: 0,
         head: owned(head),
         rows: report.files.iter().map(line).collect(),
-        note: "Milliseconds that pass on all threads, least of three; the file is in the system's memory. First picture: from opening on, \
+        note: "Milliseconds that pass on all threads, least of three; the file is in the system's memory. First image: from opening on, \
                by the CPU in f32."
             .to_owned(),
     }
@@ -159,7 +161,7 @@ fn compared(timed: Option<&Timed>) -> [String; 2] {
     let is_double = timed.is_some_and(|timed| timed.method == Way::CpuF64.name());
     let text = |Difference { p99, largest }: Difference, is_good: bool| {
         let mark = if is_good { "" } else { "!" };
-        format!("{mark}{:.0e}", if is_double { largest } else { p99 }.0)
+        format!("{mark}{:.0e}", if is_double { largest } else { p99 })
     };
     let control = control.map(|control| text(control.difference, control.caught));
     [text(difference, holds), control.unwrap_or_default()]
@@ -167,7 +169,28 @@ fn compared(timed: Option<&Timed>) -> [String; 2] {
 
 /// Least and median of processor time, or of time that passes where there is none.
 fn core(spent: Spent) -> String {
-    pair(spent.core_ms.unwrap_or(spent.wall_ms))
+    pair(spent.core())
+}
+
+/// Columns and rows of the images.
+pub(super) fn pixels_of(quick: bool) -> [u32; 2] {
+    if quick { [256, 192] } else { [1024, 768] }
+}
+
+/// The ways of a single dataset.
+pub(super) fn methods(all: &[Timed]) -> Table {
+    let head = owned(["method", "1 thread", "all threads", "processor of all"]);
+    let cell = |spent: Option<Spent>, time: fn(Spent) -> Summary| {
+        spent.map(|spent| pair(time(spent))).unwrap_or_default()
+    };
+    let line = |Timed { method, one, all, .. }: &Timed| {
+        let times = [(*one, true), (*all, true), (*all, false)];
+        let cells = times
+            .map(|(spent, is_wall)| cell(spent, if is_wall { |s| s.wall_ms } else { Spent::core }));
+        [(*method).to_owned()].into_iter().chain(cells).collect()
+    };
+    let (title, rows) = ("Frames".to_owned(), all.iter().map(line).collect());
+    Table { title, words: 1, head, rows, note: String::new() }
 }
 
 fn pair(Summary { least, median }: Summary) -> String {

@@ -24,9 +24,9 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 use serde::Serialize;
 
-use super::frames::{moved, style};
-use super::synthetic::{DOMAIN, Recipe};
-use super::table::Table;
+use crate::frames::{moved, style};
+use crate::synthetic::{DOMAIN, Recipe};
+use crate::table::Table;
 
 /// Repetitions, of which the fastest counts: enough that each has its quiet moment.
 const REPETITIONS: usize = 15;
@@ -41,9 +41,9 @@ const FLOOR: f64 = 1.2;
 /// Least ratio of work that is only in part done on vectors: functions of the mathematical library, look-ups, lists of patches.
 const FLOOR_OF_PARTS: f64 = 0.8;
 
-/// The report of `ppum bench guard`.
+/// The report of `ppum-bench guard`.
 #[derive(Debug, Serialize)]
-pub(super) struct Report {
+pub struct Report {
     /// Instruction sets.
     wide: &'static str,
     narrow: &'static str,
@@ -65,7 +65,10 @@ struct Row {
 
 impl Report {
     /// Measures; `quick` repeats less.
-    pub(super) fn new(quick: bool) -> anyhow::Result<Self> {
+    ///
+    /// # Errors
+    /// If threads or datasets cannot be made.
+    pub fn new(quick: bool) -> anyhow::Result<Self> {
         let (wide, narrow) = (instructions(), narrowed(instructions));
         let mut rows = Vec::new();
         // on a processor without wider vectors there is nothing to guard
@@ -77,8 +80,10 @@ impl Report {
         let holds = rows.iter().all(|row| row.holds);
         Ok(Self { wide, narrow, rows, holds })
     }
+}
 
-    pub(super) fn words(&self) -> String {
+impl crate::Report for Report {
+    fn words(&self) -> String {
         let Self { wide, narrow, .. } = self;
         if wide == narrow {
             return format!("{wide} is all there is: nothing to guard\n");
@@ -88,7 +93,7 @@ impl Report {
         )
     }
 
-    pub(super) fn table(&self) -> Table {
+    fn tables(&self) -> Vec<Table> {
         let head = ["kernels", self.wide, self.narrow, "ratio", "floor", ""];
         let line = |row: &Row| {
             let verdict = match (row.holds, row.is_control) {
@@ -101,18 +106,18 @@ impl Report {
             let [ratio, floor] = [row.ratio, row.floor].map(|ratio| format!("{ratio:.2}"));
             vec![row.kernels.clone(), wide, narrow, ratio, floor, verdict.to_owned()]
         };
-        Table {
+        vec![Table {
             title: "What wide vectors gain".to_owned(),
             words: 1,
             head: head.map(str::to_owned).into(),
             rows: self.rows.iter().map(line).collect(),
             note: "A kernel that leaves its instruction set falls below its floor. The control is a job that does so on purpose."
                 .to_owned(),
-        }
+        }]
     }
 
     /// An error if a kernel has lost its vectors, or if that would not be noticed.
-    pub(super) fn verdict(&self) -> anyhow::Result<()> {
+    fn verdict(&self) -> anyhow::Result<()> {
         let bad: Vec<&str> =
             self.rows.iter().filter(|row| !row.holds).map(|row| row.kernels.as_str()).collect();
         ensure!(

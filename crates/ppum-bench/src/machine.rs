@@ -1,21 +1,21 @@
 //! The machine that is measured.
 
+use std::path::Path;
+
 use ppum::real::{Scalar, instructions};
 use serde::Serialize;
-use sysinfo::{CpuRefreshKind, RefreshKind, System};
 
-use super::frames::Adapter;
-use crate::graphics::Cards;
+use crate::cards::{Adapter, Cards};
 
 /// What there is, and what of it is used.
 #[derive(Debug, Serialize)]
-pub(super) struct Machine {
+pub(crate) struct Machine {
     processor: String,
     /// Instruction set of the vectors, and how many numbers they hold.
     instructions: &'static str,
     lanes: Lanes,
-    pub(super) threads: usize,
-    /// Programs that wanted to run in the last minute, where the system tells: more than the cores, and times are long.
+    pub(crate) threads: usize,
+    /// Programs that wanted to run in the last minute, on Linux: more than the cores, and times are long.
     load: Option<f64>,
     adapter: Option<Adapter>,
     /// The reason why there is none.
@@ -29,24 +29,23 @@ struct Lanes {
 }
 
 impl Machine {
-    pub(super) fn new(threads: usize, cards: Result<&Cards, &String>) -> Self {
-        let refreshed = RefreshKind::nothing().with_cpu(CpuRefreshKind::nothing());
-        let system = System::new_with_specifics(refreshed);
-        let processor = system.cpus().first().map_or("", |cpu| cpu.brand().trim());
-        let load = System::load_average().one;
+    pub(crate) fn new(threads: usize, cards: Result<&Cards, &String>) -> Self {
+        let processor = line("/proc/cpuinfo", "model name").unwrap_or_default();
+        let processor = processor.trim_start_matches([' ', '\t', ':']).trim();
+        let load = line("/proc/loadavg", "").unwrap_or_default();
         Self {
             processor: if processor.is_empty() { std::env::consts::ARCH } else { processor }.into(),
             instructions: instructions(),
             lanes: Lanes { f64: f64::VECTOR, f32: f32::VECTOR },
             threads,
-            load: (load > 0.0).then_some(load),
-            adapter: cards.ok().map(Adapter::of),
+            load: load.split(' ').next().and_then(|load| load.parse().ok()),
+            adapter: cards.ok().map(Cards::adapter),
             missing: cards.err().cloned(),
         }
     }
 
     /// Sentences.
-    pub(super) fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         let Self { processor, instructions, lanes, threads, load, adapter, missing } = self;
         let load = load.map_or(String::new(), |load| format!(", load {load:.1} before"));
         let devices = match (adapter, missing) {
@@ -60,4 +59,10 @@ impl Machine {
             lanes.f64, lanes.f32
         )
     }
+}
+
+/// Linux: the rest of the first line of a file that begins so.
+pub(crate) fn line(path: &str, start: &str) -> Option<String> {
+    let text = ppum_file::text(Path::new(path), 1 << 24).ok()?;
+    text.lines().find_map(|line| line.strip_prefix(start)).map(str::to_owned)
 }

@@ -1,17 +1,17 @@
 //! From a file to the first picture.
 
-use std::path::PathBuf;
 use std::time::Instant;
 
-use anyhow::Context as _;
 use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::quantity::Quantity;
+use ppum_format::Series;
 use ppum_render::view::View;
 use serde::Serialize;
 
-use super::super::frames::{Subject, Way, moved, style};
-use super::super::synthetic::{DOMAIN, Recipe};
-use crate::dataset;
-use crate::graphics::Cards;
+use crate::cards::Cards;
+use crate::frames::{Subject, Way, moved, style};
+use crate::synthetic::{DOMAIN, Recipe};
 
 /// Times each is opened, of which the fastest counts; the file is in the system's memory.
 const REPETITIONS: u32 = 3;
@@ -27,16 +27,6 @@ pub(super) struct Opening {
     pub(super) first_ms: f64,
     /// Putting it on a graphics device.
     pub(super) upload_ms: Option<f64>,
-}
-
-/// A file that is there for a while.
-struct Kept(PathBuf);
-
-impl Drop for Kept {
-    fn drop(&mut self) {
-        // if it cannot be removed the system will
-        let _ = std::fs::remove_file(&self.0);
-    }
 }
 
 impl Opening {
@@ -57,19 +47,19 @@ impl Opening {
         pixels: [u32; 2],
         mut cards: Option<&mut Cards>,
     ) -> anyhow::Result<Self> {
-        let name = format!("ppum-bench-{}.h5", std::process::id());
-        let kept = Kept(std::env::temp_dir().join(name));
-        ppum_format::write(dataset, &kept.0)?;
-        let bytes = std::fs::metadata(&kept.0).context("the file was written")?.len();
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("plate.h5");
+        ppum_format::write(dataset, &path)?;
+        let bytes = std::fs::metadata(&path)?.len();
         let patches = dataset.steps[0].partition.len();
         let (mut open_ms, mut first_ms, mut upload_ms) = (f64::INFINITY, f64::INFINITY, None);
         for frame in 0..REPETITIONS {
             let start = Instant::now();
             let since = || 1e3 * start.elapsed().as_secs_f64();
-            let read = dataset::open_step(&kept.0, None)?;
+            let read = Series::open(&path)?.into_dataset(0)?;
             open_ms = since().min(open_ms);
-            let field = dataset::field(&read, None)?;
-            let quantity = dataset::quantity(&field, "von-mises")?;
+            let field = Field::new(&read, 0)?;
+            let quantity = Quantity::VonMises;
             let view = moved(View::fit(DOMAIN, pixels)?, frame)?;
             Subject::new(&field, (quantity, style(1.0)), None, false)?.draw(
                 Way::CpuF32,

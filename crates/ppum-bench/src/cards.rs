@@ -1,15 +1,14 @@
-//! Graphics devices as `ppum bench` measures them.
+//! Graphics devices as they are measured.
 
 use std::hint::black_box;
 
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum_gpu::{AdapterKind, Choice, Colors, Program, Renderer, Shading, Values};
+use ppum_gpu::{AdapterKind, Choice, Colors, Method, Program, Renderer, Shading, Values};
 use ppum_render::picture::Style;
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
-
-use super::{Method, devices, drivers};
+use serde::Serialize;
 
 /// A device.
 pub(crate) struct Cards(Renderer);
@@ -20,20 +19,22 @@ pub(crate) struct Card<'f> {
     splat: Option<Program<'f, Colors>>,
 }
 
+/// The graphics adapter.
+#[derive(Debug, Serialize)]
+pub(crate) struct Adapter {
+    pub(crate) name: String,
+    pub(crate) kind: &'static str,
+}
+
 impl Cards {
     /// Any device, or the reason why there is none.
     pub(crate) fn open() -> Result<Self, String> {
-        let opened = drivers::opening(|| Renderer::open(Choice::Any));
-        opened.map(Self).map_err(|error| devices::message(&error.into()))
+        Renderer::open(Choice::Any).map(Self).map_err(|error| error.to_string())
     }
 
-    pub(crate) fn name(&self) -> String {
-        self.0.gpu().info().name.clone()
-    }
-
-    /// The kind of device, in a word.
-    pub(crate) fn kind(&self) -> &'static str {
-        self.0.gpu().info().kind.name()
+    pub(crate) fn adapter(&self) -> Adapter {
+        let info = self.0.gpu().info();
+        Adapter { name: info.name.clone(), kind: info.kind.name() }
     }
 
     /// Puts a field on the device, and waits.
@@ -49,7 +50,7 @@ impl Cards {
 }
 
 impl<'f> Card<'f> {
-    /// Uploads a field and compiles pictures of a quantity; the range of the colours is fixed.
+    /// Uploads a field and compiles images of a quantity; the range of the colours is fixed.
     pub(crate) fn new(
         Cards(renderer): &mut Cards,
         field: &'f Field<'f>,
@@ -63,7 +64,7 @@ impl<'f> Card<'f> {
         let normalization = range.normalization(scale, colormap.diverging, &nothing)?;
         let shading = Shading { normalization, colormap, undefined };
         let output = Colors { quantity: quantity.clone(), shading };
-        let mut compile = |method: Method| renderer.compile(&scene, output.clone(), method.into());
+        let mut compile = |method| renderer.compile(&scene, output.clone(), method);
         let gather = compile(Method::Gather)?;
         let splat = can_splat.then(|| compile(Method::Splat)).transpose()?;
         Ok(Self { gather, splat })
@@ -97,7 +98,7 @@ impl<'f> Card<'f> {
             return Ok(None);
         }
         let output = Values(quantity.clone());
-        let mut program = renderer.compile(self.gather.scene(), output, method.into())?;
+        let mut program = renderer.compile(self.gather.scene(), output, method)?;
         Ok(Some(renderer.draw(&mut program, view)?.read()?))
     }
 }

@@ -1,20 +1,27 @@
 //! The scenes that are measured: the paper's, and what else drawing depends on.
 
+use clap::ValueEnum;
 use ppum::library::ELASTICITY;
 use ppum::vec2::{Vec2, vec2};
 use serde::Serialize;
 
-use super::super::synthetic::{DOMAIN, Recipe, TIPS};
+use crate::synthetic::{DOMAIN, Recipe, TIPS};
 
 /// What the scenes of a table have to tell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum Group {
+pub enum Group {
+    /// Table 1 of the paper, graded covers, a million patches
     Patches,
+    /// Order of the polynomials
     Orders,
+    /// All patches enriched
     Enriched,
+    /// Zooms towards a tip
     Zooms,
+    /// Formulas in place of kernels
     Formulas,
+    /// Colours alone
     Colors,
 }
 

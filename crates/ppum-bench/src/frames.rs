@@ -8,6 +8,7 @@ use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::vec2;
+use ppum_gpu::Method;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Range;
 use ppum_render::raster::{Raster, Sample};
@@ -15,24 +16,24 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 use serde::Serialize;
 
-use crate::graphics::{Card, Cards, Method};
+use crate::cards::{Card, Cards};
 
 /// What draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub(crate) enum Way {
     Splat,
     Gather,
     CpuF64,
     CpuF32,
 }
 
-pub(super) const WAYS: [Way; 4] = [Way::Splat, Way::Gather, Way::CpuF64, Way::CpuF32];
+pub(crate) const WAYS: [Way; 4] = [Way::Splat, Way::Gather, Way::CpuF64, Way::CpuF32];
 
 /// Most patches that are splatted: the paper's.
 const MOST_SPLATTED: usize = 16384;
 
 impl Way {
-    pub(super) fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Splat => "splat",
             Self::Gather => "gather",
@@ -41,7 +42,7 @@ impl Way {
         }
     }
 
-    pub(super) fn is_on_cpu(self) -> bool {
+    pub(crate) fn is_on_cpu(self) -> bool {
         matches!(self, Self::CpuF64 | Self::CpuF32)
     }
 
@@ -55,43 +56,30 @@ impl Way {
     }
 }
 
-/// The graphics adapter.
-#[derive(Debug, Serialize)]
-pub(super) struct Adapter {
-    pub(super) name: String,
-    pub(super) kind: &'static str,
-}
-
-impl Adapter {
-    pub(super) fn of(cards: &Cards) -> Self {
-        Self { name: cards.name(), kind: cards.kind() }
-    }
-}
-
 /// Colours of von Mises' stress; that far from the crack is of size one, and grows with the root of the zoom towards a tip.
-pub(super) fn style(zoom: f64) -> Style {
+pub(crate) fn style(zoom: f64) -> Style {
     Style { range: Range::Fixed(0.0, 4.0 * zoom.sqrt()), ..Style::default() }
 }
 
 /// A view but for a part of a cell, another one each time: offsets by the golden ratio and its like are commensurate with
 /// no cells.
-pub(super) fn moved(View { center, width, pixels }: View, frame: u32) -> anyhow::Result<View> {
+pub(crate) fn moved(View { center, width, pixels }: View, frame: u32) -> anyhow::Result<View> {
     let part = |ratio: f64| 0.003 * width * ((f64::from(frame) * ratio).fract() - 0.5);
     let by = vec2(part(0.618_033_988_75), part(0.754_877_666_25));
     Ok(View::new(center + by, 0.9973 * width, pixels)?)
 }
 
 /// A quantity of a field with all that draws it.
-pub(super) struct Subject<'d> {
-    pub(super) field: &'d Field<'d>,
-    pub(super) quantity: Quantity,
+pub(crate) struct Subject<'d> {
+    pub(crate) field: &'d Field<'d>,
+    pub(crate) quantity: Quantity,
     style: Style,
     card: Option<Card<'d>>,
 }
 
 impl<'d> Subject<'d> {
     /// On the devices too if they are given, and there by splatting if it may and patches are not too many.
-    pub(super) fn new(
+    pub(crate) fn new(
         field: &'d Field<'d>,
         (quantity, style): (Quantity, Style),
         cards: Option<&mut Cards>,
@@ -104,7 +92,7 @@ impl<'d> Subject<'d> {
     }
 
     /// Draws and colours; false if this way is not gone.
-    pub(super) fn draw(
+    pub(crate) fn draw(
         &mut self,
         way: Way,
         view: &View,
@@ -128,13 +116,13 @@ impl<'d> Subject<'d> {
     }
 
     /// The colours alone.
-    pub(super) fn color<T: Sample>(&self, raster: &Raster<T>, view: &View) -> anyhow::Result<()> {
+    pub(crate) fn color<T: Sample>(&self, raster: &Raster<T>, view: &View) -> anyhow::Result<()> {
         black_box(Picture::bare(raster, view, &self.style)?);
         Ok(())
     }
 
     /// The values, if this way is gone.
-    pub(super) fn values(
+    pub(crate) fn values(
         &self,
         way: Way,
         view: &View,
@@ -156,18 +144,18 @@ impl<'d> Subject<'d> {
 
 /// Seconds of some frames: time that passes, and of processors.
 #[derive(Debug, Default)]
-pub(super) struct Times(Vec<[f64; 2]>);
+pub(crate) struct Times(Vec<[f64; 2]>);
 
 /// Milliseconds a frame.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub(super) struct Summary {
-    pub(super) median: f64,
-    pub(super) least: f64,
+pub(crate) struct Summary {
+    pub(crate) median: f64,
+    pub(crate) least: f64,
 }
 
 impl Times {
     /// Does work, and notes what it takes if it `counts` and was done.
-    pub(super) fn take(
+    pub(crate) fn take(
         &mut self,
         counts: bool,
         work: impl FnOnce() -> anyhow::Result<bool>,
@@ -179,16 +167,16 @@ impl Times {
         Ok(())
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    pub(super) fn wall(&self) -> Summary {
+    pub(crate) fn wall(&self) -> Summary {
         self.summary(0)
     }
 
     /// Of all threads together.
-    pub(super) fn core(&self) -> Summary {
+    pub(crate) fn core(&self) -> Summary {
         self.summary(1)
     }
 

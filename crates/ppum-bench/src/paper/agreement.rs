@@ -20,9 +20,8 @@ use ppum_render::reference::reference;
 use ppum_render::view::View;
 use serde::Serialize;
 
-use super::super::frames::{Subject, WAYS, Way};
-use crate::graphics::Cards;
-use crate::number::Number;
+use crate::cards::Cards;
+use crate::frames::{Subject, WAYS, Way};
 
 /// A weight with a wrong derivative: value and slope of 1 − t, but for a ripple of size 1e-5.
 pub(super) const WRONG: &str = "(1 - t)*(1 + 1e-5*sin(1e5*t))";
@@ -46,8 +45,8 @@ const ROWS: u32 = 128;
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct Difference {
     /// That of 99 % of the pixels.
-    pub(super) p99: Number,
-    pub(super) largest: Number,
+    pub(super) p99: f64,
+    pub(super) largest: f64,
 }
 
 /// A way of drawing, compared.
@@ -111,7 +110,7 @@ fn agreement(
     let limit = on_coarse * ((patches as f64).sqrt() / ACROSS).max(1.0);
     let is_within = |difference: Difference| {
         let Difference { p99, largest } = difference;
-        (if is_double { largest } else { p99 }).0 <= limit
+        (if is_double { largest } else { p99 }) <= limit
     };
     let difference = truth.difference(values);
     let wrong = wrong.filter(|_| is_double || patches <= MOST_IN_F32);
@@ -141,7 +140,7 @@ impl Truth {
         all.sort_by(f64::total_cmp);
         let at = |share: f64| {
             let place = (all.len().saturating_sub(1) as f64 * share) as usize;
-            Number(all.get(place).copied().unwrap_or(f64::INFINITY))
+            all.get(place).copied().unwrap_or(f64::INFINITY)
         };
         Difference { p99: at(0.99), largest: at(1.0) }
     }

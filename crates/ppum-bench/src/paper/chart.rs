@@ -1,37 +1,19 @@
-//! Times against the number of patches, as a picture.
+//! Times against the number of patches, as a chart.
 
 use std::path::Path;
 
-use ppum_figure::plot::{Curve, Look, Plot, PlotAxis, plot};
+use ppum_figure::plot::{Curve, Look};
 
-use super::super::frames::Way;
 use super::scenes::Group;
-use super::{Report, Row, Spent};
-use crate::output::Output;
-use crate::page;
-
-/// Size of the picture.
-const SIZE: [u32; 2] = [900, 600];
+use super::turns::Spent;
+use super::{Report, Row};
+use crate::chart;
+use crate::frames::Way;
 
 /// Least time that passes, so that the paper's and those of devices stand beside the CPU's.
-pub(super) fn save(
-    report: &Report,
-    path: &Path,
-    is_silent: bool,
-    out: &mut Output,
-) -> anyhow::Result<()> {
-    let drawn = Plot {
-        title: "Table 1 of Üffinger et al. 2011: a frame of 1024 × 768 pixels".into(),
-        x: PlotAxis::new("patches", "").logarithmic(),
-        y: PlotAxis::new("time", "ms").logarithmic(),
-        curves: curves(report),
-    };
-    let texts = [("Software".to_owned(), concat!("ppum ", env!("CARGO_PKG_VERSION")).to_owned())];
-    let picture = plot(&drawn, SIZE);
-    if is_silent {
-        return page::put(path, &picture, None, &texts, out);
-    }
-    page::save(path, &picture, None, &texts, "milliseconds a frame against patches", out)
+pub(super) fn save(report: &Report, path: &Path) -> anyhow::Result<()> {
+    let title = "Table 1 of Üffinger et al. 2011: a frame of 1024 × 768 pixels";
+    chart::save(path, title, [("patches", ""), ("time", "ms")], curves(report))
 }
 
 fn curves(report: &Report) -> Vec<Curve> {

@@ -2,23 +2,24 @@
 
 use std::fmt::Write as _;
 
-use crate::output::Output;
-
 /// A table: a title, the names of its columns, rows. The first columns are words, the others numbers.
 #[derive(Debug)]
-pub(super) struct Table {
-    pub(super) title: String,
+pub struct Table {
+    /// The title.
+    pub title: String,
     /// Columns of words.
-    pub(super) words: usize,
-    pub(super) head: Vec<String>,
-    pub(super) rows: Vec<Vec<String>>,
+    pub words: usize,
+    /// The names of the columns.
+    pub head: Vec<String>,
+    /// The rows, a cell for each column.
+    pub rows: Vec<Vec<String>>,
     /// A paragraph below.
-    pub(super) note: String,
+    pub note: String,
 }
 
 impl Table {
     /// Lines of columns that stand below each other; those that are empty are left out.
-    pub(super) fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let kept: Vec<usize> = (0..self.head.len()).filter(|&column| self.has(column)).collect();
         let width = |column: usize| {
             let cells = self.rows.iter().map(|row| row[column].chars().count());
@@ -44,7 +45,7 @@ impl Table {
     }
 
     /// The same in Markdown.
-    pub(super) fn markdown(&self) -> String {
+    pub fn markdown(&self) -> String {
         let kept: Vec<usize> = (0..self.head.len()).filter(|&column| self.has(column)).collect();
         let line = |cells: &[String]| {
             let cells: Vec<&str> = kept.iter().map(|&column| cells[column].as_str()).collect();
@@ -62,32 +63,5 @@ impl Table {
 
     fn has(&self, column: usize) -> bool {
         self.rows.iter().any(|row| !row[column].is_empty())
-    }
-}
-
-/// Writes tables for people.
-pub(super) fn print(tables: &[Table], out: &mut Output) -> std::io::Result<()> {
-    use std::io::Write as _;
-    tables.iter().try_for_each(|table| write!(out, "{}", table.text()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn columns_stand_below_each_other() {
-        let words = |row: [&str; 3]| row.map(str::to_owned).to_vec();
-        let table = Table {
-            title: "Title".into(),
-            words: 1,
-            head: words(["cover", "patches", "none"]),
-            rows: vec![words(["a", "16", ""]), words(["graded", "4", ""])],
-            note: "A note.".into(),
-        };
-        let text = "\nTitle\ncover   patches\na            16\ngraded        4\nA note.\n";
-        assert_eq!(table.text(), text);
-        let page = "### Title\n\n| cover | patches |\n| --- | ---: |\n| a | 16 |\n| graded | 4 |\n\nA note.\n";
-        assert_eq!(table.markdown(), page);
     }
 }
