@@ -5,8 +5,8 @@ use std::ffi::OsString;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::commands::{
-    check, compare, completions, demo, formula, gallery, info, man, plot, probe, render, sample,
-    sif, solve, view,
+    check, compare, completions, demo, formula, info, man, plot, probe, render, sample, sif, solve,
+    view,
 };
 use crate::output::Output;
 
@@ -44,7 +44,6 @@ pub(crate) enum Command {
     Render(Box<render::Args>),
     Compare(compare::Args),
     Plot(plot::Args),
-    Gallery(gallery::Args),
     View(view::Args),
     Formula(formula::Args),
     Completions(completions::Args),
@@ -77,7 +76,6 @@ impl Command {
             |words: Vec<OsString>, out: &mut Output| Cli::understood(words)?.command.run(out);
         match self {
             Self::Demo(args) => args.run(out, &line),
-            Self::Gallery(args) => args.run(out, &line),
             Self::Solve(args) => args.run(out),
             Self::Info(args) => args.run(out),
             Self::Check(args) => args.run(out),

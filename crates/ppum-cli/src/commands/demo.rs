@@ -1,10 +1,13 @@
 //! `ppum demo`: a guided tour, made of the program's own commands.
 
-use std::io::Write as _;
-use std::path::PathBuf;
+use std::ffi::OsString;
+use std::io::{ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
 
-use super::tour::{Run, Tour};
+use anyhow::{Context as _, bail, ensure};
+
 use crate::output::Output;
+use crate::target;
 
 /// Solve the centre crack and draw it
 ///
@@ -23,10 +26,9 @@ Examples:
   ppum demo -o tour";
 
 /// The problem: one text for the demonstration and the examples.
-const FILES: [(&str, &str); 1] =
-    [("centre-crack.toml", include_str!("../../../../examples/centre-crack.toml"))];
+const PROBLEM: &str = include_str!("../../../../examples/centre-crack.toml");
 
-/// The commands that are run.
+/// The commands that are run; `@` stands for the folder.
 const TOUR: [&str; 5] = [
     "solve @/centre-crack.toml",
     "render @/centre-crack.h5 -o @/von-mises.png --figure",
@@ -46,17 +48,69 @@ const NEXT: [&str; 7] = [
     "render --help",
 ];
 
+/// Runs a command line, given word by word.
+pub(crate) type Run<'a> = &'a dyn Fn(Vec<OsString>, &mut Output) -> anyhow::Result<()>;
+
 impl Args {
-    /// Does the work; `run` runs a command line, given word by word.
+    /// Does the work; `run` runs a command line.
     pub(crate) fn run(&self, out: &mut Output, run: Run<'_>) -> anyhow::Result<()> {
-        let tour = Tour { folder: &self.output, files: &FILES, lines: TOUR.into() };
-        tour.check()?;
-        tour.write_files(out)?;
-        tour.run(out, run)?;
+        let problem = self.output.join("centre-crack.toml");
+        self.check(&problem)?;
+        target::save(&problem, |out| out.write_all(PROBLEM.as_bytes()))?;
+        writeln!(out, "wrote {}", problem.display())?;
+        for line in TOUR {
+            writeln!(out, "\n$ {}", self.shown(line))?;
+            out.flush()?;
+            run(self.words(line), out)?;
+        }
         writeln!(out, "\nOpen the pictures in {}. Then try:", self.output.display())?;
-        for line in NEXT {
-            writeln!(out, "  {}", tour.shown(line))?;
+        NEXT.iter().try_for_each(|line| writeln!(out, "  {}", self.shown(line)))?;
+        Ok(())
+    }
+
+    /// Makes the folder; refuses before any work what could not be written, and a problem that is the user's.
+    fn check(&self, problem: &Path) -> anyhow::Result<()> {
+        check_file(problem, PROBLEM)?;
+        target::make_folder(&self.output)?;
+        let words = TOUR.iter().flat_map(|line| line.split(' '));
+        for name in words.filter_map(|word| word.strip_prefix("@/")?.strip_suffix(".png")) {
+            let picture = self.output.join(format!("{name}.png"));
+            target::check(&picture, target::Kind::Picture, [problem])?;
         }
         Ok(())
     }
+
+    /// A command line, word by word.
+    fn words(&self, line: &str) -> Vec<OsString> {
+        let word = |word: &str| match word.strip_prefix("@/") {
+            Some(name) => self.output.join(name).into_os_string(),
+            None => word.into(),
+        };
+        ["ppum"].into_iter().chain(line.split(' ')).map(word).collect()
+    }
+
+    /// A command line as one would type it, with the program as this one was called.
+    fn shown(&self, line: &str) -> String {
+        let program = std::env::args_os().next().unwrap_or_else(|| "ppum".into());
+        let quoted = |word: &OsString| {
+            let text = word.to_string_lossy();
+            if text.contains(' ') { format!("'{text}'") } else { text.into_owned() }
+        };
+        let words = self.words(line);
+        [&program].into_iter().chain(&words[1..]).map(quoted).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// Refuses a file that is not the demonstration's own.
+fn check_file(path: &Path, text: &str) -> anyhow::Result<()> {
+    let own = "give another folder with -o, or remove it";
+    match ppum_file::text(path, text.len() as u64) {
+        Ok(found) => ensure!(found == text, "{}: was edited; {own}", path.display()),
+        Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {}
+        Err(e) if matches!(e.kind(), ErrorKind::FileTooLarge | ErrorKind::InvalidData) => {
+            bail!("{}: is another file; {own}", path.display())
+        }
+        Err(e) => return Err(e).with_context(|| format!("cannot read {}", path.display())),
+    }
+    Ok(())
 }

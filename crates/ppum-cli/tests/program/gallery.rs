@@ -1,24 +1,36 @@
-//! The figures of the paper.
+//! The figures of the paper, by the commands of docs/gallery.md.
 
+use crate::readme::{blocks, follow};
 use crate::{Lab, Png};
 
-/// Figures are made from problem files that are the examples.
+const PAGE: &str = include_str!("../../../../docs/gallery.md");
+
+/// Two of them, as a reader would make them from the examples.
 #[test]
-fn figures_by_their_numbers() {
+fn figures_by_their_commands() {
     let lab = Lab::new();
-    let told = lab.run("gallery -o paper --figure 2 --figure 4");
-    assert!(told.contains("[1 of 2] Figure 2") && told.contains("[2 of 2] Figure 4"), "{told}");
-    for name in ["figure-2", "figure-4"] {
-        let path = lab.path(&format!("paper/{name}.png"));
+    for folder in ["examples", "out", "docs/images/gallery"] {
+        std::fs::create_dir_all(lab.path(folder)).unwrap();
+    }
+    let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
+    let figures: [&str; 8] = blocks(PAGE, "sh");
+    for (number, problem) in [(2, "paper-enrichment"), (4, "paper-tip-functions")] {
+        let name = format!("examples/{problem}.toml");
+        std::fs::copy(format!("{examples}/{problem}.toml"), lab.path(&name)).unwrap();
+        follow(&lab, figures[number - 1]);
+        let path = lab.path(&format!("docs/images/gallery/figure-{number}.png"));
         assert!(Png::read(&path).size[0] >= 800);
     }
-    assert!(!lab.path("paper/figure-1-cells.png").exists());
-    let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
-    for name in ["paper-enrichment.toml", "paper-tip-functions.toml"] {
-        let written = std::fs::read_to_string(lab.path(&format!("paper/{name}"))).unwrap();
-        assert_eq!(written, std::fs::read_to_string(format!("{examples}/{name}")).unwrap());
+}
+
+/// Each picture of the page has the command that makes it.
+#[test]
+fn every_figure_has_its_command() {
+    let pictures = PAGE.split("](images/gallery/").skip(1).map(|rest| rest.split(')').next());
+    let pictures: Vec<_> = pictures.map(Option::unwrap).collect();
+    assert!(pictures.len() > 20);
+    for name in pictures {
+        let output = format!(" -o docs/images/gallery/{name} ");
+        assert!(PAGE.contains(&output), "{output}");
     }
-    assert!(lab.fail("gallery -o paper --figure 9").contains("there are the figures 1, 2"));
-    std::fs::write(lab.path("paper/paper-enrichment.toml"), "mine").unwrap();
-    assert!(lab.fail("gallery -o paper --figure 2").contains("was edited"));
 }

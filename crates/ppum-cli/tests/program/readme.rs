@@ -4,16 +4,16 @@ use super::Lab;
 
 const PAGE: &str = include_str!("../../../../README.md");
 
-/// The texts of the blocks of a language.
-fn blocks<const N: usize>(language: &str) -> [&'static str; N] {
+/// The texts of a page's blocks of a language.
+pub(super) fn blocks<const N: usize>(page: &'static str, language: &str) -> [&'static str; N] {
     let start = format!("```{language}\n");
     let texts: Vec<_> =
-        PAGE.split(&start).skip(1).map(|part| part.split("```").next().unwrap()).collect();
+        page.split(&start).skip(1).map(|part| part.split("```").next().unwrap()).collect();
     texts.try_into().unwrap_or_else(|all: Vec<_>| panic!("{} blocks of {language}", all.len()))
 }
 
 /// Runs the commands of a block; quotes are around last arguments.
-fn follow(lab: &Lab, block: &str) {
+pub(super) fn follow(lab: &Lab, block: &str) {
     let lines = block.lines().map(|line| line.split('#').next().unwrap());
     for command in lines.map(|line| line.strip_prefix("ppum ").unwrap().trim()) {
         match command.split_once('"') {
@@ -32,7 +32,7 @@ fn follow(lab: &Lab, block: &str) {
 #[test]
 fn the_first_problem() {
     let lab = Lab::new();
-    let ([problem, _], [commands, _]) = (blocks("toml"), blocks("sh"));
+    let ([problem, _], [commands, _]) = (blocks(PAGE, "toml"), blocks(PAGE, "sh"));
     lab.write("plate.toml", problem);
     follow(&lab, commands);
     for name in ["plate.h5", "plate.png", "uy.png"] {
@@ -54,7 +54,7 @@ fn the_first_problem() {
 #[test]
 fn functions_are_formulas() {
     let lab = Lab::new();
-    let ([_, problem], [_, commands]) = (blocks("toml"), blocks("sh"));
+    let ([_, problem], [_, commands]) = (blocks(PAGE, "toml"), blocks(PAGE, "sh"));
     lab.write("materials.toml", problem);
     follow(&lab, commands);
     assert!(lab.path("safety.png").is_file());
