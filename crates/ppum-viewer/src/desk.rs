@@ -14,10 +14,8 @@ pub struct Desk<'a> {
     /// What plays the steps of a series.
     pub player: &'a mut Player,
     /// Files that are open, read and written.
-    #[cfg(feature = "solve")]
     pub files: &'a mut crate::files::Files,
     /// The problem that is written and solved.
-    #[cfg(feature = "solve")]
     pub solving: &'a mut crate::solving::Solving,
     /// What is to be done when all panels were shown.
     pub actions: &'a mut Vec<Action>,

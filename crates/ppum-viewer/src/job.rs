@@ -40,7 +40,7 @@ impl<T: Send + 'static> Job<T> {
         let (sender, receiver) = mpsc::channel();
         let stop = Stop::default();
         let (theirs, ctx) = (stop.clone(), ctx.clone());
-        spawn(move || {
+        std::thread::spawn(move || {
             let outcome = catch_unwind(AssertUnwindSafe(|| work(&theirs)));
             // nobody listens if the job was dropped
             let _ = sender.send(outcome.map_err(|panic| words(&*panic)));
@@ -74,17 +74,6 @@ impl<T> Drop for Job<T> {
     fn drop(&mut self) {
         self.stop.0.store(true, Ordering::Relaxed);
     }
-}
-
-#[cfg(not(target_arch = "wasm32"))]
-fn spawn(work: impl FnOnce() + Send + 'static) {
-    std::thread::spawn(work);
-}
-
-/// Browsers have no threads of this kind: the work is done at once.
-#[cfg(target_arch = "wasm32")]
-fn spawn(work: impl FnOnce() + Send + 'static) {
-    work();
 }
 
 /// What a panic says.

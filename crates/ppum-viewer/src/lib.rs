@@ -12,12 +12,10 @@ pub mod controls;
 pub mod desk;
 pub mod export;
 pub mod field;
-#[cfg(feature = "solve")]
 pub mod files;
 pub mod fonts;
 pub mod frames;
 pub mod job;
-#[cfg(feature = "solve")]
 pub mod offscreen;
 pub mod panels;
 pub mod plate;
@@ -26,15 +24,12 @@ pub mod reading;
 pub mod replacing;
 pub mod session;
 pub mod shapes;
-#[cfg(feature = "solve")]
 pub mod solving;
 pub mod spot;
 pub mod stage;
-#[cfg(not(target_arch = "wasm32"))]
 pub mod surface;
 pub mod undo;
 pub mod widgets;
-#[cfg(feature = "solve")]
 pub mod window;
 
 pub use app::Viewer;
@@ -120,7 +115,6 @@ mod tests {
     }
 
     #[test]
-    #[cfg(feature = "solve")]
     fn errors_cross_threads() {
         fn check<E: std::error::Error + Send + Sync + 'static>() {}
         check::<super::window::WindowError>();

@@ -28,12 +28,9 @@ impl Viewer {
             || self.choose(ctx, action)
             || self.read(ctx, action)
             || self.arrange(ctx, action);
-        #[cfg(feature = "solve")]
         if !is_done {
             self.act_on_files(ctx, action);
         }
-        #[cfg(not(feature = "solve"))]
-        let _ = is_done;
     }
 
     fn active(&mut self) -> (&mut Pane, &mut Stage) {

@@ -1,9 +1,7 @@
 //! The window as a whole: what is open, what is shown around the plate, what actions do.
 
 mod acting;
-#[cfg(feature = "solve")]
 pub mod parting;
-#[cfg(feature = "solve")]
 mod work;
 
 use std::path::PathBuf;
@@ -37,19 +35,14 @@ pub struct Viewer {
     /// What plays the steps of a series.
     pub player: Player,
     /// Files that are open, read and written.
-    #[cfg(feature = "solve")]
     pub files: crate::files::Files,
     /// The problem that is written and solved.
-    #[cfg(feature = "solve")]
     pub solving: crate::solving::Solving,
     /// What is about to be closed with a solution that is not saved.
-    #[cfg(feature = "solve")]
     parting: parting::Question,
     /// The dataset that is to make place for the solution that is computed.
-    #[cfg(feature = "solve")]
     replaced: Option<Arc<Dataset>>,
     /// Files that were read and are not shown yet.
-    #[cfg(feature = "solve")]
     waiting: std::collections::VecDeque<crate::files::read::Arrived>,
     pub(crate) palette: Option<Palette>,
     pub(crate) exporter: Option<Exporter>,
@@ -86,15 +79,10 @@ impl Viewer {
             session,
             stages,
             player: Player::default(),
-            #[cfg(feature = "solve")]
             files: crate::files::Files::new(ctx, None),
-            #[cfg(feature = "solve")]
             solving: crate::solving::Solving::new(ctx),
-            #[cfg(feature = "solve")]
             parting: parting::Question::default(),
-            #[cfg(feature = "solve")]
             replaced: None,
-            #[cfg(feature = "solve")]
             waiting: std::collections::VecDeque::new(),
             palette: None,
             exporter: None,
@@ -113,7 +101,6 @@ impl Viewer {
 
     /// Shows the window once.
     pub fn show(&mut self, ui: &mut Ui) {
-        #[cfg(feature = "solve")]
         self.work(ui);
         let mut actions = actions::pressed(ui.ctx());
         help::take(ui.ctx(), &mut self.has_help, &mut actions);
@@ -123,9 +110,7 @@ impl Viewer {
             session: &mut self.session,
             stages: &mut self.stages,
             player: &mut self.player,
-            #[cfg(feature = "solve")]
             files: &mut self.files,
-            #[cfg(feature = "solve")]
             solving: &mut self.solving,
             actions: &mut actions,
         };
@@ -138,7 +123,6 @@ impl Viewer {
             side.show(ui, |ui| panels::side(ui, &mut desk));
         }
         CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| plates(ui, &mut desk));
-        #[cfg(feature = "solve")]
         panels::files::notes(ui, &mut desk);
         help::show(ui, &mut self.has_help);
         if let Some(palette) = &mut self.palette {
@@ -154,7 +138,6 @@ impl Viewer {
         {
             self.exporter = None;
         }
-        #[cfg(feature = "solve")]
         self.ask_before_parting(ui);
         self.copy(ui.ctx());
         for action in actions {
@@ -190,10 +173,7 @@ impl Viewer {
     /// One view, or two side by side.
     pub(crate) fn split(&mut self, ctx: &egui::Context) {
         if self.session.panes.len() == 2 {
-            #[cfg(feature = "solve")]
             self.part(ctx, parting::Parting::Pane(1));
-            #[cfg(not(feature = "solve"))]
-            self.merge(1);
         } else {
             self.session.panes.push(self.session.panes[0].clone());
             let mut stage = Stage::new(ctx, self.backend);
@@ -226,7 +206,6 @@ impl Viewer {
     pub(crate) fn restore(&mut self, ctx: &egui::Context, back: bool) {
         // a change that is not yet at rest is a step too
         self.settings.note(&self.session.settings());
-        #[cfg(feature = "solve")]
         if self.takes_view(back) {
             return self.part(ctx, parting::Parting::View(back));
         }
@@ -234,7 +213,6 @@ impl Viewer {
     }
 
     /// True if a step back or forward in the settings takes the second view away.
-    #[cfg(feature = "solve")]
     pub(crate) fn takes_view(&self, back: bool) -> bool {
         let next = self.settings.next(back);
         next.is_some_and(|state| state.panes.len() < self.session.panes.len())
@@ -325,7 +303,6 @@ fn caption(desk: &mut Desk<'_>) {
 }
 
 fn show_pane(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
-    #[cfg(feature = "solve")]
     if desk.stages[number].opened.is_none() {
         panels::start::show(ui, desk);
         return;
@@ -368,7 +345,6 @@ impl eframe::App for Viewer {
         visuals.extreme_bg_color.to_normalized_gamma_f32()
     }
 
-    #[cfg(feature = "solve")]
     fn on_exit(&mut self) {
         self.leave();
     }

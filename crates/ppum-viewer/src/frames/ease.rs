@@ -1,10 +1,9 @@
 //! Ranges that glide to where they belong, so that colours do not jump.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use ppum_render::range::Span;
 use ppum_render::scale::Scale;
-use web_time::Instant;
 
 /// What a range glides for.
 const TAKES: Duration = Duration::from_millis(200);

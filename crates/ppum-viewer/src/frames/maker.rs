@@ -1,7 +1,7 @@
 //! Makes pictures step by step, each step from what those before have kept.
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use ppum::dataset::Dataset;
 use ppum::progress::{Progress, Verdict, Watcher};
@@ -11,7 +11,6 @@ use ppum_render::scale::Scale;
 use ppum_scene::drawing::{Drawn, Shown, Values as Pixels, single_precision_warning};
 use ppum_scene::minus;
 use ppum_scene::range;
-use web_time::Instant;
 
 use super::ease::Eased;
 use super::laid::Laid;

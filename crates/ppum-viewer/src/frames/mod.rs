@@ -24,14 +24,13 @@ mod values;
 mod worker;
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use ppum::dataset::Dataset;
 use ppum_render::view::View;
 use ppum_scene::compare::Compare;
 use ppum_scene::drawing::{Drawn, Shown};
 use ppum_scene::scene::Scene;
-use web_time::Instant;
 
 use crate::field::OwnedField;
 pub use laid::Laid;

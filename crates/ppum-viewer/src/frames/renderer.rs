@@ -99,7 +99,6 @@ impl Renderer {
     }
 }
 
-#[cfg(not(target_arch = "wasm32"))]
 mod cards {
     use std::sync::Arc;
     use std::sync::atomic::{AtomicBool, Ordering};
@@ -292,48 +291,5 @@ mod cards {
             renderer.prepare(&mut program, view)?;
             Ok(program)
         })
-    }
-}
-
-/// Browsers open devices by promises, which nobody waits for here: the processor draws.
-#[cfg(target_arch = "wasm32")]
-mod cards {
-    use ppum::quantity::Quantity;
-    use ppum_render::raster::Raster;
-    use ppum_render::view::View;
-
-    use super::super::subject::Subject;
-    use super::Backend;
-
-    pub(super) struct Cards {
-        pub(super) note: Option<String>,
-    }
-
-    impl Cards {
-        pub(super) fn new(backend: Backend) -> Self {
-            let is_asked = matches!(backend, Backend::Gpu | Backend::Splat);
-            let note =
-                "drawn by the processor: the window draws on no graphics card in a browser yet";
-            Self { note: is_asked.then(|| note.to_owned()) }
-        }
-
-        pub(super) fn is_open(&self) -> bool {
-            false
-        }
-
-        pub(super) fn is_away(&self) -> bool {
-            false
-        }
-
-        pub(super) fn take_back(&mut self) {}
-
-        pub(super) fn draw(
-            &mut self,
-            _: &Subject,
-            _: &View,
-            _: &Quantity,
-        ) -> Option<(Raster<f32>, String)> {
-            None
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! What resampling gives in a view.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use ppum::progress::Watcher;
 use ppum_render::picture::{Picture, Style};
@@ -11,7 +12,6 @@ use ppum_render::resample::{Samples, representation_bytes};
 use ppum_render::view::View;
 use ppum_scene::compare::{Compare, Resampled, signed};
 use ppum_scene::drawing::{Drawn, Values};
-use web_time::Instant;
 
 use super::Fault;
 use super::memo::{Memo, Same};

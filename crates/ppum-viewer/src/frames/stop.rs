@@ -23,7 +23,6 @@ pub(super) enum Stop {
 
 /// Whether what is being made is still wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(target_arch = "wasm32", expect(dead_code, reason = "no thread is asked to stop there"))]
 pub(super) enum Claim {
     Wanted,
     /// Something else is wanted by now.

@@ -1,5 +1,5 @@
 use std::sync::{Arc, mpsc};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
@@ -17,11 +17,10 @@ use ppum_scene::overlays::{Levels, Overlay};
 use ppum_scene::range;
 use ppum_scene::scene::Scene;
 use ppum_testkit::synthetic::Recipe;
-use web_time::Instant;
 
 use super::maker::{Maker, Next, Patience, Wish};
 use super::stop::{Ask, Claim, Stop};
-use super::worker::{self, Inline};
+use super::worker;
 use super::{Backend, Frame, Frames, Minus, Wanted};
 
 const PIXELS: [u32; 2] = [243, 181];
@@ -366,15 +365,10 @@ fn a_comparison_has_the_numbers_of_resampling() {
 }
 
 #[test]
-fn a_thread_and_the_window_itself_make_the_same_picture() {
+fn a_thread_makes_the_picture_of_its_maker() {
     let dataset = dataset();
     let wanted = wanted(&dataset);
-    let mut inline = Inline::new(Backend::Cpu, Box::new(|| ()));
-    inline.want(Wish { wanted: wanted.clone(), rests_at: None });
-    let mut last = None;
-    while inline.is_working() {
-        last = inline.take().into_iter().filter_map(Result::ok).last().or(last);
-    }
+    let made = finished(&mut Maker::new(Backend::Cpu), &wanted);
     let (wake, woken) = mpsc::channel();
     let wake = move || {
         // nobody listens once the picture is there
@@ -388,9 +382,9 @@ fn a_thread_and_the_window_itself_make_the_same_picture() {
         frames.poll();
     }
     let threaded = frames.newest().expect("a picture");
-    let inline = last.expect("a picture");
-    assert!(threaded.is_final && inline.is_final);
-    assert!(threaded.picture.image == inline.picture.image);
+    let last = made.last().expect("a picture");
+    assert!(threaded.is_final && last.is_final);
+    assert!(threaded.picture.image == last.picture.image);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Values at the pixels: the whole picture, and a rough one that is there sooner.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use ppum::progress::Watcher;
 use ppum_render::RenderError;
@@ -9,7 +10,6 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::deformed;
 use ppum_scene::drawing::{Drawn, PROCESSOR, Seen, Shown};
-use web_time::Instant;
 
 use super::Fault;
 use super::memo::Memo;

@@ -1,20 +1,14 @@
-//! Who makes the pictures: a thread; in browsers, which have none, the window itself, a step each time that it is shown.
+//! The thread that makes the pictures.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-
-use web_time::Instant;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Instant;
 
 use super::maker::{Maker, Next, Step, Wish};
 use super::renderer::Backend;
-use super::stop::{Ask, Stop};
+use super::stop::{Ask, Claim, Stop};
 use super::{Failure, Fault, Outcome};
-
-#[cfg(test)]
-pub(super) use inline::Inline;
-#[cfg(target_arch = "wasm32")]
-pub(super) use inline::Inline as Worker;
-#[cfg(not(target_arch = "wasm32"))]
-pub(super) use threaded::Threaded as Worker;
 
 /// Calls whoever shows the pictures.
 pub(super) type Wake = Box<dyn Fn() + Send>;
@@ -50,164 +44,113 @@ fn add(outcomes: &mut Vec<Outcome>, outcome: Option<Outcome>) {
     outcomes.push(outcome);
 }
 
-#[cfg(not(target_arch = "wasm32"))]
-mod threaded {
-    use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-    use std::thread;
+/// A thread that makes pictures.
+pub(super) struct Worker(Arc<Shared>);
 
-    use super::super::stop::Claim;
-    use super::{Backend, Maker, Next, Outcome, Wake, Wish, add, step};
+#[derive(Default)]
+struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+}
 
-    /// A thread that makes pictures.
-    pub(in super::super) struct Threaded(Arc<Shared>);
+#[derive(Default)]
+struct State {
+    wish: Option<Wish>,
+    /// Wishes so far, and the last one that is fulfilled.
+    wishes: usize,
+    fulfilled: usize,
+    is_closed: bool,
+    outcomes: Vec<Outcome>,
+}
 
-    #[derive(Default)]
-    struct Shared {
-        state: Mutex<State>,
-        changed: Condvar,
+impl Shared {
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    #[derive(Default)]
-    struct State {
-        wish: Option<Wish>,
-        /// Wishes so far, and the last one that is fulfilled.
-        wishes: usize,
-        fulfilled: usize,
-        is_closed: bool,
-        outcomes: Vec<Outcome>,
-    }
-
-    impl Shared {
-        fn state(&self) -> MutexGuard<'_, State> {
-            self.state.lock().unwrap_or_else(PoisonError::into_inner)
-        }
-
-        /// The wish to work for, with its number, when something is to be done for it; none if nobody wants anything any more.
-        fn next(&self, number: usize, next: Next) -> Option<(Wish, usize)> {
-            let is_waiting = |state: &mut State| state.wishes == number && !state.is_closed;
-            let mut state = self.state();
-            state = match next {
-                Next::More => state,
-                Next::After(time) => {
-                    let waited = self.changed.wait_timeout_while(state, time, is_waiting);
-                    waited.unwrap_or_else(PoisonError::into_inner).0
-                }
-                Next::Rest => {
-                    let waited = self.changed.wait_while(state, is_waiting);
-                    waited.unwrap_or_else(PoisonError::into_inner)
-                }
-            };
-            let wish = state.wish.clone().filter(|_| !state.is_closed)?;
-            Some((wish, state.wishes))
-        }
-
-        fn claim(&self, number: usize) -> Claim {
-            let state = self.state();
-            match () {
-                () if state.is_closed => Claim::Gone,
-                () if state.wishes != number => Claim::Replaced,
-                () => Claim::Wanted,
+    /// The wish to work for, with its number, when something is to be done for it; none if nobody wants anything any more.
+    fn next(&self, number: usize, next: Next) -> Option<(Wish, usize)> {
+        let is_waiting = |state: &mut State| state.wishes == number && !state.is_closed;
+        let mut state = self.state();
+        state = match next {
+            Next::More => state,
+            Next::After(time) => {
+                let waited = self.changed.wait_timeout_while(state, time, is_waiting);
+                waited.unwrap_or_else(PoisonError::into_inner).0
             }
-        }
-    }
-
-    impl Threaded {
-        pub(in super::super) fn new(backend: Backend, wake: Wake) -> Self {
-            let shared = Arc::new(Shared::default());
-            let theirs = Arc::clone(&shared);
-            thread::spawn(move || serve(&theirs, backend, &wake));
-            Self(shared)
-        }
-
-        pub(in super::super) fn want(&self, wish: Wish) {
-            let mut state = self.0.state();
-            state.wish = Some(wish);
-            state.wishes += 1;
-            // why something else had no picture is no news
-            state.outcomes.retain(Result::is_ok);
-            drop(state);
-            self.0.changed.notify_all();
-        }
-
-        pub(in super::super) fn take(&mut self) -> Vec<Outcome> {
-            std::mem::take(&mut self.0.state().outcomes)
-        }
-
-        pub(in super::super) fn is_working(&self) -> bool {
-            let state = self.0.state();
-            state.wishes != state.fulfilled || !state.outcomes.is_empty()
-        }
-    }
-
-    impl Drop for Threaded {
-        fn drop(&mut self) {
-            self.0.state().is_closed = true;
-            self.0.changed.notify_all();
-        }
-    }
-
-    /// Makes pictures until nobody wants any.
-    fn serve(shared: &Shared, backend: Backend, wake: &Wake) {
-        let mut maker = Maker::new(backend);
-        let (mut number, mut next) = (0, Next::Rest);
-        while let Some((wish, newest)) = shared.next(number, next) {
-            number = newest;
-            let outcome;
-            (outcome, next) = step(&mut maker, backend, &wish, &|| shared.claim(number));
-            let mut state = shared.state();
-            let is_stale = state.wishes != number;
-            let outcome = outcome.filter(|outcome| outcome.is_ok() || !is_stale);
-            let has_news = outcome.is_some();
-            add(&mut state.outcomes, outcome);
-            if next == Next::Rest {
-                state.fulfilled = number;
+            Next::Rest => {
+                let waited = self.changed.wait_while(state, is_waiting);
+                waited.unwrap_or_else(PoisonError::into_inner)
             }
-            drop(state);
-            if has_news || next == Next::Rest {
-                wake();
-            }
+        };
+        let wish = state.wish.clone().filter(|_| !state.is_closed)?;
+        Some((wish, state.wishes))
+    }
+
+    fn claim(&self, number: usize) -> Claim {
+        let state = self.state();
+        match () {
+            () if state.is_closed => Claim::Gone,
+            () if state.wishes != number => Claim::Replaced,
+            () => Claim::Wanted,
         }
     }
 }
 
-#[cfg(any(target_arch = "wasm32", test))]
-mod inline {
-    use super::super::stop::Claim;
-    use super::{Backend, Maker, Next, Outcome, Wake, Wish, add, step};
-
-    /// Makes pictures while the window is shown.
-    pub(in super::super) struct Inline {
-        backend: Backend,
-        maker: Maker,
-        wish: Option<Wish>,
-        next: Next,
-        wake: Wake,
+impl Worker {
+    pub(super) fn new(backend: Backend, wake: Wake) -> Self {
+        let shared = Arc::new(Shared::default());
+        let theirs = Arc::clone(&shared);
+        thread::spawn(move || serve(&theirs, backend, &wake));
+        Self(shared)
     }
 
-    impl Inline {
-        pub(in super::super) fn new(backend: Backend, wake: Wake) -> Self {
-            Self { backend, maker: Maker::new(backend), wish: None, next: Next::Rest, wake }
-        }
+    pub(super) fn want(&self, wish: Wish) {
+        let mut state = self.0.state();
+        state.wish = Some(wish);
+        state.wishes += 1;
+        // why something else had no picture is no news
+        state.outcomes.retain(Result::is_ok);
+        drop(state);
+        self.0.changed.notify_all();
+    }
 
-        pub(in super::super) fn want(&mut self, wish: Wish) {
-            self.wish = Some(wish);
-            self.next = Next::More;
-        }
+    pub(super) fn take(&mut self) -> Vec<Outcome> {
+        std::mem::take(&mut self.0.state().outcomes)
+    }
 
-        /// Makes a step.
-        pub(in super::super) fn take(&mut self) -> Vec<Outcome> {
-            let mut outcomes = Vec::new();
-            if let Some(wish) = self.wish.as_ref().filter(|_| self.next != Next::Rest) {
-                let outcome;
-                (outcome, self.next) = step(&mut self.maker, self.backend, wish, &|| Claim::Wanted);
-                add(&mut outcomes, outcome);
-                (self.wake)();
-            }
-            outcomes
-        }
+    pub(super) fn is_working(&self) -> bool {
+        let state = self.0.state();
+        state.wishes != state.fulfilled || !state.outcomes.is_empty()
+    }
+}
 
-        pub(in super::super) fn is_working(&self) -> bool {
-            self.next != Next::Rest
+impl Drop for Worker {
+    fn drop(&mut self) {
+        self.0.state().is_closed = true;
+        self.0.changed.notify_all();
+    }
+}
+
+/// Makes pictures until nobody wants any.
+fn serve(shared: &Shared, backend: Backend, wake: &Wake) {
+    let mut maker = Maker::new(backend);
+    let (mut number, mut next) = (0, Next::Rest);
+    while let Some((wish, newest)) = shared.next(number, next) {
+        number = newest;
+        let outcome;
+        (outcome, next) = step(&mut maker, backend, &wish, &|| shared.claim(number));
+        let mut state = shared.state();
+        let is_stale = state.wishes != number;
+        let outcome = outcome.filter(|outcome| outcome.is_ok() || !is_stale);
+        let has_news = outcome.is_some();
+        add(&mut state.outcomes, outcome);
+        if next == Next::Rest {
+            state.fulfilled = number;
+        }
+        drop(state);
+        if has_news || next == Next::Rest {
+            wake();
         }
     }
 }

@@ -194,7 +194,7 @@ impl Exporter {
         if !ends.iter().any(|end| fits(&end)) {
             return Some(format!("The name must end in .{}.", ends.join(", .")));
         }
-        let is_input = dataset.is_some_and(|dataset| is_same(dataset, path));
+        let is_input = dataset.is_some_and(|dataset| ppum_file::is_same(dataset, path));
         is_input.then(|| "This file is the dataset itself; choose another name.".into())
     }
 
@@ -253,21 +253,7 @@ fn beside(dataset: Option<&Path>, end: &str) -> String {
     path.with_extension(end).to_string_lossy().into_owned()
 }
 
-/// True if two names lead to one file.
-fn is_same(a: &Path, b: &Path) -> bool {
-    #[cfg(feature = "solve")]
-    return ppum_file::is_same(a, b);
-    #[cfg(not(feature = "solve"))]
-    return a == b;
-}
-
-#[cfg(feature = "solve")]
 fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     ppum_file::replace(path, |out| out.write_all(bytes))
         .map_err(|error: std::io::Error| format!("{}: {error}", path.display()))
-}
-
-#[cfg(not(feature = "solve"))]
-fn write(path: &Path, _: &[u8]) -> Result<(), String> {
-    Err(format!("{}: there are no files here", path.display()))
 }

@@ -5,7 +5,6 @@ pub mod compare;
 pub mod deformation;
 pub mod drawer;
 pub mod export;
-#[cfg(feature = "solve")]
 pub mod files;
 pub mod functions;
 pub mod help;
@@ -15,7 +14,6 @@ pub mod parts;
 pub mod player;
 pub mod probes;
 pub mod quantity;
-#[cfg(feature = "solve")]
 pub mod start;
 pub mod top;
 

@@ -18,7 +18,6 @@ fn one_line(text: &str) -> String {
 /// Title, and what one does all the time.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     ui.horizontal_wrapped(|ui| {
-        #[cfg(feature = "solve")]
         super::files::menu(ui, desk);
         let (_, stage) = desk.active();
         let title = stage.opened.as_ref().map_or("ppum", |opened| &opened.dataset.title);

@@ -3,7 +3,6 @@
 //! What is chosen (probes, a curve) stands in the [`Pane`]. What has become of it is here: values
 //! at the pointer and at the probes, evaluated exactly and at once, and what is found in the background along curves.
 
-#[cfg(feature = "solve")]
 pub mod integral;
 pub mod output;
 pub mod plotted;
@@ -52,7 +51,6 @@ pub struct Reading {
     /// The last values along a curve that could be found.
     pub good: Option<(Along, Arc<Plotted>)>,
     /// K on the circle.
-    #[cfg(feature = "solve")]
     pub integral: integral::Integral,
     /// Where files go.
     pub output: Output,
@@ -93,7 +91,6 @@ impl Reading {
     /// True while something is on its way.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        #[cfg(feature = "solve")]
         if self.integral.is_working() {
             return true;
         }

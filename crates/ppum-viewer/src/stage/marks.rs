@@ -2,10 +2,8 @@
 
 use std::sync::Arc;
 
-#[cfg(feature = "solve")]
 use egui::Rect;
 use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Ui, vec2};
-#[cfg(feature = "solve")]
 use ppum::crack::Crack;
 use ppum::vec2::Vec2;
 use ppum_render::extrema::Extremum;
@@ -55,12 +53,10 @@ impl Stage {
         {
             extrema(&painter, sight, frame);
         }
-        #[cfg(feature = "solve")]
         self.told_integral(ui, sight, pane, cracks);
     }
 
     /// K beside the circle, or the reason why there is none.
-    #[cfg(feature = "solve")]
     fn told_integral(&mut self, ui: &mut Ui, sight: &Sight, pane: &Pane, cracks: &[Crack]) {
         let Some(along) = &pane.curve else { return };
         if !self.reading.integral.is_asked() || self.reading.grip.is_some() {
@@ -75,7 +71,6 @@ impl Stage {
 }
 
 /// A text on a plate of its own above a position, inside a rectangle.
-#[cfg(feature = "solve")]
 fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {
     let width = (within.width() - 24.0).min(420.0);
     let font = egui::TextStyle::Body.resolve(ui.style());

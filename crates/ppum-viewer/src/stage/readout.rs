@@ -36,12 +36,10 @@ impl Stage {
         self.reading.hover = hover.map(|spot| reader.read(&spot));
         self.click(ui, response, sight, pane);
         self.reading.refresh(&frame, pane);
-        #[cfg(feature = "solve")]
         self.ask_integral(ui, pane, &frame);
     }
 
     /// Asks for K of what is shown, with all that is replaced in it.
-    #[cfg(feature = "solve")]
     fn ask_integral(&mut self, ui: &Ui, pane: &Pane, frame: &crate::frames::Frame) {
         let dataset = frame.field.dataset();
         let step = frame.wanted.scene.subject.step_of(dataset);

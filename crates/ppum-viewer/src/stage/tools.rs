@@ -119,17 +119,10 @@ impl Stage {
         true
     }
 
-    #[cfg(feature = "solve")]
     fn usual_radius(&self, pane: &Pane, tip: TipId) -> Option<f64> {
         let dataset = &self.opened.as_ref()?.dataset;
         let step = pane.scene.subject.step_of(dataset);
         crate::reading::integral::usual_radius(dataset, step, tip)
-    }
-
-    /// Without the solver nobody knows.
-    #[cfg(not(feature = "solve"))]
-    fn usual_radius(&self, _: &Pane, _: TipId) -> Option<f64> {
-        None
     }
 
     /// A curve to begin with, if there is none: the crack nearest to the pointer, or the middle line of the plate.

@@ -1,7 +1,6 @@
 //! The drawer below the plate: one page at a time.
 
 pub mod plot;
-#[cfg(feature = "solve")]
 pub mod problem;
 pub mod series;
 pub mod solver;
@@ -40,10 +39,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
                 Page::Tips => tips::show(ui, desk),
                 Page::Series => series::show(ui, desk),
                 Page::Solver => solver::show(ui, desk),
-                #[cfg(feature = "solve")]
                 Page::Problem => problem::show(ui, desk),
-                #[cfg(not(feature = "solve"))]
-                Page::Problem => {}
             }
         });
     });

@@ -1,6 +1,5 @@
 //! Values along a curve: which one, of what, and the plot, whose points are found on the plate.
 
-#[cfg(feature = "solve")]
 use std::path::Path;
 use std::sync::Arc;
 
@@ -15,7 +14,6 @@ use crate::reading::tool::Tool;
 use crate::session::Pane;
 use crate::shapes::{self, Placed};
 use crate::stage::Stage;
-#[cfg(feature = "solve")]
 use crate::widgets::button;
 use crate::widgets::chart::darkened;
 use crate::widgets::entry::entry;
@@ -229,13 +227,9 @@ pub(crate) fn outputs(
     if ui.button("Copy CSV").clicked() {
         ui.ctx().copy_text(text());
     }
-    #[cfg(feature = "solve")]
     write(ui, stage, files);
-    #[cfg(not(feature = "solve"))]
-    let _ = (stage, files);
 }
 
-#[cfg(feature = "solve")]
 fn write(ui: &mut Ui, stage: &mut Stage, files: &[(&str, &dyn Fn() -> Vec<u8>)]) {
     let input = stage.opened.as_ref().and_then(|opened| opened.path.clone());
     let inputs: Vec<&Path> = input.as_deref().into_iter().collect();
