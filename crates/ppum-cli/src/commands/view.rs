@@ -99,7 +99,7 @@ impl Args {
         );
         crate::target::check(target, crate::target::Kind::Picture, inputs)?;
         let start = self.start()?;
-        let image = crate::graphics::opening(|| ppum_viewer::offscreen::screenshot(start))?;
+        let image = ppum_viewer::offscreen::screenshot(start)?;
         let png = ppum_render::png::encode(&image, &[])?;
         if crate::standard::is_standard(target) {
             return Ok(out.exact().write_all(&png)?);

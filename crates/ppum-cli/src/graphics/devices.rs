@@ -4,7 +4,7 @@ use ppum_gpu::{AdapterInfo, Choice, Gpu, GpuError, RenderError, Renderer};
 use ppum_render::raster::Raster;
 use ppum_render::samples::{Means, Samples};
 
-use super::{Adapter, Device, Failure, Method, drivers};
+use super::{Adapter, Device, Failure, Method};
 use crate::progress::Bar;
 use ppum_scene::drawing::{Drawn, Job};
 
@@ -65,8 +65,7 @@ fn drawn(
     choice: Choice,
     method: ppum_gpu::Method,
 ) -> Result<(Renderer, Raster<f32>), RenderError> {
-    let mut renderer = drivers::opening(|| Renderer::open(choice))?;
-    // not before: the bar is no word of a driver
+    let mut renderer = Renderer::open(choice)?;
     let raster = renderer.render(job.field, job.view, job.quantity, method, &Bar::new())?;
     Ok((renderer, raster))
 }
@@ -99,10 +98,6 @@ for trying out --backend gpu without a card a software driver does:
 
 /// The graphics adapters of this machine; opens what each backend would open.
 pub(crate) fn adapters() -> Vec<Adapter> {
-    drivers::opening(found)
-}
-
-fn found() -> Vec<Adapter> {
     let taken = [("auto", Choice::Real), ("gpu", Choice::Any), ("splat", Choice::Any)]
         .map(|(backend, choice)| (backend, Gpu::open(choice).ok()));
     let adapter = |info: AdapterInfo| {

@@ -2,8 +2,6 @@
 
 #[cfg(feature = "gpu")]
 mod devices;
-#[cfg(feature = "gpu")]
-mod drivers;
 #[cfg(not(feature = "gpu"))]
 mod none;
 
@@ -11,10 +9,6 @@ use serde::Serialize;
 
 #[cfg(feature = "gpu")]
 pub(crate) use devices::{MISSING, adapters, draw};
-#[cfg(all(feature = "gpu", feature = "window"))]
-pub(crate) use drivers::opening;
-#[cfg(all(not(feature = "gpu"), feature = "window"))]
-pub(crate) use none::opening;
 #[cfg(not(feature = "gpu"))]
 pub(crate) use none::{MISSING, adapters, draw};
 

@@ -22,9 +22,3 @@ pub(crate) fn draw(_: Job<'_>, _: Samples, _: Device, _: Method) -> Result<Drawn
 pub(crate) fn adapters() -> Vec<Adapter> {
     Vec::new()
 }
-
-/// Drivers of the window write what they like.
-#[cfg(feature = "window")]
-pub(crate) fn opening<T>(open: impl FnOnce() -> T) -> T {
-    open()
-}

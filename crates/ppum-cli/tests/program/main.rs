@@ -79,8 +79,9 @@ impl Lab {
     fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ppum"));
         command.args(arguments.split_whitespace()).current_dir(self.folder.path());
-        // without it the drivers of Mesa complain on standard error: nobody is to hear of that
-        command.env_remove("XDG_RUNTIME_DIR");
+        // without these the drivers of Mesa complain on standard error
+        command.env("XDG_RUNTIME_DIR", self.folder.path());
+        command.env("MESA_VK_IGNORE_CONFORMANCE_WARNING", "1");
         command
     }
 
