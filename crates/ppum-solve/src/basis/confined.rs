@@ -221,9 +221,9 @@ fn lonely_jumps(
     for block in data.blocks(patch) {
         let functions = first..first + monomials(data.block_degree[block].into());
         let kind = &space.step().functions[data.block_function[block] as usize].kind;
-        let square = gram.plain[first];
-        if is_meant(kind) && gram.alone[first] <= OUTSIDE * square {
-            found.push(Jump { patch, functions: functions.clone(), square });
+        // jumps come before all series, of which fewer functions are evaluated than are stored
+        if is_meant(kind) && gram.alone[first] <= OUTSIDE * gram.plain[first] {
+            found.push(Jump { patch, functions: functions.clone(), square: gram.plain[first] });
         }
         first = functions.end;
     }

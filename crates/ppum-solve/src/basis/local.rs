@@ -86,7 +86,7 @@ impl LocalBasis {
         let series = parts(space, patch);
         let n_series: usize = series.iter().map(|(_, rows)| rows.nrows()).sum();
         let all: Vec<Part> = confined.iter().cloned().chain(series).collect();
-        let rows = (!all.is_empty()).then(|| matrix(space.sizes[patch], &all));
+        let rows = (!all.is_empty()).then(|| matrix(space.evaluated(patch), &all));
         let transform = transform(gram, rows.as_ref(), space.n_polynomials(patch))?;
         let lost: usize = confined.iter().map(|(range, rows)| range.len() - rows.nrows()).sum();
         let (dropped, least) = (transform.dropped + lost, transform.least);
@@ -163,7 +163,7 @@ impl LocalBasis {
         Ok(())
     }
 
-    /// The plain coefficients of each component from the unknowns.
+    /// The coefficients of the functions ψ in each component from the unknowns.
     pub(super) fn plain(&self, unknowns: &[f64], components: usize) -> Vec<Vec<f64>> {
         let free = match &self.tie {
             Some(tie) => Cow::Owned(times(tie.as_ref(), unknowns)),
@@ -176,7 +176,7 @@ impl LocalBasis {
 }
 
 /// Aᵀ x
-fn times(a: MatRef<'_, f64>, x: &[f64]) -> Vec<f64> {
+pub(super) fn times(a: MatRef<'_, f64>, x: &[f64]) -> Vec<f64> {
     (0..a.ncols()).map(|j| (0..a.nrows()).map(|k| a[(k, j)] * x[k]).sum()).collect()
 }
 

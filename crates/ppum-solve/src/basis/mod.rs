@@ -28,6 +28,7 @@ pub(crate) use shape::{ShapeEvaluator, Shapes};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
+use williams::stored;
 
 /// A penalty on values at a part of the border, β ∫ N Nᵀ: what Nitsche's method adds to a cell's system.
 pub(crate) struct Penalty {
@@ -223,7 +224,8 @@ impl StableBasis {
         for (patch, basis) in self.patches.iter().enumerate() {
             let (part, tail) = rest.split_at(basis.unknowns(components));
             rest = tail;
-            for mut component in basis.plain(part, components) {
+            for component in basis.plain(part, components) {
+                let mut component = stored(space, patch, &component);
                 undo_shifts(space, patch, &mut component);
                 out.append(&mut component);
             }
@@ -262,7 +264,7 @@ pub(crate) struct BasisEvaluator<'s> {
 
 impl<'s> BasisEvaluator<'s> {
     pub(crate) fn new(space: &'s Space<'s>, basis: &'s StableBasis) -> Self {
-        Self { basis, evaluator: ShapeEvaluator::new(space), plain: Shapes::default() }
+        Self { basis, evaluator: ShapeEvaluator::of_series(space), plain: Shapes::default() }
     }
 
     /// The plain functions at the points of a rule.
@@ -354,16 +356,17 @@ fn grams(
     let (quadrature, alike) = (space.quadrature(0), space.alike());
     let of_cells = each(stage, alike.kinds().len(), |kind| {
         let (kind, alone) = (&alike.kinds()[kind], alike.kinds()[kind].space(space));
-        let mut seen = (ShapeEvaluator::new(&alone), Shapes::default());
+        let mut seen = (ShapeEvaluator::of_series(&alone), Shapes::default());
         Ok(parts(&alone, &alone.coverers[0], kind.rules(), &mut seen))
     })?;
     let of_kinds: Vec<_> =
         alike.patch_kinds().iter().map(|cells| Arc::new(sum(cells, &of_cells))).collect();
-    let mut grams: Vec<_> = space.sizes.iter().map(|&n| Gram::zero(n)).collect();
+    let mut grams: Vec<_> =
+        (0..space.sizes.len()).map(|i| Gram::zero(space.evaluated(i))).collect();
     in_batches(
         stage,
         space.partition().len(),
-        || (ShapeEvaluator::new(space), Shapes::default()),
+        || (ShapeEvaluator::of_series(space), Shapes::default()),
         |seen, cell| {
             let coverers = &space.coverers[cell];
             let is_left_out = is_known(coverers) || alike.cell(cell).is_some();
@@ -414,7 +417,8 @@ fn parts<'s>(
     rules: &[Rule],
     (evaluator, shapes): &mut (ShapeEvaluator<'s>, Shapes),
 ) -> Vec<Gram> {
-    let mut parts: Vec<_> = coverers.iter().map(|&p| Gram::zero(space.sizes[p as usize])).collect();
+    let mut parts: Vec<_> =
+        coverers.iter().map(|&p| Gram::zero(space.evaluated(p as usize))).collect();
     for rule in rules {
         evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
         shapes.scale(&rule.weights);
@@ -433,7 +437,7 @@ fn add_grams(
 ) {
     let mut first = 0;
     for &patch in &rule.patches {
-        let range = first..first + space.sizes[patch as usize];
+        let range = first..first + space.evaluated(patch as usize);
         first = range.end;
         let k = coverers.binary_search(&patch).expect("a rule's patches meet its cell");
         parts[k].add(shapes, range, &rule.weights, space.partition().half[patch as usize]);

@@ -2,8 +2,9 @@
 //!
 //! Sides of cracks enter shifted, see [`Space::shifts`].
 
+use super::williams::TipFrame;
 use crate::quadrature::{EdgeRule, Face};
-use crate::space::Space;
+use crate::space::{ANGULAR, Origin, Series, Space};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use ppum::crack::Side;
@@ -90,6 +91,15 @@ impl Shapes {
         sum
     }
 
+    /// Writes the value and the slopes of a function at as many points from `point` on as there are lanes.
+    #[inline(always)]
+    fn set<R: Real<Scalar = f64>>(&mut self, function: usize, point: usize, [v, x, y]: [R; 3]) {
+        let (at, lanes) = (function * self.points + point, R::LANES.min(self.points - point));
+        v.store_some(&mut self.value[at..at + lanes]);
+        x.store_some(&mut self.dx[at..at + lanes]);
+        y.store_some(&mut self.dy[at..at + lanes]);
+    }
+
     /// Writes a factor times all monomials to functions from `function` on, at as many points from `point` on as there are lanes.
     #[inline(always)]
     fn set_products<R: Real<Scalar = f64>>(
@@ -99,8 +109,7 @@ impl Shapes {
         f: Jet<R>,
         m: &Monomials<R>,
     ) {
-        let lanes = R::LANES.min(self.points - point);
-        let (mut at, mut total) = (function * self.points + point, 0);
+        let (mut at, mut total) = (function, 0);
         while total <= m.degree {
             let mut b = 0;
             while b <= total {
@@ -108,10 +117,8 @@ impl Shapes {
                 let value = m.x[a] * m.y[b];
                 let dx = f.x.mul_add(value, f.v * (m.dx[a] * m.y[b]));
                 let dy = f.y.mul_add(value, f.v * (m.x[a] * m.dy[b]));
-                (f.v * value).store_some(&mut self.value[at..at + lanes]);
-                dx.store_some(&mut self.dx[at..at + lanes]);
-                dy.store_some(&mut self.dy[at..at + lanes]);
-                at += self.points;
+                self.set(at, point, [f.v * value, dx, dy]);
+                at += 1;
                 b += 1;
             }
             total += 1;
@@ -125,16 +132,25 @@ pub(crate) struct ShapeEvaluator<'s> {
     space: &'s Space<'s>,
     seen: Option<(Seat, LocalFunctions<'s>)>,
     scratch: Scratch<f64>,
+    /// True if series of tips are evaluated as such, not as the functions that they are stored as.
+    series: bool,
 }
 
 /// The seat that functions are seen from: the anchor, and the face that points lie on.
 type Seat = (Vec2, Option<Face>);
 
 impl<'s> ShapeEvaluator<'s> {
-    /// An evaluator for the functions of a space.
+    /// An evaluator for the functions of a space as they are stored.
     #[must_use]
     pub(crate) fn new(space: &'s Space<'s>) -> Self {
-        Self { space, seen: None, scratch: Scratch::default() }
+        Self { space, seen: None, scratch: Scratch::default(), series: false }
+    }
+
+    /// An evaluator for the functions that the solver takes: of the series of a tip those of their terms, 4N in place of
+    /// 2N(N + 1).
+    #[must_use]
+    pub(crate) fn of_series(space: &'s Space<'s>) -> Self {
+        Self { series: true, ..Self::new(space) }
     }
 
     /// The shape functions of `patches`, which must be all that cover the points.
@@ -159,9 +175,13 @@ impl<'s> ShapeEvaluator<'s> {
             self.seen = Some((seat, functions(space, seat)));
         }
         let Some((_, functions)) = &self.seen else { return };
-        let n_functions = patches.iter().map(|&p| space.sizes[p as usize]).sum();
-        out.resize(n_functions, offsets.len());
+        let size = |&p: &u32| match self.series {
+            true => space.evaluated(p as usize),
+            false => space.sizes[p as usize],
+        };
+        out.resize(patches.iter().map(size).sum(), offsets.len());
         let groups = groups_of(space, patches);
+        let blocks = self.blocks(anchor, patches, &groups);
         f64::dispatch(Filling {
             space,
             functions,
@@ -169,7 +189,7 @@ impl<'s> ShapeEvaluator<'s> {
             side: face.map_or(Side::Above, |face| face.side),
             offsets,
             patches,
-            places: &places_in(space, patches, &groups),
+            blocks: &blocks,
             groups: &groups,
             scratch: &mut self.scratch,
             out,
@@ -199,19 +219,76 @@ fn groups_of(space: &Space<'_>, patches: &[u32]) -> Vec<usize> {
     groups
 }
 
-/// A block's function: the place of its group among those that are evaluated, and its entry there; none for 1.
-type Place = Option<[usize; 2]>;
+/// Functions of a patch that are evaluated together.
+struct Block {
+    /// The place of the patch among those of the points.
+    patch: usize,
+    degree: usize,
+    /// The constant that its function is shifted by.
+    shift: f64,
+    /// Its function, and of a series those after it; in place of the function 1 there is none.
+    functions: [Option<Entry>; GROUP],
+    series: Option<Terms>,
+}
 
-/// The functions of all blocks of some patches, in order.
-fn places_in(space: &Space<'_>, patches: &[u32], groups: &[usize]) -> Vec<Place> {
-    let blocks = patches.iter().flat_map(|&p| space.data().blocks(p as usize));
-    let place = |b: usize| match space.functions.of(space.data().block_function[b]) {
-        Slot::One => None,
-        Slot::Jet { group, entry } => {
-            groups.binary_search(&(group as usize)).ok().map(|at| [at, entry as usize])
+/// A function: the place of its group among those that are evaluated, and its entry there.
+type Entry = [usize; 2];
+
+/// The terms of a series of a tip.
+#[derive(Clone, Copy)]
+struct Terms {
+    count: usize,
+    frame: TipFrame,
+    /// From the tip to the anchor.
+    from_tip: Vec2,
+}
+
+impl ShapeEvaluator<'_> {
+    /// The functions of some patches seen from an anchor, in order.
+    fn blocks(&self, anchor: Vec2, patches: &[u32], groups: &[usize]) -> Vec<Block> {
+        let data = self.space.data();
+        let of_patch = |(place, &patch): (usize, &u32)| {
+            let all = self.space.series(patch as usize).iter();
+            let series: Vec<_> =
+                all.filter_map(|series| self.terms(anchor, patch, series)).collect();
+            let block = move |b: usize| {
+                let own = series.iter().find(|(blocks, _)| blocks.contains(&b));
+                let functions = own.map_or(b..b + 1, |(blocks, _)| blocks.clone());
+                let mut entries = [None; GROUP];
+                functions
+                    .clone()
+                    .zip(&mut entries)
+                    .for_each(|(b, entry)| *entry = self.entry(b, groups));
+                (functions.start == b).then(|| Block {
+                    patch: place,
+                    degree: data.block_degree[b].into(),
+                    shift: self.space.shifts[b],
+                    functions: entries,
+                    series: own.map(|(_, terms)| *terms),
+                })
+            };
+            data.blocks(patch as usize).filter_map(block)
+        };
+        patches.iter().enumerate().flat_map(of_patch).collect()
+    }
+
+    /// The terms of a tip's series if these are evaluated as such, and the blocks that they take the place of.
+    fn terms(&self, anchor: Vec2, patch: u32, series: &Series) -> Option<(Range<usize>, Terms)> {
+        let Origin::Tip(tip) = series.origin else { return None };
+        let frame = TipFrame::new(self.space.step(), patch as usize, tip);
+        let terms = Terms { count: series.terms(), frame, from_tip: anchor - frame.at };
+        self.series.then(|| (series.blocks.clone(), terms))
+    }
+
+    /// The function of a block.
+    fn entry(&self, block: usize, groups: &[usize]) -> Option<Entry> {
+        match self.space.functions.of(self.space.data().block_function[block]) {
+            Slot::One => None,
+            Slot::Jet { group, entry } => {
+                groups.binary_search(&(group as usize)).ok().map(|at| [at, entry as usize])
+            }
         }
-    };
-    blocks.map(place).collect()
+    }
 }
 
 /// Work on all points of a seat, a vector of points after the other.
@@ -222,9 +299,8 @@ struct Filling<'a, 's> {
     side: Side,
     offsets: &'a [Vec2],
     patches: &'a [u32],
-    /// The groups of functions, and where each block's is among them.
     groups: &'a [usize],
-    places: &'a [Place],
+    blocks: &'a [Block],
     scratch: &'a mut Scratch<f64>,
     out: &'a mut Shapes,
 }
@@ -237,11 +313,15 @@ impl Job<f64> for Filling<'_, '_> {
         let points = in_vectors(self.offsets, zero);
         let jets = self.jets(&points, zero);
         let partition = self.partition(&points, zero);
-        let (mut at, mut block, mut function) = (0, 0, 0);
-        while at < self.patches.len() {
-            let phi = &partition[at * points.len()..(at + 1) * points.len()];
-            [block, function] = self.shapes(at, [block, function], &points, phi, &jets);
-            at += 1;
+        let (n, mut b, mut next) = (points.len(), 0, 0);
+        while b < self.blocks.len() {
+            let block = &self.blocks[b];
+            let phi = &partition[block.patch * n..(block.patch + 1) * n];
+            next += match &block.series {
+                None => self.products(block, next, &points, phi, &jets),
+                Some(terms) => self.terms(block, terms, next, &points, phi, &jets),
+            };
+            b += 1;
         }
     }
 }
@@ -313,43 +393,96 @@ impl Filling<'_, '_> {
         [(x.lit(d.x) + x) * x.lit(inverse.x), (y.lit(d.y) + y) * y.lit(inverse.y)]
     }
 
-    /// Writes the functions of a patch, from a block and a function on; returns those after them.
+    /// Writes a block's function times monomials, from a function on; returns their number.
     #[inline(always)]
-    fn shapes<R: Real<Scalar = f64>>(
+    fn products<R: Real<Scalar = f64>>(
         &mut self,
-        at: usize,
-        [block, function]: [usize; 2],
+        block: &Block,
+        first: usize,
         points: &[[R; 2]],
         phi: &[Jet<R>],
         jets: &[[Jet<R>; GROUP]],
-    ) -> [usize; 2] {
-        let (patch, n) = (self.patches[at] as usize, points.len());
-        let (data, partition) = (self.space.data(), self.space.partition());
-        let (blocks, inverse) = (data.blocks(patch), reciprocal(partition.scale[patch]));
-        let (mut next, mut b) = (function, blocks.start);
-        while b < blocks.end {
-            let degree = data.block_degree[b] as usize;
-            let place = self.places[block + b - blocks.start];
-            let mut k = 0;
-            while k < n {
-                let factor = match place {
-                    None => phi[k],
-                    Some([group, entry]) => {
-                        let mut function = jets[group * n + k][entry];
-                        function.v = function.v - phi[k].v.lit(self.space.shifts[b]);
-                        phi[k].times::<1>(function)
-                    }
-                };
-                let xi = self.local(points[k], partition.origin[patch], inverse);
-                let monomials = Monomials::new(xi, inverse, degree);
-                self.out.set_products(next, k * R::LANES, factor, &monomials);
-                k += 1;
-            }
-            next += monomials_of(degree);
-            b += 1;
+    ) -> usize {
+        let (patch, partition) = (self.patches[block.patch] as usize, self.space.partition());
+        let (inverse, n) = (reciprocal(partition.scale[patch]), points.len());
+        let mut k = 0;
+        while k < n {
+            let factor = match block.functions[0] {
+                None => phi[k],
+                Some([group, entry]) => {
+                    let mut function = jets[group * n + k][entry];
+                    function.v = function.v - phi[k].v.lit(block.shift);
+                    phi[k].times::<1>(function)
+                }
+            };
+            let xi = self.local(points[k], partition.origin[patch], inverse);
+            let monomials = Monomials::new(xi, inverse, block.degree);
+            self.out.set_products(first, k * R::LANES, factor, &monomials);
+            k += 1;
         }
-        [block + blocks.len(), next]
+        monomials_of(block.degree)
     }
+
+    /// Writes c, s, C and S of all terms of a tip, from a function on; returns their number. With z in the frame of the tip
+    /// they are zⁿ √r e^{iθ/2} and zⁿ √r e^{−3iθ/2}, made of the functions of the tip as [`Origin::Tip`] has it.
+    #[inline(always)]
+    fn terms<R: Real<Scalar = f64>>(
+        &mut self,
+        block: &Block,
+        terms: &Terms,
+        first: usize,
+        points: &[[R; 2]],
+        phi: &[Jet<R>],
+        jets: &[[Jet<R>; GROUP]],
+    ) -> usize {
+        let (n, mut k) = (points.len(), 0);
+        while k < n {
+            let mut f = [phi[k]; GROUP];
+            let mut j = 0;
+            while j < GROUP {
+                if let Some([group, entry]) = block.functions[j] {
+                    f[j] = phi[k].times::<1>(jets[group * n + k][entry]);
+                }
+                j += 1;
+            }
+            let two = phi[k].v.lit(2.0);
+            f[2] = f[0].minus::<1>(f[2].scaled::<1>(two));
+            f[3] = f[1].minus::<1>(f[3].scaled::<1>(two));
+            let z = terms.z(points[k]);
+            let mut function = first;
+            while function < first + ANGULAR * terms.count {
+                j = 0;
+                while j < ANGULAR {
+                    self.out.set(function + j, k * R::LANES, [f[j].v, f[j].x, f[j].y]);
+                    j += 1;
+                }
+                let ([c, s], [c2, s2]) = (complex(z, [f[0], f[1]]), complex(z, [f[2], f[3]]));
+                (f, function) = ([c, s, c2, s2], function + ANGULAR);
+            }
+            k += 1;
+        }
+        ANGULAR * terms.count
+    }
+}
+
+impl Terms {
+    /// z = x + iy in the frame of the tip, in its unit.
+    #[inline(always)]
+    fn z<R: Real<Scalar = f64>>(&self, [x, y]: [R; 2]) -> [Jet<R>; 2] {
+        let TipFrame { axis, unit, .. } = self.frame;
+        let (c, s) = (x.lit(axis.x * unit), x.lit(axis.y * unit));
+        let (x, y) = (x + x.lit(self.from_tip.x), y + y.lit(self.from_tip.y));
+        let zero = Jet::constant(x.lit(0.0));
+        let re = Jet { v: c * x + s * y, x: c, y: s, ..zero };
+        [re, Jet { v: c * y - s * x, x: x.lit(0.0) - s, y: c, ..zero }]
+    }
+}
+
+/// The product of two complex functions.
+#[inline(always)]
+fn complex<R: Real>([a, b]: [Jet<R>; 2], [c, d]: [Jet<R>; 2]) -> [Jet<R>; 2] {
+    let re = a.times::<1>(c).minus::<1>(b.times::<1>(d));
+    [re, a.times::<1>(d).plus::<1>(b.times::<1>(c))]
 }
 
 fn reciprocal(v: Vec2) -> Vec2 {

@@ -12,70 +12,78 @@
 //! the components of the functions c, s, C and S. Of Poisson's equation s alone leaves the faces of a crack free.
 
 use super::confined::Part;
+use super::local::times;
 use crate::corner::{Symmetry, Term};
-use crate::space::{Origin, Series, Space};
+use crate::space::{ANGULAR, Origin, Series, Space};
 use faer::Mat;
 use ppum::crack::TipId;
-use ppum::dataset::{Elasticity, Equation, Step, monomials};
+use ppum::dataset::{Elasticity, Equation, Partition, Step, monomials};
 use ppum::polynomial::exponents;
 use ppum::vec2::{Vec2, vec2};
+use std::ops::Range;
 
 /// A polynomial in ξ and η with values in the complex plane, in the order of the dataset.
 type Polynomial = Vec<[f64; 2]>;
 
-/// Numbers of the functions c, s, C and S of a term.
-const ANGULAR: usize = 4;
-
-/// The combinations that the functions of a patch's tips are taken in.
+/// The combinations that the functions of a patch's series are taken in.
 pub(super) fn parts(space: &Space<'_>, patch: usize) -> Vec<Part> {
     let is_scalar = space.equation().components() == 1;
-    let part = |series: &Series| {
+    let part = |(functions, series): (Range<usize>, &Series)| {
+        let n = functions.len();
         let rows = match series.origin {
-            Origin::Corner { .. } => Mat::identity(series.functions.len(), series.functions.len()),
-            Origin::Tip(tip) if is_scalar => {
-                every_second_of_four(&angular(space.step(), patch, tip, series))
+            // s alone
+            Origin::Tip(_) if is_scalar => {
+                Mat::from_fn(n / ANGULAR, n, |term, k| f64::from(k == ANGULAR * term + 1))
             }
-            Origin::Tip(tip) => angular(space.step(), patch, tip, series),
+            _ => Mat::identity(n, n),
         };
-        (series.functions.clone(), rows)
+        (functions, rows)
     };
-    space.series(patch).iter().map(part).collect()
+    space.evaluated_series(patch).map(part).collect()
 }
 
-/// The rows of s.
-fn every_second_of_four(all: &Mat<f64>) -> Mat<f64> {
-    Mat::from_fn(all.nrows() / ANGULAR, all.ncols(), |n, k| all[(ANGULAR * n + 1, k)])
+/// Coefficients of the functions of a patch as they are stored from those of the functions that the solver evaluates.
+pub(super) fn stored(space: &Space<'_>, patch: usize, mut evaluated: &[f64]) -> Vec<f64> {
+    let mut out = Vec::with_capacity(space.sizes[patch]);
+    for series in space.series(patch) {
+        let Origin::Tip(tip) = series.origin else { continue };
+        let (before, after) = evaluated.split_at(series.functions.start - out.len());
+        let (own, after) = after.split_at(series.evaluated());
+        out.extend(before);
+        out.extend(times(angular(space.step(), patch, tip, series).as_ref(), own));
+        evaluated = after;
+    }
+    out.extend(evaluated);
+    out
 }
 
-/// The fields of the series of a patch as combinations of its functions, one for each component; none without series, or
-/// with one component.
+/// The fields of the series of a patch as combinations of the functions that the solver evaluates, one for each component;
+/// none without series, or with one component.
 pub(super) fn fields(space: &Space<'_>, patch: usize) -> Option<Vec<[Vec<f64>; 2]>> {
     let Equation::Elasticity(body) = space.equation() else { return None };
-    let all = space.series(patch);
-    if all.is_empty() {
+    if space.series(patch).is_empty() {
         return None;
     }
-    let n = space.sizes[patch];
-    let of_series = |series: &Series| {
+    let n = space.evaluated(patch);
+    let of_series = |(functions, series): (Range<usize>, &Series)| {
         let fields = match series.origin {
-            Origin::Tip(tip) => of_tip(space.step(), patch, tip, series, body),
+            Origin::Tip(tip) => of_tip(space.step(), tip, series, body),
             Origin::Corner { at, bisector, term } => vec![of_corner(at, bisector, &term, body)],
         };
-        let first = series.functions.start;
-        fields.into_iter().map(move |field| field.map(|part| shifted(&part, first, n)))
+        let modes = fields.len() * ANGULAR / functions.len();
+        let place = move |(k, field): (usize, Field)| {
+            field.map(|part| placed(&part, functions.start + ANGULAR * (k / modes), n))
+        };
+        fields.into_iter().enumerate().map(place)
     };
-    Some(all.iter().flat_map(of_series).collect())
+    Some(space.evaluated_series(patch).flat_map(of_series).collect())
 }
 
-/// The fields of a tip, for opening and for sliding.
-fn of_tip(
-    step: &Step,
-    patch: usize,
-    tip: TipId,
-    series: &Series,
-    body: &Elasticity,
-) -> Vec<[Vec<f64>; 2]> {
-    let rows = angular(step, patch, tip, series);
+/// Factors of c, s, C and S of a term in the two components of a field.
+type Field = [[f64; ANGULAR]; 2];
+
+/// The fields of a tip, of each term for opening and for sliding.
+fn of_tip(step: &Step, tip: TipId, series: &Series, body: &Elasticity) -> Vec<Field> {
     let crack = &step.cracks[tip.crack as usize];
     let axis = crack.growth_direction(tip.end);
     let kappa = body.at(crack.end_point(tip.end)).kolosov();
@@ -83,20 +91,18 @@ fn of_tip(
         let lambda = n as f64 + 0.5;
         let term = |symmetry, factor| mode(kappa, &Term { exponent: lambda, symmetry, factor });
         let (opening, sliding) = (Symmetry::Symmetric, Symmetry::Antisymmetric);
-        [term(opening, 1.0 - lambda), term(sliding, 1.0 + lambda)]
-            .map(|mode| world(&mode, &rows, n, axis))
+        [term(opening, 1.0 - lambda), term(sliding, 1.0 + lambda)].map(|mode| world(&mode, axis))
     };
     (0..series.terms()).flat_map(modes).collect()
 }
 
 /// The field of a corner.
-fn of_corner(at: Vec2, bisector: f64, term: &Term, body: &Elasticity) -> [Vec<f64>; 2] {
-    let axis = vec2(bisector.cos(), bisector.sin());
-    world(&mode(body.at(at).kolosov(), term), &Mat::identity(ANGULAR, ANGULAR), 0, axis)
+fn of_corner(at: Vec2, bisector: f64, term: &Term, body: &Elasticity) -> Field {
+    world(&mode(body.at(at).kolosov(), term), vec2(bisector.cos(), bisector.sin()))
 }
 
-/// Factors of c, s, C and S in the two components of a field.
-fn mode(kappa: f64, term: &Term) -> [[f64; ANGULAR]; 2] {
+/// A term in the frame of the tip or corner.
+fn mode(kappa: f64, term: &Term) -> Field {
     let Term { exponent: l, factor: b, symmetry } = *term;
     match symmetry {
         Symmetry::Symmetric => [[kappa - b, 0.0, -l, 0.0], [0.0, kappa + b, 0.0, l]],
@@ -104,19 +110,14 @@ fn mode(kappa: f64, term: &Term) -> [[f64; ANGULAR]; 2] {
     }
 }
 
-/// A mode in the world's frame, as combinations of a tip's functions.
-fn world(mode: &[[f64; ANGULAR]; 2], rows: &Mat<f64>, n: usize, axis: Vec2) -> [Vec<f64>; 2] {
-    let along = |i: usize, k: usize| -> f64 {
-        (0..ANGULAR).map(|j| mode[i][j] * rows[(ANGULAR * n + j, k)]).sum()
-    };
-    let all = 0..rows.ncols();
-    let x = all.clone().map(|k| axis.x * along(0, k) - axis.y * along(1, k)).collect();
-    let y = all.map(|k| axis.y * along(0, k) + axis.x * along(1, k)).collect();
-    [x, y]
+/// A mode in the world's frame.
+fn world([along, across]: &Field, axis: Vec2) -> Field {
+    let sum = |a: f64, b: f64| std::array::from_fn(|j| a * along[j] + b * across[j]);
+    [sum(axis.x, -axis.y), sum(axis.y, axis.x)]
 }
 
-/// Combinations of some functions of a patch among those of all n.
-fn shifted(part: &[f64], first: usize, n: usize) -> Vec<f64> {
+/// A combination of four functions from one on among all n.
+fn placed(part: &[f64], first: usize, n: usize) -> Vec<f64> {
     let mut all = vec![0.0; n];
     all[first..first + part.len()].copy_from_slice(part);
     all
@@ -147,22 +148,41 @@ fn angular(step: &Step, patch: usize, tip: TipId, series: &Series) -> Mat<f64> {
     rows
 }
 
+/// The frame that a patch sees a tip in.
+#[derive(Clone, Copy)]
+pub(super) struct TipFrame {
+    pub(super) at: Vec2,
+    /// Direction of growth.
+    pub(super) axis: Vec2,
+    /// One over the farthest distance in the patch, the unit of lengths.
+    pub(super) unit: f64,
+}
+
+impl TipFrame {
+    pub(super) fn new(step: &Step, patch: usize, tip: TipId) -> Self {
+        let crack = &step.cracks[tip.crack as usize];
+        let at = crack.end_point(tip.end);
+        let Partition { origin, scale, .. } = &step.partition;
+        let unit = 1.0 / ((origin[patch] - at).length() + scale[patch].length());
+        Self { at, axis: crack.growth_direction(tip.end), unit }
+    }
+}
+
 /// zⁿ for n up to N − 1, z being in the tip's frame and over the farthest distance in the patch.
 fn powers(step: &Step, patch: usize, tip: TipId, series: &Series) -> Vec<Polynomial> {
-    let crack = &step.cracks[tip.crack as usize];
     let (origin, scale) = (step.partition.origin[patch], step.partition.scale[patch]);
-    let (from_tip, axis) = (origin - crack.end_point(tip.end), crack.growth_direction(tip.end));
-    let unit = 1.0 / (from_tip.length() + scale.length());
+    let TipFrame { at, axis, unit } = TipFrame::new(step, patch, tip);
+    let from_tip = origin - at;
     let turned = |v: Vec2| [axis.dot(v) * unit, axis.cross(v) * unit];
     let linear = [from_tip, Vec2 { x: scale.x, y: 0.0 }, Vec2 { x: 0.0, y: scale.y }].map(turned);
     let mut one = vec![[0.0; 2]; monomials(series.degree)];
     one[0] = [1.0, 0.0];
-    let next = |last: &Polynomial| Some(times(last, &linear, series.degree));
+    let next = |last: &Polynomial| Some(product(last, &linear, series.degree));
     std::iter::successors(Some(one), next).take(series.terms()).collect()
 }
 
 /// A polynomial times the linear one c₀ + c₁ ξ + c₂ η, up to a degree.
-fn times(polynomial: &Polynomial, linear: &[[f64; 2]; 3], degree: usize) -> Polynomial {
+fn product(polynomial: &Polynomial, linear: &[[f64; 2]; 3], degree: usize) -> Polynomial {
     let mut product = vec![[0.0; 2]; polynomial.len()];
     for ((a, b), [re, im]) in exponents(degree).zip(polynomial) {
         for ((da, db), c) in [(0, 0), (1, 0), (0, 1)].into_iter().zip(linear) {

@@ -234,8 +234,8 @@ impl<'a> Integrator<'a> {
         Self {
             between,
             needs,
-            fine: ShapeEvaluator::new(between.fine.0),
-            coarse: ShapeEvaluator::new(between.coarse.0),
+            fine: ShapeEvaluator::of_series(between.fine.0),
+            coarse: ShapeEvaluator::of_series(between.coarse.0),
             plain: Shapes::default(),
             own: Shapes::default(),
             local: Shapes::default(),
@@ -272,7 +272,7 @@ impl<'a> Integrator<'a> {
                     sums,
                 );
             }
-            phi += space.sizes[i as usize];
+            phi += space.evaluated(i as usize);
             first += n;
         }
     }

@@ -30,7 +30,7 @@ pub(crate) use prints::{Prints, Unchanged};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
-pub(crate) use williams::{Origin, Series};
+pub(crate) use williams::{ANGULAR, Origin, Series};
 
 /// Accuracy of the quadrature of products of partition functions with polynomials of the highest degree.
 ///

@@ -15,6 +15,8 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(crate) struct Series {
     pub(crate) origin: Origin,
+    /// The blocks that they are stored in.
+    pub(crate) blocks: Range<usize>,
     /// Their numbers among the patch's functions.
     pub(crate) functions: Range<usize>,
     /// Degree of the polynomials that multiply them.
@@ -41,6 +43,9 @@ pub(crate) enum Origin {
     },
 }
 
+/// Functions of a term at a tip: r^λ cos λθ, r^λ sin λθ, r^λ cos (λ−2)θ, r^λ sin (λ−2)θ.
+pub(crate) const ANGULAR: usize = 4;
+
 impl Series {
     /// Number of unknowns.
     pub(crate) fn unknowns(&self, components: usize) -> usize {
@@ -48,6 +53,15 @@ impl Series {
             // of a term a field for opening and one for sliding, or one function alone
             Origin::Tip(_) => components * self.terms(),
             Origin::Corner { .. } => 1,
+        }
+    }
+
+    /// Number of functions that the solver evaluates for it: of a tip those that the terms are made of, not those
+    /// that they are stored as.
+    pub(crate) fn evaluated(&self) -> usize {
+        match self.origin {
+            Origin::Tip(_) => ANGULAR * self.terms(),
+            Origin::Corner { .. } => self.functions.len(),
         }
     }
 
@@ -150,7 +164,7 @@ fn of_patch(step: &Step, patch: usize, groups: &Groups) -> Vec<Series> {
         let degree = usize::from(data.block_degree[block]);
         if let Some((origin, count)) = groups.get(&data.block_function[block]) {
             let functions = at..at + count * monomials(degree);
-            found.push(Series { origin: *origin, functions, degree });
+            found.push(Series { origin: *origin, blocks: block..block + count, functions, degree });
         }
         at += monomials(degree);
     }
@@ -161,6 +175,25 @@ impl Space<'_> {
     /// The series of a patch.
     pub(crate) fn series(&self, patch: usize) -> &[Series] {
         self.series.get(patch).map_or(&[], Vec::as_slice)
+    }
+
+    /// Number of functions of a patch that the solver evaluates.
+    pub(crate) fn evaluated(&self, patch: usize) -> usize {
+        let fewer = |series: &Series| series.functions.len() - series.evaluated();
+        self.sizes[patch] - self.series(patch).iter().map(fewer).sum::<usize>()
+    }
+
+    /// The series of a patch with the numbers of their functions among those that the solver evaluates.
+    pub(crate) fn evaluated_series(
+        &self,
+        patch: usize,
+    ) -> impl Iterator<Item = (Range<usize>, &Series)> {
+        let mut fewer = 0;
+        self.series(patch).iter().map(move |series| {
+            let (first, n) = (series.functions.start - fewer, series.evaluated());
+            fewer += series.functions.len() - n;
+            (first..first + n, series)
+        })
     }
 
     /// Number of unknowns of a patch, before any are cut off.
