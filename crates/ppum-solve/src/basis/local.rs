@@ -2,7 +2,7 @@
 
 use super::Gram;
 use super::confined::{Part, matrix};
-use super::tie::{self, VectorField, tie};
+use super::tie::{self, tie};
 use super::transform::{CUT_OFF, Transform};
 use super::williams::{fields, parts};
 use crate::linear::{EigenError, SymmetricEigen};
@@ -28,21 +28,21 @@ pub(super) struct LocalBasis {
 /// component by component, then those of vector fields.
 #[derive(Clone, Debug)]
 struct Tied {
-    /// Number of functions that each component has for itself: the first ones. They are polynomials.
+    /// Number of functions that each component has for itself: the first ones. They are polynomials and jumps.
     scalar: usize,
-    /// Of these, the number of plain functions that they are made of: the first ones.
-    polynomials: usize,
+    /// Number of plain functions that they are made of: the first ones.
+    plain: usize,
     /// Each component of the fields in the plain functions, C_i T: [fields, functions].
     fields: [Mat<f64>; 2],
 }
 
 impl Tied {
     /// Of a tie whose first rows are those of `scalar` functions of each component.
-    fn new(tie: &Mat<f64>, matrix: &Mat<f64>, scalar: usize, polynomials: usize) -> Self {
+    fn new(tie: &Mat<f64>, matrix: &Mat<f64>, scalar: usize, plain: usize) -> Self {
         let kept = matrix.nrows();
         let rows =
             |i: usize| tie.submatrix(2 * scalar, i * kept, tie.nrows() - 2 * scalar, kept) * matrix;
-        Self { scalar, polynomials, fields: [rows(0), rows(1)] }
+        Self { scalar, plain, fields: [rows(0), rows(1)] }
     }
 }
 
@@ -87,20 +87,20 @@ impl LocalBasis {
         let n_series: usize = series.iter().map(|(_, rows)| rows.nrows()).sum();
         let all: Vec<Part> = confined.iter().cloned().chain(series).collect();
         let rows = (!all.is_empty()).then(|| matrix(space.evaluated(patch), &all));
-        let transform = transform(gram, rows.as_ref(), space.n_polynomials(patch))?;
+        let first = rows.as_ref().map_or(space.evaluated(patch), Mat::nrows) - n_series;
+        let transform = transform(gram, rows.as_ref(), [space.n_polynomials(patch), first])?;
         let lost: usize = confined.iter().map(|(range, rows)| range.len() - rows.nrows()).sum();
         let (dropped, least) = (transform.dropped + lost, transform.least);
-        let (Some(tied), Some(rows)) = (fields(space, patch), &rows) else {
+        let (Some(fields), Some(rows)) = (fields(space, patch), &rows) else {
             return Ok(Self { matrix: transform.matrix, tie: None, tied: None, dropped, least });
         };
-        let scalar = space.n_polynomials(patch)..rows.nrows() - n_series;
-        let fields: Vec<VectorField> =
-            scalar.flat_map(|j| of_each_component(rows, j)).chain(tied).collect();
         let tie = tie(gram.weighted.as_ref(), &transform, &fields)?;
-        let wanted = fields.len() + 2 * (space.n_polynomials(patch) + lost);
+        let wanted = fields.len() + 2 * (first + lost);
         let dropped = wanted - tie.nrows();
-        let Transform { matrix, polynomials, .. } = transform;
-        let tied = Tied::new(&tie, &matrix, polynomials, space.n_polynomials(patch));
+        let is_seen = |j: &usize| (0..first).any(|k| rows[(k, *j)] != 0.0);
+        let plain = (0..rows.ncols()).rfind(is_seen).map_or(0, |last| last + 1);
+        let tied = Tied::new(&tie, &transform.matrix, transform.first, plain);
+        let matrix = transform.matrix;
         Ok(Self { matrix, tie: Some(tie), tied: Some(tied), dropped, least })
     }
 
@@ -108,8 +108,8 @@ impl LocalBasis {
     pub(super) fn fields(&self, tied: bool) -> Fields<'_> {
         match self.tied.as_ref().filter(|_| tied) {
             None => Fields { scalar: self.matrix.as_ref(), vector: None },
-            Some(Tied { scalar, polynomials, fields }) => Fields {
-                scalar: self.matrix.submatrix(0, 0, *scalar, *polynomials),
+            Some(Tied { scalar, plain, fields }) => Fields {
+                scalar: self.matrix.submatrix(0, 0, *scalar, *plain),
                 vector: Some(fields.each_ref().map(|part| part.as_ref())),
             },
         }
@@ -180,26 +180,19 @@ pub(super) fn times(a: MatRef<'_, f64>, x: &[f64]) -> Vec<f64> {
     (0..a.ncols()).map(|j| (0..a.nrows()).map(|k| a[(k, j)] * x[k]).sum()).collect()
 }
 
-/// A combination of functions in one component and nothing in the other.
-fn of_each_component(rows: &Mat<f64>, j: usize) -> [VectorField; 2] {
-    let row: Vec<f64> = rows.row(j).iter().copied().collect();
-    let zero = vec![0.0; row.len()];
-    [[row.clone(), zero.clone()], [zero, row]]
-}
-
 /// The transformation of a patch, of whose functions only some combinations may stay.
 fn transform(
     gram: &Gram,
     kept: Option<&Mat<f64>>,
-    polynomials: usize,
+    stages: [usize; 2],
 ) -> Result<Transform, EigenError> {
     let Gram { weighted, plain, .. } = gram;
     let Some(rows) = kept else {
-        return Transform::new(weighted.as_ref(), plain, polynomials, CUT_OFF);
+        return Transform::new(weighted.as_ref(), plain, stages, CUT_OFF);
     };
     let square = |k: usize| plain.iter().enumerate().map(|(j, n2)| rows[(k, j)].powi(2) * n2).sum();
     let plain: Vec<f64> = (0..rows.nrows()).map(square).collect();
     let weighted = rows * weighted * rows.transpose();
-    let transform = Transform::new(weighted.as_ref(), &plain, polynomials, CUT_OFF)?;
+    let transform = Transform::new(weighted.as_ref(), &plain, stages, CUT_OFF)?;
     Ok(Transform { matrix: transform.matrix * rows, ..transform })
 }

@@ -2,7 +2,7 @@
 //!
 //! The stable basis N of a patch is orthonormal, so that coordinates tell all of a function: those of ψ are T M ψ. The vector
 //! fields v of a patch are the polynomials and jumps, with each component for itself, and fields whose components are tied;
-//! with their coordinates as the rows of A, those of the polynomials out,
+//! with the coordinates of the latter as the rows of A, those of polynomials and jumps out,
 //!
 //! ```text
 //! A Aᵀ = U Λ Uᵀ,   keep λ > ε,   C = Λ^−½ Uᵀ A
@@ -21,7 +21,7 @@ pub(super) type VectorField = [Vec<f64>; 2];
 
 /// The tie C of a patch: [unknowns, components · functions], component by component.
 ///
-/// `gram` is the plain Gram matrix M, and `fields` are those beside the polynomials, which T keeps first.
+/// `gram` is the plain Gram matrix M, and `fields` are those beside the functions that T keeps first.
 ///
 /// # Errors
 /// Functions that are not finite.
@@ -30,14 +30,14 @@ pub(super) fn tie(
     transform: &Transform,
     fields: &[VectorField],
 ) -> Result<Mat<f64>, EigenError> {
-    let (n, p) = (transform.matrix.nrows(), transform.polynomials);
+    let (n, p) = (transform.matrix.nrows(), transform.first);
     let to_coordinates = &transform.matrix * gram;
     let mut rows = Mat::zeros(fields.len(), 2 * n);
     for (row, field) in fields.iter().enumerate() {
         let coordinates = field.each_ref().map(|part| &to_coordinates * column(part));
         let norm = norm(gram, field);
         for (i, part) in coordinates.iter().enumerate() {
-            // what is left of the field beside the polynomials
+            // what is left of the field beside the first functions
             (p..n).for_each(|k| rows[(row, i * n + k)] = part[(k, 0)] / norm);
         }
     }

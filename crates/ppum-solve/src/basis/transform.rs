@@ -12,6 +12,9 @@
 //! T    = [T_P 0; T_E] D,   T M Tᵀ = I
 //! ```
 //!
+//! The fields of series tie components, jumps leave each component its own. So that jumps need no fields, series give way to
+//! them: in the second step E are the jumps alone, in a third one P are all functions so far and E the series.
+//!
 //! The functions are transformed before anything is integrated ([`crate::basis`]); the plain
 //! coefficients are u = Tᵀ ũ. An enrichment is
 //! cut off only if the polynomials and the other enrichments reproduce it, polynomials never give
@@ -55,8 +58,8 @@ const VANISHING: f64 = 1e-40;
 pub(crate) struct Transform {
     /// T, shape [kept, functions]: row k holds the new function k in the plain functions.
     pub(crate) matrix: Mat<f64>,
-    /// Number of new functions that are polynomials: the first ones.
-    pub(crate) polynomials: usize,
+    /// Number of new functions that are made of the first plain ones, polynomials and jumps: the first ones.
+    pub(crate) first: usize,
     /// Number of functions that were cut off.
     pub(crate) dropped: usize,
     /// The least eigenvalue that was kept, of the polynomials as a part of their largest: far from one the functions nearly
@@ -65,40 +68,37 @@ pub(crate) struct Transform {
 }
 
 impl Transform {
-    /// The transformation of a patch with the Gram matrix `gram` [n × n, symmetric], whose first
-    /// `n_polynomials` functions are the polynomials, with cut-off `eps` (usually [`CUT_OFF`]); `plain` are the
-    /// squares of the norms of the functions without φ, n².
+    /// The transformation of a patch with the Gram matrix `gram` [n × n, symmetric], whose first p
+    /// functions are the polynomials and whose functions from f on give way to all before them, with cut-off `eps`
+    /// (usually [`CUT_OFF`]); `plain` are the squares of the norms of the functions without φ, n².
     ///
     /// # Errors
     /// An entry of the Gram matrix that is not finite.
     ///
     /// # Panics
-    /// If `gram` is not square or has fewer than `n_polynomials` rows.
+    /// If `gram` is not square or not 0 ≤ p ≤ f ≤ n.
     pub(crate) fn new(
         gram: MatRef<'_, f64>,
         plain: &[f64],
-        n_polynomials: usize,
+        [p, f]: [usize; 2],
         eps: f64,
     ) -> Result<Self, EigenError> {
-        let (n, p) = (gram.nrows(), n_polynomials);
-        assert!(n == gram.ncols() && p <= n, "a square Gram matrix with the polynomials first");
+        let n = gram.nrows();
+        assert!(n == gram.ncols() && p <= f && f <= n, "a square Gram matrix, polynomials first");
         let mut d = inverse_root_diagonal(gram, VANISHING);
         for (d, n2) in d.iter_mut().zip(plain).skip(p).filter(|(d, _)| d.is_finite()) {
             *d = d.min(REACH / n2.sqrt());
         }
         let m = scaled(gram, &d);
         let (polynomials, of_these) = orthonormal_polynomials(m.submatrix(0, 0, p, p), eps)?;
-        let (enrichments, of_those) =
-            orthonormal_enrichments(m.as_ref(), polynomials.as_ref(), eps)?;
-        let kept = polynomials.nrows() + enrichments.nrows();
-        let mut matrix = Mat::zeros(kept, n);
-        matrix.submatrix_mut(0, 0, polynomials.nrows(), p).copy_from(&polynomials);
-        matrix.submatrix_mut(polynomials.nrows(), 0, enrichments.nrows(), n).copy_from(enrichments);
+        let (first, of_those) =
+            with_enrichments(m.submatrix(0, 0, f, f), polynomials.as_ref(), eps)?;
+        let (mut matrix, of_others) = with_enrichments(m.as_ref(), first.as_ref(), eps)?;
         for (j, scale) in d.into_iter().enumerate() {
             matrix.col_mut(j).iter_mut().for_each(|entry| *entry *= scale);
         }
-        let least = of_these.min(of_those);
-        Ok(Self { matrix, polynomials: polynomials.nrows(), dropped: n - kept, least })
+        let (first, dropped) = (first.nrows(), n - matrix.nrows());
+        Ok(Self { matrix, first, dropped, least: of_these.min(of_those).min(of_others) })
     }
 }
 
@@ -116,21 +116,22 @@ fn least_of(eigen: &SymmetricEigen, kept: usize) -> f64 {
     kept.checked_sub(1).map_or(1.0, |last| eigen.values[last])
 }
 
-/// T_E [kept × n] of the scaled Gram matrix `m`, given T_P, and the least kept eigenvalue of S.
-fn orthonormal_enrichments(
+/// T_P, or the rows of other functions that are orthonormal, and T_E below [kept × n] for the scaled Gram matrix `m`, and the
+/// least kept eigenvalue of S.
+fn with_enrichments(
     m: MatRef<'_, f64>,
-    polynomials: MatRef<'_, f64>,
+    first: MatRef<'_, f64>,
     eps: f64,
 ) -> Result<(Mat<f64>, f64), EigenError> {
-    let (n, p) = (m.nrows(), polynomials.ncols());
-    let projection = polynomials * m.submatrix(0, p, p, n - p);
+    let (n, p, q) = (m.nrows(), first.ncols(), first.nrows());
+    let projection = first * m.submatrix(0, p, p, n - p);
     let schur = m.submatrix(p, p, n - p, n - p) - projection.transpose() * &projection;
     let eigen = SymmetricEigen::new(schur.as_ref())?;
     let root = eigen.inverse_root(eps);
-    let mut rows = Mat::zeros(root.nrows(), n);
-    rows.submatrix_mut(0, 0, root.nrows(), p)
-        .copy_from(-(&root * projection.transpose() * polynomials));
-    rows.submatrix_mut(0, p, root.nrows(), n - p).copy_from(&root);
+    let mut rows = Mat::zeros(q + root.nrows(), n);
+    rows.submatrix_mut(0, 0, q, p).copy_from(first);
+    rows.submatrix_mut(q, 0, root.nrows(), p).copy_from(-(&root * projection.transpose() * first));
+    rows.submatrix_mut(q, p, root.nrows(), n - p).copy_from(&root);
     Ok((rows, least_of(&eigen, root.nrows())))
 }
 
@@ -152,7 +153,7 @@ mod tests {
     /// The transformation of functions that nothing multiplies.
     fn within_reach(m: MatRef<'_, f64>, n_polynomials: usize) -> Result<Transform, EigenError> {
         let plain: Vec<_> = (0..m.nrows()).map(|k| m[(k, k)]).collect();
-        Transform::new(m, &plain, n_polynomials, CUT_OFF)
+        Transform::new(m, &plain, [n_polynomials, m.nrows()], CUT_OFF)
     }
 
     fn distance_to_identity(transform: &Transform, gram: &Mat<f64>) -> f64 {
@@ -255,7 +256,7 @@ mod tests {
             let jump = |x: f64| if x > 0.6 { 1.0 } else { 0.0 };
             let m = gram(&[&|_| 1.0, &|x| x, &|x| part * jump(x), &|x| part * jump(x) * x]);
             let plain: Vec<_> = [2.0, 2.0 / 3.0, 0.4, (1.0 - 0.216) / 3.0].into();
-            let transform = Transform::new(m.as_ref(), &plain, 2, CUT_OFF).unwrap();
+            let transform = Transform::new(m.as_ref(), &plain, [2, 4], CUT_OFF).unwrap();
             let rows =
                 transform.matrix.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<_>>());
             let largest = rows.fold(0.0_f64, |most, entry| most.max(entry.abs()));
