@@ -68,11 +68,16 @@ impl<'s> CellAssembler<'s> {
         let mut system = self.zero(CellFunctions::new(&self.assembly, cell));
         let mut matrix = known.is_none().then(|| system.functions.zero(&self.assembly, !is_held));
         let shared = source.filter(|source| source.rules.is_none()).map(|source| source.values);
+        let mut plain = self.zero(CellFunctions::plain(&self.assembly, cell));
         for rule in rules {
-            self.volume((cell, rule), shared, !is_held, matrix.as_mut(), &mut system);
+            self.evaluator.see(rule);
+            self.stiffen(rule, !is_held, matrix.as_mut(), &system.functions);
+            self.add_functionals((cell, rule), &mut plain);
+            self.load(rule, shared, &mut system);
         }
+        system.add_functionals(&plain, self.assembly.basis, self.assembly.components());
         for rule in source.and_then(|source| source.rules).unwrap_or_default() {
-            self.evaluate(rule);
+            self.evaluator.see(rule);
             self.load(rule, source.map(|source| source.values), &mut system);
         }
         if border.is_empty() {
@@ -101,10 +106,11 @@ impl<'s> CellAssembler<'s> {
 
     /// The stiffness of a cell of which nothing on the border is held.
     pub(super) fn stiffness(&mut self, cell: usize, rules: &[Rule]) -> CellMatrix {
-        let mut system = self.zero(CellFunctions::new(&self.assembly, cell));
-        let mut matrix = system.functions.zero(&self.assembly, true);
+        let functions = CellFunctions::new(&self.assembly, cell);
+        let mut matrix = functions.zero(&self.assembly, true);
         for rule in rules {
-            self.volume((cell, rule), None, true, Some(&mut matrix), &mut system);
+            self.evaluator.see(rule);
+            self.stiffen(rule, true, Some(&mut matrix), &functions);
         }
         matrix
     }
@@ -112,13 +118,15 @@ impl<'s> CellAssembler<'s> {
     /// The part of one cell in the factors of tips, in a system without matrix.
     pub(crate) fn duals(&mut self, cell: usize, rules: &[Rule]) -> CellSystem {
         let mut system = self.zero(CellFunctions::new(&self.assembly, cell));
+        let mut plain = self.zero(CellFunctions::plain(&self.assembly, cell));
         if let Some(Functionals { duals, .. }) = self.functionals {
             for rule in rules {
-                self.evaluate(rule);
-                let numbers = system.functions.numbers(&rule.patches);
-                duals.add((cell, rule), &self.shapes, &numbers, &mut system.duals);
+                let (shapes, numbers) =
+                    (self.evaluator.see(rule), plain.functions.numbers(&rule.patches));
+                duals.add((cell, rule), shapes, &numbers, &mut plain.duals);
             }
         }
+        system.add_functionals(&plain, self.assembly.basis, self.assembly.components());
         system
     }
 
@@ -136,15 +144,10 @@ impl<'s> CellAssembler<'s> {
         }
     }
 
-    /// The functions at the points of a rule.
-    fn evaluate(&mut self, rule: &Rule) {
-        self.evaluator.see(rule);
-        self.evaluator.apply(&rule.patches, &mut self.shapes);
-    }
-
-    /// Adds a source at the points of the rule that was evaluated last.
-    fn load(&self, rule: &Rule, source: Option<Data<'_>>, system: &mut CellSystem) {
+    /// Adds a source at the points of the rule that was looked at last.
+    fn load(&mut self, rule: &Rule, source: Option<Data<'_>>, system: &mut CellSystem) {
         let Some(source) = source else { return };
+        self.evaluator.apply(&rule.patches, &mut self.shapes);
         let numbers = system.functions.numbers(&rule.patches);
         let points = rule.offsets.iter().zip(&rule.weights);
         let load = |(&o, &weight): (&Vec2, &f64)| source(rule.anchor + o).map(|f| weight * f);
@@ -152,33 +155,26 @@ impl<'s> CellAssembler<'s> {
         self.shapes.add_loads(&loads, &numbers, self.assembly.components(), &mut system.load);
     }
 
-    /// Adds the points of a rule to the functionals, and to a matrix of fields, or of functions where they are not tied.
-    fn volume(
+    /// Adds the points of the rule that was looked at last to a matrix of fields, or of functions where they are not tied.
+    fn stiffen(
         &mut self,
-        (cell, rule): (usize, &Rule),
-        source: Option<Data<'_>>,
+        rule: &Rule,
         tied: bool,
         matrix: Option<&mut CellMatrix>,
-        system: &mut CellSystem,
+        functions: &CellFunctions,
     ) {
-        let Assembly { law, .. } = self.assembly;
-        let plain = self.evaluator.see(rule);
-        if let Some(matrix) = matrix {
-            let fields = self.assembly.fields(&rule.patches, tied);
-            let places = system.functions.positions(&rule.patches);
-            self.strains.integrate(law, (rule, plain), (&fields, &places), matrix);
-        }
-        let functionals = self.functionals.filter(|all| all.are_of(cell));
-        if source.is_none() && functionals.is_none() {
-            return;
-        }
-        self.evaluator.apply(&rule.patches, &mut self.shapes);
-        self.load(rule, source, system);
-        if let Some(Functionals { free, duals }) = functionals {
-            let numbers = system.functions.numbers(&rule.patches);
-            free.add(rule, &self.shapes, &numbers, law.components, &mut system.moments);
-            duals.add((cell, rule), &self.shapes, &numbers, &mut system.duals);
-        }
+        let Some(matrix) = matrix else { return };
+        let fields = self.assembly.fields(&rule.patches, tied);
+        let (places, plain) = (functions.positions(&rule.patches), self.evaluator.plain());
+        self.strains.integrate(self.assembly.law, (rule, plain), (&fields, &places), matrix);
+    }
+
+    /// Adds these points to the functionals of the plain functions.
+    fn add_functionals(&self, (cell, rule): (usize, &Rule), plain: &mut CellSystem) {
+        let Some(all) = self.functionals.filter(|all| all.are_of(cell)) else { return };
+        let (numbers, shapes) = (plain.functions.numbers(&rule.patches), self.evaluator.plain());
+        all.free.add(rule, shapes, &numbers, self.assembly.components(), &mut plain.moments);
+        all.duals.add((cell, rule), shapes, &numbers, &mut plain.duals);
     }
 }
 

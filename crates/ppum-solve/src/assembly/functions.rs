@@ -16,13 +16,20 @@ pub(crate) struct CellFunctions {
 }
 
 impl CellFunctions {
+    /// Those of the basis.
     pub(crate) fn new(assembly: &Assembly<'_>, cell: usize) -> Self {
-        let patches = assembly.space.coverers[cell].clone();
+        Self::of(&assembly.space.coverers[cell], |patch| assembly.basis.sizes[patch])
+    }
+
+    /// Those that are evaluated, of which the basis is made.
+    pub(crate) fn plain(assembly: &Assembly<'_>, cell: usize) -> Self {
+        Self::of(&assembly.space.coverers[cell], |patch| assembly.space.evaluated(patch))
+    }
+
+    fn of(patches: &[u32], size: impl Fn(usize) -> usize) -> Self {
         let mut first = vec![0];
-        for &patch in &patches {
-            first.push(first[first.len() - 1] + assembly.basis.sizes[patch as usize]);
-        }
-        Self { patches, first }
+        patches.iter().for_each(|&p| first.push(first[first.len() - 1] + size(p as usize)));
+        Self { patches: patches.to_vec(), first }
     }
 
     /// Number of functions.

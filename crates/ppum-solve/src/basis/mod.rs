@@ -273,6 +273,11 @@ impl<'s> BasisEvaluator<'s> {
         &self.plain
     }
 
+    /// The plain functions at the points that were looked at last.
+    pub(crate) fn plain(&self) -> &Shapes {
+        &self.plain
+    }
+
     /// The basis functions at the points that were looked at last, of a rule with these patches.
     pub(crate) fn apply(&self, patches: &[u32], out: &mut Shapes) {
         self.basis.apply(patches, &self.plain, out);
