@@ -34,11 +34,10 @@ pub(crate) struct Shapes {
 }
 
 impl Shapes {
-    /// Makes room for functions and points, all zero.
+    /// Makes room for functions and points, whose values are to be written.
     pub(crate) fn resize(&mut self, functions: usize, points: usize) {
         (self.functions, self.points) = (functions, points);
         for array in [&mut self.value, &mut self.dx, &mut self.dy] {
-            array.clear();
             array.resize(functions * points, 0.0);
         }
     }
