@@ -1,7 +1,5 @@
 //! From a raster of values to colours.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use ppum::vec2::Vec2;
 use ppum_raster::raster::{Raster, Sample};
 use ppum_raster::view::View;
@@ -214,22 +212,14 @@ fn evened<T: Sample>(raster: &Raster<T>, one: f64) -> Vec<f64> {
 /// Pixels that are coloured at a time.
 const BLOCK: usize = 1024;
 
-/// The colours of values, and whether one of them lay below, and above, the range. Blocks are put where they stay: memory that is
-/// cleared first takes as long as half of the colours.
+/// The colours of values, and whether one of them lay below, and above, the range.
 fn painted<T: Sample>(shades: &Shades, values: &[T]) -> (Vec<u8>, [bool; 2]) {
-    let beyond = [const { AtomicBool::new(false) }; 2];
-    let block = |values: &[T]| {
-        let mut block = [[0; 4]; BLOCK];
-        let seen = shades.paint(T::sample_slice(values), &mut block[..values.len()]);
-        for (beyond, _) in beyond.iter().zip(seen).filter(|(_, seen)| *seen) {
-            beyond.store(true, Ordering::Relaxed);
-        }
-        block
-    };
-    let blocks: Vec<_> = values.par_chunks(BLOCK).with_min_len(16).map(block).collect();
-    let mut rgba = blocks.into_flattened().into_flattened();
-    rgba.truncate(4 * values.len());
-    (rgba, beyond.map(AtomicBool::into_inner))
+    let mut rgba = vec![0; 4 * values.len()];
+    let pixels = rgba.as_chunks_mut::<4>().0.par_chunks_mut(BLOCK);
+    let blocks = pixels.zip(values.par_chunks(BLOCK)).with_min_len(16);
+    let seen = blocks.map(|(pixels, values)| shades.paint(T::sample_slice(values), pixels));
+    let seen = seen.reduce(|| [false; 2], |a, b| [a[0] | b[0], a[1] | b[1]]);
+    (rgba, seen)
 }
 
 #[cfg(test)]

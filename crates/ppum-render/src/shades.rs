@@ -161,7 +161,7 @@ impl<T: Entry> Ramp<T> {
 
     /// The entries of some values, as the low bits of a number.
     #[inline(always)]
-    fn entries<R: Real<Scalar = T>>(&self, v: R) -> R {
+    fn entries<R: Real<Scalar = T>>(&self, v: R, beyond: &mut [bool; 2]) -> R {
         let lit = |number: usize| v.lit(number as f64);
         let splat = |number: T| v.lit(number.to_f64());
         let [least, greatest] = self.range.map(splat);
@@ -169,8 +169,10 @@ impl<T: Entry> Ramp<T> {
         // not fused, so that colours are the same on all processors
         let entry = (v - start - rest) * splat(self.slope) + v.lit(0.5);
         let inside = entry.floor().max(lit(0)).min(lit(PALETTE - 1));
-        let entry = R::select(least.gt(v), lit(BELOW), inside);
-        let entry = R::select(v.gt(greatest), lit(ABOVE), entry);
+        let (below, above) = (least.gt(v), v.gt(greatest));
+        *beyond = [beyond[0] | R::any(below), beyond[1] | R::any(above)];
+        let entry = R::select(below, lit(BELOW), inside);
+        let entry = R::select(above, lit(ABOVE), entry);
         R::select(v.ge(v), entry, lit(UNDEFINED)) + v.lit(T::WHOLE)
     }
 }
@@ -189,7 +191,7 @@ impl<T: Entry> Job<T> for Paint<'_, T> {
     #[inline(always)]
     fn run<R: Real<Scalar = T>>(self, zero: R) -> [bool; 2] {
         let Self { ramp, table, values, pixels } = self;
-        let mut extremes = [zero.lit(f64::INFINITY), zero.lit(f64::NEG_INFINITY)];
+        let mut beyond = [false; 2];
         let mut padded = [T::default(); CHUNK];
         let mut entries = [T::default(); CHUNK];
         for (values, pixels) in values.chunks(CHUNK).zip(pixels.chunks_mut(CHUNK)) {
@@ -201,19 +203,14 @@ impl<T: Entry> Job<T> for Paint<'_, T> {
             }
             let mut k = 0;
             while k < CHUNK {
-                let v = zero.load(&source[k..]);
-                extremes = [v.min(extremes[0]), v.max(extremes[1])];
-                ramp.entries(v).store(&mut entries[k..]);
+                ramp.entries(zero.load(&source[k..]), &mut beyond).store(&mut entries[k..]);
                 k += R::LANES;
             }
             for (pixel, entry) in pixels.iter_mut().zip(&entries) {
                 *pixel = table[entry.low_bits() % LENGTH];
             }
         }
-        let [least, greatest] = extremes.map(Real::lanes);
-        let [first, last] = ramp.range.map(Scalar::to_f64);
-        let lanes = 0..R::LANES;
-        [lanes.clone().any(|k| least[k] < first), lanes.into_iter().any(|k| greatest[k] > last)]
+        beyond
     }
 }
 

@@ -245,7 +245,8 @@ impl Colormap {
     /// The colour at position `t`, held at the ends outside \[0, 1\].
     #[must_use]
     pub fn color(&self, t: f64) -> Rgba {
-        let [red, green, blue] = self.mixed(t).map(|c| c.round() as u8);
+        // not `round`, a call of a library for each of the thousands of colours of a table
+        let [red, green, blue] = self.mixed(t).map(|c| (c + 0.5) as u8);
         [red, green, blue, 255]
     }
 

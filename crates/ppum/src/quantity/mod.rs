@@ -145,14 +145,14 @@ pub struct Sample<'a, R> {
 impl<R: Real> Sample<'_, R> {
     /// A quantity of the gradient: +∞ where a derivative of any component is infinite or none.
     #[inline(always)]
-    fn apart(&self, mut value: R) -> R {
+    fn apart(&self, value: R) -> R {
         let (zero, infinite) = (value.lit(0.0), value.lit(f64::INFINITY));
+        // zero, or NaN
+        let mut test = zero;
         for jet in self.jets {
-            // zero, or NaN
-            let test = jet.x * zero + jet.y * zero;
-            value = R::select(test.ge(test), value, infinite);
+            test = jet.x.mul_add(zero, jet.y.mul_add(zero, test));
         }
-        value
+        R::select(test.ge(test), value, infinite)
     }
 }
 
