@@ -1,33 +1,33 @@
-//! A patch on rows of pixels: weight × polynomial in y collapses to polynomials in x.
+//! A patch on a column of vectors: weight × polynomial in x collapses to polynomials in y.
 //!
-//! On one row η is fixed, and with the weight's factor b(η)
+//! At a vector of columns ξ is fixed, and with the weight's factor a(ξ)
 //!
 //! ```text
-//! W p = a(ξ) Σ_k A_k ξ^k     A_k = b Σ_j c_kj η^j     B_k = ∂A_k/∂y     D_k = (k + 1) A_{k+1} ∂ξ/∂x
+//! W p = b(η) Σ_j A_j η^j     A_j = a Σ_k c_kj ξ^k     B_j = ∂A_j/∂x
 //! ```
 //!
-//! The collapse works on lanes of rows; the rows are then evaluated on lanes of columns.
+//! whose coefficients are vectors, on rows then taken with one η each: no lane is wasted on rows.
 
 use ppum::dataset::monomials;
 use ppum::jet::Jet;
 use ppum::real::{Real, Scalar};
 
-/// Rows of a tile, and of the tables here: whole vectors of lanes.
+/// Rows of a tile: whole vectors of lanes.
 pub(super) const ROWS: usize = 16;
 
-/// Polynomials kept for a block: A, and with derivatives B and D.
+/// Numbers of a jet.
 #[inline(always)]
-pub(super) const fn polynomials<const D: usize>() -> usize {
+pub(super) const fn numbers<const D: usize>() -> usize {
     1 + 2 * D
 }
 
-/// Length of a block's table.
+/// Length of a block's table: A, and with derivatives B.
 #[inline(always)]
-pub(super) const fn table_len<const D: usize>(degree: usize) -> usize {
-    (degree + 1) * polynomials::<D>() * ROWS
+pub(super) const fn table_len<R: Real, const D: usize>(degree: usize) -> usize {
+    (degree + 1) * (1 + D) * R::LANES
 }
 
-/// The factor b(η) of the weight and its derivative by y on lanes of rows.
+/// A factor of the weight and its derivative in the world.
 #[derive(Clone, Copy)]
 pub(super) struct Factor<R> {
     pub(super) value: R,
@@ -49,29 +49,29 @@ pub(super) fn collapse<R: Real, const D: usize, const ADD: bool>(
     coefficients: &[f64],
     degree: usize,
     shift: f64,
-    rows: &Rows<R>,
+    across: &Across<R>,
     table: &mut [R::Scalar],
 ) {
     match degree {
-        0 => collapse_degree::<R, D, 0, ADD>(coefficients, degree, shift, rows, table),
-        1 => collapse_degree::<R, D, 1, ADD>(coefficients, degree, shift, rows, table),
-        2 => collapse_degree::<R, D, 2, ADD>(coefficients, degree, shift, rows, table),
-        3 => collapse_degree::<R, D, 3, ADD>(coefficients, degree, shift, rows, table),
-        _ => collapse_degree::<R, D, ANY, ADD>(coefficients, degree, shift, rows, table),
+        0 => collapse_degree::<R, D, 0, ADD>(coefficients, degree, shift, across, table),
+        1 => collapse_degree::<R, D, 1, ADD>(coefficients, degree, shift, across, table),
+        2 => collapse_degree::<R, D, 2, ADD>(coefficients, degree, shift, across, table),
+        3 => collapse_degree::<R, D, 3, ADD>(coefficients, degree, shift, across, table),
+        _ => collapse_degree::<R, D, ANY, ADD>(coefficients, degree, shift, across, table),
     }
 }
 
-/// Lanes of rows of a patch.
-pub(super) struct Rows<R> {
-    /// Coordinates η of the polynomials.
-    pub(super) eta: R,
+/// A patch at a vector of columns.
+pub(super) struct Across<R> {
+    /// Coordinate ξ of the polynomials.
+    pub(super) xi: R,
     /// Factor of the weight.
     pub(super) factor: Factor<R>,
-    /// Derivatives of ξ and η by x and y.
-    pub(super) scale: [f64; 2],
+    /// The factor, for slopes by ξ.
+    pub(super) scaled: R,
 }
 
-/// Writes the table of one block, or adds to it: for k from the degree down to 0 the lanes of A_k, B_k and D_k.
+/// Writes the table of one block, or adds to it: for j from the degree down to 0 the vectors A_j and B_j.
 ///
 /// `shift` is subtracted from the constant coefficient.
 #[inline(always)]
@@ -79,99 +79,100 @@ fn collapse_degree<R: Real, const D: usize, const P: usize, const ADD: bool>(
     coefficients: &[f64],
     degree: usize,
     shift: f64,
-    rows: &Rows<R>,
+    across: &Across<R>,
     table: &mut [R::Scalar],
 ) {
     let degree = known(P, degree);
     let coefficients = &coefficients[..monomials(degree)];
-    // The last lanes of the table may belong to the rows before these.
-    let table = &mut table[..(degree + 1) * polynomials::<D>() * ROWS - ROWS + R::LANES];
-    let scaled = rows.factor.value * rows.eta.lit(rows.scale[1]);
-    let mut k = degree + 1;
+    let table = &mut table[..table_len::<R, D>(degree)];
+    let mut j = degree + 1;
     let mut at = 0;
-    while k > 0 {
-        k -= 1;
-        let [a, b] = inner::<R, D>(coefficients, degree, k, shift, rows.eta);
-        let weighted = rows.factor.value * a;
-        put::<R, ADD>(weighted, &mut table[at..]);
+    while j > 0 {
+        j -= 1;
+        let [a, b] = inner::<R, D>(coefficients, degree, j, shift, across.xi);
+        put::<R, ADD>(across.factor.value, a, &mut table[at..]);
         if D >= 1 {
-            put::<R, ADD>(rows.factor.slope.mul_add(a, scaled * b), &mut table[at + ROWS..]);
-            if k > 0 {
-                let slope = weighted * rows.eta.lit(k as f64 * rows.scale[0]);
-                put::<R, ADD>(slope, &mut table[at + 5 * ROWS..]);
-            }
+            let slope = across.factor.slope * a;
+            let slope = if j == degree { slope } else { across.scaled.mul_add(b, slope) };
+            put_sum::<R, ADD>(slope, &mut table[at + R::LANES..]);
         }
-        at += polynomials::<D>() * ROWS;
+        at += (1 + D) * R::LANES;
     }
 }
 
-/// Σ_j c_kj η^j and its derivative by η, by Horner's scheme.
+/// Σ_k c_kj ξ^k and its derivative by ξ, by Horner's scheme.
 #[inline(always)]
-fn inner<R: Real, const D: usize>(
-    c: &[f64],
-    degree: usize,
-    k: usize,
-    shift: f64,
-    eta: R,
-) -> [R; 2] {
-    let zero = eta.lit(0.0);
-    let (mut a, mut b) = (zero, zero);
-    let mut j = degree - k + 1;
-    while j > 0 {
-        j -= 1;
-        let mut coefficient = c[monomials(j + k) - 1 - k];
-        if j + k == 0 {
-            coefficient -= shift;
-        }
+fn inner<R: Real, const D: usize>(c: &[f64], degree: usize, j: usize, shift: f64, xi: R) -> [R; 2] {
+    let last = degree - j;
+    let (mut a, mut b) = (xi.lit(coefficient(c, j, last, shift)), xi.lit(0.0));
+    let mut k = last;
+    while k > 0 {
         if D >= 1 {
-            b = b.mul_add(eta, a);
+            b = if k == last { a } else { b.mul_add(xi, a) };
         }
-        a = a.mul_add(eta, zero.lit(coefficient));
+        k -= 1;
+        a = a.mul_add(xi, xi.lit(coefficient(c, j, k, shift)));
     }
     [a, b]
 }
 
-/// A block of `C` components on lanes of columns: of each Σ A_k ξ^k and its derivatives by x and y. Its tables have the
-/// row at `row`; `P` is the degree or [`ANY`].
+/// The coefficient of ξ^k η^j, less the shift if it is the constant one.
+#[inline(always)]
+fn coefficient(c: &[f64], j: usize, k: usize, shift: f64) -> f64 {
+    let coefficient = c[monomials(j + k) - 1 - k];
+    if j + k == 0 { coefficient - shift } else { coefficient }
+}
+
+/// A block of `C` components at a row of a vector of columns: of each Σ A_j η^j and its derivatives by x and y. `P` is the
+/// degree or [`ANY`].
 #[inline(always)]
 pub(super) fn evaluate<R: Real, const D: usize, const P: usize, const C: usize>(
     tables: [&[R::Scalar]; C],
-    row: usize,
     degree: usize,
-    xi: R,
+    eta: R,
+    scale: R,
 ) -> [Jet<R>; C] {
     let degree = known(P, degree);
-    let mut v = [Jet::constant(xi.lit(0.0)); C];
-    let (mut at, mut k) = (row, 0);
-    while k <= degree {
+    let mut v = [Jet::constant(eta.lit(0.0)); C];
+    let (mut at, mut j) = (0, 0);
+    while j <= degree {
         let mut c = 0;
         while c < C {
             let table = &tables[c][at..];
-            v[c].v = next::<R>(k, v[c].v, xi, table[0]);
             if D >= 1 {
-                v[c].y = next::<R>(k, v[c].y, xi, table[ROWS]);
-                if k > 0 {
-                    v[c].x = next::<R>(k - 1, v[c].x, xi, table[2 * ROWS]);
-                }
+                v[c].y = if j <= 1 { v[c].v } else { v[c].y.mul_add(eta, v[c].v) };
+                v[c].x = next(j, v[c].x, eta, eta.load(&table[R::LANES..]));
             }
+            v[c].v = next(j, v[c].v, eta, eta.load(table));
             c += 1;
         }
-        at += polynomials::<D>() * ROWS;
-        k += 1;
+        at += (1 + D) * R::LANES;
+        j += 1;
+    }
+    let mut c = 0;
+    while D >= 1 && degree >= 1 && c < C {
+        v[c].y = v[c].y * scale;
+        c += 1;
     }
     v
 }
 
 /// A step of Horner's scheme; the first takes the coefficient.
 #[inline(always)]
-fn next<R: Real>(k: usize, value: R, xi: R, coefficient: R::Scalar) -> R {
-    let coefficient = splat(xi, coefficient);
-    if k == 0 { coefficient } else { value.mul_add(xi, coefficient) }
+fn next<R: Real>(j: usize, value: R, eta: R, coefficient: R) -> R {
+    if j == 0 { coefficient } else { value.mul_add(eta, coefficient) }
+}
+
+/// Writes a product, or adds it.
+#[inline(always)]
+pub(super) fn put<R: Real, const ADD: bool>(a: R, b: R, to: &mut [R::Scalar]) {
+    let value = if ADD { a.mul_add(b, a.load(to)) } else { a * b };
+    value.store(to);
 }
 
 /// Writes, or adds.
 #[inline(always)]
-pub(super) fn put<R: Real, const ADD: bool>(value: R, to: &mut [R::Scalar]) {
+pub(super) fn put_sum<R: Real, const ADD: bool>(value: R, to: &mut [R::Scalar]) {
     let value = if ADD { value + value.load(to) } else { value };
     value.store(to);
 }

@@ -19,7 +19,7 @@ use ppum::polynomial::polynomial;
 use ppum::real::{Real, Scalar};
 use ppum::vec2::{Vec2, vec2};
 
-use super::collapse::{ROWS, polynomials};
+use super::collapse::{ROWS, numbers};
 use super::plan::{Affine, Block, COLUMNS, Patch, add_blocks};
 use super::tile::{Scratch, Tile};
 use crate::pixels::Pixels;
@@ -91,7 +91,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
 
     /// Numbers at a point.
     fn numbers(&self) -> usize {
-        polynomials::<D>() * (1 + self.scene.plan.coefficients.len())
+        numbers::<D>() * (1 + self.scene.plan.coefficients.len())
     }
 
     /// Adds a patch.
@@ -152,7 +152,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         zero: R,
     ) {
         let components = self.scene.plan.coefficients.len();
-        let size = polynomials::<D>() * WIDTH;
+        let size = numbers::<D>() * WIDTH;
         let weight = self.grain_weight(patch, place, zero);
         add_jet::<R, D>(weight, &mut grains.sums[place.cell..], zero);
         let mut component = 0;
@@ -323,7 +323,7 @@ fn grain_polynomial<R: Real, const D: usize>(
 /// Adds to a vector of sums.
 #[inline(always)]
 fn add_jet<R: Real, const D: usize>(jet: Jet<R>, sums: &mut [R::Scalar], zero: R) {
-    let sums = &mut sums[..(polynomials::<D>() - 1) * WIDTH + R::LANES];
+    let sums = &mut sums[..(numbers::<D>() - 1) * WIDTH + R::LANES];
     (zero.load(sums) + jet.v).store(sums);
     if D >= 1 {
         (zero.load(&sums[WIDTH..]) + jet.x).store(&mut sums[WIDTH..]);

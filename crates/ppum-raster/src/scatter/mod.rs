@@ -204,7 +204,7 @@ impl<'f, T: Sample> Scene<'f, T> {
             }
             // formulas are run for many pixels of strips at a time, and would be dear one by one
             Summation::Automatic => (0, Savings::ALL),
-            Summation::ColumnSpans(savings) => (0, savings),
+            Summation::RowSpans(savings) => (0, savings),
             Summation::PerPatch => (usize::MAX, Savings::ALL),
         };
         let mut plan = Plan::new(field, view, quantity, ROWS, most_pixels);

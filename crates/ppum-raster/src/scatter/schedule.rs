@@ -4,6 +4,7 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 
 use super::Scene;
+use super::plan::COLUMNS;
 use super::tile::{Scratch, Tile};
 use crate::summation::Summation;
 use crate::view::View;
@@ -18,10 +19,10 @@ pub struct Schedule<'f> {
 pub struct TileLoad {
     /// Patches that meet the tile; 0 if the view is summed per patch.
     pub patches: usize,
-    /// The first patches of these, which are summed together.
+    /// The first patches of these, which are summed together at every column.
     pub first_batch: usize,
-    /// Column spans that patches of the first batch collapse to.
-    pub column_spans: usize,
+    /// Row spans that they collapse to, of all columns together.
+    pub row_spans: usize,
 }
 
 impl<'f> Schedule<'f> {
@@ -36,7 +37,7 @@ impl<'f> Schedule<'f> {
         Self { scene: Scene::new(field, view, quantity, summation) }
     }
 
-    /// True if the view is summed per patch, false if in column spans.
+    /// True if the view is summed per patch, false if in row spans.
     #[must_use]
     pub fn is_per_patch(&self) -> bool {
         self.scene.plan.has_grains
@@ -61,7 +62,13 @@ impl<'f> Schedule<'f> {
         scratch.shift.resize(self.scene.plan.coefficients.len(), 0.0);
         scratch.places.resize(self.scene.functions.table().groups(), 0);
         let patches = tiles.of(column, row);
-        let first_batch = tile.gather(patches, &mut scratch, 0.0f64);
-        TileLoad { patches: patches.len(), first_batch, column_spans: scratch.strips.all.len() }
+        let mut load =
+            TileLoad { patches: patches.len(), first_batch: patches.len(), row_spans: 0 };
+        for column in 0..COLUMNS {
+            let count = tile.gather(column, patches, &mut scratch, 0.0f64);
+            load.first_batch = load.first_batch.min(count);
+            load.row_spans += scratch.strips.all.len();
+        }
+        load
     }
 }

@@ -10,44 +10,21 @@ use ppum::function::GROUP;
 use ppum::jet::Jet;
 use ppum::real::{Real, Scalar};
 
-use super::collapse::{ANY, Factor, ROWS, evaluate, known, polynomials, splat, table_len};
-use super::strips::{Term, weight_len};
+use super::collapse::{ANY, Factor, ROWS, evaluate, known, numbers, splat, table_len};
+use super::strips::{DOWN, Strip, Term, weight_len};
 use super::tile::{Batch, load_jet};
 
 /// Rows that are summed together: they share what is read of an entry. Parts of tiles are made of so many, or some more.
 pub(super) const TOGETHER: usize = 2;
 
-/// A strip at a column of vectors.
-#[derive(Clone, Debug)]
-pub(super) struct Entry {
-    pub(super) strip: usize,
-    pub(super) rows: Range<usize>,
-    pub(super) table: usize,
-    pub(super) len: usize,
-    pub(super) terms: Range<usize>,
-    pub(super) degree: usize,
-    /// Its a(x), with derivative, and ξ(x).
-    pub(super) across: usize,
-    /// True if it covers the whole vector.
-    pub(super) is_full: bool,
-}
-
-impl Entry {
-    /// Where a component's tables begin.
-    #[inline(always)]
-    fn start<const D: usize>(&self, component: usize) -> usize {
-        self.table + weight_len::<D>() + component * self.len
-    }
-}
-
 /// Where the sums of some rows come from and go to.
 pub(super) struct Span<'a, T> {
     pub(super) rows: Range<usize>,
-    pub(super) entries: &'a [Entry],
+    pub(super) strips: &'a [Strip],
     pub(super) here: &'a [usize],
     pub(super) terms: &'a [Term],
     pub(super) tables: &'a [T],
-    pub(super) across: &'a [T],
+    pub(super) down: &'a [T],
     pub(super) basis: &'a [T],
     pub(super) sums: &'a mut [T],
     pub(super) batch: Batch,
@@ -73,7 +50,8 @@ impl From {
 impl<'a, T: Scalar> Span<'a, T> {
     /// The degree of all smooth blocks, [`ANY`] if they differ.
     pub(super) fn common_degree(&self) -> usize {
-        let degree = |at: &usize| self.entries[*at].degree;
+        let degree =
+            |at: &usize| self.terms.get(self.strips[*at].terms.start).map_or(0, |term| term.degree);
         let Some(first) = self.here.first().map(degree) else { return ANY };
         if self.here.iter().all(|at| degree(at) == first) { first } else { ANY }
     }
@@ -121,18 +99,17 @@ impl<'a, T: Scalar> Span<'a, T> {
         from: From,
         zero: R,
     ) {
-        let entry = &self.entries[self.here[0]];
-        let (_, xi) = self.across(entry, zero);
-        let tables = self.smooth::<D, P, C>(entry, from);
+        let at = self.here[0];
         let mut k = 0;
         while k < TOGETHER {
-            let v = self.local_field::<R, D, P, C>(entry, from, tables, k, xi);
+            let (_, eta) = self.down(at, from.row + k, zero);
+            let v = self.local_field::<R, D, P, C>(at, from, k, eta);
             self.store::<R, D, C>(from, k, v);
             k += 1;
         }
     }
 
-    /// Adds all entries; returns the sums of the weights.
+    /// Adds all strips; returns the sums of the weights.
     #[inline(always)]
     fn many<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         &mut self,
@@ -147,7 +124,7 @@ impl<'a, T: Scalar> Span<'a, T> {
             k += 1;
         }
         for &at in self.here {
-            self.add::<R, D, P, C>(&self.entries[at], from, &mut weights, &mut sums);
+            self.add::<R, D, P, C>(at, from, &mut weights, &mut sums);
         }
         k = 0;
         while k < TOGETHER {
@@ -162,34 +139,36 @@ impl<'a, T: Scalar> Span<'a, T> {
         weights
     }
 
-    /// Adds an entry.
+    /// Adds a strip.
     #[inline(always)]
     fn add<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         &self,
-        entry: &Entry,
+        at: usize,
         from: From,
         weights: &mut [Jet<R>; TOGETHER],
         sums: &mut [[Jet<R>; C]; TOGETHER],
     ) {
-        let (a, xi) = self.across(entry, weights[0].v);
-        let table = &self.tables[entry.table + from.row..];
-        let table = &table[..weight_len::<D>() - ROWS + TOGETHER];
+        let zero = weights[0].v;
+        let table = &self.tables[self.strips[at].table..][..weight_len::<R, D>()];
         let mut k = 0;
         while k < TOGETHER {
-            weights[k] = plus_weight::<R, D>(weights[k], a, &table[k..]);
-            k += 1;
-        }
-        if from.components == 0 {
-            return;
-        }
-        let tables = self.smooth::<D, P, C>(entry, from);
-        k = 0;
-        while k < TOGETHER {
-            let v = self.local_field::<R, D, P, C>(entry, from, tables, k, xi);
-            let mut c = 0;
-            while c < C {
-                sums[k][c] = plus_product::<R, D>(sums[k][c], a, v[c]);
-                c += 1;
+            let (b, eta) = self.down(at, from.row + k, zero);
+            let mut a = Jet::constant(zero.load(table));
+            if D >= 1 {
+                a.x = zero.load(&table[R::LANES..]);
+            }
+            weights[k].v = b.value.mul_add(a.v, weights[k].v);
+            if D >= 1 {
+                weights[k].x = b.value.mul_add(a.x, weights[k].x);
+                weights[k].y = b.slope.mul_add(a.v, weights[k].y);
+            }
+            if from.components > 0 {
+                let v = self.local_field::<R, D, P, C>(at, from, k, eta);
+                let mut c = 0;
+                while c < C {
+                    sums[k][c] = plus_product::<R, D>(sums[k][c], b, v[c]);
+                    c += 1;
+                }
             }
             k += 1;
         }
@@ -229,69 +208,61 @@ impl<'a, T: Scalar> Span<'a, T> {
         }
     }
 
-    /// The tables of an entry's smooth block.
+    /// The tables of a strip's block of a degree from a place on, of the components from there on.
     #[inline(always)]
-    fn smooth<const D: usize, const P: usize, const C: usize>(
+    fn tables_of<R: Real<Scalar = T>, const D: usize, const C: usize>(
         &self,
-        entry: &Entry,
-        from: From,
-    ) -> [&'a [T]; C] {
-        let degree = known(P, entry.degree);
-        self.tables_of::<D, C>(entry, entry.start::<D>(from.component) + from.row, degree, TOGETHER)
-    }
-
-    /// The tables of an entry's block of a degree from a place on, of the components from there on, at some rows.
-    #[inline(always)]
-    fn tables_of<const D: usize, const C: usize>(
-        &self,
-        entry: &Entry,
+        strip: &Strip,
         start: usize,
         degree: usize,
-        rows: usize,
     ) -> [&'a [T]; C] {
         let all: &'a [T] = self.tables;
         let first = &all[start..];
         let mut tables = [first; C];
         let mut c = 0;
         while c < C {
-            tables[c] = &first[c * entry.len..][..table_len::<D>(degree) - ROWS + rows];
+            tables[c] = &first[c * strip.len..][..table_len::<R, D>(degree)];
             c += 1;
         }
         tables
     }
 
-    /// a(x) and ξ(x) of an entry.
+    /// b(y) and η(y) of a strip at a row.
     #[inline(always)]
-    fn across<R: Real<Scalar = T>>(&self, entry: &Entry, zero: R) -> (Factor<R>, R) {
-        let across = &self.across[entry.across..][..3 * R::LANES];
-        let a = Factor { value: zero.load(across), slope: zero.load(&across[R::LANES..]) };
-        (a, zero.load(&across[2 * R::LANES..]))
+    fn down<R: Real<Scalar = T>>(&self, at: usize, row: usize, zero: R) -> (Factor<R>, R) {
+        let down = &self.down[DOWN * at..][..DOWN];
+        let b = Factor { value: splat(zero, down[row]), slope: splat(zero, down[ROWS + row]) };
+        (b, splat(zero, down[2 * ROWS + row]))
     }
 
-    /// What the tables of an entry hold at the `k`-th row, where those of its smooth block begin with the first.
+    /// What the tables of a strip hold at the `k`-th row.
     #[inline(always)]
     fn local_field<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         &self,
-        entry: &Entry,
+        at: usize,
         from: From,
-        tables: [&[T]; C],
         k: usize,
-        xi: R,
+        eta: R,
     ) -> [Jet<R>; C] {
-        let degree = known(P, entry.degree);
-        let mut v = evaluate::<R, D, P, C>(tables, k, degree, xi);
-        let row = from.row + k;
-        let mut start = entry.start::<D>(from.component) + table_len::<D>(degree) + row;
-        for term in &self.terms[entry.terms.start + 1..entry.terms.end] {
-            let f = self.function::<R, D>(term, row, xi);
+        let strip = &self.strips[at];
+        let scale = eta.lit(strip.scale);
+        let terms = &self.terms[strip.terms.clone()];
+        let degree = known(P, terms.first().map_or(0, |term| term.degree));
+        let mut start = strip.table + weight_len::<R, D>() + from.component * strip.len;
+        let tables = self.tables_of::<R, D, C>(strip, start, degree);
+        let mut v = evaluate::<R, D, P, C>(tables, degree, eta, scale);
+        start += table_len::<R, D>(degree);
+        for term in &terms[1..] {
+            let f = self.function::<R, D>(term, from.row + k, eta);
+            let tables = self.tables_of::<R, D, C>(strip, start, term.degree);
             match term.degree {
-                0 => {
-                    let tables = self.tables_of::<D, C>(entry, start, 0, 1);
-                    add_constants::<R, D, C>(&mut v, &evaluate::<R, D, 0, C>(tables, 0, 0, xi), f);
-                }
+                0 => add_constants::<R, D, C>(
+                    &mut v,
+                    &evaluate::<R, D, 0, C>(tables, 0, eta, scale),
+                    f,
+                ),
                 degree => {
-                    let tables = self.tables_of::<D, C>(entry, start, degree, 1);
-                    let p = evaluate::<R, D, ANY, C>(tables, 0, degree, xi);
+                    let p = evaluate::<R, D, ANY, C>(tables, degree, eta, scale);
                     add_products::<R, D, C>(&mut v, &p, f);
                 }
             }
@@ -328,12 +299,12 @@ fn add_products<R: Real, const D: usize, const C: usize>(
     add_constants::<R, D, C>(v, p, f);
     let mut c = 0;
     while D >= 1 && c < C {
-        v[c].x = f.v.mul_add(p[c].x, v[c].x);
+        v[c].y = f.v.mul_add(p[c].y, v[c].y);
         c += 1;
     }
 }
 
-/// v + f p with derivatives, where p does not depend on x.
+/// v + f p with derivatives, where p does not depend on y.
 #[inline(always)]
 fn add_constants<R: Real, const D: usize, const C: usize>(
     v: &mut [Jet<R>; C],
@@ -344,33 +315,23 @@ fn add_constants<R: Real, const D: usize, const C: usize>(
     while c < C {
         v[c].v = f.v.mul_add(p[c].v, v[c].v);
         if D >= 1 {
-            v[c].x = f.x.mul_add(p[c].v, v[c].x);
-            v[c].y = f.y.mul_add(p[c].v, f.v.mul_add(p[c].y, v[c].y));
+            v[c].x = f.x.mul_add(p[c].v, f.v.mul_add(p[c].x, v[c].x));
+            v[c].y = f.y.mul_add(p[c].v, v[c].y);
         }
         c += 1;
     }
 }
 
-/// The sum and a(x) v with derivatives, where v holds b(y) and its derivatives.
+/// The sum and b(y) v with derivatives, where v holds a(x) and its derivative.
 #[inline(always)]
-fn plus_product<R: Real, const D: usize>(sum: Jet<R>, a: Factor<R>, v: Jet<R>) -> Jet<R> {
+fn plus_product<R: Real, const D: usize>(sum: Jet<R>, b: Factor<R>, v: Jet<R>) -> Jet<R> {
     let mut out = sum;
-    out.v = a.value.mul_add(v.v, sum.v);
+    out.v = b.value.mul_add(v.v, sum.v);
     if D >= 1 {
-        out.x = a.slope.mul_add(v.v, a.value.mul_add(v.x, sum.x));
-        out.y = a.value.mul_add(v.y, sum.y);
+        out.x = b.value.mul_add(v.x, sum.x);
+        out.y = b.slope.mul_add(v.v, b.value.mul_add(v.y, sum.y));
     }
     out
-}
-
-/// The sum and a(x) b(y) with derivatives; the table begins with b at the row.
-#[inline(always)]
-fn plus_weight<R: Real, const D: usize>(sum: Jet<R>, a: Factor<R>, table: &[R::Scalar]) -> Jet<R> {
-    let mut b = Jet::constant(splat(a.value, table[0]));
-    if D >= 1 {
-        b.y = splat(a.value, table[ROWS]);
-    }
-    plus_product::<R, D>(sum, a, b)
 }
 
 #[inline(always)]
@@ -386,7 +347,7 @@ pub(super) fn store_jet<R: Real, const D: usize>(jet: Jet<R>, to: &mut [R::Scala
 /// Numbers a function has at a vector of points.
 #[inline(always)]
 pub(super) const fn size<R: Real, const D: usize>() -> usize {
-    polynomials::<D>() * R::LANES
+    numbers::<D>() * R::LANES
 }
 
 /// Numbers a group has at a vector of points.

@@ -8,8 +8,8 @@ use std::ops::Range;
 use ppum::real::{Real, Scalar};
 
 use super::collapse::{ANY, ROWS};
-use super::strips::{Strip, Term, place_of};
-use super::sums::{Entry, Span};
+use super::strips::{DOWN, Strip};
+use super::sums::Span;
 use super::tile::{Batch, Scratch, Tile};
 
 impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
@@ -17,17 +17,15 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     #[inline(always)]
     pub(super) fn sweep<R: Real<Scalar = T>>(
         &self,
-        vector: usize,
         start: usize,
         batch: Batch,
         scratch: &mut Scratch<T>,
         zero: R,
     ) {
-        self.list(vector, scratch, zero);
         let mut row = 0;
         while row < ROWS {
-            let end = choose(&scratch.entries, row, &mut scratch.here);
-            if self.is_alone(batch, &scratch.entries, &scratch.here) {
+            let end = choose(&scratch.strips.all, row, &mut scratch.here);
+            if self.is_alone(row..end, batch, scratch) {
                 self.divide_alone(scratch, zero);
                 self.sum::<R, true>(row..end, start, batch, scratch, zero);
             } else {
@@ -37,47 +35,23 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         }
     }
 
-    /// Lists the strips at a column of vectors.
-    #[inline(always)]
-    fn list<R: Real<Scalar = T>>(&self, vector: usize, scratch: &mut Scratch<T>, zero: R) {
-        let Scratch { strips, entries, across, .. } = scratch;
-        entries.clear();
-        let len = 3 * R::LANES;
-        if across.len() < len * strips.all.len() {
-            across.resize(len * strips.all.len(), T::default());
-        }
-        let pixel = self.corner()[0] + vector * R::LANES;
-        let x = zero.load(&self.scene.xs[pixel..]);
-        for (index, strip) in strips.all.iter().enumerate() {
-            if !strip.part.vectors.contains(&vector) {
-                continue;
-            }
-            let at = len * entries.len();
-            let across = &mut across[at..][..len];
-            let a = self.factor(x, strip.support, pixel);
-            a.value.store(across);
-            a.slope.store(&mut across[R::LANES..]);
-            place_of(x, strip.frame).store(&mut across[2 * R::LANES..]);
-            // a weight is positive between any two places where it is
-            let [first, last] = [across[0], across[R::LANES - 1]];
-            let is_full = first > T::default() && last > T::default();
-            entries.push(entry(index, strip, &strips.terms, at, is_full));
-        }
-    }
-
     /// True if rows are covered by one strip, and whole vectors of them.
     #[inline(always)]
-    fn is_alone(&self, batch: Batch, entries: &[Entry], here: &[usize]) -> bool {
+    fn is_alone(&self, rows: Range<usize>, batch: Batch, scratch: &Scratch<T>) -> bool {
+        let [at] = *scratch.here else { return false };
+        let strips = &scratch.strips;
+        // a weight is positive between any two places where it is
+        let is_covered = |row: usize| strips.down[DOWN * at + row] > T::default();
         let has_components = !self.scene.plan.coefficients.is_empty();
+        let covers = strips.all[at].is_full && is_covered(rows.start) && is_covered(rows.end - 1);
         let is_only = batch.is_first && batch.is_last;
-        let covers = matches!(*here, [at] if entries[at].is_full);
         covers && is_only && has_components && self.scene.savings.cancel_weights
     }
 
     #[inline(always)]
     fn divide_alone<R: Real<Scalar = T>>(&self, scratch: &mut Scratch<T>, zero: R) {
-        let Scratch { strips, entries, here, shift, .. } = scratch;
-        let strip = &mut strips.all[entries[here[0]].strip];
+        let Scratch { strips, here, shift, .. } = scratch;
+        let strip = &mut strips.all[here[0]];
         if !strip.is_divided {
             let tables = (&*strips.tables, &mut *strips.alone);
             self.divide_strip(strip, tables, shift.len(), zero);
@@ -96,14 +70,14 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         zero: R,
     ) {
         let components = self.scene.plan.coefficients.len();
-        let Scratch { strips, entries, here, across, basis, sums, .. } = scratch;
+        let Scratch { strips, here, basis, sums, .. } = scratch;
         let span = Span {
             rows,
-            entries,
+            strips: &strips.all,
             here,
             terms: &strips.terms,
             tables: if ALONE { &strips.alone } else { &strips.tables },
-            across,
+            down: &strips.down,
             basis,
             sums: &mut sums[start..],
             batch,
@@ -123,25 +97,12 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     }
 }
 
-fn entry(index: usize, strip: &Strip, terms: &[Term], across: usize, is_full: bool) -> Entry {
-    Entry {
-        strip: index,
-        rows: strip.part.rows.clone(),
-        table: strip.table,
-        len: strip.len,
-        terms: strip.terms.clone(),
-        degree: terms.get(strip.terms.start).map_or(0, |term| term.degree),
-        across,
-        is_full,
-    }
-}
-
-/// Lists the entries that are at a row; returns up to which row there are no others.
-fn choose(entries: &[Entry], row: usize, here: &mut Vec<usize>) -> usize {
+/// Lists the strips that are at a row; returns up to which row there are no others.
+fn choose(strips: &[Strip], row: usize, here: &mut Vec<usize>) -> usize {
     here.clear();
     let mut end = ROWS;
-    for (at, entry) in entries.iter().enumerate() {
-        let Range { start, end: stop } = entry.rows;
+    for (at, strip) in strips.iter().enumerate() {
+        let Range { start, end: stop } = strip.rows;
         if start > row {
             end = end.min(start);
         } else if stop > row {

@@ -13,7 +13,7 @@ use super::collapse::{ROWS, splat};
 use super::grains::Grains;
 use super::plan::{COLUMNS, Patch, Tiles};
 use super::strips::Strips;
-use super::sums::{Entry, TOGETHER, basis_len, basis_stride, size, store_jet};
+use super::sums::{TOGETHER, basis_len, basis_stride, size, store_jet};
 
 /// Buffers of one thread.
 #[derive(Debug, Default)]
@@ -32,28 +32,17 @@ pub(super) struct Scratch<T> {
     /// The patches at hand.
     pub(super) strips: Strips<T>,
     pub(super) grains: Grains<T>,
-    /// The strips of a column of vectors.
-    pub(super) entries: Vec<Entry>,
-    /// Those of them that cover some rows.
+    /// Those of the strips that cover some rows.
     pub(super) here: Vec<usize>,
-    /// Factors of weights and coordinates of the strips of a column.
-    pub(super) across: Vec<T>,
     /// Subtracted from each component.
     pub(super) shift: Vec<f64>,
 }
 
-/// A rectangle of a tile: vectors of columns, and rows.
-#[derive(Clone, Debug)]
-pub(super) struct Part {
-    pub(super) vectors: Range<usize>,
-    pub(super) rows: Range<usize>,
-}
-
-/// A group of functions needed on a part of a tile.
+/// A group of functions needed on some rows of a tile.
 #[derive(Debug)]
 pub(super) struct Active {
     pub(super) group: u32,
-    pub(super) part: Part,
+    pub(super) rows: Range<usize>,
 }
 
 /// Patches of a tile that are summed together.
@@ -107,7 +96,7 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         [self.column * COLUMNS, self.band * ROWS]
     }
 
-    /// Sums over the patches, and finishes column by column.
+    /// Draws column by column.
     #[inline(always)]
     fn draw<R: Real<Scalar = T>>(
         &self,
@@ -116,54 +105,50 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         out: &mut [T],
         zero: R,
     ) {
-        let mut list = tiles.of(self.column, self.band);
-        let mut is_first = true;
+        let list = tiles.of(self.column, self.band);
         if self.scene.plan.has_grains {
             self.sum_grains(scratch, zero);
-            is_first = false;
         } else {
             self.choose_shift(list, &mut scratch.shift);
         }
         scratch.places.resize(self.scene.functions.table().groups(), 0);
+        let width = self.scene.view.pixels[0] as usize;
+        let vectors = (width - self.corner()[0]).min(COLUMNS).div_ceil(R::LANES);
+        let mut vector = 0;
+        while vector < vectors {
+            self.draw_vector(vector, list, scratch, out, zero);
+            vector += 1;
+        }
+    }
+
+    /// A column of vectors: adds its strips, some at a time, and finishes it.
+    #[inline(always)]
+    fn draw_vector<R: Real<Scalar = T>>(
+        &self,
+        vector: usize,
+        mut list: &[u32],
+        scratch: &mut Scratch<T>,
+        out: &mut [T],
+        zero: R,
+    ) {
+        let len = ROWS * self.stride::<R>();
+        let start = if self.scene.plan.has_grains { vector * len } else { 0 };
+        if scratch.sums.len() < start + len {
+            scratch.sums.resize(start + len, T::default());
+        }
+        let mut is_first = !self.scene.plan.has_grains;
         loop {
-            let count = self.gather(list, scratch, zero);
+            let count = self.gather(vector, list, scratch, zero);
             list = &list[count..];
             let batch = Batch { is_first, is_last: list.is_empty() };
-            self.sweep_columns(batch, scratch, out, zero);
+            self.evaluate_functions(vector, scratch, zero);
+            self.sweep(start, batch, scratch, zero);
             if list.is_empty() {
                 break;
             }
             is_first = false;
         }
-    }
-
-    /// Adds a batch column by column; finishes those that are complete.
-    #[inline(always)]
-    fn sweep_columns<R: Real<Scalar = T>>(
-        &self,
-        batch: Batch,
-        scratch: &mut Scratch<T>,
-        out: &mut [T],
-        zero: R,
-    ) {
-        let is_only = batch.is_first && batch.is_last;
-        let len = ROWS * self.stride::<R>();
-        let width = self.scene.view.pixels[0] as usize;
-        let vectors = (width - self.corner()[0]).min(COLUMNS).div_ceil(R::LANES);
-        let needed = if is_only { len } else { vectors * len };
-        if scratch.sums.len() < needed {
-            scratch.sums.resize(needed, T::default());
-        }
-        let mut vector = 0;
-        while vector < vectors {
-            let start = if is_only { 0 } else { vector * len };
-            self.evaluate_functions(vector, scratch, zero);
-            self.sweep(vector, start, batch, scratch, zero);
-            if batch.is_last {
-                self.finish(vector, start, scratch, out, zero);
-            }
-            vector += 1;
-        }
+        self.finish(vector, start, scratch, out, zero);
     }
 
     /// Numbers at a vector of points.
@@ -187,14 +172,11 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         [within(&patch.columns, column, COLUMNS), within(&patch.rows, row, ROWS)]
     }
 
-    /// The part of the tile a patch may cover.
+    /// The rows of the tile that a patch may cover, and some more.
     #[inline(always)]
-    pub(super) fn part<R: Real<Scalar = T>>(&self, patch: &Patch) -> Part {
-        let [columns, rows] = self.within(patch);
-        Part {
-            vectors: columns.start / R::LANES..columns.end.div_ceil(R::LANES),
-            rows: rows.start / TOGETHER * TOGETHER..rows.end.next_multiple_of(TOGETHER),
-        }
+    pub(super) fn rows(&self, patch: &Patch) -> Range<usize> {
+        let [_, rows] = self.within(patch);
+        rows.start / TOGETHER * TOGETHER..rows.end.next_multiple_of(TOGETHER)
     }
 
     /// Fills the basis at a column of vectors.
@@ -211,9 +193,6 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         }
         let groups = scratch.basis.chunks_exact_mut(basis_len::<R, D>());
         for (active, basis) in scratch.active.iter().zip(groups) {
-            if !active.part.vectors.contains(&vector) {
-                continue;
-            }
             let functions = &self.scene.functions;
             if let Some(tip) = functions.tip(active.group as usize) {
                 self.evaluate_tip(tip, active, vector, basis, zero);
@@ -236,7 +215,7 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
     ) {
         let mut offsets = [[zero; 2]; ROWS];
         let mut jets = [[Jet::constant(zero); GROUP]; ROWS];
-        let Range { start, end } = active.part.rows;
+        let Range { start, end } = active.rows;
         let mut row = start;
         while row < end {
             offsets[row - start] = self.offset(vector, row, zero);
@@ -261,7 +240,7 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         basis: &mut [T],
         zero: R,
     ) {
-        for row in active.part.rows.clone() {
+        for row in active.rows.clone() {
             let jets = at_tip::<R, D>(tip, self.offset(vector, row, zero), Side::Above);
             store_jets::<R, D>(&jets, &mut basis[row * basis_stride::<R, D>()..]);
         }
@@ -277,7 +256,7 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         zero: R,
     ) {
         let group = active.group as usize;
-        for row in active.part.rows.clone() {
+        for row in active.rows.clone() {
             let mut jet = [Jet::constant(zero)];
             let offset = self.offset(vector, row, zero);
             self.scene.functions.evaluate::<R, D>(group, offset, Side::Above, &mut jet);
