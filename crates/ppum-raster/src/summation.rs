@@ -7,8 +7,8 @@ pub enum Summation {
     /// functions are evaluated as formulas, else in row spans.
     #[default]
     Automatic,
-    /// Patches are collapsed to polynomials on each row of pixels, which are evaluated on columns
-    /// of vectors.
+    /// Patches are collapsed to polynomials in y at columns of vectors of pixels, which are
+    /// evaluated row by row.
     RowSpans(Savings),
     /// Each patch adds to the pixels that it covers. Weights by formula are summed in row spans
     /// all the same.
@@ -18,9 +18,9 @@ pub enum Summation {
 /// Shortcuts of the summation in row spans, which change results by rounding alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Savings {
-    /// Patches with the same weight, coordinate and functions in x share a row span.
+    /// Patches with the same weight, coordinate and functions in y share a row span.
     pub merge_patches: bool,
-    /// Where one row span covers all points its weight in x, which cancels, is not evaluated.
+    /// Where one row span covers all points its weight in y, which cancels, is not evaluated.
     pub cancel_weights: bool,
     /// Numbers in the tables of row spans that are kept at a time, more if one span has them.
     pub table_numbers: usize,

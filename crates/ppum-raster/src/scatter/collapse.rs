@@ -13,7 +13,7 @@ use ppum::jet::Jet;
 use ppum::real::{Real, Scalar};
 
 /// Rows of a tile: whole vectors of lanes.
-pub(super) const ROWS: usize = 16;
+pub(super) const ROWS: usize = 32;
 
 /// Numbers of a jet.
 #[inline(always)]
@@ -34,6 +34,39 @@ pub(super) struct Factor<R> {
     pub(super) slope: R,
 }
 
+/// A value with its derivatives by x and y.
+#[derive(Clone, Copy)]
+pub(super) struct Slopes<R> {
+    pub(super) v: R,
+    pub(super) x: R,
+    pub(super) y: R,
+}
+
+impl<R: Real> Slopes<R> {
+    #[inline(always)]
+    pub(super) fn constant(v: R) -> Self {
+        let zero = v.lit(0.0);
+        Self { v, x: zero, y: zero }
+    }
+
+    #[inline(always)]
+    pub(super) fn of(jet: Jet<R>) -> Self {
+        Self { v: jet.v, x: jet.x, y: jet.y }
+    }
+
+    /// Quotient by the quotient rule.
+    #[inline(always)]
+    pub(super) fn over<const D: usize>(self, b: Self) -> Self {
+        let inverse = b.v.lit(1.0) / b.v;
+        let mut out = Self::constant(self.v * inverse);
+        if D >= 1 {
+            out.x = (self.x - out.v * b.x) * inverse;
+            out.y = (self.y - out.v * b.y) * inverse;
+        }
+        out
+    }
+}
+
 /// A number known only at run time, where a constant is asked for.
 pub(super) const ANY: usize = usize::MAX;
 
@@ -46,18 +79,17 @@ pub(super) const fn known(constant: usize, number: usize) -> usize {
 /// [`collapse_degree`] with the common degrees as constants.
 #[inline(always)]
 pub(super) fn collapse<R: Real, const D: usize, const ADD: bool>(
-    coefficients: &[f64],
+    coefficients: &[R::Scalar],
     degree: usize,
-    shift: f64,
     across: &Across<R>,
     table: &mut [R::Scalar],
 ) {
     match degree {
-        0 => collapse_degree::<R, D, 0, ADD>(coefficients, degree, shift, across, table),
-        1 => collapse_degree::<R, D, 1, ADD>(coefficients, degree, shift, across, table),
-        2 => collapse_degree::<R, D, 2, ADD>(coefficients, degree, shift, across, table),
-        3 => collapse_degree::<R, D, 3, ADD>(coefficients, degree, shift, across, table),
-        _ => collapse_degree::<R, D, ANY, ADD>(coefficients, degree, shift, across, table),
+        0 => collapse_degree::<R, D, 0, ADD>(coefficients, degree, across, table),
+        1 => collapse_degree::<R, D, 1, ADD>(coefficients, degree, across, table),
+        2 => collapse_degree::<R, D, 2, ADD>(coefficients, degree, across, table),
+        3 => collapse_degree::<R, D, 3, ADD>(coefficients, degree, across, table),
+        _ => collapse_degree::<R, D, ANY, ADD>(coefficients, degree, across, table),
     }
 }
 
@@ -72,13 +104,10 @@ pub(super) struct Across<R> {
 }
 
 /// Writes the table of one block, or adds to it: for j from the degree down to 0 the vectors A_j and B_j.
-///
-/// `shift` is subtracted from the constant coefficient.
 #[inline(always)]
 fn collapse_degree<R: Real, const D: usize, const P: usize, const ADD: bool>(
-    coefficients: &[f64],
+    coefficients: &[R::Scalar],
     degree: usize,
-    shift: f64,
     across: &Across<R>,
     table: &mut [R::Scalar],
 ) {
@@ -89,7 +118,7 @@ fn collapse_degree<R: Real, const D: usize, const P: usize, const ADD: bool>(
     let mut at = 0;
     while j > 0 {
         j -= 1;
-        let [a, b] = inner::<R, D>(coefficients, degree, j, shift, across.xi);
+        let [a, b] = inner::<R, D>(coefficients, degree, j, across.xi);
         put::<R, ADD>(across.factor.value, a, &mut table[at..]);
         if D >= 1 {
             let slope = across.factor.slope * a;
@@ -102,25 +131,18 @@ fn collapse_degree<R: Real, const D: usize, const P: usize, const ADD: bool>(
 
 /// Σ_k c_kj ξ^k and its derivative by ξ, by Horner's scheme.
 #[inline(always)]
-fn inner<R: Real, const D: usize>(c: &[f64], degree: usize, j: usize, shift: f64, xi: R) -> [R; 2] {
+fn inner<R: Real, const D: usize>(c: &[R::Scalar], degree: usize, j: usize, xi: R) -> [R; 2] {
     let last = degree - j;
-    let (mut a, mut b) = (xi.lit(coefficient(c, j, last, shift)), xi.lit(0.0));
+    let (mut a, mut b) = (splat(xi, c[monomials(degree) - 1 - last]), xi.lit(0.0));
     let mut k = last;
     while k > 0 {
         if D >= 1 {
             b = if k == last { a } else { b.mul_add(xi, a) };
         }
         k -= 1;
-        a = a.mul_add(xi, xi.lit(coefficient(c, j, k, shift)));
+        a = a.mul_add(xi, splat(xi, c[monomials(j + k) - 1 - k]));
     }
     [a, b]
-}
-
-/// The coefficient of ξ^k η^j, less the shift if it is the constant one.
-#[inline(always)]
-fn coefficient(c: &[f64], j: usize, k: usize, shift: f64) -> f64 {
-    let coefficient = c[monomials(j + k) - 1 - k];
-    if j + k == 0 { coefficient - shift } else { coefficient }
 }
 
 /// A block of `C` components at a row of a vector of columns: of each Σ A_j η^j and its derivatives by x and y. `P` is the
@@ -131,9 +153,9 @@ pub(super) fn evaluate<R: Real, const D: usize, const P: usize, const C: usize>(
     degree: usize,
     eta: R,
     scale: R,
-) -> [Jet<R>; C] {
+) -> [Slopes<R>; C] {
     let degree = known(P, degree);
-    let mut v = [Jet::constant(eta.lit(0.0)); C];
+    let mut v = [Slopes::constant(eta.lit(0.0)); C];
     let (mut at, mut j) = (0, 0);
     while j <= degree {
         let mut c = 0;

@@ -8,8 +8,8 @@
 //!
 //! and when all have, each point is divided once, u = U / S and ∇u = (∇U − u ∇S) / S, and the
 //! quantity made. No patch list is searched at a pixel, and no pixel lies in a special case: any
-//! cover, any degree, any number of functions. On each row a patch's weight and polynomials collapse to polynomials in x
-//! (module `collapse`), those of patches above each other to one (`strips`). Column by column of vectors (`sweep`) these are summed
+//! cover, any degree, any number of functions. At a vector of columns a patch's weight and polynomials collapse to
+//! polynomials in y (module `collapse`), those of patches beside each other to one (`strips`). Row by row (`sweep`) these are summed
 //! and divided in registers (`sums`), and the quantity is made while all is in the nearest cache (`finish`). Functions are
 //! evaluated once for a column, and only where a patch needs them. Where patches are too small for that to pay they are summed one by
 //! one instead (`grains`).
@@ -64,7 +64,7 @@ pub use schedule::{Schedule, TileLoad};
 /// the side above is taken. f32 keeps some 5 digits of a stress; a view whose pixels are too small
 /// for squares of f32 is computed in f64.
 ///
-/// The watcher hears of every band of 16 rows.
+/// The watcher hears of every band of 32 rows.
 ///
 /// # Errors
 /// [`RenderError::Cancelled`] if the watcher stops the call;
@@ -99,7 +99,7 @@ pub fn render_with<T: Sample>(
 
 /// The values of [`render`], to the last bit, a strip at a time, for views of more pixels than are to
 /// be held at once: `take` is given the values of the strips from the top, each of `rows` rows,
-/// rounded up to whole bands of 16, but for the last one.
+/// rounded up to whole bands of 32, but for the last one.
 ///
 /// # Errors
 /// Those of [`render`].

@@ -1,5 +1,6 @@
 //! The parts of a field that one view needs: the patches in sight, their pixels, their blocks, their tiles.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use ppum::dataset::FieldData;
@@ -9,11 +10,12 @@ use ppum::function::Slot;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2};
 use ppum::weight::WeightFunction;
+use rayon::prelude::*;
 
 use crate::pixels::Pixels;
 use crate::view::View;
 
-/// Columns of a tile: with the rows of one vector the sums of a tile stay near the first cache.
+/// Columns of a tile, at most as many as a number has bits.
 pub(super) const COLUMNS: usize = 64;
 
 /// Patches whose pixels are counted, at most, to choose how a picture is drawn.
@@ -41,6 +43,15 @@ pub(super) struct Block {
 
 impl Block {
     const NOTHING: Self = Self { function: Slot::One, degree: 0, zero: true, offset: 0 };
+
+    /// Its function and degree.
+    fn kind(&self) -> [u32; 3] {
+        let degree = self.degree.into();
+        match self.function {
+            Slot::One => [0, 0, degree],
+            Slot::Jet { group, entry } => [group + 1, entry, degree],
+        }
+    }
 }
 
 /// A patch in sight.
@@ -58,6 +69,8 @@ pub(super) struct Patch {
     pub(super) rows: Range<u32>,
     /// Its blocks; the first is of function 1, unless the plan has no components.
     pub(super) blocks: Range<u32>,
+    /// Which functions and degrees its blocks have: the same number, the same list.
+    pub(super) kind: u32,
 }
 
 impl Patch {
@@ -126,7 +139,7 @@ impl<'f> Plan<'f> {
             pixel: view.pixel_size(),
             is_overlap: *quantity == Quantity::Overlap,
             has_grains,
-            patches: Vec::with_capacity(visible.len()),
+            patches: Vec::new(),
             blocks: Vec::with_capacity(count),
             coefficients: coefficients(field.data, quantity),
             inside: view.inside(&field.domain.bounds),
@@ -137,11 +150,13 @@ impl<'f> Plan<'f> {
             ],
             rows,
         };
-        for &index in &visible {
-            let start = plan.blocks.len() as u32;
-            add_blocks(field, index as usize, quantity, &mut plan.blocks);
-            let blocks = start..plan.blocks.len() as u32;
-            plan.patches.push(Patch { blocks, ..plan.patch(index, &pixels) });
+        plan.patches = visible.par_iter().map(|&index| plan.patch(index, &pixels)).collect();
+        let mut kinds = Kinds::default();
+        for patch in &mut plan.patches {
+            let start = plan.blocks.len();
+            add_blocks(field, patch.index as usize, quantity, &mut plan.blocks);
+            patch.kind = kinds.number(&plan.blocks[start..]);
+            patch.blocks = start as u32..plan.blocks.len() as u32;
         }
         plan
     }
@@ -208,7 +223,28 @@ impl<'f> Plan<'f> {
         } else {
             support
         };
-        Patch { index, support, frame, columns, rows, blocks: 0..0 }
+        Patch { index, support, frame, columns, rows, blocks: 0..0, kind: 0 }
+    }
+}
+
+/// Numbers for lists of functions and degrees.
+#[derive(Debug, Default)]
+struct Kinds {
+    known: HashMap<Vec<[u32; 3]>, u32>,
+    /// The last list, which most often comes again.
+    last: Vec<[u32; 3]>,
+    number: u32,
+}
+
+impl Kinds {
+    fn number(&mut self, blocks: &[Block]) -> u32 {
+        let is_last = self.last.iter().copied().eq(blocks.iter().map(Block::kind));
+        if !is_last || self.known.is_empty() {
+            self.last = blocks.iter().map(Block::kind).collect();
+            let next = self.known.len() as u32;
+            self.number = *self.known.entry(self.last.clone()).or_insert(next);
+        }
+        self.number
     }
 }
 

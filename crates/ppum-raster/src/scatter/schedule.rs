@@ -53,7 +53,7 @@ impl<'f> Schedule<'f> {
     /// The patches of a tile, collapsed with derivatives.
     ///
     /// # Panics
-    /// If the view has no such tile: tiles are 64 pixels wide and 16 high.
+    /// If the view has no such tile: tiles are 64 pixels wide and 32 high.
     #[must_use]
     pub fn tile(&self, [column, row]: [usize; 2]) -> TileLoad {
         let tiles = self.scene.plan.tiles(&(row..row + 1));
@@ -62,10 +62,11 @@ impl<'f> Schedule<'f> {
         scratch.shift.resize(self.scene.plan.coefficients.len(), 0.0);
         scratch.places.resize(self.scene.functions.table().groups(), 0);
         let patches = tiles.of(column, row);
+        tile.take_patches(patches, &mut scratch);
         let mut load =
             TileLoad { patches: patches.len(), first_batch: patches.len(), row_spans: 0 };
         for column in 0..COLUMNS {
-            let count = tile.gather(column, patches, &mut scratch, 0.0f64);
+            let count = tile.gather(column, 0, &mut scratch, 0.0f64);
             load.first_batch = load.first_batch.min(count);
             load.row_spans += scratch.strips.all.len();
         }

@@ -9,18 +9,20 @@
 
 use std::ops::Range;
 
+use ppum::dataset::monomials;
 use ppum::function::Slot;
 use ppum::real::{Real, Scalar};
 
 use super::collapse::{Across, Factor, ROWS, collapse, put_sum, table_len};
-use super::plan::{Affine, Block, Patch, Plan};
+use super::plan::{Affine, COLUMNS, Patch};
 use super::sums::{basis_len, size};
-use super::tile::{Active, Scratch, Tile, union};
+use super::tile::{Active, Listed, Scratch, Tile, union};
+use crate::summation::Savings;
 
 /// Groups of functions that are kept at a time for the strips of a tile, more if one strip has them: 6 MB.
 const MOST_ACTIVE: usize = 256;
 
-/// Places to look for a strip, and how many of them before it is given up: patches that begin at different columns of a tile
+/// Places to look for a strip, and how many of them before it is given up: patches that begin at different rows of a tile
 /// never meet there.
 const SLOTS: usize = 256;
 const TRIES: usize = 4;
@@ -48,10 +50,10 @@ pub(super) const DOWN: usize = 3 * ROWS;
 /// Patches that are the same in y.
 #[derive(Clone, Debug)]
 pub(super) struct Strip {
-    /// The first of them.
-    patch: u32,
-    /// ∂η/∂y
-    pub(super) scale: f64,
+    /// Coordinates in y, of the support and of the polynomials.
+    support: Affine,
+    pub(super) frame: Affine,
+    kind: u32,
     /// The rows of the tile that they may cover.
     pub(super) rows: Range<usize>,
     /// Its tables.
@@ -63,6 +65,13 @@ pub(super) struct Strip {
     pub(super) is_full: bool,
     /// True if its tables over the weight's factor are there.
     pub(super) is_divided: bool,
+}
+
+impl Strip {
+    /// True if a patch has the same b(y), η(y), functions and degrees.
+    fn joins(&self, patch: &Patch) -> bool {
+        self.kind == patch.kind && self.support == patch.support[1] && self.frame == patch.frame[1]
+    }
 }
 
 /// A block.
@@ -85,15 +94,13 @@ impl<T: Scalar> Strips<T> {
     }
 
     /// The strip of a patch, or the slot for one.
-    fn find(&self, plan: &Plan<'_>, patch: &Patch, joins: bool) -> Result<usize, usize> {
+    fn find(&self, patch: &Patch, joins: bool) -> Result<usize, usize> {
         let first = patch.rows.start as usize * TRIES % SLOTS;
         for slot in first..first + TRIES {
             let place = self.slots[slot] as usize;
             match self.all.get(place).filter(|_| joins) {
                 None => return Err(slot),
-                Some(strip) if are_same(plan, patch, &plan.patches[strip.patch as usize]) => {
-                    return Ok(place);
-                }
+                Some(strip) if strip.joins(patch) => return Ok(place),
                 Some(_) => {}
             }
         }
@@ -117,19 +124,10 @@ impl<T: Scalar> Strips<T> {
     }
 }
 
-/// True if two patches have the same b(y), η(y), functions and degrees.
-fn are_same(plan: &Plan<'_>, a: &Patch, b: &Patch) -> bool {
-    let mut blocks = plan.blocks[a.blocks()].iter().zip(&plan.blocks[b.blocks()]);
-    let is_same = |(a, b): (&Block, &Block)| a.function == b.function && a.degree == b.degree;
-    a.support[1] == b.support[1]
-        && a.frame[1] == b.frame[1]
-        && a.blocks().len() == b.blocks().len()
-        && blocks.all(is_same)
-}
-
 /// True if there is no room for another strip.
 fn is_full<T>(scratch: &Scratch<T>, numbers: usize) -> bool {
-    scratch.strips.used > numbers || scratch.active.len() > MOST_ACTIVE
+    let is_full = scratch.strips.used > numbers || scratch.active.len() > MOST_ACTIVE;
+    is_full && !scratch.strips.all.is_empty()
 }
 
 /// The place of a group among the active ones, with others or as a new one, needed on some rows.
@@ -145,50 +143,69 @@ fn need(active: &mut Vec<Active>, places: &mut [u32], group: u32, rows: &Range<u
 }
 
 impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
-    /// Collapses patches at a column of vectors to strips, as many as there is room for; returns how many.
+    /// Takes patches with their coefficients, less the constants that the tile subtracts.
+    pub(super) fn take_patches(&self, patches: &[u32], scratch: &mut Scratch<T>) {
+        let Scratch { coefficients, listed, shift, .. } = scratch;
+        let plan = &self.scene.plan;
+        coefficients.clear();
+        listed.clear();
+        for &index in patches {
+            let patch = &plan.patches[index as usize];
+            let [columns, _] = self.within(patch);
+            let columns = first_bits(columns.end) & !first_bits(columns.start);
+            listed.push(Listed { columns, patch: index, start: coefficients.len() });
+            let blocks = &plan.blocks[patch.blocks()];
+            for (component, &shift) in shift.iter().enumerate() {
+                let first = coefficients.len();
+                for block in blocks {
+                    let all = plan.block_coefficients(block, component);
+                    let all = &all[..monomials(block.degree.into())];
+                    coefficients.extend(all.iter().map(|&c| T::from_f64(c)));
+                }
+                let constant = plan.block_coefficients(&blocks[0], component)[0];
+                coefficients[first] = T::from_f64(constant - shift);
+            }
+        }
+    }
+
+    /// Collapses patches at a column of vectors to strips, from one of the list on as many as there is
+    /// room for; returns the first that is left.
     #[inline(always)]
     pub(super) fn gather<R: Real<Scalar = T>>(
         &self,
         vector: usize,
-        patches: &[u32],
+        from: usize,
         scratch: &mut Scratch<T>,
         zero: R,
     ) -> usize {
         let plan = &self.scene.plan;
-        let savings = self.scene.savings;
+        let Savings { merge_patches, table_numbers, .. } = self.scene.savings;
         scratch.strips.clear();
         scratch.active.clear();
-        let first = self.corner()[0] + vector * R::LANES;
-        let x = zero.load(&self.scene.xs[first..]);
-        let mut count = 0;
-        for &index in patches {
-            let patch = &plan.patches[index as usize];
-            if patch.columns.start as usize >= first + R::LANES
-                || patch.columns.end as usize <= first
-            {
-                count += 1;
-                continue;
-            }
-            match scratch.strips.find(plan, patch, savings.merge_patches) {
-                Ok(place) => self.collapse::<R, true>(patch, place, (x, first), scratch),
-                Err(_)
-                    if !scratch.strips.all.is_empty()
-                        && is_full(scratch, savings.table_numbers) =>
-                {
-                    break;
-                }
-                Err(slot) => {
-                    let place = self.add_strip(index, slot, scratch, zero);
-                    self.collapse::<R, false>(patch, place, (x, first), scratch);
+        let pixel = self.corner()[0] + vector * R::LANES;
+        let x = zero.load(&self.scene.xs[pixel..]);
+        let columns = first_bits(R::LANES) << (vector * R::LANES);
+        let mut next = from;
+        while next < scratch.listed.len() {
+            let listed = scratch.listed[next];
+            if listed.columns & columns != 0 {
+                let patch = (&plan.patches[listed.patch as usize], listed.start);
+                match scratch.strips.find(patch.0, merge_patches) {
+                    Ok(place) => self.collapse::<R, true>(patch, place, (x, pixel), scratch),
+                    Err(_) if is_full(scratch, table_numbers) => break,
+                    Err(slot) => {
+                        let place = self.add_strip(listed.patch, slot, scratch, zero);
+                        self.collapse::<R, false>(patch, place, (x, pixel), scratch);
+                    }
                 }
             }
-            count += 1;
+            next += 1;
         }
         let Strips { all, tables, .. } = &mut scratch.strips;
         for strip in all {
             strip.is_full = !R::any(zero.ge(zero.load(&tables[strip.table..])));
         }
-        count
+        next
     }
 
     /// A strip of one patch, whose tables are still to be filled.
@@ -202,7 +219,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     ) -> usize {
         let Scratch { strips, places, active, shift, .. } = scratch;
         let patch = &self.scene.plan.patches[index as usize];
-        let rows = self.rows(patch);
+        let [_, rows] = self.within(patch);
         let (first, mut len) = (strips.terms.len(), 0);
         for block in &self.scene.plan.blocks[patch.blocks()] {
             let degree = block.degree.into();
@@ -217,8 +234,9 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             len += table_len::<R, D>(degree);
         }
         let strip = Strip {
-            patch: index,
-            scale: patch.frame[1].scale,
+            support: patch.support[1],
+            frame: patch.frame[1],
+            kind: patch.kind,
             rows: rows.clone(),
             table: strips.used,
             len,
@@ -241,18 +259,20 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         place
     }
 
-    /// Writes what a patch collapses to at a vector of columns to the tables of its strip, or adds it.
+    /// Writes what a patch, whose coefficients begin at a place, collapses to at a vector of columns to the tables of its
+    /// strip, or adds it.
     #[inline(always)]
     fn collapse<R: Real<Scalar = T>, const ADD: bool>(
         &self,
-        patch: &Patch,
+        (patch, from): (&Patch, usize),
         place: usize,
         (x, pixel): (R, usize),
         scratch: &mut Scratch<T>,
     ) {
-        let Scratch { strips: Strips { all, terms, tables, .. }, shift, .. } = scratch;
-        let (plan, strip) = (&self.scene.plan, &all[place]);
-        let blocks = &plan.blocks[patch.blocks()];
+        let Scratch { strips: Strips { all, terms, tables, .. }, coefficients, shift, .. } =
+            scratch;
+        let strip = &all[place];
+        let terms = &terms[strip.terms.clone()];
         let tables = &mut tables[strip.table..];
         let factor = self.factor(x, patch.support[0], pixel);
         put_sum::<R, ADD>(factor.value, tables);
@@ -261,15 +281,13 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         }
         let scaled = factor.value * x.lit(patch.frame[0].scale);
         let across = Across { xi: place_of(x, patch.frame[0]), factor, scaled };
-        let mut at = weight_len::<R, D>();
-        for (component, &shift) in shift.iter().enumerate() {
-            let mut shift = shift;
-            for (block, term) in blocks.iter().zip(&terms[strip.terms.clone()]) {
-                let coefficients = plan.block_coefficients(block, component);
-                let table = &mut tables[at..];
-                collapse::<R, D, ADD>(coefficients, term.degree, shift, &across, table);
+        let (mut at, mut coefficients) = (weight_len::<R, D>(), &coefficients[from..]);
+        for _ in 0..shift.len() {
+            for term in terms {
+                let (of_term, others) = coefficients.split_at(monomials(term.degree));
+                collapse::<R, D, ADD>(of_term, term.degree, &across, &mut tables[at..]);
                 at += term.len;
-                shift = 0.0;
+                coefficients = others;
             }
         }
     }
@@ -326,6 +344,12 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
 #[inline(always)]
 pub(super) const fn weight_len<R: Real, const D: usize>() -> usize {
     (1 + D) * R::LANES
+}
+
+/// A number whose lowest bits are set, at most all of them.
+#[inline(always)]
+const fn first_bits(count: usize) -> u64 {
+    if count < COLUMNS { (1 << count) - 1 } else { u64::MAX }
 }
 
 /// A coordinate at an offset.

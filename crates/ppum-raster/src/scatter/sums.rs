@@ -7,15 +7,11 @@
 use std::ops::Range;
 
 use ppum::function::GROUP;
-use ppum::jet::Jet;
 use ppum::real::{Real, Scalar};
 
-use super::collapse::{ANY, Factor, ROWS, evaluate, known, numbers, splat, table_len};
+use super::collapse::{ANY, Factor, ROWS, Slopes, evaluate, known, numbers, splat, table_len};
 use super::strips::{DOWN, Strip, Term, weight_len};
-use super::tile::{Batch, load_jet};
-
-/// Rows that are summed together: they share what is read of an entry. Parts of tiles are made of so many, or some more.
-pub(super) const TOGETHER: usize = 2;
+use super::tile::{Batch, load_slopes};
 
 /// Where the sums of some rows come from and go to.
 pub(super) struct Span<'a, T> {
@@ -30,7 +26,7 @@ pub(super) struct Span<'a, T> {
     pub(super) batch: Batch,
 }
 
-/// The first of some rows, and the first of some components.
+/// A row, and the first of some components.
 #[derive(Clone, Copy)]
 struct From {
     row: usize,
@@ -39,12 +35,23 @@ struct From {
 }
 
 impl From {
-    /// The sums at the `k`-th row: the weight, then the components.
+    /// The sums: the weight, then the components.
     #[inline(always)]
-    fn cell<R: Real, const D: usize>(self, k: usize) -> Range<usize> {
+    fn cell<R: Real, const D: usize>(self) -> Range<usize> {
         let stride = size::<R, D>() * (1 + self.components);
-        (self.row + k) * stride..(self.row + k + 1) * stride
+        self.row * stride..(self.row + 1) * stride
     }
+}
+
+/// Some components of a strip.
+struct Local<'a, T, const C: usize> {
+    strip: &'a Strip,
+    /// The degree of the smooth block, and its tables.
+    degree: usize,
+    smooth: [&'a [T]; C],
+    /// The other blocks, and where their tables begin.
+    others: &'a [Term],
+    start: usize,
 }
 
 impl<'a, T: Scalar> Span<'a, T> {
@@ -56,7 +63,8 @@ impl<'a, T: Scalar> Span<'a, T> {
         if self.here.iter().all(|at| degree(at) == first) { first } else { ANY }
     }
 
-    /// Sums over the entries, whose smooth blocks have the degree `P`, `C` components at a time.
+    /// Sums over the strips, whose smooth blocks have the degree `P`, `C` components at a time; nothing is to be summed where
+    /// one of them is `ALONE`.
     #[inline(always)]
     pub(super) fn sum<
         R: Real<Scalar = T>,
@@ -65,78 +73,84 @@ impl<'a, T: Scalar> Span<'a, T> {
         const C: usize,
         const ALONE: bool,
     >(
-        mut self,
+        self,
         components: usize,
         zero: R,
     ) {
         let components = if C == 2 { 2 } else { components };
-        let mut row = self.rows.start;
-        while row < self.rows.end {
-            let (mut component, mut weights) = (0, [Jet::constant(zero); TOGETHER]);
-            while component < components.max(1) {
-                let from = From { row, component, components };
-                if ALONE {
-                    self.one::<R, D, P, C>(from, zero);
-                } else {
-                    weights = self.many::<R, D, P, C>(from, zero);
-                }
-                component += C;
-            }
-            let mut k = 0;
-            while k < TOGETHER && !ALONE && (C == 1 || !self.batch.is_last) {
-                let stride = size::<R, D>() * (1 + components);
-                store_jet::<R, D>(weights[k], &mut self.sums[(row + k) * stride..]);
-                k += 1;
-            }
-            row += TOGETHER;
+        if ALONE {
+            self.take_strip::<R, D, P, C>(components, zero);
+        } else {
+            self.add_strips::<R, D, P, C>(components, zero);
         }
     }
 
-    /// A strip that is alone.
+    /// The rows of a strip that is alone.
     #[inline(always)]
-    fn one<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
-        &mut self,
-        from: From,
+    fn take_strip<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
+        mut self,
+        components: usize,
         zero: R,
     ) {
         let at = self.here[0];
-        let mut k = 0;
-        while k < TOGETHER {
-            let (_, eta) = self.down(at, from.row + k, zero);
-            let v = self.local_field::<R, D, P, C>(at, from, k, eta);
-            self.store::<R, D, C>(from, k, v);
-            k += 1;
+        let mut component = 0;
+        while component < components {
+            let local = self.local::<R, D, P, C>(at, component);
+            let mut row = self.rows.start;
+            while row < self.rows.end {
+                let (_, eta) = self.down(at, row, zero);
+                let v = self.local_field::<R, D, P, C>(&local, row, eta);
+                self.store::<R, D, C>(From { row, component, components }, v);
+                row += 1;
+            }
+            component += C;
         }
     }
 
-    /// Adds all strips; returns the sums of the weights.
+    /// Sums over the strips row by row.
+    #[inline(always)]
+    fn add_strips<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
+        mut self,
+        components: usize,
+        zero: R,
+    ) {
+        let mut row = self.rows.start;
+        while row < self.rows.end {
+            let (mut component, mut weight) = (0, Slopes::constant(zero));
+            while component < components.max(1) {
+                weight = self.many::<R, D, P, C>(From { row, component, components }, zero);
+                component += C;
+            }
+            if C == 1 || !self.batch.is_last {
+                let stride = size::<R, D>() * (1 + components);
+                store_slopes::<R, D>(weight, &mut self.sums[row * stride..]);
+            }
+            row += 1;
+        }
+    }
+
+    /// Adds all strips; returns the sum of the weights.
     #[inline(always)]
     fn many<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         &mut self,
         from: From,
         zero: R,
-    ) -> [Jet<R>; TOGETHER] {
-        let mut sums = [[Jet::constant(zero); C]; TOGETHER];
-        let mut weights = [Jet::constant(zero); TOGETHER];
-        let mut k = 0;
-        while k < TOGETHER && !self.batch.is_first {
-            (weights[k], sums[k]) = self.load::<R, D, C>(from, k, zero);
-            k += 1;
+    ) -> Slopes<R> {
+        let mut sums = [Slopes::constant(zero); C];
+        let mut weight = Slopes::constant(zero);
+        if !self.batch.is_first {
+            (weight, sums) = self.load::<R, D, C>(from, zero);
         }
         for &at in self.here {
-            self.add::<R, D, P, C>(at, from, &mut weights, &mut sums);
+            self.add::<R, D, P, C>(at, from, &mut weight, &mut sums);
         }
-        k = 0;
-        while k < TOGETHER {
-            let mut c = 0;
-            while c < C && self.batch.is_last {
-                sums[k][c] = sums[k][c].over::<D>(weights[k]);
-                c += 1;
-            }
-            self.store::<R, D, C>(from, k, sums[k]);
-            k += 1;
+        let mut c = 0;
+        while c < C && self.batch.is_last {
+            sums[c] = sums[c].over::<D>(weight);
+            c += 1;
         }
-        weights
+        self.store::<R, D, C>(from, sums);
+        weight
     }
 
     /// Adds a strip.
@@ -145,67 +159,76 @@ impl<'a, T: Scalar> Span<'a, T> {
         &self,
         at: usize,
         from: From,
-        weights: &mut [Jet<R>; TOGETHER],
-        sums: &mut [[Jet<R>; C]; TOGETHER],
+        weight: &mut Slopes<R>,
+        sums: &mut [Slopes<R>; C],
     ) {
-        let zero = weights[0].v;
+        let zero = weight.v;
+        let (b, eta) = self.down(at, from.row, zero);
         let table = &self.tables[self.strips[at].table..][..weight_len::<R, D>()];
-        let mut k = 0;
-        while k < TOGETHER {
-            let (b, eta) = self.down(at, from.row + k, zero);
-            let mut a = Jet::constant(zero.load(table));
-            if D >= 1 {
-                a.x = zero.load(&table[R::LANES..]);
+        let a = zero.load(table);
+        weight.v = b.value.mul_add(a, weight.v);
+        if D >= 1 {
+            weight.x = b.value.mul_add(zero.load(&table[R::LANES..]), weight.x);
+            weight.y = b.slope.mul_add(a, weight.y);
+        }
+        if from.components > 0 {
+            let local = self.local::<R, D, P, C>(at, from.component);
+            let v = self.local_field::<R, D, P, C>(&local, from.row, eta);
+            let mut c = 0;
+            while c < C {
+                sums[c] = plus_product::<R, D>(sums[c], b, v[c]);
+                c += 1;
             }
-            weights[k].v = b.value.mul_add(a.v, weights[k].v);
-            if D >= 1 {
-                weights[k].x = b.value.mul_add(a.x, weights[k].x);
-                weights[k].y = b.slope.mul_add(a.v, weights[k].y);
-            }
-            if from.components > 0 {
-                let v = self.local_field::<R, D, P, C>(at, from, k, eta);
-                let mut c = 0;
-                while c < C {
-                    sums[k][c] = plus_product::<R, D>(sums[k][c], b, v[c]);
-                    c += 1;
-                }
-            }
-            k += 1;
         }
     }
 
-    /// The weight and the components at the `k`-th row.
+    /// The weight and the components.
     #[inline(always)]
     fn load<R: Real<Scalar = T>, const D: usize, const C: usize>(
         &self,
         from: From,
-        k: usize,
         zero: R,
-    ) -> (Jet<R>, [Jet<R>; C]) {
-        let cell = &self.sums[from.cell::<R, D>(k)];
-        let mut sums = [Jet::constant(zero); C];
+    ) -> (Slopes<R>, [Slopes<R>; C]) {
+        let cell = &self.sums[from.cell::<R, D>()];
+        let mut sums = [Slopes::constant(zero); C];
         let mut c = 0;
         while c < C && from.component + c < from.components {
-            sums[c] = load_jet::<R, D>(&cell[(1 + from.component + c) * size::<R, D>()..], zero);
+            sums[c] = load_slopes::<R, D>(&cell[(1 + from.component + c) * size::<R, D>()..], zero);
             c += 1;
         }
-        (load_jet::<R, D>(cell, zero), sums)
+        (load_slopes::<R, D>(cell, zero), sums)
     }
 
-    /// Stores the components at the `k`-th row.
+    /// Stores the components.
     #[inline(always)]
     fn store<R: Real<Scalar = T>, const D: usize, const C: usize>(
         &mut self,
         from: From,
-        k: usize,
-        sums: [Jet<R>; C],
+        sums: [Slopes<R>; C],
     ) {
-        let cell = &mut self.sums[from.cell::<R, D>(k)];
+        let cell = &mut self.sums[from.cell::<R, D>()];
         let mut c = 0;
         while c < C && from.component + c < from.components {
-            store_jet::<R, D>(sums[c], &mut cell[(1 + from.component + c) * size::<R, D>()..]);
+            store_slopes::<R, D>(sums[c], &mut cell[(1 + from.component + c) * size::<R, D>()..]);
             c += 1;
         }
+    }
+
+    /// The components of a strip from one on.
+    #[inline(always)]
+    fn local<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
+        &self,
+        at: usize,
+        component: usize,
+    ) -> Local<'a, T, C> {
+        let all: &'a [Strip] = self.strips;
+        let strip = &all[at];
+        let terms: &'a [Term] = &self.terms[strip.terms.clone()];
+        let degree = known(P, terms[0].degree);
+        let start = strip.table + weight_len::<R, D>() + component * strip.len;
+        let smooth = self.tables_of::<R, D, C>(strip, start, degree);
+        let start = start + table_len::<R, D>(degree);
+        Local { strip, degree, smooth, others: &terms[1..], start }
     }
 
     /// The tables of a strip's block of a degree from a place on, of the components from there on.
@@ -235,36 +258,27 @@ impl<'a, T: Scalar> Span<'a, T> {
         (b, splat(zero, down[2 * ROWS + row]))
     }
 
-    /// What the tables of a strip hold at the `k`-th row.
+    /// What the tables of a strip hold at a row.
     #[inline(always)]
     fn local_field<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         &self,
-        at: usize,
-        from: From,
-        k: usize,
+        local: &Local<'_, T, C>,
+        row: usize,
         eta: R,
-    ) -> [Jet<R>; C] {
-        let strip = &self.strips[at];
-        let scale = eta.lit(strip.scale);
-        let terms = &self.terms[strip.terms.clone()];
-        let degree = known(P, terms.first().map_or(0, |term| term.degree));
-        let mut start = strip.table + weight_len::<R, D>() + from.component * strip.len;
-        let tables = self.tables_of::<R, D, C>(strip, start, degree);
-        let mut v = evaluate::<R, D, P, C>(tables, degree, eta, scale);
-        start += table_len::<R, D>(degree);
-        for term in &terms[1..] {
-            let f = self.function::<R, D>(term, from.row + k, eta);
-            let tables = self.tables_of::<R, D, C>(strip, start, term.degree);
-            match term.degree {
-                0 => add_constants::<R, D, C>(
-                    &mut v,
-                    &evaluate::<R, D, 0, C>(tables, 0, eta, scale),
-                    f,
-                ),
-                degree => {
-                    let p = evaluate::<R, D, ANY, C>(tables, degree, eta, scale);
-                    add_products::<R, D, C>(&mut v, &p, f);
-                }
+    ) -> [Slopes<R>; C] {
+        let scale = eta.lit(local.strip.frame.scale);
+        let degree = known(P, local.degree);
+        let mut v = evaluate::<R, D, P, C>(local.smooth, degree, eta, scale);
+        let mut start = local.start;
+        for term in local.others {
+            let f = self.function::<R, D>(term, row, eta);
+            let tables = self.tables_of::<R, D, C>(local.strip, start, term.degree);
+            if term.degree == 0 {
+                let p = evaluate::<R, D, 0, C>(tables, 0, eta, scale);
+                add_constants::<R, D, C>(&mut v, &p, f);
+            } else {
+                let p = evaluate::<R, D, ANY, C>(tables, term.degree, eta, scale);
+                add_products::<R, D, C>(&mut v, &p, f);
             }
             start += term.len;
         }
@@ -278,12 +292,12 @@ impl<'a, T: Scalar> Span<'a, T> {
         term: &Term,
         row: usize,
         like: R,
-    ) -> Jet<R> {
+    ) -> Slopes<R> {
         match term.function {
-            None => Jet::constant(like.lit(1.0)),
+            None => Slopes::constant(like.lit(1.0)),
             Some(offset) => {
                 let start = offset + row * basis_stride::<R, D>();
-                load_jet::<R, D>(&self.basis[start..][..size::<R, D>()], like)
+                load_slopes::<R, D>(&self.basis[start..][..size::<R, D>()], like)
             }
         }
     }
@@ -292,9 +306,9 @@ impl<'a, T: Scalar> Span<'a, T> {
 /// v + f p with derivatives.
 #[inline(always)]
 fn add_products<R: Real, const D: usize, const C: usize>(
-    v: &mut [Jet<R>; C],
-    p: &[Jet<R>; C],
-    f: Jet<R>,
+    v: &mut [Slopes<R>; C],
+    p: &[Slopes<R>; C],
+    f: Slopes<R>,
 ) {
     add_constants::<R, D, C>(v, p, f);
     let mut c = 0;
@@ -307,9 +321,9 @@ fn add_products<R: Real, const D: usize, const C: usize>(
 /// v + f p with derivatives, where p does not depend on y.
 #[inline(always)]
 fn add_constants<R: Real, const D: usize, const C: usize>(
-    v: &mut [Jet<R>; C],
-    p: &[Jet<R>; C],
-    f: Jet<R>,
+    v: &mut [Slopes<R>; C],
+    p: &[Slopes<R>; C],
+    f: Slopes<R>,
 ) {
     let mut c = 0;
     while c < C {
@@ -324,7 +338,7 @@ fn add_constants<R: Real, const D: usize, const C: usize>(
 
 /// The sum and b(y) v with derivatives, where v holds a(x) and its derivative.
 #[inline(always)]
-fn plus_product<R: Real, const D: usize>(sum: Jet<R>, b: Factor<R>, v: Jet<R>) -> Jet<R> {
+fn plus_product<R: Real, const D: usize>(sum: Slopes<R>, b: Factor<R>, v: Slopes<R>) -> Slopes<R> {
     let mut out = sum;
     out.v = b.value.mul_add(v.v, sum.v);
     if D >= 1 {
@@ -335,12 +349,12 @@ fn plus_product<R: Real, const D: usize>(sum: Jet<R>, b: Factor<R>, v: Jet<R>) -
 }
 
 #[inline(always)]
-pub(super) fn store_jet<R: Real, const D: usize>(jet: Jet<R>, to: &mut [R::Scalar]) {
+pub(super) fn store_slopes<R: Real, const D: usize>(slopes: Slopes<R>, to: &mut [R::Scalar]) {
     let to = &mut to[..size::<R, D>()];
-    jet.v.store(to);
+    slopes.v.store(to);
     if D >= 1 {
-        jet.x.store(&mut to[R::LANES..]);
-        jet.y.store(&mut to[2 * R::LANES..]);
+        slopes.x.store(&mut to[R::LANES..]);
+        slopes.y.store(&mut to[2 * R::LANES..]);
     }
 }
 

@@ -9,11 +9,11 @@ use ppum::jet::Jet;
 use ppum::real::{Job, Real, Scalar};
 
 use super::Scene;
-use super::collapse::{ROWS, splat};
+use super::collapse::{ROWS, Slopes, splat};
 use super::grains::Grains;
 use super::plan::{COLUMNS, Patch, Tiles};
 use super::strips::Strips;
-use super::sums::{TOGETHER, basis_len, basis_stride, size, store_jet};
+use super::sums::{basis_len, basis_stride, size, store_slopes};
 
 /// Buffers of one thread.
 #[derive(Debug, Default)]
@@ -36,6 +36,19 @@ pub(super) struct Scratch<T> {
     pub(super) here: Vec<usize>,
     /// Subtracted from each component.
     pub(super) shift: Vec<f64>,
+    /// Of each patch of the tile, then of each component the coefficients of its blocks.
+    pub(super) coefficients: Vec<T>,
+    pub(super) listed: Vec<Listed>,
+}
+
+/// A patch of a tile.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Listed {
+    /// A bit for each column of the tile that it covers.
+    pub(super) columns: u64,
+    pub(super) patch: u32,
+    /// The first of its coefficients.
+    pub(super) start: usize,
 }
 
 /// A group of functions needed on some rows of a tile.
@@ -108,15 +121,17 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         let list = tiles.of(self.column, self.band);
         if self.scene.plan.has_grains {
             self.sum_grains(scratch, zero);
+            scratch.listed.clear();
         } else {
             self.choose_shift(list, &mut scratch.shift);
+            self.take_patches(list, scratch);
         }
         scratch.places.resize(self.scene.functions.table().groups(), 0);
         let width = self.scene.view.pixels[0] as usize;
         let vectors = (width - self.corner()[0]).min(COLUMNS).div_ceil(R::LANES);
         let mut vector = 0;
         while vector < vectors {
-            self.draw_vector(vector, list, scratch, out, zero);
+            self.draw_vector(vector, scratch, out, zero);
             vector += 1;
         }
     }
@@ -126,7 +141,6 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
     fn draw_vector<R: Real<Scalar = T>>(
         &self,
         vector: usize,
-        mut list: &[u32],
         scratch: &mut Scratch<T>,
         out: &mut [T],
         zero: R,
@@ -136,14 +150,13 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
         if scratch.sums.len() < start + len {
             scratch.sums.resize(start + len, T::default());
         }
-        let mut is_first = !self.scene.plan.has_grains;
+        let (mut is_first, mut from) = (!self.scene.plan.has_grains, 0);
         loop {
-            let count = self.gather(vector, list, scratch, zero);
-            list = &list[count..];
-            let batch = Batch { is_first, is_last: list.is_empty() };
+            from = self.gather(vector, from, scratch, zero);
+            let batch = Batch { is_first, is_last: from == scratch.listed.len() };
             self.evaluate_functions(vector, scratch, zero);
             self.sweep(start, batch, scratch, zero);
-            if list.is_empty() {
+            if batch.is_last {
                 break;
             }
             is_first = false;
@@ -170,13 +183,6 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
     pub(super) fn within(&self, patch: &Patch) -> [Range<usize>; 2] {
         let [column, row] = self.corner();
         [within(&patch.columns, column, COLUMNS), within(&patch.rows, row, ROWS)]
-    }
-
-    /// The rows of the tile that a patch may cover, and some more.
-    #[inline(always)]
-    pub(super) fn rows(&self, patch: &Patch) -> Range<usize> {
-        let [_, rows] = self.within(patch);
-        rows.start / TOGETHER * TOGETHER..rows.end.next_multiple_of(TOGETHER)
     }
 
     /// Fills the basis at a column of vectors.
@@ -260,7 +266,7 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
             let mut jet = [Jet::constant(zero)];
             let offset = self.offset(vector, row, zero);
             self.scene.functions.evaluate::<R, D>(group, offset, Side::Above, &mut jet);
-            store_jet::<R, D>(jet[0], &mut basis[row * basis_stride::<R, D>()..]);
+            store_slopes::<R, D>(Slopes::of(jet[0]), &mut basis[row * basis_stride::<R, D>()..]);
         }
     }
 
@@ -282,6 +288,16 @@ fn within(range: &Range<u32>, start: usize, count: usize) -> Range<usize> {
 }
 
 #[inline(always)]
+pub(super) fn load_slopes<R: Real, const D: usize>(from: &[R::Scalar], like: R) -> Slopes<R> {
+    let mut slopes = Slopes::constant(like.load(from));
+    if D >= 1 {
+        slopes.x = like.load(&from[R::LANES..]);
+        slopes.y = like.load(&from[2 * R::LANES..]);
+    }
+    slopes
+}
+
+#[inline(always)]
 pub(super) fn load_jet<R: Real, const D: usize>(from: &[R::Scalar], like: R) -> Jet<R> {
     let mut jet = Jet::constant(like.load(from));
     if D >= 1 {
@@ -296,7 +312,7 @@ fn store_jets<R: Real, const D: usize>(jets: &[Jet<R>; GROUP], to: &mut [R::Scal
     let to = &mut to[..basis_stride::<R, D>()];
     let mut k = 0;
     while k < GROUP {
-        store_jet::<R, D>(jets[k], &mut to[k * size::<R, D>()..]);
+        store_slopes::<R, D>(Slopes::of(jets[k]), &mut to[k * size::<R, D>()..]);
         k += 1;
     }
 }

@@ -326,7 +326,7 @@ fn work_stays_on_the_pool_that_calls() {
     });
 }
 
-/// Every band of 16 rows is told of once, and the call stops when the watcher says so.
+/// Every band of 32 rows is told of once, and the call stops when the watcher says so.
 #[test]
 fn a_watcher_hears_of_all_and_can_stop() {
     let dataset = dataset(&Recipe::default());
@@ -334,14 +334,14 @@ fn a_watcher_hears_of_all_and_can_stop() {
     let (view, quantity) = (whole([131, 97]), Quantity::VonMises);
     let heard = Mutex::new(Vec::new());
     let listen = |progress: Progress| {
-        assert_eq!((progress.phase, progress.total), (Phase::Evaluation, 7));
+        assert_eq!((progress.phase, progress.total), (Phase::Evaluation, 4));
         heard.lock().unwrap().push(progress.done);
         Verdict::GoOn
     };
     render::<f32>(&field, &view, &quantity, &listen).unwrap();
     let mut heard = heard.into_inner().unwrap();
     heard.sort_unstable();
-    assert_eq!(heard, [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert_eq!(heard, [0, 1, 2, 3, 4]);
     let stopped = Err(RenderError::Cancelled(Cancelled));
     for after in [0, 2] {
         let stop = |progress: Progress| Verdict::go_on_unless(progress.done >= after);
