@@ -155,8 +155,10 @@ fn failure(
         .args(["-c", &format!("{limits}; exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_ppum")])
         .args(arguments.split(' '))
         .current_dir(lab.folder.path())
-        // memory is counted where it is reserved, and each thread would reserve some
+        // memory is counted where it is reserved: each thread would reserve some, and mimalloc, the
+        // allocator of the program with a window, 1 GiB when it starts
         .env("MALLOC_ARENA_MAX", "2")
+        .env("MIMALLOC_ARENA_RESERVE", "0")
         .env("RAYON_NUM_THREADS", "2");
     let output = command.output().unwrap();
     let complaint = String::from_utf8_lossy(&output.stderr);
