@@ -116,12 +116,12 @@ impl Cornered {
 
     /// Asserts what [`assert_near`] does, and the errors of the energy and of the first tip's factors, which fall with the order.
     fn assert_errors(&self, order: usize) {
-        let (of_energy, of_factors) = match order {
-            2 => (1e-4, 5e-4),
-            3 => (6e-6, 1.5e-5),
-            _ => (2e-6, 2e-6),
+        let (level, of_energy, of_factors) = match order {
+            2 => (4, 1e-4, 5e-4),
+            3 => (4, 6e-6, 1.5e-5),
+            _ => (3, 2e-6, 2e-6),
         };
-        let dataset = solved_with(&self.tables, &format!("level = 4\norder = {order}"));
+        let dataset = solved_with(&self.tables, &format!("level = {level}\norder = {order}"));
         assert_near(&dataset, self.energy, &self.tips);
         let error = 1.0 - energy(&dataset) / self.energy;
         let (tip, (_, k1, k2)) = (&dataset.steps[0].intensities[0], self.tips[0]);
@@ -152,11 +152,10 @@ fn low_orders_resolve_free_corners() {
 }
 
 #[test]
-#[ignore = "slow: four plates at order 4"]
+#[ignore = "slow: order 4"]
 fn order_four_resolves_free_corners() {
-    let all =
-        [Cornered::right_angle(), Cornered::sharp(), Cornered::square(), Cornered::triangle()];
-    all.iter().for_each(|plate| plate.assert_errors(4));
+    // the kink and the hole that have the larger errors
+    [Cornered::sharp(), Cornered::triangle()].iter().for_each(|plate| plate.assert_errors(4));
 }
 
 /// Functions r^λ at corners take fewer unknowns than cells that shrink towards the corners.

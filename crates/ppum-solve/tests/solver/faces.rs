@@ -271,7 +271,7 @@ fn all_orders() {
 #[ignore = "slow: the rules of order 8"]
 fn the_highest_order() {
     let mut random = Random(2);
-    let flux = Flux::stress(&mut random);
+    let flux = Flux::of_potential(&mut random);
     Case { refine: true, ..Case::new(vec![straight(&mut random)], 1, 8, flux) }.check();
 }
 

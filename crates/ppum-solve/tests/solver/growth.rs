@@ -213,7 +213,7 @@ fn paths_do_not_depend_on_the_frame() {
             material = {{ young = 1, poisson = 0.3, state = "plane-strain" }}
             crack = [{{ points = [[{}, {}], [{}, {}]] }}]
             boundary = [{}, {}]
-            discretization = {{ level = 3, order = 1, refine = false }}
+            discretization = {{ level = 2, order = 1, refine = false }}
             growth = {{ increment = {}, steps = 2 }}
             "#,
             min.x,
@@ -469,11 +469,11 @@ fn powers_out_of_range() {
     let cracks = "[[crack]]\npoints = [[-1, -0.5], [-0.5, -0.5]]";
     let law = |c: &str| format!("steps = 2, increment = 0.05, paris = {{ c = {c}, m = 40 }}");
     let loads = |scale: &str| {
-        let text = pulled("[[-1, 0.5], [-0.45, 0.5]]", cracks, &law(scale));
+        let text = pulled_in(2, "[[-1, 0.5], [-0.45, 0.5]]", cracks, &law(scale));
         text.replace("[0, 1]", "[0, 1e9]").replace("[0, -1]", "[0, -1e9]")
     };
     let steps = [
-        grown(&pulled("[[-1, 0.5], [-0.45, 0.5]]", cracks, &law("1e10"))),
+        grown(&pulled_in(2, "[[-1, 0.5], [-0.45, 0.5]]", cracks, &law("1e10"))),
         grown(&loads("1e-300")),
     ];
     for (one, other) in steps[0].iter().zip(&steps[1]) {
@@ -496,11 +496,14 @@ fn what_cannot_be_decided() {
         let text = pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", growth);
         series(&parsed(&text), None, unwatched()).expect_err("no decision").to_string()
     };
-    for toughness in ["sqrt(-1 - x^2)", "1/(x - x)", "-1 - x^2"] {
-        for more in ["", ", load = 'critical'", ", paris = { c = 1e-3, m = 3 }"] {
-            let told = first(&format!("steps = 2, toughness = '{toughness}'{more}"));
-            assert!(told.contains("`toughness` is") && told.contains("(-0.3, 0)"), "{told}");
-        }
+    for (toughness, more) in [
+        ("sqrt(-1 - x^2)", ""),
+        ("1/(x - x)", ", load = 'critical'"),
+        ("-1 - x^2", ", paris = { c = 1e-3, m = 3 }"),
+        ("-1 - x^2", ""),
+    ] {
+        let told = first(&format!("steps = 2, toughness = '{toughness}'{more}"));
+        assert!(told.contains("`toughness` is") && told.contains("(-0.3, 0)"), "{told}");
     }
     let told = first("steps = 1, toughness = 1e200, load = 'critical'");
     assert!(told.contains("K reaches the toughness at"), "{told}");
@@ -584,13 +587,12 @@ fn fracture_ends_fatigue() {
 /// decided is stored, and what a step takes over from the one before it is what it would have integrated itself.
 #[test]
 fn series_go_on_from_their_steps() {
-    let inclined = "[[-0.31, -0.13], [0.17, 0.2]]";
     let edge = "[[-1, 0.1], [-0.2, 0.15]]";
     let beside = "[[crack]]\npoints = [[0.4, 0.1], [0.7, -0.1]]";
     let held = r#"steps = 2, criterion = "hoop", increment = 0.1"#;
     let bent = r#"steps = 2, criterion = "local-symmetry", increment = 0.05"#;
-    for (crack, more, rule, number) in [(edge, beside, held, 1), (inclined, "", bent, 0)] {
-        let text = pulled_in(2, crack, more, rule);
+    for (more, rule, number) in [(beside, held, 1), ("", bent, 0)] {
+        let text = pulled_in(2, edge, more, rule);
         let (problem, whole) = (parsed(&text), grown(&text));
         let mut rest = Vec::new();
         let last = Last { number, step: &whole[number] };

@@ -61,10 +61,12 @@ const KINKED: ([[f64; 2]; 4], [f64; 2]) =
 
 /// Asserts factors from discs without a kink, with one and with two of them, of a crack that bends both ways: the error is that of the
 /// solution, and the same in all discs but for its tenth part.
-fn assert_discs(level: u32, bound: f64) {
-    let (points, exact) = KINKED;
-    let reversed: Vec<[f64; 2]> = points.iter().rev().copied().collect();
-    for (points, end) in [(points.to_vec(), End::Last), (reversed, End::Start)] {
+fn assert_discs(level: u32, bound: f64, ends: &[End]) {
+    for &end in ends {
+        let (mut points, exact) = KINKED;
+        if end == End::Start {
+            points.reverse();
+        }
         let mut set = discretization(Cells::Level(level), 3);
         set.refine = true;
         let dataset = solved(&pulled(SQUARE, &points, [0.0, 1.0], set));
@@ -81,14 +83,14 @@ fn assert_discs(level: u32, bound: f64) {
 /// The error is 1.9e-5.
 #[test]
 fn discs_with_kinks() {
-    assert_discs(4, 4e-5);
+    assert_discs(4, 4e-5, &[End::Last, End::Start]);
 }
 
 /// The error is 5.2e-6.
 #[test]
 #[ignore = "slow: level 5 at order 3"]
 fn discs_with_kinks_on_fine_covers() {
-    assert_discs(5, 1e-5);
+    assert_discs(5, 1e-5, &[End::Last]);
 }
 
 /// The discs end where they should, not at the first kink.

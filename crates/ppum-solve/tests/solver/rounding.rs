@@ -70,7 +70,7 @@ fn vertices_that_are_moved_by_rounding() {
 }
 
 #[test]
-#[ignore = "slow: 21 plates with cells refined at tips"]
+#[ignore = "slow: 12 plates with cells refined at tips"]
 fn vertices_that_are_moved_by_rounding_in_refined_cells() {
     moved_by_rounding(true);
 }
@@ -90,8 +90,9 @@ fn moved_by_rounding(refine: bool) {
         vec![vec![p(-0.6, 0.1), p(0.0, 0.1), p(0.6, 0.1)], vec![p(0.0, 0.1), p(0.1, 0.6)]],
         vec![vec![p(-0.6, 0.0), p(0.6, 0.0)], vec![p(0.0, 0.5), p(0.0, -0.5)]],
     ];
-    let some = if refine { 0..7 } else { 4..6 };
-    for lines in &all[some] {
+    // each of them, those with sharp kinks and branches in refined cells
+    let some: &[usize] = if refine { &[1, 2, 5, 6] } else { &[0, 3, 4, 5] };
+    for lines in some.iter().map(|&k| &all[k]) {
         let exact = solved_factors(lines, AS_IT_IS, refine);
         let size = 10f64.powf(-random.between(9.0, 13.0));
         let mut known: Vec<(Vec2, Vec2)> = Vec::new();

@@ -58,7 +58,7 @@ fn the_terms_are_in_the_space() {
 #[test]
 #[ignore = "slow: up to six terms"]
 fn many_terms_are_in_the_space() {
-    assert_in_the_space(&[(1, 1), (2, 3), (3, 5), (4, 7), (6, 11)]);
+    assert_in_the_space(&[(2, 3), (4, 7), (6, 11)]);
 }
 
 /// Where the material varies there is no series: the step is that of the first term alone, with free components.
