@@ -171,9 +171,7 @@ fn stress_lobe(theta: f64, level: f64) -> f64 {
 #[test]
 fn stress_lobes_of_mode_one() {
     let tip = vec2(-0.4, 0.2);
-    for (width, angle) in
-        [1.0, 1e-9, 1e-12].into_iter().flat_map(|w| [0.0f64, 0.6, -2.1].map(|a| (w, a)))
-    {
+    for (width, angle) in [(1.0, 0.0), (1.0, 0.6), (1e-9, -2.1), (1e-12, 0.0), (1e-12, 0.6f64)] {
         let (sin, cos) = angle.sin_cos();
         let d = vec2(cos, sin);
         let dataset = mode_one(tip, d);

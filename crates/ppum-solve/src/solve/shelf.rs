@@ -153,7 +153,7 @@ mod tests {
     fn bits_are_the_same_with_a_shelf() {
         let mut random = Random(17);
         for more in [PULLED, HELD] {
-            let problems = plate(&mut random, 3, more);
+            let problems = plate(&mut random, 2, more);
             let shelf = Shelf::default();
             assert!(solved(&problems, None) == solved(&problems, Some(&shelf)), "{more}");
         }
@@ -162,7 +162,7 @@ mod tests {
     /// Most of the plate is taken over where cracks grow, and nothing where all patches are others or the law is one.
     #[test]
     fn what_is_taken_over() {
-        let [first, second, _] = plate(&mut Random(3), 5, PULLED);
+        let [first, second, _] = plate(&mut Random(3), 4, PULLED);
         let part = |before: &Problem, after: &Problem| {
             let shelf = Shelf::default();
             solved(std::slice::from_ref(before), Some(&shelf));

@@ -74,7 +74,7 @@ fn is_of_the_plate(action: Action) -> bool {
 
 #[test]
 fn the_window_never_waits_for_work_of_others() {
-    let mut window = window(plate(), [900.0, 600.0]);
+    let mut window = window(plate(), [700.0, 450.0]);
     for entry in ALL.iter().filter(|entry| is_of_the_plate(entry.action)) {
         settle(&mut window);
         let ctx = window.ctx.clone();
@@ -95,7 +95,7 @@ fn the_window_never_waits_for_work_of_others() {
                 modifiers: Modifiers::NONE,
                 source: egui::MouseWheelSource::Wheel,
             };
-            [Event::PointerMoved(pos2(300.0, 250.0)), wheel]
+            [Event::PointerMoved(pos2(250.0, 220.0)), wheel]
                 .into_iter()
                 .for_each(|event| window.event(event));
             window.step();

@@ -156,7 +156,7 @@ fn a_wheel_at_the_limits_moves_nothing() {
         window.state_mut().session.panes[0].place = Some(Place { center, width: start });
         settle(&mut window);
         let mut last = None;
-        for _ in 0..40 {
+        for _ in 0..20 {
             turn(&mut window, place, lines);
             let now = place_of(&window);
             if last.is_some_and(|last: Place| last.width == now.width) {

@@ -68,7 +68,7 @@ fn keys_enlarge_move_and_show_the_whole_plate() {
 fn the_wheel_keeps_the_point_below_the_cursor() {
     let mut window = window(plate(), [900.0, 600.0]);
     let mut random = Random(3);
-    for _ in 0..12 {
+    for _ in 0..6 {
         // the colour bar on the right has the wheel for itself
         let rect = stage(&window).shrink(60.0);
         let rect = rect.with_max_x(rect.max.x - 80.0);

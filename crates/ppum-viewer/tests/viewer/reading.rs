@@ -312,10 +312,9 @@ fn the_pointer_may_go_anywhere() {
 
 /// An example, solved coarsely.
 fn solved(text: &str) -> Dataset {
-    let text: Vec<_> = text
-        .lines()
-        .map(|line| if line.starts_with("level = ") { "level = 3" } else { line })
-        .collect();
+    let is_fine = |line: &str| line.starts_with("level = ") || line.starts_with("cells = ");
+    let text: Vec<_> =
+        text.lines().map(|line| if is_fine(line) { "level = 3" } else { line }).collect();
     let problem = Problem::parse(&text.join("\n"), "plate", Path::new(".")).expect("a problem");
     solve(&problem, unwatched()).expect("it can be solved")
 }

@@ -288,6 +288,7 @@ fn places_that_nothing_can_show_are_the_whole_plate() {
         let is_final = |lab: &Lab| lab.viewer().stages[0].frames.newest().map(|f| f.is_final);
         assert_eq!(is_final(&lab), Some(true), "{place}");
     }
+    lab.window.set_size(egui::vec2(600.0, 400.0));
     for (center, width) in [
         ([0.0; 2], 0.0),
         ([0.0; 2], f64::NAN),

@@ -22,9 +22,9 @@ use crate::lab::{Lab, shot};
 
 const TEXT: &str = include_str!("../../../../examples/centre-crack.toml");
 
-/// The centre crack with cells of some level.
+/// The centre crack with cells of some level, at order 1.
 fn text(level: u32) -> String {
-    TEXT.replace("level = 6", &format!("level = {level}"))
+    TEXT.replace("level = 6\norder = 2", &format!("level = {level}\norder = 1"))
 }
 
 /// A window with a problem file that is open.
@@ -441,7 +441,7 @@ fn saving_nothing_is_an_error() {
 
 #[test]
 fn a_solver_is_not_stopped_by_closing_without_a_word() {
-    let mut lab = lab(&text(8).replace("order = 2", "order = 4"));
+    let mut lab = lab(&text(8).replace("order = 1", "order = 4"));
     lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
     lab.until("it is solved", |viewer| viewer.solving.running().is_some());
     assert!(!closes(&mut lab));

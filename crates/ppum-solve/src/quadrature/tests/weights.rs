@@ -140,7 +140,7 @@ fn all_weights_of_the_library_are_integrated() {
     for entry in &WEIGHTS {
         let weight = WeightFunction::from_library(entry.name).expect("of the library");
         let case = Case::new(graded(&mut Random(4), weight.clone()), Vec::new(), Vec::new());
-        let fine = energy(&case, Orders { parts: 4, ..Orders::uniform(16) });
+        let fine = energy(&case, Orders { parts: 3, ..Orders::uniform(12) });
         let error = |orders: Orders| (energy(&case, orders) / fine - 1.0).abs();
         let (orders, _) =
             Orders::for_weight(2, 1.3, weight.breakpoints(), &spline(weight.clone()), accuracy);

@@ -122,7 +122,7 @@ const FLAT: f64 = 1.25;
 #[test]
 fn whatever_hands_do_the_window_stays() {
     let minutes = number("PPUM_HANDS_MINUTES");
-    let count = number("PPUM_HANDS").unwrap_or(if minutes.is_some() { u64::MAX } else { 150 });
+    let count = number("PPUM_HANDS").unwrap_or(if minutes.is_some() { u64::MAX } else { 100 });
     let most = minutes.map(|minutes| Duration::from_secs(60 * minutes));
     let seeds = number("PPUM_HANDS_SEED").map_or(vec![1, 2], |seed| vec![seed]);
     for seed in seeds {
