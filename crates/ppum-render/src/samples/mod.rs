@@ -144,11 +144,13 @@ pub fn means<T: Sample>(
 /// Samples that are held at once, unless a row of tiles has more: 32 MiB.
 const HELD: u32 = 1 << 22;
 /// Rows of the renderer's bands.
-const BAND: u32 = 16;
+const BAND: u32 = 32;
 
 /// Rows of samples of a strip: whole bands, and whole rows of pixels.
 fn rows(finer: &View, samples: Samples) -> u32 {
-    let least = BAND * samples.side();
+    let side = samples.side();
+    let least =
+        (1..side).map(|k| k * BAND).find(|rows| rows.is_multiple_of(side)).unwrap_or(side * BAND);
     least * (HELD / finer.pixels[0] / least).max(1)
 }
 

@@ -162,7 +162,7 @@ mod tests {
     /// Most of the plate is taken over where cracks grow, and nothing where all patches are others or the law is one.
     #[test]
     fn what_is_taken_over() {
-        let [first, second, _] = plate(&mut Random(3), 4, PULLED);
+        let [first, second, _] = plate(&mut Random(3), 5, PULLED);
         let part = |before: &Problem, after: &Problem| {
             let shelf = Shelf::default();
             solved(std::slice::from_ref(before), Some(&shelf));

@@ -35,7 +35,7 @@ type Window = Harness<'static, Viewer>;
 /// A plate with a crack, refined so many times.
 fn refined(level: usize) -> Dataset {
     static LEVELS: LazyLock<Vec<Dataset>> = LazyLock::new(|| {
-        (2..=5)
+        (3..=6)
             .map(|level| {
                 let text = include_str!("../../../../examples/centre-crack.toml");
                 let text = text.replace("level = 6", &format!("level = {level}"));
@@ -45,7 +45,7 @@ fn refined(level: usize) -> Dataset {
             })
             .collect()
     });
-    LEVELS[level - 2].clone()
+    LEVELS[level - 3].clone()
 }
 
 /// A window with two views whose difference is shown on the right.
@@ -310,7 +310,7 @@ fn steps_with_different_cracks_are_subtracted() {
 /// What is refined further differs less from what it was.
 #[test]
 fn refinement_makes_differences_small() {
-    let apart: Vec<f64> = [(2, 3), (3, 4), (4, 5)]
+    let apart: Vec<f64> = [(3, 4), (4, 5), (5, 6)]
         .into_iter()
         .map(|(coarse, fine)| {
             let mut window = pair(refined(coarse), refined(fine), [700.0, 400.0], Backend::Cpu);
