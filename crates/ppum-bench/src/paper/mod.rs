@@ -1,6 +1,6 @@
 //! Table 1 of Üffinger et al. 2011 beside what draws here, and what else drawing depends on.
 //!
-//! Before anything is measured, every frame is compared with the reference ([`agreement`]). Then scenes and
+//! Before anything is measured, every frame is compared with the reference (`agreement`). Then scenes and
 //! ways take turns, each frame with a view of its own: a machine that grows busy slows all of them down.
 
 mod agreement;
