@@ -37,12 +37,20 @@ const LEAST_DIVISIONS: usize = 100;
 /// Polynomials of a cell whose products with a load are compared.
 const MOMENTS: usize = 6;
 
+/// Sides of a crack: functions jump across it, and what presses its faces apart has no sum over both.
+const SIDES: usize = 2;
+
 /// A rule with its points.
 pub(crate) trait Points: Clone + Send + Sync {
     /// Calls `visit` with places, normals (zero inside the plate) and weights.
     fn visit(&self, visit: &mut dyn FnMut(Vec2, Vec2, f64));
 
     fn doubt(&self) -> &Doubt;
+
+    /// The side of the crack whose face the points lie on; above if they lie on none.
+    fn side(&self) -> Side {
+        Side::Above
+    }
 }
 
 impl Points for Rule {
@@ -64,6 +72,10 @@ impl Points for EdgeRule {
 
     fn doubt(&self) -> &Doubt {
         &self.doubt
+    }
+
+    fn side(&self) -> Side {
+        self.face.map_or(Side::Above, |face| face.side)
     }
 }
 
@@ -241,7 +253,7 @@ impl<R: Points> Load<'_, R> {
             rule.visit(&mut |x, normal, weight| {
                 let way = x - center;
                 let values = (self.values)(x, normal);
-                moments.add(vec2(way.x / half.x, way.y / half.y), values, weight);
+                moments.add(rule.side(), vec2(way.x / half.x, way.y / half.y), values, weight);
             });
         }
         moments
@@ -251,15 +263,16 @@ impl<R: Points> Load<'_, R> {
 /// Integrals of a load times polynomials of a cell.
 #[derive(Default)]
 struct Moments {
-    sums: [[f64; MOMENTS]; 2],
+    /// Of each side of a crack and each component.
+    sums: [[[f64; MOMENTS]; 2]; SIDES],
     magnitude: f64,
     measure: f64,
 }
 
 impl Moments {
-    fn add(&mut self, Vec2 { x, y }: Vec2, values: [f64; 2], weight: f64) {
+    fn add(&mut self, side: Side, Vec2 { x, y }: Vec2, values: [f64; 2], weight: f64) {
         let polynomials = [1.0, x, y, x * x, x * y, y * y];
-        for (sums, value) in self.sums.iter_mut().zip(values) {
+        for (sums, value) in self.sums[usize::from(side == Side::Below)].iter_mut().zip(values) {
             sums.iter_mut().zip(polynomials).for_each(|(sum, p)| *sum += weight * value * p);
         }
         self.magnitude += weight * values.iter().map(|v| v.abs()).sum::<f64>();
@@ -269,8 +282,8 @@ impl Moments {
     /// True if the integrals differ by no more than a load of this size.
     fn is_near(&self, other: &Self, load: f64) -> bool {
         let allowed = load * self.measure;
-        let pairs = self.sums.iter().flatten().zip(other.sums.iter().flatten());
-        pairs.into_iter().all(|(a, b)| (a - b).abs() <= allowed)
+        let [own, other] = [self, other].map(|moments| moments.sums.as_flattened().as_flattened());
+        own.iter().zip(other).all(|(a, b)| (a - b).abs() <= allowed)
     }
 }
 

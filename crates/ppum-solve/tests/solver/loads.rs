@@ -18,6 +18,9 @@ use std::path::Path;
 /// Adaptive rules aim at 1e-10 of the load.
 const ACCURACY: f64 = 1e-9;
 
+/// Rounding of systems whose condition is 1e5.
+const EQUAL: f64 = 1e-9;
+
 /// A plate [−1, 1]² held at the bottom, 2^level cells along each side, none of which is divided.
 fn plate(rest: &str, level: u32, order: u32) -> Dataset {
     solution(rest, &format!("level = {level}\norder = {order}\nrefine = false"))
@@ -145,6 +148,30 @@ fn rims_and_faces() {
     let dataset = solution(&(part + crack), "level = 2");
     let [force, moment] = resultant(&dataset);
     assert!((force - 0.246).abs() < ACCURACY && (moment - 0.246 * 0.07).abs() < ACCURACY);
+}
+
+/// A pressure that jumps on both faces of a crack is one on each: that they balance each other tells nothing of their rules.
+#[test]
+fn pressures_of_both_faces() {
+    let mut random = Random(7);
+    for kink in [0.0, 0.3] {
+        let at = random.between(0.1, 0.3);
+        let crack = format!("[[crack]]\npoints = [[-0.4, -0.05], [0.1, {kink}], [0.3, -0.35]]\n");
+        let pressed = |faces: &[&str]| {
+            let on = |face: &&str| {
+                format!(
+                    "[[boundary]]\non = {{ crack = 0 {face} }}\npressure = \"if(x > {at}, 1, 0)\"\n"
+                )
+            };
+            plate(&(crack.clone() + &faces.iter().map(on).collect::<String>()), 3, 2)
+        };
+        let together = pressed(&[""]);
+        let apart = pressed(&[", face = \"above\"", ", face = \"below\""]);
+        let tips = |dataset: &Dataset| dataset.steps[0].intensities.clone();
+        for (a, b) in tips(&together).iter().zip(&tips(&apart)) {
+            assert!((a.k1 - b.k1).abs() < EQUAL && (a.k2 - b.k2).abs() < EQUAL, "{a:?} {b:?}");
+        }
+    }
 }
 
 /// −u″ = f with f = 1 up to a, u(0) = 0, u′(1) = 0: u(1) = ∫ x f = a²/2. The Green's function of the end is x,
