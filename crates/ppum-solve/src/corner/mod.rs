@@ -29,12 +29,8 @@ const SAME_ANGLE: f64 = 1e-6;
 /// Stand-in for 1 − λ where loads jump.
 const LOGARITHM: f64 = 0.3;
 
-/// Exponent, that of 42°, from which on a kink of a crack is gentle: the field along a free crack hardly sees
-/// it. At 41° factors are right to 3e-5 without finer cells, at 90° they are off by 0.7 %.
-const GENTLE: f64 = 0.685;
-
-/// Exponent, that of 24°, from which on a corner of a hole has no functions: cells see its field well, and vertices of
-/// polygons that follow curves are no corners.
+/// Exponent, that of a turn of 24°, from which on a kink or a corner of a hole has no functions: cells see its field well,
+/// and vertices of paths that follow curves are no corners.
 const MILD: f64 = 0.8;
 
 /// Most corners with functions: each has up to eight, which drawing compiles.
@@ -71,11 +67,11 @@ pub(crate) struct Wedge {
 impl Corner {
     /// True for a kink that the field along a free crack hardly sees.
     pub(crate) fn is_gentle(&self) -> bool {
-        matches!(self.nature, Nature::Kink(_)) && self.exponent > GENTLE
+        matches!(self.nature, Nature::Kink(_)) && self.is_mild()
     }
 
     fn is_mild(&self) -> bool {
-        self.is_gentle() || self.exponent > MILD
+        self.exponent > MILD
     }
 
     /// True if a box lies in the disc around the corner in which its wedge is all there is.

@@ -162,3 +162,28 @@ fn an_arc_of_many_segments() {
     println!("limit {limit:?}: {:.1e}", apart(limit, exact));
     assert!(apart(limit, exact) < 3e-3, "{limit:?} {exact:?}");
 }
+
+/// A turn of the crack from (−0.5, 0) by the origin to the end that is given, and (K_I, K_II) of both tips by independent hp finite
+/// elements of order 12.
+const TURNS: [([f64; 2], [[f64; 2]; 2]); 2] = [
+    ([0.4, 0.3], [[1.508952340, -0.067842413], [1.1193465313, 0.8933126020]]),
+    ([0.44, 0.24], [[1.570275403, -0.067735143], [1.327223874, 0.758464465]]),
+];
+
+/// Fields of kinks are functions from a turn of 24° on: stresses beside one of 30° are as infinite as beside one of 90°.
+#[test]
+fn kinks_of_small_turns_are_resolved() {
+    let plate = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+    for (end, expected) in TURNS {
+        let crack = [[-0.5, 0.0], [0.0, 0.0], end];
+        let set = discretization(Cells::Level(4), 4);
+        let solution = solved(&pulled(plate, &crack, [0.0, 1.0], set));
+        for (tip, k) in solution.steps[0].intensities.iter().zip(expected) {
+            let off = (tip.k1 - k[0]).hypot(tip.k2 - k[1]);
+            let told = tip.error.expect("an estimated error");
+            println!("{off:.1e}, told {told:.1e}");
+            // without functions 8e-5, told 2e-5
+            assert!(off < 2e-6 && off < 3.0 * told && told < 30.0 * off, "{end:?}: {off}, {told}");
+        }
+    }
+}
