@@ -120,7 +120,7 @@ mod tests {
             ("look", &["arguments"]),
             ("target", &["standard"]),
             ("tips", &["number"]),
-            ("warnings", &["number", "output"]),
+            ("warnings", &["output"]),
         ],
         &[
             ("dataset", &["given", "standard"]),

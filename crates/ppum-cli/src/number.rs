@@ -1,8 +1,9 @@
-//! Numbers in results.
+//! Numbers in results, and tables of them.
 
 use std::io::{self, Write};
 
-use serde::{Serialize, Serializer};
+pub(crate) use ppum_scene::facts::Number;
+use serde::Serialize;
 
 /// Prints a result as JSON.
 pub(crate) fn json(out: &mut dyn Write, result: &impl Serialize) -> io::Result<()> {
@@ -10,38 +11,29 @@ pub(crate) fn json(out: &mut dyn Write, result: &impl Serialize) -> io::Result<(
     writeln!(out)
 }
 
-/// A number that may not be finite. JSON has finite numbers only: +∞ is the string `"inf"`, −∞ is
-/// `"-inf"`, and what is undefined (NaN) is `null`. Finite numbers are written with the digits that
-/// read back as the same f64.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Number(pub(crate) f64);
-
-impl Serialize for Number {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self.0 {
-            v if v.is_nan() => serializer.serialize_none(),
-            f64::INFINITY => serializer.serialize_str("inf"),
-            f64::NEG_INFINITY => serializer.serialize_str("-inf"),
-            v => serializer.serialize_f64(v),
-        }
-    }
-}
-
 /// `1 tip`, `2 tips`.
 pub(crate) fn count(n: usize, one: &str, more: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { more })
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn json_of_any_number() {
-        let json = |v| serde_json::to_string(&Number(v)).unwrap();
-        assert_eq!(json(0.1), "0.1");
-        assert_eq!(json(f64::NAN), "null");
-        assert_eq!(json(f64::INFINITY), "\"inf\"");
-        assert_eq!(json(f64::NEG_INFINITY), "\"-inf\"");
+/// Lines of words in columns, to the right; the last column to the left if it `ends_in_words`.
+pub(crate) fn columns(
+    out: &mut dyn Write,
+    lines: &[Vec<String>],
+    ends_in_words: bool,
+) -> io::Result<()> {
+    let count = lines.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        let words = lines.iter().filter_map(|line| line.get(column));
+        words.map(|word| word.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<_> = (0..count).map(width).collect();
+    for line in lines {
+        let words = line.iter().zip(&widths).enumerate().map(|(k, (word, &width))| {
+            let is_left = ends_in_words && k + 1 == count;
+            if is_left { word.clone() } else { format!("{word:>width$}") }
+        });
+        writeln!(out, "{}", words.collect::<Vec<_>>().join("  ").trim_end())?;
     }
+    Ok(())
 }

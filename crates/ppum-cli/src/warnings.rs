@@ -1,43 +1,20 @@
 //! Warnings of the solver as the commands show them.
 
-use ppum::dataset::Warning;
-use serde::Serialize;
+use ppum_scene::facts::Warning;
 
-use crate::number::Number;
 use crate::output::tell;
 
-/// A warning about a step.
-#[derive(Debug, Serialize)]
-pub(crate) struct WarningRow {
-    step: usize,
-    kind: String,
-    at: Option<[f64; 2]>,
-    value: Number,
-    limit: Number,
-    message: String,
-}
-
-/// The warnings about step number `step`.
-pub(crate) fn rows(step: usize, warnings: &[Warning]) -> Vec<WarningRow> {
-    let row = |warning: &Warning| {
-        let Warning { kind, at, value, limit, message } = warning.clone();
-        let (at, value, limit) = (at.map(Into::into), Number(value), Number(limit));
-        WarningRow { step, kind, at, value, limit, message }
-    };
-    warnings.iter().map(row).collect()
-}
-
 /// Writes warnings to standard error.
-pub(crate) fn warn(warnings: &[WarningRow]) {
+pub(crate) fn warn(warnings: &[Warning]) {
     for warning in warnings {
         tell(&format!("warning: {}", warning.message));
     }
 }
 
 /// Writes warnings of the steps of a series: those of a kind in full for the first step that has them, and the numbers of all others.
-pub(crate) fn warn_of_steps(warnings: &[WarningRow]) {
+pub(crate) fn warn_of_steps(warnings: &[Warning]) {
     let mut steps: Vec<(&str, Vec<usize>)> = Vec::new();
-    for WarningRow { step, kind, message, .. } in warnings {
+    for Warning { step, kind, message, .. } in warnings {
         let known = steps.iter().position(|(known, _)| known == kind);
         let of_kind = known.unwrap_or(steps.len());
         if known.is_none() {
@@ -66,13 +43,6 @@ fn runs(steps: &[usize]) -> String {
     });
     let name = if steps.len() == 1 { "step" } else { "steps" };
     format!("{name} {}", runs.collect::<Vec<_>>().join(", "))
-}
-
-impl WarningRow {
-    /// The finding and its remedy.
-    pub(crate) fn message(&self) -> &str {
-        &self.message
-    }
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@ pub mod command;
 pub mod compare;
 pub mod deformed;
 pub mod drawing;
+#[cfg(feature = "problem")]
+pub mod facts;
 pub mod layers;
 pub mod minus;
 pub mod moving;
@@ -25,7 +27,6 @@ pub mod shared;
 pub mod shot;
 mod stations;
 pub mod table;
-pub mod tips;
 mod written;
 
 #[cfg(test)]
@@ -37,10 +38,10 @@ mod tests {
     const FLOORS: Floors<'_> = &[
         &[
             ("drawing", &[]),
+            ("facts", &[]),
             ("notice", &[]),
             ("overlays", &[]),
             ("table", &[]),
-            ("tips", &[]),
             ("written", &[]),
         ],
         &[

@@ -3,11 +3,8 @@
 mod adapters;
 mod extrema;
 mod formulas;
-pub(super) mod growth;
-pub(super) mod reactions;
-pub(super) mod report;
+mod report;
 mod series;
-mod solver;
 mod text;
 
 use std::io::Write;

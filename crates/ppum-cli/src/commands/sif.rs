@@ -7,6 +7,7 @@ use anyhow::{bail, ensure};
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity, Warning};
 use ppum::text::Places;
+use ppum_scene::facts::{self, Tip, all_tips};
 use ppum_scene::range::places;
 use ppum_solve::diagnostics::effort::{EffortError, check_effort};
 use ppum_solve::diagnostics::{kind, recompute};
@@ -18,8 +19,8 @@ use crate::dataset::{named, open_results, series};
 use crate::number::json;
 use crate::progress::Bar;
 use crate::standard;
-use crate::tips::{Tip, all_tips, table};
-use crate::warnings::{WarningRow, rows, warn, warn_of_steps};
+use crate::tips::table;
+use crate::warnings::{warn, warn_of_steps};
 
 /// Print the stress intensity factors of all crack tips, T, the energy release rate and the angle of growth
 ///
@@ -49,7 +50,7 @@ Examples:
 struct Report {
     file: String,
     tips: Vec<Tip>,
-    warnings: Vec<WarningRow>,
+    warnings: Vec<facts::Warning>,
 }
 
 impl Args {
@@ -58,7 +59,7 @@ impl Args {
         let (tips, warnings, places) =
             if self.recompute { self.recomputed(&name)? } else { self.stored(&name)? };
         let report = Report { file: self.file.display().to_string(), tips, warnings };
-        match report.tips.iter().any(|tip| tip.step() > 0) {
+        match report.tips.iter().any(|tip| tip.step > 0) {
             true => warn_of_steps(&report.warnings),
             false => warn(&report.warnings),
         }
@@ -87,9 +88,10 @@ impl Args {
         let (mut tips, mut warnings, mut all) = (Vec::new(), Vec::new(), series.head().clone());
         for index in 0..series.len() {
             let dataset = named(&self.file, series.dataset(index))?;
-            let (found, remarks) = recomputed(name, &dataset)?;
-            tips.extend(found.into_iter().map(|tip| tip.of_step(index)));
-            warnings.extend(rows(index, &remarks));
+            let (mut found, remarks) = recomputed(name, &dataset)?;
+            found.iter_mut().for_each(|tip| tip.step = index);
+            tips.extend(found);
+            warnings.extend(facts::warnings(index, &remarks));
             all.steps.push(named(&self.file, series.results(index))?);
         }
         Ok((tips, warnings, places(&all)))
@@ -97,7 +99,7 @@ impl Args {
 }
 
 /// The tips of all steps, the warnings, and the writer of places.
-type Found = (Vec<Tip>, Vec<WarningRow>, Places);
+type Found = (Vec<Tip>, Vec<facts::Warning>, Places);
 
 fn refuse_poisson(name: &str, dataset: &Dataset) -> anyhow::Result<()> {
     if dataset.equation.elastic().is_none() {
@@ -107,7 +109,7 @@ fn refuse_poisson(name: &str, dataset: &Dataset) -> anyhow::Result<()> {
 }
 
 /// The factors that the solver stored.
-fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<WarningRow>)> {
+fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<facts::Warning>)> {
     let (mut all, mut warnings) = (Vec::new(), Vec::new());
     for (index, step) in dataset.steps.iter().enumerate() {
         let is_told = step.warnings.iter().any(|warning| warning.kind == kind::NO_ROOM);
@@ -117,7 +119,7 @@ fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<Warnin
             "{name}: holds no stress intensity factors; --recompute finds them from the field"
         );
         all.extend(all_tips(dataset, index));
-        warnings.extend(rows(index, &step.warnings));
+        warnings.extend(facts::warnings(index, &step.warnings));
     }
     Ok((all, warnings))
 }

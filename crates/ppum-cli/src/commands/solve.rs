@@ -8,14 +8,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
 use ppum::dataset::{Dataset, Record, Step};
+use ppum_scene::facts::{self, Tip, all_tips};
+use ppum_scene::range::places;
 use ppum_solve::problem::Problem;
 use ppum_solve::report::{LinearKind, SolverReport, Stop};
 use ppum_solve::solve::Plan;
 use serde::Serialize;
-
-use super::info::reactions::{self, ReactionRow};
-use super::info::report::{HistoryRow, history_row};
-use ppum_scene::range::places;
 
 use crate::arguments::positive;
 use crate::memory;
@@ -25,8 +23,8 @@ use crate::progress::Bar;
 use crate::standard::{self, is_standard};
 use crate::target;
 use crate::threads;
-use crate::tips::{Tip, all_tips, table};
-use crate::warnings::{WarningRow, rows, warn};
+use crate::tips::table;
+use crate::warnings::warn;
 
 /// Solve a problem and write the dataset
 #[derive(Debug, clap::Args)]
@@ -170,10 +168,10 @@ struct Report {
     /// Of all phases.
     seconds: f64,
     phases: Vec<PhaseRow>,
-    history: Vec<HistoryRow>,
+    history: Vec<facts::Record>,
     tips: Vec<Tip>,
-    reactions: Vec<ReactionRow>,
-    warnings: Vec<WarningRow>,
+    reactions: Vec<facts::Reaction>,
+    warnings: Vec<facts::Warning>,
 }
 
 /// The course of an adaptation.
@@ -253,10 +251,10 @@ impl Report {
             solver: report.solver.and_then(LinearKind::of_code).map(LinearKind::word),
             seconds: times.iter().map(|r| r.value).sum(),
             phases: times.iter().map(phase).collect(),
-            history: numbers.into_iter().map(history_row).collect(),
+            history: numbers.into_iter().map(facts::Record::new).collect(),
             tips: if is_elastic { all_tips(dataset, last) } else { Vec::new() },
-            reactions: reactions::rows(dataset, step),
-            warnings: rows(last, &step.warnings),
+            reactions: facts::reactions(dataset, step),
+            warnings: facts::warnings(last, &step.warnings),
         }
     }
 

@@ -8,9 +8,9 @@ use ppum::decompose::{KINDS, Part};
 use ppum::function::{Function, FunctionKind};
 use ppum::text::Places;
 use ppum::weight::WeightFunction;
+use ppum_scene::facts::{Tip, all_tips};
 use ppum_scene::overlays::Overlay;
 use ppum_scene::range::places;
-use ppum_scene::tips::{Tip, stored};
 
 /// What a dataset has at a step.
 #[derive(Default)]
@@ -61,9 +61,10 @@ impl Facts {
         }
         *self = Self { of: Some((Arc::clone(dataset), step)), ..Self::default() };
         self.places = Some(places(dataset));
-        let Some(step) = dataset.steps.get(step) else { return };
+        let index = step;
+        let Some(step) = dataset.steps.get(index) else { return };
         self.is_elastic = dataset.equation.elastic().is_some();
-        self.tips = stored(dataset, step);
+        self.tips = all_tips(dataset, index);
         self.patches = step.partition.len();
         self.weight = weight(&step.partition.weight);
         self.without = without(dataset, step);

@@ -6,8 +6,8 @@ use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::Watcher;
 use ppum::vec2::Vec2;
+use ppum_scene::facts::{HEADS, Tip};
 use ppum_scene::profile::Along;
-use ppum_scene::tips::{HEADS, Tip};
 use ppum_solve::diagnostics::effort::check_effort;
 use ppum_solve::intensity::{CircleError, clearance, on_circle};
 use ppum_solve::problem::Problem;
@@ -153,10 +153,10 @@ const PREFERRED: f64 = 0.9;
 /// `K_I = 1.23, K_II = 0, T = …, G = …, angle …` of the circle, and below it the factors that the solver stored for the tip, with their
 /// estimated error. The field of the circle has that error too.
 #[must_use]
-pub fn told(dataset: &Dataset, step: usize, factors: &TipIntensity) -> String {
-    let Some(step) = dataset.steps.get(step) else { return String::new() };
+pub fn told(dataset: &Dataset, index: usize, factors: &TipIntensity) -> String {
+    let Some(step) = dataset.steps.get(index) else { return String::new() };
     let line = |factors: &TipIntensity| {
-        let words = Tip::new(dataset, step, factors.tip, Some(factors)).words();
+        let words = Tip::new(dataset, index, factors).words();
         let known = HEADS.iter().zip(&words).take(5).filter(|(_, word)| *word != "–");
         let all = known.map(|(head, word)| match *head {
             "angle" => format!("angle {word}"),

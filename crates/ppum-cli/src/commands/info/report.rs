@@ -1,39 +1,27 @@
 //! The report of `ppum info`, in the shape of its JSON.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
-use ppum::crack::{Crack, CrackEnd, tips};
-use ppum::dataset::{Dataset, Equation, FieldData, Partition, Record, Step, StressState};
-use ppum::domain::Hole;
-use ppum::expression::Expression;
+use ppum::crack::{self, tips};
+use ppum::dataset::{self, Dataset, FieldData, Partition, Step};
 use ppum::field::{Field, FieldError};
 use ppum::quantity::available;
-use ppum::text::{Places, trimmed};
-use ppum::vec2::Vec2;
+use ppum::text::Places;
 use ppum_render::cells;
-use ppum_solve::report::{SolverReport, is_of_course, is_of_level, is_of_phase};
+use ppum_scene::facts::{About, Crack, Record, Results};
+use ppum_scene::range::places;
+use ppum_solve::report::{is_of_course, is_of_level, is_of_phase};
 use serde::Serialize;
 
 use super::formulas::{self, FunctionRow, QuantityRow, TableRow};
-use super::growth::GrowthRow;
-use super::reactions::{self, ReactionRow};
 use super::series::StepRow;
-use super::solver::SolverRow;
-use ppum_scene::range::places;
-
 use crate::families::{Family, blocks, families};
-use crate::number::Number;
-use crate::tips::{Tip, all_tips};
-use crate::warnings::{WarningRow, rows};
 
 #[derive(Debug, Serialize)]
 pub(super) struct Report {
     pub(super) file: String,
-    pub(super) title: String,
-    pub(super) program: String,
-    pub(super) domain: Domain,
-    pub(super) equation: EquationRow,
+    #[serde(flatten)]
+    pub(super) about: About,
     pub(super) quantities: Vec<QuantityRow>,
     pub(super) tables: Vec<TableRow>,
     /// The number of steps.
@@ -46,66 +34,9 @@ pub(super) struct Report {
     /// The writer of places for people.
     #[serde(skip)]
     pub(super) places: Places,
-}
-
-#[derive(Debug, Serialize)]
-pub(super) struct Domain {
-    pub(super) min: [f64; 2],
-    pub(super) max: [f64; 2],
-    pub(super) holes: Vec<HoleRow>,
-}
-
-#[derive(Debug, Serialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
-pub(super) enum HoleRow {
-    Circle { center: [f64; 2], radius: f64 },
-    Polygon { points: Vec<[f64; 2]> },
-}
-
-impl From<&Hole> for HoleRow {
-    fn from(hole: &Hole) -> Self {
-        match hole {
-            Hole::Circle { center, radius } => {
-                Self::Circle { center: (*center).into(), radius: *radius }
-            }
-            Hole::Polygon { points } => {
-                Self::Polygon { points: points.iter().copied().map(Vec2::into).collect() }
-            }
-        }
-    }
-}
-
-#[derive(Debug, Serialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
-pub(super) enum EquationRow {
-    Elasticity { young: Constant, poisson: Constant, state: &'static str },
-    Poisson { conductivity: Constant },
-}
-
-/// A constant of the material: a number, or the text of a formula.
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-pub(super) enum Constant {
-    Number(f64),
-    Formula(String),
-}
-
-impl From<&Expression> for Constant {
-    fn from(expression: &Expression) -> Self {
-        match expression.constant() {
-            Some(value) => Self::Number(value),
-            None => Self::Formula(expression.text().to_owned()),
-        }
-    }
-}
-
-impl fmt::Display for Constant {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Number(value) => f.write_str(&trimmed(*value)),
-            Self::Formula(text) => f.write_str(text),
-        }
-    }
+    /// The larger side of the domain's box.
+    #[serde(skip)]
+    pub(super) arm: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -120,7 +51,7 @@ pub(super) struct StepReport {
     pub(super) weight_breakpoints: Vec<f64>,
     pub(super) levels: Vec<Level>,
     pub(super) orders: Vec<Order>,
-    pub(super) cracks: Vec<CrackRow>,
+    pub(super) cracks: Vec<Crack>,
     pub(super) tips: Vec<TipRow>,
     pub(super) functions: Vec<FunctionRow>,
     /// The functions for people.
@@ -131,22 +62,11 @@ pub(super) struct StepReport {
     pub(super) attributes: Vec<String>,
     /// What `render` draws on the cells.
     pub(super) cell_values: Vec<String>,
-    pub(super) unknowns: usize,
-    /// Energy of the solution, if the solver has told it.
-    pub(super) energy: Option<Number>,
-    pub(super) solver: Option<SolverRow>,
-    pub(super) history: Vec<HistoryRow>,
-    /// What the tips do next, in a series of cracks that grow.
-    pub(super) growth: Option<GrowthRow>,
+    #[serde(flatten)]
+    pub(super) results: Results,
     /// Records that no table tells of.
     #[serde(skip)]
-    pub(super) other_history: Vec<HistoryRow>,
-    pub(super) intensities: Vec<Tip>,
-    /// Those, and the tips that have none.
-    #[serde(skip)]
-    pub(super) all_tips: Vec<Tip>,
-    pub(super) warnings: Vec<WarningRow>,
-    pub(super) reactions: Vec<ReactionRow>,
+    pub(super) other_history: Vec<String>,
 }
 
 /// Cells of a level of the tree.
@@ -164,12 +84,6 @@ pub(super) struct Order {
 }
 
 #[derive(Debug, Serialize)]
-pub(super) struct CrackRow {
-    pub(super) points: Vec<[f64; 2]>,
-    pub(super) ends: [&'static str; 2],
-}
-
-#[derive(Debug, Serialize)]
 pub(super) struct TipRow {
     pub(super) crack: u32,
     pub(super) end: &'static str,
@@ -184,28 +98,20 @@ pub(super) struct FieldRow {
     pub(super) exact: Vec<String>,
 }
 
-#[derive(Debug, Serialize)]
-pub(crate) struct HistoryRow {
-    pub(super) name: String,
-    pub(super) value: Number,
-    pub(super) unit: String,
-}
-
 impl Report {
     /// The report of a dataset and one of its steps.
     pub(super) fn new(file: String, dataset: &Dataset, step: usize) -> Result<Self, FieldError> {
+        let size = dataset.domain.bounds.size();
         Ok(Self {
             file,
-            title: dataset.title.clone(),
-            program: dataset.program.clone(),
-            domain: domain(&dataset.domain),
-            equation: equation(&dataset.equation),
+            about: About::new(dataset),
             quantities: formulas::quantities(dataset),
             tables: formulas::tables(dataset),
             count: dataset.steps.len(),
             series: None,
             steps: [StepReport::new(dataset, step)?],
             places: places(dataset),
+            arm: size.x.max(size.y),
         })
     }
 }
@@ -213,10 +119,10 @@ impl Report {
 impl StepReport {
     fn new(dataset: &Dataset, index: usize) -> Result<Self, FieldError> {
         let field = Field::new(dataset, index)?;
-        let Step { load, partition, cracks, functions, attributes, history, intensities, .. } =
-            field.step;
+        let Step { load, partition, cracks, functions, attributes, history, .. } = field.step;
         let blocks = blocks(functions, field.data);
-        let attribute = |a: &ppum::dataset::Attribute| a.name.clone();
+        let attribute = |a: &dataset::Attribute| a.name.clone();
+        let other = history.iter().filter(|record| !is_in_tables(record));
         Ok(Self {
             step: index,
             load: *load,
@@ -228,7 +134,7 @@ impl StepReport {
             weight_breakpoints: partition.weight.breakpoints().to_vec(),
             levels: levels(partition),
             orders: orders(field.data),
-            cracks: cracks.iter().map(crack).collect(),
+            cracks: cracks.iter().map(Crack::new).collect(),
             tips: tip_rows(cracks),
             functions: formulas::functions(functions, &blocks),
             families: families(functions, &blocks),
@@ -236,41 +142,9 @@ impl StepReport {
             quantities: available(&field),
             attributes: attributes.iter().map(attribute).collect(),
             cell_values: cells::names(&field),
-            unknowns: field.step.unknowns(),
-            energy: SolverReport::of(history).energy.map(Number),
-            solver: SolverRow::new(history),
-            history: history.iter().map(history_row).collect(),
-            growth: field.step.growth.as_ref().map(GrowthRow::new),
-            other_history: history.iter().filter(|r| !is_in_tables(r)).map(history_row).collect(),
-            intensities: intensities.iter().map(|t| Tip::new(dataset, index, t)).collect(),
-            all_tips: all_tips(dataset, index),
-            warnings: rows(index, &field.step.warnings),
-            reactions: reactions::rows(dataset, field.step),
+            results: Results::new(dataset, index),
+            other_history: other.map(|record| Record::new(record).line()).collect(),
         })
-    }
-}
-
-fn domain(domain: &ppum::domain::Domain) -> Domain {
-    Domain {
-        min: domain.bounds.min.into(),
-        max: domain.bounds.max.into(),
-        holes: domain.holes.iter().map(HoleRow::from).collect(),
-    }
-}
-
-fn equation(equation: &Equation) -> EquationRow {
-    match equation {
-        Equation::Elasticity(m) => EquationRow::Elasticity {
-            young: (&m.young).into(),
-            poisson: (&m.poisson).into(),
-            state: match m.state {
-                StressState::PlaneStrain => "plane-strain",
-                StressState::PlaneStress => "plane-stress",
-            },
-        },
-        Equation::Poisson { conductivity } => {
-            EquationRow::Poisson { conductivity: conductivity.into() }
-        }
     }
 }
 
@@ -294,17 +168,8 @@ fn orders(data: &FieldData) -> Vec<Order> {
     counts.into_iter().map(|(order, patches)| Order { order, patches }).collect()
 }
 
-fn crack(crack: &Crack) -> CrackRow {
-    let ends = crack.ends.map(|end| match end {
-        CrackEnd::Tip => "tip",
-        CrackEnd::Mouth => "mouth",
-        CrackEnd::Junction => "junction",
-    });
-    CrackRow { points: crack.points.iter().copied().map(Vec2::into).collect(), ends }
-}
-
-fn tip_rows(cracks: &[Crack]) -> Vec<TipRow> {
-    let row = |tip: ppum::crack::TipId| TipRow {
+fn tip_rows(cracks: &[crack::Crack]) -> Vec<TipRow> {
+    let row = |tip: crack::TipId| TipRow {
         crack: tip.crack,
         end: tip.end.name(),
         at: cracks[tip.crack as usize].end_point(tip.end).into(),
@@ -322,12 +187,6 @@ fn field_row(data: &FieldData) -> FieldRow {
 }
 
 /// True for records that the table of the solver tells, or that only programs want.
-fn is_in_tables(record: &Record) -> bool {
+fn is_in_tables(record: &dataset::Record) -> bool {
     is_of_phase(record) || is_of_level(record) || is_of_course(&record.name)
-}
-
-/// A record of the solver's report.
-pub(crate) fn history_row(record: &Record) -> HistoryRow {
-    let Record { name, value, unit } = record.clone();
-    HistoryRow { name, value: Number(value), unit }
 }

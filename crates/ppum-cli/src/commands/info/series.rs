@@ -5,10 +5,10 @@ use std::io::{self, Write};
 use ppum::crack::{Crack, TipId};
 use ppum::dataset::{Step, TipIntensity};
 use ppum::text::{short, trimmed};
+use ppum_scene::facts::{Growth, increment};
 use serde::Serialize;
 
-use super::growth::{GrowthRow, way};
-use crate::number::{Number, count};
+use crate::number::{Number, columns, count};
 
 /// A step, as far as its solver tells of it.
 #[derive(Debug, Serialize)]
@@ -21,7 +21,7 @@ pub(super) struct StepRow {
     crack_length: f64,
     tips: Vec<TipRow>,
     /// What the tips do next, in a series of cracks that grow.
-    growth: Option<GrowthRow>,
+    growth: Option<Growth>,
     /// The lines of the tips for people, in such a series.
     #[serde(skip)]
     grown: Vec<Vec<String>>,
@@ -43,7 +43,7 @@ impl StepRow {
             unknowns: Number(step.record("unknowns").unwrap_or(f64::NAN)),
             crack_length: step.cracks.iter().map(Crack::length).sum(),
             tips: step.intensities.iter().map(TipRow::new).collect(),
-            growth: step.growth.as_ref().map(GrowthRow::new),
+            growth: step.growth.as_ref().map(Growth::new),
             grown: grown(step),
         }
     }
@@ -103,7 +103,7 @@ fn grown(step: &Step) -> Vec<Vec<String>> {
         let factors = step.intensities.iter().find(|found| found.tip == row.tip);
         let [k1, k2] = factors.map_or([f64::NAN; 2], |found| [found.k1, found.k2]).map(number);
         let tip = format!("{} {}", row.tip.crack, row.tip.end.name());
-        vec![tip, k1, k2, short(row.extension), way(row)]
+        vec![tip, k1, k2, short(row.extension), increment(row)]
     };
     rows.map(line).collect()
 }
@@ -128,7 +128,7 @@ pub(super) fn table(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
     };
     let heads: Vec<_> = heads.into_iter().chain((0..tips.min(TIPS)).flat_map(of_tip)).collect();
     let lines: Vec<_> = [heads].into_iter().chain(rows.iter().map(StepRow::words)).collect();
-    write_lines(out, &lines, false)?;
+    columns(out, &lines, false)?;
     and_more(out, tips, TIPS)
 }
 
@@ -139,7 +139,7 @@ fn table_of_growth(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
     let heads = heads.chain(["unknowns", "length", "tip", "K_I", "K_II", "grown by", "next"]);
     let heads: Vec<_> = heads.map(str::to_owned).collect();
     let steps = rows.iter().flat_map(|row| row.grown_words(has_cycles));
-    write_lines(out, &[heads].into_iter().chain(steps).collect::<Vec<_>>(), true)?;
+    columns(out, &[heads].into_iter().chain(steps).collect::<Vec<_>>(), true)?;
     and_more(out, rows.iter().map(|row| row.grown.len()).max().unwrap_or(0), GROWING)?;
     let Some(last) = rows.last() else { return Ok(()) };
     match last.growth.as_ref().and_then(|growth| growth.stop) {
@@ -149,24 +149,6 @@ fn table_of_growth(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
             "not ended by itself: all increments are made, or the run was interrupted"
         ),
     }
-}
-
-/// Lines of words in columns, to the right; in the last column to the left if that holds words.
-fn write_lines(out: &mut dyn Write, lines: &[Vec<String>], ends_in_words: bool) -> io::Result<()> {
-    let columns = lines.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |column: usize| {
-        let words = lines.iter().filter_map(|line| line.get(column));
-        words.map(|word| word.chars().count()).max().unwrap_or(0)
-    };
-    let widths: Vec<_> = (0..columns).map(width).collect();
-    for line in lines {
-        let words = line.iter().zip(&widths).enumerate().map(|(k, (word, &width))| {
-            let is_left = ends_in_words && k + 1 == columns;
-            if is_left { word.clone() } else { format!("{word:>width$}") }
-        });
-        writeln!(out, "{}", words.collect::<Vec<_>>().join("  ").trim_end())?;
-    }
-    Ok(())
 }
 
 fn and_more(out: &mut dyn Write, tips: usize, told: usize) -> io::Result<()> {

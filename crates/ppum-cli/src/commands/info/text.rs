@@ -3,15 +3,12 @@
 use std::io::{self, Write};
 
 use ppum::formula::one_line;
-use ppum::text::{Places, trimmed};
-use ppum_solve::report::word;
+use ppum::text::trimmed;
+use ppum_scene::facts::{Growth, Solver, reaction_lines};
 
 use super::formulas::{QuantityRow, TableRow};
-use super::growth::GrowthRow;
-use super::reactions::largest_force;
-use super::report::{CrackRow, EquationRow, FieldRow, HistoryRow, HoleRow, Report, StepReport};
+use super::report::{FieldRow, Report, StepReport};
 use super::series::table as table_of_steps;
-use super::solver::SolverRow;
 use crate::families::Family;
 use crate::number::count;
 use crate::tips::table;
@@ -21,14 +18,10 @@ const NAME: usize = 12;
 
 pub(super) fn write(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let places = &report.places;
-    let point = |p: [f64; 2]| places.show(p.into());
     let mut page = Page(out);
-    page.line("title", &report.title)?;
-    page.line("program", &report.program)?;
-    page.line("equation", &equation(&report.equation))?;
-    let [min, max] = [report.domain.min, report.domain.max].map(point);
-    page.line("domain", &format!("{min} to {max}"))?;
-    page.lines("holes", report.domain.holes.iter().map(|row| hole(row, places)))?;
+    for (name, text) in report.about.lines(places) {
+        page.line(name, &text)?;
+    }
     page.lines("tables", report.tables.iter().map(table_row))?;
     page.lines("defined", report.quantities.iter().map(quantity))?;
     if report.count > 1 {
@@ -57,7 +50,7 @@ impl Page<'_> {
     }
 
     fn step(&mut self, step: &StepReport, report: &Report) -> io::Result<()> {
-        let Report { places, domain, .. } = report;
+        let (places, results) = (&report.places, &step.results);
         if report.count > 1 {
             writeln!(self.0)?;
             self.line("step", &format!("{}, load {}", step.step, trimmed(step.load)))?;
@@ -68,35 +61,33 @@ impl Page<'_> {
         self.line("cells", &format!("{} ({})", step.cells, joined(levels)))?;
         let orders = step.orders.iter().map(|o| format!("order {}: {}", o.order, o.patches));
         self.line("orders", &joined(orders))?;
-        self.lines("cracks", step.cracks.iter().map(|row| crack(row, places)))?;
+        self.lines("cracks", step.cracks.iter().map(|crack| crack.line(places)))?;
         self.lines("functions", functions(&step.families).into_iter())?;
         self.lines("fields", step.fields.iter().map(field))?;
-        self.line("unknowns", &step.unknowns.to_string())?;
-        self.lines("solver", step.solver.iter().map(SolverRow::line))?;
-        self.lines("history", step.other_history.iter().map(history))?;
-        self.lines("growth", step.growth.iter().flat_map(GrowthRow::lines))?;
+        self.line("unknowns", &results.unknowns.to_string())?;
+        self.lines("solver", results.solver.iter().map(Solver::line))?;
+        self.lines("history", step.other_history.iter().cloned())?;
+        self.lines("growth", results.growth.iter().flat_map(Growth::lines))?;
         self.lines("quantities", wrapped(&step.quantities).into_iter())?;
         self.lines("of cells", wrapped(&step.cell_values).into_iter())?;
-        if let Some(solver) = &step.solver {
+        if let Some(solver) = &results.solver {
             solver.write(self.0)?;
         }
-        if !step.intensities.is_empty() {
+        if !results.intensities.is_empty() {
             writeln!(self.0, "\nstress intensity factors")?;
-            table(self.0, &step.all_tips, places)?;
+            table(self.0, &results.tips, places)?;
         }
-        if !step.reactions.is_empty() {
+        if !results.reactions.is_empty() {
             writeln!(self.0, "\nreactions of the supports on the plate")?;
         }
-        let force = largest_force(&step.reactions);
-        let arm = (domain.max[0] - domain.min[0]).max(domain.max[1] - domain.min[1]);
-        for reaction in &step.reactions {
-            writeln!(self.0, "{}", reaction.line(places, [force, force * arm]))?;
+        for line in reaction_lines(&results.reactions, places, report.arm) {
+            writeln!(self.0, "{line}")?;
         }
-        if !step.warnings.is_empty() {
+        if !results.warnings.is_empty() {
             writeln!(self.0, "\nwarnings")?;
         }
-        for warning in &step.warnings {
-            writeln!(self.0, "{}", warning.message())?;
+        for warning in &results.warnings {
+            writeln!(self.0, "{}", warning.message)?;
         }
         Ok(())
     }
@@ -118,19 +109,6 @@ fn functions(families: &[Family]) -> Vec<String> {
 fn quantity(row: &QuantityRow) -> String {
     let unit = if row.unit.is_empty() { String::new() } else { format!(" [{}]", row.unit) };
     format!("{}{unit} = {}", row.name, one_line(&row.formula))
-}
-
-fn hole(row: &HoleRow, places: &Places) -> String {
-    let point = |p: [f64; 2]| places.show(p.into());
-    match row {
-        HoleRow::Circle { center, radius } => {
-            format!("circle around {}, radius {}", point(*center), trimmed(*radius))
-        }
-        HoleRow::Polygon { points } => {
-            let points: Vec<_> = points.iter().copied().map(point).collect();
-            format!("polygon {}", points.join(" – "))
-        }
-    }
 }
 
 fn table_row(row: &TableRow) -> String {
@@ -169,15 +147,6 @@ fn wrapped(names: &[String]) -> Vec<String> {
     lines
 }
 
-fn equation(equation: &EquationRow) -> String {
-    match equation {
-        EquationRow::Elasticity { young, poisson, state } => {
-            format!("elasticity, E {young}, ν {poisson}, {state}")
-        }
-        EquationRow::Poisson { conductivity } => format!("Poisson, κ {conductivity}"),
-    }
-}
-
 fn cover(step: &StepReport) -> String {
     let points = match step.points {
         0 => String::new(),
@@ -186,21 +155,8 @@ fn cover(step: &StepReport) -> String {
     format!("{}, {} weight{points}", step.patches, step.weight)
 }
 
-fn crack(crack: &CrackRow, places: &Places) -> String {
-    let point = |p: [f64; 2]| places.show(p.into());
-    let points: Vec<_> = crack.points.iter().copied().map(point).collect();
-    let [start, end] = crack.ends;
-    format!("{start} {} {end}", points.join(" – "))
-}
-
 fn field(field: &FieldRow) -> String {
     let unit = if field.unit.is_empty() { String::new() } else { format!(" [{}]", field.unit) };
     let exact = if field.exact.is_empty() { "" } else { ", exact solution known" };
     format!("{}{unit}: {}{exact}", field.name, field.components.join(", "))
-}
-
-fn history(row: &HistoryRow) -> String {
-    let value = row.value.0;
-    let shown = word(&row.name, value).map_or_else(|| trimmed(value), str::to_owned);
-    format!("{} {shown} {}", row.name, row.unit).trim_end().to_owned()
 }

@@ -11,11 +11,11 @@ use anyhow::{Context as _, bail, ensure};
 use ppum::dataset::{Advance, Dataset, Growth, Step, TipIntensity};
 use ppum::text::short;
 use ppum_format::SeriesWriter;
+use ppum_scene::facts::{self, increment};
 use ppum_solve::growth::{GrowthError, Last, grow, is_same_series};
 use ppum_solve::problem::{GrowthRule, Problem};
 use serde::Serialize;
 
-use super::super::info::growth::way;
 use super::{Args, Report};
 use crate::dataset::{named, series};
 use crate::number::{Number, count, json};
@@ -23,7 +23,7 @@ use crate::output::Output;
 use crate::progress::Bar;
 use crate::standard::is_standard;
 use crate::threads;
-use crate::warnings::{WarningRow, rows, warn_of_steps};
+use crate::warnings::warn_of_steps;
 
 /// What has become of the cracks, in JSON.
 #[derive(Debug, Serialize)]
@@ -174,7 +174,7 @@ struct State {
     grown: Grown,
     last: Option<Dataset>,
     /// Warnings of all steps.
-    warnings: Vec<WarningRow>,
+    warnings: Vec<facts::Warning>,
 }
 
 impl Run<'_> {
@@ -190,7 +190,7 @@ impl Run<'_> {
         state.grown.steps.push(StepRow::new(number, step, growth));
         state.grown.stop = growth.stop.map(|stop| stop.words());
         self.bar.clear();
-        state.warnings.extend(rows(number, &step.warnings));
+        state.warnings.extend(facts::warnings(number, &step.warnings));
         // nobody may listen any more
         let _ = self.lines.send(self.lines_of(number, step, growth));
         self.bar.in_series(self.rule.steps, self.left(number));
@@ -249,7 +249,7 @@ fn line(step: &Step, row: &Advance) -> String {
     let digits = if row.length > 0.0 { digits } else { 5 };
     let at = format!("({:.digits$}, {:.digits$})", at.x + 0.0, at.y + 0.0);
     let (crack, end) = (row.tip.crack, row.tip.end.name());
-    format!("{crack:>3} {end:<5} {at:>20} {k1:>10} {k2:>11}  {}", way(row))
+    format!("{crack:>3} {end:<5} {at:>20} {k1:>10} {k2:>11}  {}", increment(row))
 }
 
 /// The report of a series.

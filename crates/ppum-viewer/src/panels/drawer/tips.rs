@@ -2,9 +2,9 @@
 
 use egui::{Grid, RichText, ScrollArea, Ui};
 use ppum::text::Places;
+use ppum_scene::facts::{HEADS, MEANING, Tip};
 use ppum_scene::range::places;
 use ppum_scene::table::{Column, Table};
-use ppum_scene::tips::{HEADS, MEANING, Tip};
 
 use super::plot::outputs;
 use crate::actions::Action;
@@ -44,7 +44,7 @@ fn rows(ui: &mut Ui, desk: &mut Desk<'_>, places: &Places, tips: &[Tip]) {
         });
         let last = seen.end.saturating_sub(1).min(tips.len());
         grid.min_row_height(height).spacing([18.0, gap]).show(ui, |ui| {
-            for head in ["tip", "crack", "position", "direction"].into_iter().chain(HEADS) {
+            for head in ["tip", "crack", "position", "direction"].into_iter().chain(shown(HEADS)) {
                 ui.strong(head).on_hover_text(MEANING);
             }
             ui.end_row();
@@ -53,17 +53,25 @@ fn rows(ui: &mut Ui, desk: &mut Desk<'_>, places: &Places, tips: &[Tip]) {
                 if button(ui, &number.to_string(), &name).clicked() {
                     desk.actions.push(Action::Tip(number));
                 }
-                row(ui, tip, &places.show(tip.at));
+                row(ui, tip, &places.show(tip.at.into()));
             }
         });
     });
 }
 
+/// What has a column: all but the checks, which tooltips tell.
+fn shown<T>(columns: [T; 8]) -> impl Iterator<Item = T> {
+    columns.into_iter().take(6)
+}
+
 fn row(ui: &mut Ui, tip: &Tip, at: &str) {
-    let angle = number(tip.angle.to_degrees(), 4);
-    let cells = [tip.id.crack.to_string(), at.to_owned(), format!("{angle}°")];
-    for text in cells.into_iter().chain(tip.words()) {
-        ui.label(RichText::new(text.replace('-', "−")).monospace());
+    let angle = format!("{}°", number(tip.angle.to_degrees(), 4));
+    let words = tip.words();
+    let [.., spread, balance] = &words;
+    let checks = format!("spread {spread}, J/G-1 {balance}: checks alone").replace('-', "−");
+    let cells = [&tip.crack.to_string(), at, &angle].map(str::to_owned);
+    for text in cells.into_iter().chain(shown(words)) {
+        ui.label(RichText::new(text.replace('-', "−")).monospace()).on_hover_text(&checks);
     }
     ui.end_row();
 }
@@ -89,9 +97,11 @@ pub fn table(tips: &[Tip]) -> Table {
     let units = |name: &str| if name.ends_with("angle") { "rad" } else { "" };
     let columns = names.map(|name| Column::new(name, units(name))).to_vec();
     let row = |(number, tip): (usize, &Tip)| {
-        let Tip { id, at, angle, k1, k2, t_stress, j, g, growth_angle, error, spread, .. } = *tip;
-        let (number, crack) = (number as f64, f64::from(id.crack));
-        [number, crack, at.x, at.y, angle, k1, k2, t_stress, j, g, growth_angle, error, spread]
+        let Tip { crack, at: [x, y], angle, .. } = *tip;
+        let error = tip.relative_error();
+        let factors = [tip.k1, tip.k2, tip.t_stress, tip.j, tip.g, tip.growth_angle];
+        let place = [number as f64, f64::from(crack), x, y, angle];
+        place.into_iter().chain(factors.map(|n| n.0)).chain([error, tip.spread.0])
     };
     Table::new(columns, tips.iter().enumerate().flat_map(row).collect())
 }

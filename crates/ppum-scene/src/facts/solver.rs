@@ -9,8 +9,8 @@ use ppum_solve::report::{LinearKind, SolverReport};
 use serde::Serialize;
 
 /// The solver of a step.
-#[derive(Debug, Serialize)]
-pub(super) struct SolverRow {
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Solver {
     kind: Option<&'static str>,
     /// Steps of the multilevel solver, what they left of the residual in the norm of the preconditioner, and the condition
     /// that they saw.
@@ -24,7 +24,7 @@ pub(super) struct SolverRow {
     levels: Vec<LevelRow>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 struct PhaseRow {
     name: &'static str,
     seconds: Option<f64>,
@@ -32,7 +32,7 @@ struct PhaseRow {
     unknowns: Option<f64>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 struct LevelRow {
     patches: f64,
     unknowns: f64,
@@ -40,9 +40,10 @@ struct LevelRow {
     bytes: f64,
 }
 
-impl SolverRow {
+impl Solver {
     /// None of a step whose history does not tell.
-    pub(super) fn new(history: &[Record]) -> Option<Self> {
+    #[must_use]
+    pub fn new(history: &[Record]) -> Option<Self> {
         let report = SolverReport::of(history);
         let of = |all: &[(Phase, f64)], phase: Phase| {
             all.iter().find(|(known, _)| *known == phase).map(|(_, value)| *value)
@@ -73,7 +74,8 @@ impl SolverRow {
     }
 
     /// In a line: `multilevel, 4 levels, 21 steps to 7.1e-13, condition 3.5`.
-    pub(super) fn line(&self) -> String {
+    #[must_use]
+    pub fn line(&self) -> String {
         let steps = self.iterations.map(|n| format!("{} steps", trimmed(n)));
         let to = |r: f64| format!(" to {r:.1e} of the residual");
         let steps = steps.map(|steps| steps + &self.reduction.map_or_else(String::new, to));
@@ -89,7 +91,10 @@ impl SolverRow {
     }
 
     /// The phases and the levels in tables.
-    pub(super) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// Those of what is written to.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         if !self.phases.is_empty() {
             writeln!(out, "\nphase         seconds          MB    unknowns")?;
         }

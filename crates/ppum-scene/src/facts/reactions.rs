@@ -1,15 +1,16 @@
-//! Reactions of supports, for people and as JSON.
+//! Reactions of supports.
 
-use ppum::dataset::{Dataset, Reaction, Step};
+use ppum::dataset::{self, Dataset, Step};
 use ppum::text::{Places, beside, short};
 use ppum::vec2::Vec2;
 use ppum_solve::problem::restraint_center;
 use serde::Serialize;
 
-use crate::number::Number;
+use super::Number;
 
-#[derive(Debug, Serialize)]
-pub(crate) struct ReactionRow {
+/// What a support exerts on the body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reaction {
     on: String,
     /// Components that are held.
     held: Vec<String>,
@@ -26,11 +27,12 @@ pub(crate) struct ReactionRow {
 }
 
 /// The reactions of a step.
-pub(crate) fn rows(dataset: &Dataset, step: &Step) -> Vec<ReactionRow> {
+#[must_use]
+pub fn reactions(dataset: &Dataset, step: &Step) -> Vec<Reaction> {
     let names = step.fields.first().map_or(&[][..], |field| &field.components);
     let about = dataset.domain.bounds.center();
-    let row = |reaction: &Reaction| {
-        let Reaction { on, held, force, moment } = reaction;
+    let row = |reaction: &dataset::Reaction| {
+        let dataset::Reaction { on, held, force, moment } = reaction;
         let held = names.iter().zip(held).filter(|(_, held)| **held);
         let turns = force.len() > 1;
         let center = restraint_center(on, &dataset.domain).filter(|_| turns);
@@ -38,7 +40,7 @@ pub(crate) fn rows(dataset: &Dataset, step: &Step) -> Vec<ReactionRow> {
             let arm = about - center;
             Number(moment + arm.x * force[1] - arm.y * force[0])
         };
-        ReactionRow {
+        Reaction {
             on: on.clone(),
             held: held.map(|(name, _)| name.clone()).collect(),
             force: force.iter().copied().map(Number).collect(),
@@ -51,10 +53,10 @@ pub(crate) fn rows(dataset: &Dataset, step: &Step) -> Vec<ReactionRow> {
     step.reactions.iter().map(row).collect()
 }
 
-impl ReactionRow {
+impl Reaction {
     /// `bottom (ux, uy): force (0, -2), moment 3 about (0, 0), 1 about its middle (0, -1)`; zero what is rounding beside
     /// a force and a moment of these sizes.
-    pub(super) fn line(&self, places: &Places, [force_size, moment_size]: [f64; 2]) -> String {
+    fn line(&self, places: &Places, [force_size, moment_size]: [f64; 2]) -> String {
         let place = format!("{} ({})", self.on, self.held.join(", "));
         let force = self
             .force
@@ -81,7 +83,10 @@ impl ReactionRow {
     }
 }
 
-/// The largest component of a force.
-pub(super) fn largest_force(rows: &[ReactionRow]) -> f64 {
-    rows.iter().flat_map(|row| &row.force).fold(0.0, |largest, f| f64::max(largest, f.0.abs()))
+/// A line for each reaction. A force is zero where it is rounding beside the largest one, a moment beside that at an arm of this length.
+#[must_use]
+pub fn reaction_lines(reactions: &[Reaction], places: &Places, arm: f64) -> Vec<String> {
+    let forces = reactions.iter().flat_map(|reaction| &reaction.force);
+    let force = forces.fold(0.0, |largest, f| f64::max(largest, f.0.abs()));
+    reactions.iter().map(|reaction| reaction.line(places, [force, force * arm])).collect()
 }

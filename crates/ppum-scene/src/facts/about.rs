@@ -1,0 +1,184 @@
+//! What all steps of a dataset have in common, and the cracks of a step.
+
+use std::fmt;
+
+use ppum::crack::{self, CrackEnd};
+use ppum::dataset::{self, Dataset, StressState};
+use ppum::domain;
+use ppum::expression::Expression;
+use ppum::text::{Places, trimmed};
+use ppum::vec2::Vec2;
+use serde::Serialize;
+
+/// What all steps have in common.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct About {
+    title: String,
+    program: String,
+    domain: Domain,
+    equation: Equation,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct Domain {
+    min: [f64; 2],
+    max: [f64; 2],
+    holes: Vec<Hole>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+enum Hole {
+    Circle { center: [f64; 2], radius: f64 },
+    Polygon { points: Vec<[f64; 2]> },
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+enum Equation {
+    Elasticity { young: Constant, poisson: Constant, state: &'static str },
+    Poisson { conductivity: Constant },
+}
+
+/// A constant of the material: a number, or the text of a formula.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+enum Constant {
+    Number(f64),
+    Formula(String),
+}
+
+/// A crack.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Crack {
+    points: Vec<[f64; 2]>,
+    ends: [&'static str; 2],
+}
+
+fn arrays(points: &[Vec2]) -> Vec<[f64; 2]> {
+    points.iter().copied().map(Vec2::into).collect()
+}
+
+fn path(points: &[[f64; 2]], places: &Places) -> String {
+    let points: Vec<_> = points.iter().map(|&p| places.show(p.into())).collect();
+    points.join(" – ")
+}
+
+impl About {
+    /// The facts of a dataset.
+    #[must_use]
+    pub fn new(dataset: &Dataset) -> Self {
+        let bounds = dataset.domain.bounds;
+        let holes = dataset.domain.holes.iter().map(Hole::new).collect();
+        Self {
+            title: dataset.title.clone(),
+            program: dataset.program.clone(),
+            domain: Domain { min: bounds.min.into(), max: bounds.max.into(), holes },
+            equation: Equation::new(&dataset.equation),
+        }
+    }
+
+    /// Title, program, equation, domain and holes in words behind their names.
+    #[must_use]
+    pub fn lines(&self, places: &Places) -> Vec<(&'static str, String)> {
+        let Domain { min, max, holes } = &self.domain;
+        let [min, max] = [min, max].map(|&p| places.show(p.into()));
+        let mut lines = vec![
+            ("title", self.title.clone()),
+            ("program", self.program.clone()),
+            ("equation", self.equation.to_string()),
+            ("domain", format!("{min} to {max}")),
+        ];
+        let name = |k| if k == 0 { "holes" } else { "" };
+        lines.extend(holes.iter().enumerate().map(|(k, hole)| (name(k), hole.line(places))));
+        lines
+    }
+}
+
+impl Hole {
+    fn new(hole: &domain::Hole) -> Self {
+        match hole {
+            domain::Hole::Circle { center, radius } => {
+                Self::Circle { center: (*center).into(), radius: *radius }
+            }
+            domain::Hole::Polygon { points } => Self::Polygon { points: arrays(points) },
+        }
+    }
+
+    fn line(&self, places: &Places) -> String {
+        match self {
+            Self::Circle { center, radius } => {
+                let center = places.show((*center).into());
+                format!("circle around {center}, radius {}", trimmed(*radius))
+            }
+            Self::Polygon { points } => format!("polygon {}", path(points, places)),
+        }
+    }
+}
+
+impl Equation {
+    fn new(equation: &dataset::Equation) -> Self {
+        match equation {
+            dataset::Equation::Elasticity(material) => Self::Elasticity {
+                young: (&material.young).into(),
+                poisson: (&material.poisson).into(),
+                state: match material.state {
+                    StressState::PlaneStrain => "plane-strain",
+                    StressState::PlaneStress => "plane-stress",
+                },
+            },
+            dataset::Equation::Poisson { conductivity } => {
+                Self::Poisson { conductivity: conductivity.into() }
+            }
+        }
+    }
+}
+
+impl fmt::Display for Equation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Elasticity { young, poisson, state } => {
+                write!(f, "elasticity, E {young}, ν {poisson}, {state}")
+            }
+            Self::Poisson { conductivity } => write!(f, "Poisson, κ {conductivity}"),
+        }
+    }
+}
+
+impl From<&Expression> for Constant {
+    fn from(expression: &Expression) -> Self {
+        match expression.constant() {
+            Some(value) => Self::Number(value),
+            None => Self::Formula(expression.text().to_owned()),
+        }
+    }
+}
+
+impl fmt::Display for Constant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(value) => f.write_str(&trimmed(*value)),
+            Self::Formula(text) => f.write_str(text),
+        }
+    }
+}
+
+impl Crack {
+    /// The facts of a crack.
+    #[must_use]
+    pub fn new(crack: &crack::Crack) -> Self {
+        let ends = crack.ends.map(|end| match end {
+            CrackEnd::Tip => "tip",
+            CrackEnd::Mouth => "mouth",
+            CrackEnd::Junction => "junction",
+        });
+        Self { points: arrays(&crack.points), ends }
+    }
+
+    /// Its vertices between its ends: `mouth (0, 0) – (1, 0) tip`.
+    #[must_use]
+    pub fn line(&self, places: &Places) -> String {
+        let [start, end] = self.ends;
+        format!("{start} {} {end}", path(&self.points, places))
+    }
+}

@@ -1,0 +1,101 @@
+//! What the solver found in a step.
+
+use ppum::dataset::{self, Dataset};
+use ppum::text::trimmed;
+use ppum_solve::report::{SolverReport, word};
+use serde::Serialize;
+
+use super::{Growth, Number, Reaction, Solver, Tip, all_tips, reactions};
+
+/// What the solver found in a step.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Results {
+    /// Number of unknowns.
+    pub unknowns: usize,
+    /// Energy of the solution, if the solver reports it.
+    energy: Option<Number>,
+    /// The solver's work; none of a step whose history does not tell.
+    pub solver: Option<Solver>,
+    history: Vec<Record>,
+    /// What the tips do next, in a series of cracks that grow.
+    pub growth: Option<Growth>,
+    /// The tips that have factors.
+    pub intensities: Vec<Tip>,
+    /// What the diagnostics found.
+    pub warnings: Vec<Warning>,
+    /// What the supports exert on the body.
+    pub reactions: Vec<Reaction>,
+    /// All tips in their order, also those without factors.
+    #[serde(skip)]
+    pub tips: Vec<Tip>,
+}
+
+impl Results {
+    /// The results of step number `index`.
+    #[must_use]
+    pub fn new(dataset: &Dataset, index: usize) -> Self {
+        let step = &dataset.steps[index];
+        let tip = |known| Tip::new(dataset, index, known);
+        Self {
+            unknowns: step.unknowns(),
+            energy: SolverReport::of(&step.history).energy.map(Number),
+            solver: Solver::new(&step.history),
+            history: step.history.iter().map(Record::new).collect(),
+            growth: step.growth.as_ref().map(Growth::new),
+            intensities: step.intensities.iter().map(tip).collect(),
+            warnings: warnings(index, &step.warnings),
+            reactions: reactions(dataset, step),
+            tips: all_tips(dataset, index),
+        }
+    }
+}
+
+/// A record of the solver's report.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Record {
+    name: String,
+    value: Number,
+    unit: String,
+}
+
+impl Record {
+    /// A record of a history.
+    #[must_use]
+    pub fn new(record: &dataset::Record) -> Self {
+        let dataset::Record { name, value, unit } = record.clone();
+        Self { name, value: Number(value), unit }
+    }
+
+    /// Name, value and unit; codes in words.
+    #[must_use]
+    pub fn line(&self) -> String {
+        let Self { name, value: Number(value), unit } = self;
+        let value = word(name, *value).map_or_else(|| trimmed(*value), str::to_owned);
+        format!("{name} {value} {unit}").trim_end().to_owned()
+    }
+}
+
+/// A warning about a step.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Warning {
+    /// Number of the step.
+    pub step: usize,
+    /// A word for its kind.
+    pub kind: String,
+    at: Option<[f64; 2]>,
+    value: Number,
+    limit: Number,
+    /// The finding and its remedy.
+    pub message: String,
+}
+
+/// The warnings about step number `step`.
+#[must_use]
+pub fn warnings(step: usize, warnings: &[dataset::Warning]) -> Vec<Warning> {
+    let row = |warning: &dataset::Warning| {
+        let dataset::Warning { kind, at, value, limit, message } = warning.clone();
+        let (at, value, limit) = (at.map(Into::into), Number(value), Number(limit));
+        Warning { step, kind, at, value, limit, message }
+    };
+    warnings.iter().map(row).collect()
+}
