@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::errors::{unreadable, unwritable};
-use crate::facts::{About, StepFacts};
+use crate::facts;
 use crate::watch::{guard, long};
 
 /// A dataset, which never changes.
@@ -56,14 +56,14 @@ impl Dataset {
         self.0 == other.0
     }
 
-    /// What all steps have in common.
-    fn about(&self) -> PyResult<About> {
-        guard(|| Ok(About::new(&self.0)))
+    /// What all steps have in common, as JSON.
+    fn about(&self) -> PyResult<String> {
+        guard(|| Ok(facts::about(&self.0)))
     }
 
-    /// What stands in a step, but for its fields.
-    fn step(&self, number: usize) -> PyResult<StepFacts> {
-        guard(|| StepFacts::new(&self.0, number))
+    /// What is in a step but for its fields, as JSON.
+    fn step(&self, number: usize) -> PyResult<String> {
+        guard(|| facts::step_json(&self.0, number))
     }
 
     /// The stored values of cells, by their names.
@@ -72,7 +72,7 @@ impl Dataset {
         py: Python<'py>,
         number: usize,
     ) -> PyResult<Vec<(String, Bound<'py, numpy::PyArray1<f64>>)>> {
-        let step = StepFacts::step(&self.0, number)?;
+        let step = facts::step(&self.0, number)?;
         let array = |values: &[f64]| numpy::PyArray1::from_slice(py, values);
         Ok(step.attributes.iter().map(|a| (a.name.clone(), array(&a.values))).collect())
     }

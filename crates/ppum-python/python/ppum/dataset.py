@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import html
+import json
+import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
@@ -279,7 +281,8 @@ class Step:
 
     @cached_property
     def _facts(self) -> dict[str, Any]:
-        return self.dataset._core.step(self.number)
+        facts: dict[str, Any] = json.loads(self.dataset._core.step(self.number))
+        return facts
 
     @property
     def load(self) -> float:
@@ -312,26 +315,26 @@ class Step:
     @cached_property
     def tips(self) -> Table[Tip]:
         """The crack tips with the factors that the solver found, in the order of cracks and ends."""
-        return Table(
-            Tip(**{**t, "rings": np.array(t["rings"], float).reshape(-1, 4)})
-            for t in self._facts["tips"]
-        )
+        tips = zip(self._facts["tips"], self._facts["ends"])
+        return Table(_row(Tip, t, end=end, xy=t["tip"], rings=_rings(t["rings"])) for t, end in tips)
 
     @cached_property
     def history(self) -> History:
         """The solver's report."""
-        return History(self._facts["history"])
+        records = self._facts["history"]
+        return History([(r["name"], _number(r["value"]), r["unit"]) for r in records])
 
     @cached_property
     def warnings(self) -> Table[Warning]:
         """What the diagnostics found."""
-        return Table(Warning(**w) for w in self._facts["warnings"])
+        return Table(_row(Warning, w) for w in self._facts["warnings"])
 
     @cached_property
     def reactions(self) -> Table[Reaction]:
         """What the supports exert on the plate."""
+        names = self._facts["components"]
         return Table(
-            Reaction(r["on"], tuple(r["held"]), tuple(r["force"]), r["moment"])
+            _row(Reaction, r, held=[n in r["held"] for n in names], moment=r["moment"] or 0.0)
             for r in self._facts["reactions"]
         )
 
@@ -341,7 +344,10 @@ class Step:
         facts = self._facts["growth"]
         if facts is None:
             return None
-        tips = Table(Advance(**{**t, "path": _points(t["path"])}) for t in facts["tips"])
+        tips = Table(
+            _row(Advance, t, curvature=curvature, path=_points(path))
+            for t, (curvature, path) in zip(facts["tips"], self._facts["arcs"])
+        )
         return Growth(facts["cycles"], facts["stop"], tips)
 
     @cached_property
@@ -370,6 +376,35 @@ def _points(points: Sequence[Point]) -> NDArray[np.float64]:
     return array
 
 
+def _rings(rings: list[dict[str, Any]]) -> NDArray[np.float64]:
+    return np.array([[_number(v) for v in r.values()] for r in rings], float).reshape(-1, 4)
+
+
+def _number(value: Any) -> float:
+    """A number of the facts: undefined ones are null there, infinite ones texts."""
+    return math.nan if value is None else float(value)
+
+
+def _numbers(values: Sequence[Any]) -> tuple[float, ...]:
+    return tuple(_number(v) for v in values)
+
+
+_READERS: dict[Any, Callable[[Any], Any]] = {
+    "float": _number,
+    "Point": tuple,
+    "Point | None": lambda point: None if point is None else tuple(point),
+    "tuple[bool, ...]": tuple,
+    "tuple[float, ...]": _numbers,
+}
+
+
+def _row(kind: Callable[..., _Row], facts: dict[str, Any], **others: Any) -> _Row:
+    """A row of the facts of a dataset, some of whose attributes are given."""
+    values = {**facts, **others}
+    attributes = fields(kind)  # type: ignore[arg-type]
+    return kind(**{f.name: _READERS.get(f.type, lambda v: v)(values[f.name]) for f in attributes})
+
+
 def _count(count: int, one: str, more: str | None = None) -> str:
     return f"{count} {one if count == 1 else more or one + 's'}"
 
@@ -393,7 +428,8 @@ class Dataset:
 
     @cached_property
     def _facts(self) -> dict[str, Any]:
-        return self._core.about()
+        facts: dict[str, Any] = json.loads(self._core.about())
+        return facts
 
     @property
     def title(self) -> str:
@@ -408,20 +444,22 @@ class Dataset:
     @property
     def equation(self) -> str:
         """``elasticity`` or ``poisson``."""
-        return str(self._facts["equation"])
+        return str(self._facts["equation"]["kind"])
 
     @property
     def domain(self) -> tuple[Point, Point]:
         """Lower left and upper right corner of the box; `holes` are cut out of it."""
-        low, high = self._facts["domain"]
-        return tuple(low), tuple(high)
+        domain = self._facts["domain"]
+        return tuple(domain["min"]), tuple(domain["max"])
 
     @cached_property
     def holes(self) -> tuple[Hole, ...]:
         """The holes."""
         return tuple(
-            Hole(h["center"], h["radius"], None if h["points"] is None else _points(h["points"]))
-            for h in self._facts["holes"]
+            Hole(tuple(h["center"]), h["radius"], None)
+            if h["kind"] == "circle"
+            else Hole(None, None, _points(h["points"]))
+            for h in self._facts["domain"]["holes"]
         )
 
     @property
