@@ -11,7 +11,6 @@ use ppum_render::cells;
 
 use crate::given::{Given, parts};
 use crate::standard::{self, is_standard};
-use ppum_scene::drawing::Shown;
 use ppum_scene::scene::{self, OF_PATCHES, ShownError};
 
 /// Reads a dataset with all its steps, `-` from standard input; an error names the file.
@@ -88,13 +87,11 @@ fn refuse_cells(field: &Field<'_>, text: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What a picture shows by its name: a quantity or formula as [`quantity`] knows it; if there is none, or with
-/// `patch:` in front, a value of cells.
-pub(crate) fn shown(field: &Field<'_>, given: &str) -> anyhow::Result<Shown> {
-    let given = Given::read(given)?;
+/// Refuses what no picture shows of a field: neither a quantity or formula nor a value of cells.
+pub(crate) fn check_shown(field: &Field<'_>, given: &Given) -> anyhow::Result<()> {
     match scene::shown(&given.text, field) {
         Err(ShownError::Quantity(error)) => given.explain(Err(error)),
-        other => Ok(other?),
+        other => Ok(drop(other?)),
     }
 }
 

@@ -2,7 +2,8 @@
 
 use anyhow::bail;
 use clap::ValueEnum;
-use ppum_figure::figure::{BarPlace, Design, Labels, Theme, TickChoice};
+use ppum_figure::figure::{BarPlace, Design, Theme, TickChoice};
+use ppum_scene::request::Texts;
 
 use crate::arguments::{inches, positive, size};
 
@@ -36,8 +37,8 @@ pub(crate) struct Look {
     #[arg(long, value_name = "[x=|y=]auto|N|A,B,…", allow_hyphen_values = true, value_parser = marks)]
     ticks: Vec<(Axis, TickChoice)>,
     /// Words of a figure: title=, x=, y=, bar=, apart by commas; none are left out
-    #[arg(long, value_name = "title=…,x=…,y=…,bar=…", value_parser = words)]
-    labels: Vec<Words>,
+    #[arg(long, value_name = "title=…,x=…,y=…,bar=…", value_parser = texts)]
+    labels: Vec<Texts>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -59,17 +60,6 @@ enum BarName {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Axis {
-    X,
-    Y,
-    Bar,
-}
-
-/// What words stand for.
-type Words = Vec<(Word, String)>;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Word {
-    Title,
     X,
     Y,
     Bar,
@@ -158,18 +148,14 @@ impl Look {
         design
     }
 
-    /// The words with those that were given.
-    pub(crate) fn worded(&self, mut labels: Labels) -> Labels {
-        for (word, text) in self.labels.iter().flatten() {
-            let label = match word {
-                Word::Title => &mut labels.title,
-                Word::X => &mut labels.x,
-                Word::Y => &mut labels.y,
-                Word::Bar => &mut labels.quantity,
-            };
-            label.clone_from(text);
-        }
-        labels
+    /// The texts that were given; of those that were given twice the last one.
+    pub(crate) fn texts(&self) -> Texts {
+        self.labels.iter().cloned().fold(Texts::default(), |all, more| Texts {
+            title: more.title.or(all.title),
+            x: more.x.or(all.x),
+            y: more.y.or(all.y),
+            bar: more.bar.or(all.bar),
+        })
     }
 }
 
@@ -209,20 +195,22 @@ fn marks(text: &str) -> Result<(Axis, TickChoice), String> {
 }
 
 /// `KEY=TEXT` with commas between; a comma that no key follows is part of a text.
-fn words(text: &str) -> Result<Words, String> {
-    const KEYS: [(&str, Word); 4] =
-        [("title=", Word::Title), ("x=", Word::X), ("y=", Word::Y), ("bar=", Word::Bar)];
-    let mut all: Words = Vec::new();
+fn texts(text: &str) -> Result<Texts, String> {
+    const KEYS: [&str; 4] = ["title=", "x=", "y=", "bar="];
+    let (mut all, mut last) = ([const { None::<String> }; 4], None);
     for part in text.split(',') {
-        let found =
-            KEYS.iter().find_map(|(key, word)| Some((*word, part.trim_start().strip_prefix(key)?)));
-        match (found, all.last_mut()) {
-            (Some((word, text)), _) => all.push((word, text.to_owned())),
-            (None, Some((_, last))) => *last = format!("{last},{part}"),
+        let found = KEYS.iter().position(|key| part.trim_start().starts_with(key));
+        match (found, last.and_then(|last: usize| all[last].as_mut())) {
+            (Some(key), _) => {
+                all[key] = part.trim_start().strip_prefix(KEYS[key]).map(str::to_owned);
+                last = Some(key);
+            }
+            (None, Some(text)) => *text += &format!(",{part}"),
             (None, None) => return Err("begin with title=, x=, y= or bar=".into()),
         }
     }
-    Ok(all)
+    let [title, x, y, bar] = all;
+    Ok(Texts { title, x, y, bar })
 }
 
 #[cfg(test)]
@@ -248,18 +236,11 @@ mod tests {
     }
 
     #[test]
-    fn words_may_have_commas() {
-        let found = words("title=A plate, cracked, x=1,y=up,bar=").unwrap();
-        let pair = |word, text: &str| (word, text.to_owned());
-        assert_eq!(
-            found,
-            [
-                pair(Word::Title, "A plate, cracked"),
-                pair(Word::X, "1"),
-                pair(Word::Y, "up"),
-                pair(Word::Bar, ""),
-            ]
-        );
-        assert!(words("plate").is_err() && words("").is_err());
+    fn texts_may_have_commas() {
+        let found = texts("title=A plate, cracked, x=1,y=up,bar=").unwrap();
+        let [title, x, y, bar] =
+            ["A plate, cracked", "1", "up", ""].map(|text| Some(text.to_owned()));
+        assert_eq!(found, Texts { title, x, y, bar });
+        assert!(texts("plate").is_err() && texts("").is_err());
     }
 }

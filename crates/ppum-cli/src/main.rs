@@ -31,7 +31,6 @@ mod subject;
 mod target;
 mod threads;
 mod tips;
-mod undefined;
 mod warnings;
 mod window;
 
@@ -112,7 +111,6 @@ mod tests {
             ("signals", &[]),
             ("standard", &[]),
             ("threads", &[]),
-            ("undefined", &[]),
         ],
         &[
             ("families", &["number"]),
@@ -124,18 +122,18 @@ mod tests {
         ],
         &[
             ("dataset", &["given", "standard"]),
-            ("graphics", &["progress"]),
-            ("overlays", &["arguments", "output", "progress"]),
+            ("graphics", &[]),
+            ("overlays", &["arguments"]),
             ("page", &["output", "standard", "target"]),
-            ("profile", &["arguments", "output", "progress", "target", "tips", "undefined"]),
+            ("profile", &["arguments", "output", "progress", "target", "tips"]),
             ("window", &["arguments", "tips"]),
             ("replacements", &["arguments", "given"]),
         ],
         &[
-            ("backend", &["graphics", "output", "progress", "threads"]),
-            ("subject", &["dataset", "given", "replacements", "standard"]),
+            ("backend", &["graphics", "progress", "threads"]),
+            ("deformed", &["window"]),
+            ("subject", &["given", "replacements", "standard", "dataset"]),
         ],
-        &[("deformed", &["backend", "progress", "window"])],
         &[(
             "commands",
             &[
@@ -160,7 +158,6 @@ mod tests {
                 "target",
                 "threads",
                 "tips",
-                "undefined",
                 "warnings",
                 "window",
             ],

@@ -4,10 +4,10 @@ use std::io::Write as _;
 use std::path::Path;
 
 use anyhow::Context as _;
-use ppum::printable::printable;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::form::Form;
 use ppum_render::png::Text;
+use ppum_scene::notice::Notice;
 
 use crate::output::{Output, tell};
 use crate::standard::is_standard;
@@ -40,7 +40,7 @@ pub(crate) fn put(
     out: &mut Output,
 ) -> anyhow::Result<()> {
     let form = Form::of(path);
-    warn_of_missing(page, form);
+    warn(Notice::of_glyphs(page, form));
     if is_standard(path) {
         return Ok(out.exact().write_all(&bytes(form, page, dpi, texts)?)?);
     }
@@ -62,16 +62,7 @@ fn bytes(form: Form, page: &Canvas, dpi: Option<f64>, texts: &[Text]) -> anyhow:
     form.bytes(page, dpi, texts).context("cannot encode the picture")
 }
 
-/// Tells which characters the font of figures lacks.
-pub(crate) fn warn_of_missing(page: &Canvas, form: Form) {
-    let missing: Vec<String> = page.missing().iter().map(|c| format!("`{c}`")).collect();
-    if missing.is_empty() {
-        return;
-    }
-    let shown = match form {
-        Form::Svg => "programs with other fonts show them",
-        Form::Png | Form::Pdf => "boxes stand for them",
-    };
-    let list = missing.join(", ");
-    tell(&format!("warning: the font of figures lacks {}; {shown}", printable(&list)));
+/// Tells what is to be known of a picture.
+pub(crate) fn warn(notices: impl IntoIterator<Item = Notice>) {
+    notices.into_iter().for_each(|notice| tell(&notice.line()));
 }

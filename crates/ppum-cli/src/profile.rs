@@ -7,6 +7,7 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::sample::Place;
 use ppum::vec2::Vec2;
+use ppum_scene::notice::undefined;
 use ppum_scene::profile::{self, Along, COUNT, MOST, ProfileError, Variable};
 use ppum_scene::table::Table;
 
@@ -15,7 +16,6 @@ use crate::output::tell;
 use crate::progress::Bar;
 use crate::target;
 use crate::tips;
-use crate::undefined;
 
 /// Options of places along a curve.
 #[derive(Debug, clap::Args)]
@@ -139,7 +139,7 @@ pub(crate) fn listed(
 /// Tells which quantities have no value at places of the plate.
 fn tell_undefined(found: &profile::Profile) {
     for (name, counts) in &found.undefined {
-        tell(&format!("warning: {}", undefined::message(name, *counts, "points")));
+        tell(&format!("warning: {}", undefined(name, *counts, "points")));
     }
 }
 

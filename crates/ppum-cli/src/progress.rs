@@ -34,6 +34,10 @@ impl Bar {
     }
 
     fn show(&self, progress: Progress) {
+        if progress.step == 0 {
+            // the part of something longer may be another one since
+            self.0.set_prefix(within().clone());
+        }
         if self.0.message() != progress.phase.name() {
             if progress.step > 0 {
                 let series = self.1.lock().unwrap_or_else(PoisonError::into_inner);

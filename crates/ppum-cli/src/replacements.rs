@@ -149,6 +149,14 @@ impl Replacements {
         }
     }
 
+    /// The part, if it is one.
+    pub(crate) fn part(&self) -> Option<String> {
+        match self.part[..] {
+            [Choice(Some(part))] => Some(part.to_string()),
+            _ => None,
+        }
+    }
+
     /// The parts in words, where there are several: `smooth part`.
     pub(crate) fn captions(&self) -> Vec<String> {
         match self.part[..] {

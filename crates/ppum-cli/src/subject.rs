@@ -2,23 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
 use clap::ValueEnum;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum::formula::one_line;
 use ppum::quantity::Quantity;
-use ppum_figure::figure::Labels;
-use ppum_render::colormap::{Colormap, LONGEST, NAMES};
-use ppum_render::picture::Style;
+use ppum_render::colormap::NAMES;
 use ppum_render::range::Range;
 use ppum_render::scale::Scale;
 use ppum_scene::colors;
-use ppum_scene::drawing::{Drawn, Shown, classes};
+use ppum_scene::drawing::Shown;
 use ppum_scene::scene::default_quantity;
+use ppum_scene::shot::Asked;
 
-use crate::dataset::{field, open_step, quantity, shown};
-use crate::given::{self, parts};
+use crate::dataset::{field, open_step, quantity};
+use crate::given::{self, Given, parts};
 use crate::replacements::Replacements;
 use crate::standard::{self, is_standard};
 
@@ -59,13 +56,14 @@ impl Subject {
     /// The quantity, none but that.
     pub(crate) fn quantity(&self, field: &Field<'_>) -> anyhow::Result<(Quantity, Asked)> {
         let quantity = quantity(field, self.given(field))?;
-        Ok((quantity.clone(), Asked::new(Shown::Quantity(quantity), self.given(field))))
+        let shown = Shown::Quantity(quantity.clone());
+        Ok((quantity, Asked { name: shown.name(self.given(field)), shown }))
     }
 
-    /// What is shown: quantities and values of cells, of a list with commas between.
-    pub(crate) fn asked(&self, field: &Field<'_>) -> anyhow::Result<Vec<Asked>> {
-        let asked = |text| Ok(Asked::new(shown(field, text)?, text));
-        parts(self.given(field)).into_iter().map(asked).collect()
+    /// What is shown: quantities and values of cells, of a list with commas between; nothing if that is left to the program.
+    pub(crate) fn texts(&self) -> anyhow::Result<Option<Vec<Given>>> {
+        let read = |list| parts(list).into_iter().map(Given::read).collect();
+        self.quantity.as_deref().map(read).transpose()
     }
 
     /// True if several parts are asked for.
@@ -95,35 +93,6 @@ impl Subject {
             Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),
             _ => standard::name(&self.file),
         }
-    }
-}
-
-/// What is shown as it was asked for.
-pub(crate) struct Asked {
-    pub(crate) shown: Shown,
-    /// Its name in messages and in the picture's description.
-    pub(crate) name: String,
-}
-
-impl Asked {
-    fn new(shown: Shown, given: &str) -> Self {
-        let name = match &shown {
-            Shown::Quantity(Quantity::Formula(formula)) => formula.label(),
-            _ => given.to_owned(),
-        };
-        Self { shown, name }
-    }
-
-    /// The formula, as a note in the picture.
-    pub(crate) fn note(&self) -> Option<(String, String)> {
-        let Shown::Quantity(Quantity::Formula(formula)) = &self.shown else { return None };
-        Some(("ppum:formula".to_owned(), one_line(formula.formula().text())))
-    }
-
-    /// The words of its figure.
-    pub(crate) fn labels(&self, title: String, field: &Field<'_>) -> Labels {
-        let [quantity, unit] = self.shown.words(field);
-        Labels { title, quantity, unit, ..Labels::default() }
     }
 }
 
@@ -172,26 +141,8 @@ fn colormaps() -> String {
 }
 
 impl Colors {
-    /// The way values become colours in pictures of one range. Few whole numbers have a colour each.
-    pub(crate) fn style_of(&self, pictures: &[(&Asked, &Drawn)]) -> anyhow::Result<Style> {
-        let style = self.style(pictures.first().and_then(|(asked, _)| asked.shown.quantity()))?;
-        let pairs = pictures.iter().map(|(asked, drawn)| (&asked.shown, &drawn.values));
-        Ok(self.classed(style, classes(pairs)))
-    }
-
-    /// The style with a colour for each of some classes, unless range, scale or bands are given.
-    pub(crate) fn classed(&self, style: Style, classes: Option<Vec<f64>>) -> Style {
-        self.chosen().classed(style, classes)
-    }
-
-    /// The way a quantity's values become colours, or those of cells.
-    pub(crate) fn style(&self, quantity: Option<&Quantity>) -> anyhow::Result<Style> {
-        let default = colors::Colors::default_map(quantity);
-        let colormap = colormap(self.colormap.as_deref().unwrap_or(default))?;
-        Ok(self.chosen().style(quantity, colormap))
-    }
-
-    fn chosen(&self) -> colors::Colors {
+    /// The way values become colours.
+    pub(crate) fn chosen(&self) -> colors::Colors {
         colors::Colors {
             colormap: self.colormap.clone(),
             range: self.range,
@@ -206,17 +157,4 @@ impl Colors {
     pub(crate) fn input(&self) -> Option<&Path> {
         self.colormap.as_deref().map(Path::new)
     }
-}
-
-/// The map of a file, or the built-in one of that name. What is neither, but there, is read as a file too,
-/// to say why it cannot be.
-fn colormap(name: &str) -> anyhow::Result<Colormap> {
-    let path = Path::new(name);
-    match Colormap::named(name) {
-        Ok(map) if !path.is_file() => return Ok(map),
-        Err(error) if !path.exists() => return Err(error.into()),
-        _ => {}
-    }
-    let text = ppum_file::text(path, LONGEST).with_context(|| format!("cannot read {name}"))?;
-    Ok(Colormap::from_text(name, &text)?)
 }

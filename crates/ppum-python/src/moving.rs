@@ -2,10 +2,10 @@
 
 use ppum::progress::Watcher;
 use ppum_figure::figure::Design;
-use ppum_render::animation::{AnimationError, apng, gif};
 use ppum_render::view::View;
-use ppum_scene::moving::{Moving, MovingError};
-use ppum_scene::scene::{Scene, Subject};
+use ppum_scene::engine::Engine;
+use ppum_scene::moving::{Film, Form, Frames as _, InMemory, Moving, MovingError};
+use ppum_scene::scene::Subject;
 use ppum_scene::shot::{ShotError, reshaped};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -14,11 +14,8 @@ use pyo3::types::PyBytes;
 use crate::dataset::Dataset;
 use crate::errors::{RenderError, no_field, picture, subject};
 use crate::field::{Field, written};
-use crate::picture::{Look, Spot, view};
+use crate::picture::{Look, Spot, made, view};
 use crate::watch::long;
-
-/// Most pixels of all pictures together: they are kept until the colours of a GIF are counted, in 1 GiB.
-const MOST: u64 = 1 << 28;
 
 fn unmoved(error: MovingError) -> PyErr {
     match error {
@@ -38,14 +35,9 @@ struct Sight<'a> {
 
 impl Sight<'_> {
     /// The view of all pictures, pixel for pixel.
-    fn view(
-        &self,
-        moving: &Moving,
-        dataset: &ppum::dataset::Dataset,
-        scene: &Scene,
-    ) -> PyResult<View> {
+    fn view(&self, frames: &InMemory<'_>) -> PyResult<View> {
         let room = match self.design {
-            Some(design) => moving.room(dataset, scene, design).map_err(unmoved)?,
+            Some(design) => frames.room(design).map_err(unmoved)?,
             None => self.size,
         };
         let made = match self.spot {
@@ -54,7 +46,10 @@ impl Sight<'_> {
                 reshaped(&view(spot, [self.size[0].max(1), 1])?, room)
             }
             Some(spot) => return view(spot, room),
-            None => View::hug(moving.bounds(dataset, scene).map_err(unmoved)?, room),
+            None => {
+                let whole = frames.bounds().map_err(unmoved)?;
+                View::hug(whole.unwrap_or(frames.dataset.domain.bounds), room)
+            }
         };
         made.map_err(|error| picture(ShotError::View(error)))
     }
@@ -69,7 +64,7 @@ pub(crate) fn animation<'py>(
     py: Python<'py>,
     dataset: &Dataset,
     changes: &str,
-    scene: &str,
+    request: &str,
     steps: Vec<usize>,
     spot: Option<Spot>,
     size: [u32; 2],
@@ -77,10 +72,10 @@ pub(crate) fn animation<'py>(
     milliseconds: u16,
     form: &str,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyBytes>> {
-    let is_gif = match form {
-        "gif" => true,
-        "apng" => false,
+) -> PyResult<(Bound<'py, PyBytes>, Vec<String>)> {
+    let form = match form {
+        "gif" => Form::Gif,
+        "apng" => Form::Apng,
         other => {
             let known = "moving pictures are gif or apng";
             return Err(PyValueError::new_err(format!("`{other}` is no form: {known}")));
@@ -90,28 +85,19 @@ pub(crate) fn animation<'py>(
     let look = look.map(written::<Look>).transpose()?;
     let design = look.map(|look| look.design(dataset.domain.bounds)).transpose()?;
     let size = design.as_ref().map_or(size, |design| design.size);
-    let pixels = u64::from(size[0]) * u64::from(size[1]) * steps.len() as u64;
-    if pixels > MOST {
-        return Err(RenderError::new_err(format!(
-            "{} pictures of {}x{} pixels do not fit into memory; choose a smaller size or fewer steps",
-            steps.len(),
-            size[0],
-            size[1]
-        )));
-    }
-    let scene = Scene { subject: written::<Subject>(changes)?, ..this.scene(scene)? };
+    let mut request = this.request(request)?;
+    request.scene.subject = written::<Subject>(changes)?;
     let (moving, sight) = (Moving::Steps(steps), Sight { spot, size, design: design.as_ref() });
-    let drawn = |watcher: &dyn Watcher| -> PyResult<Vec<u8>> {
-        let scene = moving.settled(dataset, &scene).map_err(unmoved)?;
-        let view = sight.view(&moving, dataset, &scene)?;
-        let mut images = Vec::new();
-        let take = &mut |image| images.push(image);
-        moving.draw_in(dataset, &scene, &view, sight.design, watcher, take).map_err(unmoved)?;
-        let bytes = match is_gif {
-            true => gif(&images, milliseconds),
-            false => apng(&images, milliseconds, &[("Title".into(), dataset.title.clone())]),
-        };
-        bytes.map_err(|error: AnimationError| RenderError::new_err(error.to_string()))
+    let drawn = |engine: &Engine<'_>| {
+        let frames = InMemory::new(dataset, &request, &moving).map_err(unmoved)?;
+        let view = sight.view(&frames)?;
+        let film = Film::new(&frames, &view, sight.design, engine).map_err(unmoved)?;
+        let title = |_: &_| vec![("Title".into(), dataset.title.clone())];
+        let mut bytes = Vec::new();
+        film.write(form, milliseconds, &title, &mut bytes).map_err(unmoved)?;
+        Ok(bytes)
     };
-    Ok(PyBytes::new(py, &long(py, None, progress.as_ref(), drawn)??))
+    let all = |watcher: &dyn Watcher| made(&request, watcher, drawn);
+    let (bytes, told) = long(py, None, progress.as_ref(), all)??;
+    Ok((PyBytes::new(py, &bytes), told))
 }

@@ -5,7 +5,7 @@ use ppum::crack::Side;
 use ppum::progress::Watcher;
 use ppum::vec2::{Rect, Vec2};
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::{BarPlace, Design, Theme, bare};
+use ppum_figure::figure::{BarPlace, Design, Labels, Theme, bare};
 use ppum_figure::form::Form;
 use ppum_figure::ticks;
 use ppum_render::colormap::NAMES;
@@ -15,8 +15,11 @@ use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 use ppum_scene::deformed;
 use ppum_scene::drawing::{Drawn, Shown, Values};
+use ppum_scene::engine::Engine;
+use ppum_scene::notice::Notice;
+use ppum_scene::request::Request;
 use ppum_scene::scene::{Scene, shown};
-use ppum_scene::shot::{Shot, ShotError, figure_of, page, shot, view_in};
+use ppum_scene::shot::{Shot, ShotError, Source, page, page_in, shot, view_in};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -109,11 +112,17 @@ impl Field {
         shown(&self.spelled(name), self.owned.field()).map_err(|error| not_shown(&error))
     }
 
-    /// A scene of Python's layer, its quantity spelled as the libraries do.
-    pub(crate) fn scene(&self, text: &str) -> PyResult<Scene> {
-        let scene = written::<Scene>(text)?;
-        let quantity = scene.quantity.map(|name| self.spelled(&name));
-        Ok(Scene { quantity, subject: self.told.clone(), ..scene })
+    /// A request of Python's layer, its quantity spelled as the libraries do.
+    pub(crate) fn request(&self, text: &str) -> PyResult<Request> {
+        let mut request = written::<Request>(text)?;
+        let scene = &mut request.scene;
+        scene.quantity = scene.quantity.take().map(|name| self.spelled(&name));
+        scene.subject = self.told.clone();
+        Ok(request)
+    }
+
+    pub(crate) fn source(&self) -> Source<'_> {
+        Source::of(self.owned.dataset(), self.owned.field())
     }
 
     fn raster<T: Sample>(
@@ -149,23 +158,38 @@ impl Field {
 
     fn page(
         &self,
-        scene: &Scene,
+        request: &Request,
         spot: Option<View>,
         design: &Design,
-        watcher: &dyn Watcher,
+        engine: &Engine<'_>,
     ) -> PyResult<(Canvas, Shot)> {
-        let (dataset, field) = (self.owned.dataset(), self.owned.field());
-        let Some(view) = spot else {
-            let (whole, bad) = (self.whole(scene)?, |error| picture(ShotError::View(error)));
-            let any = View::hug(whole, design.size).map_err(bad)?;
-            let room = view_in(dataset, field, scene, &any, design).map_err(picture)?.pixels;
-            // as tight about the plate as the program's
-            let view = View::hug(whole, room).map_err(bad)?;
-            return figure_of(dataset, (field, None), scene, &view, design, watcher)
-                .map_err(picture);
+        let source = self.source();
+        let made = match spot {
+            Some(view) => page(source, request, &view, Some(design), engine),
+            None => {
+                let bad = |error| picture(ShotError::View(error));
+                let whole = self.whole(&request.scene)?;
+                let any = View::hug(whole, design.size).map_err(bad)?;
+                let room = view_in(source, request, &any, design).map_err(picture)?.pixels;
+                // as tight about the plate as the program's
+                let view = View::hug(whole, room).map_err(bad)?;
+                page_in(source, request, &view, Some(design), engine)
+            }
         };
-        page(dataset, (field, None), scene, &view, Some(design), watcher).map_err(picture)
+        made.map_err(picture)
     }
+}
+
+/// What is made of a request by its engine, and what is to be said of it, in words.
+pub(crate) fn made<T>(
+    request: &Request,
+    watcher: &dyn Watcher,
+    make: impl FnOnce(&Engine<'_>) -> PyResult<T>,
+) -> PyResult<(T, Vec<String>)> {
+    let engine = Engine::new(request.backend, request.precision, None, watcher);
+    let engine = engine.map_err(|error| picture(error.into()))?;
+    let made = make(&engine)?;
+    Ok((made, engine.into_notices().iter().map(Notice::to_string).collect()))
 }
 
 /// Values at the centres of pixels, rows from the top.
@@ -191,24 +215,24 @@ pub(crate) fn render<'py>(
     })
 }
 
-/// The colours of a scene, with what lies over them: rows from the top; red, green, blue, alpha.
+/// The colours of a request, with what lies over them: rows from the top; red, green, blue, alpha; and what is to be said of them.
 #[pyfunction]
 pub(crate) fn rgba<'py>(
     this: &Field,
     py: Python<'py>,
-    scene: &str,
+    request: &str,
     spot: Spot,
     size: [u32; 2],
-) -> PyResult<Bound<'py, PyArray3<u8>>> {
-    let (scene, view) = (this.scene(scene)?, view(spot, size)?);
-    let (dataset, field) = (this.owned.dataset(), this.owned.field());
-    let drawn = |watcher: &dyn Watcher| -> PyResult<_> {
-        let shot = shot(dataset, (field, None), &scene, &view, None, watcher).map_err(picture)?;
-        Ok(bare(&shot.picture, shot.layers.items).image())
+) -> PyResult<(Bound<'py, PyArray3<u8>>, Vec<String>)> {
+    let (request, view) = (this.request(request)?, view(spot, size)?);
+    let drawn = |engine: &Engine<'_>| {
+        let shot = shot(this.source(), &request, &view, None, engine).map_err(picture)?;
+        let page = shot.page(Labels::default(), None, engine);
+        Ok(page.map_err(|error| picture(error.into()))?.image())
     };
-    let image = long(py, None, None, drawn)??;
+    let (image, told) = long(py, None, None, |watcher| made(&request, watcher, drawn))??;
     let shape = [size[1] as usize, size[0] as usize, 4];
-    PyArray1::from_vec(py, image.rgba).reshape(shape)
+    Ok((PyArray1::from_vec(py, image.rgba).reshape(shape)?, told))
 }
 
 /// What a colour bar says.
@@ -263,21 +287,19 @@ impl BarFacts {
 pub(crate) fn frame<'py>(
     this: &Field,
     py: Python<'py>,
-    scene: &str,
+    request: &str,
     spot: Spot,
     size: [u32; 2],
 ) -> PyResult<(Bound<'py, PyBytes>, BarFacts)> {
-    let (scene, view) = (this.scene(scene)?, view(spot, size)?);
-    let (dataset, field) = (this.owned.dataset(), this.owned.field());
-    let drawn = |watcher: &dyn Watcher| -> PyResult<_> {
-        let mut shot =
-            shot(dataset, (field, None), &scene, &view, None, watcher).map_err(picture)?;
+    let (request, view) = (this.request(request)?, view(spot, size)?);
+    let drawn = |engine: &Engine<'_>| {
+        let mut shot = shot(this.source(), &request, &view, None, engine).map_err(picture)?;
         let layers = std::mem::take(&mut shot.layers.items);
         let bytes = encode_quickly(&bare(&shot.picture, layers).image());
         let bytes = bytes.map_err(|error| RenderError::new_err(error.to_string()))?;
         Ok((bytes, BarFacts::new(&shot, this)))
     };
-    let (bytes, bar) = long(py, None, None, drawn)??;
+    let ((bytes, bar), _) = long(py, None, None, |watcher| made(&request, watcher, drawn))??;
     Ok((PyBytes::new(py, &bytes), bar))
 }
 
@@ -294,28 +316,35 @@ pub(crate) fn form(name: &str) -> PyResult<Form> {
     }
 }
 
-/// The bytes of a figure's file, of the form that its name's end says: `png`, `svg` or `pdf`.
+/// The bytes of a figure's file, of the form that its name's end says: `png`, `svg` or `pdf`; and what is to be said of it.
 #[pyfunction]
 pub(crate) fn figure<'py>(
     this: &Field,
     py: Python<'py>,
-    scene: &str,
+    request: &str,
     spot: Option<Spot>,
     look: &str,
     form: &str,
-) -> PyResult<Bound<'py, PyBytes>> {
-    let (scene, look) = (this.scene(scene)?, written::<Look>(look)?);
-    let design = look.design(this.owned.field().domain.bounds)?;
+) -> PyResult<(Bound<'py, PyBytes>, Vec<String>)> {
+    let (request, look) = (this.request(request)?, written::<Look>(look)?);
+    let mut design = look.design(this.owned.field().domain.bounds)?;
+    if request.blank {
+        design.bar = BarPlace::None;
+    }
     // as flat as can be: figures show more above and below, not beside
     let spot = spot.map(|spot| view(spot, [design.size[0].max(1), 1])).transpose()?;
-    let (page, shot) = long(py, None, None, |watcher| this.page(&scene, spot, &design, watcher))??;
-    let title = &this.owned.dataset().title;
-    let quantity = scene.quantity.as_deref().unwrap_or_default();
-    let texts = shot.picture.description(title, title, quantity);
     let form = self::form(form)?;
+    let drawn = |engine: &Engine<'_>| {
+        let made = this.page(&request, spot, &design, engine)?;
+        Notice::of_glyphs(&made.0, form).into_iter().for_each(|notice| engine.tell(notice));
+        Ok(made)
+    };
+    let ((page, shot), told) = long(py, None, None, |watcher| made(&request, watcher, drawn))??;
+    let mut texts = shot.texts(&this.owned.dataset().title);
+    texts.extend(shot.notes());
     let dpi = (look.inches.is_some() || look.dpi.is_some()).then_some(design.dpi);
     let bytes = long(py, None, None, |_| form.bytes(&page, dpi, &texts))?;
-    Ok(PyBytes::new(py, &bytes?))
+    Ok((PyBytes::new(py, &bytes?), told))
 }
 
 /// The smallest and the largest value in a view; none where there are no values.

@@ -89,6 +89,7 @@ def program():
     def run(*args):
         done = subprocess.run([path, *map(str, args)], capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
+        run.warnings = [line.removeprefix("warning: ") for line in done.stderr.splitlines()]
         return done.stdout
 
     return run

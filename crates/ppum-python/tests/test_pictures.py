@@ -54,6 +54,20 @@ def test_pictures_are_those_of_the_program(ds, f, program, tmp_path):
     assert ours.shape[:2] == (480, 640) and np.array_equal(ours, theirs)
 
 
+def test_what_is_said_of_a_figure_is_what_the_program_says(ds, f, program, tmp_path):
+    """One request: equal pixels, equal warnings."""
+    ds.save(tmp_path / "plate.h5")
+    options = ["--figure", "-q", "sqrt(x)", "--size", "500x400", "--samples", "2", "--isolines", "1e9,", "--labels", "title=\u2603"]
+    program("render", tmp_path / "plate.h5", "-o", tmp_path / "theirs.png", *options)
+    figure = f.figure("sqrt(x)", size=(500, 400), samples=2, isolines=[1e9], labels={"title": "\u2603"})
+    with pytest.warns(UserWarning) as caught:
+        figure.save(tmp_path / "ours.png")
+    ours, theirs = (matplotlib.image.imread(tmp_path / f"{name}.png") for name in ("ours", "theirs"))
+    assert np.array_equal(ours, theirs)
+    assert len(figure.warnings) == 3
+    assert list(figure.warnings) == [str(warning.message) for warning in caught] == program.warnings
+
+
 def test_figures(f, tmp_path):
     figure = f.figure("uy", cmap="coolwarm", isolines=7, overlays=["cells"], deformed="auto", outline=True, size=(400, 500))
     assert figure._repr_png_() == figure.png() and figure.png()[:4] == b"\x89PNG"

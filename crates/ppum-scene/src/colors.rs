@@ -1,9 +1,11 @@
 //! The way values become colours, as data.
 
 use std::f64::consts::FRAC_PI_2;
+use std::io;
+use std::path::Path;
 
 use ppum::quantity::Quantity;
-use ppum_render::colormap::{Colormap, ColormapError};
+use ppum_render::colormap::{Colormap, ColormapError, LONGEST};
 use ppum_render::picture::Style;
 use ppum_render::range::Range;
 use ppum_render::scale::Scale;
@@ -36,18 +38,18 @@ pub struct Colors {
 pub const MOST_BANDS: u16 = 1000;
 
 impl Colors {
+    /// The map: that of the name or file, by default one that suits the quantity.
+    ///
+    /// # Errors
+    /// As [`map`].
+    pub fn map(&self, quantity: Option<&Quantity>) -> Result<Colormap, MapError> {
+        map(self.colormap.as_deref().unwrap_or(Self::default_map(quantity)))
+    }
+
     /// The name of the map where none is given.
     #[must_use]
     pub fn default_map(quantity: Option<&Quantity>) -> &'static str {
         if quantity.and_then(period).is_some() { "twilight" } else { "viridis" }
-    }
-
-    /// The map of the name, if that is a built-in one.
-    ///
-    /// # Errors
-    /// An unknown name.
-    pub fn built_in(&self, quantity: Option<&Quantity>) -> Result<Colormap, ColormapError> {
-        Colormap::named(self.colormap.as_deref().unwrap_or(Self::default_map(quantity)))
     }
 
     /// The way a quantity's values become colours of a map, or those of cells.
@@ -90,6 +92,39 @@ impl Colors {
             None => style,
         }
     }
+}
+
+/// A colour map that there is not, or that cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MapError {
+    /// No such name, or a file that holds no map.
+    #[error(transparent)]
+    Colormap(#[from] ColormapError),
+    /// A file that cannot be read.
+    #[error("cannot read {name}: {error}")]
+    File {
+        /// Its name.
+        name: String,
+        /// The reason.
+        error: io::Error,
+    },
+}
+
+/// The map of a file, or the built-in one of that name. What is neither, but there, is read as a file too, to say why it cannot be.
+///
+/// # Errors
+/// An unknown name; a file that cannot be read, or holds no map.
+pub fn map(name: &str) -> Result<Colormap, MapError> {
+    let path = Path::new(name);
+    match Colormap::named(name) {
+        Ok(map) if !path.is_file() => return Ok(map),
+        Err(error) if !path.exists() => return Err(error.into()),
+        _ => {}
+    }
+    let text = ppum_file::text(path, LONGEST);
+    let text = text.map_err(|error| MapError::File { name: name.into(), error })?;
+    Ok(Colormap::from_text(name, &text)?)
 }
 
 /// The values that an angle goes round through.

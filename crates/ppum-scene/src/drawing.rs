@@ -24,6 +24,14 @@ pub enum Seen<'f> {
 }
 
 impl<'f> Seen<'f> {
+    /// The view.
+    pub fn view(&self) -> &View {
+        match self {
+            Self::Plate(view) => view,
+            Self::Moved(points) => &points.view.view,
+        }
+    }
+
     /// The deformed plate, if it is that.
     pub fn moved(&self) -> Option<&DeformedPoints<'f>> {
         match self {
@@ -53,6 +61,15 @@ impl Shown {
         match self {
             Self::Quantity(quantity) => Some(quantity),
             Self::Cells(..) => None,
+        }
+    }
+
+    /// Its name in messages and files, where it was asked for by a text: that of a formula is short.
+    #[must_use]
+    pub fn name(&self, text: &str) -> String {
+        match self {
+            Self::Quantity(Quantity::Formula(formula)) => formula.label(),
+            _ => text.to_owned(),
         }
     }
 

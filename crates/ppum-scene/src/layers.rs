@@ -215,9 +215,8 @@ impl<'a> Drawing<'a> {
 
     /// Isolines, found on the exact field; the picture's values say where to look for them.
     fn isolines(&mut self) -> Result<(), LayersError> {
-        let Some(levels) = self.levels() else { return Ok(()) };
-        let Ground { field, quantity, picture, values, .. } = self.ground;
-        let Some(quantity) = quantity else { return Ok(()) };
+        let Some((quantity, levels)) = self.levels() else { return Ok(()) };
+        let Ground { field, picture, values, .. } = self.ground;
         let view = &picture.view;
         let lines = match values {
             Values::Double(raster) => {
@@ -234,10 +233,9 @@ impl<'a> Drawing<'a> {
 
     /// Isolines of the plate as it was, where they have moved to.
     fn deformed_isolines(&mut self, points: &DeformedPoints<'_>) -> Result<(), LayersError> {
-        let Some(levels) = self.levels() else { return Ok(()) };
+        let Some((quantity, levels)) = self.levels() else { return Ok(()) };
         let Some(view) = points.material_view() else { return Ok(()) };
-        let Ground { field, quantity, .. } = self.ground;
-        let Some(quantity) = quantity else { return Ok(()) };
+        let field = self.ground.field;
         let raster = render::<f64>(field, &view, quantity, self.watcher)?;
         let lines = isolines(field, &view, quantity, &levels, &raster, self.watcher)?;
         let lines = overlay::carried(&points.view, &lines);
@@ -272,17 +270,23 @@ impl<'a> Drawing<'a> {
         all.map(|room| legend.into_iter().fold(room, Room::without))
     }
 
-    /// The levels of isolines, if they are asked for.
-    fn levels(&self) -> Option<Vec<f64>> {
-        let picture = self.ground.picture;
+    /// The quantity of isolines and their levels, if they are asked for and there can be some.
+    fn levels(&mut self) -> Option<(&'a Quantity, Vec<f64>)> {
+        let wanted = self.overlays.isolines.as_ref()?;
+        let Ground { picture, quantity, .. } = self.ground;
+        let Some(quantity) = quantity else {
+            self.layers.notices.push(Notice::NoIsolines);
+            return None;
+        };
         let norm = &picture.normalization;
-        self.overlays.isolines.as_ref().map(|levels| match levels {
+        let levels = match wanted {
             // nothing but rounding tells values apart
             _ if picture.one_value.is_some() => Vec::new(),
             Levels::Auto => levels::automatic(norm, AUTOMATIC),
             Levels::Count(count) => levels::about(norm, *count),
             Levels::At(values) => values.clone(),
-        })
+        };
+        Some((quantity, levels))
     }
 
     /// Arrows and crosses with what their lengths mean in the legend. `lattice` makes points with a spacing.

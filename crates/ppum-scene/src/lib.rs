@@ -11,6 +11,7 @@ pub mod command;
 pub mod compare;
 pub mod deformed;
 pub mod drawing;
+pub mod engine;
 #[cfg(feature = "problem")]
 pub mod facts;
 pub mod layers;
@@ -22,6 +23,7 @@ pub mod overlays;
 pub mod plots;
 pub mod profile;
 pub mod range;
+pub mod request;
 pub mod scene;
 pub mod shared;
 pub mod shot;
@@ -48,6 +50,7 @@ mod tests {
             ("colors", &["drawing", "written"]),
             ("compare", &["written"]),
             ("deformed", &["drawing"]),
+            ("engine", &["drawing", "notice"]),
             ("profile", &["table"]),
             ("range", &["drawing"]),
             ("shared", &["drawing"]),
@@ -59,11 +62,21 @@ mod tests {
             ("plots", &["profile", "table"]),
             ("scene", &["colors", "deformed", "drawing", "overlays"]),
         ],
-        &[
-            ("command", &["scene"]),
-            ("shot", &["deformed", "drawing", "layers", "minus", "range", "scene", "shared"]),
-        ],
-        &[("moving", &["deformed", "drawing", "scene", "shared", "shot"])],
+        &[("command", &["scene"]), ("request", &["engine", "scene"])],
+        &[(
+            "shot",
+            &[
+                "colors", "deformed", "drawing", "engine", "layers", "minus", "notice", "range",
+                "request", "scene", "shared",
+            ],
+        )],
+        &[(
+            "moving",
+            &[
+                "colors", "deformed", "drawing", "engine", "notice", "request", "scene", "shared",
+                "shot",
+            ],
+        )],
     ];
 
     #[test]

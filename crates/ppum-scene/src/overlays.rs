@@ -28,6 +28,7 @@ pub struct Overlays {
 
 /// In the order in which they are drawn, the lowest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Overlay {
     /// Supports of the patches, which overlap.

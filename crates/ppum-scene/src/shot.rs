@@ -1,28 +1,35 @@
-//! A picture of a scene from a view, made in one go.
+//! A picture of a request from a view: its values, their colours, what lies over them, its page.
 
 use std::fmt::Write as _;
 
+use ppum::crack::Crack;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum::progress::Watcher;
+use ppum::formula::one_line;
+use ppum::quantity::Quantity;
 use ppum::text::trimmed;
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::{BarPlace, Design, FigureError, Labels, Panel, bare, figure, plot_area};
+use ppum_figure::figure::{BarPlace, Design, FigureError, Labels, Panel};
+use ppum_figure::figure::{bare, figure, lacks_legend, plot_area};
+use ppum_figure::overlay::Entry;
 use ppum_render::RenderError;
-use ppum_render::cells;
-use ppum_render::colormap::ColormapError;
 use ppum_render::deform::{DeformError, Deformation};
+use ppum_render::image::Image;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::png::Text;
 use ppum_render::range::{RangeError, Span};
-use ppum_render::scatter::render;
+use ppum_render::samples::Samples;
 use ppum_render::view::{View, ViewError};
 
+use crate::colors::{Colors, MapError};
 use crate::deformed::{self, words};
-use crate::drawing::{Drawn, PROCESSOR, Seen, Shown};
+use crate::drawing::{Drawn, Job, Seen, Shown};
+use crate::engine::{Engine, EngineError};
 use crate::layers::{Ground, Layers, LayersError};
 use crate::minus::{self, Minus, Side};
+use crate::notice::Notice;
 use crate::range;
+use crate::request::Request;
 use crate::scene::{Scene, ShownError, default_quantity, shown};
 use crate::shared::Coloring;
 
@@ -31,14 +38,22 @@ use crate::shared::Coloring;
 pub struct Shot {
     /// What is shown.
     pub shown: Shown,
+    /// Its name.
+    pub name: String,
     /// The colours.
     pub picture: Picture,
     /// What lies over them.
     pub layers: Layers,
+    /// The cracks where they are seen.
+    pub cracks: Vec<Crack>,
     /// What computed the values.
     pub by: String,
+    /// The number of pixels where the deformed plate lies over itself.
+    pub overlaps: usize,
     /// How many times its displacement the plate is drawn with, if it is deformed.
     pub factor: Option<f64>,
+    /// The title of the dataset, and of a series the number of the step and its load.
+    dataset: (String, Option<(usize, f64)>),
 }
 
 /// The reason why there is no such picture.
@@ -51,12 +66,21 @@ pub enum ShotError {
     /// The quantity, isolines, or a watcher that stopped it.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// The backend.
+    #[error(transparent)]
+    Engine(EngineError),
+    /// Means of samples where there are none.
+    #[error("samples: {0} drawn at the centres of pixels; leave samples out")]
+    Samples(&'static str),
+    /// A frame of an animation with more pixels than memory is meant for.
+    #[error("frames of {}x{} pixels do not fit into memory; choose a smaller size", .0[0], .0[1])]
+    TooLarge([u32; 2]),
     /// The deformed plate.
     #[error(transparent)]
     Deform(#[from] DeformError),
     /// The colour map.
     #[error(transparent)]
-    Colormap(#[from] ColormapError),
+    Colormap(#[from] MapError),
     /// The range of the colours.
     #[error(transparent)]
     Range(#[from] RangeError),
@@ -71,148 +95,313 @@ pub enum ShotError {
     View(#[from] ViewError),
 }
 
-/// Draws a scene's picture from a view on the processor, in double precision. The field is that of the scene's subject, see
-/// [`Subject::apply`](crate::scene::Subject::apply). With something on the `left` that is subtracted, and the plate is as it was. With
-/// the `design` of a figure its cracks are drawn whatever is asked for.
+impl From<EngineError> for ShotError {
+    fn from(error: EngineError) -> Self {
+        match error {
+            EngineError::Render(error) => Self::Render(error),
+            other => Self::Engine(other),
+        }
+    }
+}
+
+/// What a picture is made of: what is shown of a field, and where it is seen.
+#[derive(Clone, Copy)]
+pub struct Input<'a> {
+    /// The dataset.
+    pub dataset: &'a Dataset,
+    /// Its field.
+    pub field: &'a Field<'a>,
+    /// What is shown.
+    pub shown: &'a Shown,
+    /// Its name in notices and in the file.
+    pub name: &'a str,
+    /// Where it is seen.
+    pub seen: &'a Seen<'a>,
+    /// What is subtracted, in the plate as it was.
+    pub left: Option<Side<'a>>,
+}
+
+impl<'a> Input<'a> {
+    fn minus(&self) -> Option<Minus<'a>> {
+        let right = Side { field: self.field, shown: self.shown };
+        self.left.map(|left| Minus { right, left })
+    }
+
+    /// The values, each the mean of so many samples.
+    ///
+    /// # Errors
+    /// A quantity that the field does not have; what the engine or the samples do not fit; a watcher that stops it.
+    pub fn values(&self, samples: Samples, engine: &Engine<'_>) -> Result<Drawn, ShotError> {
+        let Self { field, shown, seen, .. } = *self;
+        let centers = |what| match samples {
+            Samples::CENTER => Ok(()),
+            _ => Err(ShotError::Samples(what)),
+        };
+        Ok(match (self.minus(), seen, shown) {
+            (Some(minus), seen, _) => {
+                centers("differences are")?;
+                minus.draw(seen.view(), engine.watcher)?.drawn
+            }
+            (None, Seen::Plate(view), Shown::Quantity(quantity)) => {
+                engine.draw(Job { field, view, quantity }, samples)?
+            }
+            (None, Seen::Plate(view), Shown::Cells(_, values)) => {
+                centers("values of cells are")?;
+                Drawn::of_cells(values, field, view)
+            }
+            (None, Seen::Moved(points), shown) => {
+                centers("the deformed plate is")?;
+                engine.check_deformed()?;
+                deformed::draw(points, shown, engine.watcher)?
+            }
+        })
+    }
+
+    /// Tells of pixels without values, of so many, and of a quantity that is infinite everywhere.
+    pub fn tell_values(&self, drawn: &Drawn, engine: &Engine<'_>) {
+        engine.tell_undefined(self.name, drawn.undefined(), self.shown.quantity().is_none());
+        let statistics = drawn.values.statistics();
+        if statistics.finite == 0 && statistics.infinite > 0 {
+            engine.tell(Notice::Infinite(self.name.to_owned()));
+        }
+    }
+
+    /// The colours of the picture for it alone.
+    ///
+    /// # Errors
+    /// A map that there is not; a watcher that stops the search for the range.
+    pub fn coloring(
+        &self,
+        colors: &Colors,
+        drawn: &Drawn,
+        engine: &Engine<'_>,
+    ) -> Result<Coloring, ShotError> {
+        let quantity = self.shown.quantity();
+        let style = match self.minus() {
+            Some(minus) => minus.style(colors)?,
+            None => colors.style_of([(self.shown, &drawn.values)], colors.map(quantity)?),
+        };
+        let span = self.span(drawn, &style, engine)?;
+        Ok(Coloring { style, span, ends: None })
+    }
+
+    /// The range of the colours.
+    ///
+    /// # Errors
+    /// A watcher that stops the search.
+    pub fn span(
+        &self,
+        drawn: &Drawn,
+        style: &Style,
+        engine: &Engine<'_>,
+    ) -> Result<Span, ShotError> {
+        Ok(match (self.left, self.shown.quantity()) {
+            (Some(_), _) => minus::span(drawn, style),
+            (None, None) => drawn.span(style, None),
+            (None, Some(quantity)) => {
+                range::found(self.field, self.seen, quantity, drawn, style, engine.watcher)?
+            }
+        })
+    }
+
+    /// The picture with colours for it alone.
+    ///
+    /// # Errors
+    /// As the steps that it consists of.
+    pub fn draw(
+        &self,
+        request: &Request,
+        design: Option<&Design>,
+        engine: &Engine<'_>,
+    ) -> Result<Shot, ShotError> {
+        let drawn = self.values(request.samples, engine)?;
+        self.tell_values(&drawn, engine);
+        let coloring = self.coloring(&request.scene.colors, &drawn, engine)?;
+        self.shot(request, &drawn, &coloring, design, engine)
+    }
+
+    /// The picture of the values in colours, with its overlays. With the `design` of a figure cracks are drawn whatever is asked for.
+    ///
+    /// # Errors
+    /// A range that does not fit; overlays that there are not; a watcher that stops it.
+    pub fn shot(
+        &self,
+        request: &Request,
+        drawn: &Drawn,
+        coloring: &Coloring,
+        design: Option<&Design>,
+        engine: &Engine<'_>,
+    ) -> Result<Shot, ShotError> {
+        let mut picture = coloring.picture(drawn)?;
+        let layers = self.layers(&request.scene, drawn, &picture, design, engine)?;
+        layers.notices.iter().for_each(|notice| engine.tell(notice.clone()));
+        let step = request.scene.subject.step_of(self.dataset);
+        let step = Some((step, self.field.step.load));
+        if request.blank {
+            blank(&mut picture.image);
+        }
+        Ok(Shot {
+            shown: self.shown.clone(),
+            name: self.name.to_owned(),
+            picture,
+            layers,
+            cracks: self.seen.cracks(self.field),
+            by: drawn.by.clone(),
+            overlaps: drawn.overlap.len(),
+            factor: self.seen.moved().map(|points| points.view.factor()),
+            dataset: (self.dataset.title.clone(), step.filter(|_| self.dataset.steps.len() > 1)),
+        })
+    }
+
+    fn layers(
+        &self,
+        scene: &Scene,
+        drawn: &Drawn,
+        picture: &Picture,
+        design: Option<&Design>,
+        engine: &Engine<'_>,
+    ) -> Result<Layers, ShotError> {
+        let Self { dataset, field, .. } = *self;
+        // isolines are found of one field, and between the centres of pixels
+        let quantity = self.shown.quantity().filter(|_| self.left.is_none());
+        let centers = match quantity {
+            Some(quantity) if drawn.opacity.is_some() && scene.overlays.isolines.is_some() => {
+                let job = Job { field, view: &drawn.view, quantity };
+                Some(engine.draw(job, Samples::CENTER)?)
+            }
+            _ => None,
+        };
+        let values = &centers.as_ref().unwrap_or(drawn).values;
+        let has_bar = design.is_some_and(|design| design.bar != BarPlace::None);
+        let ground = Ground { dataset, field, quantity, picture, values, design, has_bar };
+        let layers = scene.overlays.layers(ground, self.seen, scene.outline, engine.watcher);
+        Ok(layers.map_err(Box::new)?)
+    }
+}
+
+/// Leaves out the colours: the plate is white.
+fn blank(image: &mut Image) {
+    let seen = image.rgba.as_chunks_mut::<4>().0.iter_mut().filter(|pixel| pixel[3] > 0);
+    seen.for_each(|pixel| pixel[..3].fill(255));
+}
+
+/// A field of a dataset, and what is subtracted from what is shown of it.
+#[derive(Clone, Copy)]
+pub struct Source<'a> {
+    /// The dataset.
+    pub dataset: &'a Dataset,
+    /// Its field, which is that of the request's subject, see [`Subject::apply`](crate::scene::Subject::apply).
+    pub field: &'a Field<'a>,
+    /// What is subtracted; the plate is as it was then.
+    pub left: Option<Side<'a>>,
+}
+
+/// What is shown, by the text that asked for it.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// What is shown.
+    pub shown: Shown,
+    /// Its name in messages and files.
+    pub name: String,
+}
+
+impl Asked {
+    /// What a scene shows of a field.
+    ///
+    /// # Errors
+    /// A text that means nothing for the field.
+    pub fn new(scene: &Scene, field: &Field<'_>) -> Result<Self, ShownError> {
+        let text = scene.quantity.as_deref().unwrap_or(default_quantity(field));
+        let shown = shown(text, field)?;
+        Ok(Self { name: shown.name(text), shown })
+    }
+}
+
+impl<'a> Source<'a> {
+    /// A field without anything on the left.
+    #[must_use]
+    pub fn of(dataset: &'a Dataset, field: &'a Field<'a>) -> Self {
+        Self { dataset, field, left: None }
+    }
+
+    /// What a picture of it is made of.
+    #[must_use]
+    pub fn input<'b>(self, asked: &'b Asked, seen: &'b Seen<'b>) -> Input<'b>
+    where
+        'a: 'b,
+    {
+        let Self { dataset, field, left } = self;
+        Input { dataset, field, shown: &asked.shown, name: &asked.name, seen, left }
+    }
+
+    /// What is seen of it in a view.
+    pub(crate) fn seen(
+        self,
+        scene: &Scene,
+        view: &View,
+        engine: &Engine<'_>,
+    ) -> Result<Seen<'a>, ShotError> {
+        let deformed = scene.deformed.filter(|_| self.left.is_none());
+        let factor = deformed.map(|factor| factor.number(&[self.field])).transpose()?;
+        let Some(factor) = factor else { return Ok(Seen::Plate(*view)) };
+        engine.check_deformed()?;
+        Ok(Seen::Moved(Deformation::new(self.field, factor)?.seen(view).points(engine.watcher)?))
+    }
+
+    /// The labels of a figure: those that are asked for, else the words for what is shown; with the step and its load in the place
+    /// of `{step}` and `{load}`.
+    ///
+    /// # Errors
+    /// Fields that are no displacements.
+    pub fn labels(self, shown: &Shown, request: &Request) -> Result<Labels, DeformError> {
+        let title = title(self, request)?;
+        let [quantity, unit] = match self.left {
+            None => shown.words(self.field),
+            Some(left) => Minus { right: Side { field: self.field, shown }, left }.words(),
+        };
+        let labels = Labels { title, quantity, unit, ..Labels::default() };
+        let labels = request.labels.applied(labels);
+        let filled = |text: &str| self.filled(text, &request.scene);
+        let (title, quantity) = (filled(&labels.title), filled(&labels.quantity));
+        Ok(Labels { title, quantity, ..labels })
+    }
+
+    /// A text with the step of a series and its load in the place of `{step}` and `{load}`.
+    fn filled(self, text: &str, scene: &Scene) -> String {
+        if self.dataset.steps.len() < 2 {
+            return text.to_owned();
+        }
+        let step = scene.subject.step_of(self.dataset).to_string();
+        text.replace("{step}", &step).replace("{load}", &trimmed(self.field.step.load))
+    }
+
+    /// The page of a shot.
+    pub(crate) fn page(
+        self,
+        shot: Shot,
+        request: &Request,
+        design: Option<&Design>,
+        engine: &Engine<'_>,
+    ) -> Result<(Canvas, Shot), ShotError> {
+        let labels = design.map(|_| self.labels(&shot.shown, request)).transpose()?;
+        Ok((shot.page(labels.unwrap_or_default(), design, engine)?, shot))
+    }
+}
+
+/// Draws a picture from a view.
 ///
 /// # Errors
 /// What the field does not have; a range that does not fit; a watcher that stops it.
 pub fn shot(
-    dataset: &Dataset,
-    (field, left): (&Field<'_>, Option<Side<'_>>),
-    scene: &Scene,
+    source: Source<'_>,
+    request: &Request,
     view: &View,
     design: Option<&Design>,
-    watcher: &dyn Watcher,
+    engine: &Engine<'_>,
 ) -> Result<Shot, ShotError> {
-    shot_by(None, dataset, (field, left), scene, view, design, watcher)
-}
-
-/// The shot, its colours being those that are given.
-fn shot_by(
-    coloring: Option<&Coloring>,
-    dataset: &Dataset,
-    (field, left): (&Field<'_>, Option<Side<'_>>),
-    scene: &Scene,
-    view: &View,
-    design: Option<&Design>,
-    watcher: &dyn Watcher,
-) -> Result<Shot, ShotError> {
-    let shown = shown(scene.quantity.as_deref().unwrap_or(default_quantity(field)), field)?;
-    let minus = left.map(|left| Minus { right: Side { field, shown: &shown }, left });
-    let deformed = scene.deformed.filter(|_| minus.is_none());
-    let factor = deformed.map(|factor| factor.number(&[field])).transpose()?;
-    let seen = seen(field, view, factor, watcher)?;
-    let (drawn, picture) = match (minus, coloring) {
-        (Some(minus), _) => subtracted(minus, scene, view, watcher)?,
-        (None, None) => colored(field, &seen, &shown, scene, watcher)?,
-        (None, Some(coloring)) => {
-            let drawn = drawn(field, &seen, &shown, watcher)?;
-            let picture = coloring.picture(&drawn)?;
-            (drawn, picture)
-        }
-    };
-    // isolines are found of one field
-    let (quantity, values) = (shown.quantity().filter(|_| minus.is_none()), &drawn.values);
-    let ground = Ground {
-        dataset,
-        field,
-        quantity,
-        picture: &picture,
-        values,
-        design,
-        has_bar: design.is_some_and(|design| design.bar != BarPlace::None),
-    };
-    let layers = scene.overlays.layers(ground, &seen, scene.outline, watcher).map_err(Box::new)?;
-    drop(seen);
-    Ok(Shot { shown, picture, layers, by: drawn.by, factor })
-}
-
-/// Values of a field with their colours.
-fn colored(
-    field: &Field<'_>,
-    seen: &Seen<'_>,
-    shown: &Shown,
-    scene: &Scene,
-    watcher: &dyn Watcher,
-) -> Result<(Drawn, Picture), ShotError> {
-    let drawn = drawn(field, seen, shown, watcher)?;
-    let colormap = scene.colors.built_in(shown.quantity())?;
-    let style = scene.colors.style_of([(shown, &drawn.values)], colormap);
-    let span = span(field, seen, shown, &drawn, &style, watcher)?;
-    let picture = drawn.picture(&style, span)?;
-    Ok((drawn, picture))
-}
-
-/// The range of what is shown.
-fn span(
-    field: &Field<'_>,
-    seen: &Seen<'_>,
-    shown: &Shown,
-    drawn: &Drawn,
-    style: &Style,
-    watcher: &dyn Watcher,
-) -> Result<Span, ShotError> {
-    Ok(match shown.quantity() {
-        Some(quantity) => range::found(field, seen, quantity, drawn, style, watcher)?,
-        None => drawn.span(style, None),
-    })
-}
-
-/// What the values of a picture are, before it has colours: what is shown, its values, the style for it alone, its range.
-pub(crate) fn uncolored(
-    field: &Field<'_>,
-    scene: &Scene,
-    view: &View,
-    watcher: &dyn Watcher,
-) -> Result<(Shown, Drawn, Style, Span), ShotError> {
-    let shown = shown(scene.quantity.as_deref().unwrap_or(default_quantity(field)), field)?;
-    let factor = scene.deformed.map(|factor| factor.number(&[field])).transpose()?;
-    let seen = seen(field, view, factor, watcher)?;
-    let drawn = drawn(field, &seen, &shown, watcher)?;
-    let style = scene.colors.style(shown.quantity(), scene.colors.built_in(shown.quantity())?);
-    let span = span(field, &seen, &shown, &drawn, &style, watcher)?;
-    drop(seen);
-    Ok((shown, drawn, style, span))
-}
-
-/// A difference with its colours.
-fn subtracted(
-    minus: Minus<'_>,
-    scene: &Scene,
-    view: &View,
-    watcher: &dyn Watcher,
-) -> Result<(Drawn, Picture), ShotError> {
-    let drawn = minus.draw(view, watcher)?.drawn;
-    let style = minus.style(&scene.colors)?;
-    let picture = drawn.picture(&style, minus::span(&drawn, &style))?;
-    Ok((drawn, picture))
-}
-
-fn seen<'f>(
-    field: &'f Field<'f>,
-    view: &View,
-    factor: Option<f64>,
-    watcher: &dyn Watcher,
-) -> Result<Seen<'f>, DeformError> {
-    let Some(factor) = factor else { return Ok(Seen::Plate(*view)) };
-    Ok(Seen::Moved(Deformation::new(field, factor)?.seen(view).points(watcher)?))
-}
-
-fn drawn(
-    field: &Field<'_>,
-    seen: &Seen<'_>,
-    shown: &Shown,
-    watcher: &dyn Watcher,
-) -> Result<Drawn, ShotError> {
-    Ok(match (seen, shown) {
-        (Seen::Plate(view), Shown::Quantity(quantity)) => {
-            let raster = render::<f64>(field, view, quantity, watcher)?;
-            Drawn::new(raster, field, view, PROCESSOR)
-        }
-        (Seen::Plate(view), Shown::Cells(_, values)) => Drawn::of_cells(values, field, view),
-        (Seen::Moved(points), shown) => deformed::draw(points, shown, watcher)?,
-    })
+    let asked = Asked::new(&request.scene, source.field)?;
+    let seen = source.seen(&request.scene, view, engine)?;
+    source.input(&asked, &seen).draw(request, design, engine)
 }
 
 /// The view of the same part of the plane, or more where the shapes differ, on other pixels.
@@ -229,107 +418,71 @@ pub fn reshaped(view: &View, pixels: [u32; 2]) -> Result<View, ViewError> {
 /// # Errors
 /// As [`page`].
 pub fn view_in(
-    dataset: &Dataset,
-    field: &Field<'_>,
-    scene: &Scene,
+    source: Source<'_>,
+    request: &Request,
     view: &View,
     design: &Design,
 ) -> Result<View, ShotError> {
-    Ok(reshaped(view, plot_area(&title(dataset, field, scene)?, design)?)?)
+    Ok(reshaped(view, plot_area(&title(source, request)?, design)?)?)
 }
 
-/// The page of a scene's picture as a figure of a design, or bare without one, of the part of the plane that a view shows.
+/// The page of a picture as a figure of a design, or bare without one, of the part of the plane that a view shows.
 ///
 /// # Errors
 /// As [`shot`]; a design without room.
 pub fn page(
-    dataset: &Dataset,
-    (field, left): (&Field<'_>, Option<Side<'_>>),
-    scene: &Scene,
+    source: Source<'_>,
+    request: &Request,
     view: &View,
     design: Option<&Design>,
-    watcher: &dyn Watcher,
+    engine: &Engine<'_>,
 ) -> Result<(Canvas, Shot), ShotError> {
-    let Some(design) = design else {
-        let shot = shot(dataset, (field, left), scene, view, None, watcher)?;
-        return Ok((bare(&shot.picture, shot.layers.items.clone()), shot));
-    };
-    let view = view_in(dataset, field, scene, view, design)?;
-    figure_of(dataset, (field, left), scene, &view, design, watcher)
+    let of_design = |design| view_in(source, request, view, design);
+    let view = design.map_or(Ok(*view), of_design)?;
+    page_in(source, request, &view, design, engine)
 }
 
-/// The page of a scene's picture as a figure of a design, the picture being that of the view, pixel for pixel: it need not fill the
-/// design's room.
+/// The page of a picture, which is that of the view, pixel for pixel: it need not fill the design's room.
 ///
 /// # Errors
 /// As [`page`]; a picture that is larger than its room.
-pub fn figure_of(
-    dataset: &Dataset,
-    (field, left): (&Field<'_>, Option<Side<'_>>),
-    scene: &Scene,
-    view: &View,
-    design: &Design,
-    watcher: &dyn Watcher,
-) -> Result<(Canvas, Shot), ShotError> {
-    figure_by(None, dataset, (field, left), scene, view, design, watcher)
-}
-
-/// The page of a scene's picture, its colours being those that are given, of a view: as a figure of a design that has room for it, or
-/// bare.
-pub(crate) fn page_by(
-    coloring: &Coloring,
-    dataset: &Dataset,
-    field: &Field<'_>,
-    scene: &Scene,
+pub fn page_in(
+    source: Source<'_>,
+    request: &Request,
     view: &View,
     design: Option<&Design>,
-    watcher: &dyn Watcher,
-) -> Result<Canvas, ShotError> {
-    let coloring = Some(coloring);
-    if let Some(design) = design {
-        let made = figure_by(coloring, dataset, (field, None), scene, view, design, watcher)?;
-        return Ok(made.0);
-    }
-    let shot = shot_by(coloring, dataset, (field, None), scene, view, None, watcher)?;
-    Ok(bare(&shot.picture, shot.layers.items))
-}
-
-fn figure_by(
-    coloring: Option<&Coloring>,
-    dataset: &Dataset,
-    (field, left): (&Field<'_>, Option<Side<'_>>),
-    scene: &Scene,
-    view: &View,
-    design: &Design,
-    watcher: &dyn Watcher,
+    engine: &Engine<'_>,
 ) -> Result<(Canvas, Shot), ShotError> {
-    let title = title(dataset, field, scene)?;
-    let shot = shot_by(coloring, dataset, (field, left), scene, view, Some(design), watcher)?;
-    let labels = match left {
-        None => labels(&shot.shown, title, field),
-        Some(left) => {
-            let minus = Minus { right: Side { field, shown: &shot.shown }, left };
-            let [quantity, unit] = minus.words();
-            Labels { title, quantity, unit, ..Labels::default() }
-        }
-    };
-    let panel = Panel {
-        picture: &shot.picture,
-        layers: shot.layers.items.clone(),
-        legend: shot.layers.legend.clone(),
-        labels,
-        cracks: &field.step.cracks,
-        bar_of: None,
-    };
-    Ok((figure(panel, design)?, shot))
+    let seen = source.seen(&request.scene, view, engine)?;
+    page_seen(source, request, &seen, design, engine)
 }
 
-/// The title of a figure: that of the dataset, with the step of a series, the part, and the factor of the deformed plate.
-pub(crate) fn title(
-    dataset: &Dataset,
-    field: &Field<'_>,
-    scene: &Scene,
-) -> Result<String, DeformError> {
+/// The page of a picture of what is seen.
+///
+/// # Errors
+/// As [`page_in`].
+pub fn page_seen(
+    source: Source<'_>,
+    request: &Request,
+    seen: &Seen<'_>,
+    design: Option<&Design>,
+    engine: &Engine<'_>,
+) -> Result<(Canvas, Shot), ShotError> {
+    let asked = Asked::new(&request.scene, source.field)?;
+    let shot = source.input(&asked, seen).draw(request, design, engine)?;
+    source.page(shot, request, design, engine)
+}
+
+/// The title of a figure: as it is asked for, else that of the dataset, with the step of a series, the part, and the factor of the
+/// deformed plate.
+///
+/// # Errors
+/// Fields that are no displacements.
+pub fn title(source: Source<'_>, request: &Request) -> Result<String, DeformError> {
+    if let Some(title) = &request.labels.title {
+        return Ok(source.filled(title, &request.scene));
+    }
+    let (Source { dataset, field, .. }, scene) = (source, &request.scene);
     let mut title = of_step(dataset, scene.subject.step_of(dataset));
     let mut add = |text: String| title = format!("{title} ({text})").trim_start().to_owned();
     if let Some(part) = &scene.subject.part {
@@ -338,7 +491,7 @@ pub(crate) fn title(
     if let Some(factor) = scene.deformed {
         add(words(factor.number(&[field])?));
     }
-    Ok(title)
+    Ok(source.filled(&title, scene))
 }
 
 /// A dataset's title with the step, if there are several, and its load, if loads differ.
@@ -356,31 +509,66 @@ pub fn of_step(dataset: &Dataset, step: usize) -> String {
     title
 }
 
-/// The words of a figure of what is shown.
-#[must_use]
-pub fn labels(shown: &Shown, title: String, field: &Field<'_>) -> Labels {
-    let (quantity, unit) = match shown {
-        Shown::Quantity(quantity) => {
-            (quantity.symbol(&field.data.components), quantity.unit(field).to_owned())
-        }
-        Shown::Cells(name, _) => (cells::label(name).to_owned(), String::new()),
-    };
-    Labels { title, quantity, unit, ..Labels::default() }
-}
-
 impl Shot {
-    /// The texts of its file: what it shows, of which dataset, under which command.
+    /// The panel of a figure with it.
     #[must_use]
-    pub fn texts(&self, title: &str, file: &str, scene: &Scene, command: &str) -> Vec<Text> {
-        let quantity = scene.quantity.as_deref().unwrap_or_default();
-        let mut texts = self.picture.description(title, file, quantity);
-        let mut add = |key: &str, text: String| texts.push((format!("ppum:{key}"), text));
-        add("backend", self.by.clone());
-        add("command", command.to_owned());
-        if let Some(factor) = self.factor {
-            add("deformed", format!("{factor:?}"));
+    pub fn panel(&self, labels: Labels) -> Panel<'_> {
+        let (layers, legend) = (self.layers.items.clone(), self.layers.legend.clone());
+        let (picture, cracks) = (&self.picture, &self.cracks);
+        Panel { picture, layers, legend, labels, cracks, bar_of: None }
+    }
+
+    /// Its page: a figure of a design, or bare without one.
+    ///
+    /// # Errors
+    /// A design without room.
+    pub fn page(
+        &self,
+        labels: Labels,
+        design: Option<&Design>,
+        engine: &Engine<'_>,
+    ) -> Result<Canvas, FigureError> {
+        let panel = self.panel(labels);
+        let Some(design) = design else {
+            tell_legend(&panel.legend, engine);
+            return Ok(bare(panel.picture, panel.layers));
+        };
+        if lacks_legend(&panel, plot_area(&panel.labels.title, design)?, design) {
+            tell_legend(&panel.legend, engine);
+        }
+        figure(panel, design)
+    }
+
+    /// The texts of its file: what it shows, of which dataset, and what drew it.
+    #[must_use]
+    pub fn texts(&self, file: &str) -> Vec<Text> {
+        let mut texts = self.picture.description(&self.dataset.0, file, &self.name);
+        texts.push(("ppum:backend".to_owned(), self.by.clone()));
+        if let Shown::Quantity(Quantity::Formula(formula)) = &self.shown {
+            texts.push(("ppum:formula".to_owned(), one_line(formula.formula().text())));
         }
         texts
+    }
+
+    /// What was done to the plate, and the step of a series, as more texts of its file.
+    #[must_use]
+    pub fn notes(&self) -> Vec<Text> {
+        let factor = self.factor.map(|factor| ("ppum:deformed".to_owned(), format!("{factor:?}")));
+        let step = self.dataset.1.map(|(step, load)| {
+            [
+                ("ppum:step".to_owned(), step.to_string()),
+                ("ppum:load".to_owned(), format!("{load:?}")),
+            ]
+        });
+        factor.into_iter().chain(step.into_iter().flatten()).collect()
+    }
+}
+
+/// Tells what a legend says that is nowhere drawn.
+pub fn tell_legend(legend: &[Entry], engine: &Engine<'_>) {
+    if !legend.is_empty() {
+        let entries = legend.iter().map(|entry| entry.label.clone()).collect();
+        engine.tell(Notice::NoLegend(entries));
     }
 }
 
@@ -388,7 +576,6 @@ impl Shot {
 mod tests {
     use super::*;
     use crate::overlays::{Levels, Overlay, Overlays, SPACING};
-    use ppum::progress::unwatched;
     use ppum_figure::canvas::Item;
     use ppum_testkit::synthetic::{Coefficients, Recipe};
 
@@ -427,14 +614,8 @@ mod tests {
             let on_paper = |dpi: f64| {
                 let design = Design::inches([3.4, 2.6], dpi);
                 let view = View::fit(dataset.domain.bounds, [340, 260]).unwrap();
-                let made = page(
-                    &dataset,
-                    (&field, None),
-                    &scene.drawn(),
-                    &view,
-                    Some(&design),
-                    unwatched(),
-                );
+                let (source, request) = (Source::of(&dataset, &field), scene.drawn().into());
+                let made = page(source, &request, &view, Some(&design), &Engine::default());
                 let mut all = widths(&made.unwrap().0);
                 all.iter_mut().for_each(|width| *width *= 72.0 / dpi);
                 all.sort_by(f64::total_cmp);

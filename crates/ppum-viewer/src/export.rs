@@ -6,14 +6,16 @@ use std::sync::Arc;
 use ppum::progress::Watcher;
 use ppum_figure::figure::Design;
 use ppum_figure::form::Form;
-use ppum_render::animation;
 use ppum_render::view::View;
 use ppum_scene::command;
 use ppum_scene::drawing::Shown;
+use ppum_scene::engine::Engine;
 use ppum_scene::minus::Side;
-use ppum_scene::moving::Moving;
+use ppum_scene::moving::{Film, Form as Animation, Frames as _, InMemory, Moving};
+use ppum_scene::notice::Notice;
+use ppum_scene::request::Request;
 use ppum_scene::scene::Scene;
-use ppum_scene::shot::{page, reshaped, view_in};
+use ppum_scene::shot::{Source, page, reshaped, view_in};
 
 use crate::field::OwnedField;
 
@@ -85,9 +87,6 @@ pub struct Order {
     pub kind: Kind,
 }
 
-/// Most pixels of an animation, all pictures together: they are kept until the file is written.
-const MOST: u64 = 400_000_000;
-
 /// Why there is no animation of a difference.
 const NOT_MOVING: &str =
     "an animation is of one view; save pictures of the difference, or switch it off (Shift+V)";
@@ -99,33 +98,45 @@ impl Order {
         (self.kind != Kind::Picture).then(|| Design::pixels(self.size))
     }
 
-    /// The file's bytes, in the form that its name ends in.
+    /// The file's bytes, in the form that its name ends in, and what is to be said of them.
     ///
     /// # Errors
     /// What keeps the picture from being drawn, or from being encoded, in words.
-    pub fn bytes(&self, path: &Path, watcher: &dyn Watcher) -> Result<Vec<u8>, String> {
-        match &self.kind {
+    pub fn bytes(
+        &self,
+        path: &Path,
+        watcher: &dyn Watcher,
+    ) -> Result<(Vec<u8>, Vec<Notice>), String> {
+        let engine = Engine::processor(watcher);
+        let bytes = match &self.kind {
             Kind::Moving(..) if self.left.is_some() => Err(NOT_MOVING.into()),
-            Kind::Moving(moving, rate) => self.moving(moving, *rate, path, watcher),
-            _ => self.still(path, watcher),
-        }
+            Kind::Moving(moving, rate) => self.moving(moving, *rate, path, &engine),
+            _ => self.still(path, &engine),
+        };
+        Ok((bytes?, engine.into_notices()))
     }
 
-    fn still(&self, path: &Path, watcher: &dyn Watcher) -> Result<Vec<u8>, String> {
-        let (dataset, field) = (self.field.dataset(), self.field.field());
-        let view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
-        let design = self.design();
+    fn source(&self) -> Source<'_> {
         let left = self.left.as_ref();
         let left = left.map(|(field, shown)| Side { field: field.field(), shown });
-        let made = page(dataset, (field, left), &self.scene, &view, design.as_ref(), watcher);
+        Source { dataset: self.field.dataset(), field: self.field.field(), left }
+    }
+
+    fn still(&self, path: &Path, engine: &Engine<'_>) -> Result<Vec<u8>, String> {
+        let (source, request) = (self.source(), Request::from(self.scene.clone()));
+        let view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
+        let made = page(source, &request, &view, self.design().as_ref(), engine);
         let (page, shot) = made.map_err(|e| e.to_string())?;
-        let file = name(self.file.as_deref());
         let command = match self.left {
             None => self.command(path)?,
             Some(_) => NO_COMMAND.into(),
         };
-        let texts = shot.texts(&dataset.title, &file, &self.scene, &command);
-        Form::of(path).bytes(&page, None, &texts).map_err(|e| e.to_string())
+        let mut texts = shot.texts(&name(self.file.as_deref()));
+        texts.push(("ppum:command".to_owned(), command));
+        texts.extend(shot.notes());
+        let form = Form::of(path);
+        Notice::of_glyphs(&page, form).into_iter().for_each(|notice| engine.tell(notice));
+        form.bytes(&page, None, &texts).map_err(|e| e.to_string())
     }
 
     fn moving(
@@ -133,28 +144,21 @@ impl Order {
         moving: &Moving,
         rate: f64,
         path: &Path,
-        watcher: &dyn Watcher,
+        engine: &Engine<'_>,
     ) -> Result<Vec<u8>, String> {
-        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]) * moving.count() as u64;
-        if pixels > MOST {
-            return Err(
-                "so many pictures of that size do not fit into memory; choose a smaller size"
-                    .into(),
-            );
-        }
-        let view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
+        let (source, request) = (self.source(), Request::from(self.scene.clone()));
+        let frames = InMemory::new(source.dataset, &request, moving).map_err(|e| e.to_string())?;
         let design = self.design();
-        let mut images = Vec::new();
-        let mut take = |image| images.push(image);
-        moving
-            .draw(self.field.dataset(), &self.scene, &view, design.as_ref(), watcher, &mut take)
-            .map_err(|e| e.to_string())?;
+        let room = |design| frames.room(design).map_err(|e| e.to_string());
+        let room = design.as_ref().map_or(Ok(self.size), room)?;
+        let view = reshaped(&self.view, self.size).and_then(|view| reshaped(&view, room));
+        let view = view.map_err(|e| e.to_string())?;
+        let film = Film::new(&frames, &view, design.as_ref(), engine).map_err(|e| e.to_string())?;
         let milliseconds = (1000.0 / rate).round().clamp(10.0, 60_000.0) as u16;
-        let made = match path.extension().is_some_and(|end| end.eq_ignore_ascii_case("gif")) {
-            true => animation::gif(&images, milliseconds),
-            false => animation::apng(&images, milliseconds, &[]),
-        };
-        made.map_err(|e| e.to_string())
+        let is_gif = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("gif"));
+        let (form, mut bytes) = (if is_gif { Animation::Gif } else { Animation::Apng }, Vec::new());
+        film.write(form, milliseconds, &|_| Vec::new(), &mut bytes).map_err(|e| e.to_string())?;
+        Ok(bytes)
     }
 
     /// The command that draws the same.
@@ -165,12 +169,12 @@ impl Order {
         if self.left.is_some() {
             return Err(NO_COMMAND.into());
         }
-        let (dataset, field) = (self.field.dataset(), self.field.field());
+        let (source, request) = (self.source(), Request::from(self.scene.clone()));
         let view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
         let (view, page) = match self.design() {
             None => (view, None),
             Some(design) => {
-                let view = view_in(dataset, field, &self.scene, &view, &design);
+                let view = view_in(source, &request, &view, &design);
                 (view.map_err(|e| e.to_string())?, Some(self.size))
             }
         };

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::backend::Backend;
+use ppum_scene::engine::Backend;
+
 use crate::output::Output;
 
 /// Explore datasets in a window, exactly, down to the tip
@@ -68,22 +69,11 @@ impl Args {
         Ok(ppum_viewer::window::Start {
             files,
             size: self.size.map(|size| size.map(|n| n as f32)),
-            backend: self.backend(),
+            backend: self.backend,
             folder: ppum_viewer::files::kept::folder(),
             memory: Some(crate::memory::free),
             ..Default::default()
         })
-    }
-
-    #[cfg(feature = "window")]
-    fn backend(&self) -> ppum_viewer::frames::Backend {
-        use ppum_viewer::frames::Backend as Known;
-        match self.backend {
-            Backend::Auto => Known::Auto,
-            Backend::Cpu => Known::Cpu,
-            Backend::Gpu => Known::Gpu,
-            Backend::Splat => Known::Splat,
-        }
     }
 
     #[cfg(feature = "window")]

@@ -1,39 +1,18 @@
 //! Drawing on devices, and what devices there are.
 
+use ppum::progress::Watcher;
 use ppum_gpu::{AdapterInfo, Choice, Gpu, GpuError, RenderError, Renderer};
 use ppum_render::raster::Raster;
 use ppum_render::samples::{Means, Samples};
-
-use super::{Adapter, Device, Failure, Method};
-use crate::progress::Bar;
 use ppum_scene::drawing::{Drawn, Job};
+use ppum_scene::engine::{CardError, Device, Method};
 
-impl From<Device> for Choice {
-    fn from(device: Device) -> Self {
-        match device {
-            Device::Hardware => Self::Real,
-            Device::Any => Self::Any,
-        }
-    }
-}
+use super::Adapter;
 
-impl From<Method> for ppum_gpu::Method {
-    fn from(method: Method) -> Self {
-        match method {
-            Method::Gather => Self::Gather,
-            Method::Splat => Self::Splat,
-        }
-    }
-}
-
-impl From<RenderError> for Failure {
-    fn from(error: RenderError) -> Self {
-        let is_normal = matches!(
-            error,
-            RenderError::Gpu(GpuError::NoAdapter { .. }) | RenderError::Quantity(_)
-        );
-        Self { message: message(&error), is_normal }
-    }
+fn failure(error: &RenderError) -> CardError {
+    let is_normal =
+        matches!(error, RenderError::Gpu(GpuError::NoAdapter { .. }) | RenderError::Quantity(_));
+    CardError { message: message(error), is_normal }
 }
 
 /// Draws the means of so many samples a pixel. After an error the CPU may try.
@@ -42,13 +21,16 @@ pub(crate) fn draw(
     samples: Samples,
     device: Device,
     method: Method,
-) -> Result<Drawn, Failure> {
+    watcher: &dyn Watcher,
+) -> Result<Drawn, CardError> {
     let Job { field, view, quantity } = job;
     // a device holds all samples at once
     let finer = view.finer(samples.side());
-    let finer = finer.map_err(|e| Failure { message: e.to_string(), is_normal: true })?;
+    let finer = finer.map_err(|e| CardError { message: e.to_string(), is_normal: true })?;
     let of_samples = Job { field, view: &finer, quantity };
-    let (renderer, raster) = drawn(of_samples, device.into(), method.into())?;
+    let choice = if device == Device::Hardware { Choice::Real } else { Choice::Any };
+    let drawn = drawn(of_samples, choice, method, watcher);
+    let (renderer, raster) = drawn.map_err(|error| failure(&error))?;
     let name = &renderer.gpu().info().name;
     let by = match method {
         Method::Gather => format!("gpu f32, {name}"),
@@ -63,10 +45,15 @@ pub(crate) fn draw(
 fn drawn(
     job: Job<'_>,
     choice: Choice,
-    method: ppum_gpu::Method,
+    method: Method,
+    watcher: &dyn Watcher,
 ) -> Result<(Renderer, Raster<f32>), RenderError> {
     let mut renderer = Renderer::open(choice)?;
-    let raster = renderer.render(job.field, job.view, job.quantity, method, &Bar::new())?;
+    let method = match method {
+        Method::Gather => ppum_gpu::Method::Gather,
+        Method::Splat => ppum_gpu::Method::Splat,
+    };
+    let raster = renderer.render(job.field, job.view, job.quantity, method, watcher)?;
     Ok((renderer, raster))
 }
 
@@ -130,14 +117,17 @@ impl Adapter {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ppum_scene::notice::Notice;
 
     #[test]
     fn failures_are_told_in_one_line() {
         let error = GpuError::Shader { message: "expected `;`\n  at 3:4\n".to_owned() };
-        let note = Failure::from(RenderError::from(error)).note().expect("a failure");
+        let failure = failure(&error.into());
+        assert!(!failure.is_normal);
+        let note = Notice::NoCard(failure.message).line();
         assert!(note.starts_with("note: ") && note.ends_with("expected `;` at 3:4"), "{note}");
         assert_eq!(note.lines().count(), 1);
-        assert!(Failure::from(RenderError::from(GpuError::Lost)).note().is_some());
+        assert!(!super::failure(&GpuError::Lost.into()).is_normal);
     }
 
     #[test]
@@ -156,6 +146,6 @@ mod tests {
     #[test]
     fn a_machine_without_a_graphics_card_is_no_failure() {
         let missing = GpuError::NoAdapter { choice: Choice::Real };
-        assert_eq!(Failure::from(RenderError::from(missing)).note(), None);
+        assert!(failure(&missing.into()).is_normal);
     }
 }

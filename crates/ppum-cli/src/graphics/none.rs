@@ -1,9 +1,11 @@
 //! A program that was built without graphics devices: the CPU draws.
 
+use ppum::progress::Watcher;
 use ppum_render::samples::Samples;
-
-use super::{Adapter, Device, Failure, Method};
 use ppum_scene::drawing::{Drawn, Job};
+use ppum_scene::engine::{CardError, Device, Method};
+
+use super::Adapter;
 
 /// The answer of `ppum info --gpu`.
 pub(crate) const MISSING: &str = "\
@@ -15,8 +17,14 @@ Images are drawn on the CPU instead, the same to rounding.";
 const REASON: &str =
     "no graphics adapter: this program was built without graphics cards (`--features gpu`)";
 
-pub(crate) fn draw(_: Job<'_>, _: Samples, _: Device, _: Method) -> Result<Drawn, Failure> {
-    Err(Failure { message: format!("{REASON}; `--backend cpu` needs none"), is_normal: true })
+pub(crate) fn draw(
+    _: Job<'_>,
+    _: Samples,
+    _: Device,
+    _: Method,
+    _: &dyn Watcher,
+) -> Result<Drawn, CardError> {
+    Err(CardError { message: format!("{REASON}; `--backend cpu` needs none"), is_normal: true })
 }
 
 pub(crate) fn adapters() -> Vec<Adapter> {

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum::progress::unwatched;
 use ppum::vec2::vec2;
 use ppum_figure::figure::Design;
 use ppum_render::range::Range;
@@ -13,9 +12,10 @@ use ppum_render::view::View;
 use ppum_scene::colors::Colors;
 use ppum_scene::command;
 use ppum_scene::deformed::Factor;
+use ppum_scene::engine::Engine;
 use ppum_scene::overlays::{Levels, Overlay, Overlays};
 use ppum_scene::scene::{Scene, Subject};
-use ppum_scene::shot;
+use ppum_scene::shot::{self, Source};
 use ppum_testkit::random::Random;
 
 use super::{CRACKED, Lab, Png};
@@ -120,6 +120,46 @@ fn the_command_of_a_picture_draws_it_again() {
     assert!(drawn[0] > 7 && drawn[1] > 1, "{drawn:?} pictures and figures only");
 }
 
+/// What the window saves is what the command beside it draws, and both say the same of it.
+#[cfg(feature = "window")]
+#[test]
+fn the_window_saves_what_its_command_draws() {
+    use ppum_viewer::export::{Kind, Order};
+    use ppum_viewer::field::OwnedField;
+
+    let lab = Lab::solved(CRACKED);
+    let dataset = Arc::new(ppum_format::read(&lab.path("plate.h5")).unwrap());
+    let isolines = Some(Levels::At(vec![1e9]));
+    let scene = Scene {
+        quantity: Some("sqrt(x)".into()),
+        overlays: Overlays { isolines, ..Overlays::default() },
+        ..Scene::default()
+    };
+    for (kind, size) in [(Kind::Figure, [500, 400]), (Kind::Picture, [80, 60])] {
+        let order = Order {
+            field: Arc::new(OwnedField::new(Arc::clone(&dataset), 0).unwrap()),
+            file: Some("plate.h5".into()),
+            left: None,
+            scene: scene.clone(),
+            view: View::new(vec2(0.0, 0.0), 3.0, [80, 60]).unwrap(),
+            size,
+            kind,
+        };
+        let own = order.bytes("own.png".as_ref(), ppum::progress::unwatched());
+        let (bytes, notices) = own.unwrap();
+        std::fs::write(lab.path("own.png"), bytes).unwrap();
+        let line = order.command("again.png".as_ref()).unwrap();
+        let line = line.replacen("ppum", env!("CARGO_BIN_EXE_ppum"), 1) + " --backend=cpu";
+        let mut shell = std::process::Command::new("sh");
+        let again = shell.args(["-c", &line]).current_dir(lab.path("")).output().unwrap();
+        let [own, drawn] = ["own.png", "again.png"].map(|name| Png::read(&lab.path(name)));
+        assert!(own.rgba == drawn.rgba, "{line}");
+        let lines: Vec<_> = notices.iter().map(|notice| notice.line() + "\n").collect();
+        assert_eq!(String::from_utf8(again.stderr).unwrap(), lines.concat());
+        assert_eq!(lines.len(), 2, "{lines:?}");
+    }
+}
+
 /// The pixels of a scene's picture, and its view; of a figure those of its page.
 fn page(
     dataset: &Dataset,
@@ -131,6 +171,7 @@ fn page(
     scene.subject.apply(&mut dataset).map_err(|e| e.to_string())?;
     let field = Field::new(&dataset, scene.subject.step_of(&dataset)).map_err(|e| e.to_string())?;
     let design = size.map(Design::pixels);
-    let made = shot::page(&dataset, (&field, None), scene, view, design.as_ref(), unwatched());
+    let (source, request) = (Source::of(&dataset, &field), scene.clone().into());
+    let made = shot::page(source, &request, view, design.as_ref(), &Engine::default());
     made.map(|(page, shot)| (page.image().rgba, shot.picture.view)).map_err(|e| e.to_string())
 }

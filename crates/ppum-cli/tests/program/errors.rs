@@ -88,7 +88,7 @@ fn arguments_that_are_not_what_they_should_be() {
         ("render plate.h5 -o a.png --center 0,0 --width 1 --tip 0", "cannot be used with"),
         ("render plate.h5 -o a.png --tip 2", "2 tips"),
         ("render plate.h5 -o a.png --tip 0 --zoom 1e30", "double precision"),
-        ("render plate.h5 -o a.png --backend gpu --precision f64", "use --backend cpu"),
+        ("render plate.h5 -o a.png --backend gpu --precision f64", "use backend cpu"),
         ("render plate.h5 -o a.png --backend splat --precision f64", "single precision"),
         ("render plate.h5 -o a.png --backend card", "splat"),
         ("info", "--gpu"),

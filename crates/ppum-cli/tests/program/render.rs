@@ -269,7 +269,7 @@ fn what_cannot_be_deformed_is_told() {
         ("--outline", "--deformed"),
         ("--deformed 1 --backend gpu", "by the processor"),
         ("--deformed 1 --precision f32", "by the processor"),
-        ("--deformed 1 --overlay rings", "--overlay rings"),
+        ("--deformed 1 --overlay rings", "rings: of these overlays"),
         ("--deformed 0.01 --center 0.3,0.3 --width 1e-15", "finer than double precision"),
         ("--deformed 0.01 --view 50,50,51,51", "nothing of the deformed plate"),
     ] {

@@ -45,7 +45,7 @@ fn cells_of_all_steps_have_one_legend() {
         assert_eq!(png.pixel(10, 10), color, "{step}");
     }
     let complaint = lab.fail("render plate.h5 -o m.png -q level --samples 2");
-    assert!(complaint.contains("leave --samples out"), "{complaint}");
+    assert!(complaint.contains("leave samples out"), "{complaint}");
 }
 
 /// The images of an APNG as they are shown.
@@ -310,7 +310,7 @@ fn means_over_pixels() {
     assert_eq!([0, 1, 4].map(|column| png.pixel(column, 0)[3]), [128, 255, 128]);
     let crack = Lab::solved(crate::CRACKED);
     let complaint = crack.fail("render plate.h5 -o a.png --samples 2 --deformed auto");
-    assert!(complaint.contains("leave --samples or --deformed out"), "{complaint}");
+    assert!(complaint.contains("leave samples out"), "{complaint}");
     for wrong in ["0", "17", "x"] {
         let complaint = lab.fail(&format!("render plate.h5 -o a.png --samples {wrong}"));
         assert!(complaint.contains("from 1 to 16"), "{complaint}");

@@ -105,11 +105,15 @@ def render(
     single: bool,
     progress: _Progress | None,
 ) -> NDArray[Any]: ...
-def rgba(this: Field, scene: str, spot: _Spot, size: tuple[int, int]) -> NDArray[np.uint8]: ...
+def rgba(
+    this: Field, request: str, spot: _Spot, size: tuple[int, int]
+) -> tuple[NDArray[np.uint8], list[str]]: ...
 def frame(
-    this: Field, scene: str, spot: _Spot, size: tuple[int, int]
+    this: Field, request: str, spot: _Spot, size: tuple[int, int]
 ) -> tuple[bytes, dict[str, Any]]: ...
-def figure(this: Field, scene: str, spot: _Spot | None, look: str, form: str) -> bytes: ...
+def figure(
+    this: Field, request: str, spot: _Spot | None, look: str, form: str
+) -> tuple[bytes, list[str]]: ...
 def compare(
     this: Field,
     other: Field,
@@ -131,7 +135,7 @@ def animation(
     this: Field,
     dataset: Dataset,
     changes: str,
-    scene: str,
+    request: str,
     steps: list[int],
     spot: _Spot | None,
     size: tuple[int, int],
@@ -139,7 +143,7 @@ def animation(
     milliseconds: int,
     form: str,
     progress: _Progress | None,
-) -> bytes: ...
+) -> tuple[bytes, list[str]]: ...
 def extrema(
     this: Field, name: str, spot: _Spot, size: tuple[int, int]
 ) -> tuple[dict[str, Any], dict[str, Any]] | None: ...

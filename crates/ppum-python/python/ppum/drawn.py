@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+import warnings
 from pathlib import Path
 from typing import ClassVar
 
@@ -11,13 +12,26 @@ __all__ = ["Drawn", "Page", "replace"]
 
 
 class Drawn:
-    """Drawn when its bytes are asked for, once for each form of file."""
+    """Drawn when its bytes are asked for, once for each form of file.
+
+    Attributes:
+        warnings: What is to be known of what was drawn, such as pixels without a value; each is warned of once too.
+    """
 
     #: The form that is drawn if none is asked for.
     _form: ClassVar[str]
 
     def __init__(self) -> None:
         self._known: dict[str, bytes] = {}
+        self.warnings: tuple[str, ...] = ()
+
+    def _told(self, made: tuple[bytes, list[str]]) -> bytes:
+        data, texts = made
+        for text in texts:
+            if text not in self.warnings:
+                self.warnings += (text,)
+                warnings.warn(text, stacklevel=5)
+        return data
 
     def _draw(self, form: str) -> bytes:
         raise NotImplementedError

@@ -323,19 +323,25 @@ class Field:
         keys = ("center", "width", "tip", "zoom", "size")
         seen = self.view_at(view, **{k: options.pop(k) for k in keys if k in options})
         scene = figure_scene(quantity, options)
-        return _core.rgba(self._core, scene, seen._spot, seen.size)
+        rgba, told = _core.rgba(self._core, scene, seen._spot, seen.size)
+        for text in told:
+            warnings.warn(text, stacklevel=2)
+        return rgba
 
     def figure(self, quantity: str | None = None, **options: Any) -> Figure:
         """A figure with axes and a colour bar, as the program draws it; notebooks show it.
 
         Args:
             quantity: As in `render`.
-            options: What is seen: center, width, or tip, zoom. Colours: cmap, clim (``auto``, ``full``, two values or two
-                percentiles), norm (``linear``, ``log``, ``symlog``), bands, symmetric, contrast. Over them: overlays (a list
+            options: What is seen: center, width, or tip, zoom. Colours: cmap (a name, or a file with a map), clim (``auto``,
+                ``full``, two values or two percentiles), norm (``linear``, ``log``, ``symlog``), bands, symmetric, contrast. Over them: overlays (a list
                 of cracks, cells, patches, boxes, points, centers, rings, supports, loads), isolines (``auto``, a number,
                 or values), level_labels, arrows, crosses (their distance, pixels). deformed (``auto`` or a factor), outline.
-                The page: size (pixels) or inches, dpi, font_size, theme (``light``, ``dark``), transparent, bar (``right``,
+                How it is drawn: samples (each pixel is the mean of so many across and down), precision (``f64``, ``f32``),
+                blank (overlays alone), labels (a dictionary of title, x, y, bar). The page: size (pixels) or inches, dpi, font_size, theme (``light``, ``dark``), transparent, bar (``right``,
                 ``bottom``, ``none``).
+
+        What is to be known of it, such as pixels without a value, is warned of, and kept as `Figure.warnings`.
 
         Raises:
             TypeError: No such option.

@@ -106,6 +106,10 @@ def figure_scene(quantity: str | None, options: dict[str, Any]) -> str:
         "overlays": overlays,
         "deformed": None if deformed is None else str(deformed),
         "outline": bool(options.pop("outline", False)),
+        "samples": int(options.pop("samples", 1)),
+        "blank": bool(options.pop("blank", False)),
+        "labels": dict(options.pop("labels", {})),
+        "precision": options.pop("precision", None),
     }
     if options:
         raise TypeError(f"no such option: {', '.join(sorted(options))}")
@@ -149,7 +153,7 @@ class Figure(Page):
         self._core, self._scene, self._spot, self._look = core, scene, spot, look
 
     def _draw(self, form: str) -> bytes:
-        return _core.figure(self._core, self._scene, self._spot, self._look, form)
+        return self._told(_core.figure(self._core, self._scene, self._spot, self._look, form))
 
     def __repr__(self) -> str:
         size = json.loads(self._look)["size"]
@@ -177,7 +181,9 @@ class Animation(Drawn):
         self._time, self._progress = milliseconds, progress
 
     def _draw(self, form: str) -> bytes:
-        return _core.animation(self._core, self._dataset, *self._what, self._time, form, self._progress)
+        return self._told(
+            _core.animation(self._core, self._dataset, *self._what, self._time, form, self._progress)
+        )
 
     def gif(self) -> bytes:
         """In 256 colours, for programs that know no other."""

@@ -8,7 +8,6 @@ use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum_render::RenderError;
 use ppum_render::cells;
-use ppum_render::colormap::{Colormap, ColormapError};
 use ppum_render::extrema::Extrema;
 use ppum_render::picture::Style;
 use ppum_render::range::Span;
@@ -18,7 +17,7 @@ use ppum_render::scale::Scale;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 
-use crate::colors::Colors;
+use crate::colors::{Colors, MapError, map};
 use crate::drawing::{Drawn, PROCESSOR, Shown, Values};
 
 /// One of the two: a field and what is shown of it.
@@ -84,8 +83,8 @@ impl Minus<'_> {
     ///
     /// # Errors
     /// An unknown map.
-    pub fn style(&self, colors: &Colors) -> Result<Style, ColormapError> {
-        let map = Colormap::named(colors.colormap.as_deref().unwrap_or(MAP))?;
+    pub fn style(&self, colors: &Colors) -> Result<Style, MapError> {
+        let map = map(colors.colormap.as_deref().unwrap_or(MAP))?;
         let quantity = self.right.shown.quantity().or(self.left.shown.quantity());
         Ok(colors.style(quantity, map))
     }

@@ -3,6 +3,7 @@ use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Vec2, vec2};
+use ppum_render::colormap::Colormap;
 use ppum_render::picture::Picture;
 use ppum_render::range::Range;
 use ppum_testkit::random::Random;

@@ -173,7 +173,7 @@ impl Maker {
             if let Some(minus) = place.subject.minus() {
                 return minus.style(colors).map_err(Stop::at(Fault::Colors));
             }
-            let map = colors.built_in(shown.quantity()).map_err(Stop::at(Fault::Colors))?;
+            let map = colors.map(shown.quantity()).map_err(Stop::at(Fault::Colors))?;
             Ok(colors.style_of([(shown, &drawn.values)], map))
         })
     }

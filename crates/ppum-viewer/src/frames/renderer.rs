@@ -1,57 +1,14 @@
 //! What computes the values: the processor or a graphics card, as `ppum render --backend` has it.
 
-use std::fmt;
-use std::str::FromStr;
-
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use ppum_render::RenderError;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::drawing::{Drawn, PROCESSOR};
-use serde::{Deserialize, Serialize};
+pub use ppum_scene::engine::Backend;
 
 use super::subject::Subject;
-
-/// What computes the values.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Backend {
-    /// A graphics card if there is one and it can, else the processor. Software drivers are no cards.
-    #[default]
-    Auto,
-    /// The processor.
-    Cpu,
-    /// Any graphics device, a software one too: one pass that gathers.
-    Gpu,
-    /// The same by the three passes of Üffinger et al. 2011.
-    Splat,
-}
-
-impl Backend {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Auto, Self::Cpu, Self::Gpu, Self::Splat];
-}
-
-impl fmt::Display for Backend {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Auto => "auto",
-            Self::Cpu => "cpu",
-            Self::Gpu => "gpu",
-            Self::Splat => "splat",
-        })
-    }
-}
-
-impl FromStr for Backend {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let known = Self::ALL.into_iter().find(|backend| backend.to_string() == text);
-        known.ok_or("write auto, cpu, gpu or splat")
-    }
-}
 
 /// Draws values by a backend.
 pub(super) struct Renderer {

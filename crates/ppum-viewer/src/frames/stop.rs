@@ -3,10 +3,10 @@
 use std::error::Error;
 
 use ppum_render::RenderError;
-use ppum_render::colormap::ColormapError;
 use ppum_render::deform::DeformError;
 use ppum_render::range::RangeError;
 use ppum_render::resample::GridError;
+use ppum_scene::colors::MapError;
 use ppum_scene::layers::LayersError;
 use ppum_scene::scene::{ShownError, SubjectError};
 
@@ -67,7 +67,7 @@ pub(super) trait MayCancel: Error {
     }
 }
 
-impl MayCancel for ColormapError {}
+impl MayCancel for MapError {}
 impl MayCancel for GridError {}
 impl MayCancel for RangeError {}
 impl MayCancel for ShownError {}

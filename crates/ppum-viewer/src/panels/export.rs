@@ -209,9 +209,10 @@ impl Exporter {
             if let (Kind::Moving(Moving::Factor(unknown, _), _), None) = (&mut order.kind, factor) {
                 *unknown = automatic(&order.field).unwrap_or(1.0);
             }
-            let bytes = order.bytes(&path, stop)?;
+            let (bytes, notices) = order.bytes(&path, stop)?;
             write(&path, &bytes)?;
-            Ok(format!("wrote {}", path.display()))
+            let notices = notices.iter().map(|notice| format!("\n{}", notice.line()));
+            Ok(format!("wrote {}{}", path.display(), notices.collect::<String>()))
         }));
     }
 

@@ -426,7 +426,7 @@ fn pictures_of_differences_are_saved() {
         size: frame.drawn.view.pixels,
         kind: ppum_viewer::export::Kind::Picture,
     };
-    let bytes = order.bytes(Path::new("apart.png"), unwatched()).expect("it is drawn");
+    let (bytes, _) = order.bytes(Path::new("apart.png"), unwatched()).expect("it is drawn");
     let seen = ppum_render::png::encode(&frame.picture.image, &[]).expect("it is encoded");
     assert!(pixels(&bytes) == pixels(&seen), "what is seen is what is saved");
     let figure = ppum_viewer::export::Order {
@@ -434,7 +434,7 @@ fn pictures_of_differences_are_saved() {
         size: [500, 400],
         ..order
     };
-    let bytes = figure.bytes(Path::new("apart.svg"), unwatched()).expect("it is drawn");
+    let (bytes, _) = figure.bytes(Path::new("apart.svg"), unwatched()).expect("it is drawn");
     let text = String::from_utf8_lossy(&bytes);
     assert!(text.contains("right − left"), "{}", &text[..text.len().min(3000)]);
     assert!(figure.command(Path::new("apart.png")).is_err_and(|why| why.contains("no command")));

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
 use clap::ValueEnum;
+use ppum_figure::figure::Labels;
 use ppum_render::picture::Picture;
 use ppum_render::png::Text;
 use ppum_render::resample::Interpolation;
@@ -138,7 +139,9 @@ impl Args {
         let (quantity, asked) = self.subject.quantity(&field)?;
         let methods = self.methods();
         let title = self.subject.replacements.title(&dataset.title);
-        let labels = self.look.worded(asked.labels(title, &field));
+        let [symbol, unit] = asked.shown.words(&field);
+        let labels = Labels { title, quantity: symbol, unit, ..Labels::default() };
+        let labels = self.look.texts().applied(labels);
         let layout = Layout::new(self, &field, &labels, &methods);
         check_page(layout.size())?;
         let frame = Frame { pixels: layout.room()?, may_shrink: true, margin: 0.0 };
@@ -148,7 +151,8 @@ impl Args {
         let report = Report::new(&self.subject.file_name(), &asked.name, &view, &found);
         let mut told = String::new();
         if let Some(path) = &self.output {
-            let style = self.colours.style(Some(&quantity))?;
+            let colors = self.colours.chosen();
+            let style = colors.style(Some(&quantity), colors.map(Some(&quantity))?);
             let (page, direct) = layout.draw(&found, job, &style)?;
             let texts = self.texts(&direct, &dataset.title, &asked.name, &found);
             page::put(path, &page, self.look.given_dpi(), &texts, out)?;

@@ -1,30 +1,27 @@
 //! Several steps: numbered pictures or a moving one, with one range, one size, one factor of deformation.
 
-use std::io::Write as _;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::{Context as _, ensure};
 use ppum::text::{apart, trimmed};
-use ppum_figure::figure::Labels;
-use ppum_render::animation::{Apng, Colors, Gif};
-use ppum_render::image::Image;
 use ppum_render::png::Text;
-use ppum_render::view::View;
 
-use super::{Args, Common, Plate, Sheet, Visit, warn};
+use super::{Args, Common};
 use crate::arguments::positive;
 use crate::dataset::{field, named, series};
+use crate::given::Given;
 use crate::number::count;
-use crate::output::Output;
 use crate::page;
 use crate::progress;
 use crate::standard::is_standard;
-use crate::subject::Asked;
 use crate::target;
-use ppum_scene::drawing::{Drawn, classes, united};
-use ppum_scene::shared::{Coloring, Found};
+use ppum_scene::deformed::{Factor, words};
+use ppum_scene::engine::Engine;
+use ppum_scene::moving::{Film, Form, Frames, Work};
+use ppum_scene::notice::Notice;
+use ppum_scene::shot::{Shot, Source};
 
 /// The options of series.
 #[derive(Debug, clap::Args)]
@@ -139,49 +136,20 @@ impl Steps {
 /// Refuses a moving picture where there is but one.
 pub(super) fn refuse_moving(path: &Path) -> anyhow::Result<()> {
     ensure!(
-        Form::of(path) == Form::Pictures || is_standard(path),
+        form(path).is_none() || is_standard(path),
         "{}: moving pictures show several steps; add --steps all, or end the name in .png",
         path.display()
     );
     Ok(())
 }
 
-impl Plate<'_> {
-    /// Words with `{step}` and `{load}` filled in.
-    pub(super) fn filled(&self, labels: Labels) -> Labels {
-        let Some(step) = self.step else { return labels };
-        let (step, load) = (step.to_string(), trimmed(self.field.step.load));
-        let fill = |text: &str| text.replace("{step}", &step).replace("{load}", &load);
-        let (title, quantity) = (fill(&labels.title), fill(&labels.quantity));
-        Labels { title, quantity, ..labels }
-    }
-
-    /// The step, as notes in the picture.
-    pub(super) fn notes(&self) -> Vec<Text> {
-        let Some(step) = self.step else { return Vec::new() };
-        let load = format!("{:?}", self.field.step.load);
-        vec![("ppum:step".to_owned(), step.to_string()), ("ppum:load".to_owned(), load)]
-    }
-}
-
-/// What becomes of the steps.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Form {
-    Pictures,
-    Gif,
-    Apng,
-}
-
-impl Form {
-    /// The form that a name ends in.
-    fn of(path: &Path) -> Self {
-        let ends_in =
-            |wanted: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
-        match () {
-            () if ends_in("gif") => Self::Gif,
-            () if ends_in("apng") => Self::Apng,
-            () => Self::Pictures,
-        }
+/// The form of an animation that a name ends in; none for pictures.
+fn form(path: &Path) -> Option<Form> {
+    let ends_in = |wanted: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
+    match () {
+        () if ends_in("gif") => Some(Form::Gif),
+        () if ends_in("apng") => Some(Form::Apng),
+        () => None,
     }
 }
 
@@ -194,8 +162,8 @@ fn numbered(path: &Path, step: usize, all: usize) -> PathBuf {
 }
 
 impl Args {
-    /// Draws the steps that are asked for.
-    pub(super) fn all_steps(&self, out: &mut Output) -> anyhow::Result<()> {
+    /// Draws the steps that are asked for, and returns what is told of them.
+    pub(super) fn all_steps(&self, engine: &Engine<'_>) -> anyhow::Result<String> {
         let path = &self.output;
         ensure!(!is_standard(path), "-o -: pictures of steps go to files; give a name with -o");
         ensure!(
@@ -206,19 +174,84 @@ impl Args {
         let steps =
             self.series.steps.as_ref().map_or(Ok(Vec::new()), |steps| steps.of(all.len()))?;
         self.check_files(&steps, all.len())?;
-        let reel = Reel { args: self, all, steps };
-        Film::new(self, &reel)?.write(out)
+        let bars = progress::Series::new(steps.len());
+        let quantity = self.subject.texts()?.map(|mut texts| texts.swap_remove(0));
+        let mut reel = Reel { args: self, all, steps, quantity, factor: None, bars };
+        reel.factor = self.deformed.factor.map(|factor| reel.factor(factor)).transpose()?;
+        let Common { placing, design } = self.common(&reel)?;
+        let film = Film::new(&reel, &placing, self.figure.then_some(&design), engine)?;
+        self.write(&reel, &film, engine)
     }
 
     /// Refuses files that could not be written.
     fn check_files(&self, steps: &[usize], all: usize) -> anyhow::Result<()> {
         let path = &self.output;
-        if Form::of(path) != Form::Pictures {
+        if form(path).is_some() {
             return target::check(path, target::Kind::Animation, self.inputs());
         }
         let check =
             |&step| target::check(&numbered(path, step, all), target::Kind::Picture, self.inputs());
         steps.iter().try_for_each(check)
+    }
+
+    /// Writes the files, and returns what is told of them.
+    fn write(
+        &self,
+        reel: &Reel<'_>,
+        film: &Film<'_, Reel<'_>>,
+        engine: &Engine<'_>,
+    ) -> anyhow::Result<String> {
+        let path = &self.output;
+        let Some(form) = form(path) else {
+            let (files, size) = self.pictures(reel, film, engine)?;
+            return Ok(format!("{files}{}", reel.told(film, size)));
+        };
+        let texts = |first: &Shot| self.texts_of_all(reel, film, first);
+        let time = self.series.time();
+        let mut size = [0; 2];
+        target::stream(path, |out| {
+            size = film.write(form, time, &texts, out)?;
+            Ok(())
+        })?;
+        let rate = trimmed(self.series.rate());
+        Ok(format!("{}: {rate} a second, {}", path.display(), reel.told(film, size)))
+    }
+
+    /// Writes a picture of each step, and returns their names and their size.
+    fn pictures(
+        &self,
+        reel: &Reel<'_>,
+        film: &Film<'_, Reel<'_>>,
+        engine: &Engine<'_>,
+    ) -> anyhow::Result<(String, [u32; 2])> {
+        let path = |part: usize| numbered(&self.output, reel.steps[part], reel.all.len());
+        let form = ppum_figure::form::Form::of(&self.output);
+        let mut size = [0; 2];
+        for part in 0..reel.steps.len() {
+            let (page, shot) = film.page(part)?;
+            Notice::of_glyphs(&page, form).into_iter().for_each(|notice| engine.tell(notice));
+            size = page.size;
+            page::write(&path(part), &page, self.look.given_dpi(), &self.texts(&shot))?;
+        }
+        let names = match reel.steps.len() {
+            1 => format!("{}: ", path(0).display()),
+            n => format!("{} to {}: ", path(0).display(), path(n - 1).display()),
+        };
+        Ok((names, size))
+    }
+
+    /// What the texts of the first picture say of all.
+    fn texts_of_all(&self, reel: &Reel<'_>, film: &Film<'_, Reel<'_>>, first: &Shot) -> Vec<Text> {
+        let is_own = |key: &str| match key {
+            "ppum:step" | "ppum:load" => true,
+            "ppum:view" => film.views.iter().any(|view| *view != film.views[0]),
+            _ => false,
+        };
+        let mut texts = self.texts(first);
+        texts.retain(|(key, _)| !is_own(key));
+        let list: Vec<String> = reel.steps.iter().map(usize::to_string).collect();
+        texts.push(("ppum:step".to_owned(), list.join(",")));
+        texts
     }
 }
 
@@ -227,227 +260,42 @@ struct Reel<'a> {
     args: &'a Args,
     all: ppum_format::Series,
     steps: Vec<usize>,
+    quantity: Option<Given>,
+    /// The factor of deformed plates, once it is known.
+    factor: Option<f64>,
+    bars: progress::Series,
 }
 
-impl Reel<'_> {
-    /// What is made of the plate of a part.
-    fn with<T>(
-        &self,
-        part: usize,
-        make: impl FnOnce(&Plate<'_>) -> anyhow::Result<T>,
-    ) -> anyhow::Result<T> {
+impl Frames for Reel<'_> {
+    type Error = anyhow::Error;
+
+    fn count(&self) -> usize {
+        self.steps.len()
+    }
+
+    fn with(&self, part: usize, work: &mut Work<'_, anyhow::Error>) -> anyhow::Result<()> {
+        self.bars.begin(part);
         let (args, step) = (self.args, self.steps[part]);
         let at = || format!("step {step}");
         let mut dataset = named(&args.subject.file, self.all.at(step))?;
         args.subject.replacements.apply(&mut dataset, Some(step)).with_context(at)?;
         let field = field(&dataset, Some(step)).with_context(at)?;
-        let plate = args.plate(&dataset, &field, step);
-        make(&plate)
-    }
-
-    fn each(&self, visit: &mut Visit<'_>) -> anyhow::Result<()> {
-        (0..self.steps.len()).try_for_each(|part| self.with(part, &mut *visit))
+        let mut request = args.request(Some(step));
+        request.scene.quantity = args.quantity(&field, self.quantity.as_ref())?;
+        request.scene.deformed = self.factor.map(Factor::Given).or(request.scene.deformed);
+        work(Source::of(&dataset, &field), &request)
     }
 }
 
-/// Memory for the values of steps from the first pass, which finds the range, to the second \[bytes\]: 160 pictures of 1024 ×
-/// 768 pixels. Those of more are computed again.
-const VALUES: usize = 1 << 30;
-/// The same for pictures, whose colours a GIF counts before it is begun.
-const IMAGES: usize = 1 << 29;
-
-/// Things that may be kept as long as there is memory for them.
-struct Kept<T> {
-    room: usize,
-    all: Vec<Option<T>>,
-}
-
-impl<T> Kept<T> {
-    fn new(room: usize) -> Self {
-        Self { room, all: Vec::new() }
-    }
-
-    fn push(&mut self, thing: T, bytes: usize) {
-        let fits = bytes <= self.room;
-        self.room -= if fits { bytes } else { 0 };
-        self.all.push(fits.then_some(thing));
-    }
-}
-
-/// Memory of what is kept of a step.
-fn bytes(drawn: &Drawn) -> usize {
-    drawn.values.bytes() + drawn.opacity.as_ref().map_or(0, |(_, all)| all.len())
-}
-
-/// The pictures of a series, once their values and their range are known.
-struct Film<'a> {
-    args: &'a Args,
-    reel: &'a Reel<'a>,
-    common: Common,
-    coloring: Coloring,
-    drawn: Kept<Drawn>,
-    views: Vec<View>,
-    /// What the first one shows, and what drew it.
-    asked: Asked,
-    by: String,
-    bars: progress::Series,
-}
-
-/// What the first pass finds of a step.
-struct First {
-    asked: Asked,
-    view: View,
-    drawn: Drawn,
-}
-
-impl<'a> Film<'a> {
-    /// The first pass.
-    fn new(args: &'a Args, reel: &'a Reel<'a>) -> anyhow::Result<Self> {
-        let common = args.common(&|visit| reel.each(visit))?;
-        let bars = progress::Series::new(reel.steps.len());
-        let (mut found, mut drawn, mut views) = (Found::default(), Kept::new(VALUES), Vec::new());
-        let (mut first, mut style_of, mut classes_of) = (None, None, Vec::new());
-        for part in 0..reel.steps.len() {
-            bars.begin(part);
-            let seen = reel.with(part, |plate| {
-                let shot = args.shot(plate, &common)?;
-                let style = match &style_of {
-                    Some(style) => style,
-                    None => style_of.insert(args.colours.style(shot.asked.shown.quantity())?),
-                };
-                let seen = args.seen(&shot)?;
-                let drawn = args.drawn(plate.field, &seen, &shot.asked)?;
-                let span = args.span(plate.field, &seen, &shot.asked, &drawn, style)?;
-                found.add(span, &drawn, style.scale);
-                classes_of.push(classes([(&shot.asked.shown, &drawn.values)]));
-                let view = *shot.scene.view();
-                Ok(First { asked: shot.asked, view, drawn })
-            })?;
-            views.push(seen.view);
-            first.get_or_insert((seen.asked, seen.drawn.by.clone()));
-            let bytes = bytes(&seen.drawn);
-            drawn.push(seen.drawn, bytes);
-        }
-        let ((asked, by), style) = first.zip(style_of).context("--steps: there is no step")?;
-        warn(&asked, found.undefined);
-        let classes = classes_of.into_iter().collect::<Option<Vec<_>>>().and_then(united);
-        let coloring = found.coloring(args.colours.classed(style.clone(), classes), style);
-        Ok(Self { args, reel, common, coloring, drawn, views, asked, by, bars })
-    }
-
-    /// The picture of a step.
-    fn sheet(&self, part: usize) -> anyhow::Result<Sheet> {
-        self.bars.begin(part);
-        self.reel.with(part, |plate| {
-            let (args, shot) = (self.args, self.args.shot(plate, &self.common)?);
-            let seen = args.seen(&shot)?;
-            let again;
-            let drawn = match &self.drawn.all[part] {
-                Some(known) => known,
-                None => {
-                    again = args.drawn(plate.field, &seen, &shot.asked)?;
-                    &again
-                }
-            };
-            let _bar = progress::Bar::new();
-            args.sheet(&shot, (&seen, drawn), &self.coloring, &self.common.design)
-        })
-    }
-
-    /// The second pass.
-    fn write(&self, out: &mut Output) -> anyhow::Result<()> {
-        let (path, steps) = (&self.args.output, self.reel.steps.as_slice());
-        let first = self.sheet(0)?;
-        page::warn_of_missing(&first.page, ppum_figure::form::Form::of(path));
-        let told = self.told(first.page.size);
-        let files = match Form::of(path) {
-            Form::Pictures => self.pictures(first, steps)?,
-            form => {
-                match form {
-                    Form::Gif => self.gif(first.page.image())?,
-                    _ => self.apng(&first, steps)?,
-                }
-                format!("{}: {} a second, ", path.display(), trimmed(self.args.series.rate()))
-            }
-        };
-        writeln!(out, "wrote {files}{told}")?;
-        Ok(())
-    }
-
-    fn told(&self, [columns, rows]: [u32; 2]) -> String {
-        let factor = self.common.deforming.as_ref().map(|deforming| deforming.words());
-        let moved = factor.map_or_else(String::new, |words| format!(", {words}"));
-        let (name, by) = (&self.asked.name, &self.by);
-        let steps = count(self.reel.steps.len(), "step", "steps");
-        let [from, to] = apart(self.coloring.span.min, self.coloring.span.max);
+impl Reel<'_> {
+    /// What is told of all steps.
+    fn told(&self, film: &Film<'_, Reel<'_>>, [columns, rows]: [u32; 2]) -> String {
+        let moved = self.factor.map_or_else(String::new, |factor| format!(", {}", words(factor)));
+        let (name, by) = (&film.name, &film.by);
+        let steps = count(self.steps.len(), "step", "steps");
+        let [from, to] = apart(film.coloring.span.min, film.coloring.span.max);
         format!(
             "{name}{moved}, {steps}, {columns}x{rows} pixels, colours from {from} to {to}, {by}"
         )
-    }
-
-    fn pictures(&self, first: Sheet, steps: &[usize]) -> anyhow::Result<String> {
-        let args = self.args;
-        let all = self.reel.all.len();
-        let path = |part: usize| numbered(&args.output, steps[part], all);
-        let mut first = Some(first);
-        for part in 0..steps.len() {
-            let sheet = first.take().map_or_else(|| self.sheet(part), Ok)?;
-            page::write(&path(part), &sheet.page, args.look.given_dpi(), &sheet.texts)?;
-        }
-        Ok(match steps.len() {
-            1 => format!("{}: ", path(0).display()),
-            n => format!("{} to {}: ", path(0).display(), path(n - 1).display()),
-        })
-    }
-
-    fn apng(&self, first: &Sheet, steps: &[usize]) -> anyhow::Result<()> {
-        let count = u32::try_from(steps.len())?;
-        let (size, texts) = (first.page.size, self.texts(first, steps));
-        target::stream(&self.args.output, |out| {
-            let mut file = Apng::new(out, size, count, self.args.series.time(), &texts)?;
-            file.add(&first.page.image())?;
-            for part in 1..steps.len() {
-                file.add(&self.sheet(part)?.page.image())?;
-            }
-            Ok(file.finish()?)
-        })
-    }
-
-    /// Counts the colours of all pictures, then writes them.
-    fn gif(&self, first: Image) -> anyhow::Result<()> {
-        let size = first.size;
-        let (mut colors, mut images) = (Colors::new(), Kept::new(IMAGES));
-        let mut first = Some(first);
-        for part in 0..self.reel.steps.len() {
-            let image = match first.take() {
-                Some(first) => first,
-                None => self.sheet(part)?.page.image(),
-            };
-            colors.add(&image);
-            let bytes = image.rgba.len();
-            images.push(image, bytes);
-        }
-        target::stream(&self.args.output, |out| {
-            let mut file = Gif::new(out, size, &colors, self.args.series.time())?;
-            for (part, image) in images.all.into_iter().enumerate() {
-                let image = image.map_or_else(|| Ok(self.sheet(part)?.page.image()), anyhow::Ok)?;
-                file.add(&image)?;
-            }
-            Ok(file.finish()?)
-        })
-    }
-
-    /// What the texts of the first picture say of all.
-    fn texts(&self, first: &Sheet, steps: &[usize]) -> Vec<Text> {
-        let is_own = |key: &str| match key {
-            "ppum:step" | "ppum:load" => true,
-            "ppum:view" => self.views.iter().any(|view| *view != self.views[0]),
-            _ => false,
-        };
-        let mut texts = first.texts.clone();
-        texts.retain(|(key, _)| !is_own(key));
-        let list: Vec<String> = steps.iter().map(usize::to_string).collect();
-        texts.push(("ppum:step".to_owned(), list.join(",")));
-        texts
     }
 }
