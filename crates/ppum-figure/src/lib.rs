@@ -16,27 +16,6 @@ pub mod ticks;
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
-    use ppum_testkit::rooms::{Floors, check, check_page};
-
-    const FLOORS: Floors<'_> = &[
-        &[("text", &[]), ("ticks", &[])],
-        &[("canvas", &["text"]), ("levels", &["ticks"])],
-        &[("form", &["canvas"]), ("overlay", &["canvas", "text", "ticks"])],
-        &[
-            ("figure", &["canvas", "overlay", "text", "ticks"]),
-            ("plot", &["canvas", "overlay", "text", "ticks"]),
-        ],
-    ];
-
-    #[test]
-    fn arrows_lead_down() {
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        check(&sources, FLOORS);
-        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
-    }
-
     #[test]
     fn errors_cross_threads() {
         fn check<E: std::error::Error + Send + Sync + 'static>() {}

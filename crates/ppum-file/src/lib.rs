@@ -34,24 +34,3 @@ pub use ranged::Ranged;
 pub use read::{open, read, text, text_within, within};
 pub use same::is_same;
 pub use write::{check, replace};
-
-#[cfg(test)]
-mod tests {
-    use std::path::Path;
-
-    use ppum_testkit::rooms::{Floors, check, check_page};
-
-    const FLOORS: Floors<'_> = &[
-        &[("part", &[]), ("read", &[]), ("same", &[])],
-        &[("lock", &["part"]), ("ranged", &["read"])],
-        &[("write", &["lock", "part"])],
-        &[("growing", &["lock", "part", "ranged", "write"])],
-    ];
-
-    #[test]
-    fn arrows_lead_down() {
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        check(&sources, FLOORS);
-        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
-    }
-}

@@ -4,7 +4,6 @@ mod compute;
 mod corpus;
 mod points;
 mod prepare;
-mod rooms;
 mod texts;
 
 use ppum_testkit::skipped::skipped;

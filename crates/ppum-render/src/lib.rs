@@ -58,45 +58,6 @@ pub use ppum_raster::{RenderError, pixels, raster, reference, scatter, view};
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
-    use ppum_testkit::rooms::{Floors, check, check_page};
-
-    const FLOORS: Floors<'_> = &[
-        &[
-            ("cells", &[]),
-            ("extrema", &[]),
-            ("image", &[]),
-            ("pieces", &[]),
-            ("resample", &[]),
-            ("samples", &[]),
-            ("scale", &[]),
-        ],
-        &[
-            ("colormap", &["image"]),
-            ("deform", &["pieces"]),
-            ("isoline", &["pieces"]),
-            ("png", &["image"]),
-            ("range", &["extrema", "scale"]),
-        ],
-        &[
-            ("animation", &["image", "png"]),
-            ("glyph", &["deform"]),
-            ("shades", &["colormap", "image", "scale"]),
-        ],
-        &[(
-            "picture",
-            &["colormap", "extrema", "image", "png", "range", "samples", "scale", "shades"],
-        )],
-    ];
-
-    #[test]
-    fn arrows_lead_down() {
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        check(&sources, FLOORS);
-        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
-    }
-
     #[test]
     fn errors_cross_threads() {
         fn check<E: std::error::Error + Send + Sync + 'static>() {}

@@ -33,59 +33,6 @@ mod written;
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
-    use ppum_testkit::rooms::{Floors, check, check_page};
-
-    const FLOORS: Floors<'_> = &[
-        &[
-            ("drawing", &[]),
-            ("facts", &[]),
-            ("notice", &[]),
-            ("overlays", &[]),
-            ("table", &[]),
-            ("written", &[]),
-        ],
-        &[
-            ("colors", &["drawing", "written"]),
-            ("compare", &["written"]),
-            ("deformed", &["drawing"]),
-            ("engine", &["drawing", "notice"]),
-            ("profile", &["table"]),
-            ("range", &["drawing"]),
-            ("shared", &["drawing"]),
-            ("stations", &["notice"]),
-        ],
-        &[
-            ("layers", &["drawing", "notice", "overlays", "stations"]),
-            ("minus", &["colors", "drawing"]),
-            ("plots", &["profile", "table"]),
-            ("scene", &["colors", "deformed", "drawing", "overlays"]),
-        ],
-        &[("command", &["scene"]), ("request", &["engine", "scene"])],
-        &[(
-            "shot",
-            &[
-                "colors", "deformed", "drawing", "engine", "layers", "minus", "notice", "range",
-                "request", "scene", "shared",
-            ],
-        )],
-        &[(
-            "moving",
-            &[
-                "colors", "deformed", "drawing", "engine", "notice", "request", "scene", "shared",
-                "shot",
-            ],
-        )],
-    ];
-
-    #[test]
-    fn arrows_lead_down() {
-        let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        check(&sources, FLOORS);
-        check_page(&sources, env!("CARGO_PKG_NAME"), FLOORS);
-    }
-
     #[test]
     fn errors_cross_threads() {
         fn check<E: std::error::Error + Send + Sync + 'static>() {}

@@ -54,9 +54,7 @@
 //! inside `ThreadPool::install` stays on that pool. Results have the same bits on any number of threads. Long
 //! calls take a [`Watcher`](ppum::progress::Watcher), which hears of their progress and can stop them.
 //!
-//! # Rooms
-//!
-//! Modules import from floors below their own only; `tests/solver/rooms.rs` holds them to it.
+//! # The path of a solution, from below
 //!
 //! ```text
 //! growth                                           cracks that grow, step by step

@@ -26,7 +26,6 @@ pub mod extended;
 pub mod fields;
 pub mod processor;
 pub mod random;
-pub mod rooms;
 pub mod skipped;
 pub mod synthetic;
 #[cfg(feature = "wgsl")]

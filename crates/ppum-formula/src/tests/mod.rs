@@ -9,7 +9,6 @@ mod kinks;
 mod lanes;
 mod language;
 mod random;
-mod rooms;
 mod sides;
 mod tables;
 mod westergaard;

@@ -2,7 +2,6 @@
 
 mod errors;
 mod raster;
-mod rooms;
 mod scatter;
 mod summation;
 mod view;

@@ -29,7 +29,6 @@ mod random;
 mod reactions;
 mod refined;
 mod rims;
-mod rooms;
 mod rounding;
 mod slivers;
 #[path = "../studies/mod.rs"]

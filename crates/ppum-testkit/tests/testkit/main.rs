@@ -1,7 +1,9 @@
 //! The project as a whole: its crates, its pages, and all back ends of formulas.
 
 mod architecture;
+mod circles;
 mod formulas;
 mod hostile_formulas;
 mod pages;
+mod sources;
 mod wgsl;

@@ -16,7 +16,6 @@ mod library;
 mod partition;
 mod replace;
 mod reproduction;
-mod rooms;
 mod sample;
 mod sides;
 mod support;
