@@ -234,7 +234,9 @@ class Field:
 
     def read_quantities(self, file):
         """Formulas of quantities, in the order in which they are defined."""
-        library = {("ux", "uy"): ELASTICITY, ("u",): POISSON}.get(tuple(self.components), {})
+        library = {"elasticity": (["ux", "uy"], ELASTICITY), "poisson": (["u"], POISSON)}
+        components, library = library.get(self.kind, ([], {}))
+        library = library if components == self.components else {}
         named = file.get("quantities")
         own = dict(zip(texts(named["name"]), texts(named["formula"]))) if named else {}
         self.quantities = {k: self.formula(v, ()) for k, v in (library | own).items()}

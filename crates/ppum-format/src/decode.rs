@@ -22,8 +22,8 @@ use crate::content::{Array, Content, Element, Form};
 use crate::error::ReadError;
 use crate::limits::FORMAT_VERSION;
 use crate::names::{
-    BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ELASTICITY, ENDS, EQUATIONS, EquationKind, PLAIN_BOX,
-    POISSON, POLYGON, STRESS_STATES, WEIGHTS,
+    BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ELASTICITY, ENDS, EQUATIONS, EquationKind, NO_EQUATION,
+    PLAIN_BOX, POISSON, POLYGON, STRESS_STATES, WEIGHTS,
 };
 use functions::functions;
 pub(crate) use group::missing;
@@ -191,6 +191,12 @@ fn equation(group: &Group, scopes: &Option<Scopes>) -> Equation {
                 group.refuse(name, Form::Attribute, POISSON);
             }
             Equation::Poisson { conductivity: constant("conductivity") }
+        }
+        Some(EquationKind::None) => {
+            for name in ["young", "poisson", "state", "conductivity"] {
+                group.refuse(name, Form::Attribute, NO_EQUATION);
+            }
+            Equation::None
         }
         None => Equation::poisson(1.0),
     }

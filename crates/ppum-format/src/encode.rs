@@ -135,6 +135,7 @@ fn equation(group: &mut Group, equation: &Equation) -> Written {
             "elasticity"
         }
         Equation::Poisson { .. } => "poisson",
+        Equation::None => "none",
     };
     group.attribute("kind", Array::scalar(kind.to_owned()));
     Ok(())

@@ -14,13 +14,18 @@ pub(crate) const STRESS_STATES: &Words<StressState> =
 pub(crate) enum EquationKind {
     Elasticity,
     Poisson,
+    None,
 }
 
 pub(crate) const ELASTICITY: &str = "elasticity";
 pub(crate) const POISSON: &str = "poisson";
+pub(crate) const NO_EQUATION: &str = "none";
 
-pub(crate) const EQUATIONS: &Words<EquationKind> =
-    &[(EquationKind::Elasticity, ELASTICITY), (EquationKind::Poisson, POISSON)];
+pub(crate) const EQUATIONS: &Words<EquationKind> = &[
+    (EquationKind::Elasticity, ELASTICITY),
+    (EquationKind::Poisson, POISSON),
+    (EquationKind::None, NO_EQUATION),
+];
 
 /// Weight functions that have a name, and none for a formula.
 pub(crate) const WEIGHTS: &Words<Option<WeightFunction>> = &[

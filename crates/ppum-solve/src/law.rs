@@ -59,6 +59,7 @@ impl<'e> Law<'e> {
         match self.equation {
             Equation::Elasticity(_) => [lambda, mu],
             Equation::Poisson { .. } => [conductivity, 0.0],
+            Equation::None => [0.0; TERMS],
         }
     }
 

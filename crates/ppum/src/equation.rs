@@ -18,6 +18,8 @@ pub enum Equation {
         /// κ > 0, at every point of the domain.
         conductivity: Expression,
     },
+    /// No equation: a field of any number of components, without a material.
+    None,
 }
 
 /// An isotropic linear elastic body in the plane; its constants may differ from place to place.
@@ -66,12 +68,13 @@ impl Equation {
         Self::Poisson { conductivity: conductivity.into() }
     }
 
-    /// Number of components of the unknown field: 2 for elasticity, 1 for Poisson.
+    /// Number of components of the unknown field: 2 for elasticity, 1 for Poisson, 0 without an equation.
     #[must_use]
     pub fn components(&self) -> usize {
         match self {
             Self::Elasticity(_) => 2,
             Self::Poisson { .. } => 1,
+            Self::None => 0,
         }
     }
 
@@ -80,16 +83,17 @@ impl Equation {
     pub fn elastic(&self) -> Option<&Elasticity> {
         match self {
             Self::Elasticity(elasticity) => Some(elasticity),
-            Self::Poisson { .. } => None,
+            Self::Poisson { .. } | Self::None => None,
         }
     }
 
-    /// The expressions of the material constants with their names: `young` and `poisson`, or
-    /// `conductivity`.
+    /// The expressions of the material constants with their names: `young` and `poisson`,
+    /// `conductivity`, or none.
     pub fn constants(&self) -> impl Iterator<Item = (&'static str, &Expression)> {
         let list = match self {
             Self::Elasticity(e) => [Some(("young", &e.young)), Some(("poisson", &e.poisson))],
             Self::Poisson { conductivity } => [Some(("conductivity", conductivity)), None],
+            Self::None => [None, None],
         };
         list.into_iter().flatten()
     }
@@ -129,6 +133,7 @@ impl Equation {
                 (!(possible && nu > -1.0)).then(message)
             }),
             Self::Poisson { conductivity } => positive("conductivity", conductivity),
+            Self::None => None,
         }
     }
 
@@ -152,6 +157,7 @@ impl Equation {
                 let conductivity = conductivity.values(anchor, offset);
                 Moduli { conductivity, ..Moduli::zero(zero) }
             }
+            Self::None => Moduli::zero(offset[0].lit(0.0)),
         }
     }
 }

@@ -38,6 +38,7 @@ enum Hole {
 enum Equation {
     Elasticity { young: Constant, poisson: Constant, state: &'static str },
     Poisson { conductivity: Constant },
+    None,
 }
 
 /// A constant of the material: a number, or the text of a formula.
@@ -130,6 +131,7 @@ impl Equation {
             dataset::Equation::Poisson { conductivity } => {
                 Self::Poisson { conductivity: conductivity.into() }
             }
+            dataset::Equation::None => Self::None,
         }
     }
 }
@@ -141,6 +143,7 @@ impl fmt::Display for Equation {
                 write!(f, "elasticity, E {young}, ν {poisson}, {state}")
             }
             Self::Poisson { conductivity } => write!(f, "Poisson, κ {conductivity}"),
+            Self::None => f.write_str("none"),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Errors of solutions of one problem, against their unknowns.
 
-use ppum::dataset::{Dataset, Step};
+use ppum::dataset::{Dataset, Equation, Step};
 use ppum::field::Field;
 use ppum::formula::{Formula, FormulaJets, Scope};
 use ppum::jet::Jet;
@@ -121,10 +121,10 @@ fn exact(solutions: &[Solution<'_>]) -> Result<Vec<Curve>, PlotError> {
     Ok(vec![curve("energy norm", energy), curve("L² norm", l2)])
 }
 
-/// Errors relative to the exact solution, in the energy norm and in L²; none if it is not known.
+/// Errors relative to the exact solution, in the energy norm and in L²; none if it, or the equation, is not known.
 fn errors(Solution { dataset, index, step }: &Solution<'_>) -> Result<Option<[f64; 2]>, PlotError> {
     let field = Field::new(dataset, *index).map_err(PlotError::of)?;
-    if !field.has_exact() {
+    if !field.has_exact() || dataset.equation == Equation::None {
         return Ok(None);
     }
     let scope = Scope::cartesian().with_tables(&dataset.tables).map_err(PlotError::of)?;

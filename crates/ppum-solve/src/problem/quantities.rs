@@ -15,6 +15,7 @@ pub(crate) fn field_names(equation: &Equation) -> (&'static str, &'static [&'sta
     match equation {
         Equation::Elasticity(_) => ("displacement", &["ux", "uy"]),
         Equation::Poisson { .. } => ("potential", &["u"]),
+        Equation::None => ("field", &[]),
     }
 }
 

@@ -46,7 +46,8 @@ fn check_components(field: &FieldData, equation: &Equation) -> Checked {
         format!("there are {components} components, but at most {MAX_COMPONENTS} may be")
     })?;
     check_names("components", field.components.iter())?;
-    if field.name == "displacement" || field.name == "potential" {
+    let is_unknown = field.name == "displacement" || field.name == "potential";
+    if is_unknown && *equation != Equation::None {
         check_length("components", components, equation.components(), "those of the equation")?;
     }
     Ok(())

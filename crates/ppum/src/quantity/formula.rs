@@ -112,9 +112,10 @@ const ELASTIC_CONSTANTS: [(&str, Input); 5] = [
 impl<'a> Vocabulary<'a> {
     /// The inputs of a formula.
     fn inputs(&self) -> Vec<(String, Input)> {
-        let constants = match self.equation.elastic() {
-            Some(_) => ELASTIC_CONSTANTS.as_slice(),
-            None => &[("conductivity", Input::Conductivity)],
+        let constants = match self.equation {
+            Equation::Elasticity(_) => ELASTIC_CONSTANTS.as_slice(),
+            Equation::Poisson { .. } => &[("conductivity", Input::Conductivity)],
+            Equation::None => &[],
         };
         let fixed = [("x", Input::X), ("y", Input::Y)].into_iter().chain(constants.iter().copied());
         let mut all: Vec<_> = fixed.map(|(name, input)| (name.to_owned(), input)).collect();
