@@ -167,14 +167,20 @@ pub(crate) struct Array {
     pub(crate) values: Values,
 }
 
-/// The element types of the format.
+/// The values of an array, in one of the element types of the format.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Values {
+pub enum Values {
+    /// Floating-point numbers.
     F64(Vec<f64>),
+    /// Bytes.
     U8(Vec<u8>),
+    /// Short unsigned numbers.
     U32(Vec<u32>),
+    /// Long unsigned numbers.
     U64(Vec<u64>),
+    /// Signed numbers.
     I64(Vec<i64>),
+    /// Texts.
     Text(Vec<String>),
     /// A type outside the format, by name; its values are not read.
     Other(String),

@@ -1,7 +1,7 @@
 //! [`Dataset`] ↔ HDF5, as `FORMAT.md` describes it.
 //!
 //! [`write()`] and [`read`] work on files, [`to_bytes`] and [`from_bytes`] in memory (also where there
-//! is no file system). [`Series`] reads one step of a file at a time, [`SeriesWriter`] appends one. Between a dataset and HDF5 stands the content: a sorted map from the names of
+//! is no file system), [`Arrays`] makes a dataset of arrays by the names of the format. [`Series`] reads one step of a file at a time, [`SeriesWriter`] appends one. Between a dataset and HDF5 stands the content: a sorted map from the names of
 //! arrays and attributes to their values. Names and shapes meet the data model in `encode` and
 //! `decode`, HDF5 is known to `hdf5` alone, and the checksum is taken over the content, so it does
 //! not depend on how HDF5 lays out its bytes.
@@ -40,6 +40,7 @@
 //! [`Dataset`]: ppum::dataset::Dataset
 
 mod append;
+mod arrays;
 mod bytes;
 mod checksum;
 mod content;
@@ -59,7 +60,9 @@ mod place;
 mod series;
 
 pub use append::SeriesWriter;
+pub use arrays::Arrays;
 pub use bytes::{check, diagnose_bytes, from_bytes, to_bytes};
+pub use content::Values;
 pub use error::{ReadError, WriteError};
 pub use file::{diagnose, read, write};
 pub use limits::{FORMAT_VERSION, MAX_LENGTH, MAX_SERIES_LENGTH};
