@@ -19,6 +19,7 @@ use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt, PyOSError};
 use pyo3::import_exception;
 use pyo3::prelude::*;
 
+import_exception!(ppum, BuildError);
 import_exception!(ppum, FormatError);
 import_exception!(ppum, InternalError);
 import_exception!(ppum, ProblemError);
@@ -45,6 +46,15 @@ pub(crate) fn unreadable(of: &str, error: ReadError) -> PyErr {
         }
         error => FormatError::new_err(format!("{of}: {error}")),
     }
+}
+
+/// Arrays that make no dataset: one line for each mistake.
+pub(crate) fn unbuilt(errors: &[ReadError]) -> PyErr {
+    let line = |error: &ReadError| match error {
+        ReadError::Invalid(error) => error.to_string(),
+        error => error.to_string(),
+    };
+    BuildError::new_err(errors.iter().map(line).collect::<Vec<_>>().join("\n"))
 }
 
 /// A dataset that cannot be written.

@@ -6,6 +6,7 @@
 //! compute. Without the feature `python` the crate is empty.
 #![cfg(feature = "python")]
 
+mod building;
 mod compare;
 mod dataset;
 mod errors;
@@ -24,6 +25,8 @@ mod watch;
 /// The compiled part of ppum; import `ppum` instead.
 #[pyo3::pymodule]
 mod _core {
+    #[pymodule_export]
+    use crate::building::{build, scattered};
     #[pymodule_export]
     use crate::compare::{compare, resample};
     #[pymodule_export]

@@ -8,8 +8,9 @@ Example:
     (2,)
 """
 
-from . import _core, plots
+from . import _core, basis, plots
 from .errors import (
+    BuildError,
     Finding,
     FormatError,
     InternalError,
@@ -19,7 +20,9 @@ from .errors import (
     RenderError,
     SolveError,
 )
+from .building import Coefficients, State, build, from_arrays
 from .comparing import Comparison, Needed, Norms, Resampling
+from .cover import Cover
 from .dataset import (
     Advance,
     Crack,
@@ -35,6 +38,7 @@ from .dataset import (
     from_bytes,
     open,
 )
+from .enriching import Component, Formula, Jump, tip_functions
 from .field import Field
 from .linking import link
 from .pictures import Animation, Extremum, Figure, View
@@ -51,7 +55,11 @@ __all__ = [
     "COLORMAPS",
     "Advance",
     "Animation",
+    "BuildError",
+    "Coefficients",
     "Comparison",
+    "Component",
+    "Cover",
     "Crack",
     "Dataset",
     "Elastic",
@@ -60,10 +68,12 @@ __all__ = [
     "Figure",
     "Finding",
     "FormatError",
+    "Formula",
     "Growth",
     "History",
     "Hole",
     "InternalError",
+    "Jump",
     "Needed",
     "Norms",
     "Poisson",
@@ -76,6 +86,7 @@ __all__ = [
     "RenderError",
     "Resampling",
     "SolveError",
+    "State",
     "Step",
     "Sweep",
     "Table",
@@ -83,10 +94,14 @@ __all__ = [
     "Values",
     "View",
     "Warning",
+    "basis",
+    "build",
+    "from_arrays",
     "from_bytes",
     "link",
     "open",
     "plots",
     "solve",
     "sweep",
+    "tip_functions",
 ]

@@ -18,6 +18,7 @@ __all__ = [
     "Field",
     "_panic",
     "animation",
+    "build",
     "check",
     "colormaps",
     "compare",
@@ -31,6 +32,7 @@ __all__ = [
     "render",
     "resample",
     "rgba",
+    "scattered",
     "solve",
     "told",
 ]
@@ -88,6 +90,12 @@ def profiles(
 def told(named: list[tuple[str, Dataset]], kind: str, log: str) -> Curves: ...
 def read(path: Path) -> Dataset: ...
 def from_bytes(bytes: bytes) -> Dataset: ...
+def build(given: list[tuple[str, list[int], NDArray[Any] | list[str]]]) -> Dataset: ...
+def scattered(
+    domain: tuple[float, float, float, float],
+    cells: tuple[int, int],
+    points: list[tuple[float, float]],
+) -> tuple[_Floats, NDArray[np.uint8], NDArray[np.int64]]: ...
 def check(text: str, name: str, folder: Path) -> list[dict[str, Any]]: ...
 def solve(
     text: str,

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 __all__ = [
+    "BuildError",
     "Finding",
     "FormatError",
     "InternalError",
@@ -23,6 +24,10 @@ __all__ = [
 class PpumError(Exception):
     """What all exceptions of ppum are, but for those of files (`OSError`) and of numbers of steps, cracks and
     tips (`IndexError`)."""
+
+
+class BuildError(PpumError, ValueError):
+    """Arrays that make no dataset, or another field than the one that was meant."""
 
 
 class FormatError(PpumError, ValueError):
@@ -82,6 +87,7 @@ class ProblemError(PpumError, ValueError):
 
 for _class in (
     PpumError,
+    BuildError,
     FormatError,
     QuantityError,
     RenderError,

@@ -1,0 +1,288 @@
+"""Coefficients of other bases as those of the file format: monomials 1, ξ, η, ξ², ξη, η², … of the patch's coordinates.
+
+Example:
+    >>> q2 = ppum.basis.legendre(2, order="total")
+    >>> c = np.zeros((1, 6)); c[0, 3] = 2.0      # 2 P_2(ξ) = 3 ξ² - 1
+    >>> q2.convert(c).tolist()
+    [[-1.0, 0.0, 0.0, 3.0, 0.0, 0.0]]
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from math import comb
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .blocks import DEGREES, MAX_DEGREE
+from .cover import Cover, numbers, rows
+from .errors import BuildError
+
+__all__ = ["Basis", "bernstein", "chebyshev", "fit", "lagrange", "legendre", "monomials", "reframe"]
+
+Floats = NDArray[np.float64]
+#: A polynomial of one variable, from the constant on.
+Poly = list[Fraction]
+
+#: A conversion that loses more than this is told.
+LARGE = 1e6
+
+
+def exponents(degree: int) -> list[tuple[int, int]]:
+    """Exponents of ξ and η of the monomials up to a degree, in the format's order."""
+    return [(d - k, k) for d in range(degree + 1) for k in range(d + 1)]
+
+
+class Basis:
+    """Products p_i(ξ) q_j(η), in the order of `indices`, as polynomials of total degree.
+
+    Attributes:
+        indices: Pairs (i, j), in the order of the coefficients.
+        degree: Total degree of the products.
+        matrix: Monomials' coefficients from those of the basis, shape ((d + 1)(d + 2)/2, m); its entries are exact, but
+            for the rounding to doubles.
+        condition: Its condition number: how much relative errors of coefficients may grow.
+    """
+
+    def __init__(self, x: Sequence[Poly], y: Sequence[Poly], indices: Sequence[tuple[int, int]]) -> None:
+        self.indices = tuple((int(i), int(j)) for i, j in indices)
+        for k, (i, j) in enumerate(self.indices):
+            if not (0 <= i < len(x) and 0 <= j < len(y)):
+                raise BuildError(f"order[{k}]: {(i, j)} is no product of {len(x)} × {len(y)} polynomials")
+        products = [(x[i], y[j]) for i, j in self.indices]
+        self.degree = max(_degree(p) + _degree(q) for p, q in products)
+        if self.degree > MAX_DEGREE:
+            raise BuildError(
+                f"the products have the total degree {self.degree}, a block at most {MAX_DEGREE}: "
+                "of tensor products of degree p that is 2p, so p ≤ 4"
+            )
+        exact = [[_at(p, a) * _at(q, b) for p, q in products] for a, b in exponents(self.degree)]
+        self._extended = np.array(
+            [[np.longdouble(v.numerator) / np.longdouble(v.denominator) for v in row] for row in exact]
+        )
+        self.matrix: Floats = self._extended.astype(float)
+        self.condition = float(np.linalg.cond(self.matrix))
+
+    def convert(self, coefficients: ArrayLike, axis: int = 1) -> Floats:
+        """The coefficients of monomials: `axis` has those of the basis, the others are kept. A condition number above
+        1e6 is told as a warning."""
+        given = numbers("coefficients", coefficients)
+        if given.shape[axis] != len(self.indices):
+            raise BuildError(
+                f"coefficients: has the shape {given.shape}, expected {len(self.indices)} on axis {axis}: {self}"
+            )
+        if self.condition > LARGE:
+            digits = np.log10(self.condition)
+            told = f"the condition number of the conversion is {self.condition:.1e}: up to {digits:.0f} digits are lost"
+            warnings.warn(told, stacklevel=2)
+        product = np.tensordot(np.moveaxis(given, axis, -1).astype(np.longdouble), self._extended, (-1, 1))
+        return np.ascontiguousarray(np.moveaxis(product, -1, axis), float)
+
+    def __repr__(self) -> str:
+        return f"<ppum.basis.Basis of {len(self.indices)} products, total degree {self.degree}>"
+
+
+def legendre(degree: int, order: Any = "total", interval: tuple[float, float] = (-1, 1)) -> Basis:
+    """Legendre polynomials, P_k(1) = 1.
+
+    Args:
+        degree: Highest degree in each variable.
+        order: Of the products: ``total``, degree by degree, of each first the highest power of ξ, as the format has it;
+            ``total-y``, of each first the highest power of η; ``tensor``, all i, j ≤ degree with i running first;
+            ``tensor-y``, with j first; or the pairs (i, j) themselves.
+        interval: The local coordinate of the basis where ξ is -1 and 1: (0, 1) for shifted polynomials.
+    """
+    return _basis(_recurrent(degree, lambda k: (Fraction(2 * k + 1, k + 1), Fraction(k, k + 1))), order, interval)
+
+
+def chebyshev(degree: int, order: Any = "total", interval: tuple[float, float] = (-1, 1)) -> Basis:
+    """Chebyshev polynomials of the first kind; arguments as of `legendre`."""
+    return _basis(_recurrent(degree, lambda k: (Fraction(2 if k else 1), Fraction(1))), order, interval)
+
+
+def bernstein(degree: int, order: Any = "tensor", interval: tuple[float, float] = (0, 1)) -> Basis:
+    """Bernstein polynomials C(p, k) t^k (1 − t)^(p − k), products of two; arguments as of `legendre`.
+
+    Example:
+        >>> ppum.basis.bernstein(1).convert([[1.0, 1.0, 1.0, 1.0]]).tolist()
+        [[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]]
+    """
+    one = [Fraction(1)]
+    all_ = []
+    for k in range(degree + 1):
+        p = [Fraction(comb(degree, k))]
+        for factor in [[Fraction(0), Fraction(1)]] * k + [[Fraction(1), Fraction(-1)]] * (degree - k):
+            p = _times(p, factor)
+        all_.append(p or one)
+    return _basis(all_, order, interval)
+
+
+def lagrange(nodes: ArrayLike, order: Any = "tensor", interval: tuple[float, float] = (-1, 1)) -> Basis:
+    """Lagrange polynomials of nodes, the same in both directions: values at the nodes are the coefficients."""
+    at = [Fraction(float(v)) for v in numbers("nodes", nodes)]
+    if len(set(at)) < len(at):
+        raise BuildError("nodes: two are equal; leave one out")
+    all_ = []
+    for i, a in enumerate(at):
+        p = [Fraction(1)]
+        for b in at[:i] + at[i + 1 :]:
+            p = _times(p, [-b / (a - b), 1 / (a - b)])
+        all_.append(p)
+    return _basis(all_, order, interval)
+
+
+def monomials(degree: int, order: Any = "total-y", interval: tuple[float, float] = (-1, 1)) -> Basis:
+    """Monomials in another order or of another coordinate; arguments as of `legendre`."""
+    all_ = [[Fraction(0)] * k + [Fraction(1)] for k in range(degree + 1)]
+    return _basis(all_, order, interval)
+
+
+def reframe(
+    coefficients: ArrayLike,
+    origin: ArrayLike,
+    scale: ArrayLike,
+    new_origin: ArrayLike,
+    new_scale: ArrayLike,
+) -> Floats:
+    """Monomials' coefficients (n, m) or (n, m, c) of ξ = (p − origin)/scale as those of (p − new_origin)/new_scale, which
+    have the same values. Origins and scales have the shape (n, 2), or (2,) for all patches.
+
+    Example:
+        >>> ppum.basis.reframe([[0.0, 1.0, 0.0]], (0, 0), (1, 1), (0.5, 0.5), (2, 2)).tolist()
+        [[0.5, 2.0, 0.0]]
+    """
+    given = numbers("coefficients", coefficients)
+    if given.ndim not in (2, 3) or given.shape[1] not in DEGREES:
+        raise BuildError(f"coefficients: has the shape {given.shape}, expected (n, m) or (n, m, c), m = (d + 1)(d + 2)/2")
+    old, size, new, new_size = (
+        np.broadcast_to(numbers(name, values), (len(given), 2)).astype(np.longdouble)
+        for name, values in zip(("origin", "scale", "new_origin", "new_scale"), (origin, scale, new_origin, new_scale))
+    )
+    shift, factor = (new - old) / size, new_size / size
+    of = exponents(DEGREES[given.shape[1]])
+    matrix = np.zeros((len(given), len(of), len(of)), np.longdouble)
+    for k, (a, b) in enumerate(of):
+        for j, (i, l) in enumerate(of):
+            if i <= a and l <= b:
+                x = comb(a, i) * shift[:, 0] ** (a - i) * factor[:, 0] ** i
+                matrix[:, j, k] = x * comb(b, l) * shift[:, 1] ** (b - l) * factor[:, 1] ** l
+    return np.asarray(np.einsum("njk,nk...->nj...", matrix, given.astype(np.longdouble)), float)
+
+
+def fit(
+    cover: Cover, degree: int, function: Callable[[int, Floats, Floats], ArrayLike], tolerance: float = 1e-10
+) -> Floats:
+    """The coefficients (n, m) or (n, m, c) of local polynomials that can be evaluated.
+
+    Args:
+        cover: The patches.
+        degree: Total degree of the polynomials, at most 8.
+        function: Called with a patch and arrays x and y of points in its frame; gives values of shape (k,) or (k, c).
+        tolerance: What the polynomial may miss, in parts of its largest coefficient of Chebyshev polynomials.
+
+    Raises:
+        BuildError: The function of a patch is no polynomial of this degree.
+
+    Example:
+        >>> cover = ppum.Cover.uniform([(0, 0), (1, 1)], cells=(2, 2))
+        >>> ppum.basis.fit(cover, 2, lambda patch, x, y: x * y).shape
+        (4, 6)
+    """
+    if not 0 <= degree <= MAX_DEGREE:
+        raise BuildError(f"degree: is {degree}, expected 0 to {MAX_DEGREE}")
+    count = degree + 3
+    nodes = np.cos(np.pi * (np.arange(count) + 0.5) / count)
+    xi, eta = (a.reshape(-1) for a in np.meshgrid(nodes, nodes))
+    values = [_sampled(cover, k, function, xi, eta) for k in range(len(cover))]
+    given = np.array(values).reshape(len(cover), count * count, -1)
+    to = np.polynomial.chebyshev.chebvander(nodes, count - 1).T * np.where(np.arange(count), 2, 1)[:, None] / count
+    found = np.einsum("ia,jb,nbac->nijc", to, to, given.reshape(len(cover), count, count, -1))
+    beyond = np.add.outer(np.arange(count), np.arange(count)) > degree
+    missed = np.abs(found[:, beyond]).max(axis=(1, 2))
+    wrong = np.flatnonzero(missed > tolerance * np.abs(found).max(axis=(1, 2, 3)))
+    if len(wrong):
+        k = wrong[0]
+        raise BuildError(
+            f"function: on patch {k} it is no polynomial of total degree {degree}: its coefficient of a higher one is "
+            f"{missed[k]:.1e}; raise the degree, or take out what is a function of its own"
+        )
+    basis = chebyshev(degree)
+    i, j = np.array(basis.indices).T
+    result = basis.convert(found[:, i, j])
+    return result[:, :, 0] if np.ndim(values[0]) == 1 else result
+
+
+def _sampled(
+    cover: Cover, patch: int, function: Callable[[int, Floats, Floats], ArrayLike], xi: Floats, eta: Floats
+) -> Floats:
+    (ox, oy), (sx, sy) = cover.origin[patch], cover.scale[patch]
+    values = numbers(f"function on patch {patch}", function(patch, ox + sx * xi, oy + sy * eta))
+    if values.ndim not in (1, 2) or len(values) != len(xi):
+        raise BuildError(f"function: gives the shape {values.shape} on patch {patch}, expected ({len(xi)},) or ({len(xi)}, c)")
+    return values
+
+
+def _recurrent(degree: int, factors: Callable[[int], tuple[Fraction, Fraction]]) -> list[Poly]:
+    """Polynomials with p_{k+1} = a ξ p_k − b p_{k−1}."""
+    all_: list[Poly] = [[Fraction(1)]]
+    for k in range(degree):
+        a, b = factors(k)
+        raised = [Fraction(0), *(a * v for v in all_[-1])]
+        lowered = all_[-2] if k else []
+        all_.append([v - b * (lowered[i] if i < len(lowered) else 0) for i, v in enumerate(raised)])
+    return all_
+
+
+def _basis(polynomials: Sequence[Poly], order: Any, interval: tuple[float, float]) -> Basis:
+    low, high = (Fraction(float(v)) for v in interval)
+    if low == high:
+        raise BuildError(f"interval: {interval} has no length")
+    moved = [_composed(p, (low + high) / 2, (high - low) / 2) for p in polynomials]
+    return Basis(moved, moved, _order(order, len(polynomials) - 1))
+
+
+def _order(order: Any, degree: int) -> Sequence[tuple[int, int]]:
+    each = range(degree + 1)
+    known = {
+        "total": exponents(degree),
+        "total-y": [(j, i) for i, j in exponents(degree)],
+        "tensor": [(i, j) for j in each for i in each],
+        "tensor-y": [(i, j) for i in each for j in each],
+    }
+    if not isinstance(order, str):
+        return [(int(i), int(j)) for i, j in rows("order", order, 2)]
+    if order not in known:
+        raise BuildError(f"order: {order!r} is none of {', '.join(known)}, and no pairs (i, j)")
+    return known[order]
+
+
+def _degree(p: Poly) -> int:
+    return max((k for k, v in enumerate(p) if v), default=0)
+
+
+def _at(p: Poly, k: int) -> Fraction:
+    return p[k] if k < len(p) else Fraction(0)
+
+
+def _times(p: Poly, q: Poly) -> Poly:
+    product = [Fraction(0)] * (len(p) + len(q) - 1)
+    for i, a in enumerate(p):
+        for j, b in enumerate(q):
+            product[i + j] += a * b
+    return product
+
+
+def _composed(p: Poly, shift: Fraction, factor: Fraction) -> Poly:
+    """p(shift + factor ξ), by Horner's scheme."""
+    result = [Fraction(0)]
+    for v in reversed(p):
+        result = _times(result, [shift, factor])
+        result[0] += v
+    return result
+
+
+Basis.__module__ = "ppum.basis"

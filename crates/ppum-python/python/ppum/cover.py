@@ -1,0 +1,241 @@
+"""Covers: the boxes of a partition of unity, and its weight function."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from .errors import BuildError
+
+__all__ = ["Cover"]
+
+Floats = NDArray[np.float64]
+
+#: Weight functions with a name, and where a derivative of them jumps; any other text is a formula of t.
+BREAKPOINTS = {"linear": (0.0,), "quadratic": (1 / 3,), "cubic": (0.0, 0.5)}
+
+
+class Cover:
+    """The supports of the patches and their weight: φ_i = W_i / Σ W with W_i(p) = w(|s_x|) w(|s_y|) and
+    s = (p − center_i) / half_i.
+
+    Supports are any boxes that overlap and cover the domain. `uniform`, `from_points` and `from_cells` make them
+    of cells. Arrays have a row for each patch, in the order of the arrays that are built on the cover.
+
+    Attributes:
+        domain: Lower left and upper right corner, shape (2, 2).
+        center, half: Centres and half-extents of the supports, shape (n, 2).
+        weight: ``linear``, ``quadratic``, ``cubic``, or a formula of t = |s|, positive for 0 ≤ t < 1 and 0 at 1.
+        breakpoints: The t in [0, 1) where a derivative of such a formula jumps; values do not depend on them.
+        origin, scale: Of the coordinates ξ = (p − origin) / scale of polynomials; by default `center` and `half`.
+        cell: Boxes x_min, y_min, x_max, y_max that tile the domain, one in each support, shape (n, 4). They are drawn
+            and integrated over; values do not depend on them. By default the centres are separated by halving.
+        level: Level of each cell in its tree, for reports.
+        points, point: Scattered points that the cover was made from, and the index of each patch's, -1 for none.
+
+    Example:
+        >>> cover = ppum.Cover([(0, 0), (2, 1)], center=[(0.5, 0.5), (1.5, 0.5)], half=[(0.7, 0.7), (0.7, 0.7)])
+        >>> cover
+        <ppum.Cover, 2 patches, linear>
+        >>> cover.cell[1].tolist()
+        [1.0, 0.0, 2.0, 1.0]
+    """
+
+    def __init__(
+        self,
+        domain: ArrayLike,
+        center: ArrayLike,
+        half: ArrayLike,
+        weight: str = "linear",
+        *,
+        breakpoints: ArrayLike | None = None,
+        origin: ArrayLike | None = None,
+        scale: ArrayLike | None = None,
+        cell: ArrayLike | None = None,
+        level: ArrayLike = 0,
+        points: ArrayLike = (),
+        point: ArrayLike = -1,
+    ) -> None:
+        low, high = self.domain = rows("domain", domain, 2, 2)
+        if not (low < high).all():
+            corners = self.domain.tolist()
+            raise BuildError(f"domain: {corners} has no area; give the lower left and the upper right corner")
+        self.center = rows("center", center, 2)
+        n = len(self.center)
+        if n == 0:
+            raise BuildError("center: a cover needs at least one patch")
+        self.half = positive("half", rows("half", half, 2, n))
+        _look(self.center, self.half, self.domain)
+        self.weight = weight
+        known = BREAKPOINTS.get(weight, ())
+        self.breakpoints = numbers("breakpoints", known if breakpoints is None else breakpoints)
+        self.origin = self.center if origin is None else rows("origin", origin, 2, n)
+        self.scale = self.half if scale is None else positive("scale", rows("scale", scale, 2, n))
+        self.cell = _cells(self.center, self.domain) if cell is None else rows("cell", cell, 4, n)
+        self.level = _column("level", level, n, np.uint8)
+        self.points, self.point = rows("points", points, 2), _column("point", point, n, np.int64)
+        for array in vars(self).values():
+            if isinstance(array, np.ndarray):
+                array.flags.writeable = False
+
+    @classmethod
+    def uniform(
+        cls, domain: ArrayLike, cells: tuple[int, int], overlap: float = 1.3, weight: str = "linear"
+    ) -> Cover:
+        """The cover of a grid of `cells` = (columns, rows) cells; patch j · columns + i is that of column i and row j
+        from the lower left corner. A support is its cell enlarged by `overlap`, 1.01 to 1.99.
+
+        Example:
+            >>> ppum.Cover.uniform([(0, 0), (1, 1)], cells=(8, 8), overlap=1.5).half[0].tolist()
+            [0.09375, 0.09375]
+        """
+        (x0, y0), (x1, y1) = rows("domain", domain, 2, 2)
+        nx, ny = cells
+        if min(nx, ny) < 1:
+            raise BuildError(f"cells: {cells} has no cells; give the numbers of columns and rows")
+        x, y = np.linspace(x0, x1, nx + 1), np.linspace(y0, y1, ny + 1)
+        low = [np.tile(x[:-1], ny), np.repeat(y[:-1], nx)]
+        high = [np.tile(x[1:], ny), np.repeat(y[1:], nx)]
+        return cls.from_cells(domain, np.stack(low + high, axis=1), overlap, weight)
+
+    @classmethod
+    def from_cells(
+        cls,
+        domain: ArrayLike,
+        cell: ArrayLike,
+        overlap: float = 1.3,
+        weight: str = "linear",
+        **others: ArrayLike,
+    ) -> Cover:
+        """The cover of cells that tile the domain, such as the leaves of a quadtree: shape (n, 4), rows x_min, y_min,
+        x_max, y_max. A support is its cell enlarged by `overlap`."""
+        if not 1.01 <= overlap <= 1.99:
+            raise BuildError(f"overlap: {overlap} is not in 1.01 to 1.99; give the factor from cells to supports")
+        boxes = rows("cell", cell, 4)
+        size = positive("cell", boxes[:, 2:] - boxes[:, :2])
+        center = (boxes[:, :2] + boxes[:, 2:]) / 2
+        return cls(domain, center, size * (overlap / 2), weight, cell=boxes, **others)
+
+    @classmethod
+    def from_points(
+        cls,
+        domain: ArrayLike,
+        points: ArrayLike,
+        overlap: float = 1.3,
+        weight: str = "linear",
+        cells: tuple[int, int] = (1, 1),
+    ) -> Cover:
+        """The cover that scattered points make: the cells of a grid are halved, as quadtrees, until each holds one point
+        at most, and cells that touch differ by one level at most. `point` has the point of each patch.
+
+        Example:
+            >>> ppum.Cover.from_points([(0, 0), (1, 1)], [(0.1, 0.1), (0.2, 0.1), (0.7, 0.6)])
+            <ppum.Cover, 10 patches, linear>
+        """
+        low, high = rows("domain", domain, 2, 2).tolist()
+        of = rows("points", points, 2)
+        given = [(float(x), float(y)) for x, y in of]
+        try:
+            cell, level, point = _core.scattered((*low, *high), cells, given)
+        except ValueError as error:
+            raise BuildError(f"points: {error}") from None
+        return cls.from_cells(
+            domain, cell.reshape(-1, 4), overlap, weight, level=level, point=point, points=of
+        )
+
+    def __len__(self) -> int:
+        return len(self.center)
+
+    def __repr__(self) -> str:
+        count = len(self)
+        return f"<ppum.Cover, {count} patch{'' if count == 1 else 'es'}, {self.weight}>"
+
+
+def rows(name: str, values: ArrayLike, columns: int, count: int | None = None) -> Floats:
+    """A copy of an array of finite numbers of the shape (count, columns)."""
+    array = numbers(name, values)
+    wanted = f"({'n' if count is None else count}, {columns})"
+    if array.size == 0 and not count:
+        return np.empty((0, columns))
+    if array.ndim != 2 or array.shape[1] != columns or count not in (None, len(array)):
+        raise BuildError(f"{name}: has the shape {array.shape}, expected {wanted}")
+    return array
+
+
+def numbers(name: str, values: ArrayLike) -> Floats:
+    """A copy of an array of finite numbers."""
+    try:
+        array = np.array(values, float)
+    except (TypeError, ValueError) as error:
+        raise BuildError(f"{name}: is no array of numbers ({error})") from None
+    wrong = np.argwhere(~np.isfinite(array))
+    if len(wrong):
+        place = f"{name}{''.join(f'[{k}]' for k in wrong[0])}"
+        raise BuildError(f"{place}: is {array[tuple(wrong[0])]}; give finite numbers")
+    return array
+
+
+def positive(name: str, array: Floats) -> Floats:
+    """The array, of which all numbers are positive."""
+    wrong = np.argwhere(array <= 0)
+    if len(wrong):
+        row, column = wrong[0]
+        raise BuildError(f"{name}[{row}]: the extent {array[row, column]} in {'xy'[column]} must be positive")
+    return array
+
+
+def _column(name: str, values: ArrayLike, count: int, kind: type) -> NDArray[Any]:
+    array = np.asarray(values)
+    if array.ndim == 0:
+        array = np.full(count, array)
+    if array.shape != (count,):
+        raise BuildError(f"{name}: has the shape {array.shape}, expected ({count},), one entry per patch")
+    whole: NDArray[Any] = array.astype(kind)
+    wrong = np.flatnonzero(whole != array)
+    if len(wrong):
+        raise BuildError(f"{name}[{wrong[0]}]: is {array[wrong[0]]}; give whole numbers of the type {np.dtype(kind)}")
+    return whole
+
+
+def _look(center: Floats, half: Floats, domain: Floats) -> None:
+    """Each support reaches into the domain."""
+    outside = np.flatnonzero(((center + half <= domain[0]) | (center - half >= domain[1])).any(axis=1))
+    if len(outside):
+        k = outside[0]
+        raise BuildError(
+            f"center[{k}]: the support around {tuple(center[k].tolist())} lies outside of the domain; "
+            "leave the patch out, or give the domain that it belongs to"
+        )
+
+
+def _cells(center: Floats, domain: Floats) -> Floats:
+    """Cells that tile the domain, one around each centre: halved, across the longer side of what the centres span,
+    until each has one."""
+    inside = np.clip(center, domain[0], domain[1])
+    cell = np.empty((len(center), 4))
+    work = [(np.arange(len(center)), domain[0], domain[1])]
+    while work:
+        of, low, high = work.pop()
+        if len(of) == 1:
+            cell[of[0]] = [*low, *high]
+            continue
+        axis = int(np.argmax(np.ptp(inside[of], axis=0)))
+        of = of[np.argsort(inside[of, axis], kind="stable")]
+        at = np.append(low[axis], inside[of, axis])
+        gaps = np.diff(at)[1:]
+        # at the widest gap in the middle third, so that the tree stays shallow, unless there is none
+        third = len(gaps) // 3
+        k = third + int(np.argmax(gaps[third : len(gaps) - third]))
+        k = k if gaps[k] > 0 else int(np.argmax(gaps))
+        if gaps[k] <= 0:
+            raise BuildError(f"cell: patches {of[k]} and {of[k + 1]} have one centre; give their cells, or join them")
+        middle_high, middle_low = high.copy(), low.copy()
+        middle_high[axis] = middle_low[axis] = (at[k + 1] + at[k + 2]) / 2
+        work += [(of[: k + 1], low, middle_high), (of[k + 1 :], middle_low, high)]
+    return cell
+
+
+Cover.__module__ = "ppum"

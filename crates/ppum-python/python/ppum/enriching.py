@@ -1,0 +1,165 @@
+"""Functions that polynomials are multiplied with, as arrays of the file format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import accumulate
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .cover import numbers, rows
+from .errors import BuildError
+
+__all__ = ["Component", "Formula", "Jump", "tip_functions"]
+
+
+@dataclass(frozen=True)
+class Jump:
+    """The function +1 on the left of a crack's direction, -1 on its right. A Heaviside function is (1 + jump)/2."""
+
+    crack: int
+
+
+@dataclass(frozen=True, eq=False)
+class Component:
+    """The function 1 on one connected part of what cracks leave of a patch, 0 on the others: a tree of cuts.
+
+    Attributes:
+        cuts: Shape (k, 4), rows of crack, segment, what follows on the left and on the right: the number of a later
+            cut, -1 for outside (0), -2 for inside (1).
+    """
+
+    cuts: ArrayLike
+
+
+@dataclass(frozen=True, eq=False)
+class Formula:
+    """A function by a formula of x, y, r and theta, in the world, in a fixed frame or in that of a crack tip.
+
+    Attributes:
+        text: The formula, e.g. ``sqrt(r)*cos(theta/2)``; ``table(name, x)`` reads a table of the dataset.
+        tip: Crack and end, ``start`` or ``last``: the frame has its origin there, x points in the direction of growth,
+            and theta jumps on the crack.
+        origin, angle: A fixed frame: its origin, and the angle of its x axis.
+        parameters: Constants that the formula may use, by name.
+        kinks: Segments x0, y0, x1, y1 in the frame across which it or a derivative jumps; values do not depend on them.
+        singular: Points in the frame where it or a derivative is infinite; values do not depend on them.
+
+    Example:
+        >>> ppum.Formula("r^a*sin(a*theta)", tip=(0, "last"), parameters={"a": 0.7}).tip
+        (0, 'last')
+    """
+
+    text: str
+    tip: tuple[int, str] | None = None
+    origin: tuple[float, float] | None = None
+    angle: float = 0.0
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    kinks: ArrayLike = ()
+    singular: ArrayLike = ()
+
+
+Function = Jump | Component | Formula | str
+
+#: The square-root functions of a crack tip, r and theta in its frame.
+_TIP = {
+    "sqrt(r) cos": "sqrt(r)*cos(theta/2)",
+    "sqrt(r) sin": "sqrt(r)*sin(theta/2)",
+    "sqrt(r) sin sin": "sqrt(r)*sin(theta)*sin(theta/2)",
+    "sqrt(r) sin cos": "sqrt(r)*sin(theta)*cos(theta/2)",
+}
+
+
+def tip_functions(crack: int = 0, end: str = "last") -> dict[str, Formula]:
+    """The four functions √r cos θ/2, √r sin θ/2, √r sin θ sin θ/2, √r sin θ cos θ/2 of a crack tip, by names that tell
+    the tip.
+
+    Example:
+        >>> list(ppum.tip_functions(0, "last"))[0]
+        'sqrt(r) cos of crack 0 last'
+    """
+    return {f"{name} of crack {crack} {end}": Formula(text, (crack, end)) for name, text in _TIP.items()}
+
+
+def columns(functions: Mapping[str, Function], cracks: Sequence[int]) -> dict[str, Any]:
+    """The arrays of the group `functions`; `cracks` has the number of segments of each crack."""
+    known = [_row(f"functions[{name!r}]", name, f, cracks) for name, f in functions.items()]
+    plain = ("name", "kind", "crack", "formula", "frame", "frame_end", "frame_origin", "frame_angle")
+    arrays: dict[str, Any] = {key: [row[key] for row in known] for key in plain}
+    arrays["frame_origin"] = np.array(arrays["frame_origin"], float).reshape(-1, 2)
+    arrays["parameter_offsets"] = _offsets([row["parameters"] for row in known])
+    arrays["parameter_name"] = [k for row in known for k in row["parameters"]]
+    arrays["parameter_value"] = [float(v) for row in known for v in row["parameters"].values()]
+    for name, offsets in (("cuts", "cut_offsets"), ("kinks", "kink_offsets"), ("singular", "singular_offsets")):
+        if any(len(row[name]) for row in known):
+            arrays[offsets] = _offsets([row[name] for row in known])
+            arrays[name] = np.concatenate([row[name] for row in known])
+    return arrays
+
+
+def _offsets(lists: Sequence[Any]) -> list[int]:
+    return [0, *accumulate(len(one) for one in lists)]
+
+
+def _row(place: str, name: str, function: Function, cracks: Sequence[int]) -> dict[str, Any]:
+    row = {
+        "name": name, "kind": "one", "crack": -1, "formula": "", "frame": "", "frame_end": "",
+        "frame_origin": (0.0, 0.0), "frame_angle": 0.0, "parameters": {},
+        "cuts": np.empty((0, 4), np.int64), "kinks": np.empty((0, 4)), "singular": np.empty((0, 2)),
+    }  # fmt: skip
+    if isinstance(function, str):
+        function = Formula(function)
+    if isinstance(function, Jump):
+        return row | {"kind": "side", "crack": _crack(place, function.crack, cracks)}
+    if isinstance(function, Component):
+        return row | {"kind": "component", "cuts": _cuts(place, function, cracks)}
+    if isinstance(function, Formula):
+        return row | {"kind": "formula", "formula": function.text} | _frame(place, function, cracks)
+    if function is None and name == "one":
+        return row
+    raise BuildError(f"{place}: is {type(function).__name__}; give a Jump, a Component, a Formula or its text")
+
+
+def _frame(place: str, f: Formula, cracks: Sequence[int]) -> dict[str, Any]:
+    row: dict[str, Any] = {
+        "frame": "world",
+        "parameters": {str(k): float(numbers(f"{place}.parameters[{k!r}]", v)) for k, v in f.parameters.items()},
+        "kinks": rows(f"{place}.kinks", f.kinks, 4),
+        "singular": rows(f"{place}.singular", f.singular, 2),
+    }
+    if f.tip is not None:
+        if f.origin is not None or f.angle:
+            raise BuildError(f"{place}: has the frame of a tip and a fixed one; leave out `tip`, or `origin` and `angle`")
+        crack, end = f.tip
+        if end not in ("start", "last"):
+            raise BuildError(f"{place}.tip: the end {end!r} is neither 'start' nor 'last'")
+        return row | {"frame": "tip", "frame_end": end, "crack": _crack(f"{place}.tip", crack, cracks)}
+    if f.origin is not None or f.angle:
+        origin = numbers(f"{place}.origin", (0, 0) if f.origin is None else f.origin)
+        if origin.shape != (2,):
+            raise BuildError(f"{place}.origin: has the shape {origin.shape}, expected (2,): a point")
+        row |= {"frame": "fixed", "frame_origin": tuple(origin), "frame_angle": float(f.angle)}
+    return row
+
+
+def _crack(place: str, crack: int, cracks: Sequence[int]) -> int:
+    if not 0 <= crack < len(cracks):
+        count = f"there {'is 1 crack' if len(cracks) == 1 else f'are {len(cracks)} cracks'}"
+        raise BuildError(f"{place}: names crack {crack}, but {count}, counted from 0")
+    return int(crack)
+
+
+def _cuts(place: str, component: Component, cracks: Sequence[int]) -> NDArray[np.int64]:
+    cuts = rows(f"{place}.cuts", component.cuts, 4).astype(np.int64)
+    for k, (crack, segment, *_) in enumerate(cuts.tolist()):
+        count = cracks[_crack(f"{place}.cuts[{k}]", crack, cracks)]
+        if not 0 <= segment < count:
+            raise BuildError(f"{place}.cuts[{k}]: names segment {segment}, but crack {crack} has {count}")
+    return cuts
+
+
+for _class in (Component, Formula, Jump):
+    _class.__module__ = "ppum"

@@ -1,0 +1,393 @@
+"""Datasets from arrays: what is built evaluates as the arrays do, and mistakes are told where they are."""
+
+import itertools
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import ppum
+import pytest
+from conftest import ROOT
+
+PAGE = ROOT / "docs/writing.md"
+
+
+def weight(name, s):
+    """The weights by their piecewise polynomials."""
+    t = np.abs(s)
+    pieces = {
+        "linear": 1 - t,
+        "quadratic": np.where(t <= 1 / 3, 1 - 3 * t**2, 1.5 * (1 - t) ** 2),
+        "cubic": np.where(t <= 1 / 2, 1 - 6 * t**2 + 6 * t**3, 2 * (1 - t) ** 3),
+        "(1 - t)^2*(1 + 2*t)": (1 - t) ** 2 * (1 + 2 * t),
+    }
+    return np.where(t < 1, pieces[name], 0.0)
+
+
+def polynomial(c, xi, eta):
+    degree = int(np.sqrt(2 * len(c))) - 1
+    powers = [(d - k, k) for d in range(degree + 1) for k in range(d + 1)]
+    return sum(np.multiply.outer(xi**a * eta**b, row) for (a, b), row in zip(powers, c, strict=True))
+
+
+def evaluated(cover, blocks, functions, x, y):
+    """The field of blocks: {name: {patch: (m, c)}}, and the sizes of its parts."""
+    total, value, size = np.zeros(len(x)), 0.0, 0.0
+    for i, (center, half, origin, scale) in enumerate(zip(cover.center, cover.half, cover.origin, cover.scale)):
+        of = weight(cover.weight, (x - center[0]) / half[0]) * weight(cover.weight, (y - center[1]) / half[1])
+        total += of
+        for name, block in blocks.items():
+            if i in block:
+                p = polynomial(block[i], (x - origin[0]) / scale[0], (y - origin[1]) / scale[1])
+                part = (of * functions[name](x, y))[:, None] * p
+                value, size = value + part, size + np.abs(part)
+    return value / total[:, None], (size / total[:, None]).max()
+
+
+def random_cover(rng):
+    domain = [rng.uniform(-2, 0, 2), rng.uniform(1, 3, 2)]
+    low, size = domain[0], domain[1] - domain[0]
+    name = rng.choice(["linear", "quadratic", "cubic", "(1 - t)^2*(1 + 2*t)"])
+    overlap = rng.uniform(1.1, 1.9)
+    kind = rng.integers(3)
+    if kind == 0:
+        return ppum.Cover.uniform(domain, tuple(rng.integers(2, 6, 2).tolist()), overlap, name)
+    if kind == 1:
+        return ppum.Cover.from_points(domain, low + size * rng.random((9, 2)), overlap, name)
+    grid = ppum.Cover.uniform(domain, (4, 3))
+    center = grid.center + 0.2 * grid.half * rng.uniform(-1, 1, (12, 2))
+    half = grid.half * rng.uniform(1.2, 1.6, (12, 2))
+    origin, scale = center + 0.3 * half * rng.uniform(-1, 1, (12, 2)), half * rng.uniform(0.6, 1.5, (12, 2))
+    order = rng.permutation(12)
+    return ppum.Cover(domain, center[order], half[order], name, origin=origin[order], scale=scale[order])
+
+
+def random_functions(rng, cover):
+    """A straight crack from the left edge, functions of it, in ppum's words and in numpy."""
+    (x0, y0), (x1, y1) = cover.domain
+    a = np.array([x0, rng.uniform(0.7 * y0 + 0.3 * y1, 0.3 * y0 + 0.7 * y1)])
+    b = np.array([rng.uniform(0.5, 0.8) * (x1 - x0) + x0, rng.uniform(0.7 * y0 + 0.3 * y1, 0.3 * y0 + 0.7 * y1)])
+    tangent = (b - a) / np.hypot(*(b - a))
+    crack = [a, b] if rng.random() < 0.5 else [b, a]
+    turn = 1 if crack[0] is a else -1
+    end = "last" if turn == 1 else "start"
+
+    def polar(x, y):
+        u, v = x - b[0], y - b[1]
+        u, v = tangent[0] * u + tangent[1] * v, tangent[0] * v - tangent[1] * u
+        return np.hypot(u, v), np.arctan2(v, u)
+
+    shapes = [
+        lambda r, t: np.sqrt(r) * np.cos(t / 2),
+        lambda r, t: np.sqrt(r) * np.sin(t / 2),
+        lambda r, t: np.sqrt(r) * np.sin(t) * np.sin(t / 2),
+        lambda r, t: np.sqrt(r) * np.sin(t) * np.cos(t / 2),
+    ]
+    side = lambda x, y: turn * np.where(tangent[0] * (y - b[1]) - tangent[1] * (x - b[0]) >= 0, 1.0, -1.0)
+    theirs = {"across": side, "wave": lambda x, y: np.sin(3 * x) * np.exp(-y)}
+    theirs["data"] = lambda x, y: np.interp(x, [-9, 9], [-18.0, 36.0])
+    theirs["turned"] = lambda x, y: 2.5 * np.hypot(x - 0.1, y - 0.2) + np.cos(0.3) * (x - 0.1) + np.sin(0.3) * (y - 0.2)
+    tips = ppum.tip_functions(0, end)
+    theirs |= {n: lambda x, y, f=f: f(*polar(x, y)) for n, f in zip(tips, shapes)}
+    ours = {
+        "across": ppum.Jump(0),
+        "wave": "sin(3*x)*exp(-y)",
+        "data": ppum.Formula("table(line, x)"),
+        "turned": ppum.Formula("k*r + x", origin=(0.1, 0.2), angle=0.3, parameters={"k": 2.5}),
+        **tips,
+    }
+    return crack, ours, theirs | {"one": lambda x, y: np.ones_like(x)}
+
+
+def random_blocks(rng, cover, functions, components):
+    blocks = {"one": {k: rng.normal(size=(size(rng), components)) for k in range(len(cover))}}
+    for name in rng.permutation(list(functions))[:5]:
+        some = np.flatnonzero(rng.random(len(cover)) < 0.6)
+        if len(some):
+            blocks[str(name)] = {int(k): rng.normal(size=(size(rng, 3), components)) for k in some}
+    return blocks
+
+
+def size(rng, most=8):
+    degree = int(rng.integers(0, most + 1))
+    return (degree + 1) * (degree + 2) // 2
+
+
+TABLE = {"line": ([-9.0, 0.0, 9.0], [-18.0, 9.0, 36.0])}
+
+
+def random_dataset(seed):
+    """A dataset whose fields are compared with numpy while it is made."""
+    rng = np.random.default_rng(seed)
+    cover = random_cover(rng)
+    crack, ours, theirs = random_functions(rng, cover)
+    fields, sizes = [], []
+    for k in range(2):
+        components = int(rng.integers(1, 4))
+        blocks = random_blocks(rng, cover, ours, components)
+        evaluate = lambda x, y, blocks=blocks: evaluated(cover, blocks, theirs, x, y)[0]
+        x, y = (cover.domain[0] + np.ptp(cover.domain, axis=0) * rng.random((200, 2))).T
+        sizes.append(evaluated(cover, blocks, theirs, x, y)[1])
+        fields.append(ppum.Coefficients(f"field {k}", blocks, verify=evaluate, components=[f"v{c}" for c in range(components)]))
+    state = ppum.State(cover, fields, cracks=[crack], functions=ours)
+    return ppum.build(state, title="Ünicode", tables=TABLE, tolerance=1e-12), state
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_arrays_evaluate_as_numpy_does(seed, capsys):
+    """`verify` compares both fields with 1e-12 of the largest value; its numbers are in the history."""
+    ds, _ = random_dataset(seed)
+    history = ds.steps[0].history
+    assert all(0 <= history[f"verified field {k}"] <= 1e-12 for k in range(2))
+    assert capsys.readouterr().out.count("verified: field") == 2
+    assert ppum.from_bytes(ds.to_bytes()) == ds and ds.equation == "none"
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_files_evaluate_as_numpy_does(seed, tmp_path):
+    """The saved file, read by the independent reader."""
+    h5py = pytest.importorskip("h5py")
+    pytest.importorskip("mpmath")
+    sys.path.insert(0, str(ROOT / "tests/python"))
+    from ppum_reader import Field, is_right
+
+    ds, state = random_dataset(100 + seed)
+    ds.save(tmp_path / "made.h5")
+    rng = np.random.default_rng(seed)
+    points = state.cover.domain[0] + np.ptp(state.cover.domain, axis=0) * rng.random((40, 2))
+    with h5py.File(tmp_path / "made.h5") as file:
+        assert is_right(file)
+        for k, given in enumerate(state.fields):
+            field = Field(file, 0, k)
+            found = np.array([[jet[0] for jet in field.evaluate(*p)] for p in points])
+            wanted = given.verify(*points.T)
+            assert np.abs(found - wanted).max() <= 1e-12 * np.abs(wanted).max()
+
+
+def test_the_program_reads_them(tmp_path, program):
+    ds, _ = random_dataset(7)
+    ds.save(tmp_path / "made.h5")
+    program("check", tmp_path / "made.h5")
+    told = program("info", tmp_path / "made.h5")
+    assert re.search(r"equation\s+none", told)
+    assert "v0" in program("probe", tmp_path / "made.h5", "--at", "0.5,0.5")
+    program("render", tmp_path / "made.h5", "-o", tmp_path / "made.png")
+
+
+def domain():
+    return [(0, 0), (2, 1)]
+
+
+def smooth(weight="quadratic", **changes):
+    """A field of degree 2 on 8 × 4 patches and its evaluation in numpy, which changes do not touch."""
+    rng = np.random.default_rng(5)
+    cover = ppum.Cover.uniform(domain(), (8, 4), 1.5, "quadratic")
+    c = rng.normal(size=(32, 6))
+    reference = lambda x, y: evaluated(cover, {"one": dict(enumerate(c[:, :, None]))}, {"one": lambda x, y: 1 + 0 * x}, x, y)[0][:, 0]
+    other = ppum.Cover(cover.domain, **{**dict(center=cover.center, half=cover.half, weight=weight, cell=cover.cell), **changes})
+    return other, c, reference
+
+
+def test_no_wrong_order_passes():
+    """Each exchange of two coefficients, of patches, another frame, weight, sign."""
+    cover, c, reference = smooth()
+    make = lambda cover, c: ppum.build(ppum.State(cover, ppum.Coefficients("u", {"one": c}, verify=reference)))
+    assert make(cover, c).history["verified u"] < 1e-14
+    wrong = []
+    for a, b in itertools.combinations(range(6), 2):
+        changed = c.copy()
+        changed[:, [a, b]] = c[:, [b, a]]
+        wrong.append((cover, changed))
+    changed = c.copy()
+    changed[[3, 4]] = c[[4, 3]]
+    wrong += [(cover, changed), (cover, -c), (cover, c + np.eye(6)[5] * 1e-8)]
+    wrong += [(smooth("cubic")[0], c), (smooth(origin=cover.center + 1e-6)[0], c), (smooth(scale=cover.half / 2)[0], c)]
+    for case in wrong:
+        with pytest.raises(ppum.BuildError, match=r"fields\['u'\].verify: at .*order of the coefficients"):
+            make(*case)
+
+
+def test_sides_of_cracks_are_compared():
+    """A jump that is wrong on one side alone, within a millionth of the crack, is seen."""
+    cover, c, reference = smooth()
+    crack = [(0.5, 0.5), (1.5, 0.6)]
+    at = lambda x, y: np.where(np.abs(y - 0.5 - (x - 0.5) / 10) < 1e-6, 9.0, 0.0) * (x > 0.5) * (x < 1.5) * (y > 0.5 + (x - 0.5) / 10)
+    make = lambda verify: ppum.State(cover, ppum.Coefficients("u", {"one": c}, verify=verify), cracks=[crack])
+    ppum.build(make(reference))
+    with pytest.raises(ppum.BuildError, match="verify"):
+        ppum.build(make(lambda x, y: reference(x, y) + at(x, y)))
+
+
+def test_points_and_values_verify():
+    cover, c, reference = smooth()
+    points = np.random.default_rng(0).random((50, 2))
+    make = lambda *verify: ppum.build(ppum.State(cover, ppum.Coefficients("u", {"one": c}, verify=verify)))
+    assert make(points, reference(*points.T)).history["verified u"] < 1e-14
+    for bad, said in (
+        ((points, np.zeros(50) + 1), "a difference of"),
+        ((points, np.zeros(49)), r"shape \(49,\)"),
+        ((points + 5, np.zeros(50)), r"verify\[0\]: the field has no value"),
+        ((points[0], np.zeros(1)), r"expected \(k, 2\)"),
+        ((points, np.full(50, np.nan)), "finite"),
+    ):
+        with pytest.raises(ppum.BuildError, match=said):
+            make(*bad)
+
+
+def field(blocks, name="u", **others):
+    return ppum.Coefficients(name, blocks, **others)
+
+
+def state(blocks=None, **others):
+    cover = ppum.Cover.uniform(domain(), (4, 2))
+    return ppum.State(cover, field({"one": np.zeros((8, 3))} if blocks is None else blocks), **others)
+
+
+ONE = np.zeros((8, 3))
+HOLED = ONE.copy()
+HOLED[5, 2] = np.nan
+LINE = [(0, 0.5), (1, 0.5)]
+GIVEN = dict(center=[(0.5, 0.5), (1.5, 0.5)], half=[(0.7, 0.7), (0.7, 0.7)])
+MISTAKES = {
+    "length": (lambda: state({"one": ONE[:7]}), r"fields\['u'\].blocks\['one'\]: has the shape \(7, 3\), expected \(8, m\)"),
+    "number": (lambda: state({"one": ONE[:, :2]}), r"\['one'\]: has 2 coefficients.* here 1 or 3: fill up with zeros"),
+    "degree": (lambda: state({"one": np.zeros((8, 55))}), r"has 55 coefficients.*at most 8"),
+    "finite": (lambda: state({"one": HOLED}), r"\['one'\]: coefficient 2 on patch 5 is nan; give finite"),
+    "ragged": (lambda: state({"one": {3: [1, 2, np.inf]}}), r"coefficient 2 on patch 3 is inf"),
+    "patch": (lambda: state({"one": {8: [1.0]}}), r"\['one'\]\[8\]: there is no such patch; the cover has 8"),
+    "list": (lambda: state({"one": [[1.0]] * 7}), r"has 7 entries, but the cover has 8"),
+    "none": (lambda: state({"one": {}}), r"no coefficients on any patch; leave it out"),
+    "numbers": (lambda: state({"one": {0: ["a"]}}), r"\['one'\]\[0\]: is no array of numbers"),
+    "components": (lambda: state({"one": {0: [[1.0, 2.0]], 1: [[1.0]]}}), r"\[1\]: has 1 components, patch 0 2"),
+    "differ": (lambda: state({"one": ONE, "f": np.zeros((8, 1, 2))}, functions={"f": "x"}), r"differ in the number of components"),
+    "function": (lambda: state({"jmp": ONE}, functions={"jump": "x"}), r"\['jmp'\]: did you mean 'jump'\? there are the functions one, jump"),
+    "empty": (lambda: state({}), r"blocks: is empty"),
+    "names": (lambda: ppum.State(ppum.Cover.uniform(domain(), (4, 2)), field({"one": ONE}, components=["a", "b"])), r"components: has 2 names, but"),
+    "fields": (lambda: ppum.State(ppum.Cover.uniform(domain(), (4, 2)), []), r"fields: a step needs at least one"),
+    "one": (lambda: state(functions={"one": "x"}), r"functions\['one'\]: is the function 1 already"),
+    "kind": (lambda: state(functions={"f": 3}), r"functions\['f'\]: is int; give a Jump"),
+    "crack": (lambda: state(functions={"f": ppum.Jump(1)}, cracks=[LINE]), r"\['f'\]: names crack 1, but there is 1 crack, counted from 0"),
+    "tip": (lambda: state(functions={"f": ppum.Formula("r", (0, "end"))}, cracks=[LINE]), r"tip: the end 'end' is neither"),
+    "frames": (lambda: state(functions={"f": ppum.Formula("r", (0, "last"), angle=1)}, cracks=[LINE]), r"the frame of a tip and a fixed one"),
+    "origin": (lambda: state(functions={"f": ppum.Formula("r", origin=(1, 2, 3))}), r"origin: has the shape \(3,\), expected \(2,\)"),
+    "segment": (lambda: state(functions={"f": ppum.Component([(0, 1, -1, -2)])}, cracks=[LINE]), r"cuts\[0\]: names segment 1, but crack 0 has 1"),
+    "cut": (lambda: state(functions={"f": ppum.Component([(0, 0, 5, -2)])}, cracks=[LINE]), r"functions/cuts\[0\]\[2\]: index 5"),
+    "formula": (lambda: state(functions={"f": "sin(z)"}), r"steps/0000/functions.*z"),
+    "short": (lambda: state(cracks=[[(0, 0)]]), r"cracks\[0\]: has 1 points; a crack needs two"),
+    "double": (lambda: state(cracks=[[(0, 0), (1, 1), (1, 1)]]), r"cracks\[0\]\[2\]: is the point before it"),
+    "flat": (lambda: state(cracks=[[0, 0, 1, 1]]), r"cracks\[0\]: has the shape \(4,\), expected \(n, 2\)"),
+    "attribute": (lambda: state(attributes={"order": [1, 2]}), r"attributes\['order'\]: has the shape \(2,\), expected \(8,\)"),
+    "domain": (lambda: ppum.Cover([(0, 0), (0, 1)], **GIVEN), r"domain: .* has no area"),
+    "support": (lambda: ppum.Cover(domain(), GIVEN["center"], [(0.7, 0.7), (0.7, 0)]), r"half\[1\]: the extent 0.0 in y must be positive"),
+    "halves": (lambda: ppum.Cover(domain(), GIVEN["center"], [(0.7, 0.7)]), r"half: has the shape \(1, 2\), expected \(2, 2\)"),
+    "outside": (lambda: ppum.Cover(domain(), [(0.5, 0.5), (4, 4)], GIVEN["half"]), r"center\[1\]: the support around \(4.0, 4.0\) lies outside"),
+    "nan": (lambda: ppum.Cover(domain(), [(0.5, np.nan), (1, 1)], GIVEN["half"]), r"center\[0\]\[1\]: is nan"),
+    "same": (lambda: ppum.Cover(domain(), [(0.5, 0.5)] * 2, GIVEN["half"]), r"patches 0 and 1 have one centre"),
+    "overlap": (lambda: ppum.Cover.uniform(domain(), (4, 2), 2.5), r"overlap: 2.5 is not in 1.01 to 1.99"),
+    "cells": (lambda: ppum.Cover.uniform(domain(), (0, 2)), r"cells: \(0, 2\) has no cells"),
+    "points": (lambda: ppum.Cover.from_points(domain(), [(3, 3)]), r"points: .*outside"),
+    "level": (lambda: ppum.Cover(domain(), level=[0.5, 1], **GIVEN), r"level\[0\]: is 0.5; give whole numbers"),
+    "gap": (lambda: ppum.State(ppum.Cover(domain(), GIVEN["center"], [(0.4, 0.7)] * 2), field({"one": ONE[:2]})), r"steps/0000/partition.*"),
+    "weight": (lambda: ppum.State(ppum.Cover(domain(), weight="1 - t/2", **GIVEN), field({"one": ONE[:2]})), r"partition@weight_formula.*vanish"),
+    "text": (lambda: state(attributes={"a\0b": np.zeros(8)}), r"attributes/name\[0\]: .* NUL"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_mistakes(name):
+    make, said = MISTAKES[name]
+    with pytest.raises(ppum.BuildError, match=said) as error:
+        ppum.build(make())
+    assert isinstance(error.value, ValueError) and isinstance(error.value, ppum.PpumError)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (dict(equation=ppum.Poisson(1.0)), r"fields\['u'\]: is the first field, which the equation calls 'potential'"),
+        (dict(quantities={"q": "v + 1"}), r"quantities.*v"),
+        (dict(tables={"t": ([0, 1],)}), r"tables\['t'\]: has 1 arrays; give \(x, values\)"),
+        (dict(tables={"t": ([0, 0], [1, 2])}), r"tables/0000"),
+        (dict(holes=[ppum.Hole(None, 1.0, None)]), r"holes\[0\].center"),
+        (dict(holes=[ppum.Hole((1, 0.5), -1.0, None)]), r"domain/holes/radius\[0\]"),
+    ],
+)
+def test_mistakes_of_datasets(options, said):
+    with pytest.raises(ppum.BuildError, match=said):
+        ppum.build(state(), **options)
+    with pytest.raises(ppum.BuildError, match="at least one step"):
+        ppum.build([])
+    other = ppum.State(ppum.Cover.uniform([(0, 0), (1, 1)], (4, 2)), field({"one": ONE}))
+    with pytest.raises(ppum.BuildError, match=r"states\[1\].cover.domain"):
+        ppum.build([state(), other])
+
+
+def test_all_that_a_dataset_holds(tmp_path):
+    """Series, holes, tables, quantities, attributes, ends of cracks, an equation."""
+    cover = ppum.Cover.uniform([(0, 0), (2, 2)], (4, 4), weight="cubic")
+    c = np.zeros((16, 3, 2))
+    c[:, 0], c[:, 1, 0], c[:, 2, 1] = np.column_stack([cover.center[:, 0], 0 * cover.center[:, 1]]), cover.half[:, 0], 0
+    cracks = [[(0, 1), (0.9, 1)], [(0.5, 1), (0.5, 1.8)], [(1.2, 0.5), (1.5, 0.5), (1.6, 0.3)]]
+    make = lambda load: ppum.State(
+        cover,
+        [ppum.Coefficients("displacement", {"one": load * c}, exact=(f"{load}*x", "0")), ppum.Coefficients("t", {"one": c[:, :, 0]})],
+        cracks=cracks, load=load, attributes={"order": np.arange(16.0)},
+    )  # fmt: skip
+    hole = ppum.Hole((1.6, 0.1), 0.2, None)
+    polygon = ppum.Hole(None, None, np.array([(1.5, 1.5), (1.8, 1.5), (1.6, 1.8)]))
+    ds = ppum.build(
+        [make(1.0), make(2.0)], title="All", program="mine 1", holes=[hole, polygon],
+        equation=ppum.Elastic("1 + table(stiff, x)", 0.25, "plane-stress"),
+        tables={"stiff": ([0, 2], [0, 0.0]), "plane": ([0, 1], [0, 1, 2], np.zeros((3, 2)))},
+        quantities={"twice": "2*ux", "pull": ("sxx/2", "MPa")},
+    )  # fmt: skip
+    assert [step.load for step in ds.steps] == [1.0, 2.0] and ds.program == "mine 1" and len(ds.holes) == 2
+    assert [crack.ends for crack in ds.cracks] == [("mouth", "tip"), ("junction", "tip"), ("tip", "mouth")]
+    assert float(ds.field.at(0.7, 0.3)["pull"]) == pytest.approx(1 / (1 - 0.0625), abs=1e-13)
+    assert float(ds.steps[0].field.at(0.7, 0.3)["twice"]) == pytest.approx(1.4, abs=1e-14)
+    assert float(ds.field.at(0.7, 0.3)["error"]) < 1e-14 and np.isnan(float(ds.field.at(1.6, 1.6).ux))
+    assert ds.steps[1].attributes["order"].tolist() == list(range(16))
+    given = [ppum.Crack(0, np.array(cracks[0], float), ("tip", "tip"))]
+    explicit = ppum.State(cover, ppum.Coefficients("u", {"one": c[:, :, 0]}), cracks=given)
+    assert ppum.build(explicit).cracks[0].ends == ("tip", "tip")
+
+
+def test_forms_of_blocks_are_the_same():
+    rng = np.random.default_rng(2)
+    c = rng.normal(size=(8, 6))
+    make = lambda block: ppum.build(state({"one": block}))
+    same = make(c)
+    assert make(list(c)) == same == make({k: row for k, row in reversed(list(enumerate(c)))}) == make(c[:, :, None])
+    some = make([None if k == 3 else row for k, row in enumerate(c)])
+    assert some == make({k: row for k, row in enumerate(c) if k != 3}) and some.steps[0].unknowns == 42
+
+
+def test_arrays_by_paths():
+    built = ppum.build(state())
+    with pytest.raises(ppum.BuildError) as error:
+        ppum.from_arrays({"@title": "x", "@program": "y", "equation@kind": "none", "domain@kind": "box", "domain@min": [0, 0], "domain@max": [1, 1], "steps/0000@load": 1.0})
+    assert "steps/0000/partition" in str(error.value) and len(str(error.value).splitlines()) > 1
+    with pytest.raises(ppum.BuildError, match=r"block_degree\[1\]: is 300, which is no number of the type uint8"):
+        ppum.from_arrays({"steps/0000/fields/0000/block_degree": [1, 300]})
+    with pytest.raises(ppum.BuildError, match="center: is of the type complex128"):
+        ppum.from_arrays({"steps/0000/partition/center": [1j]})
+    assert built.equation == "none" and set(built.quantities) >= {"u", "du_dx", "magnitude", "gradient"}
+    assert not {"energy", "von_mises", "sxx"} & set(built.quantities)
+
+
+def test_the_page_runs(tmp_path):
+    """All of the page in one go; what it writes by hand is what the arrays say."""
+    blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)
+    assert len(blocks) == 4
+    pytest.importorskip("h5py")
+    run = [sys.executable, "-c", "\n".join(blocks)]
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, env={**os.environ})
+    assert done.returncode == 0, done.stderr
+    assert "verified: field 'velocity' at 1000 points" in done.stdout
+    written = ppum.open(tmp_path / "written.h5")
+    assert float(written.field.at(1.7, 0.2).temperature) == pytest.approx(1.7, abs=1e-14)
+    above, below = written.field.at(0.3, 0.5, side="both").temperature
+    assert above - below == pytest.approx(0.4, abs=1e-14)
+    assert (tmp_path / "opened.png").stat().st_size > 10000
