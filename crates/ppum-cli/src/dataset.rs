@@ -91,7 +91,7 @@ fn refuse_cells(field: &Field<'_>, text: &str) -> anyhow::Result<()> {
 pub(crate) fn check_shown(field: &Field<'_>, given: &Given) -> anyhow::Result<()> {
     match scene::shown(&given.text, field) {
         Err(ShownError::Quantity(error)) => given.explain(Err(error)),
-        other => Ok(drop(other?)),
+        other => other.map(|_| ()).map_err(Into::into),
     }
 }
 

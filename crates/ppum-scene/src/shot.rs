@@ -194,7 +194,7 @@ impl<'a> Input<'a> {
         drawn: &Drawn,
         style: &Style,
         engine: &Engine<'_>,
-    ) -> Result<Span, ShotError> {
+    ) -> Result<Span, RenderError> {
         Ok(match (self.left, self.shown.quantity()) {
             (Some(_), _) => minus::span(drawn, style),
             (None, None) => drawn.span(style, None),
