@@ -97,7 +97,7 @@ pub(crate) fn problem(mistakes: &Mistakes) -> PyErr {
 }
 
 /// Work that was stopped: by nobody but Python, which raises its own exception then.
-fn cancelled(error: Cancelled) -> PyErr {
+pub(crate) fn cancelled(error: Cancelled) -> PyErr {
     PyKeyboardInterrupt::new_err(error.to_string())
 }
 

@@ -218,9 +218,13 @@ impl Field {
     }
 }
 
-/// What Python's layer has written as JSON.
+/// What Python's layer has written as JSON. Errors do not tell the place in that text, which nobody has seen.
 pub(crate) fn written<V: serde::de::DeserializeOwned>(text: &str) -> PyResult<V> {
-    serde_json::from_str(text).map_err(|error| PyValueError::new_err(error.to_string()))
+    serde_json::from_str(text).map_err(|error| {
+        let message = error.to_string();
+        let place = format!(" at line {} column {}", error.line(), error.column());
+        PyValueError::new_err(message.strip_suffix(&place).unwrap_or(&message).to_owned())
+    })
 }
 
 /// The field of a step, of a copy of it if something is changed.

@@ -12,6 +12,7 @@ mod dataset;
 mod errors;
 mod facts;
 mod field;
+mod intensities;
 mod material;
 mod moving;
 mod owned;
@@ -34,11 +35,15 @@ mod _core {
     #[pymodule_export]
     use crate::field::Field;
     #[pymodule_export]
+    use crate::intensities::intensities;
+    #[pymodule_export]
     use crate::material::material;
     #[pymodule_export]
     use crate::moving::animation;
     #[pymodule_export]
-    use crate::picture::{colormaps, extrema_in, figure, frame, render, rgba};
+    use crate::picture::{
+        check_request, colormap, colormaps, extrema_in, figure, frame, render, rgba,
+    };
     #[pymodule_export]
     use crate::plot::{Curves, profiles, told};
     #[pymodule_export]

@@ -29,21 +29,30 @@ self_cell!(
 );
 
 /// The first field of a step, with its dataset.
-pub(crate) struct Owned(Both);
+pub(crate) struct Owned {
+    both: Both,
+    step: usize,
+}
 
 impl Owned {
     /// # Errors
     /// No such step; functions that cannot be compiled.
     pub(crate) fn new(dataset: Arc<Dataset>, step: usize) -> Result<Self, FieldError> {
-        Both::try_new(dataset, |dataset| Seen::new(dataset, step)).map(Self)
+        let both = Both::try_new(dataset, |dataset| Seen::new(dataset, step))?;
+        Ok(Self { both, step })
     }
 
     pub(crate) fn dataset(&self) -> &Dataset {
-        self.0.borrow_owner()
+        self.both.borrow_owner()
+    }
+
+    /// The dataset, and the number of the step.
+    pub(crate) fn place(&self) -> (&Dataset, usize) {
+        (self.dataset(), self.step)
     }
 
     pub(crate) fn seen(&self) -> &Seen<'_> {
-        self.0.borrow_dependent()
+        self.both.borrow_dependent()
     }
 
     pub(crate) fn field(&self) -> &Field<'_> {

@@ -8,7 +8,7 @@ use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{BarPlace, Design, Labels, Theme, bare};
 use ppum_figure::form::Form;
 use ppum_figure::ticks;
-use ppum_render::colormap::NAMES;
+use ppum_render::colormap::{Colormap, NAMES};
 use ppum_render::extrema::{Extremum, On, extrema};
 use ppum_render::png::encode_quickly;
 use ppum_render::raster::{Raster, Sample};
@@ -26,7 +26,7 @@ use pyo3::types::PyBytes;
 
 use crate::errors::{RenderError, not_shown, picture, rendering};
 use crate::field::{Field, written};
-use crate::watch::long;
+use crate::watch::{guard, long};
 
 /// Centre and width of a view.
 pub(crate) type Spot = ((f64, f64), f64);
@@ -35,6 +35,24 @@ pub(crate) type Spot = ((f64, f64), f64);
 #[pyfunction]
 pub(crate) fn colormaps() -> Vec<&'static str> {
     NAMES.to_vec()
+}
+
+/// Red, green and blue of each of the colours of a built-in map, the lowest first.
+#[pyfunction]
+pub(crate) fn colormap(name: &str) -> PyResult<Vec<(u8, u8, u8)>> {
+    let map = Colormap::named(name).map_err(|error| RenderError::new_err(error.to_string()))?;
+    Ok(map.palette(BAR).into_iter().map(|[r, g, b, _]| (r, g, b)).collect())
+}
+
+/// Raises what `figure` and `rgba` would raise of a request before they draw.
+#[pyfunction]
+pub(crate) fn check_request(this: &Field, request: &str) -> PyResult<()> {
+    let scene = this.request(request)?.scene;
+    if let Some(name) = &scene.quantity {
+        guard(|| this.shown(name).map(drop))?;
+    }
+    let map = scene.colors.map(None);
+    map.map(drop).map_err(|error| RenderError::new_err(error.to_string()))
 }
 
 /// The look of a figure.

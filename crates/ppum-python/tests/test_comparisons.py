@@ -79,7 +79,7 @@ def test_what_cannot_be_compared_is_told(f, potential):
         f.compare(potential.field, "von_mises")
     for wrong, message in [
         ({"method": "linear"}, "method: `linear` is none; there are nearest"),
-        ({"over": "plate"}, "over: 'plate' is none"),
+        ({"over": "plate"}, "over: 'plate' is not one of 'domain', 'view'"),
         ({"error": -1.0}, "give a positive number"),
         ({"grid": 1}, "at least 2x2"),
         ({"quantity": "level"}, "constant in each cell"),

@@ -18,12 +18,29 @@ MODULES = [f"ppum.{m.name}" for m in pkgutil.iter_modules(ppum.__path__) if m.na
 PAGE = ROOT / "docs/python.md"
 
 
+def examples(module):
+    """Those of a module and of all that it offers; `doctest.testmod` passes over classes that say they are of `ppum`."""
+    finder = doctest.DocTestFinder()
+    things = {name: getattr(module, name) for name in getattr(module, "__all__", ())}
+    if doc := module.__doc__:
+        things[module.__name__] = type("Head", (), {"__doc__": doc})
+    return [test for name, thing in things.items() for test in finder.find(thing, name, module=False) if test.examples]
+
+
 @pytest.mark.parametrize("name", ["ppum", *MODULES])
 def test_docstrings(name, ds, f, problem, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names = {"ppum": ppum, "np": np, "ds": ds, "f": f, "plate": problem.discretization(cells=(8, 16))}
-    failed, _ = doctest.testmod(importlib.import_module(name), extraglobs=names, optionflags=doctest.ELLIPSIS)
-    assert failed == 0
+    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
+    for test in examples(importlib.import_module(name)):
+        test.globs = dict(names)
+        runner.run(test)
+    assert runner.failures == 0
+
+
+def test_examples_of_methods_are_run():
+    names = {test.name for test in examples(importlib.import_module("ppum.field"))}
+    assert {"Field", "Field.at", "Field.figure", "Field.intensities"} <= names
 
 
 def test_everything_is_documented():

@@ -32,7 +32,7 @@ def test_files(tmp_path, ds):
     cut = ds.to_bytes()
     for length in np.linspace(0, len(cut) - 1, 20).astype(int):
         assert type(caught(lambda: ppum.from_bytes(cut[:length]))) is ppum.FormatError
-    assert isinstance(caught(lambda: ppum.open(5)), AttributeError)
+    assert isinstance(caught(lambda: ppum.open(5)), TypeError)
 
 
 def test_quantities(f):
@@ -44,7 +44,7 @@ def test_quantities(f):
 
 
 def test_problems_name_keys(problem):
-    wrong = problem.crack((0, 0)).boundary("nowhere", traction=(0, 1)).discretization(ordr=3)
+    wrong = problem.crack((0, 0)).boundary("nowhere", traction=(0, 1)).section("discretization", ordr=3)
     error = caught(lambda: ppum.solve(wrong))
     assert type(error) is ppum.ProblemError and isinstance(error, ValueError)
     assert error.findings == list(wrong.check())
@@ -87,7 +87,7 @@ def test_pictures(f):
         ({"clim": (2, 1)}, ValueError),
         ({"norm": "cubic"}, ValueError),
         ({"theme": "pink"}, ValueError),
-        ({"bar": "left"}, ValueError),
+        ({"colorbar": "left"}, ValueError),
         ({"overlays": ["clouds"]}, ValueError),
         ({"nonsense": 1}, TypeError),
         ({"width": 1.0, "zoom": 2.0}, ValueError),
@@ -121,16 +121,16 @@ def test_the_version_is_that_of_the_crates():
 @pytest.mark.parametrize(
     "package, remedy, use",
     [
-        ("xarray", "ppum[plot]", lambda f: f.line((0, 0), (1, 1))),
-        ("xarray", "ppum[plot]", lambda f: f.grid(3, 3)),
-        ("xarray", "ppum[sweep]", lambda f: ppum.sweep(lambda a: 1 / 0, a=[1]).run()),
-        ("matplotlib", "ppum[plot]", lambda f: f.plot()),
+        ("xarray", "xarray", lambda f: f.line((0, 0), (1, 1))),
+        ("xarray", "xarray", lambda f: f.grid(3, 3)),
+        ("xarray", "xarray", lambda f: ppum.sweep(lambda a: 1 / 0, a=[1]).run()),
+        ("matplotlib", "matplotlib xarray", lambda f: f.plot()),
         ("pandas", "pandas", lambda f: f.step.tips.to_pandas()),
-        ("anywidget", "ppum[notebook]", lambda f: f.view()),
+        ("anywidget", "anywidget", lambda f: f.view()),
     ],
 )
 def test_packages_that_are_missing_have_a_remedy(f, monkeypatch, package, remedy, use):
     """Before any work: a sweep would be lost."""
     monkeypatch.setitem(sys.modules, package, None)
     error = caught(lambda: use(f))
-    assert type(error) is ImportError and f"need {package}: pip install '{remedy}'" in str(error)
+    assert type(error) is ImportError and str(error).endswith(f"need {package}: pip install {remedy}")

@@ -219,3 +219,50 @@ def test_marimo(ds, folder):
         page.locator(".ppum input[type=text]").fill("ux/0")
         page.locator(".ppum input[type=text]").press("Enter")
         keep(page, "marimo")
+
+
+STILL = """async ([script, png]) => {
+  const bytes = Uint8Array.from(atob(png), (c) => c.charCodeAt(0));
+  const state = { _still: new DataView(bytes.buffer), height: 300, _offers: { quantities: [], cmaps: ["auto"], tips: [], steps: 0 } };
+  const model = { get: (name) => state[name], on() {}, off() {}, send() {} };
+  const module = await import(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
+  module.default.render({ model, el: document.body });
+  const image = document.querySelector(".ppum-stage > img");
+  await image.decode();
+  const [place, whole] = [image, image.parentElement].map((node) => node.getBoundingClientRect());
+  return [image.naturalWidth, image.naturalHeight, place.width / whole.width, place.height / whole.height, whole.height];
+}"""
+
+
+def test_a_page_without_a_kernel_shows_the_picture(ds):
+    """As pages of nbconvert do, whose widgets have their saved state and nobody to ask."""
+    needed("playwright", "anywidget")
+    view = ds.view("von_mises")
+    data, _ = view._repr_mimebundle_()
+    with chromium() as page:
+        page.set_content("<!doctype html><body></body>")
+        shown = page.evaluate(STILL, [str(view._esm), data["image/png"]])
+        keep(page, "still")
+    columns, rows, across, down, height = shown
+    assert (columns, rows) == (640, 480) and across == down == 1 and height >= 300
+
+
+def test_saved_widgets_hold_their_picture(folder, tmp_path, monkeypatch):
+    needed("nbclient", "nbconvert", "ipykernel", "anywidget")
+    import base64
+    import json
+
+    import nbformat
+    from nbclient import NotebookClient
+    from nbconvert import HTMLExporter
+
+    monkeypatch.setenv("IPYTHONDIR", str(tmp_path))
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(SETUP + "view")])
+    NotebookClient(notebook, timeout=120, kernel_name="python3", resources={"metadata": {"path": folder}}).execute()
+    (output,) = notebook.cells[0].outputs
+    states = notebook.metadata.widgets["application/vnd.jupyter.widget-state+json"]["state"]
+    model = states[output.data["application/vnd.jupyter.widget-view+json"]["model_id"]]
+    (picture,) = (b["data"] for b in model["buffers"] if b["path"] == ["_still"])
+    assert base64.b64decode(picture) == base64.b64decode(output.data["image/png"])
+    page, _ = HTMLExporter().from_notebook_node(notebook)
+    assert json.dumps(picture)[1:41] in page

@@ -76,7 +76,7 @@ def test_figures(f, tmp_path):
         figure.save(tmp_path / f"a.{end}")
         assert (tmp_path / f"a.{end}").read_bytes().startswith(start)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.pdf", "a.png", "a.svg"]
-    paper = f.figure("s1", inches=(3.4, 2.6), dpi=100, clim=("2%", "98%"), norm="symlog", theme="dark", bar="bottom")
+    paper = f.figure("s1", inches=(3.4, 2.6), dpi=100, clim=("2%", "98%"), norm="symlog", theme="dark", colorbar="bottom")
     assert matplotlib.image.imread(io.BytesIO(paper.png())).shape[:2] == (260, 340)
     deep = f.figure("von_mises", tip=1, zoom=1e12, norm="log", size=(400, 300))
     assert len(deep.png()) > 1000

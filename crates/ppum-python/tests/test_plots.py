@@ -92,7 +92,7 @@ def test_plots_are_shown_and_saved_whole(f, tmp_path):
     (tmp_path / "old.svg").write_text("old")
     plot.save(tmp_path / "old.svg")
     assert (tmp_path / "old.svg").read_text() == plot.svg()
-    with pytest.raises(ValueError, match="figures are png, svg or pdf"):
+    with pytest.raises(ValueError, match="plots are png, svg or pdf"):
         plot.save(tmp_path / "plot.gif")
     with pytest.raises(FileNotFoundError):
         plot.save(tmp_path / "nowhere/plot.svg")

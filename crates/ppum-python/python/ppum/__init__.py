@@ -28,23 +28,25 @@ from .dataset import (
     Crack,
     Dataset,
     Growth,
-    History,
     Hole,
     Reaction,
     Step,
-    Table,
     Tip,
-    Warning,
     from_bytes,
-    open,
 )
+
+# both are of `ppum.` alone: `from ppum import *` leaves Python's own as they are
+from .dataset import Warning as Warning
+from .dataset import open as open
 from .enriching import Component, Formula, Jump, tip_functions
 from .field import Field
 from .linking import link
-from .pictures import Animation, Extremum, Figure, View
+from .pictures import Animation, Extremum, Figure
 from .problem import Elastic, Poisson, Problem, solve
 from .sweeping import Sweep, sweep
+from .tables import History, Table
 from .values import Quantity, Values
+from .views import View
 
 __version__ = _core.VERSION
 
@@ -93,13 +95,11 @@ __all__ = [
     "Tip",
     "Values",
     "View",
-    "Warning",
     "basis",
     "build",
     "from_arrays",
     "from_bytes",
     "link",
-    "open",
     "plots",
     "solve",
     "sweep",

@@ -20,12 +20,15 @@ __all__ = [
     "animation",
     "build",
     "check",
+    "check_request",
+    "colormap",
     "colormaps",
     "compare",
     "extrema",
     "figure",
     "frame",
     "from_bytes",
+    "intensities",
     "material",
     "profiles",
     "read",
@@ -155,5 +158,10 @@ def animation(
 def extrema(
     this: Field, name: str, spot: _Spot, size: tuple[int, int]
 ) -> tuple[dict[str, Any], dict[str, Any]] | None: ...
+def intensities(
+    this: Field, on: tuple[int, float] | None, progress: _Progress | None
+) -> tuple[str, list[str], list[str]]: ...
+def check_request(this: Field, request: str) -> None: ...
+def colormap(name: str) -> list[tuple[int, int, int]]: ...
 def colormaps() -> list[str]: ...
 def _panic(on_pool: bool) -> None: ...

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from .errors import RenderError
-from .pictures import View
+from .views import View
 
 if TYPE_CHECKING:
     from .field import Field

@@ -6,17 +6,19 @@ import html
 import json
 import math
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, Generic, TypeVar
+from typing import IO, TYPE_CHECKING, Any, TypeVar, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .extras import needed
+from .options import passes
+from .styles import ViewerOptions
+from .tables import History, Numbered, Table
 
 if TYPE_CHECKING:
     from .field import Field
@@ -81,7 +83,7 @@ class Tip:
 
     Attributes:
         crack: Number of its crack.
-        end: ``start`` or ``last``, the crack's first or last vertex.
+        end: ``start`` or ``end``, the crack's first or last vertex.
         xy: Its place.
         angle: Direction of growth, the angle to the x axis, radians.
         k1, k2: K_I and K_II, stress · length^½.
@@ -193,76 +195,6 @@ class Growth:
     tips: Table[Advance]
 
 
-class Table(tuple[_Row, ...], Generic[_Row]):
-    """Rows of one kind, a tuple that pandas and notebooks show as a table."""
-
-    def to_pandas(self) -> Any:
-        """The rows as a `pandas.DataFrame`; those attributes that are arrays are left out."""
-        pandas = needed("pandas", "pandas", "tables")
-        return pandas.DataFrame(self._records(), columns=self._columns() or None)
-
-    def _columns(self) -> list[str]:
-        first: Any = self[0] if self else None
-        if first is None:
-            return []
-        plain = (f.name for f in fields(first))
-        return [n for n in plain if not isinstance(getattr(first, n), (np.ndarray, Table))]
-
-    def _records(self) -> list[dict[str, Any]]:
-        columns = self._columns()
-        return [{name: getattr(row, name) for name in columns} for row in self]
-
-    def _repr_html_(self) -> str:
-        columns = self._columns()
-        head = "".join(f"<th>{html.escape(c)}</th>" for c in columns)
-        rows = (
-            "".join(f"<td>{html.escape(_short(row[c]))}</td>" for c in columns)
-            for row in self._records()
-        )
-        body = "".join(f"<tr>{cells}</tr>" for cells in rows)
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
-
-
-def _short(value: Any) -> str:
-    if isinstance(value, tuple):
-        return "(" + ", ".join(_short(v) for v in value) + ")"
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-class History(Mapping[str, float]):
-    """The numbers of the solver's report by name: unknowns, residual, energy, seconds of each phase.
-
-    `unit` has their units. Of several numbers with one name the first one counts; `records` has all.
-    """
-
-    def __init__(self, records: Sequence[tuple[str, float, str]]) -> None:
-        self.records = tuple(records)
-        self._first = {name: (value, unit) for name, value, unit in reversed(self.records)}
-
-    def __getitem__(self, name: str) -> float:
-        return self._first[name][0]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(dict.fromkeys(name for name, _, _ in self.records))
-
-    def __len__(self) -> int:
-        return len(self._first)
-
-    def unit(self, name: str) -> str:
-        """The unit of a number, e.g. ``s``; empty of plain numbers."""
-        return self._first[name][1]
-
-    def __repr__(self) -> str:
-        return f"<ppum.History, {len(self)} numbers>"
-
-    def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{html.escape(n)}</td><td>{v:.6g}</td><td>{html.escape(u)}</td></tr>"
-            for n, v, u in self.records
-        )
-        return f"<table><tbody>{rows}</tbody></table>"
-
-
 class Step:
     """One state of a series. Made by `Dataset.steps`.
 
@@ -307,16 +239,14 @@ class Step:
     @cached_property
     def cracks(self) -> tuple[Crack, ...]:
         """The cracks."""
-        return tuple(
-            Crack(k, _points(c["points"]), tuple(c["ends"]))
-            for k, c in enumerate(self._facts["cracks"])
-        )
+        cracks = enumerate(self._facts["cracks"])
+        made = (Crack(k, _points(c["points"]), tuple(c["ends"])) for k, c in cracks)
+        return Numbered(made, "crack")
 
     @cached_property
     def tips(self) -> Table[Tip]:
         """The crack tips with the factors that the solver found, in the order of cracks and ends."""
-        tips = zip(self._facts["tips"], self._facts["ends"])
-        return Table(_row(Tip, t, end=end, xy=t["tip"], rings=_rings(t["rings"])) for t, end in tips)
+        return tips_of(self._facts["tips"], self._facts["ends"])
 
     @cached_property
     def history(self) -> History:
@@ -327,16 +257,17 @@ class Step:
     @cached_property
     def warnings(self) -> Table[Warning]:
         """What the diagnostics found."""
-        return Table(_row(Warning, w) for w in self._facts["warnings"])
+        return Table((_row(Warning, w) for w in self._facts["warnings"]), "warning")
 
     @cached_property
     def reactions(self) -> Table[Reaction]:
         """What the supports exert on the plate."""
         names = self._facts["components"]
-        return Table(
+        rows = (
             _row(Reaction, r, held=[n in r["held"] for n in names], moment=r["moment"] or 0.0)
             for r in self._facts["reactions"]
         )
+        return Table(rows, "reaction")
 
     @cached_property
     def growth(self) -> Growth | None:
@@ -344,11 +275,11 @@ class Step:
         facts = self._facts["growth"]
         if facts is None:
             return None
-        tips = Table(
+        tips = (
             _row(Advance, t, curvature=curvature, path=_points(path))
             for t, (curvature, path) in zip(facts["tips"], self._facts["arcs"])
         )
-        return Growth(facts["cycles"], facts["stop"], tips)
+        return Growth(facts["cycles"], facts["stop"], Table(tips, "tip"))
 
     @cached_property
     def attributes(self) -> dict[str, NDArray[np.float64]]:
@@ -368,6 +299,13 @@ class Step:
 
     def __repr__(self) -> str:
         return f"<ppum.Step {self.number}, {_count(self.patches, 'patch', 'patches')}, {_count(len(self.tips), 'tip')}>"
+
+
+def tips_of(facts: list[dict[str, Any]], ends: Sequence[str]) -> Table[Tip]:
+    """The tips of facts, and of the names of their ends."""
+    both = zip(facts, ends, strict=True)
+    tips = (_row(Tip, t, end=end, xy=t["tip"], rings=_rings(t["rings"])) for t, end in both)
+    return Table(tips, "tip")
 
 
 def _points(points: Sequence[Point]) -> NDArray[np.float64]:
@@ -412,7 +350,8 @@ def _count(count: int, one: str, more: str | None = None) -> str:
 class Dataset:
     """A solved problem: all that is needed to evaluate its fields exactly. It never changes.
 
-    Datasets are equal if all their numbers and texts are; they can be pickled, and sent to other processes.
+    Datasets are equal if all their numbers and texts are, but for the seconds that solving took; they can be pickled, and
+    sent to other processes.
 
     Example:
         >>> ds
@@ -455,12 +394,13 @@ class Dataset:
     @cached_property
     def holes(self) -> tuple[Hole, ...]:
         """The holes."""
-        return tuple(
+        holes = (
             Hole(tuple(h["center"]), h["radius"], None)
             if h["kind"] == "circle"
             else Hole(None, None, _points(h["points"]))
             for h in self._facts["domain"]["holes"]
         )
+        return Numbered(holes, "hole")
 
     @property
     def problem(self) -> Problem | None:
@@ -474,7 +414,7 @@ class Dataset:
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """The steps of the series, one or more."""
-        return tuple(Step(self, k) for k in range(len(self._core)))
+        return Numbered((Step(self, k) for k in range(len(self._core))), "step")
 
     @property
     def field(self) -> Field:
@@ -506,14 +446,16 @@ class Dataset:
         """All named quantities of the last step's field, see `Field.quantities`."""
         return self.field.quantities
 
-    def view(self, quantity: str | None = None, **options: Any) -> Viewer:
-        """A view in a notebook that follows the mouse, with a slider for the steps; options as in `Field.view`, and `step`.
+    @passes
+    def view(
+        self, quantity: str | None = None, *, step: int = -1, **options: Unpack[ViewerOptions]
+    ) -> Viewer:
+        """Shows a step in a notebook, with a slider for the others; further options as in `Field.view`.
 
         Example:
             >>> ds.view("von_mises", tip=1, zoom=100).step
             0
         """
-        step = int(options.pop("step", -1))
         return self.steps[step].field.view(quantity, **options)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -534,7 +476,11 @@ class Dataset:
     def __eq__(self, other: object) -> bool:
         return self._core == other._core if isinstance(other, Dataset) else NotImplemented
 
-    __hash__ = object.__hash__
+    def __hash__(self) -> int:
+        numbers = [(s.patches, s.unknowns, s.history.get("energy", 0.0)) for s in self.steps]
+        # what is not a number is not equal to itself
+        plain = tuple((p, u, energy if energy == energy else None) for p, u, energy in numbers)
+        return hash((self.title, self.equation, plain))
 
     def __repr__(self) -> str:
         last = self.steps[-1]
@@ -573,6 +519,7 @@ def open(source: str | os.PathLike[str] | bytes | IO[bytes]) -> Dataset:
     Raises:
         OSError: The file cannot be read; `FileNotFoundError` if there is none.
         FormatError: It is no dataset, or a damaged one.
+        TypeError: Something else, or a file that is open for text.
 
     Example:
         >>> ds.save("plate.h5")
@@ -581,9 +528,21 @@ def open(source: str | os.PathLike[str] | bytes | IO[bytes]) -> Dataset:
     """
     if isinstance(source, (bytes, bytearray, memoryview)):
         return from_bytes(bytes(source))
-    if not isinstance(source, (str, os.PathLike)):
-        return from_bytes(source.read())
-    return Dataset(_core.read(Path(source)))
+    if isinstance(source, (str, os.PathLike)):
+        return Dataset(_core.read(Path(source)))
+    if not hasattr(source, "read"):
+        raise TypeError(f"a dataset is opened by a path, bytes or an open file{_remedy(source)}")
+    data = source.read()
+    if not isinstance(data, bytes):
+        raise TypeError("the file is open for text: open it with mode 'rb', or give its path")
+    return from_bytes(data)
+
+
+def _remedy(source: Any) -> str:
+    name = getattr(source, "filename", None)
+    if isinstance(name, str):
+        return f", not by a {type(source).__name__} of h5py; close it, and give {name!r}"
+    return f", not by {type(source).__name__!r}"
 
 
 def from_bytes(data: bytes) -> Dataset:
@@ -591,9 +550,13 @@ def from_bytes(data: bytes) -> Dataset:
 
     Raises:
         FormatError: They are no dataset, or a damaged one.
+
+    Example:
+        >>> ppum.from_bytes(ds.to_bytes()).title
+        'Slanted crack'
     """
     return Dataset(_core.from_bytes(data))
 
 
-for _class in (Advance, Crack, Dataset, Growth, History, Hole, Reaction, Step, Table, Tip, Warning):
+for _class in (Advance, Crack, Dataset, Growth, Hole, Reaction, Step, Tip, Warning):
     _class.__module__ = "ppum"

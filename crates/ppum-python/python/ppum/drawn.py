@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 import warnings
@@ -18,8 +19,8 @@ class Drawn:
         warnings: What is to be known of what was drawn, such as pixels without a value; each is warned of once too.
     """
 
-    #: The form that is drawn if none is asked for.
-    _form: ClassVar[str]
+    #: The forms that there are; the first one is drawn if none is asked for.
+    _forms: ClassVar[tuple[str, ...]]
 
     def __init__(self) -> None:
         self._known: dict[str, bytes] = {}
@@ -46,7 +47,9 @@ class Drawn:
             QuantityError, RenderError: What cannot be drawn.
             ValueError: A form that there is not; a size without room.
         """
-        form = self._form if form is None else form
+        form = self._forms[0] if form is None else form
+        if form not in self._forms:
+            raise ValueError(f"cannot draw {form!r}: {self._plural()}")
         if form not in self._known:
             self._known[form] = self._draw(form)
         return self._known[form]
@@ -57,16 +60,25 @@ class Drawn:
         Raises:
             QuantityError, RenderError: What cannot be drawn.
             ValueError: Another end than the forms that there are.
-            OSError: The system refuses.
+            OSError: The system refuses; `FileNotFoundError` where there is no such folder.
         """
         path = Path(path)
-        replace(path, self.to_bytes(path.suffix[1:].lower()))
+        folder_of(path)
+        form = path.suffix[1:].lower()
+        if not form:
+            raise ValueError(f"the name {path.name!r} has no end that says a form: {self._plural()}")
+        replace(path, self.to_bytes(form))
+
+    @classmethod
+    def _plural(cls) -> str:
+        *others, last = cls._forms
+        return f"{cls.__name__.lower()}s are {', '.join(others)} or {last}"
 
 
 class Page(Drawn):
     """A page, as ``png``, the default, ``svg`` or ``pdf``."""
 
-    _form = "png"
+    _forms = ("png", "svg", "pdf")
 
     def png(self) -> bytes:
         """Pixels."""
@@ -84,9 +96,20 @@ class Page(Drawn):
         return self.png()
 
 
+def folder_of(path: Path) -> Path:
+    """The folder that a file is to lie in.
+
+    Raises:
+        FileNotFoundError: There is none.
+    """
+    if not path.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "there is no such folder", str(path.parent))
+    return path.parent
+
+
 def replace(path: Path, data: bytes) -> None:
     """Puts bytes in the place of a file: what was there stays until they are all written."""
-    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name, delete=False) as file:
+    with tempfile.NamedTemporaryFile(dir=folder_of(path), prefix=path.name, delete=False) as file:
         try:
             file.write(data)
             file.close()

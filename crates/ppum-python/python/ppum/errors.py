@@ -13,6 +13,7 @@ __all__ = [
     "Finding",
     "FormatError",
     "InternalError",
+    "MissingKey",
     "PpumError",
     "ProblemError",
     "QuantityError",
@@ -48,6 +49,13 @@ class SolveError(PpumError, RuntimeError):
 
 class InternalError(PpumError, RuntimeError):
     """A mistake in ppum itself; please report it."""
+
+
+class MissingKey(KeyError):
+    """A key that a mapping does not have, with those that it has."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 @dataclass(frozen=True)

@@ -11,4 +11,4 @@ def needed(package: str, remedy: str, what: str) -> Any:
     try:
         return importlib.import_module(package)
     except ImportError as error:
-        raise ImportError(f"{what} need {package.split('.')[0]}: pip install '{remedy}'") from error
+        raise ImportError(f"{what} need {package.split('.')[0]}: pip install {remedy}") from error

@@ -6,28 +6,31 @@ import json
 import warnings
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .extras import needed
-from .pictures import (
-    Animation,
-    Extremum,
-    Figure,
-    View,
-    figure_look,
-    figure_scene,
-    milliseconds,
-    spot,
+from .options import one_of, passes, takes
+from .pictures import Animation, Extremum, Figure, milliseconds
+from .styles import (
+    ColorOptions,
+    FigureOptions,
+    PlotOptions,
+    RgbaOptions,
+    ViewerOptions,
+    page,
+    scene,
+    span,
 )
-from .values import Quantities, Quantity, Values, pair
+from .views import SIZE, PixelOptions, PlaceOptions, Spot, View, pixels, place, spot, view_of
+from .values import Quantities, Quantity, Values, degrees, pair
 
 if TYPE_CHECKING:
     from .comparing import Comparison, Resampling
-    from .dataset import Dataset, Step
+    from .dataset import Dataset, Step, Table, Tip
     from .widget import Viewer
 
 __all__ = ["Field"]
@@ -39,7 +42,7 @@ ResamplingMethod = Literal["nearest", "bilinear", "bicubic", "cells"]
 
 def _widget() -> Any:
     """The module of views, whose needs are extra ones."""
-    needed("anywidget", "ppum[notebook]", "views in notebooks")
+    needed("anywidget", "anywidget", "views in notebooks")
     from . import widget
 
     return widget
@@ -64,6 +67,7 @@ class Field:
         self.dataset = dataset
         self._number = step if step >= 0 else count + step
         self._subject = dict(_subject or {})
+        self._tips: Table[Tip] | None = None
         self._core = _core.Field(dataset._core, self._number, json.dumps(self._subject))
 
     @property
@@ -152,6 +156,11 @@ class Field:
 
         Raises:
             QuantityError: No such part.
+
+        Example:
+            >>> parts = [f.part(name).at(0.3, 0.1).ux for name in ("smooth", "jump", "tip")]
+            >>> bool(abs(sum(parts) - f.at(0.3, 0.1).ux) < 1e-12)
+            True
         """
         return self._changed(part=part)
 
@@ -175,6 +184,10 @@ class Field:
 
         Raises:
             QuantityError: No weight.
+
+        Example:
+            >>> bool(f.with_weight("bump").at(0.26, 0.1).ux != f.at(0.26, 0.1).ux)
+            True
         """
         return self._changed(weight=weight)
 
@@ -204,9 +217,9 @@ class Field:
         Coordinates are `x`, `y` and `side`: where the line meets a crack there are two rows, above (1) and below (-1).
 
         Example:
-            >>> line = f.line((-1, 0.1), (1, 0.1), num=5, quantities=["uy"])
-            >>> line.uy.shape
-            (6,)
+            >>> line = f.line((-1, 0), (1, 0), num=5, quantities=["uy"])
+            >>> line.side.values
+            array([ 0.,  0.,  1., -1.,  0.,  0.])
         """
         along = {"line": {"from": pair(start), "to": pair(end)}}
         return self._curve(along, num, quantities)
@@ -214,16 +227,25 @@ class Field:
     def circle(
         self, center: ArrayLike, radius: float, *, num: int = 201, quantities: Sequence[str] | None = None
     ) -> Any:
-        """Values on a circle, as an `xarray.Dataset` over the angle `theta`, degrees from the x axis."""
+        """Values on a circle, as an `xarray.Dataset` over the angle `theta` from the x axis, radians.
+
+        Example:
+            >>> f.circle((0, 0), 0.6, num=5, quantities=["uy"]).theta.values
+            array([-3.14159265, -1.57079633,  0.        ,  1.57079633,  3.14159265])
+        """
         along = {"circle": {"center": pair(center), "radius": radius}}
         return self._curve(along, num, quantities)
 
     def along(self, crack: Any, *, num: int = 201, quantities: Sequence[str] | None = None) -> Any:
-        """Values on both sides of a crack, as an `xarray.Dataset` over the arc length `s`: of each quantity `…_above`,
-        `…_below` and `…_jump`, and of a displacement `opening` and `sliding`.
+        """Values on both sides of a crack, as an `xarray.Dataset` over the arc length `s`: of each quantity
+        `…_above` and `…_below`, and of a displacement the jumps `jump_ux` and `jump_uy`, `opening` and `sliding`.
 
         Args:
             crack: A `Crack` or its number.
+
+        Example:
+            >>> sorted(f.along(0, quantities=["ux", "uy"]))
+            ['jump_ux', 'jump_uy', 'opening', 'sliding', 'ux_above', 'ux_below', 'uy_above', 'uy_below']
         """
         return self._curve({"crack": {"index": getattr(crack, "index", crack)}}, num, quantities)
 
@@ -231,7 +253,12 @@ class Field:
         self, tip: int, radius: float | None = None, *, num: int = 201, quantities: Sequence[str] | None = None
     ) -> Any:
         """Values on a circle around a tip, as an `xarray.Dataset` over the angle `theta` from the crack's extension,
-        degrees; by default a hundredth of the crack's length away."""
+        radians; by default a hundredth of the crack's length away.
+
+        Example:
+            >>> f.around(1, num=5, quantities=["syy"]).sizes["theta"]
+            5
+        """
         return self._curve({"around": {"tip": tip, "radius": radius}}, num, quantities)
 
     def ray(
@@ -243,9 +270,19 @@ class Field:
         num: int = 201,
         quantities: Sequence[str] | None = None,
     ) -> Any:
-        """Values on a ray from a tip, as an `xarray.Dataset` over the distance `r` in steps of its logarithm; `angle` is
-        that from the crack's extension, degrees."""
-        along = {"ray": {"tip": tip, "angle": angle, "far": length}}
+        """Values on a ray from a tip, as an `xarray.Dataset` over the distance `r` in steps of its logarithm.
+
+        Args:
+            tip: The number of a tip.
+            angle: That from the crack's extension, radians, as `Tip.growth_angle`.
+            length: The largest distance; by default a tenth of the crack's length.
+
+        Example:
+            >>> ahead = f.ray(1, angle=ds.tips[1].growth_angle, quantities=["syy"])
+            >>> bool(ahead.syy[0] > ahead.syy[-1] > 0)
+            True
+        """
+        along = {"ray": {"tip": tip, "angle": degrees(angle), "far": length}}
         return self._curve(along, num, quantities)
 
     def _curve(self, along: Any, num: int, quantities: Sequence[str] | None) -> Any:
@@ -287,8 +324,14 @@ class Field:
         stresses = ["sxx", "syy", "sxy", "von-mises"]
         return [*self.components, *(stresses if self.dataset.equation == "elasticity" else [])]
 
+    @takes
     def render(
-        self, quantity: str | None = None, *, dtype: Any = np.float64, progress: Any = None, **view: Any
+        self,
+        quantity: str | None = None,
+        *,
+        dtype: Any = np.float64,
+        progress: Any = None,
+        **options: Unpack[PixelOptions],
     ) -> NDArray[Any]:
         """Values at the centres of the pixels of a view: shape (rows, columns), rows from the top; NaN outside.
 
@@ -296,7 +339,10 @@ class Field:
             quantity: A quantity, a formula or a value of cells; by default von Mises' stress, of a potential itself.
             dtype: float64 or float32, in which the values are computed too; warns where float32 has no three digits.
             progress: Is called with phase, parts done, all parts, step.
-            view: `View`, or as in `view_at`: center, width, tip, zoom, size.
+
+        Raises:
+            QuantityError: No quantity of the field.
+            RenderError: A view or a size that cannot be drawn.
 
         Example:
             >>> f.render("uy", size=(40, 80)).shape
@@ -305,46 +351,49 @@ class Field:
         kind = np.dtype(dtype)
         if kind not in (np.dtype(np.float64), np.dtype(np.float32)):
             raise ValueError(f"dtype: values are float64 or float32, not {kind}")
-        seen = self.view_at(**view)
+        seen = self._seen(options)
         name = quantity or self._core.default_quantity()
         is_single = kind == np.float32
         if is_single and (text := self._core.single_precision_warning()):
-            warnings.warn(text, stacklevel=2)
+            warnings.warn(text, stacklevel=3)
         return _core.render(self._core, name, seen._spot, seen.size, is_single, progress)
 
-    def rgba(self, quantity: str | None = None, *, view: Any = None, **options: Any) -> NDArray[np.uint8]:
+    @takes
+    def rgba(self, quantity: str | None = None, **options: Unpack[RgbaOptions]) -> NDArray[np.uint8]:
         """The colours of a picture: shape (rows, columns, 4), rows from the top; transparent outside.
 
         Args:
             quantity: As in `render`.
-            view: A `View`; else center, width, tip, zoom, size as in `view_at`.
-            options: Colours and overlays as in `figure`.
-        """
-        keys = ("center", "width", "tip", "zoom", "size")
-        seen = self.view_at(view, **{k: options.pop(k) for k in keys if k in options})
-        scene = figure_scene(quantity, options)
-        rgba, told = _core.rgba(self._core, scene, seen._spot, seen.size)
-        for text in told:
-            warnings.warn(text, stacklevel=2)
-        return rgba
-
-    def figure(self, quantity: str | None = None, **options: Any) -> Figure:
-        """A figure with axes and a colour bar, as the program draws it; notebooks show it.
-
-        Args:
-            quantity: As in `render`.
-            options: What is seen: center, width, or tip, zoom. Colours: cmap (a name, or a file with a map), clim (``auto``,
-                ``full``, two values or two percentiles), norm (``linear``, ``log``, ``symlog``), bands, symmetric, contrast. Over them: overlays (a list
-                of cracks, cells, patches, boxes, points, centers, rings, supports, loads), isolines (``auto``, a number,
-                or values), level_labels, arrows, crosses (their distance, pixels). deformed (``auto`` or a factor), outline.
-                How it is drawn: samples (each pixel is the mean of so many across and down), precision (``f64``, ``f32``),
-                blank (overlays alone), labels (a dictionary of title, x, y, bar). The page: size (pixels) or inches, dpi, font_size, theme (``light``, ``dark``), transparent, bar (``right``,
-                ``bottom``, ``none``).
-
-        What is to be known of it, such as pixels without a value, is warned of, and kept as `Figure.warnings`.
 
         Raises:
             TypeError: No such option.
+            ValueError: No such value of an option; `QuantityError` and `RenderError` are of this kind.
+
+        Example:
+            >>> f.rgba("ux", size=(40, 80), cmap="magma", vmin=0).shape
+            (80, 40, 4)
+        """
+        seen = self._seen(options)
+        rgba, told = _core.rgba(
+            self._core, self._scene(quantity, options, seen._spot), seen._spot, seen.size
+        )
+        for text in told:
+            warnings.warn(text, stacklevel=3)
+        return rgba
+
+    @takes
+    def figure(self, quantity: str | None = None, **options: Unpack[FigureOptions]) -> Figure:
+        """A figure with axes and a colour bar, as the program draws it; notebooks show it.
+
+        Options are checked here; the figure is drawn when its bytes are asked for. What is to be known of it, such as pixels
+        without a value, is warned of then, and kept as `Figure.warnings`.
+
+        Args:
+            quantity: As in `render`.
+
+        Raises:
+            TypeError: No such option.
+            ValueError: No such value of an option; `QuantityError` and `RenderError` are of this kind.
 
         Example:
             >>> figure = f.figure("von_mises", tip=0, zoom=1e6, norm="log")
@@ -352,12 +401,28 @@ class Field:
             >>> figure.png()[1:4]
             b'PNG'
         """
-        seen = {k: options.pop(k) for k in ("center", "width", "tip", "zoom") if k in options}
-        look = figure_look(options)
-        scene = figure_scene(quantity, options)
-        at = self._spot(look["size"], **seen) if seen else None
-        return Figure(self._core, scene, at, json.dumps(look))
+        look = page(options)
+        at = self._place(options, look["size"])
+        return Figure(self, self._scene(quantity, options, at), at, look)
 
+    def _scene(
+        self, quantity: str | None, options: ColorOptions, at: Spot | None, *, may_find: bool = True
+    ) -> str:
+        """What a picture shows, checked. An end of the range that is not given is that of an automatic one."""
+        found = span(options)
+        if not isinstance(found, str) and None in found:
+            if not may_find:
+                raise ValueError("give both vmin and vmax: one range is that of all steps")
+            auto = scene(quantity, options, "auto")
+            ends = _core.frame(self._core, auto, at or spot(self.dataset.domain, SIZE), SIZE)[1]["range"]
+            both = zip(found, ends, strict=True)
+            clim: Any = [end if given is None else given for given, end in both]
+            found = span({"clim": clim})
+        made = scene(quantity, options, found)
+        _core.check_request(self._core, made)
+        return made
+
+    @takes
     def animate(
         self,
         quantity: str | None = None,
@@ -366,7 +431,7 @@ class Field:
         fps: float = 5.0,
         bare: bool = False,
         progress: Any = None,
-        **options: Any,
+        **options: Unpack[FigureOptions],
     ) -> Animation:
         """A moving picture of the steps of a series, as the program's: one range of colours, one factor of deformation, one place.
 
@@ -376,43 +441,43 @@ class Field:
             fps: Steps shown in a second, up to 50.
             bare: Whether axes and colour bar are left out: the picture has the size in pixels.
             progress: As in `render`.
-            options: As for `figure`.
 
         Raises:
             IndexError: There is no such step.
-            ValueError: No steps; a rate that programs do not show.
+            ValueError: No steps; a rate that programs do not show; no such value of an option.
             TypeError: No such option.
 
         Example:
-            >>> moving = f.animate("uy", deformed="auto", size=(240, 320))
+            >>> moving = f.animate("uy", deformed="auto", size=(320, 400))
             >>> moving.save("moving.gif")
             >>> moving.gif()[:6]
             b'GIF89a'
         """
-        seen = {k: options.pop(k) for k in ("center", "width", "tip", "zoom") if k in options}
-        look = figure_look(options)
-        scene, size = figure_scene(quantity, options), look["size"]
-        at = self._spot(size, **seen) if seen else None
-        drawn = None if bare else json.dumps(look)
-        what = (json.dumps(self._subject), scene, self._numbers(steps), at, size, drawn)
-        return Animation(self._core, self.dataset._core, what, milliseconds(fps), progress)
+        look = page(options)
+        size = look["size"]
+        at = self._place(options, size)
+        made = self._scene(quantity, options, at, may_find=False)
+        what = (made, self._numbers(steps), at, size, None if bare else json.dumps(look))
+        return Animation(self, what, milliseconds(fps), progress)
 
     def _numbers(self, steps: Sequence[int] | slice | None) -> list[int]:
         count = len(self.dataset.steps)
         if steps is None or isinstance(steps, slice):
             numbers = list(range(count)[steps or slice(None)])
         else:
-            numbers = [range(count)[step] for step in steps]
+            numbers = [self.dataset.steps[step].number for step in steps]
         if not numbers:
             raise ValueError("steps: a moving picture needs one step at least")
         return numbers
 
-    def extrema(self, quantity: str | None = None, **view: Any) -> tuple[Extremum, Extremum]:
+    @takes
+    def extrema(
+        self, quantity: str | None = None, **options: Unpack[PixelOptions]
+    ) -> tuple[Extremum, Extremum]:
         """The smallest and the largest value in a view, also between its pixels, at tips infinite.
 
         Args:
             quantity: A quantity or a formula.
-            view: `View`, or as in `view_at`: center, width, tip, zoom, size.
 
         Raises:
             RenderError: There is no value in the view.
@@ -424,7 +489,7 @@ class Field:
         """
         from .errors import RenderError
 
-        seen = self.view_at(**view)
+        seen = self._seen(options)
         name = quantity or self._core.default_quantity()
         found = _core.extrema(self._core, name, seen._spot, seen.size)
         if found is None:
@@ -432,8 +497,14 @@ class Field:
         low, high = (Extremum(**one) for one in found)
         return low, high
 
+    @takes
     def compare(
-        self, other: Field, quantity: str | None = None, *, progress: Any = None, **view: Any
+        self,
+        other: Field,
+        quantity: str | None = None,
+        *,
+        progress: Any = None,
+        **options: Unpack[PixelOptions],
     ) -> Comparison:
         """This field minus another at the pixels of a view: how far they are from each other, and where.
 
@@ -443,7 +514,6 @@ class Field:
             other: A field, of this dataset or another: another step, part, weight or cover.
             quantity: A quantity or formula that both have, or a value of cells; by default as in `render`.
             progress: As in `render`.
-            view: `View`, or as in `view_at`: center, width, tip, zoom, size.
 
         Raises:
             QuantityError: One of them does not have the quantity.
@@ -459,8 +529,9 @@ class Field:
         from .comparing import compare
 
         name = quantity or self._core.default_quantity()
-        return compare(self, other, name, self.view_at(**view), progress)
+        return compare(self, other, name, self._seen(options), progress)
 
+    @takes
     def resampled(
         self,
         quantity: str | None = None,
@@ -470,7 +541,7 @@ class Field:
         over: Literal["domain", "view"] = "domain",
         error: float | None = None,
         progress: Any = None,
-        **view: Any,
+        **options: Unpack[PixelOptions],
     ) -> Resampling:
         """What resampling makes of the field, as other programs draw it, and how far that is from it.
 
@@ -484,7 +555,6 @@ class Field:
             over: The rectangle of the grid: the box of the domain, or what the view shows.
             error: A relative error for which the grid is looked for too, see `Resampling.needed`.
             progress: As in `render`.
-            view: `View`, or as in `view_at`: center, width, tip, zoom, size.
 
         Raises:
             QuantityError: No quantity of the field.
@@ -498,29 +568,28 @@ class Field:
         """
         from .comparing import resample
 
-        if over not in ("domain", "view"):
-            raise ValueError(f"over: {over!r} is none; there are domain, view")
+        one_of("over", over, ("domain", "view"))
         if error is not None and not error > 0:
-            raise ValueError(f"error: {error!r} is none; give a positive number, e.g. 0.01")
+            raise ValueError(f"error: {error!r} cannot be reached; give a positive number, e.g. 0.01")
         size = (grid, grid) if isinstance(grid, int) else tuple(grid)
         way = {"method": method, "grid": size, "over_view": over == "view", "error": error}
         name = quantity or self._core.default_quantity()
-        return resample(self, name, self.view_at(**view), way, progress)
+        return resample(self, name, self._seen(options), way, progress)
 
-    def view(self, quantity: str | None = None, **options: Any) -> Viewer:
-        """A view in a notebook that follows the mouse: pan, zoom, read values; exact in every frame.
+    @passes
+    def view(self, quantity: str | None = None, **options: Unpack[ViewerOptions]) -> Viewer:
+        """Shows the field in a notebook: pan, zoom, read values, exact in every frame.
 
         Args:
             quantity: As in `render`.
-            options: What is seen first: center, width, or tip, zoom. Traits of `ppum.widget.Viewer`: range, norm, cmap, cracks,
-                deformed, height.
 
         Raises:
-            ImportError: The extra ``notebook`` is not installed.
-            traitlets.TraitError: No such option, or not such a value.
+            ImportError: The package anywidget is not installed.
+            TypeError: No such option.
+            traitlets.TraitError: No such value.
 
         Example:
-            >>> view = f.view("uy", width=0.5, center=(0, 0))
+            >>> view = f.view("uy", width=0.5, center=(0, 0), clim=(0, 1))
             >>> view.width *= 0.5
             >>> view.width
             0.25
@@ -532,17 +601,36 @@ class Field:
         self,
         view: View | None = None,
         *,
-        center: ArrayLike | None = None,
+        center: Sequence[float] | NDArray[Any] | None = None,
         width: float | None = None,
         tip: int | None = None,
         zoom: float | None = None,
-        size: tuple[int, int] = (1024, 768),
+        size: tuple[int, int] | None = None,
     ) -> View:
-        """What a picture shows: all of the plate, or a width around a center, or a tip enlarged `zoom` times (10)."""
+        """What a picture shows: all of the plate, or a width around a center, or a tip enlarged `zoom` times (10).
+
+        Example:
+            >>> f.view_at(tip=1, zoom=4, size=(100, 100)).width
+            1.0
+        """
         if view is not None:
-            return view
-        at, width = self._spot(size, center=center, width=width, tip=tip, zoom=zoom)
+            given: PixelOptions = {"center": center, "width": width, "tip": tip, "zoom": zoom, "size": size}
+            return view_of(view, given)
+        size = pixels(SIZE if size is None else size)
+        at, width = self._spot(size, center, width, tip, zoom)
         return View(at, width, size)
+
+    def _seen(self, options: PixelOptions) -> View:
+        """What a picture in pixels shows."""
+        names = PixelOptions.__annotations__
+        return self.view_at(**{name: options.get(name) for name in names})  # type: ignore[arg-type]
+
+    def _place(self, options: PlaceOptions, size: tuple[int, int]) -> Spot | None:
+        """Center and width of what a page of this size shows; None where nothing is said."""
+        seen = {name: value for name, value in place(options).items() if value is not None}
+        if not seen:
+            return None
+        return self.view_at(**seen, **({} if "view" in seen else {"size": size}))._spot  # type: ignore[arg-type]
 
     def _spot(
         self,
@@ -551,26 +639,102 @@ class Field:
         width: float | None = None,
         tip: int | None = None,
         zoom: float | None = None,
-    ) -> tuple[tuple[float, float], float]:
+    ) -> Spot:
+        if tip is not None and center is not None:
+            raise TypeError("give a tip or a center, not both")
         at = None if center is None else pair(center)
         if tip is not None:
             at = self.step.tips[tip].xy
         return spot(self.dataset.domain, size, at, width, zoom)
 
-    def plot(self, quantity: str | None = None, **options: Any) -> Any:
+    @passes
+    def plot(self, quantity: str | None = None, **options: Unpack[PlotOptions]) -> Any:
         """Draws the field into matplotlib axes: exact at every pixel of the device, on screen, in PNG and PDF, zoomed or not.
 
         Args:
             quantity: A quantity or a formula, as in `render`.
-            options: ax, cmap, norm, clim, colorbar, cracks, alpha, zorder; see `ppum.plotting.plot`.
 
         Returns:
             The artist, a `matplotlib.image.AxesImage`.
+
+        Raises:
+            ImportError: The package matplotlib is not installed.
+            TypeError: No such option.
+
+        Example:
+            >>> image = f.plot("uy", vmin=0, cmap="vik", tip=1, zoom=4)
+            >>> bool(image.axes.get_xlim()[1] > 0.35)
+            True
         """
-        needed("matplotlib", "ppum[plot]", "pictures in matplotlib")
+        needed("matplotlib", "matplotlib xarray", "pictures in matplotlib")
         from .plotting import plot
 
         return plot(self, quantity, **options)
+
+    @overload
+    def intensities(self, tip: None = None, *, progress: Any = None) -> Table[Tip]: ...
+
+    @overload
+    def intensities(self, tip: int, radius: float | None = None, *, progress: Any = None) -> Tip: ...
+
+    def intensities(
+        self, tip: int | None = None, radius: float | None = None, *, progress: Any = None
+    ) -> Table[Tip] | Tip:
+        """Stress intensity factors, T and J found from the field by interaction integrals, whoever made it.
+
+        The loads near the tips are those of the problem that the dataset holds; without one none act there. What the
+        diagnostics find is warned of.
+
+        Args:
+            tip: The number of a tip; by default all.
+            radius: That of the largest disc; by default nine tenths of the largest one that nothing disturbs.
+            progress: As in `render`.
+
+        Returns:
+            The tip, or a table of all. `error` is NaN: only the solver knows it.
+
+        Raises:
+            IndexError: There is no such tip.
+            SolveError: A potential; a radius that something else lies within; loads that are not known.
+
+        Example:
+            >>> found = f.intensities(1)
+            >>> abs(found.k1 / ds.tips[1].k1 - 1) < 1e-12
+            True
+            >>> abs(f.intensities(1, radius=0.1).k1 / found.k1 - 1) < 1e-2
+            True
+        """
+        from .dataset import tips_of
+
+        if tip is None:
+            if radius is not None:
+                raise TypeError("radius: give the tip that it is of")
+            return self._found_tips(progress)
+        number = self.step.tips._number(tip)
+        if radius is None:
+            return self._found_tips(progress)[number]
+        found, ends, _ = _core.intensities(self._core, (number, float(radius)), progress)
+        return tips_of(json.loads(found), ends)[0]
+
+    def _found_tips(self, progress: Any) -> Table[Tip]:
+        """The factors of all tips, found once."""
+        from .dataset import tips_of
+
+        if self._tips is None:
+            found, ends, told = _core.intensities(self._core, None, progress)
+            for text in told:
+                warnings.warn(text, stacklevel=3)
+            self._tips = tips_of(json.loads(found), ends)
+        return self._tips
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Field):
+            return NotImplemented
+        mine, theirs = ((f._number, f._subject) for f in (self, other))
+        return mine == theirs and self.dataset == other.dataset
+
+    def __hash__(self) -> int:
+        return hash((self._number, self.dataset))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Field, (self.dataset, self._number, self._subject)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
@@ -22,7 +22,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .drawn import Page
-from .values import pair
+from .values import degrees, pair
+from .views import pixels
 
 if TYPE_CHECKING:
     from .dataset import Dataset
@@ -39,13 +40,17 @@ SIZE: Size = (900, 600)
 
 
 class Plot(Page):
-    """Curves over axes; made by the functions of `ppum.plots`. Notebooks show it."""
+    """Curves over axes; made by the functions of `ppum.plots`. Notebooks show it; it can be pickled."""
 
-    def __init__(self, core: _core.Curves, size: Size) -> None:
+    def __init__(self, curves: Callable[..., _core.Curves], made_of: tuple[Any, ...], size: Size) -> None:
         super().__init__()
-        self._core, self._size = core, (int(size[0]), int(size[1]))
-        for text in core.warnings():
+        self._core, self._size = curves(*made_of), pixels(size)
+        self._again = curves, made_of, self._size
+        for text in self._core.warnings():
             warnings.warn(text, stacklevel=4)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Plot, self._again
 
     @property
     def curves(self) -> list[tuple[str, NDArray[np.float64]]]:
@@ -98,7 +103,7 @@ def circle(
     log: Axes = "",
     size: Size = SIZE,
 ) -> Plot:
-    """Quantities on a circle, over the angle from the x axis; further arguments as for `line`."""
+    """Quantities on a circle, over the angle from the x axis, drawn in degrees; further arguments as for `line`."""
     along = {"circle": {"center": pair(center), "radius": radius}}
     return _profiles(fields, along, quantities, num, log, size)
 
@@ -157,7 +162,7 @@ def ray(
     """Quantities on a ray from a tip, on logarithmic axes, with the exponents of their power laws near it.
 
     Args:
-        angle: That from the crack's extension, degrees.
+        angle: That from the crack's extension, radians, as `Tip.growth_angle`.
 
     Further arguments are as for `line`.
 
@@ -166,7 +171,7 @@ def ray(
         >>> plot.curves[0][1].shape
         (201, 2)
     """
-    along = {"ray": {"tip": tip, "angle": angle, "far": length}}
+    along = {"ray": {"tip": tip, "angle": degrees(angle), "far": length}}
     return _profiles(fields, along, quantities, num, log, size)
 
 
@@ -256,13 +261,19 @@ def _profiles(
     fields: Field | Mapping[str, Field], along: Any, quantities: Any, num: int, log: str, size: Size
 ) -> Plot:
     wanted = None if quantities is None else _list(quantities, "quantities")
-    named = [(name, field._core) for name, field in _named(fields)]
-    return Plot(_core.profiles(named, json.dumps(along), num, wanted, log), size)
+    return Plot(_profile_curves, (_named(fields), json.dumps(along), num, wanted, log), size)
+
+
+def _profile_curves(named: list[tuple[str, Field]], *how: Any) -> _core.Curves:
+    return _core.profiles([(name, field._core) for name, field in named], *how)
 
 
 def _told(datasets: Dataset | Mapping[str, Dataset], kind: Any, log: str, size: Size) -> Plot:
-    named = [(name, dataset._core) for name, dataset in _named(datasets)]
-    return Plot(_core.told(named, json.dumps(kind), log), size)
+    return Plot(_told_curves, (_named(datasets), json.dumps(kind), log), size)
+
+
+def _told_curves(named: list[tuple[str, Dataset]], *how: Any) -> _core.Curves:
+    return _core.told([(name, dataset._core) for name, dataset in named], *how)
 
 
 def _list(names: Sequence[str], what: str) -> list[str]:

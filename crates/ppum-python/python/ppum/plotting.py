@@ -7,15 +7,20 @@ places as double precision has them: below some 1e-12 of the coordinates use `Fi
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
+import matplotlib
 import numpy as np
+from matplotlib.colors import ListedColormap, to_rgba
 from matplotlib.image import AxesImage
 from matplotlib.transforms import Bbox
 
 from . import _core
 from .errors import QuantityError
-from .pictures import spot
+from .options import takes
+from .styles import PlotOptions, span
+from .values import math_text
+from .views import Spot, spot
 
 if TYPE_CHECKING:
     from .field import Field
@@ -25,83 +30,90 @@ __all__ = ["FieldImage", "plot"]
 #: Longer side of the picture that colours are chosen from, in pixels.
 COARSE = 256
 
+#: Columns of a view of the plate that places are counted in.
+FINE = 1 << 20
+
 #: Percentiles that colours span by default where the field may be infinite.
 ROBUST = (0.5, 99.5)
 
 
-def plot(
-    field: Field,
-    quantity: str | None = None,
-    *,
-    ax: Any = None,
-    cmap: Any = None,
-    norm: Any = None,
-    clim: Any = "auto",
-    colorbar: bool = True,
-    cracks: bool = True,
-    **artist: Any,
-) -> FieldImage:
-    """Draws a quantity into axes.
-
-    Args:
-        field: The field.
-        quantity: A quantity or a formula.
-        ax: Axes; by default the current ones, which get equal scales.
-        cmap, norm: As matplotlib has them; a norm by its name, or an object.
-        clim: ``auto``: percentiles of a picture of the plate, robust against tips; ``full``: all its finite values; or two
-            values.
-        colorbar: Whether there is a colour bar, with the quantity's symbol.
-        cracks: Whether cracks and rims of holes are drawn.
-        artist: alpha, zorder and other properties of artists.
+@takes
+def plot(field: Field, quantity: str | None = None, **options: Unpack[PlotOptions]) -> FieldImage:
+    """Draws a quantity into axes, see `Field.plot`.
 
     Returns:
         The artist.
 
     Raises:
         QuantityError: No quantity of the field.
+        TypeError: No such option.
     """
     import matplotlib.pyplot as plt
 
-    ax = ax if ax is not None else plt.gca()
-    name = quantity or field._core.default_quantity()
-    image = FieldImage(ax, field, name, cmap=cmap, norm=norm, **artist)
-    image.set_clim(*_limits(image.get_array(), clim))
-    ax.add_image(image)
     (x0, y0), (x1, y1) = field.dataset.domain
-    ax.set_aspect("equal")
-    ax.update_datalim([(x0, y0), (x1, y1)])
-    ax.autoscale_view()
-    if cracks:
+    # as wide and high as the plate, so that a zoom is counted from all of it
+    shape = FINE, max(1, round(FINE * (y1 - y0) / (x1 - x0)))
+    found, seen = span(options), field._place(options, shape)
+    ax = options["ax"] if options["ax"] is not None else plt.gca()
+    name = quantity or field._core.default_quantity()
+    artist = {key: options[key] for key in ("alpha", "zorder", "label", "visible", "rasterized", "gid")}
+    cmap, norm = options["cmap"], options["norm"]
+    image = FieldImage(ax, field, name, options["nan_color"], cmap=cmap, norm=norm, **artist)
+    image.set_clim(*_limits(image.get_array(), found))
+    ax.add_image(image)
+    _show(ax, field, seen)
+    if options["cracks"]:
         _draw_lines(field, ax)
-    if colorbar:
-        bar = ax.figure.colorbar(image, ax=ax)
-        symbol, unit = field._core.words(name)
-        bar.set_label(f"{_math(symbol)} [{unit}]" if unit else _math(symbol))
+    if bar := options["colorbar"]:
+        _draw_bar(ax, image, bar if isinstance(bar, str) else "right")
     return image
 
 
-def _limits(values: Any, clim: Any) -> tuple[float, float]:
+def _show(ax: Any, field: Field, seen: Spot | None) -> None:
+    """Equal scales, and limits that show a place or all of the plate."""
+    (x0, y0), (x1, y1) = field.dataset.domain
+    ax.set_aspect("equal")
+    if seen is None:
+        ax.update_datalim([(x0, y0), (x1, y1)])
+        ax.autoscale_view()
+        return
+    (x, y), half = seen[0], 0.5 * seen[1]
+    tall = half * (y1 - y0) / (x1 - x0)
+    ax.set(xlim=(x - half, x + half), ylim=(y - tall, y + tall))
+
+
+def _draw_bar(ax: Any, image: FieldImage, location: str) -> None:
+    bar = ax.figure.colorbar(image, ax=ax, location=location)
+    symbol, unit = image._field._core.words(image._quantity)
+    bar.set_label(f"{math_text(symbol)} [{unit}]" if unit else math_text(symbol))
+
+
+def _register() -> None:
+    """Makes the colour maps that matplotlib has not known there, by their names."""
+    known = matplotlib.colormaps
+    names = [name for name in _core.colormaps() if name not in known]
+    for name in names:
+        colors = np.array(_core.colormap(name)) / 255
+        known.register(ListedColormap(colors, name=name))
+        known.register(ListedColormap(colors[::-1], name=f"{name}_r"))
+
+
+def _limits(values: Any, found: Any) -> tuple[float, float]:
+    """The ends of the colours for values of a coarse picture."""
     finite = values.compressed()
     finite = finite[np.isfinite(finite)]
-    if not isinstance(clim, str):
-        low, high = clim
-        return float(low), float(high)
-    if clim not in ("auto", "full"):
-        raise ValueError(f"clim: {clim!r} is none; give auto, full, or two values")
     if finite.size == 0:
-        return 0.0, 1.0
-    ends = np.percentile(finite, ROBUST if clim == "auto" else (0, 100))
-    return float(ends[0]), float(ends[1])
+        finite = np.array([0.0, 1.0])
+    ends = np.percentile(finite, (0, 100) if found == "full" else ROBUST)
+    given = (None, None) if isinstance(found, str) else found
+    low, high = (_end(end, auto, finite) for end, auto in zip(given, ends, strict=True))
+    return low, high
 
 
-def _math(symbol: str) -> str:
-    """Subscripts as matplotlib's mathtext has them; words stay words."""
-    parts = []
-    while "_{" in symbol:
-        before, rest = symbol.split("_{", 1)
-        below, symbol = rest.split("}", 1)
-        parts.append(before + "$_{" + below + "}$")
-    return "".join(parts) + symbol
+def _end(end: Any, auto: Any, finite: Any) -> float:
+    if isinstance(end, str):
+        return float(np.percentile(finite, float(end.removesuffix("%"))))
+    return float(auto if end is None else end)
 
 
 def _draw_lines(field: Field, ax: Any) -> None:
@@ -130,16 +142,19 @@ class FieldImage(AxesImage):
     Its array is a coarse picture of the plate, for norms and colour bars to begin with.
     """
 
-    def __init__(self, ax: Any, field: Field, quantity: str, **properties: Any) -> None:
+    def __init__(
+        self, ax: Any, field: Field, quantity: str, nan_color: Any = None, **properties: Any
+    ) -> None:
         (x0, y0), (x1, y1) = field.dataset.domain
         super().__init__(
             ax, interpolation="nearest", origin="upper", extent=(x0, x1, y0, y1), **properties
         )
         self._field, self._quantity = field, quantity
+        self._nan_color = None if nan_color is None else to_rgba(nan_color)
         field._core.check(quantity)
         longest = max(x1 - x0, y1 - y0)
         size = tuple(max(1, round(COARSE * d / longest)) for d in (x1 - x0, y1 - y0))
-        at = spot(field.dataset.domain, size, None, None, None)  # type: ignore[arg-type]
+        at = spot(field.dataset.domain, size)  # type: ignore[arg-type]
         coarse = _core.render(field._core, quantity, at, size, False, None)  # type: ignore[arg-type]
         self.set_data(np.ma.masked_invalid(coarse))
         self.set_clip_path(ax.patch)
@@ -166,15 +181,24 @@ class FieldImage(AxesImage):
             return None, 0, 0, None
         left, bottom = np.floor(np.array(seen.min) * magnification)
         columns, rows = np.maximum(np.ceil(np.array(seen.max) * magnification) - (left, bottom), 1)
-        values = self._at_pixels(to_display, magnification, (left, bottom), (int(columns), int(rows)))
+        where = to_display, magnification, (left, bottom), (int(columns), int(rows))
+        values = self._at_pixels(self._quantity, *where)
         rgba = self.to_rgba(np.ma.masked_invalid(values), bytes=True, norm=True)
+        if self._nan_color is not None:
+            on_plate = np.isfinite(self._at_pixels(self._field.components[0], *where))
+            rgba[on_plate & np.isnan(values)] = np.round(255 * np.array(self._nan_color))
         alpha: Any = self.get_alpha()
         if alpha is not None:
             rgba[..., 3] = np.where(rgba[..., 3] > 0, round(255 * float(alpha)), 0)
         return rgba, left / magnification, bottom / magnification, None
 
     def _at_pixels(
-        self, to_display: Any, scale: float, corner: tuple[float, float], size: tuple[int, int]
+        self,
+        quantity: str,
+        to_display: Any,
+        scale: float,
+        corner: tuple[float, float],
+        size: tuple[int, int],
     ) -> Any:
         """Values at the centres of pixels, the lowest row first."""
         x = (corner[0] + np.arange(size[0]) + 0.5) / scale
@@ -186,8 +210,11 @@ class FieldImage(AxesImage):
             if steps[0] > 0 and abs(steps[1] / steps[0] - 1.0) < 1e-9:
                 center = (float(ends[:, 0].mean()), float(ends[:, 1].mean()))
                 at = (center, float(steps[0] * size[0]))
-                return _core.render(self._field._core, self._quantity, at, size, False, None)[::-1]
+                return _core.render(self._field._core, quantity, at, size, False, None)[::-1]
         points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
         data = to_data.transform(points)
-        values = self._field.at(data[:, 0], data[:, 1])[self._quantity]
+        values = self._field.at(data[:, 0], data[:, 1])[quantity]
         return values.reshape(size[::-1])
+
+
+_register()

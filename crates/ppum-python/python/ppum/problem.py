@@ -8,13 +8,25 @@ import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _core
 from .dataset import Dataset
 from .errors import Finding, ProblemError
+from .options import takes
+from .sections import (
+    AdaptivityOptions,
+    BoundaryOptions,
+    CrackOptions,
+    DiscretizationOptions,
+    GrowthOptions,
+    HoleOptions,
+    SpaceOptions,
+)
+from .toml import plain, written
 
 __all__ = ["Elastic", "Poisson", "Problem", "solve"]
 
@@ -46,7 +58,7 @@ class Poisson:
 class Problem:
     """A problem, frozen: each call gives a new one.
 
-    What can be said is what problem files can say, by the same names (docs/problem-file.md).
+    Options are the keys of problem files (docs/problem-file.md); `section` and `add` take what has no method of its own.
 
     Example:
         >>> plate = (
@@ -73,7 +85,9 @@ class Problem:
         *,
         title: str = "",
     ) -> None:
-        low, high = domain
+        if not isinstance(material, (Elastic, Poisson)):
+            raise TypeError(f"material: ppum.Elastic or ppum.Poisson is needed, not {_kind(material)}")
+        low, high = _box(domain)
         spec: dict[str, Any] = {"title": title} if title else {}
         spec["domain"] = {"min": low, "max": high}
         if isinstance(material, Poisson):
@@ -85,7 +99,7 @@ class Problem:
                 "poisson": material.poisson,
                 "state": material.state,
             }
-        self._set(_plain(spec), None, "problem", Path())
+        self._set(plain(spec), None, "problem", Path())
 
     def _set(self, spec: dict[str, Any], text: str | None, name: str, folder: Path) -> None:
         self._spec, self._text, self._name, self._folder = spec, text, name, folder
@@ -102,10 +116,19 @@ class Problem:
 
         Raises:
             OSError: It cannot be read.
-            ProblemError: It is no TOML.
+            ProblemError: It is not TOML.
+            ValueError: It is a dataset.
         """
         path = Path(path)
-        return cls._parse(path.read_text(encoding="utf-8"), str(path), path.parent)
+        data = path.read_bytes()
+        if data.startswith(b"\x89HDF"):
+            raise ValueError(f"{path} is a dataset, which is solved already: open it by ppum.open")
+        try:
+            text = data.decode()
+        except UnicodeDecodeError as error:
+            message = f"byte {error.start} is no UTF-8; write the file in this encoding"
+            raise ProblemError(f"{path}: {message}", [Finding(str(path), None, None, message)]) from None
+        return cls._parse(text.replace("\r\n", "\n"), str(path), path.parent)
 
     @classmethod
     def parse(cls, text: str) -> Problem:
@@ -132,66 +155,157 @@ class Problem:
             >>> ppum.Problem.from_dict(plate.to_dict()) == plate
             True
         """
-        return cls._of(_plain(dict(spec)), None, "problem", Path())
+        return cls._of(plain(dict(spec)), None, "problem", Path())
 
     def to_dict(self) -> dict[str, Any]:
         """The problem as a dictionary, a copy."""
-        copied: dict[str, Any] = _plain(self._spec)
+        copied: dict[str, Any] = plain(self._spec)
         return copied
 
     def to_toml(self) -> str:
         """The text of a problem file."""
-        return self._text if self._text is not None else _written(self._spec)[0]
+        return self._text if self._text is not None else written(self._spec)[0]
 
-    def crack(self, *points: Iterable[float], **keys: Any) -> Problem:
-        """One more crack, through points; or by keys: arc, ellipse, spline, path, segments."""
-        return self.add("crack", **({"points": points} if points else {}), **keys)
+    @takes
+    def crack(self, *points: ArrayLike, **options: Unpack[CrackOptions]) -> Problem:
+        """One more crack, through points or an array of them; or by one of the options.
 
-    def hole(self, **keys: Any) -> Problem:
-        """One more hole: center and radius, points, ellipse or spline."""
-        return self.add("hole", **keys)
+        Example:
+            >>> one = plate.crack((-0.9, -1.5), (-0.6, -1.5))
+            >>> one == plate.crack(np.array([[-0.9, -1.5], [-0.6, -1.5]]))
+            True
+        """
+        if len(points) == 1 and np.ndim(plain(points[0])) == 2:
+            points = tuple(np.asarray(points[0]))
+        return self.add("crack", **({"points": points} if points else {}), **options)
 
-    def boundary(self, on: str | Mapping[str, Any], **keys: Any) -> Problem:
-        """One more condition on an edge, a rim or the faces of a crack: displacement, traction, pressure, symmetry; for
-        Poisson's equation value, flux."""
-        return self.add("boundary", on=on, **keys)
+    @takes
+    def hole(self, **options: Unpack[HoleOptions]) -> Problem:
+        """One more hole.
+
+        Example:
+            >>> plate.hole(center=(0.6, 1.2), radius=0.2).check()
+            ()
+        """
+        return self.add("hole", **options)
+
+    @takes
+    def boundary(self, on: str | Mapping[str, Any], **options: Unpack[BoundaryOptions]) -> Problem:
+        """One more condition.
+
+        Args:
+            on: ``left``, ``right``, ``bottom`` or ``top``; or a dictionary of edge, from, to; of hole; of crack and face.
+
+        Example:
+            >>> plate.boundary({"crack": 0, "face": "above"}, pressure=1).check()
+            ()
+        """
+        return self.add("boundary", on=on, **options)
 
     def quantity(self, name: str, formula: str, unit: str = "") -> Problem:
-        """One more quantity with a name."""
+        """One more quantity with a name.
+
+        Example:
+            >>> plate.quantity("safety", "2/von_mises").check()
+            ()
+        """
         return self.add("quantity", name=name, formula=formula, **({"unit": unit} if unit else {}))
 
-    def discretization(self, **keys: Any) -> Problem:
-        """Cells and functions: level, cells, order, overlap, weight, enrichment, accuracy and more. Keys that are given
-        already stay, unless they are given anew; what says how many cells there are replaces what said it."""
+    @takes
+    def discretization(self, **options: Unpack[DiscretizationOptions]) -> Problem:
+        """Cells and functions.
+
+        Options that were given before stay, unless they are given anew. `level`, `cells`, `points` and `accuracy` each replace
+        the others.
+
+        Example:
+            >>> plate.discretization(level=3, order=3).to_dict()["discretization"]
+            {'order': 3, 'level': 3}
+        """
         old = dict(self._spec.get("discretization", {}))
         sizes = ("level", "cells", "points", "accuracy")
-        if any(key in keys for key in sizes):
+        if any(key in options for key in sizes):
             old = {key: value for key, value in old.items() if key not in sizes}
-        return self.section("discretization", **{**old, **keys})
+        return self.section("discretization", **{**old, **options})
+
+    @takes
+    def accuracy(self, error: float, **options: Unpack[SpaceOptions]) -> Problem:
+        """Cells and orders that give K to a relative error, in place of a number of cells.
+
+        Example:
+            >>> plate.accuracy(1e-3).to_dict()["discretization"]
+            {'order': 2, 'accuracy': 0.001}
+        """
+        return self.discretization(accuracy=error, **options)
+
+    @takes
+    def growth(self, steps: int, **options: Unpack[GrowthOptions]) -> Problem:
+        """Lets the cracks grow, in so many steps at most.
+
+        Example:
+            >>> plate.growth(3, increment=0.05).check()
+            ()
+        """
+        return self.section("growth", steps=steps, **options)
+
+    @takes
+    def adaptivity(self, **options: Unpack[AdaptivityOptions]) -> Problem:
+        """Improves cells until the field is good enough.
+
+        Example:
+            >>> plate.adaptivity(tolerance=0.01, keep="all").check()
+            ()
+        """
+        return self.section("adaptivity", **options)
 
     def section(self, name: str, /, **keys: Any) -> Problem:
-        """The problem with a section of this name, e.g. ``adaptivity``, ``growth``, ``solver``, in place of what it had."""
+        """The problem with a section of this name, e.g. ``solver``, ``body_force``, in place of what it had. `check` finds keys
+        that there are not.
+
+        Example:
+            >>> plate.section("solver", kind="direct").check()
+            ()
+        """
         return self._with({**self._spec, name: keys})
 
     def add(self, name: str, /, **keys: Any) -> Problem:
-        """The problem with one more section of a kind that there may be several of, e.g. ``refine``, ``table``."""
+        """The problem with one more section of a kind that there may be several of, e.g. ``refine``, ``table``. `check` finds
+        keys that there are not.
+
+        Example:
+            >>> plate.add("refine", center=(0.3, 0.4), radius=0.2, size=0.1).check()
+            ()
+        """
         return self._with({**self._spec, name: [*self._spec.get(name, ()), keys]})
 
     def _with(self, spec: dict[str, Any]) -> Problem:
-        return self._of(_plain(spec), None, "problem", self._folder)
+        return self._of(plain(spec), None, "problem", self._folder)
 
     def check(self) -> tuple[Finding, ...]:
-        """Everything that is wrong; nothing if the problem can be solved as far as its text tells. Findings of problems
-        made in Python name keys, those of files lines."""
+        """What is wrong; nothing if the problem can be solved as far as its text tells.
+
+        Findings of problems made in Python name keys, those of files lines. Where a table is missing, others are looked into
+        once it is there.
+
+        Example:
+            >>> plate.boundary("nowhere", traction=(0, 1)).check()[0].place
+            'boundary[2].on'
+        """
         if self._text is not None:
             found = _core.check(self._text, self._name, self._folder)
             return tuple(Finding(**f) for f in found)
-        text, keys = _written(self._spec)
+        text, keys = written(self._spec)
         return tuple(_of_key(Finding(**f), keys) for f in _core.check(text, "problem", self._folder))
 
-    def solve(self, **options: Any) -> Dataset:
+    def solve(
+        self,
+        *,
+        threads: int | None = None,
+        memory: int | None = None,
+        progress: bool | Progress = False,
+    ) -> Dataset:
         """Solves the problem, see `ppum.solve`."""
-        return solve(self, **options)
+        return solve(self, threads=threads, memory=memory, progress=progress)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Problem):
@@ -199,7 +313,7 @@ class Problem:
         return self._spec == other._spec and self._folder == other._folder
 
     def __hash__(self) -> int:
-        return hash(_written(self._spec)[0])
+        return hash(written(self._spec)[0])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _again, (self._spec, self._text, self._name, str(self._folder))
@@ -208,6 +322,24 @@ class Problem:
         title = self._spec.get("title", "")
         cracks = self._spec.get("crack", ())
         return f"<ppum.Problem {title!r}, {len(cracks)} crack{'' if len(cracks) == 1 else 's'}>"
+
+
+def _kind(value: Any) -> str:
+    return type(value).__name__
+
+
+def _box(domain: Any) -> tuple[Any, Any]:
+    """The corners of a domain.
+
+    Raises:
+        TypeError: It has not two.
+    """
+    try:
+        low, high = domain
+        return tuple(low), tuple(high)
+    except (TypeError, ValueError):
+        message = "domain: two corners are needed, ((x0, y0), (x1, y1))"
+        raise TypeError(f"{message}, not {domain!r}") from None
 
 
 def _again(spec: dict[str, Any], text: str | None, name: str, folder: str) -> Problem:
@@ -220,75 +352,6 @@ def _of_key(finding: Finding, keys: list[str]) -> Finding:
         return finding
     key = keys[min(finding.line, len(keys)) - 1] if keys else finding.place
     return Finding(key, None, None, finding.message)
-
-
-def _plain(value: Any) -> Any:
-    """Values that TOML has; frozen data are copied."""
-    if isinstance(value, Mapping):
-        return {str(k): _plain(v) for k, v in value.items() if v is not None}
-    if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
-    if isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, (bool, int, float, str)):
-        return value
-    if isinstance(value, os.PathLike):
-        return os.fspath(value)
-    if isinstance(value, Iterable):
-        return [_plain(v) for v in value]
-    raise TypeError(f"a problem is made of numbers, texts, lists and dictionaries, not of {type(value)}")
-
-
-def _written(spec: Mapping[str, Any]) -> tuple[str, list[str]]:
-    """The text of a problem file, and the key of each of its lines."""
-    lines: list[tuple[str, str]] = []
-    for name, value in spec.items():
-        if not isinstance(value, dict) and not _is_tables(value):
-            lines.append((f"{_key(name)} = {_value(value)}", name))
-    for name, value in spec.items():
-        if isinstance(value, dict):
-            _section(lines, f"[{_key(name)}]", name, value)
-        elif _is_tables(value):
-            for k, one in enumerate(value):
-                _section(lines, f"[[{_key(name)}]]", f"{name}[{k}]", one)
-    text = "".join(line + "\n" for line, _ in lines)
-    return text, [key for _, key in lines]
-
-
-def _section(lines: list[tuple[str, str]], head: str, place: str, keys: dict[str, Any]) -> None:
-    lines.append((head, place))
-    lines.extend((f"{_key(k)} = {_value(v)}", f"{place}.{k}") for k, v in keys.items())
-
-
-def _is_tables(value: Any) -> bool:
-    return isinstance(value, list) and bool(value) and all(isinstance(v, dict) for v in value)
-
-
-def _key(name: str) -> str:
-    plain = name and all(c.isascii() and (c.isalnum() or c in "_-") for c in name)
-    return name if plain else _text(name)
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, (int, float)):
-        return repr(value)
-    if isinstance(value, str):
-        return _text(value)
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + "}"
-    return "[" + ", ".join(_value(v) for v in value) + "]"
-
-
-_ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
-
-
-def _text(text: str) -> str:
-    escaped = (
-        _ESCAPES.get(c) or (f"\\u{ord(c):04x}" if ord(c) < 32 or ord(c) == 127 else c) for c in text
-    )
-    return '"' + "".join(escaped) + '"'
 
 
 def solve(
@@ -321,8 +384,12 @@ def solve(
     """
     if isinstance(problem, (str, os.PathLike)):
         problem = Problem.read(problem)
-    elif not isinstance(problem, Problem):
+    elif isinstance(problem, Mapping):
         problem = Problem.from_dict(problem)
+    elif isinstance(problem, Dataset):
+        raise TypeError("problem: this is a dataset, which is solved already; its `problem` is what was solved")
+    elif not isinstance(problem, Problem):
+        raise TypeError(f"problem: a ppum.Problem, a dictionary or a path is needed, not {_kind(problem)}")
     if threads is not None and threads < 1:
         raise ValueError("threads: one or more")
     told = _Line() if progress is True else progress or None

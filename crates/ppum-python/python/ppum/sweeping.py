@@ -23,6 +23,16 @@ __all__ = ["Sweep", "sweep"]
 
 #: What is kept of each tip, see `Tip`.
 TIPS = ("k1", "k2", "t_stress", "j", "g", "growth_angle", "error")
+#: What plots write at axes.
+LABELS = {
+    "k1": {"long_name": "$K_{I}$"},
+    "k2": {"long_name": "$K_{II}$"},
+    "t_stress": {"long_name": "$T$"},
+    "j": {"long_name": "$J$"},
+    "g": {"long_name": "$G$"},
+    "growth_angle": {"long_name": "angle of growth", "units": "rad"},
+    "error": {"long_name": "estimated error of $K$"},
+}
 #: What is kept of each solution beside it.
 PLAIN = ("energy", "unknowns", "patches", "warnings")
 
@@ -74,10 +84,16 @@ class Sweep:
 
     def problems(self) -> Iterator[tuple[dict[str, Any], Problem]]:
         """Each combination with its problem, the last parameter running fastest."""
+        for chosen in self._combinations():
+            yield chosen, self._problem(chosen)
+
+    def _combinations(self) -> Iterator[dict[str, Any]]:
         for values in itertools.product(*self._values.values()):
-            chosen = dict(zip(self._values, values, strict=True))
-            problem = self._make(**chosen)
-            yield chosen, problem if isinstance(problem, Problem) else Problem.from_dict(problem)
+            yield dict(zip(self._values, values, strict=True))
+
+    def _problem(self, chosen: dict[str, Any]) -> Problem:
+        problem = self._make(**chosen)
+        return problem if isinstance(problem, Problem) else Problem.from_dict(problem)
 
     def run(
         self,
@@ -89,8 +105,8 @@ class Sweep:
     ) -> Any:
         """Solves all problems.
 
-        Numbers come back, not datasets. A problem that cannot be solved, or whose worker dies again and again, has NaN, and the
-        reason in `status`, which is empty otherwise.
+        Numbers come back, not datasets. A problem that cannot be made or solved, or whose worker dies again and again, has
+        NaN, and the reason in `status`, which is empty otherwise.
 
         Args:
             client: A `dask.distributed.Client`; its workers solve, one problem a task. Without one this process solves, one
@@ -102,21 +118,47 @@ class Sweep:
 
         Returns:
             An `xarray.Dataset` over the parameters: energy, unknowns, patches, warnings, status; and over `tip` as well: k1, k2,
-            t_stress, j, g, growth_angle, error, and the place x, y.
+            t_stress, j, g, growth_angle, error, and the place x, y; with symbols as `long_name`.
+
+        Raises:
+            Exception: What is raised for the first combination, if no problem can be made.
+
+        Example:
+            >>> cases = ppum.sweep(lambda order: plate.discretization(level=2, order=order), order=[1, 2])
+            >>> result = cases.run()
+            >>> result.k1.sel(order=2, tip=1).attrs["long_name"], result.unknowns.values.tolist()[0] > 0
+            ('$K_{I}$', True)
         """
         # before hours of work, not after
-        xarray = needed("xarray", "ppum[sweep]", "results of sweeps")
+        xarray = needed("xarray", "xarray", "results of sweeps")
         folder = None if save is None else Path(save).absolute()
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
-        problems = [problem for _, problem in self.problems()]
-        tell = _counting(progress, len(problems))
-        rows: list[_Row] = [{} for _ in problems]
+        made, rows = self._made()
+        tell = _counting(progress, len(rows))
         found = _here if client is None else _there(client)
-        for done, (k, row) in enumerate(found(problems, folder, threads), 1):
-            rows[k] = row
+        failed = len(rows) - len(made)
+        for done, (k, row) in enumerate(found(list(made.values()), folder, threads), 1 + failed):
+            rows[list(made)[k]] = row
             tell(done)
         return self._gathered(rows, xarray)
+
+    def _made(self) -> tuple[dict[int, Problem], list[_Row]]:
+        """The problems by the numbers of their combinations, and the rows of those that cannot be made.
+
+        Raises:
+            Exception: That of the first combination, if none can be made.
+        """
+        made: dict[int, Problem] = {}
+        errors: dict[int, Exception] = {}
+        for k, chosen in enumerate(self._combinations()):
+            try:
+                made[k] = self._problem(chosen)
+            except Exception as error:
+                errors[k] = error
+        if errors and not made:
+            raise errors[0]
+        return made, [_failed(errors[k]) if k in errors else {} for k in range(len(self))]
 
     def _gathered(self, rows: list[_Row], xarray: Any) -> Any:
         shape, dims = tuple(len(v) for v in self._values.values()), tuple(self._values)
@@ -131,7 +173,8 @@ class Sweep:
         }
         variables["status"] = dims, np.array([row["status"] for row in rows]).reshape(shape)
         for n, name in enumerate((*TIPS, "x", "y")):
-            variables[name] = (*dims, "tip"), per_tip[..., n].reshape(*shape, count)
+            values = per_tip[..., n].reshape(*shape, count)
+            variables[name] = (*dims, "tip"), values, LABELS.get(name, {})
         return xarray.Dataset(variables, {**self._values, "tip": np.arange(count)})
 
 

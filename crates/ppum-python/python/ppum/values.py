@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -9,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import QuantityError
+from .errors import MissingKey, QuantityError
+from .options import nearest
 
 if TYPE_CHECKING:
     from .field import Field
 
-__all__ = ["Quantities", "Quantity", "Values", "check_out", "floats", "pair"]
+__all__ = ["Quantities", "Quantity", "Values", "check_out", "degrees", "floats", "math_text", "pair"]
 
 Floats = NDArray[np.float64]
 SIDES = ("above", "below", "both")
@@ -44,7 +46,12 @@ class Quantities(Mapping[str, Quantity]):
         self._all = {quantity.name: quantity for quantity in all}
 
     def __getitem__(self, name: str) -> Quantity:
-        return self._all[name if name in self._all else name.replace("_", "-")]
+        found = self._all.get(name) or self._all.get(name.replace("_", "-"))
+        if found is None:
+            near = nearest(name.replace("_", "-"), self._all)
+            hint = f"did you mean `{near}`?" if near else f"there are {', '.join(self._all)}"
+            raise MissingKey(f"no quantity is called `{name}`; {hint}")
+        return found
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._all)
@@ -107,7 +114,14 @@ class Values:
         return self._evaluate([quantity], False, None)[..., 0]
 
     def gradient(self, quantity: str) -> Floats:
-        """The exact gradient of a quantity, no difference: shape (..., 2) with ∂/∂x and ∂/∂y last."""
+        """The exact gradient of a quantity, no difference: shape (..., 2) with ∂/∂x and ∂/∂y last.
+
+        The quantity `gradient` of a potential, the length of ∇u, is ``values["gradient"]``.
+
+        Example:
+            >>> f.at([0.1, 0.2], 0.5).gradient("uy").shape
+            (2, 2)
+        """
         return self._evaluate([quantity], True, None)[..., 0, 1:]
 
     def _evaluate(self, names: list[str], gradient: bool, out: Floats | None) -> Floats:
@@ -134,7 +148,7 @@ class Values:
 
     def __dir__(self) -> list[str]:
         names = (name.replace("-", "_") for name in self._field.quantities)
-        return [*super().__dir__(), *(name for name in names if name.isidentifier())]
+        return sorted({*super().__dir__(), *(name for name in names if name.isidentifier())})
 
     def __repr__(self) -> str:
         return f"<ppum.Values at {'a point' if self._shape == () else f'points of shape {self._shape}'}>"
@@ -148,6 +162,27 @@ def floats(values: ArrayLike) -> Floats:
     if array.dtype.kind not in "fiub":
         raise TypeError(f"coordinates are real numbers, not {array.dtype}")
     return np.asarray(array, dtype=np.float64)
+
+
+def degrees(angle: float) -> float:
+    """An angle in degrees, which the libraries take.
+
+    Raises:
+        ValueError: An angle of more than a turn, which is likely to be one in degrees.
+    """
+    if not abs(angle) <= 2 * math.pi:
+        raise ValueError(f"angle: {angle!r} is more than a turn; angles are in radians, see math.radians")
+    return math.degrees(angle)
+
+
+def math_text(symbol: str) -> str:
+    """A symbol with its subscripts as matplotlib's mathtext has them; words stay words."""
+    parts = []
+    while "_{" in symbol:
+        before, rest = symbol.split("_{", 1)
+        below, symbol = rest.split("}", 1)
+        parts.append(before + "$_{" + below + "}$")
+    return "".join(parts) + symbol
 
 
 def pair(point: ArrayLike) -> tuple[float, float]:

@@ -9,7 +9,8 @@ const KEYS = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDow
 
 const STYLE = `
 .ppum { font: 13px system-ui, sans-serif; color: inherit; }
-.ppum-stage { display: flex; gap: 8px; }
+.ppum-stage { display: flex; gap: 8px; position: relative; }
+.ppum-stage > img { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: contain; background: #fff; pointer-events: none; }
 .ppum-stage > canvas { flex: 1 1 0; min-width: 0; width: 100%; touch-action: none; cursor: crosshair; background: #fff; outline: 1px solid #8888; }
 .ppum-stage > canvas:focus-visible { outline: 2px solid #27c; }
 .ppum-bar { display: flex; flex-direction: column; flex: 0 0 84px; min-width: 0; }
@@ -124,8 +125,8 @@ function controls(row, offers, ask) {
   for (const value of ["auto", "full", "fixed"]) make("option", range, { value, textContent: value });
   const ends = ["lowest", "highest"].map((title) => make("input", row, { type: "number", step: "any", title, ariaLabel: title }));
   const fixed = () => ends.map((end) => end.valueAsNumber);
-  range.onchange = () => ask({ set: { range: range.value === "fixed" ? fixed() : range.value } });
-  for (const end of ends) end.onchange = () => ask({ set: { range: fixed() } });
+  range.onchange = () => ask({ set: { clim: range.value === "fixed" ? fixed() : range.value } });
+  for (const end of ends) end.onchange = () => ask({ set: { clim: fixed() } });
   button("⌂", "all of the plate (0)", () => ask({ home: true }));
   if (offers.tips.length) {
     const tips = make("select", row, { title: "go to a tip", ariaLabel: "go to a tip" });
@@ -146,9 +147,9 @@ function controls(row, offers, ask) {
     if (![...cmap.options].some((o) => o.value === state.cmap)) make("option", cmap, { value: state.cmap, textContent: state.cmap });
     idle(cmap, state.cmap);
     idle(norm, state.norm);
-    range.value = typeof state.range === "string" ? state.range : "fixed";
+    range.value = typeof state.clim === "string" ? state.clim : "fixed";
     for (const [k, end] of ends.entries()) {
-      end.disabled = typeof state.range === "string";
+      end.disabled = typeof state.clim === "string";
       if (bar && end.getRootNode().activeElement !== end) end.value = bar.range[k];
     }
     if (step) { step.value = state.step; number.textContent = `step ${state.step}`; }
@@ -188,6 +189,14 @@ function follow(canvas, ask, probe) {
   };
 }
 
+// The picture that a saved page shows, where no kernel draws; gone with the first frame.
+function still(stage, png) {
+  if (!png?.byteLength) return () => {};
+  const url = URL.createObjectURL(new Blob([png], { type: "image/png" }));
+  const image = make("img", stage, { src: url, alt: "field" });
+  return () => { image.remove(); URL.revokeObjectURL(url); };
+}
+
 function render({ model, el }) {
   const root = make("div", el, { className: "ppum" });
   make("style", root, { textContent: STYLE });
@@ -198,6 +207,7 @@ function render({ model, el }) {
   const heading = make("b", bar);
   const scale = make("div", bar, { className: "ppum-scale" });
   make("canvas", scale);
+  const removeStill = still(stage, model.get("_still"));
   const told = make("div", root, { className: "ppum-told" });
   const error = make("div", root, { className: "ppum-error", role: "status" });
   const size = () => [canvas.clientWidth, canvas.clientHeight].map((n) => Math.round(n * (window.devicePixelRatio || 1)));
@@ -217,6 +227,7 @@ function render({ model, el }) {
     const context = canvas.getContext("2d");
     context.clearRect(0, 0, image.width, image.height);
     context.drawImage(image, 0, 0);
+    removeStill();
     drawBar(heading, scale, content.bar, buffers[1]);
     told.textContent = place;
     canvas.dataset.version = content.version;

@@ -1,18 +1,19 @@
 """Views in notebooks: fields that follow the mouse, exact in every frame.
 
 A view draws where the field is, in this process; the browser gets finished pixels, without loss, and sends what the mouse
-does. At most two frames are on their way at a time and what happens in between becomes one, so nothing piles up. Needs anywidget: the
-extra ``notebook``.
+does. At most two frames are on their way at a time and what happens in between becomes one, so nothing piles up. Needs anywidget.
 """
 
 from __future__ import annotations
 
 import base64
+import json
 import math
+import os
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack, get_args
 
 import anywidget
 import numpy as np
@@ -20,7 +21,10 @@ import traitlets
 
 from . import _core
 from .errors import PpumError, QuantityError
-from .pictures import Figure, figure_scene, spot
+from .options import passes, takes
+from .pictures import Figure
+from .styles import FigureOptions, Norm, ViewerOptions, scene, span
+from .views import PlaceOptions, Spot, View, spot
 
 if TYPE_CHECKING:
     from .field import Field
@@ -46,16 +50,16 @@ MARGIN = 1.04
 REACH = 6.0
 
 #: What makes another picture of the same place.
-_LOOK = ("quantity", "norm", "cmap", "step", "range", "cracks", "deformed")
+_LOOK = ("quantity", "norm", "cmap", "step", "clim", "cracks", "deformed")
 
 #: What the controls may set.
-_SETTABLE = ("quantity", "norm", "cmap", "step", "range", "deformed")
+_SETTABLE = ("quantity", "norm", "cmap", "step", "clim", "deformed")
 
-_NORMS = ("linear", "log", "symlog")
+_NORMS = get_args(Norm)
 
 
 class Viewer(anywidget.AnyWidget):
-    """A view of a field in a notebook; made by `Dataset.view` and `Field.view`.
+    """Shows a field in a notebook; made by `Dataset.view` and `Field.view`. What is seen at the moment is its `view`, a `View`.
 
     Drag to pan, turn the wheel to zoom about the mouse, point to read values: near a crack those of both faces. With the
     picture in focus the arrows, ``+``, ``-`` and ``0`` do the same. All that is shown are traits, to be read, set and observed.
@@ -64,7 +68,7 @@ class Viewer(anywidget.AnyWidget):
         center: The middle of the picture, lengths.
         width: From the left border to the right one, a length.
         quantity: A quantity or a formula.
-        range: What the colours span: ``auto``, ``full``, or two values. An automatic one follows when the mouse rests.
+        clim: What the colours span: ``auto``, ``full``, or two values. An automatic one follows when the mouse rests.
         norm: ``linear``, ``log`` or ``symlog``.
         cmap: One of `COLORMAPS`, or ``auto`` for that of the quantity.
         step: Number of the step.
@@ -92,7 +96,7 @@ class Viewer(anywidget.AnyWidget):
     center = traitlets.Tuple(traitlets.CFloat(), traitlets.CFloat())
     width = traitlets.CFloat(1.0)
     quantity = traitlets.Unicode()
-    range = traitlets.Any("auto")
+    clim = traitlets.Any("auto")
     norm = traitlets.Enum(_NORMS, "linear")
     cmap = traitlets.Unicode("auto")
     step = traitlets.Int(0)
@@ -100,8 +104,13 @@ class Viewer(anywidget.AnyWidget):
     deformed = traitlets.Any(None, allow_none=True)
     error = traitlets.Unicode("")
 
-    def __init__(self, field: Field, quantity: str | None = None, **options: Any) -> None:
-        seen = {k: options.pop(k) for k in ("center", "width", "tip", "zoom") if k in options}
+    #: A picture for pages without a kernel.
+    _still = traitlets.Bytes(b"").tag(sync=True)
+
+    @takes
+    def __init__(
+        self, field: Field, quantity: str | None = None, **options: Unpack[ViewerOptions]
+    ) -> None:
         # counts what is seen; views in browsers ask for a frame if it is not the one that they show
         self._version, self._is_answering = 0, False
         #: The field; its step is that of `step`.
@@ -113,41 +122,51 @@ class Viewer(anywidget.AnyWidget):
         self._held: tuple[float, float] | None = None
         # of the last frame
         self._size = (4, 3)
-        center, width = field._spot(self._size, **seen) if seen else self._whole()
+        seen = field._place(options, self._size)
+        center, width = seen or self._whole()
+        name = quantity or field._core.default_quantity()
         super().__init__(
             center=center,
             width=width,
-            quantity=quantity or field._core.default_quantity(),
+            quantity=name,
+            clim=_clim(field, name, options, (center, width)),
+            norm=options["norm"],
+            cmap="auto" if options["cmap"] is None else os.fspath(options["cmap"]),
+            deformed=options["deformed"],
+            cracks=options["cracks"],
+            height=options["height"],
             step=field._number,
             _offers=_offers(field),
-            **options,
         )
         # whether all of the plate is shown, which then fits into the page however that changes
-        self._is_whole = not seen
+        self._is_whole = seen is None
         self.on_msg(self._hear)
 
     @traitlets.validate("center")
     def _finite(self, proposal: Any) -> Any:
         if not all(math.isfinite(x) for x in proposal["value"]):
-            raise traitlets.TraitError(f"center: {proposal['value']} are no two finite numbers")
+            raise traitlets.TraitError(f"center: {proposal['value']} is not two finite numbers")
         return proposal["value"]
 
     @traitlets.validate("width")
     def _positive(self, proposal: Any) -> Any:
         if not (math.isfinite(proposal["value"]) and proposal["value"] > 0):
-            raise traitlets.TraitError(f"width: {proposal['value']} is no positive length")
+            raise traitlets.TraitError(f"width: {proposal['value']} is not a positive length")
         return proposal["value"]
 
     @traitlets.validate("step")
     def _known_step(self, proposal: Any) -> Any:
-        count = len(self.field.dataset.steps)
-        if not -count <= proposal["value"] < count:
-            raise traitlets.TraitError(f"step: {proposal['value']} is none; there are {count}, from 0")
-        return proposal["value"] % count
+        try:
+            return self.field.dataset.steps[proposal["value"]].number
+        except IndexError as error:
+            raise traitlets.TraitError(f"step: {error}") from None
 
-    @traitlets.validate("range")
-    def _known_range(self, proposal: Any) -> Any:
-        return _checked_range(proposal["value"])
+    @traitlets.validate("clim")
+    def _known_clim(self, proposal: Any) -> Any:
+        try:
+            return span({"clim": proposal["value"]})
+        except ValueError as error:
+            raise traitlets.TraitError(str(error)) from None
 
     @traitlets.observe("center", "width")
     def _moved(self, change: Any) -> None:
@@ -167,13 +186,18 @@ class Viewer(anywidget.AnyWidget):
         if not self._is_answering:
             self.send({"version": self._version})
 
+    @property
+    def view(self) -> View:
+        """What is seen at the moment, for `Field.figure` and all that take a `view`."""
+        return View(self.center, self.width, self._size)
+
     def home(self) -> None:
         """Shows all of the plate."""
         self.center, self.width = self._whole()
         self._is_whole = True
 
     def _whole(self) -> tuple[tuple[float, float], float]:
-        center, width = spot(self.field.dataset.domain, self._size, None, None, None)
+        center, width = spot(self.field.dataset.domain, self._size)
         return center, MARGIN * width
 
     def go_to_tip(self, tip: int, zoom: float = 10.0) -> None:
@@ -184,17 +208,27 @@ class Viewer(anywidget.AnyWidget):
         """
         self.center, self.width = self._at_step()._spot(self._size, tip=tip, zoom=zoom)
 
-    def figure(self, **options: Any) -> Figure:
-        """A figure of what is seen; options as in `Field.figure`."""
-        options = {**self._look(), "center": self.center, "width": self.width, **options}
-        return self._at_step().figure(self.quantity, **options)
+    @passes
+    def figure(self, **options: Unpack[FigureOptions]) -> Figure:
+        """A figure of what is seen; what is not given is as in the view.
+
+        Example:
+            >>> ds.view("ux", tip=1, zoom=4).figure(theme="dark")
+            <ppum.Figure ux, 1024x768>
+        """
+        own: Any = self._look()
+        if {"vmin", "vmax"} & options.keys():
+            del own["clim"]
+        if not PlaceOptions.__annotations__.keys() & options.keys():
+            own["view"] = self.view
+        return self._at_step().figure(self.quantity, **{**own, **options})
 
     def _look(self) -> dict[str, Any]:
         overlays = ["cracks"] if self.cracks else []
         return {
             "cmap": None if self.cmap == "auto" else self.cmap,
             "norm": self.norm,
-            "clim": self.range,
+            "clim": self.clim,
             "overlays": overlays,
             "deformed": self.deformed,
         }
@@ -266,11 +300,11 @@ class Viewer(anywidget.AnyWidget):
     def _frame(self, size: tuple[int, int], moving: bool) -> tuple[bytes, dict[str, Any]]:
         """The bytes of a PNG, and what the colour bar says."""
         look = self._look()
-        is_found = isinstance(self.range, str)
+        is_found = isinstance(self.clim, str)
         if moving and is_found and self._held:
             look["clim"] = self._held
-        scene = figure_scene(self.quantity, look)
-        png, facts = _core.frame(self._at_step()._core, scene, (self.center, self.width), size)
+        made = scene(self.quantity, look, span(look))  # type: ignore[arg-type]
+        png, facts = _core.frame(self._at_step()._core, made, (self.center, self.width), size)
         self._held = facts["range"] if is_found else None
         return png, facts
 
@@ -325,13 +359,15 @@ class Viewer(anywidget.AnyWidget):
         return False
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
-        """The widget, and a picture for where there is no kernel."""
+        """The widget, and a picture for where there is no kernel: pages with the widget's state show `_still`."""
+        try:
+            self._still = self.figure(size=(640, 480)).png()
+        except (PpumError, ValueError) as error:
+            self.error, self._still = str(error), b""
         bundle = super()._repr_mimebundle_(**options)
         data, metadata = bundle if isinstance(bundle, tuple) else (dict(bundle or {}), {})
-        try:
-            data["image/png"] = base64.b64encode(self.figure(size=(640, 480)).png()).decode()
-        except (PpumError, ValueError) as error:
-            self.error = str(error)
+        if self._still:
+            data["image/png"] = base64.b64encode(self._still).decode()
         return data, metadata
 
     def __repr__(self) -> str:
@@ -346,16 +382,13 @@ def _offers(field: Field) -> dict[str, Any]:
     return {"quantities": list(field.quantities), "cmaps": ["auto", *COLORMAPS], "tips": tips, "steps": steps}
 
 
-def _checked_range(value: Any) -> Any:
-    if value in ("auto", "full"):
-        return value
-    try:
-        low, high = map(float, value)
-    except (TypeError, ValueError):
-        raise traitlets.TraitError(f"range: {value!r} is none; give auto, full, or two values") from None
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise traitlets.TraitError(f"range: from {low} to {high} lies none; give the smaller number first")
-    return low, high
+def _clim(field: Field, quantity: str, options: ViewerOptions, at: Spot) -> Any:
+    """The range that options say; an end that they leave is that of an automatic one."""
+    found = span(options)
+    if isinstance(found, str) or None not in found:
+        return found
+    made = json.loads(field._scene(quantity, options, at))
+    return tuple(float(end) for end in made["colors"]["range"].split(","))
 
 
 def _size(size: Any) -> tuple[int, int]:

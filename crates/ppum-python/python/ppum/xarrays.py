@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .extras import needed
+from .values import math_text
 
 if TYPE_CHECKING:
     from .field import Field
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 #: Where xarray comes from, and for what.
-EXTRA = ("ppum[plot]", "values along curves and on grids")
+EXTRA = ("xarray", "values along curves and on grids")
 
 
 def _named(name: str) -> str:
@@ -26,7 +27,7 @@ def _named(name: str) -> str:
 
 def _words(field: Field, name: str) -> dict[str, str]:
     symbol, unit = field._core.words(name)
-    words = {"long_name": symbol, "units": unit}
+    words = {"long_name": math_text(symbol), "units": unit}
     return {key: value for key, value in words.items() if value}
 
 
@@ -35,12 +36,12 @@ def curve(field: Field, along: str, num: int, names: list[str]) -> Any:
     xarray = needed("xarray", *EXTRA)
     heads, rows = field._core.table(along, num, names)
     dimension = heads[0][0]
-    units = {"theta": "deg"}
     coords: dict[str, Any] = {}
     variables: dict[str, Any] = {}
     for (name, unit), column in zip(heads, rows.T, strict=True):
-        attributes = {"units": unit or units.get(name, "")}
-        attributes = {key: value for key, value in attributes.items() if value}
+        if name == "theta":
+            column, unit = np.radians(column), "rad"
+        attributes = {"units": unit} if unit else {}
         kind = coords if name in (dimension, "x", "y", "side") else variables
         kind[_named(name)] = (dimension, column, attributes)
     for name in names:

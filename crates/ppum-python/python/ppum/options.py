@@ -1,0 +1,191 @@
+"""Keyword options that several functions share, each with its name, type, default and description in one place.
+
+An option is a key of a `TypedDict` whose type is `Annotated[type, Option(default, description)]`. A function takes the options of a
+dictionary by `**options: Unpack[...]`, which type checkers and editors read, and the decorator `takes`, which does the rest when it
+is called: it refuses names and words that there are not, fills in defaults, and gives the function its signature and its help. What
+passes options on to another function has the decorator `passes`, which fills in nothing.
+"""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import inspect
+import numbers
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+__all__ = ["Option", "nearest", "one_of", "options_of", "passes", "refuse_unknown", "takes"]
+
+_F = TypeVar("_F", bound=Callable[..., Any])
+
+#: The names that other packages have for options.
+FOREIGN = {
+    "axes": "ax",
+    "bar": "colorbar",
+    "cbar_kwargs": "colorbar",
+    "centre": "center",
+    "color_map": "cmap",
+    "colormap": "cmap",
+    "contours": "isolines",
+    "figsize": "inches",
+    "fontsize": "font_size",
+    "levels": "isolines",
+    "log_scale": "norm",
+    "range": "clim",
+    "scale": "norm",
+    "warp": "deformed",
+}
+
+
+class _Unset:
+    """The default of what is left out where it is not given."""
+
+    def __repr__(self) -> str:
+        return "..."
+
+
+UNSET = _Unset()
+
+
+@dataclass(frozen=True)
+class Option:
+    """The default and the description of an option; one without a default is left out where it is not given."""
+
+    default: Any
+    text: str
+
+
+def options_of(kind: type) -> dict[str, tuple[Any, Option]]:
+    """The types and options of a dictionary, by their names."""
+    hints = get_type_hints(kind, include_extras=True)
+    return {name: _split(hint) for name, hint in hints.items()}
+
+
+def _split(hint: Any) -> tuple[Any, Option]:
+    if get_origin(hint) is not Annotated:
+        hint = get_args(hint)[0]
+    kind, option = get_args(hint)
+    return kind, option
+
+
+def takes(function: _F) -> _F:
+    """Makes a function check its options, and know their defaults, see the head of the module."""
+    known = _known(function)
+    defaults = {name: o.default for name, (_, o) in known.items() if o.default is not UNSET}
+    return _checking(function, known, defaults)
+
+
+def passes(function: _F) -> _F:
+    """Makes a function check its options, and get those alone that are given."""
+    return _checking(function, _known(function), {})
+
+
+def _known(function: Callable[..., Any]) -> dict[str, tuple[Any, Option]]:
+    # other annotations may name what is imported for type checkers alone
+    hint = eval(function.__annotations__["options"], function.__globals__)
+    return options_of(get_args(hint)[0])
+
+
+def _checking(
+    function: _F, known: Mapping[str, tuple[Any, Option]], defaults: Mapping[str, Any]
+) -> _F:
+    signature = inspect.signature(function)
+    own = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
+    names = [*known, *(p.name for p in own if p.name != "self")]
+
+    @functools.wraps(function)
+    def checked(*args: Any, **given: Any) -> Any:
+        refuse_unknown(f"{function.__name__}()", given, names)
+        for name in given.keys() & known.keys():
+            _check(name, known[name][0], given[name])
+        return function(*args, **{**defaults, **given})
+
+    parameters = [
+        inspect.Parameter(n, inspect.Parameter.KEYWORD_ONLY, default=o.default, annotation=kind)
+        for n, (kind, o) in known.items()
+    ]
+    checked.__signature__ = signature.replace(parameters=[*own, *parameters])  # type: ignore[attr-defined]
+    checked.__doc__ = _documented(function.__doc__ or "", known)
+    return checked  # type: ignore[return-value]
+
+
+def _documented(doc: str, known: Mapping[str, tuple[Any, Option]]) -> str:
+    lines = "\n".join(f"            {name}: {option.text}" for name, (_, option) in known.items())
+    return f"{doc.rstrip()}\n\n        Options:\n{lines}\n        "
+
+
+def refuse_unknown(what: str, given: Iterable[str], known: Iterable[str]) -> None:
+    """Refuses names that are not known.
+
+    Raises:
+        TypeError: With the name that was meant, or all that there are.
+    """
+    names = sorted(known)
+    for name in given:
+        if name in names:
+            continue
+        meant = FOREIGN[name] if FOREIGN.get(name) in names else nearest(name, names)
+        hint = f"did you mean `{meant}`?" if meant else f"there are {', '.join(names)}"
+        raise TypeError(f"{what} has no option `{name}`; {hint}")
+
+
+def nearest(name: str, known: Iterable[str]) -> str | None:
+    """The known word that a word is most like, if there is one."""
+    by_lower = {word.lower(): word for word in known}
+    found = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.7)
+    return by_lower[found[0]] if found else None
+
+
+def _check(name: str, kind: Any, value: Any) -> None:
+    """Refuses words that are not among those that an option may have, and other things than it takes.
+
+    Only options of words, numbers, truth values and None are looked at, and lists of words; others check themselves.
+    """
+    atoms = list(_atoms(kind))
+    words = [atom for atom in atoms if isinstance(atom, str)]
+    if str in atoms or not words and set(atoms) - _PLAIN.keys():
+        return
+    for part in value if isinstance(value, (list, tuple, set, frozenset, np.ndarray)) else [value]:
+        if isinstance(part, str) and words:
+            one_of(name, part, words, " or a number" if float in atoms else "")
+        elif not any(isinstance(part, _PLAIN.get(atom, ())) for atom in atoms) and not words:
+            needed = " or ".join(_CALLED[atom] for atom in atoms)
+            raise TypeError(f"{name}: {needed} is needed, not {part!r}")
+
+
+#: What values of a type may be.
+_PLAIN: dict[Any, Any] = {
+    bool: (bool, np.bool_),
+    float: numbers.Real,
+    int: numbers.Integral,
+    type(None): type(None),
+}
+_CALLED = {bool: "True or False", float: "a number", int: "a whole number", type(None): "None"}
+
+
+def _atoms(kind: Any) -> Iterable[Any]:
+    """The types of a union, and the words of its literals; items of sequences count as their own."""
+    if get_origin(kind) is Literal:
+        return get_args(kind)
+    parts = get_args(kind)
+    return dict.fromkeys(atom for part in parts for atom in _atoms(part)) if parts else (kind,)
+
+
+def one_of(name: str, value: str, words: Sequence[str], others: str = "") -> None:
+    """Refuses a word that is not among those that there are.
+
+    Raises:
+        ValueError: With the words, and the one that was meant.
+    """
+    if value in words:
+        return
+    known = ", ".join(repr(word) for word in words)
+    near = nearest(value, words)
+    hint = f"; did you mean {near!r}?" if near else ""
+    raise ValueError(f"{name}: {value!r} is not one of {known}{others}{hint}")
+
+

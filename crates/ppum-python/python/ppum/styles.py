@@ -1,0 +1,251 @@
+"""How pictures look: their options, and what the libraries read of them."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Annotated, Any, Literal, TypedDict
+
+from .options import Option, refuse_unknown
+from .views import SIZE, PixelOptions, PlaceOptions, pixels
+
+__all__ = [
+    "ColorOptions",
+    "FigureOptions",
+    "Labels",
+    "Norm",
+    "PlotOptions",
+    "RangeOptions",
+    "RgbaOptions",
+    "SceneOptions",
+    "ViewerOptions",
+    "page",
+    "scene",
+    "span",
+]
+
+Clim = Literal["auto", "full"] | Sequence[float] | tuple[str, str]
+Norm = Literal["linear", "log", "symlog"]
+Overlay = Literal[
+    "cracks", "cells", "patches", "boxes", "points", "centers", "rings", "supports", "loads"
+]
+
+#: The ends of a range, one of which may be left to be found.
+Ends = tuple[float | str | None, float | str | None]
+
+
+class RangeOptions(TypedDict, total=False):
+    """The values that colours span."""
+
+    clim: Annotated[
+        Clim,
+        Option("auto", "what the colours span: `auto`, `full`, two values, or two percentiles as `2%`"),
+    ]
+    vmin: Annotated[float | None, Option(None, "the lower end of `clim` alone")]
+    vmax: Annotated[float | None, Option(None, "the upper end of `clim` alone")]
+
+
+class ColorOptions(RangeOptions, total=False):
+    """Colours, and the deformed plate."""
+
+    cmap: Annotated[
+        str | os.PathLike[str] | None,
+        Option(None, "one of `ppum.COLORMAPS`, also with `_r`, or a file with a map; by default what suits"),
+    ]
+    norm: Annotated[Norm, Option("linear", "how values spread over the colours")]
+    deformed: Annotated[
+        Literal["auto"] | float | None,
+        Option(None, "a factor, or `auto`: the plate moved by its displacement"),
+    ]
+
+
+class SceneOptions(ColorOptions, total=False):
+    """What a picture shows."""
+
+    bands: Annotated[int | None, Option(None, "the number of bands of one colour each")]
+    symmetric: Annotated[bool, Option(False, "whether a range that is found lies evenly around zero")]
+    contrast: Annotated[bool, Option(False, "whether values beyond the range have colours of their own")]
+    overlays: Annotated[Overlay | Sequence[Overlay], Option((), "what is drawn over it, one or a list")]
+    isolines: Annotated[
+        Literal["auto"] | float | Sequence[float] | None,
+        Option(None, "lines of equal values: `auto`, about how many, or at these values"),
+    ]
+    level_labels: Annotated[bool, Option(False, "whether isolines bear their values")]
+    arrows: Annotated[float | None, Option(None, "arrows of the displacement, so many pixels apart")]
+    crosses: Annotated[float | None, Option(None, "crosses of principal stresses, so many pixels apart")]
+    outline: Annotated[bool, Option(False, "whether the outline of the undeformed plate is drawn")]
+    samples: Annotated[int, Option(1, "each pixel is the mean of so many samples across and down")]
+    precision: Annotated[
+        Literal["f64", "f32"] | None, Option(None, "the precision in which values are computed")
+    ]
+    blank: Annotated[bool, Option(False, "whether overlays are drawn alone")]
+
+
+class Labels(TypedDict, total=False):
+    """Texts in place of those of a figure; an empty one removes the label."""
+
+    title: str
+    x: str
+    y: str
+    colorbar: str
+
+
+class PageOptions(TypedDict, total=False):
+    """The page of a figure."""
+
+    size: Annotated[tuple[int, int], Option(SIZE, "columns and rows of pixels")]
+    inches: Annotated[tuple[float, float] | None, Option(None, "in place of `size`: width and height")]
+    dpi: Annotated[float | None, Option(None, "pixels in an inch; with `inches` 300")]
+    font_size: Annotated[float | None, Option(None, "size of letters, points")]
+    theme: Annotated[Literal["light", "dark"], Option("light", "the colours of page and letters")]
+    transparent: Annotated[bool, Option(False, "whether the page has no background")]
+    colorbar: Annotated[
+        bool | Literal["right", "bottom"],
+        Option(True, "whether there is a colour bar, and where; by default where there is room"),
+    ]
+    labels: Annotated[
+        Labels, Option({}, "texts in place of those of the figure: a dictionary of title, x, y, colorbar")
+    ]
+
+
+class FigureOptions(PlaceOptions, SceneOptions, PageOptions, total=False):
+    """All options of a figure."""
+
+
+class RgbaOptions(PixelOptions, SceneOptions, total=False):
+    """All options of a picture without a page."""
+
+
+class ViewerOptions(PlaceOptions, ColorOptions, total=False):
+    """What is seen first, and the traits of a `Viewer`."""
+
+    cracks: Annotated[bool, Option(True, "whether cracks are drawn")]
+    height: Annotated[int, Option(480, "of the picture on the page, pixels")]
+
+
+class PlotOptions(PlaceOptions, RangeOptions, total=False):
+    """Options of `Field.plot`; percentiles of a range are those of a coarse picture of the plate, so `auto` is robust against tips."""
+
+    ax: Annotated[Any, Option(None, "axes; by default the current ones, which get equal scales")]
+    cmap: Annotated[Any, Option(None, "a map of matplotlib or of `ppum.COLORMAPS`")]
+    norm: Annotated[Any, Option(None, "a norm of matplotlib, or its name")]
+    colorbar: Annotated[
+        bool | Literal["right", "bottom"], Option(True, "whether there is a colour bar, and where")
+    ]
+    cracks: Annotated[bool, Option(True, "whether cracks and rims of holes are drawn")]
+    nan_color: Annotated[Any, Option(None, "the colour of points of the plate that have no value")]
+    alpha: Annotated[float | None, Option(None, "opacity")]
+    zorder: Annotated[float, Option(0, "the order in which artists are drawn")]
+    label: Annotated[str, Option("", "the name of the artist")]
+    visible: Annotated[bool, Option(True, "whether it is drawn")]
+    rasterized: Annotated[bool | None, Option(None, "whether pixels are drawn in vector files")]
+    gid: Annotated[str | None, Option(None, "its name in SVG files")]
+
+
+def span(options: RangeOptions) -> str | Ends:
+    """The range of the colours, as `clim` or `vmin` and `vmax` say it; an end that is not given is None.
+
+    Raises:
+        TypeError: Both ways at once.
+        ValueError: No range.
+    """
+    clim, low, high = options.get("clim", "auto"), options.get("vmin"), options.get("vmax")
+    if low is not None or high is not None:
+        if not (isinstance(clim, str) and clim == "auto"):
+            raise TypeError("give `clim`, or `vmin` and `vmax`, not both")
+        return _ends(low, high)
+    if isinstance(clim, str):
+        if clim in ("auto", "full"):
+            return clim
+        raise ValueError(f"clim: {clim!r} is not a range; give 'auto', 'full', two values or two percentiles")
+    if not _is_pair(clim) or None in clim:
+        raise ValueError(f"clim: {clim!r} is not a range; give the lower and the upper value")
+    return _ends(*clim)
+
+
+def _is_pair(value: Any) -> bool:
+    return isinstance(value, Iterable) and len(list(value)) == 2
+
+
+def _ends(low: Any, high: Any) -> Ends:
+    if isinstance(low, str) and isinstance(high, str):
+        return low, high
+    try:
+        low, high = (None if end is None else float(end) for end in (low, high))
+    except (TypeError, ValueError):
+        raise ValueError(f"clim: {low!r} and {high!r} are not two values") from None
+    if not all(end is None or math.isfinite(end) for end in (low, high)):
+        raise ValueError(f"clim: from {low} to {high} is not a range; give finite values")
+    if low is not None and high is not None and not low < high:
+        raise ValueError(f"clim: from {low} to {high} is not a range; give the smaller value first")
+    return low, high
+
+
+def scene(quantity: str | None, options: ColorOptions, found: str | Ends) -> str:
+    """What a picture shows in the range that was found for it, as the libraries read it."""
+    o: Any = options
+    cmap, deformed = o.get("cmap"), o.get("deformed")
+    overlays, isolines = o.get("overlays", ()), o.get("isolines")
+    return json.dumps(
+        {
+            "quantity": quantity,
+            "colors": {
+                "colormap": None if cmap is None else os.fspath(cmap),
+                "range": found if isinstance(found, str) else ",".join(map(_written, found)),
+                "scale": o.get("norm", "linear"),
+                "contrast": bool(o.get("contrast", False)),
+                "bands": o.get("bands"),
+                "symmetric": bool(o.get("symmetric", False)),
+            },
+            "overlays": {
+                "shown": [overlays] if isinstance(overlays, str) else list(overlays),
+                "isolines": None if isolines is None else _levels(isolines),
+                "level_labels": bool(o.get("level_labels", False)),
+                "arrows": o.get("arrows"),
+                "crosses": o.get("crosses"),
+            },
+            "deformed": None if deformed is None else str(deformed),
+            "outline": bool(o.get("outline", False)),
+            "samples": int(o.get("samples", 1)),
+            "blank": bool(o.get("blank", False)),
+            "labels": _labels(o.get("labels", {})),
+            "precision": o.get("precision"),
+        },
+        default=_plain,
+    )
+
+
+def page(options: PageOptions) -> dict[str, Any]:
+    """The page of a figure, as the libraries read it."""
+    bar: Any = options["colorbar"]
+    return {
+        "size": pixels(options["size"]),
+        "inches": options["inches"],
+        "dpi": options["dpi"],
+        "font_size": options["font_size"],
+        "dark": options["theme"] == "dark",
+        "transparent": bool(options["transparent"]),
+        "bar": bar if isinstance(bar, str) else None if bar else "none",
+    }
+
+
+def _plain(value: Any) -> Any:
+    """What JSON has in place of a number of numpy."""
+    return value.item()
+
+
+def _written(end: Any) -> str:
+    return end if isinstance(end, str) else repr(end)
+
+
+def _levels(isolines: Any) -> str:
+    if isinstance(isolines, Iterable) and not isinstance(isolines, str):
+        return ",".join(repr(float(level)) for level in isolines) + ","
+    return str(isolines)
+
+
+def _labels(labels: Mapping[str, str]) -> dict[str, str]:
+    refuse_unknown("labels", labels, Labels.__annotations__)
+    return {"bar" if name == "colorbar" else name: text for name, text in labels.items()}

@@ -1,0 +1,104 @@
+//! Stress intensity factors found from a field, whoever made it.
+
+use ppum::crack::{TipId, tips};
+use ppum::dataset::{Dataset, TipIntensity};
+use ppum::progress::Watcher;
+use ppum_scene::facts::Tip;
+use ppum_solve::diagnostics::effort::check_effort;
+use ppum_solve::diagnostics::{RecomputeError, recompute};
+use ppum_solve::intensity::{CircleError, Outcome, on_circle};
+use ppum_solve::problem::Problem;
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+
+use crate::errors::{SolveError, cancelled, no_field};
+use crate::field::Field;
+use crate::watch::long;
+
+/// The tips as JSON with the names of their ends, and the messages of the diagnostics.
+type Found = (String, Vec<&'static str>, Vec<String>);
+
+/// The factors of one tip by the discs inside a circle of a radius, or those of all tips by the discs that the solver chooses.
+#[pyfunction]
+pub(crate) fn intensities(
+    this: &Field,
+    py: Python<'_>,
+    on: Option<(usize, f64)>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<Found> {
+    let (dataset, step) = this.owned.place();
+    let problem = loads(dataset, step)?;
+    let problem = problem.as_ref();
+    let mut ids: Vec<TipId> = tips(&dataset.steps[step].cracks).collect();
+    let progress = progress.as_ref();
+    let (found, warnings) = match on {
+        Some((tip, radius)) => {
+            let tip = *ids.get(tip).ok_or_else(|| no_tip(tip, ids.len()))?;
+            let found =
+                |watcher: &dyn Watcher| on_circle(dataset, step, tip, radius, problem, watcher);
+            let factors = long(py, None, progress, found)?.map_err(unfound)?;
+            ids = vec![tip];
+            (vec![Tip::new(dataset, step, &factors)], Vec::new())
+        }
+        None => all(py, dataset, step, problem, progress)?,
+    };
+    let ends = ids.iter().map(|tip| tip.end.name()).collect();
+    let json = serde_json::to_string(&found).expect("facts have names as keys");
+    Ok((json, ends, warnings))
+}
+
+fn all(
+    py: Python<'_>,
+    dataset: &Dataset,
+    step: usize,
+    problem: Option<&Problem>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(Vec<Tip>, Vec<String>)> {
+    let effort = long(py, None, None, |_| check_effort(dataset, step, problem))?;
+    effort.map_err(|error| SolveError::new_err(error.to_string()))?;
+    let found = |watcher: &dyn Watcher| recompute(dataset, step, problem, watcher);
+    let (outcomes, warnings) = long(py, None, progress, found)?.map_err(|error| match error {
+        RecomputeError::Cancelled(error) => cancelled(error),
+        RecomputeError::Field(error) => no_field(error),
+        error => SolveError::new_err(error.to_string()),
+    })?;
+    let tip = |outcome: &Outcome| {
+        let unknown = || TipIntensity::new(outcome.tip, f64::NAN, f64::NAN);
+        Tip::new(dataset, step, &outcome.factors.clone().unwrap_or_else(unknown))
+    };
+    let messages = warnings.into_iter().map(|warning| warning.message).collect();
+    Ok((outcomes.iter().map(tip).collect(), messages))
+}
+
+/// The problem whose loads act near the tips; none if the dataset holds none, or its field is no displacement.
+///
+/// # Errors
+/// A problem that cannot be read, or one on other cracks: its loads are not known.
+fn loads(dataset: &Dataset, step: usize) -> PyResult<Option<Problem>> {
+    if dataset.equation.elastic().is_none() {
+        let why = "only displacements of elasticity have stress intensity factors";
+        return Err(SolveError::new_err(why));
+    }
+    let problem = Problem::of_dataset(dataset).map_err(|mistakes| {
+        SolveError::new_err(format!("the loads near the tips are not known: {mistakes}"))
+    })?;
+    match problem {
+        Some(problem) if problem.cracks != dataset.steps[step].cracks => Err(SolveError::new_err(
+            "the loads near the tips are not known: the stored problem has other cracks than this step; \
+             the step's `tips` have the factors that the solver found",
+        )),
+        problem => Ok(problem),
+    }
+}
+
+fn no_tip(tip: usize, count: usize) -> PyErr {
+    PyIndexError::new_err(format!("there is no tip {tip}; the step has {count}, numbered from 0"))
+}
+
+fn unfound(error: CircleError) -> PyErr {
+    match error {
+        CircleError::Cancelled(error) => cancelled(error),
+        CircleError::Field(error) => no_field(error),
+        error => SolveError::new_err(error.to_string()),
+    }
+}

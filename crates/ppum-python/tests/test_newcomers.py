@@ -1,0 +1,190 @@
+"""What newcomers type: taken where it has one meaning, else refused with the remedy."""
+
+import builtins
+import io
+import pickle
+
+import numpy as np
+import ppum
+import pytest
+from conftest import plate
+
+plt = pytest.importorskip("matplotlib.pyplot")
+plt.switch_backend("agg")
+
+
+@pytest.fixture(autouse=True)
+def no_figures_stay():
+    yield
+    plt.close("all")
+
+
+def test_equal_datasets_have_equal_hashes(ds, grown, potential):
+    copy = ppum.from_bytes(ds.to_bytes())
+    assert copy == ds and hash(copy) == hash(ds) and len({ds, copy}) == 1
+    assert len({ds, grown, potential}) == 3 and grown != ds
+    assert copy.field == ds.field and len({copy.field, ds.field}) == 1
+    assert ds.field.part("jump") != ds.field and ds.field.part("jump") == copy.field.part("jump")
+
+
+def test_a_problem_solved_twice_gives_equal_datasets():
+    """But for seconds."""
+    problem = plate(cells=(4, 8))
+    one, other = problem.solve(), problem.solve()
+    assert one == other and hash(one) == hash(other)
+    assert one != problem.discretization(order=1).solve()
+    assert one != problem.boundary("left", traction=(0, 0)).solve()
+
+
+def test_ranges_in_matplotlib(f):
+    assert f.plot("ux", vmin=0, vmax=2).get_clim() == (0, 2)
+    auto = f.plot("ux").get_clim()
+    assert f.plot("ux", vmin=-7).get_clim() == (-7, auto[1])
+    finite = f.plot("ux", clim=("10%", "90%")).get_clim()
+    assert auto[0] < finite[0] < finite[1] < auto[1]
+    x, _ = f.step.tips[1].xy
+    assert f.plot("ux", tip=1, zoom=4, ax=plt.figure().gca()).axes.get_xlim() == pytest.approx((x - 0.25, x + 0.25))
+
+
+def test_colour_maps_are_known_in_matplotlib(f):
+    for name in ppum.COLORMAPS:
+        for cmap in (name, f"{name}_r"):
+            assert f.plot("ux", cmap=cmap, colorbar=False).cmap.name == cmap
+    for name in ("batlow", "vik", "roma"):
+        # those of the program, which draws a ramp with them
+        colors = plt.get_cmap(name)(np.array([0.0, 1.0]), bytes=True)[:, :3]
+        image = f.rgba("x", center=(0, 1), width=0.2, size=(256, 1), cmap=name, clim=(-0.1, 0.1))
+        assert np.abs(image[0, [0, -1], :3].astype(int) - colors).max() <= 2
+
+
+def test_points_without_a_value_have_a_colour(f):
+    figure = plt.figure(figsize=(1, 2), dpi=50)
+    ax = figure.add_axes((0, 0, 1, 1))
+    ax.set_axis_off()
+    f.plot("sqrt(x)", ax=ax, colorbar=False, cracks=False, cmap="gray", nan_color=(1, 0, 0))
+    file = io.BytesIO()
+    with np.errstate(invalid="ignore"):
+        figure.savefig(file, dpi=50)
+    image = plt.imread(io.BytesIO(file.getvalue()))
+    assert np.allclose(image[20:80, 5:20, :3], (1, 0, 0)) and np.ptp(image[20:80, 30:45, :3], axis=-1).max() < 0.01
+
+
+def test_cracks_are_arrays_too():
+    empty = ppum.Problem(((0, 0), (1, 1)), ppum.Elastic(1.0, 0.3))
+    points = [(0.2, 0.5), (0.5, 0.5), (0.6, 0.6)]
+    expected = empty.crack(*points)
+    assert all(empty.crack(given) == expected for given in (points, np.array(points), tuple(points)))
+
+
+def test_angles_are_radians(ds, f):
+    tip = ds.tips[1]
+    ray = f.ray(1, angle=tip.growth_angle, num=5, quantities=["ux"])
+    way = np.arctan2(ray.y.values[-1] - tip.xy[1], ray.x.values[-1] - tip.xy[0])
+    assert way == pytest.approx(tip.angle + tip.growth_angle, abs=1e-9)
+    around = f.around(1, num=5, quantities=["ux"])
+    assert np.allclose(around.theta, np.linspace(-np.pi, np.pi, 5)) and around.theta.attrs["units"] == "rad"
+    for wrong in (lambda: f.ray(1, angle=45.0), lambda: ppum.plots.ray(f, 1, 45.0)):
+        with pytest.raises(ValueError, match="angles are in radians"):
+            wrong()
+
+
+def test_labels_are_mathtext(f):
+    line = f.line((-1, 0.1), (1, 0.1), num=5, quantities=["syy"])
+    assert line.syy.attrs["long_name"] == "σ$_{yy}$"
+    assert f.grid(3, 3, quantities=["syy"]).syy.attrs["long_name"] == "σ$_{yy}$"
+    axis = plt.figure().gca()
+    line.syy.plot(ax=axis)
+    assert "$_{yy}$" in axis.get_ylabel()
+
+
+def test_pictures_and_plots_are_pickled(f):
+    figure = f.figure("ux", tip=1, zoom=3, size=(400, 300))
+    assert pickle.loads(pickle.dumps(figure)).png() == figure.png()
+    moving = f.animate("ux", size=(60, 80), bare=True, progress=lambda *_: None)
+    assert pickle.loads(pickle.dumps(moving)).gif() == moving.gif()
+    plot = ppum.plots.line(f, (-1, 0.1), (1, 0.1), ["ux"])
+    assert pickle.loads(pickle.dumps(plot)).svg() == plot.svg()
+
+
+def test_stars_leave_names_of_python(tmp_path):
+    names = {}
+    exec("from ppum import *", names)
+    assert names.get("open", builtins.open) is builtins.open and names.get("Warning", Warning) is Warning
+    assert names["solve"] is ppum.solve and ppum.open is not builtins.open and ppum.Warning is not Warning
+
+
+def test_a_quantity_of_the_name_of_a_method(potential):
+    values = potential.field.at(0.5, 0.5)
+    assert values["gradient"] == pytest.approx(np.hypot(*values.gradient("u"))) and dir(values).count("gradient") == 1
+
+
+@pytest.mark.parametrize(
+    "use, kind, message",
+    [
+        (lambda ds, p: ppum.solve(p / "plate.h5"), ValueError, "is a dataset.*ppum.open"),
+        (lambda ds, p: ppum.solve(ds), TypeError, "this is a dataset"),
+        (lambda ds, p: ppum.solve(3), TypeError, "a path is needed, not int"),
+        (lambda ds, p: ppum.Problem.read(p / "latin"), ppum.ProblemError, "byte 9 is no UTF-8"),
+        (lambda ds, p: ppum.open(open(p / "latin", encoding="latin-1")), TypeError, "mode 'rb'"),
+        (lambda ds, p: ppum.open(pytest.importorskip("h5py").File(p / "plate.h5")), TypeError, "give '.*plate.h5'"),
+        (lambda ds, p: ppum.Problem(((0, 0), (1, 1)), {"young": 1}), TypeError, "ppum.Elastic or ppum.Poisson is needed, not dict"),
+        (lambda ds, p: ppum.Problem((0, 0), (1, 1)), TypeError, "ppum.Elastic or ppum.Poisson is needed, not tuple"),
+        (lambda ds, p: ppum.Problem((0, 0), ppum.Poisson()), TypeError, "two corners are needed"),
+        (lambda ds, p: ds.field.render("ux", zoom=0), ppum.RenderError, "zoom: 0 does not enlarge"),
+        (lambda ds, p: ds.field.render("ux", size=(-1, 5)), ppum.RenderError, "-1x5 pixels cannot be drawn"),
+        (lambda ds, p: ds.field.figure("ux").save(p / "no/x.png"), FileNotFoundError, "no such folder: '.*no'"),
+        (lambda ds, p: ds.field.figure("ux").save(p / "x"), ValueError, "'x' has no end.*png, svg or pdf"),
+        (lambda ds, p: ds.field.figure("ux").save(p / "x.jpg"), ValueError, "'jpg': figures are png, svg or pdf"),
+        (lambda ds, p: ds.quantities["vonmises"], KeyError, "no quantity is called `vonmises`; did you mean `von-mises`"),
+        (lambda ds, p: ds.history["unknown"], KeyError, "did you mean `unknowns`"),
+        (lambda ds, p: ds.tips[7], IndexError, "no tip 7: there are 2 tips, numbered from 0"),
+        (lambda ds, p: ds.steps[3], IndexError, "no step 3: there is 1 step, numbered from 0"),
+        (lambda ds, p: ds.cracks[-2], IndexError, "no crack -2: there is 1 crack"),
+        (lambda ds, p: ds.field.figure(tip=9), IndexError, "no tip 9"),
+        (lambda ds, p: ds.field.intensities(9), IndexError, "no tip 9"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(ds, tmp_path, use, kind, message):
+    ds.save(tmp_path / "plate.h5")
+    (tmp_path / "latin").write_bytes('title = "é"'.encode("latin-1"))
+    with pytest.raises(kind, match=message):
+        use(ds, tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["latin", "plate.h5"]
+
+
+def test_tables_keep_their_words(ds):
+    tips = pickle.loads(pickle.dumps(ds.tips))
+    assert tips == ds.tips and tips[-1] == ds.tips[1] and tips[:1] == (ds.tips[0],)
+    with pytest.raises(IndexError, match="there are 2 tips"):
+        tips[2]
+    assert [tip.end for tip in tips] == ["start", "end"]
+    assert "unknowns 6600" in repr(ds.history)
+
+
+def test_shared_blocks_are_refused(ds, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    ds.save(tmp_path / "plate.h5")
+    with h5py.File(tmp_path / "plate.h5", "r+") as file:
+        offsets = file["steps/0000/fields/0000/block_offset"]
+        offsets[1] = offsets[0]
+        for name in list(file.attrs):
+            if "sha256" in name:
+                del file.attrs[name]
+    with pytest.raises(ppum.FormatError):
+        ppum.open(tmp_path / "plate.h5")
+
+
+def test_a_sweep_outlives_a_problem_that_cannot_be_made():
+    pytest.importorskip("xarray")
+
+    def make(level):
+        if level == 1:
+            raise ValueError("too coarse")
+        return plate().discretization(level=level)
+
+    result = ppum.sweep(make, level=[1, 2]).run()
+    assert result.status.values.tolist() == ["ValueError: too coarse", ""]
+    assert np.isnan(result.k1[0]).all() and np.isfinite(result.k1[1]).all()
+    assert result.k1.attrs["long_name"] == "$K_{I}$"
+    with pytest.raises(ValueError, match="too coarse"):
+        ppum.sweep(make, level=[1]).run()

@@ -1,0 +1,237 @@
+"""Options: known to editors and type checkers, refused with a remedy where they are not known, and those of the libraries."""
+
+import inspect
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+from typing import get_args
+
+import numpy as np
+import ppum
+import pytest
+from conftest import ROOT
+from ppum import _core, sections, styles
+from ppum.options import UNSET, options_of
+
+pytest.importorskip("matplotlib").use("agg")
+
+FUNCTIONS = [
+    (ppum.Field.figure, styles.FigureOptions),
+    (ppum.Field.rgba, styles.RgbaOptions),
+    (ppum.Field.animate, styles.FigureOptions),
+    (ppum.Field.plot, styles.PlotOptions),
+    (ppum.Field.view, styles.ViewerOptions),
+    (ppum.Dataset.view, styles.ViewerOptions),
+    (ppum.Problem.hole, sections.HoleOptions),
+    (ppum.Problem.crack, sections.CrackOptions),
+    (ppum.Problem.boundary, sections.BoundaryOptions),
+    (ppum.Problem.discretization, sections.DiscretizationOptions),
+    (ppum.Problem.accuracy, sections.SpaceOptions),
+    (ppum.Problem.growth, sections.GrowthOptions),
+    (ppum.Problem.adaptivity, sections.AdaptivityOptions),
+]
+
+
+@pytest.mark.parametrize("function, kind", FUNCTIONS, ids=lambda thing: getattr(thing, "__qualname__", None))
+def test_options_are_in_signatures_and_help(function, kind):
+    parameters = inspect.signature(function).parameters
+    assert all(p.kind is not p.VAR_KEYWORD for p in parameters.values())
+    for name, (_, option) in options_of(kind).items():
+        assert parameters[name].default == option.default
+        assert f"{name}: {option.text}" in function.__doc__
+
+
+def test_consoles_complete_options(f, problem):
+    shell = pytest.importorskip("IPython.core.completer").IPCompleter(namespace={"f": f, "plate": problem})
+    for line, option in {
+        "f.figure('ux', cli": "clim=",
+        "f.plot('ux', vmi": "vmin=",
+        "f.render('ux', zo": "zoom=",
+        "plate.boundary('top', trac": "traction=",
+        "plate.discretization(overl": "overlap=",
+    }.items():
+        shell.use_jedi = False
+        _, found = shell.complete(line_buffer=line, cursor_pos=len(line))
+        assert option in found, line
+
+
+@pytest.mark.parametrize(
+    "use, meant",
+    [
+        (lambda f, p: f.figure("ux", centre=(0, 0)), "center"),
+        (lambda f, p: f.figure("ux", colormap="magma"), "cmap"),
+        (lambda f, p: f.rgba("ux", overlay=["cells"]), "overlays"),
+        (lambda f, p: f.render("ux", zom=3), "zoom"),
+        (lambda f, p: f.extrema("ux", widht=3), "width"),
+        (lambda f, p: f.animate("ux", figsize=(3, 3)), "inches"),
+        (lambda f, p: f.plot("ux", cbar_kwargs={}), "colorbar"),
+        (lambda f, p: f.view("ux", range=(0, 1)), "clim"),
+        (lambda f, p: f.dataset.view("ux", clim=(0, 1), colormap="magma"), "cmap"),
+        (lambda f, p: f.view("ux").figure(them="dark"), "theme"),
+        (lambda f, p: f.figure("ux", labels={"titel": "a"}), "title"),
+        (lambda f, p: p.hole(centre=(0, 0), radius=1), "center"),
+        (lambda f, p: p.boundary("top", tracton=(0, 1)), "traction"),
+        (lambda f, p: p.discretization(ordr=3), "order"),
+        (lambda f, p: p.growth(3, incremet=0.1), "increment"),
+        (lambda f, p: p.accuracy(1e-3, oder=3), "order"),
+        (lambda f, p: p.crack(splin=[(0, 0)]), "spline"),
+    ],
+)
+def test_unknown_options_are_refused_at_the_call(f, problem, use, meant):
+    pytest.importorskip("anywidget")
+    with pytest.raises(TypeError, match=f"did you mean `{meant}`"):
+        use(f, problem)
+
+
+@pytest.mark.parametrize(
+    "options, message",
+    [
+        ({"norm": "Log"}, "norm: 'Log' is not one of .*; did you mean 'log'"),
+        ({"overlays": ["cell"]}, "overlays: 'cell' is not one of .*; did you mean 'cells'"),
+        ({"overlays": "clouds"}, "overlays: 'clouds' is not one of 'cracks', 'cells'"),
+        ({"deformed": "x"}, "deformed: 'x' is not one of 'auto' or a number"),
+        ({"isolines": "many"}, "isolines: 'many' is not one of 'auto' or a number"),
+        ({"clim": "foo"}, "clim: 'foo' is not a range; give 'auto', 'full'"),
+        ({"clim": (3, 1)}, "give the smaller value first"),
+        ({"clim": (0, float("nan"))}, "give finite values"),
+        ({"clim": 3}, "give the lower and the upper value"),
+        ({"clim": ("2%", "x")}, "is no range; write auto"),
+        ({"cmap": "virids"}, "did you mean `viridis`"),
+        ({"samples": 900}, "a number from 1 to 16"),
+        ({"theme": "pink"}, "theme: 'pink' is not one of 'light', 'dark'"),
+        ({"colorbar": "left"}, "colorbar: 'left' is not one of 'right', 'bottom'"),
+        ({"tip": 0, "zoom": 0}, "zoom: 0 does not enlarge"),
+        ({"size": (-1, 5)}, "size: a picture of -1x5 pixels"),
+    ],
+)
+def test_wrong_values_are_refused_at_the_call(f, options, message):
+    """Without a place in a text that nobody wrote."""
+    with pytest.raises(ValueError, match=message) as info:
+        f.figure("ux", **options)
+    assert "column" not in str(info.value)
+
+
+def test_values_of_wrong_types_are_refused(f):
+    for options in ({"arrows": "x"}, {"bands": 1.5}, {"symmetric": "yes"}, {"width": "wide"}):
+        with pytest.raises(TypeError, match=f"{next(iter(options))}: .* is needed, not"):
+            f.figure("ux", **options)
+    assert f.figure("ux", bands=np.int64(3), arrows=np.float32(40), symmetric=np.True_, size=np.array([90, 90]))
+
+
+def test_one_end_of_a_range(f):
+    """The other one is that of an automatic range."""
+    facts = _core.frame(f._core, styles.scene("ux", {}, "auto"), ((0.0, 0.0), 4.0), (64, 64))[1]
+    low, high = facts["range"]
+    view = ppum.View((0, 0), 4.0, (64, 64))
+    assert not np.array_equal(f.rgba("ux", view=view), f.rgba("ux", view=view, vmin=0.0))
+    assert np.array_equal(f.rgba("ux", view=view, vmin=low, vmax=0.1), f.rgba("ux", view=view, clim=(low, 0.1)))
+    made = json.loads(f._scene("ux", {"vmin": 0.0}, ((0.0, 0.0), 4.0)))
+    assert made["colors"]["range"].startswith("0.0,")
+    assert float(made["colors"]["range"].split(",")[1]) == pytest.approx(high, rel=1e-2)
+    for options in ({"vmin": 0, "clim": (0, 1)}, {"vmax": 0, "clim": "full"}):
+        with pytest.raises(TypeError, match="not both"):
+            f.figure("ux", **options)
+    with pytest.raises(ValueError, match="give both vmin and vmax"):
+        f.animate("ux", vmin=0)
+
+
+def test_a_view_is_taken_by_all_that_draw(f):
+    pytest.importorskip("anywidget")
+    view = ppum.View((0.1, 0.2), 0.5, (80, 60))
+    assert f.figure("ux", view=view).png() == f.figure("ux", center=(0.1, 0.2), width=0.5).png()
+    assert f.view("ux", view=view).view.width == 0.5 and f.view("ux", view=view).center == (0.1, 0.2)
+    assert np.array_equal(f.render("ux", view=view), f.render("ux", center=(0.1, 0.2), width=0.5, size=(80, 60)), equal_nan=True)
+    assert f.render("ux", view=view, size=(20, 10)).shape == (10, 20)
+    with pytest.raises(TypeError, match="leave out width"):
+        f.render("ux", view=view, width=1.0)
+
+
+KEYS = {
+    "[[hole]]\n": sections.HoleOptions,
+    "[[crack]]\n": sections.CrackOptions,
+    '[[boundary]]\non = "top"\n': sections.BoundaryOptions,
+    "[discretization]\nlevel = 2\n": sections.DiscretizationOptions,
+    "[growth]\nsteps = 2\n": sections.GrowthOptions,
+    "[adaptivity]\n": sections.AdaptivityOptions,
+}
+
+
+@pytest.mark.parametrize("head, kind", KEYS.items())
+def test_options_are_the_keys_of_problem_files(head, kind):
+    known = set()
+    for text in (
+        '[material]\nyoung = 1\npoisson = 0.3\nstate = "plane-strain"\n',
+        '[equation]\nkind = "poisson"\n',
+    ):
+        box = "[domain]\nmin = [0, 0]\nmax = [1, 1]\n" + text
+        box += "" if "discretization" in head else "[discretization]\nlevel = 2\n"
+        found = _core.check(f"{box}{head}qqqq = 1\n", "text", pathlib.Path())
+        texts = [f["message"] for f in found if "unknown key `qqqq`" in f["message"] and "known are" in f["message"]]
+        known |= {key for message in texts for key in re.split(r", | and ", message.split("known are ")[1])}
+    of_methods = {"points"} if kind is sections.CrackOptions else {"on"} if "boundary" in head else {"steps"} if "growth" in head else set()
+    assert known - of_methods == set(options_of(kind)) and known
+    assert all(option.default is UNSET for _, option in options_of(kind).values())
+
+
+def test_overlays_are_those_of_the_libraries(f):
+    scene = json.loads(styles.scene("ux", {}, "auto"))
+    scene["overlays"]["shown"] = ["clouds"]
+    with pytest.raises(ValueError) as info:
+        _core.rgba(f._core, json.dumps(scene), ((0.0, 0.0), 1.0), (2, 2))
+    assert set(re.findall(r"`(\w+)`", str(info.value))) - {"clouds"} == set(get_args(styles.Overlay))
+    for norm in get_args(styles.Norm):
+        f.figure("von_mises", norm=norm)
+
+
+RIGHT = """
+import numpy as np
+import ppum
+
+plate = (
+    ppum.Problem(domain=((0, 0), (1, 1)), material=ppum.Elastic(1.0, 0.3))
+    .crack((0.2, 0.5), (0.5, 0.5))
+    .crack(np.array([[0.2, 0.8], [0.5, 0.8]]))
+    .hole(center=(0.7, 0.2), radius=0.1)
+    .boundary("top", traction=(0, 1))
+    .discretization(cells=(8, 8), order=2)
+    .growth(3, criterion="hoop")
+)
+ds: ppum.Dataset = ppum.open("plate.h5")
+f = ds.field
+f.figure("ux", tip=0, zoom=10, norm="log", vmin=0, overlays=["cracks"], colorbar="right").save("a.png")
+f.plot("ux", vmin=0, vmax=1, cmap="batlow")
+ds.view("ux", clim=(0, 1), cmap="magma")
+k1: float = f.intensities(0).k1
+tips: ppum.Table[ppum.Tip] = f.intensities()
+"""
+
+WRONG = {
+    'f.figure("ux", centre=(0, 0))': "call-arg",
+    'f.figure("ux", norm="Log")': "arg-type",
+    'f.figure("ux", overlays=["cell"])': "list-item",
+    'f.plot("ux", colormap="magma")': "call-arg",
+    'ds.view("ux", range=(0, 1))': "call-arg",
+    'f.render("ux", zom=3)': "call-arg",
+    'plate.boundary("top", tracton=(0, 1))': "call-arg",
+    "plate.hole(centre=(0, 0))": "call-arg",
+    "plate.discretization(order=2.5)": "arg-type",
+    'plate.growth(2, criterion="hop")': "arg-type",
+    "plate.accuracy(1e-3, oder=3)": "call-arg",
+    "ppum.Problem((0, 0), (1, 1))": "arg-type",
+}
+
+
+def test_mypy_finds_wrong_options(tmp_path):
+    pytest.importorskip("mypy")
+    script = tmp_path / "script.py"
+    script.write_text(RIGHT + "\n".join(WRONG) + "\n")
+    run = [sys.executable, "-m", "mypy", "--strict", "--config-file", ROOT / "pyproject.toml", "--cache-dir", tmp_path / "cache", script]
+    environment = {**os.environ, "MYPYPATH": str(pathlib.Path(ppum.__file__).parents[1])}
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, env=environment)
+    found = re.findall(r"script\.py:(\d+): error: .*\[([\w-]+)\]", done.stdout)
+    first = RIGHT.count("\n") + 1
+    expected = {str(first + k): code for k, code in enumerate(WRONG.values())}
+    assert dict(found) == expected, done.stdout + done.stderr
