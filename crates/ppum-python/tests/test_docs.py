@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import inspect
 import os
 import pkgutil
 import re
@@ -14,7 +15,6 @@ import pytest
 from conftest import ROOT
 
 MODULES = [f"ppum.{m.name}" for m in pkgutil.iter_modules(ppum.__path__) if m.name != "_core"]
-#: Members that speak for themselves to every Python programmer.
 PAGE = ROOT / "docs/python.md"
 
 
@@ -22,6 +22,7 @@ def examples(module):
     """Those of a module and of all that it offers; `doctest.testmod` passes over classes that say they are of `ppum`."""
     finder = doctest.DocTestFinder()
     things = {name: getattr(module, name) for name in getattr(module, "__all__", ())}
+    things = {name: thing for name, thing in things.items() if not inspect.ismodule(thing)}
     if doc := module.__doc__:
         things[module.__name__] = type("Head", (), {"__doc__": doc})
     return [test for name, thing in things.items() for test in finder.find(thing, name, module=False) if test.examples]
