@@ -103,7 +103,7 @@ type Found = (Vec<Tip>, Vec<facts::Warning>, Places);
 
 fn refuse_poisson(name: &str, dataset: &Dataset) -> anyhow::Result<()> {
     if dataset.equation.elastic().is_none() {
-        bail!("{name}: a Poisson problem has no stress intensity factors; solve one of elasticity");
+        bail!("{name}: only displacements of elasticity have stress intensity factors");
     }
     Ok(())
 }
