@@ -113,7 +113,7 @@ def bernstein(degree: int, order: Any = "tensor", interval: tuple[float, float] 
     """
     one = [Fraction(1)]
     all_ = []
-    for k in range(degree + 1):
+    for k in range(_bounded(degree) + 1):
         p = [Fraction(comb(degree, k))]
         for factor in [[Fraction(0), Fraction(1)]] * k + [[Fraction(1), Fraction(-1)]] * (degree - k):
             p = _times(p, factor)
@@ -126,6 +126,7 @@ def lagrange(nodes: ArrayLike, order: Any = "tensor", interval: tuple[float, flo
     at = [Fraction(float(v)) for v in numbers("nodes", nodes)]
     if len(set(at)) < len(at):
         raise BuildError("nodes: two are equal; leave one out")
+    _bounded(len(at) - 1)
     all_ = []
     for i, a in enumerate(at):
         p = [Fraction(1)]
@@ -137,7 +138,7 @@ def lagrange(nodes: ArrayLike, order: Any = "tensor", interval: tuple[float, flo
 
 def monomials(degree: int, order: Any = "total-y", interval: tuple[float, float] = (-1, 1)) -> Basis:
     """Monomials in another order or of another coordinate; arguments as of `legendre`."""
-    all_ = [[Fraction(0)] * k + [Fraction(1)] for k in range(degree + 1)]
+    all_ = [[Fraction(0)] * k + [Fraction(1)] for k in range(_bounded(degree) + 1)]
     return _basis(all_, order, interval)
 
 
@@ -192,9 +193,7 @@ def fit(
         >>> ppum.basis.fit(cover, 2, lambda patch, x, y: x * y).shape
         (4, 6)
     """
-    if not 0 <= degree <= MAX_DEGREE:
-        raise BuildError(f"degree: is {degree}, expected 0 to {MAX_DEGREE}")
-    count = degree + 3
+    count = _bounded(degree) + 3
     nodes = np.cos(np.pi * (np.arange(count) + 0.5) / count)
     xi, eta = (a.reshape(-1) for a in np.meshgrid(nodes, nodes))
     values = [_sampled(cover, k, function, xi, eta) for k in range(len(cover))]
@@ -226,10 +225,17 @@ def _sampled(
     return values
 
 
+def _bounded(degree: int) -> int:
+    """The degree, asked before exact arithmetic makes long work of it."""
+    if not 0 <= degree <= MAX_DEGREE:
+        raise BuildError(f"degree: is {degree}, expected 0 to {MAX_DEGREE}")
+    return degree
+
+
 def _recurrent(degree: int, factors: Callable[[int], tuple[Fraction, Fraction]]) -> list[Poly]:
     """Polynomials with p_{k+1} = a ξ p_k − b p_{k−1}."""
     all_: list[Poly] = [[Fraction(1)]]
-    for k in range(degree):
+    for k in range(_bounded(degree)):
         a, b = factors(k)
         raised = [Fraction(0), *(a * v for v in all_[-1])]
         lowered = all_[-2] if k else []

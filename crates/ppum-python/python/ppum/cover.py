@@ -93,6 +93,8 @@ class Cover:
             [0.09375, 0.09375]
         """
         (x0, y0), (x1, y1) = rows("domain", domain, 2, 2)
+        if not (x0 < x1 and y0 < y1):
+            raise BuildError(f"domain: {(x0, y0)} is not left of and below {(x1, y1)}; give the lower left corner first")
         nx, ny = cells
         if min(nx, ny) < 1:
             raise BuildError(f"cells: {cells} has no cells; give the numbers of columns and rows")
