@@ -1,4 +1,4 @@
-"""Runs the Python of README.md as it is printed, on the dataset of the problem that stands there.
+"""Runs the Python of README.md and docs/tour.md as printed, on the dataset of the README's problem.
 
     pip install -r tests/python/requirements.txt
     python tests/python/test_readme.py          (from the repository's root; or: pytest tests/python)
@@ -17,21 +17,22 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import programs
 
 ROOT = pathlib.Path(__file__).parents[2]
-PAGE = (ROOT / "README.md").read_text()
+README = (ROOT / "README.md").read_text()
+TOUR = (ROOT / "docs/tour.md").read_text()
 
 
-def blocks(language):
-    return re.findall(rf"```{language}\n(.*?)```", PAGE, re.DOTALL)
+def blocks(page, language):
+    return re.findall(rf"```{language}\n(.*?)```", page, re.DOTALL)
 
 
 def test_readme_snippets_run():
     with tempfile.TemporaryDirectory(prefix="ppum-") as name:
         folder = pathlib.Path(name)
-        (folder / "plate.toml").write_text(blocks("toml")[0])
+        (folder / "plate.toml").write_text(blocks(README, "toml")[0])
         solve = programs.ppum("solve", folder / "plate.toml")
         subprocess.run(solve, cwd=ROOT, check=True, capture_output=True)
         (folder / "tests").symlink_to(ROOT / "tests")
-        snippets = blocks("python")
+        snippets = blocks(README, "python") + blocks(TOUR, "python")
         assert len(snippets) == 3
         for snippet in snippets:
             if re.search(r"import .*\bppum\b", snippet) and importlib.util.find_spec("ppum") is None:

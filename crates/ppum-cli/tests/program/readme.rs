@@ -1,8 +1,9 @@
-//! The problems and commands of README.md, as a reader would follow them.
+//! The problems and commands of README.md and docs/tour.md, as a reader would follow them.
 
 use super::Lab;
 
 const PAGE: &str = include_str!("../../../../README.md");
+const TOUR: &str = include_str!("../../../../docs/tour.md");
 
 /// The texts of a page's blocks of a language.
 pub(super) fn blocks<const N: usize>(page: &'static str, language: &str) -> [&'static str; N] {
@@ -32,10 +33,12 @@ pub(super) fn follow(lab: &Lab, block: &str) {
 #[test]
 fn the_first_problem() {
     let lab = Lab::new();
-    let ([problem, _], [commands, _]) = (blocks(PAGE, "toml"), blocks(PAGE, "sh"));
+    let ([problem], [commands]) = (blocks(PAGE, "toml"), blocks(PAGE, "sh"));
+    let [more, _] = blocks(TOUR, "sh");
     lab.write("plate.toml", problem);
     follow(&lab, commands);
-    for name in ["plate.h5", "plate.png", "uy.png"] {
+    follow(&lab, more);
+    for name in ["plate.h5", "plate.png", "uy.png", "plate.pdf"] {
         assert!(lab.path(name).is_file(), "{name}");
     }
     // Slanted centre crack, a/W = 0.5, H/W = 2, 45°: K over σ√(πa), found independently by
@@ -54,7 +57,7 @@ fn the_first_problem() {
 #[test]
 fn functions_are_formulas() {
     let lab = Lab::new();
-    let ([_, problem], [_, commands]) = (blocks(PAGE, "toml"), blocks(PAGE, "sh"));
+    let ([problem], [_, commands]) = (blocks(TOUR, "toml"), blocks(TOUR, "sh"));
     lab.write("materials.toml", problem);
     follow(&lab, commands);
     assert!(lab.path("safety.png").is_file());
