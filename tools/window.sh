@@ -35,7 +35,7 @@ begin() {
     "$program" view --size "$size" "$@" &
     window=$!
     until_it_does is_there
-    xdotool windowfocus "$id"
+    until_it_does xdotool windowfocus "$id"      # it may have to be mapped first
     sleep 3
 }
 

@@ -31,8 +31,8 @@ fn spread(mut all: Vec<f64>) -> [f64; 3] {
 fn estimates(page: &mut Page) {
     page.add("## Estimated errors of K");
     page.add(
-        "Effectivity: the estimated error over the error, of every tip of the plates above whose K is known and not right to\n\
-         the digits of the reference; on the coarse and the middle cover.",
+        "Effectivity is the estimated error over the error. It is given for every tip of the plates above whose K is known and\n\
+         differs from the reference in the reference's digits, on the coarse and the middle cover.",
     );
     page.head(&["p", "tips", "errors", "effectivity: least", "median", "largest"]);
     for order in 1..=3 {
@@ -59,8 +59,8 @@ fn effectivities(plate: &Plate, order: usize) -> Vec<(f64, f64)> {
 fn accuracies(page: &mut Page) {
     page.add("## Accuracies that are asked for");
     page.add(
-        "`accuracy` in `[discretization]`, from level 2, all else by default: the largest error of the tips of each plate over what was\n\
-         asked for, and the unknowns. Errors at 1e-6 are those of the references where these have six digits.",
+        "`accuracy` in `[discretization]`, from level 2, all else by default: the largest error of the tips of each plate over\n\
+         the requested accuracy, and the unknowns. Where references have six digits, errors at 1e-6 are those of the references.",
     );
     let asked = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
     let titles = asked.map(|accuracy| format!("{accuracy:.0e}"));
@@ -79,7 +79,7 @@ fn accuracies(page: &mut Page) {
     let good = parts.iter().filter(|part| **part <= 1.0).count();
     let [_, median, worst] = spread(parts.clone());
     page.add(&format!(
-        "{good} of {} were reached; the median is {median:.2} of what was asked for, the largest {worst:.2}.",
+        "{good} of {} were reached; the median is {median:.2} of the requested accuracy, the largest {worst:.2}.",
         parts.len()
     ));
 }
@@ -105,7 +105,8 @@ const CASES: [Case; 3] = [
 fn courses(page: &mut Page) -> anyhow::Result<()> {
     page.add("## Covers that adapt");
     page.add(
-        "Errors in the energy norm of a potential r^⅔ sin ⅔θ around a corner of 270°, of a plate with a square hole, and of one with a crack.\n\
+        "Errors in the energy norm of a potential r^⅔ sin ⅔θ around a corner of 270°, of a plate with a square hole, and of one\n\
+         with a crack.\n\
          h: the exponent of the error in unknowns, to be p/2. hp: c and the correlation of ln(error) = a − c N^⅓, steps of more than a\n\
          sixth of the last one's unknowns; straight lines in the picture, which shows the relative errors.",
     );

@@ -73,7 +73,7 @@ fn zones(page: &mut Page) {
 fn study(page: &mut Page) {
     page.add("## The numerical study");
     page.add(
-        "The crack of above under a field with r^(3/2) terms: K_I = 1, K_II = 0.5, T = 0.3. The study, an independent program\n\
+        "The crack from above under a field with r^(3/2) terms: K_I = 1, K_II = 0.5, T = 0.3. The study, an independent program\n\
          in Python, gives errors in the energy norm but not the amplitudes of the last terms; a = 0.4 and b = 0.3 is the\n\
          pair of round numbers that reproduces all 27 entries. Each cell: study, ours, ratio."
     );
@@ -94,8 +94,8 @@ fn beside_tips(page: &mut Page) {
     page.add("## Rates beside a tip");
     page.add(
         "A crack from (−0.4, −0.3) to (0.4, 0.3) in [−1, 1]², ends pulled, all else by default; error in the energy norm from the\n\
-         strain energy, which is 2.428931916 (finite elements of order 12, good to 2e-9). On the cover of level 3 most cells, those around\n\
-         the crack, are as small as on that of level 4: the second rate is the one to look at, and it comes near p."
+         strain energy, which is 2.428931916 (finite elements of order 12, good to 2e-9). On the cover of level 3 most cells,\n\
+         those around the crack, are as small as on that of level 4: the second rate is the one to look at; it comes near p."
     );
     page.head(&["p", "level 3", "level 4", "level 5", "unknowns"]);
     for order in 1..=4 {

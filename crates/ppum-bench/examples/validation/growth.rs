@@ -26,8 +26,8 @@ pub(crate) const HEADING: &str = "## Growing cracks";
 pub(crate) fn write(page: &mut Page) -> anyhow::Result<()> {
     page.add(HEADING);
     page.add(
-        "`cargo run --release -p ppum-bench --example validation -- growth` computes this part of the page alone, and keeps its series in\n\
-         `target/growth`: what is there is not computed again.",
+        "`cargo run --release -p ppum-bench --example validation -- growth` computes only this part of the page. It keeps its\n\
+         series in `target/growth` and does not compute again what is there.",
     );
     kinks(page);
     first_kink(page)?;
@@ -50,8 +50,9 @@ const ANGLES: [([f64; 2], [f64; 3]); 4] = [
 fn kinks(page: &mut Page) {
     page.add("### Angles of kinks");
     page.add(
-        "Reference: by hoop stress the closed form of Erdogan & Sih (1963); by local symmetry and energy the root of k_II, and the maximum of\n\
-         k_I² + k_II², of the functions F_ij(θ) of Amestoy & Leblond (1992), found with 40 digits. Angles in degrees, differences absolute.",
+        "Reference: by hoop stress, the closed form of Erdogan & Sih (1963); by local symmetry and energy, the root of k_II and\n\
+         the maximum of k_I² + k_II² of the functions F_ij(θ) of Amestoy & Leblond (1992), found with 40 digits. Angles are in\n\
+         degrees, differences absolute.",
     );
     page.head(&["K_I, K_II", "criterion", "reference", "difference"]);
     for (k, angles) in ANGLES {
@@ -80,8 +81,8 @@ fn ratio(step: &Step) -> f64 {
 fn first_kink(page: &mut Page) -> anyhow::Result<()> {
     page.add("### Sliding behind the first kink");
     page.add(
-        "The edge crack under end shear of above, [edge-shear-growth.toml](../examples/edge-shear-growth.toml), K_II = 0.1333 K_I. K_II / K_I at the tips\n\
-         after the first, second and third increment of 0.5.",
+        "The edge crack under end shear from above, [edge-shear-growth.toml](../examples/edge-shear-growth.toml), with\n\
+         K_II = 0.1333 K_I: K_II / K_I at the tips after the first, second and third increment of 0.5.",
     );
     page.head(&["criterion", "first", "second", "third"]);
     for (name, key, _) in CRITERIA {
@@ -98,8 +99,8 @@ const INCREMENTS: [(f64, usize); 5] = [(1.0, 2), (0.5, 4), (0.25, 8), (0.125, 16
 fn convergence(page: &mut Page) -> anyhow::Result<()> {
     page.add("### Paths as increments are halved");
     page.add(
-        "The tip of the same crack when it has grown by 2: its distance to that with increments half as long, and the order between two such\n\
-         distances in parentheses.",
+        "The tip of the same crack when it has grown by 2: its distance to the tip with increments half as long, and in\n\
+         parentheses the order between two such distances.",
     );
     let titles = INCREMENTS.map(|(da, _)| da.to_string());
     let titles = titles.windows(2).map(|w| format!("{} to {}", w[0], w[1]));
@@ -130,9 +131,9 @@ fn holes(page: &mut Page) -> anyhow::Result<()> {
     let apart = one.iter().zip(other).map(|(p, q)| (*p + *q).length()).fold(0.0, f64::max);
     let end = one[one.len() - 1];
     page.add(&format!(
-        "[two-holes-growth.toml](../examples/two-holes-growth.toml), after Bouchard, Bay & Chastel (2003): the plate is its own image under a turn by 180°. Each crack\n\
-         ends in the hole that it bends towards, after {} increments, one at ({:.4}, {:.4}). Vertices of one path and turned ones of the other, {} each,\n\
-         differ by {} at most.",
+        "[two-holes-growth.toml](../examples/two-holes-growth.toml), after Bouchard, Bay & Chastel (2003): the plate is\n\
+         symmetric under rotation by 180°. Each crack ends in the hole that it bends towards, after {} increments, one at\n\
+         ({:.4}, {:.4}). The vertices of one path and the rotated ones of the other, {} each, differ by {} at most.",
         steps.len() - 1, end.x, end.y, one.len(), error(apart)
     ));
     page.picture("two-holes-growth", &last, last.domain.bounds)
@@ -207,11 +208,13 @@ impl Beam {
 const CRACK: &str = "points = [[-6.0, -4.0], [-6.0, -3.0]]";
 
 const BEAM: &str = "\
-[beam-three-holes.toml](../examples/beam-three-holes.toml), after Bittencourt, Wawrzynek, Ingraffea & Sousa (1996), and the same with a crack of 1.5 at x = −5. By the published\n\
-drawings, which have no numbers, the crack from x = −5 passes the lowest hole closely and ends in the middle one, and so does, at a distance, the one from x = −6. Here the\n\
-one from x = −6 does; the one from x = −5 passes the lowest hole as closely, but then goes by the middle one, on its right, at 0.2, with either order and increment. The\n\
-factors that say so are those of another program, see below the table; force and supports as pressures 0.2 wide, or supports that hold the border, make no difference\n\
-to the first direction beyond 0.1°. Distances to rims are those of the whole path; 0: it ends there.";
+[beam-three-holes.toml](../examples/beam-three-holes.toml), after Bittencourt, Wawrzynek, Ingraffea & Sousa (1996), and\n\
+the same beam with a crack of length 1.5 at x = −5. In the published drawings, which have no numbers, the crack from x =\n\
+−5 passes close to the lowest hole and ends in the middle one. So does the crack from x = −6, which passes the lowest\n\
+hole at a distance. Here the crack from x = −6 agrees; the one from x = −5 passes as close to the lowest hole, but then\n\
+passes the middle one on its right, at a distance of 0.2, with either order and increment. Another program gives the\n\
+same factors there, see below the table. Force and supports as pressures 0.2 wide, or supports that hold the border,\n\
+change the first direction by 0.1° at most. Distances to rims are those of the whole path; 0 means that it ends there.";
 
 /// The factors of the path from x = −5 at its 23rd increment, replaced by nine segments: hp finite elements of order 6.
 const SEGMENTS: &str = "points = [[-5.0, -4.0], [-5.0, -2.5], [-4.875135, -2.102985], [-4.742807, -1.742777], [-4.615927, -1.453226], \
@@ -225,8 +228,9 @@ fn beam_factors(page: &mut Page) {
     let problem = Problem::parse(text, "beam", Path::new(".")).expect("a problem");
     let tip = solved(&problem).steps[0].intensities[0].clone();
     page.add(&format!(
-        "The crack from x = −5 along nine segments that follow its path to ({:.3}, {:.3}), between the two holes: K_I = {:.5} and K_II = {:.5}; by hp finite elements that follow crack\n\
-         and holes (`tests/random`, order 6) {:.5} and {:.5}.",
+        "The crack from x = −5 along nine segments that follow its path to ({:.3}, {:.3}), between the two holes, has\n\
+         K_I = {:.5} and K_II = {:.5}; hp finite elements that follow crack and holes (`tests/random`, order 6) give\n\
+         {:.5} and {:.5}.",
         -3.939, -0.540, tip.k1, tip.k2, FACTORS[0], FACTORS[1]
     ));
 }
@@ -270,8 +274,8 @@ fn network(page: &mut Page) -> anyhow::Result<()> {
     let length = |step: &Step| step.cracks.iter().map(ppum::crack::Crack::length).sum::<f64>();
     let stop = last.steps[0].growth.as_ref().and_then(|growth| growth.stop);
     page.add(&format!(
-        "[network-growth.toml](../examples/network-growth.toml): ten cracks, of {:.2} in all, grow to {:.2} in {} increments; {} ends meet other cracks, {} leave the plate. What ends\n\
-         the series: {}.",
+        "[network-growth.toml](../examples/network-growth.toml): ten cracks with a total length of {:.2} grow to {:.2} in {}\n\
+         increments; {} ends meet other cracks, {} leave the plate. The series ends because {}.",
         length(&steps[0]), length(&last.steps[0]), steps.len() - 1,
         count(|fate| matches!(fate, Fate::MeetsCrack(_))),
         count(|fate| *fate == Fate::LeavesPlate),
@@ -306,8 +310,9 @@ fn many_steps(page: &mut Page) -> anyhow::Result<()> {
     let jump = (KINK..k.len() - 2).map(|i| departure(&k, i)).fold(0.0, f64::max);
     let worst = steps[1..].iter().map(|step| ratio(step).abs()).fold(0.0, f64::max);
     page.add(&format!(
-        "The edge crack under end shear grows by 2.5 in increments of 0.025, a fortieth of a cell. K_I from {:.3} to {:.3}; |K_II| / K_I {} at most. The largest departure of a K_I from the\n\
-         cubic through the two values before and the two behind it, from the fifth on, is {} of it; a jump would show with half its size or more.",
+        "The edge crack under end shear grows by 2.5 in increments of 0.025, a fortieth of a cell. K_I grows from {:.3} to\n\
+         {:.3}; |K_II| / K_I is {} at most. From the fifth value on, K_I departs by at most {} of it from the cubic\n\
+         through the two values before and the two after it. A jump would show with at least half its size.",
         k[0], k[MANY], error(worst), error(jump)
     ));
     page.head(&[

@@ -21,21 +21,22 @@ use std::path::Path;
 const HEAD: &str = "\
 # Validation
 
-What the solver gives, next to what is known. This page and its pictures are computed, not written:
+Results of the solver beside references. A program computes this page and its images:
 
 ```text
 cargo run --release -p ppum-bench --example validation
 ```
 
-Errors are relative, a positive one is a value that is too large. Where nothing else is said: E = 1, ν = 0.3, plane
-strain, order 2, α = 1.3, linear weights, and all else by default. Each benchmark is solved on three covers, each with
-cells half as large as the one before, further refined at tips by the program itself. The pictures show the von Mises
-stress (of Laplace's equation: the gradient) on the middle cover.
-The set-ups are in `crates/ppum-solve/tests/studies`; the tests in `crates/ppum-solve/tests/solver` hold the solver to
-limits of the errors of most of these benchmarks, mostly on the coarser covers. F = K/(σ√(πa)).
+Errors are relative; a positive error means that the value is too large. Unless stated otherwise, E = 1, ν = 0.3, plane
+strain, order 2, α = 1.3, linear weights, and all other settings have their defaults. Each benchmark is solved on three
+covers. Each has cells half as large as the one before, which the program further refines at tips. The images show the
+von Mises stress (for Laplace's equation: the gradient) on the middle cover. F = K/(σ√(πa)).
+The set-ups are in `crates/ppum-solve/tests/studies`; the tests in `crates/ppum-solve/tests/solver` bound the errors of
+most of these benchmarks, mostly on the coarser covers.
 
-Errors are differences from references. The `error` that `ppum sif` and `ppum info` print is an estimate, compared with
-them below. Their `spread` is the difference between three radii of one integral: a check, no estimate of the error.
+Errors are differences from references. The `error` that `ppum sif` and `ppum info` print is an estimate, which is
+compared with them below. Their `spread` is the difference between three radii of one integral: a check, not an estimate
+of the error.
 
 ## What tests hold
 
