@@ -147,6 +147,53 @@ const fn control_shift(key: Key) -> Option<KeyboardShortcut> {
     Some(KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), key))
 }
 
+/// Other words that people look for an action by.
+#[must_use]
+pub fn synonyms(action: Action) -> &'static str {
+    match action {
+        Action::Fit => "home reset fit zoom all",
+        Action::ZoomIn => "enlarge magnify larger",
+        Action::ZoomOut => "reduce smaller",
+        Action::Tip(_) | Action::NextTip => "go to zoom crack",
+        Action::Quantity => {
+            "variable stress strain displacement von mises formula error field component"
+        }
+        Action::NextScale => "log scale",
+        Action::AutomaticRange | Action::FreezeRange => "limits minimum maximum clim",
+        Action::NextMap | Action::ReverseMap => "colormap cmap palette colour bar",
+        Action::Overlays => "mesh cells patches cracks outline elements grid",
+        Action::Isolines => "contour level lines",
+        Action::Deform => "deformation warp displacement opening",
+        Action::Swing => "animate warp movie",
+        Action::Compare => "interpolation error sampling",
+        Action::Probe => "value pick point query",
+        Action::CircleForK => "sif stress intensity factor k1 k2 j integral energy release",
+        Action::Draw(_) => "profile path section cut",
+        Action::Extrema => "minimum maximum peak",
+        Action::Drawer(Page::Plot) => "profile line graph chart opening path csv curve",
+        Action::Drawer(Page::Tips) => "sif stress intensity factors k1 k2 t g energy release error",
+        Action::Drawer(Page::Series) => "history steps growth k over time",
+        Action::Drawer(Page::Solver) => "error estimate warnings convergence unknowns condition",
+        Action::Drawer(Page::Problem) => "toml input edit loads material mesh cover",
+        Action::Save(What::Picture) => "export image png screenshot",
+        Action::Save(What::Figure) => "export pdf svg png paper print image",
+        Action::Save(_) => "export gif movie film video apng",
+        Action::CopyCommand => "export script shell",
+        Action::Step(_) | Action::Play => "time animation movie film",
+        Action::Split => "compare side window",
+        Action::Minus => "compare subtract error",
+        Action::Panels => "sidebar controls full screen",
+        Action::Theme => "theme dark mode appearance colours",
+        Action::Help => "shortcuts keyboard manual font",
+        Action::Palette => "search command",
+        Action::SaveDataset => "export h5 hdf5 result",
+        Action::Open | Action::OpenBeside => "load import file",
+        Action::Solve => "run compute calculate",
+        Action::CancelSolving => "stop abort",
+        _ => "",
+    }
+}
+
 /// Headings of the help sheet, in their order.
 pub const GROUPS: [&str; 6] =
     ["Moving", "Colours", "Over the picture", "Reading", "Files and problems", "Window"];
@@ -155,17 +202,17 @@ pub const GROUPS: [&str; 6] =
 pub const ALL: &[Entry] = &[
     entry(Action::Fit, "Show the whole plate", key(Key::F), "Moving"),
     entry(Action::NextTip, "Fly to the next tip", key(Key::N), "Moving"),
-    entry(Action::Tip(0), "Fly to the 1st tip: tip 0", key(Key::Num1), "Moving"),
-    entry(Action::Tip(1), "Fly to the 2nd tip: tip 1", key(Key::Num2), "Moving"),
-    entry(Action::Tip(2), "Fly to the 3rd tip: tip 2", key(Key::Num3), "Moving"),
-    entry(Action::Tip(3), "Fly to the 4th tip: tip 3", key(Key::Num4), "Moving"),
-    entry(Action::Tip(4), "Fly to the 5th tip: tip 4", key(Key::Num5), "Moving"),
-    entry(Action::Tip(5), "Fly to the 6th tip: tip 5", key(Key::Num6), "Moving"),
-    entry(Action::Tip(6), "Fly to the 7th tip: tip 6", key(Key::Num7), "Moving"),
-    entry(Action::Tip(7), "Fly to the 8th tip: tip 7", key(Key::Num8), "Moving"),
-    entry(Action::Tip(8), "Fly to the 9th tip: tip 8", key(Key::Num9), "Moving"),
-    entry(Action::ZoomIn, "Enlarge", key(Key::Plus), "Moving"),
-    entry(Action::ZoomOut, "Reduce", key(Key::Minus), "Moving"),
+    entry(Action::Tip(0), "Fly to tip 0", key(Key::Num1), "Moving"),
+    entry(Action::Tip(1), "Fly to tip 1", key(Key::Num2), "Moving"),
+    entry(Action::Tip(2), "Fly to tip 2", key(Key::Num3), "Moving"),
+    entry(Action::Tip(3), "Fly to tip 3", key(Key::Num4), "Moving"),
+    entry(Action::Tip(4), "Fly to tip 4", key(Key::Num5), "Moving"),
+    entry(Action::Tip(5), "Fly to tip 5", key(Key::Num6), "Moving"),
+    entry(Action::Tip(6), "Fly to tip 6", key(Key::Num7), "Moving"),
+    entry(Action::Tip(7), "Fly to tip 7", key(Key::Num8), "Moving"),
+    entry(Action::Tip(8), "Fly to tip 8", key(Key::Num9), "Moving"),
+    entry(Action::ZoomIn, "Zoom in", key(Key::Plus), "Moving"),
+    entry(Action::ZoomOut, "Zoom out", key(Key::Minus), "Moving"),
     entry(Action::Pan(-1, 0), "Move left", key(Key::ArrowLeft), "Moving"),
     entry(Action::Pan(1, 0), "Move right", key(Key::ArrowRight), "Moving"),
     entry(Action::Pan(0, 1), "Move up", key(Key::ArrowUp), "Moving"),

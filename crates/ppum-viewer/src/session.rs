@@ -6,6 +6,7 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::view::{View, ViewError};
 use ppum_scene::colors::Colors;
 use ppum_scene::compare::Compare;
+use ppum_scene::overlays::Overlay;
 use ppum_scene::profile::{Along, COUNT};
 use ppum_scene::scene::Scene;
 use serde::{Deserialize, Serialize};
@@ -57,7 +58,7 @@ pub struct Draft {
 }
 
 /// One view.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Pane {
     /// The dataset's file.
@@ -78,6 +79,25 @@ pub struct Pane {
     pub plot: Plotting,
     /// True if the extrema of the view are marked.
     pub extrema: bool,
+}
+
+impl Default for Pane {
+    /// The whole of a dataset that is still to be chosen, with its cracks and rims, which dark maps hide.
+    fn default() -> Self {
+        let mut scene = Scene::default();
+        scene.overlays.shown.push(Overlay::Cracks);
+        Self {
+            file: None,
+            scene,
+            place: None,
+            compare: None,
+            against: Against::default(),
+            probes: Vec::new(),
+            curve: None,
+            plot: Plotting::default(),
+            extrema: false,
+        }
+    }
 }
 
 /// How the direct picture is seen beside what resampling gives of it: that on the right of a divider.

@@ -18,6 +18,7 @@ use crate::export::{Kind, Order, What};
 use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::player;
+use crate::reading::tool::Tool;
 use crate::session::{Page, Pane};
 use crate::stage::Stage;
 
@@ -30,6 +31,41 @@ impl Viewer {
             || self.arrange(ctx, action);
         if !is_done {
             self.act_on_files(ctx, action);
+        }
+    }
+
+    /// True if an action would do something to what is open.
+    pub(crate) fn is_possible(&self, action: Action) -> bool {
+        let (pane, stage) = (self.session.pane(), &self.stages[self.session.active]);
+        let opened = stage.opened.as_ref();
+        let (tips, has_text) = (stage.tips(pane), self.session.draft.is_some());
+        match action {
+            Action::Tip(number) => number < tips,
+            Action::NextTip | Action::CircleForK | Action::Draw(Tool::Ray) => tips > 0,
+            Action::Step(_)
+            | Action::Play
+            | Action::Save(What::Steps)
+            | Action::Drawer(Page::Series) => opened.is_some_and(|o| o.dataset.steps.len() > 1),
+            Action::Deform | Action::Swing | Action::Save(What::Deformation) => {
+                opened.is_some() && !stage.is_rigid()
+            }
+            Action::Solve | Action::SaveProblem | Action::SaveProblemAs | Action::CloseProblem => {
+                has_text
+            }
+            Action::CancelSolving => self.solving.running().is_some(),
+            Action::Open
+            | Action::Example(_)
+            | Action::SaveSession
+            | Action::SaveSessionAs
+            | Action::Drawer(_)
+            | Action::Undo
+            | Action::Redo
+            | Action::Panels
+            | Action::Theme
+            | Action::Help
+            | Action::Palette
+            | Action::Quit => true,
+            _ => opened.is_some(),
         }
     }
 
@@ -106,11 +142,14 @@ impl Viewer {
         let active = self.session.active;
         let (pane, stage) = (&mut self.session.panes[active], &mut self.stages[active]);
         match action {
-            Action::Save(what) => self.exporter = Some(Exporter::new(what, stage)),
+            Action::Save(what) => {
+                self.exporter = Some(Exporter::new(what, stage).as_fast_as(self.player.speed));
+            }
             Action::CopyCommand => {
-                if copy_command(ctx, pane, stage).is_err() {
+                match copy_command(ctx, pane, stage) {
+                    Ok(()) => stage.tell("Copied: the command that draws this"),
                     // it says why there is none
-                    self.exporter = Some(Exporter::new(What::Picture, stage));
+                    Err(_) => self.exporter = Some(Exporter::new(What::Picture, stage)),
                 }
             }
             Action::Probe => match stage.hovered() {

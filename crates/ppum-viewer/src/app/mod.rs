@@ -22,7 +22,7 @@ use crate::session::{Page, Place, Session, Theme};
 use crate::stage::difference::Pair;
 use crate::stage::{Opened, Stage};
 use crate::undo::{Rest, Undo};
-use crate::widgets::red;
+use crate::widgets::make_readable;
 
 /// The window.
 pub struct Viewer {
@@ -50,6 +50,8 @@ pub struct Viewer {
     /// The number of the tip that is flown to next.
     pub(crate) tip: usize,
     pub(crate) backend: Backend,
+    /// What the system calls the window.
+    title: String,
 }
 
 impl Viewer {
@@ -67,9 +69,7 @@ impl Viewer {
         ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
         ctx.add_plugin(actions::Tab::default());
         for theme in [egui::Theme::Dark, egui::Theme::Light] {
-            ctx.style_mut_of(theme, |style| {
-                style.visuals.error_fg_color = red(style.visuals.dark_mode);
-            });
+            ctx.style_mut_of(theme, |style| make_readable(&mut style.visuals));
         }
         session.mend();
         let stages = session.panes.iter().map(|_| Stage::new(ctx, backend)).collect();
@@ -89,6 +89,7 @@ impl Viewer {
             has_help: false,
             tip: 0,
             backend,
+            title: String::new(),
         }
     }
 
@@ -125,12 +126,10 @@ impl Viewer {
         CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| plates(ui, &mut desk));
         panels::files::notes(ui, &mut desk);
         help::show(ui, &mut self.has_help);
-        if let Some(palette) = &mut self.palette {
-            let (is_done, chosen) = palette.show(ui);
+        if let Some(mut palette) = self.palette.take() {
+            let (is_done, chosen) = palette.show(ui, |action| self.is_possible(action));
             actions.extend(chosen);
-            if is_done {
-                self.palette = None;
-            }
+            self.palette = (!is_done).then_some(palette);
         }
         let active = self.session.active;
         if let Some(exporter) = &mut self.exporter
@@ -143,7 +142,21 @@ impl Viewer {
         for action in actions {
             self.act(ui.ctx(), action);
         }
+        self.name_window(ui.ctx());
         self.note(ui);
+    }
+
+    /// Names the window by the files that it shows, so that two of them can be told apart.
+    fn name_window(&mut self, ctx: &egui::Context) {
+        let paths = self.stages.iter().filter_map(|stage| stage.opened.as_ref()?.path.as_deref());
+        let mut names: Vec<_> = paths.map(crate::files::name).collect();
+        names.dedup();
+        names.push("ppum".into());
+        let title = names.join(" – ");
+        if title != self.title {
+            self.title.clone_from(&title);
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
+        }
     }
 
     /// Notes the settings once nothing changes and nothing is dragged.
@@ -163,9 +176,10 @@ impl Viewer {
     fn copy(&mut self, ctx: &egui::Context) {
         let is_asked = ctx.input(|input| input.events.contains(&egui::Event::Copy));
         if is_asked && !ctx.egui_wants_keyboard_input() {
-            let text = self.stages[self.session.active].copied();
-            if let Some(text) = text {
+            let stage = &mut self.stages[self.session.active];
+            if let Some(text) = stage.copied() {
                 ctx.copy_text(text);
+                stage.tell("Copied: what is read here, with all digits");
             }
         }
     }
@@ -234,9 +248,9 @@ impl Viewer {
     }
 
     pub(crate) fn turn_theme(&mut self, ctx: &egui::Context) {
-        self.session.theme = match self.session.theme {
-            Theme::Dark => Theme::Light,
-            _ => Theme::Dark,
+        self.session.theme = match ctx.theme() {
+            egui::Theme::Dark => Theme::Light,
+            egui::Theme::Light => Theme::Dark,
         };
         self.show_theme(ctx);
     }

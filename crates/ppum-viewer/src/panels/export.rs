@@ -55,6 +55,15 @@ impl Exporter {
         }
     }
 
+    /// Moves as fast as the player shows the steps \[images a second\].
+    #[must_use]
+    pub fn as_fast_as(mut self, player: f64) -> Self {
+        if self.what == What::Steps {
+            self.rate = player;
+        }
+        self
+    }
+
     /// Shows the choice; false once it is closed.
     pub fn show(&mut self, ui: &Ui, pane: &Pane, stage: &Stage) -> bool {
         self.finish();

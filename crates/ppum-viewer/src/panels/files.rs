@@ -7,6 +7,7 @@ use egui::{Align2, Area, Frame, Id, Label, Order, ProgressBar, RichText, ScrollA
 
 use crate::actions::Action;
 use crate::desk::Desk;
+use crate::export::What;
 use crate::files::examples;
 use crate::files::name;
 use crate::files::read::{Reading, Why};
@@ -29,6 +30,8 @@ pub fn menu(ui: &mut Ui, desk: &mut Desk<'_>) {
             }
         }
         ui.separator();
+        exports(ui, desk);
+        ui.separator();
         ui.menu_button("Recent files", |ui| recent(ui, desk));
         ui.menu_button("Examples", |ui| {
             for (k, example) in examples::ALL.iter().enumerate() {
@@ -38,6 +41,24 @@ pub fn menu(ui: &mut Ui, desk: &mut Desk<'_>) {
             }
         });
     });
+}
+
+/// What can be saved of the picture.
+pub fn exports(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let stage = desk.active().1;
+    let steps = stage.opened.as_ref().map_or(0, |opened| opened.dataset.steps.len());
+    let (has_dataset, is_elastic) = (steps > 0, steps > 0 && !stage.is_rigid());
+    for (name, action, is_possible) in [
+        ("Image…", Action::Save(What::Picture), has_dataset),
+        ("Figure for print…", Action::Save(What::Figure), has_dataset),
+        ("Animation of the steps…", Action::Save(What::Steps), steps > 1),
+        ("Animation of the deformation…", Action::Save(What::Deformation), is_elastic),
+        ("Copy the command", Action::CopyCommand, has_dataset),
+    ] {
+        if ui.add_enabled(is_possible, egui::Button::new(name)).clicked() {
+            desk.actions.push(action);
+        }
+    }
 }
 
 /// Files that were opened, the newest first.

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Key, ScrollArea, TextEdit, Ui, Window};
 
-use crate::actions::{ALL, Action, Entry, spelled};
+use crate::actions::{ALL, Action, Entry, spelled, synonyms};
 
 /// What is looked for.
 #[derive(Clone, Debug, Default)]
@@ -12,9 +12,14 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// Shows it; true once it is done, with the action that was chosen, if any.
-    pub fn show(&mut self, ui: &Ui) -> (bool, Option<Action>) {
-        let found = found(&self.text);
+    /// Shows it, with the actions that are possible; true once it is done, with the action that was chosen, if any.
+    pub fn show(
+        &mut self,
+        ui: &Ui,
+        is_possible: impl Fn(Action) -> bool,
+    ) -> (bool, Option<Action>) {
+        let mut found = found(&self.text);
+        found.retain(|entry| is_possible(entry.action));
         let keys = [Key::Escape, Key::Enter, Key::ArrowDown, Key::ArrowUp];
         let [escape, enter, down, up] =
             ui.input_mut(|input| keys.map(|key| input.consume_key(egui::Modifiers::NONE, key)));
@@ -27,6 +32,9 @@ impl Palette {
             edit.request_focus();
             if edit.changed() {
                 self.chosen = 0;
+            }
+            if found.is_empty() {
+                ui.weak("Nothing of this name can be done now.");
             }
             ScrollArea::vertical().max_height(280.0).show(ui, |ui| {
                 for (number, entry) in found.iter().enumerate() {
@@ -43,12 +51,48 @@ impl Palette {
     }
 }
 
-/// The actions whose names have all words of a text.
+/// The actions whose names, or other words for them, have all words of a text; those of that name first.
 fn found(text: &str) -> Vec<&'static Entry> {
     let text = text.to_lowercase();
-    let fits = |entry: &&Entry| {
-        let name = entry.name.to_lowercase();
-        text.split_whitespace().all(|word| name.contains(word))
+    let has_all = |words: &str| text.split_whitespace().all(|word| words.contains(word));
+    let is_named = |entry: &&Entry| has_all(&entry.name.to_lowercase());
+    let is_meant = |entry: &&Entry| {
+        has_all(&format!("{} {}", entry.name.to_lowercase(), synonyms(entry.action)))
     };
-    ALL.iter().filter(fits).collect()
+    let (mut all, others): (Vec<_>, Vec<_>) = ALL.iter().filter(is_meant).partition(is_named);
+    all.extend(others);
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::What;
+    use crate::session::Page;
+
+    /// What newcomers type leads to what they want.
+    #[test]
+    fn people_find_what_they_call_otherwise() {
+        for (words, action) in [
+            ("SIF", Action::CircleForK),
+            ("stress intensity", Action::Drawer(Page::Tips)),
+            ("K1", Action::Drawer(Page::Tips)),
+            ("pdf", Action::Save(What::Figure)),
+            ("export", Action::Save(What::Picture)),
+            ("gif", Action::Save(What::Steps)),
+            ("film", Action::Save(What::Deformation)),
+            ("opening", Action::Drawer(Page::Plot)),
+            ("profile", Action::Drawer(Page::Plot)),
+            ("mesh", Action::Overlays),
+            ("error", Action::Drawer(Page::Solver)),
+            ("theme", Action::Theme),
+            ("font", Action::Help),
+            ("contour", Action::Isolines),
+        ] {
+            assert!(found(words).iter().any(|entry| entry.action == action), "{words}");
+        }
+        assert!(found("gibberish").is_empty());
+        // what has the name itself is first
+        assert_eq!(found("tip")[0].action, Action::NextTip);
+    }
 }

@@ -36,7 +36,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         desk.actions.push(Action::Step(1));
     }
     let load = trimmed(steps[step].load);
-    ui.label(format!("step {step} of 0 to {last}, load {load}"));
+    ui.label(format!("step {step} of {last}, load {load}"));
     let (sign, name) =
         if desk.player.is_playing { ("■", "Stop") } else { ("▷", "Play the steps") };
     if button(ui, sign, name).clicked() {

@@ -1,10 +1,11 @@
 //! The bar above the plate.
 
-use egui::Ui;
+use egui::{ProgressBar, RichText, Sense, Ui};
 
 use super::player;
 use crate::actions::Action;
 use crate::desk::Desk;
+use crate::session::Page;
 use crate::widgets::{button, elided};
 
 /// Letters of a title that has room.
@@ -39,6 +40,63 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
                 desk.actions.push(action);
             }
         }
+        if desk.active().1.opened.is_some() {
+            reading(ui, desk);
+        }
+        replaced(ui, desk);
+        solving(ui, desk);
         player::show(ui, desk);
     });
+}
+
+/// Says that functions, the weight or quantities are not those of the file.
+fn replaced(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let (pane, stage) = desk.active();
+    let subject = &pane.scene.subject;
+    let count = subject.functions.len() + subject.quantities.len();
+    let count = count + usize::from(subject.weight.is_some());
+    if count > 0 {
+        let text = RichText::new(format!("⚠ {count} replaced")).color(ui.visuals().warn_fg_color);
+        let button = ui.button(text);
+        let button = button.on_hover_text("Formulas in the place of the file's: show them");
+        if button.clicked() {
+            stage.controls.wants = Some("Functions");
+            desk.session.panels = true;
+        }
+    }
+}
+
+/// How far a solution has come, whatever page is open; a click opens the page of the problem.
+fn solving(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let Some(running) = desk.solving.running() else { return };
+    let bar = ProgressBar::new(running.told().part()).desired_width(110.0).text("solving");
+    let response = ui.add(bar).interact(Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "A solution runs"));
+    if response.on_hover_text("Show the problem, and cancel there").clicked() {
+        desk.session.drawer = Some(Page::Problem);
+    }
+}
+
+/// What one would not guess that the window can: K, plots, two views, images.
+fn reading(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let (pane, stage) = desk.active();
+    let has_tips = stage.tips(pane) > 0;
+    ui.separator();
+    ui.menu_button("Save image", |ui| super::files::exports(ui, desk))
+        .response
+        .on_hover_text("An image, a figure for print, an animation");
+    for (name, hint, action, is_possible) in [
+        (
+            "K at a tip",
+            "K, T and G on a circle around the nearest tip",
+            Action::CircleForK,
+            has_tips,
+        ),
+        ("Two views", "Two views side by side, or one", Action::Split, true),
+    ] {
+        let button = ui.add_enabled(is_possible, egui::Button::new(name));
+        if button.on_hover_text(hint).clicked() {
+            desk.actions.push(action);
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Problems while they are written, and their solutions: both in the background.
 
 pub mod marks;
+pub mod preview;
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -12,6 +13,7 @@ use ppum_solve::growth::{GrowthError, grow};
 use ppum_solve::problem::{Location, Problem, ProblemError};
 use ppum_solve::solve::{Plan, SolveError};
 
+use self::preview::Preview;
 use crate::job::{Job, Stop};
 use crate::session::Draft;
 
@@ -32,12 +34,14 @@ enum Source {
 }
 
 /// What is known of a text.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checked {
     /// The text.
     pub text: String,
     /// Its mistakes, in the order of the text.
     pub marks: Vec<Mark>,
+    /// What the text describes; of a text with mistakes what the last one without any did.
+    pub preview: Option<Arc<Preview>>,
 }
 
 /// The way the last solution has ended.
@@ -175,15 +179,22 @@ impl Solving {
             let broken = |message| Checked {
                 text: draft.text.clone(),
                 marks: vec![Mark { at: None, message }],
+                preview: None,
             };
-            self.checked = Some(Arc::new(outcome.unwrap_or_else(broken)));
+            let mut checked = outcome.unwrap_or_else(broken);
+            let before = self.checked.as_ref().and_then(|before| before.preview.clone());
+            checked.preview = checked.preview.or(before);
+            self.checked = Some(Arc::new(checked));
         }
         let is_known = self.checked.as_ref().is_some_and(|checked| checked.text == draft.text);
         if self.checking.is_none() && !is_known {
             let (text, source) = (draft.text.clone(), self.source(draft));
             self.checking = Some(Job::start(&self.ctx, move |_| {
-                let marks = parse(&text, &source).err().map(|e| marks(&e)).unwrap_or_default();
-                Checked { text, marks }
+                let (marks, preview) = match parse(&text, &source) {
+                    Ok(problem) => (Vec::new(), Some(Arc::new(Preview::new(&problem)))),
+                    Err(error) => (marks(&error), None),
+                };
+                Checked { text, marks, preview }
             }));
         }
     }

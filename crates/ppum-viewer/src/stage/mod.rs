@@ -413,12 +413,21 @@ impl Stage {
                 let pixel =
                     ppum::vec2::vec2(f64::from(at.x - rect.min.x), f64::from(at.y - rect.min.y))
                         * scale;
-                let offset = view.offset_at(pixel);
+                let offset = self.snapped(view, view.offset_at(pixel), scale);
                 let (place, is_at_the_end) = zoomed(view, offset, factor, &dataset.domain.bounds);
                 (pane.place, self.is_at_the_end) = (Some(place), is_at_the_end);
                 self.flight = None;
             }
         }
+    }
+
+    /// The way from the view's centre to the point that a ring marks near the pointer, else to the pointer itself, so that one
+    /// who enlarges a point of a crack stays on the crack.
+    fn snapped(&self, view: &View, pointer: Vec2, scale: f64) -> Vec2 {
+        let ring = self.reading.hover.as_ref().filter(|probed| probed.spot.on.is_some());
+        let offset = ring.map(|probed| probed.spot.from(view.center));
+        let reach = (readout::SNAP + 1.0) * scale * view.pixel_size();
+        offset.filter(|offset| (*offset - pointer).length() < reach).unwrap_or(pointer)
     }
 
     /// The newest picture of the dataset that is open: not of the one before, which may still be seen.

@@ -15,7 +15,7 @@ const TOLD: f64 = 4.0;
 /// Height of the line below the plate.
 pub(super) const HEIGHT: f32 = 24.0;
 /// Distance in points of the window within which a tip or a crack is meant.
-const SNAP: f64 = 4.0;
+pub(super) const SNAP: f64 = 4.0;
 /// The same of the mark of a probe that is clicked.
 const MARK: f32 = 9.0;
 impl Stage {

@@ -6,7 +6,7 @@ pub mod editor;
 pub mod entry;
 
 use egui::text::LayoutJob;
-use egui::{Color32, FontId, Label, RichText, Ui, vec2};
+use egui::{Color32, FontId, Label, RichText, Ui, Visuals, vec2};
 
 /// A button with a sign, which has a name too.
 pub fn button(ui: &mut Ui, sign: &str, name: &str) -> egui::Response {
@@ -28,8 +28,20 @@ pub(crate) fn wrong(ui: &Ui) -> Color32 {
     red(ui.visuals().dark_mode)
 }
 
+/// Colours of letters that are read without effort: every kind of text has a contrast of at least 4.5 to its ground.
+pub(crate) fn make_readable(visuals: &mut Visuals) {
+    visuals.error_fg_color = red(visuals.dark_mode);
+    let [text, button] = if visuals.dark_mode { [190, 205] } else { [40, 40] };
+    visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(text);
+    visuals.widgets.inactive.fg_stroke.color = Color32::from_gray(button);
+    visuals.weak_text_alpha = PALE;
+}
+
+/// Opacity of words that stand beside others.
+const PALE: f32 = 0.75;
+
 /// The same of a theme.
-pub(crate) fn red(is_dark: bool) -> Color32 {
+fn red(is_dark: bool) -> Color32 {
     match is_dark {
         true => Color32::from_rgb(255, 120, 110),
         false => Color32::from_rgb(185, 20, 20),
@@ -42,7 +54,7 @@ pub(crate) fn note(ui: &Ui, text: impl Into<String>) -> RichText {
 }
 
 fn pale(ui: &Ui) -> Color32 {
-    ui.visuals().text_color().gamma_multiply(0.75)
+    ui.visuals().text_color().gamma_multiply(PALE)
 }
 
 /// The same in a room that is always so many lines high, for words that change all the time; what has no room is told on
@@ -66,3 +78,39 @@ pub(crate) fn note_of(ui: &mut Ui, text: &str, lines: usize) {
 
 /// Size of notes \[points\].
 const NOTE: f32 = 11.5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The luminance of a colour as WCAG 2 defines it.
+    fn luminance(color: Color32) -> f32 {
+        let [r, g, b, _] = egui::Rgba::from(color).to_array();
+        0.2126 * r + 0.7152 * g + 0.0722 * b
+    }
+
+    fn contrast(text: Color32, ground: Color32) -> f32 {
+        let text = ground.blend(text);
+        let [a, b] = [luminance(text), luminance(ground)];
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn all_text_has_the_contrast_that_eyes_need() {
+        for mut visuals in [Visuals::dark(), Visuals::light()] {
+            make_readable(&mut visuals);
+            let pale = visuals.text_color().gamma_multiply(PALE);
+            let texts = [
+                ("text", visuals.text_color()),
+                ("note", pale),
+                ("weak text", visuals.weak_text_color()),
+                ("mistake", visuals.error_fg_color),
+                ("button", visuals.widgets.inactive.fg_stroke.color),
+            ];
+            for (name, text) in texts {
+                let found = contrast(text, visuals.panel_fill);
+                assert!(found >= 4.5, "{name}, dark: {}: {found}", visuals.dark_mode);
+            }
+        }
+    }
+}

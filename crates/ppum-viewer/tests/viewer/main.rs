@@ -7,6 +7,7 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 mod busy;
 mod controls;
 mod files;
+mod finding;
 mod frames;
 mod hands;
 mod kit;

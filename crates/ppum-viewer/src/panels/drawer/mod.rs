@@ -8,23 +8,23 @@ pub mod tips;
 
 use egui::{Panel, Ui};
 
+use crate::actions::Action;
 use crate::desk::Desk;
 use crate::session::Page;
 use crate::widgets::button;
 
-/// Shows the open page with the names of all others above it.
+/// Shows the names of all pages, and the open one below them.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
-    let Some(page) = desk.session.drawer else { return };
+    let Some(page) = desk.session.drawer else {
+        Panel::bottom("pages").resizable(false).show(ui, |ui| ui.horizontal(|ui| tabs(ui, desk)));
+        return;
+    };
     let most = (0.7 * ui.available_height()).max(120.0);
     let panel =
         Panel::bottom("drawer").resizable(true).default_size(280.0).size_range(120.0..=most);
     panel.show(ui, |ui| {
         ui.horizontal(|ui| {
-            for other in Page::ALL {
-                if ui.selectable_label(other == page, name(other)).clicked() {
-                    desk.session.drawer = Some(other);
-                }
-            }
+            tabs(ui, desk);
             if button(ui, "✗", "Close the drawer").clicked() {
                 desk.session.drawer = None;
             }
@@ -45,12 +45,22 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     });
 }
 
+/// The names of the pages; a click opens one, or closes it.
+fn tabs(ui: &mut Ui, desk: &mut Desk<'_>) {
+    for page in Page::ALL {
+        let is_open = desk.session.drawer == Some(page);
+        if ui.selectable_label(is_open, name(page)).clicked() {
+            desk.actions.push(Action::Drawer(page));
+        }
+    }
+}
+
 /// The name of a page.
 #[must_use]
 pub fn name(page: Page) -> &'static str {
     match page {
         Page::Plot => "Plot",
-        Page::Tips => "Tips",
+        Page::Tips => "Tips and K",
         Page::Series => "Series",
         Page::Solver => "Solver",
         Page::Problem => "Problem",

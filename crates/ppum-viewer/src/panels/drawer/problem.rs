@@ -9,7 +9,9 @@ use ppum::text::trimmed;
 use crate::actions::Action;
 use crate::desk::Desk;
 use crate::session::Draft;
+use crate::shapes;
 use crate::solving::marks::Look;
+use crate::solving::preview::Preview;
 use crate::solving::{Mark, Outcome, PHASES, Running, Solving};
 use crate::widgets::button;
 
@@ -157,13 +159,15 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
     if let Some(running) = desk.solving.running() {
         progress(ui, running);
     }
-    if let Some(checked) = desk.solving.checked().cloned() {
+    let checked = desk.solving.checked().cloned();
+    if let Some(checked) = &checked {
         mistakes(ui, &checked.marks, desk.solving);
     }
     let is_solved = matches!(desk.solving.outcome, Some(Outcome::Solved(..)));
     let opened = &desk.active().1.opened;
     let (can_save, opened) = (opened.is_some(), opened.as_ref());
     let is_unsaved = opened.is_some_and(|opened| opened.path.is_none());
+    let opened_text = opened.and_then(|opened| opened.dataset.problem.clone());
     match &desk.solving.outcome {
         None => {}
         Some(Outcome::Cancelled(0)) => {
@@ -194,6 +198,29 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
             save(ui, can_save, desk.actions);
         });
     }
+    if is_of_another_text(draft, opened_text) {
+        ui.label("What is shown was solved from another text.");
+    }
+    if let Some(preview) = checked.as_ref().and_then(|checked| checked.preview.as_deref()) {
+        show_preview(ui, preview);
+    }
+}
+
+/// True if a dataset holds the text of a problem that is not the one that is written.
+fn is_of_another_text(draft: &Draft, solved: Option<String>) -> bool {
+    solved.is_some_and(|text| text != draft.text)
+}
+
+/// What the text describes: plate, holes, cracks, supports and loads.
+fn show_preview(ui: &mut Ui, preview: &Preview) {
+    let width = ui.available_width();
+    let size = vec2(width, (0.8 * width).min(ui.available_height().max(160.0)));
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+    let [holes, cracks, ..] = preview.counts();
+    let text = format!("The problem as it is written: cracks {cracks}, holes {holes}");
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
+    let items = preview.items([size.x as u32, size.y as u32], 1.0);
+    shapes::draw(&ui.painter_at(rect), shapes::Placed::new(rect.min, 1.0), &items);
 }
 
 fn save(ui: &mut Ui, can_save: bool, actions: &mut Vec<Action>) {
@@ -204,11 +231,9 @@ fn save(ui: &mut Ui, can_save: bool, actions: &mut Vec<Action>) {
 
 fn buttons(ui: &mut Ui, draft: &Draft, desk: &mut Desk<'_>) {
     ui.horizontal_wrapped(|ui| {
-        if desk.solving.running().is_some() {
-            if ui.button("Cancel").clicked() {
-                desk.solving.cancel();
-            }
-        } else if ui.button("Solve").on_hover_text("Ctrl+Enter").clicked() {
+        let is_running = desk.solving.running().is_some();
+        let solve = ui.add_enabled(!is_running, egui::Button::new("Solve"));
+        if solve.on_hover_text("Ctrl+Enter").clicked() {
             desk.actions.push(Action::Solve);
         }
         let is_changed = desk.solving.is_changed(draft);
@@ -227,6 +252,10 @@ fn buttons(ui: &mut Ui, draft: &Draft, desk: &mut Desk<'_>) {
         ui.weak(if is_changed { format!("{name} *") } else { name });
         if button(ui, "✗", "Close the problem").clicked() {
             desk.actions.push(Action::CloseProblem);
+        }
+        // the last one, so that a second click on it meets nothing
+        if is_running && ui.button("Cancel").clicked() {
+            desk.solving.cancel();
         }
     });
 }

@@ -7,6 +7,7 @@ use ppum::text::trimmed;
 use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
 use ppum_render::cells;
 use ppum_scene::scene::OF_PATCHES;
+use ppum_solve::report::LinearKind;
 
 use crate::desk::Desk;
 use crate::session::Place;
@@ -77,7 +78,7 @@ fn numbers(ui: &mut Ui, step: &Step, height: f32) {
             let is_told = |r: &&Record| !many.iter().any(|word| r.name.starts_with(word));
             let told = numbers.into_iter().filter(is_told);
             for Record { name, value, unit } in told {
-                row(name, format!("{} {unit}", trimmed(*value)).trim_end().to_owned());
+                row(name, worded(name, *value, unit));
             }
             for Record { name, value, .. } in &times {
                 row(name, format!("{value:.3} s"));
@@ -87,6 +88,17 @@ fn numbers(ui: &mut Ui, step: &Step, height: f32) {
             }
         });
     });
+}
+
+/// A number of the solver as one reads it: bytes in MiB, the linear solver by its name.
+fn worded(name: &str, value: f64, unit: &str) -> String {
+    match (name, unit) {
+        ("linear solver", _) => {
+            LinearKind::of_code(value).map_or_else(|| trimmed(value), |kind| kind.word().to_owned())
+        }
+        (_, "B") => format!("{:.1} MiB", value / f64::from(1u32 << 20)),
+        _ => format!("{} {unit}", trimmed(value)).trim_end().to_owned(),
+    }
 }
 
 /// Seconds of the phases; of a series residuals and unknowns.
