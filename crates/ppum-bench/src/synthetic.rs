@@ -14,7 +14,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use num_complex::Complex64;
 use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd, End, TipId};
-use ppum::dataset::{Dataset, Equation, FieldData, Material, Partition, Step, StressState};
+use ppum::dataset::{BoxPartition, Dataset, Equation, FieldData, Material, Step, StressState};
 use ppum::formula::Scope;
 use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
 use ppum::polynomial::exponents;
@@ -187,7 +187,7 @@ fn nearest_tip(p: Vec2) -> usize {
 
 struct Maker {
     order: u8,
-    partition: Partition,
+    partition: BoxPartition,
     data: FieldData,
 }
 
@@ -206,7 +206,7 @@ impl Maker {
 
     /// The patches nearest to the tips whose cells make up a share of the area.
     fn enriched(&self, share: f64) -> Vec<bool> {
-        let Partition { center, cell, .. } = &self.partition;
+        let BoxPartition { center, cell, .. } = &self.partition;
         let distance = |patch: usize| (center[patch] - TIPS[nearest_tip(center[patch])]).length();
         let mut order: Vec<_> = (0..center.len()).map(|patch| (distance(patch), patch)).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0));

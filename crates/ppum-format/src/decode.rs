@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use ppum::crack::{Crack, CrackEnd, End, TipId};
 use ppum::dataset::{
-    Attribute, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Partition, Reaction,
+    Attribute, BoxPartition, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Reaction,
     Record, Ring, Step, StressState, TipIntensity, Warning,
 };
 use ppum::domain::{Domain, Hole};
@@ -100,17 +100,7 @@ pub(crate) fn empty(content: &Content, path: &str) -> Read<Step> {
 
 /// A step of this load, without patches.
 pub(crate) fn empty_step(load: f64) -> Step {
-    let mut step = Step::new(Partition {
-        weight: WeightFunction::Linear,
-        center: Vec::new(),
-        half: Vec::new(),
-        origin: Vec::new(),
-        scale: Vec::new(),
-        cell: Vec::new(),
-        level: Vec::new(),
-        point: Vec::new(),
-        points: Vec::new(),
-    });
+    let mut step = Step::new(BoxPartition::EMPTY);
     step.load = load;
     step
 }
@@ -239,12 +229,12 @@ fn step(group: &Group, scopes: &Option<Scopes>) -> Step {
     step
 }
 
-fn partition(group: &Group, scopes: &Option<Scopes>) -> Partition {
+fn partition(group: &Group, scopes: &Option<Scopes>) -> BoxPartition {
     group.attribute_word(&[((), "shepard-box")], "kind");
     let n = group.rows_of(&["center", "half", "origin", "scale", "cell", "level", "point"]);
     let point = group.column::<i64>("point", n);
     let cell = |[x0, y0, x1, y1]: [f64; 4]| Rect::new(vec2(x0, y0), vec2(x1, y1));
-    Partition {
+    BoxPartition {
         weight: weight(group, scopes).unwrap_or(WeightFunction::Linear),
         center: group.point_rows("center", n),
         half: group.point_rows("half", n),

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use ppum::crack::{Crack, SegmentId, TipId};
 use ppum::dataset::{
-    Dataset, Equation, Fate, FieldData, Growth, NamedQuantity, Partition, Reaction, Record, Step,
-    TipIntensity, Warning,
+    BoxPartition, Dataset, Equation, Fate, FieldData, Growth, NamedQuantity, Partition, Reaction,
+    Record, Step, TipIntensity, Warning,
 };
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
@@ -174,7 +174,10 @@ fn quantities(group: &mut Group, quantities: &[NamedQuantity]) {
 
 fn step(group: &mut Group, step: &Step) -> Written {
     group.attribute("load", Array::scalar(step.load));
-    partition(&mut group.group("partition"), &step.partition);
+    match &step.partition {
+        Partition::Boxes(boxes) => partition(&mut group.group("partition"), boxes),
+        _ => return Err(group.unknown("partition")),
+    }
     cracks(&mut group.group("cracks"), &step.cracks)?;
     functions(&mut group.group("functions"), &step.functions)?;
     for (k, f) in step.fields.iter().enumerate() {
@@ -192,7 +195,7 @@ fn step(group: &mut Group, step: &Step) -> Written {
     step.growth.iter().try_for_each(|g| growth(&mut group.group("growth"), g))
 }
 
-fn partition(group: &mut Group, partition: &Partition) {
+fn partition(group: &mut Group, partition: &BoxPartition) {
     let weight = &partition.weight;
     group.attribute("kind", Array::scalar("shepard-box".to_owned()));
     group.attribute("weight", Array::scalar(weight.name().to_owned()));

@@ -14,7 +14,7 @@ const OWN: [(&str, &str); 4] =
 /// attribute of the step with another name. None if there is none of this name.
 #[must_use]
 pub fn values(field: &Field<'_>, name: &str) -> Option<Vec<f64>> {
-    let (partition, data) = (&field.step.partition, field.data);
+    let (partition, data) = (field.step.partition.boxes(), field.data);
     let patches = 0..partition.len();
     let degree = |block: usize| data.block_degree[block];
     let count = |block: usize| monomials(degree(block).into());
@@ -53,7 +53,7 @@ pub fn label(name: &str) -> &str {
 /// If there is not one value per patch.
 #[must_use]
 pub fn raster(field: &Field<'_>, values: &[f64], view: &View) -> Raster {
-    let cells = &field.step.partition.cell;
+    let cells = &field.step.partition.boxes().cell;
     assert_eq!(values.len(), cells.len(), "one value per patch");
     let (domain, last) = (field.domain.at(view.center), field.domain.bounds.max - view.center);
     let [columns, rows] = view.pixels.map(|n| n as usize);
@@ -114,7 +114,7 @@ mod tests {
                 let p = view.center + view.offset(i, j);
                 let column = |x: f64| x.floor().clamp(0.0, 3.0);
                 let holds = |cell: &Rect| cell.min == vec2(column(p.x), column(p.y));
-                let cell = field.step.partition.cell.iter().position(holds);
+                let cell = field.step.partition.boxes().cell.iter().position(holds);
                 let expected = match cell {
                     Some(cell) if field.domain.contains(p) => numbers[cell],
                     _ => f64::NAN,

@@ -175,9 +175,9 @@ impl<'a> Drawing<'a> {
         let Ground { field, picture, .. } = self.ground;
         let (view, scale, step) = (&picture.view, self.scale, field.step);
         match wanted {
-            Overlay::Patches => overlay::patches(view, scale, &step.partition),
-            Overlay::Cells => overlay::cells(view, scale, &step.partition),
-            Overlay::Points => overlay::points(view, scale, &step.partition),
+            Overlay::Patches => overlay::patches(view, scale, step.partition.boxes()),
+            Overlay::Cells => overlay::cells(view, scale, step.partition.boxes()),
+            Overlay::Points => overlay::points(view, scale, step.partition.boxes()),
             Overlay::Boxes => overlay::boxes(view, self.scale, field).0,
             Overlay::Centers => overlay::centers(view, self.scale, field).0,
             Overlay::Rings => overlay::rings(view, scale, &step.cracks, &step.intensities),

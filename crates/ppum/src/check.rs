@@ -33,7 +33,7 @@ use results::{check_intensities, check_reaction, check_warning};
 #[error("{place}: {mistake}")]
 #[non_exhaustive]
 pub struct CheckError {
-    /// The place, as a path through the dataset's fields, e.g. `steps[0].partition.half[17]`.
+    /// The place, as a path through the dataset's fields, e.g. `steps[0].partition.boxes().half[17]`.
     pub place: String,
     /// The mistake, and what was expected.
     pub mistake: String,
@@ -75,11 +75,14 @@ impl Dataset {
         for (k, step) in self.steps.iter().enumerate() {
             errors.within(&format!("steps[{k}]"), |errors| {
                 let has_partition = check_step(step, &self.equation, errors);
-                let same_cells = k > 0 && self.steps[k - 1].partition.cell == step.partition.cell;
+                let same_cells = k > 0
+                    && self.steps[k - 1].partition.boxes().cell == step.partition.boxes().cell;
                 if has_domain && has_partition {
                     errors.within("partition", |errors| {
-                        if same_cells || errors.add(tiling::check(&step.partition, &self.domain)) {
-                            errors.add(coverage::check(&step.partition, &self.domain));
+                        if same_cells
+                            || errors.add(tiling::check(step.partition.boxes(), &self.domain))
+                        {
+                            errors.add(coverage::check(step.partition.boxes(), &self.domain));
                         }
                     });
                 }
@@ -235,15 +238,15 @@ fn check_step(step: &Step, equation: &Equation, errors: &mut Errors) -> bool {
 mod tests {
     use super::*;
     use crate::crack::{Crack, CrackEnd, End, SegmentId, TipId};
-    use crate::dataset::{Attribute, FieldData, Partition, Ring, TipIntensity};
+    use crate::dataset::{Attribute, BoxPartition, FieldData, Ring, TipIntensity};
     use crate::equation::{Material, StressState};
     use crate::function::{Cut, Frame, FunctionKind, Part};
     use crate::vec2::vec2;
     use crate::weight::WeightFunction;
 
-    fn partition() -> Partition {
+    fn partition() -> BoxPartition {
         let (center, half) = (vec2(0.5, 0.5), vec2(0.65, 0.65));
-        Partition {
+        BoxPartition {
             weight: WeightFunction::Linear,
             center: vec![center],
             half: vec![half],
@@ -314,8 +317,8 @@ mod tests {
 
     #[test]
     fn partition_entries() {
-        let place = |change: fn(&mut Partition)| {
-            let full = place_after(|d| change(&mut d.steps[0].partition));
+        let place = |change: fn(&mut BoxPartition)| {
+            let full = place_after(|d| change(d.steps[0].partition.boxes_mut().expect("boxes")));
             full.strip_prefix("steps[0].partition.").expect("inside the partition").to_owned()
         };
         assert_eq!(place(|p| p.half.clear()), "half");

@@ -18,6 +18,7 @@ use crate::domain::Domain;
 pub use crate::equation::{Elasticity, Equation, Material, StressState};
 use crate::function::{Function, FunctionKind};
 pub use crate::growth::{Advance, Fate, Growth, GrowthStop};
+use crate::mesh::Mesh;
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
 use ppum_formula::Table;
@@ -74,7 +75,7 @@ impl Dataset {
 pub struct Step {
     /// Load factor or pseudo-time of the step.
     pub load: f64,
-    /// The partition of unity.
+    /// The patches.
     pub partition: Partition,
     /// The cracks.
     pub cracks: Vec<Crack>,
@@ -99,10 +100,10 @@ pub struct Step {
 impl Step {
     /// A step of load factor 1 with a partition and nothing else.
     #[must_use]
-    pub fn new(partition: Partition) -> Self {
+    pub fn new(partition: impl Into<Partition>) -> Self {
         Self {
             load: 1.0,
-            partition,
+            partition: partition.into(),
             cracks: Vec::new(),
             functions: Vec::new(),
             fields: Vec::new(),
@@ -152,13 +153,95 @@ impl Step {
     }
 }
 
+/// The patches of a step, and how their local fields make one field.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Partition {
+    /// Boxes that overlap, with weights.
+    Boxes(BoxPartition),
+    /// Elements of a mesh, or parts of them: φ_i is 1 in patch i and 0 elsewhere.
+    Mesh(Mesh),
+}
+
+impl From<BoxPartition> for Partition {
+    fn from(boxes: BoxPartition) -> Self {
+        Self::Boxes(boxes)
+    }
+}
+
+impl From<Mesh> for Partition {
+    fn from(mesh: Mesh) -> Self {
+        Self::Mesh(mesh)
+    }
+}
+
+/// The boxes of a mesh: none.
+static NO_BOXES: BoxPartition = BoxPartition::EMPTY;
+
+impl Partition {
+    /// Number of patches.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Boxes(boxes) => boxes.len(),
+            Self::Mesh(mesh) => mesh.len(),
+        }
+    }
+
+    /// True if there is no patch.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The boxes; of a mesh an empty list of them.
+    #[must_use]
+    #[inline]
+    pub fn boxes(&self) -> &BoxPartition {
+        match self {
+            Self::Boxes(boxes) => boxes,
+            Self::Mesh(_) => &NO_BOXES,
+        }
+    }
+
+    /// The boxes, to be changed; `None` for a mesh.
+    pub fn boxes_mut(&mut self) -> Option<&mut BoxPartition> {
+        match self {
+            Self::Boxes(boxes) => Some(boxes),
+            Self::Mesh(_) => None,
+        }
+    }
+
+    /// The mesh; `None` for boxes.
+    #[must_use]
+    #[inline]
+    pub fn mesh(&self) -> Option<&Mesh> {
+        match self {
+            Self::Boxes(_) => None,
+            Self::Mesh(mesh) => Some(mesh),
+        }
+    }
+
+    /// A box that holds the patch.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    #[must_use]
+    pub fn support(&self, patch: usize) -> Rect {
+        match self {
+            Self::Boxes(boxes) => boxes.support(patch),
+            Self::Mesh(mesh) => mesh.bounds(patch),
+        }
+    }
+}
+
 /// A Shepard partition of unity over boxes (`kind = "shepard-box"`): φ_i = W_i / Σ_l W_l with
 /// W_i(x) = w(|x − center_i,x| / half_i,x) · w(|y − center_i,y| / half_i,y).
 ///
 /// Structure of arrays; all vectors have one entry per patch. The polynomial frame (`origin`,
 /// `scale`) is kept apart from the support (`center`, `half`); the solver makes them equal.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Partition {
+pub struct BoxPartition {
     /// The weight function w of t = |ξ|.
     pub weight: WeightFunction,
     /// Centre of the support box.
@@ -180,7 +263,20 @@ pub struct Partition {
     pub points: Vec<Vec2>,
 }
 
-impl Partition {
+impl BoxPartition {
+    /// No patches.
+    pub const EMPTY: Self = Self {
+        weight: WeightFunction::Linear,
+        center: Vec::new(),
+        half: Vec::new(),
+        origin: Vec::new(),
+        scale: Vec::new(),
+        cell: Vec::new(),
+        level: Vec::new(),
+        point: Vec::new(),
+        points: Vec::new(),
+    };
+
     /// Number of patches.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -146,6 +146,7 @@ pub mod function;
 pub mod growth;
 pub mod jet;
 pub mod library;
+pub mod mesh;
 mod morton;
 pub mod polynomial;
 pub mod prelude;

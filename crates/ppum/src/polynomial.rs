@@ -4,6 +4,29 @@ use crate::dataset::monomials;
 use crate::jet::Jet;
 use ppum_formula::real::{Real, Scalar};
 
+/// The monomials of a polynomial.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PolynomialSpace {
+    /// P_d: those of total degree at most d, by total degree, then descending power of ξ.
+    #[default]
+    Total,
+    /// Q_d: those of degree at most d in ξ and in η, powers of ξ fastest.
+    Tensor,
+}
+
+impl PolynomialSpace {
+    /// Number of monomials: (d + 1)(d + 2)/2 or (d + 1)².
+    #[must_use]
+    #[inline(always)]
+    pub const fn size(self, degree: usize) -> usize {
+        match self {
+            Self::Total => monomials(degree),
+            Self::Tensor => (degree + 1) * (degree + 1),
+        }
+    }
+}
+
 /// Σ c_k ξ^a η^b over all monomials of total degree at most `degree`, with derivatives by (ξ, η),
 /// by nested Horner schemes: inner in ξ, outer in η.
 #[inline(always)]

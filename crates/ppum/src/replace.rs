@@ -46,6 +46,9 @@ pub enum ReplaceError {
         #[source]
         error: Box<FormulaError>,
     },
+    /// Patches that are elements have no weights.
+    #[error("the patches are the elements of a mesh, which have no weights: leave the weight out")]
+    Mesh,
     /// The dataset's tables or parameters have names that formulas cannot use.
     #[error(transparent)]
     Scope(#[from] ScopeError),
@@ -190,13 +193,14 @@ impl Step {
     /// [library](crate::library::WEIGHTS), or a formula of t. Coefficients stay as they are.
     ///
     /// # Errors
-    /// A text that is neither; nothing has changed then.
+    /// A text that is neither, or a mesh; nothing has changed then.
     pub fn replace_weight(
         &mut self,
         text: &str,
         tables: &[Arc<Table>],
     ) -> Result<(), ReplaceError> {
-        self.partition.weight = weight_of(text, tables)?;
+        let weight = weight_of(text, tables)?;
+        self.partition.boxes_mut().ok_or(ReplaceError::Mesh)?.weight = weight;
         Ok(())
     }
 }

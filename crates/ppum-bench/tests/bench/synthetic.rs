@@ -19,7 +19,7 @@ fn exact(p: Vec2) -> f64 {
 fn values(recipe: Recipe, p: Vec2) -> Vec<f64> {
     let dataset = recipe.dataset().unwrap();
     let field = Field::new(&dataset, 0).unwrap();
-    let partition = &field.step.partition;
+    let partition = field.step.partition.boxes();
     let here = (0..partition.len()).filter(|&k| partition.support(k).contains(p));
     let local = field.at(p);
     let mut u = [Jet::constant(0.0); 2];
@@ -79,6 +79,7 @@ fn a_quarter_is_enriched() {
     for (level, tip_level) in [(2, 2), (4, 4), (5, 5), (3, 9)] {
         let dataset = Recipe::new(level, tip_level).dataset().unwrap();
         let Step { partition, fields, .. } = &dataset.steps[0];
+        let partition = partition.boxes();
         let has_tip = |k: usize| {
             fields[0].blocks(k).any(|block| fields[0].block_function[block] >= FIRST_TIP)
         };

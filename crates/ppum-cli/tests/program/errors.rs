@@ -27,7 +27,7 @@ fn check_lists_all_errors_of_a_dataset() {
     let mut dataset = ppum_format::read(&lab.path("plate.h5")).unwrap();
     let step = &mut dataset.steps[0];
     step.load = f64::NAN;
-    step.partition.half.iter_mut().for_each(|half| *half = *half * 0.5);
+    step.partition.boxes_mut().expect("boxes").half.iter_mut().for_each(|half| *half = *half * 0.5);
     step.fields[0].block_offset[1] = 0;
     std::fs::write(lab.path("bad.h5"), ppum_format::damage::unchecked(&dataset).unwrap()).unwrap();
     let output = lab.command("check bad.h5").output().unwrap();

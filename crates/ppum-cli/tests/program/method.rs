@@ -25,7 +25,7 @@ fn with_attributes(lab: &Lab) -> Dataset {
 /// The value of the cell that holds a point.
 fn value(data: &Dataset, attribute: &str, point: Vec2) -> f64 {
     let step = &data.steps[0];
-    let cell = step.partition.cell.iter().position(|cell| cell.contains(point)).unwrap();
+    let cell = step.partition.boxes().cell.iter().position(|cell| cell.contains(point)).unwrap();
     let found = step.attributes.iter().find(|found| found.name == attribute);
     found.unwrap().values[cell]
 }

@@ -1,6 +1,6 @@
 //! The cover: points, cells, patches and their centres.
 
-use ppum::dataset::Partition;
+use ppum::dataset::BoxPartition;
 use ppum::decompose::Part;
 use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -93,7 +93,7 @@ pub fn enrichments(field: &Field<'_>) -> Vec<Enrichment> {
 
 /// The points the cover was made from; nothing of a uniform cover.
 #[must_use]
-pub fn points(view: &View, scale: f64, partition: &Partition) -> Vec<Item> {
+pub fn points(view: &View, scale: f64, partition: &BoxPartition) -> Vec<Item> {
     let seen = partition.points.iter().filter(|&&p| is_near(view, Rect::new(p, p)));
     let path = Path { pieces: seen.map(|&p| vec![view.pixel(p)]).collect() };
     let pen = Pen::new(POINT, 2.0 * POINT_RADIUS * scale).with_halo(SEAM, scale);
@@ -102,7 +102,7 @@ pub fn points(view: &View, scale: f64, partition: &Partition) -> Vec<Item> {
 
 /// The borders of the cells.
 #[must_use]
-pub fn cells(view: &View, scale: f64, partition: &Partition) -> Vec<Item> {
+pub fn cells(view: &View, scale: f64, partition: &BoxPartition) -> Vec<Item> {
     let mut path = Path::default();
     let seen = partition.cell.iter().filter(|cell| is_near(view, **cell));
     seen.clone().for_each(|cell| frame(&mut path, view, *cell));
@@ -115,7 +115,7 @@ pub fn cells(view: &View, scale: f64, partition: &Partition) -> Vec<Item> {
 
 /// The supports ω_i of the patches, translucent: darker where more of them overlap.
 #[must_use]
-pub fn patches(view: &View, scale: f64, partition: &Partition) -> Vec<Item> {
+pub fn patches(view: &View, scale: f64, partition: &BoxPartition) -> Vec<Item> {
     let (mut insides, mut borders) = (Vec::new(), Path::default());
     for support in (0..partition.len()).map(|i| partition.support(i)) {
         if is_near(view, support) {
@@ -134,7 +134,7 @@ pub fn patches(view: &View, scale: f64, partition: &Partition) -> Vec<Item> {
 /// Üffinger et al. 2011, figure 2.
 #[must_use]
 pub fn centers(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
-    let (cells, kinds) = (&field.step.partition.cell, enrichments(field));
+    let (cells, kinds) = (&field.step.partition.boxes().cell, enrichments(field));
     let (mut items, mut entries) = (Vec::new(), Vec::new());
     for kind in Enrichment::ALL {
         let of_kind = cells.iter().zip(&kinds).filter(|(_, k)| **k == kind).map(|(cell, _)| *cell);
@@ -163,7 +163,7 @@ const PLAIN: u8 = 110;
 /// both show theirs. Üffinger et al. 2011, figure 8.
 #[must_use]
 pub fn boxes(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
-    let (cells, kinds) = (&field.step.partition.cell, enrichments(field));
+    let (cells, kinds) = (&field.step.partition.boxes().cell, enrichments(field));
     let (mut items, mut entries) = (Vec::new(), Vec::new());
     for kind in Enrichment::ALL {
         let of_kind = cells.iter().zip(&kinds).filter(|(_, k)| **k == kind).map(|(cell, _)| *cell);
@@ -212,9 +212,9 @@ mod tests {
     use super::*;
     use ppum::weight::WeightFunction;
 
-    fn cover(cell: Vec<Rect>) -> Partition {
+    fn cover(cell: Vec<Rect>) -> BoxPartition {
         let n = cell.len();
-        Partition {
+        BoxPartition {
             weight: WeightFunction::Linear,
             center: cell.iter().map(Rect::center).collect(),
             half: cell.iter().map(|c| c.size() * 0.65).collect(),
@@ -243,7 +243,7 @@ mod tests {
             let alone = on(
                 color,
                 &view,
-                cells(&view, 1.0, &Partition { cell: vec![unit], ..cover.clone() }),
+                cells(&view, 1.0, &BoxPartition { cell: vec![unit], ..cover.clone() }),
             );
             assert_eq!(image.pixel(100, 50), alone.pixel(100, 50), "the shared border, drawn once");
         }

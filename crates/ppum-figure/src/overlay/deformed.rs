@@ -49,7 +49,7 @@ pub fn undeformed_outline(view: &DeformedView<'_>, scale: f64) -> Result<Vec<Ite
 pub fn deformed_cells(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
     let offset = |p: Vec2| p - view.anchor;
     // the border of a cell on the right or above is that of its neighbour, or of the plate
-    let sides: Vec<[Vec2; 3]> = (view.field().step.partition.cell.iter())
+    let sides: Vec<[Vec2; 3]> = (view.field().step.partition.boxes().cell.iter())
         .map(|c| [vec2(c.min.x, c.max.y), c.min, vec2(c.max.x, c.min.y)].map(offset))
         .collect();
     let mut items = vec![line(view, view.paths(&sides), Pen::new(CELL, scale))];

@@ -84,7 +84,7 @@ fn files_of_version_1_1_are_read() {
     let names: Vec<_> = old.quantities.iter().map(|q| q.name.as_str()).collect();
     assert_eq!((old.tables.len(), names), (1, vec!["flux-x", "twice"]));
     let step = &old.steps[0];
-    assert_eq!(step.partition.weight.name(), "formula");
+    assert_eq!(step.partition.boxes().weight.name(), "formula");
     let FunctionKind::Formula { text, parameters, declared, .. } = &step.functions[1].kind else {
         panic!("a formula")
     };
@@ -221,8 +221,8 @@ fn lists_may_be_empty() {
     step.warnings.clear();
     step.reactions.clear();
     step.growth = Some(Growth::default());
-    step.partition.points.clear();
-    step.partition.point.fill(None);
+    step.partition.boxes_mut().expect("boxes").points.clear();
+    step.partition.boxes_mut().expect("boxes").point.fill(None);
     data.title.clear();
     data.problem = Some(String::new());
     assert!(same(&from_bytes(to_bytes(&data).unwrap()).unwrap(), &data));
@@ -249,7 +249,7 @@ fn large_arrays_are_compressed() {
     step.attributes.clear();
     step.fields.clear();
     let cover = Cover::grid(data.domain.bounds, [160, 125]).unwrap();
-    step.partition = cover.partition(1.3, WeightFunction::Linear).unwrap();
+    step.partition = cover.partition(1.3, WeightFunction::Linear).unwrap().into();
     let many = step.partition.len();
     assert_eq!(many, 20_000);
     let bytes = to_bytes(&data).unwrap();

@@ -53,7 +53,7 @@ fn quad(
     index: usize,
     body: u32,
 ) -> Option<QuadRecord> {
-    let partition = &field.step.partition;
+    let partition = field.step.partition.boxes();
     let (center, half) = (partition.center[index], partition.half[index]);
     let [columns, rows] = pixels.covered(&Rect::around(center - view.center, half));
     if columns.is_empty() || rows.is_empty() {

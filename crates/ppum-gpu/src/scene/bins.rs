@@ -196,14 +196,14 @@ fn meeting(bin: Rect, list: &[u32], patches: &[Covered], margin: f64) -> Vec<u32
 mod tests {
     use super::*;
     use ppum::cover::Cover;
-    use ppum::dataset::Partition;
+    use ppum::dataset::BoxPartition;
     use ppum::weight::WeightFunction;
     use ppum_testkit::random::Random;
     use ppum_testkit::synthetic::Recipe;
 
     const UNIT: Rect = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
 
-    fn covered(partition: &Partition) -> Vec<Covered> {
+    fn covered(partition: &BoxPartition) -> Vec<Covered> {
         let one = |i| Covered { support: partition.support(i), cell: partition.cell[i].size() };
         (0..partition.len()).map(one).collect()
     }

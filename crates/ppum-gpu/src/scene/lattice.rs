@@ -3,7 +3,7 @@
 //! A bin between four centres is met by their patches only, as long as they reach less than two cells
 //! far (α < 2), and where a pixel lies in it says which of them cover it.
 
-use ppum::dataset::Partition;
+use ppum::dataset::BoxPartition;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::bins::Bins;
@@ -32,7 +32,7 @@ pub(crate) struct Lattice {
 impl Lattice {
     /// The lattice of a partition; none if patches differ in size, cells do not lie in columns and rows, or
     /// polynomials have frames of their own.
-    pub(crate) fn of(partition: &Partition) -> Option<Self> {
+    pub(crate) fn of(partition: &BoxPartition) -> Option<Self> {
         let (pitch, half) = (partition.cell.first()?.size(), *partition.half.first()?);
         let alike = |&other: &Vec2| near(other.x, half.x) && near(other.y, half.y);
         let reaches_far = half.x >= pitch.x || half.y >= pitch.y;
@@ -116,7 +116,7 @@ mod tests {
 
     const DOMAIN: Rect = Rect::new(vec2(-0.3, 0.1), vec2(1.1, 1.3));
 
-    fn partition(cover: &Cover) -> Partition {
+    fn partition(cover: &Cover) -> BoxPartition {
         cover.partition(1.3, WeightFunction::Linear).expect("an overlap")
     }
 

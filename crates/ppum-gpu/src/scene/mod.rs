@@ -172,7 +172,7 @@ impl OnCard {
 impl SceneLayout {
     /// That of a field, with its lattice or its levels if it has some.
     pub(crate) fn of(field: &Field<'_>, shape: Shape) -> (Self, Option<Lattice>, Option<Levels>) {
-        let (own_frames, partition) = (has_own_frames(field), &field.step.partition);
+        let (own_frames, partition) = (has_own_frames(field), field.step.partition.boxes());
         let lattice = if own_frames { None } else { Lattice::of(partition) };
         let searched = !own_frames && lattice.is_none();
         let levels = if searched { Levels::of(partition) } else { None };
@@ -200,7 +200,7 @@ fn check_sizes(field: &Field<'_>, groups: &Groups) -> Result<(), GpuError> {
 
 /// True if two fields differ in nothing but functions, weight and the values of coefficients.
 fn is_alike(a: &Field<'_>, b: &Field<'_>) -> bool {
-    let ((p, q), (d, e)) = ((&a.step.partition, &b.step.partition), (a.data, b.data));
+    let ((p, q), (d, e)) = ((a.step.partition.boxes(), b.step.partition.boxes()), (a.data, b.data));
     a.step.functions.len() == b.step.functions.len()
         && a.components() == b.components()
         && a.domain == b.domain

@@ -9,7 +9,7 @@
 //! Each is a texel of four, one word for each patch. Positions are seen from a corner nearby, so single precision does:
 //! relative to the patch's size they are as exact as ξ itself.
 
-use ppum::dataset::Partition;
+use ppum::dataset::BoxPartition;
 use ppum::vec2::{Vec2, vec2};
 
 use super::bins::{Bins, FEW, Leaf};
@@ -32,7 +32,7 @@ pub(crate) struct Levels {
 
 impl Levels {
     /// Those of a partition; none if there are other sizes.
-    pub(crate) fn of(partition: &Partition) -> Option<Self> {
+    pub(crate) fn of(partition: &BoxPartition) -> Option<Self> {
         let half = partition.half.iter().copied().reduce(Vec2::max)?;
         let level = |own: &Vec2| {
             let level = (half.x / own.x).log2().round();
@@ -57,7 +57,7 @@ pub(crate) fn page_texels(has_levels: bool, own_frames: bool) -> u32 {
 
 /// Writes pages.
 pub(crate) struct Pages<'a> {
-    pub(crate) partition: &'a Partition,
+    pub(crate) partition: &'a BoxPartition,
     /// The point that bins are seen from.
     pub(crate) anchor: Vec2,
     pub(crate) levels: Option<&'a Levels>,
@@ -91,7 +91,7 @@ impl Pages<'_> {
         is_followed: bool,
         words: &mut Vec<u32>,
     ) {
-        let Partition { center, half, origin, scale, .. } = self.partition;
+        let BoxPartition { center, half, origin, scale, .. } = self.partition;
         push_seen(four, |patch| (center[patch] - self.anchor) - corner, words);
         words.extend(four.map(|patch| patch.map_or(NO_PATCH, |patch| self.bodies[patch])));
         let level = |k: usize| {
@@ -131,7 +131,7 @@ mod tests {
     use ppum_testkit::synthetic::Recipe;
 
     /// The bins of a whole domain, seen from a point in it.
-    fn bins(partition: &Partition, domain: Rect, anchor: Vec2) -> Bins {
+    fn bins(partition: &BoxPartition, domain: Rect, anchor: Vec2) -> Bins {
         let seen = |rect: Rect| Rect::new(rect.min - anchor, rect.max - anchor);
         let covered = |k: usize| Covered {
             support: seen(partition.support(k)),

@@ -58,7 +58,7 @@ impl Region {
         }
         let mut patches = Vec::new();
         field.tree.query_box(&bounds, &mut patches);
-        let partition = &field.step.partition;
+        let partition = field.step.partition.boxes();
         let seen = |&index: &u32| {
             let support = partition.support(index as usize);
             let cell = partition.cell[index as usize].size();
@@ -104,7 +104,7 @@ impl Region {
         if let Some(lattice) = lattice {
             return RegionWords { words: lattice.nodes(&self.bins, self.anchor, bodies), nodes: 0 };
         }
-        let (partition, anchor) = (&field.step.partition, self.anchor);
+        let (partition, anchor) = (field.step.partition.boxes(), self.anchor);
         let pages = Pages { partition, anchor, levels, own_frames: has_own_frames(field), bodies };
         let mut words = pages.words(&self.bins, &self.patches);
         let nodes = words.len() as u32 / 4;
@@ -128,6 +128,6 @@ pub(crate) struct RegionWords {
 
 /// True if polynomials of some patch have other coordinates than its weight.
 pub(crate) fn has_own_frames(field: &Field<'_>) -> bool {
-    let partition = &field.step.partition;
+    let partition = field.step.partition.boxes();
     partition.origin != partition.center || partition.scale != partition.half
 }

@@ -66,7 +66,7 @@ fn formulas(
     let surroundings =
         Surroundings { cracks: step.cracks.len(), tables: field.tables, order: order as usize };
     let (functions, kernels) = functions_wgsl(&step.functions, groups, surroundings)?;
-    let weight = weight_wgsl(&step.partition.weight)?;
+    let weight = weight_wgsl(&step.partition.boxes().weight)?;
     let quantity = quantity_wgsl(field, quantity)?;
     Ok(([wgsl_prelude(), &weight, &functions, &quantity].concat(), kernels))
 }

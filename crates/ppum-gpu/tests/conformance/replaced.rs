@@ -162,7 +162,7 @@ fn another_field_is_refused() {
     let scene = good(renderer.upload(&field));
     assert_eq!(scene.with_functions_of(&other).map(drop), Err(GpuError::OtherField));
     let mut moved = dataset();
-    moved.steps[0].partition.center[0].x += 0.01;
+    moved.steps[0].partition.boxes_mut().expect("boxes").center[0].x += 0.01;
     let moved = good(Field::new(&moved, 0));
     assert_eq!(scene.with_functions_of(&moved).map(drop), Err(GpuError::OtherField));
 }

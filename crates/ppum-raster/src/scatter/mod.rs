@@ -208,7 +208,7 @@ impl<'f, T: Sample> Scene<'f, T> {
             Summation::PerPatch => (usize::MAX, Savings::ALL),
         };
         let mut plan = Plan::new(field, view, quantity, ROWS, most_pixels);
-        let weight = &field.step.partition.weight;
+        let weight = &field.step.partition.boxes().weight;
         let columns = view.pixels[0].next_multiple_of(COLUMNS as u32);
         let rows = view.pixels[1].next_multiple_of(ROWS as u32);
         Self {

@@ -213,7 +213,8 @@ impl<'f> Plan<'f> {
     /// A patch, without its blocks.
     #[inline(always)]
     pub(super) fn patch(&self, index: u32, pixels: &Pixels<'_>) -> Patch {
-        let (partition, k, anchor) = (&self.field.step.partition, index as usize, self.view.center);
+        let (partition, k, anchor) =
+            (self.field.step.partition.boxes(), index as usize, self.view.center);
         let (center, half) = (partition.center[k] - anchor, partition.half[k]);
         let [columns, rows] = pixels.covered(&Rect::around(center, half));
         let support = affine(center, half);
@@ -257,7 +258,7 @@ fn has_grains(
     visible: &[u32],
     most: usize,
 ) -> bool {
-    let partition = &field.step.partition;
+    let partition = field.step.partition.boxes();
     let count = |&k: &u32| {
         let (center, half) = (partition.center[k as usize], partition.half[k as usize]);
         let [columns, rows] = pixels.covered(&Rect::around(center - anchor, half));

@@ -238,7 +238,7 @@ impl<'f> DeformedPoints<'f> {
     /// If there is not one value per patch.
     #[must_use]
     pub fn cells(&self, values: &[f64]) -> DeformedRaster {
-        let (cells, anchor) = (&self.view.field().step.partition.cell, self.view.anchor);
+        let (cells, anchor) = (&self.view.field().step.partition.boxes().cell, self.view.anchor);
         assert_eq!(values.len(), cells.len(), "one value per patch");
         let (tree, bounds) = (BoxTree::new(cells), self.view.field().domain.bounds);
         let end = bounds.max - anchor;

@@ -133,7 +133,7 @@ fn cells_are_carried_along() {
     let (coefficients, degrees) = (Coefficients::Taylor, vec![2]);
     let dataset = Recipe { points: 30, coefficients, degrees, ..Recipe::random(5) }.dataset();
     let field = Field::new(&dataset, 0).unwrap();
-    let cells = &field.step.partition.cell;
+    let cells = &field.step.partition.boxes().cell;
     let numbers: Vec<f64> = (0..cells.len()).map(|k| k as f64).collect();
     let of = |factor: f64, view: &View| {
         let deformation = Deformation::new(&field, factor).unwrap();

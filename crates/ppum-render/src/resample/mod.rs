@@ -267,7 +267,7 @@ pub fn cells(
     watcher: &dyn Watcher,
 ) -> Result<Raster, RenderError> {
     quantity.check(field)?;
-    let cells = &field.step.partition.cell;
+    let cells = &field.step.partition.boxes().cell;
     let parts = Parts::start(watcher, cells.len())?;
     let values = cells.par_iter().map(|cell| {
         let value = quantity.at(&mut field.at(cell.center()), Vec2::ZERO, Side::Above);

@@ -219,7 +219,7 @@ fn one_value_a_cell() {
     let mut potential = FieldData::new("potential", &["u"]);
     (0..partition.len()).for_each(|_| potential.push_patch(&[(0, 0)]));
     potential.coefficients[0].fill(1.0);
-    (dataset.steps[0].partition, dataset.steps[0].fields) = (partition, vec![potential]);
+    (dataset.steps[0].partition, dataset.steps[0].fields) = (partition.into(), vec![potential]);
     let field = Field::new(&dataset, 0).unwrap();
     let view = View::window(-1.0, -1.0, 5.0, 3.0, [12, 8]).unwrap();
     let quantity = Quantity::parse("u", &field).unwrap();

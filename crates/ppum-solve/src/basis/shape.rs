@@ -555,7 +555,8 @@ mod tests {
                         let (found, size) = combined(&space, &shapes, &patches, component, q);
                         let expected = [expected.v, expected.x, expected.y];
                         // slopes of φ are differences of terms as large as 1 over the size of a patch
-                        let halves = patches.iter().map(|&k| step.partition.half[k as usize]);
+                        let halves =
+                            patches.iter().map(|&k| step.partition.boxes().half[k as usize]);
                         let least = halves.fold(f64::INFINITY, |h, half| h.min(half.x.min(half.y)));
                         for k in 0..3 {
                             let apart = (found[k] - expected[k]).abs();

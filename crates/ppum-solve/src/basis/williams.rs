@@ -17,7 +17,7 @@ use crate::corner::{Symmetry, Term};
 use crate::space::{ANGULAR, Origin, Series, Space};
 use faer::Mat;
 use ppum::crack::TipId;
-use ppum::dataset::{Elasticity, Equation, Partition, Step, monomials};
+use ppum::dataset::{BoxPartition, Elasticity, Equation, Step, monomials};
 use ppum::polynomial::exponents;
 use ppum::vec2::{Vec2, vec2};
 use std::ops::Range;
@@ -162,7 +162,7 @@ impl TipFrame {
     pub(super) fn new(step: &Step, patch: usize, tip: TipId) -> Self {
         let crack = &step.cracks[tip.crack as usize];
         let at = crack.end_point(tip.end);
-        let Partition { origin, scale, .. } = &step.partition;
+        let BoxPartition { origin, scale, .. } = step.partition.boxes();
         let unit = 1.0 / ((origin[patch] - at).length() + scale[patch].length());
         Self { at, axis: crack.growth_direction(tip.end), unit }
     }
@@ -170,7 +170,8 @@ impl TipFrame {
 
 /// zⁿ for n up to N − 1, z being in the tip's frame and over the farthest distance in the patch.
 fn powers(step: &Step, patch: usize, tip: TipId, series: &Series) -> Vec<Polynomial> {
-    let (origin, scale) = (step.partition.origin[patch], step.partition.scale[patch]);
+    let (origin, scale) =
+        (step.partition.boxes().origin[patch], step.partition.boxes().scale[patch]);
     let TipFrame { at, axis, unit } = TipFrame::new(step, patch, tip);
     let from_tip = origin - at;
     let turned = |v: Vec2| [axis.dot(v) * unit, axis.cross(v) * unit];

@@ -57,7 +57,7 @@ pub fn rounding(dataset: &Dataset, step: usize) -> Result<Rounding, FieldError> 
     let mut noise = dataset.clone();
     noise.steps = vec![with_noise(&dataset.steps[step])];
     let (field, noise) = (Field::new(dataset, step)?, Field::new(&noise, 0)?);
-    let cells = &dataset.steps[step].partition.cell;
+    let cells = &dataset.steps[step].partition.boxes().cell;
     let gradients: Vec<[f64; 2]> =
         cells.par_iter().map(|cell| [&field, &noise].map(|f| gradient(f, cell))).collect();
     let [mean, of_noise] =

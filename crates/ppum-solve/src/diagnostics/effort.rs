@@ -180,7 +180,7 @@ impl Count<'_> {
 
     /// The patches that meet each cell, as many as may be and no more.
     fn neighbours(&self) -> Vec<Vec<u32>> {
-        let partition = &self.step.partition;
+        let partition = self.step.partition.boxes();
         let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
         let (tree, mut pairs) = (BoxTree::new(&supports), 0);
         let mut all = Vec::with_capacity(partition.len());
@@ -198,7 +198,7 @@ impl Count<'_> {
 
     /// Operations of all evaluations of the field.
     fn operations(&self, neighbours: &[Vec<u32>]) -> u64 {
-        let tree = BoxTree::new(&self.step.partition.cell);
+        let tree = BoxTree::new(&self.step.partition.boxes().cell);
         let declared = self.declared();
         let curves = self.curves();
         let work: Vec<_> = neighbours.iter().map(|patches| self.work(patches, &declared)).collect();

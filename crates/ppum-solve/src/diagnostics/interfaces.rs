@@ -28,7 +28,7 @@ pub(super) fn of_interfaces(field: &Field<'_>, dataset: &Dataset, places: &Place
     if interfaces.all.is_empty() {
         return Vec::new();
     }
-    let partition = &field.step.partition;
+    let partition = field.step.partition.boxes();
     let energies: Vec<f64> = (0..partition.len()).map(|cell| energy(field, cell)).collect();
     let total: f64 = energies.iter().sum();
     let of_patch = |patch: usize| {
@@ -73,7 +73,7 @@ fn has_own(field: &Field<'_>, patch: usize) -> bool {
 
 /// About the energy of a cell, what of it lies in the plate.
 fn energy(field: &Field<'_>, cell: usize) -> f64 {
-    let (rect, law) = (field.step.partition.cell[cell], Law::new(field.equation));
+    let (rect, law) = (field.step.partition.boxes().cell[cell], Law::new(field.equation));
     let (min, step) = (rect.min, rect.size() * (1.0 / LOOKS as f64));
     let at = |k: usize| {
         min + vec2(step.x * ((k % LOOKS) as f64 + 0.5), step.y * ((k / LOOKS) as f64 + 0.5))

@@ -80,7 +80,7 @@ fn mean_stress(all: &[Oscillation]) -> f64 {
 /// The pressure in a cell and around it up to the distance of its size; `None` if that does not lie in the plate, or the
 /// volume may change there.
 fn oscillation(field: &Field<'_>, law: &Law<'_>, cell: usize) -> Option<Oscillation> {
-    let (rect, data) = (field.step.partition.cell[cell], &field.step.fields[0]);
+    let (rect, data) = (field.step.partition.boxes().cell[cell], &field.step.fields[0]);
     let order =
         data.blocks(cell).map(|block| data.block_degree[block]).max().map_or(0, usize::from);
     let (half, middle) = (rect.size() * 1.5, rect.center());

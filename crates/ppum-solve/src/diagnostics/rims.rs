@@ -27,7 +27,7 @@ pub(super) fn of_rims(field: &Field<'_>, holes: &[Hole], places: &Places) -> Opt
     if holes.is_empty() {
         return None;
     }
-    let (partition, data) = (&field.step.partition, &field.step.fields[0]);
+    let (partition, data) = (field.step.partition.boxes(), &field.step.fields[0]);
     let cells =
         Placed::new((0..).zip(&partition.cell).map(|(number, cell)| (*cell, (number, *cell))));
     let order = |cell: u32| {

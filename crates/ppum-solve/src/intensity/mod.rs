@@ -197,7 +197,7 @@ pub enum CircleError {
 pub fn clearance(dataset: &Dataset, step: usize, tip: TipId) -> Option<TipClearance> {
     let step = dataset.steps.get(step)?;
     let crack = step.cracks.get(tip.crack as usize)?;
-    let cell = cell_at(&step.partition.cell, crack.end_point(tip.end));
+    let cell = cell_at(&step.partition.boxes().cell, crack.end_point(tip.end));
     Some(TipClearance::new(dataset, &step.cracks, tip, cell))
 }
 

@@ -3,7 +3,7 @@
 use super::edge::Face;
 use super::gauss::MAX_POINTS;
 use ppum::crack::Crack;
-use ppum::dataset::Partition;
+use ppum::dataset::BoxPartition;
 use ppum::domain::Hole;
 use ppum::vec2::Vec2;
 use std::fmt;
@@ -21,7 +21,7 @@ const EXTRA_POINTS: f64 = 8.0;
 #[derive(Clone, Copy)]
 pub(crate) struct Geometry<'a> {
     /// The partition of unity.
-    pub partition: &'a Partition,
+    pub partition: &'a BoxPartition,
     /// The cracks: across their segments functions may jump.
     pub cracks: &'a [Crack],
     /// Parts of the cells that are not integrated over.
@@ -48,7 +48,7 @@ pub(crate) struct Geometry<'a> {
 impl<'a> Geometry<'a> {
     /// A geometry in which functions jump across cracks and are smooth everywhere else.
     #[must_use]
-    pub(crate) fn new(partition: &'a Partition, cracks: &'a [Crack]) -> Self {
+    pub(crate) fn new(partition: &'a BoxPartition, cracks: &'a [Crack]) -> Self {
         Self {
             partition,
             cracks,

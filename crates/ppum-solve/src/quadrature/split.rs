@@ -1,6 +1,6 @@
 //! Rectangles on which the partition functions are smooth.
 
-use ppum::dataset::Partition;
+use ppum::dataset::BoxPartition;
 use ppum::vec2::{Rect, Vec2};
 
 /// Borders closer than this part of a cell count as one.
@@ -10,7 +10,7 @@ const COINCIDENT: f64 = 1e-12;
 /// partition functions, each of these where several patches meet into `parts` in every direction in
 /// which the functions vary, and hands each rectangle with its patches to `visit`.
 pub(super) fn rectangles(
-    partition: &Partition,
+    partition: &BoxPartition,
     parts: usize,
     cell: &Rect,
     coverers: &[u32],
@@ -22,7 +22,7 @@ pub(super) fn rectangles(
 }
 
 struct Splitter<'a> {
-    partition: &'a Partition,
+    partition: &'a BoxPartition,
     parts: usize,
     tolerance: f64,
 }
@@ -121,14 +121,14 @@ pub(super) fn component(v: Vec2, axis: usize) -> f64 {
 }
 
 /// Centre and half-extent of a patch along an axis.
-fn frame(partition: &Partition, patch: u32, axis: usize) -> (f64, f64) {
+fn frame(partition: &BoxPartition, patch: u32, axis: usize) -> (f64, f64) {
     let i = patch as usize;
     (component(partition.center[i], axis), component(partition.half[i], axis))
 }
 
 /// False if the patches agree in centre and half-extent along the axis (a single patch does): the
 /// factors w then cancel in W_i / Σ W_l, kinks and all.
-pub(super) fn varies(partition: &Partition, patches: &[u32], axis: usize) -> bool {
+pub(super) fn varies(partition: &BoxPartition, patches: &[u32], axis: usize) -> bool {
     let same =
         |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs().max((a.1 - b.1).abs()) <= COINCIDENT * a.1;
     let frame = |patch| frame(partition, patch, axis);
@@ -137,7 +137,7 @@ pub(super) fn varies(partition: &Partition, patches: &[u32], axis: usize) -> boo
 
 /// Coordinates along an axis at which the partition functions of these patches have kinks inside
 /// their supports; none if they do not vary along it.
-pub(super) fn kinks(partition: &Partition, patches: &[u32], axis: usize) -> Vec<f64> {
+pub(super) fn kinks(partition: &BoxPartition, patches: &[u32], axis: usize) -> Vec<f64> {
     if !varies(partition, patches, axis) {
         return Vec::new();
     }

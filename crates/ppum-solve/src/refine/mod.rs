@@ -32,7 +32,7 @@ use graded::{Graded, graded};
 use ligament::{Ligament, ligaments};
 use ppum::cover::{Cover, CoverError};
 use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
-use ppum::dataset::Partition;
+use ppum::dataset::BoxPartition;
 use ppum::domain::{Domain, Hole};
 use ppum::progress::Cancelled;
 use ppum::text::trimmed;
@@ -301,7 +301,7 @@ fn base(problem: &Problem) -> Result<Cover, CoverError> {
 
 /// Number of patches that still hold several runs of a rim: two of the parts they are cut into
 /// are glued together.
-pub(crate) fn n_crossed_twice(problem: &Problem, partition: &Partition) -> usize {
+pub(crate) fn n_crossed_twice(problem: &Problem, partition: &BoxPartition) -> usize {
     let rims = Rims::new(problem);
     (0..partition.len()).filter(|&patch| rims.cross_twice(&partition.support(patch))).count()
 }

@@ -19,7 +19,7 @@ use crate::quadrature::{Geometry, Kink, Singular};
 use interfaces::proportional;
 pub(crate) use interfaces::{BESIDE, Cause, Interface, Interfaces, Place, Trouble};
 use ppum::crack::Crack;
-use ppum::dataset::{Equation, FieldData, Partition, Step};
+use ppum::dataset::{BoxPartition, Equation, FieldData, Step};
 use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::formula::Table;
@@ -126,7 +126,7 @@ impl Smoothness {
     /// The places at which the space over a partition is not smooth.
     pub(crate) fn geometry<'a>(
         &'a self,
-        partition: &'a Partition,
+        partition: &'a BoxPartition,
         cracks: &'a [Crack],
         holes: &'a [Hole],
     ) -> Geometry<'a> {

@@ -5,7 +5,7 @@ use super::pieces::{Pieces, rays};
 use super::probe::Probe;
 use crate::quadrature::{Growth, Kink, Singular};
 use ppum::crack::Crack;
-use ppum::dataset::{Partition, Step};
+use ppum::dataset::{BoxPartition, Step};
 use ppum::expression::Expression;
 use ppum::formula::{self, Formula, Table};
 use ppum::function::{
@@ -50,14 +50,14 @@ pub(super) struct Surroundings<'s> {
 }
 
 /// The box of all cells.
-pub(crate) fn box_of(partition: &Partition) -> Rect {
+pub(crate) fn box_of(partition: &BoxPartition) -> Rect {
     let first = partition.cell.first().copied().unwrap_or(Rect::new(Vec2::ZERO, Vec2::ZERO));
     partition.cell.iter().fold(first, |all, cell| all.union(cell))
 }
 
 impl<'s> Surroundings<'s> {
     pub(super) fn new(step: &Step, tables: &'s [Arc<Table>]) -> Self {
-        let partition = &step.partition;
+        let partition = step.partition.boxes();
         let domain = box_of(partition);
         let halves = partition.half.iter().map(|half| half.x.min(half.y));
         Self {

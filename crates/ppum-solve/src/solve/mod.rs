@@ -125,7 +125,7 @@ impl<'p> Plan<'p> {
         (mut clock, stage): (Clock, &Stage<'_>),
     ) -> Result<Self, SolveError> {
         let step = discretise_on(problem, &mesh, stage)?;
-        let crossed_twice = n_crossed_twice(problem, &step.partition);
+        let crossed_twice = n_crossed_twice(problem, step.partition.boxes());
         let dataset = dataset(problem, step.clone());
         dataset.check()?;
         stage.advance(0)?;

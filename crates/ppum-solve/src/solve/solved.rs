@@ -146,7 +146,7 @@ fn size(tip: &TipIntensity) -> f64 {
 fn energy_of_size(field: &Field<'_>) -> f64 {
     let all = field.data.coefficients.iter().flatten();
     let largest = all.fold(0.0_f64, |most, c| most.max(c.abs()));
-    let law = Law::new(field.equation).at(field.step.partition.center[0]);
+    let law = Law::new(field.equation).at(field.step.partition.boxes().center[0]);
     law.modulus(0) * largest * largest
 }
 

@@ -11,7 +11,7 @@
 
 use super::Space;
 use crate::quadrature::Rule;
-use ppum::dataset::{FieldData, Partition, Step};
+use ppum::dataset::{BoxPartition, FieldData, Step};
 use ppum::function::{Function, FunctionKind, FunctionTable};
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
@@ -179,7 +179,7 @@ impl Kind {
             let seen = |[x, y]: [f64; 2]| vec2(x * size.x, y * size.y);
             seats.iter().map(|seat| seen(length(of(seat)))).collect()
         };
-        let partition = Partition {
+        let partition = BoxPartition {
             weight: like.partition().weight.clone(),
             center: all(|seat| seat.center),
             half: all(|seat| seat.half),
@@ -280,7 +280,7 @@ fn measures(space: &Space<'_>, cell: usize) -> Option<(Vec<i64>, Vec<u32>)> {
 }
 
 /// A patch as a cell sees it.
-fn seat(partition: &Partition, patch: usize, cell: &Rect, degree: u8) -> Option<Seat> {
+fn seat(partition: &BoxPartition, patch: usize, cell: &Rect, degree: u8) -> Option<Seat> {
     let (middle, size) = (cell.center(), cell.size());
     let parts = |v: Vec2| {
         let [x, y] = [v.x / size.x, v.y / size.y];

@@ -9,7 +9,7 @@ use crate::problem::{OrderError, Problem};
 use crate::quadrature::{Geometry, Orders, Quadrature, Rule};
 use crate::refine::RefineError;
 use crate::watched::Stage;
-use ppum::dataset::{Attribute, FieldData, MAX_DEGREE, Partition, Step, monomials};
+use ppum::dataset::{Attribute, BoxPartition, FieldData, MAX_DEGREE, Step, monomials};
 use ppum::domain::Hole;
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Rect, vec2};
@@ -91,7 +91,11 @@ const LEAST_PART: f64 = 1e-12;
 
 /// A partition with its cells as far as they lie in the domain, and the raised orders of those of which something does: the last
 /// cells of coarser meshes may reach beyond it.
-fn inner_part(mut partition: Partition, raised: &[u8], bounds: &Rect) -> (Partition, Vec<u8>) {
+fn inner_part(
+    mut partition: BoxPartition,
+    raised: &[u8],
+    bounds: &Rect,
+) -> (BoxPartition, Vec<u8>) {
     let inside = |cell: &Rect| {
         let first = cell.min + cell.size() * ROOM;
         first.x < bounds.max.x && first.y < bounds.max.y
@@ -106,8 +110,8 @@ fn inner_part(mut partition: Partition, raised: &[u8], bounds: &Rect) -> (Partit
 }
 
 /// Some patches of a partition, with the raised orders of their cells.
-fn some(partition: Partition, raised: &[u8], keep: &[bool]) -> (Partition, Vec<u8>) {
-    let part = Partition {
+fn some(partition: BoxPartition, raised: &[u8], keep: &[bool]) -> (BoxPartition, Vec<u8>) {
+    let part = BoxPartition {
         center: kept(&partition.center, keep),
         half: kept(&partition.half, keep),
         origin: kept(&partition.origin, keep),
@@ -122,10 +126,10 @@ fn some(partition: Partition, raised: &[u8], keep: &[bool]) -> (Partition, Vec<u
 
 /// A partition and the raised orders of its cells without the cells in holes and their patches.
 fn solid_part(
-    partition: Partition,
+    partition: BoxPartition,
     raised: &[u8],
     holes: &[Hole],
-) -> Result<(Partition, Vec<u8>), SpaceError> {
+) -> Result<(BoxPartition, Vec<u8>), SpaceError> {
     if holes.is_empty() {
         return Ok((partition, raised.to_vec()));
     }

@@ -6,7 +6,7 @@ use crate::refine::{RefineError, cover};
 use crate::watched::Stage;
 use ppum::box_tree::BoxTree;
 use ppum::cover::{Cover, CoverError};
-use ppum::dataset::Partition;
+use ppum::dataset::BoxPartition;
 use ppum::vec2::Rect;
 
 /// What is to be done to a cell.
@@ -71,7 +71,7 @@ impl Mesh {
     /// Too many cells.
     pub(crate) fn changed(
         &self,
-        partition: &Partition,
+        partition: &BoxPartition,
         changes: &[Change],
     ) -> Result<Option<Self>, SpaceError> {
         let cells = self.cover.cells();

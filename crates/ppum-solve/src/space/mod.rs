@@ -22,7 +22,7 @@ pub use inspect::InspectError;
 pub(crate) use mesh::{Change, Mesh};
 use ppum::box_tree::BoxTree;
 use ppum::crack::{LocalCrack, Side};
-use ppum::dataset::{Equation, FieldData, Partition, Step, monomials};
+use ppum::dataset::{BoxPartition, Equation, FieldData, Step, monomials};
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
 use ppum::function::{FunctionError, FunctionKind, FunctionTable};
@@ -110,7 +110,7 @@ impl<'d> Space<'d> {
         equation: &'d Equation,
         tables: &[Arc<Table>],
     ) -> Result<Self, FunctionError> {
-        let (partition, data) = (&step.partition, &step.fields[0]);
+        let (partition, data) = (step.partition.boxes(), &step.fields[0]);
         let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
         let smoothness = Smoothness::new(&step, data, equation, tables)?;
         Ok(Self {
@@ -141,8 +141,8 @@ impl<'d> Space<'d> {
     }
 
     /// The partition of unity.
-    pub(crate) fn partition(&self) -> &Partition {
-        &self.step.partition
+    pub(crate) fn partition(&self) -> &BoxPartition {
+        self.step.partition.boxes()
     }
 
     /// The field, whose coefficients play no part.
@@ -233,7 +233,7 @@ impl<'d> Space<'d> {
 }
 
 /// Of each cell, the patches whose open supports meet it.
-fn coverers(partition: &Partition) -> Vec<Vec<u32>> {
+fn coverers(partition: &BoxPartition) -> Vec<Vec<u32>> {
     let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
     let tree = BoxTree::new(&supports);
     let of_cell = |cell| {
@@ -245,8 +245,8 @@ fn coverers(partition: &Partition) -> Vec<Vec<u32>> {
 }
 
 /// The numbers of Gauss points that polynomials of a degree and the partition's weights need.
-fn orders(partition: &Partition, degree: usize) -> Orders {
-    let Partition { weight, half, cell, .. } = partition;
+fn orders(partition: &BoxPartition, degree: usize) -> Orders {
+    let BoxPartition { weight, half, cell, .. } = partition;
     let value = |xi: f64| {
         let [value, slope, _] = weight.spline(xi);
         [value, slope]
@@ -265,7 +265,10 @@ fn shifts(step: &Step, data: &FieldData) -> Vec<f64> {
         .kind
     {
         FunctionKind::Side { crack } => {
-            let seen = LocalCrack::new(&step.cracks[*crack as usize], step.partition.center[patch]);
+            let seen = LocalCrack::new(
+                &step.cracks[*crack as usize],
+                step.partition.boxes().center[patch],
+            );
             seen.side([0.0, 0.0], Side::Above)
         }
         _ => 0.0,

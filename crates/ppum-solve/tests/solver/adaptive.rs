@@ -130,8 +130,8 @@ fn p_raises_orders_and_divides_nothing() {
     set.fraction = 0.9;
     let dataset = solved(&on(crack(), 1, set));
     let points = course(&dataset, Some(CRACK));
-    let cells = &dataset.steps[0].partition.cell;
-    assert!(dataset.steps.iter().all(|step| step.partition.cell == *cells));
+    let cells = &dataset.steps[0].partition.boxes().cell;
+    assert!(dataset.steps.iter().all(|step| step.partition.boxes().cell == *cells));
     assert!(points[3][1] < 0.1 * points[0][1], "{points:?}");
 }
 
@@ -176,7 +176,7 @@ fn energies_of_random_plates_grow() {
 fn a_symmetric_plate_stays_symmetric() {
     let dataset = solved(&on(square_hole(), 2, set(AdaptKind::Hp, 2, 100_000)));
     let step = dataset.steps.last().expect("steps");
-    let centers = &step.partition.center;
+    let centers = &step.partition.boxes().center;
     let is_there = |p: Vec2| centers.iter().any(|q| (*q - p).length() < 1e-12);
     assert!(centers.iter().all(|c| is_there(vec2(-c.x, c.y)) && is_there(vec2(c.x, -c.y))));
 }

@@ -105,7 +105,8 @@ fn assert_long_plate(half: Vec2) {
     let (problem, exact) = in_plane(domain, set, vec2(-0.31, 0.03), vec2(0.3, 0.05));
     let mut uncracked = problem.clone();
     uncracked.cracks.clear();
-    let cells = discretise(&uncracked, unwatched()).expect("a cover").partition.cell;
+    let cells =
+        discretise(&uncracked, unwatched()).expect("a cover").partition.boxes().cell.clone();
     let aspect = |cell: &Rect| (cell.size().x / cell.size().y).log2().abs();
     assert!(cells.len() == 256 && cells.iter().all(|c| aspect(c) <= 1.0), "{half:?}");
     let error = error_of_k(&format!("{half:?}"), &solved(&problem), exact);

@@ -174,7 +174,7 @@ fn only_jumps_are_interfaces() {
     assert_eq!(kinks(&step).len(), 2);
     let data = &step.fields[0];
     for patch in 0..step.partition.len() {
-        let support = step.partition.support(patch);
+        let support = step.partition.boxes().support(patch);
         let names =
             data.blocks(patch).map(|b| &step.functions[data.block_function[b] as usize].name);
         let held = names.filter(|name| name.starts_with("kink at")).count();

@@ -22,7 +22,7 @@ fn plate(cells: &str, refine: &str) -> Problem {
 }
 
 fn cells_of(problem: &Problem) -> Vec<Rect> {
-    discretise(problem, unwatched()).expect("a cover").partition.cell
+    discretise(problem, unwatched()).expect("a cover").partition.boxes().cell.clone()
 }
 
 fn longest(cell: &Rect) -> f64 {

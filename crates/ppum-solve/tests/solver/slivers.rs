@@ -152,7 +152,7 @@ fn coefficients_that_cancel_are_reported_with_their_place() {
     let before = rounding(&dataset, 0).expect("a field").largest;
     assert!(before < 1e-10, "{before}");
     let step = &mut dataset.steps[0];
-    let patch = step.partition.center.iter().position(|c| (*c - centre()).length() < 1e-9);
+    let patch = step.partition.boxes().center.iter().position(|c| (*c - centre()).length() < 1e-9);
     let patch = patch.expect("the patch");
     let data = &mut step.fields[0];
     let is_sliver = |&b: &usize| {

@@ -37,7 +37,7 @@ fn quadrature_points_are_told() {
     assert_eq!(points.iter().sum::<f64>(), record(step, "quadrature points"));
     let inside: Vec<f64> = (0..64)
         .filter(|&i| {
-            let cell = step.partition.cell[i];
+            let cell = step.partition.boxes().cell[i];
             cell.min.x > -1.0 && cell.min.y > -1.0 && cell.max.x < 1.0 && cell.max.y < 1.0
         })
         .map(|i| points[i])
@@ -53,7 +53,7 @@ fn quadrature_points_are_told() {
     );
     let step = &cracked.steps[0];
     let points = values(step, "quadrature-points");
-    for (i, cell) in step.partition.cell.iter().enumerate() {
+    for (i, cell) in step.partition.boxes().cell.iter().enumerate() {
         let has_tip = [-0.4, 0.4].iter().any(|x| cell.contains(ppum::vec2::vec2(*x, 0.01)));
         assert!(!has_tip || points[i] > 4.0 * first, "{} of {first}", points[i]);
     }

@@ -155,14 +155,14 @@ fn with_weight(mut dataset: Dataset, terms_of_it: usize) -> Dataset {
     let text = format!("(1 - t)*(1 + 0*({}))", terms(terms_of_it, |k| format!("sin({k}*t)")));
     let scope = Scope::new(&["t"]).expect("a name");
     let weight = WeightFunction::formula(&text, &scope).expect("a weight");
-    dataset.steps[0].partition.weight = weight;
+    dataset.steps[0].partition.boxes_mut().expect("boxes").weight = weight;
     dataset
 }
 
 /// A weight that is as long as a formula may be, on patches over each other.
 fn weight() -> Dataset {
     let mut dataset = plate(1, 0, middle());
-    dataset.steps[0].partition = super::piled(100);
+    dataset.steps[0].partition = super::piled(100).into();
     dataset.steps[0].fields = vec![super::displacement(&vec![vec![(0, 0)]; 100])];
     with_weight(dataset, 4500)
 }

@@ -60,7 +60,7 @@ fn patches() -> Dataset {
 fn patches_piled() -> Dataset {
     let mut dataset = plate(1, 0, middle());
     let n = 150_000;
-    dataset.steps[0].partition = piled(n);
+    dataset.steps[0].partition = piled(n).into();
     dataset.steps[0].fields = vec![displacement(&vec![vec![(0, 0)]; n])];
     dataset
 }
@@ -69,7 +69,7 @@ fn patches_piled() -> Dataset {
 fn patches_columns() -> Dataset {
     let mut dataset = plate(1, 0, middle());
     let n = 60_000;
-    let partition = &mut dataset.steps[0].partition;
+    let partition = dataset.steps[0].partition.boxes_mut().expect("boxes");
     *partition = piled(2 * n);
     for k in 0..n {
         let at = (k as f64 + 0.5) / n as f64;
@@ -207,7 +207,7 @@ fn junctions() -> Dataset {
     let mut dataset = plate(N, 1, level.chain(upright).collect());
     let step = &mut dataset.steps[0];
     let mut blocks = Vec::new();
-    for (patch, at) in step.partition.center.iter().enumerate() {
+    for (patch, at) in step.partition.boxes().center.iter().enumerate() {
         let [column, row] = [at.x, at.y].map(|v| (v * f64::from(N)) as u32);
         let first = step.functions.len() as u32;
         step.functions.extend((1..4).map(|k| Function {

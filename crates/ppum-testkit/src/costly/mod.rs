@@ -10,7 +10,9 @@ mod stored;
 
 use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd};
-use ppum::dataset::{Dataset, Equation, FieldData, Material, Partition, Record, Step, StressState};
+use ppum::dataset::{
+    BoxPartition, Dataset, Equation, FieldData, Material, Record, Step, StressState,
+};
 use ppum::function::{Function, FunctionKind};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
@@ -79,11 +81,11 @@ fn displacement(patches: &[Vec<(u32, u8)>]) -> FieldData {
 }
 
 /// A partition of patches that all lie over the whole plate, their cells strips of it.
-fn piled(patches: usize) -> Partition {
+fn piled(patches: usize) -> BoxPartition {
     let (center, half) = (vec2(0.5, 0.5), vec2(1.0, 1.0));
     let at = |k: usize| k as f64 / patches as f64;
     let strip = |k: usize| Rect::new(vec2(0.0, at(k)), vec2(1.0, at(k + 1)));
-    Partition {
+    BoxPartition {
         weight: WeightFunction::Linear,
         center: vec![center; patches],
         half: vec![half; patches],

@@ -143,14 +143,14 @@ impl<'d> Extended<'d> {
 
     /// W_i, if the patch covers the point.
     fn weight(&self, patch: usize, p: Point) -> Option<Dual> {
-        let partition = &self.step.partition;
+        let partition = self.step.partition.boxes();
         let s = scaled(p, partition.center[patch], partition.half[patch]);
         let covers = s.iter().all(|s| s.v >= -1.0 && s.v < 1.0);
         covers.then(|| spline(&partition.weight, s[0]) * spline(&partition.weight, s[1]))
     }
 
     fn local_field(&self, patch: usize, component: usize, p: Point) -> Dual {
-        let partition = &self.step.partition;
+        let partition = self.step.partition.boxes();
         let [xi, eta] = scaled(p, partition.origin[patch], partition.scale[patch]);
         let mut v = Dual::constant(0.0);
         for block in self.data.blocks(patch) {

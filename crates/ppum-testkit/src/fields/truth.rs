@@ -116,7 +116,7 @@ impl<'f> Truth<'f> {
         let all: Vec<_> = self.window.offsets().map(&mut one).collect();
         let parts: [fn(&Jet<f64>) -> f64; 6] =
             [|u| u.v, |u| u.x, |u| u.y, |u| u.xx, |u| u.xy, |u| u.yy];
-        let half = &self.field.step.partition.half;
+        let half = &self.field.step.partition.boxes().half;
         let smallest = half.iter().map(|h| h.x.min(h.y)).fold(f64::INFINITY, f64::min);
         std::array::from_fn(|k| {
             let values: Vec<f64> = all.iter().map(parts[k]).collect();
@@ -220,7 +220,7 @@ fn band(field: &Field<'_>, window: &Window) -> Vec<bool> {
     let (center, near) = (window.center, BAND * window.pixel_size());
     let cracks: Vec<_> =
         field.step.cracks.iter().map(|crack| LocalCrack::new(crack, center)).collect();
-    let partition = &field.step.partition;
+    let partition = field.step.partition.boxes();
     let mut patches = Vec::new();
     let mut at = |p: Vec2| {
         // a pixel around: what f64 rounds away does not matter

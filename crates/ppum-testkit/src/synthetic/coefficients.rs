@@ -3,7 +3,7 @@
 use super::{Components, Junction, Recipe};
 use crate::random::Random;
 use ppum::crack::{Crack, End, LocalCrack, Side};
-use ppum::dataset::{FieldData, Partition, monomials};
+use ppum::dataset::{BoxPartition, FieldData, monomials};
 use ppum::function::{Function, FunctionKind, FunctionTable, GROUP, Slot};
 use ppum::jet::Jet;
 use ppum::polynomial::exponents;
@@ -61,7 +61,11 @@ pub fn cut_off(d: Vec2, zone: f64) -> Jet<f64> {
     Jet::constant(1.0).minus::<2>(square.times::<2>(q).times::<2>(factor))
 }
 
-pub(super) fn field(recipe: &Recipe, partition: &Partition, functions: &[Function]) -> FieldData {
+pub(super) fn field(
+    recipe: &Recipe,
+    partition: &BoxPartition,
+    functions: &[Function],
+) -> FieldData {
     let all = ["ux", "uy", "uz", "uw", "up", "uq"];
     let names = if recipe.components == 1 { &["u"][..] } else { &all };
     let name = if recipe.components == 1 { "potential" } else { "displacement" };
@@ -81,7 +85,7 @@ pub(super) fn field(recipe: &Recipe, partition: &Partition, functions: &[Functio
 
 struct Maker<'a> {
     recipe: &'a Recipe,
-    partition: &'a Partition,
+    partition: &'a BoxPartition,
     table: FunctionTable,
     data: FieldData,
     random: Random,
@@ -114,7 +118,7 @@ fn cutting(recipe: &Recipe, bounds: &Rect) -> Vec<u32> {
 
 /// The components of a patch that has functions of them: its cracks leave more than the two that a side tells apart, or two
 /// cracks leave two.
-fn components(recipe: &Recipe, partition: &Partition, patch: usize) -> Option<Components> {
+fn components(recipe: &Recipe, partition: &BoxPartition, patch: usize) -> Option<Components> {
     if recipe.junctions.is_empty() || !recipe.jumps {
         return None;
     }
@@ -126,7 +130,7 @@ fn components(recipe: &Recipe, partition: &Partition, patch: usize) -> Option<Co
 }
 
 /// The functions of the components of all patches but the first of each.
-pub(super) fn indicators(recipe: &Recipe, partition: &Partition) -> Vec<Function> {
+pub(super) fn indicators(recipe: &Recipe, partition: &BoxPartition) -> Vec<Function> {
     let mut all = Vec::new();
     for patch in 0..partition.len() {
         let Some(components) = components(recipe, partition, patch) else { continue };

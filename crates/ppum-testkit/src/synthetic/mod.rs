@@ -14,7 +14,7 @@ use crate::random::Random;
 use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd, TipId, tips};
 use ppum::dataset::{
-    Dataset, Equation, FieldData, MAX_DEGREE, Material, Partition, Step, StressState,
+    BoxPartition, Dataset, Equation, FieldData, MAX_DEGREE, Material, Step, StressState,
 };
 use ppum::function::{Declared, Frame, Function, FunctionKind, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -192,7 +192,7 @@ impl Recipe {
     /// # Panics
     /// If the recipe allows no cover.
     #[must_use]
-    pub fn partition(&self) -> Partition {
+    pub fn partition(&self) -> BoxPartition {
         let mut random = Random(self.seed);
         let mut cover = self.cover(&mut random);
         for _ in 0..self.random_rounds {
@@ -254,7 +254,7 @@ impl Recipe {
 
     /// A field over a partition with the functions of [`functions`](Self::functions).
     #[must_use]
-    pub fn field(&self, partition: &Partition, functions: &[Function]) -> FieldData {
+    pub fn field(&self, partition: &BoxPartition, functions: &[Function]) -> FieldData {
         coefficients::field(self, partition, functions)
     }
 

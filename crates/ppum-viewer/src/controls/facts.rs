@@ -66,7 +66,7 @@ impl Facts {
         self.is_elastic = dataset.equation.elastic().is_some();
         self.tips = all_tips(dataset, index);
         self.patches = step.partition.len();
-        self.weight = weight(&step.partition.weight);
+        self.weight = weight(&step.partition.boxes().weight);
         self.without = without(dataset, step);
         let named = dataset.quantities.iter();
         self.quantities = named.map(|named| (named.name.clone(), named.text.clone())).collect();
@@ -145,7 +145,11 @@ fn weight(weight: &WeightFunction) -> String {
 fn without(dataset: &Dataset, step: &Step) -> Vec<(Overlay, &'static str)> {
     let has_problem = dataset.problem.is_some();
     let absent = [
-        (Overlay::Points, step.partition.points.is_empty(), "The cover was made without points"),
+        (
+            Overlay::Points,
+            step.partition.boxes().points.is_empty(),
+            "The cover was made without points",
+        ),
         (Overlay::Rings, step.intensities.is_empty(), "The file has no stress intensity factors"),
         (
             Overlay::Cracks,

@@ -304,7 +304,7 @@ impl Reader {
     /// The patch whose cell a point lies in, of those that cover it, with its level: borders belong to the cell on their
     /// right and above.
     fn cell_of(&self, point: Vec2, patches: &[u32]) -> Option<(u32, u8)> {
-        let partition = &self.field.field().step.partition;
+        let partition = self.field.field().step.partition.boxes();
         let cell = |patch: &u32| partition.cell[*patch as usize];
         let own = patches.iter().filter(|patch| cell(patch).contains(point));
         let last = own.max_by(|a, b| {

@@ -234,7 +234,7 @@ impl Stage {
         }
         self.controls.is_picking = false;
         let step = dataset.steps.get(pane.scene.subject.step_of(dataset));
-        let cells = step.map_or(&[][..], |step| &step.partition.cell);
+        let cells = step.map_or(&[][..], |step| &step.partition.boxes().cell);
         let at = view.center + offset;
         if let Some(patch) = (0u32..).zip(cells).find(|(_, cell)| cell.contains(at)) {
             pane.scene.subject.part = Some(Part::Patch(patch.0).to_string());

@@ -69,7 +69,7 @@ fn the_pointer_reads_what_the_field_has_there() {
         assert!(miss < 1e-5 * (1.0 + expected.length()), "{miss} {expected:?}");
         assert!((read.patches.iter().map(|(_, phi)| phi).sum::<f64>() - 1.0).abs() < 1e-13);
         let (cell, level) = read.cell.expect("inside");
-        let partition = &field.step.partition;
+        let partition = field.step.partition.boxes();
         assert!(partition.cell[cell as usize].contains(read.spot.point()));
         assert_eq!(level, partition.level[cell as usize]);
         assert!(has_label(&window, "syy = "));

@@ -8,7 +8,7 @@
 use super::line::Line;
 use super::ranks::{Ranks, in_order};
 use super::{Checked, fail, tiling};
-use crate::dataset::Partition;
+use crate::dataset::BoxPartition;
 use crate::domain::Domain;
 use crate::vec2::{Rect, Vec2, vec2};
 
@@ -17,7 +17,7 @@ use crate::vec2::{Rect, Vec2, vec2};
 const CORE: f64 = 0.991;
 
 /// Checks that supports cover cells that tile the domain.
-pub(super) fn check(partition: &Partition, domain: &Domain) -> Checked {
+pub(super) fn check(partition: &BoxPartition, domain: &Domain) -> Checked {
     let patches = 0..partition.len();
     let core = |patch| Rect::around(partition.center[patch], partition.half[patch] * CORE);
     let holds = |patch: usize, cell: &Rect| core(patch).intersection(cell) == *cell;
@@ -100,7 +100,7 @@ mod tests {
     }
 
     /// Squares around random centres, and cells by halving these: no tree has made the cover.
-    fn scattered(random: &mut Random, n: usize, half: f64) -> Partition {
+    fn scattered(random: &mut Random, n: usize, half: f64) -> BoxPartition {
         let size = BOX.size();
         let mut point = || BOX.min + vec2(random.unit() * size.x, random.unit() * size.y);
         let center: Vec<Vec2> = (0..n).map(|_| point()).collect();
@@ -125,7 +125,7 @@ mod tests {
             parts.extend([(part, low), (right, high)]);
         }
         let half = vec![vec2(half, half); n];
-        Partition {
+        BoxPartition {
             weight: WeightFunction::Linear,
             origin: center.clone(),
             scale: half.clone(),

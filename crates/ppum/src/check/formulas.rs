@@ -52,7 +52,7 @@ fn parse(place: &str, text: &str, scope: &Scope) -> Checked {
 }
 
 fn check_step(step: &Step, tables: &[Arc<Table>], plane: &Scope, errors: &mut Errors) {
-    if let WeightFunction::Formula(weight) = &step.partition.weight {
+    if let WeightFunction::Formula(weight) = &step.partition.boxes().weight {
         let scope = with_tables(&["t"], tables).map_err(|error| mistake("tables", &error));
         errors.add(scope.and_then(|scope| parse("partition.weight", weight.text(), &scope)));
     }
@@ -190,7 +190,7 @@ mod tests {
         data.equation = body("table(k, x*y)", &data.tables);
         let scope = with_tables(&["t"], &data.tables).expect("new names");
         let weight = WeightFunction::formula("(1 - t)*table(k, t)", &scope);
-        data.steps[0].partition.weight = weight.expect("a weight");
+        data.steps[0].partition.boxes_mut().expect("boxes").weight = weight.expect("a weight");
         data.steps[0].functions[1].kind = function("a*table(k, r)*theta");
         data.steps[0].fields[0].exact = vec!["table(k, y)".into(), "0".into()];
         data.quantities = vec![quantity("a-b", "von_mises/table(q, ux) + young*duy_dx")];
@@ -209,10 +209,10 @@ mod tests {
         type Change = fn(&mut Dataset);
         let places: [(&str, Change); 5] = [
             ("equation.young", |_| {}),
-            ("steps[0].partition.weight", |d| d.equation = dataset().equation),
+            ("steps[0].partition.boxes().weight", |d| d.equation = dataset().equation),
             ("steps[0].functions[1].formula", |d| {
                 d.equation = dataset().equation;
-                d.steps[0].partition.weight = WeightFunction::Linear;
+                d.steps[0].partition.boxes_mut().expect("boxes").weight = WeightFunction::Linear;
             }),
             ("steps[0].fields[0].exact[0]", |d| {
                 d.equation = dataset().equation;

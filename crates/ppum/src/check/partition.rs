@@ -1,15 +1,24 @@
 //! The patches of a partition.
 
 use super::{
-    Checked, Errors, check_all, check_each, check_extents, check_length, check_points, is_box,
-    require,
+    Checked, Errors, check_all, check_each, check_extents, check_length, check_points, fail,
+    is_box, require,
 };
-use crate::dataset::Partition;
+use crate::dataset::{BoxPartition, Partition};
 
 /// Most patches: their borders are counted in 32 bits.
 const MOST_PATCHES: usize = 1 << 30;
 
 pub(super) fn check_partition(partition: &Partition, errors: &mut Errors) {
+    match partition {
+        Partition::Boxes(boxes) => check_boxes(boxes, errors),
+        Partition::Mesh(_) => {
+            errors.add(fail("", "meshes cannot be evaluated yet".into()));
+        }
+    }
+}
+
+fn check_boxes(partition: &BoxPartition, errors: &mut Errors) {
     let n = partition.len();
     errors.add(check_count(n));
     let mut is_fine = true;

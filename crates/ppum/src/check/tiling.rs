@@ -6,7 +6,7 @@
 use super::marks::Marks;
 use super::ranks::{Ranks, in_order};
 use super::{CheckError, Checked, fail};
-use crate::dataset::Partition;
+use crate::dataset::BoxPartition;
 use crate::domain::{Domain, Hole};
 use crate::vec2::{Rect, Vec2, vec2};
 
@@ -24,7 +24,7 @@ const PLACES: [f64; 3] = [1.0 / 16.0, 0.5, 15.0 / 16.0];
 const BESIDE: f64 = 1e-9;
 
 /// Checks that cells, which are boxes, lie in the domain's box, do not overlap, and leave no gap beside holes.
-pub(super) fn check(partition: &Partition, domain: &Domain) -> Checked {
+pub(super) fn check(partition: &BoxPartition, domain: &Domain) -> Checked {
     let layout = Layout::new(&partition.cell, &domain.bounds)?;
     if layout.covers_once() {
         return Ok(());
@@ -38,7 +38,7 @@ pub(super) fn check(partition: &Partition, domain: &Domain) -> Checked {
 }
 
 /// The rectangles of the domain's box that no cell of a tiling covers.
-pub(super) fn gaps(partition: &Partition, domain: &Domain) -> Vec<Rect> {
+pub(super) fn gaps(partition: &BoxPartition, domain: &Domain) -> Vec<Rect> {
     let layout = Layout::new(&partition.cell, &domain.bounds).ok();
     let found = layout.filter(|layout| !layout.covers_once());
     let rects = found.and_then(|layout| {
@@ -298,7 +298,7 @@ mod tests {
     const BOX: Rect = Rect::new(vec2(-1.0, 0.1), vec2(2.0, 1.6));
 
     /// A random graded cover of the box.
-    fn cover(seed: u64) -> Partition {
+    fn cover(seed: u64) -> BoxPartition {
         let mut random = Random(seed);
         let mut cover = Cover::grid(BOX, [3, 2]).expect("a grid");
         for _ in 0..4 {
@@ -307,11 +307,11 @@ mod tests {
         cover.partition(1.3, WeightFunction::Linear).expect("an overlap")
     }
 
-    fn mistake(partition: &Partition, holes: Vec<Hole>) -> Option<String> {
+    fn mistake(partition: &BoxPartition, holes: Vec<Hole>) -> Option<String> {
         check(partition, &Domain { bounds: BOX, holes }).err().map(|error| error.to_string())
     }
 
-    fn without(mut partition: Partition, cell: usize) -> Partition {
+    fn without(mut partition: BoxPartition, cell: usize) -> BoxPartition {
         partition.cell.remove(cell);
         partition
     }

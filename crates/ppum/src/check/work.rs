@@ -6,7 +6,7 @@
 use super::line::Line;
 use super::ranks::{Ranks, in_order};
 use super::{Checked, fail};
-use crate::dataset::{Dataset, FieldData, Partition, Step, monomials};
+use crate::dataset::{BoxPartition, Dataset, FieldData, Step, monomials};
 use crate::function::{FunctionTable, Slot};
 use crate::vec2::{Rect, Vec2, vec2};
 use crate::weight::WeightFunction;
@@ -55,7 +55,7 @@ fn each_work(
     table: &FunctionTable,
     mut visit: impl FnMut(Rect, u64),
 ) {
-    let partition = &step.partition;
+    let partition = step.partition.boxes();
     let mut groups: Vec<Option<Rect>> = vec![None; table.groups()];
     let own = PATCH + weight(partition);
     for patch in 0..partition.len() {
@@ -78,7 +78,7 @@ fn each_work(
 }
 
 /// Operations of a weight, in both directions.
-fn weight(partition: &Partition) -> usize {
+fn weight(partition: &BoxPartition) -> usize {
     match &partition.weight {
         WeightFunction::Formula(formula) => 2 * formula.jets().n_operations(),
         _ => 0,
@@ -275,7 +275,8 @@ mod tests {
         let piled = |n: usize| {
             let mut data = dataset();
             let step = &mut data.steps[0];
-            let (partition, field) = (&mut step.partition, &mut step.fields[0]);
+            let (partition, field) =
+                (step.partition.boxes_mut().expect("boxes"), &mut step.fields[0]);
             partition.center = vec![partition.center[0]; n];
             partition.half = vec![partition.half[0]; n];
             partition.origin = vec![partition.origin[0]; n];

@@ -30,7 +30,7 @@ mod grid;
 #[cfg(test)]
 mod tests;
 
-use crate::dataset::Partition;
+use crate::dataset::BoxPartition;
 use crate::morton::morton;
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
@@ -261,7 +261,11 @@ impl Cover {
     ///
     /// # Errors
     /// α not in [`OVERLAP`].
-    pub fn partition(&self, alpha: f64, weight: WeightFunction) -> Result<Partition, CoverError> {
+    pub fn partition(
+        &self,
+        alpha: f64,
+        weight: WeightFunction,
+    ) -> Result<BoxPartition, CoverError> {
         if !OVERLAP.contains(&alpha) {
             return Err(CoverError::Overlap(alpha));
         }
@@ -269,7 +273,7 @@ impl Cover {
         let cell: Vec<_> = leaves.iter().map(|leaf| self.grid.rect(leaf.cell)).collect();
         let center: Vec<_> = cell.iter().map(Rect::center).collect();
         let half: Vec<_> = cell.iter().map(|c| c.size() * (0.5 * alpha)).collect();
-        Ok(Partition {
+        Ok(BoxPartition {
             weight,
             origin: center.clone(),
             center,

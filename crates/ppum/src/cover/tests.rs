@@ -205,7 +205,7 @@ fn patches_are_stretched_cells() {
 }
 
 /// True if some part of each cell is covered by its own patch alone.
-fn has_flat_tops(partition: &Partition) -> bool {
+fn has_flat_tops(partition: &BoxPartition) -> bool {
     let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
     let tree = BoxTree::new(&supports);
     let mut coverers = Vec::new();

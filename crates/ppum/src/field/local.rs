@@ -175,7 +175,7 @@ impl<'f> LocalField<'f> {
         if R::LANES == 1 {
             return part;
         }
-        let support = self.field.step.partition.support(patch);
+        let support = self.field.step.partition.boxes().support(patch);
         let (lo, hi) = (support.min - self.anchor, support.max - self.anchor);
         let [x, y] = offset;
         let part = part.only::<D>(x.ge(x.lit(lo.x))).only::<D>(x.lit(hi.x).gt(x));
@@ -194,7 +194,7 @@ impl<'f> LocalField<'f> {
     /// W_i at `anchor + offset` with derivatives.
     #[inline(always)]
     fn partition_weight<R: Real, const D: usize>(&self, patch: usize, offset: [R; 2]) -> Jet<R> {
-        let partition = &self.field.step.partition;
+        let partition = self.field.step.partition.boxes();
         let half = partition.half[patch];
         let inverse = [1.0 / half.x, 1.0 / half.y];
         let xi = self.scaled(offset, partition.center[patch], inverse);
@@ -222,7 +222,7 @@ impl<'f> LocalField<'f> {
         offset: [R; 2],
         functions: &mut FunctionJets<'_, 'f, R>,
     ) -> Jet<R> {
-        let (partition, data) = (&self.field.step.partition, self.field.data);
+        let (partition, data) = (self.field.step.partition.boxes(), self.field.data);
         let scale = partition.scale[patch];
         let inverse = [1.0 / scale.x, 1.0 / scale.y];
         let xi = self.scaled(offset, partition.origin[patch], inverse);

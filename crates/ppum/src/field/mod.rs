@@ -112,7 +112,7 @@ impl<'d> Field<'d> {
             known: step.fields.iter().map(|f| f.name.as_str()).collect::<Vec<_>>().join(", "),
         })?;
         let supports: Vec<_> =
-            (0..step.partition.len()).map(|i| step.partition.support(i)).collect();
+            (0..step.partition.len()).map(|i| step.partition.boxes().support(i)).collect();
         Ok(Self {
             domain: &dataset.domain,
             equation: &dataset.equation,

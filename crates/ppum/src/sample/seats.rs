@@ -57,7 +57,8 @@ impl<'d> Seats<'d> {
     /// The seats of a field.
     #[must_use]
     pub fn new(field: &Field<'d>) -> Self {
-        let (domain, cracks, half) = (field.domain, &field.step.cracks, &field.step.partition.half);
+        let (domain, cracks, half) =
+            (field.domain, &field.step.cracks, &field.step.partition.boxes().half);
         let at = |tip: TipId| cracks[tip.crack as usize].end_point(tip.end);
         let tips: Vec<Vec2> = tips(cracks).map(at).collect();
         let boxes: Vec<_> = tips.iter().map(|&tip| Rect::new(tip, tip)).collect();

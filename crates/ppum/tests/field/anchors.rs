@@ -21,7 +21,7 @@ fn anchored_equals_absolute() {
             for _ in 0..20 {
                 let p = random.point(&dataset.domain.bounds);
                 let (size, r) = (patch_size(field.step, p), distance_to_cracks(field.step, p));
-                if r < 1e-3 * size || near_border(&dataset.steps[0].partition, p) {
+                if r < 1e-3 * size || near_border(dataset.steps[0].partition.boxes(), p) {
                     continue;
                 }
                 let a = inside::<2>(&mut absolute, p, Side::Above);
@@ -35,7 +35,7 @@ fn anchored_equals_absolute() {
 }
 
 /// True where rounding could choose another patch or piece of a weight.
-fn near_border(partition: &ppum::dataset::Partition, p: Vec2) -> bool {
+fn near_border(partition: &ppum::dataset::BoxPartition, p: Vec2) -> bool {
     (0..partition.len()).any(|i| {
         let (d, half) = (p - partition.center[i], partition.half[i]);
         let near = |s: f64| [0.0, 1.0 / 3.0, 1.0].iter().any(|t| (s.abs() - t).abs() < 1e-12);
@@ -59,7 +59,7 @@ fn values_and_gradients_against_extended_precision() {
                 let offset = random.point(&dataset.domain.bounds) - anchor;
                 let p = anchor + offset;
                 let Some(u) = evaluate::<1>(&mut local, offset, Side::Above) else { continue };
-                if near_border(&dataset.steps[0].partition, p) {
+                if near_border(dataset.steps[0].partition.boxes(), p) {
                     continue;
                 }
                 let length = patch_size(field.step, p).min(distance_to_cracks(field.step, p));

@@ -34,7 +34,7 @@ fn jets(local: &mut LocalField<'_>, p: Vec2) -> Option<Vec<Jet<f64>>> {
 
 /// Borders and centre lines (kinks of linear weights) of every patch, at random heights; corners.
 fn places(dataset: &Dataset) -> Vec<(Vec2, Vec2)> {
-    let (partition, mut random) = (&dataset.steps[0].partition, Random(1));
+    let (partition, mut random) = (dataset.steps[0].partition.boxes(), Random(1));
     let mut all = Vec::new();
     for i in 0..partition.len() {
         let (support, half) = (partition.support(i), partition.half[i]);

@@ -96,7 +96,7 @@ fn patches_add_up_to_the_whole() {
 #[test]
 fn a_patch_ends_with_its_support() {
     let dataset = Recipe { overlap: 1.2, ..Recipe::default() }.dataset();
-    let partition = &dataset.steps[0].partition;
+    let partition = dataset.steps[0].partition.boxes();
     for patch in [0, 17, partition.len() - 1] {
         let alone = part(&dataset, Part::Patch(patch as u32));
         let center = [partition.center[patch]];

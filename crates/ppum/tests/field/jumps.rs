@@ -44,7 +44,7 @@ fn steps(field: &Field<'_>, random: &mut Random) -> Vec<(Vec2, Vec2)> {
         }
     }
     for i in 0..field.step.partition.len() {
-        let support = field.step.partition.support(i);
+        let support = field.step.partition.boxes().support(i);
         for x in [support.min.x, support.center().x, support.max.x] {
             over(vec2(x, random.point(&support).y), vec2(0.0, 1.0));
         }

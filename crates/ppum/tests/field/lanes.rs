@@ -79,7 +79,7 @@ fn functions_of_other_patches_do_no_harm() {
     let step = &mut dataset.steps[0];
     let last = step.functions.len() as u32 - 1;
     for patch in 0..step.partition.len() {
-        if step.partition.support(patch).max.x > 0.85 {
+        if step.partition.boxes().support(patch).max.x > 0.85 {
             for block in step.fields[0].blocks(patch) {
                 let function = &mut step.fields[0].block_function[block];
                 *function = if *function == last { 0 } else { *function };

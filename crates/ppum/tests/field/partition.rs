@@ -21,7 +21,7 @@ fn datasets() -> impl Iterator<Item = Dataset> {
 /// The patches whose half-open support holds a point, by looking at all.
 fn covering(field: &Field<'_>, p: Vec2) -> Vec<usize> {
     let holds = |b: Rect| b.min.x <= p.x && p.x < b.max.x && b.min.y <= p.y && p.y < b.max.y;
-    let partition = &field.step.partition;
+    let partition = field.step.partition.boxes();
     (0..partition.len()).filter(|&i| holds(partition.support(i))).collect()
 }
 
@@ -58,7 +58,7 @@ fn the_patches_found_are_those_that_cover() {
     for dataset in datasets() {
         let field = compiled(&dataset);
         let (mut local, mut random) = (field.at(Vec2::ZERO), Random(8));
-        let partition = &field.step.partition;
+        let partition = field.step.partition.boxes();
         let corner = |patch: usize| {
             let (support, cell) = (partition.support(patch), partition.cell[patch]);
             [support.min, support.max, cell.min, cell.max, partition.center[patch]]
@@ -88,9 +88,9 @@ fn quantities_of_the_partition() {
             let offset = p - dataset.domain.bounds.min;
             let patches = covering(&field, p);
             let weights = patches.iter().map(|&i| {
-                let xi = p - field.step.partition.center[i];
-                let half = field.step.partition.half[i];
-                let w = |t: f64| field.step.partition.weight.spline(t)[0];
+                let xi = p - field.step.partition.boxes().center[i];
+                let half = field.step.partition.boxes().half[i];
+                let w = |t: f64| field.step.partition.boxes().weight.spline(t)[0];
                 w(xi.x / half.x) * w(xi.y / half.y)
             });
             let expected: f64 = weights.sum();

@@ -94,7 +94,7 @@ fn weights() {
     };
     let cubic = Recipe { weight: WeightFunction::Cubic, ..linear.clone() }.dataset();
     assert_same(&with("cubic"), &cubic);
-    assert_eq!(with(" 1 - t^2 ").steps[0].partition.weight.name(), "formula");
+    assert_eq!(with(" 1 - t^2 ").steps[0].partition.boxes().weight.name(), "formula");
     let mut dataset = linear.dataset();
     let error = dataset.steps[0].replace_weight("2 - t", &[]).expect_err("1 at t = 1");
     assert!(matches!(error, ReplaceError::Weight(_)), "{error}");

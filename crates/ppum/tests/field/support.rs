@@ -54,7 +54,7 @@ pub(crate) fn assert_close(a: &Jet<f64>, b: &Jet<f64>, tolerance: f64, size: f64
 
 /// Smallest half-extent of the patches that cover `p`.
 pub(crate) fn patch_size(step: &Step, p: Vec2) -> f64 {
-    let partition = &step.partition;
+    let partition = step.partition.boxes();
     let covers = |&i: &usize| partition.support(i).contains(p);
     let half = |i: usize| partition.half[i].x.min(partition.half[i].y);
     (0..partition.len()).filter(covers).map(half).fold(f64::INFINITY, f64::min)
@@ -62,7 +62,7 @@ pub(crate) fn patch_size(step: &Step, p: Vec2) -> f64 {
 
 /// Distance, in the maximum norm, from `p` to the lines where the weight of any patch is not smooth.
 pub(crate) fn distance_to_kinks(step: &Step, p: Vec2) -> f64 {
-    let partition = &step.partition;
+    let partition = step.partition.boxes();
     let places = || partition.weight.breakpoints().iter().chain(&[1.0]);
     let mut nearest = f64::INFINITY;
     for i in 0..partition.len() {

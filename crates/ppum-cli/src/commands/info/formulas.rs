@@ -1,7 +1,7 @@
 //! The formulas of a dataset: functions, weight, quantities, tables.
 
 use ppum::crack::SegmentId;
-use ppum::dataset::{Dataset, NamedQuantity, Partition};
+use ppum::dataset::{BoxPartition, Dataset, NamedQuantity};
 use ppum::formula::Table;
 use ppum::function::{Cut, Declared, Frame, Function, FunctionKind};
 use ppum::library;
@@ -117,7 +117,7 @@ impl DeclaredRow {
 }
 
 /// The weight as a formula of t; that of a B-spline from the library.
-pub(super) fn weight(partition: &Partition) -> String {
+pub(super) fn weight(partition: &BoxPartition) -> String {
     match &partition.weight {
         WeightFunction::Formula(formula) => formula.text().to_owned(),
         spline => library::weight(spline.name()).map_or("", |entry| entry.texts[0]).to_owned(),

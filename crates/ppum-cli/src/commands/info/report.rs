@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use ppum::crack::{self, tips};
-use ppum::dataset::{self, Dataset, FieldData, Partition, Step};
+use ppum::dataset::{self, BoxPartition, Dataset, FieldData, Step};
 use ppum::field::{Field, FieldError};
 use ppum::quantity::available;
 use ppum::text::Places;
@@ -120,13 +120,14 @@ impl StepReport {
     fn new(dataset: &Dataset, index: usize) -> Result<Self, FieldError> {
         let field = Field::new(dataset, index)?;
         let Step { load, partition, cracks, functions, attributes, history, .. } = field.step;
+        let (patches, partition) = (partition.len(), partition.boxes());
         let blocks = blocks(functions, field.data);
         let attribute = |a: &dataset::Attribute| a.name.clone();
         let other = history.iter().filter(|record| !is_in_tables(record));
         Ok(Self {
             step: index,
             load: *load,
-            patches: partition.len(),
+            patches,
             cells: partition.cell.len(),
             points: partition.points.len(),
             weight: partition.weight.name(),
@@ -155,7 +156,7 @@ fn tally(values: impl Iterator<Item = u8>) -> BTreeMap<u8, usize> {
     counts
 }
 
-fn levels(partition: &Partition) -> Vec<Level> {
+fn levels(partition: &BoxPartition) -> Vec<Level> {
     let counts = tally(partition.level.iter().copied());
     counts.into_iter().map(|(level, cells)| Level { level, cells }).collect()
 }

@@ -108,9 +108,10 @@ fn cells(section: &Section<'_>, files: Files<'_>) -> Option<Cells> {
         }
         [None, None, Some(points)] => match files {
             Files::In(folder) => point_file(points, folder),
-            Files::Stored(dataset) => {
-                dataset.steps.first().map(|step| Cells::Points(step.partition.points.clone()))
-            }
+            Files::Stored(dataset) => dataset
+                .steps
+                .first()
+                .map(|step| Cells::Points(step.partition.boxes().points.clone())),
         },
         // the steps to an accuracy begin somewhere
         [None, None, None] if section.mentions("accuracy") => {

@@ -255,7 +255,7 @@ fn shortest_parts_have_the_patches_of_their_cells() {
     let mut random = Random(31);
     for _ in 0..300 {
         let case = Case::new(graded(&mut random, WeightFunction::Linear), Vec::new(), Vec::new());
-        let Partition { cell: cells, .. } = &case.partition;
+        let BoxPartition { cell: cells, .. } = &case.partition;
         let mut beside = || {
             let off = random.between(-1.0, 1.0) * 10f64.powf(-random.between(8.0, 15.0));
             let cell = cells[random.below(cells.len())];

@@ -13,7 +13,7 @@ mod weights;
 
 use super::*;
 use ppum::crack::CrackEnd;
-use ppum::dataset::Partition;
+use ppum::dataset::BoxPartition;
 use ppum::weight::WeightFunction;
 use ppum_testkit::random::Random;
 
@@ -42,10 +42,10 @@ fn leaves(rect: Rect, level: u32, divide: &mut dyn FnMut(&Rect, u32) -> bool) ->
     .collect()
 }
 
-fn partition(cells: Vec<Rect>, weight: WeightFunction) -> Partition {
+fn partition(cells: Vec<Rect>, weight: WeightFunction) -> BoxPartition {
     let center: Vec<Vec2> = cells.iter().map(Rect::center).collect();
     let half: Vec<Vec2> = cells.iter().map(|c| c.size() * 0.65).collect();
-    Partition {
+    BoxPartition {
         weight,
         origin: center.clone(),
         scale: half.clone(),
@@ -58,11 +58,11 @@ fn partition(cells: Vec<Rect>, weight: WeightFunction) -> Partition {
     }
 }
 
-fn uniform(level: u32) -> Partition {
+fn uniform(level: u32) -> BoxPartition {
     partition(leaves(DOMAIN, 0, &mut |_, l| l < level), WeightFunction::Linear)
 }
 
-fn graded(random: &mut Random, weight: WeightFunction) -> Partition {
+fn graded(random: &mut Random, weight: WeightFunction) -> BoxPartition {
     let cells = leaves(DOMAIN, 0, &mut |_, level| {
         level < 2 || (level < 4 && random.between(0.0, 1.0) < 0.4)
     });
@@ -70,7 +70,7 @@ fn graded(random: &mut Random, weight: WeightFunction) -> Partition {
 }
 
 /// Patches whose open supports meet the open cell.
-fn coverers(partition: &Partition, cell: &Rect) -> Vec<u32> {
+fn coverers(partition: &BoxPartition, cell: &Rect) -> Vec<u32> {
     let meets = |&i: &u32| partition.support(i as usize).overlaps(cell);
     (0..partition.len() as u32).filter(meets).collect()
 }
@@ -81,14 +81,14 @@ fn crack(points: &[Vec2]) -> Crack {
 
 /// A step's geometry with one list of singular points for all patches.
 struct Case {
-    partition: Partition,
+    partition: BoxPartition,
     cracks: Vec<Crack>,
     singular: Vec<Singular>,
     patch_singular: Vec<Vec<u32>>,
 }
 
 impl Case {
-    fn new(partition: Partition, cracks: Vec<Crack>, singular: Vec<Vec2>) -> Self {
+    fn new(partition: BoxPartition, cracks: Vec<Crack>, singular: Vec<Vec2>) -> Self {
         let all: Vec<u32> = (0..singular.len() as u32).collect();
         let patch_singular = vec![all; partition.len()];
         let singular = singular.into_iter().map(Singular::tip).collect();
@@ -143,7 +143,7 @@ fn assert_near(value: f64, exact: f64, tolerance: f64, what: &str) {
 }
 
 /// φ_i of the first patch of a list.
-fn partition_function(partition: &Partition, patches: &[u32], p: Vec2) -> f64 {
+fn partition_function(partition: &BoxPartition, patches: &[u32], p: Vec2) -> f64 {
     let w = |i: &u32| {
         let i = *i as usize;
         let d = p - partition.center[i];

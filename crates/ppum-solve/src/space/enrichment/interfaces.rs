@@ -7,7 +7,7 @@ use crate::space::SpaceError;
 use crate::space::inspect::InspectError;
 use crate::watched::Stage;
 use ppum::crack::{Crack, LocalCrack, Side};
-use ppum::dataset::Partition;
+use ppum::dataset::BoxPartition;
 use ppum::function::{Frame, Function, FunctionError, FunctionKind};
 use ppum::progress::Cancelled;
 use ppum::vec2::Vec2;
@@ -34,7 +34,7 @@ impl Enrichments<'_> {
     /// A function of the problem's own that does not compile; cancelled.
     pub(crate) fn add_interfaces(
         &mut self,
-        partition: &Partition,
+        partition: &BoxPartition,
         stage: &Stage<'_>,
     ) -> Result<(), SpaceError> {
         let set = &self.problem.discretization;

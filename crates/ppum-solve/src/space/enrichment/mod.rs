@@ -21,7 +21,7 @@ use crate::geometry::{
 };
 use crate::problem::{Enrichment, LocalEnrichment, Problem, Region, Site, touch};
 use ppum::crack::{Crack, End, SegmentId, TipId, tips};
-use ppum::dataset::Partition;
+use ppum::dataset::BoxPartition;
 use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::function::{Cut, Frame, Function, FunctionKind, WESTERGAARD};
@@ -179,7 +179,7 @@ impl<'p> Enrichments<'p> {
     }
 
     /// Gives the patches of a partition in the rooms of corners that turn inwards the functions of these.
-    pub(crate) fn add_corners(&mut self, partition: &Partition) {
+    pub(crate) fn add_corners(&mut self, partition: &BoxPartition) {
         let bounds = self.problem.domain.bounds;
         for corner in corners(self.problem) {
             let has = |&k: &u32| {
@@ -210,7 +210,12 @@ impl<'p> Enrichments<'p> {
 
     /// The blocks of one patch with polynomials of degree `degree`: polynomials first, then jumps, then the
     /// other enrichments.
-    pub(crate) fn blocks(&mut self, partition: &Partition, patch: usize, degree: u8) -> Vec<Block> {
+    pub(crate) fn blocks(
+        &mut self,
+        partition: &BoxPartition,
+        patch: usize,
+        degree: u8,
+    ) -> Vec<Block> {
         let seen = Patch::new(partition, patch, self.problem);
         let mut blocks = vec![(0, degree)];
         blocks.extend(self.jumps(&seen).into_iter().map(|function| (function, degree)));
@@ -379,7 +384,7 @@ struct Patch<'p> {
 }
 
 impl<'p> Patch<'p> {
-    fn new(partition: &Partition, patch: usize, problem: &'p Problem) -> Self {
+    fn new(partition: &BoxPartition, patch: usize, problem: &'p Problem) -> Self {
         let (support, half) = (partition.support(patch), partition.half[patch]);
         Self {
             index: patch as u32,

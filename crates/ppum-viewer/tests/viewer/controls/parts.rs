@@ -58,7 +58,7 @@ fn a_patch_is_picked_on_the_plate() {
     assert!(window.state().session.pane().probes.is_empty());
     let number: usize = part.strip_prefix("patch:").expect("a patch").parse().expect("a number");
     let dataset = std::sync::Arc::clone(frame(&window).field.dataset());
-    assert!(dataset.steps[0].partition.cell[number].contains(place));
+    assert!(dataset.steps[0].partition.boxes().cell[number].contains(place));
     // φ_i v_i of one patch is zero elsewhere
     assert!(values(&window).iter().filter(|v| **v != 0.0 && !v.is_nan()).count() < 200_000);
 }

@@ -1,0 +1,101 @@
+//! Meshes: patches that are elements, images of a triangle or a square under polynomial maps.
+//!
+//! On an element every field of finite elements, enriched, cut or discontinuous, is a sum of
+//! function × polynomial of the reference coordinate ξ:
+//!
+//! ```text
+//! v(x) = Σ_b f_b(x) P_b(ξ)        x = origin + M(ξ)        ξ in the reference shape
+//! ```
+//!
+//! A cut element is two patches with the same map and opposite clips: one where a level field is ≥ 0,
+//! one where it is < 0.
+
+use std::ops::Range;
+
+use crate::polynomial::PolynomialSpace;
+use crate::vec2::{Rect, Vec2, vec2};
+
+/// The elements of a mesh as patches. Structure of arrays; vectors have one entry per patch where nothing else is said.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// The reference shapes.
+    pub shape: Vec<Shape>,
+    /// Images of ξ = 0.
+    pub origin: Vec<Vec2>,
+    /// Degrees of the maps.
+    pub map_degree: Vec<u8>,
+    /// Monomials of the maps.
+    pub map_space: Vec<PolynomialSpace>,
+    /// First column of each map in `map`; patches may share one.
+    pub map_offset: Vec<u64>,
+    /// Coefficients of the maps M without constant terms, for x and for y.
+    pub map: [Vec<f64>; 2],
+    /// The mesh's own number of the element; the sides of a cut share it.
+    pub element: Vec<u32>,
+    /// Offsets of the patches' clips, one more than patches; empty if there is no clip.
+    pub clip_offsets: Vec<u64>,
+    /// The clips of all patches.
+    pub clips: Vec<Clip>,
+}
+
+/// A reference shape, closed, with its centroid at ξ = 0 and |ξ|, |η| ≤ 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// The triangle with the corners (−½, −½), (1, −½), (−½, 1).
+    Triangle,
+    /// The square [−1, 1]².
+    Square,
+}
+
+/// A patch's half of the plane: where a level field is not negative, or where it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Clip {
+    /// Index of the level field among the step's fields.
+    pub field: u32,
+    /// True for level ≥ 0, false for level < 0.
+    pub is_above: bool,
+}
+
+impl Mesh {
+    /// Number of patches.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.shape.len()
+    }
+
+    /// True if there is no patch.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.shape.is_empty()
+    }
+
+    /// The columns of a patch's map.
+    #[must_use]
+    pub fn map_range(&self, patch: usize) -> Range<usize> {
+        let start = self.map_offset[patch] as usize;
+        start..start + self.map_space[patch].size(self.map_degree[patch].into()) - 1
+    }
+
+    /// The coefficients of a patch's map without the constant, for x and for y.
+    #[must_use]
+    pub fn map_of(&self, patch: usize) -> [&[f64]; 2] {
+        let range = self.map_range(patch);
+        [&self.map[0][range.clone()], &self.map[1][range]]
+    }
+
+    /// A box that holds the patch: |ξ|, |η| ≤ 1, so no component is farther from the origin's than Σ |coefficient|.
+    #[must_use]
+    pub fn bounds(&self, patch: usize) -> Rect {
+        let [x, y] = self.map_of(patch).map(|c| c.iter().map(|c| c.abs()).sum());
+        Rect::around(self.origin[patch], vec2(x, y))
+    }
+
+    /// The clips of a patch.
+    #[must_use]
+    pub fn clips(&self, patch: usize) -> &[Clip] {
+        match self.clip_offsets.get(patch..patch + 2) {
+            Some(&[start, end]) => &self.clips[start as usize..end as usize],
+            _ => &[],
+        }
+    }
+}
