@@ -144,6 +144,7 @@ fn key<'f>(stem: &'f str, kind: &'f FunctionKind) -> Key<'f> {
         let word = match kind {
             FunctionKind::Side { .. } => "side",
             FunctionKind::Component { .. } => "component",
+            FunctionKind::Level { .. } => "level",
             _ => "one",
         };
         return (stem, word, "", Vec::new(), Vec::new());
@@ -151,6 +152,7 @@ fn key<'f>(stem: &'f str, kind: &'f FunctionKind) -> Key<'f> {
     let frame = match frame {
         Frame::World => "world",
         Frame::Tip(_) => "tip",
+        Frame::Levels(_) => "levels",
         _ => "fixed",
     };
     let points = declared.kinks.as_flattened().iter().chain(&declared.singular);

@@ -3,32 +3,35 @@
 mod functions;
 mod group;
 mod growth;
+mod mesh;
 mod tables;
 
 use std::sync::Arc;
 
 use ppum::crack::{Crack, CrackEnd, End, TipId};
 use ppum::dataset::{
-    Attribute, BoxPartition, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Reaction,
-    Record, Ring, Step, StressState, TipIntensity, Warning,
+    Attribute, BoxPartition, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Partition,
+    Reaction, Record, Ring, Step, StressState, TipIntensity, Warning,
 };
 use ppum::domain::{Domain, Hole};
 use ppum::expression::Expression;
 use ppum::formula::Table;
+use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::{WeightError, WeightFunction};
 
-use crate::content::{Array, Content, Element, Form};
+use crate::content::{Array, Content, Element, Form, step_path};
 use crate::error::ReadError;
 use crate::limits::FORMAT_VERSION;
 use crate::names::{
-    BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ELASTICITY, ENDS, EQUATIONS, EquationKind, NO_EQUATION,
-    PLAIN_BOX, POISSON, POLYGON, STRESS_STATES, WEIGHTS,
+    BOX_WITH_HOLES, BOXES, CIRCLE, CRACK_ENDS, ELASTICITY, ENDS, EQUATIONS, EquationKind, MESH,
+    NO_EQUATION, PLAIN_BOX, POISSON, POLYGON, STRESS_STATES, WEIGHTS,
 };
 use functions::functions;
 pub(crate) use group::missing;
 use group::{Group, attempt, numbered, optional, read};
 use growth::growth;
+use mesh::mesh;
 use tables::{Scopes, tables};
 
 type Read<T> = Result<T, ReadError>;
@@ -66,7 +69,23 @@ pub(crate) fn diagnose(content: &Content) -> (Dataset, Vec<ReadError>) {
 fn whole(root: &Group) -> Dataset {
     let (mut dataset, scopes) = head_of(root);
     dataset.steps = numbered(root, "steps", |group| step(group, &scopes));
+    if root.is_fine() {
+        let domain: String = root.group("domain").attribute("kind");
+        dataset.steps.iter().enumerate().for_each(|(k, step)| one_kind(root, &domain, k, step));
+    }
     dataset
+}
+
+/// A mesh is its own domain: domain and partition are both of the kind, or none of them.
+fn one_kind(root: &Group, domain: &str, number: usize, step: &Step) {
+    let is_mesh = step.partition.mesh().is_some();
+    if is_mesh != (domain == MESH) {
+        let own = if is_mesh { MESH } else { BOXES };
+        let mistake = format!(
+            "`{own}` does not belong to a domain of the kind `{domain}`: both or none must be `{MESH}`"
+        );
+        root.group(&step_path(number)).group("partition").error("@kind", mistake);
+    }
 }
 
 /// The step of the dataset with these tables, in a content that holds nothing else.
@@ -132,10 +151,11 @@ fn scopes(root: &Group, tables: &[Arc<Table>]) -> Option<Scopes> {
 
 fn domain(group: &Group) -> Domain {
     let bounds = Rect::new(group.attribute_point("min"), group.attribute_point("max"));
-    let holes = match group.attribute_word(&[(false, PLAIN_BOX), (true, BOX_WITH_HOLES)], "kind") {
-        Some(true) => holes(&group.group("holes")),
-        Some(false) => {
-            group.refuse("holes", Form::Group, PLAIN_BOX);
+    let words = [PLAIN_BOX, BOX_WITH_HOLES, MESH].map(|word| (word, word));
+    let holes = match group.attribute_word(&words, "kind") {
+        Some(BOX_WITH_HOLES) => holes(&group.group("holes")),
+        Some(word) => {
+            group.refuse("holes", Form::Group, word);
             Vec::new()
         }
         None => Vec::new(),
@@ -229,8 +249,16 @@ fn step(group: &Group, scopes: &Option<Scopes>) -> Step {
     step
 }
 
-fn partition(group: &Group, scopes: &Option<Scopes>) -> BoxPartition {
-    group.attribute_word(&[((), "shepard-box")], "kind");
+fn partition(group: &Group, scopes: &Option<Scopes>) -> Partition {
+    let kind = group.attribute_word(&[(false, BOXES), (true, MESH)], "kind");
+    // of an unknown kind the arrays are read as what they look like: one error, not one for each that is missing
+    match kind.unwrap_or_else(|| group.row_count("shape").is_some()) {
+        true => mesh(group).into(),
+        false => boxes(group, scopes).into(),
+    }
+}
+
+fn boxes(group: &Group, scopes: &Option<Scopes>) -> BoxPartition {
     let n = group.rows_of(&["center", "half", "origin", "scale", "cell", "level", "point"]);
     let point = group.column::<i64>("point", n);
     let cell = |[x0, y0, x1, y1]: [f64; 4]| Rect::new(vec2(x0, y0), vec2(x1, y1));
@@ -306,6 +334,11 @@ fn field(group: &Group) -> FieldData {
     data.block_function = group.column("block_function", blocks);
     data.block_degree = group.column("block_degree", blocks);
     data.block_offset = group.column("block_offset", blocks);
+    if group.holds("block_space", Form::Dataset) {
+        let spaces = mesh::spaces(group, "block_space", blocks);
+        data.block_space =
+            if spaces.contains(&PolynomialSpace::Tensor) { spaces } else { Vec::new() };
+    }
     data.coefficients = group.matrix("coefficients", components);
     data.components = group.column("components", components);
     data

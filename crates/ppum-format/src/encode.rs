@@ -1,5 +1,7 @@
 //! Dataset → content: the layout of FORMAT.md, group by group.
 
+mod mesh;
+
 use std::sync::Arc;
 
 use ppum::crack::{Crack, SegmentId, TipId};
@@ -10,6 +12,7 @@ use ppum::dataset::{
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
 use ppum::function::{Cut, Frame, Function, FunctionKind};
+use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::{Rect, Vec2};
 use ppum::weight::WeightFunction;
 
@@ -17,8 +20,8 @@ use crate::content::{Array, Content, Element, Values, join, step_path};
 use crate::error::WriteError;
 use crate::limits::{FORMAT_VERSION, MAX_TABLE_VALUES};
 use crate::names::{
-    BOX_WITH_HOLES, CIRCLE, CRACK_ENDS, ENDS, FATES, GROWTH_NUMBERS, MEETS_CRACK, MEETS_HOLE,
-    PLAIN_BOX, POLYGON, STOPS, STRESS_STATES, Words, word,
+    BOX_WITH_HOLES, BOXES, CIRCLE, CRACK_ENDS, ENDS, FATES, GROWTH_NUMBERS, MEETS_CRACK,
+    MEETS_HOLE, MESH, NO_LEVELS, PLAIN_BOX, POLYGON, STOPS, STRESS_STATES, Words, word,
 };
 
 type Written = Result<(), WriteError>;
@@ -40,7 +43,8 @@ pub(crate) fn beginning(dataset: &Dataset, steps: usize) -> Result<Content, Writ
     if let Some(problem) = &dataset.problem {
         root.array("problem", Array::scalar(problem.clone()));
     }
-    domain(&mut root.group("domain"), &dataset.domain);
+    let is_mesh = dataset.steps.iter().any(|step| step.partition.mesh().is_some());
+    domain(&mut root.group("domain"), &dataset.domain, is_mesh);
     equation(&mut root.group("equation"), &dataset.equation)?;
     tables(&mut root, &dataset.tables)?;
     quantities(&mut root.group("quantities"), &dataset.quantities);
@@ -57,8 +61,12 @@ pub(crate) fn one_step(number: usize, one: &Step) -> Result<Content, WriteError>
     Ok(content)
 }
 
-fn domain(group: &mut Group, domain: &Domain) {
-    let kind = if domain.holes.is_empty() { PLAIN_BOX } else { BOX_WITH_HOLES };
+fn domain(group: &mut Group, domain: &Domain, is_mesh: bool) {
+    let kind = match (is_mesh, domain.holes.is_empty()) {
+        (true, _) => MESH,
+        (false, true) => PLAIN_BOX,
+        (false, false) => BOX_WITH_HOLES,
+    };
     group.attribute("kind", Array::scalar(kind.to_owned()));
     group.attribute("min", Array::vector(<[f64; 2]>::from(domain.bounds.min)));
     group.attribute("max", Array::vector(<[f64; 2]>::from(domain.bounds.max)));
@@ -176,12 +184,13 @@ fn step(group: &mut Group, step: &Step) -> Written {
     group.attribute("load", Array::scalar(step.load));
     match &step.partition {
         Partition::Boxes(boxes) => partition(&mut group.group("partition"), boxes),
+        Partition::Mesh(mesh) => mesh::mesh(&mut group.group("partition"), mesh)?,
         _ => return Err(group.unknown("partition")),
     }
     cracks(&mut group.group("cracks"), &step.cracks)?;
     functions(&mut group.group("functions"), &step.functions)?;
     for (k, f) in step.fields.iter().enumerate() {
-        field(&mut group.group(&format!("fields/{k:04}")), f);
+        field(&mut group.group(&format!("fields/{k:04}")), f)?;
     }
     let patches = step.partition.len();
     let mut attributes = group.group("attributes");
@@ -197,7 +206,7 @@ fn step(group: &mut Group, step: &Step) -> Written {
 
 fn partition(group: &mut Group, partition: &BoxPartition) {
     let weight = &partition.weight;
-    group.attribute("kind", Array::scalar("shepard-box".to_owned()));
+    group.attribute("kind", Array::scalar(BOXES.to_owned()));
     group.attribute("weight", Array::scalar(weight.name().to_owned()));
     if let WeightFunction::Formula(formula) = weight {
         group.attribute("weight_formula", Array::scalar(formula.text().to_owned()));
@@ -254,6 +263,7 @@ struct Row<'a> {
     cuts: &'a [Cut],
     kinks: &'a [[Vec2; 2]],
     singular: &'a [Vec2],
+    levels: [i64; 2],
 }
 
 impl<'a> Row<'a> {
@@ -270,6 +280,7 @@ impl<'a> Row<'a> {
             cuts: &[],
             kinks: &[],
             singular: &[],
+            levels: NO_LEVELS,
         }
     }
 
@@ -278,6 +289,9 @@ impl<'a> Row<'a> {
             FunctionKind::One => Ok(Self::new("one")),
             FunctionKind::Side { crack } => {
                 Ok(Self { crack: i64::from(*crack), ..Self::new("side") })
+            }
+            FunctionKind::Level { field } => {
+                Ok(Self { levels: [-1, i64::from(*field)], ..Self::new("level") })
             }
             FunctionKind::Component { cuts } => Ok(Self { cuts, ..Self::new("component") }),
             FunctionKind::Formula { text, frame, parameters, declared } => {
@@ -295,6 +309,9 @@ impl<'a> Row<'a> {
             Frame::World => Self { frame: "world", ..self },
             Frame::Fixed { origin, angle } => {
                 Self { frame: "fixed", origin: origin.into(), angle, ..self }
+            }
+            Frame::Levels(fields) => {
+                Self { frame: "levels", levels: fields.map(i64::from), ..self }
             }
             Frame::Tip(TipId { crack, end }) => {
                 let end = group.word(ENDS, end, "end")?;
@@ -320,6 +337,9 @@ fn functions(group: &mut Group, functions: &[Function]) -> Written {
     let parameters = || rows.iter().flat_map(|r| r.parameters);
     group.vector("parameter_name", parameters().map(|(name, _)| name.clone()));
     group.vector("parameter_value", parameters().map(|(_, value)| *value));
+    if rows.iter().any(|r| r.levels != NO_LEVELS) {
+        group.array("levels", Array::rows(rows.iter().map(|r| r.levels)));
+    }
     cuts(group, &rows);
     declared(group, &rows);
     Ok(())
@@ -350,7 +370,7 @@ fn declared(group: &mut Group, rows: &[Row]) {
     }
 }
 
-fn field(group: &mut Group, field: &FieldData) {
+fn field(group: &mut Group, field: &FieldData) -> Written {
     let coefficients = field.coefficients.first().map_or(0, Vec::len);
     group.attribute("name", Array::scalar(field.name.clone()));
     group.attribute("unit", Array::scalar(field.unit.clone()));
@@ -360,7 +380,11 @@ fn field(group: &mut Group, field: &FieldData) {
     group.vector("block_function", field.block_function.iter().copied());
     group.vector("block_degree", field.block_degree.iter().copied());
     group.vector("block_offset", field.block_offset.iter().copied());
+    if field.block_space.iter().any(|space| *space != PolynomialSpace::Total) {
+        mesh::spaces(group, "block_space", &field.block_space)?;
+    }
     group.array("coefficients", Array::matrix(&field.coefficients, coefficients));
+    Ok(())
 }
 
 fn intensities(group: &mut Group, intensities: &[TipIntensity]) -> Written {

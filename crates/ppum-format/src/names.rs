@@ -2,6 +2,8 @@
 
 use ppum::crack::{CrackEnd, End};
 use ppum::dataset::{Advance, Fate, GrowthStop, StressState};
+use ppum::mesh::Shape;
+use ppum::polynomial::PolynomialSpace;
 use ppum::weight::WeightFunction;
 
 /// Words of a closed set of values.
@@ -43,6 +45,30 @@ pub(crate) const ENDS: &Words<End> = &[(End::Start, "start"), (End::Last, "last"
 /// Kinds of the domain: readers of files before 1.2 know the first alone.
 pub(crate) const PLAIN_BOX: &str = "box";
 pub(crate) const BOX_WITH_HOLES: &str = "box-with-holes";
+
+/// The union of the elements of a mesh, the kind of a domain and of its partitions, and the other kind of partitions.
+pub(crate) const MESH: &str = "mesh";
+pub(crate) const BOXES: &str = "shepard-box";
+
+/// The level fields of a function that has none.
+pub(crate) const NO_LEVELS: [i64; 2] = [-1; 2];
+
+/// Values with numbers, 0, 1, …, and their words in messages.
+pub(crate) type Codes<T> = [(T, &'static str)];
+
+pub(crate) const SHAPES: &Codes<Shape> =
+    &[(Shape::Triangle, "triangle"), (Shape::Square, "square")];
+
+pub(crate) const SPACES: &Codes<PolynomialSpace> =
+    &[(PolynomialSpace::Total, "total degree"), (PolynomialSpace::Tensor, "tensor product")];
+
+/// True where a level field is not negative.
+pub(crate) const SIDES: &Codes<bool> = &[(false, "below"), (true, "above")];
+
+/// The number of a value, if the format has one.
+pub(crate) fn code<T: PartialEq>(codes: &Codes<T>, value: T) -> Option<u8> {
+    codes.iter().position(|(v, _)| *v == value).map(|code| code as u8)
+}
 
 /// Kinds of holes.
 pub(crate) const CIRCLE: &str = "circle";

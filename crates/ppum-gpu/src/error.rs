@@ -116,6 +116,9 @@ pub enum GpuError {
         /// Textures that there can be.
         most: u32,
     },
+    /// A field on a mesh.
+    #[error("the patches are the elements of a mesh, which graphics cards do not draw")]
+    Mesh,
     /// A component that the field does not have.
     #[error("there is no component {component}, counted from 0")]
     Component {

@@ -1,26 +1,38 @@
 //! Values of patches as pictures: each pixel has that of the cell its centre lies in.
 
-use ppum::dataset::monomials;
+use ppum::crack::Side;
 use ppum::field::Field;
 use ppum_raster::raster::Raster;
 use ppum_raster::view::View;
+use rayon::prelude::*;
 
-/// Names of what every field knows of its patches, and the words for them.
-const OWN: [(&str, &str); 4] =
-    [("level", "level"), ("order", "order p"), ("blocks", "blocks"), ("functions", "functions")];
+/// Names of what every field knows of its patches, and the words for them. Boxes have levels, elements their numbers.
+const OWN: [(&str, &str); 5] = [
+    ("level", "level"),
+    ("element", "element"),
+    ("order", "order p"),
+    ("blocks", "blocks"),
+    ("functions", "functions"),
+];
 
-/// A value per patch of a field, by its name: `level` of the cell; `order`, the largest degree of the patch's blocks;
+/// A value per patch of a field, by its name: `level` of the cell; `element`, the number of a mesh's element; `order`, the largest degree of the patch's blocks;
 /// `blocks`, their number; `functions`, that of their functions f_b ξ^k, (d + 1)(d + 2)/2 of a block of degree d; or an
 /// attribute of the step with another name. None if there is none of this name.
 #[must_use]
 pub fn values(field: &Field<'_>, name: &str) -> Option<Vec<f64>> {
-    let (partition, data) = (field.step.partition.boxes(), field.data);
+    let (partition, data) = (&field.step.partition, field.data);
     let patches = 0..partition.len();
     let degree = |block: usize| data.block_degree[block];
-    let count = |block: usize| monomials(degree(block).into());
-    let functions = |patch: usize| data.blocks(patch).map(count).sum::<usize>() as f64;
+    let functions =
+        |patch: usize| data.blocks(patch).map(|b| data.block_size(b)).sum::<usize>() as f64;
     Some(match name {
-        "level" => partition.level.iter().map(|&level| level.into()).collect(),
+        "level" if partition.mesh().is_none() => {
+            partition.boxes().level.iter().map(|&level| level.into()).collect()
+        }
+        "element" if partition.mesh().is_some() => {
+            let elements = partition.mesh().map_or(&[][..], |mesh| &mesh.element);
+            elements.iter().map(|&element| element.into()).collect()
+        }
         "order" => patches.map(|i| data.blocks(i).map(degree).max().unwrap_or(0).into()).collect(),
         "blocks" => patches.map(|i| data.blocks(i).len() as f64).collect(),
         "functions" => patches.map(functions).collect(),
@@ -37,7 +49,9 @@ pub fn names(field: &Field<'_>) -> Vec<String> {
     let attributes = field.step.attributes.iter().map(|attribute| attribute.name.as_str());
     let is_own = |name: &str| OWN.iter().any(|(own, _)| *own == name);
     let other = attributes.filter(|name| !is_own(name));
-    OWN.iter().map(|(name, _)| *name).chain(other).map(str::to_owned).collect()
+    let missing = if field.step.partition.mesh().is_some() { "level" } else { "element" };
+    let own = OWN.iter().map(|(name, _)| *name).filter(|name| *name != missing);
+    own.chain(other).map(str::to_owned).collect()
 }
 
 /// The words for them in figures: `order p`; of an attribute its name.
@@ -53,8 +67,11 @@ pub fn label(name: &str) -> &str {
 /// If there is not one value per patch.
 #[must_use]
 pub fn raster(field: &Field<'_>, values: &[f64], view: &View) -> Raster {
+    assert_eq!(values.len(), field.step.partition.len(), "one value per patch");
+    if field.step.partition.mesh().is_some() {
+        return of_elements(field, values, view);
+    }
     let cells = &field.step.partition.boxes().cell;
-    assert_eq!(values.len(), cells.len(), "one value per patch");
     let (domain, last) = (field.domain.at(view.center), field.domain.bounds.max - view.center);
     let [columns, rows] = view.pixels.map(|n| n as usize);
     let mut raster = Raster::new(view.pixels, vec![f64::NAN; columns * rows]);
@@ -70,6 +87,17 @@ pub fn raster(field: &Field<'_>, values: &[f64], view: &View) -> Raster {
         }
     }
     raster
+}
+
+/// The picture of one value per element, NaN outside.
+pub(crate) fn of_elements(field: &Field<'_>, values: &[f64], view: &View) -> Raster {
+    let local = field.at(view.center);
+    let [columns, rows] = view.pixels.map(|n| n as usize);
+    let value = |k: usize| {
+        let offset = view.offset((k % columns) as u32, (k / columns) as u32);
+        local.owner(offset, Side::Above).map_or(f64::NAN, |patch| values[patch])
+    };
+    Raster::new(view.pixels, (0..columns * rows).into_par_iter().map(value).collect())
 }
 
 #[cfg(test)]

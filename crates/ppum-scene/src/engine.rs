@@ -210,6 +210,7 @@ impl<'a> Engine<'a> {
     fn needs_processor(&self, job: Job<'_>) -> bool {
         self.precision == Some(Precision::F64)
             || job.quantity.source() == Source::Exact
+            || job.field.step.partition.mesh().is_some()
             || self.precision.is_none() && single_precision_warning(job.field.step).is_some()
     }
 

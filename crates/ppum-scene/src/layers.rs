@@ -175,6 +175,10 @@ impl<'a> Drawing<'a> {
         let Ground { field, picture, .. } = self.ground;
         let (view, scale, step) = (&picture.view, self.scale, field.step);
         match wanted {
+            Overlay::Patches | Overlay::Cells if step.partition.mesh().is_some() => {
+                let mesh = step.partition.mesh().into_iter();
+                mesh.flat_map(|mesh| overlay::elements(view, scale, mesh)).collect()
+            }
             Overlay::Patches => overlay::patches(view, scale, step.partition.boxes()),
             Overlay::Cells => overlay::cells(view, scale, step.partition.boxes()),
             Overlay::Points => overlay::points(view, scale, step.partition.boxes()),

@@ -4,6 +4,7 @@
 //! - [`exact`] holds exact solutions of fracture mechanics, [`extended`] evaluates with 31 digits.
 //! - [`corpus`] are the cases that every back end of formulas is held to, [`fields`] the pictures that every
 //!   renderer is held to; `wgsl`, a feature, runs shaders without a device.
+//! - [`meshes`] makes elements with fields that are known.
 //! - [`random`] numbers are the same on every machine; [`processor`] measures processor time.
 //!
 //! ```
@@ -24,6 +25,7 @@ pub mod costly;
 pub mod exact;
 pub mod extended;
 pub mod fields;
+pub mod meshes;
 pub mod processor;
 pub mod random;
 pub mod skipped;

@@ -12,6 +12,7 @@ mod functions;
 mod growth;
 mod line;
 mod marks;
+mod mesh;
 mod partition;
 mod ranks;
 mod results;
@@ -20,7 +21,7 @@ mod work;
 
 use std::collections::BTreeSet;
 
-use crate::dataset::{Dataset, Equation, Step};
+use crate::dataset::{Dataset, Equation, Partition, Step};
 use crate::vec2::{Rect, Vec2};
 use errors::Errors;
 use fields::check_field;
@@ -33,7 +34,7 @@ use results::{check_intensities, check_reaction, check_warning};
 #[error("{place}: {mistake}")]
 #[non_exhaustive]
 pub struct CheckError {
-    /// The place, as a path through the dataset's fields, e.g. `steps[0].partition.boxes().half[17]`.
+    /// The place, as a path through the dataset's fields, e.g. `steps[0].partition.half[17]`.
     pub place: String,
     /// The mistake, and what was expected.
     pub mistake: String,
@@ -75,16 +76,9 @@ impl Dataset {
         for (k, step) in self.steps.iter().enumerate() {
             errors.within(&format!("steps[{k}]"), |errors| {
                 let has_partition = check_step(step, &self.equation, errors);
-                let same_cells = k > 0
-                    && self.steps[k - 1].partition.boxes().cell == step.partition.boxes().cell;
                 if has_domain && has_partition {
-                    errors.within("partition", |errors| {
-                        if same_cells
-                            || errors.add(tiling::check(step.partition.boxes(), &self.domain))
-                        {
-                            errors.add(coverage::check(step.partition.boxes(), &self.domain));
-                        }
-                    });
+                    let before = k.checked_sub(1).map(|k| &self.steps[k].partition);
+                    errors.within("partition", |errors| self.check_place(step, before, errors));
                 }
             });
         }
@@ -93,6 +87,27 @@ impl Dataset {
             errors.add(work::check(self));
         }
         errors.into_list()
+    }
+
+    /// Checks that a step's patches cover the domain, or are all of it, as those of the step before do.
+    fn check_place(&self, step: &Step, before: Option<&Partition>, errors: &mut Errors) {
+        match (&step.partition, before) {
+            (Partition::Boxes(_), Some(Partition::Mesh(_))) => {
+                errors.add(fail("", "is of boxes, that of the step before of a mesh".into()));
+            }
+            (Partition::Mesh(_), Some(Partition::Boxes(_))) => {
+                errors.add(fail("", "is of a mesh, that of the step before of boxes".into()));
+            }
+            (Partition::Mesh(mesh), _) => {
+                errors.add(mesh::check_domain(mesh, &self.domain));
+            }
+            (Partition::Boxes(boxes), before) => {
+                let has_same_cells = before.is_some_and(|before| before.boxes().cell == boxes.cell);
+                if has_same_cells || errors.add(tiling::check(boxes, &self.domain)) {
+                    errors.add(coverage::check(boxes, &self.domain));
+                }
+            }
+        }
     }
 }
 
@@ -221,6 +236,7 @@ fn check_step(step: &Step, equation: &Equation, errors: &mut Errors) -> bool {
     for (k, field) in step.fields.iter().enumerate() {
         errors.within(&format!("fields[{k}]"), |e| check_field(field, step, equation, e));
     }
+    mesh::check_levels(step, errors);
     errors.add(check_names("attributes", step.attributes.iter().map(|a| &a.name)));
     for attribute in &step.attributes {
         let place = format!("attributes `{}`", attribute.name);

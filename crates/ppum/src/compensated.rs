@@ -13,13 +13,18 @@ pub(crate) fn difference(a: f64, b: f64) -> Pair {
 }
 
 /// u v.
-fn product(u: Pair, v: Pair) -> Pair {
+pub(crate) fn product(u: Pair, v: Pair) -> Pair {
     let high = u.0 * v.0;
     (high, u.0.mul_add(v.0, -high) + (u.0 * v.1 + u.1 * v.0))
 }
 
+/// a + b of pairs.
+pub(crate) fn plus(a: Pair, b: Pair) -> Pair {
+    minus(a, (-b.0, -b.1))
+}
+
 /// a − b of pairs.
-fn minus(a: Pair, b: Pair) -> Pair {
+pub(crate) fn minus(a: Pair, b: Pair) -> Pair {
     let (high, low) = difference(a.0, b.0);
     (high, low + (a.1 - b.1))
 }

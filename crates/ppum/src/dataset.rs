@@ -11,6 +11,8 @@
 //! the function their [blocks](FieldData) name. `ppum-format` stores this structure, `ppum-solve`
 //! makes it, [`Field`](crate::field::Field) evaluates it.
 
+use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::crack::{Crack, TipId};
@@ -19,6 +21,7 @@ pub use crate::equation::{Elasticity, Equation, Material, StressState};
 use crate::function::{Function, FunctionKind};
 pub use crate::growth::{Advance, Fate, Growth, GrowthStop};
 use crate::mesh::Mesh;
+use crate::polynomial::PolynomialSpace;
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
 use ppum_formula::Table;
@@ -131,6 +134,15 @@ impl Step {
         self.record("unknowns").map_or_else(coefficients, |unknowns| unknowns as usize)
     }
 
+    /// The level fields of a mesh, those that clips and functions name, as indices of the fields in rising order.
+    #[must_use]
+    pub fn level_fields(&self) -> Vec<usize> {
+        let clips = self.partition.mesh().map_or(&[][..], |mesh| &mesh.clips);
+        let of_functions = self.functions.iter().flat_map(|function| function.kind.levels());
+        let all: BTreeSet<u32> = clips.iter().map(|clip| clip.field).chain(of_functions).collect();
+        all.into_iter().map(|field| field as usize).collect()
+    }
+
     /// The step with one more crack.
     #[must_use]
     pub fn with_crack(mut self, crack: Crack) -> Self {
@@ -219,6 +231,39 @@ impl Partition {
         match self {
             Self::Boxes(_) => None,
             Self::Mesh(mesh) => Some(mesh),
+        }
+    }
+
+    /// The centre of a box, or the origin of an element.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    #[must_use]
+    pub fn center(&self, patch: usize) -> Vec2 {
+        match self {
+            Self::Boxes(boxes) => boxes.center[patch],
+            Self::Mesh(mesh) => mesh.origin[patch],
+        }
+    }
+
+    /// The half-extents of a box, or of one that holds an element.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    #[must_use]
+    pub fn half(&self, patch: usize) -> Vec2 {
+        match self {
+            Self::Boxes(boxes) => boxes.half[patch],
+            Self::Mesh(mesh) => mesh.bounds(patch).size() * 0.5,
+        }
+    }
+
+    /// The cells that boxes come from, or boxes that hold the elements.
+    #[must_use]
+    pub fn cells(&self) -> Cow<'_, [Rect]> {
+        match self {
+            Self::Boxes(boxes) => Cow::Borrowed(&boxes.cell),
+            Self::Mesh(mesh) => (0..mesh.len()).map(|patch| mesh.bounds(patch)).collect(),
         }
     }
 
@@ -317,6 +362,8 @@ pub struct FieldData {
     pub block_function: Vec<u32>,
     /// Polynomial degree of each block, at most [`MAX_DEGREE`].
     pub block_degree: Vec<u8>,
+    /// Monomials of each block, empty if all are [`Total`](PolynomialSpace::Total); those of boxes are.
+    pub block_space: Vec<PolynomialSpace>,
     /// First coefficient of each block.
     pub block_offset: Vec<u64>,
     /// Coefficients, one array per component.
@@ -354,10 +401,25 @@ impl FieldData {
             patch_blocks: vec![0],
             block_function: Vec::new(),
             block_degree: Vec::new(),
+            block_space: Vec::new(),
             block_offset: Vec::new(),
             coefficients: vec![Vec::new(); components.len()],
             exact: Vec::new(),
         }
+    }
+
+    /// The monomials of a block.
+    #[must_use]
+    #[inline]
+    pub fn space(&self, block: usize) -> PolynomialSpace {
+        self.block_space.get(block).copied().unwrap_or_default()
+    }
+
+    /// Number of coefficients of a block, for each component.
+    #[must_use]
+    #[inline]
+    pub fn block_size(&self, block: usize) -> usize {
+        self.space(block).size(self.block_degree[block].into())
     }
 
     /// Adds a patch with blocks of these functions and degrees. Its coefficients are zero, and lie behind
@@ -385,8 +447,7 @@ impl FieldData {
     /// From the first coefficient of a patch's first block to the last one of its last.
     fn range(&self, patch: usize) -> std::ops::Range<usize> {
         let blocks = self.blocks(patch);
-        let end =
-            |b: usize| self.block_offset[b] as usize + monomials(self.block_degree[b] as usize);
+        let end = |b: usize| self.block_offset[b] as usize + self.block_size(b);
         match blocks.clone().last() {
             Some(last) => self.block_offset[blocks.start] as usize..end(last),
             None => 0..0,
@@ -409,7 +470,7 @@ impl FieldData {
     #[must_use]
     pub fn block_coefficients(&self, block: usize, component: usize) -> &[f64] {
         let start = self.block_offset[block] as usize;
-        let count = monomials(self.block_degree[block] as usize);
+        let count = self.block_size(block);
         &self.coefficients[component][start..start + count]
     }
 }

@@ -83,8 +83,10 @@ impl Part {
     pub fn of(function: &FunctionKind) -> Self {
         match function {
             FunctionKind::One => Self::Smooth,
-            FunctionKind::Side { .. } | FunctionKind::Component { .. } => Self::Jump,
-            FunctionKind::Formula { frame: Frame::Tip(_), .. } => Self::Tip,
+            FunctionKind::Side { .. }
+            | FunctionKind::Component { .. }
+            | FunctionKind::Level { .. } => Self::Jump,
+            FunctionKind::Formula { frame: Frame::Tip(_) | Frame::Levels(_), .. } => Self::Tip,
             FunctionKind::Formula { .. } => Self::Other,
         }
     }

@@ -35,11 +35,34 @@ pub fn polynomial<R: Real, const D: usize>(
     degree: usize,
     xi: [R; 2],
 ) -> Jet<R> {
+    nested::<R, D, false>(coefficients, degree, xi)
+}
+
+/// Σ c_k ξ^a η^b over the monomials of a space, with derivatives by (ξ, η).
+#[inline(always)]
+pub fn polynomial_in<R: Real, const D: usize>(
+    space: PolynomialSpace,
+    coefficients: &[impl Scalar],
+    degree: usize,
+    xi: [R; 2],
+) -> Jet<R> {
+    match space {
+        PolynomialSpace::Total => nested::<R, D, false>(coefficients, degree, xi),
+        PolynomialSpace::Tensor => nested::<R, D, true>(coefficients, degree, xi),
+    }
+}
+
+#[inline(always)]
+fn nested<R: Real, const D: usize, const TENSOR: bool>(
+    coefficients: &[impl Scalar],
+    degree: usize,
+    xi: [R; 2],
+) -> Jet<R> {
     let mut jet = Jet::constant(xi[0].lit(0.0));
     let mut power = degree + 1;
     while power > 0 {
         power -= 1;
-        let [p, px, pxx] = inner::<R, D>(coefficients, degree, power, xi[0]);
+        let [p, px, pxx] = inner::<R, D, TENSOR>(coefficients, degree, power, xi[0]);
         jet = outer::<R, D>(jet, [p, px, pxx], xi[1]);
     }
     jet.yy = jet.yy + jet.yy;
@@ -48,14 +71,18 @@ pub fn polynomial<R: Real, const D: usize>(
 
 /// The factor of η^`power`: Σ_a c ξ^a with its first two derivatives.
 #[inline(always)]
-fn inner<R: Real, const D: usize>(c: &[impl Scalar], degree: usize, power: usize, xi: R) -> [R; 3] {
+fn inner<R: Real, const D: usize, const TENSOR: bool>(
+    c: &[impl Scalar],
+    degree: usize,
+    power: usize,
+    xi: R,
+) -> [R; 3] {
     let zero = xi.lit(0.0);
     let (mut p, mut px, mut pxx) = (zero, zero, zero);
-    let mut a = degree - power + 1;
+    let mut a = if TENSOR { degree + 1 } else { degree - power + 1 };
     while a > 0 {
         a -= 1;
-        let total = a + power;
-        let index = monomials(total) - 1 - a;
+        let index = if TENSOR { power * (degree + 1) + a } else { monomials(a + power) - 1 - a };
         if D >= 2 {
             pxx = pxx.mul_add(xi, px + px);
         }
@@ -85,7 +112,20 @@ fn outer<R: Real, const D: usize>(mut j: Jet<R>, [p, px, pxx]: [R; 3], eta: R) -
 
 /// The exponents (a, b) of the monomials ξ^a η^b up to `degree`, in the order of the dataset.
 pub fn exponents(degree: usize) -> impl Iterator<Item = (i32, i32)> {
-    (0..=degree as i32).flat_map(|total| (0..=total).map(move |b| (total - b, b)))
+    PolynomialSpace::Total.exponents(degree)
+}
+
+impl PolynomialSpace {
+    /// The exponents (a, b) of the monomials ξ^a η^b up to a degree, in their order.
+    pub fn exponents(self, degree: usize) -> impl Iterator<Item = (i32, i32)> {
+        let d = degree as i32;
+        let (total, tensor) = match self {
+            Self::Total => (d, -1),
+            Self::Tensor => (-1, d),
+        };
+        let tensor = (0..=tensor).flat_map(move |b| (0..=tensor).map(move |a| (a, b)));
+        (0..=total).flat_map(|k| (0..=k).map(move |b| (k - b, b))).chain(tensor)
+    }
 }
 
 #[cfg(test)]
@@ -95,11 +135,12 @@ mod tests {
     #[test]
     fn against_powers() {
         let (x, y) = (0.7f64, -0.4f64);
-        for degree in 0..=8 {
-            let c: Vec<f64> = (0..monomials(degree)).map(|k| 1.0 / (k as f64 + 1.5)).collect();
-            let jet = polynomial::<f64, 2>(&c, degree, [x, y]);
+        let spaces = [PolynomialSpace::Total, PolynomialSpace::Tensor];
+        for (degree, space) in (0..=8).flat_map(|degree| spaces.map(|space| (degree, space))) {
+            let c: Vec<f64> = (0..space.size(degree)).map(|k| 1.0 / (k as f64 + 1.5)).collect();
+            let jet = polynomial_in::<f64, 2>(space, &c, degree, [x, y]);
             let mut sum = [0.0; 6];
-            for ((a, b), c) in exponents(degree).zip(&c) {
+            for ((a, b), c) in space.exponents(degree).zip(&c) {
                 let (fa, fb) = (f64::from(a), f64::from(b));
                 let m = |da: i32, db: i32| {
                     let power = |z: f64, k: i32| if k < 0 { 0.0 } else { z.powi(k) };
@@ -126,5 +167,7 @@ mod tests {
     fn order_of_the_monomials() {
         let order: Vec<_> = exponents(2).collect();
         assert_eq!(order, [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]);
+        let order: Vec<_> = PolynomialSpace::Tensor.exponents(1).collect();
+        assert_eq!(order, [(0, 0), (1, 0), (0, 1), (1, 1)]);
     }
 }

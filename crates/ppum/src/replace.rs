@@ -246,7 +246,7 @@ impl FunctionKind {
     fn parameters(&self) -> &[(String, f64)] {
         match self {
             Self::Formula { parameters, .. } => parameters,
-            Self::One | Self::Side { .. } | Self::Component { .. } => &[],
+            _ => &[],
         }
     }
 
@@ -257,7 +257,7 @@ impl FunctionKind {
                 new.clone_into(text);
                 *declared = Declared::default();
             }
-            Self::One | Self::Side { .. } | Self::Component { .. } => {
+            _ => {
                 *self = Self::formula(new, Frame::World);
             }
         }

@@ -68,7 +68,8 @@ fn message(error: &RenderError) -> String {
         GpuError::TooLarge { .. }
         | GpuError::PictureTooLarge { .. }
         | GpuError::TooMany { .. }
-        | GpuError::NeedsDouble { .. } => "; use `--backend cpu`",
+        | GpuError::NeedsDouble { .. }
+        | GpuError::Mesh => "; use `--backend cpu`",
         _ => "",
     };
     format!("{error}{remedy}")

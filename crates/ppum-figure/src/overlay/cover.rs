@@ -3,10 +3,12 @@
 use ppum::dataset::BoxPartition;
 use ppum::decompose::Part;
 use ppum::field::Field;
+use ppum::mesh::Mesh;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
+use super::edges::edges;
 use super::legend::{Entry, Symbol};
 use crate::canvas::{Item, Path, Pen};
 
@@ -113,6 +115,13 @@ pub fn cells(view: &View, scale: f64, partition: &BoxPartition) -> Vec<Item> {
     vec![Item::Line { path, pen }]
 }
 
+/// The edges of a mesh's elements, in the place of cells.
+#[must_use]
+pub fn elements(view: &View, scale: f64, mesh: &Mesh) -> Vec<Item> {
+    let pen = Pen::new(CELL, WIDTH * scale).with_halo(SEAM, 0.6 * scale);
+    vec![Item::Line { path: edges(view, mesh, 0..mesh.len()), pen }]
+}
+
 /// The supports ω_i of the patches, translucent: darker where more of them overlap.
 #[must_use]
 pub fn patches(view: &View, scale: f64, partition: &BoxPartition) -> Vec<Item> {
@@ -134,7 +143,7 @@ pub fn patches(view: &View, scale: f64, partition: &BoxPartition) -> Vec<Item> {
 /// Üffinger et al. 2011, figure 2.
 #[must_use]
 pub fn centers(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
-    let (cells, kinds) = (&field.step.partition.boxes().cell, enrichments(field));
+    let (cells, kinds) = (field.step.partition.cells(), enrichments(field));
     let (mut items, mut entries) = (Vec::new(), Vec::new());
     for kind in Enrichment::ALL {
         let of_kind = cells.iter().zip(&kinds).filter(|(_, k)| **k == kind).map(|(cell, _)| *cell);
@@ -163,18 +172,23 @@ const PLAIN: u8 = 110;
 /// both show theirs. Üffinger et al. 2011, figure 8.
 #[must_use]
 pub fn boxes(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
-    let (cells, kinds) = (&field.step.partition.boxes().cell, enrichments(field));
+    let (cells, kinds) = (field.step.partition.cells(), enrichments(field));
     let (mut items, mut entries) = (Vec::new(), Vec::new());
     for kind in Enrichment::ALL {
-        let of_kind = cells.iter().zip(&kinds).filter(|(_, k)| **k == kind).map(|(cell, _)| *cell);
-        let seen: Vec<_> = of_kind.filter(|cell| is_near(view, *cell)).collect();
+        let is_seen = |patch: &usize| kinds[*patch] == kind && is_near(view, cells[*patch]);
+        let seen: Vec<usize> = (0..kinds.len()).filter(is_seen).collect();
         if seen.is_empty() {
             continue;
         }
         let [r, g, b, opaque] = kind.color();
         let color = if kind == Enrichment::None { [r, g, b, PLAIN] } else { [r, g, b, opaque] };
         entries.push(Entry::new(Symbol::Square(kind.color()), kind.label()));
-        items.extend(seen.into_iter().map(|cell| frame_inside(view, scale, cell, color)));
+        if let Some(mesh) = field.step.partition.mesh() {
+            let pen = Pen::new(color, 1.5 * WIDTH * scale);
+            items.push(Item::Line { path: edges(view, mesh, seen.into_iter()), pen });
+            continue;
+        }
+        items.extend(seen.into_iter().map(|patch| frame_inside(view, scale, cells[patch], color)));
     }
     (items, entries)
 }
@@ -197,11 +211,11 @@ fn frame(path: &mut Path, view: &View, rect: Rect) {
 }
 
 /// Half a view, and some more for lines at its border.
-fn reach(view: &View) -> Vec2 {
+pub(super) fn reach(view: &View) -> Vec2 {
     view.half() * 1.25
 }
 
-fn is_near(view: &View, rect: Rect) -> bool {
+pub(super) fn is_near(view: &View, rect: Rect) -> bool {
     let (min, max, around) = (rect.min - view.center, rect.max - view.center, reach(view));
     max.x >= -around.x && min.x <= around.x && max.y >= -around.y && min.y <= around.y
 }

@@ -9,6 +9,7 @@
 
 mod cover;
 mod deformed;
+mod edges;
 mod glyphs;
 mod isolines;
 mod legend;
@@ -22,7 +23,7 @@ use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
 use crate::canvas::{Item, Path, Pen};
-pub use cover::{Enrichment, boxes, cells, centers, enrichments, patches, points};
+pub use cover::{Enrichment, boxes, cells, centers, elements, enrichments, patches, points};
 pub use deformed::{carried, deformed_cells, deformed_outline, faces, undeformed_outline};
 pub use glyphs::{arrows, crosses};
 pub use isolines::{Room, isolines};

@@ -6,7 +6,7 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::group::Group;
 use crate::content::Form;
-use crate::names::{ENDS, Words};
+use crate::names::{ENDS, NO_LEVELS, Words};
 
 #[derive(Clone, Copy)]
 enum Kind {
@@ -14,6 +14,7 @@ enum Kind {
     Side,
     Formula,
     Component,
+    Level,
 }
 
 const KINDS: &Words<Kind> = &[
@@ -21,6 +22,7 @@ const KINDS: &Words<Kind> = &[
     (Kind::Side, "side"),
     (Kind::Formula, "formula"),
     (Kind::Component, "component"),
+    (Kind::Level, "level"),
 ];
 
 #[derive(Clone, Copy)]
@@ -28,10 +30,15 @@ enum FrameKind {
     World,
     Fixed,
     Tip,
+    Levels,
 }
 
-const FRAMES: &Words<FrameKind> =
-    &[(FrameKind::World, "world"), (FrameKind::Fixed, "fixed"), (FrameKind::Tip, "tip")];
+const FRAMES: &Words<FrameKind> = &[
+    (FrameKind::World, "world"),
+    (FrameKind::Fixed, "fixed"),
+    (FrameKind::Tip, "tip"),
+    (FrameKind::Levels, "levels"),
+];
 
 /// The columns of the function table that are not plain names.
 struct Columns {
@@ -44,6 +51,7 @@ struct Columns {
     parameters: Vec<Vec<(String, f64)>>,
     cuts: Vec<Vec<Cut>>,
     declared: Vec<Declared>,
+    levels: Vec<[i64; 2]>,
 }
 
 /// The columns with a row for each function.
@@ -64,12 +72,21 @@ pub(super) fn functions(group: &Group) -> Vec<Function> {
         parameters: parameters(group, n),
         cuts: cuts(group, n),
         declared: declared(group, n),
+        levels: levels(group, n),
     };
     let function = |(k, (name, word)): (usize, (String, String))| {
         let kind = columns.function_kind(group, k, &word).unwrap_or(FunctionKind::One);
         Function { name, kind }
     };
     names.into_iter().zip(kinds).enumerate().map(function).collect()
+}
+
+/// The level fields of each function, −1 for none.
+fn levels(group: &Group, functions: usize) -> Vec<[i64; 2]> {
+    match group.holds("levels", Form::Dataset) {
+        true => group.rows("levels", functions),
+        false => vec![NO_LEVELS; functions],
+    }
 }
 
 fn parameters(group: &Group, functions: usize) -> Vec<Vec<(String, f64)>> {
@@ -141,6 +158,7 @@ impl Columns {
         let function = match group.word(KINDS, word, "kind")? {
             Kind::One => FunctionKind::One,
             Kind::Side => FunctionKind::Side { crack: self.take_crack(group, k) },
+            Kind::Level => FunctionKind::Level { field: self.take_level(group, k, 1) },
             Kind::Component => FunctionKind::Component { cuts: std::mem::take(&mut self.cuts[k]) },
             Kind::Formula => FunctionKind::Formula {
                 frame: self.take_frame(group, k)?,
@@ -170,6 +188,7 @@ impl Columns {
             ("parameter_offsets", self.parameters[k].is_empty(), "no parameters"),
             ("cut_offsets", self.cuts[k].is_empty(), "no cuts"),
             ("kink_offsets", kinks.is_empty(), "no kinks"),
+            ("levels", self.levels[k] == NO_LEVELS, "-1, -1"),
             ("singular_offsets", singular.is_empty(), "no singular points"),
         ]
         .into_iter()
@@ -184,10 +203,24 @@ impl Columns {
                 origin: std::mem::replace(&mut self.origin[k], Vec2::ZERO),
                 angle: std::mem::take(&mut self.angle[k]),
             },
+            FrameKind::Levels => {
+                Frame::Levels([0, 1].map(|column| self.take_level(group, k, column)))
+            }
             FrameKind::Tip => Frame::Tip(TipId {
                 crack: self.take_crack(group, k),
                 end: group.word(ENDS, &std::mem::take(&mut self.end[k]), "frame_end")?,
             }),
+        })
+    }
+
+    fn take_level(&mut self, group: &Group, k: usize, column: usize) -> u32 {
+        let field = std::mem::replace(&mut self.levels[k][column], -1);
+        u32::try_from(field).unwrap_or_else(|_| {
+            group.error(
+                "levels",
+                format!("function {k} has no level field ({field}) in column {column}"),
+            );
+            0
         })
     }
 

@@ -1,5 +1,6 @@
 //! Contents that are damaged in one place each.
 
+mod mesh;
 mod rules;
 
 use std::sync::LazyLock;
@@ -74,7 +75,7 @@ fn unknown_words_are_named() {
         ("domain@kind", "disc"),
         ("equation@kind", "heat"),
         ("equation@state", "plane"),
-        ("steps/0000/partition@kind", "mesh"),
+        ("steps/0000/partition@kind", "lattice"),
         ("steps/0000/partition@weight", "sextic"),
     ] {
         let mut damaged = content();

@@ -172,7 +172,7 @@ impl Summary {
             let all = Others::of(term.group, term.blocks.into_iter().all(is_constant));
             let is_alone = terms.others.iter().filter(|t| t.group == term.group).count() == 1;
             let others = Others { group: all.group.filter(|_| is_alone), ..all };
-            self.put((term.group, others), field.step.partition.boxes().support(patch));
+            self.put((term.group, others), field.step.partition.support(patch));
         }
     }
 

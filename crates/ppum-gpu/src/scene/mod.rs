@@ -86,6 +86,9 @@ pub(crate) struct UploadedRegion {
 impl<'f> Scene<'f> {
     /// Uploads a field.
     pub(crate) fn new(card: &Card, field: &'f Field<'f>) -> Result<Self, GpuError> {
+        if field.step.partition.mesh().is_some() {
+            return Err(GpuError::Mesh);
+        }
         let groups = Groups::new(&field.step.functions);
         let on_card = Arc::new(Mutex::new(OnCard::new(card, field, &groups)?));
         Ok(Self { field, groups: Arc::new(groups), on_card })
@@ -98,7 +101,7 @@ impl<'f> Scene<'f> {
     /// # Errors
     /// [`GpuError::OtherField`] if the field has other patches, blocks, functions or components.
     pub fn with_functions_of<'g>(&self, field: &'g Field<'g>) -> Result<Scene<'g>, GpuError> {
-        if !is_alike(self.field, field) {
+        if field.step.partition.mesh().is_some() || !is_alike(self.field, field) {
             return Err(GpuError::OtherField);
         }
         let (groups, on_card) = (Arc::clone(&self.groups), Arc::clone(&self.on_card));

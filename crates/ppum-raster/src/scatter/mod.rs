@@ -26,6 +26,7 @@
 mod collapse;
 mod finish;
 mod grains;
+mod mesh;
 mod plan;
 mod schedule;
 mod strips;
@@ -142,6 +143,12 @@ macro_rules! sample {
                 take: &mut dyn FnMut(Vec<Self>),
             ) -> Result<(), RenderError> {
                 quantity.check(field)?;
+                if field.step.partition.mesh().is_some() {
+                    let take = &mut |wide: Vec<f64>| {
+                        take(wide.into_iter().map(<$t>::from_f64).collect());
+                    };
+                    return mesh::render_strips(field, view, quantity, rows, watcher, take);
+                }
                 if !resolves::<$t>(view.pixel_size()) {
                     let mut narrowed =
                         |wide: Vec<f64>| take(wide.into_iter().map(<$t>::from_f64).collect());

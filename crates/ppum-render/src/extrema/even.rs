@@ -57,7 +57,7 @@ pub(super) fn value(field: &Field<'_>, quantity: &Quantity) -> Option<[f64; 2]> 
 
 /// The field at places all over the plate.
 fn samples(field: &Field<'_>) -> Vec<(Vec2, Vec<Jet<f64>>)> {
-    let cells = &field.step.partition.boxes().cell;
+    let cells = field.step.partition.cells();
     let mut found = Vec::new();
     for cell in cells.iter().step_by(cells.len().div_ceil(CELLS).max(1)) {
         let (mut local, size) = (field.at(cell.center()), cell.size());

@@ -113,7 +113,7 @@ fn corners(hole: &Hole) -> Vec<Vec2> {
 fn grows(field: &Field<'_>, p: Vec2, rect: &Rect, quantity: &Quantity) -> [bool; 2] {
     let mut patches = Vec::new();
     field.tree.query_point(p, &mut patches);
-    let half = patches.iter().map(|&k| field.step.partition.boxes().half[k as usize]);
+    let half = patches.iter().map(|&k| field.step.partition.half(k as usize));
     let sizes = half.map(|half| half.x.min(half.y));
     let reach = -rect.min.min(-rect.max);
     let size = sizes.fold(reach.x.max(reach.y), f64::min);

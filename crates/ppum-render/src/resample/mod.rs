@@ -33,6 +33,7 @@ use ppum_raster::raster::Raster;
 use ppum_raster::view::View;
 use rayon::prelude::*;
 
+use crate::cells::of_elements;
 use stencil::Stencil;
 
 /// The way values between the points of a grid are found.
@@ -267,13 +268,21 @@ pub fn cells(
     watcher: &dyn Watcher,
 ) -> Result<Raster, RenderError> {
     quantity.check(field)?;
-    let cells = &field.step.partition.boxes().cell;
-    let parts = Parts::start(watcher, cells.len())?;
-    let values = cells.par_iter().map(|cell| {
-        let value = quantity.at(&mut field.at(cell.center()), Vec2::ZERO, Side::Above);
+    let (partition, cells) = (&field.step.partition, &field.step.partition.boxes().cell);
+    let parts = Parts::start(watcher, partition.len())?;
+    let center = |patch: usize| match partition.mesh() {
+        Some(mesh) => mesh.origin[patch],
+        None => cells[patch].center(),
+    };
+    let values = (0..partition.len()).into_par_iter().map(|patch| {
+        let value = quantity.at(&mut field.at(center(patch)), Vec2::ZERO, Side::Above);
         parts.finish_one().map(|()| value)
     });
-    let (values, tree) = (values.collect::<Result<Vec<_>, _>>()?, BoxTree::new(cells));
+    let values = values.collect::<Result<Vec<_>, _>>()?;
+    if partition.mesh().is_some() {
+        return Ok(of_elements(field, &values, view));
+    }
+    let tree = BoxTree::new(cells);
     let corner = field.domain.bounds.max;
     let last = vec2(corner.x.next_down(), corner.y.next_down());
     let value = |i, j| {

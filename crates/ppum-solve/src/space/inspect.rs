@@ -83,7 +83,7 @@ pub(crate) fn inspect(
         return Err(InspectError::Nowhere { name: function.name.clone() });
     }
     for patch in 0..step.partition.len() {
-        let part = step.partition.boxes().support(patch).intersection(&domain.bounds);
+        let part = step.partition.support(patch).intersection(&domain.bounds);
         let seen = table.at(&step.cracks, part.center());
         for block in data.blocks(patch) {
             let index = data.block_function[block];

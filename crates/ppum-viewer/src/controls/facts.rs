@@ -121,6 +121,7 @@ fn stem(function: &Function, patches: usize) -> Stem {
         FunctionKind::Component { .. } => {
             ("1 on a component of the patch, 0 on the others".to_owned(), Vec::new())
         }
+        FunctionKind::Level { field } => (format!("the sign of field {field}"), Vec::new()),
         FunctionKind::Formula { text, parameters, .. } => {
             (text.clone(), parameters.iter().map(|(name, _)| name.clone()).collect())
         }

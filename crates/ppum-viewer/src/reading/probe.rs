@@ -305,6 +305,9 @@ impl Reader {
     /// right and above.
     fn cell_of(&self, point: Vec2, patches: &[u32]) -> Option<(u32, u8)> {
         let partition = self.field.field().step.partition.boxes();
+        if partition.is_empty() {
+            return None;
+        }
         let cell = |patch: &u32| partition.cell[*patch as usize];
         let own = patches.iter().filter(|patch| cell(patch).contains(point));
         let last = own.max_by(|a, b| {

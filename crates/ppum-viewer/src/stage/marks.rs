@@ -93,7 +93,7 @@ fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {
 fn patches(painter: &Painter, sight: &Sight, probed: &Probed, frame: &Arc<Frame>) {
     let field = frame.field.field();
     for (patch, phi) in &probed.patches {
-        let support = field.step.partition.boxes().support(*patch as usize);
+        let support = field.step.partition.support(*patch as usize);
         let bounds = field.domain.bounds;
         let (a, b) = (support.min.max(bounds.min), support.max.min(bounds.max));
         let corners = [a, Vec2 { x: b.x, y: a.y }, b, Vec2 { x: a.x, y: b.y }, a];

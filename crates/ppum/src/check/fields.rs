@@ -3,7 +3,8 @@
 use super::{
     Checked, Errors, check_all, check_each, check_length, check_names, check_numbers, fail, require,
 };
-use crate::dataset::{Equation, FieldData, MAX_DEGREE, Step, monomials};
+use crate::dataset::{Equation, FieldData, MAX_DEGREE, Step};
+use crate::polynomial::PolynomialSpace;
 
 /// Most components of a field: each pixel of a picture holds all of them with their derivatives.
 pub(super) const MAX_COMPONENTS: usize = 64;
@@ -28,13 +29,14 @@ pub(super) fn check_field(
         |&f| (f as usize) < functions,
         |f| format!("index {f}, but there are {functions} functions"),
     ));
+    let has_spaces = errors.add(check_spaces(field, step));
     let has_degrees = errors.add(check_all(
         "block_degree",
         &field.block_degree,
         |&d| d as usize <= MAX_DEGREE,
         |d| format!("degree {d} is above {MAX_DEGREE}"),
     ));
-    if has_rows && has_coefficients && has_degrees {
+    if has_rows && has_coefficients && has_spaces && has_degrees {
         errors.add(check_offsets(field));
     }
 }
@@ -83,11 +85,25 @@ fn check_coefficients(field: &FieldData) -> Checked {
     Ok(())
 }
 
+/// Tensor products belong to meshes: covers of boxes and what draws them know total degrees alone.
+fn check_spaces(field: &FieldData, step: &Step) -> Checked {
+    let (spaces, blocks) = (&field.block_space, field.block_function.len());
+    if spaces.is_empty() {
+        return Ok(());
+    }
+    check_length("block_space", spaces.len(), blocks, "one per block, or none")?;
+    let is_mesh = step.partition.mesh().is_some();
+    let fits = |space: &PolynomialSpace| is_mesh || *space == PolynomialSpace::Total;
+    check_all("block_space", spaces, fits, |_| {
+        "a tensor product on a box: write it as a block of twice the degree, with zeros".into()
+    })
+}
+
 /// Each block has coefficients of its own: blocks that shared them could ask for far more than a file holds.
 fn check_offsets(field: &FieldData) -> Checked {
     let count = field.coefficients.first().map_or(0, Vec::len) as u64;
     let offsets = &field.block_offset;
-    let size = |block: usize| monomials(field.block_degree[block].into()) as u64;
+    let size = |block: usize| field.block_size(block) as u64;
     let fits = |b: usize| offsets[b].checked_add(size(b)).is_some_and(|end| end <= count);
     check_each("block_offset", offsets.len(), fits, |b| {
         format!("coefficients {} + {} reach beyond the {count} stored", offsets[b], size(b))

@@ -209,7 +209,7 @@ mod tests {
         type Change = fn(&mut Dataset);
         let places: [(&str, Change); 5] = [
             ("equation.young", |_| {}),
-            ("steps[0].partition.boxes().weight", |d| d.equation = dataset().equation),
+            ("steps[0].partition.weight", |d| d.equation = dataset().equation),
             ("steps[0].functions[1].formula", |d| {
                 d.equation = dataset().equation;
                 d.steps[0].partition.boxes_mut().expect("boxes").weight = WeightFunction::Linear;

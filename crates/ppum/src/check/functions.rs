@@ -25,6 +25,7 @@ pub(super) fn check_function(function: &Function, cracks: &[Crack]) -> Checked {
         FunctionKind::One => Ok(()),
         FunctionKind::Side { crack } => check_index("crack", *crack as usize, count, "cracks"),
         FunctionKind::Component { cuts } => check_cuts(cuts, cracks),
+        FunctionKind::Level { .. } => Ok(()),
         FunctionKind::Formula { frame, parameters, declared, .. } => {
             check_names("parameters", parameters.iter().map(|(name, _)| name))?;
             for (name, value) in parameters {
@@ -59,7 +60,7 @@ fn check_cuts(cuts: &[Cut], cracks: &[Crack]) -> Checked {
 
 fn check_frame(frame: &Frame, cracks: usize) -> Checked {
     match *frame {
-        Frame::World => Ok(()),
+        Frame::World | Frame::Levels(_) => Ok(()),
         Frame::Fixed { origin, angle } => {
             check_points("frame.origin", &[origin])?;
             check_number("frame.angle", angle)

@@ -1,8 +1,9 @@
 //! The patches of a partition.
 
+use super::mesh::check_mesh;
 use super::{
-    Checked, Errors, check_all, check_each, check_extents, check_length, check_points, fail,
-    is_box, require,
+    Checked, Errors, check_all, check_each, check_extents, check_length, check_points, is_box,
+    require,
 };
 use crate::dataset::{BoxPartition, Partition};
 
@@ -12,15 +13,16 @@ const MOST_PATCHES: usize = 1 << 30;
 pub(super) fn check_partition(partition: &Partition, errors: &mut Errors) {
     match partition {
         Partition::Boxes(boxes) => check_boxes(boxes, errors),
-        Partition::Mesh(_) => {
-            errors.add(fail("", "meshes cannot be evaluated yet".into()));
+        Partition::Mesh(mesh) => {
+            errors.add(check_count("shape", mesh.len()));
+            check_mesh(mesh, errors);
         }
     }
 }
 
 fn check_boxes(partition: &BoxPartition, errors: &mut Errors) {
     let n = partition.len();
-    errors.add(check_count(n));
+    errors.add(check_count("center", n));
     let mut is_fine = true;
     for (name, length) in [
         ("half", partition.half.len()),
@@ -53,7 +55,7 @@ fn check_boxes(partition: &BoxPartition, errors: &mut Errors) {
     ));
 }
 
-fn check_count(patches: usize) -> Checked {
-    require(patches > 0, "center", || "there is no patch".into())?;
-    require(patches <= MOST_PATCHES, "center", || format!("{patches} patches are too many"))
+fn check_count(place: &str, patches: usize) -> Checked {
+    require(patches > 0, place, || "there is no patch".into())?;
+    require(patches <= MOST_PATCHES, place, || format!("{patches} patches are too many"))
 }

@@ -6,8 +6,9 @@
 use super::line::Line;
 use super::ranks::{Ranks, in_order};
 use super::{Checked, fail};
-use crate::dataset::{BoxPartition, Dataset, FieldData, Step, monomials};
+use crate::dataset::{BoxPartition, Dataset, FieldData, Step};
 use crate::function::{FunctionTable, Slot};
+use crate::mesh::{Clip, Mesh};
 use crate::vec2::{Rect, Vec2, vec2};
 use crate::weight::WeightFunction;
 
@@ -20,6 +21,9 @@ const MOST_WORK: u64 = 1 << 18;
 
 /// Cost of a patch beside its blocks: finding it, its weight.
 const PATCH: usize = 16;
+
+/// Steps of Newton's method for the place of a point in an element.
+const NEWTON: usize = 4;
 
 /// Checks every field of every step.
 pub(super) fn check(dataset: &Dataset) -> Checked {
@@ -55,14 +59,13 @@ fn each_work(
     table: &FunctionTable,
     mut visit: impl FnMut(Rect, u64),
 ) {
-    let partition = step.partition.boxes();
     let mut groups: Vec<Option<Rect>> = vec![None; table.groups()];
-    let own = PATCH + weight(partition);
-    for patch in 0..partition.len() {
-        let support = partition.support(patch);
-        let mut work = own;
+    let own = PATCH + weight(step.partition.boxes());
+    for patch in 0..step.partition.len() {
+        let support = step.partition.support(patch);
+        let mut work = own + step.partition.mesh().map_or(0, |mesh| search(mesh, step, patch));
         for block in field.blocks(patch) {
-            work += monomials(field.block_degree[block].into()) * field.components.len();
+            work += field.block_size(block) * field.components.len();
             if let Slot::Jet { group, .. } = table.of(field.block_function[block]) {
                 let part = &mut groups[group as usize];
                 *part = Some(part.map_or(support, |part| part.union(&support)));
@@ -75,6 +78,16 @@ fn each_work(
             visit(part, table.cost(group, &step.cracks) as u64);
         }
     }
+}
+
+/// Coefficients of an element's map and of its clips, as often as it takes to see whether it holds a point.
+fn search(mesh: &Mesh, step: &Step, patch: usize) -> usize {
+    let level = |clip: &Clip| {
+        let field = &step.fields[clip.field as usize];
+        field.blocks(patch).map(|block| field.block_size(block)).sum::<usize>()
+    };
+    let levels: usize = mesh.clips(patch).iter().map(level).sum();
+    NEWTON * 2 * mesh.map_range(patch).len() + levels
 }
 
 /// Operations of a weight, in both directions.

@@ -59,7 +59,7 @@ impl<const D: usize> Job<f64> for Over<'_, '_, D> {
 }
 
 /// The value outside the domain.
-const NOWHERE: Jet<f64> =
+pub(super) const NOWHERE: Jet<f64> =
     Jet { v: f64::NAN, x: f64::NAN, y: f64::NAN, xx: f64::NAN, xy: f64::NAN, yy: f64::NAN };
 
 /// Writes the first lanes of a jet, with `D` derivatives and zeros for others, into every `stride`-th of `out`.
@@ -102,7 +102,18 @@ impl LocalField<'_> {
         side: Side,
         out: &mut [Jet<f64>],
     ) {
+        if self.mesh.is_some() {
+            return self.each_on_mesh::<D>(offsets, side, out);
+        }
         f64::dispatch(Many::<D> { local: self, offsets, side, out });
+    }
+
+    fn each_on_mesh<const D: usize>(&self, offsets: &[Vec2], side: Side, out: &mut [Jet<f64>]) {
+        for (&offset, out) in offsets.iter().zip(out.chunks_mut(self.field.components())) {
+            if self.on_mesh::<D>(offset, side, out).is_none() {
+                out.fill(NOWHERE);
+            }
+        }
     }
 
     /// Evaluates at many points over a given list of patches, which must hold all that cover one of

@@ -2,12 +2,14 @@
 
 use super::Field;
 use super::functions::FunctionJets;
+use super::lanes::NOWHERE;
 use crate::crack::Side;
 use crate::domain::LocalDomain;
 use crate::function::{LocalFunctions, Slot};
 use crate::jet::Jet;
+use crate::mesh::LocalMesh;
 use crate::polynomial::polynomial;
-use crate::vec2::Vec2;
+use crate::vec2::{Vec2, vec2};
 use ppum_formula::real::Real;
 
 /// A field seen from an anchor.
@@ -19,6 +21,8 @@ pub struct LocalField<'f> {
     pub anchor: Vec2,
     domain: LocalDomain,
     functions: LocalFunctions<'f>,
+    /// The elements, if the patches are those of a mesh.
+    pub(super) mesh: Option<LocalMesh<'f>>,
     /// Memory for the patches around a point.
     pub(super) patches: Vec<u32>,
 }
@@ -44,7 +48,8 @@ pub struct Covering {
 impl<'f> LocalField<'f> {
     pub(super) fn new(field: &'f Field<'f>, anchor: Vec2, functions: LocalFunctions<'f>) -> Self {
         let domain = field.domain.at(anchor);
-        Self { field, anchor, domain, functions, patches: Vec::new() }
+        let mesh = field.step.partition.mesh().map(|mesh| LocalMesh::new(field, mesh, anchor));
+        Self { field, anchor, domain, functions, mesh, patches: Vec::new() }
     }
 
     /// The functions as seen from the anchor.
@@ -56,7 +61,10 @@ impl<'f> LocalField<'f> {
     /// True if `anchor + offset` lies in the closed domain; exact also where the sum would round.
     #[must_use]
     pub fn contains(&self, offset: Vec2) -> bool {
-        self.domain.contains(offset)
+        match &self.mesh {
+            Some(mesh) => mesh.owner(offset, Side::Above).is_some(),
+            None => self.domain.contains(offset),
+        }
     }
 
     /// Evaluates all components at `anchor + offset` with `D` derivatives (0, 1 or 2).
@@ -72,6 +80,9 @@ impl<'f> LocalField<'f> {
         side: Side,
         out: &mut [Jet<f64>],
     ) -> bool {
+        if self.mesh.is_some() {
+            return self.on_mesh::<D>(offset, side, out).is_some();
+        }
         if !self.contains(offset) {
             return false;
         }
@@ -81,10 +92,33 @@ impl<'f> LocalField<'f> {
         true
     }
 
+    /// The patch of the element that owns a point; `None` outside, and of boxes.
+    #[must_use]
+    pub fn owner(&self, offset: Vec2, side: Side) -> Option<usize> {
+        Some(self.mesh.as_ref()?.owner(offset, side)?.patch)
+    }
+
+    /// All components on the element that owns a point, and the number of its patch; `None` outside.
+    pub(super) fn on_mesh<const D: usize>(
+        &self,
+        offset: Vec2,
+        side: Side,
+        out: &mut [Jet<f64>],
+    ) -> Option<usize> {
+        let mesh = self.mesh.as_ref()?;
+        let place = mesh.owner(offset, side)?;
+        let out = &mut out[..self.field.components()];
+        mesh.evaluate::<D>(&place, &self.functions, (offset, side), out);
+        Some(place.patch)
+    }
+
     /// The partition of unity at `anchor + offset`; `None` outside the domain.
     pub fn covering<const D: usize>(&mut self, offset: Vec2) -> Option<Covering> {
         if !self.contains(offset) {
             return None;
+        }
+        if self.mesh.is_some() {
+            return Some(Covering { weight_sum: Jet::constant(1.0), overlap: 1 });
         }
         let patches = self.covering_any(&[offset]);
         let weight = |&p: &u32| self.partition_weight::<f64, D>(p as usize, [offset.x, offset.y]);
@@ -116,6 +150,9 @@ impl<'f> LocalField<'f> {
         patches: &[u32],
         out: &mut [Jet<R>],
     ) {
+        if self.mesh.is_some() {
+            return self.over_elements::<R, D>(offset, side, patches, out);
+        }
         let zero = Jet::constant(offset[0].lit(0.0));
         let mut functions = FunctionJets::new(&self.functions, offset, side);
         let components = self.field.components();
@@ -135,6 +172,56 @@ impl<'f> LocalField<'f> {
         }
     }
 
+    /// As [`over_patches`](Self::over_patches), lane by lane: NaN where none of the patches holds a point.
+    #[cold]
+    fn over_elements<R: Real, const D: usize>(
+        &self,
+        offset: [R; 2],
+        side: Side,
+        patches: &[u32],
+        out: &mut [Jet<R>],
+    ) {
+        let Some(mesh) = &self.mesh else { return };
+        let (n, [x, y]) = (self.field.components(), offset.map(R::lanes));
+        let mut jets = vec![NOWHERE; R::LANES * n];
+        for (lane, jets) in jets.chunks_mut(n).enumerate() {
+            let offset = vec2(x[lane], y[lane]);
+            if let Some(place) = mesh.owner_among(offset, side, patches) {
+                mesh.evaluate::<D>(&place, &self.functions, (offset, side), jets);
+            }
+        }
+        for (c, out) in out[..n].iter_mut().enumerate() {
+            let number = |of: fn(&Jet<f64>) -> f64| offset[0].with_lanes(|k| of(&jets[k * n + c]));
+            *out = Jet {
+                v: number(|j| j.v),
+                x: number(|j| j.x),
+                y: number(|j| j.y),
+                xx: number(|j| j.xx),
+                xy: number(|j| j.xy),
+                yy: number(|j| j.yy),
+            };
+        }
+    }
+
+    /// The parts of the elements among some patches: the owner's has the share 1, those of others 0.
+    fn parts_of_mesh<const D: usize>(
+        &self,
+        mesh: &LocalMesh<'_>,
+        (offset, side): (Vec2, Side),
+        patches: &[u32],
+        out: &mut Vec<Part>,
+    ) {
+        let zero = Jet::constant(0.0);
+        out.resize(patches.len(), Part { share: zero, local: [zero; 2] });
+        let Some(place) = mesh.owner_among(offset, side, patches) else { return };
+        let mut jets = vec![zero; self.field.components()];
+        mesh.evaluate::<D>(&place, &self.functions, (offset, side), &mut jets);
+        for (part, _) in out.iter_mut().zip(patches).filter(|(_, p)| **p as usize == place.patch) {
+            part.share = Jet::constant(1.0);
+            part.local.iter_mut().zip(&jets).for_each(|(local, jet)| *local = *jet);
+        }
+    }
+
     /// The parts φ_i and v_i of some patches at `anchor + offset`, which must be all that cover the point: what
     /// [`over_patches`](Self::over_patches) sums up to v = Σ φ_i v_i. Of a field of more than two components the
     /// first two.
@@ -146,6 +233,9 @@ impl<'f> LocalField<'f> {
         out: &mut Vec<Part>,
     ) {
         out.clear();
+        if let Some(mesh) = &self.mesh {
+            return self.parts_of_mesh::<D>(mesh, (offset, side), patches, out);
+        }
         let at = [offset.x, offset.y];
         let mut functions = FunctionJets::new(&self.functions, at, side);
         let (components, zero) = (self.field.components(), Jet::constant(0.0));
@@ -175,7 +265,7 @@ impl<'f> LocalField<'f> {
         if R::LANES == 1 {
             return part;
         }
-        let support = self.field.step.partition.boxes().support(patch);
+        let support = self.field.boxes.support(patch);
         let (lo, hi) = (support.min - self.anchor, support.max - self.anchor);
         let [x, y] = offset;
         let part = part.only::<D>(x.ge(x.lit(lo.x))).only::<D>(x.lit(hi.x).gt(x));
@@ -194,7 +284,7 @@ impl<'f> LocalField<'f> {
     /// W_i at `anchor + offset` with derivatives.
     #[inline(always)]
     fn partition_weight<R: Real, const D: usize>(&self, patch: usize, offset: [R; 2]) -> Jet<R> {
-        let partition = self.field.step.partition.boxes();
+        let partition = self.field.boxes;
         let half = partition.half[patch];
         let inverse = [1.0 / half.x, 1.0 / half.y];
         let xi = self.scaled(offset, partition.center[patch], inverse);
@@ -208,6 +298,10 @@ impl<'f> LocalField<'f> {
         patch: usize,
         offset: Vec2,
     ) -> Option<Jet<f64>> {
+        if let Some(mesh) = &self.mesh {
+            let owner = mesh.owner(offset, Side::Above)?.patch;
+            return Some(Jet::constant(f64::from(u8::from(owner == patch))));
+        }
         let Covering { weight_sum, .. } = self.covering::<D>(offset)?;
         let weight = self.partition_weight::<f64, D>(patch, [offset.x, offset.y]);
         Some(weight.over::<D>(weight_sum))
@@ -222,7 +316,7 @@ impl<'f> LocalField<'f> {
         offset: [R; 2],
         functions: &mut FunctionJets<'_, 'f, R>,
     ) -> Jet<R> {
-        let (partition, data) = (self.field.step.partition.boxes(), self.field.data);
+        let (partition, data) = (self.field.boxes, self.field.data);
         let scale = partition.scale[patch];
         let inverse = [1.0 / scale.x, 1.0 / scale.y];
         let xi = self.scaled(offset, partition.origin[patch], inverse);

@@ -16,9 +16,10 @@ use std::sync::Arc;
 
 use crate::box_tree::BoxTree;
 use crate::crack::SegmentId;
-use crate::dataset::{Dataset, Equation, FieldData, NamedQuantity, Step};
+use crate::dataset::{BoxPartition, Dataset, Equation, FieldData, NamedQuantity, Partition, Step};
 use crate::domain::Domain;
 use crate::function::{FunctionError, FunctionTable};
+use crate::mesh;
 use crate::vec2::Vec2;
 pub use local::{Covering, LocalField, Part};
 use ppum_formula::{Formula, FormulaError, Scope, ScopeError, Table};
@@ -38,6 +39,12 @@ pub struct Field<'d> {
     pub step: &'d Step,
     /// Blocks and coefficients.
     pub data: &'d FieldData,
+    /// The index of `data` among the fields of the step.
+    pub(crate) index: usize,
+    /// The boxes of the step's patches; none of a mesh.
+    pub(crate) boxes: &'d BoxPartition,
+    /// The level fields of a mesh, those of the clips and of functions, by their indices.
+    pub(crate) levels: Vec<usize>,
     /// The compiled functions of the step.
     pub functions: FunctionTable,
     /// Finds the patches that cover a point or meet a box.
@@ -107,12 +114,17 @@ impl<'d> Field<'d> {
     pub fn named(dataset: &'d Dataset, step: usize, name: &str) -> Result<Self, FieldError> {
         let count = dataset.steps.len();
         let step = dataset.steps.get(step).ok_or(FieldError::Step { step, count })?;
-        let data = step.fields.iter().find(|f| f.name == name).ok_or_else(|| FieldError::Name {
+        let names = || step.fields.iter().map(|f| f.name.as_str());
+        let index = names().position(|known| known == name).ok_or_else(|| FieldError::Name {
             name: name.into(),
-            known: step.fields.iter().map(|f| f.name.as_str()).collect::<Vec<_>>().join(", "),
+            known: names().collect::<Vec<_>>().join(", "),
         })?;
-        let supports: Vec<_> =
-            (0..step.partition.len()).map(|i| step.partition.boxes().support(i)).collect();
+        let data = &step.fields[index];
+        let support = |patch| match &step.partition {
+            Partition::Boxes(boxes) => boxes.support(patch),
+            Partition::Mesh(mesh) => mesh::reach(mesh, patch),
+        };
+        let supports: Vec<_> = (0..step.partition.len()).map(support).collect();
         Ok(Self {
             domain: &dataset.domain,
             equation: &dataset.equation,
@@ -120,6 +132,9 @@ impl<'d> Field<'d> {
             tables: &dataset.tables,
             step,
             data,
+            index,
+            boxes: step.partition.boxes(),
+            levels: step.level_fields(),
             functions: FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables)?,
             tree: BoxTree::from(supports),
             exact: exact(data, &dataset.tables)?,

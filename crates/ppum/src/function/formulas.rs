@@ -54,6 +54,14 @@ impl Formulas {
         (compiled.formulas == formulas).then_some(Self { compiled, frame })
     }
 
+    /// The level fields that are x and y of the frame.
+    pub(super) fn levels(&self) -> Option<[u32; 2]> {
+        match self.frame {
+            Frame::Levels(fields) => Some(fields),
+            _ => None,
+        }
+    }
+
     /// Number of functions.
     pub(super) fn len(&self) -> usize {
         self.compiled.formulas.len()
@@ -91,8 +99,13 @@ impl Formulas {
 /// A formula's frame seen from an anchor.
 #[derive(Clone, Debug)]
 enum LocalFrame {
-    Fixed { from_origin: Vec2, axis: Vec2 },
+    Fixed {
+        from_origin: Vec2,
+        axis: Vec2,
+    },
     Tip(LocalTip),
+    /// The point is known on a patch alone.
+    Levels,
 }
 
 impl LocalFrame {
@@ -104,6 +117,7 @@ impl LocalFrame {
                 Self::Fixed { from_origin: anchor - origin, axis: vec2(angle.cos(), angle.sin()) }
             }
             Frame::Tip(tip) => Self::Tip(seen.tip(tip)),
+            Frame::Levels(_) => Self::Levels,
         }
     }
 
@@ -121,6 +135,10 @@ impl LocalFrame {
                 TipPoint { x, y, sign: R::sign(y.ge(one.lit(0.0)), one), branch: one }
             }
             Self::Tip(tip) => tip.point(offset, side),
+            Self::Levels => {
+                let [nan, one] = [f64::NAN, 1.0].map(|v| offset[0].lit(v));
+                TipPoint { x: nan, y: nan, sign: one, branch: one }
+            }
         }
     }
 
@@ -128,6 +146,7 @@ impl LocalFrame {
         match self {
             Self::Fixed { axis, .. } => *axis,
             Self::Tip(tip) => tip.axis,
+            Self::Levels => vec2(1.0, 0.0),
         }
     }
 }
@@ -168,16 +187,29 @@ impl LocalFormulas<'_> {
         side: Side,
         out: &mut [Jet<R>],
     ) {
+        let point = self.frame.point(offset, side);
+        self.evaluate_at::<R, D>(&point, offset, side, out);
+    }
+
+    /// The functions at a point that is known in their frame too.
+    pub(super) fn evaluate_at<R: Real, const D: usize>(
+        &self,
+        point: &TipPoint<R>,
+        offset: [R; 2],
+        side: Side,
+        out: &mut [Jet<R>],
+    ) {
+        let polar = self.polar(point);
         WORKSPACE.with_borrow_mut(|workspace| {
-            self.evaluate_in::<R, D>(workspace, offset, side, out);
+            self.evaluate_in::<R, D>(workspace, &polar, (offset, side), out);
         });
     }
 
     fn evaluate_in<R: Real, const D: usize>(
         &self,
         workspace: &mut Workspace,
-        offset: [R; 2],
-        side: Side,
+        polar: &[R; POLAR],
+        (offset, side): ([R; 2], Side),
         out: &mut [Jet<R>],
     ) {
         let like = offset[0];
@@ -187,9 +219,8 @@ impl LocalFormulas<'_> {
         inputs.resize(self.compiled.uses.len(), 0.0);
         results.resize(jets.n_outputs(), Lanes::default());
         numbers.resize(jets.n_outputs(), 0.0);
-        let polar = self.polar(offset, side);
         for (index, row) in rows.iter_mut().enumerate() {
-            *row = self.input(index, &polar, offset, side).lanes();
+            *row = self.input(index, polar, offset, side).lanes();
         }
         for lane in 0..R::LANES {
             inputs.iter_mut().zip(&*rows).for_each(|(input, row)| *input = row[lane]);
@@ -224,7 +255,7 @@ impl LocalFormulas<'_> {
             let mut k = 0;
             while k < n {
                 let offset = offsets[first + k];
-                let polar = self.polar(offset, side);
+                let polar = self.polar(&self.frame.point(offset, side));
                 let mut index = 0;
                 while index < self.compiled.uses.len() {
                     if self.compiled.uses[index] {
@@ -259,8 +290,7 @@ impl LocalFormulas<'_> {
 
     /// The inputs before the sides of cracks, at a point.
     #[inline(always)]
-    fn polar<R: Real>(&self, offset: [R; 2], side: Side) -> [R; POLAR] {
-        let p = self.frame.point(offset, side);
+    fn polar<R: Real>(&self, p: &TipPoint<R>) -> [R; POLAR] {
         let r = p.radius();
         let half @ [cos_half, sin_half] = p.half_angle(r);
         let theta = if self.compiled.uses[THETA] { TipPoint::theta(half) } else { r };

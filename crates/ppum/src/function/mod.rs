@@ -11,7 +11,7 @@ pub use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
 pub use indicator::{Cut, Part};
 pub use table::{
-    CompileError, FunctionError, FunctionTable, GROUP, LocalFunctions, Slot, at_tip,
+    CompileError, FunctionError, FunctionTable, GROUP, LevelUse, LocalFunctions, Slot, at_tip,
     function_scope, native,
 };
 pub use westergaard::westergaard;
@@ -41,6 +41,11 @@ pub enum FunctionKind {
         /// The component's tree: the first cut is the root, each other one stands behind the one it follows from.
         cuts: Vec<Cut>,
     },
+    /// f = ±1, the sign of a level field of a mesh.
+    Level {
+        /// Index of the level field among the step's fields.
+        field: u32,
+    },
     /// f = a formula of x, y, r, theta of its frame.
     Formula {
         /// The formula.
@@ -55,6 +60,16 @@ pub enum FunctionKind {
 }
 
 impl FunctionKind {
+    /// The level fields that the function is made of.
+    pub(crate) fn levels(&self) -> impl Iterator<Item = u32> {
+        let (frame, sign) = match self {
+            Self::Formula { frame: Frame::Levels(fields), .. } => (Some(*fields), None),
+            Self::Level { field } => (None, Some(*field)),
+            _ => (None, None),
+        };
+        frame.into_iter().flatten().chain(sign)
+    }
+
     /// A formula without parameters and declarations.
     #[must_use]
     pub fn formula(text: &str, frame: Frame) -> Self {
@@ -89,4 +104,7 @@ pub enum Frame {
     /// A crack tip: origin at the tip, x along the direction of growth; θ jumps on the crack itself,
     /// kinks included.
     Tip(TipId),
+    /// Two level fields of a mesh, as indices of the step's fields, are x and y: the distances along an interpolated crack
+    /// and from it. θ jumps where y = 0 and x < 0.
+    Levels([u32; 2]),
 }

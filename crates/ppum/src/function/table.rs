@@ -10,7 +10,7 @@ use super::formulas::{Formulas, LocalFormulas};
 use super::indicator::{Cut, LocalIndicator};
 use super::seen::Seen;
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
-use crate::crack::{Crack, LocalCrack, LocalTip, SegmentId, Side, TipId};
+use crate::crack::{Crack, LocalCrack, LocalTip, SegmentId, Side, TipId, TipPoint};
 use crate::jet::Jet;
 use crate::vec2::Vec2;
 use ppum_formula::real::Real;
@@ -49,7 +49,17 @@ enum Group {
     Side(u32),
     Westergaard(TipId),
     Component(Vec<Cut>),
+    Level(u32),
     Formulas(Formulas),
+}
+
+/// How a group of functions depends on the level fields of a mesh: the patch that holds a point evaluates them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LevelUse {
+    /// It is the sign of this one.
+    Sign(u32),
+    /// They are x and y of its frame.
+    Frame([u32; 2]),
 }
 
 /// A function's formula is wrong.
@@ -142,7 +152,7 @@ impl FunctionTable {
     pub fn group_len(&self, group: usize) -> usize {
         match &self.groups[group] {
             Group::Westergaard(_) => 4,
-            Group::Side(_) | Group::Component(_) => 1,
+            Group::Side(_) | Group::Component(_) | Group::Level(_) => 1,
             Group::Formulas(formulas) => formulas.len(),
         }
     }
@@ -160,8 +170,19 @@ impl FunctionTable {
                 Group::Side(crack) => segments(*crack),
                 Group::Westergaard(tip) => segments(tip.crack),
                 Group::Component(cuts) => cuts.len(),
+                Group::Level(_) => 0,
                 Group::Formulas(formulas) => formulas.cost(cracks),
             }
+    }
+
+    /// How a group depends on level fields; `None` if it does not.
+    #[must_use]
+    pub fn level_use(&self, group: usize) -> Option<LevelUse> {
+        match &self.groups[group] {
+            Group::Level(field) => Some(LevelUse::Sign(*field)),
+            Group::Formulas(formulas) => formulas.levels().map(LevelUse::Frame),
+            _ => None,
+        }
     }
 
     /// The table as seen from an anchor. What a group sees is formed when it is first asked for.
@@ -251,6 +272,7 @@ enum Draft {
     Side(u32),
     Westergaard(TipId),
     Component(Vec<Cut>),
+    Level(u32),
     /// Formulas, and the function that is the first of them.
     Formulas(usize, Frame, Vec<Formula>),
 }
@@ -277,6 +299,7 @@ impl<'a> Compiler<'a> {
                 Draft::Side(crack) => Group::Side(crack),
                 Draft::Westergaard(tip) => Group::Westergaard(tip),
                 Draft::Component(cuts) => Group::Component(cuts),
+                Draft::Level(field) => Group::Level(field),
                 Draft::Formulas(first, frame, formulas) => {
                     let compiled = known.compile(&functions[first], formulas, frame);
                     Group::Formulas(compiled.map_err(|e| error(first, e))?)
@@ -306,6 +329,7 @@ impl<'a> Compiler<'a> {
             FunctionKind::Component { cuts } => {
                 self.slot_of(new, 0, || Draft::Component(cuts.clone()))
             }
+            FunctionKind::Level { field } => self.slot_of(new, 0, || Draft::Level(*field)),
             FunctionKind::Formula { text, frame, parameters, .. } => {
                 match native(text, *frame).filter(|_| self.kernels) {
                     Some((tip, entry)) => {
@@ -389,6 +413,8 @@ enum LocalGroup<'t> {
     Side(LocalCrack),
     Westergaard(LocalTip),
     Component(LocalIndicator),
+    /// Known on a patch alone.
+    Level,
     Formulas(LocalFormulas<'t>),
 }
 
@@ -413,6 +439,7 @@ impl<'t> LocalFunctions<'t> {
             &Group::Side(crack) => LocalGroup::Side(self.seen.crack(crack)),
             &Group::Westergaard(tip) => LocalGroup::Westergaard(self.seen.tip(tip)),
             Group::Component(cuts) => LocalGroup::Component(LocalIndicator::new(cuts, &self.seen)),
+            Group::Level(_) => LocalGroup::Level,
             Group::Formulas(formulas) => LocalGroup::Formulas(formulas.seen(&self.seen)),
         })
     }
@@ -440,7 +467,22 @@ impl<'t> LocalFunctions<'t> {
                 let [a, b, c, d] = at_tip::<R, D>(tip, offset, side);
                 (out[0], out[1], out[2], out[3]) = (a, b, c, d);
             }
+            LocalGroup::Level => out[0] = Jet::constant(offset[0].lit(f64::NAN)),
             LocalGroup::Formulas(formulas) => formulas.evaluate::<R, D>(offset, side, out),
+        }
+    }
+
+    /// Fills the jets of a group of formulas at a point that is known in their frame too, with derivatives by x and y of the
+    /// frame [of level fields](Frame::Levels).
+    pub(crate) fn evaluate_in_frame<const D: usize>(
+        &self,
+        group: usize,
+        point: &TipPoint<f64>,
+        (offset, side): (Vec2, Side),
+        out: &mut [Jet<f64>],
+    ) {
+        if let LocalGroup::Formulas(formulas) = self.group(group) {
+            formulas.evaluate_at::<f64, D>(point, offset.into(), side, out);
         }
     }
 

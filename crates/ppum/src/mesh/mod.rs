@@ -10,10 +10,18 @@
 //! A cut element is two patches with the same map and opposite clips: one where a level field is ≥ 0,
 //! one where it is < 0.
 
+mod local;
+mod map;
+mod shape;
+mod taylor;
+
 use std::ops::Range;
 
 use crate::polynomial::PolynomialSpace;
 use crate::vec2::{Rect, Vec2, vec2};
+pub(crate) use local::{LocalMesh, reach};
+use map::Map;
+pub use shape::Shape;
 
 /// The elements of a mesh as patches. Structure of arrays; vectors have one entry per patch where nothing else is said.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,15 +44,6 @@ pub struct Mesh {
     pub clip_offsets: Vec<u64>,
     /// The clips of all patches.
     pub clips: Vec<Clip>,
-}
-
-/// A reference shape, closed, with its centroid at ξ = 0 and |ξ|, |η| ≤ 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// The triangle with the corners (−½, −½), (1, −½), (−½, 1).
-    Triangle,
-    /// The square [−1, 1]².
-    Square,
 }
 
 /// A patch's half of the plane: where a level field is not negative, or where it is.
@@ -97,5 +96,16 @@ impl Mesh {
             Some(&[start, end]) => &self.clips[start as usize..end as usize],
             _ => &[],
         }
+    }
+
+    fn map(&self, patch: usize) -> Map {
+        Map::new(self.map_space[patch], self.map_degree[patch], self.map_of(patch))
+    }
+
+    /// x = origin + M(ξ), and det DM(ξ).
+    #[must_use]
+    pub fn image(&self, patch: usize, xi: [f64; 2]) -> (Vec2, f64) {
+        let [x, y] = self.map(patch).at::<1>(xi);
+        (self.origin[patch] + vec2(x.v, y.v), x.x * y.y - x.y * y.x)
     }
 }

@@ -220,7 +220,7 @@ fn key(field: &Field<'_>, place: &Place, patches: &[u32]) -> u64 {
     let side = (on << 1) ^ u64::from(above);
     let seat = mixed(mixed(mixed(x) ^ y) ^ side) >> 32;
     let Some(&patch) = patches.first() else { return seat << 16 };
-    let from_center = place.point - field.step.partition.boxes().center[patch as usize];
+    let from_center = place.point - field.step.partition.center(patch as usize);
     let quarter = u64::from(from_center.x > 0.0) | (u64::from(from_center.y > 0.0) << 1);
     let is_shared = u64::from(patches.len() > 1);
     (seat << 16) | (is_shared << 15) | ((u64::from(patch) & 0x1fff) << 2) | quarter

@@ -57,12 +57,12 @@ impl<'d> Seats<'d> {
     /// The seats of a field.
     #[must_use]
     pub fn new(field: &Field<'d>) -> Self {
-        let (domain, cracks, half) =
-            (field.domain, &field.step.cracks, &field.step.partition.boxes().half);
+        let (domain, cracks, step) = (field.domain, &field.step.cracks, field.step);
         let at = |tip: TipId| cracks[tip.crack as usize].end_point(tip.end);
         let tips: Vec<Vec2> = tips(cracks).map(at).collect();
         let boxes: Vec<_> = tips.iter().map(|&tip| Rect::new(tip, tip)).collect();
-        let largest_half = half.iter().fold(f64::MIN_POSITIVE, |most, h| most.max(h.x).max(h.y));
+        let half = (0..step.partition.len()).map(|patch| step.partition.half(patch));
+        let largest_half = half.fold(f64::MIN_POSITIVE, |most, h| most.max(h.x).max(h.y));
         let Rect { min, max } = domain.bounds;
         Self {
             domain,

@@ -13,6 +13,8 @@ mod indicators;
 mod jumps;
 mod lanes;
 mod library;
+mod mesh;
+mod mesh_checks;
 mod partition;
 mod replace;
 mod reproduction;

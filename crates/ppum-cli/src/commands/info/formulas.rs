@@ -43,8 +43,18 @@ struct Parameter {
 #[serde(tag = "kind", rename_all = "kebab-case")]
 enum FrameRow {
     World,
-    Fixed { origin: [f64; 2], angle: f64 },
-    Tip { crack: u32, end: &'static str },
+    Fixed {
+        origin: [f64; 2],
+        angle: f64,
+    },
+    Tip {
+        crack: u32,
+        end: &'static str,
+    },
+    /// The fields that are x and y.
+    Levels {
+        fields: [u32; 2],
+    },
     Other,
 }
 
@@ -80,6 +90,7 @@ impl FunctionRow {
                 });
                 "formula"
             }
+            FunctionKind::Level { .. } => "level",
             _ => "other",
         };
         Self { name: function.name.clone(), kind, blocks, crack, cuts, formula }
@@ -102,6 +113,7 @@ impl FrameRow {
             Frame::World => Self::World,
             Frame::Fixed { origin, angle } => Self::Fixed { origin: origin.into(), angle },
             Frame::Tip(tip) => Self::Tip { crack: tip.crack, end: tip.end.name() },
+            Frame::Levels(fields) => Self::Levels { fields },
             _ => Self::Other,
         }
     }

@@ -1,10 +1,11 @@
 //! The report of `ppum info`, in the shape of its JSON.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use ppum::crack::{self, tips};
 use ppum::dataset::{self, BoxPartition, Dataset, FieldData, Step};
 use ppum::field::{Field, FieldError};
+use ppum::mesh::{Mesh, Shape};
 use ppum::quantity::available;
 use ppum::text::Places;
 use ppum_render::cells;
@@ -50,6 +51,9 @@ pub(super) struct StepReport {
     pub(super) weight_formula: String,
     pub(super) weight_breakpoints: Vec<f64>,
     pub(super) levels: Vec<Level>,
+    /// The elements, if the patches are those of a mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) mesh: Option<MeshRow>,
     pub(super) orders: Vec<Order>,
     pub(super) cracks: Vec<Crack>,
     pub(super) tips: Vec<TipRow>,
@@ -67,6 +71,33 @@ pub(super) struct StepReport {
     /// Records that no table tells of.
     #[serde(skip)]
     pub(super) other_history: Vec<String>,
+}
+
+/// The elements of a mesh.
+#[derive(Debug, Serialize)]
+pub(super) struct MeshRow {
+    pub(super) elements: usize,
+    pub(super) triangles: usize,
+    pub(super) squares: usize,
+    /// Patches that are parts of elements.
+    pub(super) clipped: usize,
+    /// Least and largest degree of the maps.
+    pub(super) map_degrees: [u8; 2],
+}
+
+impl MeshRow {
+    fn new(mesh: &Mesh) -> Self {
+        let n = mesh.len();
+        let triangles = mesh.shape.iter().filter(|shape| **shape == Shape::Triangle).count();
+        let degrees = mesh.map_degree.iter().copied();
+        Self {
+            elements: mesh.element.iter().collect::<BTreeSet<_>>().len(),
+            triangles,
+            squares: n - triangles,
+            clipped: (0..n).filter(|&patch| !mesh.clips(patch).is_empty()).count(),
+            map_degrees: [degrees.clone().min(), degrees.max()].map(Option::unwrap_or_default),
+        }
+    }
 }
 
 /// Cells of a level of the tree.
@@ -120,6 +151,7 @@ impl StepReport {
     fn new(dataset: &Dataset, index: usize) -> Result<Self, FieldError> {
         let field = Field::new(dataset, index)?;
         let Step { load, partition, cracks, functions, attributes, history, .. } = field.step;
+        let mesh = partition.mesh().map(MeshRow::new);
         let (patches, partition) = (partition.len(), partition.boxes());
         let blocks = blocks(functions, field.data);
         let attribute = |a: &dataset::Attribute| a.name.clone();
@@ -130,10 +162,18 @@ impl StepReport {
             patches,
             cells: partition.cell.len(),
             points: partition.points.len(),
-            weight: partition.weight.name(),
-            weight_formula: formulas::weight(partition),
-            weight_breakpoints: partition.weight.breakpoints().to_vec(),
+            weight: if mesh.is_some() { "" } else { partition.weight.name() },
+            weight_formula: if mesh.is_some() {
+                String::new()
+            } else {
+                formulas::weight(partition)
+            },
+            weight_breakpoints: match mesh {
+                Some(_) => Vec::new(),
+                None => partition.weight.breakpoints().to_vec(),
+            },
             levels: levels(partition),
+            mesh,
             orders: orders(field.data),
             cracks: cracks.iter().map(Crack::new).collect(),
             tips: tip_rows(cracks),

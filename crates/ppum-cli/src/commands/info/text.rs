@@ -7,7 +7,7 @@ use ppum::text::trimmed;
 use ppum_scene::facts::{Growth, Solver, reaction_lines};
 
 use super::formulas::{QuantityRow, TableRow};
-use super::report::{FieldRow, Report, StepReport};
+use super::report::{FieldRow, MeshRow, Report, StepReport};
 use super::series::table as table_of_steps;
 use crate::families::Family;
 use crate::number::count;
@@ -58,7 +58,9 @@ impl Page<'_> {
         self.line("patches", &cover(step))?;
         self.lines("weight", weight(step).into_iter())?;
         let levels = step.levels.iter().map(|l| format!("level {}: {}", l.level, l.cells));
-        self.line("cells", &format!("{} ({})", step.cells, joined(levels)))?;
+        if step.mesh.is_none() {
+            self.line("cells", &format!("{} ({})", step.cells, joined(levels)))?;
+        }
         let orders = step.orders.iter().map(|o| format!("order {}: {}", o.order, o.patches));
         self.line("orders", &joined(orders))?;
         self.lines("cracks", step.cracks.iter().map(|crack| crack.line(places)))?;
@@ -148,11 +150,28 @@ fn wrapped(names: &[String]) -> Vec<String> {
 }
 
 fn cover(step: &StepReport) -> String {
+    if let Some(mesh) = &step.mesh {
+        return elements(step.patches, mesh);
+    }
     let points = match step.points {
         0 => String::new(),
         n => format!(", from {}", count(n, "point", "points")),
     };
     format!("{}, {} weight{points}", step.patches, step.weight)
+}
+
+/// The patches of a mesh: their shapes, the degrees of their maps, how many are cut.
+fn elements(patches: usize, mesh: &MeshRow) -> String {
+    let shapes = [(mesh.triangles, "triangle", "triangles"), (mesh.squares, "square", "squares")];
+    let shapes =
+        shapes.into_iter().filter(|(n, ..)| *n > 0).map(|(n, one, all)| count(n, one, all));
+    let elements = count(mesh.elements, "element", "elements");
+    let degrees = match mesh.map_degrees {
+        [low, high] if low == high => format!("degree {low}"),
+        [low, high] => format!("degrees {low} to {high}"),
+    };
+    let cut = if mesh.clipped > 0 { format!(", {} clipped", mesh.clipped) } else { String::new() };
+    format!("{patches}, {} of {elements}, maps of {degrees}{cut}", joined(shapes))
 }
 
 fn field(field: &FieldRow) -> String {

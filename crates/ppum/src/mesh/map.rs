@@ -1,0 +1,274 @@
+//! The map of one element: x = M(ξ), its derivatives, its inverse.
+//!
+//! Inversion is by Newton's method from the linear part. Where that does not find a ξ of the shape, the shape is halved again
+//! and again. On a part with the centre c and the half-width s let J be DM(c) and N the terms of higher degree in
+//! u = (ξ − c)/s, each c_k times J⁻¹:
+//!
+//! ```text
+//! κ = Σ |J⁻¹ c_k|     |u − J⁻¹ (t − M(c))| ≤ κ for every solution u of the part          (nothing here: leave it)
+//! L = Σ k |J⁻¹ c_k|   L < 1: u ← u − J⁻¹ (M(u) − t), put back into the part, contracts     (one solution or none)
+//! ```
+
+use super::shape::Shape;
+use super::taylor::Dense;
+use crate::jet::Jet;
+use crate::polynomial::{PolynomialSpace, polynomial_in};
+
+/// Most coefficients: those of Q_8.
+const MOST: usize = 81;
+
+/// A point owns a patch if its ξ lies no farther outside the shape than this, and no other patch holds it.
+pub(super) const TOLERANCE: f64 = 1e-11;
+
+/// Largest contraction L that is iterated.
+const CONTRACTION: f64 = 0.75;
+
+/// Most parts that are looked at.
+const MOST_PARTS: usize = 1 << 8;
+
+/// The polynomials of a map in ξ, or in δ = ξ − at; the constants are 0.
+#[derive(Clone, Debug)]
+pub(super) struct Map {
+    degree: usize,
+    space: PolynomialSpace,
+    x: [f64; MOST],
+    y: [f64; MOST],
+}
+
+/// M(ξ) with derivatives.
+pub(super) type Image = [Jet<f64>; 2];
+
+impl Map {
+    /// The map of coefficients without their constants.
+    pub(super) fn new(space: PolynomialSpace, degree: u8, [x, y]: [&[f64]; 2]) -> Self {
+        let mut map = Self { degree: degree.into(), space, x: [0.0; MOST], y: [0.0; MOST] };
+        map.x[1..=x.len()].copy_from_slice(x);
+        map.y[1..=y.len()].copy_from_slice(y);
+        map
+    }
+
+    #[inline]
+    pub(super) fn at<const D: usize>(&self, xi: [f64; 2]) -> Image {
+        let one = |c: &[f64; MOST]| polynomial_in::<f64, D>(self.space, c, self.degree, xi);
+        [one(&self.x), one(&self.y)]
+    }
+
+    /// True of a linear map: that of a straight triangle, or of a parallelogram.
+    fn is_affine(&self) -> bool {
+        self.degree == 1 && self.x[3] == 0.0 && self.y[3] == 0.0
+    }
+
+    /// The columns of ∂M/∂ξ and ∂M/∂η at ξ = 0.
+    fn linear(&self) -> Matrix {
+        let eta = if self.space == PolynomialSpace::Tensor { self.degree + 1 } else { 2 };
+        Matrix([[self.x[1], self.x[eta]], [self.y[1], self.y[eta]]])
+    }
+
+    /// The coefficients of the map seen from `at`, and the constant M(at).
+    pub(super) fn shifted(&self, at: [f64; 2]) -> (Self, [(f64, f64); 2]) {
+        let mut out = self.clone();
+        let constants = [(&self.x, &mut out.x), (&self.y, &mut out.y)].map(|(from, to)| {
+            let mut dense = Dense::new(self.space, self.degree, from);
+            dense.shift(at);
+            let constant = dense.constant();
+            dense.store(self.space, self.degree, to);
+            to[0] = 0.0;
+            constant
+        });
+        (out, constants)
+    }
+
+    /// The map in u of ξ = s u.
+    fn scaled(mut self, s: f64) -> Self {
+        for (k, (a, b)) in self.space.exponents(self.degree).enumerate() {
+            let power = s.powi(a + b);
+            self.x[k] *= power;
+            self.y[k] *= power;
+        }
+        self
+    }
+
+    /// J⁻¹, κ and L.
+    fn bounds(&self) -> Option<(Matrix, f64, f64)> {
+        let inverse = self.linear().inverse()?;
+        let (mut kappa, mut lipschitz) = (0.0, 0.0);
+        for (k, (a, b)) in self.space.exponents(self.degree).enumerate() {
+            if a + b > 1 {
+                let part = largest(inverse.times([self.x[k], self.y[k]]));
+                kappa += part;
+                lipschitz += part * f64::from(a + b);
+            }
+        }
+        Some((inverse, kappa, lipschitz))
+    }
+
+    /// The ξ near 0 with M(ξ) = t, for t and its rounding error, if Newton's method finds it within a distance of 1/4.
+    pub(super) fn near(&self, t: [(f64, f64); 2]) -> Option<[f64; 2]> {
+        let inverse = self.linear().inverse()?;
+        let guess = inverse.times(t.map(|t| t.0));
+        let found = if self.is_affine() {
+            Some(self.refined(&inverse, guess, t))
+        } else {
+            self.newton(guess, t.map(|t| t.0 + t.1))
+        };
+        found.filter(|xi| largest(*xi) <= 0.25)
+    }
+
+    /// The ξ with M(ξ) = t in the shape, or one that lies beside it.
+    pub(super) fn beside(&self, shape: Shape, t: [(f64, f64); 2]) -> Option<[f64; 2]> {
+        self.inverse(shape, t)
+            .or_else(|| {
+                let target = t.map(|t| t.0 + t.1);
+                let guess = self.linear().inverse()?.times(target);
+                self.newton(guess.map(|g| g.clamp(-1.0, 1.0)), target)
+            })
+            .filter(|&xi| shape.margin([0.0; 2], xi) >= -0.25)
+    }
+
+    /// A ξ of the shape, or beside it by no more than rounding, with M(ξ) = t.
+    pub(super) fn inverse(&self, shape: Shape, t: [(f64, f64); 2]) -> Option<[f64; 2]> {
+        let (inverse, kappa, lipschitz) = self.bounds()?;
+        let target = t.map(|t| t.0 + t.1);
+        let guess = inverse.times(target);
+        // margins change by no more than twice as much as ξ
+        if shape.margin([0.0; 2], guess) < -2.0 * kappa - 1e-6 {
+            return None;
+        }
+        if self.is_affine() {
+            return Some(self.refined(&inverse, guess, t));
+        }
+        let found = self.newton(guess.map(|g| g.clamp(-1.0, 1.0)), target);
+        if let Some(xi) = found {
+            let is_only = lipschitz < 1.0 && largest(xi) <= 1.0;
+            if is_only || shape.margin([0.0; 2], xi) >= -TOLERANCE {
+                return Some(xi);
+            }
+        }
+        self.search(shape, target)
+    }
+
+    /// The solution of a linear map with the rounding errors of t and of the products.
+    fn refined(&self, inverse: &Matrix, xi: [f64; 2], t: [(f64, f64); 2]) -> [f64; 2] {
+        let Matrix(rows) = self.linear();
+        let residual = |row: [f64; 2], t: (f64, f64)| {
+            let (p, q) = (row[0] * xi[0], row[1] * xi[1]);
+            let errors = row[0].mul_add(xi[0], -p) + row[1].mul_add(xi[1], -q);
+            let first = crate::compensated::difference(t.0, p);
+            let second = crate::compensated::difference(first.0, q);
+            second.0 + (first.1 + second.1 + t.1 - errors)
+        };
+        let step = inverse.times([residual(rows[0], t[0]), residual(rows[1], t[1])]);
+        [xi[0] + step[0], xi[1] + step[1]]
+    }
+
+    /// Newton's method; `None` if it does not arrive.
+    fn newton(&self, mut xi: [f64; 2], t: [f64; 2]) -> Option<[f64; 2]> {
+        for _ in 0..16 {
+            let [x, y] = self.at::<1>(xi);
+            let inverse = Matrix([[x.x, x.y], [y.x, y.y]]).inverse()?;
+            let step = inverse.times([x.v - t[0], y.v - t[1]]);
+            xi = [xi[0] - step[0], xi[1] - step[1]];
+            if !(largest(xi) < 4.0) {
+                return None;
+            }
+            // the next step is about the square of this one
+            if largest(step) <= 1e-9 * largest(xi) || largest(step) <= 1e-15 {
+                return Some(xi);
+            }
+        }
+        None
+    }
+
+    /// A solution in the shape by halving, sure where Newton's method is not.
+    #[cold]
+    fn search(&self, shape: Shape, t: [f64; 2]) -> Option<[f64; 2]> {
+        let mut parts = vec![([0.0; 2], 1.0)];
+        for _ in 0..MOST_PARTS {
+            let (at, size) = parts.pop()?;
+            if shape.margin(at, [0.0; 2]) < -2.0 * size {
+                continue;
+            }
+            match self.search_part(shape, (at, size), t) {
+                Part::Solution(xi) => return Some(xi),
+                Part::Nothing => {}
+                Part::Unknown if size < 1e-6 => {}
+                Part::Unknown => {
+                    let h = 0.5 * size;
+                    let quarter = |[i, j]: [f64; 2]| ([at[0] + i * h, at[1] + j * h], h);
+                    parts.extend([[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]].map(quarter));
+                }
+            }
+        }
+        None
+    }
+
+    fn search_part(&self, shape: Shape, (at, size): ([f64; 2], f64), t: [f64; 2]) -> Part {
+        let (map, constant) = self.shifted(at);
+        let map = map.scaled(size);
+        let t = [t[0] - constant[0].0 - constant[0].1, t[1] - constant[1].0 - constant[1].1];
+        let Some((inverse, kappa, lipschitz)) = map.bounds() else { return Part::Unknown };
+        if largest(inverse.times(t)) > 1.0 + kappa + 1e-9 {
+            return Part::Nothing;
+        }
+        if lipschitz > CONTRACTION {
+            return Part::Unknown;
+        }
+        match map.contracted(&inverse, t) {
+            Some(u) => {
+                let xi = [at[0] + size * u[0], at[1] + size * u[1]];
+                let is_here = shape.margin([0.0; 2], xi) >= -TOLERANCE;
+                if is_here { Part::Solution(xi) } else { Part::Nothing }
+            }
+            None => Part::Nothing,
+        }
+    }
+
+    /// The solution in the square of u, by the contraction.
+    fn contracted(&self, inverse: &Matrix, t: [f64; 2]) -> Option<[f64; 2]> {
+        let mut u = [0.0; 2];
+        for _ in 0..120 {
+            let [x, y] = self.at::<0>(u);
+            let step = inverse.times([x.v - t[0], y.v - t[1]]);
+            let next = [0, 1].map(|k| (u[k] - step[k]).clamp(-1.0, 1.0));
+            let moved = largest([next[0] - u[0], next[1] - u[1]]);
+            u = next;
+            if moved < 1e-13 {
+                break;
+            }
+        }
+        // borders of parts are those of their neighbours, but for rounding
+        self.newton(u, t).filter(|u| largest(*u) <= 1.0 + 1e-6)
+    }
+}
+
+/// What is known of the solutions in a part.
+enum Part {
+    Solution([f64; 2]),
+    Nothing,
+    Unknown,
+}
+
+fn largest([a, b]: [f64; 2]) -> f64 {
+    a.abs().max(b.abs())
+}
+
+/// A matrix in rows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Matrix(pub(super) [[f64; 2]; 2]);
+
+impl Matrix {
+    /// `None` if the determinant is zero, or not finite.
+    #[inline]
+    pub(super) fn inverse(&self) -> Option<Self> {
+        let [[a, b], [c, d]] = self.0;
+        let inverse = 1.0 / (a * d - b * c);
+        inverse
+            .is_finite()
+            .then(|| Self([[d * inverse, -b * inverse], [-c * inverse, a * inverse]]))
+    }
+
+    #[inline]
+    pub(super) fn times(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        self.0.map(|[a, b]| a * x + b * y)
+    }
+}
