@@ -1,15 +1,19 @@
-//! Fields on meshes: the element that holds a pixel's centre, and the field there, pixel by pixel.
+//! Fields on meshes: the element that holds a pixel's centre, and the field there, tile by tile.
 
 use ppum::crack::Side;
-use ppum::field::Field;
+use ppum::field::{Field, LocalField};
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
+use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
 use super::collapse::ROWS;
 use crate::error::RenderError;
 use crate::parts::Parts;
 use crate::view::View;
+
+/// Columns and rows of a tile: its pixels share the elements that are looked at.
+const TILE: usize = 16;
 
 /// Evaluates some bands of rows at a time, seen from the view's centre, and gives `take` their values in order.
 pub(super) fn render_strips(
@@ -21,7 +25,7 @@ pub(super) fn render_strips(
     take: &mut dyn FnMut(Vec<f64>),
 ) -> Result<(), RenderError> {
     let [columns, all] = view.pixels.map(|n| n as usize);
-    let count = (rows as usize).next_multiple_of(ROWS).max(ROWS);
+    let count = (rows as usize).div_ceil(ROWS).max(1) * ROWS;
     let parts = Parts::start(watcher, all.div_ceil(ROWS))?;
     let seen = field.at(view.center);
     for first in (0..all).step_by(count) {
@@ -30,15 +34,33 @@ pub(super) fn render_strips(
         bands.try_for_each_init(
             || seen.clone(),
             |local, (band, pixels)| {
-                for (k, value) in pixels.iter_mut().enumerate() {
-                    let [i, j] = [k % columns, first + band * ROWS + k / columns];
-                    let offset = view.offset(i as u32, j as u32);
-                    *value = quantity.at(local, offset, Side::Above);
-                }
+                draw_band(local, (view, quantity), first + band * ROWS, pixels);
                 parts.finish_one()
             },
         )?;
         take(values);
     }
     Ok(())
+}
+
+/// The pixels of some rows, the first of which has a number.
+fn draw_band(
+    local: &mut LocalField<'_>,
+    (view, quantity): (&View, &Quantity),
+    first: usize,
+    pixels: &mut [f64],
+) {
+    let columns = view.pixels[0] as usize;
+    let rows = pixels.len() / columns;
+    let corners =
+        (0..rows).step_by(TILE).flat_map(|j| (0..columns).step_by(TILE).map(move |i| (i, j)));
+    for (left, top) in corners {
+        let (right, bottom) = ((left + TILE).min(columns), (top + TILE).min(rows));
+        let places = (top..bottom).flat_map(|j| (left..right).map(move |i| (i, j)));
+        let offset = |(i, j): (usize, usize)| view.offset(i as u32, (first + j) as u32);
+        let offsets: Vec<Vec2> = places.clone().map(offset).collect();
+        let quantities = std::slice::from_ref(quantity);
+        let found = Quantity::at_many(quantities, local, &offsets, Side::Above);
+        places.zip(found).for_each(|((i, j), value)| pixels[j * columns + i] = value);
+    }
 }

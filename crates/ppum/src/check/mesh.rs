@@ -69,7 +69,10 @@ fn check_maps(mesh: &Mesh) -> Checked {
             && mesh.shape[k] == mesh.shape[k - 1]
             && mesh.map_range(k) == mesh.map_range(k - 1)
             && mesh.map_space[k] == mesh.map_space[k - 1];
-        let folded = |&xi: &[f64; 2]| !(mesh.image(k, xi).1 > 0.0);
+        let folded = |&xi: &[f64; 2]| {
+            let det = mesh.image(k, xi).1;
+            det <= 0.0 || det.is_nan()
+        };
         let found = if is_known { None } else { mesh.shape[k].samples(SAMPLES).find(folded) };
         if let Some([x, y]) = found {
             let det = mesh.image(k, [x, y]).1;

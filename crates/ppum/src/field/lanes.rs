@@ -102,18 +102,10 @@ impl LocalField<'_> {
         side: Side,
         out: &mut [Jet<f64>],
     ) {
-        if self.mesh.is_some() {
-            return self.each_on_mesh::<D>(offsets, side, out);
+        if let Some(mesh) = &self.mesh {
+            return mesh.evaluate_many::<D>(&self.functions, (offsets, side), out);
         }
         f64::dispatch(Many::<D> { local: self, offsets, side, out });
-    }
-
-    fn each_on_mesh<const D: usize>(&self, offsets: &[Vec2], side: Side, out: &mut [Jet<f64>]) {
-        for (&offset, out) in offsets.iter().zip(out.chunks_mut(self.field.components())) {
-            if self.on_mesh::<D>(offset, side, out).is_none() {
-                out.fill(NOWHERE);
-            }
-        }
     }
 
     /// Evaluates at many points over a given list of patches, which must hold all that cover one of

@@ -20,7 +20,7 @@ pub struct LocalField<'f> {
     /// The anchor.
     pub anchor: Vec2,
     domain: LocalDomain,
-    functions: LocalFunctions<'f>,
+    pub(super) functions: LocalFunctions<'f>,
     /// The elements, if the patches are those of a mesh.
     pub(super) mesh: Option<LocalMesh<'f>>,
     /// Memory for the patches around a point.
@@ -96,6 +96,15 @@ impl<'f> LocalField<'f> {
     #[must_use]
     pub fn owner(&self, offset: Vec2, side: Side) -> Option<usize> {
         Some(self.mesh.as_ref()?.owner(offset, side)?.patch)
+    }
+
+    /// True where the field was evaluated in the domain: on a mesh values say so, since finding the element is most of the work.
+    #[must_use]
+    pub(crate) fn has_values(&self, offset: Vec2, jets: &[Jet<f64>]) -> bool {
+        match &self.mesh {
+            Some(_) => jets.iter().any(|jet| !jet.v.is_nan()),
+            None => self.contains(offset),
+        }
     }
 
     /// All components on the element that owns a point, and the number of its patch; `None` outside.

@@ -78,6 +78,9 @@ pub enum FieldError {
         /// The names there are.
         known: String,
     },
+    /// Something that boxes have and elements have not.
+    #[error("the patches are the elements of a mesh, for which there are no {0}")]
+    Mesh(&'static str),
     /// A function of the step is wrong.
     #[error(transparent)]
     Function(#[from] FunctionError),
@@ -151,6 +154,17 @@ impl<'d> Field<'d> {
     #[must_use]
     pub fn has_exact(&self) -> bool {
         !self.exact.is_empty()
+    }
+
+    /// Refuses a field on a mesh.
+    ///
+    /// # Errors
+    /// [`FieldError::Mesh`], with what it is that meshes have not.
+    pub fn on_boxes(&self, what: &'static str) -> Result<(), FieldError> {
+        match self.step.partition.mesh() {
+            Some(_) => Err(FieldError::Mesh(what)),
+            None => Ok(()),
+        }
     }
 
     /// The exact value of a component at a point; NaN if it is not known.

@@ -474,15 +474,15 @@ impl<'t> LocalFunctions<'t> {
 
     /// Fills the jets of a group of formulas at a point that is known in their frame too, with derivatives by x and y of the
     /// frame [of level fields](Frame::Levels).
-    pub(crate) fn evaluate_in_frame<const D: usize>(
+    pub(crate) fn evaluate_in_frame<R: Real, const D: usize>(
         &self,
         group: usize,
-        point: &TipPoint<f64>,
-        (offset, side): (Vec2, Side),
-        out: &mut [Jet<f64>],
+        point: &TipPoint<R>,
+        (offset, side): ([R; 2], Side),
+        out: &mut [Jet<R>],
     ) {
         if let LocalGroup::Formulas(formulas) = self.group(group) {
-            formulas.evaluate_at::<f64, D>(point, offset.into(), side, out);
+            formulas.evaluate_at::<R, D>(point, offset, side, out);
         }
     }
 

@@ -11,8 +11,10 @@
 
 use super::shape::Shape;
 use super::taylor::Dense;
+use crate::compensated::{Pair, difference};
 use crate::jet::Jet;
 use crate::polynomial::{PolynomialSpace, polynomial_in};
+use ppum_formula::real::Real;
 
 /// Most coefficients: those of Q_8.
 const MOST: usize = 81;
@@ -35,9 +37,6 @@ pub(super) struct Map {
     y: [f64; MOST],
 }
 
-/// M(ξ) with derivatives.
-pub(super) type Image = [Jet<f64>; 2];
-
 impl Map {
     /// The map of coefficients without their constants.
     pub(super) fn new(space: PolynomialSpace, degree: u8, [x, y]: [&[f64]; 2]) -> Self {
@@ -47,10 +46,13 @@ impl Map {
         map
     }
 
-    #[inline]
-    pub(super) fn at<const D: usize>(&self, xi: [f64; 2]) -> Image {
-        let one = |c: &[f64; MOST]| polynomial_in::<f64, D>(self.space, c, self.degree, xi);
-        [one(&self.x), one(&self.y)]
+    #[inline(always)]
+    pub(super) fn at<R: Real, const D: usize>(&self, xi: [R; 2]) -> [Jet<R>; 2] {
+        let Self { space, degree, x, y } = self;
+        [
+            polynomial_in::<R, D>(*space, x, *degree, xi),
+            polynomial_in::<R, D>(*space, y, *degree, xi),
+        ]
     }
 
     /// True of a linear map: that of a straight triangle, or of a parallelogram.
@@ -65,7 +67,7 @@ impl Map {
     }
 
     /// The coefficients of the map seen from `at`, and the constant M(at).
-    pub(super) fn shifted(&self, at: [f64; 2]) -> (Self, [(f64, f64); 2]) {
+    pub(super) fn shifted(&self, at: [f64; 2]) -> (Self, [Pair; 2]) {
         let mut out = self.clone();
         let constants = [(&self.x, &mut out.x), (&self.y, &mut out.y)].map(|(from, to)| {
             let mut dense = Dense::new(self.space, self.degree, from);
@@ -102,59 +104,14 @@ impl Map {
         Some((inverse, kappa, lipschitz))
     }
 
-    /// The ξ near 0 with M(ξ) = t, for t and its rounding error, if Newton's method finds it within a distance of 1/4.
-    pub(super) fn near(&self, t: [(f64, f64); 2]) -> Option<[f64; 2]> {
-        let inverse = self.linear().inverse()?;
-        let guess = inverse.times(t.map(|t| t.0));
-        let found = if self.is_affine() {
-            Some(self.refined(&inverse, guess, t))
-        } else {
-            self.newton(guess, t.map(|t| t.0 + t.1))
-        };
-        found.filter(|xi| largest(*xi) <= 0.25)
-    }
-
-    /// The ξ with M(ξ) = t in the shape, or one that lies beside it.
-    pub(super) fn beside(&self, shape: Shape, t: [(f64, f64); 2]) -> Option<[f64; 2]> {
-        self.inverse(shape, t)
-            .or_else(|| {
-                let target = t.map(|t| t.0 + t.1);
-                let guess = self.linear().inverse()?.times(target);
-                self.newton(guess.map(|g| g.clamp(-1.0, 1.0)), target)
-            })
-            .filter(|&xi| shape.margin([0.0; 2], xi) >= -0.25)
-    }
-
-    /// A ξ of the shape, or beside it by no more than rounding, with M(ξ) = t.
-    pub(super) fn inverse(&self, shape: Shape, t: [(f64, f64); 2]) -> Option<[f64; 2]> {
-        let (inverse, kappa, lipschitz) = self.bounds()?;
-        let target = t.map(|t| t.0 + t.1);
-        let guess = inverse.times(target);
-        // margins change by no more than twice as much as ξ
-        if shape.margin([0.0; 2], guess) < -2.0 * kappa - 1e-6 {
-            return None;
-        }
-        if self.is_affine() {
-            return Some(self.refined(&inverse, guess, t));
-        }
-        let found = self.newton(guess.map(|g| g.clamp(-1.0, 1.0)), target);
-        if let Some(xi) = found {
-            let is_only = lipschitz < 1.0 && largest(xi) <= 1.0;
-            if is_only || shape.margin([0.0; 2], xi) >= -TOLERANCE {
-                return Some(xi);
-            }
-        }
-        self.search(shape, target)
-    }
-
     /// The solution of a linear map with the rounding errors of t and of the products.
-    fn refined(&self, inverse: &Matrix, xi: [f64; 2], t: [(f64, f64); 2]) -> [f64; 2] {
+    fn refined(&self, inverse: &Matrix, xi: [f64; 2], t: [Pair; 2]) -> [f64; 2] {
         let Matrix(rows) = self.linear();
-        let residual = |row: [f64; 2], t: (f64, f64)| {
+        let residual = |row: [f64; 2], t: Pair| {
             let (p, q) = (row[0] * xi[0], row[1] * xi[1]);
             let errors = row[0].mul_add(xi[0], -p) + row[1].mul_add(xi[1], -q);
-            let first = crate::compensated::difference(t.0, p);
-            let second = crate::compensated::difference(first.0, q);
+            let first = difference(t.0, p);
+            let second = difference(first.0, q);
             second.0 + (first.1 + second.1 + t.1 - errors)
         };
         let step = inverse.times([residual(rows[0], t[0]), residual(rows[1], t[1])]);
@@ -164,11 +121,11 @@ impl Map {
     /// Newton's method; `None` if it does not arrive.
     fn newton(&self, mut xi: [f64; 2], t: [f64; 2]) -> Option<[f64; 2]> {
         for _ in 0..16 {
-            let [x, y] = self.at::<1>(xi);
+            let [x, y] = self.at::<f64, 1>(xi);
             let inverse = Matrix([[x.x, x.y], [y.x, y.y]]).inverse()?;
             let step = inverse.times([x.v - t[0], y.v - t[1]]);
             xi = [xi[0] - step[0], xi[1] - step[1]];
-            if !(largest(xi) < 4.0) {
+            if largest(xi) >= 4.0 || (xi[0] + xi[1]).is_nan() {
                 return None;
             }
             // the next step is about the square of this one
@@ -227,7 +184,7 @@ impl Map {
     fn contracted(&self, inverse: &Matrix, t: [f64; 2]) -> Option<[f64; 2]> {
         let mut u = [0.0; 2];
         for _ in 0..120 {
-            let [x, y] = self.at::<0>(u);
+            let [x, y] = self.at::<f64, 0>(u);
             let step = inverse.times([x.v - t[0], y.v - t[1]]);
             let next = [0, 1].map(|k| (u[k] - step[k]).clamp(-1.0, 1.0));
             let moved = largest([next[0] - u[0], next[1] - u[1]]);
@@ -238,6 +195,72 @@ impl Map {
         }
         // borders of parts are those of their neighbours, but for rounding
         self.newton(u, t).filter(|u| largest(*u) <= 1.0 + 1e-6)
+    }
+}
+
+/// A map, ready to be inverted.
+#[derive(Clone, Debug)]
+pub(super) struct Inverse {
+    pub(super) map: Map,
+    matrix: Matrix,
+    kappa: f64,
+    lipschitz: f64,
+}
+
+impl Inverse {
+    /// `None` if the map is singular at ξ = 0.
+    pub(super) fn new(map: Map) -> Option<Self> {
+        let (matrix, kappa, lipschitz) = map.bounds()?;
+        Some(Self { map, matrix, kappa, lipschitz })
+    }
+
+    /// A ξ of the shape, or beside it, with M(ξ) = t, for t and its rounding error. Newton's method begins at `start`, if that is
+    /// known.
+    #[inline]
+    pub(super) fn at(
+        &self,
+        shape: Shape,
+        t: [Pair; 2],
+        start: Option<[f64; 2]>,
+    ) -> Option<[f64; 2]> {
+        let target = t.map(|t| t.0 + t.1);
+        let guess = self.matrix.times(target);
+        // margins change by no more than twice as much as ξ
+        if shape.margin([0.0; 2], guess) < -2.0 * self.kappa - 1e-6 {
+            return None;
+        }
+        if self.map.is_affine() {
+            return Some(self.map.refined(&self.matrix, guess, t));
+        }
+        let start = start.unwrap_or_else(|| guess.map(|g| g.clamp(-1.0, 1.0)));
+        if let Some(xi) = self.map.newton(start, target) {
+            let is_only = self.lipschitz < 1.0 && largest(xi) <= 1.0;
+            if is_only || shape.margin([0.0; 2], xi) >= -TOLERANCE {
+                return Some(xi);
+            }
+        }
+        self.map.search(shape, target)
+    }
+
+    /// The ξ with M(ξ) = t if it lies within a quarter of 0.
+    pub(super) fn near(&self, t: [Pair; 2]) -> Option<[f64; 2]> {
+        let guess = self.matrix.times(t.map(|t| t.0));
+        let found = match self.map.is_affine() {
+            true => Some(self.map.refined(&self.matrix, guess, t)),
+            false => self.map.newton(guess, t.map(|t| t.0 + t.1)),
+        };
+        found.filter(|xi| largest(*xi) <= 0.25)
+    }
+
+    /// The ξ with M(ξ) = t in the shape, or one that lies beside it.
+    pub(super) fn beside(&self, shape: Shape, t: [Pair; 2]) -> Option<[f64; 2]> {
+        let newton = || {
+            let target = t.map(|t| t.0 + t.1);
+            let guess = self.matrix.times(target);
+            self.map.newton(guess.map(|g| g.clamp(-1.0, 1.0)), target)
+        };
+        let found = self.at(shape, t, None).or_else(newton);
+        found.filter(|&xi| shape.margin([0.0; 2], xi) >= -0.25)
     }
 }
 

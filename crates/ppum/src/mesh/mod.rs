@@ -10,7 +10,9 @@
 //! A cut element is two patches with the same map and opposite clips: one where a level field is ≥ 0,
 //! one where it is < 0.
 
+mod evaluate;
 mod local;
+mod many;
 mod map;
 mod shape;
 mod taylor;
@@ -105,7 +107,7 @@ impl Mesh {
     /// x = origin + M(ξ), and det DM(ξ).
     #[must_use]
     pub fn image(&self, patch: usize, xi: [f64; 2]) -> (Vec2, f64) {
-        let [x, y] = self.map(patch).at::<1>(xi);
+        let [x, y] = self.map(patch).at::<f64, 1>(xi);
         (self.origin[patch] + vec2(x.v, y.v), x.x * y.y - x.y * y.x)
     }
 }

@@ -141,7 +141,7 @@ impl QuantityGradient {
         let mut jets = vec![Jet::constant(0.0); offsets.len() * components];
         local.evaluate_into::<2>(offsets, side, &mut jets);
         let rows = offsets.iter().zip(jets.chunks(components));
-        let one = |(&offset, jets): (&Vec2, &[Jet<f64>])| match local.contains(offset) {
+        let one = |(&offset, jets): (&Vec2, &[Jet<f64>])| match local.has_values(offset, jets) {
             true => self.of_jets(local, offset, jets),
             false => Slope::NOWHERE,
         };
@@ -157,7 +157,7 @@ impl QuantityGradient {
     ) -> Slope {
         match self.rule {
             Rule::Partition => self.of_partition(local, offset).map_or(Slope::NOWHERE, Slope::of),
-            _ if local.contains(offset) => self.of_jets(local, offset, jets),
+            _ if local.has_values(offset, jets) => self.of_jets(local, offset, jets),
             _ => Slope::NOWHERE,
         }
     }

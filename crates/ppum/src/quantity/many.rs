@@ -42,7 +42,7 @@ impl Quantity {
         if self.source() == Source::Partition {
             return self.of_partition(local, offset).unwrap_or(f64::NAN);
         }
-        if !local.contains(offset) {
+        if !local.has_values(offset, jets) {
             return f64::NAN;
         }
         self.of_values(local, offset, jets)

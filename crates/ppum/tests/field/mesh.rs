@@ -471,3 +471,59 @@ fn boxes_are_squares_where_they_do_not_overlap() {
     }
     assert!(count > 400, "{count}");
 }
+
+/// Many points at once, on lanes and each from the place of its neighbour, are what they are alone: on a curved mesh cut by a
+/// level line, in views as wide as the mesh and 1e-9 of it, with the sign of the level field.
+#[test]
+fn many_points_are_those_of_single_ones() {
+    let mut random = Random(14);
+    let bend = |random: &mut Random, linear: Polynomial| {
+        let small = random_polynomial(random, Total, 3).times(&Polynomial::linear(0.05, 0.0, 0.0));
+        linear.plus(&small)
+    };
+    let [x, y] = plane().map(|p| bend(&mut random, p));
+    let half = Elements::grid([6, 5], 3, &[x, y]);
+    let cut = Polynomial([((0, 1), 1.0), ((1, 0), -0.5), ((2, 0), 0.25), ((0, 0), -0.31)].into());
+    let (mut elements, mut parts, mut levels) = (Elements::default(), Vec::new(), Vec::new());
+    for (k, map) in half.maps.iter().enumerate() {
+        let space = half.mesh.map_space[k];
+        for is_above in [true, false] {
+            elements.push(half.mesh.shape[k], space, 3, map.clone());
+            elements.mesh.clips.push(Clip { field: 1, is_above });
+            parts.push((space, 4, random_polynomial(&mut random, space, 4)));
+            levels.push((space, 6, cut.of(&map[0], &map[1])));
+        }
+    }
+    elements.mesh.clip_offsets = (0..=elements.mesh.len() as u64).collect();
+    let mut dataset = elements.dataset(vec![field("v", &parts), field("phi", &levels)]);
+    let step = dataset.steps.remove(0).with_function("sign", FunctionKind::Level { field: 1 });
+    dataset.steps.push(step);
+    dataset.steps[0].fields[0].block_function.iter_mut().step_by(3).for_each(|f| *f = 1);
+    let field = compiled(&dataset);
+    let (mut inside, mut outside) = (0, 0);
+    for (anchor, width) in [(vec2(0.5, 0.5), 1.4), (vec2(0.4, 0.45), 0.2), (vec2(0.4, 0.45), 1e-9)]
+    {
+        let mut local = field.at(anchor);
+        let place = |k: i32| vec2(f64::from(k % 40) / 40.0 - 0.5, f64::from(k / 40) / 40.0 - 0.5);
+        let offsets: Vec<Vec2> = (0..1600).map(|k| place(k) * width).collect();
+        let mut many = vec![Jet::constant(0.0); offsets.len()];
+        local.evaluate_into::<2>(&offsets, Side::Above, &mut many);
+        for (&offset, found) in offsets.iter().zip(&many) {
+            let mut alone = [Jet::constant(0.0)];
+            if !local.evaluate::<2>(offset, Side::Above, &mut alone) {
+                assert!(found.v.is_nan() && found.yy.is_nan(), "{offset:?}");
+                outside += 1;
+                continue;
+            }
+            inside += 1;
+            let [one] = alone;
+            let pairs = [(found.v, one.v, 1e-12), (found.x, one.x, 1e-10), (found.y, one.y, 1e-10)];
+            let second = [(found.xx, one.xx), (found.xy, one.xy), (found.yy, one.yy)];
+            let second = second.map(|(a, b)| (a, b, 1e-7));
+            for (a, b, most) in pairs.into_iter().chain(second) {
+                assert!((a - b).abs() < most, "{offset:?}: {a} {b}");
+            }
+        }
+    }
+    assert!(inside > 3000 && outside > 200, "{inside} {outside}");
+}

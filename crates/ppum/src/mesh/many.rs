@@ -1,0 +1,135 @@
+//! Many points: each one's owner first, beginning with the place of its neighbour, then those of one patch on lanes.
+
+use super::evaluate::At;
+use super::local::{Candidate, LocalMesh, Location};
+use crate::crack::Side;
+use crate::function::LocalFunctions;
+use crate::jet::Jet;
+use crate::vec2::{Rect, Vec2};
+use ppum_formula::real::{Job, Lanes, Real, Scalar};
+
+/// Points that are looked at together, and the most elements that are asked for all of them.
+const POINTS: usize = 256;
+const CANDIDATES: usize = 64;
+
+/// Outside.
+const NOWHERE: Jet<f64> =
+    Jet { v: f64::NAN, x: f64::NAN, y: f64::NAN, xx: f64::NAN, xy: f64::NAN, yy: f64::NAN };
+
+impl LocalMesh<'_> {
+    /// The field at many points, components of one after those of the other; NaN outside. Fastest for points near each other.
+    pub(crate) fn evaluate_many<const D: usize>(
+        &self,
+        functions: &LocalFunctions<'_>,
+        (offsets, side): (&[Vec2], Side),
+        out: &mut [Jet<f64>],
+    ) {
+        let components = self.field.components();
+        for (offsets, out) in offsets.chunks(POINTS).zip(out.chunks_mut(POINTS * components)) {
+            let owners = self.owners(offsets, side);
+            f64::dispatch(Many::<D> { mesh: self, functions, offsets, side, owners, out });
+        }
+    }
+
+    fn owners(&self, offsets: &[Vec2], side: Side) -> Vec<Option<Location<'_>>> {
+        let corner = |of: fn(Vec2, Vec2) -> Vec2| offsets.iter().copied().reduce(of);
+        let (Some(min), Some(max)) = (corner(Vec2::min), corner(Vec2::max)) else {
+            return Vec::new();
+        };
+        let mut patches = Vec::new();
+        self.field.tree.query_box(&Rect::new(self.anchor + min, self.anchor + max), &mut patches);
+        if patches.len() > CANDIDATES || offsets.len() == 1 {
+            return offsets.iter().map(|&offset| self.owner(offset, side)).collect();
+        }
+        let candidates: Vec<_> = patches.iter().map(|&patch| self.candidate(patch)).collect();
+        let mut starts = vec![None; candidates.len()];
+        let owner = |&offset: &Vec2| self.next_owner(&candidates, &mut starts, offset, side);
+        offsets.iter().map(owner).collect()
+    }
+
+    /// The owner of a point; `starts` are the places of the last points in the elements.
+    fn next_owner<'m>(
+        &self,
+        candidates: &[Candidate<'m>],
+        starts: &mut [Option<[f64; 2]>],
+        offset: Vec2,
+        side: Side,
+    ) -> Option<Location<'m>> {
+        let places = candidates.iter().zip(starts).map(|(candidate, start)| {
+            let place = self.location(candidate, offset, *start);
+            *start = place.as_ref().filter(|place| place.near.is_none()).map(|place| place.delta);
+            place
+        });
+        self.first(side, places)
+    }
+}
+
+struct Many<'a, 'f, 't, 'm, const D: usize> {
+    mesh: &'a LocalMesh<'f>,
+    functions: &'a LocalFunctions<'t>,
+    offsets: &'a [Vec2],
+    side: Side,
+    owners: Vec<Option<Location<'m>>>,
+    out: &'a mut [Jet<f64>],
+}
+
+impl<const D: usize> Job<f64> for Many<'_, '_, '_, '_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = f64>>(self, zero: R) {
+        let components = self.mesh.field.components();
+        self.out.fill(NOWHERE);
+        let key = |k: usize| self.owners[k].map(|at| (at.patch, at.near.is_some()));
+        let mut order: Vec<usize> = (0..self.offsets.len()).filter(|&k| key(k).is_some()).collect();
+        order.sort_by_key(|&k| key(k));
+        let mut lanes = vec![Jet::constant(zero); components];
+        for run in order.chunk_by(|&a, &b| key(a) == key(b)) {
+            for points in run.chunks(R::LANES) {
+                let Some(first) = self.owners[points[0]] else { continue };
+                // the last point stands in for those that are missing
+                let (mut delta, mut offset) = ([Lanes::default(); 2], [Lanes::default(); 2]);
+                for lane in 0..R::LANES {
+                    let k = points[lane.min(points.len() - 1)];
+                    let place = self.owners[k].map_or([0.0; 2], |place| place.delta);
+                    (delta[0][lane], delta[1][lane]) = (place[0], place[1]);
+                    (offset[0][lane], offset[1][lane]) = (self.offsets[k].x, self.offsets[k].y);
+                }
+                let at = At {
+                    delta: [zero.load(&delta[0]), zero.load(&delta[1])],
+                    offset: [zero.load(&offset[0]), zero.load(&offset[1])],
+                    side: self.side,
+                };
+                let seen = (first.patch, first.near);
+                self.mesh.evaluate_at::<R, D>(seen, self.functions, &at, &mut lanes);
+                for (c, jet) in lanes.iter().enumerate() {
+                    store::<R, D>(jet, points.iter().map(|k| k * components + c), self.out);
+                }
+            }
+        }
+    }
+}
+
+/// Writes the lanes of a jet to some places.
+#[inline(always)]
+fn store<R: Real<Scalar = f64>, const D: usize>(
+    jet: &Jet<R>,
+    places: impl Iterator<Item = usize>,
+    out: &mut [Jet<f64>],
+) {
+    let mut lanes = [Lanes::default(); 6];
+    jet.v.store(&mut lanes[0]);
+    if D >= 1 {
+        jet.x.store(&mut lanes[1]);
+        jet.y.store(&mut lanes[2]);
+    }
+    if D >= 2 {
+        jet.xx.store(&mut lanes[3]);
+        jet.xy.store(&mut lanes[4]);
+        jet.yy.store(&mut lanes[5]);
+    }
+    let [v, x, y, xx, xy, yy] = lanes;
+    for (k, place) in places.enumerate() {
+        out[place] = Jet { v: v[k], x: x[k], y: y[k], xx: xx[k], xy: xy[k], yy: yy[k] };
+    }
+}
