@@ -14,6 +14,7 @@ use ppum_render::range::{RangeError, Span};
 use ppum_render::raster::{Raster, Sample, Statistics};
 use ppum_render::samples::{Means, Samples};
 use ppum_render::view::View;
+use rayon::prelude::*;
 
 /// What is seen of a plate: as it was, or deformed.
 pub enum Seen<'f> {
@@ -240,8 +241,8 @@ impl Drawn {
     pub fn new(values: impl Into<Values>, field: &Field<'_>, view: &View, by: &str) -> Self {
         let values = values.into();
         let without = match &values {
-            Values::Double(raster) => raster.undefined(field.domain, view),
-            Values::Single(raster) => raster.undefined(field.domain, view),
+            Values::Double(raster) => undefined(raster, field, view),
+            Values::Single(raster) => undefined(raster, field, view),
         };
         let (by, overlap) = (by.to_owned(), Vec::new());
         Self { view: *view, values, by, without, overlap, opacity: None }
@@ -290,6 +291,17 @@ impl Drawn {
         let Statistics { finite, infinite, .. } = self.values.statistics();
         [self.without.len(), self.without.len() + finite + infinite]
     }
+}
+
+/// The pixels of the plate without a value: on a mesh those of its elements.
+pub(crate) fn undefined<T: Sample>(raster: &Raster<T>, field: &Field<'_>, view: &View) -> Vec<u32> {
+    let without = raster.undefined(field.domain, view);
+    if field.step.partition.mesh().is_none() {
+        return without;
+    }
+    let (local, columns) = (field.at(view.center), view.pixels[0]);
+    let is_inside = |pixel: &u32| local.contains(view.offset(pixel % columns, pixel / columns));
+    without.into_par_iter().filter(is_inside).collect()
 }
 
 /// What draws all that is not drawn by a backend.

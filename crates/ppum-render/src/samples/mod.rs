@@ -21,9 +21,10 @@ use std::num::NonZeroU8;
 use std::str::FromStr;
 
 use ppum::domain::{Domain, LocalDomain};
-use ppum::field::Field;
+use ppum::field::{Field, LocalField};
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
+use ppum::vec2::Vec2;
 use ppum_raster::RenderError;
 use ppum_raster::raster::{Raster, Sample};
 use ppum_raster::scatter::render_strips;
@@ -100,7 +101,8 @@ impl<T: Sample> Means<T> {
     #[must_use]
     pub fn of(domain: &Domain, view: &View, samples: Samples, finer: &Raster<T>) -> Self {
         assert_eq!(finer.size, view.pixels.map(|n| n * samples.side()), "a picture of samples");
-        let mut gathered = Gathered::new(domain, view, samples);
+        let inside = Inside::Domain(domain.at(view.center));
+        let mut gathered = Gathered::new(inside, view, samples);
         gathered.add(&finer.values);
         gathered.finish()
     }
@@ -135,7 +137,11 @@ pub fn means<T: Sample>(
     watcher: &dyn Watcher,
 ) -> Result<Means<T>, RenderError> {
     let finer = view.finer(samples.side())?;
-    let mut gathered = Gathered::new(field.domain, view, samples);
+    let inside = match field.step.partition.mesh() {
+        Some(_) => Inside::Mesh(field.at(view.center)),
+        None => Inside::Domain(field.domain.at(view.center)),
+    };
+    let mut gathered = Gathered::new(inside, view, samples);
     let (rows, mut add) = (rows(&finer, samples), |values: Vec<T>| gathered.add(&values));
     render_strips::<T>(field, &finer, quantity, rows, watcher, &mut add)?;
     Ok(gathered.finish())
@@ -154,11 +160,26 @@ fn rows(finer: &View, samples: Samples) -> u32 {
     least * (HELD / finer.pixels[0] / least).max(1)
 }
 
+/// What counts as the plate: its domain, or the elements of a mesh.
+enum Inside<'f> {
+    Domain(LocalDomain),
+    Mesh(LocalField<'f>),
+}
+
+impl Inside<'_> {
+    fn contains(&self, offset: Vec2) -> bool {
+        match self {
+            Self::Domain(domain) => domain.contains(offset),
+            Self::Mesh(local) => local.contains(offset),
+        }
+    }
+}
+
 /// Means of the rows so far.
 struct Gathered<'v, T> {
     view: &'v View,
     samples: Samples,
-    domain: LocalDomain,
+    inside_of: Inside<'v>,
     /// Offsets of the columns of samples.
     xs: Vec<f64>,
     finer: View,
@@ -167,11 +188,10 @@ struct Gathered<'v, T> {
 }
 
 impl<'v, T: Sample> Gathered<'v, T> {
-    fn new(domain: &Domain, view: &'v View, samples: Samples) -> Self {
+    fn new(inside_of: Inside<'v>, view: &'v View, samples: Samples) -> Self {
         let finer = View { pixels: view.pixels.map(|n| n * samples.side()), ..*view };
         let xs = (0..finer.pixels[0]).map(|column| finer.column_offset(column)).collect();
-        let domain = domain.at(view.center);
-        Self { view, samples, domain, xs, finer, values: Vec::new(), inside: Vec::new() }
+        Self { view, samples, inside_of, xs, finer, values: Vec::new(), inside: Vec::new() }
     }
 
     /// Adds the next rows of samples, whole rows of pixels.
@@ -195,7 +215,7 @@ impl<'v, T: Sample> Gathered<'v, T> {
             for (line, &y) in samples.chunks_exact(columns).zip(&ys) {
                 let values = line[first..first + side].iter().zip(&self.xs[first..]);
                 for (&value, &x) in values {
-                    mean.add(value.into(), || self.domain.contains([x, y].into()));
+                    mean.add(value.into(), || self.inside_of.contains([x, y].into()));
                 }
             }
             (T::from_f64(mean.value()), mean.inside)

@@ -18,7 +18,7 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 
 use crate::colors::{Colors, MapError, map};
-use crate::drawing::{Drawn, PROCESSOR, Shown, Values};
+use crate::drawing::{Drawn, PROCESSOR, Shown, Values, undefined};
 
 /// One of the two: a field and what is shown of it.
 #[derive(Clone, Copy)]
@@ -73,7 +73,7 @@ impl Minus<'_> {
         let right = self.right.raster(view, watcher)?;
         let apart = difference(&left, &right);
         // a value is missing where both plates are
-        let here = apart.undefined(self.left.field.domain, view);
+        let here = undefined(&apart, self.left.field, view);
         let mut drawn = Drawn::new(apart, self.right.field, view, PROCESSOR);
         drawn.without.retain(|pixel| here.binary_search(pixel).is_ok());
         Ok(Apart { drawn, norms: norms(&left, &right) })

@@ -394,7 +394,10 @@ fn undefined(
     values: &[f64],
 ) -> Vec<(String, [usize; 2])> {
     let width = quantities.len();
-    let is_inside = |k: usize| field.domain.at(places[k].anchor).contains(places[k].offset);
+    let is_inside = |k: usize| match field.step.partition.mesh() {
+        Some(_) => places[k].seen(field).contains(places[k].offset),
+        None => field.domain.at(places[k].anchor).contains(places[k].offset),
+    };
     let missing = |(column, (name, _)): (usize, &(String, Quantity))| {
         let is_undefined = |k: &usize| values[k * width + column].is_nan() && is_inside(*k);
         let count = (0..places.len()).filter(is_undefined).count();

@@ -18,7 +18,7 @@ mod tips;
 
 pub use digits::{FEW_DIGITS, Rounding, rounding};
 
-use crate::intensity::{Outcome, intensities_under};
+use crate::intensity::{FACTORS_OF, Outcome, intensities_under};
 use crate::problem::Problem;
 use crate::report::{SolverReport, Unresolved};
 use crate::space::Space;
@@ -160,6 +160,7 @@ pub fn recompute(
     watcher: &dyn Watcher,
 ) -> Result<(Vec<Outcome>, Vec<Warning>), RecomputeError> {
     let field = Field::new(dataset, step)?;
+    field.on_boxes(FACTORS_OF)?;
     let Dataset { domain, equation, tables, .. } = dataset;
     let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
     let tips = intensities_under(problem, dataset, &field, &space, watcher)?;

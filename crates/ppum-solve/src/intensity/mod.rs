@@ -80,6 +80,9 @@ const RADII: [f64; RINGS] = [0.5, 0.7, 0.9];
 /// larger than the clearance do not resolve.
 const LEAST_CLEARANCE: f64 = 0.5;
 
+/// The words for what is found here.
+pub(crate) const FACTORS_OF: &str = "stress intensity factors";
+
 /// A load per area at a point: the body force b.
 pub type PointLoad<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
 
@@ -195,7 +198,7 @@ pub enum CircleError {
 /// The largest disc around a tip of a step in which nothing disturbs its field; none if there is no such tip.
 #[must_use]
 pub fn clearance(dataset: &Dataset, step: usize, tip: TipId) -> Option<TipClearance> {
-    let step = dataset.steps.get(step)?;
+    let step = dataset.steps.get(step).filter(|step| step.partition.mesh().is_none())?;
     let crack = step.cracks.get(tip.crack as usize)?;
     let cell = cell_at(&step.partition.boxes().cell, crack.end_point(tip.end));
     Some(TipClearance::new(dataset, &step.cracks, tip, cell))
@@ -215,6 +218,7 @@ pub fn on_circle(
     problem: Option<&Problem>,
     watcher: &dyn Watcher,
 ) -> Result<TipIntensity, CircleError> {
+    Field::new(dataset, step)?.on_boxes(FACTORS_OF)?;
     let clear = clearance(dataset, step, tip).ok_or(CircleError::NoTip)?;
     if !(radius > 0.0 && radius.is_finite()) {
         return Err(CircleError::Radius);
