@@ -9,13 +9,15 @@ The arithmetic is that of `Double` or of `Extended` (ppum_formulas.py), so the s
 in double and in extended precision. Gradients come from jets.
 """
 
+import functools
 import hashlib
 import math
 import re
 
 import h5py
 import numpy as np
-from ppum_formulas import Double, Formula, Jet, Table, polar
+from ppum_formulas import Double, Formula, Jet, Table, polar, total
+from ppum_meshes import Mesh, block
 
 
 def text(value):
@@ -133,13 +135,14 @@ class Field:
         self.tables = self.read_tables(file)
         self.read_equation(file)
         group = file[f"steps/{step:04}"]
-        self.read_partition(group["partition"])
+        fields = [{k: v[()] for k, v in g.items() if v.dtype.kind in "uf"} for g in group["fields"].values()]
+        self.read_partition(group["partition"], fields)
         points, offsets = group["cracks/points"][()], group["cracks/offsets"][()]
         self.cracks = [points[a:b] for a, b in zip(offsets, offsets[1:])]
         self.read_functions(group["functions"])
         data = group[f"fields/{field:04}"]
         self.components = texts(data["components"])
-        self.blocks = {k: v[()] for k, v in data.items() if v.dtype.kind in "uf"}
+        self.blocks = fields[field]
         self.exact = [self.formula(f, PLANE) for f in texts(data["exact"])] if "exact" in data else []
         self.read_quantities(file)
 
@@ -149,7 +152,7 @@ class Field:
     def read_domain(self, group):
         self.min, self.max = group.attrs["min"], group.attrs["max"]
         self.holes, kind = [], text(group.attrs["kind"])
-        assert kind in ("box", "box-with-holes")
+        assert kind in ("box", "box-with-holes", "mesh")
         if kind == "box-with-holes":
             holes = group["holes"]
             offsets, points = holes["offsets"][()], holes["points"][()]
@@ -157,7 +160,9 @@ class Field:
             self.holes = list(zip(texts(holes["kind"]), parts, holes["radius"][()]))
 
     def contains(self, p):
-        """True if a point, given by numbers of the field, lies in the box and in no hole."""
+        """True if a point, given by numbers of the field, lies in the domain."""
+        if self.mesh:
+            return self.mesh.owner(p, 1) is not None
         box = all(self.real(self.min[k]) <= p[k] <= self.real(self.max[k]) for k in range(2))
         return box and not any(self.in_hole(p, *hole) for hole in self.holes)
 
@@ -192,8 +197,12 @@ class Field:
         repeated = lambda value: repr(float(value)) if isinstance(value, float) else text(value)
         self.constants = {k: self.formula(repeated(v), PLANE) for k, v in equation.items()}
 
-    def read_partition(self, group):
-        assert text(group.attrs["kind"]) == "shepard-box"
+    def read_partition(self, group, fields):
+        kind = text(group.attrs["kind"])
+        self.mesh = Mesh(group, fields, self.n) if kind == "mesh" else None
+        if self.mesh:
+            return
+        assert kind == "shepard-box"
         self.partition = {k: v[()] for k, v in group.items()}
         assert self.covers_cells(), "the supports do not cover the cells"
         self.weight = text(group.attrs["weight"])
@@ -244,20 +253,27 @@ class Field:
     def evaluate(self, x, y, side=1):
         """[(value, d/dx, d/dy), …], one per component; `side` is +1 or -1 and decides on a crack."""
         p = self.real(x), self.real(y)
-        if not self.contains(p):
-            return [(math.nan,) * 3] * len(self.components)
         self.side, self.cache, self.has_gradient = side, {}, True
+        self.owned = self.mesh.owner(p, side) if self.mesh else None
+        if not (self.owned if self.mesh else self.contains(p)):
+            return [(math.nan,) * 3] * len(self.components)
+        values = self.local(p, *self.owned) if self.mesh else self.glued(p)
+        if not self.has_gradient:
+            return [(v.v, math.nan, math.nan) for v in values]
+        return [(v.v, v.slopes.get("x", 0), v.slopes.get("y", 0)) for v in values]
+
+    def glued(self, p):
+        """Σ_i φ_i v_i by Shepard's functions of boxes."""
         total, values = Jet(0), [Jet(0)] * len(self.components)
-        close = np.abs(self.partition["center"] - [float(x), float(y)])
+        close = np.abs(self.partition["center"] - [float(c) for c in p])
         for i in np.flatnonzero((close <= self.partition["half"] * (1 + 1e-9)).all(axis=1)):
             s = self.scaled(p, self.partition["center"][i], self.partition["half"][i])
             if all(-1 <= c.v < 1 for c in s):
                 weight = self.spline(s[0]) * self.spline(s[1])
                 total += weight
-                values = [v + weight * local for v, local in zip(values, self.local(p, i))]
-        if not self.has_gradient:
-            return [((v / total).v, math.nan, math.nan) for v in values]
-        return [((u := v / total).v, u.slopes.get("x", 0), u.slopes.get("y", 0)) for v in values]
+                place = self.scaled(p, self.partition["origin"][i], self.partition["scale"][i])
+                values = [v + weight * local for v, local in zip(values, self.local(p, i, place))]
+        return [v / total for v in values]
 
     def scaled(self, p, origin, scale):
         (ox, oy), (sx, sy) = map(self.real, origin), map(self.real, scale)
@@ -280,22 +296,12 @@ class Field:
         assert self.weight == "cubic"
         return 1 - 6 * t * t * u if 2 * t.v < 1 else 2 * u * u * u
 
-    def local(self, p, i):
+    def local(self, p, i, place):
         """Σ_b f_b Σ_k c_{b,k} ξ^k of patch i, one jet a component."""
-        xi, eta = self.scaled(p, self.partition["origin"][i], self.partition["scale"][i])
-        powers = [(Jet(self.real(1)),) * 2]
         sums = [Jet(0)] * len(self.components)
-        for b in range(*self.blocks["patch_blocks"][i : i + 2]):
+        for b in range(*map(int, self.blocks["patch_blocks"][i : i + 2])):
             f = self.function(p, self.blocks["block_function"][b])
-            at = int(self.blocks["block_offset"][b])
-            for degree in range(self.blocks["block_degree"][b] + 1):
-                if degree == len(powers):
-                    powers.append((powers[-1][0] * xi, powers[-1][1] * eta))
-                for k in range(degree + 1):
-                    term = f * powers[degree - k][0] * powers[k][1]
-                    values = self.blocks["coefficients"][:, at]
-                    sums = [s + term * self.real(c) for s, c in zip(sums, values)]
-                    at += 1
+            sums = [s + f * q for s, q in zip(sums, block(self.blocks, b, *place, self.real))]
         return sums
 
     def function(self, p, b):
@@ -305,6 +311,8 @@ class Field:
                 self.cache[b] = Jet(self.real(1))
             elif row["kind"] == "side":
                 self.cache[b] = Jet(self.side_of(p, row["crack"]))
+            elif row["kind"] == "level":
+                self.cache[b] = Jet(self.real(self.sign(self.level(row["levels"][1]).v)))
             elif row["kind"] == "component":
                 self.cache[b] = Jet(self.indicator(p, row["cuts"]))
             else:
@@ -354,11 +362,25 @@ class Field:
 
     def in_frame(self, p, row):
         """A formula of x, y, r, theta of its frame, with derivatives in the world."""
+        if row["frame"] == "levels":
+            return self.in_levels(row)
         x, y, theta, (c, s) = self.tip(p, row) if row["frame"] == "tip" else self.fixed(p, row)
         sides = {f"side({crack})": self.side_of(p, crack) for crack in row["formula"].sides}
         f = row["formula"].evaluate(polar(x, y, theta, self.n) | row["parameters"] | sides)
         fx, fy = f.slopes.get("x", 0), f.slopes.get("y", 0)
         return Jet(f.v, {"x": c * fx - s * fy, "y": s * fx + c * fy})
+
+    def in_levels(self, row):
+        """A formula in the frame whose x and y are level fields."""
+        x, y = map(self.level, row["levels"])
+        theta = self.sign(y.v) * self.angle(x.v, y.v)
+        f = row["formula"].evaluate(polar(x.v, y.v, theta, self.n) | row["parameters"])
+        chained = [axis.scaled(f.slopes[k]) for k, axis in (("x", x), ("y", y)) if k in f.slopes]
+        return Jet(f.v, functools.reduce(total, chained, {}))
+
+    def level(self, field):
+        """A level field on the patch that holds the point; 0 for none."""
+        return self.mesh.level(int(field), *self.owned) if field >= 0 else Jet(self.real(0))
 
     def fixed(self, p, row):
         """x, y, theta, and the x axis in the world of the frames `world` and `fixed`."""
