@@ -14,9 +14,9 @@ TYPE = {name: kind for kind, names in TYPES.items() for name in names.split()}
 PLAIN = dict(kind="one", crack=-1, formula="", frame="", frame_end="", frame_angle=0.0)
 
 
-def write(path, arrays):
-    """Writes arrays and attributes by their paths in the format."""
-    with h5py.File(path, "w") as file:
+def write(path, arrays, libver=None, gzip=False):
+    """Writes arrays and attributes by their paths in the format; with `gzip` long ones are deflated."""
+    with h5py.File(path, "w", libver=libver) as file:
         file.attrs.update(format="ppum", format_version=np.array([1, 5], "u4"))
         for name, values in arrays.items():
             group, _, attribute = name.partition("@")
@@ -25,7 +25,8 @@ def write(path, arrays):
                 continue
             values = np.asarray(values)
             kind = TEXT if values.dtype.kind in "OUS" else TYPE.get(name.split("/")[-1], "f8")
-            file.create_dataset(name, data=values.astype(object if kind == TEXT else kind), dtype=kind)
+            how = {"compression": "gzip", "shuffle": True} if gzip and kind != TEXT and values.size > 300 else {}
+            file.create_dataset(name, data=values.astype(object if kind == TEXT else kind), dtype=kind, **how)
 
 
 def element(shape, origin, coefficients, space=0, clips=(), blocks=()):

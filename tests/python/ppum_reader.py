@@ -379,8 +379,8 @@ class Field:
         return Jet(f.v, functools.reduce(total, chained, {}))
 
     def level(self, field):
-        """A level field on the patch that holds the point; 0 for none."""
-        return self.mesh.level(int(field), *self.owned) if field >= 0 else Jet(self.real(0))
+        """A level field on the patch that holds the point."""
+        return self.mesh.level(int(field), *self.owned)
 
     def fixed(self, p, row):
         """x, y, theta, and the x axis in the world of the frames `world` and `fixed`."""

@@ -270,7 +270,7 @@ MISTAKES = {
     "kind": (lambda: state(functions={"f": 3}), r"functions\['f'\]: is int; give a Jump"),
     "crack": (lambda: state(functions={"f": ppum.Jump(1)}, cracks=[LINE]), r"\['f'\]: names crack 1, but there is 1 crack, counted from 0"),
     "tip": (lambda: state(functions={"f": ppum.Formula("r", (0, "end"))}, cracks=[LINE]), r"tip: the end 'end' is neither"),
-    "frames": (lambda: state(functions={"f": ppum.Formula("r", (0, "last"), angle=1)}, cracks=[LINE]), r"the frame of a tip and a fixed one"),
+    "frames": (lambda: state(functions={"f": ppum.Formula("r", (0, "last"), angle=1)}, cracks=[LINE]), r"has several frames"),
     "origin": (lambda: state(functions={"f": ppum.Formula("r", origin=(1, 2, 3))}), r"origin: has the shape \(3,\), expected \(2,\)"),
     "segment": (lambda: state(functions={"f": ppum.Component([(0, 1, -1, -2)])}, cracks=[LINE]), r"cuts\[0\]: names segment 1, but crack 0 has 1"),
     "cut": (lambda: state(functions={"f": ppum.Component([(0, 0, 5, -2)])}, cracks=[LINE]), r"functions/cuts\[0\]\[2\]: index 5"),

@@ -20,7 +20,7 @@ from .errors import (
     RenderError,
     SolveError,
 )
-from .building import Coefficients, State, build, from_arrays
+from .building import Coefficients, State, arrays, build, from_arrays
 from .comparing import Comparison, Needed, Norms, Resampling
 from .cover import Cover
 from .dataset import (
@@ -38,9 +38,20 @@ from .dataset import (
 # both are of `ppum.` alone: `from ppum import *` leaves Python's own as they are
 from .dataset import Warning as Warning
 from .dataset import open as open
-from .enriching import Component, Formula, Jump, tip_functions
+from .enriching import Component, Formula, Jump, Level, tip_functions
 from .field import Field
 from .linking import link
+from .mesh import Mesh
+from .meshes import (
+    from_dolfinx,
+    from_getfem,
+    from_meshio,
+    from_mfem,
+    from_ngsolve,
+    from_ngsxfem,
+    from_skfem,
+    from_vtu,
+)
 from .pictures import Animation, Extremum, Figure
 from .problem import Elastic, Poisson, Problem, solve
 from .sweeping import Sweep, sweep
@@ -76,6 +87,8 @@ __all__ = [
     "Hole",
     "InternalError",
     "Jump",
+    "Level",
+    "Mesh",
     "Needed",
     "Norms",
     "Poisson",
@@ -95,10 +108,19 @@ __all__ = [
     "Tip",
     "Values",
     "View",
+    "arrays",
     "basis",
     "build",
     "from_arrays",
     "from_bytes",
+    "from_dolfinx",
+    "from_getfem",
+    "from_meshio",
+    "from_mfem",
+    "from_ngsolve",
+    "from_ngsxfem",
+    "from_skfem",
+    "from_vtu",
     "link",
     "plots",
     "solve",

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .blocks import DEGREES, MAX_DEGREE
+from .blocks import DEGREES, MAX_DEGREE, exponents
 from .cover import Cover, numbers, rows
 from .errors import BuildError
 
@@ -30,11 +30,6 @@ Poly = list[Fraction]
 
 #: A conversion that loses more than this is told.
 LARGE = 1e6
-
-
-def exponents(degree: int) -> list[tuple[int, int]]:
-    """Exponents of ξ and η of the monomials up to a degree, in the format's order."""
-    return [(d - k, k) for d in range(degree + 1) for k in range(d + 1)]
 
 
 class Basis:

@@ -16,8 +16,16 @@ Floats = NDArray[np.float64]
 Block = NDArray[Any] | Sequence[ArrayLike | None] | Mapping[int, ArrayLike]
 
 MAX_DEGREE = 8
-#: Degree of a polynomial by the number of its coefficients.
+#: Degree of a polynomial by the number of its coefficients: of total degree, and of a tensor product.
 DEGREES = {(d + 1) * (d + 2) // 2: d for d in range(MAX_DEGREE + 1)}
+TENSOR = {(d + 1) ** 2: d for d in range(MAX_DEGREE + 1)}
+
+
+def exponents(degree: int, tensor: bool = False) -> list[tuple[int, int]]:
+    """Exponents of ξ and η of the monomials up to a degree, or of a tensor product, in the format's order."""
+    if tensor:
+        return [(i, j) for j in range(degree + 1) for i in range(degree + 1)]
+    return [(d - k, k) for d in range(degree + 1) for k in range(d + 1)]
 
 
 @dataclass(frozen=True)
@@ -28,10 +36,12 @@ class Blocks:
     block_function: NDArray[Any]
     block_degree: NDArray[Any]
     block_offset: NDArray[Any]
+    block_space: NDArray[np.bool_]
     coefficients: Floats
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        return dict(vars(self))
+        plain = {name: array for name, array in vars(self).items() if name != "block_space"}
+        return plain | ({"block_space": self.block_space} if self.block_space.any() else {})
 
 
 @dataclass(frozen=True)
@@ -40,11 +50,16 @@ class _Part:
 
     patches: NDArray[np.int64]
     sizes: NDArray[np.int64]
+    degrees: NDArray[np.int64]
+    tensor: NDArray[np.bool_]
     values: Floats
 
 
-def arranged(place: str, blocks: Mapping[str, Block], patches: int, functions: list[str]) -> Blocks:
-    """The arrays of blocks, patch by patch, in each one in the order of the functions."""
+def arranged(
+    place: str, blocks: Mapping[str, Block], tensor: Mapping[str, NDArray[np.bool_]], functions: list[str]
+) -> Blocks:
+    """The arrays of blocks, patch by patch, in each one in the order of the functions; `tensor` tells of each block on
+    which patches its polynomials are tensor products."""
     if not blocks:
         raise BuildError(f"{place}.blocks: is empty; give the coefficients of a function, such as 'one'")
     for name in blocks:
@@ -52,12 +67,12 @@ def arranged(place: str, blocks: Mapping[str, Block], patches: int, functions: l
             close = difflib.get_close_matches(name, functions, 1)
             hint = f"did you mean {close[0]!r}? " if close else ""
             raise BuildError(f"{place}.blocks[{name!r}]: {hint}there are the functions {', '.join(functions)}")
-    parts = [_part(f"{place}.blocks[{name!r}]", block, patches) for name, block in blocks.items()]
+    parts = [_part(f"{place}.blocks[{name!r}]", block, tensor[name]) for name, block in blocks.items()]
     counts = {part.values.shape[1]: name for part, name in zip(parts, blocks)}
     if len(counts) > 1:
         told = ", ".join(f"{count} in {name!r}" for count, name in counts.items())
         raise BuildError(f"{place}.blocks: differ in the number of components: {told}")
-    return _merged(parts, [functions.index(name) for name in blocks], patches)
+    return _merged(parts, [functions.index(name) for name in blocks], len(next(iter(tensor.values()))))
 
 
 def _merged(parts: list[_Part], functions: list[int], patches: int) -> Blocks:
@@ -73,22 +88,24 @@ def _merged(parts: list[_Part], functions: list[int], patches: int) -> Blocks:
     return Blocks(
         patch_blocks=np.searchsorted(patch[order], np.arange(patches + 1)),
         block_function=function[order],
-        block_degree=np.array([DEGREES[int(size)] for size in sizes], np.uint8),
+        block_degree=np.concatenate([part.degrees for part in parts])[order],
         block_offset=offsets,
+        block_space=np.concatenate([part.tensor for part in parts])[order],
         coefficients=values[gather].T,
     )
 
 
-def _part(place: str, block: Block, patches: int) -> _Part:
+def _part(place: str, block: Block, tensor: NDArray[np.bool_]) -> _Part:
+    patches = len(tensor)
     if isinstance(block, np.ndarray) and block.dtype != object:
-        return _dense(place, block, patches)
+        return _dense(place, block, tensor)
     if isinstance(block, Mapping):
         given = sorted((_patch(place, k, patches), values) for k, values in block.items())
     elif len(block) == patches:
         given = [(k, values) for k, values in enumerate(block) if values is not None]
     else:
         raise BuildError(f"{place}: has {len(block)} entries, but the cover has {patches} patches; give one for each")
-    return _ragged(place, given)
+    return _ragged(place, given, tensor)
 
 
 def _patch(place: str, number: Any, patches: int) -> int:
@@ -97,20 +114,22 @@ def _patch(place: str, number: Any, patches: int) -> int:
     return int(number)
 
 
-def _dense(place: str, block: NDArray[Any], patches: int) -> _Part:
+def _dense(place: str, block: NDArray[Any], tensor: NDArray[np.bool_]) -> _Part:
+    patches = len(tensor)
     if block.ndim not in (2, 3) or len(block) != patches:
         raise BuildError(
             f"{place}: has the shape {block.shape}, expected ({patches}, m) or ({patches}, m, c): "
             "a row of m coefficients for each patch, of c components"
         )
     size = block.shape[1]
-    _degree(place, size)
+    of, sizes = np.arange(patches), np.full(patches, size)
+    found = degrees(place, sizes, tensor)
     values = block.reshape(patches * size, -1).astype(float)
-    _finite(place, values, np.arange(patches), np.full(patches, size))
-    return _Part(np.arange(patches), np.full(patches, size), values)
+    _finite(place, values, of, sizes)
+    return _Part(of, sizes, found, tensor, values)
 
 
-def _ragged(place: str, given: Iterable[tuple[int, Any]]) -> _Part:
+def _ragged(place: str, given: Iterable[tuple[int, Any]], tensor: NDArray[np.bool_]) -> _Part:
     patches, rows = [], []
     for patch, values in given:
         try:
@@ -119,7 +138,6 @@ def _ragged(place: str, given: Iterable[tuple[int, Any]]) -> _Part:
             raise BuildError(f"{place}[{patch}]: is no array of numbers ({error})") from None
         if row.ndim not in (1, 2):
             raise BuildError(f"{place}[{patch}]: has the shape {row.shape}, expected (m,) or (m, c)")
-        _degree(f"{place}[{patch}]", len(row))
         patches.append(patch)
         rows.append(row.reshape(len(row), -1))
         if rows[-1].shape[1] != rows[0].shape[1]:
@@ -129,20 +147,42 @@ def _ragged(place: str, given: Iterable[tuple[int, Any]]) -> _Part:
         raise BuildError(f"{place}: has no coefficients on any patch; leave it out")
     sizes = np.array([len(row) for row in rows])
     values, of = np.concatenate(rows), np.array(patches)
+    found = degrees(place, sizes, tensor[of], of)
     _finite(place, values, of, sizes)
-    return _Part(of, sizes, values)
+    return _Part(of, sizes, found, tensor[of], values)
 
 
-def _degree(place: str, size: int) -> None:
-    if size in DEGREES:
-        return
-    known = list(DEGREES)
-    below = max((k for k in known if k < size), default=0)
-    near = [k for k in known if k > size][:1]
-    fits = " or ".join(str(k) for k in ([below] if below else []) + near)
-    raise BuildError(
-        f"{place}: has {size} coefficients; a polynomial of degree d, at most {MAX_DEGREE}, has (d + 1)(d + 2)/2, "
-        f"here {fits}: fill up with zeros"
+def degrees(
+    place: str,
+    sizes: NDArray[np.int64],
+    tensor: NDArray[np.bool_],
+    patches: NDArray[np.int64] | None = None,
+    least: int = 0,
+) -> NDArray[np.int64]:
+    """Degrees of polynomials by the numbers of their coefficients."""
+    found = np.full(len(sizes), -1)
+    for is_tensor, known in ((False, DEGREES), (True, TENSOR)):
+        for size, degree in known.items():
+            found[(sizes == size) & (tensor == is_tensor)] = degree
+    wrong = np.flatnonzero(found < least)
+    if len(wrong):
+        k = int(wrong[0])
+        where = place if patches is None else f"{place}[{patches[k]}]"
+        raise BuildError(_unfit(where, int(sizes[k]), TENSOR if tensor[k] else DEGREES, least))
+    return found
+
+
+def _unfit(place: str, size: int, known: Mapping[int, int], least: int) -> str:
+    """What is wrong with a number of coefficients; those of maps have no constant."""
+    missing = least and 1
+    sizes = [k - missing for k, degree in known.items() if degree >= least]
+    size -= missing
+    near = [k for k in sizes if k < size][-1:] + [k for k in sizes if k > size][:1]
+    law = "(d + 1)²" if known is TENSOR else "(d + 1)(d + 2)/2"
+    kind = "tensor product" if known is TENSOR else "polynomial"
+    return (
+        f"{place}: has {size} coefficients; a {kind} of degree d, at most {MAX_DEGREE}, has {law}{' - 1' * missing}, "
+        f"here {' or '.join(map(str, near))}: fill up with zeros"
     )
 
 

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from .blocks import Block, Blocks, arranged
 from .cover import Cover, numbers, rows
+from .mesh import Mesh
 from .dataset import Crack, Dataset, Hole
 from .enriching import Function, columns
 from .errors import BuildError
@@ -19,7 +20,7 @@ from .packing import packed
 from .problem import Elastic, Poisson
 from .verifying import Reference, verified
 
-__all__ = ["Coefficients", "State", "build", "from_arrays"]
+__all__ = ["Coefficients", "State", "arrays", "build", "from_arrays"]
 
 Arrays = dict[str, Any]
 
@@ -29,7 +30,8 @@ class Coefficients:
     """A field: on each patch a sum of function × polynomial, by the coefficients of the polynomials.
 
     A polynomial of degree d, at most 8, has m = (d + 1)(d + 2)/2 coefficients of 1, ξ, η, ξ², ξη, η², ξ³, … with
-    ξ = (p − origin) / scale of the cover; `ppum.basis` converts those of other bases.
+    ξ = (p − origin) / scale of the cover, or ξ of the mesh; `ppum.basis` converts those of other bases. On meshes it may
+    be a tensor product, with m = (d + 1)² coefficients of 1, ξ, …, ξ^d, η, ξη, …
 
     Attributes:
         name: Its name. With an equation the first field is ``displacement`` or ``potential``.
@@ -42,6 +44,8 @@ class Coefficients:
         exact: Formulas of x and y of the exact solution, one per component.
         verify: One's own evaluation, with which the field is compared: a function of arrays x and y that gives values
             of shape (k,) or (k, c), or a pair of points (k, 2) and such values.
+        space: On meshes the polynomials, of all functions or by their names: ``shape``, tensor products on squares alone;
+            ``total`` degree; or ``tensor``.
 
     Example:
         >>> cover = ppum.Cover.uniform([(0, 0), (2, 1)], cells=(2, 1))
@@ -58,23 +62,24 @@ class Coefficients:
     unit: str = ""
     exact: Sequence[str] = ()
     verify: Reference | None = None
+    space: str | Mapping[str, str | Sequence[str]] = "shape"
 
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """One step of a series: a cover, its fields, the cracks and functions that they need.
+    """One step of a series: a cover or a mesh, its fields, the cracks and functions that they need.
 
     Attributes:
-        cover: The partition of unity.
+        cover: The partition of unity, or the elements.
         fields: One field or several; pictures and quantities are of the first.
         cracks: Points of each crack, shape (k, 2), or `ppum.Crack`. By default an end on the border of the domain or of a
             hole is a ``mouth``, one on another crack a ``junction``, any other a ``tip``; values do not depend on it.
-        functions: Functions beside ``one`` by name: `Jump`, `Component`, `Formula` or the text of a formula of x and y.
+        functions: Functions beside ``one`` by name: `Jump`, `Component`, `Level`, `Formula` or the text of a formula of x and y.
         attributes: Values for each patch by name, shape (n,), NaN for none.
         load: Load factor or time.
     """
 
-    cover: Cover
+    cover: Cover | Mesh
     fields: Coefficients | Sequence[Coefficients]
     cracks: Sequence[ArrayLike | Crack] = ()
     functions: Mapping[str, Function] = field(default_factory=dict)
@@ -113,20 +118,43 @@ def build(
     `Coefficients.verify` is compared at 1000 random points, spread over the patches, and at 100 points close to both
     sides of each crack. The largest difference is printed, and kept in `Step.history`, as ``verified NAME``.
     """
+    named = arrays(
+        states, title=title, program=program, equation=equation, holes=holes, tables=tables, quantities=quantities
+    )
+    made, records = from_arrays(named), dict[str, Any]()
+    for k, state in enumerate([states] if isinstance(states, State) else states):
+        found = verified(_Evaluated(made, named, k), state, tolerance)
+        records |= _history(f"steps/{k:04}/history", found)
+    return from_arrays(named | records) if records else made
+
+
+def arrays(
+    states: State | Sequence[State],
+    *,
+    title: str = "",
+    program: str = "",
+    equation: Elastic | Poisson | None = None,
+    holes: Sequence[Hole] = (),
+    tables: Mapping[str, Sequence[ArrayLike]] | None = None,
+    quantities: Mapping[str, str | tuple[str, str]] | None = None,
+) -> Arrays:
+    """The arrays and attributes of a dataset by their paths in the file format (FORMAT.md, section 3), for files that are
+    written elsewhere: `build` hands them to `from_arrays`. Arguments are as of `build`; nothing is verified.
+
+    Example:
+        >>> mesh = ppum.Mesh.from_nodes([[(0, 0), (2, 0), (0, 1)]])
+        >>> made = ppum.arrays(ppum.State(mesh, ppum.Coefficients("u", {"one": [[1.0]]})))
+        >>> made["steps/0000/partition/map"].tolist()
+        [[1.3333333333333333, 0.0], [0.0, 0.6666666666666666]]
+    """
     series = [states] if isinstance(states, State) else list(states)
     if not series:
         raise BuildError("states: a dataset needs at least one step")
-    arrays = _head(series, title, program, equation, holes)
-    arrays |= _tables(tables or {}) | _quantities(quantities or {})
-    steps = [_step(f"steps/{k:04}", state, equation, holes) for k, state in enumerate(series)]
-    made = from_arrays(arrays | {k: v for step in steps for k, v in step.items()})
-    records: Arrays = {}
+    named = _head(series, title, program, equation, holes)
+    named |= _tables(tables or {}) | _quantities(quantities or {})
     for k, state in enumerate(series):
-        found = verified(_Evaluated(made, arrays, k, steps[k]), state, tolerance)
-        records |= _history(f"steps/{k:04}/history", found)
-    if not records:
-        return made
-    return from_arrays(arrays | {k: v for step in steps for k, v in step.items()} | records)
+        named |= _step(f"steps/{k:04}", state, equation, holes)
+    return named
 
 
 def from_arrays(arrays: Mapping[str, Any]) -> Dataset:
@@ -150,20 +178,24 @@ def from_arrays(arrays: Mapping[str, Any]) -> Dataset:
 
 
 class _Evaluated:
-    """The fields of a step: only the first of a dataset can be evaluated, so others get datasets of their own."""
+    """The fields of a step: only the first of a dataset can be evaluated, so others take its place in datasets of their
+    own."""
 
-    def __init__(self, made: Dataset, head: Arrays, step: int, arrays: Arrays) -> None:
-        self.made, self.head, self.step, self.arrays = made, head, step, arrays
+    def __init__(self, made: Dataset, arrays: Arrays, step: int) -> None:
+        self.made, self.arrays, self.step = made, arrays, f"steps/{step:04}"
+        self.number = step
 
     def field(self, number: int) -> Any:
         if number == 0:
-            return self.made.steps[self.step].field
-        of, to = (f"steps/{self.step:04}/fields/{k:04}" for k in (number, 0))
-        others = {k: v for k, v in self.arrays.items() if "/fields/" not in k}
-        this = {k.replace(of, to): v for k, v in self.arrays.items() if k.startswith(of)}
-        moved = {k.replace(f"steps/{self.step:04}", "steps/0000"): v for k, v in (others | this).items()}
-        plain = {k: v for k, v in self.head.items() if not k.startswith(("equation", "quantities"))}
-        return from_arrays(plain | {"equation@kind": "none"} | moved).field
+            return self.made.steps[self.number].field
+        of, to = (f"{self.step}/fields/{k:04}" for k in (number, 0))
+        left_out = ("equation", "quantities", to)
+        others = {k: v for k, v in self.arrays.items() if not k.startswith(left_out)}
+        this = {k.replace(of, to): v for k, v in others.items() if k.startswith(of)}
+        one = {k: v for k, v in (others | this).items() if not k.startswith("steps/") or k.startswith(self.step)}
+        moved = {k.replace(self.step, "steps/0000"): v for k, v in one.items()}
+        name = f"{moved['steps/0000/fields/0000@name']}, compared"
+        return from_arrays(moved | {"equation@kind": "none", "steps/0000/fields/0000@name": name}).field
 
 
 def _head(
@@ -182,9 +214,17 @@ def _head(
         "@program": program or f"ppum {_core.VERSION}, arrays",
         "domain@min": low,
         "domain@max": high,
-        "domain@kind": "box-with-holes" if holes else "box",
+        "domain@kind": _domain(series[0].cover, holes),
     }
     return arrays | (_holes(holes) if holes else {}) | _equation(equation)
+
+
+def _domain(cover: Cover | Mesh, holes: Sequence[Hole]) -> str:
+    if isinstance(cover, Mesh):
+        if holes:
+            raise BuildError("holes: the domain of a mesh is what its elements cover; leave them out")
+        return "mesh"
+    return "box-with-holes" if holes else "box"
 
 
 def _holes(holes: Sequence[Hole]) -> Arrays:
@@ -251,27 +291,24 @@ def _step(path: str, state: State, equation: Elastic | Poisson | None, holes: Se
     if "one" in state.functions:
         raise BuildError("functions['one']: is the function 1 already; give yours another name")
     functions |= state.functions
-    group = {"@load": float(state.load), **_partition(cover), **_cracks(state, cracks, holes)}
+    names = [one.name for one in fields]
+    group = {"@load": float(state.load), **_partition(cover, names), **_cracks(state, cracks, holes)}
     segments = [len(points) - 1 for points in cracks]
-    group |= {f"functions/{k}": v for k, v in columns(functions, segments).items()}
+    group |= {f"functions/{k}": v for k, v in columns(functions, segments, names).items()}
     for k, one in enumerate(fields):
-        data = _field(one, len(cover), list(functions), equation if k == 0 else None)
+        data = _field(one, cover, list(functions), equation if k == 0 else None)
         group |= {f"fields/{k:04}{'' if name.startswith('@') else '/'}{name}": v for name, v in data.items()}
     group |= _attributes(state.attributes, len(cover))
     return {f"{path}{'' if k.startswith('@') else '/'}{k}": v for k, v in group.items()}
 
 
-def _partition(cover: Cover) -> Arrays:
+def _partition(cover: Cover | Mesh, fields: Sequence[str]) -> Arrays:
+    arrays: Arrays = {f"partition/{name}": array for name, array in cover.arrays(fields).items()}
+    if isinstance(cover, Mesh):
+        return arrays | {"partition@kind": "mesh"}
     named = cover.weight in ("linear", "quadratic", "cubic")
-    arrays: Arrays = {
-        "partition@kind": "shepard-box",
-        "partition@weight": cover.weight if named else "formula",
-        "partition/weight_breakpoints": cover.breakpoints,
-    }
-    if not named:
-        arrays["partition@weight_formula"] = cover.weight
-    names = ("center", "half", "origin", "scale", "cell", "level", "points", "point")
-    return arrays | {f"partition/{name}": getattr(cover, name) for name in names}
+    arrays |= {"partition@kind": "shepard-box", "partition@weight": cover.weight if named else "formula"}
+    return arrays | ({} if named else {"partition@weight_formula": cover.weight})
 
 
 def _cracks(state: State, cracks: Sequence[NDArray[np.float64]], holes: Sequence[Hole]) -> Arrays:
@@ -293,7 +330,7 @@ def _cracks(state: State, cracks: Sequence[NDArray[np.float64]], holes: Sequence
 
 
 def _ends(
-    crack: int, cracks: Sequence[NDArray[np.float64]], cover: Cover, holes: Sequence[Hole]
+    crack: int, cracks: Sequence[NDArray[np.float64]], cover: Cover | Mesh, holes: Sequence[Hole]
 ) -> list[str]:
     (x0, y0), (x1, y1) = cover.domain.tolist()
     border = [np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)])]
@@ -318,10 +355,12 @@ def _distance(p: NDArray[np.float64], line: NDArray[np.float64]) -> float:
 
 
 def _field(
-    given: Coefficients, patches: int, functions: list[str], equation: Elastic | Poisson | None
+    given: Coefficients, cover: Cover | Mesh, functions: list[str], equation: Elastic | Poisson | None
 ) -> Arrays:
     place = f"fields[{given.name!r}]"
-    blocks: Blocks = arranged(place, given.blocks, patches, functions)
+    spaces = dict.fromkeys(given.blocks, given.space) if isinstance(given.space, str) else given.space
+    tensor = {name: cover.in_space(f"{place}.space", spaces.get(name, "shape")) for name in given.blocks}
+    blocks: Blocks = arranged(place, given.blocks, tensor, functions)
     unknown = None if equation is None else ("potential" if isinstance(equation, Poisson) else "displacement")
     if unknown is not None and given.name != unknown:
         raise BuildError(f"{place}: is the first field, which the equation calls {unknown!r}; name it so")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -147,6 +148,23 @@ class Cover:
         return cls.from_cells(
             domain, cell.reshape(-1, 4), overlap, weight, level=level, point=point, points=of
         )
+
+    def in_space(self, place: str, space: str | Sequence[str]) -> NDArray[np.bool_]:
+        """True for the patches on which polynomials of a space are tensor products: none."""
+        if space not in ("shape", "total"):
+            raise BuildError(f"{place}: {space!r} is for meshes; polynomials on covers are of total degree")
+        return np.zeros(len(self), bool)
+
+    def arrays(self, fields: Sequence[str] = ()) -> dict[str, Any]:
+        """The group `partition` of the file format."""
+        names = ("center", "half", "origin", "scale", "cell", "level", "points", "point")
+        return {"weight_breakpoints": self.breakpoints} | {name: getattr(self, name) for name in names}
+
+    def spread(self, random: np.random.Generator, count: int) -> Floats:
+        """Random points of the supports, which are taken in turn."""
+        patches = np.resize(random.permutation(len(self))[:count], count)
+        result: Floats = self.center[patches] + self.half[patches] * random.uniform(-1, 1, (count, 2))
+        return result
 
     def __len__(self) -> int:
         return len(self.center)

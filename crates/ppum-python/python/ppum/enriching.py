@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from .cover import numbers, rows
 from .errors import BuildError
 
-__all__ = ["Component", "Formula", "Jump", "tip_functions"]
+__all__ = ["Component", "Formula", "Jump", "Level", "tip_functions"]
 
 
 @dataclass(frozen=True)
@@ -21,6 +21,13 @@ class Jump:
     """The function +1 on the left of a crack's direction, -1 on its right. A Heaviside function is (1 + jump)/2."""
 
     crack: int
+
+
+@dataclass(frozen=True)
+class Level:
+    """On meshes, the function +1 where a level field is ≥ 0, -1 where it is < 0: a field of one component, by its name."""
+
+    field: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,13 +44,15 @@ class Component:
 
 @dataclass(frozen=True, eq=False)
 class Formula:
-    """A function by a formula of x, y, r and theta, in the world, in a fixed frame or in that of a crack tip.
+    """A function by a formula of x, y, r and theta, in the world, in a fixed frame, in that of a crack tip or of two level
+    fields.
 
     Attributes:
         text: The formula, e.g. ``sqrt(r)*cos(theta/2)``; ``table(name, x)`` reads a table of the dataset.
         tip: Crack and end, ``start`` or ``last``: the frame has its origin there, x points in the direction of growth,
             and theta jumps on the crack.
         origin, angle: A fixed frame: its origin, and the angle of its x axis.
+        levels: On meshes, names of the level fields ψ and φ that are x and y; theta jumps where φ = 0, ψ < 0.
         parameters: Constants that the formula may use, by name.
         kinks: Segments x0, y0, x1, y1 in the frame across which it or a derivative jumps; values do not depend on them.
         singular: Points in the frame where it or a derivative is infinite; values do not depend on them.
@@ -57,12 +66,13 @@ class Formula:
     tip: tuple[int, str] | None = None
     origin: tuple[float, float] | None = None
     angle: float = 0.0
+    levels: tuple[str, str] | None = None
     parameters: Mapping[str, float] = field(default_factory=dict)
     kinks: ArrayLike = ()
     singular: ArrayLike = ()
 
 
-Function = Jump | Component | Formula | str
+Function = Jump | Component | Level | Formula | str
 
 #: The square-root functions of a crack tip, r and theta in its frame.
 _TIP = {
@@ -84,9 +94,11 @@ def tip_functions(crack: int = 0, end: str = "last") -> dict[str, Formula]:
     return {f"{name} of crack {crack} {end}": Formula(text, (crack, end)) for name, text in _TIP.items()}
 
 
-def columns(functions: Mapping[str, Function], cracks: Sequence[int]) -> dict[str, Any]:
-    """The arrays of the group `functions`; `cracks` has the number of segments of each crack."""
-    known = [_row(f"functions[{name!r}]", name, f, cracks) for name, f in functions.items()]
+def columns(
+    functions: Mapping[str, Function], cracks: Sequence[int], fields: Sequence[str] = ()
+) -> dict[str, Any]:
+    """The arrays of the group `functions`; `cracks` has the number of segments of each crack, `fields` names of fields."""
+    known = [_row(f"functions[{name!r}]", name, f, cracks, fields) for name, f in functions.items()]
     plain = ("name", "kind", "crack", "formula", "frame", "frame_end", "frame_origin", "frame_angle")
     arrays: dict[str, Any] = {key: [row[key] for row in known] for key in plain}
     arrays["frame_origin"] = np.array(arrays["frame_origin"], float).reshape(-1, 2)
@@ -97,6 +109,8 @@ def columns(functions: Mapping[str, Function], cracks: Sequence[int]) -> dict[st
         if any(len(row[name]) for row in known):
             arrays[offsets] = _offsets([row[name] for row in known])
             arrays[name] = np.concatenate([row[name] for row in known])
+    if any(row["levels"] != (-1, -1) for row in known):
+        arrays["levels"] = [row["levels"] for row in known]
     return arrays
 
 
@@ -104,11 +118,14 @@ def _offsets(lists: Sequence[Any]) -> list[int]:
     return [0, *accumulate(len(one) for one in lists)]
 
 
-def _row(place: str, name: str, function: Function, cracks: Sequence[int]) -> dict[str, Any]:
+def _row(
+    place: str, name: str, function: Function, cracks: Sequence[int], fields: Sequence[str]
+) -> dict[str, Any]:
     row = {
         "name": name, "kind": "one", "crack": -1, "formula": "", "frame": "", "frame_end": "",
         "frame_origin": (0.0, 0.0), "frame_angle": 0.0, "parameters": {},
         "cuts": np.empty((0, 4), np.int64), "kinks": np.empty((0, 4)), "singular": np.empty((0, 2)),
+        "levels": (-1, -1),
     }  # fmt: skip
     if isinstance(function, str):
         function = Formula(function)
@@ -116,23 +133,29 @@ def _row(place: str, name: str, function: Function, cracks: Sequence[int]) -> di
         return row | {"kind": "side", "crack": _crack(place, function.crack, cracks)}
     if isinstance(function, Component):
         return row | {"kind": "component", "cuts": _cuts(place, function, cracks)}
+    if isinstance(function, Level):
+        return row | {"kind": "level", "levels": (-1, level_field(place, function.field, fields))}
     if isinstance(function, Formula):
-        return row | {"kind": "formula", "formula": function.text} | _frame(place, function, cracks)
+        return row | {"kind": "formula", "formula": function.text} | _frame(place, function, cracks, fields)
     if function is None and name == "one":
         return row
-    raise BuildError(f"{place}: is {type(function).__name__}; give a Jump, a Component, a Formula or its text")
+    raise BuildError(f"{place}: is {type(function).__name__}; give a Jump, a Component, a Level, a Formula or its text")
 
 
-def _frame(place: str, f: Formula, cracks: Sequence[int]) -> dict[str, Any]:
+def _frame(place: str, f: Formula, cracks: Sequence[int], fields: Sequence[str]) -> dict[str, Any]:
     row: dict[str, Any] = {
         "frame": "world",
         "parameters": {str(k): float(numbers(f"{place}.parameters[{k!r}]", v)) for k, v in f.parameters.items()},
         "kinks": rows(f"{place}.kinks", f.kinks, 4),
         "singular": rows(f"{place}.singular", f.singular, 2),
     }
+    frames = [f.tip is not None, f.levels is not None, f.origin is not None or bool(f.angle)]
+    if sum(frames) > 1:
+        raise BuildError(f"{place}: has several frames; leave out all but one of `tip`, `levels`, or `origin` and `angle`")
+    if f.levels is not None:
+        levels = tuple(level_field(f"{place}.levels", name, fields) for name in f.levels)
+        return row | {"frame": "levels", "levels": levels}
     if f.tip is not None:
-        if f.origin is not None or f.angle:
-            raise BuildError(f"{place}: has the frame of a tip and a fixed one; leave out `tip`, or `origin` and `angle`")
         crack, end = f.tip
         if end not in ("start", "last"):
             raise BuildError(f"{place}.tip: the end {end!r} is neither 'start' nor 'last'")
@@ -143,6 +166,14 @@ def _frame(place: str, f: Formula, cracks: Sequence[int]) -> dict[str, Any]:
             raise BuildError(f"{place}.origin: has the shape {origin.shape}, expected (2,): a point")
         row |= {"frame": "fixed", "frame_origin": tuple(origin), "frame_angle": float(f.angle)}
     return row
+
+
+def level_field(place: str, name: str, fields: Sequence[str]) -> int:
+    """The number of a level field."""
+    if name not in fields[1:]:
+        known = ", ".join(map(repr, fields[1:])) or "none"
+        raise BuildError(f"{place}: names {name!r}, which is no field after the first; there are {known}")
+    return list(fields).index(name)
 
 
 def _crack(place: str, crack: int, cracks: Sequence[int]) -> int:
@@ -161,5 +192,5 @@ def _cuts(place: str, component: Component, cracks: Sequence[int]) -> NDArray[np
     return cuts
 
 
-for _class in (Component, Formula, Jump):
+for _class in (Component, Formula, Jump, Level):
     _class.__module__ = "ppum"

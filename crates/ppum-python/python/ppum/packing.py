@@ -11,7 +11,9 @@ from .errors import BuildError
 
 #: Types of arrays that are not f64 or texts, by the last part of their paths.
 TYPES = {
-    "block_degree": "u1", "level": "u1", "block_function": "u4", "patch_blocks": "u4", "block_offset": "u8",
+    "block_degree": "u1", "block_space": "u1", "clip_side": "u1", "level": "u1", "map_degree": "u1", "map_space": "u1",
+    "shape": "u1", "block_function": "u4", "clip_field": "u4", "element": "u4", "patch_blocks": "u4", "block_offset": "u8",
+    "clip_offsets": "u8", "map_offset": "u8", "levels": "i8",
     "offsets": "u8", "cut_offsets": "u8", "kink_offsets": "u8", "parameter_offsets": "u8", "path_offsets": "u8",
     "ring_offsets": "u8", "singular_offsets": "u8", "cuts": "i8", "other": "i8", "point": "i8",
     "functions/crack": "i8", "crack": "u4",

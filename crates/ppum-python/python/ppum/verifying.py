@@ -99,24 +99,17 @@ def _shaped(place: str, wanted: ArrayLike, shape: tuple[int, int]) -> Floats:
 
 
 def _points(state: State, field: Any) -> Floats:
-    """Random points in the domain, the same for the same cover: in supports that are taken in turn, and beside cracks."""
+    """Random points in the domain, the same for the same cover: of patches that are taken in turn, and beside cracks."""
     random = np.random.default_rng(len(state.cover))
     points = np.empty((0, 2))
     while len(points) < POINTS:
-        points = np.concatenate([points, _inside(_in_supports(state, random), state, field)])
+        points = np.concatenate([points, _inside(state.cover.spread(random, POINTS), state, field)])
     beside = [_inside(_beside(np.asarray(c), state, random), state, field) for c in _cracks(state)]
     return np.concatenate([points[:POINTS], *beside])
 
 
 def _cracks(state: State) -> list[Any]:
     return [getattr(crack, "points", crack) for crack in state.cracks]
-
-
-def _in_supports(state: State, random: np.random.Generator) -> Floats:
-    center, half = state.cover.center, state.cover.half
-    patches = random.permutation(len(center))[:POINTS]
-    patches = np.resize(patches, POINTS)
-    return center[patches] + half[patches] * random.uniform(-1, 1, (POINTS, 2))
 
 
 def _beside(crack: Floats, state: State, random: np.random.Generator) -> Floats:

@@ -1,0 +1,258 @@
+"""Meshes: elements as images of a triangle or a square, whole or cut by level fields."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .blocks import MAX_DEGREE, degrees, exponents
+from .cover import numbers, rows
+from .enriching import level_field
+from .errors import BuildError
+from .interpolating import CORNERS, SQUARE, TRIANGLE, interpolated, lattice, vandermonde
+
+__all__ = ["Mesh"]
+
+Floats = NDArray[np.float64]
+#: A level field by its name, and the side of it that a patch keeps: 1 where it is ≥ 0, -1 where it is < 0.
+Clip = tuple[str, int]
+
+
+class Mesh:
+    """The elements of a mesh, in the place of a `Cover`: on each one a field is a sum of function × polynomial of the
+    element's own coordinates ξ.
+
+    A patch is an element, p = origin + M(ξ), with ξ in the triangle (−½, −½), (1, −½), (−½, 1) or in the square [−1, 1]²,
+    both about 0. An element that a level field cuts is two patches with the same map and opposite clips.
+
+    Attributes:
+        shape: ``triangle`` or ``square``, one for all or one per patch; or 0 and 1.
+        origin: Images of ξ = 0, shape (n, 2).
+        map: Coefficients of M from ξ on, it has no constant: an array (n, m, 2), or a list of n arrays (m, 2).
+        space: Polynomials of M: ``total`` degree with (d + 1)(d + 2)/2 − 1 coefficients of ξ, η, ξ², ξη, …; ``tensor``
+            products with (d + 1)² − 1, powers of ξ fastest; or ``shape``: tensor products on squares alone. One for all or one
+            per patch.
+        element: Number of each patch's element, for reports; by default they are counted.
+        clips: By the number of the patch, pairs of a level field and a side: (name, 1) keeps what is ≥ 0, (name, -1) what
+            is < 0. A level field is a field of one component of the state, after the first.
+
+    Example:
+        >>> corners = np.array([[(0, 0), (1, 0), (0, 1)], [(1, 0), (1, 1), (0, 1)]])
+        >>> mesh = ppum.Mesh.from_nodes(corners)
+        >>> mesh, mesh.domain.tolist()
+        (<ppum.Mesh, 2 triangles>, [[0.0, 0.0], [1.0, 1.0]])
+    """
+
+    def __init__(
+        self,
+        shape: str | ArrayLike,
+        origin: ArrayLike,
+        map: NDArray[Any] | Sequence[ArrayLike],
+        *,
+        space: str | Sequence[str] = "shape",
+        element: ArrayLike | None = None,
+        clips: Mapping[int, Sequence[Clip]] | None = None,
+    ) -> None:
+        self.origin = rows("origin", origin, 2)
+        n = len(self.origin)
+        if n == 0:
+            raise BuildError("origin: a mesh needs at least one element")
+        self.shape = _shapes(shape, n)
+        self.map = _maps(map, n)
+        self.tensor = self.in_space("space", space)
+        sizes = np.array([len(c) + 1 for c in self.map])
+        self.degree = degrees("map", sizes, self.tensor, np.arange(n), least=1)
+        self.element = np.arange(n) if element is None else _elements(element, n)
+        self.clips = _clips(clips or {}, n)
+        self.domain = np.array(self._box())
+
+    @classmethod
+    def from_nodes(
+        cls,
+        nodes: ArrayLike,
+        at: ArrayLike | None = None,
+        *,
+        element: ArrayLike | None = None,
+        clips: Mapping[int, Sequence[Clip]] | None = None,
+    ) -> Mesh:
+        """Elements by the places of their nodes: 3, 6, 10, … nodes make triangles of order 1, 2, 3, …, 4, 9, 16, … squares.
+
+        Args:
+            nodes: Shape (n, k, 2). Nodes of order 1 go around the element, others stand in the order of `at`.
+            at: Reference places of the nodes, shape (k, 2); by default `Mesh.lattice`.
+            element, clips: As of the class.
+
+        Example:
+            >>> bent = ppum.Mesh.lattice("square", 2)
+            >>> bent[:, 1] += 0.1 * bent[:, 0] ** 2
+            >>> ppum.Mesh.from_nodes([bent]).degree.tolist()
+            [2]
+        """
+        given = numbers("nodes", nodes)
+        count = given.shape[1] if given.ndim == 3 else 0
+        shape, order = _kind(given.shape, count)
+        places = lattice(shape, order) if at is None else rows("at", at, 2, count)
+        if at is None and count == 4:
+            places = places[[0, 1, 3, 2]]
+        found = interpolated(given, places, exponents(order, shape == SQUARE))
+        return cls(np.full(len(given), shape), found[:, 0], found[:, 1:], element=element, clips=clips)
+
+    @staticmethod
+    def lattice(shape: str, order: int) -> Floats:
+        """Reference places of equally spaced nodes, row by row from below, in a row from the left: shape (k, 2)."""
+        return lattice(int(_shapes(shape, 1)[0]), order)
+
+    def in_space(self, place: str, space: str | Sequence[str]) -> NDArray[np.bool_]:
+        """True for the patches on which polynomials of a space are tensor products."""
+        words = [space] * len(self) if isinstance(space, str) else list(space)
+        known = {"total": (False, False), "tensor": (True, True), "shape": (False, True)}
+        unknown = [word for word in words if word not in known]
+        if unknown or len(words) != len(self):
+            told = f"{unknown[0]!r} is none of {', '.join(known)}" if unknown else f"expected {len(self)} words"
+            raise BuildError(f"{place}: {told}")
+        return np.array([known[word][shape] for word, shape in zip(words, self.shape.tolist())])
+
+    def places(self, patch: int, xi: ArrayLike) -> Floats:
+        """The points that reference places (k, 2) of a patch have."""
+        powers = exponents(int(self.degree[patch]), bool(self.tensor[patch]))[1:]
+        result: Floats = self.origin[patch] + vandermonde(np.asarray(xi, float), powers) @ self.map[patch]
+        return result
+
+    def arrays(self, fields: Sequence[str] = ()) -> dict[str, Any]:
+        """The group `partition` of the file format; `fields` are the names of the state's fields."""
+        starts, shared = self._shared()
+        arrays: dict[str, Any] = {
+            "shape": self.shape,
+            "origin": self.origin,
+            "map_degree": self.degree,
+            "map_space": self.tensor.astype(np.uint8),
+            "map_offset": starts,
+            "map": np.concatenate(shared).T,
+            "element": self.element,
+        }
+        if any(self.clips):
+            clips = [(level_field(f"clips[{k}]", name, fields), side > 0) for k, of in enumerate(self.clips) for name, side in of]
+            arrays["clip_offsets"] = np.cumsum([0, *(len(of) for of in self.clips)])
+            arrays["clip_field"], arrays["clip_side"] = np.array(clips, int).T
+        return arrays
+
+    def spread(self, random: np.random.Generator, count: int) -> Floats:
+        """Random points of the patches, which are taken in turn; those of cut elements on either side."""
+        points = []
+        for patch in np.resize(random.permutation(len(self))[:count], count).tolist():
+            points.append(self.places(patch, _anywhere(random, int(self.shape[patch]))))
+        return np.concatenate(points)
+
+    def _shared(self) -> tuple[list[int], list[Floats]]:
+        """First columns of the patches' maps, and the maps; both sides of a cut share theirs."""
+        starts, known, shared, end = [], {}, [], 0
+        for k, c in enumerate(self.map):
+            key = int(self.element[k]), c.tobytes()
+            if key not in known:
+                known[key], end = end, end + len(c)
+                shared.append(c)
+            starts.append(known[key])
+        return starts, shared
+
+    def _box(self) -> list[Floats]:
+        """Lower left and upper right corner of the images of all borders."""
+        corners = [self.places(k, CORNERS[shape]) for k, shape in enumerate(self.shape.tolist())]
+        box = [np.concatenate(corners).min(axis=0), np.concatenate(corners).max(axis=0)]
+        for k in np.flatnonzero(self.degree > 1).tolist():
+            reach = np.abs(self.map[k]).sum(axis=0)
+            if (self.origin[k] - reach < box[0]).any() or (self.origin[k] + reach > box[1]).any():
+                ends = [self.places(k, places) for places in self._turning(k)]
+                box = [np.min([box[0], *(e.min(axis=0) for e in ends)], 0), np.max([box[1], *(e.max(axis=0) for e in ends)], 0)]
+        return box
+
+    def _turning(self, patch: int) -> list[Floats]:
+        """On each edge of a patch the corner, and the places where x or y turns."""
+        corners, degree = CORNERS[int(self.shape[patch])], int(self.degree[patch])
+        at, found = (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2, []
+        for a, b in zip(corners, np.roll(corners, -1, axis=0)):
+            images = self.places(patch, a + at[:, None] * (b - a))
+            turning = [np.clip(_extremes(at, x), 0, 1) for x in images.T]
+            found.append(a + np.concatenate([[0.0], *turning])[:, None] * (b - a))
+        return found
+
+    def __len__(self) -> int:
+        return len(self.origin)
+
+    def __repr__(self) -> str:
+        counts = [(int((self.shape == k).sum()), name) for name, k in SHAPES.items()]
+        words = [f"{count} {name}{'' if count == 1 else 's'}" for count, name in counts if count]
+        cut = sum(map(bool, self.clips))
+        return f"<ppum.Mesh, {', '.join(words)}{f', {cut} cut' if cut else ''}>"
+
+
+def _extremes(at: Floats, values: Floats) -> Floats:
+    """Where a polynomial, by its values, has no slope."""
+    slope = np.polynomial.Polynomial.fit(at, values, len(at) - 1).deriv()
+    # roots of a polynomial whose highest coefficient is rounding have no digits
+    result: Floats = slope.trim(1e-12 * float(np.abs(slope.coef).max())).roots().real
+    return result
+
+
+SHAPES = {"triangle": TRIANGLE, "square": SQUARE}
+
+
+def _shapes(shape: str | ArrayLike, n: int) -> NDArray[np.int64]:
+    given = np.array(shape if not isinstance(shape, str) else [shape] * n)
+    if given.dtype.kind in "OUS":
+        unknown = [word for word in given.reshape(-1).tolist() if word not in SHAPES]
+        if unknown:
+            raise BuildError(f"shape: {unknown[0]!r} is neither 'triangle' nor 'square'")
+        given = np.array([SHAPES[word] for word in given.reshape(-1).tolist()])
+    if given.shape != (n,) or not np.isin(given, (TRIANGLE, SQUARE)).all():
+        raise BuildError(f"shape: expected {n} entries, 'triangle' or 'square' for each patch")
+    return given.astype(np.int64)
+
+
+def _maps(map: NDArray[Any] | Sequence[ArrayLike], n: int) -> list[Floats]:
+    if len(map) != n:
+        raise BuildError(f"map: has {len(map)} entries, but there are {n} origins; give one for each patch")
+    return [np.ascontiguousarray(rows(f"map[{k}]", c, 2)) for k, c in enumerate(map)]
+
+
+def _kind(shape: tuple[int, ...], count: int) -> tuple[int, int]:
+    """Shape and order of elements with a number of nodes."""
+    for order in range(1, MAX_DEGREE + 1):
+        for kind in (TRIANGLE, SQUARE):
+            if len(exponents(order, kind == SQUARE)) == count:
+                return kind, order
+    raise BuildError(
+        f"nodes: has the shape {shape}, expected (n, k, 2) with k = 3, 6, 10, … nodes of a triangle or 4, 9, 16, … of a "
+        f"square, of orders 1 to {MAX_DEGREE}"
+    )
+
+
+def _elements(element: ArrayLike, n: int) -> NDArray[np.int64]:
+    given = np.asarray(element)
+    if given.shape != (n,) or given.dtype.kind not in "iu" or (given < 0).any():
+        raise BuildError(f"element: expected {n} whole numbers, one for each patch")
+    return given.astype(np.int64)
+
+
+def _clips(clips: Mapping[int, Sequence[Clip]], n: int) -> list[list[Clip]]:
+    for patch, of in clips.items():
+        if not 0 <= patch < n:
+            raise BuildError(f"clips[{patch}]: there is no such patch; the mesh has {n}, counted from 0")
+        for k, (_, side) in enumerate(of):
+            if side not in (1, -1):
+                raise BuildError(f"clips[{patch}][{k}]: the side {side!r} is neither 1 (≥ 0) nor -1 (< 0)")
+    return [list(clips.get(patch, ())) for patch in range(n)]
+
+
+def _anywhere(random: np.random.Generator, shape: int) -> Floats:
+    """A random place of a reference shape."""
+    at = random.uniform(-1, 1, (1, 2))
+    if shape == TRIANGLE:
+        at = np.where(at.sum() > 0, -at, at)
+        at = 0.75 * at + 0.25
+    return at
+
+
+Mesh.__module__ = "ppum"

@@ -1,0 +1,114 @@
+"""Fields of DOLFINx."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..building import State
+from ..dataset import Dataset
+from ..errors import BuildError
+from ..extras import needed
+from ..interpolating import SQUARE, TRIANGLE
+from .importing import Floats, Group, Labels, Places, Sampler, built, compared, real, smooth, to_unit
+
+__all__ = ["from_dolfinx", "state"]
+
+CONDA = "conda install -c conda-forge"
+SHAPES = {"triangle": TRIANGLE, "quadrilateral": SQUARE}
+REMEDY = "interpolate the field into discontinuous Lagrange elements of its degree"
+
+
+def from_dolfinx(
+    u: Any,
+    *,
+    name: str = "u",
+    components: list[str] | None = None,
+    unit: str = "",
+    verify: int = 1000,
+    **options: Any,
+) -> Dataset:
+    """The dataset of a Function of DOLFINx in a Lagrange space, continuous or not, of scalars or vectors: degrees of
+    freedom times basix's shape functions, on triangles or quadrilaterals of any order.
+
+    Args:
+        u: The Function; parts of mixed ones by ``u.sub(k).collapse()``.
+        name, components, unit, verify, options: As of `from_ngsolve`.
+    """
+    version = needed("dolfinx", "fenics-dolfinx", "fields of DOLFINx", CONDA).__version__
+    return built(state(u, labels=Labels(name, components, unit), verify=verify), "DOLFINx", version, options)
+
+
+def state(u: Any, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
+    """The state of `from_dolfinx`."""
+    mesh, element = u.function_space.mesh, _element(u)
+    if mesh.comm.size > 1:
+        raise BuildError(f"u: is spread over {mesh.comm.size} processes; run the import on one")
+    order, geometry = _degree(element), int(_geometry_map(mesh).degree)
+    return smooth(sampler(u, False), labels, order, geometry, compared(sampler(u, True), verify))
+
+
+def _element(u: Any) -> Any:
+    """The element of a component, whose functions are mapped without a change of value."""
+    space = u.function_space.element
+    if space.needs_dof_transformations:
+        raise BuildError(f"u: its degrees of freedom are turned from cell to cell; {REMEDY}")
+    # before version 0.6 the element of a vector has that of its components as a part
+    try:
+        element = space.basix_element
+    except RuntimeError:
+        element = u.function_space.sub(0).element.basix_element
+    if "identity" not in str(element.map_type):
+        raise BuildError(f"u: its functions are mapped by {element.map_type}; {REMEDY}")
+    return element
+
+
+def _degree(element: Any) -> int:
+    """The degree on triangles, on quadrilaterals in each variable; the names are those of basix before and since 0.8."""
+    names = ("embedded_superdegree", "highest_degree")
+    if "quadrilateral" in str(element.cell_type):
+        names = ("embedded_subdegree", "highest_complete_degree")
+    return int(next(getattr(element, name) for name in names if hasattr(element, name)))
+
+
+def _geometry_map(mesh: Any) -> Any:
+    maps = getattr(mesh.geometry, "cmaps", None)
+    return maps[0] if maps else mesh.geometry.cmap
+
+
+def _cells(mesh: Any) -> int:
+    return int(mesh.topology.index_map(2).size_local)
+
+
+def _nodes(mesh: Any) -> list[Any]:
+    """Numbers of each cell's nodes."""
+    dofs = mesh.geometry.dofmap
+    return [dofs.links(k) if hasattr(dofs, "links") else dofs[k] for k in range(_cells(mesh))]
+
+
+def sampler(u: Any, evaluate: bool) -> Sampler:
+    """Values by the degrees of freedom, or by the evaluation of DOLFINx."""
+    space, element = u.function_space, _element(u)
+    mesh, block = space.mesh, int(space.dofmap.bs)
+    name = getattr(mesh.topology, "cell_name", None)
+    shape = SHAPES[name() if name else mesh.ufl_cell().cellname()]
+    dofs = np.array([space.dofmap.cell_dofs(k) for k in range(_cells(mesh))])
+    coordinates = [np.ascontiguousarray(mesh.geometry.x[nodes][:, :2]) for nodes in _nodes(mesh)]
+    values = real("DOLFINx", u.x.array).reshape(-1, block)[dofs]
+
+    def evaluated(points: Floats) -> Floats:
+        flat = np.zeros((points.shape[0] * points.shape[1], 3))
+        flat[:, :2] = points.reshape(-1, 2)
+        cells = np.repeat(np.arange(len(points), dtype=np.int32), points.shape[1])
+        return real("DOLFINx", u.eval(flat, cells)).reshape(*points.shape[:2], block)
+
+    def sample(places: Places) -> list[Group]:
+        at = to_unit(shape, places[shape])
+        to_world = _geometry_map(mesh).push_forward
+        points = np.array([to_world(at, nodes) for nodes in coordinates])
+        table = np.asarray(element.tabulate(0, at))[0].reshape(len(at), -1)
+        found = evaluated(points) if evaluate else np.einsum("kd,ndc->nkc", table, values)
+        return [Group(shape, np.arange(len(values)), points, found, places[shape])]
+
+    return sample

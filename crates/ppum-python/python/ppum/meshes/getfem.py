@@ -1,0 +1,308 @@
+"""Fields of GetFEM, also of its extended finite elements."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blocks import MAX_DEGREE, exponents
+from ..building import Coefficients, State
+from ..dataset import Dataset
+from ..enriching import Formula
+from ..errors import BuildError
+from ..extras import needed
+from ..interpolating import SQUARE, TRIANGLE
+from .importing import Elements, Floats, Group, Labels, Places, Sampler, built, compared, labelled, random_places, to_unit
+
+__all__ = ["Crack", "from_getfem", "state"]
+
+#: GetFEM's global functions ``crack`` 0 to 3.
+TIP = (
+    "sqrt(r)*sin(theta/2)",
+    "sqrt(r)*cos(theta/2)",
+    "sqrt(r)*sin(theta)*sin(theta/2)",
+    "sqrt(r)*sin(theta)*cos(theta/2)",
+)
+#: Points closer to the level set than this part of its largest value are not compared: rounding decides their side.
+CLOSE = 1e-9
+#: Places at which a side of a cut element is looked for.
+TRIED = 4000
+
+
+@dataclass(frozen=True)
+class Crack:
+    """The parts of an extended space, which its sum does not tell.
+
+    Attributes:
+        levelset: The LevelSet of the crack, with a secondary one if there is `tip`.
+        base: The MeshFem from which `jump` was made.
+        jump: The MeshFem ``levelset``, the first part of the sum, which is doubled where the crack cuts elements.
+        tip: The MeshFem that multiplies the tip functions, and its enriched degrees of freedom; the second part.
+        functions: Formulas of the tip functions in r and theta; by default those of ``crack`` 0 to 3.
+    """
+
+    levelset: Any
+    base: Any
+    jump: Any
+    tip: tuple[Any, Sequence[int]] | None = None
+    functions: Sequence[str] = TIP
+
+
+def from_getfem(
+    mf: Any,
+    u: Any,
+    crack: Crack | None = None,
+    *,
+    name: str = "u",
+    components: list[str] | None = None,
+    unit: str = "",
+    verify: int = 1000,
+    **options: Any,
+) -> Dataset:
+    """The dataset of a field of GetFEM: degrees of freedom times the shape functions of the elements, tip functions in the
+    frame of the interpolated level sets. Cut elements are two patches.
+
+    Args:
+        mf: The MeshFem of the field.
+        u: Its basic degrees of freedom.
+        crack: The parts of an extended space.
+        name, components, unit, verify, options: As of `from_ngsolve`.
+    """
+    made = state(mf, u, crack, labels=Labels(name, components, unit), verify=verify)
+    return built(made, "GetFEM", "5", options)
+
+
+def state(mf: Any, u: Any, crack: Crack | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
+    """The state of `from_getfem`."""
+    source = _Source(mf, np.asarray(u, float).ravel(), crack)
+    elements = Elements(source.sample, source.order, source.geometry)
+    known = compared(source.evaluate, verify, source.off)
+    if known is not None:
+        known = known[0], known[1][:, : source.count]
+    smooth = elements.polynomials(source.order, source.columns(0))
+    if crack is None:
+        return State(elements.mesh(), labelled(labels, {"one": smooth}, known))
+    sides = np.array(source.sides)[elements.order]
+    clips = {k: [("phi", int(side))] for k, side in enumerate(sides) if side}
+    blocks: dict[str, Any] = {"one": smooth}
+    functions = {}
+    enriched = np.flatnonzero(np.array(source.enriched)[elements.order])
+    for k, text in enumerate(crack.functions if crack.tip else ()):
+        found = elements.polynomials(source.hats, source.columns(k + 1))
+        functions[f"tip {k}"] = Formula(text, levels=("psi", "phi"))
+        blocks[f"tip {k}"] = {int(patch): found[patch] for patch in enriched}
+    levels = [
+        Coefficients(level, {"one": elements.polynomials(source.level, slice(at, at + 1))})
+        for level, at in source.levels()
+    ]
+    return State(elements.mesh(None, clips), [labelled(labels, blocks, known), *levels], functions=functions)
+
+
+def _library() -> Any:
+    return needed("getfem", "python3-getfem", "fields of GetFEM", "apt install")
+
+
+class _Source:
+    """What GetFEM knows of the field, patch by patch: the values of its smooth part, of what multiplies each tip function,
+    and of the level sets."""
+
+    def __init__(self, mf: Any, u: Floats, crack: Crack | None) -> None:
+        self.mf, self.u, self.crack, self.mesh = mf, u, crack, mf.linked_mesh()
+        if self.mesh.dim() != 2:
+            raise BuildError(f"mf: its mesh has {int(self.mesh.dim())} dimensions, expected 2")
+        if len(u) != mf.nb_basic_dof():
+            raise BuildError(f"u: has {len(u)} entries, but mf has {int(mf.nb_basic_dof())} basic degrees of freedom")
+        self.count, self.base = int(mf.qdim()), crack.base if crack else mf
+        self.cells = [int(k) for k in self.mesh.cvid()]
+        self.shape = {k: _shape(self._map(k)) for k in self.cells}
+        self.order = self._order(self.base)
+        self.geometry = max(_geometry(self._map(k), shape) for k, shape in self.shape.items())
+        self.tables: dict[tuple[str, bytes], Floats] = {}
+        self.parts = self._parts(crack) if crack else [(k, 0, self._dofs(mf, k)) for k in self.cells]
+        tip = crack.tip if crack else None
+        self.near = set(map(int, tip[1])) if tip else set()
+        self.hats = self._order(tip[0]) if tip else 0
+        self.level = self._order(crack.levelset.mf()) if crack else 0
+        # of the patches, in the order of `sample`
+        self.sides: list[int] = []
+        self.enriched: list[bool] = []
+
+    def _map(self, cell: int) -> Any:
+        return self.mesh.geotrans(np.array([cell]))[0]
+
+    def _fem(self, mf: Any, cell: int) -> Any:
+        return mf.fem(np.array([cell]))[0]
+
+    def _dofs(self, mf: Any, cell: int) -> NDArray[np.int64]:
+        return np.asarray(mf.basic_dof_from_cvid(np.array([cell]))[0], np.int64)
+
+    def _order(self, mf: Any) -> int:
+        return max(_degree(self._fem(mf, k), shape) for k, shape in self.shape.items())
+
+    def columns(self, part: int) -> slice:
+        """Columns of the smooth part, 0, or of a tip function."""
+        return slice(part * self.count, (part + 1) * self.count)
+
+    def levels(self) -> list[tuple[str, int]]:
+        """Names and columns of the level fields."""
+        assert self.crack
+        tips = len(self.crack.functions) if self.crack.tip else 0
+        at = (1 + tips) * self.count
+        return [("phi", at), *([("psi", at + 1)] if self.crack.tip else [])]
+
+    def table(self, mf: Any, cell: int, at: Floats) -> Floats:
+        """Shape functions of a cell at places of GetFEM's element, (k, functions)."""
+        fem = self._fem(mf, cell)
+        key = fem.char(), at.tobytes()
+        if key not in self.tables:
+            self.tables[key] = np.array([np.ravel(fem.base_value(place)) for place in at])
+        return self.tables[key]
+
+    def points(self, cell: int, at: Floats) -> Floats:
+        nodes = self.mesh.pts_from_cvid(np.array([cell]))[0]
+        return np.asarray(self._map(cell).transform(nodes, at.T)).T
+
+    def sample(self, places: Places) -> list[Group]:
+        self.sides, self.enriched, groups = [], [], []
+        for shape in (TRIANGLE, SQUARE):
+            at = to_unit(shape, places[shape])
+            parts = [part for part in self.parts if self.shape[part[0]] == shape]
+            if parts:
+                points = np.array([self.points(cell, at) for cell, *_ in parts])
+                values = np.array([self._values(cell, dofs, at) for cell, _, dofs in parts])
+                groups.append(Group(shape, np.array([k for k, *_ in parts]), points, values, places[shape]))
+                self.sides += [side for _, side, _ in parts]
+                self.enriched += [bool(self._vertices(cell)) for cell, *_ in parts]
+        return groups
+
+    def _values(self, cell: int, dofs: NDArray[np.int64], at: Floats) -> Floats:
+        """All columns on a patch; `dofs` are those of the smooth part."""
+        smooth = self.u[dofs].reshape(-1, self.count)
+        columns = [self.table(self.base, cell, at) @ smooth]
+        if self.crack is None:
+            return columns[0]
+        if self.crack.tip:
+            columns += self._tips(cell, at)
+        levelset = self.crack.levelset
+        of = self._dofs(levelset.mf(), cell)
+        table = self.table(levelset.mf(), cell, at)
+        for number in range(2 if self.crack.tip else 1):
+            columns.append(table @ np.ravel(levelset.values(number))[of][:, None])
+        return np.hstack(columns)
+
+    def _vertices(self, cell: int) -> list[int]:
+        """The local numbers of the enriched degrees of freedom."""
+        if not self.crack or not self.crack.tip:
+            return []
+        return [i for i, dof in enumerate(self._dofs(self.crack.tip[0], cell)) if int(dof) in self.near]
+
+    def _tips(self, cell: int, at: Floats) -> list[Floats]:
+        """What multiplies the tip functions: they stand behind the degrees of freedom of `jump`, vertex by vertex."""
+        assert self.crack and self.crack.tip
+        count, vertices = len(self.crack.functions), self._vertices(cell)
+        if not vertices:
+            return [np.zeros((len(at), count * self.count))]
+        first = len(self._dofs(self.crack.jump, cell))
+        own = self.u[self._dofs(self.mf, cell)].reshape(-1, self.count)[first:]
+        if len(own) != len(vertices) * count:
+            raise BuildError(
+                f"crack: cell {cell} has {len(own)} degrees of freedom of tip functions, expected {len(vertices)} × {count}: "
+                "mf must be the sum of `jump` and the product with `functions`, in this order"
+            )
+        hats = self.table(self.crack.tip[0], cell, at)[:, vertices]
+        return [hats @ own[k::count] for k in range(count)]
+
+    def _parts(self, crack: Crack) -> list[tuple[int, int, NDArray[np.int64]]]:
+        """Cell, side (0 for both) and degrees of freedom of each patch."""
+        count = {k: len(self._dofs(self.base, k)) for k in self.cells}
+        doubled = [k for k in self.cells if len(self._dofs(crack.jump, k)) > count[k]]
+        zones = self._zones(crack, doubled)
+        parts = []
+        for cell in self.cells:
+            own = self._dofs(crack.jump, cell)
+            seen = [(side, zones[cell, side]) for side in (1, -1) if (cell, side) in zones]
+            for side, zone in seen or [(0, set(own.tolist()))]:
+                # cells beside the cut ones have doubled degrees of freedom, too
+                local = [k for k, dof in enumerate(own.tolist()) if dof in zone]
+                if len(local) != count[cell]:
+                    raise BuildError(f"crack: cell {cell} has {len(local)} functions on a side, expected {count[cell]}")
+                parts.append((cell, side if len(seen) > 1 else 0, self._of_sum(cell, local)))
+        return parts
+
+    def _of_sum(self, cell: int, local: list[int]) -> NDArray[np.int64]:
+        """The degrees of freedom of the sum for some of `jump`, with their components."""
+        return self._dofs(self.mf, cell).reshape(-1, self.count)[local].ravel()
+
+    def _zones(self, crack: Crack, cells: list[int]) -> dict[tuple[int, int], set[int]]:
+        """The degrees of freedom of `jump` that are felt on each side of doubled cells, by one point on each side."""
+        asked, points, random = [], [], np.random.default_rng(0)
+        for cell in cells:
+            at = to_unit(self.shape[cell], random_places(random, self.shape[cell], TRIED))
+            own = np.ravel(crack.levelset.values(0))[self._dofs(crack.levelset.mf(), cell)]
+            level = self.table(crack.levelset.mf(), cell, at) @ own
+            for side in (1, -1):
+                k = int(np.argmax(side * level))
+                if side * level[k] > 1e-13:
+                    asked.append((cell, side))
+                    points.append(self.points(cell, at[k : k + 1])[0])
+        if not asked:
+            return {}
+        matrix = _library().asm("interpolation matrix", crack.jump, np.array(points).T)
+        zones: dict[tuple[int, int], set[int]] = {key: set() for key in asked}
+        starts, row = map(np.ravel, matrix.csc_ind())
+        column, felt = np.repeat(np.arange(len(starts) - 1), np.diff(starts)), np.ravel(matrix.csc_val()) != 0
+        for dof, k in zip(column[felt].tolist(), row[felt].tolist()):
+            zones[asked[k]].add(dof)
+        return zones
+
+    def evaluate(self, places: Places) -> list[Group]:
+        """GetFEM's own values at the points of places, before the columns of the level sets."""
+        interpolate, groups = _library().compute_interpolate_on, []
+        for group in self.sample(places):
+            flat = group.points.reshape(-1, 2)
+            found = np.asarray(interpolate(self.mf, self.u, flat.T)).reshape(self.count, -1)
+            own = found.T.reshape(*group.points.shape[:2], self.count)
+            levels = group.values[:, :, [at for _, at in self.levels()]] if self.crack else own[:, :, :0]
+            values = np.concatenate([own, levels], axis=2)
+            groups.append(Group(group.shape, group.elements, group.points, values, group.places))
+        return groups
+
+    def off(self, values: Floats) -> Any:
+        """True for points that do not lie on the crack or its extension."""
+        if self.crack is None:
+            return np.ones(len(values), bool)
+        level = np.abs(values[:, self.count])
+        return level > CLOSE * level.max()
+
+
+def _shape(geotrans: Any) -> int:
+    """Triangle or square, by the transformation of a cell."""
+    name = str(geotrans.char())
+    if "GT_PK(2" in name:
+        return TRIANGLE
+    if "GT_QK(2" in name or "PRODUCT(GT_PK(1" in name:
+        return SQUARE
+    raise BuildError(f"mf: its mesh has cells with the transformation {name}, expected triangles or quadrilaterals")
+
+
+def _geometry(geotrans: Any, shape: int) -> int:
+    """The degree of a transformation by its number of nodes."""
+    count = int(geotrans.nbpts())
+    for degree in range(1, MAX_DEGREE + 1):
+        if len(exponents(degree, shape == SQUARE)) >= count:
+            return degree
+    raise BuildError(f"mf: its mesh has a transformation with {count} nodes, of a degree above {MAX_DEGREE}")
+
+
+def _degree(fem: Any, shape: int) -> int:
+    """The degree of an element; that of squares counts both variables."""
+    name, total, count = str(fem.char()), int(fem.estimated_degree()), int(fem.nbdof())
+    if not fem.is_equivalent() or not fem.is_polynomial() or int(fem.target_dim()) != 1:
+        raise BuildError(f"mf: {name} has no polynomials that are the same on all elements; interpolate on a Lagrange element")
+    if shape == SQUARE and total % 2 == 0 and count == (total // 2 + 1) ** 2:
+        return total // 2
+    return total

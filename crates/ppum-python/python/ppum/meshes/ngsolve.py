@@ -1,0 +1,94 @@
+"""Fields of NGSolve."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..dataset import Dataset
+from ..building import State
+from ..errors import BuildError
+from ..extras import needed
+from ..interpolating import SQUARE, TRIANGLE
+from .importing import Group, Labels, Places, Sampler, built, compared, real, smooth, to_unit
+
+__all__ = ["from_ngsolve", "state"]
+
+
+def from_ngsolve(
+    gf: Any,
+    order: int | None = None,
+    *,
+    mesh: Any = None,
+    name: str = "u",
+    components: list[str] | None = None,
+    unit: str = "",
+    verify: int = 1000,
+    **options: Any,
+) -> Dataset:
+    """The dataset of a field of NGSolve, sampled at reference points of each element and exact for any space whose
+    functions are polynomials there: H1, L2, VectorH1, facet bubbles, hp; H(div) and H(curl) on straight elements.
+
+    Args:
+        gf: A GridFunction, or a CoefficientFunction that is polynomial on each element.
+        order: Degree of the polynomials, on squares in each variable; by default the order of the space.
+        mesh: The mesh of a CoefficientFunction.
+        name, components, unit: Of the field, see `Coefficients`.
+        verify: Number of random points at which the dataset is compared with NGSolve.
+        options: As of `build`, such as `equation` and `title`.
+    """
+    made = state(gf, order, mesh=mesh, labels=Labels(name, components, unit), verify=verify)
+    return built(made, "NGSolve", needed("ngsolve", "ngsolve", "fields of NGSolve").__version__, options)
+
+
+def state(
+    gf: Any, order: int | None = None, *, mesh: Any = None, labels: Labels = Labels("u"), verify: int = 1000
+) -> State:
+    """The state of `from_ngsolve`, to be built with others or with more fields."""
+    mesh = mesh_of(gf, mesh)
+    if order is None:
+        order = order_of(gf)
+    sample = sampler(mesh, [gf])
+    return smooth(sample, labels, order, int(mesh.GetCurveOrder()), compared(sample, verify))
+
+
+def mesh_of(gf: Any, mesh: Any) -> Any:
+    """The mesh of a field, in two dimensions."""
+    if mesh is None:
+        if not hasattr(gf, "space"):
+            raise BuildError("mesh: a CoefficientFunction knows no mesh; give mesh=")
+        mesh = gf.space.mesh
+    if mesh.dim != 2:
+        raise BuildError(f"mesh: has {mesh.dim} dimensions, expected 2")
+    return mesh
+
+
+def order_of(gf: Any) -> int:
+    """The highest order of a field's spaces."""
+    if not hasattr(gf, "space"):
+        raise BuildError("order: a CoefficientFunction knows no order; give order=")
+    return max(int(part.space.globalorder) for part in (gf.components or [gf]))
+
+
+def sampler(mesh: Any, fields: list[Any]) -> Sampler:
+    """Values of several fields, one after the other."""
+    ngs = needed("ngsolve", "ngsolve", "fields of NGSolve")
+    shapes = {ngs.ET.TRIG: TRIANGLE, ngs.ET.QUAD: SQUARE}
+    shape = np.array([shapes[element.type] for element in mesh.Elements(ngs.VOL)])
+
+    def sample(places: Places) -> list[Group]:
+        rules = {
+            kind: ngs.IntegrationRule([tuple(p) for p in to_unit(k, places[k]).tolist()], [0.0] * len(places[k]))
+            for kind, k in shapes.items()
+        }
+        mapped = mesh.MapToAllElements(rules, ngs.VOL)
+        points = np.asarray(ngs.CF((ngs.x, ngs.y))(mapped))
+        values = np.hstack([real("NGSolve", field(mapped)).reshape(len(points), -1) for field in fields])
+        # points stand element by element
+        of = np.repeat(shape, [len(places[k]) for k in shape])
+        present = [k for k in (TRIANGLE, SQUARE) if (shape == k).any()]
+        cut = [[a[of == k].reshape(-1, len(places[k]), a.shape[1]) for a in (points, values)] for k in present]
+        return [Group(k, np.flatnonzero(shape == k), *parts, places[k]) for k, parts in zip(present, cut)]
+
+    return sample

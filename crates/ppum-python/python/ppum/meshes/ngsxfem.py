@@ -1,0 +1,96 @@
+"""Fields of ngsxfem: two fields of NGSolve on the sides of a level set."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..building import Coefficients, State
+from ..dataset import Dataset
+from ..extras import needed
+from .importing import Elements, Floats, Labels, built, compared, labelled
+from .ngsolve import mesh_of, order_of, sampler
+
+__all__ = ["from_ngsxfem", "state"]
+
+#: Points closer to the level set than this part of its largest value are not compared: rounding decides their side.
+CLOSE = 1e-9
+
+
+def from_ngsxfem(
+    negative: Any,
+    positive: Any,
+    levelset: Any,
+    order: int | None = None,
+    *,
+    name: str = "u",
+    components: list[str] | None = None,
+    unit: str = "",
+    verify: int = 1000,
+    **options: Any,
+) -> Dataset:
+    """The dataset of a field of ngsxfem, which is one field of NGSolve where a level set is negative and another one where
+    it is positive: cut elements are two patches, on each side with the field's own polynomial.
+
+    Args:
+        negative, positive: GridFunctions, such as the components of a compound one.
+        levelset: The interpolant of degree 1 that was integrated with, a GridFunction of H1, order 1. The dataset has it
+            as a field ``level``.
+        order: Degree of the polynomials; by default the higher one of the spaces.
+        name, components, unit, verify, options: As of `from_ngsolve`.
+    """
+    made = state(negative, positive, levelset, order, labels=Labels(name, components, unit), verify=verify)
+    version = needed("ngsolve", "xfem", "fields of ngsxfem").__version__
+    return built(made, "ngsxfem, NGSolve", version, options)
+
+
+def state(
+    negative: Any,
+    positive: Any,
+    levelset: Any,
+    order: int | None = None,
+    *,
+    labels: Labels = Labels("u"),
+    verify: int = 1000,
+) -> State:
+    """The state of `from_ngsxfem`."""
+    mesh = mesh_of(negative, None)
+    order = max(order_of(negative), order_of(positive)) if order is None else order
+    level_order, count = order_of(levelset), int(negative.dim)
+    sides = sampler(mesh, [negative, positive, levelset])
+    elements = Elements(sides, max(order, level_order), int(mesh.GetCurveOrder()))
+    fields = [elements.polynomials(order, slice(k * count, (k + 1) * count)) for k in (0, 1)]
+    level = elements.polynomials(level_order, slice(2 * count, None))
+    patches = _patches(_signs(mesh, levelset))
+    clips = {k: [("level", 1 if side else -1)] for k, (_, side, cut) in enumerate(patches) if cut}
+    of = [element for element, *_ in patches]
+    known = compared(sides, verify, _off)
+    blocks = {"one": [fields[side][element] for element, side, _ in patches]}
+    field = labelled(labels, blocks, known and _halves(*known, count))
+    levels = Coefficients("level", {"one": [level[element] for element in of]})
+    return State(elements.mesh(of, clips), [field, levels])
+
+
+def _signs(mesh: Any, levelset: Any) -> list[tuple[bool, bool]]:
+    """Whether each element has a negative and a positive side, as ngsxfem decides it."""
+    xfem = needed("xfem", "xfem", "fields of ngsxfem")
+    cuts = xfem.CutInfo(mesh, levelset)
+    has = [cuts.GetElementsOfType(kind) for kind in (xfem.HASNEG, xfem.HASPOS)]
+    return [(bool(has[0][k]), bool(has[1][k])) for k in range(mesh.ne)]
+
+
+def _patches(signs: list[tuple[bool, bool]]) -> list[tuple[int, int, bool]]:
+    """Element, side and whether it is cut, for each patch."""
+    return [(k, side, all(has)) for k, has in enumerate(signs) for side in (0, 1) if has[side]]
+
+
+def _off(values: Floats) -> Any:
+    level = np.abs(values[:, -1])
+    return level > CLOSE * level.max()
+
+
+def _halves(points: Floats, values: Floats, count: int) -> tuple[Floats, Floats]:
+    """The values of the side on which each point lies."""
+    upper = values[:, -1:] > 0
+    return points, np.where(upper, values[:, count : 2 * count], values[:, :count])

@@ -1,0 +1,84 @@
+"""Fields of scikit-fem."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..building import State
+from ..dataset import Dataset
+from ..errors import BuildError
+from ..extras import needed
+from ..interpolating import SQUARE, TRIANGLE
+from .importing import Floats, Group, Labels, Places, Sampler, built, compared, real, smooth, to_unit
+
+__all__ = ["from_skfem", "state"]
+
+
+def from_skfem(
+    basis: Any,
+    u: Any,
+    order: int | None = None,
+    *,
+    name: str = "u",
+    components: list[str] | None = None,
+    unit: str = "",
+    verify: int = 1000,
+    **options: Any,
+) -> Dataset:
+    """The dataset of a field of scikit-fem: degrees of freedom times the shape functions of the elements.
+
+    Args:
+        basis: A Basis on triangles or quadrilaterals.
+        u: The degrees of freedom.
+        order: Degree of the polynomials, on squares in each variable; by default the one of the element.
+        name, components, unit, verify, options: As of `from_ngsolve`.
+    """
+    made = state(basis, u, order, labels=Labels(name, components, unit), verify=verify)
+    return built(made, "scikit-fem", needed("skfem", "scikit-fem", "fields of scikit-fem").__version__, options)
+
+
+def state(
+    basis: Any, u: Any, order: int | None = None, *, labels: Labels = Labels("u"), verify: int = 1000
+) -> State:
+    """The state of `from_skfem`."""
+    shape = shape_of(basis.mesh)
+    if order is None:
+        order = _degree(basis.elem, shape)
+    sample = sampler(basis, u)
+    return smooth(sample, labels, order, _degree(basis.mesh.elem(), shape), compared(sample, verify))
+
+
+def shape_of(mesh: Any) -> int:
+    """The shape of a mesh of triangles or of quadrilaterals."""
+    known = {"RefTri": TRIANGLE, "RefQuad": SQUARE}
+    name = getattr(mesh.elem.refdom, "__name__", "")
+    if name not in known:
+        raise BuildError(f"basis: its mesh has elements of the kind {name}, expected triangles or quadrilaterals")
+    return known[name]
+
+
+def _degree(element: Any, shape: int) -> int:
+    """The degree of an element; that of quadrilaterals counts both variables."""
+    degree = int(element.maxdeg)
+    return (degree + 1) // 2 if shape == SQUARE else degree
+
+
+def sampler(basis: Any, u: Any) -> Sampler:
+    shape, dofs = shape_of(basis.mesh), real("scikit-fem", np.asarray(u))[basis.element_dofs]
+
+    def values(at: Floats) -> Floats:
+        total: Any = 0.0
+        for k, row in enumerate(dofs):
+            function = np.asarray(basis.elem.gbasis(basis.mapping, at, k)[0])
+            total = total + row[:, None] * function
+        total = np.broadcast_to(total, (*np.shape(total)[:-2], dofs.shape[1], at.shape[1]))
+        return np.moveaxis(total.reshape(-1, *total.shape[-2:]), 0, -1)
+
+    def sample(places: Places) -> list[Group]:
+        at = to_unit(shape, places[shape]).T
+        points = np.moveaxis(np.asarray(basis.mapping.F(at)), 0, -1)
+        return [Group(shape, np.arange(dofs.shape[1]), points, values(at), places[shape])]
+
+    return sample
