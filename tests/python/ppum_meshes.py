@@ -75,12 +75,12 @@ class Mesh:
         return best and best[1]
 
     def margin(self, i, place):
-        """The least barycentric coordinate, or the distance from the square's border; negative outside."""
+        """How far inside the shape a place lies; negative outside."""
         xi, eta = (c.v for c in place)
         if self.arrays["shape"][i] == SQUARE:
             return 1 - max(abs(xi), abs(eta))
-        third = self.real(1) / 3
-        return min((2 * xi + 1) * third, (2 * eta + 1) * third, (1 - 2 * xi - 2 * eta) * third)
+        half = self.real(0.5)
+        return min(xi + half, eta + half, half - xi - eta)
 
     def is_kept(self, i, place, side):
         """True if the clips of patch i keep the place."""

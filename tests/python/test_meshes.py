@@ -240,6 +240,24 @@ def test_the_sign_of_a_level_field():
     assert [opened(arrays).evaluate(0.5, level(0.5), side)[0][0] for side in (1, -1)] == [2, 0]
 
 
+def test_fields_of_libraries():
+    """Files with values of the library that they come from (mesh_cases.py): the reader in doubles, and digits in 60."""
+    files = sorted((pathlib.Path(__file__).parent / "fixtures").glob("*.h5"))
+    assert len(files) > 5
+    for path in files:
+        with h5py.File(path) as file:
+            fields = {numbers: Field(file, numbers=numbers) for numbers in (Double, Extended)}
+            points, values, digits = (file["user"][name][()] for name in ("points", "values", "digits"))
+        found = [[jet[0] for jet in fields[Double].evaluate(*p)] for p in points]
+        difference = np.abs(found - values).max() / np.abs(values).max()
+        print(f"    {path.stem} {difference:.1e}")
+        # that of GetFEM's and DOLFINx' search for reference points
+        assert difference < 2e-12, path
+        for p, row in zip(points, digits):
+            exact = [jet[0] for jet in fields[Extended].evaluate(*p)]
+            assert max(abs(v - mpmath.mpf(d.decode())) for v, d in zip(exact, row)) < 1e-45, path
+
+
 if __name__ == "__main__":
     for name, test in list(globals().items()):
         if name.startswith("test_"):

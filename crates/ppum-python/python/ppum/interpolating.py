@@ -64,4 +64,6 @@ def interpolated(values: ArrayLike, places: Floats, powers: Powers) -> Floats:
     exact, wide = basis.astype(np.longdouble), inverse.astype(np.longdouble)
     for _ in range(2):
         wide = wide + inverse @ (np.eye(len(basis)) - exact @ wide)
+    # zeros are zeros
+    wide[np.abs(wide) < 1e-18 * np.abs(wide).max()] = 0
     return np.asarray(np.einsum("mk,nkc->nmc", wide, np.asarray(values, np.longdouble)), float)

@@ -72,8 +72,9 @@ def from_getfem(
         crack: The parts of an extended space.
         name, components, unit, verify, options: As of `from_ngsolve`.
     """
+    _library()
     made = state(mf, u, crack, labels=Labels(name, components, unit), verify=verify)
-    return built(made, "GetFEM", "5", options)
+    return built(made, "GetFEM", "", options)
 
 
 def state(mf: Any, u: Any, crack: Crack | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:

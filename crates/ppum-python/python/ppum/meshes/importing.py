@@ -170,7 +170,7 @@ def labelled(labels: Labels, blocks: Mapping[str, Any], verify: tuple[Floats, Fl
 
 def built(state: State, library: str, version: str, options: Mapping[str, Any]) -> Dataset:
     """The dataset of a state, by the name of its library."""
-    return build(state, **({"program": f"{library} {version}"} | dict(options)))
+    return build(state, **({"program": f"{library} {version}".strip()} | dict(options)))
 
 
 def from_unit(shape: int, places: Floats) -> Floats:

@@ -34,8 +34,8 @@ def from_mfem(
         order: Degree of the polynomials, on squares in each variable; by default the highest of the space.
         name, components, unit, verify, options: As of `from_ngsolve`.
     """
-    made = state(gf, order, labels=Labels(name, components, unit), verify=verify)
     package = needed("mfem", "mfem", "fields of MFEM")
+    made = state(gf, order, labels=Labels(name, components, unit), verify=verify)
     return built(made, "MFEM", getattr(package, "__version__", ""), options)
 
 

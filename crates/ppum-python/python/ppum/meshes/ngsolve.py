@@ -38,8 +38,9 @@ def from_ngsolve(
         verify: Number of random points at which the dataset is compared with NGSolve.
         options: As of `build`, such as `equation` and `title`.
     """
+    version = needed("ngsolve", "ngsolve", "fields of NGSolve").__version__
     made = state(gf, order, mesh=mesh, labels=Labels(name, components, unit), verify=verify)
-    return built(made, "NGSolve", needed("ngsolve", "ngsolve", "fields of NGSolve").__version__, options)
+    return built(made, "NGSolve", version, options)
 
 
 def state(
@@ -89,6 +90,6 @@ def sampler(mesh: Any, fields: list[Any]) -> Sampler:
         of = np.repeat(shape, [len(places[k]) for k in shape])
         present = [k for k in (TRIANGLE, SQUARE) if (shape == k).any()]
         cut = [[a[of == k].reshape(-1, len(places[k]), a.shape[1]) for a in (points, values)] for k in present]
-        return [Group(k, np.flatnonzero(shape == k), *parts, places[k]) for k, parts in zip(present, cut)]
+        return [Group(k, np.flatnonzero(shape == k), a, b, places[k]) for k, (a, b) in zip(present, cut)]
 
     return sample

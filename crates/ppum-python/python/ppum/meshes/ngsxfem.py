@@ -40,8 +40,8 @@ def from_ngsxfem(
         order: Degree of the polynomials; by default the higher one of the spaces.
         name, components, unit, verify, options: As of `from_ngsolve`.
     """
-    made = state(negative, positive, levelset, order, labels=Labels(name, components, unit), verify=verify)
     version = needed("ngsolve", "xfem", "fields of ngsxfem").__version__
+    made = state(negative, positive, levelset, order, labels=Labels(name, components, unit), verify=verify)
     return built(made, "ngsxfem, NGSolve", version, options)
 
 

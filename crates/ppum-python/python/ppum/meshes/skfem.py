@@ -35,8 +35,9 @@ def from_skfem(
         order: Degree of the polynomials, on squares in each variable; by default the one of the element.
         name, components, unit, verify, options: As of `from_ngsolve`.
     """
+    version = needed("skfem", "scikit-fem", "fields of scikit-fem").__version__
     made = state(basis, u, order, labels=Labels(name, components, unit), verify=verify)
-    return built(made, "scikit-fem", needed("skfem", "scikit-fem", "fields of scikit-fem").__version__, options)
+    return built(made, "scikit-fem", version, options)
 
 
 def state(
