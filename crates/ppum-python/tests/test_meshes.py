@@ -133,6 +133,7 @@ MISTAKES = {
     "map": (lambda: ppum.Mesh("square", [(0, 0)], [np.ones((4, 2))]), r"map\[0\]: has 4 coefficients.*here 3 or 8"),
     "count": (lambda: ppum.Mesh("square", [(0, 0)], []), "map: has 0 entries"),
     "nodes": (lambda: ppum.Mesh.from_nodes(np.zeros((1, 5, 2))), r"nodes: has the shape \(1, 5, 2\)"),
+    "flipped": (lambda: ppum.Mesh.from_nodes(CORNERS[:, ::-1]), r"map\[0\]: the element is flipped or flat"),
     "at": (lambda: ppum.Mesh.from_nodes(CORNERS, np.zeros((3, 2))), "at: 3 places do not fix"),
     "side": (lambda: ppum.Mesh.from_nodes(CORNERS, clips={0: [("phi", 0)]}), r"clips\[0\]\[0\]: the side 0"),
     "patch": (lambda: ppum.Mesh.from_nodes(CORNERS, clips={5: [("phi", 1)]}), r"clips\[5\]: there is no such patch"),

@@ -65,6 +65,7 @@ class Mesh:
         self.tensor = self.in_space("space", space)
         sizes = np.array([len(c) + 1 for c in self.map])
         self.degree = degrees("map", sizes, self.tensor, np.arange(n), least=1)
+        _orientation(self.map, self.degree, self.tensor)
         self.element = np.arange(n) if element is None else _elements(element, n)
         self.clips = _clips(clips or {}, n)
         self.domain = np.array(self._box())
@@ -215,6 +216,15 @@ def _maps(map: NDArray[Any] | Sequence[ArrayLike], n: int) -> list[Floats]:
     if len(map) != n:
         raise BuildError(f"map: has {len(map)} entries, but there are {n} origins; give one for each patch")
     return [np.ascontiguousarray(rows(f"map[{k}]", c, 2)) for k, c in enumerate(map)]
+
+
+def _orientation(maps: list[Floats], degree: NDArray[np.int64], tensor: NDArray[np.bool_]) -> None:
+    """Refuses elements that are flipped or flat at ξ = 0."""
+    for k, (c, d, is_tensor) in enumerate(zip(maps, degree.tolist(), tensor.tolist())):
+        powers = exponents(d, is_tensor)[1:]
+        x, y = c[powers.index((1, 0))], c[powers.index((0, 1))]
+        if not x[0] * y[1] > x[1] * y[0]:
+            raise BuildError(f"map[{k}]: the element is flipped or flat; its nodes must go counter-clockwise")
 
 
 def _kind(shape: tuple[int, ...], count: int) -> tuple[int, int]:
