@@ -24,7 +24,8 @@ def write(path, arrays, libver=None, gzip=False):
                 file.require_group(group or "/").attrs[attribute] = values
                 continue
             values = np.asarray(values)
-            kind = TEXT if values.dtype.kind in "OUS" else TYPE.get(name.split("/")[-1], "f8")
+            last = name.split("/")[-1]
+            kind = TEXT if values.dtype.kind in "OUS" or last == "parameter_name" else TYPE.get(last, "f8")
             how = {"compression": "gzip", "shuffle": True} if gzip and kind != TEXT and values.size > 300 else {}
             file.create_dataset(name, data=values.astype(object if kind == TEXT else kind), dtype=kind, **how)
 

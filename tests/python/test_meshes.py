@@ -5,6 +5,7 @@
 
 import math
 import pathlib
+import subprocess
 import sys
 import tempfile
 
@@ -13,6 +14,7 @@ import mpmath
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import programs
 from mesh_files import element, mesh, write
 from ppum_formulas import Double, Extended
 from ppum_meshes import SQUARE, TRIANGLE, exponents
@@ -256,6 +258,28 @@ def test_fields_of_libraries():
         for p, row in zip(points, digits):
             exact = [jet[0] for jet in fields[Extended].evaluate(*p)]
             assert max(abs(v - mpmath.mpf(d.decode())) for v, d in zip(exact, row)) < 1e-45, path
+
+
+def test_the_program_on_fields_of_libraries():
+    """`ppum check` has nothing to say of the files, `sample` gives the library's values, and `render` draws values everywhere."""
+    folder = pathlib.Path(TEMPORARY.name)
+    for path in sorted((pathlib.Path(__file__).parent / "fixtures").glob("*.h5")):
+        with h5py.File(path) as file:
+            points, values = (file["user"][name][()] for name in ("points", "values"))
+        np.savetxt(folder / "points.csv", points, delimiter=",", fmt="%.17g")
+        run("check", path)
+        run("sample", path, "--points", folder / "points.csv", "-o", folder / "values.npy")
+        table = np.load(folder / "values.npy")
+        found = np.stack([table[name] for name in table.dtype.names[3:]], axis=1)
+        difference = np.abs(found - values).max() / np.abs(values).max()
+        print(f"    {path.stem} {difference:.1e}")
+        assert difference < 2e-12, path
+        run("render", path, "-o", folder / f"{path.stem}.png", "--size", "240x180", "--overlay", "cells")
+
+
+def run(*arguments):
+    done = subprocess.run(programs.ppum(*arguments), capture_output=True, text=True, check=False)
+    assert done.returncode == 0, f"{arguments}: {done.stderr}"
 
 
 if __name__ == "__main__":
