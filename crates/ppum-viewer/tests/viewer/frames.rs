@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use egui::{Event, PointerButton, pos2, vec2};
 use egui_kittest::Harness;
+use ppum_scene::overlays::Overlays;
 use ppum_viewer::Viewer;
 use ppum_viewer::session::Session;
 use ppum_viewer::stage::pixels::use_device;
@@ -78,7 +79,9 @@ fn both_shaders_draw_the_same_pixels() {
             if ours {
                 use_device(&cc.egui_ctx, state.target_format);
             }
-            let session = Session { panels: false, ..Session::default() };
+            let mut session = Session { panels: false, ..Session::default() };
+            // lines are drawn by egui, whatever fetches the pixels
+            session.panes[0].scene.overlays = Overlays::default();
             let mut viewer = Viewer::new(&cc.egui_ctx, session);
             viewer.open(None, dataset);
             viewer

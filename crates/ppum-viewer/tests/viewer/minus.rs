@@ -416,7 +416,9 @@ fn pixels(png: &[u8]) -> &[u8] {
 fn pictures_of_differences_are_saved() {
     let mut window = pair(refined(3), refined(4), [700.0, 400.0], Backend::Cpu);
     let frame = frame(&window);
-    let scene = window.state().session.panes[1].scene.clone();
+    let mut scene = window.state().session.panes[1].scene.clone();
+    // they lie over the picture in the window, and in it in the file
+    scene.overlays = ppum_scene::overlays::Overlays::default();
     let order = ppum_viewer::export::Order {
         field: Arc::clone(&frame.field),
         file: Some(PathBuf::from("plate.h5")),

@@ -192,7 +192,8 @@ fn probes_can_be_undone() {
 #[test]
 fn probes_follow_the_quantity() {
     let dataset = plate();
-    let mut window = window(dataset.clone(), SIZE);
+    // all probes are in sight
+    let mut window = window(dataset.clone(), [SIZE[0], SIZE[1] + 120.0]);
     let field = Field::new(&dataset, 0).expect("a field");
     window.state_mut().session.panes[0].probes =
         vec![Spot::new(v(0.25, 0.75), Vec2::ZERO), Spot::new(v(0.0, 0.0), Vec2::ZERO)];

@@ -5,12 +5,19 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use ppum_figure::canvas::Item;
 use ppum_scene::overlays::{Levels, Overlay, SPACING};
 
-use super::{click, frame, plate_window, scene, write};
+use super::{Window, click, frame, plate_window, scene, write};
 use crate::kit::settle;
+
+/// A plate without the cracks that are shown by default.
+fn bare_window() -> Window {
+    let mut window = plate_window();
+    click(&mut window, "cracks");
+    window
+}
 
 #[test]
 fn every_overlay_is_a_switch() {
-    let mut window = plate_window();
+    let mut window = bare_window();
     for (label, overlay) in [
         ("patches", Overlay::Patches),
         ("cells", Overlay::Cells),
@@ -58,7 +65,7 @@ fn isolines_have_levels_that_are_written() {
 
 #[test]
 fn o_hides_all_and_brings_them_back() {
-    let mut window = plate_window();
+    let mut window = bare_window();
     window.key_press(Key::O);
     settle(&mut window);
     assert_eq!(scene(&window).overlays.shown, [Overlay::Cracks]);
@@ -76,7 +83,7 @@ fn o_hides_all_and_brings_them_back() {
 
 #[test]
 fn the_deformed_plate_leaves_out_what_it_does_not_have() {
-    let mut window = plate_window();
+    let mut window = bare_window();
     click(&mut window, "patches");
     window.key_press(Key::D);
     settle(&mut window);
