@@ -28,7 +28,7 @@ until_it_does test -s "$home/display"
 DISPLAY=":$(cat "$home/display")"
 export DISPLAY
 
-is_there() { id=$(xdotool search --name '^ppum' 2>/dev/null | tail -1) && [ -n "$id" ]; }
+is_there() { id=$(xdotool search --name 'ppum$' 2>/dev/null | tail -1) && [ -n "$id" ]; }
 
 # Begins a window and waits until it is there.
 begin() {
