@@ -22,9 +22,6 @@ const MOST_WORK: u64 = 1 << 18;
 /// Cost of a patch beside its blocks: finding it, its weight.
 const PATCH: usize = 16;
 
-/// Steps of Newton's method for the place of a point in an element.
-const NEWTON: usize = 4;
-
 /// Checks every field of every step.
 pub(super) fn check(dataset: &Dataset) -> Checked {
     for (k, step) in dataset.steps.iter().enumerate() {
@@ -80,14 +77,14 @@ fn each_work(
     }
 }
 
-/// Coefficients of an element's map and of its clips, as often as it takes to see whether it holds a point.
+/// What it takes to see whether an element holds a point: inverting its map, and its clips.
 fn search(mesh: &Mesh, step: &Step, patch: usize) -> usize {
     let level = |clip: &Clip| {
         let field = &step.fields[clip.field as usize];
         field.blocks(patch).map(|block| field.block_size(block)).sum::<usize>()
     };
     let levels: usize = mesh.clips(patch).iter().map(level).sum();
-    NEWTON * 2 * mesh.map_range(patch).len() + levels
+    mesh.search_work(patch) + levels
 }
 
 /// Operations of a weight, in both directions.

@@ -26,7 +26,10 @@ pub(super) const TOLERANCE: f64 = 1e-11;
 const CONTRACTION: f64 = 0.75;
 
 /// Most parts that are looked at.
-const MOST_PARTS: usize = 1 << 8;
+const MOST_PARTS: usize = 1 << 6;
+
+/// Operations that a part takes for each column of the map: it is expanded about the part's centre.
+const EXPANSION: usize = 8;
 
 /// The polynomials of a map in ξ, or in δ = ξ − at; the constants are 0.
 #[derive(Clone, Debug)]
@@ -88,6 +91,12 @@ impl Map {
             self.y[k] *= power;
         }
         self
+    }
+
+    /// Operations that halving may take, on a shape where the linear part does not decide alone.
+    pub(super) fn search_work(&self, columns: usize) -> usize {
+        let is_bent = self.bounds().is_some_and(|(_, _, lipschitz)| lipschitz > CONTRACTION);
+        if is_bent { MOST_PARTS * EXPANSION * columns } else { 0 }
     }
 
     /// J⁻¹, κ and L.

@@ -25,6 +25,9 @@ pub(crate) use local::{LocalMesh, reach};
 use map::Map;
 pub use shape::Shape;
 
+/// Steps of Newton's method for the place of a point in an element.
+const NEWTON: usize = 4;
+
 /// The elements of a mesh as patches. Structure of arrays; vectors have one entry per patch where nothing else is said.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
@@ -102,6 +105,12 @@ impl Mesh {
 
     fn map(&self, patch: usize) -> Map {
         Map::new(self.map_space[patch], self.map_degree[patch], self.map_of(patch))
+    }
+
+    /// Operations that it may take to see whether a patch holds a point, without its clips.
+    pub(crate) fn search_work(&self, patch: usize) -> usize {
+        let columns = self.map_range(patch).len();
+        NEWTON * 2 * columns + self.map(patch).search_work(columns)
     }
 
     /// x = origin + M(ξ), and det DM(ξ).

@@ -162,10 +162,11 @@ fn meshes_and_boxes_do_not_mix() {
     assert!(spaces.contains("block_space: has 1 entries, expected 3"), "{spaces}");
 }
 
-/// A thousand elements over each other are one thing, a million another.
+/// A thousand elements over each other are one thing, a million another; fewer of those that are bent so much that a point may
+/// have to be looked for in many parts of them.
 #[test]
 fn what_a_point_takes_is_bounded() {
-    let piled = |n: usize| {
+    let piled = |n: usize, is_bent: bool| {
         let mut data = dataset();
         let Partition::Mesh(mesh) = &mut data.steps[0].partition else { panic!("a mesh") };
         mesh.clip_offsets.clear();
@@ -176,12 +177,19 @@ fn what_a_point_takes_is_bounded() {
         mesh.map_space = vec![Tensor; n];
         mesh.map_offset = vec![0; n];
         mesh.element = (0..n as u32).collect();
+        if is_bent {
+            mesh.map = [vec![0.0; 8], vec![0.0; 8]];
+            (mesh.map[0][0], mesh.map[1][1], mesh.map[1][2]) = (0.01, 0.005, 1e-5);
+        }
         data.steps[0].fields.truncate(1);
         let last = data.steps[0].fields[0].patch_blocks[3];
         data.steps[0].fields[0].patch_blocks.resize(n + 1, last);
         data.check()
     };
-    assert_eq!(piled(1000), Ok(()));
-    let error = piled(1 << 13).expect_err("too many").to_string();
-    assert!(error.contains("let fewer patches overlap there"), "{error}");
+    assert_eq!(piled(1000, false), Ok(()));
+    assert_eq!(piled(20, true), Ok(()));
+    for (n, is_bent) in [(1 << 13, false), (1000, true)] {
+        let error = piled(n, is_bent).expect_err("too many").to_string();
+        assert!(error.contains("let fewer patches overlap there"), "{error}");
+    }
 }
