@@ -1,8 +1,9 @@
-//! Nanoseconds per point of the reference evaluator: one point at a time and on lanes, with the value,
-//! the gradient and the Hessian, from 16 to a million patches; point location is included, and
-//! measured alone.
+//! Nanoseconds per point of the reference evaluator: one point at a time and on lanes, with the
+//! value, the gradient and the Hessian, from 16 to a million patches; point location is included,
+//! and measured alone.
 //!
-//! Before that, the four Westergaard functions with gradients as formulas on lanes and by their kernel.
+//! Before that, the four Westergaard functions with gradients as formulas on lanes and by
+//! their kernel.
 //!
 //! Points follow each other along a line of pixels ("line") or are anywhere ("anywhere").
 //! `cargo bench -p ppum-bench --bench evaluate`

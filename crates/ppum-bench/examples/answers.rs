@@ -2,9 +2,10 @@
 //!
 //!     cargo run --release -p ppum-bench --example answers -- examples/edge-shear.toml …
 //!
-//! `energy`, `unknowns`, quadrature `points`, `reactions` (force and moment of each support) and `seconds`; of each
-//! of `tips` its `crack`, `end`, place, `k1`, `k2` and `rings`, each radius, K_I and K_II; of each of
-//! `warnings` its `kind`, `value`, `limit`, `at` and `message`. A problem that is refused gives `error`.
+//! `energy`, `unknowns`, quadrature `points`, `reactions` (force and moment of each support) and
+//! `seconds`; of each of `tips` its `crack`, `end`, place, `k1`, `k2` and `rings`, each radius, K_I
+//! and K_II; of each of `warnings` its `kind`, `value`, `limit`, `at` and `message`. A problem that
+//! is refused gives `error`.
 
 use ppum::dataset::{Dataset, Warning};
 use ppum::progress::unwatched;

@@ -2,9 +2,9 @@
 //!
 //!     cargo run --release -p ppum-bench --example formulas
 //!
-//! Each line is a pair of datasets or quantities that are the same but for the kernel, which the second finds
-//! no place for. Frames of all take turns, each with a view of its own; least and median are told, and the ratio of the
-//! two within the run.
+//! Each line is a pair of datasets or quantities that are the same but for the kernel, which the
+//! second finds no place for. Frames of all take turns, each with a view of its own; least and
+//! median are told, and the ratio of the two within the run.
 
 use cpu_time::ThreadTime;
 use ppum::dataset::Dataset;

@@ -1,4 +1,5 @@
-//! Elementary functions and tables on vectors beside the library's, one thread, nanoseconds a point.
+//! Elementary functions and tables on vectors beside the library's, one thread, nanoseconds
+//! a point.
 //!
 //!     cargo run --release -p ppum-bench --example functions
 //!

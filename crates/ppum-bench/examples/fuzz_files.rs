@@ -2,10 +2,11 @@
 //!
 //!     cargo run --release -p ppum-bench --example fuzz_files -- --seconds 60 --seed 1 FILE.h5 …
 //!
-//! The damaged files are tried in a process of their own, with limits of memory and of time for each. One
-//! that crashes it, takes too long, or shows another dataset under a checksum that is right is kept in
-//! `crates/ppum-format/tests/data/hostile`, where the tests find it, and the search goes on. Without
-//! files it starts from those of `tests/data` and `tests/data/h5py` of that crate.
+//! The damaged files are tried in a process of their own, with limits of memory and of time for
+//! each. One that crashes it, takes too long, or shows another dataset under a checksum that is
+//! right is kept in `crates/ppum-format/tests/data/hostile`, where the tests find it, and the
+//! search goes on. Without files it starts from those of `tests/data` and `tests/data/h5py` of that
+//! crate.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};

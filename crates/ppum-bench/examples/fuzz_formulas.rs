@@ -2,8 +2,9 @@
 //!
 //!     cargo run --release -p ppum-bench --example fuzz_formulas -- --seconds 60 --seed 1
 //!
-//! The texts are tried in a process of their own. One that crashes it, breaks a promise or takes too long
-//! is written into `tests/corpus/hostile`, where the tests find it, and the search goes on.
+//! The texts are tried in a process of their own. One that crashes it, breaks a promise or takes
+//! too long is written into `tests/corpus/hostile`, where the tests find it, and the search goes
+//! on.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};

@@ -76,7 +76,8 @@ impl Case {
         }
     }
 
-    /// The plate has a hole in its upper right; above the line y = −x/2 − half the width nothing is defined.
+    /// The plate has a hole in its upper right; above the line y = −x/2 − half the width nothing
+    /// is defined.
     fn picture(&self, room: [u32; 2]) -> Done<Picture> {
         let domain = self.domain();
         let view = View::hug(domain.bounds, room)?;

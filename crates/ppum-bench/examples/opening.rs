@@ -1,7 +1,8 @@
-//! Times of opening datasets, of reading steps and of appending them, on files in the system's memory: the least and the
-//! median of each, as they pass, and of the processor.
+//! Times of opening datasets, of reading steps and of appending them, on files in the system's
+//! memory: the least and the median of each, as they pass, and of the processor.
 //!
-//! `cargo run --release -p ppum-bench --example opening [FOLDER [LEVEL]]`: of 4^LEVEL patches alone.
+//! `cargo run --release -p ppum-bench --example opening [FOLDER [LEVEL]]`: of 4^LEVEL patches
+//! alone.
 
 use std::path::Path;
 use std::time::Instant;

@@ -2,8 +2,9 @@
 //!
 //!     cargo run --release -p ppum-bench --example solvers -- examples/*.toml
 //!
-//! A line for each problem: unknowns, levels, steps, condition of the preconditioned system, the largest difference of stress
-//! intensity factors and coefficients as parts of the largest one, that of the energy, and seconds of both solutions.
+//! A line for each problem: unknowns, levels, steps, condition of the preconditioned system, the
+//! largest difference of stress intensity factors and coefficients as parts of the largest one,
+//! that of the energy, and seconds of both solutions.
 
 use ppum::dataset::Dataset;
 use ppum::progress::{Phase, unwatched};

@@ -56,13 +56,14 @@ impl Way {
     }
 }
 
-/// Colours of von Mises' stress; that far from the crack is of size one, and grows with the root of the zoom towards a tip.
+/// Colours of von Mises' stress; that far from the crack is of size one, and grows with the root of
+/// the zoom towards a tip.
 pub(crate) fn style(zoom: f64) -> Style {
     Style { range: Range::Fixed(0.0, 4.0 * zoom.sqrt()), ..Style::default() }
 }
 
-/// A view but for a part of a cell, another one each time: offsets by the golden ratio and its like are commensurate with
-/// no cells.
+/// A view but for a part of a cell, another one each time: offsets by the golden ratio and its like
+/// are commensurate with no cells.
 pub(crate) fn moved(View { center, width, pixels }: View, frame: u32) -> anyhow::Result<View> {
     let part = |ratio: f64| 0.003 * width * ((f64::from(frame) * ratio).fract() - 0.5);
     let by = vec2(part(0.618_033_988_75), part(0.754_877_666_25));
@@ -78,7 +79,8 @@ pub(crate) struct Subject<'d> {
 }
 
 impl<'d> Subject<'d> {
-    /// On the devices too if they are given, and there by splatting if it may and patches are not too many.
+    /// On the devices too if they are given, and there by splatting if it may and patches are not
+    /// too many.
     pub(crate) fn new(
         field: &'d Field<'d>,
         (quantity, style): (Quantity, Style),

@@ -1,9 +1,11 @@
-//! Guards of the wide vectors: what they gain over the narrowest ones, kernel by kernel, as ratios within one run.
+//! Guards of the wide vectors: what they gain over the narrowest ones, kernel by kernel, as ratios
+//! within one run.
 //!
-//! A function in a kernel that is not inlined is compiled for the instruction set that every processor of the architecture
-//! has. No value changes, but what runs there takes some 27 times as long. The narrowest vectors need none of the wider
-//! instructions and stay as fast as they are, so the ratio of both falls from above 1 to far below it. It is the least
-//! processor time of some repetitions that counts, of both in turns: a busy machine lengthens both.
+//! A function in a kernel that is not inlined is compiled for the instruction set that every
+//! processor of the architecture has. No value changes, but what runs there takes some 27 times as
+//! long. The narrowest vectors need none of the wider instructions and stay as fast as they are, so
+//! the ratio of both falls from above 1 to far below it. It is the least processor time of some
+//! repetitions that counts, of both in turns: a busy machine lengthens both.
 
 use std::hint::black_box;
 
@@ -34,11 +36,13 @@ const REPETITIONS: usize = 15;
 /// Pixels of the frames: a few milliseconds of work.
 const PIXELS: [u32; 2] = [384, 288];
 
-/// Least ratio of kernels that are arithmetic. Sound ones have 1.7 to 3, and far below 1 when they leave their instruction set. The two
-/// least times of a run would have to differ by a third by noise alone.
+/// Least ratio of kernels that are arithmetic. Sound ones have 1.7 to 3, and far below 1 when they
+/// leave their instruction set. The two least times of a run would have to differ by a third by
+/// noise alone.
 const FLOOR: f64 = 1.2;
 
-/// Least ratio of work that is only in part done on vectors: functions of the mathematical library, look-ups, lists of patches.
+/// Least ratio of work that is only in part done on vectors: functions of the mathematical library,
+/// look-ups, lists of patches.
 const FLOOR_OF_PARTS: f64 = 0.8;
 
 /// The report of `ppum-bench guard`.
@@ -178,7 +182,8 @@ impl Bench {
         Ok(())
     }
 
-    /// The interpreter of formulas on blocks: arithmetic, and functions of the mathematical library.
+    /// The interpreter of formulas on blocks: arithmetic, and functions of the
+    /// mathematical library.
     fn formulas<T: Scalar>(&mut self, numbers: &str) -> anyhow::Result<()> {
         let arithmetic = WESTERGAARD[2];
         let elementary = "exp(-x)*sin(3*y) + log(1 + x^2)";

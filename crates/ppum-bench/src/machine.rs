@@ -15,7 +15,8 @@ pub(crate) struct Machine {
     instructions: &'static str,
     lanes: Lanes,
     pub(crate) threads: usize,
-    /// Programs that wanted to run in the last minute, on Linux: more than the cores, and times are long.
+    /// Programs that wanted to run in the last minute, on Linux: more than the cores, and times
+    /// are long.
     load: Option<f64>,
     adapter: Option<Adapter>,
     /// The reason why there is none.

@@ -216,8 +216,8 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// The least sum of squared deviations, each as a part of its time. None of fewer than three numbers of unknowns, which a
-    /// line would meet anyhow.
+    /// The least sum of squared deviations, each as a part of its time. None of fewer than three
+    /// numbers of unknowns, which a line would meet anyhow.
     #[must_use]
     pub fn new(points: &[[f64; 2]]) -> Option<Self> {
         let mut sizes: Vec<f64> = points.iter().map(|p| p[0]).collect();

@@ -1,13 +1,15 @@
-//! A centre crack that nobody had to solve: Westergaard's solution (1939), expanded about each patch.
+//! A centre crack that nobody had to solve: Westergaard's solution (1939), expanded about
+//! each patch.
 //!
 //! ```text
 //! 2μ u_x = (κ − 1)/2 Re f − y Im f'      2μ u_y = (κ + 1)/2 Im f − y Re f'      f = √(z² − a²)
 //! ```
 //!
-//! is the displacement of an infinite plate under unit tension from all sides. The patches nearest to the tips, on a part
-//! of the area, have the four tip functions, with the amplitudes of the expansion at the tip: these are the displacement
-//! that √(2a(z − a)) has in place of f. What is left of f is expanded into a power series, about the patch's centre, or on
-//! both sides of a crack that crosses the patch. At a tip nothing is left to order r.
+//! is the displacement of an infinite plate under unit tension from all sides. The patches nearest
+//! to the tips, on a part of the area, have the four tip functions, with the amplitudes of the
+//! expansion at the tip: these are the displacement that √(2a(z − a)) has in place of f. What is
+//! left of f is expanded into a power series, about the patch's centre, or on both sides of a crack
+//! that crosses the patch. At a tip nothing is left to order r.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-/// A table: a title, the names of its columns, rows. The first columns are words, the others numbers.
+/// A table: a title, the names of its columns, rows. The first columns are words, the
+/// others numbers.
 #[derive(Debug)]
 pub struct Table {
     /// The title.

@@ -1,7 +1,9 @@
-//! The window: frames of panning, the first image, and what it does when nothing happens, measured without a display.
+//! The window: frames of panning, the first image, and what it does when nothing happens, measured
+//! without a display.
 //!
-//! A frame of panning is all that lies between the mouse's move and the pixels: egui's input and layout, the image of the
-//! new view, its way to the device, and egui's drawing, which is waited for. In the window most of it happens side by side.
+//! A frame of panning is all that lies between the mouse's move and the pixels: egui's input and
+//! layout, the image of the new view, its way to the device, and egui's drawing, which is waited
+//! for. In the window most of it happens side by side.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -38,8 +40,8 @@ struct Row {
     patches: usize,
     /// From opening to the first image on the screen, without reading a file.
     first_ms: f64,
-    /// A frame of panning, and the parts of it: input, layout and shapes; the image; tessellation, and textures on their way
-    /// to the device; the device.
+    /// A frame of panning, and the parts of it: input, layout and shapes; the image; tessellation,
+    /// and textures on their way to the device; the device.
     frame_ms: Summary,
     layout_ms: Summary,
     image_ms: Summary,

@@ -10,8 +10,8 @@ use crate::commands::{
 };
 use crate::output::Output;
 
-/// Solves two-dimensional fracture problems with the particle-partition of unity method and draws the
-/// result exactly at every pixel.
+/// Solves two-dimensional fracture problems with the particle-partition of unity method and draws
+/// the result exactly at every pixel.
 #[derive(Debug, Parser)]
 #[command(name = "ppum", version, after_help = EXAMPLES, max_term_width = 100)]
 pub(crate) struct Cli {
@@ -59,7 +59,8 @@ impl Cli {
         Self::from_arg_matches(&matches).map_err(|error| error.format(&mut Self::whole()))
     }
 
-    /// The commands, whose options all take negative numbers: what is wrong with one its option says.
+    /// The commands, whose options all take negative numbers: what is wrong with one its
+    /// option says.
     pub(crate) fn whole() -> clap::Command {
         let with_numbers = |arg: Arg| {
             let is_option = !arg.is_positional() && arg.get_action().takes_values();

@@ -21,8 +21,8 @@ pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
     named(path, ppum_format::read(path))
 }
 
-/// Reads a dataset of which one step is asked for, by default the last one. All steps have their numbers, but the
-/// others may be empty.
+/// Reads a dataset of which one step is asked for, by default the last one. All steps have their
+/// numbers, but the others may be empty.
 pub(crate) fn open_step(path: &Path, step: Option<usize>) -> anyhow::Result<Dataset> {
     let series = series(path)?;
     let step = step.unwrap_or(series.len() - 1);
@@ -65,7 +65,8 @@ pub(crate) fn field(dataset: &Dataset, step: Option<usize>) -> anyhow::Result<Fi
     Ok(Field::new(dataset, step.unwrap_or(last))?)
 }
 
-/// A quantity by its name or formula, or by `@` and a file with one, if the field has what it needs.
+/// A quantity by its name or formula, or by `@` and a file with one, if the field has what it
+/// needs.
 pub(crate) fn quantity(field: &Field<'_>, given: &str) -> anyhow::Result<Quantity> {
     let given = Given::read(given)?;
     let found = Quantity::parse(&given.text, field);
@@ -98,8 +99,8 @@ pub(crate) fn check_shown(field: &Field<'_>, given: &Given) -> anyhow::Result<()
 /// Stresses that are told if nothing is asked for.
 const STRESSES: [&str; 4] = ["sxx", "syy", "sxy", "von-mises"];
 
-/// Quantities under the names and formulas of lists as they were given; by default the components, and of
-/// elasticity the stresses.
+/// Quantities under the names and formulas of lists as they were given; by default the components,
+/// and of elasticity the stresses.
 pub(crate) fn quantities(
     field: &Field<'_>,
     given: &[String],

@@ -16,8 +16,8 @@ use crate::window::{Frame, Window};
 /// How the plate is deformed.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Deformed {
-    /// Draw the plate with so many times its displacement; `auto` shows the largest as some 5 % of the
-    /// plate
+    /// Draw the plate with so many times its displacement; `auto` shows the largest as some 5 % of
+    /// the plate
     #[arg(long = "deformed", value_name = "FACTOR|auto", allow_hyphen_values = true)]
     pub(crate) factor: Option<Factor>,
     /// Draw the border of the undeformed plate too, dashed
@@ -50,7 +50,8 @@ impl Place<anyhow::Error> for Placing<'_> {
 }
 
 impl Placing<'_> {
-    /// The view of a deformed plate. Windows are places of the deformed plane; that around a tip follows it.
+    /// The view of a deformed plate. Windows are places of the deformed plane; that around a tip
+    /// follows it.
     fn moved<'f>(
         &self,
         Source { field, .. }: Source<'f>,

@@ -90,7 +90,8 @@ fn range(run: &[usize]) -> String {
     }
 }
 
-/// Functions that differ in their places only, and components in their numbers, too: each patch has other ones.
+/// Functions that differ in their places only, and components in their numbers, too: each patch has
+/// other ones.
 struct Group<'f> {
     stem: &'f str,
     names: Vec<&'f str>,
@@ -136,7 +137,8 @@ fn numbered(name: &str) -> Option<(&str, usize)> {
     Some((base, number.parse().ok()?))
 }
 
-/// Name, kind, formula, names of parameters, and numbers: two functions that differ in their places only have the same.
+/// Name, kind, formula, names of parameters, and numbers: two functions that differ in their places
+/// only have the same.
 type Key<'f> = (&'f str, &'static str, &'f str, Vec<&'f str>, Vec<u64>);
 
 fn key<'f>(stem: &'f str, kind: &'f FunctionKind) -> Key<'f> {

@@ -10,7 +10,8 @@ use crate::standard::{self, is_standard};
 /// Longest file, in bytes: far above the longest formula.
 const LONGEST: u64 = 1 << 20;
 
-/// A formula as it was given: itself, or the content of the file named after `@`; `@-` is standard input.
+/// A formula as it was given: itself, or the content of the file named after `@`; `@-` is standard
+/// input.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Given {
     pub(crate) text: String,

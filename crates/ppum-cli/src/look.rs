@@ -10,8 +10,8 @@ use crate::arguments::{inches, positive, size};
 /// The options of size and look.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Look {
-    /// Size of the page in pixels [default: 1024x768, a bare picture of the whole domain takes its shape; of
-    /// `compare` 660x600 for each panel]
+    /// Size of the page in pixels [default: 1024x768, a bare picture of the whole domain takes its
+    /// shape; of `compare` 660x600 for each panel]
     #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "inches")]
     size: Option<[u32; 2]>,
     /// Size of the picture on paper, in inches
@@ -20,7 +20,8 @@ pub(crate) struct Look {
     /// Pixels per inch [default: 300 with --inches, else 96]
     #[arg(long, value_name = "N", value_parser = positive)]
     dpi: Option<f64>,
-    /// Size of the letters of a figure in points [default: 9 with --inches, else with the size in pixels]
+    /// Size of the letters of a figure in points [default: 9 with --inches, else with the size
+    /// in pixels]
     #[arg(long, value_name = "PT", value_parser = positive)]
     font_size: Option<f64>,
     /// Colours around the picture of a figure [default: light]
@@ -32,8 +33,8 @@ pub(crate) struct Look {
     /// Place of a figure's colour bar [default: auto, below long plates]
     #[arg(long, value_enum)]
     bar: Option<BarName>,
-    /// Marks of a figure: auto, about how many, or at which values; of the colour bar, or with x= or y= in front
-    /// of an axis
+    /// Marks of a figure: auto, about how many, or at which values; of the colour bar, or with x=
+    /// or y= in front of an axis
     #[arg(long, value_name = "[x=|y=]auto|N|A,B,…", allow_hyphen_values = true, value_parser = marks)]
     ticks: Vec<(Axis, TickChoice)>,
     /// Words of a figure: title=, x=, y=, bar=, apart by commas; none are left out
@@ -102,7 +103,8 @@ impl Look {
     /// Size of a page of so many panels across and down if no size is given, of things of a shape.
     pub(crate) fn page(aspect: Option<f64>, [across, down]: [u32; 2]) -> [u32; 2] {
         let panel = if aspect.is_some_and(|aspect| aspect > LONG) { LONG_PANEL } else { PANEL };
-        // a page of more panels than anyone can see stays small enough to be refused for want of room
+        // a page of more panels than anyone can see stays small enough to be refused for want
+        // of room
         [across.min(MOST_PANELS) * panel[0], down.min(MOST_PANELS) * panel[1]]
     }
 
@@ -116,8 +118,9 @@ impl Look {
         (self.dpi.is_some() || self.inches.is_some()).then(|| self.dpi())
     }
 
-    /// The look of a figure of something of a shape, width over height, none if it has any shape; of `size` pixels
-    /// unless another size is given, with letters as for one of so many parts of it across and down.
+    /// The look of a figure of something of a shape, width over height, none if it has any shape;
+    /// of `size` pixels unless another size is given, with letters as for one of so many parts of
+    /// it across and down.
     pub(crate) fn design(&self, aspect: Option<f64>, size: [u32; 2], parts: [u32; 2]) -> Design {
         let mut design = match (self.inches, self.size.unwrap_or(size)) {
             (Some(inches), _) => Design::inches(inches, self.dpi()),

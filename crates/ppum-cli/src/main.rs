@@ -72,8 +72,8 @@ fn run(command: &cli::Command) -> ExitCode {
     }
 }
 
-/// Says what went wrong, each line marked. A reader that closed the pipe has seen what it wanted and
-/// is told nothing; if standard error is closed as well nobody can be told.
+/// Says what went wrong, each line marked. A reader that closed the pipe has seen what it wanted
+/// and is told nothing; if standard error is closed as well nobody can be told.
 fn report(error: &anyhow::Error) {
     let is_closed = |io: &io::Error| matches!(io.kind(), io::ErrorKind::BrokenPipe);
     if error.chain().filter_map(|cause| cause.downcast_ref()).any(is_closed) {

@@ -17,7 +17,8 @@ pub(crate) struct Overlays {
     /// Write their levels along the isolines
     #[arg(long, requires = "isolines")]
     level_labels: bool,
-    /// Arrows of the displacement (of a potential its gradient), so many pixels of a bare picture apart [default: 36]
+    /// Arrows of the displacement (of a potential its gradient), so many pixels of a bare picture
+    /// apart [default: 36]
     #[arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true, default_missing_value = "36", value_parser = spacing)]
     arrows: Option<f64>,
     /// Crosses of the principal stresses, so many pixels of a bare picture apart [default: 36]

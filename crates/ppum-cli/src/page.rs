@@ -13,7 +13,8 @@ use crate::output::{Output, tell};
 use crate::standard::is_standard;
 use crate::target;
 
-/// Writes a page to a file or to standard output, and tells `told` of it, which begins with `wrote PATH: `.
+/// Writes a page to a file or to standard output, and tells `told` of it, which begins with
+/// `wrote PATH: `.
 pub(crate) fn save(
     path: &Path,
     page: &Canvas,

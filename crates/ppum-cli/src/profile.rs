@@ -30,8 +30,8 @@ pub(crate) struct Profile {
     /// Around a circle by its centre and radius, against the angle from the x axis in degrees
     #[arg(long, value_name = "X,Y,R", allow_hyphen_values = true, value_parser = circle, group = "where")]
     circle: Option<(Vec2, f64)>,
-    /// Around a crack tip, numbered from 0 as in `ppum sif`, against the angle θ from the crack's extension in
-    /// degrees; with --angle away from it, against the distance r
+    /// Around a crack tip, numbered from 0 as in `ppum sif`, against the angle θ from the crack's
+    /// extension in degrees; with --angle away from it, against the distance r
     #[arg(long, value_name = "K", group = "where")]
     tip: Option<usize>,
     /// Distance from --tip [default: a hundredth of its crack's length]; with --angle the largest
@@ -61,8 +61,8 @@ impl Profile {
         self.along().map_or(Variable::Length, |along| along.variable())
     }
 
-    /// One row for each place: the variable, position, side, quantities; of a crack those of both sides, jumps and
-    /// opening.
+    /// One row for each place: the variable, position, side, quantities; of a crack those of both
+    /// sides, jumps and opening.
     pub(crate) fn table(
         &self,
         field: &Field<'_>,

@@ -1,4 +1,5 @@
-//! Errors of the libraries with their remedies in the words of problem files, which libraries do not know.
+//! Errors of the libraries with their remedies in the words of problem files, which libraries do
+//! not know.
 
 use std::error::Error;
 

@@ -16,8 +16,8 @@ use crate::given::{Given, file};
 /// The part that is taken, and what takes the place of what.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Replacements {
-    /// Only a part of the field: smooth, jump, tip, other (of corners, of one's own), or patch:N; `render`
-    /// draws several, with commas between, in panels, of which `all` is the whole field
+    /// Only a part of the field: smooth, jump, tip, other (of corners, of one's own), or patch:N;
+    /// `render` draws several, with commas between, in panels, of which `all` is the whole field
     #[arg(long, value_name = "PART", value_delimiter = ',')]
     part: Vec<Choice>,
     /// Replace a function, by its number or name in `ppum info`; may be given more than once
@@ -69,7 +69,8 @@ impl Choice {
 }
 
 impl Replacements {
-    /// Changes a step of the dataset, by default the last one. No such step is told where the field is made.
+    /// Changes a step of the dataset, by default the last one. No such step is told where the field
+    /// is made.
     pub(crate) fn apply(&self, dataset: &mut Dataset, step: Option<usize>) -> anyhow::Result<()> {
         ensure!(self.part.len() <= 1, "--part: give one part; several are panels of `ppum render`");
         self.apply_part(dataset, step, self.part.first().and_then(|choice| choice.0))

@@ -17,8 +17,8 @@ mod unix {
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
-    /// From here on part files are removed when a signal ends the program. Where no thread can be had it ends
-    /// as if nobody watched.
+    /// From here on part files are removed when a signal ends the program. Where no thread can be
+    /// had it ends as if nobody watched.
     pub(crate) fn watch() {
         let (ready, is_ready) = channel();
         if thread::Builder::new().spawn(move || wait(&ready)).is_ok() {
@@ -50,7 +50,8 @@ mod unix {
         ignored_by("self")
     }
 
-    /// The signals that a process ignores, given by its number or as `self`, where the system tells.
+    /// The signals that a process ignores, given by its number or as `self`, where the system
+    /// tells.
     pub(super) fn ignored_by(process: &str) -> Option<u64> {
         let status = Path::new("/proc").join(process).join("status");
         let status = ppum_file::text(&status, 1 << 16).ok()?;
@@ -74,7 +75,8 @@ mod tests {
     /// Says that this is a child, and where it writes.
     const TARGET: &str = "PPUM_TEST_TARGET";
 
-    /// No test of its own: the program that the others start. It is for ever in the middle of writing a file.
+    /// No test of its own: the program that the others start. It is for ever in the middle of
+    /// writing a file.
     #[test]
     fn child() {
         let Some(target) = env::var_os(TARGET) else { return };

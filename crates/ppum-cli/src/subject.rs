@@ -25,8 +25,9 @@ pub(crate) struct Subject {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     pub(crate) file: PathBuf,
-    /// Quantity or value of cells, see `ppum info`, or a formula of quantities, or @FILE with one; of `render` several
-    /// with commas between, in panels [default: von-mises; for Poisson problems u]
+    /// Quantity or value of cells, see `ppum info`, or a formula of quantities, or @FILE with one;
+    /// of `render` several with commas between, in panels [default: von-mises; for Poisson problems
+    /// u]
     #[arg(short, long, value_name = "Q", allow_hyphen_values = true)]
     quantity: Option<String>,
     #[command(flatten)]
@@ -60,7 +61,8 @@ impl Subject {
         Ok((quantity, Asked { name: shown.name(self.given(field)), shown }))
     }
 
-    /// What is shown: quantities and values of cells, of a list with commas between; nothing if that is left to the program.
+    /// What is shown: quantities and values of cells, of a list with commas between; nothing if
+    /// that is left to the program.
     pub(crate) fn texts(&self) -> anyhow::Result<Option<Vec<Given>>> {
         let read = |list| parts(list).into_iter().map(Given::read).collect();
         self.quantity.as_deref().map(read).transpose()
@@ -101,8 +103,8 @@ impl Subject {
 pub(crate) struct Colors {
     #[arg(long, value_name = "NAME", help = colormaps())]
     colormap: Option<String>,
-    /// Values that the colours span: auto for all, but robust against peaks that are infinite; full; two values; two percentiles, or
-    /// one for both ends
+    /// Values that the colours span: auto for all, but robust against peaks that are infinite;
+    /// full; two values; two percentiles, or one for both ends
     #[arg(
         long,
         value_name = "auto|full|A,B|P%,Q%|P%",

@@ -52,8 +52,8 @@ impl Kind {
     }
 }
 
-/// Refuses now what could not be written after minutes of work, and what would be lost: `inputs` are the
-/// files that the command reads.
+/// Refuses now what could not be written after minutes of work, and what would be lost: `inputs`
+/// are the files that the command reads.
 pub(crate) fn check<'i>(
     path: &Path,
     kind: Kind,
@@ -83,7 +83,8 @@ pub(crate) fn save(
     ppum_file::replace(path, write).with_context(|| cannot_write(path))
 }
 
-/// Writes a file piece by piece, completely or not at all; what is written may fail for reasons of its own.
+/// Writes a file piece by piece, completely or not at all; what is written may fail for reasons of
+/// its own.
 pub(crate) fn stream(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,

@@ -2,8 +2,8 @@
 
 use std::num::NonZeroUsize;
 
-/// Most threads that may be asked for: more than machines have cores. Each takes some MiB, and the system
-/// itself fails where there are a hundred times as many.
+/// Most threads that may be asked for: more than machines have cores. Each takes some MiB, and the
+/// system itself fails where there are a hundred times as many.
 const MOST: usize = 1024;
 
 /// The number of threads on the command line.

@@ -20,8 +20,8 @@ pub(crate) fn numbered(field: &Field<'_>, number: usize) -> anyhow::Result<TipId
     })
 }
 
-/// A table, one line per tip; tips are numbered in each step. The one of K_I and K_II that is rounding of the other
-/// is shown as zero.
+/// A table, one line per tip; tips are numbered in each step. The one of K_I and K_II that is
+/// rounding of the other is shown as zero.
 pub(crate) fn table(out: &mut dyn Write, tips: &[Tip], places: &Places) -> io::Result<()> {
     let has_steps = tips.iter().any(|tip| tip.step != tips[0].step);
     let heads = ["step", "tip", "crack", "position"].into_iter().chain(HEADS).map(str::to_owned);

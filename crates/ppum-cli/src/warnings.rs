@@ -11,7 +11,8 @@ pub(crate) fn warn(warnings: &[Warning]) {
     }
 }
 
-/// Writes warnings of the steps of a series: those of a kind in full for the first step that has them, and the numbers of all others.
+/// Writes warnings of the steps of a series: those of a kind in full for the first step that has
+/// them, and the numbers of all others.
 pub(crate) fn warn_of_steps(warnings: &[Warning]) {
     let mut steps: Vec<(&str, Vec<usize>)> = Vec::new();
     for Warning { step, kind, message, .. } in warnings {

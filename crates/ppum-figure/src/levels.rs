@@ -4,9 +4,9 @@ use ppum_render::scale::{Normalization, Scale};
 
 use crate::ticks::{Step, decades};
 
-/// About `most` round values within the range of a colour bar, rising: multiples of 1, 2 or 5 × 10^k on a linear scale; powers
-/// of ten, with 2 and 5 times them if there is room, on a logarithmic one, of both signs on a symmetric one. At most `most`
-/// values; none if `most` is 0.
+/// About `most` round values within the range of a colour bar, rising: multiples of 1, 2 or 5 ×
+/// 10^k on a linear scale; powers of ten, with 2 and 5 times them if there is room, on a
+/// logarithmic one, of both signs on a symmetric one. At most `most` values; none if `most` is 0.
 #[must_use]
 pub fn automatic(norm: &Normalization, most: usize) -> Vec<f64> {
     let (min, max) = (norm.min(), norm.max());
@@ -29,7 +29,8 @@ pub fn about(norm: &Normalization, count: usize) -> Vec<f64> {
     lists.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or_default()
 }
 
-/// `count` values that divide the range into equal parts, on the scale of the colour bar; its ends are not among them.
+/// `count` values that divide the range into equal parts, on the scale of the colour bar; its ends
+/// are not among them.
 #[must_use]
 pub fn counted(norm: &Normalization, count: usize) -> Vec<f64> {
     let part = |k: usize| (k + 1) as f64 / (count + 1) as f64;

@@ -1,9 +1,10 @@
 //! Figures: everything that is drawn on and around a picture of a field.
 //!
-//! [`ppum_render`] evaluates a field and gives its values colours. Here the picture gets its cracks,
-//! rims and cells ([`overlay`]), axes, a colour bar and a title ([`figure()`](figure::figure)), or several
-//! pictures stand on one page ([`panels`](figure::panels)). All of it is first put on a
-//! [`Canvas`](canvas::Canvas), which is then drawn as pixels or written as SVG or PDF.
+//! [`ppum_render`] evaluates a field and gives its values colours. Here the picture gets its
+//! cracks, rims and cells ([`overlay`]), axes, a colour bar and a title
+//! ([`figure()`](figure::figure)), or several pictures stand on one page
+//! ([`panels`](figure::panels)). All of it is first put on a [`Canvas`](canvas::Canvas), which is
+//! then drawn as pixels or written as SVG or PDF.
 
 pub mod canvas;
 pub mod figure;

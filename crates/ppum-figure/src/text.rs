@@ -16,7 +16,8 @@ static FONT: LazyLock<FontRef<'static>> =
 /// Height of digits and capitals in parts of the size (the length of an em).
 pub(crate) const CAP_HEIGHT: f64 = 0.729;
 
-/// Pixels between ascender and descender, which ab_glyph counts sizes in, for an em of `size` pixels.
+/// Pixels between ascender and descender, which ab_glyph counts sizes in, for an em of `size`
+/// pixels.
 fn px_scale(size: f64) -> PxScale {
     let em = FONT.units_per_em().expect("the embedded font has an em");
     PxScale::from(size as f32 * FONT.height_unscaled() / em)
@@ -36,8 +37,8 @@ pub(crate) struct Run {
     pub(crate) lowered: f64,
 }
 
-/// The pieces of a line, none of them empty. What is not printable is shown by its number, ends of lines and
-/// tabs are blanks.
+/// The pieces of a line, none of them empty. What is not printable is shown by its number, ends of
+/// lines and tabs are blanks.
 pub(crate) fn runs(text: &str, size: f64) -> Vec<Run> {
     let text = printable(text).replace(['\n', '\t'], " ");
     let mut runs = Vec::new();
@@ -147,8 +148,8 @@ pub(crate) fn bounds(curves: &[Curve]) -> [Vec2; 2] {
     points.fold(start, |[lo, hi], &p| [lo.min(p), hi.max(p)])
 }
 
-/// The outlines of a line of text whose base line starts at a point and runs at an angle, from the right
-/// towards the page's top.
+/// The outlines of a line of text whose base line starts at a point and runs at an angle, from the
+/// right towards the page's top.
 pub(crate) fn outlines(text: &str, size: f64, start: Vec2, angle: f64) -> Vec<Curve> {
     let (sin, cos) = angle.sin_cos();
     let turned = |x: f64, y: f64| start + vec2(cos * x + sin * y, cos * y - sin * x);
@@ -214,8 +215,8 @@ pub(crate) fn squeezed(text: &str, size: f64, room: f64) -> String {
     (1..all.len()).rev().map(of).find(fits).unwrap_or_default()
 }
 
-/// The text in lines that fit, broken between words, and within words that are longer than a line. Ends of
-/// lines in it stay; one of nothing but blanks has no lines.
+/// The text in lines that fit, broken between words, and within words that are longer than a line.
+/// Ends of lines in it stay; one of nothing but blanks has no lines.
 #[must_use]
 pub(crate) fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines = Vec::new();

@@ -48,8 +48,8 @@ impl Ticks {
     }
 }
 
-/// The way the numbers of one range of values are written, wherever they stand: (value − reference) / 10^exponent, or, of a
-/// range of many decades, digits × 10^k.
+/// The way the numbers of one range of values are written, wherever they stand: (value −
+/// reference) / 10^exponent, or, of a range of many decades, digits × 10^k.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Notation {
     /// The number that is subtracted from the values.
@@ -79,7 +79,8 @@ impl Notation {
         Self::spanning(norm.min() + half, half)
     }
 
-    /// The notation of the values `center ± half`: with a reference where their leading digits are all alike.
+    /// The notation of the values `center ± half`: with a reference where their leading digits are
+    /// all alike.
     fn spanning(center: f64, half: f64) -> Self {
         let far = center.abs() + half > FAR * half * (2.0 / STEPS);
         let reference = if far { rounded(center, half) } else { 0.0 };
@@ -87,8 +88,8 @@ impl Notation {
         Self { reference, exponent: label_exponent(farthest, 0), has_powers: false }
     }
 
-    /// A number in this notation, without a `×10ᵏ` that stands in a bar's label; of its own where it is much smaller or larger
-    /// than that.
+    /// A number in this notation, without a `×10ᵏ` that stands in a bar's label; of its own where
+    /// it is much smaller or larger than that.
     #[must_use]
     pub fn label(&self, value: f64) -> String {
         let number = (value - self.reference) / 10f64.powi(self.exponent);
@@ -159,7 +160,8 @@ impl Step {
         times_power(self.digit as f64, self.exponent)
     }
 
-    /// Its multiples inside an open interval, rising: exact decimals. One on an end in spite of rounding is not inside.
+    /// Its multiples inside an open interval, rising: exact decimals. One on an end in spite of
+    /// rounding is not inside.
     #[must_use]
     pub fn multiples(self, min: f64, max: f64) -> Vec<f64> {
         let border = 1e-9 * (max - min);
@@ -186,8 +188,9 @@ const FAR: f64 = 1e4;
 /// Steps of a range of values, roughly.
 const STEPS: f64 = 5.0;
 
-/// Ticks of an axis that spans `center ± half`; `at` is the offset from the centre. Where the leading
-/// digits are all alike the labels are relative to `anchor`, or to a rounded centre without one.
+/// Ticks of an axis that spans `center ± half`; `at` is the offset from the centre. Where the
+/// leading digits are all alike the labels are relative to `anchor`, or to a rounded centre without
+/// one.
 #[must_use]
 pub fn axis(center: f64, half: f64, step: Step, anchor: Option<f64>) -> Ticks {
     let far = (center.abs() + half) / step.size() > FAR;
@@ -199,7 +202,8 @@ pub fn axis(center: f64, half: f64, step: Step, anchor: Option<f64>) -> Ticks {
     labelled_multiples(&multiples, center, step, notation)
 }
 
-/// The same with a finer step where there were fewer than two marks; of those at most two are labelled, the outermost ones.
+/// The same with a finer step where there were fewer than two marks; of those at most two are
+/// labelled, the outermost ones.
 #[must_use]
 pub fn axis_with_two(center: f64, half: f64, step: Step, anchor: Option<f64>) -> Ticks {
     let coarse = axis(center, half, step, anchor);
@@ -214,7 +218,8 @@ pub fn axis_with_two(center: f64, half: f64, step: Step, anchor: Option<f64>) ->
 /// Steps from any length to one that fits twice into a span not 1000 times as short.
 const STEPS_TO_TWO: usize = 12;
 
-/// The multiples of a step, in units of its power of ten, on `middle ± half`, which are `center ± half` without a reference.
+/// The multiples of a step, in units of its power of ten, on `middle ± half`, which are
+/// `center ± half` without a reference.
 fn multiples(middle: f64, half: f64, center: f64, step: Step) -> Vec<i64> {
     // A tick on the border stays in spite of rounding.
     let border = half * (1.0 + 1e-9) + f64::EPSILON * center.abs();
@@ -233,7 +238,8 @@ fn labelled_multiples(multiples: &[i64], center: f64, step: Step, notation: Nota
     Ticks::new(multiples.iter().map(tick).collect(), notation)
 }
 
-/// Ticks of a colour bar with at most about `most` labels, and two at least; `at` is the position from 0 to 1.
+/// Ticks of a colour bar with at most about `most` labels, and two at least; `at` is the position
+/// from 0 to 1.
 #[must_use]
 pub fn bar(norm: &Normalization, most: usize) -> Ticks {
     let ticks = match norm.scale() {
@@ -289,7 +295,8 @@ pub fn of_one_value(norm: &Normalization, value: f64) -> Ticks {
     at(&[value], norm, Notation::of(norm))
 }
 
-/// Even values, wherever the scale puts them; two at least: if there would be more than `most` then, the outermost ones.
+/// Even values, wherever the scale puts them; two at least: if there would be more than `most`
+/// then, the outermost ones.
 fn evenly(norm: &Normalization, most: usize) -> Ticks {
     let (half, notation) = (0.5 * norm.max() - 0.5 * norm.min(), Notation::of(norm));
     let center = norm.min() + half;
@@ -589,8 +596,8 @@ mod tests {
         }
     }
 
-    /// Whatever the range, there are two labels at least, and they say where they are: the level of the same value is written as the
-    /// bar writes it.
+    /// Whatever the range, there are two labels at least, and they say where they are: the level of
+    /// the same value is written as the bar writes it.
     #[test]
     fn scales_can_be_read() {
         let mut random = Random(19);

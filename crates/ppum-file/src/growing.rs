@@ -1,8 +1,9 @@
 //! Files that grow: bytes are appended, and published by a small change of what was there before.
 //!
-//! A file of this kind says itself how long it is, in a few bytes at its start (of HDF5 the superblock). What
-//! stands beyond that end is nobody's: a program was killed there. So an addition is written beyond the end and
-//! reaches the disk before the few bytes change, and a reader sees all of it or nothing.
+//! A file of this kind says itself how long it is, in a few bytes at its start (of HDF5 the
+//! superblock). What stands beyond that end is nobody's: a program was killed there. So an addition
+//! is written beyond the end and reaches the disk before the few bytes change, and a reader sees
+//! all of it or nothing.
 
 use std::fs::OpenOptions;
 use std::io::{self, ErrorKind, Seek as _, SeekFrom, Write};
@@ -13,7 +14,8 @@ use crate::part::{is_at, live};
 use crate::ranged::Ranged;
 use crate::write::{replace_locked, replaceable, resolve};
 
-/// A file that this program alone may write, for as long as this lives. Others may read it at any time.
+/// A file that this program alone may write, for as long as this lives. Others may read it at
+/// any time.
 #[derive(Debug)]
 pub struct Growing {
     file: Ranged,
@@ -63,8 +65,8 @@ impl Growing {
     /// Makes the file `end` bytes long, writes `addition` behind them and sees both to the disk.
     ///
     /// # Errors
-    /// The disk is full, or whatever else the system refuses, and then the file ends at `end`, if the system lets
-    /// it; the file is shorter than `end`, or another one has taken its place.
+    /// The disk is full, or whatever else the system refuses, and then the file ends at `end`, if
+    /// the system lets it; the file is shorter than `end`, or another one has taken its place.
     pub fn append(&mut self, end: u64, addition: &[u8]) -> io::Result<()> {
         // a program that is about to end gives up its lock, and must not write from then on
         let _live = live();
@@ -89,8 +91,8 @@ impl Growing {
         file.sync_all()
     }
 
-    /// Overwrites the few bytes at `at` that publish what was appended, and sees them to the disk. They must not
-    /// cross a border of 512 bytes: a disk writes such a block as a whole.
+    /// Overwrites the few bytes at `at` that publish what was appended, and sees them to the disk.
+    /// They must not cross a border of 512 bytes: a disk writes such a block as a whole.
     ///
     /// # Errors
     /// Whatever the system refuses. Old or new, the bytes say what is true.

@@ -1,12 +1,12 @@
 //! The one place where files are read and written.
 //!
-//! [`read()`] and [`text`] take whole files, within a limit that the caller states, and refuse what has
-//! no end. [`replace`] writes files completely or not at all; [`check`] says beforehand whether it could.
-//! [`Ranged`] reads parts of a file, and [`Growing`] is one that is appended to while others read it.
-//! A program that is told to end calls [`abandon`].
+//! [`read()`] and [`text`] take whole files, within a limit that the caller states, and refuse what
+//! has no end. [`replace`] writes files completely or not at all; [`check`] says beforehand whether
+//! it could. [`Ranged`] reads parts of a file, and [`Growing`] is one that is appended to while
+//! others read it. A program that is told to end calls [`abandon`].
 //!
-//! Errors are [`std::io::Error`]s, those of the system and own ones; their texts are reasons that stand
-//! behind `cannot read FILE: ` or `cannot write FILE: `.
+//! Errors are [`std::io::Error`]s, those of the system and own ones; their texts are reasons that
+//! stand behind `cannot read FILE: ` or `cannot write FILE: `.
 //!
 //! ```
 //! # fn main() -> std::io::Result<()> {

@@ -1,7 +1,8 @@
 //! Files that one program at a time may write: `.NAME.lock` beside a target of that name.
 //!
-//! The writer holds the lock of that file, not of the target: other programs, h5py for one, lock what they
-//! read and could not read a file that is being written. A lock file whose lock can be had is nobody's.
+//! The writer holds the lock of that file, not of the target: other programs, h5py for one, lock
+//! what they read and could not read a file that is being written. A lock file whose lock can be
+//! had is nobody's.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -50,7 +51,8 @@ impl Lock {
 impl Drop for Lock {
     fn drop(&mut self) {
         if live().remove(&self.path) && is_at(&self.file, &self.path) {
-            // nothing better can be done about a file that cannot be removed; without its owner it means nothing
+            // nothing better can be done about a file that cannot be removed; without its owner it
+            // means nothing
             let _ = fs::remove_file(&self.path);
         }
     }

@@ -1,7 +1,8 @@
 //! Files on their way to their place: `.NAME.PROCESS-COUNT.part` beside a target of that name.
 //!
-//! The writer holds a lock on its part file for as long as it lives, whatever becomes of it. So a part
-//! file whose lock can be had belongs to nobody any more, and who writes the same target removes it.
+//! The writer holds a lock on its part file for as long as it lives, whatever becomes of it. So a
+//! part file whose lock can be had belongs to nobody any more, and who writes the same target
+//! removes it.
 
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
@@ -19,8 +20,8 @@ pub(crate) fn live() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     LIVE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes all part files and locks of this program, which is about to end: none is made, and none takes its
-/// place, as long as the result is kept.
+/// Removes all part files and locks of this program, which is about to end: none is made, and none
+/// takes its place, as long as the result is kept.
 #[must_use = "files can be written again once it is dropped"]
 pub fn abandon() -> Abandoned {
     let mut live = live();
@@ -116,7 +117,8 @@ fn is_part_of(found: &OsStr, name: &OsStr) -> bool {
     })
 }
 
-/// A new file with its lock; none if somebody else has the name, or took it for dead before it was locked.
+/// A new file with its lock; none if somebody else has the name, or took it for dead before it
+/// was locked.
 fn created(path: &Path) -> io::Result<Option<File>> {
     let file = match OpenOptions::new().write(true).create_new(true).open(path) {
         Err(e) if e.kind() == ErrorKind::AlreadyExists => return Ok(None),

@@ -6,7 +6,8 @@ use std::path::Path;
 
 /// Opens a regular file of at most `limit` bytes, as far as its length tells.
 ///
-/// Anything else is refused before it is opened: a pipe would be waited for until somebody writes to it.
+/// Anything else is refused before it is opened: a pipe would be waited for until somebody writes
+/// to it.
 ///
 /// # Errors
 /// A folder, a device, a pipe or a socket; a longer file; whatever the system refuses.
@@ -35,7 +36,8 @@ pub fn text(path: &Path, limit: u64) -> io::Result<String> {
     read(path, limit).and_then(utf8)
 }
 
-/// The bytes of `source` until its end, at most `limit` bytes: a file may say that it is empty, or grow.
+/// The bytes of `source` until its end, at most `limit` bytes: a file may say that it is empty, or
+/// grow.
 ///
 /// # Errors
 /// More than `limit` bytes; whatever the source or the memory refuses.

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-/// True if both names lead to one file that exists: by other ways through folders, by symbolic or by
-/// hard links.
+/// True if both names lead to one file that exists: by other ways through folders, by symbolic or
+/// by hard links.
 #[must_use]
 pub fn is_same(a: &Path, b: &Path) -> bool {
     let key = |path| identity(path).ok();

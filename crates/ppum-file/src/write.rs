@@ -9,15 +9,16 @@ use crate::part::{Part, folder};
 
 /// Writes a file by `write`, completely or not at all.
 ///
-/// The bytes go to a part file in the same folder, reach the disk, and then take the place of `path` in
-/// one step; a reader sees the old file or the new one. An existing file keeps its permissions, a
-/// symbolic link keeps pointing at the file that is replaced, and what else is a hard link to that file
-/// keeps the old bytes. Part files of the same target that dead programs have left are removed.
+/// The bytes go to a part file in the same folder, reach the disk, and then take the place of
+/// `path` in one step; a reader sees the old file or the new one. An existing file keeps its
+/// permissions, a symbolic link keeps pointing at the file that is replaced, and what else is a
+/// hard link to that file keeps the old bytes. Part files of the same target that dead programs
+/// have left are removed.
 ///
 /// # Errors
-/// Those of `write`, and of the system; a folder, a device, a file without write permission, one that
-/// [grows](crate::Growing) just now. Whatever
-/// stood at `path` then still stands there unchanged, and no part file is left.
+/// Those of `write`, and of the system; a folder, a device, a file without write permission, one
+/// that [grows](crate::Growing) just now. Whatever stood at `path` then still stands there
+/// unchanged, and no part file is left.
 pub fn replace<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
@@ -42,7 +43,8 @@ pub(crate) fn replace_locked<E: From<io::Error>>(
     Ok(())
 }
 
-/// Says whether [`replace`] could write to `path`, by making a part file there and removing it again.
+/// Says whether [`replace`] could write to `path`, by making a part file there and removing it
+/// again.
 ///
 /// # Errors
 /// As those of [`replace`].

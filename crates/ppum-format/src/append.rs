@@ -14,10 +14,10 @@ use crate::series::{Series, numbered};
 
 /// A file that steps are appended to, each at the cost of one step, whatever is there already.
 ///
-/// The file is complete at any moment, also if the program is killed, the power fails or the disk is full: it holds
-/// the steps that were appended before. Whether a run was interrupted or not, the bytes in the end are the same. As
-/// long as this lives no other run writes the file; reading it, by [`Series`] or any other program, works all
-/// the time.
+/// The file is complete at any moment, also if the program is killed, the power fails or the disk
+/// is full: it holds the steps that were appended before. Whether a run was interrupted or not, the
+/// bytes in the end are the same. As long as this lives no other run writes the file; reading it,
+/// by [`Series`] or any other program, works all the time.
 #[derive(Debug)]
 pub struct SeriesWriter {
     path: PathBuf,
@@ -28,7 +28,8 @@ pub struct SeriesWriter {
 }
 
 impl SeriesWriter {
-    /// Begins a file with all steps of a dataset, in place of what is there, as [`write`](crate::write()) does.
+    /// Begins a file with all steps of a dataset, in place of what is there, as
+    /// [`write`](crate::write()) does.
     ///
     /// # Errors
     ///
@@ -50,8 +51,9 @@ impl SeriesWriter {
     ///
     /// # Errors
     ///
-    /// [`WriteError::Io`]: there is none, or another run is writing it; [`WriteError::Unreadable`]: it cannot be
-    /// read; [`WriteError::NoSeries`]: it was written as a whole, or another program has rewritten it.
+    /// [`WriteError::Io`]: there is none, or another run is writing it; [`WriteError::Unreadable`]:
+    /// it cannot be read; [`WriteError::NoSeries`]: it was written as a whole, or another program
+    /// has rewritten it.
     pub fn resume(path: &Path) -> Result<Self, WriteError> {
         let file = Growing::open(path).map_err(|error| failed(path, error))?;
         let series = Series::open(path).map_err(|error| WriteError::Unreadable {

@@ -22,8 +22,8 @@ impl Default for Arrays {
 }
 
 impl Arrays {
-    /// Adds an array (`steps/0000/partition/center`) or an attribute (`steps/0000@load`, `@title`), row-major, of shape
-    /// `[]` if it is a scalar.
+    /// Adds an array (`steps/0000/partition/center`) or an attribute (`steps/0000@load`, `@title`),
+    /// row-major, of shape `[]` if it is a scalar.
     pub fn insert(&mut self, path: &str, shape: Vec<u64>, values: Values) {
         self.0.insert(path.to_owned(), Array { shape, values });
     }

@@ -137,8 +137,8 @@ const NEEDS: &[(&str, &[&str])] = &[
     ("reactions", &["fields", "equation"]),
 ];
 
-/// All that is wrong with a content: nothing if it is a dataset. Of each object one error, and none that may follow
-/// from another.
+/// All that is wrong with a content: nothing if it is a dataset. Of each object one error, and none
+/// that may follow from another.
 pub(crate) fn diagnose(content: &Content) -> Vec<ReadError> {
     let minor = match decode::check_version(content) {
         Ok(minor) => minor,

@@ -9,8 +9,8 @@ use sha2::{Digest, Sha256};
 use crate::content::{Array, Content, Form, Values, key, step_of};
 use crate::error::ReadError;
 
-/// Name of the attribute that holds the checksum as 64 hexadecimal digits: of the root over all, of a step over
-/// what is in it.
+/// Name of the attribute that holds the checksum as 64 hexadecimal digits: of the root over all, of
+/// a step over what is in it.
 const NAME: &str = "sha256";
 
 /// The root's over what is in no step.
@@ -40,8 +40,8 @@ impl Scope {
         key(group, name, Form::Attribute)
     }
 
-    /// The items that count, by the names under which they do, in their order. Its own checksum does not count, nor
-    /// does that over all, which counts the others.
+    /// The items that count, by the names under which they do, in their order. Its own checksum
+    /// does not count, nor does that over all, which counts the others.
     fn items<'c>(&'c self, content: &'c Content) -> BTreeMap<&'c str, (&'c String, &'c Array)> {
         let begin = if let Self::Step(path) = self { path.as_str() } else { "" };
         let left_out = [self.key(), Self::All.key()];

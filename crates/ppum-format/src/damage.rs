@@ -1,8 +1,9 @@
 //! Damaged copies of files, for tests of programs that read them.
 //!
 //! [`damaged`] changes the bytes of a file, or what they mean: an array of another type, shape or
-//! length, indices and offsets that lead nowhere, numbers that are none, words and formulas that are
-//! wrong, arrays of zeros that shrink to nothing, with the checksum missing, wrong or right again.
+//! length, indices and offsets that lead nowhere, numbers that are none, words and formulas that
+//! are wrong, arrays of zeros that shrink to nothing, with the checksum missing, wrong or
+//! right again.
 
 mod content;
 mod forge;
@@ -34,8 +35,8 @@ pub struct Damaged {
     pub is_sealed: bool,
 }
 
-/// A copy of a file with one to three damages of one kind. `below(n)` is a random number below n; the same
-/// numbers make the same damage.
+/// A copy of a file with one to three damages of one kind. `below(n)` is a random number below n;
+/// the same numbers make the same damage.
 pub fn damaged(file: &[u8], below: &mut dyn FnMut(usize) -> usize) -> Damaged {
     if below(2) == 0
         && let Some(damaged) = content::damaged(file, below)

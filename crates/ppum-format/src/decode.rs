@@ -61,7 +61,8 @@ pub(crate) fn dataset(content: &Content) -> Read<Dataset> {
     read(content, whole).map_err(first)
 }
 
-/// What can be read of a dataset, and all that is wrong with the objects of its content, about which the dataset says nothing.
+/// What can be read of a dataset, and all that is wrong with the objects of its content, about
+/// which the dataset says nothing.
 pub(crate) fn diagnose(content: &Content) -> (Dataset, Vec<ReadError>) {
     attempt(content, whole)
 }
@@ -96,8 +97,8 @@ pub(crate) fn one_step(content: &Content, path: &str, tables: &[Arc<Table>]) -> 
 /// The members of a step that hold [`results`].
 pub(crate) const RESULTS: &[&str] = &["cracks", "intensities", "history", "warnings", "growth"];
 
-/// The cracks of a step, and what its solver tells of it, in a content that holds this alone. The step has no
-/// patches.
+/// The cracks of a step, and what its solver tells of it, in a content that holds this alone. The
+/// step has no patches.
 pub(crate) fn results(content: &Content, path: &str) -> Read<Step> {
     let results = |root: &Group| {
         let group = &root.group(path);
@@ -129,7 +130,8 @@ pub(crate) fn head(content: &Content) -> Read<Dataset> {
     read(content, |root| head_of(root).0).map_err(first)
 }
 
-/// The dataset without its steps, and the scopes of its formulas if nothing is wrong with the tables.
+/// The dataset without its steps, and the scopes of its formulas if nothing is wrong with
+/// the tables.
 fn head_of(root: &Group) -> (Dataset, Option<Scopes>) {
     let tables = tables(root);
     let scopes = if root.is_fine() { scopes(root, &tables) } else { None };
@@ -251,7 +253,8 @@ fn step(group: &Group, scopes: &Option<Scopes>) -> Step {
 
 fn partition(group: &Group, scopes: &Option<Scopes>) -> Partition {
     let kind = group.attribute_word(&[(false, BOXES), (true, MESH)], "kind");
-    // of an unknown kind the arrays are read as what they look like: one error, not one for each that is missing
+    // of an unknown kind the arrays are read as what they look like: one error, not one for each
+    // that is missing
     match kind.unwrap_or_else(|| group.row_count("shape").is_some()) {
         true => mesh(group).into(),
         false => boxes(group, scopes).into(),

@@ -131,7 +131,8 @@ fn shorten(text: &mut String) {
     }
 }
 
-/// The reason why a dataset could not be written. The file that was at the path before is unchanged.
+/// The reason why a dataset could not be written. The file that was at the path before
+/// is unchanged.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {

@@ -38,7 +38,8 @@ pub fn diagnose(path: &Path) -> Vec<ReadError> {
 /// # Errors
 ///
 /// [`WriteError`], and then whatever stood at `path` still stands there unchanged. A file without
-/// write permission, a folder or a device is not replaced, and no file is longer than [`MAX_LENGTH`].
+/// write permission, a folder or a device is not replaced, and no file is longer
+/// than [`MAX_LENGTH`].
 pub fn write(dataset: &Dataset, path: &Path) -> Result<(), WriteError> {
     let bytes = to_bytes(dataset)?;
     if bytes.len() as u64 > MAX_LENGTH {

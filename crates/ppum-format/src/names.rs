@@ -46,7 +46,8 @@ pub(crate) const ENDS: &Words<End> = &[(End::Start, "start"), (End::Last, "last"
 pub(crate) const PLAIN_BOX: &str = "box";
 pub(crate) const BOX_WITH_HOLES: &str = "box-with-holes";
 
-/// The union of the elements of a mesh, the kind of a domain and of its partitions, and the other kind of partitions.
+/// The union of the elements of a mesh, the kind of a domain and of its partitions, and the other
+/// kind of partitions.
 pub(crate) const MESH: &str = "mesh";
 pub(crate) const BOXES: &str = "shepard-box";
 

@@ -1,4 +1,5 @@
-//! The places of a dataset's errors, in the file: a path through the data model becomes that of an HDF5 object.
+//! The places of a dataset's errors, in the file: a path through the data model becomes that of an
+//! HDF5 object.
 
 use crate::content::{Content, Form, Values, join, key, step_path};
 
@@ -6,7 +7,8 @@ use crate::content::{Content, Form, Values, join, key, step_path};
 const TABLES: &[&str] =
     &["cracks", "functions", "holes", "intensities", "quantities", "reactions", "tips", "warnings"];
 
-/// Lists of an entry of a table, which are parts of an array: the group, the list, its array and its offsets.
+/// Lists of an entry of a table, which are parts of an array: the group, the list, its array and
+/// its offsets.
 const PARTS: &[(&str, &str, &str, &str)] = &[
     ("cracks", "points", "points", "offsets"),
     ("cracks", "segment", "points", "offsets"),
@@ -31,8 +33,8 @@ const NAMES: &[(&str, &str, &str)] = &[
     ("functions", "angle", "frame_angle"),
 ];
 
-/// The object that a place such as `steps[0].functions[2].cuts[1].left` is about, with the indices in its array. What is
-/// between back ticks is a name.
+/// The object that a place such as `steps[0].functions[2].cuts[1].left` is about, with the indices
+/// in its array. What is between back ticks is a name.
 pub(crate) fn in_file(place: &str, content: &Content) -> String {
     let (path, name) = place.split_at(place.find(" `").unwrap_or(place.len()));
     let mut found = String::new();

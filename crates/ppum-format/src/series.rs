@@ -15,9 +15,9 @@ use crate::{checksum, decode};
 
 /// A dataset whose steps are read when they are asked for, each at the cost of one step.
 ///
-/// While it is open another program may append steps to the file, or replace it: it sees the steps that were there
-/// when it was opened. A file with one checksum over all of it, as those of one step have and those of versions
-/// before 1.4, is read and checked as a whole when it is opened.
+/// While it is open another program may append steps to the file, or replace it: it sees the steps
+/// that were there when it was opened. A file with one checksum over all of it, as those of one
+/// step have and those of versions before 1.4, is read and checked as a whole when it is opened.
 #[derive(Debug)]
 pub struct Series {
     head: Dataset,
@@ -32,7 +32,8 @@ enum Steps {
     Stored(Ranged, Outline),
 }
 
-/// Attempts to read what another program may be changing: it changes it once in a step, within microseconds.
+/// Attempts to read what another program may be changing: it changes it once in a step,
+/// within microseconds.
 const ATTEMPTS: u32 = 5;
 
 impl Series {
@@ -40,8 +41,8 @@ impl Series {
     ///
     /// # Errors
     ///
-    /// [`ReadError`]: whatever is wrong outside of the steps, or with their numbers; of a file with one checksum
-    /// over all of it whatever [`read`](crate::read()) refuses.
+    /// [`ReadError`]: whatever is wrong outside of the steps, or with their numbers; of a file with
+    /// one checksum over all of it whatever [`read`](crate::read()) refuses.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let io = |error| ReadError::io(path, error);
         let file = Ranged::open(path, MAX_SERIES_LENGTH).map_err(io)?;
@@ -94,8 +95,8 @@ impl Series {
     ///
     /// # Errors
     ///
-    /// [`ReadError`]: there is no such step, or it is not what it should be. The dataset returned has passed
-    /// [`Dataset::check`].
+    /// [`ReadError`]: there is no such step, or it is not what it should be. The dataset returned
+    /// has passed [`Dataset::check`].
     pub fn dataset(&self, number: usize) -> Result<Dataset, ReadError> {
         match &self.steps {
             Steps::Read(steps) => {
@@ -107,8 +108,9 @@ impl Series {
         }
     }
 
-    /// The cracks of a step and what its solver tells of it: load, stress intensity factors, history and warnings.
-    /// It has no patches, functions and fields, and so its checksum is not looked at.
+    /// The cracks of a step and what its solver tells of it: load, stress intensity factors,
+    /// history and warnings. It has no patches, functions and fields, and so its checksum is not
+    /// looked at.
     ///
     /// # Errors
     ///
@@ -122,8 +124,8 @@ impl Series {
         }
     }
 
-    /// As [`at`](Self::at), but of a dataset that is in memory all steps are there, and no step is read if there is
-    /// none of this number.
+    /// As [`at`](Self::at), but of a dataset that is in memory all steps are there, and no step is
+    /// read if there is none of this number.
     ///
     /// # Errors
     ///
@@ -135,8 +137,9 @@ impl Series {
         }
     }
 
-    /// The dataset with as many steps as there are, of which this one alone is read, at its number. The others are
-    /// empty, without patches, and their loads are those of the first step, or of the last one.
+    /// The dataset with as many steps as there are, of which this one alone is read, at its number.
+    /// The others are empty, without patches, and their loads are those of the first step, or of
+    /// the last one.
     ///
     /// # Errors
     ///
@@ -151,7 +154,8 @@ impl Series {
         Ok(dataset)
     }
 
-    /// The dataset with what [`results`](Self::results) gives of each step; of one that is in memory with all of them.
+    /// The dataset with what [`results`](Self::results) gives of each step; of one that is in
+    /// memory with all of them.
     ///
     /// # Errors
     ///

@@ -17,7 +17,8 @@ impl<T: Scalar> Scratch<T> {
         if self.memory.len() < whole {
             self.memory.resize(whole, T::default());
         }
-        // Vectors that begin with a cache line are loaded in half the time. Any other place is right.
+        // Vectors that begin with a cache line are loaded in half the time. Any other place
+        // is right.
         let skip = self.memory.as_ptr().align_offset(T::VECTOR * size_of::<T>()).min(T::VECTOR);
         &mut self.memory[skip..skip + n]
     }
@@ -25,9 +26,9 @@ impl<T: Scalar> Scratch<T> {
 
 /// A block of [`Block::POINTS`] points at which formulas are evaluated together.
 ///
-/// Write the inputs, run, read the outputs. Inputs stay what they are until they are written anew: one
-/// that is the same at all points is written once. Where there are fewer points than the block has,
-/// leave the rest as it is and do not read the outputs there.
+/// Write the inputs, run, read the outputs. Inputs stay what they are until they are written anew:
+/// one that is the same at all points is written once. Where there are fewer points than the block
+/// has, leave the rest as it is and do not read the outputs there.
 ///
 /// ```
 /// use ppum_formula::{Formula, FormulaJets, Scope, Scratch};

@@ -207,8 +207,8 @@ impl FormulaError {
         self.mistake.message(&self.found)
     }
 
-    /// The bytes of the offending text in the formula, to mark them; of a long one the first part. Empty at the end of the
-    /// formula.
+    /// The bytes of the offending text in the formula, to mark them; of a long one the first part.
+    /// Empty at the end of the formula.
     #[must_use]
     pub fn place(&self, formula: &str) -> Range<usize> {
         let start = formula.split_inclusive('\n').take(self.line - 1).map(str::len).sum::<usize>();
@@ -240,8 +240,8 @@ impl FormulaError {
 /// Longest offending text shown in a message, in characters.
 const MAX_FOUND: usize = 40;
 
-/// One character for each, so that carets stay below what they point at: a blank for white space, and a
-/// replacement character for what is not printable.
+/// One character for each, so that carets stay below what they point at: a blank for white space,
+/// and a replacement character for what is not printable.
 fn visible(c: char) -> char {
     match c {
         c if c.is_whitespace() => ' ',

@@ -64,9 +64,9 @@ impl Formula {
         &self.text
     }
 
-    /// The formula as it is computed, as a text that parses to the same operations in the same scope
-    /// (if it is within [`MAX_LENGTH`](crate::MAX_LENGTH)): parameters and constants folded, definitions put in their
-    /// places, long and common parts named by `let`.
+    /// The formula as it is computed, as a text that parses to the same operations in the same
+    /// scope (if it is within [`MAX_LENGTH`](crate::MAX_LENGTH)): parameters and constants folded,
+    /// definitions put in their places, long and common parts named by `let`.
     ///
     /// ```
     /// use ppum_formula::{Formula, Scope};

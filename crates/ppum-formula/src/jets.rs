@@ -53,8 +53,8 @@ impl FormulaJets {
     /// Compiles formulas with derivatives up to `order`, which is 0, 1 or 2.
     ///
     /// # Errors
-    /// When derivatives are asked for and the scope has neither one nor two independent variables, or
-    /// when they are too large.
+    /// When derivatives are asked for and the scope has neither one nor two independent variables,
+    /// or when they are too large.
     ///
     /// # Panics
     /// When there is no formula, when scopes differ in more than parameters, or `order` is above 2.
@@ -69,8 +69,9 @@ impl FormulaJets {
         Ok(Self::of_outputs(&graph, &outputs, scope))
     }
 
-    /// Compiles a formula with its derivatives with respect to some independent variables of its scope, however
-    /// many that has: the results are the value and a derivative for each of `variables`, in their order.
+    /// Compiles a formula with its derivatives with respect to some independent variables of its
+    /// scope, however many that has: the results are the value and a derivative for each of
+    /// `variables`, in their order.
     ///
     /// ```
     /// use ppum_formula::{Formula, FormulaJets, Scope};
@@ -116,8 +117,8 @@ impl FormulaJets {
         }
     }
 
-    /// The function of WGSL that computes the results in single precision, to stand in a module together
-    /// with [`wgsl_prelude`](crate::wgsl_prelude).
+    /// The function of WGSL that computes the results in single precision, to stand in a module
+    /// together with [`wgsl_prelude`](crate::wgsl_prelude).
     ///
     /// ```wgsl
     /// fn name(x: f32, y: f32, r: f32, theta: f32, cos_half_theta: f32, sin_half_theta: f32) -> array<f32, 6>
@@ -128,21 +129,21 @@ impl FormulaJets {
     /// [`FormulaJets::evaluate`]. Tables come as functions `table_0_of_name`, …, before it.
     ///
     /// `name` has to be a name that WGSL has no meaning for (`f32` has one), beginning with neither
-    /// `ppum_` nor `table_`. Numbers are rounded to single precision, those beyond it are infinite or 0.
-    /// Functions are accurate to some units of the last place where WGSL promises less, except √, log and powers
-    /// that are not whole, which are the device's; infinities and NaN are as well kept as the device does. A
-    /// table makes a text as long as its cells are many.
+    /// `ppum_` nor `table_`. Numbers are rounded to single precision, those beyond it are infinite
+    /// or 0. Functions are accurate to some units of the last place where WGSL promises less,
+    /// except √, log and powers that are not whole, which are the device's; infinities and NaN are
+    /// as well kept as the device does. A table makes a text as long as its cells are many.
     #[must_use]
     pub fn wgsl(&self, name: &str) -> String {
         wgsl::function(name, &self.scope, &self.program, |_| true)
     }
 
-    /// Like [`FormulaJets::wgsl`], but the parameters are only the inputs that are [used](Self::used), in
-    /// their order.
+    /// Like [`FormulaJets::wgsl`], but the parameters are only the inputs that are
+    /// [used](Self::used), in their order.
     ///
     /// # Errors
-    /// When a table has more than 2047 knots or cubics (one per cell, four with two arguments), or WGSL does not
-    /// promise to hold the number of inputs.
+    /// When a table has more than 2047 knots or cubics (one per cell, four with two arguments), or
+    /// WGSL does not promise to hold the number of inputs.
     pub fn wgsl_of_used(&self, name: &str) -> Result<String, WgslError> {
         wgsl::check(&self.program, self.used().count())?;
         let used: BTreeSet<_> = self.used().collect();

@@ -1,5 +1,5 @@
-//! Formulas: functions of the plane as text, differentiated exactly, evaluated at many points, printed
-//! as functions of a shader.
+//! Formulas: functions of the plane as text, differentiated exactly, evaluated at many points,
+//! printed as functions of a shader.
 //!
 //! ```
 //! use ppum_formula::{Formula, FormulaJets, Scope, Scratch};
@@ -28,9 +28,9 @@
 //!                                                  not smooth
 //! ```
 //!
-//! [`real`] is the number type of kernels, here and in what is built on this crate: f64, f32, vectors of
-//! both. [`printable`](mod@printable) and [`spelling`] are for messages: texts that nobody can trust, words
-//! that were mistyped. No files, no threads.
+//! [`real`] is the number type of kernels, here and in what is built on this crate: f64, f32,
+//! vectors of both. [`printable`](mod@printable) and [`spelling`] are for messages: texts that
+//! nobody can trust, words that were mistyped. No files, no threads.
 //!
 //! # The language
 //!
@@ -50,38 +50,38 @@
 //! parameters, tables, the sides of cracks.
 //!
 //! A block is a whole formula, the inside of parentheses, or an argument. `^` groups from the right
-//! (2^3^2 = 2^9) and binds tighter than a sign (−x^2 = −(x^2)); everything else groups from the left,
-//! comparisons do not chain. `log` is the natural logarithm, angles are radians. Numbers and
+//! (2^3^2 = 2^9) and binds tighter than a sign (−x^2 = −(x^2)); everything else groups from the
+//! left, comparisons do not chain. `log` is the natural logarithm, angles are radians. Numbers and
 //! conditions are different types: `if` and `and` want conditions, `+` wants numbers. A name has
 //! one meaning, so `let` cannot define it again.
 //!
 //! Arithmetic is that of IEEE doubles: 1/0 is +∞, √−1 and 0/0 are NaN, NaN spreads (through `min`
-//! and `max` too) and makes every comparison but `!=` false. Both branches of `if` are computed, only
-//! one is taken. Integer powers up to 16 are products.
+//! and `max` too) and makes every comparison but `!=` false. Both branches of `if` are computed,
+//! only one is taken. Integer powers up to 16 are products.
 //!
 //! # Derivatives
 //!
 //! Derivatives are exact, symbolic, and of any order. Where a function has a kink or a jump, the
-//! derivative is that of one piece, the right one, and where that is undecided, the upper one: |x| has
-//! slope +1 at 0, and so has |1 − x| at 1; `max(1 - t, 0)` has slope 0 at 1. Of `if` the branch
+//! derivative is that of one piece, the right one, and where that is undecided, the upper one: |x|
+//! has slope +1 at 0, and so has |1 − x| at 1; `max(1 - t, 0)` has slope 0 at 1. Of `if` the branch
 //! that gives the value gives the derivatives. `sign` and `floor` have derivative 0 everywhere.
 //!
-//! A table is flat outside its range; on the ends of the range its derivatives are those of the inside.
-//! `side` has derivative 0.
+//! A table is flat outside its range; on the ends of the range its derivatives are those of the
+//! inside. `side` has derivative 0.
 //!
-//! The places where a formula may not be smooth are known without evaluating it: [`Formula::kinks`] are the zero
-//! sets of what `abs`, `sign`, `min`, `max`, `floor`, inequalities and tables switch on, with
-//! their equations where they are lines; [`Formula::singularities`] those of what stands under
-//! roots, logarithms and fractions; [`Formula::breakpoints`] the places on an interval. Angles jump on
-//! their cut ([`Formula::uses_branch`]), sides on their crack.
+//! The places where a formula may not be smooth are known without evaluating it: [`Formula::kinks`]
+//! are the zero sets of what `abs`, `sign`, `min`, `max`, `floor`, inequalities and tables switch
+//! on, with their equations where they are lines; [`Formula::singularities`] those of what stands
+//! under roots, logarithms and fractions; [`Formula::breakpoints`] the places on an interval.
+//! Angles jump on their cut ([`Formula::uses_branch`]), sides on their crack.
 //!
 //! # Half angles
 //!
 //! With r and theta, the sine, cosine and tangent of kθ/2 with a whole number k, 0 < |k| ≤ 64, are
-//! products of x/r, y/r, cos(θ/2) and sin(θ/2): `sin(theta/2)`, `cos(1.5*theta)`, `sin(lambda*theta)`
-//! with a parameter λ = ½, `cos(theta/2 + theta)`. There is no arc tangent, and no cancellation near
-//! θ = ±π; the caller gives the two half angles on its branch, see [`Scope::polar`]. Other uses of
-//! theta take θ itself.
+//! products of x/r, y/r, cos(θ/2) and sin(θ/2): `sin(theta/2)`, `cos(1.5*theta)`,
+//! `sin(lambda*theta)` with a parameter λ = ½, `cos(theta/2 + theta)`. There is no arc tangent, and
+//! no cancellation near θ = ±π; the caller gives the two half angles on its branch, see
+//! [`Scope::polar`]. Other uses of theta take θ itself.
 //!
 //! # Limits
 //!

@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// True for what is shown as it is. False for control characters, C0, C1 and DEL; for those that change the
-/// direction of the text around them; for those that break lines or are not seen, but for the two
-/// joiners (U+200C, U+200D), which languages need.
+/// True for what is shown as it is. False for control characters, C0, C1 and DEL; for those that
+/// change the direction of the text around them; for those that break lines or are not seen, but
+/// for the two joiners (U+200C, U+200D), which languages need.
 #[must_use]
 pub fn is_printable(c: char) -> bool {
     let is_format = matches!(
@@ -24,8 +24,9 @@ pub fn is_printable(c: char) -> bool {
     !c.is_control() && !is_format
 }
 
-/// The text with what is not printable, but for ends of lines and tabs, as JSON escapes it: `\u001b`.
-/// Outside of strings JSON has no such characters, so JSON stays the same to who reads it.
+/// The text with what is not printable, but for ends of lines and tabs, as JSON escapes it:
+/// `\u001b`. Outside of strings JSON has no such characters, so JSON stays the same to who reads
+/// it.
 ///
 /// ```
 /// use ppum_formula::printable::printable;

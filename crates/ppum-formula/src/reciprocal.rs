@@ -3,9 +3,9 @@
 //! Derivatives have many of them: each partial derivative of √u is one by 2√u, of a/b one by b. A
 //! division costs as much as ten multiplications, so where two or more have the denominator in
 //! common, a/b becomes a · (1/b); a power of two in the denominator goes with the numerator. This
-//! rounds once more, and 1/b is infinite where |b| < 2⁻¹⁰²⁴; infinities, zeros and NaN are otherwise
-//! what they were. Quotients that *values* need stay, so that values are those of the formula
-//! alone, to the last bit.
+//! rounds once more, and 1/b is infinite where |b| < 2⁻¹⁰²⁴; infinities, zeros and NaN are
+//! otherwise what they were. Quotients that *values* need stay, so that values are those of the
+//! formula alone, to the last bit.
 
 use std::collections::HashMap;
 

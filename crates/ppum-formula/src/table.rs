@@ -7,9 +7,9 @@ use crate::real::{Double, Lanes};
 ///
 /// Between the knots it is the cubic spline through the values, twice continuously differentiable,
 /// the third derivative continuous at the first and last inner knot as well (*not-a-knot*: no
-/// slopes need to be known at the ends; de Boor 1978, chapter IV). So a cubic is reproduced exactly.
-/// Three knots give the parabola, two the line. With two arguments it is the tensor product of such
-/// splines: bicubic on each cell, reproducing x³y³.
+/// slopes need to be known at the ends; de Boor 1978, chapter IV). So a cubic is reproduced
+/// exactly. Three knots give the parabola, two the line. With two arguments it is the tensor
+/// product of such splines: bicubic on each cell, reproducing x³y³.
 ///
 /// Outside the knots the value is that of the nearest point of the border, the derivatives in that
 /// direction are 0, as of `numpy.interp`. On the ends of the range the derivatives are those of
@@ -33,13 +33,13 @@ pub struct Table {
     /// Empty if the table has one argument.
     y: Vec<f64>,
     values: Vec<f64>,
-    /// For each cell, row-major \[cell in y\]\[cell in x\], its coefficients \[power of y\]\[power of x\] in
-    /// powers of the distances from the cell's lower left knot.
+    /// For each cell, row-major \[cell in y\]\[cell in x\], its coefficients \[power of y\]\[power
+    /// of x\] in powers of the distances from the cell's lower left knot.
     coefficients: Vec<f64>,
 }
 
-/// Equal names, knots and values. Scopes share their tables and are compared often: one table with itself costs
-/// nothing.
+/// Equal names, knots and values. Scopes share their tables and are compared often: one table with
+/// itself costs nothing.
 impl PartialEq for Table {
     fn eq(&self, other: &Self) -> bool {
         std::ptr::eq(self, other)
@@ -198,9 +198,9 @@ impl Table {
         &self.values
     }
 
-    /// The spline's polynomials. For each cell between knots, row-major \[cell in y\]\[cell in x\], the
-    /// coefficients \[power of y\]\[power of x\] in powers of the distances from the cell's lower left
-    /// knot: 16 numbers, or 4 with one argument.
+    /// The spline's polynomials. For each cell between knots, row-major \[cell in y\]\[cell in x\],
+    /// the coefficients \[power of y\]\[power of x\] in powers of the distances from the cell's
+    /// lower left knot: 16 numbers, or 4 with one argument.
     #[must_use]
     pub fn coefficients(&self) -> &[f64] {
         &self.coefficients
@@ -212,8 +212,9 @@ impl Table {
         self.derivative([0, 0], x, y)
     }
 
-    /// ∂^(m+n) / ∂x^m ∂y^n of the table at (x, y), with `orders` = \[m, n\]; `y` is ignored if there is
-    /// one argument. The third derivatives are piecewise constant in their direction, higher ones 0.
+    /// ∂^(m+n) / ∂x^m ∂y^n of the table at (x, y), with `orders` = \[m, n\]; `y` is ignored if
+    /// there is one argument. The third derivatives are piecewise constant in their direction,
+    /// higher ones 0.
     #[must_use]
     pub fn derivative(&self, orders: [u8; 2], x: f64, y: f64) -> f64 {
         self.derivatives(orders, x, y)
@@ -307,7 +308,8 @@ fn cells<R: Double>(knots: &[f64], x: R) -> Lanes {
     count.lanes()
 }
 
-/// The derivative of an order up to 3 of the polynomial with some coefficients, constant first, at `t`.
+/// The derivative of an order up to 3 of the polynomial with some coefficients, constant first,
+/// at `t`.
 #[inline(always)]
 fn polynomial<R: Double>(c: Cubic<R>, order: u8, t: R) -> R {
     let (two, three, six) = (t.lit(2.0), t.lit(3.0), t.lit(6.0));
@@ -499,15 +501,17 @@ mod tests {
                 ([4, 0], 0.0),
             ] {
                 let found = table.derivative(orders, x, y);
-                // rounding of the largest value, 24 · 40, divided by the smallest step, 1/5, once an order
+                // rounding of the largest value, 24 · 40, divided by the smallest step, 1/5, once
+                // an order
                 let tolerance = 1e-12 * 5f64.powi(i32::from(orders[0] + orders[1]));
                 assert!((found - expected).abs() < tolerance, "{orders:?} at {x}, {y}: {found}");
             }
         }
     }
 
-    /// Values, slopes and curvatures are continuous at inner knots, the third derivative at the first
-    /// and last of them: the defining conditions of the spline, with data that are no polynomial.
+    /// Values, slopes and curvatures are continuous at inner knots, the third derivative at the
+    /// first and last of them: the defining conditions of the spline, with data that are
+    /// no polynomial.
     #[test]
     fn defining_conditions() {
         let values = [1.0, -2.0, 0.5, 0.25, 3.0, -1.0];

@@ -37,8 +37,8 @@ impl fmt::Display for AdapterKind {
     }
 }
 
-/// The adapters that are good enough. Of several the best [kind](AdapterKind) is taken, and of one kind the
-/// first.
+/// The adapters that are good enough. Of several the best [kind](AdapterKind) is taken, and of one
+/// kind the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
     /// Graphics hardware that is known to be such: discrete, integrated or virtual.

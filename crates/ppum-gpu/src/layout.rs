@@ -1,10 +1,10 @@
 //! Records that shaders read: declared once, here, and written out as WGSL.
 
-/// Declares a record of numbers: a Rust structure, its words in the order of its fields, and the same
-/// structure in WGSL.
+/// Declares a record of numbers: a Rust structure, its words in the order of its fields, and the
+/// same structure in WGSL.
 ///
-/// Fields go from the strictest alignment to the loosest, vectors first, so that neither side has gaps; a
-/// test holds every record to WGSL's rules.
+/// Fields go from the strictest alignment to the loosest, vectors first, so that neither side has
+/// gaps; a test holds every record to WGSL's rules.
 macro_rules! record {
     (
         $(#[$about:meta])*
@@ -94,7 +94,8 @@ pub(crate) fn halves(value: f64) -> [f32; 2] {
     [high, (value - f64::from(high)) as f32]
 }
 
-/// Halves of which the first is a multiple of `quantum`: differences of such multiples below 2²⁴ quanta are exact.
+/// Halves of which the first is a multiple of `quantum`: differences of such multiples below 2²⁴
+/// quanta are exact.
 pub(crate) fn halves_by(quantum: f64, value: f64) -> [f32; 2] {
     let high = ((value / quantum).round() * quantum) as f32;
     [high, (value - f64::from(high)) as f32]

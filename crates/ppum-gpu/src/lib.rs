@@ -2,8 +2,8 @@
 //!
 //! The contract is that of `ppum-render`: a [`View`](ppum_render::view::View) of a
 //! [`Field`](ppum::field::Field) and a [`Quantity`](ppum::quantity::Quantity) make a raster. A
-//! [`Renderer`] puts a field on the card ([`Scene`]), compiles an output of it ([`Program`]), and draws
-//! that, by either [`Method`]:
+//! [`Renderer`] puts a field on the card ([`Scene`]), compiles an output of it ([`Program`]), and
+//! draws that, by either [`Method`]:
 //!
 //! - *gather*: each pixel finds the patches that cover it, sums and divides once;
 //! - *splat*: the three passes of Üffinger et al. 2011, patches drawn as quads and blended.
@@ -59,11 +59,13 @@
 //! ```
 //!
 //! Shaders compute in single precision. Everything that would cancel there is formed in double
-//! precision on the processor: positions of tips, cracks and rims relative to the view, positions of
-//! patches relative to a region around it, in two halves. So views may be 10⁻¹² of the domain wide.
-//! Values agree with the CPU renderer to 2·10⁻⁵ of the field's local scale and mostly to 10⁻⁶.
+//! precision on the processor: positions of tips, cracks and rims relative to the view, positions
+//! of patches relative to a region around it, in two halves. So views may be 10⁻¹² of the domain
+//! wide. Values agree with the CPU renderer to 2·10⁻⁵ of the field's local scale and mostly
+//! to 10⁻⁶.
 //!
-//! Nothing panics on what a driver does: errors are results, so that who draws can fall back to the CPU.
+//! Nothing panics on what a driver does: errors are results, so that who draws can fall back to
+//! the CPU.
 
 mod choice;
 mod device;

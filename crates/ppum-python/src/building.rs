@@ -54,7 +54,8 @@ pub(crate) fn build(
     built.map(Dataset::new).map_err(|errors: Vec<ReadError>| unbuilt(&errors))
 }
 
-/// Cells, their levels, and the point of each, -1 for none, of the quadtrees that scattered points make.
+/// Cells, their levels, and the point of each, -1 for none, of the quadtrees that scattered
+/// points make.
 type Cells<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i64>>);
 
 /// The cells that are halved until each holds at most one point, beginning with a grid.

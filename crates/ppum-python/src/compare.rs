@@ -47,7 +47,8 @@ fn rows<'py>(py: Python<'py>, raster: Raster) -> PyResult<Rows<'py>> {
     PyArray1::from_vec(py, raster.values).reshape([shape[1], shape[0]])
 }
 
-/// A quantity of one field minus that of another at the pixels of a view: values, norms, what makes it less than it seems.
+/// A quantity of one field minus that of another at the pixels of a view: values, norms, what makes
+/// it less than it seems.
 #[pyfunction]
 pub(crate) fn compare<'py>(
     this: &Field,
@@ -169,7 +170,8 @@ impl Field {
     }
 }
 
-/// What resampling makes of a quantity at the pixels of a view: its values, minus the exact ones too, norms of these.
+/// What resampling makes of a quantity at the pixels of a view: its values, minus the exact ones
+/// too, norms of these.
 #[pyfunction]
 pub(crate) fn resample<'py>(
     this: &Field,

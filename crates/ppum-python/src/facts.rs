@@ -80,7 +80,8 @@ fn json(facts: &impl Serialize) -> String {
     serde_json::to_string(facts).expect("facts have names as keys")
 }
 
-/// A quantity: its name, the symbol of labels, the unit, and the formula if it is one that the dataset names.
+/// A quantity: its name, the symbol of labels, the unit, and the formula if it is one that the
+/// dataset names.
 #[derive(IntoPyObject)]
 pub(crate) struct QuantityFacts {
     name: String,

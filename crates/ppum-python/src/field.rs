@@ -218,7 +218,8 @@ impl Field {
     }
 }
 
-/// What Python's layer has written as JSON. Errors do not tell the place in that text, which nobody has seen.
+/// What Python's layer has written as JSON. Errors do not tell the place in that text, which nobody
+/// has seen.
 pub(crate) fn written<V: serde::de::DeserializeOwned>(text: &str) -> PyResult<V> {
     serde_json::from_str(text).map_err(|error| {
         let message = error.to_string();

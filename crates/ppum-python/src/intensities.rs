@@ -18,7 +18,8 @@ use crate::watch::long;
 /// The tips as JSON with the names of their ends, and the messages of the diagnostics.
 type Found = (String, Vec<&'static str>, Vec<String>);
 
-/// The factors of one tip by the discs inside a circle of a radius, or those of all tips by the discs that the solver chooses.
+/// The factors of one tip by the discs inside a circle of a radius, or those of all tips by the
+/// discs that the solver chooses.
 #[pyfunction]
 pub(crate) fn intensities(
     this: &Field,
@@ -70,7 +71,8 @@ fn all(
     Ok((outcomes.iter().map(tip).collect(), messages))
 }
 
-/// The problem whose loads act near the tips; none if the dataset holds none, or its field is no displacement.
+/// The problem whose loads act near the tips; none if the dataset holds none, or its field is
+/// no displacement.
 ///
 /// # Errors
 /// A problem that cannot be read, or one on other cracks: its loads are not known.

@@ -1,9 +1,11 @@
-//! The compiled part of the Python package `ppum`: datasets, fields, problems and pictures as Python's objects.
+//! The compiled part of the Python package `ppum`: datasets, fields, problems and pictures as
+//! Python's objects.
 //!
-//! People import `ppum`, whose Python is beside this crate in `python/ppum`: names, defaults, shapes and documentation are
-//! there. Here is what has to be fast or is written already: every call reads numbers and texts, works without
-//! Python's lock, and gives back arrays, dictionaries or an exception. Nothing is computed here that the libraries do not
-//! compute. Without the feature `python` the crate is empty.
+//! People import `ppum`, whose Python is beside this crate in `python/ppum`: names, defaults,
+//! shapes and documentation are there. Here is what has to be fast or is written already: every
+//! call reads numbers and texts, works without Python's lock, and gives back arrays, dictionaries
+//! or an exception. Nothing is computed here that the libraries do not compute. Without the feature
+//! `python` the crate is empty.
 #![cfg(feature = "python")]
 
 mod building;

@@ -11,7 +11,8 @@ use crate::field::Field;
 use crate::picture::{Spot, view};
 use crate::watch::long;
 
-/// A point of the plate that is seen at a place, by an offset from an anchor, on its side of any crack.
+/// A point of the plate that is seen at a place, by an offset from an anchor, on its side of
+/// any crack.
 #[derive(IntoPyObject)]
 pub(crate) struct MaterialFacts {
     anchor: [f64; 2],
@@ -22,7 +23,8 @@ pub(crate) struct MaterialFacts {
     count: usize,
 }
 
-/// What is seen in the middle of a pixel of the deformed plate, which is `spot`; nothing where the plate is not.
+/// What is seen in the middle of a pixel of the deformed plate, which is `spot`; nothing where the
+/// plate is not.
 #[pyfunction]
 pub(crate) fn material(
     this: &Field,

@@ -55,8 +55,9 @@ impl Sight<'_> {
     }
 }
 
-/// The bytes of a moving picture of some steps, `gif` or `apng`, each shown for some milliseconds. `this` is the field of one of them,
-/// changed as the others are by `changes`; without a look the pictures are bare.
+/// The bytes of a moving picture of some steps, `gif` or `apng`, each shown for some milliseconds.
+/// `this` is the field of one of them, changed as the others are by `changes`; without a look the
+/// pictures are bare.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "Python's layer names them")]
 pub(crate) fn animation<'py>(

@@ -233,7 +233,8 @@ pub(crate) fn render<'py>(
     })
 }
 
-/// The colours of a request, with what lies over them: rows from the top; red, green, blue, alpha; and what is to be said of them.
+/// The colours of a request, with what lies over them: rows from the top; red, green, blue, alpha;
+/// and what is to be said of them.
 #[pyfunction]
 pub(crate) fn rgba<'py>(
     this: &Field,
@@ -334,7 +335,8 @@ pub(crate) fn form(name: &str) -> PyResult<Form> {
     }
 }
 
-/// The bytes of a figure's file, of the form that its name's end says: `png`, `svg` or `pdf`; and what is to be said of it.
+/// The bytes of a figure's file, of the form that its name's end says: `png`, `svg` or `pdf`; and
+/// what is to be said of it.
 #[pyfunction]
 pub(crate) fn figure<'py>(
     this: &Field,

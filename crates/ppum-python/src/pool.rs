@@ -1,7 +1,7 @@
 //! The threads that work is done on.
 //!
-//! Threads do not survive `fork`, so each process has a pool of its own, made when it first needs one. That of
-//! rayon itself is never used.
+//! Threads do not survive `fork`, so each process has a pool of its own, made when it first needs
+//! one. That of rayon itself is never used.
 
 use std::process;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -14,8 +14,8 @@ use crate::errors::InternalError;
 /// The pool, and the process that it belongs to.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
-/// A pool of so many threads; without a number that of the process, with as many as there are processors, or as
-/// `RAYON_NUM_THREADS` says.
+/// A pool of so many threads; without a number that of the process, with as many as there are
+/// processors, or as `RAYON_NUM_THREADS` says.
 pub(crate) fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
     if let Some(threads) = threads {
         return made(threads);

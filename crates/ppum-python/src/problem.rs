@@ -24,8 +24,8 @@ pub(crate) fn check(
     Ok(read.err().map_or_else(Vec::new, |mistakes| Finding::all(&mistakes)))
 }
 
-/// Solves the problem of a text; files that it names are looked for in the folder. A problem with growing cracks gives all
-/// steps of the series.
+/// Solves the problem of a text; files that it names are looked for in the folder. A problem with
+/// growing cracks gives all steps of the series.
 #[pyfunction]
 #[pyo3(signature = (text, name, folder, memory=None, threads=None, progress=None))]
 pub(crate) fn solve(

@@ -9,7 +9,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::owned::Seen;
 
-/// Points that a thread takes at a time: enough that those of a patch come together, few enough that all threads have work.
+/// Points that a thread takes at a time: enough that those of a patch come together, few enough
+/// that all threads have work.
 const PIECE: usize = 1 << 15;
 
 /// Points, as two arrays of one length.

@@ -1,4 +1,5 @@
-//! Calls from Python: without its lock, with its signals, and with no panic that it could not catch.
+//! Calls from Python: without its lock, with its signals, and with no panic that it could
+//! not catch.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -14,10 +15,12 @@ use pyo3::prelude::*;
 use crate::errors::InternalError;
 use crate::pool::pool;
 
-/// How often signals are looked for, and progress is told: people wait no longer for Ctrl-C to work.
+/// How often signals are looked for, and progress is told: people wait no longer for Ctrl-C
+/// to work.
 const TICK: Duration = Duration::from_millis(50);
 
-/// Whatever `work` gives; a panic is an `InternalError`, since Python's `except Exception` would not catch it.
+/// Whatever `work` gives; a panic is an `InternalError`, since Python's `except Exception` would
+/// not catch it.
 pub(crate) fn guard<T>(work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(internal(&*panic)))
 }
@@ -28,8 +31,9 @@ fn internal(panic: &(dyn Any + Send)) -> PyErr {
     InternalError::new_err(format!("a mistake in ppum itself, please report it: {text}"))
 }
 
-/// Does work on a pool of threads, without Python's lock. `progress` is called now and then with the phase, the parts that
-/// are done, all parts and the step; an exception of it, or of a signal, stops the work and is raised.
+/// Does work on a pool of threads, without Python's lock. `progress` is called now and then with
+/// the phase, the parts that are done, all parts and the step; an exception of it, or of a signal,
+/// stops the work and is raised.
 pub(crate) fn long<T: Send>(
     py: Python<'_>,
     threads: Option<usize>,

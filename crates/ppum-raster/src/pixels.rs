@@ -33,7 +33,8 @@ impl<'v> Pixels<'v> {
         Rect::around(self.view.center, self.view.half() + Vec2 { x: margin, y: margin })
     }
 
-    /// Some columns and rows of the view in the world, enlarged by the margin; there is one of each at least.
+    /// Some columns and rows of the view in the world, enlarged by the margin; there is one of each
+    /// at least.
     #[must_use]
     pub fn window_of(&self, [columns, rows]: [Range<usize>; 2]) -> Rect {
         let margin = (0.5 + self.margin) / self.density;

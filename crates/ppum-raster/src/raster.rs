@@ -13,12 +13,12 @@ use crate::view::View;
 
 /// The number types of a raster: f64 and f32.
 pub trait Sample: Scalar + Into<f64> {
-    /// Relative difference up to which values count as one: some roundings, and of f64 the rounding of a linear
-    /// system too, since a field that is constant but for that should look so.
+    /// Relative difference up to which values count as one: some roundings, and of f64 the rounding
+    /// of a linear system too, since a field that is constant but for that should look so.
     const SAME: f64;
 
-    /// [`render`](crate::scatter::render) for this type. Implemented for each, so that the renderer's
-    /// kernels are compiled once, here, and not in every crate that draws.
+    /// [`render`](crate::scatter::render) for this type. Implemented for each, so that the
+    /// renderer's kernels are compiled once, here, and not in every crate that draws.
     ///
     /// # Errors
     /// See there.
@@ -131,7 +131,8 @@ impl<T: Sample> Raster<T> {
         &self.values[row as usize * columns..][..columns]
     }
 
-    /// The value that all pixels of a value have, but for rounding; none if they differ or are infinite.
+    /// The value that all pixels of a value have, but for rounding; none if they differ or
+    /// are infinite.
     #[must_use]
     pub fn one_value(&self) -> Option<f64> {
         let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -145,7 +146,8 @@ impl<T: Sample> Raster<T> {
         (min <= max).then_some(0.5 * min + 0.5 * max)
     }
 
-    /// The different values, rising, if they are at most `most` whole numbers; none otherwise. NaN does not count.
+    /// The different values, rising, if they are at most `most` whole numbers; none otherwise. NaN
+    /// does not count.
     #[must_use]
     pub fn whole_numbers(&self, most: usize) -> Option<Vec<f64>> {
         let mut found: Vec<f64> = Vec::new();
@@ -163,8 +165,8 @@ impl<T: Sample> Raster<T> {
         (!found.is_empty()).then_some(found)
     }
 
-    /// The pixels of the plate without a value, by their place row by row: what is undefined there, as a
-    /// formula may be, and not outside.
+    /// The pixels of the plate without a value, by their place row by row: what is undefined there,
+    /// as a formula may be, and not outside.
     ///
     /// # Panics
     /// If the raster does not have the view's size.

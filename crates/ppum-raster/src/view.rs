@@ -46,7 +46,8 @@ pub enum ViewError {
     #[error("the window from ({}, {}) to ({}, {}) has no area; give two opposite corners",
         exact(.0.min.x), exact(.0.min.y), exact(.0.max.x), exact(.0.max.y))]
     EmptyWindow(Rect),
-    /// The pixels are finer than f64 can tell apart around the centre, or their size is no normal number.
+    /// The pixels are finer than f64 can tell apart around the centre, or their size is no
+    /// normal number.
     #[error("a view {width:e} wide at ({}, {}) is finer than double precision; widen it",
         exact(.center.x), exact(.center.y))]
     TooDeep {
@@ -62,7 +63,8 @@ impl View {
     ///
     /// # Errors
     /// No pixels or more than [`MAX_PIXELS`]; a width that is not positive; numbers that are not
-    /// finite; a width below the spacing of f64 at the centre, or pixels below the least normal number.
+    /// finite; a width below the spacing of f64 at the centre, or pixels below the least
+    /// normal number.
     pub fn new(center: Vec2, width: f64, pixels: [u32; 2]) -> Result<Self, ViewError> {
         let [nx, ny] = pixels;
         if nx == 0 || ny == 0 || u64::from(nx) * u64::from(ny) > MAX_PIXELS {
@@ -135,9 +137,10 @@ impl View {
         Self::new(self.center + shift, self.width / factor, self.pixels)
     }
 
-    /// The same window with `n` × `n` pixels in place of each: the centre of pixel (n i + a, n j + b) lies at
-    /// ((a + 1/2)/n, (b + 1/2)/n) of pixel (i, j), as exactly as centres lie anywhere. It may have more than
-    /// [`MAX_PIXELS`], and is then drawn in strips ([`render_strips`](crate::scatter::render_strips)).
+    /// The same window with `n` × `n` pixels in place of each: the centre of pixel (n i + a, n j +
+    /// b) lies at ((a + 1/2)/n, (b + 1/2)/n) of pixel (i, j), as exactly as centres lie anywhere.
+    /// It may have more than [`MAX_PIXELS`], and is then drawn in strips
+    /// ([`render_strips`](crate::scatter::render_strips)).
     ///
     /// # Errors
     /// More columns or rows than can be counted, pixels finer than f64 has normal numbers for.

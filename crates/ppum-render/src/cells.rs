@@ -6,7 +6,8 @@ use ppum_raster::raster::Raster;
 use ppum_raster::view::View;
 use rayon::prelude::*;
 
-/// Names of what every field knows of its patches, and the words for them. Boxes have levels, elements their numbers.
+/// Names of what every field knows of its patches, and the words for them. Boxes have levels,
+/// elements their numbers.
 const OWN: [(&str, &str); 5] = [
     ("level", "level"),
     ("element", "element"),
@@ -15,8 +16,9 @@ const OWN: [(&str, &str); 5] = [
     ("functions", "functions"),
 ];
 
-/// A value per patch of a field, by its name: `level` of the cell; `element`, the number of a mesh's element; `order`, the largest degree of the patch's blocks;
-/// `blocks`, their number; `functions`, that of their functions f_b ξ^k, (d + 1)(d + 2)/2 of a block of degree d; or an
+/// A value per patch of a field, by its name: `level` of the cell; `element`, the number of a
+/// mesh's element; `order`, the largest degree of the patch's blocks; `blocks`, their number;
+/// `functions`, that of their functions f_b ξ^k, (d + 1)(d + 2)/2 of a block of degree d; or an
 /// attribute of the step with another name. None if there is none of this name.
 #[must_use]
 pub fn values(field: &Field<'_>, name: &str) -> Option<Vec<f64>> {
@@ -60,8 +62,8 @@ pub fn label(name: &str) -> &str {
     OWN.iter().find(|(own, _)| *own == name).map_or(name, |(_, label)| label)
 }
 
-/// The picture of one value per patch, NaN outside the domain and where there is no cell. Borders belong to
-/// the right and upper cell.
+/// The picture of one value per patch, NaN outside the domain and where there is no cell. Borders
+/// belong to the right and upper cell.
 ///
 /// # Panics
 /// If there is not one value per patch.

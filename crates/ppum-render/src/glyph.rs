@@ -1,10 +1,13 @@
-//! Points for arrows and crosses, with their values: vectors, and principal stresses with their directions.
+//! Points for arrows and crosses, with their values: vectors, and principal stresses with
+//! their directions.
 //!
-//! The points are those of a [`Lattice`] that lie in the view and on the plate. It is at rest in the world: its points are multiples of
-//! the spacing from the origin, so panning moves the arrows with the field, and no arrow jumps. Values are evaluated at
-//! the points, each by itself; those that are not finite, as stresses at a tip, have no glyph.
+//! The points are those of a [`Lattice`] that lie in the view and on the plate. It is at rest in
+//! the world: its points are multiples of the spacing from the origin, so panning moves the arrows
+//! with the field, and no arrow jumps. Values are evaluated at the points, each by itself; those
+//! that are not finite, as stresses at a tip, have no glyph.
 //!
-//! A point on a crack stands for one of its faces: that on the left of the crack's direction, and says so.
+//! A point on a crack stands for one of its faces: that on the left of the crack's direction, and
+//! says so.
 
 use ppum::crack::{SegmentId, Side};
 use ppum::field::{Field, LocalField};
@@ -44,7 +47,8 @@ pub struct Principal {
     pub angle: f64,
 }
 
-/// The points of a lattice in a picture, with the points of the plate that are seen there; row by row from below.
+/// The points of a lattice in a picture, with the points of the plate that are seen there; row by
+/// row from below.
 #[derive(Clone, Debug)]
 pub struct Lattice<'f> {
     field: &'f Field<'f>,
@@ -72,8 +76,8 @@ impl<'f> Lattice<'f> {
         Self { field, anchor: view.center, rows: y.iter().map(row).collect() }
     }
 
-    /// The lattice on the deformed plate, at rest in the deformed plane: the centres of the pixels that its points lie
-    /// in, and the points of the plate that are seen there.
+    /// The lattice on the deformed plate, at rest in the deformed plane: the centres of the pixels
+    /// that its points lie in, and the points of the plate that are seen there.
     #[must_use]
     pub fn deformed(points: &DeformedPoints<'f>, spacing: f64) -> Self {
         let view = &points.view.view;
@@ -159,7 +163,8 @@ fn lines(view: &View, spacing: f64) -> [Vec<f64>; 2] {
         .map(|(center, half)| multiples(center, half, step))
 }
 
-/// The multiples of a step within `center ± half`, from the centre; the rest of the division is exact, however large the quotient.
+/// The multiples of a step within `center ± half`, from the centre; the rest of the division is
+/// exact, however large the quotient.
 fn multiples(center: f64, half: f64, step: f64) -> Vec<f64> {
     let rest = center.rem_euclid(step);
     let (first, last) =
@@ -247,7 +252,8 @@ mod tests {
         }
     }
 
-    /// On the deformed plate points stand in a lattice of the picture, and have the values of the points of the plate there.
+    /// On the deformed plate points stand in a lattice of the picture, and have the values of the
+    /// points of the plate there.
     #[test]
     fn glyphs_of_the_deformed_plate_are_those_of_its_points() {
         for seed in 0..3 {
@@ -263,7 +269,8 @@ mod tests {
             let arrows = lattice.vectors(&quantities, unwatched()).expect("arrows");
             assert!(arrows.len() > 60, "{}", arrows.len());
             for arrow in &arrows {
-                // x = X + s u(X): the point of the plate that the value itself leads to has this value
+                // x = X + s u(X): the point of the plate that the value itself leads to has
+                // this value
                 let place = view.center + arrow.offset - arrow.value * factor;
                 let mut local = field.at(place);
                 let u = quantities.each_ref().map(|q| q.at(&mut local, Vec2::ZERO, Side::Above));

@@ -8,9 +8,9 @@
 //! triangulated on the way. [`deform`] shows the plate as its displacements move it; [`resample`]
 //! does what other programs do, to compare.
 //!
-//! What is drawn on pictures comes from the exact field too: [`isolines`](isoline::isolines), arrows
-//! and crosses ([`glyph`]), and the true [`extrema`](extrema::extrema) of a view. [`pieces`] cuts
-//! squares where fields jump.
+//! What is drawn on pictures comes from the exact field too: [`isolines`](isoline::isolines),
+//! arrows and crosses ([`glyph`]), and the true [`extrema`](extrema::extrema) of a view. [`pieces`]
+//! cuts squares where fields jump.
 //!
 //! ```
 //! use ppum::prelude::*;

@@ -37,7 +37,8 @@ impl Style {
         Ok(Self { colormap, scale: Scale::Linear, range: Range::Auto, undefined: [0; 4] })
     }
 
-    /// The style with one colour for each of some rising whole numbers ([`Raster::whole_numbers`]), on a linear scale.
+    /// The style with one colour for each of some rising whole numbers ([`Raster::whole_numbers`]),
+    /// on a linear scale.
     #[must_use]
     pub fn classed(self, values: &[f64]) -> Self {
         let (Some(first), Some(last)) = (values.first(), values.last()) else { return self };
@@ -84,8 +85,9 @@ const HATCHED: Rgba = [196, 196, 200, 255];
 const HATCH_STEP: u32 = 6;
 
 impl Picture {
-    /// The bare picture of a raster: one pixel a value, nothing else. A range that is found is found from the pixels alone;
-    /// [`spanning`](Self::spanning) takes one that knows the extrema between them.
+    /// The bare picture of a raster: one pixel a value, nothing else. A range that is found is
+    /// found from the pixels alone; [`spanning`](Self::spanning) takes one that knows the extrema
+    /// between them.
     ///
     /// # Errors
     /// A fixed range that does not fit the scale.
@@ -142,8 +144,8 @@ impl Picture {
         })
     }
 
-    /// Says that values are means, and gives each pixel the opacity that it has by its share of the plate
-    /// ([`Means`](crate::samples::Means)).
+    /// Says that values are means, and gives each pixel the opacity that it has by its share of the
+    /// plate ([`Means`](crate::samples::Means)).
     ///
     /// # Panics
     /// If there is not one opacity for each pixel.
@@ -156,8 +158,8 @@ impl Picture {
         self.samples = samples;
     }
 
-    /// Crosshatches pixels of the plate that have no value ([`Raster::undefined`]), to tell them from those
-    /// outside.
+    /// Crosshatches pixels of the plate that have no value ([`Raster::undefined`]), to tell them
+    /// from those outside.
     pub fn hatch(&mut self, pixels: &[u32]) {
         let columns = self.image.size[0];
         let rgba = self.image.rgba.as_chunks_mut::<4>().0;
@@ -169,10 +171,10 @@ impl Picture {
         }
     }
 
-    /// A description of the picture, for the texts of its file: `Title`, `Software` and `Description`, then
-    /// under `ppum:` the dataset, quantity, view (centre, width, pixels: enough to draw it again to
-    /// the last bit), meaning of a pixel, range, scale and colour map; how the range came about, and the extrema
-    /// if they were looked for.
+    /// A description of the picture, for the texts of its file: `Title`, `Software` and
+    /// `Description`, then under `ppum:` the dataset, quantity, view (centre, width, pixels: enough
+    /// to draw it again to the last bit), meaning of a pixel, range, scale and colour map; how the
+    /// range came about, and the extrema if they were looked for.
     #[must_use]
     pub fn description(&self, title: &str, dataset: &str, quantity: &str) -> Vec<Text> {
         let View { center: Vec2 { x, y }, width, pixels: [columns, rows] } = self.view;

@@ -22,8 +22,8 @@ pub fn encode(image: &Image, texts: &[Text]) -> Result<Vec<u8>, ::png::EncodingE
     encode_at(image, None, texts)
 }
 
-/// The same with the size that the picture has on paper: its pixels per inch, which the file holds as whole
-/// pixels per metre.
+/// The same with the size that the picture has on paper: its pixels per inch, which the file holds
+/// as whole pixels per metre.
 ///
 /// # Errors
 /// Those of [`encode`].

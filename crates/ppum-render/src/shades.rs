@@ -4,8 +4,8 @@
 //! entry(v) = ⌊position(v) (N − 1) + ½⌋      one entry each for what lies below and above the range, and for no value
 //! ```
 //!
-//! On a linear scale entries are found on vectors, as the low bits of a number; colours are then looked up one by one.
-//! The table stays in the first cache, where a look-up takes about a cycle.
+//! On a linear scale entries are found on vectors, as the low bits of a number; colours are then
+//! looked up one by one. The table stays in the first cache, where a look-up takes about a cycle.
 
 use ppum::real::{Job, Real, Scalar};
 use ppum_raster::raster::SampleSlice;
@@ -14,8 +14,9 @@ use crate::colormap::Colormap;
 use crate::image::Rgba;
 use crate::scale::{Normalization, Scale};
 
-/// Colours in the table that pixels are looked up in. Neighbouring entries of a built-in map differ by
-/// at most 8 steps of a byte and this is 16 times finer, so rounding to it costs at most one step.
+/// Colours in the table that pixels are looked up in. Neighbouring entries of a built-in map differ
+/// by at most 8 steps of a byte and this is 16 times finer, so rounding to it costs at most
+/// one step.
 pub const PALETTE: usize = 4096;
 
 /// Entries behind those of the range.
@@ -98,7 +99,8 @@ impl Shades {
 
 /// A number type whose bits tell an entry.
 pub trait Entry: Scalar {
-    /// From this number to twice of it only whole numbers are numbers of the type: the last bits of a sum with it count.
+    /// From this number to twice of it only whole numbers are numbers of the type: the last bits of
+    /// a sum with it count.
     const WHOLE: f64;
     /// The greatest number that is not above another one, and the least that is not below it.
     fn around(value: f64) -> [Self; 2];
@@ -148,7 +150,8 @@ impl<T: Entry> Ramp<T> {
         let rest = T::from_f64(min - start.to_f64());
         let entries = (PALETTE - 1) as f64;
         let slope = T::from_f64(norm.per_span() * entries);
-        // neither the span nor what is multiplied with it may be rounded to nothing, or out of all bounds
+        // neither the span nor what is multiplied with it may be rounded to nothing, or out of
+        // all bounds
         let keeps = |exact: f64| (T::from_f64(exact).to_f64() / exact - 1.0).abs() < 1e-6;
         let is_kept = [max - min, 2.0 * (max - min), norm.per_span() * entries].map(keeps);
         let range = [T::around(min)[1], T::around(max)[0]];
@@ -238,8 +241,8 @@ mod tests {
         differ.count()
     }
 
-    /// Rows of any length on any range: what is found on vectors is what one value after the other has, up to the rounding of f32
-    /// between two entries.
+    /// Rows of any length on any range: what is found on vectors is what one value after the other
+    /// has, up to the rounding of f32 between two entries.
     #[test]
     fn vectors_find_what_single_values_have() {
         let mut random = Random(7);

@@ -30,7 +30,8 @@ pub struct Colors {
     pub contrast: bool,
     /// So many bands of one colour each.
     pub bands: Option<u16>,
-    /// True if a range that is found lies evenly around zero, where it holds zero, as it always does with diverging maps.
+    /// True if a range that is found lies evenly around zero, where it holds zero, as it always
+    /// does with diverging maps.
     pub symmetric: bool,
 }
 
@@ -111,7 +112,8 @@ pub enum MapError {
     },
 }
 
-/// The map of a file, or the built-in one of that name. What is neither, but there, is read as a file too, to say why it cannot be.
+/// The map of a file, or the built-in one of that name. What is neither, but there, is read as a
+/// file too, to say why it cannot be.
 ///
 /// # Errors
 /// An unknown name; a file that cannot be read, or holds no map.

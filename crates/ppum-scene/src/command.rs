@@ -6,8 +6,8 @@ use ppum_render::view::View;
 
 use crate::scene::Scene;
 
-/// The words of `ppum render` that draws a scene of a file from a view: the same picture, but for what computes it. Of a
-/// figure `page` is its size, and the view that of its plot.
+/// The words of `ppum render` that draws a scene of a file from a view: the same picture, but for
+/// what computes it. Of a figure `page` is its size, and the view that of its plot.
 #[must_use]
 pub fn render(
     scene: &Scene,

@@ -1,4 +1,5 @@
-//! Direct drawing beside what resampling gives: its pictures, its errors, and the memory and time of each.
+//! Direct drawing beside what resampling gives: its pictures, its errors, and the memory and time
+//! of each.
 
 use ppum::field::Field;
 use ppum::progress::Watcher;
@@ -120,7 +121,8 @@ impl NeededGrid {
     }
 }
 
-/// The picture of a difference, with a range of both signs also where all differences have one: no difference is white.
+/// The picture of a difference, with a range of both signs also where all differences have one: no
+/// difference is white.
 ///
 /// # Errors
 /// As [`Picture::spanning`].

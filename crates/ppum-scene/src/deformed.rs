@@ -91,7 +91,8 @@ pub fn bounds(field: &Field<'_>, factor: f64, with_outline: bool) -> Result<Rect
     Ok(Rect::new(shown.min - room, shown.max + room))
 }
 
-/// Room around the plate, in parts of its size: the outline is known to a tenth of a pixel of a small picture.
+/// Room around the plate, in parts of its size: the outline is known to a tenth of a pixel of a
+/// small picture.
 const ROOM: f64 = 0.01;
 
 /// The factor as it is told: `deformed ×100`.

@@ -65,7 +65,8 @@ impl Shown {
         }
     }
 
-    /// Its name in messages and files, where it was asked for by a text: that of a formula is short.
+    /// Its name in messages and files, where it was asked for by a text: that of a formula
+    /// is short.
     #[must_use]
     pub fn name(&self, text: &str) -> String {
         match self {
@@ -97,7 +98,8 @@ impl Shown {
 /// Most values that have a colour each: no more can be told apart.
 const MOST_CLASSES: usize = 20;
 
-/// The values that have a colour each in pictures of one range, rising: none unless they are few whole numbers in all of them.
+/// The values that have a colour each in pictures of one range, rising: none unless they are few
+/// whole numbers in all of them.
 pub fn classes<'a>(
     pictures: impl IntoIterator<Item = (&'a Shown, &'a Values)>,
 ) -> Option<Vec<f64>> {
@@ -130,8 +132,9 @@ pub struct Job<'a> {
 /// Relative error of stresses above which fewer than three digits remain, which pictures show.
 const FEW_DIGITS: f64 = 1e-3;
 
-/// The relative error of stresses in single precision, of a step that keeps fewer than three digits in it. The solver's
-/// record `rounding` tells that of double precision; a step without one counts as good.
+/// The relative error of stresses in single precision, of a step that keeps fewer than three digits
+/// in it. The solver's record `rounding` tells that of double precision; a step without one counts
+/// as good.
 #[must_use]
 pub fn single_precision_error(step: &Step) -> Option<f64> {
     let rounding = step.record("rounding")?;

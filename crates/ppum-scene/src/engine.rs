@@ -1,7 +1,8 @@
 //! What computes the values of an image: the processor, in either precision, or a graphics card.
 //!
-//! Whatever computes them gives a raster; ranges, colours, overlays and figures are made of it by the same code. Graphics cards are
-//! behind a function, so that programs without them need no drivers.
+//! Whatever computes them gives a raster; ranges, colours, overlays and figures are made of it by
+//! the same code. Graphics cards are behind a function, so that programs without them need
+//! no drivers.
 
 use std::fmt;
 use std::str::FromStr;
@@ -176,7 +177,8 @@ impl<'a> Engine<'a> {
         Self { backend: Backend::Cpu, precision: None, card: no_card, watcher, notices }
     }
 
-    /// Draws the means of so many samples a pixel; falls back to the processor where that is allowed.
+    /// Draws the means of so many samples a pixel; falls back to the processor where that
+    /// is allowed.
     ///
     /// # Errors
     /// A quantity that the field does not have; a device that fails; a watcher that stops it.
@@ -221,7 +223,8 @@ impl<'a> Engine<'a> {
         }
     }
 
-    /// Refuses to draw the deformed plate, which only the processor can, in double precision, by anything else.
+    /// Refuses to draw the deformed plate, which only the processor can, in double precision, by
+    /// anything else.
     ///
     /// # Errors
     /// A device, or single precision.

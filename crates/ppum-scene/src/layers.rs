@@ -36,14 +36,15 @@ pub struct Ground<'a> {
     pub picture: &'a Picture,
     /// Values at the centres of its pixels.
     pub values: &'a Values,
-    /// The design of the figure around it, none of a bare picture: lines and letters have their width by it, and cracks are drawn
-    /// whatever is asked for.
+    /// The design of the figure around it, none of a bare picture: lines and letters have their
+    /// width by it, and cracks are drawn whatever is asked for.
     pub design: Option<&'a Design>,
     /// True if a colour bar tells how numbers are written.
     pub has_bar: bool,
 }
 
-/// Scale of lines and letters over a picture: that of the figure's design, or of a bare picture of so many pixels.
+/// Scale of lines and letters over a picture: that of the figure's design, or of a bare picture of
+/// so many pixels.
 #[must_use]
 pub fn scale(design: Option<&Design>, pixels: [u32; 2]) -> f64 {
     design.map_or_else(|| overlay::line_scale(pixels), Design::scale)
@@ -96,11 +97,13 @@ const AUTOMATIC: usize = 14;
 const SPACING: f64 = 30.0;
 
 impl Overlays {
-    /// Draws them over a picture of what is seen. The deformed plate of a figure has its border and the faces of its
-    /// cracks whatever is asked for; with `outline` the border of the undeformed one too.
+    /// Draws them over a picture of what is seen. The deformed plate of a figure has its border and
+    /// the faces of its cracks whatever is asked for; with `outline` the border of the undeformed
+    /// one too.
     ///
     /// # Errors
-    /// Overlays that the field or the deformed plate does not have; too many isolines; a watcher that stops it.
+    /// Overlays that the field or the deformed plate does not have; too many isolines; a watcher
+    /// that stops it.
     pub fn layers(
         &self,
         ground: Ground<'_>,
@@ -250,7 +253,8 @@ impl<'a> Drawing<'a> {
         Ok(())
     }
 
-    /// Isolines, or a word that there are none of the levels that were listed; others lie in the range, if there is one.
+    /// Isolines, or a word that there are none of the levels that were listed; others lie in the
+    /// range, if there is one.
     fn add_isolines(&mut self, view: &View, lines: &[Isoline], room: Option<Room>) {
         if matches!(self.overlays.isolines, Some(Levels::At(_))) {
             self.notice_of_none(lines.len(), Notice::NoIsoline);
@@ -293,7 +297,8 @@ impl<'a> Drawing<'a> {
         Some((quantity, levels))
     }
 
-    /// Arrows and crosses with what their lengths mean in the legend. `lattice` makes points with a spacing.
+    /// Arrows and crosses with what their lengths mean in the legend. `lattice` makes points with a
+    /// spacing.
     fn glyphs<'f>(
         &mut self,
         lattice: impl Fn(f64) -> Lattice<'f>,

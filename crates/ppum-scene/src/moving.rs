@@ -1,6 +1,8 @@
-//! Pictures in motion: the steps of a series, or the deformed plate with a factor that grows and falls. All have one range.
+//! Pictures in motion: the steps of a series, or the deformed plate with a factor that grows and
+//! falls. All have one range.
 //!
-//! A [`Film`] looks at all frames first, then draws them one after the other: none but one of their fields needs to be in memory.
+//! A [`Film`] looks at all frames first, then draws them one after the other: none but one of their
+//! fields needs to be in memory.
 
 use std::io::Write;
 
@@ -85,7 +87,8 @@ pub trait Frames {
         (0..self.count()).try_for_each(|number| self.with(number, work))
     }
 
-    /// The factor of the deformed plate as a number, the same for all frames that do not have theirs.
+    /// The factor of the deformed plate as a number, the same for all frames that do not
+    /// have theirs.
     ///
     /// # Errors
     /// Fields that are no displacements.
@@ -122,7 +125,8 @@ pub trait Frames {
         Ok(all)
     }
 
-    /// Columns and rows that a design has room for under all titles; all of its size without one of figures.
+    /// Columns and rows that a design has room for under all titles; all of its size without one
+    /// of figures.
     ///
     /// # Errors
     /// A design without room.
@@ -241,8 +245,8 @@ pub enum Form {
     Apng,
 }
 
-/// Memory for the values of frames from the first pass, which finds the range, to the second \[bytes\]: 160 pictures of 1024 ×
-/// 768 pixels. Those of more are computed again.
+/// Memory for the values of frames from the first pass, which finds the range, to the second
+/// \[bytes\]: 160 pictures of 1024 × 768 pixels. Those of more are computed again.
 const VALUES: usize = 1 << 30;
 /// The same for pictures, whose colours a GIF counts before it is begun.
 const IMAGES: usize = 1 << 29;
@@ -394,8 +398,9 @@ impl<'a, F: Frames> Film<'a, F> {
         Ok(self.page(number)?.0.image())
     }
 
-    /// Writes an animation whose frames are shown for some milliseconds each, and returns its columns and rows. What its file says
-    /// follows from the first frame; it has a place in an APNG alone.
+    /// Writes an animation whose frames are shown for some milliseconds each, and returns its
+    /// columns and rows. What its file says follows from the first frame; it has a place in an
+    /// APNG alone.
     ///
     /// # Errors
     /// As [`Self::page`]; what the file does not hold, or cannot be written.

@@ -1,4 +1,5 @@
-//! What is said of an image beside it: what was asked for and is not seen, and what is not as it seems.
+//! What is said of an image beside it: what was asked for and is not seen, and what is not as
+//! it seems.
 
 use std::fmt;
 
@@ -53,7 +54,8 @@ impl Notice {
         (!missing.is_empty()).then_some(Self::NoGlyph(missing, form))
     }
 
-    /// The notice as a line on a terminal: `warning: …`, or `note: …` of what is no fault of the image.
+    /// The notice as a line on a terminal: `warning: …`, or `note: …` of what is no fault of the
+    /// image.
     #[must_use]
     pub fn line(&self) -> String {
         let kind = if matches!(self, Self::NoCard(_)) { "note" } else { "warning" };

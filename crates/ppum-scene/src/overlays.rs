@@ -19,8 +19,9 @@ pub struct Overlays {
     pub isolines: Option<Levels>,
     /// True if the isolines bear their levels.
     pub level_labels: bool,
-    /// Arrows of the displacement, of a potential its gradient: their distance, in pixels of a bare picture of at most 1024 × 768;
-    /// in larger ones and in figures it has the scale of lines and letters.
+    /// Arrows of the displacement, of a potential its gradient: their distance, in pixels of a bare
+    /// picture of at most 1024 × 768; in larger ones and in figures it has the scale of lines
+    /// and letters.
     pub arrows: Option<f64>,
     /// Crosses of the principal stresses: their distance, as that of arrows.
     pub crosses: Option<f64>,
@@ -124,8 +125,8 @@ impl Overlays {
         self.shown.iter().any(|o| matches!(o, Overlay::Supports | Overlay::Loads))
     }
 
-    /// Room around the plate for what stands outside of it, in parts of the plate's larger side, in a picture of so many pixels
-    /// with lines and letters of a scale.
+    /// Room around the plate for what stands outside of it, in parts of the plate's larger side, in
+    /// a picture of so many pixels with lines and letters of a scale.
     #[must_use]
     pub fn margin(&self, pixels: [u32; 2], scale: f64) -> f64 {
         let side = f64::from(pixels[0].min(pixels[1]));
@@ -134,7 +135,8 @@ impl Overlays {
     }
 }
 
-/// Room for supports and loads around the plate: a little more than the longest arrow, in units of the scale.
+/// Room for supports and loads around the plate: a little more than the longest arrow, in units of
+/// the scale.
 const MARGIN: f64 = 48.0;
 /// The same in parts of the picture's shorter side, at most.
 const MARGIN_PART: f64 = 0.15;

@@ -15,8 +15,8 @@ use ppum_render::raster::{Raster, Sample};
 
 use crate::drawing::{Drawn, Seen, Values};
 
-/// The range of what was drawn; one that has to be found with the extrema of the view, which are the true ones of the plate as it was, and
-/// those of the pixels of the deformed one.
+/// The range of what was drawn; one that has to be found with the extrema of the view, which are
+/// the true ones of the plate as it was, and those of the pixels of the deformed one.
 pub fn found(
     field: &Field<'_>,
     seen: &Seen<'_>,
@@ -78,15 +78,16 @@ impl<'a> Telling<'a> {
         Self::with(places(dataset), field)
     }
 
-    /// The same with what is known of how places of the dataset are written, which takes long where there are many cracks.
+    /// The same with what is known of how places of the dataset are written, which takes long where
+    /// there are many cracks.
     #[must_use]
     pub fn with(places: Places, field: &'a Field<'_>) -> Self {
         let size = field.domain.bounds.size();
         Self { places, cracks: &field.step.cracks, size: size.x.max(size.y) }
     }
 
-    /// What colours mean, and between which values all others lie: `colours from 0 to 2.7 (robust); values from 0.1 at
-    /// (0.2, 0.3) to ∞ at tip 0 (0.5, 0)`.
+    /// What colours mean, and between which values all others lie: `colours from 0 to 2.7 (robust);
+    /// values from 0.1 at (0.2, 0.3) to ∞ at tip 0 (0.5, 0)`.
     pub fn colors(&self, picture: &Picture) -> String {
         let (norm, span) = (&picture.normalization, &picture.span);
         let colors = match picture.one_value {
@@ -121,8 +122,8 @@ impl<'a> Telling<'a> {
         format!("{whose} from {min} to {max}")
     }
 
-    /// The smallest and the largest value with their places: `0.1 at (0.2, 0.3)`, `∞ at tip 0 (0.5, 0)`; with the digits that are
-    /// of interest in a view of some width.
+    /// The smallest and the largest value with their places: `0.1 at (0.2, 0.3)`,
+    /// `∞ at tip 0 (0.5, 0)`; with the digits that are of interest in a view of some width.
     #[must_use]
     pub fn extrema(&self, values: &Extrema, width: f64) -> [String; 2] {
         let both = [&values.min, &values.max];
@@ -206,7 +207,8 @@ pub fn words(on: On) -> Option<String> {
     }
 }
 
-/// A coordinate with the digits that it is known to in a view of some width: an extremum's place is that of a flat top.
+/// A coordinate with the digits that it is known to in a view of some width: an extremum's place is
+/// that of a flat top.
 fn rounded(x: f64, width: f64) -> f64 {
     let step = 10f64.powi((KNOWN * width).log10().floor() as i32);
     let rounded = (x / step).round() * step;
@@ -226,7 +228,8 @@ mod tests {
     use ppum_testkit::random::Random;
     use ppum_testkit::synthetic::{Coefficients, Recipe};
 
-    /// While one moves, a picture of another view has the range, and the extrema, of the view before: their places stay where they are.
+    /// While one moves, a picture of another view has the range, and the extrema, of the view
+    /// before: their places stay where they are.
     #[test]
     fn places_stay_when_the_view_moves() {
         let mut random = Random(9);

@@ -1,4 +1,5 @@
-//! All that is asked of an image, but for its place and its page: what it shows, and how that is drawn.
+//! All that is asked of an image, but for its place and its page: what it shows, and how that
+//! is drawn.
 
 use ppum_figure::figure::Labels;
 use ppum_render::samples::Samples;

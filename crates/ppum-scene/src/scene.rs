@@ -1,4 +1,5 @@
-//! All that is chosen for one picture, but for its place: what of the dataset, which quantity, which colours, what over them.
+//! All that is chosen for one picture, but for its place: what of the dataset, which quantity,
+//! which colours, what over them.
 
 use ppum::dataset::Dataset;
 use ppum::decompose::UnknownPart;
@@ -14,8 +15,8 @@ use crate::deformed::Factor;
 use crate::drawing::Shown;
 use crate::overlays::Overlays;
 
-/// What a picture shows. What is left out is chosen by the program: the last step, the whole field, its own functions and weight, von
-/// Mises' stress or the potential.
+/// What a picture shows. What is left out is chosen by the program: the last step, the whole field,
+/// its own functions and weight, von Mises' stress or the potential.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Scene {
@@ -182,7 +183,8 @@ fn given<'a>(texts: &'a [(String, String)], name: &str) -> Option<&'a str> {
     texts.iter().find(|(known, _)| known == name).map(|(_, text)| text.as_str())
 }
 
-/// Gives something a text, or none; in one order, whatever the order of changes, since subjects are compared.
+/// Gives something a text, or none; in one order, whatever the order of changes, since subjects
+/// are compared.
 fn give(texts: &mut Vec<(String, String)>, name: &str, text: Option<String>) {
     texts.retain(|(known, _)| known != name);
     texts.extend(text.map(|text| (name.to_owned(), text)));
@@ -218,7 +220,8 @@ pub enum ShownError {
     Quantity(#[from] QuantityError),
 }
 
-/// What a text shows of a field: a quantity or formula; if there is none, or with `patch:` in front, a value of cells.
+/// What a text shows of a field: a quantity or formula; if there is none, or with `patch:` in
+/// front, a value of cells.
 ///
 /// # Errors
 /// A text that means nothing for the field, with the place of a formula's mistake.

@@ -1,6 +1,7 @@
 //! One range for several pictures: those of the steps of a series.
 //!
-//! All are looked at first, which [`Found`] keeps in mind; then each has its colours by the [`Coloring`] of all.
+//! All are looked at first, which [`Found`] keeps in mind; then each has its colours by the
+//! [`Coloring`] of all.
 
 use ppum_render::extrema::Extrema;
 use ppum_render::picture::{Picture, Style};
@@ -16,7 +17,8 @@ pub struct Coloring {
     pub style: Style,
     /// The range.
     pub span: Span,
-    /// Of a series: true if values of some step lie below the range, and above it, so that all bars are alike.
+    /// Of a series: true if values of some step lie below the range, and above it, so that all bars
+    /// are alike.
     pub ends: Option<[bool; 2]>,
 }
 
@@ -48,8 +50,8 @@ pub struct Found {
 }
 
 impl Found {
-    /// Adds a step. One without values says nothing of the range; one that has one value everywhere, as before any load, no more
-    /// than this value.
+    /// Adds a step. One without values says nothing of the range; one that has one value
+    /// everywhere, as before any load, no more than this value.
     pub fn add(&mut self, mut span: Span, drawn: &Drawn, scale: Scale) {
         let [without, all] = drawn.undefined();
         self.undefined = [self.undefined[0] + without, self.undefined[1] + all];
@@ -71,7 +73,8 @@ impl Found {
         self.spans.push(span);
     }
 
-    /// The way the values of all steps become colours: classes have theirs, which `classed` says; else it follows from the range.
+    /// The way the values of all steps become colours: classes have theirs, which `classed` says;
+    /// else it follows from the range.
     #[must_use]
     pub fn coloring(self, classed: Style, style: Style) -> Coloring {
         match classed.range {

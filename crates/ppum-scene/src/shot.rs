@@ -130,7 +130,8 @@ impl<'a> Input<'a> {
     /// The values, each the mean of so many samples.
     ///
     /// # Errors
-    /// A quantity that the field does not have; what the engine or the samples do not fit; a watcher that stops it.
+    /// A quantity that the field does not have; what the engine or the samples do not fit; a
+    /// watcher that stops it.
     pub fn values(&self, samples: Samples, engine: &Engine<'_>) -> Result<Drawn, ShotError> {
         let Self { field, shown, seen, .. } = *self;
         let centers = |what| match samples {
@@ -220,7 +221,8 @@ impl<'a> Input<'a> {
         self.shot(request, &drawn, &coloring, design, engine)
     }
 
-    /// The picture of the values in colours, with its overlays. With the `design` of a figure cracks are drawn whatever is asked for.
+    /// The picture of the values in colours, with its overlays. With the `design` of a figure
+    /// cracks are drawn whatever is asked for.
     ///
     /// # Errors
     /// A range that does not fit; overlays that there are not; a watcher that stops it.
@@ -290,7 +292,8 @@ fn blank(image: &mut Image) {
 pub struct Source<'a> {
     /// The dataset.
     pub dataset: &'a Dataset,
-    /// Its field, which is that of the request's subject, see [`Subject::apply`](crate::scene::Subject::apply).
+    /// Its field, which is that of the request's subject,
+    /// see [`Subject::apply`](crate::scene::Subject::apply).
     pub field: &'a Field<'a>,
     /// What is subtracted; the plate is as it was then.
     pub left: Option<Side<'a>>,
@@ -348,8 +351,8 @@ impl<'a> Source<'a> {
         Ok(Seen::Moved(Deformation::new(self.field, factor)?.seen(view).points(engine.watcher)?))
     }
 
-    /// The labels of a figure: those that are asked for, else the words for what is shown; with the step and its load in the place
-    /// of `{step}` and `{load}`.
+    /// The labels of a figure: those that are asked for, else the words for what is shown; with the
+    /// step and its load in the place of `{step}` and `{load}`.
     ///
     /// # Errors
     /// Fields that are no displacements.
@@ -426,7 +429,8 @@ pub fn view_in(
     Ok(reshaped(view, plot_area(&title(source, request)?, design)?)?)
 }
 
-/// The page of a picture as a figure of a design, or bare without one, of the part of the plane that a view shows.
+/// The page of a picture as a figure of a design, or bare without one, of the part of the plane
+/// that a view shows.
 ///
 /// # Errors
 /// As [`shot`]; a design without room.
@@ -442,7 +446,8 @@ pub fn page(
     page_in(source, request, &view, design, engine)
 }
 
-/// The page of a picture, which is that of the view, pixel for pixel: it need not fill the design's room.
+/// The page of a picture, which is that of the view, pixel for pixel: it need not fill the
+/// design's room.
 ///
 /// # Errors
 /// As [`page`]; a picture that is larger than its room.
@@ -473,8 +478,8 @@ pub fn page_seen(
     source.page(shot, request, design, engine)
 }
 
-/// The title of a figure: as it is asked for, else that of the dataset, with the step of a series, the part, and the factor of the
-/// deformed plate.
+/// The title of a figure: as it is asked for, else that of the dataset, with the step of a series,
+/// the part, and the factor of the deformed plate.
 ///
 /// # Errors
 /// Fields that are no displacements.
@@ -594,7 +599,8 @@ mod tests {
         page.items.iter().flat_map(of).collect()
     }
 
-    /// Strokes and letters, those over the picture too, are lengths on paper: the same at any number of pixels per inch.
+    /// Strokes and letters, those over the picture too, are lengths on paper: the same at any
+    /// number of pixels per inch.
     #[test]
     fn strokes_are_lengths_on_paper() {
         for seed in 0..4 {

@@ -7,11 +7,11 @@ use ppum::vec2::Vec2;
 /// C\[i\]\[k\]\[j\]\[l\]
 type Tensor = [[[[f64; 2]; 2]; 2]; 2];
 
-/// The law of an equation: the flux of ∇u is σ_ik = Σ_jl C\[i\]\[k\]\[j\]\[l\] ∂u_j/∂x_l with C = Σ_m a_m(x) T_m,
-/// constant tensors T_m times coefficients a_m of position.
+/// The law of an equation: the flux of ∇u is σ_ik = Σ_jl C\[i\]\[k\]\[j\]\[l\] ∂u_j/∂x_l with C =
+/// Σ_m a_m(x) T_m, constant tensors T_m times coefficients a_m of position.
 ///
-/// Elasticity: C = λ δ_ik δ_jl + μ (δ_ij δ_kl + δ_il δ_jk) with the plane λ; Poisson: κ δ_kl. Where the
-/// constants are the same everywhere there is one term with coefficient 1.
+/// Elasticity: C = λ δ_ik δ_jl + μ (δ_ij δ_kl + δ_il δ_jk) with the plane λ; Poisson: κ δ_kl. Where
+/// the constants are the same everywhere there is one term with coefficient 1.
 #[derive(Clone, Debug)]
 pub(crate) struct Law<'e> {
     /// Components of u.
@@ -80,7 +80,8 @@ impl<'e> Law<'e> {
     }
 }
 
-/// The law as a matrix on strains (ε_11, ε_22, 2ε_12), or on the gradient of a potential, with zeros after it.
+/// The law as a matrix on strains (ε_11, ε_22, 2ε_12), or on the gradient of a potential, with
+/// zeros after it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rigidity(pub(crate) [[f64; 3]; 3]);
 

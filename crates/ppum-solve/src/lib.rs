@@ -1,9 +1,10 @@
 //! Solves two-dimensional problems of elasticity and Poisson's equation with cracks by the
 //! particle-partition of unity method.
 //!
-//! A [`Problem`](problem::Problem), from a file or built in code, is solved by [`solve()`](solve::solve);
-//! the result is a [`Dataset`](ppum::dataset::Dataset) with the field, its stress intensity factors, the
-//! [report](report::SolverReport) of the solver and [warnings](diagnostics).
+//! A [`Problem`](problem::Problem), from a file or built in code, is solved by
+//! [`solve()`](solve::solve); the result is a [`Dataset`](ppum::dataset::Dataset) with the field,
+//! its stress intensity factors, the [report](report::SolverReport) of the solver
+//! and [warnings](diagnostics).
 //!
 //! ```
 //! use std::path::Path;
@@ -41,18 +42,21 @@
 //!
 //! # Tour
 //!
-//! - [`problem`]: what is to be solved, read from TOML or built in code, every mistake at its place.
-//! - [`solve`]: [`Plan`](solve::Plan) tells what a solution takes before it is made; [`solve()`](solve::solve)
-//!   does both; [`spectrum`](solve::spectrum) measures the condition of a discretisation.
-//! - [`intensity`]: stress intensity factors of any field. [`diagnostics`]: they and all warnings once more,
-//!   from a dataset.
+//! - [`problem`]: what is to be solved, read from TOML or built in code, every mistake at its
+//!   place.
+//! - [`solve`]: [`Plan`](solve::Plan) tells what a solution takes before it is made;
+//!   [`solve()`](solve::solve) does both; [`spectrum`](solve::spectrum) measures the condition of a
+//!   discretisation.
+//! - [`intensity`]: stress intensity factors of any field. [`diagnostics`]: they and all warnings
+//!   once more, from a dataset.
 //! - [`norms`]: energies and errors, integrated over the cells of a [`Space`](space::Space).
 //!
 //! # Threads
 //!
-//! Work is spread over the pool of threads that a call is made from, and no pool is made here: what is called
-//! inside `ThreadPool::install` stays on that pool. Results have the same bits on any number of threads. Long
-//! calls take a [`Watcher`](ppum::progress::Watcher), which hears of their progress and can stop them.
+//! Work is spread over the pool of threads that a call is made from, and no pool is made here: what
+//! is called inside `ThreadPool::install` stays on that pool. Results have the same bits on any
+//! number of threads. Long calls take a [`Watcher`](ppum::progress::Watcher), which hears of their
+//! progress and can stop them.
 //!
 //! # The path of a solution, from below
 //!

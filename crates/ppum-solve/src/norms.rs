@@ -55,7 +55,8 @@ pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 
     })
 }
 
-/// Energy of a field, ½ ∫ σ:ε; for Poisson ½ ∫ κ |∇u|². With the points that systems are assembled with.
+/// Energy of a field, ½ ∫ σ:ε; for Poisson ½ ∫ κ |∇u|². With the points that systems are
+/// assembled with.
 ///
 /// # Panics
 /// If the field is not of the step of `space`.
@@ -71,8 +72,8 @@ pub(crate) fn energy_of(field: &Field<'_>, space: &Space<'_>, cells: &[usize]) -
     parts.iter().map(|part| 0.5 * part.energy).sum()
 }
 
-/// Σ ∫ λ (div u − d)² over the cells, d the mean of div u in the cell, weighted with λ, over ∫ σ:ε: the part of the energy
-/// that the fluctuation of the volume within cells stores.
+/// Σ ∫ λ (div u − d)² over the cells, d the mean of div u in the cell, weighted with λ, over ∫ σ:ε:
+/// the part of the energy that the fluctuation of the volume within cells stores.
 ///
 /// # Panics
 /// If the field is not of the step of `space`.

@@ -10,13 +10,13 @@ use ppum::dataset::{Record, Step};
 use ppum::progress::Phase;
 use ppum::vec2::Vec2;
 
-/// The numbers of a solution. Those of a dataset that another program made, or a step that nobody has
-/// solved, may be missing.
+/// The numbers of a solution. Those of a dataset that another program made, or a step that nobody
+/// has solved, may be missing.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SolverReport {
-    /// Number of patches that hold several runs of one crack or rim, and so glue two parts of the plate
-    /// together: smaller cells are needed there.
+    /// Number of patches that hold several runs of one crack or rim, and so glue two parts of the
+    /// plate together: smaller cells are needed there.
     pub crossed_twice: Option<f64>,
     /// Unknowns before the cut-off.
     pub unknowns: Option<f64>,
@@ -36,10 +36,11 @@ pub struct SolverReport {
     pub solver_levels: Option<f64>,
     /// Its steps, of the solution without those of other right-hand sides.
     pub iterations: Option<f64>,
-    /// Condition of the system with its preconditioner, estimated from the steps: a bound from below.
+    /// Condition of the system with its preconditioner, estimated from the steps: a bound
+    /// from below.
     pub preconditioned_condition: Option<f64>,
-    /// Largest penalty β of Nitsche's method in a cell, in units of stiffness over cell width: 3 to 36 in
-    /// whole cells and more in slivers.
+    /// Largest penalty β of Nitsche's method in a cell, in units of stiffness over cell width: 3 to
+    /// 36 in whole cells and more in slivers.
     pub nitsche: Option<f64>,
     /// Pieces that cracks and holes cut the plate into.
     pub pieces: Option<f64>,
@@ -63,14 +64,16 @@ pub struct SolverReport {
     pub seconds: Vec<(Phase, f64)>,
     /// Bytes of what a phase makes and keeps for the next ones; of phases that keep nothing none.
     pub bytes: Vec<(Phase, f64)>,
-    /// Unknowns that a phase works with: all, those that the cut-off leaves, those that are solved for.
+    /// Unknowns that a phase works with: all, those that the cut-off leaves, those that are
+    /// solved for.
     pub worked: Vec<(Phase, f64)>,
     /// The levels of the multilevel solver, the finest first.
     pub levels: Vec<LevelSize>,
-    /// The residual before the first step of the multilevel solver and after each, in the norm of the preconditioner and as
-    /// a part of the first.
+    /// The residual before the first step of the multilevel solver and after each, in the norm of
+    /// the preconditioner and as a part of the first.
     pub residuals: Vec<f64>,
-    /// Before each step, the residual that reaches each level, the finest first, as a part of that of the first step.
+    /// Before each step, the residual that reaches each level, the finest first, as a part of that
+    /// of the first step.
     pub level_residuals: Vec<Vec<f64>>,
 }
 
@@ -83,7 +86,8 @@ pub struct LevelSize {
     pub unknowns: f64,
     /// Values of its matrix that are stored, about one half of all.
     pub values: f64,
-    /// Bytes of its matrix with the inverses or the factor, and of the way to the next coarser level.
+    /// Bytes of its matrix with the inverses or the factor, and of the way to the next
+    /// coarser level.
     pub bytes: f64,
 }
 
@@ -243,7 +247,8 @@ pub fn is_of_phase(record: &Record) -> bool {
     phase_of(record).is_some() && units.contains(&record.unit.as_str())
 }
 
-/// Removes the seconds from a step: all else is the same whenever and on however many threads it is solved.
+/// Removes the seconds from a step: all else is the same whenever and on however many threads it
+/// is solved.
 pub fn forget_times(step: &mut Step) {
     step.history.retain(|record| record.unit != SECOND);
     step.attributes.retain(|attribute| attribute.name != ASSEMBLY_SECONDS);
@@ -275,8 +280,8 @@ fn phase_of(record: &Record) -> Option<Phase> {
 }
 
 impl SolverReport {
-    /// The report in a step's history. Of several records of one name the first counts; those of other
-    /// names are left out.
+    /// The report in a step's history. Of several records of one name the first counts; those of
+    /// other names are left out.
     #[must_use]
     pub fn of(history: &[Record]) -> Self {
         let mut report = Self::default();
@@ -373,8 +378,8 @@ impl SolverReport {
 pub(crate) struct Unresolved {
     /// The load that it is, in words; none for functions of the space and coefficients.
     pub(crate) load: Option<String>,
-    /// Estimated error: of a load that of its resultant as a part of its magnitude, of functions that of
-    /// their integrals over a piece of a cell.
+    /// Estimated error: of a load that of its resultant as a part of its magnitude, of functions
+    /// that of their integrals over a piece of a cell.
     pub(crate) error: f64,
     /// The place of most of it.
     pub(crate) at: Vec2,

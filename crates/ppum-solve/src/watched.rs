@@ -1,7 +1,8 @@
 //! Work on all cores, watched, with results that do not depend on their number.
 //!
-//! It runs on the pool of threads that it is called from. Sums are formed in the order of the items,
-//! and a [`Watcher`] hears of every one of them, so that it can stop the work within the time of one.
+//! It runs on the pool of threads that it is called from. Sums are formed in the order of the
+//! items, and a [`Watcher`] hears of every one of them, so that it can stop the work within the
+//! time of one.
 
 use crate::geometry::Around;
 use ppum::progress::{Cancelled, Phase, Progress, Watcher};
@@ -110,8 +111,9 @@ pub(crate) fn each<T: Send>(
     all.into_iter().collect()
 }
 
-/// Calls `work` for 0 … n − 1 on all cores, a batch at a time, then `add` in order, while the next batch is worked on. Sums
-/// formed in `add` so have the same bits whatever the number of threads. `state` makes what a core keeps.
+/// Calls `work` for 0 … n − 1 on all cores, a batch at a time, then `add` in order, while the next
+/// batch is worked on. Sums formed in `add` so have the same bits whatever the number of threads.
+/// `state` makes what a core keeps.
 ///
 /// # Errors
 /// The first one in the order of the items; the watcher of `stage` wants the work to stop.

@@ -118,7 +118,8 @@ impl Elements {
         self.maps.push(map);
     }
 
-    /// A grid of squares over the unit square, every other one cut into two triangles, under a polynomial map of the plane.
+    /// A grid of squares over the unit square, every other one cut into two triangles, under a
+    /// polynomial map of the plane.
     #[must_use]
     pub fn grid([nx, ny]: [i32; 2], degree: u8, plane: &[Polynomial; 2]) -> Self {
         let mut all = Self::default();
@@ -162,7 +163,8 @@ impl Elements {
         [near.into(), rest.into()]
     }
 
-    /// A dataset of this mesh with a field of one component, a polynomial on each patch; more fields after it.
+    /// A dataset of this mesh with a field of one component, a polynomial on each patch; more
+    /// fields after it.
     #[must_use]
     pub fn dataset(&self, fields: Vec<FieldData>) -> Dataset {
         let mut step = Step::new(self.mesh.clone()).with_function("one", FunctionKind::One);
@@ -206,8 +208,8 @@ pub fn random_place(random: &mut Random, shape: Shape) -> [f64; 2] {
     }
 }
 
-/// A map with a random linear part of this aspect ratio, whose determinant's smallest value is this part of its largest one
-/// on the shape.
+/// A map with a random linear part of this aspect ratio, whose determinant's smallest value is this
+/// part of its largest one on the shape.
 pub fn random_map(
     random: &mut Random,
     (shape, space, degree): (Shape, PolynomialSpace, usize),

@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-/// Returns the processor time of the calling thread since its start, or zero where the system does not report it.
+/// Returns the processor time of the calling thread since its start, or zero where the system does
+/// not report it.
 #[must_use]
 pub fn thread_time() -> Duration {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();

@@ -7,9 +7,9 @@ use std::sync::{Mutex, PoisonError};
 /// Names of the tests of this binary that were skipped.
 static SKIPPED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
 
-/// Notes that the running test is skipped, all of it or a part, for want of a graphics adapter. The line holds the
-/// number of tests skipped so far, so the last one holds the number of the whole binary; it goes past the
-/// harness, which would show it for failed tests only.
+/// Notes that the running test is skipped, all of it or a part, for want of a graphics adapter. The
+/// line holds the number of tests skipped so far, so the last one holds the number of the whole
+/// binary; it goes past the harness, which would show it for failed tests only.
 ///
 /// # Panics
 /// If `PPUM_REQUIRE_GPU` is set: then no test may be skipped.

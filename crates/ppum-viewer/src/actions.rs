@@ -1,4 +1,5 @@
-//! What a person can do, by a key, a menu or the palette: one list for all three, and for the help sheet.
+//! What a person can do, by a key, a menu or the palette: one list for all three, and for the
+//! help sheet.
 
 use egui::{Event, Key, KeyboardShortcut, Modifiers, RawInput};
 
@@ -287,8 +288,8 @@ pub const ALL: &[Entry] = &[
     entry(Action::Quit, "Close the window", control(Key::Q), "Window"),
 ];
 
-/// What the mouse does, and keys that are no actions: what is done by hand, what comes of it, and the heading that it stands
-/// below on the help sheet.
+/// What the mouse does, and keys that are no actions: what is done by hand, what comes of it, and
+/// the heading that it stands below on the help sheet.
 pub const GESTURES: &[(&str, &str, &str)] = &[
     ("Drag", "Move the plate", "Moving"),
     ("Wheel", "Enlarge at the pointer, or reduce", "Moving"),
@@ -316,8 +317,8 @@ pub fn spelled(ctx: &egui::Context, key: &KeyboardShortcut) -> String {
     found.map_or_else(|| text.clone(), |(modifiers, sign)| format!("{modifiers}{sign}"))
 }
 
-/// Takes Tab, which shows and hides the panels, before it moves the focus of the keyboard; whoever writes, or walks through
-/// widgets, has it.
+/// Takes Tab, which shows and hides the panels, before it moves the focus of the keyboard; whoever
+/// writes, or walks through widgets, has it.
 #[derive(Default)]
 pub(crate) struct Tab {
     is_pressed: bool,
@@ -350,7 +351,8 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
 fn by_shortcuts(ctx: &egui::Context) -> Vec<Action> {
     let is_writing = ctx.egui_wants_keyboard_input();
     let mut all: Vec<&Entry> = ALL.iter().collect();
-    // the more keys of a shortcut, the sooner it is asked, so that Ctrl+Z does not take Ctrl+Shift+Z
+    // the more keys of a shortcut, the sooner it is asked, so that Ctrl+Z does not
+    // take Ctrl+Shift+Z
     all.sort_by_key(|entry| {
         entry.key.map_or(0, |k| -i32::from(k.modifiers.shift) - i32::from(k.modifiers.command))
     });

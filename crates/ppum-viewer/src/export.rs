@@ -1,4 +1,5 @@
-//! What is taken out of the window: pictures, figures, moving pictures, and the command that draws them.
+//! What is taken out of the window: pictures, figures, moving pictures, and the command that
+//! draws them.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

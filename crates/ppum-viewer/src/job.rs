@@ -35,7 +35,8 @@ impl Watcher for Stop {
 }
 
 impl<T: Send + 'static> Job<T> {
-    /// Starts work, and wakes the window when it is done. A panic of the work becomes an error in words.
+    /// Starts work, and wakes the window when it is done. A panic of the work becomes an error
+    /// in words.
     pub fn start(ctx: &egui::Context, work: impl FnOnce(&Stop) -> T + Send + 'static) -> Self {
         let (sender, receiver) = mpsc::channel();
         let stop = Stop::default();

@@ -1,9 +1,10 @@
 //! The window: explore datasets interactively, exactly at every pixel, down to the tip.
 //!
-//! What a person chooses is a [`Session`](session::Session), plain data. Each frame of the window the session says what is
-//! wanted of each [`Pane`](session::Pane), [`Frames`](frames::Frames) computes it in the background by `ppum-scene`, and the
-//! [`stage`] shows the newest picture there is. Panels change the session and nothing else; what a key, a menu or the
-//! palette does is one [`Action`](actions::Action). Nothing here draws a field: the window is a loop around what
+//! What a person chooses is a [`Session`](session::Session), plain data. Each frame of the window
+//! the session says what is wanted of each [`Pane`](session::Pane), [`Frames`](frames::Frames)
+//! computes it in the background by `ppum-scene`, and the [`stage`] shows the newest picture there
+//! is. Panels change the session and nothing else; what a key, a menu or the palette does is one
+//! [`Action`](actions::Action). Nothing here draws a field: the window is a loop around what
 //! `ppum render` does.
 
 pub mod actions;

@@ -99,7 +99,8 @@ fn at_rest(
     }
 }
 
-/// Pictures of a window at rest after which no panel moves any more: they fold and fade for a quarter of a second.
+/// Pictures of a window at rest after which no panel moves any more: they fold and fade for a
+/// quarter of a second.
 const SETTLED: u32 = 20;
 
 /// The colour around the plate, as the window has it.

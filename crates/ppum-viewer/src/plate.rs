@@ -13,7 +13,8 @@ const NARROWEST: f64 = 1e-12;
 /// Doubles in the narrowest view of a plate that lies far from the origin: about one a pixel.
 const COARSEST: f64 = 2048.0;
 
-/// The view of a place, or of the whole plate beside the last `taken` columns; none of a plate without size.
+/// The view of a place, or of the whole plate beside the last `taken` columns; none of a plate
+/// without size.
 #[must_use]
 pub fn view(place: Option<Place>, whole: Rect, pixels: [u32; 2], taken: u32) -> Option<View> {
     if let Some(place) = place {
@@ -32,8 +33,8 @@ pub fn view(place: Option<Place>, whole: Rect, pixels: [u32; 2], taken: u32) -> 
     View::new(center, f64::from(pixels[0]) * pixel, pixels).ok()
 }
 
-/// A place that can be shown: no wider than the plate many times, no narrower than doubles tell pixels apart, never
-/// beside the plate.
+/// A place that can be shown: no wider than the plate many times, no narrower than doubles tell
+/// pixels apart, never beside the plate.
 #[must_use]
 pub fn bounded(place: Place, bounds: &Rect) -> Place {
     let size = bounds.size().x.max(bounds.size().y);
@@ -45,7 +46,8 @@ pub fn bounded(place: Place, bounds: &Rect) -> Place {
     Place { center: center.into(), width }
 }
 
-/// True if a place is one of this plate: something of it may be seen there, and pixels are told apart.
+/// True if a place is one of this plate: something of it may be seen there, and pixels are
+/// told apart.
 #[must_use]
 pub fn is_of(place: Place, bounds: &Rect) -> bool {
     let nearest = bounded(place, bounds);
@@ -54,11 +56,12 @@ pub fn is_of(place: Place, bounds: &Rect) -> bool {
     is_near && is_wide
 }
 
-/// How far beyond what can be shown a width may lie: the plate may have been written anew, a little larger.
+/// How far beyond what can be shown a width may lie: the plate may have been written anew, a
+/// little larger.
 const SLACK: f64 = 100.0;
 
-/// The place after a zoom at an offset from the view's centre, which stays where it is: by the factor, or by what the limits
-/// leave of it. True if they have left less of an enlargement.
+/// The place after a zoom at an offset from the view's centre, which stays where it is: by the
+/// factor, or by what the limits leave of it. True if they have left less of an enlargement.
 #[must_use]
 pub fn zoomed(view: &View, offset: Vec2, factor: f64, bounds: &Rect) -> (Place, bool) {
     let at = |center: Vec2, width: f64| bounded(Place { center: center.into(), width }, bounds);

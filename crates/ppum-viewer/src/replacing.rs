@@ -10,7 +10,8 @@ pub struct Replacing(Option<PathBuf>);
 pub const ASK: &str = "this file is there already: once more replaces it";
 
 impl Replacing {
-    /// True if a file may be written: it is not there yet, was written before, or is asked for the second time.
+    /// True if a file may be written: it is not there yet, was written before, or is asked for the
+    /// second time.
     pub fn allows(&mut self, path: &Path) -> bool {
         let is_known = self.is(path);
         self.0 = Some(path.to_owned());

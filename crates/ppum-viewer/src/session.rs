@@ -1,4 +1,5 @@
-//! All that a person chooses: what is looked at, where, and how. Plain data that is compared, undone, kept and written.
+//! All that a person chooses: what is looked at, where, and how. Plain data that is compared,
+//! undone, kept and written.
 
 use std::path::PathBuf;
 
@@ -41,7 +42,8 @@ pub struct Session {
 pub struct Minus {
     /// True if it is shown.
     pub is_shown: bool,
-    /// The colours of the second view when it shows the other of the two, its own values or the difference.
+    /// The colours of the second view when it shows the other of the two, its own values or
+    /// the difference.
     pub colors: Colors,
 }
 
@@ -82,7 +84,8 @@ pub struct Pane {
 }
 
 impl Default for Pane {
-    /// The whole of a dataset that is still to be chosen, with its cracks and rims, which dark maps hide.
+    /// The whole of a dataset that is still to be chosen, with its cracks and rims, which dark
+    /// maps hide.
     fn default() -> Self {
         let mut scene = Scene::default();
         scene.overlays.shown.push(Overlay::Cracks);
@@ -100,7 +103,8 @@ impl Default for Pane {
     }
 }
 
-/// How the direct picture is seen beside what resampling gives of it: that on the right of a divider.
+/// How the direct picture is seen beside what resampling gives of it: that on the right of
+/// a divider.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Against {
@@ -204,8 +208,8 @@ impl Session {
         &mut self.panes[self.active]
     }
 
-    /// Shows the difference of two views, or the second one's own values; with colours of its own each, and both views at
-    /// the same place.
+    /// Shows the difference of two views, or the second one's own values; with colours of its own
+    /// each, and both views at the same place.
     pub fn subtract(&mut self, is_shown: bool) {
         let [left, right] = &mut self.panes[..] else { return };
         if self.minus.is_shown != is_shown {
@@ -218,7 +222,8 @@ impl Session {
         }
     }
 
-    /// Takes what has a history of its own, or is no setting, from another state: places, files and the problem's text.
+    /// Takes what has a history of its own, or is no setting, from another state: places, files and
+    /// the problem's text.
     pub fn take_places(&mut self, from: &Self) {
         self.draft.clone_from(&from.draft);
         for (pane, from) in self.panes.iter_mut().zip(&from.panes) {
@@ -244,7 +249,8 @@ impl Session {
         Self { panels: self.panels, linked: self.linked, theme: self.theme, ..Self::default() }
     }
 
-    /// Mends what a file may say and the window cannot show: no pane, more than two, one active that is not there.
+    /// Mends what a file may say and the window cannot show: no pane, more than two, one active
+    /// that is not there.
     pub fn mend(&mut self) {
         self.panes.truncate(2);
         if self.panes.is_empty() {

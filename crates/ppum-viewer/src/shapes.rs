@@ -36,8 +36,8 @@ impl Placed {
 /// Longest side of what is a sign and no line of the plate \[pixels\].
 const SIGN: f64 = 64.0;
 
-/// Draws the long lines of items that were made for quite another magnification: signs would be as large as the window, or
-/// specks.
+/// Draws the long lines of items that were made for quite another magnification: signs would be as
+/// large as the window, or specks.
 pub fn draw_lines(painter: &egui::Painter, placed: Placed, items: &[Item]) {
     let is_long = |piece: &Vec<ppum::vec2::Vec2>| {
         let extent = |of: fn(&ppum::vec2::Vec2) -> f64| {
@@ -81,7 +81,8 @@ pub fn draw(painter: &egui::Painter, placed: Placed, items: &[Item]) {
     }
 }
 
-/// A picture of few colours, as that of a bar is: what is equal in a row is one rectangle, and so are equal rows.
+/// A picture of few colours, as that of a bar is: what is equal in a row is one rectangle, and so
+/// are equal rows.
 fn picture(painter: &egui::Painter, placed: Placed, image: &Image, corner: [u32; 2]) {
     let columns = image.size[0].max(1) as usize;
     let mut mesh = Mesh::default();
@@ -147,7 +148,8 @@ fn fill(painter: &egui::Painter, placed: Placed, outline: &Path, fill: Rgba) {
     }
 }
 
-/// Points of a line that lie apart from those before: where several are one, egui knows no direction.
+/// Points of a line that lie apart from those before: where several are one, egui knows
+/// no direction.
 fn apart(points: impl Iterator<Item = Pos2>) -> Vec<Pos2> {
     let mut kept: Vec<Pos2> = Vec::new();
     for point in points {
@@ -177,7 +179,8 @@ fn corners(points: impl Iterator<Item = Pos2>) -> Vec<Pos2> {
     kept
 }
 
-/// True if an outline has an inside that is seen; the soft border of one that turns back on itself would lie nowhere.
+/// True if an outline has an inside that is seen; the soft border of one that turns back on itself
+/// would lie nowhere.
 fn can_be_filled(points: &[Pos2]) -> bool {
     let cross = |pair: &[Pos2]| {
         let [p, q] = [pair[0] - points[0], pair[1] - points[0]];

@@ -59,7 +59,8 @@ impl Surface {
         Ok(Self { state, texture, size })
     }
 
-    /// Sends textures to the device, and frees those that are used no more, always in the same order.
+    /// Sends textures to the device, and frees those that are used no more, always in the
+    /// same order.
     pub fn send(&self, delta: &mut TexturesDelta) {
         let RenderState { device, queue, renderer, .. } = &self.state;
         let mut renderer = renderer.write();
@@ -110,8 +111,8 @@ impl Surface {
     }
 }
 
-/// A device as the window would take it. OpenGL is left out, which the program is built without, but not its tests: what
-/// drives windows in them brings it along.
+/// A device as the window would take it. OpenGL is left out, which the program is built without,
+/// but not its tests: what drives windows in them brings it along.
 fn device(options: RendererOptions) -> Result<RenderState, WgpuError> {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = wgpu::Backends::PRIMARY;

@@ -63,7 +63,8 @@ impl<T: Clone + PartialEq> Undo<T> {
 /// Seconds without a change after which a state counts as one.
 const PAUSE: f64 = 0.4;
 
-/// Tells when something that changes has come to rest, so that a drag or a word is one step and not many.
+/// Tells when something that changes has come to rest, so that a drag or a word is one step and
+/// not many.
 #[derive(Clone, Debug)]
 pub struct Rest<T> {
     last: T,
@@ -76,7 +77,8 @@ impl<T: Clone + PartialEq> Rest<T> {
         Self { last, since: f64::NEG_INFINITY }
     }
 
-    /// Looks at a state at a time \[s\]: nothing if it is at rest, else the seconds until it will be.
+    /// Looks at a state at a time \[s\]: nothing if it is at rest, else the seconds until it
+    /// will be.
     pub fn until(&mut self, state: &T, now: f64) -> Option<f64> {
         if self.last != *state {
             self.last = state.clone();

@@ -17,7 +17,8 @@ use crate::stage::pixels;
 /// How the window begins.
 #[derive(Debug, Default)]
 pub struct Start {
-    /// What is chosen; without it and without files, what was chosen when the last window was closed.
+    /// What is chosen; without it and without files, what was chosen when the last window
+    /// was closed.
     pub session: Option<Session>,
     /// Files to open: one, or two side by side.
     pub files: Vec<PathBuf>,

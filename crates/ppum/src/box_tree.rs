@@ -1,8 +1,9 @@
 //! A static search tree over axis-parallel boxes: which of them contain a point or meet a box?
 //!
-//! Boxes that follow each other are a group, groups that follow each other a group of the next level; of each its bounds are
-//! kept, and nothing else. Patches come in Morton order, so their groups are compact as they are; boxes that come in another
-//! order are sorted into it. The tree serves patches of any cover, graded or not, without looking at the quadtree that made it.
+//! Boxes that follow each other are a group, groups that follow each other a group of the next
+//! level; of each its bounds are kept, and nothing else. Patches come in Morton order, so their
+//! groups are compact as they are; boxes that come in another order are sorted into it. The tree
+//! serves patches of any cover, graded or not, without looking at the quadtree that made it.
 
 use std::ops::Range;
 
@@ -14,8 +15,9 @@ const GROUP: usize = 8;
 
 /// Boxes that are found by their places.
 ///
-/// Built in O(N), or O(N log N) if the boxes have to be sorted; a query costs O(log N + k) for k boxes found when the boxes
-/// overlap a bounded number of others, as the patches of a cover do. A query takes no memory but for what it finds.
+/// Built in O(N), or O(N log N) if the boxes have to be sorted; a query costs O(log N + k) for k
+/// boxes found when the boxes overlap a bounded number of others, as the patches of a cover do. A
+/// query takes no memory but for what it finds.
 #[derive(Clone, Debug)]
 pub struct BoxTree {
     /// The boxes, then the bounds of their groups, then those of the groups of these, and so on.
@@ -25,7 +27,8 @@ pub struct BoxTree {
 }
 
 impl BoxTree {
-    /// The tree over `boxes`, which keep their indices. Boxes that are empty or undefined are found nowhere.
+    /// The tree over `boxes`, which keep their indices. Boxes that are empty or undefined are found
+    /// nowhere.
     ///
     /// # Panics
     /// If there are more than `u32::MAX` boxes.
@@ -34,16 +37,16 @@ impl BoxTree {
         Self::from(boxes.to_vec())
     }
 
-    /// Appends, in ascending order, the indices of the boxes that contain `p`; a box is taken closed
-    /// on the left and below, open on the right and above.
+    /// Appends, in ascending order, the indices of the boxes that contain `p`; a box is taken
+    /// closed on the left and below, open on the right and above.
     pub fn query_point(&self, p: Vec2, out: &mut Vec<u32>) {
         let holds =
             |b: &Rect| (p.x >= b.min.x) & (p.x < b.max.x) & (p.y >= b.min.y) & (p.y < b.max.y);
         self.collect(holds, out);
     }
 
-    /// Appends, in ascending order, the indices of the boxes that [overlap](Rect::overlaps) `query`:
-    /// touching along a border is not enough.
+    /// Appends, in ascending order, the indices of the boxes that [overlap](Rect::overlaps)
+    /// `query`: touching along a border is not enough.
     pub fn query_box(&self, query: &Rect, out: &mut Vec<u32>) {
         let Rect { min, max } = *query;
         let overlaps = |b: &Rect| {
@@ -135,8 +138,9 @@ fn bounds(boxes: &[Rect]) -> Rect {
     boxes.iter().fold(NOWHERE, |all, b| all.union(b))
 }
 
-/// True if the borders of all groups together are no longer than those of the boxes. Those of n cells in Morton order are
-/// some n · (8^−½ + 8^−1 + …), half as long; groups of far boxes have longer ones.
+/// True if the borders of all groups together are no longer than those of the boxes. Those of n
+/// cells in Morton order are some n · (8^−½ + 8^−1 + …), half as long; groups of far boxes have
+/// longer ones.
 fn is_compact(levels: &[Vec<Rect>]) -> bool {
     let border = |b: &Rect| if is_a_box(b) { b.max.x - b.min.x + (b.max.y - b.min.y) } else { 0.0 };
     let borders = |level: &Vec<Rect>| level.iter().map(border).sum::<f64>();

@@ -44,11 +44,11 @@ type Checked = Result<(), CheckError>;
 
 impl Dataset {
     /// Checks that the dataset can be evaluated: consistent lengths, indices in range, rising
-    /// offsets, finite numbers, positive extents, cracks without zero-length segments, formulas that
-    /// can be read with the dataset's tables.
+    /// offsets, finite numbers, positive extents, cracks without zero-length segments, formulas
+    /// that can be read with the dataset's tables.
     ///
-    /// Attributes and history may hold NaN ("no value") or infinities; nothing else may. The cells tile the
-    /// domain, and the supports cover them. O(n log n) in the size of the dataset.
+    /// Attributes and history may hold NaN ("no value") or infinities; nothing else may. The cells
+    /// tile the domain, and the supports cover them. O(n log n) in the size of the dataset.
     ///
     /// # Errors
     ///
@@ -57,8 +57,8 @@ impl Dataset {
         self.diagnose().into_iter().next().map_or(Ok(()), Err)
     }
 
-    /// Returns all violations that [`check`](Self::check) would find, if each one before were repaired, up to a
-    /// hundred: one of each array, and none that only follows from others.
+    /// Returns all violations that [`check`](Self::check) would find, if each one before were
+    /// repaired, up to a hundred: one of each array, and none that only follows from others.
     #[must_use]
     pub fn diagnose(&self) -> Vec<CheckError> {
         let mut errors = Errors::default();
@@ -89,7 +89,8 @@ impl Dataset {
         errors.into_list()
     }
 
-    /// Checks that a step's patches cover the domain, or are all of it, as those of the step before do.
+    /// Checks that a step's patches cover the domain, or are all of it, as those of the step
+    /// before do.
     fn check_place(&self, step: &Step, before: Option<&Partition>, errors: &mut Errors) {
         match (&step.partition, before) {
             (Partition::Boxes(_), Some(Partition::Mesh(_))) => {
@@ -112,7 +113,8 @@ impl Dataset {
 }
 
 impl Step {
-    /// Checks what can be known of a step without its patches: load, cracks, stress intensity factors, warnings.
+    /// Checks what can be known of a step without its patches: load, cracks, stress intensity
+    /// factors, warnings.
     ///
     /// # Errors
     ///

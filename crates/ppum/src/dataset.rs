@@ -1,4 +1,5 @@
-//! The dataset: everything needed to evaluate a solution exactly, nothing of the solver's inner state.
+//! The dataset: everything needed to evaluate a solution exactly, nothing of the solver's
+//! inner state.
 //!
 //! A dataset is a series of quasi-static [`Step`]s over one domain. Each step has its own cover,
 //! cracks, functions and fields. On patch ω_i a field is a sum of function × polynomial,
@@ -7,9 +8,9 @@
 //! v_i(x) = Σ_b f_b(x) Σ_{|k| ≤ d_b} c_{b,k} ξ^k        v = Σ_i φ_i v_i        ξ = (x − origin_i) / scale_i
 //! ```
 //!
-//! so that smooth parts (f = 1), jumps (f = side of a crack) and tip functions differ in nothing but
-//! the function their [blocks](FieldData) name. `ppum-format` stores this structure, `ppum-solve`
-//! makes it, [`Field`](crate::field::Field) evaluates it.
+//! so that smooth parts (f = 1), jumps (f = side of a crack) and tip functions differ in nothing
+//! but the function their [blocks](FieldData) name. `ppum-format` stores this structure,
+//! `ppum-solve` makes it, [`Field`](crate::field::Field) evaluates it.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -94,7 +95,8 @@ pub struct Step {
     pub history: Vec<Record>,
     /// Warnings of the diagnostics.
     pub warnings: Vec<Warning>,
-    /// Resultants of the forces the supports exert on the plate, one per boundary condition that gives values.
+    /// Resultants of the forces the supports exert on the plate, one per boundary condition that
+    /// gives values.
     pub reactions: Vec<Reaction>,
     /// How the cracks grow on from here, in a series of growth.
     pub growth: Option<Growth>,
@@ -125,8 +127,9 @@ impl Step {
         self.history.iter().find(|record| record.name == name).map(|record| record.value)
     }
 
-    /// Number of unknowns of the solution: those that the solver reports, else the coefficients of the first field. Where the
-    /// components of functions are tied, there are more coefficients than unknowns.
+    /// Number of unknowns of the solution: those that the solver reports, else the coefficients of
+    /// the first field. Where the components of functions are tied, there are more coefficients
+    /// than unknowns.
     #[must_use]
     pub fn unknowns(&self) -> usize {
         let coefficients =
@@ -134,7 +137,8 @@ impl Step {
         self.record("unknowns").map_or_else(coefficients, |unknowns| unknowns as usize)
     }
 
-    /// The level fields of a mesh, those that clips and functions name, as indices of the fields in rising order.
+    /// The level fields of a mesh, those that clips and functions name, as indices of the fields in
+    /// rising order.
     #[must_use]
     pub fn level_fields(&self) -> Vec<usize> {
         let clips = self.partition.mesh().map_or(&[][..], |mesh| &mesh.clips);
@@ -362,7 +366,8 @@ pub struct FieldData {
     pub block_function: Vec<u32>,
     /// Polynomial degree of each block, at most [`MAX_DEGREE`].
     pub block_degree: Vec<u8>,
-    /// Monomials of each block, empty if all are [`Total`](PolynomialSpace::Total); those of boxes are.
+    /// Monomials of each block, empty if all are [`Total`](PolynomialSpace::Total); those of boxes
+    /// are.
     pub block_space: Vec<PolynomialSpace>,
     /// First coefficient of each block.
     pub block_offset: Vec<u64>,
@@ -378,7 +383,8 @@ pub const MAX_DEGREE: usize = 8;
 /// Most tables of a dataset. Each formula knows all of them.
 pub const MAX_TABLES: usize = 256;
 
-/// Most quantities that a dataset may name. Each is read with all before it, so time grows as the square.
+/// Most quantities that a dataset may name. Each is read with all before it, so time grows as
+/// the square.
 pub const MAX_QUANTITIES: usize = 256;
 
 /// Longest the formulas of these quantities may be together, in bytes.
@@ -422,8 +428,8 @@ impl FieldData {
         self.space(block).size(self.block_degree[block].into())
     }
 
-    /// Adds a patch with blocks of these functions and degrees. Its coefficients are zero, and lie behind
-    /// all others.
+    /// Adds a patch with blocks of these functions and degrees. Its coefficients are zero, and lie
+    /// behind all others.
     pub fn push_patch(&mut self, blocks: &[(u32, u8)]) {
         for &(function, degree) in blocks {
             let start = self.coefficients.first().map_or(0, Vec::len);
@@ -437,8 +443,8 @@ impl FieldData {
         self.patch_blocks.push(self.block_function.len() as u32);
     }
 
-    /// The coefficients of a patch, one slice per component, block after block, where these follow each
-    /// other as [`push_patch`](Self::push_patch) lays them.
+    /// The coefficients of a patch, one slice per component, block after block, where these follow
+    /// each other as [`push_patch`](Self::push_patch) lays them.
     pub fn coefficients_mut(&mut self, patch: usize) -> impl Iterator<Item = &mut [f64]> {
         let range = self.range(patch);
         self.coefficients.iter_mut().map(move |component| &mut component[range.clone()])
@@ -454,7 +460,8 @@ impl FieldData {
         }
     }
 
-    /// The coefficients of a patch, component by component, where its blocks have theirs behind one another.
+    /// The coefficients of a patch, component by component, where its blocks have theirs behind
+    /// one another.
     pub fn coefficients_of(&self, patch: usize) -> impl Iterator<Item = &[f64]> {
         let range = self.range(patch);
         self.coefficients.iter().map(move |component| &component[range.clone()])
@@ -475,7 +482,8 @@ impl FieldData {
     }
 }
 
-/// A quantity that a dataset names: the text of a [`QuantityFormula`](crate::quantity::QuantityFormula).
+/// A quantity that a dataset names: the text of
+/// a [`QuantityFormula`](crate::quantity::QuantityFormula).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedQuantity {
     /// Its name, a word that no built-in quantity has.
@@ -521,28 +529,29 @@ pub struct Warning {
     pub message: String,
 }
 
-/// The resultant of what a support exerts on the plate: R_i = ∫ t_i, M = ∫ (x − c) × t over the part of
-/// the border where values are given. For elasticity t are the tractions of the components that are
-/// held, c the centre of the domain's box; for a potential t is the flow κ ∂u/∂n into the plate.
+/// The resultant of what a support exerts on the plate: R_i = ∫ t_i, M = ∫ (x − c) × t over the
+/// part of the border where values are given. For elasticity t are the tractions of the components
+/// that are held, c the centre of the domain's box; for a potential t is the flow κ ∂u/∂n into
+/// the plate.
 ///
-/// The solver's t is the conservative one, (σ n)_i − β (u_i − g_i) with Nitsche's β (Hughes et al. 2000):
-/// the reactions and the loads on a plate add up to zero, to rounding.
+/// The solver's t is the conservative one, (σ n)_i − β (u_i − g_i) with Nitsche's β (Hughes et al.
+/// 2000): the reactions and the loads on a plate add up to zero, to rounding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reaction {
     /// The place in words, e.g. `bottom`, `top from -0.1 to 0.1`, `hole 0`.
     pub on: String,
     /// Of each component of the first field, whether the support holds it.
     pub held: Vec<bool>,
-    /// Force per thickness \[stress·length\], one per component, zero where not held; of a potential the
-    /// flow into the plate.
+    /// Force per thickness \[stress·length\], one per component, zero where not held; of a
+    /// potential the flow into the plate.
     pub force: Vec<f64>,
     /// Moment per thickness about the centre of the domain's box, counter-clockwise
     /// \[stress·length²\]; zero for a potential.
     pub moment: f64,
 }
 
-/// The leading terms of the field at one tip: stress intensity factors, from interaction integrals over several discs, and what
-/// stands beside them.
+/// The leading terms of the field at one tip: stress intensity factors, from interaction integrals
+/// over several discs, and what stands beside them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TipIntensity {
     /// The tip.
@@ -551,13 +560,14 @@ pub struct TipIntensity {
     pub k1: f64,
     /// Value of the preferred ring, K_II.
     pub k2: f64,
-    /// T: of the stress along the crack at the tip the part that is finite there, σ_11 = K terms + T \[stress\]. None
-    /// where it is not known, or has no value.
+    /// T: of the stress along the crack at the tip the part that is finite there, σ_11 = K terms +
+    /// T \[stress\]. None where it is not known, or has no value.
     pub t_stress: Option<f64>,
-    /// The J-integral, found without the factors: the energy released per length of growth and thickness, which is
-    /// [G](Self::energy_release) \[stress·length\]. None where it is not known.
+    /// The J-integral, found without the factors: the energy released per length of growth and
+    /// thickness, which is [G](Self::energy_release) \[stress·length\]. None where it is not known.
     pub j: Option<f64>,
-    /// Estimated error of (K_I, K_II), the length of the difference \[stress·length^½\]. None where it is not known.
+    /// Estimated error of (K_I, K_II), the length of the difference \[stress·length^½\]. None where
+    /// it is not known.
     pub error: Option<f64>,
     /// All rings. That they agree is a check of the integrals, no estimate of the error of K.
     pub rings: Vec<Ring>,
@@ -573,15 +583,16 @@ impl TipIntensity {
         Self { tip, k1, k2, t_stress: None, j: None, error: None, rings: Vec::new() }
     }
 
-    /// G = (K_I² + K_II²) / E′, the energy released per length of growth and thickness, in the material at the tip.
+    /// G = (K_I² + K_II²) / E′, the energy released per length of growth and thickness, in the
+    /// material at the tip.
     #[must_use]
     pub fn energy_release(&self, material: &Material) -> f64 {
         (self.k1 * self.k1 + self.k2 * self.k2) / material.effective_young()
     }
 
-    /// The angle from the crack's direction in which the hoop stress beside the tip is largest, and in which a crack
-    /// in a brittle material grows (Erdogan & Sih 1963), in [−70.53°, 70.53°] as radians:
-    /// 2 arctan(−2 K_II / (K_I + √(K_I² + 8 K_II²))).
+    /// The angle from the crack's direction in which the hoop stress beside the tip is largest, and
+    /// in which a crack in a brittle material grows (Erdogan & Sih 1963), in [−70.53°, 70.53°] as
+    /// radians: 2 arctan(−2 K_II / (K_I + √(K_I² + 8 K_II²))).
     ///
     /// None where K_I is negative, so that the faces overlap, or where there are no factors.
     #[must_use]
@@ -593,11 +604,11 @@ impl TipIntensity {
         opens.then(|| 2.0 * (-2.0 * k2).atan2(k1 + root))
     }
 
-    /// The largest difference of two rings, |ΔK| / |K| with K = (K_I, K_II) and the preferred ring's in
-    /// the denominator; NaN where that is zero, or without rings.
+    /// The largest difference of two rings, |ΔK| / |K| with K = (K_I, K_II) and the preferred
+    /// ring's in the denominator; NaN where that is zero, or without rings.
     ///
-    /// A check that the integrals agree, and no estimate of the error of K: all radii see the same field, and
-    /// most of its error enters them alike. Errors a hundred times as large are common.
+    /// A check that the integrals agree, and no estimate of the error of K: all radii see the same
+    /// field, and most of its error enters them alike. Errors a hundred times as large are common.
     #[must_use]
     pub fn spread(&self) -> f64 {
         self.largest_difference() / self.k1.hypot(self.k2)
@@ -613,7 +624,8 @@ impl TipIntensity {
     }
 }
 
-/// One evaluation of the interaction integral: the cut-off is one inside `r1` and zero outside `r2`.
+/// One evaluation of the interaction integral: the cut-off is one inside `r1` and zero outside
+/// `r2`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
     /// Inner radius (0 when the cut-off falls from the tip on).
@@ -655,7 +667,8 @@ mod tests {
                 );
             }
         }
-        // a K_I that is rounding of nothing is none; faces that overlap, and no field, have no angle
+        // a K_I that is rounding of nothing is none; faces that overlap, and no field, have
+        // no angle
         assert!((angle(-1e-9, 1.0).expect("shear") + 70.5287794).abs() < 1e-7);
         for (k1, k2) in [(-1.0, 0.0), (-0.1, 1.0), (0.0, 0.0), (f64::NAN, f64::NAN)] {
             assert_eq!(angle(k1, k2), None, "{k1} {k2}");

@@ -1,6 +1,7 @@
 //! Parts of a field: only the smooth, the jump or the tip blocks, or those of one patch.
 //!
-//! A field is a sum of blocks, so it is also the sum of its parts by kind, and of its parts by patch:
+//! A field is a sum of blocks, so it is also the sum of its parts by kind, and of its parts
+//! by patch:
 //!
 //! ```text
 //! v = v_smooth + v_jump + v_tip + v_other = Σ_i φ_i v_i
@@ -94,10 +95,10 @@ impl Part {
 
 impl FieldData {
     /// A part of the field; `functions` is the table of its step. The partition of unity is that of
-    /// the whole, so the parts of all kinds add up to it, and so do those of all patches. Blocks that
-    /// do not belong to the part are gone, not zero: 0 · f has no value where f has none, but the
-    /// smooth part has a gradient at a tip. The exact solution, which is one of the whole, is gone
-    /// too. Coefficients stay where they are.
+    /// the whole, so the parts of all kinds add up to it, and so do those of all patches. Blocks
+    /// that do not belong to the part are gone, not zero: 0 · f has no value where f has none, but
+    /// the smooth part has a gradient at a tip. The exact solution, which is one of the whole, is
+    /// gone too. Coefficients stay where they are.
     ///
     /// # Errors
     /// No such patch; no block of that part.

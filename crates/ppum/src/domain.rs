@@ -30,7 +30,8 @@ pub enum Hole {
         radius: f64,
     },
     /// The inside of a closed polygon that does not cross itself; either orientation. Were it to
-    /// cross itself, a point would be inside if a ray from it crosses the rim an odd number of times.
+    /// cross itself, a point would be inside if a ray from it crosses the rim an odd number
+    /// of times.
     Polygon {
         /// The corners, three or more; the last one is joined to the first.
         points: Vec<Vec2>,
@@ -138,8 +139,9 @@ impl LocalDomain {
         self.bounds.contains(offset) && !self.holes.iter().any(|hole| hole.contains(offset))
     }
 
-    /// The offset itself if its point belongs to the domain; that of a point of the domain beside it, no farther than
-    /// a few times `reach`, if the point lies in a hole or outside the box by no more than `reach`; else none.
+    /// The offset itself if its point belongs to the domain; that of a point of the domain beside
+    /// it, no farther than a few times `reach`, if the point lies in a hole or outside the box by
+    /// no more than `reach`; else none.
     #[must_use]
     pub fn settled(&self, offset: Vec2, reach: f64) -> Option<Vec2> {
         let inside = |p: Vec2| self.bounds.min.max(self.bounds.max.min(p));
@@ -189,8 +191,8 @@ impl LocalHole {
         }
     }
 
-    /// A point outside, beyond the rim by about `reach`, for one that lies inside by no more than that; else the
-    /// point as it is.
+    /// A point outside, beyond the rim by about `reach`, for one that lies inside by no more than
+    /// that; else the point as it is.
     fn left_by(&self, offset: Vec2, reach: f64) -> Vec2 {
         if !self.contains(offset) {
             return offset;

@@ -68,7 +68,8 @@ impl Equation {
         Self::Poisson { conductivity: conductivity.into() }
     }
 
-    /// Number of components of the unknown field: 2 for elasticity, 1 for Poisson, 0 without an equation.
+    /// Number of components of the unknown field: 2 for elasticity, 1 for Poisson, 0 without
+    /// an equation.
     #[must_use]
     pub fn components(&self) -> usize {
         match self {

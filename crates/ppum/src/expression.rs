@@ -23,7 +23,8 @@ impl Expression {
         Self::parse_in(text, &Scope::cartesian())
     }
 
-    /// The expression of a formula's text in a scope of x and y that may have parameters and tables.
+    /// The expression of a formula's text in a scope of x and y that may have parameters
+    /// and tables.
     ///
     /// # Errors
     /// The text is no formula of the scope.
@@ -72,8 +73,8 @@ impl Expression {
         self.constant.unwrap_or_else(|| self.formula.evaluate(&[p.x, p.y]))
     }
 
-    /// The values at the points `anchor + offset` of some lanes. Those of a formula are found in f64,
-    /// lane by lane.
+    /// The values at the points `anchor + offset` of some lanes. Those of a formula are found in
+    /// f64, lane by lane.
     #[inline(always)]
     pub fn values<R: Real>(&self, anchor: Vec2, offset: [R; 2]) -> R {
         match self.constant {

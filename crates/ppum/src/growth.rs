@@ -1,7 +1,8 @@
-//! How cracks grow from one step of a series to the next: what is decided at the end of a step, and stored with it.
+//! How cracks grow from one step of a series to the next: what is decided at the end of a step, and
+//! stored with it.
 //!
-//! The cracks of the next step follow from the cracks of this one and its [`Growth`] alone, so that a series goes on from
-//! its last step as if it had never been interrupted.
+//! The cracks of the next step follow from the cracks of this one and its [`Growth`] alone, so that
+//! a series goes on from its last step as if it had never been interrupted.
 
 use crate::crack::TipId;
 use crate::vec2::Vec2;
@@ -25,14 +26,17 @@ pub struct Advance {
     pub tip: TipId,
     /// What it does, and why.
     pub fate: Fate,
-    /// The factor that is compared with the toughness: K_I of a crack that grows in the direction of its criterion under
-    /// the loads of the problem \[stress·length^½\]; NaN where there is none.
+    /// The factor that is compared with the toughness: K_I of a crack that grows in the direction
+    /// of its criterion under the loads of the problem \[stress·length^½\]; NaN where there
+    /// is none.
     pub strength: f64,
-    /// Direction of the arc at the tip, the angle to the x axis \[rad\]; without growth that of the crack.
+    /// Direction of the arc at the tip, the angle to the x axis \[rad\]; without growth that of
+    /// the crack.
     pub direction: f64,
     /// Curvature of the arc, positive where it turns left \[1/length\].
     pub curvature: f64,
-    /// The vertices that the crack gets at this end, from the tip on, which is none of them; none of a tip that stays.
+    /// The vertices that the crack gets at this end, from the tip on, which is none of them; none
+    /// of a tip that stays.
     pub path: Vec<Vec2>,
     /// Length of the path.
     pub length: f64,

@@ -1,20 +1,21 @@
 //! Particle-partition of unity fields, evaluated exactly.
 //!
-//! Overlapping boxes ω_i, the patches, cover a rectangle. Each has a weight W_i, and the weights make
-//! a partition of unity; each has a local field, a sum of function × polynomial:
+//! Overlapping boxes ω_i, the patches, cover a rectangle. Each has a weight W_i, and the weights
+//! make a partition of unity; each has a local field, a sum of function × polynomial:
 //!
 //! ```text
 //! v = Σ_i φ_i v_i        φ_i = W_i / Σ W        v_i(x) = Σ_b f_b(x) Σ_k c_{b,k} ξ^k
 //! ```
 //!
 //! - [`dataset`] is the data model: all that is needed to evaluate a field, and nothing more.
-//! - [`cover`] makes patches, [`weight`] their weights, [`crack`] and [`function`] the f_b, for which
-//!   [`formula`] is the language and [`library`] the built-in ones as texts; [`equation`] is the
-//!   material.
+//! - [`cover`] makes patches, [`weight`] their weights, [`crack`] and [`function`] the f_b, for
+//!   which [`formula`] is the language and [`library`] the built-in ones as texts; [`equation`] is
+//!   the material.
 //! - [`field`] evaluates values, gradients and Hessians at `anchor + offset`; [`quantity`] makes
 //!   stresses and the like of them.
 //! - [`real`] is the number type of all kernels: f64, f32, vectors of both.
-//! - [`sample`] evaluates along lines and cracks and on grids; [`sides`] knows which points lie on a crack.
+//! - [`sample`] evaluates along lines and cracks and on grids; [`sides`] knows which points lie on
+//!   a crack.
 //! - [`progress`] is how long calls are followed and stopped.
 //! - [`printable`](mod@printable) is how texts of files may be shown.
 //! - [`text`] writes numbers and places for people, and finds the words that they meant.
@@ -40,10 +41,11 @@
 //!
 //! # Definitions
 //!
-//! A **cover** of the domain consists of **patches** ω_i: boxes that overlap, one around each leaf cell
-//! of a quadtree ([`cover`]). Each has a **weight** W_i, a tensor product of B-splines ([`weight`]),
-//! and a **partition function** φ_i = W_i / Σ W_l. On a patch the field is a **local field**, a sum of
-//! **blocks** function × polynomial ([`dataset`], [`function`]); φ glues them together:
+//! A **cover** of the domain consists of **patches** ω_i: boxes that overlap, one around each leaf
+//! cell of a quadtree ([`cover`]). Each has a **weight** W_i, a tensor product of B-splines
+//! ([`weight`]), and a **partition function** φ_i = W_i / Σ W_l. On a patch the field is a **local
+//! field**, a sum of **blocks** function × polynomial ([`dataset`], [`function`]); φ glues them
+//! together:
 //!
 //! ```text
 //! v_i(x) = Σ_b f_b(x) Σ_{|k| ≤ d_b} c_{b,k} ξ^k        v = Σ_i φ_i v_i        ∇v = Σ_i (∇φ_i) v_i + φ_i ∇v_i
@@ -55,9 +57,9 @@
 //!
 //! # A tour
 //!
-//! A [`Dataset`](dataset::Dataset) holds everything. Here is a small one, a square with a crack from
-//! the left edge to its middle. Its displacement is u_y = √r sin(θ/2) in the frame of the tip, the
-//! opening of the crack, and u_x = 0.
+//! A [`Dataset`](dataset::Dataset) holds everything. Here is a small one, a square with a crack
+//! from the left edge to its middle. Its displacement is u_y = √r sin(θ/2) in the frame of the tip,
+//! the opening of the crack, and u_x = 0.
 //!
 //! ```
 //! use ppum::prelude::*;
@@ -119,15 +121,17 @@
 //! - Two dimensions, boxes as patches, even functions of |ξ| as weights, polynomials up to degree
 //!   [`MAX_DEGREE`](dataset::MAX_DEGREE). The domain is a box minus
 //!   circles and polygons.
-//! - This crate only represents and evaluates: no files (`ppum-format`), no solver (`ppum-solve`), no
-//!   pictures (`ppum-render`), no threads.
-//! - Borders of cells and patches belong to the right and upper side; on a crack the left side of its
-//!   direction is taken unless the other is asked for. Outside the domain scalar evaluation returns
-//!   false or `None`, evaluation of many points and quantities NaN.
-//! - At a tip values are finite and gradients do not exist; quantities of the gradient are +∞ there.
-//! - The evaluator is exact up to rounding at any magnification if the anchor is near. Rounding errors
-//!   of the gradient are about 10⁻¹⁶ |u| / h for patches of size h: below 10⁻¹² of the stresses on
-//!   covers of up to some 10⁵ patches where |u| is comparable with |∇u| × the size of the domain.
+//! - This crate only represents and evaluates: no files (`ppum-format`), no solver (`ppum-solve`),
+//!   no pictures (`ppum-render`), no threads.
+//! - Borders of cells and patches belong to the right and upper side; on a crack the left side of
+//!   its direction is taken unless the other is asked for. Outside the domain scalar evaluation
+//!   returns false or `None`, evaluation of many points and quantities NaN.
+//! - At a tip values are finite and gradients do not exist; quantities of the gradient are
+//!   +∞ there.
+//! - The evaluator is exact up to rounding at any magnification if the anchor is near. Rounding
+//!   errors of the gradient are about 10⁻¹⁶ |u| / h for patches of size h: below 10⁻¹² of the
+//!   stresses on covers of up to some 10⁵ patches where |u| is comparable with |∇u| × the size of
+//!   the domain.
 //! - Formulas are interpreted, functions of the plane in blocks of points on lanes; the Westergaard
 //!   functions, recognised by their text, have a kernel of their own.
 

@@ -1,8 +1,8 @@
 //! The built-in functions, as formulas.
 //!
-//! Everything this crate evaluates by a kernel written by hand is defined here by a text; the kernels
-//! are held to their texts by tests. Problems name the weights and enrichments of this library;
-//! formulas of quantities may use its quantities by their names.
+//! Everything this crate evaluates by a kernel written by hand is defined here by a text; the
+//! kernels are held to their texts by tests. Problems name the weights and enrichments of this
+//! library; formulas of quantities may use its quantities by their names.
 
 /// A function of the library, or several that belong together.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +62,8 @@ pub const WESTERGAARD: [&str; 4] = [
     "sqrt(r)*sin(theta)*cos(theta/2)",
 ];
 
-/// Functions that span the fields r^λ of an elastic wedge, θ counted from its bisector (Williams 1952).
+/// Functions that span the fields r^λ of an elastic wedge, θ counted from its bisector
+/// (Williams 1952).
 pub const WEDGE: [&str; 4] = [
     "r^lambda*cos(lambda*theta)",
     "r^lambda*sin(lambda*theta)",
@@ -72,8 +73,8 @@ pub const WEDGE: [&str; 4] = [
 
 /// Enrichment functions of x, y, r, theta of their frame.
 ///
-/// Frames: `westergaard` and `williams` belong to crack tips, θ jumps on the crack; `corner` and `wedge` to a point;
-/// `kink` and the layers to a line, y is the distance to its left.
+/// Frames: `westergaard` and `williams` belong to crack tips, θ jumps on the crack; `corner` and
+/// `wedge` to a point; `kink` and the layers to a line, y is the distance to its left.
 pub const ENRICHMENTS: [Entry; 7] = [
     Entry {
         name: "westergaard",
@@ -142,12 +143,13 @@ pub const PLANE_STRESS: [Definition; 3] = [
     ("out_of_plane", "0"),
 ];
 
-/// Quantities of a field with the components ux, uy and their derivatives `dux_dx`, …, in a material
-/// with `mu`, `lambda` and `out_of_plane` = σ_zz / (σ_xx + σ_yy).
+/// Quantities of a field with the components ux, uy and their derivatives `dux_dx`, …, in a
+/// material with `mu`, `lambda` and `out_of_plane` = σ_zz / (σ_xx + σ_yy).
 ///
-/// Principal stresses are the mean (λ + μ) tr ε plus and minus the radius of Mohr's circle, μ times the
-/// length of (ε_xx − ε_yy, 2 ε_xy); von Mises' and Tresca's stress are made of that radius and of the mean
-/// less σ_zz. So nothing cancels that is not small by itself, in single precision neither.
+/// Principal stresses are the mean (λ + μ) tr ε plus and minus the radius of Mohr's circle, μ times
+/// the length of (ε_xx − ε_yy, 2 ε_xy); von Mises' and Tresca's stress are made of that radius and
+/// of the mean less σ_zz. So nothing cancels that is not small by itself, in single
+/// precision neither.
 pub const ELASTICITY: [Definition; 18] = [
     ("magnitude", "sqrt(ux^2 + uy^2)"),
     ("gradient", "sqrt(dux_dx^2 + dux_dy^2 + duy_dx^2 + duy_dy^2)"),

@@ -1,9 +1,9 @@
 //! Following long calls, and stopping them.
 //!
-//! Solving, drawing and sampling may take long. Each such call takes a [`Watcher`]: a progress bar, a
-//! window, a notebook. It is told of every [`Progress`], from whatever thread is working, and answers
-//! whether the work goes on; a call that is stopped returns [`Cancelled`] and leaves nothing behind.
-//! Watching changes no result.
+//! Solving, drawing and sampling may take long. Each such call takes a [`Watcher`]: a progress bar,
+//! a window, a notebook. It is told of every [`Progress`], from whatever thread is working, and
+//! answers whether the work goes on; a call that is stopped returns [`Cancelled`] and leaves
+//! nothing behind. Watching changes no result.
 //!
 //! ```
 //! use ppum::progress::{Cancelled, Phase, Progress, Verdict, Watcher, unwatched};
@@ -33,7 +33,8 @@ pub struct Progress {
     pub done: usize,
     /// Parts of the phase, at least 1.
     pub total: usize,
-    /// The solution that the phase belongs to, from 0, of a call that makes several one after the other.
+    /// The solution that the phase belongs to, from 0, of a call that makes several one after
+    /// the other.
     pub step: usize,
 }
 
@@ -112,7 +113,8 @@ impl Verdict {
 
 /// The follower of a long call. Closures from [`Progress`] to [`Verdict`] are watchers.
 pub trait Watcher: Sync {
-    /// Hears of progress, and says whether to go on. Called from the threads that work: it should be quick.
+    /// Hears of progress, and says whether to go on. Called from the threads that work: it should
+    /// be quick.
     fn hear(&self, progress: Progress) -> Verdict;
 }
 

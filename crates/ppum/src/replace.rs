@@ -1,8 +1,8 @@
 //! Functions and weights replaced while looking.
 //!
 //! A dataset keeps its coefficients and gets another function: what would the field be with it? The
-//! functions of a step are texts, so a field is compiled anew in no time. [`Replacements`] are all changes
-//! of one look: a part that is chosen, functions and the weight that are replaced.
+//! functions of a step are texts, so a field is compiled anew in no time. [`Replacements`] are all
+//! changes of one look: a part that is chosen, functions and the weight that are replaced.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -54,8 +54,8 @@ pub enum ReplaceError {
     Scope(#[from] ScopeError),
 }
 
-/// Changes of a dataset before anything is evaluated. Coefficients stay as they are. Parts are told apart by
-/// the functions of the dataset, not by those that replace them.
+/// Changes of a dataset before anything is evaluated. Coefficients stay as they are. Parts are told
+/// apart by the functions of the dataset, not by those that replace them.
 ///
 /// ```
 /// use ppum::decompose::Part;
@@ -70,7 +70,8 @@ pub enum ReplaceError {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Replacements {
-    /// The part of the step's first field that takes its place, see [`FieldData::part`](crate::dataset::FieldData::part).
+    /// The part of the step's first field that takes its place,
+    /// see [`FieldData::part`](crate::dataset::FieldData::part).
     pub part: Option<Part>,
     /// Functions by name or number, and formulas in their place, see [`Step::replace_function`].
     pub functions: Vec<(String, String)>,
@@ -126,8 +127,8 @@ impl Replacements {
 }
 
 impl Step {
-    /// Indices of the functions that `which` calls: the one with this number, that with this name, or
-    /// those with this name at all their places, `westergaard 1` standing for
+    /// Indices of the functions that `which` calls: the one with this number, that with this name,
+    /// or those with this name at all their places, `westergaard 1` standing for
     /// `westergaard 1 of crack 0 end` and its like.
     #[must_use]
     pub fn functions_called(&self, which: &str) -> Vec<usize> {
@@ -144,9 +145,9 @@ impl Step {
         }
     }
 
-    /// Gives another formula to the functions that `which` [calls](Self::functions_called). Each keeps
-    /// its frame and its parameters; a function that was no formula gets one of world coordinates.
-    /// Returns the indices of the functions. The step's coefficients stay as they are.
+    /// Gives another formula to the functions that `which` [calls](Self::functions_called). Each
+    /// keeps its frame and its parameters; a function that was no formula gets one of world
+    /// coordinates. Returns the indices of the functions. The step's coefficients stay as they are.
     ///
     /// # Errors
     /// No such function; a text that is no formula of the frame, the parameters, the sides of the
@@ -232,8 +233,8 @@ fn no_weight(text: &str, error: WeightError) -> ReplaceError {
 const PLACES: [&str; 4] = [" of crack ", " of patch ", " at [", " along ["];
 
 impl Function {
-    /// The name without the place: `westergaard 1` of `westergaard 1 of crack 0 end`. Functions that
-    /// differ in their places only have the same stem.
+    /// The name without the place: `westergaard 1` of `westergaard 1 of crack 0 end`. Functions
+    /// that differ in their places only have the same stem.
     #[must_use]
     pub fn stem(&self) -> &str {
         let ends = PLACES.iter().filter_map(|place| self.name.find(place));

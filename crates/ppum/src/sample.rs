@@ -1,10 +1,10 @@
 //! Sampling: quantities at many places, along lines and cracks, on grids, at points.
 //!
-//! A [`Place`] is a point with the side of a crack that is meant. [`line()`], [`grid`], [`points`] and
-//! [`Stations`] choose places, [`evaluate`] finds the values there. A point on a crack has two sides and
-//! two places. Who has threads takes the [`batches`] one by one, in any order: values do not depend on it.
-//! [`Seats`] and [`evaluate_each`] are for lists of points that come from anywhere: there a value depends on its
-//! place alone.
+//! A [`Place`] is a point with the side of a crack that is meant. [`line()`], [`grid`], [`points`]
+//! and [`Stations`] choose places, [`evaluate`] finds the values there. A point on a crack has two
+//! sides and two places. Who has threads takes the [`batches`] one by one, in any order: values do
+//! not depend on it. [`Seats`] and [`evaluate_each`] are for lists of points that come from
+//! anywhere: there a value depends on its place alone.
 //!
 //! ```
 //! # use ppum::dataset::Dataset;
@@ -59,7 +59,8 @@ pub struct Place {
 }
 
 impl Place {
-    /// The places of the point `anchor + offset`: above and below where it lies on a crack, else one alone.
+    /// The places of the point `anchor + offset`: above and below where it lies on a crack, else
+    /// one alone.
     #[must_use]
     pub fn sides(segments: &Segments<'_>, anchor: Vec2, offset: Vec2) -> Vec<Self> {
         let on = segments.at(anchor, offset);
@@ -91,9 +92,10 @@ impl Place {
 /// Rounding of a point's coordinates and of its distance from a rim, in parts of their size.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Makes places that lie on the border of the domain or on the rim of a hole, but for the rounding of their
-/// coordinates, places of the domain: they are seen from a few roundings beside it, on its side, and keep their `point`.
-/// Places that are not given by their coordinates need none of it: their offsets mean what they say.
+/// Makes places that lie on the border of the domain or on the rim of a hole, but for the rounding
+/// of their coordinates, places of the domain: they are seen from a few roundings beside it, on its
+/// side, and keep their `point`. Places that are not given by their coordinates need none of it:
+/// their offsets mean what they say.
 pub fn settle(domain: &Domain, places: &mut [Place]) {
     let Rect { min, max } = domain.bounds;
     let extent = [min.x, min.y, max.x, max.y].into_iter().fold(0.0, largest);
@@ -121,15 +123,15 @@ const BLOCK: usize = 256;
 /// Most places of a batch.
 const BATCH: usize = 4 * BLOCK;
 
-/// Groups of consecutive places that can be evaluated at once, in their order. They are non-empty, no longer
-/// than some thousand places, and together they are all of them.
+/// Groups of consecutive places that can be evaluated at once, in their order. They are non-empty,
+/// no longer than some thousand places, and together they are all of them.
 pub fn batches(places: &[Place]) -> impl Iterator<Item = &[Place]> {
     let seat = |place: &Place| (place.anchor, place.on, place.side);
     places.chunk_by(move |a, b| seat(a) == seat(b)).flat_map(|run| run.chunks(BATCH))
 }
 
-/// The quantities at the places of one of the [`batches`], one row for each place; NaN outside the domain
-/// and where a quantity has no value.
+/// The quantities at the places of one of the [`batches`], one row for each place; NaN outside the
+/// domain and where a quantity has no value.
 #[must_use]
 pub fn evaluate_batch(field: &Field<'_>, quantities: &[Quantity], batch: &[Place]) -> Vec<f64> {
     let Some(first) = batch.first() else { return Vec::new() };
@@ -137,8 +139,9 @@ pub fn evaluate_batch(field: &Field<'_>, quantities: &[Quantity], batch: &[Place
     Quantity::at_many(quantities, &mut first.seen(field), &offsets, first.side)
 }
 
-/// The quantities at all places, one row for each: shape (places, quantities), flattened; NaN outside the
-/// domain and where a quantity has no value. The values are those of [`Quantity::at`] up to rounding.
+/// The quantities at all places, one row for each: shape (places, quantities), flattened; NaN
+/// outside the domain and where a quantity has no value. The values are those of [`Quantity::at`]
+/// up to rounding.
 ///
 /// # Errors
 /// The watcher, told after each batch, stops the call.
@@ -165,15 +168,16 @@ pub fn points(cracks: &[Crack], points: &[Vec2]) -> Vec<Place> {
     sided(&Segments::new(cracks), points).flatten().collect()
 }
 
-/// Places at `count` points at equal distances from a to b, both included exactly; the middle if there is
-/// one alone. On both sides where one lies on a crack.
+/// Places at `count` points at equal distances from a to b, both included exactly; the middle if
+/// there is one alone. On both sides where one lies on a crack.
 #[must_use]
 pub fn line(cracks: &[Crack], a: Vec2, b: Vec2, count: usize) -> Vec<Place> {
     let all: Vec<Vec2> = (0..count).map(|k| between(a, b, k, count)).collect();
     points(cracks, &all)
 }
 
-/// The same from `anchor + a` to `anchor + b`: near the anchor no digit of them is lost, and points mean what they say.
+/// The same from `anchor + a` to `anchor + b`: near the anchor no digit of them is lost, and points
+/// mean what they say.
 #[must_use]
 pub fn line_from(cracks: &[Crack], anchor: Vec2, a: Vec2, b: Vec2, count: usize) -> Vec<Place> {
     let segments = Segments::new(cracks);
@@ -181,8 +185,8 @@ pub fn line_from(cracks: &[Crack], anchor: Vec2, a: Vec2, b: Vec2, count: usize)
     offsets.flat_map(|offset| Place::sides(&segments, anchor, offset)).collect()
 }
 
-/// Places at the points of a grid of nx columns and ny rows that includes the borders of the window, in rows
-/// of constant y, the lowest first. Of points on cracks the upper side alone.
+/// Places at the points of a grid of nx columns and ny rows that includes the borders of the
+/// window, in rows of constant y, the lowest first. Of points on cracks the upper side alone.
 #[must_use]
 pub fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<Place> {
     let (Rect { min, max }, segments) = (window, Segments::new(cracks));
@@ -195,8 +199,8 @@ pub fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<Place> {
     (0..ny).flat_map(row).collect()
 }
 
-/// Places on a circle at `count` equal steps of the angle from −π to π about the x axis, both included. On both
-/// sides where one lies on a crack.
+/// Places on a circle at `count` equal steps of the angle from −π to π about the x axis, both
+/// included. On both sides where one lies on a crack.
 #[must_use]
 pub fn circle(cracks: &[Crack], center: Vec2, radius: f64, count: usize) -> Vec<(f64, Place)> {
     let segments = Segments::new(cracks);
@@ -208,8 +212,9 @@ pub fn circle(cracks: &[Crack], center: Vec2, radius: f64, count: usize) -> Vec<
     (0..count).flat_map(at).collect()
 }
 
-/// Places on a circle around a tip with their angles θ in the tip's frame, `count` equal steps from −π to π, both
-/// included: there they lie on the faces of the crack if that is straight so far. None if there is no such tip.
+/// Places on a circle around a tip with their angles θ in the tip's frame, `count` equal steps from
+/// −π to π, both included: there they lie on the faces of the crack if that is straight so far.
+/// None if there is no such tip.
 #[must_use]
 pub fn around(
     cracks: &[Crack],
@@ -221,8 +226,8 @@ pub fn around(
     Some((0..count).map(|k| angle(k, count)).map(|t| (t, frame.place(radius, t))).collect())
 }
 
-/// Places on the ray from a tip at an angle θ in the tip's frame, with their distances r from `near` to `far`,
-/// `count` of them at equal steps of log r. None if there is no such tip.
+/// Places on the ray from a tip at an angle θ in the tip's frame, with their distances r from
+/// `near` to `far`, `count` of them at equal steps of log r. None if there is no such tip.
 #[must_use]
 pub fn ray(
     cracks: &[Crack],
@@ -340,8 +345,8 @@ pub struct Station {
 }
 
 impl Stations {
-    /// `count` points at equal distances along the crack of this index, its ends included; the last one if
-    /// there is one alone. None if there is no such crack.
+    /// `count` points at equal distances along the crack of this index, its ends included; the last
+    /// one if there is one alone. None if there is no such crack.
     #[must_use]
     pub fn along(cracks: &[Crack], index: u32, count: usize) -> Option<Self> {
         let crack = cracks.get(index as usize)?;
@@ -423,8 +428,9 @@ mod tests {
         assert_eq!((corners[0].point, corners[62].point), (bounds.min, bounds.max));
     }
 
-    /// Points of a rim by their rounded coordinates, and of the border, are of the plate; those that lie inside by more
-    /// than rounding are not, and those given by tiny offsets mean what they say.
+    /// Points of a rim by their rounded coordinates, and of the border, are of the plate; those
+    /// that lie inside by more than rounding are not, and those given by tiny offsets mean what
+    /// they say.
     #[test]
     fn rims_and_borders_are_of_the_plate() {
         let bounds = Rect::new(vec2(-1.1, -1.3), vec2(1.7, 0.9));

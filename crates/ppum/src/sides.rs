@@ -2,8 +2,8 @@
 //!
 //! The decimal digits of a point on an oblique crack are rarely f64 numbers that lie on it. A point
 //! within rounding of a crack therefore counts as on it, and is evaluated on its segment
-//! ([`Field::on`](crate::field::Field::on)), on the side that is asked for. Points given with an offset mean
-//! exactly what they say, and are on a crack only up to the rounding of the offset.
+//! ([`Field::on`](crate::field::Field::on)), on the side that is asked for. Points given with an
+//! offset mean exactly what they say, and are on a crack only up to the rounding of the offset.
 //!
 //! ```
 //! use ppum::crack::{Crack, CrackEnd, SegmentId};
@@ -51,8 +51,8 @@ impl<'c> Segments<'c> {
         Self { cracks, all, tree: BoxTree::new(&boxes), size }
     }
 
-    /// The segment that `anchor + offset` lies on, if it lies on a crack; of several the first. Tips do not
-    /// count: there is nothing to part. O(log n).
+    /// The segment that `anchor + offset` lies on, if it lies on a crack; of several the first.
+    /// Tips do not count: there is nothing to part. O(log n).
     #[must_use]
     pub fn at(&self, anchor: Vec2, offset: Vec2) -> Option<SegmentId> {
         let point = anchor + offset;

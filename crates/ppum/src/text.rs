@@ -1,7 +1,8 @@
 //! Numbers, places and words as people read them.
 //!
-//! Results have all their digits in files and in JSON. In messages and tables numbers are short, zero where they
-//! are nothing but rounding of what stands beside them, and places have the digits that tell them apart.
+//! Results have all their digits in files and in JSON. In messages and tables numbers are short,
+//! zero where they are nothing but rounding of what stands beside them, and places have the digits
+//! that tell them apart.
 
 use std::collections::BTreeSet;
 
@@ -16,14 +17,15 @@ const DIGITS: usize = 6;
 /// Most digits of a place: with one more 0.1 + 0.2 would not be 0.3.
 const MOST_DIGITS: usize = 15;
 
-/// Part of the size of what stands beside it below which a number is rounding: results of a linear system
-/// are seldom better.
+/// Part of the size of what stands beside it below which a number is rounding: results of a linear
+/// system are seldom better.
 const ROUNDING: f64 = 2e-10;
 
 /// The same of coordinates, which nothing has been computed with but sums and products.
 const ROUNDING_OF_PLACES: f64 = 8.0 * f64::EPSILON;
 
-/// All digits that tell a number from its neighbours, with an exponent where there would be many zeros.
+/// All digits that tell a number from its neighbours, with an exponent where there would be
+/// many zeros.
 #[must_use]
 pub fn exact(value: f64) -> String {
     let text = format!("{value:?}");
@@ -67,7 +69,8 @@ pub fn trimmed_to(value: f64, digits: usize) -> String {
     format!("{kept}{exponent}")
 }
 
-/// True for whole numbers that are whole on purpose; a large measured value is whole because f64 has no more digits.
+/// True for whole numbers that are whole on purpose; a large measured value is whole because f64
+/// has no more digits.
 fn is_counted(value: f64, digits: usize) -> bool {
     let is_whole = value.fract() == 0.0 && value.abs() < 9e15; // f64 holds every whole number up to 2^53
     let has_few = || format!("{value:.*e}", digits.saturating_sub(1)).parse() == Ok(value);
@@ -88,8 +91,8 @@ pub fn apart(a: f64, b: f64) -> [String; 2] {
     (DIGITS..=17).map(shown).find(differ).unwrap_or_else(|| shown(DIGITS))
 }
 
-/// Writes places of a plate: with the digits that tell the vertices of its cracks apart, and coordinates as
-/// zero that are rounding of the plate's.
+/// Writes places of a plate: with the digits that tell the vertices of its cracks apart, and
+/// coordinates as zero that are rounding of the plate's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Places {
     /// Size of coordinates.

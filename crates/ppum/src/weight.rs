@@ -7,8 +7,8 @@ use crate::library;
 use ppum_formula::real::Real;
 use ppum_formula::{Block, DerivativeError, Formula, FormulaError, FormulaJets, Scope, Scratch};
 
-/// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ W
-/// does not see it. The B-splines have w(0) = 1.
+/// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ
+/// W does not see it. The B-splines have w(0) = 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum WeightFunction {
@@ -105,7 +105,8 @@ impl WeightFunction {
         even(xi, jet)
     }
 
-    /// w and dw/dξ at many places, those of [`spline`](Self::spline): formulas are evaluated in blocks.
+    /// w and dw/dξ at many places, those of [`spline`](Self::spline): formulas are evaluated in
+    /// blocks.
     #[must_use]
     pub fn at_many(&self, xis: &[f64]) -> Vec<[f64; 2]> {
         let first = |[w, slope, _]: [f64; 3]| [w, slope];
@@ -118,7 +119,8 @@ impl WeightFunction {
         }
     }
 
-    /// W = w(ξ) w(η) with its derivatives in the world; `inverse` holds the reciprocal half-extents.
+    /// W = w(ξ) w(η) with its derivatives in the world; `inverse` holds the reciprocal
+    /// half-extents.
     #[inline(always)]
     pub fn tensor<R: Real, const D: usize>(&self, xi: [R; 2], inverse: [f64; 2]) -> Jet<R> {
         let [a, ax, axx] = self.spline(xi[0]);
@@ -292,7 +294,8 @@ impl WeightFormula {
     }
 }
 
-/// Values and derivatives at t ≤ 1: a formula need not have any at the end of the support, but perhaps a limit.
+/// Values and derivatives at t ≤ 1: a formula need not have any at the end of the support, but
+/// perhaps a limit.
 fn limited(t: f64, jet: [f64; 3]) -> [f64; 3] {
     jet.map(|value| if t < 1.0 || value.is_finite() { value } else { 0.0 })
 }

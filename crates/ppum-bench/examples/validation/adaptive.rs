@@ -93,7 +93,8 @@ fn reached(plate: &Plate, accuracy: f64) -> (f64, usize) {
     (errors.fold(0.0, f64::max) / accuracy, dataset.steps[0].unknowns())
 }
 
-/// A problem that adapts: its name, the first order, its strain energy if that is what tells the error.
+/// A problem that adapts: its name, the first order, its strain energy if that is what tells
+/// the error.
 type Case = (&'static str, fn() -> Problem, usize, Option<f64>);
 
 const CASES: [Case; 3] = [

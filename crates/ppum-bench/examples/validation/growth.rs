@@ -38,8 +38,8 @@ pub(crate) fn write(page: &mut Page) -> anyhow::Result<()> {
     many_steps(page)
 }
 
-/// Angles in degrees for K_I and K_II by the three criteria: roots with 40 digits, of Erdogan & Sih's closed form and of the
-/// functions of kinks of Amestoy & Leblond.
+/// Angles in degrees for K_I and K_II by the three criteria: roots with 40 digits, of Erdogan &
+/// Sih's closed form and of the functions of kinks of Amestoy & Leblond.
 const ANGLES: [([f64; 2], [f64; 3]); 4] = [
     ([1.0, 0.1], [-11.202_877_689_339, -11.251_507_101_054, -11.251_357_898_969]),
     ([1.0, 0.5], [-40.207_818_722_034, -42.125_904_144_012, -42.029_397_763_280]),
@@ -216,7 +216,8 @@ passes the middle one on its right, at a distance of 0.2, with either order and 
 same factors there, see below the table. Force and supports as pressures 0.2 wide, or supports that hold the border,\n\
 change the first direction by 0.1° at most. Distances to rims are those of the whole path; 0 means that it ends there.";
 
-/// The factors of the path from x = −5 at its 23rd increment, replaced by nine segments: hp finite elements of order 6.
+/// The factors of the path from x = −5 at its 23rd increment, replaced by nine segments: hp finite
+/// elements of order 6.
 const SEGMENTS: &str = "points = [[-5.0, -4.0], [-5.0, -2.5], [-4.875135, -2.102985], [-4.742807, -1.742777], [-4.615927, -1.453226], \
     [-4.468577, -1.211223], [-4.330932, -1.074302], [-4.176629, -0.986961], [-3.971441, -0.61711], [-3.939385, -0.539702]]";
 const FACTORS: [f64; 2] = [1.178_498_27, 0.005_559_64];
@@ -335,7 +336,8 @@ fn many_steps(page: &mut Page) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The first step that is compared with those around it: behind the kink K_I is no smooth function of the length.
+/// The first step that is compared with those around it: behind the kink K_I is no smooth function
+/// of the length.
 const KINK: usize = 5;
 
 /// |K − cubic through its four neighbours| / K.

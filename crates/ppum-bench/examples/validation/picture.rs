@@ -16,7 +16,8 @@ use std::path::Path;
 
 const SIZE: [u32; 2] = [640, 480];
 
-/// Draws the stress (the gradient of a potential) of a solution in a window, on a logarithmic scale.
+/// Draws the stress (the gradient of a potential) of a solution in a window, on a
+/// logarithmic scale.
 pub(crate) fn draw(path: &Path, dataset: &Dataset, window: Rect) -> anyhow::Result<()> {
     let field = Field::new(dataset, 0)?;
     let name = if field.components() == 2 { "von-mises" } else { "gradient" };

@@ -1,16 +1,19 @@
 //! What is measured must be right: frames are compared with the evaluation point by point in f64.
 //!
-//! A band of rows through the crack is drawn, of pixels as large as those of the frames, so that the same paths are taken.
-//! Differences are told in units of the local scale, the largest value of the 3 × 3 pixels around one: in f64 the
-//! largest of them, in f32 that of 99 % of the pixels, since at a crack or at a patch's border a rounded coordinate
-//! decides what is seen. Both are bounded by what tests hold coarse covers to, and beyond [`ACROSS`] patches across in proportion
-//! to these: in ∇(Wu) − u∇W, which is |∇u|, terms of size |u|/h cancel, and h is the size of a patch.
+//! A band of rows through the crack is drawn, of pixels as large as those of the frames, so that
+//! the same paths are taken. Differences are told in units of the local scale, the largest value of
+//! the 3 × 3 pixels around one: in f64 the largest of them, in f32 that of 99 % of the pixels,
+//! since at a crack or at a patch's border a rounded coordinate decides what is seen. Both are
+//! bounded by what tests hold coarse covers to, and beyond [`ACROSS`] patches across in proportion
+//! to these: in ∇(Wu) − u∇W, which is |∇u|, terms of size |u|/h cancel, and h is the size of
+//! a patch.
 //!
-//! The negative control is the same frame held against a reference whose weight has a wrong derivative. [`WRONG`] is the
-//! linear weight to 1e-5, but a ripple on it makes its slope wrong by as much as the slope itself: displacements
-//! agree, stresses do not. A comparison that does not notice would not notice a wrong derivative in a fast path either. In f32
-//! that is asked up to [`MOST_IN_F32`] patches: where there are more they differ from each other, and so the wrong stress from the
-//! right one, by no more than the rounding of a gradient.
+//! The negative control is the same frame held against a reference whose weight has a wrong
+//! derivative. [`WRONG`] is the linear weight to 1e-5, but a ripple on it makes its slope wrong by
+//! as much as the slope itself: displacements agree, stresses do not. A comparison that does not
+//! notice would not notice a wrong derivative in a fast path either. In f32 that is asked up to
+//! [`MOST_IN_F32`] patches: where there are more they differ from each other, and so the wrong
+//! stress from the right one, by no more than the rounding of a gradient.
 
 use ppum::field::Field;
 use ppum::progress::unwatched;

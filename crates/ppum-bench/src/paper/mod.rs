@@ -1,7 +1,8 @@
 //! Table 1 of Üffinger et al. 2011 beside what draws here, and what else drawing depends on.
 //!
-//! Before anything is measured, every frame is compared with the reference (`agreement`). Then scenes and
-//! ways take turns, each frame with a view of its own: a machine that grows busy slows all of them down.
+//! Before anything is measured, every frame is compared with the reference (`agreement`). Then
+//! scenes and ways take turns, each frame with a view of its own: a machine that grows busy slows
+//! all of them down.
 
 mod agreement;
 mod chart;
@@ -79,7 +80,8 @@ struct Measured<'d> {
 }
 
 impl Report {
-    /// Compares and measures all scenes, or those of some groups; `quick` takes small images of few patches.
+    /// Compares and measures all scenes, or those of some groups; `quick` takes small images of few
+    /// patches.
     ///
     /// # Errors
     /// A device that fails, or files that cannot be written.

@@ -85,7 +85,8 @@ fn lines_are_fitted() {
     assert_eq!(Fit::new(&exact[..2]), None);
 }
 
-/// All scenes are there, each by all that draws it; frames are right, and a wrong derivative is noticed in all of them.
+/// All scenes are there, each by all that draws it; frames are right, and a wrong derivative is
+/// noticed in all of them.
 #[test]
 fn the_paper_is_measured() {
     let folder = tempfile::tempdir().unwrap();
@@ -142,7 +143,8 @@ fn check_methods(methods: &Value, least: usize) {
     }
 }
 
-/// Without a graphics driver the CPU is measured alone, and the report says why; a group of scenes may be chosen.
+/// Without a graphics driver the CPU is measured alone, and the report says why; a group of scenes
+/// may be chosen.
 #[cfg(target_os = "linux")]
 #[test]
 fn without_a_driver_the_cpu_is_measured() {
@@ -174,7 +176,8 @@ fn a_dataset_is_drawn() {
     assert!(fail(folder.path(), "frames none.h5").contains("none.h5"));
 }
 
-/// The families are there; whether they gain enough is no matter of a test, on a busy machine and of programs like this one.
+/// The families are there; whether they gain enough is no matter of a test, on a busy machine and
+/// of programs like this one.
 #[test]
 fn vectors_are_measured() {
     let output = command(Path::new("."), "guard --quick --json").output().unwrap();

@@ -35,8 +35,9 @@ fn span(values: &[f64]) -> f64 {
     max - values.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
-/// Patches of half the size differ by 2^−(order + 1) where they meet, and all from the solution: far from the
-/// tips, with tip functions, and on both faces of the crack, here with tip functions, there without.
+/// Patches of half the size differ by 2^−(order + 1) where they meet, and all from the solution:
+/// far from the tips, with tip functions, and on both faces of the crack, here with tip functions,
+/// there without.
 #[test]
 fn patches_agree_to_their_order() {
     let corner = |i: u32, j: u32| DOMAIN.min + vec2(f64::from(i) / 12.0, f64::from(j) / 16.0);

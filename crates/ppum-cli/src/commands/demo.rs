@@ -68,7 +68,8 @@ impl Args {
         Ok(())
     }
 
-    /// Makes the folder; refuses before any work what could not be written, and a problem that is the user's.
+    /// Makes the folder; refuses before any work what could not be written, and a problem that is
+    /// the user's.
     fn check(&self, problem: &Path) -> anyhow::Result<()> {
         check_file(problem, PROBLEM)?;
         target::make_folder(&self.output)?;

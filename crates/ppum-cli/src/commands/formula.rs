@@ -32,8 +32,8 @@ pub(crate) struct Args {
     /// List the built-in functions
     #[arg(long)]
     list: bool,
-    /// What it is a formula of: `plane` (x, y, r, theta), `weight` (t), quantities of `elasticity` or
-    /// `poisson`, or those of a dataset FILE.h5 [default: what the formula's names fit]
+    /// What it is a formula of: `plane` (x, y, r, theta), `weight` (t), quantities of `elasticity`
+    /// or `poisson`, or those of a dataset FILE.h5 [default: what the formula's names fit]
     #[arg(long, value_name = "WHAT")]
     of: Option<Of>,
     /// Print values at a point; r and theta follow from x and y

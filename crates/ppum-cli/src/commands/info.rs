@@ -31,14 +31,15 @@ pub(crate) struct Args {
     /// List the graphics adapters of this machine
     #[arg(long)]
     gpu: bool,
-    /// Find the smallest and the largest value of a quantity in the plate, with their places, not just over pixels
+    /// Find the smallest and the largest value of a quantity in the plate, with their places, not
+    /// just over pixels
     #[arg(long, value_name = "Q", requires = "file", allow_hyphen_values = true)]
     extrema: Option<String>,
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K", requires = "file")]
     step: Option<usize>,
-    /// List the steps of the series: load, unknowns, length of the cracks, stress intensity factors, and of cracks
-    /// that grow the fate of each tip and what has ended the series
+    /// List the steps of the series: load, unknowns, length of the cracks, stress intensity
+    /// factors, and of cracks that grow the fate of each tip and what has ended the series
     #[arg(long, requires = "file", conflicts_with = "extrema")]
     steps: bool,
     /// Print JSON, see docs/cli.md

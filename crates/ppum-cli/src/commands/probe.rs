@@ -139,7 +139,8 @@ fn is_on_interface(field: &Field<'_>, at: Vec2) -> bool {
     })
 }
 
-/// Rounding of a place, in parts of the plate, and the least relative jump: smooth formulas do not change so much within so little.
+/// Rounding of a place, in parts of the plate, and the least relative jump: smooth formulas do not
+/// change so much within so little.
 const ROUNDING: f64 = 1e-13;
 const JUMP: f64 = 1e-6;
 

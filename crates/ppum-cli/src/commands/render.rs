@@ -59,7 +59,8 @@ pub(crate) struct Args {
     /// Leave out the colours and their bar: the overlays alone
     #[arg(long)]
     blank: bool,
-    /// Panels of a figure with several quantities or parts: columns and rows [default: as large as fits]
+    /// Panels of a figure with several quantities or parts: columns and rows [default: as large
+    /// as fits]
     #[arg(long, value_name = "CxR", value_parser = layout)]
     layout: Option<[u32; 2]>,
     /// Give all panels one range and one colour bar
@@ -73,7 +74,8 @@ pub(crate) struct Args {
     overlays: Overlays,
     #[command(flatten)]
     deformed: Deformed,
-    /// Show the mean of N x N values in each pixel, against jagged edges, in place of that at its centre
+    /// Show the mean of N x N values in each pixel, against jagged edges, in place of that at
+    /// its centre
     #[arg(long, value_name = "N", default_value = "1")]
     samples: Samples,
     #[command(flatten)]
@@ -201,7 +203,8 @@ impl Args {
         self.figure || self.has_panels()
     }
 
-    /// What is asked of the picture of a step, but for the quantity and the factor of the deformed plate.
+    /// What is asked of the picture of a step, but for the quantity and the factor of the
+    /// deformed plate.
     fn request(&self, step: Option<usize>) -> Request {
         let part = self.subject.replacements.part();
         let subject = scene::Subject { step, part, ..scene::Subject::default() };
@@ -227,7 +230,8 @@ impl Args {
         Ok(given.map(|given| given.text.clone()))
     }
 
-    /// The look of a figure, of a size unless another is given, with so many panels across and down.
+    /// The look of a figure, of a size unless another is given, with so many panels across
+    /// and down.
     fn design(&self, field: &Field<'_>, size: [u32; 2], panels: [u32; 2]) -> Design {
         let design = self.look.design(self.window.aspect(field), size, panels);
         if self.blank { Design { bar: BarPlace::None, ..design } } else { design }
@@ -285,7 +289,8 @@ impl Args {
         Ok(Placing { window: &self.window, frame, deformed })
     }
 
-    /// The texts of a picture's file: what it shows, and what was done to the dataset and the plate.
+    /// The texts of a picture's file: what it shows, and what was done to the dataset and
+    /// the plate.
     fn texts(&self, shot: &Shot) -> Vec<Text> {
         let mut texts = shot.texts(&self.subject.file_name());
         texts.extend(self.subject.replacements.notes().chain(shot.notes()));

@@ -23,8 +23,8 @@ use crate::target;
 
 /// Write exact values along a line, a crack or a circle, at points or on a grid
 ///
-/// A table as CSV or NPY (numpy), by the extension of the output. Of a point on a crack there are two
-/// rows, one for each side; a grid has the upper side alone.
+/// A table as CSV or NPY (numpy), by the extension of the output. Of a point on a crack there are
+/// two rows, one for each side; a grid has the upper side alone.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group = clap::ArgGroup::new("where").required(true))]

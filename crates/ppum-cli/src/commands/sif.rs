@@ -22,10 +22,12 @@ use crate::standard;
 use crate::tips::table;
 use crate::warnings::{warn, warn_of_steps};
 
-/// Print the stress intensity factors of all crack tips, T, the energy release rate and the angle of growth
+/// Print the stress intensity factors of all crack tips, T, the energy release rate and the angle
+/// of growth
 ///
-/// The factors are those that the solver has stored, found by the interaction integral at three radii; `spread` is the
-/// largest relative difference of the three: a check that they agree, no estimate of the error.
+/// The factors are those that the solver has stored, found by the interaction integral at three
+/// radii; `spread` is the largest relative difference of the three: a check that they agree, no
+/// estimate of the error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -124,8 +126,8 @@ fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<facts:
     Ok((all, warnings))
 }
 
-/// The factors of the field of the only step at hand; those that the solver stored where the loads near the tips are
-/// not known, or it takes too much.
+/// The factors of the field of the only step at hand; those that the solver stored where the loads
+/// near the tips are not known, or it takes too much.
 fn recomputed(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
     let problem = Problem::of_dataset(dataset);
     let of_step = |problem: &&Option<Problem>| {
@@ -166,7 +168,8 @@ fn computed(
     Ok((outcomes.iter().map(tip).collect(), warnings))
 }
 
-/// The reason why factors cannot be found again: a word for the kind of the warning, and the message.
+/// The reason why factors cannot be found again: a word for the kind of the warning, and
+/// the message.
 type Reason<'a> = (&'a str, &'a str);
 
 const UNKNOWN: Reason<'static> = (

@@ -33,8 +33,8 @@ pub(crate) struct Args {
     /// Problem file (TOML), see docs/problem-file.md; - for standard input
     #[arg(value_name = "PROBLEM.toml")]
     problem: PathBuf,
-    /// Dataset to write, - for standard output [default: beside the problem file, with the extension
-    /// .h5]
+    /// Dataset to write, - for standard output [default: beside the problem file, with the
+    /// extension .h5]
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
     /// Find everything that would be refused, tell what the solution takes, and stop there

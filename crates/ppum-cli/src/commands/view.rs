@@ -10,7 +10,8 @@ use crate::output::Output;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// Datasets, problem files or a session: one, or two side by side [default: what was open the last time]
+    /// Datasets, problem files or a session: one, or two side by side [default: what was open the
+    /// last time]
     #[arg(value_name = "FILE", num_args = 0..=2)]
     files: Vec<PathBuf>,
     /// Session to begin with, as the window saves it

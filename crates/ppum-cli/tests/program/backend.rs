@@ -7,8 +7,8 @@ use crate::{CRACKED, LINEAR, Lab, Png, keys, with_formulas};
 /// Variables that hide all Vulkan drivers from a command: of new loaders and of old ones.
 const HIDDEN: [(&str, &str); 2] = [("VK_DRIVER_FILES", "none"), ("VK_ICD_FILENAMES", "none")];
 
-/// True if there is a graphics adapter that splats, a software one say. If there is none the test is skipped,
-/// unless `PPUM_REQUIRE_GPU` is set.
+/// True if there is a graphics adapter that splats, a software one say. If there is none the test
+/// is skipped, unless `PPUM_REQUIRE_GPU` is set.
 fn has_adapter(lab: &Lab) -> bool {
     let report = lab.json("info --gpu");
     let adapters = report["adapters"].as_array().unwrap();
@@ -43,8 +43,8 @@ fn far(a: &Png, b: &Png) -> usize {
     a.rgba.iter().zip(&b.rgba).filter(|(a, b)| a.abs_diff(**b) > 1).count()
 }
 
-/// Every backend draws the same picture. Left out are pixels whose value is the end of the range, where
-/// the colour jumps, and those on the crack's line: no more than 4 in a thousand.
+/// Every backend draws the same picture. Left out are pixels whose value is the end of the range,
+/// where the colour jumps, and those on the crack's line: no more than 4 in a thousand.
 #[test]
 fn backends_agree() {
     let lab = Lab::solved(CRACKED);
@@ -206,8 +206,8 @@ fn adapters_are_listed() {
     }
 }
 
-/// A crack that cuts slivers off patches, with a weight that is nearly nothing there: single precision draws what double
-/// precision draws.
+/// A crack that cuts slivers off patches, with a weight that is nearly nothing there: single
+/// precision draws what double precision draws.
 #[test]
 fn slivers_look_the_same_in_single_precision() {
     let cut = CRACKED.replace("[[-0.5, 0.0], [0.5, 0.0]]", "[[-0.4, -0.11], [0.31, 0.17]]");
@@ -222,7 +222,8 @@ fn slivers_look_the_same_in_single_precision() {
     }
 }
 
-/// A step whose stresses have no three digits in single precision: a warning says so, and nothing of one that has them.
+/// A step whose stresses have no three digits in single precision: a warning says so, and nothing
+/// of one that has them.
 #[test]
 fn too_few_digits_of_single_precision_are_told() {
     let lab = Lab::solved(CRACKED);

@@ -7,8 +7,8 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
 }
 
-/// u = x + 2y over [0, 2] × [0, 1]: bilinear and bicubic interpolation reproduce it; nearest errs by up to half the
-/// spacing in each direction, (1 + 1)/2 of 1/32 and 2/32 with 65 × 17 points.
+/// u = x + 2y over [0, 2] × [0, 1]: bilinear and bicubic interpolation reproduce it; nearest errs
+/// by up to half the spacing in each direction, (1 + 1)/2 of 1/32 and 2/32 with 65 × 17 points.
 #[test]
 fn errors_of_a_plane_are_those_of_theory() {
     let lab = Lab::solved(LINEAR);

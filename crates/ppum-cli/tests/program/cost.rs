@@ -1,5 +1,5 @@
-//! The cost of commands: small files that ask for much are read within the bounds that docs/cli.md states, or
-//! refused with their reason.
+//! The cost of commands: small files that ask for much are read within the bounds that docs/cli.md
+//! states, or refused with their reason.
 //!
 //! The system holds the bounds: a command that passes one is killed, or has no memory.
 
@@ -14,7 +14,8 @@ use crate::Lab;
 /// Largest of the files, in bytes.
 const SMALL: usize = 250_000;
 
-/// A command, the seconds of the processor it may take, and the memory in MiB beside that of reading the file.
+/// A command, the seconds of the processor it may take, and the memory in MiB beside that of
+/// reading the file.
 struct Bound {
     command: &'static str,
     seconds: u32,
@@ -94,7 +95,8 @@ fn factors_of_costly_files_stay_within_the_bound() {
 fn the_costliest_files_stay_within_the_bounds() {
     let is_of_quantities = |name: &str| name.starts_with("quantities");
     stay_within(&[SAMPLE, RENDER], |name, _| SLOW.contains(&name) && !is_of_quantities(name));
-    // formulas of quantities are read again and again, whatever the command; numbers of tables are most of what JSON takes
+    // formulas of quantities are read again and again, whatever the command; numbers of tables are
+    // most of what JSON takes
     stay_within(&[INFO], |name, _| is_of_quantities(name));
     stay_within(&[INFO_AS_JSON], |name, _| name == "tables");
     let files = ["cracks", "cracks-crossing", "formula-in-frames"];

@@ -1,5 +1,6 @@
-//! Damaged files: the program says what is wrong with a file, or shows what it holds, within bounds of
-//! time and memory. It never crashes and never shows a changed field under a checksum that is right.
+//! Damaged files: the program says what is wrong with a file, or shows what it holds, within bounds
+//! of time and memory. It never crashes and never shows a changed field under a checksum that
+//! is right.
 
 use std::ops::Range;
 use std::path::Path;

@@ -5,8 +5,8 @@ use ppum_solve::report::forget_times;
 
 use crate::Lab;
 
-/// A plate whose cells come from points, with a straight crack and a kinked one from an edge; material, loads
-/// and an enrichment are formulas.
+/// A plate whose cells come from points, with a straight crack and a kinked one from an edge;
+/// material, loads and an enrichment are formulas.
 const PLATE: &str = r#"
 title = "Everything at once"
 [domain]

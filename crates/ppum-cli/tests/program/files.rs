@@ -202,8 +202,8 @@ fn links_are_followed() {
     assert_eq!(names, ["a.csv", "a.png", "hard-a.csv", "hard-a.png"]);
 }
 
-/// The disk is full, or the program is killed: the old table is there. What a dead program leaves is removed by
-/// the next one that writes the file.
+/// The disk is full, or the program is killed: the old table is there. What a dead program leaves
+/// is removed by the next one that writes the file.
 #[cfg(target_os = "linux")]
 #[test]
 fn tables_are_written_whole_or_not_at_all() {

@@ -280,7 +280,8 @@ fn hostile_formulas() {
     }
 }
 
-/// The printed module is valid WGSL, and its functions give what `--at` prints, in single precision.
+/// The printed module is valid WGSL, and its functions give what `--at` prints, in single
+/// precision.
 #[cfg(feature = "gpu")]
 #[test]
 fn wgsl_is_valid_and_the_same_function() {
@@ -320,8 +321,8 @@ fn wgsl_is_valid_and_the_same_function() {
     Module::new(&quantity).unwrap();
 }
 
-/// The example of docs/cli.md, up to the numbers at a point, whose last digits are the processor's: lines that
-/// the page leaves out it marks with `…`.
+/// The example of docs/cli.md, up to the numbers at a point, whose last digits are the processor's:
+/// lines that the page leaves out it marks with `…`.
 #[test]
 fn the_example_of_the_page_is_what_the_program_says() {
     const FORMULA: &str = "abs(x - 2*y)*sqrt(r)";

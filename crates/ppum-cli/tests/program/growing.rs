@@ -61,7 +61,8 @@ impl Lab {
     }
 }
 
-/// A run that is killed, again and again, ends with the content of one that was not, and leaves no other file.
+/// A run that is killed, again and again, ends with the content of one that was not, and leaves no
+/// other file.
 #[test]
 fn a_killed_run_goes_on() {
     let lab = Lab::grown();
@@ -89,7 +90,8 @@ fn a_killed_run_goes_on() {
     assert!(told.contains("nothing to do"), "{told}");
 }
 
-/// The disk is full: the steps so far stay, the error says how many and how to go on, and that is what happens.
+/// The disk is full: the steps so far stay, the error says how many and how to go on, and that is
+/// what happens.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_keeps_the_steps() {

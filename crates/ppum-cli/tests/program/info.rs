@@ -174,7 +174,8 @@ fn the_energy_is_told() {
     assert!((energy(LINEAR) - 5.0).abs() < 1e-9);
 }
 
-/// Moments about the middle of each support, whatever holds it: they differ by the moment of the force.
+/// Moments about the middle of each support, whatever holds it: they differ by the moment of
+/// the force.
 #[test]
 fn moments_are_told_about_the_supports_too() {
     let held = "on = { edge = \"bottom\", from = -0.5, to = 1.0 }\ndisplacement = [0.0, 0.0]";
@@ -190,7 +191,8 @@ fn moments_are_told_about_the_supports_too() {
     );
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
     let own = number(&reaction["moment_about_center"]);
-    // the load is 2, upwards at x = 0: in equilibrium the support exerts −2, and turns against 2 · 0.25
+    // the load is 2, upwards at x = 0: in equilibrium the support exerts −2, and turns against 2 ·
+    // 0.25
     assert!((number(&reaction["force"][1]) + 2.0).abs() < 1e-9, "{reaction}");
     assert!((own - 0.5).abs() < 1e-9 && number(&reaction["moment"]).abs() < 1e-9, "{reaction}");
     let text = lab.run("info plate.h5");

@@ -30,7 +30,8 @@ fn value(data: &Dataset, attribute: &str, point: Vec2) -> f64 {
     found.unwrap().values[cell]
 }
 
-/// Every pixel has the colour of its cell's value: one each for whole numbers, else that of the range.
+/// Every pixel has the colour of its cell's value: one each for whole numbers, else that of
+/// the range.
 #[test]
 fn pixels_have_the_colours_of_their_cells() {
     let lab = Lab::solved(CRACKED);

@@ -8,8 +8,8 @@ fn value(row: &Value, name: &str) -> f64 {
     row["values"][name].as_f64().unwrap()
 }
 
-/// On the crack, which has no tip function in the middle, the smooth part has no jump; the jump part
-/// is all of it, and changes its sign. The parts add up.
+/// On the crack, which has no tip function in the middle, the smooth part has no jump; the jump
+/// part is all of it, and changes its sign. The parts add up.
 #[test]
 fn smooth_and_jump_on_the_crack() {
     let lab = Lab::solved(CRACKED);

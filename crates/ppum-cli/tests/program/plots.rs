@@ -132,7 +132,8 @@ fn plots_that_cannot_be_are_refused() {
     assert!(lab.fail("plot plate.h5 --crack 0 -o a.csv").contains("PNG, SVG or PDF"));
 }
 
-/// Of quadratic local spaces the energy norm of the error falls like h², the L² norm like h³; unknowns grow like h⁻².
+/// Of quadratic local spaces the energy norm of the error falls like h², the L² norm like h³;
+/// unknowns grow like h⁻².
 #[test]
 fn convergence_has_its_rates() {
     let lab = Lab::new();

@@ -35,7 +35,8 @@ fn hostile(lab: &Lab) -> Dataset {
     data
 }
 
-/// Nothing but what is printable, and ends of lines; the texts can be seen if they were to be shown.
+/// Nothing but what is printable, and ends of lines; the texts can be seen if they were to
+/// be shown.
 fn check(arguments: &str, output: &Output, has_texts: bool) {
     let mut all = String::new();
     for bytes in [&output.stdout, &output.stderr] {

@@ -36,7 +36,8 @@ fn both_sides_of_a_crack() {
     let points = report["points"].as_array().unwrap();
     let sides: Vec<_> = points.iter().map(|p| p["side"].as_str()).collect();
     assert_eq!(sides, [Some("above"), Some("below"), None, None]);
-    // Griffith's opening of an infinite plate, 4 σ (1 − ν²) √(a² − x²) / E, is exceeded in a small one
+    // Griffith's opening of an infinite plate, 4 σ (1 − ν²) √(a² − x²) / E, is exceeded in a
+    // small one
     let opening = value(&points[0], "uy") - value(&points[1], "uy");
     assert!(opening > 4.0 * 0.91 * 0.24f64.sqrt() && opening < 4.0, "{opening}");
     let text = lab.run("probe plate.h5 --at 0.1,0 -q uy");
@@ -122,7 +123,8 @@ fn infinite_and_undefined_values() {
     assert!(text.contains("inf") && text.contains("(2.0, 0.0): outside the domain"), "{text}");
 }
 
-/// On an interface of the material the values are those of one side, and the words say so; with an offset they are those of its side.
+/// On an interface of the material the values are those of one side, and the words say so; with an
+/// offset they are those of its side.
 #[test]
 fn interfaces_are_told() {
     let lab = Lab::solved(&CRACKED.replace("young = 1.0", "young = \"if(x < 0.25, 1, 2)\""));

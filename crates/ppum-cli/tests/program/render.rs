@@ -2,7 +2,8 @@ use ppum_render::colormap::Colormap;
 
 use crate::{CRACKED, LINEAR, Lab, Png, sound, with_formulas};
 
-/// Every pixel of u = x + 2y has the colour of its centre's value, the upper row being the upper one.
+/// Every pixel of u = x + 2y has the colour of its centre's value, the upper row being the
+/// upper one.
 #[test]
 fn pixels_are_values_at_their_centres() {
     let lab = Lab::solved(LINEAR);
@@ -200,7 +201,8 @@ fn a_pixel_is_what_probe_prints() {
     }
 }
 
-/// σ_yy = 1: the plate grows in y by (1 − ν²) σ/E and shrinks in x by ν(1 + ν) σ/E, times the factor.
+/// σ_yy = 1: the plate grows in y by (1 − ν²) σ/E and shrinks in x by ν(1 + ν) σ/E, times
+/// the factor.
 #[test]
 fn the_deformed_plate_has_its_size() {
     let lab = Lab::solved(&sound());

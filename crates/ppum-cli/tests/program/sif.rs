@@ -98,7 +98,8 @@ fn text_has_a_line_for_each_tip() {
     assert!(text.contains("(-0.5, 0)") && text.contains("(0.5, 0)"), "{text}");
 }
 
-/// Nothing is computed from a dataset unless that is asked for: what it holds is shown, be it wrong.
+/// Nothing is computed from a dataset unless that is asked for: what it holds is shown, be
+/// it wrong.
 #[test]
 fn stored_factors_are_shown() {
     let lab = Lab::solved(CRACKED);

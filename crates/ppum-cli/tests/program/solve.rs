@@ -58,7 +58,8 @@ fn json_has_the_documented_shape() {
     assert_eq!(lab.json("solve plane.toml")["tips"], json!([]));
 }
 
-/// All steps are told, kept and compared; of the one that is told as a whole the numbers are those of the last.
+/// All steps are told, kept and compared; of the one that is told as a whole the numbers are those
+/// of the last.
 #[test]
 fn adaptation_is_told() {
     let lab = Lab::new();
@@ -138,7 +139,8 @@ fn check_finds_what_solve_would_refuse() {
     assert!(!lab.files().iter().any(|file| file.ends_with(".h5")));
 }
 
-/// The rest of a plate may be too little for a piece; and the smallest of datasets can be read again.
+/// The rest of a plate may be too little for a piece; and the smallest of datasets can be
+/// read again.
 #[test]
 fn next_to_nothing_is_told_or_solved() {
     let lab = Lab::new();

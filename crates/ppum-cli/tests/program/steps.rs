@@ -128,7 +128,8 @@ fn sif_tells_of_all_steps() {
     }
 }
 
-/// The points of the curves are where their numbers have them: in the order of steps, loads and lengths.
+/// The points of the curves are where their numbers have them: in the order of steps, loads
+/// and lengths.
 #[test]
 fn plots_over_steps() {
     let lab = with(&grown(5));
@@ -164,8 +165,8 @@ fn plots_over_steps() {
     assert!(complaint.contains("no stress intensity factors"), "{complaint}");
 }
 
-/// A series of two tips with growth: the last end of crack 0 goes 0.5 each step and meets hole 3 after step 2; a second tip waits.
-/// 100 cycles a step.
+/// A series of two tips with growth: the last end of crack 0 goes 0.5 each step and meets hole 3
+/// after step 2; a second tip waits. 100 cycles a step.
 fn with_growth() -> Dataset {
     let mut dataset = grown(4);
     for (k, step) in dataset.steps.iter_mut().enumerate() {

@@ -1,4 +1,5 @@
-//! `ppum view`: what is refused before a window opens, and pictures of the window without a display.
+//! `ppum view`: what is refused before a window opens, and pictures of the window without a
+//! display.
 
 use crate::Lab;
 
@@ -73,7 +74,8 @@ mod with_it {
         assert_eq!(lab.files(), ["bad.h5", "bad.ppum-session"]);
     }
 
-    /// The middle of the window has the colour that `render` gives it; nothing is remembered for a picture.
+    /// The middle of the window has the colour that `render` gives it; nothing is remembered for a
+    /// picture.
     #[test]
     fn the_picture_of_a_session_is_that_of_render() {
         let lab = Lab::solved(&sound());

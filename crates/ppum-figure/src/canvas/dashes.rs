@@ -2,7 +2,8 @@
 
 use ppum::vec2::Vec2;
 
-/// The dashes of a line: polylines of one length with gaps of another between them, the first at its start.
+/// The dashes of a line: polylines of one length with gaps of another between them, the first at
+/// its start.
 pub(super) fn dashes(points: &[Vec2], [dash, gap]: [f64; 2]) -> Vec<Vec<Vec2>> {
     let (mut all, mut is_dash, mut left) = (Vec::new(), true, dash);
     let mut current: Vec<Vec2> = points.first().copied().into_iter().collect();

@@ -1,7 +1,7 @@
 //! The share of each pixel that shapes cover.
 //!
-//! Shapes of one mask join by maximum, so a polyline's corners and crossing lines are no darker than its
-//! segments.
+//! Shapes of one mask join by maximum, so a polyline's corners and crossing lines are no darker
+//! than its segments.
 
 use ab_glyph_rasterizer::{Point, Rasterizer, point};
 use ppum::segment;
@@ -10,8 +10,8 @@ use ppum_render::image::{Image, Rgba};
 
 use crate::text::{Curve, bounds};
 
-/// A part of a page: columns from `min[0]` to `max[0]` and rows from `min[1]` to `max[1]`, the last ones not
-/// included.
+/// A part of a page: columns from `min[0]` to `max[0]` and rows from `min[1]` to `max[1]`, the last
+/// ones not included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Window {
     pub(super) min: [u32; 2],
@@ -74,7 +74,8 @@ impl Mask {
         }
     }
 
-    /// A straight line of some width with round ends, wherever these lie; one thinner than a pixel is paler.
+    /// A straight line of some width with round ends, wherever these lie; one thinner than a pixel
+    /// is paler.
     pub(super) fn line(&mut self, a: Vec2, b: Vec2, width: f64) {
         let along = b - a;
         let reach = 0.5 * width + 0.5;
@@ -109,7 +110,8 @@ impl Mask {
         points.windows(2).for_each(|ends| self.line(ends[0], ends[1], width));
     }
 
-    /// The inside of a closed polygon, with exact shares at its edges; an axis-parallel box among them.
+    /// The inside of a closed polygon, with exact shares at its edges; an axis-parallel box
+    /// among them.
     pub(super) fn polygon(&mut self, corners: &[Vec2]) {
         let next = corners.iter().cycle().skip(1);
         let sides: Vec<_> = corners.iter().zip(next).map(|(&a, &b)| Curve::Line([a, b])).collect();
@@ -179,8 +181,8 @@ fn within(from: f64, to: f64, min: u32, max: u32) -> std::ops::Range<i64> {
     from.floor().clamp(min, max) as i64..to.ceil().clamp(min, max) as i64
 }
 
-/// Draws a curve into a rasterizer whose upper left corner lies at `corner`. Curves are cut off by nobody:
-/// what leaves the rasterizer at its left counts there, elsewhere it covers nothing.
+/// Draws a curve into a rasterizer whose upper left corner lies at `corner`. Curves are cut off by
+/// nobody: what leaves the rasterizer at its left counts there, elsewhere it covers nothing.
 fn draw(rasterizer: &mut Rasterizer, curve: Curve, corner: Vec2) {
     let (columns, rows) = rasterizer.dimensions();
     let most = vec2(columns as f64, rows as f64);
@@ -199,8 +201,8 @@ fn draw(rasterizer: &mut Rasterizer, curve: Curve, corner: Vec2) {
     }
 }
 
-/// A line as its parts within 0 … `most`: what lies outside is moved onto the nearest border, so that a
-/// closed polygon stays closed and covers the same pixels.
+/// A line as its parts within 0 … `most`: what lies outside is moved onto the nearest border, so
+/// that a closed polygon stays closed and covers the same pixels.
 fn clipped(a: Vec2, b: Vec2, most: Vec2) -> Vec<[Vec2; 2]> {
     let mut cuts = vec![0.0, 1.0];
     for (from, to, most) in [(a.x, b.x, most.x), (a.y, b.y, most.y)] {

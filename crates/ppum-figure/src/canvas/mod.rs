@@ -78,8 +78,8 @@ pub struct Pen {
     pub color: Rgba,
     /// The width.
     pub width: f64,
-    /// A seam on both sides, drawn below all of the item's lines, that parts them from what lies under them;
-    /// also where a line has gaps.
+    /// A seam on both sides, drawn below all of the item's lines, that parts them from what lies
+    /// under them; also where a line has gaps.
     pub halo: Option<Halo>,
     /// Lengths of dashes and of the gaps between them; one unbroken line if there are none.
     pub dashes: Option<[f64; 2]>,
@@ -153,16 +153,16 @@ impl Canvas {
         all
     }
 
-    /// The page as an SVG file of `dpi` pixels per inch. Lines and letters are lines and letters, the font is
-    /// in the file, pictures are PNG with their pixels kept apart. Of the texts `Title` and `Description` are
-    /// the file's own, the others its metadata.
+    /// The page as an SVG file of `dpi` pixels per inch. Lines and letters are lines and letters,
+    /// the font is in the file, pictures are PNG with their pixels kept apart. Of the texts `Title`
+    /// and `Description` are the file's own, the others its metadata.
     #[must_use]
     pub fn svg(&self, dpi: f64, texts: &[Text]) -> String {
         svg::file(self, dpi, texts)
     }
 
-    /// The page as a PDF file of `dpi` pixels per inch: vectors, letters that can be searched and copied, and
-    /// pictures without loss. The texts are the document's information.
+    /// The page as a PDF file of `dpi` pixels per inch: vectors, letters that can be searched and
+    /// copied, and pictures without loss. The texts are the document's information.
     #[must_use]
     pub fn pdf(&self, dpi: f64, texts: &[Text]) -> Vec<u8> {
         pdf::file(self, dpi, texts)
@@ -170,8 +170,8 @@ impl Canvas {
 }
 
 impl Item {
-    /// The box that the item may draw into: its upper left and lower right corner. Of nothing, the least
-    /// coordinates are +∞.
+    /// The box that the item may draw into: its upper left and lower right corner. Of nothing, the
+    /// least coordinates are +∞.
     #[must_use]
     pub fn bounds(&self) -> [Vec2; 2] {
         let grown = |[lo, hi]: [Vec2; 2], by: f64| [lo - vec2(by, by), hi + vec2(by, by)];

@@ -11,7 +11,8 @@ use super::base64::base64;
 use super::{Align, Canvas, Item, Lettering, Path, Pen};
 use crate::text::{self, FONT_FILE};
 
-/// Fonts of letters: the one in the file, or where a program ignores that, the same or a similar one of the system.
+/// Fonts of letters: the one in the file, or where a program ignores that, the same or a similar
+/// one of the system.
 const FAMILY: &str = "'ppum DejaVu Sans','DejaVu Sans',Verdana,sans-serif";
 
 /// Writes a page.

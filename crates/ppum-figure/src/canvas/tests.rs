@@ -112,7 +112,8 @@ fn pictures_in_the_svg_are_without_loss() {
     assert_eq!(place, [10.0, 12.0, 30.0, 20.0]);
 }
 
-/// Whatever font a program takes, lines have their length; it is the one that everything is placed by.
+/// Whatever font a program takes, lines have their length; it is the one that everything is
+/// placed by.
 #[test]
 fn text_in_the_svg_has_its_length() {
     let page = page();

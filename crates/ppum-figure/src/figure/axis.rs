@@ -26,8 +26,9 @@ impl Axis {
         Self { label: label.to_owned(), name, widest: widest(&ticks, scale), ticks }
     }
 
-    /// The label, shortened if there is less room \[pixels\]: its name in the middle, to half of the room at
-    /// least, and what is behind that, a number, a power of ten and the unit, at its end.
+    /// The label, shortened if there is less room \[pixels\]: its name in the middle, to half of
+    /// the room at least, and what is behind that, a number, a power of ten and the unit, at
+    /// its end.
     pub(super) fn fitted(&self, size: f64, room: f64) -> String {
         let (name, rest) = self.label.split_at(self.name);
         let kept = (room - text::width(rest, size)).max(0.5 * room);
@@ -37,8 +38,9 @@ impl Axis {
     }
 }
 
-/// Where labels stand along an axis whose marks lie at `at`, rising or falling: there, but two that would touch move apart, out
-/// of an axis that is shorter than they are. `lengths` are theirs along the axis.
+/// Where labels stand along an axis whose marks lie at `at`, rising or falling: there, but two that
+/// would touch move apart, out of an axis that is shorter than they are. `lengths` are theirs along
+/// the axis.
 pub(super) fn label_places(at: &[f64], lengths: &[f64], gap: f64) -> Vec<f64> {
     let (&[a, b], &[first, second]) = (at, lengths) else { return at.to_vec() };
     let missing = (0.5 * (first + second) + gap - (b - a).abs()).max(0.0);
@@ -92,8 +94,8 @@ fn nearest_tip(picture: &Picture, cracks: &[Crack]) -> Option<Vec2> {
         .min_by(|&a, &b| offset(a).length().total_cmp(&offset(b).length()))
 }
 
-/// "name − reference [×10ᵏ unit]", each part where it is needed; nothing along an axis without a name and
-/// units.
+/// "name − reference [×10ᵏ unit]", each part where it is needed; nothing along an axis without a
+/// name and units.
 pub(super) fn axis_label(name: &str, ticks: &Ticks, unit: &str) -> String {
     let mut label = name.to_owned();
     if ticks.reference != 0.0 {

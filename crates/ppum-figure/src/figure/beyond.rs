@@ -13,7 +13,8 @@ const MOST_DIGITS: usize = 5;
 /// Part of the range below which a value is rounded to zero.
 const ROUNDING: f64 = 5e-4;
 
-/// The words at the lower and the upper end of a bar with these marks; none where nothing lies beyond, or nobody looked.
+/// The words at the lower and the upper end of a bar with these marks; none where nothing lies
+/// beyond, or nobody looked.
 pub(super) fn words(key: &Key, ticks: &Ticks, scale: f64) -> [Option<String>; 2] {
     let ends = [key.normalization.min(), key.normalization.max()];
     let signs = [-1.0, 1.0];

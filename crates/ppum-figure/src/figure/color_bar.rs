@@ -1,7 +1,8 @@
 //! The colour bar of a figure, upright or lying.
 //!
-//! Where a range that was found leaves out values, the bar's pointed ends say how far these go: beside the points, in the column of
-//! the marks' labels of an upright bar, and before and behind a lying one, which is shorter by them.
+//! Where a range that was found leaves out values, the bar's pointed ends say how far these go:
+//! beside the points, in the column of the marks' labels of an upright bar, and before and behind a
+//! lying one, which is shorter by them.
 
 use ppum::vec2::{Vec2, vec2};
 
@@ -93,7 +94,8 @@ impl Key {
         is_same.then_some(self)
     }
 
-    /// Marks at the borders of bands, if there are no more than `most` and short numbers say where they are.
+    /// Marks at the borders of bands, if there are no more than `most` and short numbers say where
+    /// they are.
     fn borders(&self, most: usize) -> Option<Ticks> {
         let bands = self.colormap.bands().filter(|&n| usize::from(n) < most)?;
         let norm = &self.normalization;
@@ -109,8 +111,8 @@ impl Key {
         Some(Ticks::new(major, notation))
     }
 
-    /// Labels in the middle of the bands of values that have a colour each; where there are more than `most` some are
-    /// left out.
+    /// Labels in the middle of the bands of values that have a colour each; where there are more
+    /// than `most` some are left out.
     fn classes(&self, choice: &TickChoice, most: usize) -> Ticks {
         let classes = self.colormap.classes();
         let count = classes.len();
@@ -376,8 +378,8 @@ impl Placed<'_> {
         }
     }
 
-    /// The words at the ends; returns the width of the widest one. Beside an upright bar they keep away from the labels of marks, which
-    /// begin at `base`.
+    /// The words at the ends; returns the width of the widest one. Beside an upright bar they keep
+    /// away from the labels of marks, which begin at `base`.
     fn words(&self, ink: &mut Ink, base: f64) -> f64 {
         let line = LINE * TICK_TEXT * self.scale;
         let labels = self.label_places().into_iter();

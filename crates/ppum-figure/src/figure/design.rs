@@ -60,8 +60,9 @@ pub enum TickChoice {
     At(Vec<f64>),
 }
 
-/// The words of a figure; empty ones are left out. `_{…}` sets a subscript: `σ_{yy}`. Characters are
-/// those of Latin, Greek and mathematics; others appear as boxes ([`missing`](crate::text::missing)).
+/// The words of a figure; empty ones are left out. `_{…}` sets a subscript: `σ_{yy}`. Characters
+/// are those of Latin, Greek and mathematics; others appear as
+/// boxes ([`missing`](crate::text::missing)).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Labels {
     /// Lines above the picture; of a panel its caption.
@@ -129,8 +130,8 @@ impl Design {
         }
     }
 
-    /// Scale of all lines and letters, those over the picture too: 1 where an axis' label is 14 pixels high. A length on paper, the
-    /// same at any number of pixels per inch.
+    /// Scale of all lines and letters, those over the picture too: 1 where an axis' label is 14
+    /// pixels high. A length on paper, the same at any number of pixels per inch.
     #[must_use]
     pub fn scale(&self) -> f64 {
         self.font_size * self.dpi / 72.0 / LABEL_TEXT

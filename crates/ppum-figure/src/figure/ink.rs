@@ -53,7 +53,8 @@ impl Ink {
         self.items.push(Item::Line { path: Path::through(points), pen });
     }
 
-    /// Text of some size, given for a figure of 1024 × 768, whose part `align` lies at a point of its base line.
+    /// Text of some size, given for a figure of 1024 × 768, whose part `align` lies at a point of
+    /// its base line.
     pub(super) fn text(&mut self, line: &str, size: f64, at: Vec2, align: Align) {
         if !line.is_empty() {
             let at = vec2(at.x, at.y.round());
@@ -85,8 +86,8 @@ impl Ink {
     }
 }
 
-/// The start, at a whole pixel, of a line around `at`; halves are rounded away from the middle, so that
-/// ticks at both ends of an axis continue the frame's lines.
+/// The start, at a whole pixel, of a line around `at`; halves are rounded away from the middle, so
+/// that ticks at both ends of an axis continue the frame's lines.
 pub(super) fn snapped(at: f64, stroke: f64, middle: f64) -> f64 {
     let start = at - 0.5 * stroke.round().max(1.0);
     if at < middle { (start - 0.5).ceil() } else { (start + 0.5).floor() }

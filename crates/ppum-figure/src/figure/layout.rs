@@ -10,7 +10,8 @@
 //!   …                …
 //! ```
 //!
-//! Panels fill the grid row by row. Several may share a bar beside one of them. Plots of a column begin at one line, and so do those of a row.
+//! Panels fill the grid row by row. Several may share a bar beside one of them. Plots of a column
+//! begin at one line, and so do those of a row.
 
 use ppum::vec2::{Vec2, vec2};
 
@@ -31,7 +32,8 @@ pub struct Grid {
     pub rows: u32,
     /// True if one colour bar explains all panels, which then have one range.
     pub shared_bar: bool,
-    /// Columns and rows in which a panel has a bar of its own, if there are others: these get more room.
+    /// Columns and rows in which a panel has a bar of its own, if there are others: these get
+    /// more room.
     pub barred: Option<[u32; 2]>,
 }
 
@@ -80,7 +82,8 @@ pub fn plot_area(title: &str, design: &Design) -> Result<[u32; 2], FigureError> 
     panel_area(title, &[""], Grid::ONE, design)
 }
 
-/// The largest picture that each panel of a figure has room for, by the figure's title and the panels' captions.
+/// The largest picture that each panel of a figure has room for, by the figure's title and the
+/// panels' captions.
 ///
 /// # Errors
 /// If that is less than 48 pixels wide or high.
@@ -143,12 +146,13 @@ fn caption_lines(caption: &str, grid: Grid, design: &Design) -> Vec<String> {
     sheet::lines(caption, LABEL_TEXT * scale, room, CAPTION_LINES)
 }
 
-/// A figure of panels, in rows, whose titles are their captions, with a title of its own. Pictures have at most
-/// the size that [`panel_area`] gives. A bar that several share has the words of the first.
+/// A figure of panels, in rows, whose titles are their captions, with a title of its own. Pictures
+/// have at most the size that [`panel_area`] gives. A bar that several share has the words of the
+/// first.
 ///
 /// # Errors
-/// A page without room, a picture that is too large, more panels than cells, no panels; one bar for pictures
-/// of several ranges or colour maps.
+/// A page without room, a picture that is too large, more panels than cells, no panels; one bar for
+/// pictures of several ranges or colour maps.
 pub fn panels(
     title: &str,
     panels: &[Panel<'_>],
@@ -263,8 +267,8 @@ impl<'a> Page<'a> {
         ink.items
     }
 
-    /// The title above everything, from the left of the first plot if it ends where the rest does, else in the
-    /// middle.
+    /// The title above everything, from the left of the first plot if it ends where the rest does,
+    /// else in the middle.
     fn title(&self, ink: &mut Ink, left: f64) {
         let widths = self.lines.iter().map(|line| text::width(line, TITLE_TEXT * ink.scale));
         let longest = widths.fold(0.0, f64::max);

@@ -77,14 +77,15 @@ pub struct Panel<'a> {
     pub picture: &'a Picture,
     /// What is drawn over it; positions are pixels of the picture.
     pub layers: Vec<Item>,
-    /// The entries of a legend that has no room in the picture; it stands beside the picture or above it.
+    /// The entries of a legend that has no room in the picture; it stands beside the picture or
+    /// above it.
     pub legend: Vec<Entry>,
     /// Its words.
     pub labels: Labels,
     /// The cracks from whose tips the axes count at deep zoom.
     pub cracks: &'a [Crack],
-    /// The panel, by its place in the figure, whose bar explains this one too; none, or one without a bar of its own, if
-    /// this one has its own.
+    /// The panel, by its place in the figure, whose bar explains this one too; none, or one without
+    /// a bar of its own, if this one has its own.
     pub bar_of: Option<usize>,
 }
 

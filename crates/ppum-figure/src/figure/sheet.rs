@@ -158,14 +158,16 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// The room for a legend around a plot with so many columns and rows, whose panel has room for more.
+/// The room for a legend around a plot with so many columns and rows, whose panel has room
+/// for more.
 fn free(bar: Option<&ColorBar>, sides: [f64; 2], room: [f64; 2], design: &Design) -> Free {
     let scale = design.scale();
     let upright = bar.filter(|bar| bar.is_upright);
     let right = if upright.is_some() { RIGHT_BAR } else { RIGHT };
     // a bar reaches above a plot that is lower, and so does the half of a label
     let over = upright.map_or(0.0, |bar| 0.5 * (bar.length - sides[1])) + 0.5 * TICK_TEXT * scale;
-    // labels below a plot, this one or another one of the column, have its middle and may be as long as the room
+    // labels below a plot, this one or another one of the column, have its middle and may be as
+    // long as the room
     let out = 0.5 * (room[0] - sides[0]);
     Free {
         beside: [room[0] - sides[0] - out, room[1]],
@@ -173,8 +175,8 @@ fn free(bar: Option<&ColorBar>, sides: [f64; 2], room: [f64; 2], design: &Design
     }
 }
 
-/// True if the legend of a panel with room for a picture of `room` pixels has no place outside of the picture, and is left
-/// out.
+/// True if the legend of a panel with room for a picture of `room` pixels has no place outside of
+/// the picture, and is left out.
 #[must_use]
 pub fn lacks_legend(panel: &Panel<'_>, room: [u32; 2], design: &Design) -> bool {
     let key = Some(Key::new(panel.picture, &panel.labels));
@@ -202,8 +204,8 @@ pub(super) fn bar(
     }
 }
 
-/// Draws a bar beside a box, or below it. What stands around the box ends at `end`: a lying bar is below
-/// that, and an upright one beside it if it reaches beyond the box.
+/// Draws a bar beside a box, or below it. What stands around the box ends at `end`: a lying bar is
+/// below that, and an upright one beside it if it reaches beyond the box.
 pub(super) fn draw_bar(
     bar: &ColorBar,
     ink: &mut Ink,

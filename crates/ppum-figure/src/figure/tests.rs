@@ -274,7 +274,8 @@ fn a_picture_without_values_says_so() {
     assert_eq!(words(f64::NEG_INFINITY, ""), ["to −∞", "no finite values"]);
 }
 
-/// Where all values are infinite the bar has the colour that the plate has, at the end that says so, and no other.
+/// Where all values are infinite the bar has the colour that the plate has, at the end that says
+/// so, and no other.
 #[test]
 fn a_bar_of_infinite_values_has_no_colours_but_its_ends() {
     let view = View::hug(Rect::around(Vec2::ZERO, vec2(1.0, 1.0)), [200, 200]).unwrap();

@@ -139,8 +139,8 @@ pub fn patches(view: &View, scale: f64, partition: &BoxPartition) -> Vec<Item> {
     insides
 }
 
-/// The centres of the cells as squares, coloured by the kind of enrichment, and what the colours mean.
-/// Üffinger et al. 2011, figure 2.
+/// The centres of the cells as squares, coloured by the kind of enrichment, and what the colours
+/// mean. Üffinger et al. 2011, figure 2.
 #[must_use]
 pub fn centers(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
     let (cells, kinds) = (field.step.partition.cells(), enrichments(field));
@@ -168,8 +168,8 @@ const BOX_PART: f64 = 0.1;
 /// Opacity of the boxes of patches that have nothing but polynomials.
 const PLAIN: u8 = 110;
 
-/// The boxes of the cells in the colour of the kind of enrichment, and what the colours mean: two boxes that share a side
-/// both show theirs. Üffinger et al. 2011, figure 8.
+/// The boxes of the cells in the colour of the kind of enrichment, and what the colours mean: two
+/// boxes that share a side both show theirs. Üffinger et al. 2011, figure 8.
 #[must_use]
 pub fn boxes(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
     let (cells, kinds) = (field.step.partition.cells(), enrichments(field));
@@ -241,7 +241,8 @@ mod tests {
         }
     }
 
-    /// Darker than a light ground, lighter than a dark one: by the line or by its seam; the same line on both.
+    /// Darker than a light ground, lighter than a dark one: by the line or by its seam; the same
+    /// line on both.
     #[test]
     fn cell_borders_show_on_any_colour_and_do_not_add_up() {
         let unit = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
@@ -263,7 +264,8 @@ mod tests {
         }
     }
 
-    /// Each box keeps its colour beside its neighbour's, and what is inside is seen, however small the boxes are.
+    /// Each box keeps its colour beside its neighbour's, and what is inside is seen, however small
+    /// the boxes are.
     #[test]
     fn boxes_that_share_a_side_both_show_theirs() {
         let view = View::window(0.0, 0.0, 2.0, 1.0, [201, 101]).unwrap();

@@ -1,5 +1,5 @@
-//! What is drawn over the deformed plate: the faces of its cracks, its border, the cells of the cover, isolines, and where
-//! the border was.
+//! What is drawn over the deformed plate: the faces of its cracks, its border, the cells of the
+//! cover, isolines, and where the border was.
 
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::deform::{DeformError, Deformation, DeformedView, Paths};
@@ -114,7 +114,8 @@ mod tests {
     use ppum_testkit::random::Random;
     use ppum_testkit::synthetic::{Coefficients, Recipe};
 
-    /// A plate that is only moved: its border, rims and cells are those of the undeformed plate, shifted.
+    /// A plate that is only moved: its border, rims and cells are those of the undeformed
+    /// plate, shifted.
     #[test]
     fn lines_of_a_moved_plate_are_moved() {
         let zeros = |constant: f64| [constant, 0.0, 0.0, 0.0, 0.0, 0.0].to_vec();
@@ -146,8 +147,8 @@ mod tests {
         assert!(grey > 50, "{grey}");
     }
 
-    /// u = G X in closed form: circles become ellipses, each point of a line lies on one to a tenth of a pixel, and lines end at
-    /// the crack, on their own side.
+    /// u = G X in closed form: circles become ellipses, each point of a line lies on one to a tenth
+    /// of a pixel, and lines end at the crack, on their own side.
     #[test]
     fn isolines_are_carried_over() {
         let mut random = Random(41);
@@ -184,8 +185,9 @@ mod tests {
         }
     }
 
-    /// Near an open crack: the value of the pixel that a point of a line lies in is the line's, but for what changes from
-    /// pixel to pixel, on whichever side of the crack; and what is seen has its lines.
+    /// Near an open crack: the value of the pixel that a point of a line lies in is the line's, but
+    /// for what changes from pixel to pixel, on whichever side of the crack; and what is seen has
+    /// its lines.
     #[test]
     fn carried_lines_lie_where_pixels_have_their_value() {
         for seed in 0..4 {

@@ -1,6 +1,7 @@
 //! The edges of elements as lines.
 //!
-//! An edge is halved until its chords lie on it to a twentieth of a pixel, but for parts out of sight.
+//! An edge is halved until its chords lie on it to a twentieth of a pixel, but for parts out
+//! of sight.
 
 use ppum::mesh::Mesh;
 use ppum::vec2::{Rect, Vec2};

@@ -17,13 +17,14 @@ const COMPRESSION: Rgba = [24, 62, 180, 255];
 const SEAM: Rgba = [255, 255, 255, 150];
 const WIDTH: f64 = 1.4;
 const HEAD: f64 = 6.5;
-/// Length of the longest arrow and of the longest arm of a cross with its opposite, in parts of the spacing.
+/// Length of the longest arrow and of the longest arm of a cross with its opposite, in parts of
+/// the spacing.
 const LONGEST: f64 = 0.9;
 /// Of so many values one may be longer than the longest glyph; it is drawn as long as that.
 const PEAKS: usize = 50;
 
-/// Arrows centred on their points, their lengths as the vectors', and what their length means. `spacing` is that of
-/// the points, in units of the scale as all lengths.
+/// Arrows centred on their points, their lengths as the vectors', and what their length means.
+/// `spacing` is that of the points, in units of the scale as all lengths.
 #[must_use]
 pub fn arrows(
     view: &View,
@@ -49,8 +50,8 @@ pub fn arrows(
     (items, if longest > 0.0 { vec![entry] } else { Vec::new() })
 }
 
-/// Crosses along the principal directions, their arms as long as the stresses; tension and compression told apart by
-/// colours, and what their length means.
+/// Crosses along the principal directions, their arms as long as the stresses; tension and
+/// compression told apart by colours, and what their length means.
 #[must_use]
 pub fn crosses(
     view: &View,
@@ -117,7 +118,8 @@ mod tests {
         path.pieces.clone()
     }
 
-    /// Arrows are centred, point along their vectors (y up), and are as long as these in proportion.
+    /// Arrows are centred, point along their vectors (y up), and are as long as these
+    /// in proportion.
     #[test]
     fn arrows_show_their_vectors() {
         let glyph = |x: f64, value| Glyph { offset: vec2(x, 0.0), value, face: None };

@@ -30,8 +30,8 @@ pub struct Room {
 }
 
 impl Room {
-    /// The room of a picture: where it is not transparent. Levels are written in some notation: that of the bar beside the
-    /// picture, or a plain one where there is none.
+    /// The room of a picture: where it is not transparent. Levels are written in some notation:
+    /// that of the bar beside the picture, or a plain one where there is none.
     #[must_use]
     pub fn new(picture: &Picture, cracks: &[Crack], notation: Notation) -> Self {
         let image = &picture.image;
@@ -75,7 +75,8 @@ impl Room {
         Some(pixel).filter(|&pixel| is_inside && pixel < self.is_free.len())
     }
 
-    /// True if a rectangle about a point covers nothing else, `half` its sides' halves along a direction and across.
+    /// True if a rectangle about a point covers nothing else, `half` its sides' halves along a
+    /// direction and across.
     fn holds(&self, middle: Vec2, along: Vec2, half: Vec2) -> bool {
         let [columns, rows] = [half.x, half.y].map(|half| half.ceil().max(1.0) as i32);
         let part = |k: i32, n: i32| f64::from(k) / f64::from(n);
@@ -106,7 +107,8 @@ fn clipped([a, b]: [Vec2; 2], size: Vec2) -> Option<[Vec2; 2]> {
     (enter <= leave && ends.iter().all(|p| p.is_finite())).then_some(ends)
 }
 
-/// Isolines as dark lines with a light seam, of one width everywhere; with their levels, if that is wanted, where there is room.
+/// Isolines as dark lines with a light seam, of one width everywhere; with their levels, if that is
+/// wanted, where there is room.
 #[must_use]
 pub fn isolines(view: &View, scale: f64, lines: &[Isoline], room: Option<Room>) -> Vec<Item> {
     let path = Path { pieces: lines.iter().map(|line| points(view, line)).collect() };
@@ -126,7 +128,8 @@ fn points(view: &View, line: &Isoline) -> Vec<Vec2> {
     thinned(line.polyline().into_iter().map(|offset| view.pixel_of_offset(offset)).collect())
 }
 
-/// The points of a line without those that lie within [`UNSEEN`] of the chord of others; its ends stay.
+/// The points of a line without those that lie within [`UNSEEN`] of the chord of others; its ends
+/// stay.
 fn thinned(points: Vec<Vec2>) -> Vec<Vec2> {
     let Some(last) = points.len().checked_sub(1) else { return points };
     let (mut kept, mut from) = (vec![points[0]], 0);
@@ -154,8 +157,8 @@ struct Taken {
     labels: Vec<(Vec2, f64)>,
 }
 
-/// The level along the straightest part of its line, away from other labels, cracks and the plate's border; none
-/// where there is no room.
+/// The level along the straightest part of its line, away from other labels, cracks and the plate's
+/// border; none where there is no room.
 fn label(
     view: &View,
     scale: f64,
@@ -264,7 +267,8 @@ mod tests {
         assert_eq!(isolines(&view(), 1.0, &[], Some(room(&[]))).len(), 1);
     }
 
-    /// Circles keep a point where the chord's sagitta, s²/8r, comes near what is unseen; straight lines their ends.
+    /// Circles keep a point where the chord's sagitta, s²/8r, comes near what is unseen; straight
+    /// lines their ends.
     #[test]
     fn lines_have_as_few_points_as_they_need() {
         for radius in [3.0, 50.0, 1000.0] {

@@ -45,8 +45,9 @@ const INK: Rgba = [38, 38, 42, 255];
 /// Largest parts of a picture's width and height that a legend in it takes.
 const PART: [f64; 2] = [0.75, 0.4];
 
-/// The corners, upper left and lower right, of a box with a line for each entry in the upper right corner of a view; none
-/// without entries, and none where it would hide most of the view or not fit into it.
+/// The corners, upper left and lower right, of a box with a line for each entry in the upper right
+/// corner of a view; none without entries, and none where it would hide most of the view or not fit
+/// into it.
 #[must_use]
 pub fn legend_box(view: &View, scale: f64, entries: &[Entry]) -> Option<[Vec2; 2]> {
     let pixels = view.pixels.map(f64::from);
@@ -117,7 +118,8 @@ mod tests {
     use super::*;
     use ppum_testkit::random::Random;
 
-    /// Whatever the picture's shape, the box is whole and leaves most of the picture, or is not there.
+    /// Whatever the picture's shape, the box is whole and leaves most of the picture, or is
+    /// not there.
     #[test]
     fn legends_are_whole_or_not_there() {
         let mut random = Random(15);

@@ -1,11 +1,12 @@
-//! What is drawn over a picture: cracks, rims of holes, the cover and its enrichment, integration discs,
-//! supports and loads.
+//! What is drawn over a picture: cracks, rims of holes, the cover and its enrichment, integration
+//! discs, supports and loads.
 //!
-//! Each gives what is to be drawn on a page of the view's pixels. Widths of lines and sizes of marks and letters are multiples of
-//! a `scale`, not of pixels, so that in a figure they are lengths on paper. Lines are placed through offsets from the
-//! view's centre, so they are where the field has them at any zoom: an oblique line through a view 1e-12 of
-//! the domain wide is drawn by its distance from the centre and its direction, not between end points that
-//! lie 10^15 pixels away. A line has one colour throughout, and a seam that parts it from its own colour.
+//! Each gives what is to be drawn on a page of the view's pixels. Widths of lines and sizes of
+//! marks and letters are multiples of a `scale`, not of pixels, so that in a figure they are
+//! lengths on paper. Lines are placed through offsets from the view's centre, so they are where the
+//! field has them at any zoom: an oblique line through a view 1e-12 of the domain wide is drawn by
+//! its distance from the centre and its direction, not between end points that lie 10^15 pixels
+//! away. A line has one colour throughout, and a seam that parts it from its own colour.
 
 mod cover;
 mod deformed;
@@ -41,8 +42,8 @@ const TIP_RADIUS: f64 = 3.0;
 const RIM_WIDTH: f64 = 1.0;
 const SEAM_WIDTH: f64 = 1.0;
 
-/// Scale of a bare picture's lines and letters: 1 up to 1024 × 768 pixels, lest they be unreadable, and growing with larger
-/// ones. In a figure it is [`Design::scale`](crate::figure::Design::scale).
+/// Scale of a bare picture's lines and letters: 1 up to 1024 × 768 pixels, lest they be unreadable,
+/// and growing with larger ones. In a figure it is [`Design::scale`](crate::figure::Design::scale).
 #[must_use]
 pub fn line_scale(size: [u32; 2]) -> f64 {
     (f64::from(size[0]) / 1024.0).min(f64::from(size[1]) / 768.0).clamp(1.0, 20.0)
@@ -159,8 +160,8 @@ mod tests {
         assert_eq!(mouth, GREY, "no dot at a mouth");
     }
 
-    /// A crack from (0, 0) to (1, 3): the f64 nearest to its middle third is off the line by a known
-    /// part of a pixel, found here with exact integers.
+    /// A crack from (0, 0) to (1, 3): the f64 nearest to its middle third is off the line by a
+    /// known part of a pixel, found here with exact integers.
     #[test]
     fn an_oblique_crack_is_in_place_at_a_width_of_1e_12() {
         let center = vec2(0.123456789, 3.0 * 0.123456789);
@@ -188,7 +189,8 @@ mod tests {
         assert_eq!(image.pixel(60, 50), GREY);
     }
 
-    /// The pixels whose centres lie near the rim are dark, those a pixel away are not; also where the arc is the border of a view 1e-12 wide.
+    /// The pixels whose centres lie near the rim are dark, those a pixel away are not; also where
+    /// the arc is the border of a view 1e-12 wide.
     #[test]
     fn rims_of_holes_are_in_place() {
         let circle = Hole::Circle { center: vec2(0.5, 0.25), radius: 0.625 };

@@ -12,8 +12,8 @@ const RING: Rgba = [225, 95, 20, 255];
 const SEAM: Rgba = [255, 255, 255, 170];
 const WIDTH: f64 = 1.2;
 
-/// The borders of the rings of each tip: full lines around the disc that the integral covers, dashed ones
-/// inside of which the cut-off function is one.
+/// The borders of the rings of each tip: full lines around the disc that the integral covers,
+/// dashed ones inside of which the cut-off function is one.
 #[must_use]
 pub fn rings(view: &View, scale: f64, cracks: &[Crack], intensities: &[TipIntensity]) -> Vec<Item> {
     let (mut outer, mut inner) = (Path::default(), Path::default());

@@ -42,9 +42,9 @@ const HEAD: f64 = 8.0;
 /// Arrows shorter than this are left out.
 const SHORTEST: f64 = 2.0;
 
-/// Supports as triangles whose tips touch the border. One on a hatched line holds both components; one that
-/// stands on rollers holds the component along its own axis alone, and lies across the border where that is
-/// its tangent.
+/// Supports as triangles whose tips touch the border. One on a hatched line holds both components;
+/// one that stands on rollers holds the component along its own axis alone, and lies across the
+/// border where that is its tangent.
 #[must_use]
 pub fn supports(view: &View, scale: f64, supports: &[Support]) -> Vec<Item> {
     let (mut bodies, mut lines) = (Path::default(), Path::default());
@@ -70,8 +70,8 @@ pub fn supports(view: &View, scale: f64, supports: &[Support]) -> Vec<Item> {
     vec![Item::Fill { outline: bodies, color: SUPPORT }, Item::Line { path: lines, pen }]
 }
 
-/// Loads as arrows, the longest of one length whatever its traction: those that pull begin at the border, those
-/// that press end there.
+/// Loads as arrows, the longest of one length whatever its traction: those that pull begin at the
+/// border, those that press end there.
 #[must_use]
 pub fn loads(view: &View, scale: f64, loads: &[Load]) -> Vec<Item> {
     let side = f64::from(view.pixels[0].min(view.pixels[1]));

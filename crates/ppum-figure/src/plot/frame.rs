@@ -74,8 +74,8 @@ impl Frame {
         self.norms.iter().zip(point).all(|(norm, v)| has_place(norm.scale(), v))
     }
 
-    /// The position of a point on the curves' page; far outside of it, but not too far to be drawn, where the
-    /// point is.
+    /// The position of a point on the curves' page; far outside of it, but not too far to be drawn,
+    /// where the point is.
     pub(super) fn position(&self, point: [f64; 2]) -> Vec2 {
         let [columns, rows] = self.pixels().map(f64::from);
         let [x, y] = [0, 1].map(|k| self.norms[k].position(point[k]).clamp(-100.0, 100.0));
@@ -169,7 +169,8 @@ fn named(names: &[String], norm: &Normalization) -> Ticks {
     Ticks { major: names.iter().enumerate().map(tick).collect(), ..Ticks::default() }
 }
 
-/// Ticks at values, a label at every one or, where there is no room for so many, at every second, third, …
+/// Ticks at values, a label at every one or, where there is no room for so many, at every second,
+/// third, …
 fn marked(values: &[f64], norm: &Normalization, most: usize) -> Ticks {
     let intervals = values.len() - 1;
     let step =

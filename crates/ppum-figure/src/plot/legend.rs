@@ -53,7 +53,8 @@ pub(super) fn legend(
     items
 }
 
-/// The entry with a label that leaves room for the plot: what tells quantities apart is often their end.
+/// The entry with a label that leaves room for the plot: what tells quantities apart is often
+/// their end.
 fn short(entry: &Entry, columns: u32, scale: f64) -> Entry {
     let room = LONGEST * f64::from(columns);
     Entry { label: text::squeezed(&entry.label, TEXT * scale, room), ..entry.clone() }
@@ -86,8 +87,8 @@ fn line(entry: &Entry, start: Vec2, mark: f64, scale: f64) -> [Item; 2] {
     [symbol, Item::Text(Lettering { at, ..letter(entry, scale) })]
 }
 
-/// The upper left corner of a box of some size: in one of the page's corners or in the middle of a side, where it
-/// covers the fewest points of the curves; of several the first.
+/// The upper left corner of a box of some size: in one of the page's corners or in the middle of a
+/// side, where it covers the fewest points of the curves; of several the first.
 fn place(pixels: [u32; 2], size: Vec2, curves: &[Vec<Vec2>], scale: f64) -> Vec2 {
     let near = vec2(MARGIN, MARGIN) * scale;
     let far = (vec2(f64::from(pixels[0]), f64::from(pixels[1])) - near - size).max(Vec2::ZERO);
@@ -123,7 +124,8 @@ fn dots(curve: &[Vec2], step: f64) -> impl Iterator<Item = Vec2> + '_ {
 mod tests {
     use super::*;
 
-    /// A curve through all corners but one leaves that to the legend; without curves it is the upper right one.
+    /// A curve through all corners but one leaves that to the legend; without curves it is the
+    /// upper right one.
     #[test]
     fn the_free_corner_is_taken() {
         let pen = Pen::new(INK, 1.0);

@@ -1,8 +1,8 @@
 //! Plots: curves over axes.
 //!
-//! A [`Plot`] has an axis for each direction, linear or logarithmic, and [`Curve`]s in colours that people with
-//! any colour vision tell apart, with dashes where there are more of them. Curves break where a value is missing or
-//! has no place on its axis, and are cut off at the frame.
+//! A [`Plot`] has an axis for each direction, linear or logarithmic, and [`Curve`]s in colours that
+//! people with any colour vision tell apart, with dashes where there are more of them. Curves break
+//! where a value is missing or has no place on its axis, and are cut off at the frame.
 
 mod frame;
 mod legend;
@@ -108,8 +108,9 @@ impl Curve {
     }
 }
 
-/// Exponent p of the power law y = c x^p nearest to points in the logarithms of both (least squares). None with
-/// fewer than two different x among the points whose coordinates are both positive.
+/// Exponent p of the power law y = c x^p nearest to points in the logarithms of both (least
+/// squares). None with fewer than two different x among the points whose coordinates are
+/// both positive.
 #[must_use]
 pub fn slope(points: &[[f64; 2]]) -> Option<f64> {
     let positive = points.iter().filter(|p| p.iter().all(|v| *v > 0.0 && v.is_finite()));
@@ -398,7 +399,8 @@ mod tests {
         assert_eq!(drawn.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
     }
 
-    /// On a logarithmic axis values that are not positive are gaps, and nothing is drawn below the frame for them.
+    /// On a logarithmic axis values that are not positive are gaps, and nothing is drawn below the
+    /// frame for them.
     #[test]
     fn logarithmic_axes_leave_out_what_has_no_place() {
         let points: Vec<_> = (0..400).map(|k| [f64::from(k), (0.1 * f64::from(k)).sin()]).collect();

@@ -5,8 +5,8 @@ use ppum::vec2::Vec2;
 /// Columns of a pixel that points are told apart in: pages of lines may be enlarged.
 const PER_PIXEL: f64 = 4.0;
 
-/// The points of a line, of each run of them within one column those alone that come first and last and lie highest
-/// and lowest: what is drawn of them is the same, peaks included.
+/// The points of a line, of each run of them within one column those alone that come first and last
+/// and lie highest and lowest: what is drawn of them is the same, peaks included.
 pub(super) fn thinned(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut kept = Vec::new();
     let mut run: Option<Run> = None;
@@ -66,7 +66,8 @@ mod tests {
     use super::*;
     use ppum::vec2::vec2;
 
-    /// Few points stay as they are; of many each column keeps its least and greatest height, and its ends.
+    /// Few points stay as they are; of many each column keeps its least and greatest height, and
+    /// its ends.
     #[test]
     fn peaks_stay() {
         let few: Vec<_> = (0..50).map(|k| vec2(f64::from(k), f64::from(k * k % 17))).collect();

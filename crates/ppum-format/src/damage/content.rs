@@ -6,7 +6,8 @@ use crate::{checksum, hdf5};
 
 type Below<'a> = &'a mut dyn FnMut(usize) -> usize;
 
-/// A copy with one to three arrays changed; none if the file cannot be read, or the result not written.
+/// A copy with one to three arrays changed; none if the file cannot be read, or the result
+/// not written.
 pub(super) fn damaged(file: &[u8], below: Below) -> Option<Damaged> {
     let mut content = hdf5::from_bytes(file).ok()?;
     if content.is_empty() || content.values().any(|array| matches!(array.values, Values::Other(_)))

@@ -18,8 +18,8 @@ pub(super) fn forged(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
     seal(bytes, part);
 }
 
-/// Signatures of the parts that end in a checksum: headers of objects and the rest of them, heaps, trees,
-/// arrays of chunks.
+/// Signatures of the parts that end in a checksum: headers of objects and the rest of them, heaps,
+/// trees, arrays of chunks.
 const SIGNATURES: [&[u8; 4]; 13] = [
     b"OHDR", b"OCHK", b"FRHP", b"FHIB", b"BTHD", b"BTIN", b"BTLF", b"FAHD", b"FADB", b"EAHD",
     b"EAIB", b"EASB", b"EADB",

@@ -97,7 +97,8 @@ fn parameters(group: &Group, functions: usize) -> Vec<Vec<(String, f64)>> {
     group.parts("parameter_offsets", functions, ("parameter_name", &pairs))
 }
 
-/// A list that belongs to each function, which may be missing from the file together with its offsets.
+/// A list that belongs to each function, which may be missing from the file together with
+/// its offsets.
 fn lists<T: Clone>(
     group: &Group,
     [name, offsets]: [&str; 2],
@@ -152,8 +153,9 @@ fn declared(group: &Group, functions: usize) -> Vec<Declared> {
 }
 
 impl Columns {
-    /// Takes the row of a function out of the columns. What its kind does not use must be left there as
-    /// nothing: a row that says more than its kind was damaged, or written for another kind.
+    /// Takes the row of a function out of the columns. What its kind does not use must be left
+    /// there as nothing: a row that says more than its kind was damaged, or written for
+    /// another kind.
     fn function_kind(&mut self, group: &Group, k: usize, word: &str) -> Option<FunctionKind> {
         let function = match group.word(KINDS, word, "kind")? {
             Kind::One => FunctionKind::One,
@@ -175,7 +177,8 @@ impl Columns {
         Some(function)
     }
 
-    /// A column that still says something of a function, and what it says of functions that do not use it.
+    /// A column that still says something of a function, and what it says of functions that do not
+    /// use it.
     fn left_over(&self, k: usize) -> Option<(&'static str, &'static str)> {
         let Declared { kinks, singular } = &self.declared[k];
         [

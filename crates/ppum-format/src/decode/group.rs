@@ -1,7 +1,8 @@
 //! A place in the content: arrays are taken out of it by name, type and shape.
 //!
-//! An object that is not what it should be goes into the list of errors, and something of the right type and shape takes
-//! its place, so that reading goes on and finds all errors. Nobody sees what was read if there are any.
+//! An object that is not what it should be goes into the list of errors, and something of the right
+//! type and shape takes its place, so that reading goes on and finds all errors. Nobody sees what
+//! was read if there are any.
 
 use std::cell::RefCell;
 use std::ops::Range;
@@ -32,7 +33,8 @@ pub(super) fn read<T>(
     if errors.is_empty() { Ok(found) } else { Err(errors) }
 }
 
-/// Returns what `read` makes of a content, and all errors; where there are any, the first is not to be used.
+/// Returns what `read` makes of a content, and all errors; where there are any, the first is not to
+/// be used.
 pub(super) fn attempt<T>(content: &Content, read: impl FnOnce(&Group) -> T) -> (T, Vec<ReadError>) {
     let errors = RefCell::default();
     let found = read(&Group { path: String::new(), content, errors: &errors });
@@ -91,7 +93,8 @@ impl<'a> Group<'a> {
         self.report(ReadError::object(&self.path_of(name), mistake));
     }
 
-    /// Adds an error, but not a second one about the same object: that often follows from the first.
+    /// Adds an error, but not a second one about the same object: that often follows from
+    /// the first.
     fn report(&self, error: ReadError) {
         let mut errors = self.errors.borrow_mut();
         let is_known = errors.iter().any(|known| known.place() == error.place());
@@ -240,8 +243,8 @@ impl<'a> Group<'a> {
         (0..rows).map(|k| values[k * columns..(k + 1) * columns].to_vec()).collect()
     }
 
-    /// Compressed rows of `count` parts over the entries of a list, as those of each part. Where the offsets are wrong
-    /// or there is no list, all parts are empty.
+    /// Compressed rows of `count` parts over the entries of a list, as those of each part. Where
+    /// the offsets are wrong or there is no list, all parts are empty.
     pub(super) fn parts<T: Clone>(
         &self,
         name: &str,

@@ -311,7 +311,8 @@ fn plain_files_differ_from_version_1_0_in_the_version_alone() {
     assert_eq!(old, new);
 }
 
-/// What is not known of a tip is NaN beside what is known of others, and not there where nothing is.
+/// What is not known of a tip is NaN beside what is known of others, and not there where
+/// nothing is.
 #[test]
 fn terms_of_tips_that_are_not_known() {
     let known = |content: Content| {

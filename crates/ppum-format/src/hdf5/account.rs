@@ -1,4 +1,5 @@
-//! The cost of reading a file: bytes read of it, bytes that they expand to, and memory for what is in it.
+//! The cost of reading a file: bytes read of it, bytes that they expand to, and memory for what is
+//! in it.
 
 use std::cell::Cell;
 
@@ -16,23 +17,24 @@ const TEXT_BYTES: u64 = 64;
 /// Memory of a named array beside its values: name, shape, place in the map.
 const ARRAY_BYTES: u64 = 256;
 
-/// Times the length of the file that may be read of it, and that filters may expand it to. Headers are
-/// read up to four times.
+/// Times the length of the file that may be read of it, and that filters may expand it to. Headers
+/// are read up to four times.
 const READINGS: u64 = 16;
 
 /// Bytes that may be read of any file.
 const FREE_READINGS: u64 = 1 << 24;
 
-/// Times the length of the file that its structures may take in memory where it is read in parts, beside
+/// Times the length of the file that its structures may take in memory where it is read in
+/// parts, beside
 /// [`FREE_READINGS`]: they are read once, but for those on the border of two pages.
 const LOADINGS: u64 = 2;
 
 /// A reading costs as much as this many bytes at least.
 const READING: u64 = 16;
 
-/// Bytes that the filters of any file may expand to: most of a chunk that is larger than its array is
-/// thrown away at once, so it takes time (about a second for 4 GiB of what shrinks a thousandfold) and no
-/// memory.
+/// Bytes that the filters of any file may expand to: most of a chunk that is larger than its array
+/// is thrown away at once, so it takes time (about a second for 4 GiB of what shrinks a
+/// thousandfold) and no memory.
 const FREE_EXPANDED: u64 = 1 << 32;
 
 /// Smallest number of bytes an object of a file takes, with its link.
@@ -41,7 +43,8 @@ const OBJECT_BYTES: u64 = 64;
 /// Objects that any file may have: the smallest datasets are mostly objects.
 const FREE_OBJECTS: u64 = 256;
 
-/// Arrays that take less than this together are always within the account: none has to be stored plain.
+/// Arrays that take less than this together are always within the account: none has to be
+/// stored plain.
 pub(super) const PLAIN_BYTES: u64 = FREE_BYTES / 2;
 
 /// The budget that is left of a file of some length.
@@ -66,7 +69,8 @@ impl Account {
         }
     }
 
-    /// Memory for what is loaded and stays; false if there is not enough, or the size is beyond all numbers.
+    /// Memory for what is loaded and stays; false if there is not enough, or the size is beyond
+    /// all numbers.
     #[must_use]
     pub(super) fn pay_memory(&self, bytes: Option<u64>) -> bool {
         bytes.is_some_and(|bytes| pay(&self.memory, bytes))

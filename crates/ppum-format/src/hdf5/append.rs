@@ -1,11 +1,13 @@
 //! A step → the bytes that are appended to a file, and those that publish it.
 //!
-//! Nothing of the file moves or changes but its superblock. Behind the end come the objects of the step, then a
-//! new header of the group `steps`, with one link more, and a new header of the root, which leads to that one. The
-//! superblock then names the new root and the new end. What was known by the old one is still there, unchanged.
+//! Nothing of the file moves or changes but its superblock. Behind the end come the objects of the
+//! step, then a new header of the group `steps`, with one link more, and a new header of the root,
+//! which leads to that one. The superblock then names the new root and the new end. What was known
+//! by the old one is still there, unchanged.
 //!
-//! So that the length of a file stays linear in its steps the header of `steps` itself holds few links: as soon as
-//! there are [`LINKS`] of them they move to a block of their own, which continues in the block before.
+//! So that the length of a file stays linear in its steps the header of `steps` itself holds few
+//! links: as soon as there are [`LINKS`] of them they move to a block of their own, which continues
+//! in the block before.
 
 use super::account::memory_of;
 use super::lookup3::lookup3;
@@ -18,7 +20,8 @@ use crate::error::WriteError;
 /// The group that grows.
 const STEPS: &str = "steps";
 
-/// Links in the header of `steps`: some 1.4 kB, little beside the headers of a step, which take 8 kB.
+/// Links in the header of `steps`: some 1.4 kB, little beside the headers of a step, which take 8
+/// kB.
 const LINKS: usize = 64;
 
 /// Bytes of a superblock of version 2 or 3, with numbers of eight bytes.
@@ -32,8 +35,8 @@ const ROOT: usize = 36;
 /// The first bytes of a superblock, with the widths of numbers but without flags.
 const START: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
 
-/// Times the length of what is appended that its arrays may take in memory, compressed: a reader takes four
-/// times the length of a file, whatever the number of its steps.
+/// Times the length of what is appended that its arrays may take in memory, compressed: a reader
+/// takes four times the length of a file, whatever the number of its steps.
 const EXPANSION: u64 = 3;
 
 /// The part of a file that appending changes.
@@ -57,7 +60,8 @@ pub(crate) struct Step {
 }
 
 impl Trunk {
-    /// Reads the trunk of a file that this program began; none of what another program may have made of it.
+    /// Reads the trunk of a file that this program began; none of what another program may have
+    /// made of it.
     pub(crate) fn read(file: &dyn Ranges) -> Option<Self> {
         let mut superblock = [0; SUPERBLOCK];
         fill(file, 0, &mut superblock)?;
@@ -118,7 +122,8 @@ impl Trunk {
         Ok((Step { end, bytes: addition.into_bytes(), start }, self))
     }
 
-    /// Moves the links of `steps` to a block, which continues where the header has continued until now.
+    /// Moves the links of `steps` to a block, which continues where the header has continued until
+    /// now.
     fn move_links(&mut self, addition: &mut Addition) -> Result<(), WriteError> {
         let mut moved = std::mem::take(&mut self.links);
         moved.extend(self.steps.extract_if(.., |message| message.kind == CONTINUATION));
@@ -134,7 +139,8 @@ fn word(bytes: &[u8], at: usize) -> u64 {
     bytes[at..].first_chunk().map_or(0, |bytes| u64::from_le_bytes(*bytes))
 }
 
-/// The messages of a header as this program writes it, without those of the blocks that it continues in.
+/// The messages of a header as this program writes it, without those of the blocks that it
+/// continues in.
 fn messages(file: &dyn Ranges, address: u64) -> Option<Vec<Message>> {
     let mut start = [0; HEADER_START];
     fill(file, address, &mut start)?;
@@ -152,8 +158,8 @@ fn messages(file: &dyn Ranges, address: u64) -> Option<Vec<Message>> {
     parsed(&unsealed(&bytes)?[6 + width..])
 }
 
-/// The messages of a header with those of the blocks that it continues in: who adds something of his own to the root
-/// may have moved some there.
+/// The messages of a header with those of the blocks that it continues in: who adds something of
+/// his own to the root may have moved some there.
 fn gathered(file: &dyn Ranges, mut messages: Vec<Message>) -> Option<Vec<Message>> {
     // more blocks would be a header that goes round in a circle
     for _ in 0..MOST_BLOCKS {
@@ -171,7 +177,8 @@ fn gathered(file: &dyn Ranges, mut messages: Vec<Message>) -> Option<Vec<Message
     None
 }
 
-/// Most blocks that a root continues in: one for each time that something was added to it by somebody else.
+/// Most blocks that a root continues in: one for each time that something was added to it by
+/// somebody else.
 const MOST_BLOCKS: usize = 100;
 
 /// A part without its checksum, if that is right.
@@ -186,7 +193,8 @@ const NOTHING: u8 = 0;
 /// Bytes of a header up to its longest length.
 const HEADER_START: usize = 10;
 
-/// Longest header that is read: title and name of the program are the longest messages of those at hand.
+/// Longest header that is read: title and name of the program are the longest messages of those
+/// at hand.
 const LONGEST_HEADER: usize = 1 << 20;
 
 fn parsed(mut bytes: &[u8]) -> Option<Vec<Message>> {

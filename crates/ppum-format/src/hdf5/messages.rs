@@ -7,7 +7,8 @@ use crate::error::WriteError;
 pub(super) const LINK: u8 = 0x06;
 pub(super) const CONTINUATION: u8 = 0x10;
 
-/// The message that says how links are kept, and its body if they are in the header: version, flags, no heap and no index.
+/// The message that says how links are kept, and its body if they are in the header: version,
+/// flags, no heap and no index.
 pub(super) const LINK_INFO: u8 = 0x02;
 pub(super) const NO_HEAP: [u8; 18] =
     [0, 0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0];
@@ -34,8 +35,8 @@ impl Message {
         Self::new(LINK, body)
     }
 
-    /// The address that it leads to, if it is a hard link of this name as [`Message::link`] makes it, or with the
-    /// character set of the name.
+    /// The address that it leads to, if it is a hard link of this name as [`Message::link`] makes
+    /// it, or with the character set of the name.
     pub(super) fn link_to(&self, name: &str) -> Option<u64> {
         let rest = match self.body.as_slice() {
             [1, 0, rest @ ..] | [1, 0x10, _, rest @ ..] if self.kind == LINK => rest,

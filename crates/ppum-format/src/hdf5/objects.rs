@@ -1,5 +1,5 @@
-//! Groups, attributes and arrays as HDF5 stores them, for what is appended to a file: headers of version 2, links and
-//! attributes in them.
+//! Groups, attributes and arrays as HDF5 stores them, for what is appended to a file: headers of
+//! version 2, links and attributes in them.
 
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! Values of arrays as HDF5 stores them, for what is appended to a file.
 //!
-//! Arrays are contiguous; long ones of numbers are one chunk, or some with an index of fixed length, shuffled and
-//! deflated.
+//! Arrays are contiguous; long ones of numbers are one chunk, or some with an index of fixed
+//! length, shuffled and deflated.
 
 use std::io::Write as _;
 
@@ -20,8 +20,8 @@ const FILTERS: u8 = 0x0b;
 /// The address that leads nowhere.
 const NOWHERE: u64 = u64::MAX;
 
-/// Arrays of so many bytes and more stand before all headers, so that these and small arrays are near each other:
-/// who reads nothing but stress intensity factors reads a page or two.
+/// Arrays of so many bytes and more stand before all headers, so that these and small arrays are
+/// near each other: who reads nothing but stress intensity factors reads a page or two.
 const LARGE: usize = 1 << 12;
 
 /// Bytes of the texts of an array, all of the same length.
@@ -48,7 +48,8 @@ pub(super) fn datatype(name: &str, array: &Array) -> Result<Vec<u8>, WriteError>
     Ok(match &array.values {
         Values::U8(_) | Values::U32(_) | Values::U64(_) => whole(0),
         Values::I64(_) => whole(8),
-        // little-endian, its sign the last bit; bits, place and length of exponent and mantissa, bias
+        // little-endian, its sign the last bit; bits, place and length of exponent and
+        // mantissa, bias
         Values::F64(_) => [
             [0x11, 0x20, 0x3f, 0].as_slice(),
             &number(size),
@@ -151,7 +152,8 @@ fn chunked(addition: &mut Addition, name: &str, array: &Array) -> Result<Vec<Mes
         &[(address, length)] => single(address, length),
         many => fixed(addition, many, chunk_bytes),
     };
-    // version, class; the only chunk is filtered; directions with that of bytes, as short as HDF5 wants them
+    // version, class; the only chunk is filtered; directions with that of bytes, as short as HDF5
+    // wants them
     let extents: Vec<u64> = shape.iter().copied().chain([size as u64]).collect();
     let width = extents.iter().map(|n| (n.ilog2() as usize + 8) / 8).max().unwrap_or(1);
     let flags = if stored.len() == 1 { 2 } else { 0 };
@@ -206,7 +208,8 @@ fn single(address: u64, length: u64) -> Vec<u8> {
     [[1].as_slice(), &length.to_le_bytes(), &[0; 4], &address.to_le_bytes()].concat()
 }
 
-/// Logarithm of the entries of a page, from which on an index comes in pages: HDF5's own, unless there are more.
+/// Logarithm of the entries of a page, from which on an index comes in pages: HDF5's own, unless
+/// there are more.
 const PAGE_BITS: u8 = 10;
 
 /// An index of fixed length.
@@ -239,7 +242,8 @@ mod tests {
     use super::*;
     use ppum_testkit::random::Random;
 
-    /// Borders of cells and indices shrink, numbers without a pattern do not, wherever in an array they are.
+    /// Borders of cells and indices shrink, numbers without a pattern do not, wherever in an array
+    /// they are.
     #[test]
     fn what_shrinks() {
         let mut random = Random(4);

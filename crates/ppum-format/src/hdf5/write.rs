@@ -9,9 +9,9 @@ use super::values::shrinks;
 use crate::content::{Array, Content, Values, join};
 use crate::error::WriteError;
 
-/// Arrays from this length on are stored in chunks, shuffled and deflated, if they shrink to less than half. Geometry and
-/// indices shrink to a few percent; coefficients would to some 80 %, and then take longer to inflate than all else does
-/// to read (docs/decisions/0028-opening-files.md).
+/// Arrays from this length on are stored in chunks, shuffled and deflated, if they shrink to less
+/// than half. Geometry and indices shrink to a few percent; coefficients would to some 80 %, and
+/// then take longer to inflate than all else does to read (docs/decisions/0028-opening-files.md).
 const COMPRESSED_ELEMENTS: u64 = 1 << 12;
 
 /// Elements of a chunk: 1 MiB of doubles, which h5py's default cache just holds.
@@ -20,7 +20,8 @@ const CHUNK_ELEMENTS: u64 = 1 << 17;
 /// Higher levels take longer and gain nothing on these data.
 pub(super) const DEFLATE_LEVEL: u32 = 4;
 
-/// The bytes of a file, compressed as long as they can be read again: a reader bounds what a file expands to.
+/// The bytes of a file, compressed as long as they can be read again: a reader bounds what a file
+/// expands to.
 pub(crate) fn to_bytes(content: &Content) -> Result<Vec<u8>, WriteError> {
     let memory: u64 = content.values().map(memory_of).sum();
     let compressed = to_compressed_bytes(content)?;
@@ -45,7 +46,8 @@ fn stored(content: &Content, compressed: bool) -> Result<Vec<u8>, WriteError> {
     file.finish().map_err(|e| WriteError::Hdf5 { message: e.to_string() })
 }
 
-/// Full name, name inside the group at hand, array. The names of groups, which have none, end in a slash.
+/// Full name, name inside the group at hand, array. The names of groups, which have none, end in
+/// a slash.
 type Entry<'a> = (&'a str, &'a str, Option<&'a Array>);
 
 /// The root and other groups, which the library builds by different types.
@@ -108,7 +110,8 @@ pub(crate) fn check_texts(content: &Content) -> Result<(), WriteError> {
     })
 }
 
-/// Strings are padded with NUL in the file, and where a reader finds U+FFFD something was not UTF-8.
+/// Strings are padded with NUL in the file, and where a reader finds U+FFFD something was
+/// not UTF-8.
 pub(super) fn check_text<'a>(name: &str, texts: &'a [String]) -> Result<Vec<&'a str>, WriteError> {
     if texts.iter().any(|t| t.contains(['\0', char::REPLACEMENT_CHARACTER])) {
         return Err(WriteError::object(
@@ -165,7 +168,8 @@ pub(super) fn chunk(shape: &[u64]) -> Vec<u64> {
     chunk
 }
 
-/// Attributes of the format are scalars of text or f64, or short vectors; damaged files have others.
+/// Attributes of the format are scalars of text or f64, or short vectors; damaged files
+/// have others.
 fn attribute_value(name: &str, array: &Array) -> Result<AttrValue, WriteError> {
     match (&array.values, array.shape.len()) {
         (Values::Text(v), 0) => {

@@ -62,7 +62,8 @@ fn straight() -> Vec<Crack> {
 const LAST: Frame = Frame::Tip(TipId { crack: 0, end: End::Last });
 const START: Frame = Frame::Tip(TipId { crack: 0, end: End::Start });
 
-/// At the origin of a frame theta is 0, whichever side is asked for and whatever signs the zeros have.
+/// At the origin of a frame theta is 0, whichever side is asked for and whatever signs the
+/// zeros have.
 #[test]
 fn the_angle_at_the_origin_is_zero() {
     let turned = |angle| Frame::Fixed { origin: vec2(0.5, 0.25), angle };
@@ -101,8 +102,8 @@ fn zeros_have_no_sign_in_frames() {
     }
 }
 
-/// A quantity that names a derivative is +∞ where one of the field is infinite or does not exist: at a tip
-/// with functions of its own, and where other functions have no gradient.
+/// A quantity that names a derivative is +∞ where one of the field is infinite or does not exist:
+/// at a tip with functions of its own, and where other functions have no gradient.
 #[test]
 fn quantities_where_there_is_no_gradient() {
     let inf = f64::INFINITY;
@@ -162,7 +163,8 @@ fn points_on_a_crack_up_to_rounding() {
     }
 }
 
-/// If the argument of a decision is nearer to the place of the decision than its rounding, both are right.
+/// If the argument of a decision is nearer to the place of the decision than its rounding, both
+/// are right.
 #[test]
 fn decisions_within_rounding() {
     let text = "if(1 + x > 1, 1, 2)";

@@ -76,8 +76,9 @@ fn files_of_version_1_0_are_read() {
     assert!(same(&again, &old));
 }
 
-/// A file of version 1.1 as the program of that time solved it: u = x + 2y with the conductivity 2 + x
-/// from a table, a weight, a function and quantities by formulas. The solver is right to 1e-11.
+/// A file of version 1.1 as the program of that time solved it: u = x + 2y with the conductivity
+/// 2 + x from a table, a weight, a function and quantities by formulas. The solver is right
+/// to 1e-11.
 #[test]
 fn files_of_version_1_1_are_read() {
     let old = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).unwrap();
@@ -108,8 +109,9 @@ fn files_of_version_1_1_are_read() {
     assert!(same(&again, &old));
 }
 
-/// A file of version 1.3 as the program of that time wrote it: a crack along y = 0 and one from there up along x = 0; every patch has
-/// the functions one, two components and the side of the first crack, with the factors 2, 3, 5, 7.
+/// A file of version 1.3 as the program of that time wrote it: a crack along y = 0 and one from
+/// there up along x = 0; every patch has the functions one, two components and the side of the
+/// first crack, with the factors 2, 3, 5, 7.
 #[test]
 fn files_of_version_1_3_are_read() {
     let old = from_bytes(include_bytes!("../data/version-1.3.h5").to_vec()).unwrap();
@@ -139,7 +141,8 @@ fn files_of_version_1_3_are_read() {
     assert!(same(&again, &old));
 }
 
-/// The same dataset as the file of version 1.0, written by h5py: other layouts, texts of variable length.
+/// The same dataset as the file of version 1.0, written by h5py: other layouts, texts of
+/// variable length.
 #[test]
 fn files_of_h5py_are_read() {
     let own = from_bytes(include_bytes!("../data/version-1.0.h5").to_vec()).unwrap();
@@ -150,8 +153,8 @@ fn files_of_h5py_are_read() {
     }
 }
 
-/// The same dataset as the file of version 1.1, in all the ways in which HDF5 stores arrays, links and
-/// attributes (`tests/python/h5py_files.py`); the checksum covers what some files hold besides.
+/// The same dataset as the file of version 1.1, in all the ways in which HDF5 stores arrays, links
+/// and attributes (`tests/python/h5py_files.py`); the checksum covers what some files hold besides.
 #[test]
 fn files_of_all_layouts_are_read() {
     let own = from_bytes(include_bytes!("../data/version-1.1.h5").to_vec()).unwrap();
@@ -173,7 +176,8 @@ fn files_of_h5py() -> Vec<(String, Vec<u8>)> {
     paths.iter().map(|path| (path.display().to_string(), content(path))).collect()
 }
 
-/// Arrays that compress far better than fields do are stored plain: a reader bounds what a file expands to.
+/// Arrays that compress far better than fields do are stored plain: a reader bounds what a file
+/// expands to.
 #[test]
 fn what_is_written_can_be_read() {
     let mut data = dataset(4);
@@ -353,8 +357,8 @@ fn forge_metadata(count: usize, seed: u64) {
     }
 }
 
-/// The same for all that other programs write: heaps, trees and arrays that lead anywhere. Refused or without
-/// effect, and at once.
+/// The same for all that other programs write: heaps, trees and arrays that lead anywhere. Refused
+/// or without effect, and at once.
 #[test]
 fn forged_files_of_other_programs_are_errors() {
     forge_files_of_other_programs(60, 8);
@@ -388,8 +392,8 @@ fn forge_files_of_other_programs(count: usize, seed: u64) {
                 seal(&mut forged, &part);
             }
             if let Ok(read) = run_within_limit(&format!("{name} at {at}"), || from_bytes(forged)) {
-                // bytes of the values of arrays are looked at by the checksum of the content, which such a
-                // change can hide
+                // bytes of the values of arrays are looked at by the checksum of the content, which
+                // such a change can hide
                 assert!(own.is(&read) || !parts.is_empty(), "{name} at {at}");
             }
         }
@@ -397,7 +401,8 @@ fn forge_files_of_other_programs(count: usize, seed: u64) {
     assert!(kinds.len() >= 12, "{} kinds of parts", kinds.len());
 }
 
-/// Runs work on a single thread, and checks that it takes no more than some seconds of processor time.
+/// Runs work on a single thread, and checks that it takes no more than some seconds of
+/// processor time.
 fn run_within_limit<T: Send>(what: &str, work: impl FnOnce() -> T + Send) -> T {
     static POOL: LazyLock<rayon::ThreadPool> =
         LazyLock::new(|| rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool"));
@@ -437,8 +442,8 @@ fn damage_files_of_other_programs(count: usize, seed: u64) {
     assert!(refused > 4 * count, "{refused} were refused");
 }
 
-/// Without the checksum of the content the checks of the data stand alone: an error or a dataset that
-/// can be evaluated, and never a panic.
+/// Without the checksum of the content the checks of the data stand alone: an error or a dataset
+/// that can be evaluated, and never a panic.
 #[test]
 fn damage_that_no_checksum_finds() {
     damage_without_checksum(240, 6);

@@ -54,8 +54,8 @@ fn grow(path: &Path, dataset: &Dataset) {
     }
 }
 
-/// What has grown step by step, with and without breaks, is what is written at once: steps with all kinds of results, and
-/// more of them than two headers have room for.
+/// What has grown step by step, with and without breaks, is what is written at once: steps with all
+/// kinds of results, and more of them than two headers have room for.
 #[test]
 fn all_ways_lead_to_the_same_bytes() {
     [series(4), fixture(150)].iter().for_each(written_in_all_ways);
@@ -134,7 +134,8 @@ fn unfinished_steps_are_not_seen() {
 /// Where a run of its own finds the file that it is to write, and what it is to do.
 const FILE: &str = "PPUM_TEST_SERIES";
 
-/// Not a test but the run that others kill: appends steps until it cannot. Without a file it has nothing to do.
+/// Not a test but the run that others kill: appends steps until it cannot. Without a file it has
+/// nothing to do.
 #[test]
 fn a_run() {
     let Some(path) = std::env::var_os(FILE).map(PathBuf::from) else { return };
@@ -165,8 +166,8 @@ fn length(path: &Path) -> u64 {
     fs::metadata(path).map_or(0, |data| data.len())
 }
 
-/// A run is killed fifty times or more. The file always opens with at least the steps that were there, and in the end it has
-/// the bytes of a run that was never interrupted.
+/// A run is killed fifty times or more. The file always opens with at least the steps that were
+/// there, and in the end it has the bytes of a run that was never interrupted.
 #[cfg(unix)]
 #[test]
 fn killed_at_random_moments() {
@@ -321,7 +322,8 @@ fn damage_to_one_step() {
     }
 }
 
-/// Each step takes the same room, whatever is there already: a header of `steps` of 64 links at most.
+/// Each step takes the same room, whatever is there already: a header of `steps` of 64 links at
+/// most.
 #[test]
 fn files_are_linear_in_their_steps() {
     let length = |steps| to_bytes(&repeated(steps::beginning(), steps)).unwrap().len() as f64;
@@ -345,8 +347,9 @@ fn files_of_version_1_4_are_read() {
     }
 }
 
-/// Whatever happens to a file, a step that can be read is the one that was there, unless its checksum is gone or was
-/// made right; and reading it alone is no other thing than reading it with all.
+/// Whatever happens to a file, a step that can be read is the one that was there, unless its
+/// checksum is gone or was made right; and reading it alone is no other thing than reading it
+/// with all.
 #[test]
 fn damaged_series_are_errors_or_what_they_hold() {
     damage_series(240, 11);

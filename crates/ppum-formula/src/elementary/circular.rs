@@ -1,4 +1,5 @@
-//! Sine, cosine and tangent: x = n π/2 + r with a whole number n and |r| ≤ π/4, and polynomials of r.
+//! Sine, cosine and tangent: x = n π/2 + r with a whole number n and |r| ≤ π/4, and polynomials
+//! of r.
 
 use super::pair::{quotient, sum};
 use super::polynomial;

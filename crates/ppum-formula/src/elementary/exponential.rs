@@ -1,7 +1,7 @@
 //! e^x and the hyperbolic functions.
 //!
-//! x = k ln 2 + r with a whole number k and |r| ≤ ½ ln 2; of r the even and the odd part of the exponential
-//! function, cosh r − 1 and sinh r.
+//! x = k ln 2 + r with a whole number k and |r| ≤ ½ ln 2; of r the even and the odd part of the
+//! exponential function, cosh r − 1 and sinh r.
 
 use super::pair::{halves, quotient, sum};
 use super::{LN_2, polynomial, whole};

@@ -79,8 +79,8 @@ pub(super) fn atan2<R: Double>(y: R, x: R) -> R {
     R::select(x.ge(x), R::select(y.ge(y), angle, y), x)
 }
 
-/// The angle of (x, y) with x, y ≥ 0, or of (−x, y) if `side` is −1: with a ≤ b the lengths, it is π/4 − arctan((b − a)/(b + a))
-/// or arctan(a/b) from one of the axes.
+/// The angle of (x, y) with x, y ≥ 0, or of (−x, y) if `side` is −1: with a ≤ b the lengths, it is
+/// π/4 − arctan((b − a)/(b + a)) or arctan(a/b) from one of the axes.
 #[inline(always)]
 fn first_octants<R: Double>(y: R, x: R, side: R) -> R {
     let (zero, one, two) = (x.lit(0.0), x.lit(1.0), x.lit(2.0));
@@ -101,8 +101,8 @@ fn first_octants<R: Double>(y: R, x: R, side: R) -> R {
     turned(two - side * (two - k), s * side, [t, low])
 }
 
-/// √z and arcsin √z − √z for z ≤ ¼, where |x| ≤ ½ has z = x², and beyond 1 − |x| = 2z. The root is a sum, its first
-/// part short.
+/// √z and arcsin √z − √z for z ≤ ¼, where |x| ≤ ½ has z = x², and beyond 1 − |x| = 2z. The root is
+/// a sum, its first part short.
 struct Root<R: Double> {
     is_outer: R::Mask,
     high: R,

@@ -1,13 +1,13 @@
 //! Elementary functions on vectors, right to two units in the last place of double precision.
 //!
-//! One text for all vectors and for one number: sums, products, quotients and roots alone, each rounded as
-//! written, so that all instruction sets give the same bits and no library of the platform is asked.
-//! What is not for straight text, as arguments beyond 10⁵ of the circular functions or powers of zero, is found
-//! lane by lane, where a vector has such a lane.
+//! One text for all vectors and for one number: sums, products, quotients and roots alone, each
+//! rounded as written, so that all instruction sets give the same bits and no library of the
+//! platform is asked. What is not for straight text, as arguments beyond 10⁵ of the circular
+//! functions or powers of zero, is found lane by lane, where a vector has such a lane.
 //!
-//! Polynomials are best approximations in the relative sense (Remez) of what stands beside them. Constants that
-//! are needed to more than 53 bits are pairs; the first of a pair that multiplies whole numbers is short enough
-//! for the product to be exact (Cody and Waite 1980).
+//! Polynomials are best approximations in the relative sense (Remez) of what stands beside them.
+//! Constants that are needed to more than 53 bits are pairs; the first of a pair that multiplies
+//! whole numbers is short enough for the product to be exact (Cody and Waite 1980).
 
 mod circular;
 mod exponential;
@@ -76,8 +76,8 @@ functions! {
 /// ln 2, the first part with 32 bits.
 const LN_2: [f64; 2] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10];
 
-/// The polynomial with the given coefficients, constant first: even and odd powers apart, which halves the way
-/// through.
+/// The polynomial with the given coefficients, constant first: even and odd powers apart, which
+/// halves the way through.
 #[inline(always)]
 fn polynomial<R: Double, const N: usize>(x: R, c: [f64; N]) -> R {
     let square = x * x;

@@ -77,16 +77,16 @@ const TWO_OVER_PI: [u64; 20] = [
     0x5603_3046_fc7b_6bab,
 ];
 
-/// The remainder of a large number m 2^q: of the bits of 2/π those are taken whose products with m decide
-/// (Payne and Hanek 1983).
+/// The remainder of a large number m 2^q: of the bits of 2/π those are taken whose products with m
+/// decide (Payne and Hanek 1983).
 fn far(x: f64) -> Quadrant<f64> {
     if !x.is_finite() {
         return Quadrant { n: f64::NAN, high: f64::NAN, low: f64::NAN };
     }
     let bits = x.abs().to_bits();
     let m = bits & ((1 << 52) - 1) | 1 << 52;
-    // The first bit after the point that counts is bit q − 1: what stands before gives multiples of 4. The
-    // biased exponent is q + 1075, and the table begins 64 bits before the point.
+    // The first bit after the point that counts is bit q − 1: what stands before gives multiples
+    // of 4. The biased exponent is q + 1075, and the table begins 64 bits before the point.
     let turns = multiply(m, window((bits >> 52) as usize + 62 - 1075));
     let n = (turns[0] >> 62) + (turns[0] >> 61 & 1);
     let fraction = (u128::from(turns[0]) << 64 | u128::from(turns[1])) << 2;

@@ -15,7 +15,8 @@ const ROUGH: [f64; 5] = [
 /// 2^⅓
 const CUBE_ROOT_2: f64 = 1.259_921_049_894_873_2;
 
-/// The cube root: a short number y near it, whose cube c is exact, and y (1 + d)^⅓ with d = (x − c)/c.
+/// The cube root: a short number y near it, whose cube c is exact, and y (1 + d)^⅓ with d = (x −
+/// c)/c.
 #[inline(always)]
 pub(super) fn cbrt<R: Double>(x: R) -> R {
     let (zero, one, third) = (x.lit(0.0), x.lit(1.0), x.lit(1.0 / 3.0));

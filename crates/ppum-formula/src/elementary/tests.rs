@@ -12,7 +12,8 @@ type Results = Vec<(&'static str, Vec<f64>)>;
 /// A function of one or two numbers with what it is tested against.
 struct Case {
     name: &'static str,
-    /// Largest error allowed, units in the last place: above what some ten thousand points have shown.
+    /// Largest error allowed, units in the last place: above what some ten thousand points
+    /// have shown.
     bound: f64,
     /// Random and hard arguments.
     points: fn(&mut Random) -> [f64; 2],
@@ -258,7 +259,8 @@ fn cases() -> Vec<Case> {
     }
 }
 
-/// 2^k m to the nearest double of the given result, in its units in the last place: how far off it is.
+/// 2^k m to the nearest double of the given result, in its units in the last place: how far off
+/// it is.
 fn error(found: f64, (m, k): (Extended, i32)) -> f64 {
     let (_, exponent) = parts(m.to_f64().abs());
     let place = exponent + k - 53;
@@ -347,7 +349,8 @@ fn vectors_equal_single_numbers() {
     }
 }
 
-/// Zeros, infinities, NaN and their signs are those of IEEE 754, which std follows; other results are near.
+/// Zeros, infinities, NaN and their signs are those of IEEE 754, which std follows; other results
+/// are near.
 #[test]
 fn special_numbers() {
     for case in cases() {
@@ -365,7 +368,8 @@ fn special_numbers() {
     }
 }
 
-/// Arguments beyond the straight text, with sine, cosine and tangent in two parts each, from mpmath with 1400 bits.
+/// Arguments beyond the straight text, with sine, cosine and tangent in two parts each, from mpmath
+/// with 1400 bits.
 const HUGE: [(f64, [[f64; 2]; 3]); 9] = [
     (
         5.319372648326541e255,

@@ -3,8 +3,8 @@
 //! The places follow from the operations of the value: |u| has a kink where u = 0, `if(a < b, …)`
 //! may jump where a = b, `floor(u)` where u is whole, a table is bent at the ends of its range.
 //! Zero sets are taken apart: those of products are the factors', those of powers and roots the
-//! bases', positive functions have none, |u| = c where u = ±c, and max(a, b) = c only where a = c or
-//! b = c. So sets may be larger than the kinks, but most are lines.
+//! bases', positive functions have none, |u| = c where u = ±c, and max(a, b) = c only where a = c
+//! or b = c. So sets may be larger than the kinks, but most are lines.
 
 mod roots;
 
@@ -60,12 +60,12 @@ impl Formula {
     /// The sets where the value may have a kink or a jump, from its operations: zeros of the
     /// arguments of `abs` and `sign`, of a − b in `min`, `max` and inequalities, of y in
     /// `atan2(y, x)`; whole numbers under `floor`; ends of the ranges of tables. Constants are left
-    /// out, equal sets given once. Conditions with `==` and `!=` are taken for exceptions that make no
-    /// kink.
+    /// out, equal sets given once. Conditions with `==` and `!=` are taken for exceptions that make
+    /// no kink.
     ///
-    /// A jump across the cut of theta, see [`Formula::uses_branch`], or across a crack, where `side` is
-    /// used, is not among them: these sets are the frame's and the crack's. Beyond 1024 kinks the
-    /// rest is left out.
+    /// A jump across the cut of theta, see [`Formula::uses_branch`], or across a crack, where
+    /// `side` is used, is not among them: these sets are the frame's and the crack's. Beyond 1024
+    /// kinks the rest is left out.
     ///
     /// ```
     /// use ppum_formula::{Formula, Scope};
@@ -82,16 +82,17 @@ impl Formula {
 
     /// The sets where the value or one of its derivatives may be infinite or undefined, from its
     /// operations: zeros of the arguments of roots, logarithms, `hypot` and powers that are not
-    /// whole and positive, of denominators, of 1 − u² under `asin` and `acos`. They are found as those of
-    /// [`Formula::kinks`].
+    /// whole and positive, of denominators, of 1 − u² under `asin` and `acos`. They are found as
+    /// those of [`Formula::kinks`].
     #[must_use]
     pub fn singularities(&self) -> Vec<Kink> {
         self.sets(Sets::singularities)
     }
 
-    /// The sets in which a spike, a ridge or a layer may sit that is too narrow for samples to show it, from
-    /// the operations: zeros of what is raised to an even power, and of the arguments of `exp`, `cosh`,
-    /// `tanh` and `atan`. They are found as those of [`Formula::kinks`]; the value is smooth there.
+    /// The sets in which a spike, a ridge or a layer may sit that is too narrow for samples to show
+    /// it, from the operations: zeros of what is raised to an even power, and of the arguments of
+    /// `exp`, `cosh`, `tanh` and `atan`. They are found as those of [`Formula::kinks`]; the value
+    /// is smooth there.
     ///
     /// ```
     /// use ppum_formula::{Formula, Scope};
@@ -104,10 +105,10 @@ impl Formula {
         self.sets(Sets::crests)
     }
 
-    /// The places in \[lo, hi\] where a formula of one variable may not be smooth, increasing: where it
-    /// meets its [`kinks`](Self::kinks) and [`singularities`](Self::singularities). Those of linear
-    /// functions are exact, the others are searched among 4096 intervals and refined to rounding; the
-    /// search for those of one function ends after some thousand.
+    /// The places in \[lo, hi\] where a formula of one variable may not be smooth, increasing:
+    /// where it meets its [`kinks`](Self::kinks) and [`singularities`](Self::singularities). Those
+    /// of linear functions are exact, the others are searched among 4096 intervals and refined to
+    /// rounding; the search for those of one function ends after some thousand.
     ///
     /// # Panics
     /// When the scope has more than one input.

@@ -15,7 +15,8 @@ const MAX_PLACES: usize = 4096;
 /// operations.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// A search for the places where a formula of one variable is zero, or, with `steps`, a whole number.
+/// A search for the places where a formula of one variable is zero, or, with `steps`, a whole
+/// number.
 pub(crate) struct Scan<'f> {
     pub(crate) formula: &'f Formula,
     /// The interval to search.
@@ -96,8 +97,8 @@ impl Scan<'_> {
     }
 }
 
-/// The change of sign of `f` between `a` and `b`, to the last bit: a zero if one is met, else the end
-/// of the last interval where |f| is smaller.
+/// The change of sign of `f` between `a` and `b`, to the last bit: a zero if one is met, else the
+/// end of the last interval where |f| is smaller.
 fn bisect(mut f: impl FnMut(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     let (mut fa, mut fb) = (f(a), f(b));
     loop {

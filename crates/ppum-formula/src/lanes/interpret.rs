@@ -3,9 +3,9 @@
 //! A step works on all eight vectors of a block before the next step begins, and without a loop: so
 //! the processor foresees the jumps from step to step, finding out what a step does costs little,
 //! and all registers of a formula stay in the cache next to it. Arithmetic, roots, comparisons and
-//! selections are done on lanes, and so are [elementary functions](crate::elementary) and tables, these in double
-//! precision. Nothing is fused: in double precision each result is that of the scalar back end
-//! to the last bit.
+//! selections are done on lanes, and so are [elementary functions](crate::elementary) and tables,
+//! these in double precision. Nothing is fused: in double precision each result is that of the
+//! scalar back end to the last bit.
 
 use super::tape::{Step, Tape};
 use crate::elementary;
@@ -15,8 +15,8 @@ use crate::table::Table;
 /// Vectors of a block: enough that a step's work outweighs its start.
 pub(crate) const VECTORS: usize = 8;
 
-/// Runs a tape; `registers` are its registers one after the other. It is not generic, so that the interpreter is
-/// compiled here and not in every crate that uses it.
+/// Runs a tape; `registers` are its registers one after the other. It is not generic, so that the
+/// interpreter is compiled here and not in every crate that uses it.
 pub(crate) fn interpret(tape: &Tape, registers: Numbers<'_>) {
     match registers {
         Numbers::Double(registers) => f64::dispatch(Run { tape, registers }),
@@ -58,8 +58,8 @@ struct Machine<'r, R: Real> {
 }
 
 impl<R: Real> Machine<'_, R> {
-    /// Parts of a register that are computed one after the other: without vectors a block has more points than
-    /// [`VECTORS`].
+    /// Parts of a register that are computed one after the other: without vectors a block has more
+    /// points than [`VECTORS`].
     const PARTS: usize = R::Scalar::VECTOR / R::LANES;
 }
 
@@ -198,8 +198,9 @@ fn sign<R: Real>(a: R) -> R {
     R::select(a.gt(zero), one, R::select(zero.gt(a), -one, a))
 }
 
-/// √(a² + b²) as written where the sum is far from the bounds of single precision, as it mostly is; elsewhere in double
-/// precision, scaled. Which of the two a lane gets depends on its numbers alone.
+/// √(a² + b²) as written where the sum is far from the bounds of single precision, as it mostly is;
+/// elsewhere in double precision, scaled. Which of the two a lane gets depends on its
+/// numbers alone.
 #[inline(always)]
 fn hypot<R: Real>(a: R, b: R) -> R {
     let (least, greatest) = (a.lit(LEAST_SQUARE), a.lit(GREATEST_SQUARE));
@@ -212,7 +213,8 @@ fn hypot<R: Real>(a: R, b: R) -> R {
     root
 }
 
-/// Bounds between which the sum of two squares is as exact as its summands, in single precision too.
+/// Bounds between which the sum of two squares is as exact as its summands, in single
+/// precision too.
 pub(crate) const LEAST_SQUARE: f64 = 1e-30;
 pub(crate) const GREATEST_SQUARE: f64 = 1e30;
 
@@ -307,7 +309,8 @@ impl<R: Real> Machine<'_, R> {
         }
     }
 
-    /// A function of many operations, any of its operands a constant: a loop, not eight times its text.
+    /// A function of many operations, any of its operands a constant: a loop, not eight times
+    /// its text.
     #[inline(always)]
     fn long<const N: usize>(&mut self, f: impl Function<N>, step: &Step) {
         let mut k = 0;

@@ -1,8 +1,9 @@
 //! Tapes: programs for the lane interpreter, with their results in few registers.
 //!
-//! A register holds one number for each point of a block. Outputs and inputs have one each; the others
-//! are *slots*, used again when their number has had its last use. Constants need none. Products that are used once, by a sum, a difference, a product or
-//! a quotient, become one step with it: that saves the way through memory, and rounds as before.
+//! A register holds one number for each point of a block. Outputs and inputs have one each; the
+//! others are *slots*, used again when their number has had its last use. Constants need none.
+//! Products that are used once, by a sum, a difference, a product or a quotient, become one step
+//! with it: that saves the way through memory, and rounds as before.
 
 use std::sync::Arc;
 
@@ -18,7 +19,8 @@ pub(crate) struct Tape {
     pub(crate) steps: Vec<Step>,
     pub(crate) constants: Vec<f64>,
     pub(crate) tables: Arc<[Arc<Table>]>,
-    /// Registers 0 .. `n_outputs` are the outputs, `n_inputs` more the inputs, then `n_slots` slots.
+    /// Registers 0 .. `n_outputs` are the outputs, `n_inputs` more the inputs, then `n_slots`
+    /// slots.
     pub(crate) n_outputs: usize,
     pub(crate) n_inputs: usize,
     pub(crate) n_slots: usize,

@@ -17,7 +17,8 @@ pub const VARIABLES: [&str; 5] = ["x", "y", "r", "theta", "t"];
 
 /// The names a formula may use besides functions and constants.
 ///
-/// - *Independent variables* are inputs of an evaluation; derivatives are taken with respect to them.
+/// - *Independent variables* are inputs of an evaluation; derivatives are taken with respect
+///   to them.
 /// - *Dependent variables* are inputs too, because the caller knows them best, but functions of the
 ///   independent ones: each comes with its derivatives as formulas. The polar angle is the model:
 ///   which branch it is on depends on the crack, its derivatives do not.
@@ -168,14 +169,14 @@ impl Scope {
         Self::new(&["x", "y"]).expect("x and y are names")
     }
 
-    /// Inputs x, y, r, theta, `cos(theta/2)`, `sin(theta/2)`, where r = √(x² + y²) and θ is the polar
-    /// angle on the branch that the caller chooses, with the half angles on the same branch:
-    /// ∂r = (x, y)/r, ∂θ = (−y, x)/r², ∂ cos(θ/2) = sin(θ/2) (y, −x)/(2r²),
-    /// ∂ sin(θ/2) = cos(θ/2) (−y, x)/(2r²).
+    /// Inputs x, y, r, theta, `cos(theta/2)`, `sin(theta/2)`, where r = √(x² + y²) and θ is the
+    /// polar angle on the branch that the caller chooses, with the half angles on the same branch:
+    /// ∂r = (x, y)/r, ∂θ = (−y, x)/r², ∂ cos(θ/2) = sin(θ/2) (y, −x)/(2r²), ∂ sin(θ/2) = cos(θ/2)
+    /// (−y, x)/(2r²).
     ///
     /// The names of the last two are their texts. Sines, cosines and tangents of multiples kθ/2,
-    /// 0 < |k| ≤ 64, are products of x/r, y/r and these two; θ itself is not used for them. At r = 0
-    /// cos θ is 1 and sin θ is 0, their derivatives are NaN.
+    /// 0 < |k| ≤ 64, are products of x/r, y/r and these two; θ itself is not used for them. At r =
+    /// 0 cos θ is 1 and sin θ is 0, their derivatives are NaN.
     #[must_use]
     pub fn polar() -> Self {
         static SCOPE: LazyLock<Scope> = LazyLock::new(Scope::new_polar);
@@ -273,8 +274,8 @@ impl Scope {
         Ok(self)
     }
 
-    /// Adds the sides of cracks as inputs called `side(0)` to `side(n - 1)`: +1 on the left of crack k,
-    /// −1 on its right, with derivatives 0. Formulas write them so.
+    /// Adds the sides of cracks as inputs called `side(0)` to `side(n - 1)`: +1 on the left of
+    /// crack k, −1 on its right, with derivatives 0. Formulas write them so.
     ///
     /// # Panics
     /// When inputs were added after sides.

@@ -12,7 +12,8 @@ fn on<S: Simd, J: Job<f64>>(simd: S, job: J) -> J::Output {
     )
 }
 
-/// Runs a job with numbers one by one, and on vectors of every instruction set there is; names and results.
+/// Runs a job with numbers one by one, and on vectors of every instruction set there is; names
+/// and results.
 pub(crate) fn run<J: Job<f64> + Copy>(job: J) -> Vec<(&'static str, J::Output)> {
     let mut results = vec![("scalar", job.run(0.0f64))];
     #[cfg(target_arch = "x86_64")]

@@ -63,7 +63,8 @@ pub trait Real:
     fn gt(self, other: Self) -> Self::Mask;
     /// `a` where the mask holds, else `b`.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
-    /// True if the mask holds in a lane: to leave the vectors where what they cannot do is needed, seldom.
+    /// True if the mask holds in a lane: to leave the vectors where what they cannot do is
+    /// needed, seldom.
     fn any(mask: Self::Mask) -> bool;
     /// The first [`Self::LANES`] numbers of a slice.
     fn load(self, from: &[Self::Scalar]) -> Self;
@@ -75,8 +76,8 @@ pub trait Real:
     fn store_array(self, array: &mut Self::Array);
     /// Writes the lanes to the start of a slice.
     fn store(self, to: &mut [Self::Scalar]);
-    /// A function found in double precision and rounded: of the numbers themselves if they are double, else
-    /// of halves of the vectors. `operands` has one at least.
+    /// A function found in double precision and rounded: of the numbers themselves if they are
+    /// double, else of halves of the vectors. `operands` has one at least.
     fn in_double<const N: usize>(operands: [Self; N], function: impl DoubleFunction<N>) -> Self;
     /// The lanes widened to f64; zero beyond [`Self::LANES`].
     #[inline(always)]
@@ -153,8 +154,8 @@ pub trait Scalar:
     fn dispatch<J: Job<Self>>(job: J) -> J::Output;
 }
 
-/// Numbers whose kind is asked at run time: for what is compiled once for both, and not again in every crate that
-/// uses it.
+/// Numbers whose kind is asked at run time: for what is compiled once for both, and not again in
+/// every crate that uses it.
 #[derive(Debug)]
 pub enum Numbers<'a> {
     /// f64
@@ -167,8 +168,9 @@ thread_local! {
     static IS_NARROWED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Does work whose jobs on this thread run on the vectors that every processor of the architecture has, in place of the
-/// widest: for measurements of what those gain. Values may differ in the last bits where the wider ones fuse.
+/// Does work whose jobs on this thread run on the vectors that every processor of the architecture
+/// has, in place of the widest: for measurements of what those gain. Values may differ in the last
+/// bits where the wider ones fuse.
 pub fn narrowed<T>(work: impl FnOnce() -> T) -> T {
     struct Before(bool);
     impl Drop for Before {
@@ -215,9 +217,10 @@ fn name(level: Level) -> &'static str {
     if level.is_fallback() { "scalar" } else { "vectors" }
 }
 
-/// Runs a job on the widest vectors of the processor. Each instruction set compiles all kernels once more, and those of
-/// SSE2, whose vectors are the narrowest, are the longest. An x86 processor without AVX2 (before 2013) therefore computes
-/// with scalars, to the same numbers: neither fuses multiplication and addition.
+/// Runs a job on the widest vectors of the processor. Each instruction set compiles all kernels
+/// once more, and those of SSE2, whose vectors are the narrowest, are the longest. An x86 processor
+/// without AVX2 (before 2013) therefore computes with scalars, to the same numbers: neither fuses
+/// multiplication and addition.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 macro_rules! vectors {
     ($job:expr, $t:ident, $vector:ident) => {{
@@ -459,7 +462,8 @@ mod tests {
         assert_eq!(lanes, scalars);
     }
 
-    /// The narrowest vectors compute the same, for as long as they are asked for and on this thread.
+    /// The narrowest vectors compute the same, for as long as they are asked for and on
+    /// this thread.
     #[test]
     fn narrowed_for_a_while() {
         let xs: Vec<f64> = (0..64).map(|k| f64::from(k) * 0.37 - 9.0).collect();

@@ -8,7 +8,8 @@ fn parse(text: &str) -> Formula {
     Formula::parse(text, &Scope::polar()).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
-/// cos(θ/2) and sin(θ/2) at a point other than the origin, on the branch of the sign, without cancellation.
+/// cos(θ/2) and sin(θ/2) at a point other than the origin, on the branch of the sign,
+/// without cancellation.
 fn half_angle([x, y]: [f64; 2], sign: f64) -> [f64; 2] {
     let r = x.hypot(y);
     let large = ((r + x.abs()) / (2.0 * r)).sqrt();
@@ -16,8 +17,8 @@ fn half_angle([x, y]: [f64; 2], sign: f64) -> [f64; 2] {
     if x > 0.0 { [large, sign * small] } else { [small, sign * large] }
 }
 
-/// The inputs at (−r cos δ, ±r sin δ), that is at θ = ±(π − δ), found as callers find them; θ itself
-/// is withheld.
+/// The inputs at (−r cos δ, ±r sin δ), that is at θ = ±(π − δ), found as callers find them; θ
+/// itself is withheld.
 fn near_the_cut(r: f64, delta: f64, sign: f64) -> [f64; 6] {
     let [x, y] = [-r * delta.cos(), sign * r * delta.sin()];
     let [c, s] = half_angle([x, y], sign);
@@ -46,7 +47,8 @@ fn nothing_cancels_near_the_cut() {
             for sign in [1.0, -1.0] {
                 let inputs = near_the_cut(0.37, delta, sign);
                 let [c, s] = closed(k, delta);
-                // two roundings a product, at most 1 + 2 log₂ k products; the closed form has its own
+                // two roundings a product, at most 1 + 2 log₂ k products; the closed form has
+                // its own
                 let tolerance = 1e-15 * (2.0 + f64::from(k));
                 let what = format!("{k}θ/2 at π − {delta:e}");
                 assert_near(cos.evaluate(&inputs), c, tolerance, c.abs(), &what);
@@ -180,7 +182,8 @@ fn derivatives_of_all_multiples() {
     }
 }
 
-/// The second derivatives of x/r and the like, by hand: exact zeros and no cancellation on the axes.
+/// The second derivatives of x/r and the like, by hand: exact zeros and no cancellation on
+/// the axes.
 #[test]
 fn whole_angles_have_clean_derivatives() {
     let (r, y) = (2.0, 1e-9);

@@ -100,7 +100,8 @@ fn variables_may_not() {
     let _ = FormulaJets::new(&[&f, &g], 0);
 }
 
-/// Derivatives with respect to any of many variables, in the order asked for, are those of the formula by each.
+/// Derivatives with respect to any of many variables, in the order asked for, are those of the
+/// formula by each.
 #[test]
 fn partials_of_many_variables() {
     let scope = Scope::new(&["a", "b", "c", "d"]).expect("names");

@@ -6,7 +6,8 @@ use crate::{Formula, Kink, Scope, Table};
 
 use super::{parse, polar};
 
-/// The lines of the kinks, normalised: first coefficient that is not zero positive, largest of a, b 1.
+/// The lines of the kinks, normalised: first coefficient that is not zero positive, largest of a,
+/// b 1.
 fn lines(text: &str) -> Vec<Option<[f64; 3]>> {
     let lines = parse(text).kinks().iter().map(Kink::line).collect::<Vec<_>>();
     lines.into_iter().map(|line| line.map(normalised)).collect()

@@ -93,8 +93,9 @@ fn constants_and_parameters() {
     assert_eq!(f.evaluate(&[2.0, 0.0]), 5.0);
 }
 
-/// Functions that are no operations of the processor are right to two units in the last place, and those of the
-/// platform, which they are compared with here, to one. How far off they are tells `elementary/tests.rs`.
+/// Functions that are no operations of the processor are right to two units in the last place, and
+/// those of the platform, which they are compared with here, to one. How far off they are
+/// tells `elementary/tests.rs`.
 fn agree(found: f64, expected: f64, is_exact: bool) -> bool {
     let unit = if is_exact { 0.0 } else { 3.0 * f64::EPSILON };
     let is_special = !expected.is_finite() || expected == 0.0;

@@ -1,11 +1,12 @@
 //! Programs as texts of WGSL, the shading language of WebGPU.
 //!
-//! One function a program, straight down: a `let` for each operation, with the constants in their places.
-//! Operations that WGSL has not, or leaves open, are functions of [`wgsl_prelude`].
+//! One function a program, straight down: a `let` for each operation, with the constants in their
+//! places. Operations that WGSL has not, or leaves open, are functions of [`wgsl_prelude`].
 //!
-//! Names cannot collide, whatever the names of a scope: inputs with names of our own keep them, others
-//! begin with `in_`, which no word of WGSL does; results are `v0`, `v1`, …, all derivatives of a table at some
-//! arguments `place_0`, …; tables are functions that begin with `table_`, the prelude's begin with `ppum_`.
+//! Names cannot collide, whatever the names of a scope: inputs with names of our own keep them,
+//! others begin with `in_`, which no word of WGSL does; results are `v0`, `v1`, …, all derivatives
+//! of a table at some arguments `place_0`, …; tables are functions that begin with `table_`, the
+//! prelude's begin with `ppum_`.
 
 mod table;
 
@@ -18,8 +19,8 @@ use crate::program::Program;
 use crate::table::Table;
 use crate::wgsl::table::{MAX_ELEMENTS, elements};
 
-/// The functions that the texts of [`FormulaJets::wgsl`](crate::FormulaJets::wgsl) call. A module needs
-/// them once. Their names begin with `ppum_`.
+/// The functions that the texts of [`FormulaJets::wgsl`](crate::FormulaJets::wgsl) call. A module
+/// needs them once. Their names begin with `ppum_`.
 #[must_use]
 pub fn wgsl_prelude() -> &'static str {
     include_str!("prelude.wgsl")
@@ -67,8 +68,8 @@ pub(crate) fn check(program: &Program, count: usize) -> Result<(), WgslError> {
     }
 }
 
-/// The function of a program and those of its tables. Its parameters are the inputs whose indices are
-/// `kept`.
+/// The function of a program and those of its tables. Its parameters are the inputs whose indices
+/// are `kept`.
 pub(crate) fn function(
     name: &str,
     scope: &Scope,
@@ -247,8 +248,8 @@ fn comparison(op: Comparison) -> &'static str {
     }
 }
 
-/// aⁿ by the products of [`power`](crate::operation::power): the lines of the squares that are needed,
-/// `v3_2` being the square of what `v3` is a power of, and the product.
+/// aⁿ by the products of [`power`](crate::operation::power): the lines of the squares that are
+/// needed, `v3_2` being the square of what `v3` is a power of, and the product.
 fn power(name: &str, a: &str, n: i32) -> (String, String) {
     let (mut lines, mut factors) = (String::new(), Vec::new());
     let (mut square, mut exponent) = (a.to_owned(), 1);

@@ -1,8 +1,9 @@
-// Functions that formulas in WGSL call: what the shading language has not, or defines otherwise than the
-// language of formulas. A module needs this text once.
+// Functions that formulas in WGSL call: what the shading language has not, or defines otherwise
+// than the language of formulas. A module needs this text once.
 //
-// Implementations may assume that there is neither NaN nor infinity. Where they do not, both go through
-// these functions as IEEE 754 says; NaN is recognised by its bits, as `a != a` may be folded away.
+// Implementations may assume that there is neither NaN nor infinity. Where they do not, both go
+// through these functions as IEEE 754 says; NaN is recognised by its bits, as `a != a` may be
+// folded away.
 
 // The number with these bits. A number that is not finite must not be a constant expression.
 fn ppum_from_bits(bits: u32) -> f32 {
@@ -33,8 +34,8 @@ fn ppum_clamp(a: f32, low: f32, high: f32) -> f32 {
     return select(select(a, low, a < low), high, a > high);
 }
 
-// A number of [-9, 9] as it is. Compilers that replace k b + (k c + d) by k (b + c) + d do not where this
-// stands around (k c + d).
+// A number of [-9, 9] as it is. Compilers that replace k b + (k c + d) by k (b + c) + d do not
+// where this stands around (k c + d).
 fn ppum_apart(a: f32) -> f32 {
     return ppum_clamp(a, -9.0, 9.0);
 }
@@ -118,8 +119,8 @@ fn ppum_tanh(a: f32) -> f32 {
     return select(size, -size, a < 0.0);
 }
 
-// The number of quarter turns nearest to a >= 2^13, mod 4, and the rest in quarter turns, to 3e-9 (Payne and
-// Hanek 1983).
+// The number of quarter turns nearest to a >= 2^13, mod 4, and the rest in quarter turns, to 3e-9
+// (Payne and Hanek 1983).
 fn ppum_far_quarters(a: f32) -> vec2<f32> {
     let bits = bitcast<u32>(a);
     let mantissa = (bits & 0x7fffffu) | 0x800000u;
@@ -207,8 +208,8 @@ fn ppum_acos(a: f32) -> f32 {
     return select(angle, 3.14159265 - angle, a < 0.0);
 }
 
-// The arc tangent to single precision: that of devices may have four digits. tan(3π/8) and tan(π/8) part
-// the range; the polynomial is the one of Cephes (Moshier 1992).
+// The arc tangent to single precision: that of devices may have four digits. tan(3π/8) and tan(π/8)
+// part the range; the polynomial is the one of Cephes (Moshier 1992).
 fn ppum_atan(a: f32) -> f32 {
     let size = abs(a);
     var t = size;
@@ -244,8 +245,8 @@ fn ppum_atan2(y: f32, x: f32) -> f32 {
     return select(angle, -angle, y < 0.0);
 }
 
-// sqrt(a^2 + b^2) without overflow; infinite if a or b is. No product of powers of two scales a and b: compilers for cards
-// form such constants first, as 2^100 * 2^100, which is infinite.
+// sqrt(a^2 + b^2) without overflow; infinite if a or b is. No product of powers of two scales a and
+// b: compilers for cards form such constants first, as 2^100 * 2^100, which is infinite.
 fn ppum_hypot(a: f32, b: f32) -> f32 {
     if abs(a) > 3.4028234e38 {
         return abs(a);
@@ -266,7 +267,8 @@ fn ppum_hypot(a: f32, b: f32) -> f32 {
     return larger * sqrt(1.0 + slope * slope);
 }
 
-// a^b as of `pow` of IEEE 754: of a negative number only if b is whole, which pow of WGSL does not promise.
+// a^b as of `pow` of IEEE 754: of a negative number only if b is whole, which pow of WGSL does not
+// promise.
 fn ppum_pow(a: f32, b: f32) -> f32 {
     let size = abs(a);
     let whole = floor(b) == b;
@@ -299,7 +301,8 @@ fn ppum_curve(c: vec4<f32>, beyond: f32, t: f32) -> vec4<f32> {
     return ppum_inside(ppum_cubic(c, t), beyond);
 }
 
-// A surface: the bicubic whose rows belong to powers of the distance in y; [order in y][order in x].
+// A surface: the bicubic whose rows belong to powers of the distance in y; [order in y][order
+// in x].
 fn ppum_surface(rows: array<vec4<f32>, 4>, beyond: vec2<f32>, t: vec2<f32>) -> array<vec4<f32>, 4> {
     let a = ppum_cubic(rows[0], t.x);
     let b = ppum_cubic(rows[1], t.x);

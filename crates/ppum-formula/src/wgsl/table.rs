@@ -1,14 +1,14 @@
 //! Tables as functions of WGSL: all derivatives at a point, without arrays.
 //!
-//! Drivers may copy an array into the memory of each invocation before they index it, and take seconds to
-//! compile that. So the binary search for the cell is written out: an `if` for each inner knot, and in
-//! the innermost blocks the coefficients of one cell.
+//! Drivers may copy an array into the memory of each invocation before they index it, and take
+//! seconds to compile that. So the binary search for the cell is written out: an `if` for each
+//! inner knot, and in the innermost blocks the coefficients of one cell.
 
 use super::number;
 use crate::table::Table;
 
-/// Most knots or cubics of a table. The text grows with them, and so does the time to compile it: a software
-/// driver needs two seconds for so many.
+/// Most knots or cubics of a table. The text grows with them, and so does the time to compile it: a
+/// software driver needs two seconds for so many.
 pub(crate) const MAX_ELEMENTS: usize = 2047;
 
 /// Knots or cubics of a table, whichever are more.
@@ -63,8 +63,8 @@ fn inner(knots: &[f64]) -> &[f64] {
     &knots[1..knots.len() - 1]
 }
 
-/// Binary search among inner knots, those before cell `first` being passed; `cell` gives the lines of
-/// a cell. NaN is in the first one.
+/// Binary search among inner knots, those before cell `first` being passed; `cell` gives the lines
+/// of a cell. NaN is in the first one.
 fn search(axis: char, knots: &[f64], first: usize, cell: &dyn Fn(usize) -> String) -> String {
     let middle = knots.len() / 2;
     let Some(&knot) = knots.get(middle) else { return cell(first) };

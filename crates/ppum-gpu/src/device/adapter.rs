@@ -60,9 +60,9 @@ pub(crate) async fn choose(choice: Choice) -> Result<Adapter, GpuError> {
     adapters.into_iter().min_by_key(kind).ok_or(GpuError::NoAdapter { choice })
 }
 
-/// False if this machine has no graphics card for sure: drivers need not be opened to find none then, which takes
-/// time and makes them complain. On Linux cards have device nodes, lent ones too (`dxg` is that of Windows' own
-/// virtual machines); elsewhere the drivers have to be asked.
+/// False if this machine has no graphics card for sure: drivers need not be opened to find none
+/// then, which takes time and makes them complain. On Linux cards have device nodes, lent ones too
+/// (`dxg` is that of Windows' own virtual machines); elsewhere the drivers have to be asked.
 #[cfg(not(target_arch = "wasm32"))]
 fn may_have_card() -> bool {
     let is_node = |entry: std::io::Result<std::fs::DirEntry>| {

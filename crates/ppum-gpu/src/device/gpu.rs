@@ -74,7 +74,8 @@ impl Gpu {
         &self.queue
     }
 
-    /// The limits that the device was opened with: WebGPU's defaults, but for larger textures and buffers.
+    /// The limits that the device was opened with: WebGPU's defaults, but for larger textures
+    /// and buffers.
     pub(crate) fn limits(&self) -> Limits {
         self.device.limits()
     }
@@ -89,7 +90,8 @@ impl Gpu {
         }
         let (value, error) = self.scoped(f);
         if error.is_some() {
-            // a lost device says so when nothing is under way any more, and what lived on it is invalid before
+            // a lost device says so when nothing is under way any more, and what lived on it is
+            // invalid before
             let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
         }
         match error {
@@ -143,7 +145,8 @@ impl Gpu {
         }
     }
 
-    /// True once the device is lost: driver reset, card removed. It does not come back; open another.
+    /// True once the device is lost: driver reset, card removed. It does not come back;
+    /// open another.
     pub(crate) fn is_lost(&self) -> bool {
         self.state.lost.load(Ordering::Relaxed)
     }
@@ -157,9 +160,9 @@ impl Gpu {
     }
 }
 
-/// WebGPU's defaults, but for textures and buffers as large as the adapter makes them: pictures above 8192
-/// pixels a side and data above 1 GiB are drawn where the adapter can. All else stays at the defaults, so that
-/// what is tested here is what runs elsewhere.
+/// WebGPU's defaults, but for textures and buffers as large as the adapter makes them: pictures
+/// above 8192 pixels a side and data above 1 GiB are drawn where the adapter can. All else stays at
+/// the defaults, so that what is tested here is what runs elsewhere.
 fn limits(most: &Limits) -> Limits {
     Limits {
         max_texture_dimension_2d: most.max_texture_dimension_2d,

@@ -1,8 +1,8 @@
 //! The areas of a picture, by the terms they need beside smooth ones.
 //!
-//! A shader that evaluates functions costs twice what one does that has smooth terms only, also on the
-//! pixels where there are no functions: processors that run many pixels in step take every branch. So the
-//! picture is cut into areas, each drawn with the shader it needs.
+//! A shader that evaluates functions costs twice what one does that has smooth terms only, also on
+//! the pixels where there are no functions: processors that run many pixels in step take every
+//! branch. So the picture is cut into areas, each drawn with the shader it needs.
 
 use ppum::vec2::Rect;
 use ppum_render::pixels::Pixels;

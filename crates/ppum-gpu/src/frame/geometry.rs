@@ -1,8 +1,8 @@
 //! Frames of functions, cracks and holes, seen from the view's centre.
 //!
-//! All differences are formed in double precision without cancellation and rounded at last; so a view
-//! 10⁻¹² of the domain wide has no noise in single precision either. The shaders read it in
-//! `shader/wgsl/{geometry,crack,indicator,domain}.wgsl`.
+//! All differences are formed in double precision without cancellation and rounded at last; so a
+//! view 10⁻¹² of the domain wide has no noise in single precision either. The shaders read it
+//! in `shader/wgsl/{geometry,crack,indicator,domain}.wgsl`.
 
 use ppum::crack::{LocalCrack, LocalTip, SegmentId, TipId};
 use ppum::dataset::Step;
@@ -17,25 +17,27 @@ use crate::scene::groups::GroupFrame;
 const FRAME: usize = 4;
 /// Pairs of a segment: tangent; distance; ends.
 const SEGMENT: usize = 3;
-/// Pairs of a cut of an indicator: first pair of its segment; what follows on the left, on the right.
+/// Pairs of a cut of an indicator: first pair of its segment; what follows on the left, on
+/// the right.
 const CUT: usize = 2;
 /// Pairs of a circle: 0, excess / 2r; d / r; 1 / 2r.
 const CIRCLE: usize = 3;
 /// Pairs of a polygon's side: its ends, unit direction, distance.
 const SIDE: usize = 4;
 
-/// Most pairs of a view: whole numbers are exact in single precision up to here, and shaders see no more at once than 128 MiB.
+/// Most pairs of a view: whole numbers are exact in single precision up to here, and shaders see no
+/// more at once than 128 MiB.
 const MOST_PAIRS: usize = 1 << 24;
 
 /// Stands for an infinite coordinate: shaders may assume that there is none.
 const FAR: f64 = 3e38;
 
-/// The pairs of a view, rounded to single precision. Whole numbers stand in it as floats. (As bit patterns they would be subnormal
-/// numbers, which devices may take for zero.)
+/// The pairs of a view, rounded to single precision. Whole numbers stand in it as floats. (As bit
+/// patterns they would be subnormal numbers, which devices may take for zero.)
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Geometry {
-    /// Frames of the groups, `FRAME` pairs each; first segment and number of segments of every crack; the
-    /// segments; the cuts of indicators; the holes.
+    /// Frames of the groups, `FRAME` pairs each; first segment and number of segments of every
+    /// crack; the segments; the cuts of indicators; the holes.
     pub(crate) pairs: Vec<[f32; 2]>,
     /// First pair of the cracks.
     pub(crate) cracks: u32,
@@ -46,8 +48,8 @@ pub(crate) struct Geometry {
 }
 
 impl Geometry {
-    /// Cracks of a step, holes of a domain and the frames of groups of functions seen from `center`. Linear
-    /// in their number and that of the cuts of indicators.
+    /// Cracks of a step, holes of a domain and the frames of groups of functions seen from
+    /// `center`. Linear in their number and that of the cuts of indicators.
     pub(crate) fn new(step: &Step, domain: &Domain, frames: &[GroupFrame], center: Vec2) -> Self {
         let cracks = FRAME * frames.len();
         let mut directory = Directory::new(step, cracks, center);
@@ -159,7 +161,8 @@ fn segments(crack: &LocalCrack) -> impl Iterator<Item = Vec2> + '_ {
     crack.segments().iter().flat_map(pairs)
 }
 
-/// A circle divided by 2r and the lines of a polygon by their lengths: numbers of the size of distances.
+/// A circle divided by 2r and the lines of a polygon by their lengths: numbers of the size
+/// of distances.
 fn rim(hole: &Hole, center: Vec2) -> Vec<Vec2> {
     match (hole, hole.at(center).rim()) {
         (Hole::Circle { radius, .. }, LocalRim::Circle { d, excess }) => {

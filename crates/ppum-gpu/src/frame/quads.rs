@@ -8,15 +8,15 @@ use ppum_render::view::View;
 use crate::layout::record;
 
 record! {
-    /// A quad, clipped to the picture. It covers whole pixels; the weight is zero on those the patch does
-    /// not reach.
+    /// A quad, clipped to the picture. It covers whole pixels; the weight is zero on those the
+    /// patch does not reach.
     QuadRecord {
         /// First column and row.
         first: vec2u,
         /// The column and row after the last.
         end: vec2u,
-        /// Coordinates ξ of the first pixel in the support, and their steps from column to column and row
-        /// to row.
+        /// Coordinates ξ of the first pixel in the support, and their steps from column to column
+        /// and row to row.
         xi: vec2f,
         step: vec2f,
         /// The same in the frame of the polynomials.
@@ -30,7 +30,8 @@ record! {
 /// Bytes of a quad's record.
 pub(crate) const QUAD_BYTES: u64 = 64;
 
-/// The quads of a view, in words, and their number. `bodies` holds the address of each patch's body.
+/// The quads of a view, in words, and their number. `bodies` holds the address of each patch's
+/// body.
 pub(crate) fn quads(field: &Field<'_>, view: &View, bodies: &[u32]) -> (Vec<u32>, u32) {
     let pixels = Pixels::new(view);
     let mut visible = Vec::new();
@@ -67,7 +68,8 @@ fn quad(
     Some(QuadRecord { first, end, xi, step, frame_xi, frame_step, body })
 }
 
-/// ξ of a pixel, given by its offset from the view's centre, and its steps to the next column and row.
+/// ξ of a pixel, given by its offset from the view's centre, and its steps to the next column
+/// and row.
 fn coordinates(view: &View, offset: Vec2, origin: Vec2, scale: Vec2) -> ([f32; 2], [f32; 2]) {
     let d = (view.center - origin) + offset;
     let side = view.pixel_size();

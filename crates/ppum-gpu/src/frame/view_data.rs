@@ -25,8 +25,8 @@ record! {
         per_pitch: vec2f,
         /// One over the half-extent of the patches of a lattice, or of the largest ones.
         per_half: vec2f,
-        /// Centre of the first pixel relative to the region's anchor, and the steps to the next column and
-        /// row, high and low.
+        /// Centre of the first pixel relative to the region's anchor, and the steps to the next
+        /// column and row, high and low.
         first_high: vec2f,
         first_low: vec2f,
         step_high: vec2f,
@@ -70,7 +70,8 @@ pub(crate) struct ViewData {
 }
 
 impl ViewData {
-    /// A view of a field, whose patches are those of a region; `half` is what [`ViewRecord::per_half`] is of.
+    /// A view of a field, whose patches are those of a region; `half` is what
+    /// [`ViewRecord::per_half`] is of.
     pub(crate) fn new(
         field: &Field<'_>,
         view: &View,
@@ -119,8 +120,8 @@ impl ViewData {
     }
 }
 
-/// The constants that splatted patches subtract from theirs, high and low, lane by lane: those of a patch
-/// near the view's centre.
+/// The constants that splatted patches subtract from theirs, high and low, lane by lane: those of a
+/// patch near the view's centre.
 fn reference_of(field: &Field<'_>, center: Vec2) -> Vec<[f32; 2]> {
     let components = Components::new(field.components());
     let bounds = field.domain.bounds;

@@ -18,8 +18,9 @@ use crate::shader::passes::Method;
 use output::{Colors, Output};
 use pipelines::Pipelines;
 
-/// A quantity of a scene compiled for the card: what [`Renderer::compile`](crate::Renderer::compile) makes.
-/// It yields `O`: [`Values`](crate::Values), [`Colors`] or [`Derivatives`](crate::Derivatives).
+/// A quantity of a scene compiled for the card: what
+/// [`Renderer::compile`](crate::Renderer::compile) makes. It yields `O`: [`Values`](crate::Values),
+/// [`Colors`] or [`Derivatives`](crate::Derivatives).
 ///
 /// When functions of the dataset are replaced, compile another program for the scene
 /// [with these functions](Scene::with_functions_of); this one keeps drawing the old ones.
@@ -89,8 +90,8 @@ impl<'f, O: Output> Program<'f, O> {
         self.pipelines.as_ref().map_or(0, |pipelines| pipelines.finish.len())
     }
 
-    /// The pipelines for the scene as it is, those of some kinds of areas among them: each is made when it is
-    /// needed first.
+    /// The pipelines for the scene as it is, those of some kinds of areas among them: each is made
+    /// when it is needed first.
     pub(crate) fn pipelines(
         &mut self,
         gpu: &Arc<Gpu>,

@@ -14,7 +14,8 @@ use crate::shader::passes::{Finish, SUMS};
 use crate::shader::quantity::order_of;
 use crate::shader::texts;
 
-/// An output that a [`Program`](crate::Program) is compiled for: [`Values`], [`Colors`] or [`Derivatives`].
+/// An output that a [`Program`](crate::Program) is compiled for: [`Values`], [`Colors`] or
+/// [`Derivatives`].
 pub trait Output: Writes {}
 
 /// The value of a quantity at each pixel; read as a [`Raster`].
@@ -30,8 +31,8 @@ pub struct Colors {
     pub shading: Shading,
 }
 
-/// Value, gradient and Hessian of a component of the field, by its index; read as six rasters, v, x, y, xx,
-/// xy, yy.
+/// Value, gradient and Hessian of a component of the field, by its index; read as six rasters, v,
+/// x, y, xx, xy, yy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Derivatives(pub u8);
 

@@ -12,8 +12,8 @@ use crate::device::read;
 use crate::error::GpuError;
 use crate::program::output::Output;
 
-/// A picture on the card. Reading it waits until it is drawn; drawing goes on meanwhile, so the next
-/// one, of the next step say, can be begun before.
+/// A picture on the card. Reading it waits until it is drawn; drawing goes on meanwhile, so the
+/// next one, of the next step say, can be begun before.
 #[derive(Debug)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -43,8 +43,8 @@ impl<O: Output> Drawn<O> {
     /// [`Derivatives`](crate::Derivatives) six rasters, v, x, y, xx, xy, yy.
     ///
     /// # Errors
-    /// [`GpuError::Lost`]: the device is lost, with the picture. [`GpuError::Device`]: what went wrong
-    /// while it was drawn.
+    /// [`GpuError::Lost`]: the device is lost, with the picture. [`GpuError::Device`]: what went
+    /// wrong while it was drawn.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn read(&self) -> Result<O::Picture, GpuError> {
         let bytes = |texture| read::texture(&self.gpu, texture);

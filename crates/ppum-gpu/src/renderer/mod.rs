@@ -41,9 +41,9 @@ use targets::Targets;
 
 /// Draws fields on a graphics device.
 ///
-/// A [`Scene`] is a field on the card, a [`Program`] a quantity of it compiled, which draws any view. When the
-/// device is lost, the next call opens another one, uploads and compiles anew, and goes on. So it does with
-/// scenes and programs of another renderer.
+/// A [`Scene`] is a field on the card, a [`Program`] a quantity of it compiled, which draws any
+/// view. When the device is lost, the next call opens another one, uploads and compiles anew, and
+/// goes on. So it does with scenes and programs of another renderer.
 #[derive(Debug)]
 #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page opens devices by itself"))]
 pub struct Renderer {
@@ -83,17 +83,19 @@ impl Renderer {
     /// Puts a field on the card. Linear in its coefficients.
     ///
     /// # Errors
-    /// [`GpuError::TooLarge`] if it does not fit into a texture: 1 GiB on any device, 2 GiB on most.
+    /// [`GpuError::TooLarge`] if it does not fit into a texture: 1 GiB on any device, 2 GiB on
+    /// most.
     pub fn upload<'f>(&mut self, field: &'f Field<'f>) -> Result<Scene<'f>, GpuError> {
         self.again(|renderer| Scene::new(&renderer.card, field))
     }
 
-    /// Compiles an output for a scene. A program compiled before keeps drawing if this one fails. Areas of a
-    /// picture that need less than the whole program get their own when they are seen first.
+    /// Compiles an output for a scene. A program compiled before keeps drawing if this one fails.
+    /// Areas of a picture that need less than the whole program get their own when they are
+    /// seen first.
     ///
     /// # Errors
-    /// A formula that is too large for a shader; quantities that single precision cannot show, or that have
-    /// no meaning for the field; splatting on a device that cannot.
+    /// A formula that is too large for a shader; quantities that single precision cannot show, or
+    /// that have no meaning for the field; splatting on a device that cannot.
     pub fn compile<'f, O: Output>(
         &mut self,
         scene: &Scene<'f>,
@@ -109,8 +111,9 @@ impl Renderer {
         Ok(program)
     }
 
-    /// Sees to it that no picture has to wait for a shader: compiles a program for all kinds of areas, and draws some
-    /// of a view with each, as drivers may leave the rest to the first picture. Waits until all is done.
+    /// Sees to it that no picture has to wait for a shader: compiles a program for all kinds of
+    /// areas, and draws some of a view with each, as drivers may leave the rest to the first
+    /// picture. Waits until all is done.
     ///
     /// # Errors
     /// As [`Renderer::draw`].
@@ -128,7 +131,8 @@ impl Renderer {
     /// Draws a view.
     ///
     /// # Errors
-    /// See [`GpuError`]. A lost device is replaced; [`GpuError::Lost`] comes only if that fails twice.
+    /// See [`GpuError`]. A lost device is replaced; [`GpuError::Lost`] comes only if that fails
+    /// twice.
     pub fn draw<O: Output>(
         &mut self,
         program: &mut Program<'_, O>,
@@ -139,8 +143,8 @@ impl Renderer {
         self.again(|renderer| renderer.draw_areas(program, view, areas_of))
     }
 
-    /// The values of a quantity at the pixel centres of a view: uploads, compiles, draws and reads. The
-    /// watcher is told between these, and can stop the call there.
+    /// The values of a quantity at the pixel centres of a view: uploads, compiles, draws and reads.
+    /// The watcher is told between these, and can stop the call there.
     ///
     /// # Errors
     /// See [`RenderError`].

@@ -1,14 +1,15 @@
-//! Finding the patches of a pixel: a grid of bins over a region, halved where a bin meets many patches.
+//! Finding the patches of a pixel: a grid of bins over a region, halved where a bin meets
+//! many patches.
 //!
 //! ```text
 //! node   below INNER       a leaf, by the page at which its patches begin
 //!        INNER + texel     halved in x and y: its children are the four nodes of that texel, by x + 2 y
 //! ```
 //!
-//! The bins are as large as the largest cells, or smaller by a power of two as long as there are no more bins than
-//! patches, and their borders run through the centre of one of these cells: on a uniform cover a bin between four centres is
-//! met by their four patches and no other, so a patch is found in one step. Elsewhere a few steps down lead to at most a
-//! handful.
+//! The bins are as large as the largest cells, or smaller by a power of two as long as there are no
+//! more bins than patches, and their borders run through the centre of one of these cells: on a
+//! uniform cover a bin between four centres is met by their four patches and no other, so a patch
+//! is found in one step. Elsewhere a few steps down lead to at most a handful.
 
 use std::ops::Range;
 
@@ -32,7 +33,8 @@ pub(crate) struct Bins {
     pub(crate) pitch: Vec2,
     /// Columns and rows of the grid.
     pub(crate) size: [u32; 2],
-    /// Nodes; those of the grid first, row by row. What is between them and the first children is of no account.
+    /// Nodes; those of the grid first, row by row. What is between them and the first children is
+    /// of no account.
     pub(crate) nodes: Vec<u32>,
     /// Leaves that meet patches, page by page.
     pub(crate) leaves: Vec<Leaf>,

@@ -6,13 +6,14 @@
 //! other   [group + 2^GROUP_BITS × its texels, degrees], the polynomials of its functions, in their order
 //! ```
 //!
-//! Degrees are 8 bits for each function of a group, [`ABSENT`] if it has no polynomial here. A polynomial
-//! holds its coefficients in Horner's order, for b = d … 0, for a = d − b … 0 that of ξ^a η^b, of all
-//! components side by side: `lanes` words, as many times as there are groups of components. What is in
-//! brackets takes as much room. Patches and other terms begin with a texel.
+//! Degrees are 8 bits for each function of a group, [`ABSENT`] if it has no polynomial here. A
+//! polynomial holds its coefficients in Horner's order, for b = d … 0, for a = d − b … 0 that of
+//! ξ^a η^b, of all components side by side: `lanes` words, as many times as there are groups of
+//! components. What is in brackets takes as much room. Patches and other terms begin with a texel.
 //!
-//! The constant of the smooth term stands apart, in two halves: neighbours' constants are subtracted from
-//! each other before anything else, so that a plate that has moved far loses no digit of its strains.
+//! The constant of the smooth term stands apart, in two halves: neighbours' constants are
+//! subtracted from each other before anything else, so that a plate that has moved far loses no
+//! digit of its strains.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;

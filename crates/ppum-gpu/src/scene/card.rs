@@ -16,7 +16,8 @@ pub(crate) const TEXELS: u32 = 8192;
 /// Words of a row.
 const ROW: usize = 4 * TEXELS as usize;
 
-/// Words that are written at once, whole rows: 32 MiB, so that staging them takes little beside the data.
+/// Words that are written at once, whole rows: 32 MiB, so that staging them takes little beside
+/// the data.
 const AT_ONCE: usize = 256 * ROW;
 
 /// An open device as data see it.

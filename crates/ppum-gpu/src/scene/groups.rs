@@ -1,9 +1,9 @@
 //! Groups of functions: what a shader evaluates at once.
 //!
-//! A group has up to four functions that follow each other in the step's table and share a frame, or one
-//! side of a crack, one indicator of a component, or the function 1. The dataset's data name functions by group and entry, so groups are
-//! made once, at upload. A function that is replaced stays in its group: frames and kernels follow the table
-//! at hand, the data stay.
+//! A group has up to four functions that follow each other in the step's table and share a frame,
+//! or one side of a crack, one indicator of a component, or the function 1. The dataset's data name
+//! functions by group and entry, so groups are made once, at upload. A function that is replaced
+//! stays in its group: frames and kernels follow the table at hand, the data stay.
 
 use std::collections::BTreeMap;
 
@@ -63,8 +63,8 @@ pub(crate) enum Class {
 impl Groups {
     /// Groups the functions of a step as they are at upload.
     ///
-    /// Groups of one class, and of the same formulas, follow each other, so that a shader finds the kernel
-    /// of a group by few comparisons.
+    /// Groups of one class, and of the same formulas, follow each other, so that a shader finds the
+    /// kernel of a group by few comparisons.
     pub(crate) fn new(functions: &[Function]) -> Self {
         let mut members = consecutive(functions);
         let mut kernels = BTreeMap::new();
@@ -113,8 +113,8 @@ impl Groups {
         &self.members[group]
     }
 
-    /// The class of each group at upload: a smooth part with another function in place of 1 is still the
-    /// smooth part.
+    /// The class of each group at upload: a smooth part with another function in place of 1 is
+    /// still the smooth part.
     #[cfg(test)]
     pub(crate) fn classes(&self) -> &[Class] {
         &self.classes
@@ -173,7 +173,8 @@ fn frame(index: u32, functions: &[Function]) -> GroupFrame {
     }
 }
 
-/// Texts and parameters of formulas, a mark of indicators: groups that differ in their kernels have different ones.
+/// Texts and parameters of formulas, a mark of indicators: groups that differ in their kernels have
+/// different ones.
 pub(crate) fn texts(functions: &[Function], members: &[u32]) -> String {
     let text = |&member: &u32| match &functions[member as usize].kind {
         FunctionKind::Formula { text, parameters, .. } => {

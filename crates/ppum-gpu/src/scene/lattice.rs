@@ -1,7 +1,7 @@
 //! Uniform covers: patches of one size on a lattice, found without a search.
 //!
-//! A bin between four centres is met by their patches only, as long as they reach less than two cells
-//! far (α < 2), and where a pixel lies in it says which of them cover it.
+//! A bin between four centres is met by their patches only, as long as they reach less than two
+//! cells far (α < 2), and where a pixel lies in it says which of them cover it.
 
 use ppum::dataset::BoxPartition;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -30,8 +30,8 @@ pub(crate) struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice of a partition; none if patches differ in size, cells do not lie in columns and rows, or
-    /// polynomials have frames of their own.
+    /// The lattice of a partition; none if patches differ in size, cells do not lie in columns and
+    /// rows, or polynomials have frames of their own.
     pub(crate) fn of(partition: &BoxPartition) -> Option<Self> {
         let (pitch, half) = (partition.cell.first()?.size(), *partition.half.first()?);
         let alike = |&other: &Vec2| near(other.x, half.x) && near(other.y, half.y);

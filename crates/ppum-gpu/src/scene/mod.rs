@@ -30,11 +30,12 @@ use lattice::Lattice;
 use pages::Levels;
 use region::{Region, RegionWords, has_own_frames};
 
-/// Components of a field: a term of four functions times polynomials of degree 8 then stays below 4096 texels.
+/// Components of a field: a term of four functions times polynomials of degree 8 then stays below
+/// 4096 texels.
 const MOST_COMPONENTS: usize = 64;
 
-/// A field on the card. Made by [`Renderer::upload`](crate::Renderer::upload); one for each step of a
-/// series, say, of which any can be drawn without further ado. Clones share what is on the card.
+/// A field on the card. Made by [`Renderer::upload`](crate::Renderer::upload); one for each step of
+/// a series, say, of which any can be drawn without further ado. Clones share what is on the card.
 #[derive(Clone, Debug)]
 pub struct Scene<'f> {
     field: &'f Field<'f>,
@@ -42,7 +43,8 @@ pub struct Scene<'f> {
     on_card: Arc<Mutex<OnCard>>,
 }
 
-/// The part of a scene that lives on a device. It moves with the views, and to the next device when one is lost.
+/// The part of a scene that lives on a device. It moves with the views, and to the next device when
+/// one is lost.
 #[derive(Debug)]
 pub(crate) struct OnCard {
     gpu: Arc<Gpu>,
@@ -94,9 +96,9 @@ impl<'f> Scene<'f> {
         Ok(Self { field, groups: Arc::new(groups), on_card })
     }
 
-    /// The same scene with the functions and the weight of another field, one with [replaced](ppum::replace)
-    /// functions: nothing is uploaded again, and the coefficients are those on the card. Linear in the
-    /// number of patches.
+    /// The same scene with the functions and the weight of another field, one with
+    /// [replaced](ppum::replace) functions: nothing is uploaded again, and the coefficients are
+    /// those on the card. Linear in the number of patches.
     ///
     /// # Errors
     /// [`GpuError::OtherField`] if the field has other patches, blocks, functions or components.
@@ -135,8 +137,8 @@ impl OnCard {
         Ok(Self { gpu, layout, data, bodies, lattice, levels, enriched, region })
     }
 
-    /// Sees to it that a scene and the patches of a view are on a device. Its functions may have been replaced
-    /// since it was uploaded: programs know them by the groups they had.
+    /// Sees to it that a scene and the patches of a view are on a device. Its functions may have
+    /// been replaced since it was uploaded: programs know them by the groups they had.
     pub(crate) fn bring(
         &mut self,
         card: &Card,

@@ -6,8 +6,8 @@
 //!        if polynomials have frames of their own: x of their origins · y · reciprocal scales in x · in y
 //! ```
 //!
-//! Each is a texel of four, one word for each patch. Positions are seen from a corner nearby, so single precision does:
-//! relative to the patch's size they are as exact as ξ itself.
+//! Each is a texel of four, one word for each patch. Positions are seen from a corner nearby, so
+//! single precision does: relative to the patch's size they are as exact as ξ itself.
 
 use ppum::dataset::BoxPartition;
 use ppum::vec2::{Vec2, vec2};
@@ -141,8 +141,8 @@ mod tests {
         Bins::new(seen(domain), &patches, 1e-7)
     }
 
-    /// The shader's way from a point to what pages tell of it, in double precision: addresses, coordinates in the supports
-    /// and in the frames of polynomials.
+    /// The shader's way from a point to what pages tell of it, in double precision: addresses,
+    /// coordinates in the supports and in the frames of polynomials.
     fn told(words: &[u32], bins: &Bins, pages: &Pages<'_>, p: Vec2) -> Vec<(u32, [Vec2; 2])> {
         let t = p - pages.anchor - bins.origin;
         let last = bins.size.map(|n| f64::from(n) - 1.0);
@@ -189,7 +189,8 @@ mod tests {
         }
     }
 
-    /// Every patch that covers a point is told with the point's coordinates, to a few roundings of single precision.
+    /// Every patch that covers a point is told with the point's coordinates, to a few roundings of
+    /// single precision.
     #[test]
     fn pages_tell_where_points_lie() {
         for (seed, own_frames) in [(1, false), (2, true), (3, false), (4, true)] {

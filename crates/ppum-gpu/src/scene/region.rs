@@ -1,11 +1,11 @@
 //! The patches in a region of the plane, as the card holds them: seen from an anchor, in bins.
 //!
 //! Positions go to the card as `high + low`, two numbers of single precision each, relative to the
-//! anchor: `high` is a multiple of the region's quantum, so that differences of highs are exact. The
-//! difference of a pixel and a centre, formed half by half, then has all the digits of single
-//! precision, however small the patch is beside the region. Views that are too deep for a region, or
-//! leave it, get a new one: the anchor moves into the view, in double precision, and only the patches
-//! around it remain.
+//! anchor: `high` is a multiple of the region's quantum, so that differences of highs are exact.
+//! The difference of a pixel and a centre, formed half by half, then has all the digits of single
+//! precision, however small the patch is beside the region. Views that are too deep for a region,
+//! or leave it, get a new one: the anchor moves into the view, in double precision, and only the
+//! patches around it remain.
 //!
 //! ```text
 //! of a lattice    for each bin the addresses of the patches at its four corners, by x + 2 y
@@ -81,7 +81,8 @@ impl Region {
         nothing || (inside && longer(view) * DEEPEST >= size.x.max(size.y))
     }
 
-    /// The number that positions high are multiples of: 2⁻²² of the region's size, rounded to a power of two.
+    /// The number that positions high are multiples of: 2⁻²² of the region's size, rounded to a
+    /// power of two.
     pub(crate) fn quantum(&self) -> f64 {
         let size = self.bounds.size();
         let exponent = size.x.max(size.y).log2().ceil() as i32;

@@ -332,7 +332,8 @@ fn second_weights(index: vec2<u32>) -> vec4<f32> {{
     )
 }
 
-/// The output of a pass of two components: slot 0 is value and x, slot 1 y and xx, slot 2 xy and yy.
+/// The output of a pass of two components: slot 0 is value and x, slot 1 y and xx, slot 2 xy
+/// and yy.
 fn fields_of(pass: FieldPass, lanes: usize) -> String {
     const PAIRS: [[&str; 2]; 3] = [["v", "x"], ["y", "xx"], ["xy", "yy"]];
     let part = if lanes == 4 && pass.pair % 2 == 1 { "zw" } else { "xy" };

@@ -1,7 +1,7 @@
 //! The functions of a step as a text of WGSL.
 //!
-//! Groups of the same formulas in the same kind of frame share a kernel: the tips of a hundred cracks have
-//! one. `functions(group, offset)` chooses the kernel by the group's number.
+//! Groups of the same formulas in the same kind of frame share a kernel: the tips of a hundred
+//! cracks have one. `functions(group, offset)` chooses the kernel by the group's number.
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -30,8 +30,9 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) order: usize,
 }
 
-/// The kernels of all groups and the functions `functions(group: u32, offset: vec2<f32>) -> Functions` and
-/// `is_one(group: u32) -> bool`, for a table in which functions may be replaced; and the number of each group's kernel.
+/// The kernels of all groups and the functions
+/// `functions(group: u32, offset: vec2<f32>) -> Functions` and `is_one(group: u32) -> bool`, for a
+/// table in which functions may be replaced; and the number of each group's kernel.
 ///
 /// # Errors
 /// A formula that does not compile, or is too large for WGSL.
@@ -244,7 +245,8 @@ const RADIUS: usize = 2;
 /// Number of inputs before the sides of cracks: x, y, r, θ, cos(θ/2), sin(θ/2).
 const POLAR: usize = 6;
 
-/// The lines that evaluate formulas at the point `p` of their frame; only what they use is computed.
+/// The lines that evaluate formulas at the point `p` of their frame; only what they use is
+/// computed.
 fn call(jets: &FormulaJets, name: &str) -> String {
     let used: Vec<usize> = jets.used().collect();
     let within = |range: Range<usize>| used.iter().any(|index| range.contains(index));

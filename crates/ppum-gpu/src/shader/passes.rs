@@ -22,7 +22,8 @@ pub struct Finish {
     pub(crate) formats: &'static [TextureFormat],
 }
 
-/// The float textures that splatting adds fields into, called slots: two numbers of two components each.
+/// The float textures that splatting adds fields into, called slots: two numbers of two
+/// components each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Slots {
     /// Pairs of components.

@@ -1,8 +1,8 @@
 //! The quantity that is drawn as a text of WGSL.
 //!
-//! A quantity is a formula, one of the library's or the user's, with the constants of the material put in:
-//! what is the same everywhere is folded into numbers in double precision. Components, derivatives and norms
-//! of any number of components are lines of their own.
+//! A quantity is a formula, one of the library's or the user's, with the constants of the material
+//! put in: what is the same everywhere is folded into numbers in double precision. Components,
+//! derivatives and norms of any number of components are lines of their own.
 
 use ppum::equation::{Elasticity, Equation, Material, StressState};
 use ppum::expression::Expression;
@@ -21,8 +21,8 @@ pub(crate) fn order_of(quantity: &Quantity) -> u32 {
 /// The function `quantity(at: Sample) -> f32` with those it calls.
 ///
 /// # Errors
-/// `error`, whose difference of nearly equal numbers needs more digits than single precision has; formulas
-/// that WGSL cannot hold.
+/// `error`, whose difference of nearly equal numbers needs more digits than single precision has;
+/// formulas that WGSL cannot hold.
 pub(crate) fn quantity_wgsl(field: &Field<'_>, quantity: &Quantity) -> Result<String, GpuError> {
     let components = field.components();
     let all = |member: &'static str| (0..components).map(move |c| lane(c, member));
@@ -50,13 +50,14 @@ pub(crate) fn quantity_wgsl(field: &Field<'_>, quantity: &Quantity) -> Result<St
     })
 }
 
-/// The equation of the library's quantities of displacements. Its constants are of no account: formulas
-/// get those of the field.
+/// The equation of the library's quantities of displacements. Its constants are of no account:
+/// formulas get those of the field.
 fn solid() -> Equation {
     Equation::elasticity(Material { young: 1.0, poisson: 0.0, state: StressState::PlaneStrain })
 }
 
-/// The lines before quantities of the gradient: they are infinite where a derivative is, or does not exist.
+/// The lines before quantities of the gradient: they are infinite where a derivative is, or does
+/// not exist.
 fn apart(components: usize) -> String {
     let slopes = (0..components).flat_map(|c| [lane(c, "x"), lane(c, "y")]);
     let infinite = |slope| format!("(bitcast<u32>({slope}) & 0x7f800000u) == 0x7f800000u");
@@ -76,8 +77,8 @@ fn lane(component: usize, member: &str) -> String {
     format!("at.u[{}].{member}.{lane}", component / 4)
 }
 
-/// The function of a Euclidean norm; squares of stresses or of displacements near a tip would leave the
-/// range of single precision.
+/// The function of a Euclidean norm; squares of stresses or of displacements near a tip would leave
+/// the range of single precision.
 fn norm(before: &str, mut values: impl Iterator<Item = String>) -> String {
     let mut lines = before.to_owned();
     let first = values.next().unwrap_or_else(|| "0.0".to_owned());
@@ -153,8 +154,8 @@ fn argument(input: Input) -> String {
 
 type Failure = Box<dyn std::error::Error>;
 
-/// A formula with the constants of the field's equation in place of their names: numbers where they are the
-/// same everywhere, and moduli as formulas of E and ν.
+/// A formula with the constants of the field's equation in place of their names: numbers where they
+/// are the same everywhere, and moduli as formulas of E and ν.
 fn with_constants(
     formula: &Formula,
     equation: &Equation,
@@ -169,8 +170,8 @@ fn with_constants(
     Ok(formula.substitute(&definitions)?)
 }
 
-/// The constants of an equation that are no formulas of position, in the words of a vocabulary of elastic or
-/// other formulas; zero where the equation has no such constant.
+/// The constants of an equation that are no formulas of position, in the words of a vocabulary of
+/// elastic or other formulas; zero where the equation has no such constant.
 fn constants(equation: &Equation, elastic: bool) -> Vec<(&'static str, String)> {
     let number = |(name, expression): (&'static str, &Expression)| {
         expression.constant().map(|_| (name, expression.text().to_owned()))

@@ -1,9 +1,9 @@
-//! The smooth term of a patch where all patches have the same degree: a shader without loops. And what
-//! else reads texels of coefficients once each.
+//! The smooth term of a patch where all patches have the same degree: a shader without loops. And
+//! what else reads texels of coefficients once each.
 //!
-//! `smooth_of` of `wgsl/smooth.wgsl` reads a degree and runs loops over coefficients. Here the
-//! same nested Horner schemes are written out for one degree, and each texel of coefficients is loaded
-//! once.
+//! `smooth_of` of `wgsl/smooth.wgsl` reads a degree and runs loops over coefficients. Here the same
+//! nested Horner schemes are written out for one degree, and each texel of coefficients is
+//! loaded once.
 
 use std::fmt::Write;
 
@@ -53,8 +53,8 @@ pub(crate) fn four_constants(lanes: usize, groups: usize) -> String {
     text
 }
 
-/// The sums of weights times constants over the patches of a pixel, and the functions that add to them and take them
-/// times the functions: these are evaluated once a pixel.
+/// The sums of weights times constants over the patches of a pixel, and the functions that add to
+/// them and take them times the functions: these are evaluated once a pixel.
 ///
 /// ```text
 /// Σ_i W_i Σ_k c_ik f_k = Σ_k f_k C_k     C_k = Σ_i W_i c_ik
@@ -115,8 +115,8 @@ struct Lines {
 }
 
 impl Lines {
-    /// The sums over η of sums over ξ, in the order of [`MEMBERS`]; half the last. `coefficient` gives none
-    /// for the constant.
+    /// The sums over η of sums over ξ, in the order of [`MEMBERS`]; half the last. `coefficient`
+    /// gives none for the constant.
     fn polynomial(&mut self, degree: usize, coefficient: impl Fn(usize) -> Term) -> [Term; 6] {
         let mut sum: [Term; 6] = Default::default();
         let mut next = 0;

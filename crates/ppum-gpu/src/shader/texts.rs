@@ -1,5 +1,5 @@
-//! The texts of shaders, small files by concept, each a twin of a module of `ppum`. A shader is made of them
-//! by putting them and generated declarations one behind the other.
+//! The texts of shaders, small files by concept, each a twin of a module of `ppum`. A shader is
+//! made of them by putting them and generated declarations one behind the other.
 
 /// Values with derivatives.
 pub(crate) const JET: &str = include_str!("wgsl/jet.wgsl");
@@ -21,8 +21,8 @@ pub(crate) const DOMAIN: &str = include_str!("wgsl/domain.wgsl");
 pub(crate) const GEOMETRY: &str = include_str!("wgsl/geometry.wgsl");
 
 /// All functions of a point, by name. Beside them they need `ppum::formula::wgsl_prelude`, the
-/// [constants](crate::frame::geometry::constants) of the view's data, `load_view`, `load_lanes`, `LANE_PAIRS`,
-/// `Lanes`, `ORDER`, `weight` and `view.cracks`.
+/// [constants](crate::frame::geometry::constants) of the view's data, `load_view`, `load_lanes`,
+/// `LANE_PAIRS`, `Lanes`, `ORDER`, `weight` and `view.cracks`.
 pub(crate) const POINT_FUNCTIONS: [(&str, &str); 9] = [
     ("jet", JET),
     ("polynomial", POLYNOMIAL),

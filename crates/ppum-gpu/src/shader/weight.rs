@@ -4,8 +4,8 @@ use ppum::weight::WeightFunction;
 
 use crate::error::GpuError;
 
-/// The function of the shader that calls a formula of t: its value, slope and curvature at t = |ξ| as
-/// those of ξ on the support \[−1, 1).
+/// The function of the shader that calls a formula of t: its value, slope and curvature at t = |ξ|
+/// as those of ξ on the support \[−1, 1).
 const OF_FORMULA: &str = "
 fn weight(xi: f32) -> vec3<f32> {
     let t = min(abs(xi), 1.0);
@@ -26,7 +26,8 @@ fn weight_or_zero(within: bool, value: f32) -> f32 {
 }
 ";
 
-/// The function `weight(xi: f32) -> vec3<f32>` of a weight: w, dw/dξ, d²w/dξ² at ξ, zero outside \[−1, 1).
+/// The function `weight(xi: f32) -> vec3<f32>` of a weight: w, dw/dξ, d²w/dξ² at ξ, zero outside
+/// \[−1, 1).
 ///
 /// # Errors
 /// A formula with a table that WGSL cannot hold.

@@ -10,7 +10,8 @@ use super::compute::run;
 use super::gpu_or_skip;
 use crate::Gpu;
 
-/// Numbers of a row: the inputs of a case, at most one less, and which of the shader's formulas it is.
+/// Numbers of a row: the inputs of a case, at most one less, and which of the shader's formulas
+/// it is.
 const NUMBERS: usize = 16;
 /// Results that a case has at most: value, gradient and Hessian of two variables.
 const OUTPUTS: usize = 6;
@@ -115,7 +116,8 @@ fn wrong_derivatives_fail_on_the_driver() {
     assert_eq!(report.failures.len(), cases.len());
 }
 
-/// Compilers keep the accuracy of the prelude's functions: none puts the parts of its constants together.
+/// Compilers keep the accuracy of the prelude's functions: none puts the parts of its
+/// constants together.
 #[test]
 fn functions_are_accurate_on_the_driver() {
     let Some(gpu) = gpu_or_skip() else { return };

@@ -1,8 +1,8 @@
-//! Functions of shaders against the functions of `ppum` they are twins of, in double precision at the same
-//! rounded inputs.
+//! Functions of shaders against the functions of `ppum` they are twins of, in double precision at
+//! the same rounded inputs.
 //!
-//! Tolerances count unit roundoffs u = 2⁻²⁴ of the size of the terms that are added. WGSL allows 5 u for a
-//! division and 9 u for a root; sums and products have 1 u.
+//! Tolerances count unit roundoffs u = 2⁻²⁴ of the size of the terms that are added. WGSL allows 5
+//! u for a division and 9 u for a root; sums and products have 1 u.
 
 use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd, End, LocalCrack, LocalTip, SegmentId, Side, TipId, TipPoint};
@@ -153,8 +153,9 @@ fn quotients_of_jets() {
     });
 }
 
-/// Places where weights begin, end and have knots, on both sides of each, and between. Knots ±1/3 are no
-/// numbers of single precision: there the neighbours decide. Cards take subnormal numbers for 0.
+/// Places where weights begin, end and have knots, on both sides of each, and between. Knots ±1/3
+/// are no numbers of single precision: there the neighbours decide. Cards take subnormal numbers
+/// for 0.
 fn places() -> Vec<f32> {
     let knots = [-1.0f32, -0.5, 0.0, 0.5, 1.0];
     let mut places: Vec<f32> = (-60..=60).map(|k| k as f32 * 0.021).collect();
@@ -289,8 +290,9 @@ const PUT_FUNCTIONS: &str = "fn row(k: u32) {
     }
 }";
 
-/// Two roots, three divisions and up to 20 other operations: 60 u of r^½, r^-½ and r^-3/2 times the largest
-/// factor of the formulas; of C and S themselves of their own size, which vanishes on a face.
+/// Two roots, three divisions and up to 20 other operations: 60 u of r^½, r^-½ and r^-3/2 times the
+/// largest factor of the formulas; of C and S themselves of their own size, which vanishes on
+/// a face.
 fn westergaard_expected(row: &[f32; 4]) -> Expected {
     let p = tip_point(row);
     let r = p.x.hypot(p.y);
@@ -336,7 +338,8 @@ fn a_wrong_derivative_is_found() {
     }
 }
 
-/// Two roots (18 u) and three divisions (15 u) with the operations between, of the numbers themselves.
+/// Two roots (18 u) and three divisions (15 u) with the operations between, of the
+/// numbers themselves.
 #[test]
 fn polar_coordinates() {
     let text = "fn row(k: u32) {
@@ -401,8 +404,8 @@ fn offsets(seed: u64) -> Vec<[f32; 2]> {
     rows
 }
 
-/// True if a point is farther than the roundings of its coordinates and of the view's data from where
-/// `decide` changes: 16 u of the sizes of both.
+/// True if a point is farther than the roundings of its coordinates and of the view's data from
+/// where `decide` changes: 16 u of the sizes of both.
 fn decided(at: Vec2, distance: f64, decide: impl Fn(Vec2) -> bool) -> bool {
     let band = 16.0 * U * (at.length() + distance);
     let round = (0..16).map(|k| std::f64::consts::TAU * f64::from(k) / 16.0);
@@ -453,7 +456,8 @@ fn sides_of_cracks() {
     assert!(compared > all / 2, "{compared} of {all}");
 }
 
-/// Arms of a star, a crack that ends on one of them and one that crosses it; and random trees of cuts by their segments.
+/// Arms of a star, a crack that ends on one of them and one that crosses it; and random trees of
+/// cuts by their segments.
 fn trees(random: &mut Random) -> (Vec<Crack>, Vec<Function>) {
     let mut cracks: Vec<Crack> = (0..5)
         .map(|_| crack(&[[0.25, 0.5], (vec2(0.25, 0.5) + random.direction()).into()]))
@@ -506,7 +510,8 @@ fn indicators_of_components() {
             let lines = cracks.iter().map(|crack| LocalCrack::new(crack, center));
             let far =
                 lines.flat_map(|c| c.segments().iter().map(|s| s.distance).collect::<Vec<_>>());
-            // distances of lines through the centre are nothing but rounding: those of the others count where they decide
+            // distances of lines through the centre are nothing but rounding: those of the others
+            // count where they decide
             let far: Vec<f64> = far.map(f64::abs).filter(|&d| d > 1e-15).collect();
             let mut rows = offsets(11);
             all += rows.len();
@@ -526,8 +531,8 @@ fn indicators_of_components() {
     assert!(compared > all / 2 && inside > compared / 8, "{compared} of {all}, {inside} inside");
 }
 
-/// The point of a frame: a product and a sum for each coordinate of rounded data, 8 u of what is added.
-/// Signs and branches where they are decided.
+/// The point of a frame: a product and a sum for each coordinate of rounded data, 8 u of what is
+/// added. Signs and branches where they are decided.
 #[test]
 fn points_of_tips() {
     let text = "fn row(k: u32) {

@@ -8,7 +8,8 @@ use ppum_testkit::synthetic::Recipe;
 use super::gpu_or_skip;
 use crate::{Choice, Method, Renderer, Values};
 
-/// What is prepared draws all of the plate, and parts with tips, sides and neither, and nothing is compiled for them.
+/// What is prepared draws all of the plate, and parts with tips, sides and neither, and nothing is
+/// compiled for them.
 #[test]
 fn a_prepared_program_has_all_its_pipelines() {
     let Some(gpu) = gpu_or_skip() else { return };

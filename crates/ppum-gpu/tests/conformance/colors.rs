@@ -14,8 +14,8 @@ use crate::{draw, good, quantity, renderer_or_skip, view};
 /// Relative distance from an end of the range within which single precision may decide otherwise.
 const ROUNDING: f64 = 1e-6;
 
-/// Steps of a byte that a channel may be off: the palettes are equal, and neighbours in them differ by at most
-/// one half of a step, rounded.
+/// Steps of a byte that a channel may be off: the palettes are equal, and neighbours in them differ
+/// by at most one half of a step, rounded.
 const STEP: u8 = 1;
 
 /// The range leaves values below and above it, and the window reaches beyond the domain.

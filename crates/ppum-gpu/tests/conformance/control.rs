@@ -7,8 +7,9 @@ use ppum_testkit::synthetic::Recipe;
 
 use crate::{SINGLE, good, quantity, render, renderer_or_skip, values, window};
 
-/// Errors of some 10⁻³ on one side only: a weight whose value is nearly right but not its slope, tip functions with a
-/// wrong half angle, another sign, or a wrong exponent, a side that is smeared.
+/// Errors of some 10⁻³ on one side only: a weight whose value is nearly right but not its slope,
+/// tip functions with a wrong half angle, another sign, or a wrong exponent, a side that
+/// is smeared.
 const WRONG: [(Option<&str>, &str); 5] = [
     (None, "(1 - t)*(1 + 0.002*t)"),
     (Some("sqrt(r)*cos(theta/2)"), "sqrt(r)*cos(theta/1.998)"),

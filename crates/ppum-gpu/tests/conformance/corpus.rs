@@ -46,8 +46,8 @@ struct Worst {
     pixels: [usize; 2],
 }
 
-/// Draws the cases by all evaluators and compares with the truth. Compiling is what takes time: only the first
-/// quantity of a case is splatted.
+/// Draws the cases by all evaluators and compares with the truth. Compiling is what takes time:
+/// only the first quantity of a case is splatted.
 fn agree(group: &str, cases: &[Case], check: impl Fn(&str, Evaluator, &Differences)) {
     let mut renderer = renderer_or_skip();
     let mut worst = Worst::default();

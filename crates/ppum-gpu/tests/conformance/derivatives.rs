@@ -8,8 +8,8 @@ use ppum_testkit::synthetic::Recipe;
 
 use crate::{METHODS, SINGLE, good, renderer_or_skip, values, view, window};
 
-/// Second derivatives of U are divided by S after those of S are subtracted: where S is small single pixels are off by
-/// this many times more.
+/// Second derivatives of U are divided by S after those of S are subtracted: where S is small
+/// single pixels are off by this many times more.
 const SECOND: f64 = 10.0;
 
 fn recipes() -> Vec<(u8, Recipe)> {

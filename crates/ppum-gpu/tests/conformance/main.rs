@@ -32,8 +32,9 @@ use ppum_testkit::synthetic::Recipe;
 /// Single precision: 2⁻²⁴ times what a few hundred operations lose, relative to the local scale.
 const SINGLE: f64 = 2e-5;
 
-/// Single pixels may be this much farther off where the method asks for it: the vectors of the CPU expand
-/// polynomials of degree 8 along rows; splatting subtracts one constant for the whole picture.
+/// Single pixels may be this much farther off where the method asks for it: the vectors of the CPU
+/// expand polynomials of degree 8 along rows; splatting subtracts one constant for the
+/// whole picture.
 const OUTLIERS: f64 = 5.0;
 
 /// Both ways to draw.

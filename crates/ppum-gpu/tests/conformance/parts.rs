@@ -1,4 +1,5 @@
-//! Parts of a field are fields: drawn alone they are what the CPU draws, and together they are the whole.
+//! Parts of a field are fields: drawn alone they are what the CPU draws, and together they are
+//! the whole.
 
 use ppum::decompose::{KINDS, Part};
 use ppum::field::Field;

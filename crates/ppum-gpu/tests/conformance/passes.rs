@@ -1,5 +1,5 @@
-//! What is drawn on pictures is the same whatever drew them: isolines and extrema are found on the exact field, and a
-//! raster says only where to look.
+//! What is drawn on pictures is the same whatever drew them: isolines and extrema are found on the
+//! exact field, and a raster says only where to look.
 
 use ppum::field::Field;
 use ppum::progress::unwatched;

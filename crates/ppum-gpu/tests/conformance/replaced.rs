@@ -1,4 +1,5 @@
-//! Functions and weights replaced while running: a scene stays, and what is drawn is the replaced field.
+//! Functions and weights replaced while running: a scene stays, and what is drawn is the
+//! replaced field.
 
 use std::sync::Arc;
 
@@ -59,8 +60,8 @@ fn replaced_functions_of_components() {
     }
 }
 
-/// The field that the program is compiled for has other coefficients: those on the card are drawn, so
-/// nothing is uploaded again.
+/// The field that the program is compiled for has other coefficients: those on the card are drawn,
+/// so nothing is uploaded again.
 #[test]
 fn replaced_functions_are_drawn_without_upload() {
     let Some(mut renderer) = renderer_or_skip() else { return };
@@ -81,7 +82,8 @@ fn replaced_functions_are_drawn_without_upload() {
     }
 }
 
-/// The device is lost while functions are replaced: the scene comes back with the groups the program knows.
+/// The device is lost while functions are replaced: the scene comes back with the groups the
+/// program knows.
 #[test]
 fn replaced_functions_survive_a_loss() {
     let Some(mut renderer) = renderer_or_skip() else { return };
@@ -117,8 +119,8 @@ fn a_function_is_not_asked_where_it_is_not_used() {
     }
 }
 
-/// Texts that no shader can hold, and texts that are no formulas, say what is wrong; what was compiled before
-/// is drawn as before.
+/// Texts that no shader can hold, and texts that are no formulas, say what is wrong; what was
+/// compiled before is drawn as before.
 #[test]
 fn a_broken_formula_leaves_the_old_picture() {
     let Some(mut renderer) = renderer_or_skip() else { return };

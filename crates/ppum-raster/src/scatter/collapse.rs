@@ -103,7 +103,8 @@ pub(super) struct Across<R> {
     pub(super) scaled: R,
 }
 
-/// Writes the table of one block, or adds to it: for j from the degree down to 0 the vectors A_j and B_j.
+/// Writes the table of one block, or adds to it: for j from the degree down to 0 the vectors A_j
+/// and B_j.
 #[inline(always)]
 fn collapse_degree<R: Real, const D: usize, const P: usize, const ADD: bool>(
     coefficients: &[R::Scalar],
@@ -145,8 +146,8 @@ fn inner<R: Real, const D: usize>(c: &[R::Scalar], degree: usize, j: usize, xi: 
     [a, b]
 }
 
-/// A block of `C` components at a row of a vector of columns: of each Σ A_j η^j and its derivatives by x and y. `P` is the
-/// degree or [`ANY`].
+/// A block of `C` components at a row of a vector of columns: of each Σ A_j η^j and its derivatives
+/// by x and y. `P` is the degree or [`ANY`].
 #[inline(always)]
 pub(super) fn evaluate<R: Real, const D: usize, const P: usize, const C: usize>(
     tables: [&[R::Scalar]; C],

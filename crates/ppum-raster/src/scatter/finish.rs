@@ -1,5 +1,5 @@
-//! From the field's components at a column of vectors to the values of a quantity, row by row, or, by a formula, some rows
-//! at a time.
+//! From the field's components at a column of vectors to the values of a quantity, row by row, or,
+//! by a formula, some rows at a time.
 
 use ppum::jet::Jet;
 use ppum::quantity::{Input, Quantity, QuantityBlock, QuantityFormula, Sample, Source};
@@ -158,8 +158,8 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         }
     }
 
-    /// The numbers of an input at the rows from `row` on, whose components are in the cells. Which one it is, is asked once
-    /// for all of them.
+    /// The numbers of an input at the rows from `row` on, whose components are in the cells. Which
+    /// one it is, is asked once for all of them.
     #[inline(always)]
     fn fill_input<R: Real<Scalar = T>>(
         &self,

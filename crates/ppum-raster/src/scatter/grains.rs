@@ -1,15 +1,16 @@
 //! Grains: patches of a few pixels each.
 //!
-//! A strip is not worth its tables there. Each tile asks the search tree for its patches, so nothing is made for all of them at
-//! once, and evaluates each row by row,
+//! A strip is not worth its tables there. Each tile asks the search tree for its patches, so
+//! nothing is made for all of them at once, and evaluates each row by row,
 //!
 //! ```text
 //! W = a(ξ) b(η)     v = Σ_e f_e p_e(ξ, η)
 //! ```
 //!
-//! pixel by pixel where it has few columns, else on vectors that may reach beyond them: the weight is zero there. W and W v are
-//! added to sums in memory, in the order of the patches, so a pixel's sums do not depend on the number of lanes. They are then what a batch
-//! of strips leaves; the last batch, of no strips, finishes them.
+//! pixel by pixel where it has few columns, else on vectors that may reach beyond them: the weight
+//! is zero there. W and W v are added to sums in memory, in the order of the patches, so a pixel's
+//! sums do not depend on the number of lanes. They are then what a batch of strips leaves; the last
+//! batch, of no strips, finishes them.
 
 use ppum::crack::Side;
 use ppum::dataset::monomials;
@@ -42,7 +43,8 @@ pub(super) struct Grains<T> {
     found: Vec<u32>,
     /// The blocks of the patch; the first is of function 1.
     blocks: Vec<Block>,
-    /// Of each component the coefficients of the first block, less the constant that the tile subtracts.
+    /// Of each component the coefficients of the first block, less the constant that the
+    /// tile subtracts.
     smooth: Vec<T>,
     /// By rows, then numbers: W with derivatives, then W v of each component.
     sums: Vec<T>,
@@ -259,8 +261,8 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         self.scene.functions.evaluate::<R, D>(group as usize, offset, Side::Above, jets);
     }
 
-    /// Coordinates of a vector of pixels. Of the first they are found in f64: far from the view's centre f32 has too few digits for
-    /// cells of a pixel.
+    /// Coordinates of a vector of pixels. Of the first they are found in f64: far from the view's
+    /// centre f32 has too few digits for cells of a pixel.
     #[inline(always)]
     fn coordinates<R: Real<Scalar = T>>(
         &self,

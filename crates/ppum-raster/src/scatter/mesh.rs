@@ -15,7 +15,8 @@ use crate::view::View;
 /// Columns and rows of a tile: its pixels share the elements that are looked at.
 const TILE: usize = 16;
 
-/// Evaluates some bands of rows at a time, seen from the view's centre, and gives `take` their values in order.
+/// Evaluates some bands of rows at a time, seen from the view's centre, and gives `take` their
+/// values in order.
 pub(super) fn render_strips(
     field: &Field<'_>,
     view: &View,

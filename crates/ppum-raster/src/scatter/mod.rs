@@ -8,19 +8,21 @@
 //!
 //! and when all have, each point is divided once, u = U / S and ∇u = (∇U − u ∇S) / S, and the
 //! quantity made. No patch list is searched at a pixel, and no pixel lies in a special case: any
-//! cover, any degree, any number of functions. At a vector of columns a patch's weight and polynomials collapse to
-//! polynomials in y (module `collapse`), those of patches beside each other to one (`strips`). Row by row (`sweep`) these are summed
-//! and divided in registers (`sums`), and the quantity is made while all is in the nearest cache (`finish`). Functions are
-//! evaluated once for a column, and only where a patch needs them. Where patches are too small for that to pay they are summed one by
-//! one instead (`grains`).
+//! cover, any degree, any number of functions. At a vector of columns a patch's weight and
+//! polynomials collapse to polynomials in y (module `collapse`), those of patches beside each other
+//! to one (`strips`). Row by row (`sweep`) these are summed and divided in registers (`sums`), and
+//! the quantity is made while all is in the nearest cache (`finish`). Functions are evaluated once
+//! for a column, and only where a patch needs them. Where patches are too small for that to pay
+//! they are summed one by one instead (`grains`).
 //!
 //! The renderer evaluates the same field as [`LocalField`](ppum::field::LocalField), which
-//! [`reference`](fn@crate::reference::reference) draws with, in another order; they agree to rounding.
-//! Results depend neither on the number of threads nor on chance; they may differ in the last bits
-//! from processor to processor, since lanes fuse multiplication and addition where they can.
+//! [`reference`](fn@crate::reference::reference) draws with, in another order; they agree to
+//! rounding. Results depend neither on the number of threads nor on chance; they may differ in the
+//! last bits from processor to processor, since lanes fuse multiplication and addition where
+//! they can.
 //!
-//! In f32 two measures keep what f64 would show: offsets are taken from the view's centre in f64, so
-//! zoom costs nothing, and each tile subtracts a constant displacement, which the partition of
+//! In f32 two measures keep what f64 would show: offsets are taken from the view's centre in f64,
+//! so zoom costs nothing, and each tile subtracts a constant displacement, which the partition of
 //! unity reproduces, before weights and displacements are multiplied.
 
 mod collapse;
@@ -58,8 +60,8 @@ use weights::Weights;
 
 pub use schedule::{Schedule, TileLoad};
 
-/// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 on the threads of the
-/// pool that calls.
+/// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 on the
+/// threads of the pool that calls.
 ///
 /// Pixels outside the domain are NaN; quantities of the gradient are +∞ at a crack tip. On a crack
 /// the side above is taken. f32 keeps some 5 digits of a stress; a view whose pixels are too small
@@ -69,8 +71,9 @@ pub use schedule::{Schedule, TileLoad};
 ///
 /// # Errors
 /// [`RenderError::Cancelled`] if the watcher stops the call;
-/// [`QuantityError::Patch`](ppum::quantity::QuantityError::Patch) for the partition function of a patch that does not exist;
-/// [`QuantityError::NoExact`](ppum::quantity::QuantityError::NoExact) for the error of a field whose exact solution is not known.
+/// [`QuantityError::Patch`](ppum::quantity::QuantityError::Patch) for the partition function of a
+/// patch that does not exist; [`QuantityError::NoExact`](ppum::quantity::QuantityError::NoExact)
+/// for the error of a field whose exact solution is not known.
 pub fn render<T: Sample>(
     field: &Field<'_>,
     view: &View,
@@ -98,8 +101,8 @@ pub fn render_with<T: Sample>(
     Ok(Raster::new(view.pixels, values))
 }
 
-/// The values of [`render`], to the last bit, a strip at a time, for views of more pixels than are to
-/// be held at once: `take` is given the values of the strips from the top, each of `rows` rows,
+/// The values of [`render`], to the last bit, a strip at a time, for views of more pixels than are
+/// to be held at once: `take` is given the values of the strips from the top, each of `rows` rows,
 /// rounded up to whole bands of 32, but for the last one.
 ///
 /// # Errors
@@ -232,8 +235,8 @@ impl<'f, T: Sample> Scene<'f, T> {
         }
     }
 
-    /// Draws with `D` derivatives, some bands at a time, whose rows `take` is given in order; bands of rows in
-    /// parallel.
+    /// Draws with `D` derivatives, some bands at a time, whose rows `take` is given in order; bands
+    /// of rows in parallel.
     fn draw<const D: usize>(
         &self,
         bands: usize,

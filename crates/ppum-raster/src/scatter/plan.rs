@@ -1,4 +1,5 @@
-//! The parts of a field that one view needs: the patches in sight, their pixels, their blocks, their tiles.
+//! The parts of a field that one view needs: the patches in sight, their pixels, their blocks,
+//! their tiles.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -193,9 +194,10 @@ impl<'f> Plan<'f> {
         &self.coefficients[component][block.offset as usize..]
     }
 
-    /// The constants of patches that a tile subtracts: midway between those of the first and the last patch, which
-    /// lie in opposite corners if the patches follow the Morton curve. The partition of unity
-    /// reproduces constants, and ∇U − u ∇S loses the fewer digits the smaller u is.
+    /// The constants of patches that a tile subtracts: midway between those of the first and the
+    /// last patch, which lie in opposite corners if the patches follow the Morton curve. The
+    /// partition of unity reproduces constants, and ∇U − u ∇S loses the fewer digits the smaller
+    /// u is.
     pub(super) fn middle(&self, patches: &[u32], shift: &mut Vec<f64>) {
         shift.clear();
         shift.resize(self.coefficients.len(), 0.0);
@@ -249,8 +251,9 @@ impl Kinds {
     }
 }
 
-/// True if patches are drawn as grains: if on average those of a sample have fewer pixels than so many. Weights by formula are found
-/// for many pixels of strips at a time, and would be dear one by one.
+/// True if patches are drawn as grains: if on average those of a sample have fewer pixels than so
+/// many. Weights by formula are found for many pixels of strips at a time, and would be dear one
+/// by one.
 fn has_grains(
     field: &Field,
     anchor: Vec2,
@@ -269,7 +272,8 @@ fn has_grains(
     !matches!(partition.weight, WeightFunction::Formula(_)) && sum < patches.saturating_mul(most)
 }
 
-/// Adds the blocks of a patch, one of function 1 first; none if there is nothing to sum but weights.
+/// Adds the blocks of a patch, one of function 1 first; none if there is nothing to sum
+/// but weights.
 #[inline(always)]
 pub(super) fn add_blocks(
     field: &Field,
@@ -326,12 +330,12 @@ fn holes(holes: &[Hole], anchor: Vec2, pixels: &Pixels) -> Vec<HolePixels> {
     seen.filter(|hole| !hole.columns.is_empty() && !hole.rows.is_empty()).collect()
 }
 
-/// Most patches in the lists of a strip's tiles, unless one band has more: 128 MiB. A million patches that a picture
-/// resolves have two million entries.
+/// Most patches in the lists of a strip's tiles, unless one band has more: 128 MiB. A million
+/// patches that a picture resolves have two million entries.
 const MOST_ENTRIES: usize = 1 << 25;
 
-/// Some bands in strips whose lists of patches, of so many entries a band, are short enough to be kept; all of
-/// them where they can be.
+/// Some bands in strips whose lists of patches, of so many entries a band, are short enough to be
+/// kept; all of them where they can be.
 pub(super) fn strips(bands: Range<usize>, entries: &[usize]) -> Vec<Range<usize>> {
     let (mut strips, mut start, mut sum) = (Vec::new(), bands.start, 0);
     for band in bands.clone() {

@@ -1,9 +1,10 @@
 //! Patches at a column of vectors that are the same in y, collapsed together.
 //!
-//! The weight is a product, W = a(x) b(y). Patches beside each other mostly have the same b, the same coordinate η and the
-//! same functions. What they collapse to at a vector of columns, polynomials in y, is then added coefficient by coefficient: a strip
-//! of patches costs a pixel what one patch does, however narrow they are. Whether patches are the same is asked of their numbers, so any
-//! cover is drawn, and where neighbours differ each is a strip of its own.
+//! The weight is a product, W = a(x) b(y). Patches beside each other mostly have the same b, the
+//! same coordinate η and the same functions. What they collapse to at a vector of columns,
+//! polynomials in y, is then added coefficient by coefficient: a strip of patches costs a pixel
+//! what one patch does, however narrow they are. Whether patches are the same is asked of their
+//! numbers, so any cover is drawn, and where neighbours differ each is a strip of its own.
 //!
 //! Where a strip is alone, its b(y) cancels: the field is what its tables hold over Σ a.
 
@@ -19,11 +20,12 @@ use super::sums::{basis_len, size};
 use super::tile::{Active, Listed, Scratch, Tile, union};
 use crate::summation::Savings;
 
-/// Groups of functions that are kept at a time for the strips of a tile, more if one strip has them: 6 MB.
+/// Groups of functions that are kept at a time for the strips of a tile, more if one strip has
+/// them: 6 MB.
 const MOST_ACTIVE: usize = 256;
 
-/// Places to look for a strip, and how many of them before it is given up: patches that begin at different rows of a tile
-/// never meet there.
+/// Places to look for a strip, and how many of them before it is given up: patches that begin at
+/// different rows of a tile never meet there.
 const SLOTS: usize = 256;
 const TRIES: usize = 4;
 
@@ -32,7 +34,8 @@ const TRIES: usize = 4;
 pub(super) struct Strips<T> {
     pub(super) all: Vec<Strip>,
     pub(super) terms: Vec<Term>,
-    /// Of each strip the weight's factor and slope in x, then for each component the tables of its blocks.
+    /// Of each strip the weight's factor and slope in x, then for each component the tables of
+    /// its blocks.
     pub(super) tables: Vec<T>,
     /// The same over the weight's factor, of strips that are alone somewhere.
     pub(super) alone: Vec<T>,
@@ -168,8 +171,8 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         }
     }
 
-    /// Collapses patches at a column of vectors to strips, from one of the list on as many as there is
-    /// room for; returns the first that is left.
+    /// Collapses patches at a column of vectors to strips, from one of the list on as many as there
+    /// is room for; returns the first that is left.
     #[inline(always)]
     pub(super) fn gather<R: Real<Scalar = T>>(
         &self,
@@ -259,8 +262,8 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         place
     }
 
-    /// Writes what a patch, whose coefficients begin at a place, collapses to at a vector of columns to the tables of its
-    /// strip, or adds it.
+    /// Writes what a patch, whose coefficients begin at a place, collapses to at a vector of
+    /// columns to the tables of its strip, or adds it.
     #[inline(always)]
     fn collapse<R: Real<Scalar = T>, const ADD: bool>(
         &self,
@@ -292,7 +295,8 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         }
     }
 
-    /// One factor of the weight with its derivative in the world, at a vector of pixels with their offsets.
+    /// One factor of the weight with its derivative in the world, at a vector of pixels with
+    /// their offsets.
     #[inline(always)]
     pub(super) fn factor<R: Real<Scalar = T>>(
         &self,

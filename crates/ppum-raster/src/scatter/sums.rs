@@ -63,8 +63,8 @@ impl<'a, T: Scalar> Span<'a, T> {
         if self.here.iter().all(|at| degree(at) == first) { first } else { ANY }
     }
 
-    /// Sums over the strips, whose smooth blocks have the degree `P`, `C` components at a time; nothing is to be summed where
-    /// one of them is `ALONE`.
+    /// Sums over the strips, whose smooth blocks have the degree `P`, `C` components at a time;
+    /// nothing is to be summed where one of them is `ALONE`.
     #[inline(always)]
     pub(super) fn sum<
         R: Real<Scalar = T>,

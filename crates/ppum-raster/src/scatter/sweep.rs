@@ -1,7 +1,8 @@
 //! The strips at a column of vectors, and the spans of rows that they cover.
 //!
-//! A column's rows fall into spans with a constant list of strips. Where one strip is alone, it is the field: φ = 1, and
-//! neither a weight is needed nor a quotient. Elsewhere they are summed; both in `sums`.
+//! A column's rows fall into spans with a constant list of strips. Where one strip is alone, it is
+//! the field: φ = 1, and neither a weight is needed nor a quotient. Elsewhere they are summed; both
+//! in `sums`.
 
 use std::ops::Range;
 
@@ -13,7 +14,8 @@ use super::sums::Span;
 use super::tile::{Batch, Scratch, Tile};
 
 impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
-    /// Adds the strips at a column of vectors to the sums that begin at `start`; behind the last batch these are quotients.
+    /// Adds the strips at a column of vectors to the sums that begin at `start`; behind the last
+    /// batch these are quotients.
     #[inline(always)]
     pub(super) fn sweep<R: Real<Scalar = T>>(
         &self,
@@ -58,8 +60,8 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         }
     }
 
-    /// The common cases, gradients of two components of degrees 1 to 4 on vectors, are compiled with these numbers as
-    /// constants.
+    /// The common cases, gradients of two components of degrees 1 to 4 on vectors, are compiled
+    /// with these numbers as constants.
     #[inline(always)]
     fn sum<R: Real<Scalar = T>, const ALONE: bool>(
         &self,

@@ -18,8 +18,9 @@ use super::sums::{basis_len, basis_stride, size, store_slopes};
 /// Buffers of one thread.
 #[derive(Debug, Default)]
 pub(super) struct Scratch<T> {
-    /// At the vectors of points of a column: Σ W, then Σ W v of each component, each with derivatives; when all patches are
-    /// there, the field's components in place of these. Of all columns where patches come in batches.
+    /// At the vectors of points of a column: Σ W, then Σ W v of each component, each with
+    /// derivatives; when all patches are there, the field's components in place of these. Of all
+    /// columns where patches come in batches.
     pub(super) sums: Vec<T>,
     /// The functions of each active group with derivatives, at the vectors of a column.
     pub(super) basis: Vec<T>,

@@ -1,5 +1,5 @@
-//! Weights by formula at the columns and rows of a view, found once: a weight is a product of a factor in x and
-//! one in y, and most patches share theirs with others above or beside them.
+//! Weights by formula at the columns and rows of a view, found once: a weight is a product of a
+//! factor in x and one in y, and most patches share theirs with others above or beside them.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -25,7 +25,8 @@ pub(super) struct Weights<T> {
 type Key = (u64, u64, u32, u32);
 
 impl<T: Scalar> Weights<T> {
-    /// The factors of patches that are formulas; of other kinds there are none. Supports learn where theirs are.
+    /// The factors of patches that are formulas; of other kinds there are none. Supports learn
+    /// where theirs are.
     pub(super) fn new(weight: &WeightFunction, view: &View, patches: &mut [Patch]) -> Self {
         let mut weights = Self::default();
         if !matches!(weight, WeightFunction::Formula(_)) {
@@ -48,7 +49,8 @@ impl<T: Scalar> Weights<T> {
         weights
     }
 
-    /// Adds the factor of a support; returns the place of its pixel 0, which may lie before all places.
+    /// Adds the factor of a support; returns the place of its pixel 0, which may lie before
+    /// all places.
     fn add(
         &mut self,
         weight: &WeightFunction,

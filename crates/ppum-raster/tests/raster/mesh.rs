@@ -14,7 +14,8 @@ use ppum_raster::view::View;
 use ppum_testkit::meshes::{Elements, Polynomial, field, random_polynomial};
 use ppum_testkit::random::Random;
 
-/// A curved mesh, all elements cut in two by a curve, with a polynomial on each part, and a function of the level field.
+/// A curved mesh, all elements cut in two by a curve, with a polynomial on each part, and a
+/// function of the level field.
 fn dataset() -> Dataset {
     let mut random = Random(4);
     let bend = |random: &mut Random, linear: Polynomial| {
@@ -52,7 +53,8 @@ fn views(dataset: &Dataset) -> Vec<View> {
     ]
 }
 
-/// The renderer and the evaluation of single points agree, to the pixel on what is outside and what lies on which side.
+/// The renderer and the evaluation of single points agree, to the pixel on what is outside and what
+/// lies on which side.
 #[test]
 fn pictures_are_those_of_points() {
     let dataset = dataset();
@@ -100,7 +102,8 @@ fn threads_and_strips_change_nothing() {
     }
 }
 
-/// The picture of elements is full: inside the image of the square no pixel is left out, beyond it none is drawn.
+/// The picture of elements is full: inside the image of the square no pixel is left out, beyond it
+/// none is drawn.
 #[test]
 fn no_pixel_is_lost() {
     let mut elements = Elements::grid(

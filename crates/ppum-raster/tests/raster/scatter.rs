@@ -112,7 +112,8 @@ fn compare(field: &Field, view: &View, quantity: &Quantity) -> [f64; 3] {
     found
 }
 
-/// The differences with the vectors of this processor, and with those of any other: the larger ones.
+/// The differences with the vectors of this processor, and with those of any other: the
+/// larger ones.
 fn of_all_processors<T: Sample>(
     field: &Field,
     view: &View,
@@ -350,8 +351,9 @@ fn a_watcher_hears_of_all_and_can_stop() {
     }
 }
 
-/// A point in pictures of other sizes around it: alone, in a row, in a column, in a corner of a tile, amid many
-/// tiles. The reference gives one value to the last bit; the renderer sums in an order that depends on the tile.
+/// A point in pictures of other sizes around it: alone, in a row, in a column, in a corner of a
+/// tile, amid many tiles. The reference gives one value to the last bit; the renderer sums in an
+/// order that depends on the tile.
 #[test]
 fn a_value_depends_on_its_picture_in_the_last_digits_only() {
     // a power of two, so that all pictures have the same pixels
@@ -405,8 +407,8 @@ fn what_cannot_be_drawn_is_refused() {
     ));
 }
 
-/// Guards the kernels: a function in them that is not inlined leaves the code for wide vectors, which
-/// changes no value but costs a factor of ten and more.
+/// Guards the kernels: a function in them that is not inlined leaves the code for wide vectors,
+/// which changes no value but costs a factor of ten and more.
 #[test]
 fn lanes_are_much_faster_than_scalars() {
     let dataset = dataset(&Recipe { level: 1, tip_level: 1, ..Recipe::default() });
@@ -430,7 +432,8 @@ fn lanes_are_much_faster_than_scalars() {
     }
 }
 
-/// More functions in a tile than are kept at a time, and patches in strips of tiles: the picture is that of all points.
+/// More functions in a tile than are kept at a time, and patches in strips of tiles: the picture is
+/// that of all points.
 #[test]
 fn tiles_of_many_functions() {
     let data = ppum_testkit::costly::named("functions");
@@ -482,7 +485,8 @@ fn parts_add_up_in_pictures() {
                     assert!(!sum.is_finite(), "{seed} {k}: {value} {sum}");
                     continue;
                 }
-                // terms have the rounding of the sums that they are made of, which may be larger than they are
+                // terms have the rounding of the sums that they are made of, which may be larger
+                // than they are
                 let near = around(&all, k as u32 % 60, k as u32 / 60).max(size);
                 assert!((sum - value).abs() <= 1e-11 * near.max(1.0), "{seed} {k}: {value} {sum}");
                 compared += 1;

@@ -55,7 +55,8 @@ fn differing(found: &[f64], expected: &[f64], most: f64) -> f64 {
     count as f64 / found.len() as f64
 }
 
-/// A random recipe: seeds in turn for covers of all kinds and for uniform ones, which have the most to save.
+/// A random recipe: seeds in turn for covers of all kinds and for uniform ones, which have the most
+/// to save.
 fn recipe(seed: u64, random: &mut Random) -> Recipe {
     let recipe = Recipe { coefficients: Coefficients::Taylor, ..Recipe::random(seed) };
     if seed.is_multiple_of(2) {
@@ -128,8 +129,9 @@ fn summations_agree() {
     }
 }
 
-/// The reference's values where a picture has fewer pixels than patches, or a few for each: on views that cut the cells
-/// anyhow, about tips, and with a tip at the centre of a pixel. In f32 within the digits that row spans have, too.
+/// The reference's values where a picture has fewer pixels than patches, or a few for each: on
+/// views that cut the cells anyhow, about tips, and with a tip at the centre of a pixel. In f32
+/// within the digits that row spans have, too.
 #[test]
 fn cells_of_a_pixel_and_less() {
     let mut random = Random(31);
@@ -193,7 +195,8 @@ fn formulas_are_summed_in_row_spans() {
     assert!(!schedule.is_per_patch());
 }
 
-/// Row spans of a tile of a cover at all of its columns, of patches that are kept apart and of those that are merged.
+/// Row spans of a tile of a cover at all of its columns, of patches that are kept apart and of
+/// those that are merged.
 fn tile_counts(recipe: &Recipe) -> [usize; 2] {
     let dataset = recipe.dataset();
     let field = Field::new(&dataset, 0).expect("a field");

@@ -8,7 +8,8 @@ use super::{AnimationError, Changed, check_size};
 use crate::image::{Image, Rgba};
 use crate::png::{self, Text};
 
-/// An APNG file that is being written, without loss of any colour. A program that does not know APNG shows the first image.
+/// An APNG file that is being written, without loss of any colour. A program that does not know
+/// APNG shows the first image.
 pub struct Apng<W: Write> {
     writer: Writer<W>,
     size: [u32; 2],

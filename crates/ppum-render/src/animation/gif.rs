@@ -9,16 +9,16 @@ use super::palette::{Palette, TRANSPARENT};
 use super::{AnimationError, Changed, Colors, check_size};
 use crate::image::Image;
 
-/// A GIF file that is being written. Its palette of 256 colours is that of all images: all of their colours if there are no
-/// more, else such that none is far off. What is more transparent than opaque is transparent. Times are held as hundredths
-/// of a second.
+/// A GIF file that is being written. Its palette of 256 colours is that of all images: all of their
+/// colours if there are no more, else such that none is far off. What is more transparent than
+/// opaque is transparent. Times are held as hundredths of a second.
 pub struct Gif<W: Write> {
     encoder: Encoder<W>,
     palette: Palette,
     size: [u16; 2],
     delay: u16,
-    /// Images are transparent somewhere: each takes the place of the one before as a whole, since nothing that is shown
-    /// could be wiped out else.
+    /// Images are transparent somewhere: each takes the place of the one before as a whole, since
+    /// nothing that is shown could be wiped out else.
     as_a_whole: bool,
     /// The image before.
     shown: Vec<u8>,

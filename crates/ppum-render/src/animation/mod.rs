@@ -1,8 +1,9 @@
 //! Moving pictures: APNG, without loss, and GIF, in 256 colours, for programs that know no other.
 //!
-//! All images have one size and are shown for one time each, over and over. [`Apng`] and [`Gif`] take them one by one, so
-//! that no two have to be held at a time; what does not change from one to the next is left out of the file. A GIF has one
-//! palette, so that nothing flickers: the [`Colors`] of all its images are counted before the first one is written.
+//! All images have one size and are shown for one time each, over and over. [`Apng`] and [`Gif`]
+//! take them one by one, so that no two have to be held at a time; what does not change from one to
+//! the next is left out of the file. A GIF has one palette, so that nothing flickers: the
+//! [`Colors`] of all its images are counted before the first one is written.
 
 mod apng;
 mod gif;
@@ -190,7 +191,8 @@ mod tests {
         }
     }
 
-    /// A thousand colours in 255: as the maps are lines through the cube of colours, none is far off.
+    /// A thousand colours in 255: as the maps are lines through the cube of colours, none is
+    /// far off.
     #[test]
     fn gif_takes_many_colours_to_near_ones() {
         let mut image = Image::filled([1024, 3], [0; 4]);
@@ -202,7 +204,8 @@ mod tests {
         assert!(worst < Some(12), "{worst:?}");
     }
 
-    /// Opaque images of which now little changes, now nothing, now all; with holes if that is asked for.
+    /// Opaque images of which now little changes, now nothing, now all; with holes if that is
+    /// asked for.
     fn wandering(with_holes: bool) -> Vec<Image> {
         let mut random = Random(5);
         let mut image = Image::filled([40, 30], [20, 30, 40, 255]);

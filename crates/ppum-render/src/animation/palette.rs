@@ -1,8 +1,8 @@
 //! The palette that images share.
 //!
-//! Colours are cut into boxes by their medians, the box with the largest sum of squared distances first
-//! \[P. Heckbert, Color image quantization for frame buffer display, SIGGRAPH 1982\]. Where there are no more
-//! colours than places each has a box of its own.
+//! Colours are cut into boxes by their medians, the box with the largest sum of squared distances
+//! first \[P. Heckbert, Color image quantization for frame buffer display, SIGGRAPH 1982\]. Where
+//! there are no more colours than places each has a box of its own.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -140,8 +140,9 @@ struct Group {
     spread: f64,
 }
 
-/// Every colour counts, and often seen ones more, by the power of 3/4: with the number itself rare colours, those of lines and
-/// letters, were off by half as much again, with its root slopes had half as many steps.
+/// Every colour counts, and often seen ones more, by the power of 3/4: with the number itself rare
+/// colours, those of lines and letters, were off by half as much again, with its root slopes had
+/// half as many steps.
 fn weight((_, count): &Counted) -> f64 {
     let root = (*count as f64).sqrt();
     root * root.sqrt()

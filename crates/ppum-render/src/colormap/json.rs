@@ -89,9 +89,9 @@ fn color(value: &Value) -> Option<Paint> {
     }
 }
 
-/// A preset of ParaView: `RGBPoints` holds position, red, green, blue, again and again. What is about
-/// opacity and logarithms is left out, and so is `NanColor`: here pixels without a value lie outside
-/// the domain.
+/// A preset of ParaView: `RGBPoints` holds position, red, green, blue, again and again. What is
+/// about opacity and logarithms is left out, and so is `NanColor`: here pixels without a value lie
+/// outside the domain.
 fn preset(map: &Map<String, Value>, points: &Value, place: &str) -> Result<Stops, Mistake> {
     let place = format!("{place}.RGBPoints");
     let flat: Option<Vec<f64>> =

@@ -10,10 +10,10 @@
 //! | twilight | angles: it ends as it begins |
 //!
 //! `_r` behind a name reverses a map; [`banded`](Colormap::banded) makes steps of it. Values
-//! [below](Colormap::below) and [above](Colormap::above) the range have the colours of the map's ends, or
-//! [contrasting](Colormap::contrasting) ones, which do not occur in it: where lightness grows they are
-//! black (slate blue in the maps that begin with black) and white; turbo has grey and white,
-//! coolwarm, vik and twilight cyan and yellow.
+//! [below](Colormap::below) and [above](Colormap::above) the range have the colours of the map's
+//! ends, or [contrasting](Colormap::contrasting) ones, which do not occur in it: where lightness
+//! grows they are black (slate blue in the maps that begin with black) and white; turbo has grey
+//! and white, coolwarm, vik and twilight cyan and yellow.
 //!
 //! [Files](Colormap::from_text) of other programs are read in the common forms, JSON and text.
 
@@ -125,21 +125,21 @@ impl Colormap {
 
     /// A map from the text of a file; its form is found from the content.
     ///
-    /// - A colour on each line: red, green and blue, or `#rrggbb`, or either with a position in front,
-    ///   apart by commas, semicolons, tabs or blanks; a first line may name the columns, then in any
-    ///   order and among others. `#` begins a comment.
+    /// - A colour on each line: red, green and blue, or `#rrggbb`, or either with a position in
+    ///   front, apart by commas, semicolons, tabs or blanks; a first line may name the columns,
+    ///   then in any order and among others. `#` begins a comment.
     /// - JSON: a list of `[red, green, blue]` or `"#rrggbb"`, also under `colors`; Plotly's list of
-    ///   `[position, "rgb(r, g, b)"]`; a preset of ParaView, in RGB, HSV, Lab or Diverging, with the
-    ///   colours below and above if it uses them. A diverging one has zero in its middle.
+    ///   `[position, "rgb(r, g, b)"]`; a preset of ParaView, in RGB, HSV, Lab or Diverging, with
+    ///   the colours below and above if it uses them. A diverging one has zero in its middle.
     ///
     /// The numbers of colours lie all within 0 to 1 or all within 0 to 255. Positions may be of any
-    /// range and uneven, and are scaled to 0 … 1; where two are equal the map jumps. Below and above
-    /// are the colours of its ends if the file has none, and black and white in contrast. Opacity is left out, and so is ParaView's colour for
-    /// NaN, which here is outside the domain.
+    /// range and uneven, and are scaled to 0 … 1; where two are equal the map jumps. Below and
+    /// above are the colours of its ends if the file has none, and black and white in contrast.
+    /// Opacity is left out, and so is ParaView's colour for NaN, which here is outside the domain.
     ///
     /// # Errors
-    /// An entry that is no colour, with its place; fewer than two colours; more than 65,536; a form or a colour
-    /// space that is not supported.
+    /// An entry that is no colour, with its place; fewer than two colours; more than 65,536; a form
+    /// or a colour space that is not supported.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ColormapError> {
         let found = read(text).and_then(|stops| Ok((stops.entries()?, stops)));
         let ((positions, entries), stops) = found.map_err(|Mistake { place, text: mistake }| {
@@ -169,8 +169,8 @@ impl Colormap {
         Self { below, above, ..self }
     }
 
-    /// The map in `count` ≥ 1 bands of one colour each, the first and the last in those of its ends. A single
-    /// band has the colour of the middle, and a cyclic map does not repeat its end.
+    /// The map in `count` ≥ 1 bands of one colour each, the first and the last in those of its
+    /// ends. A single band has the colour of the middle, and a cyclic map does not repeat its end.
     #[must_use]
     pub fn banded(self, count: u16) -> Self {
         let count = count.max(1);
@@ -187,8 +187,9 @@ impl Colormap {
         }
     }
 
-    /// The map with one colour for each of some rising values, for the range from half below the first to half above
-    /// the last: it jumps in the middle between two of them. Without values it is the map itself.
+    /// The map with one colour for each of some rising values, for the range from half below the
+    /// first to half above the last: it jumps in the middle between two of them. Without values it
+    /// is the map itself.
     #[must_use]
     pub fn classed(self, values: &[f64]) -> Self {
         let (Some(first), Some(last)) = (values.first(), values.last()) else { return self };
@@ -406,7 +407,8 @@ mod tests {
         );
     }
 
-    /// Unevenly spaced values have evenly spaced colours, each in the middle between its neighbours.
+    /// Unevenly spaced values have evenly spaced colours, each in the middle between
+    /// its neighbours.
     #[test]
     fn classes_have_one_colour_each() {
         let map = Colormap::named("viridis").unwrap();

@@ -2,8 +2,8 @@
 
 use super::stops::Paint;
 
-/// `#rrggbb`, `#rgb`, `rrggbb` or `rgb(r, g, b)`; an opacity behind it, `#rrggbbaa` or `rgba(…)`, is
-/// left out.
+/// `#rrggbb`, `#rgb`, `rrggbb` or `rgb(r, g, b)`; an opacity behind it, `#rrggbbaa` or `rgba(…)`,
+/// is left out.
 pub(super) fn word(text: &str) -> Option<Paint> {
     let text = text.trim().trim_matches('"').trim();
     hex(text).or_else(|| function(text)).map(Paint::Bytes)

@@ -2,7 +2,8 @@
 
 use std::f64::consts::FRAC_PI_3;
 
-/// The space in which colours between two given ones are found. Colours are sRGB, 0 to 1, everywhere else.
+/// The space in which colours between two given ones are found. Colours are sRGB, 0 to 1,
+/// everywhere else.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Space {
     Rgb,

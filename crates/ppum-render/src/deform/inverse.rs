@@ -60,7 +60,8 @@ impl Inverse<'_, '_> {
         })
     }
 
-    /// The point that moves to a place, if it lies in the leaf. Where the plate folds Newton's method is started at the corners too.
+    /// The point that moves to a place, if it lies in the leaf. Where the plate folds Newton's
+    /// method is started at the corners too.
     pub(super) fn find(&self, map: &mut Map<'_>, place: Vec2) -> Option<Found> {
         let Leaf { corners, center, image, .. } = self.leaf;
         let start = image.pulled_back(place - image.at);
@@ -106,7 +107,8 @@ impl Inverse<'_, '_> {
         if is_near { Some(here) } else { self.behind_rim(map, here, place) }
     }
 
-    /// A step of Newton's method inside the leaf, shortened until it leads nearer to the place; none if it cannot.
+    /// A step of Newton's method inside the leaf, shortened until it leads nearer to the place;
+    /// none if it cannot.
     fn step(&self, map: &mut Map<'_>, here: Found, step: Vec2, place: Vec2) -> Option<Found> {
         let target = nearest(&self.leaf.corners, here.offset + step);
         let way = target - here.offset;

@@ -11,7 +11,8 @@ use super::map::{Image, Map};
 use super::{DeformError, DeformedView};
 use crate::pieces::{INSET, Piece, Pieces};
 
-/// Squares are halved that often before it is asked what is seen of them: displacements vary little enough from one to the next.
+/// Squares are halved that often before it is asked what is seen of them: displacements vary little
+/// enough from one to the next.
 const LEVELS: usize = 5;
 /// Largest image of a piece \[pixels\].
 const LARGEST: f64 = 16.0;

@@ -74,7 +74,8 @@ impl<'f> Map<'f> {
         Some(Image { at: moved(view, offset, [u.v, v.v]), gradient })
     }
 
-    /// As [`LocalField::evaluate`], also where rounding has put a point of a rim outside the domain.
+    /// As [`LocalField::evaluate`], also where rounding has put a point of a rim outside the
+    /// domain.
     fn evaluate<const D: usize>(&mut self, offset: Vec2, side: Side) -> bool {
         let Self { local, patches, jets } = self;
         patches.clear();

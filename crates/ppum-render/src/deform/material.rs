@@ -11,11 +11,13 @@ const MOST: f64 = 4.0;
 const STRETCHED: f64 = 0.05;
 
 impl DeformedPoints<'_> {
-    /// A view of the undeformed plate that holds all points that are seen, in the middle the anchor; its pixels as small as
-    /// the picture's are on the plate, where that needs no more than four times as many. None if nothing is seen.
+    /// A view of the undeformed plate that holds all points that are seen, in the middle the
+    /// anchor; its pixels as small as the picture's are on the plate, where that needs no more than
+    /// four times as many. None if nothing is seen.
     ///
-    /// What is found in it, isolines say, [`paths`](super::DeformedView::paths) carries over. About a tip it may be finer than
-    /// [`View::new`] allows: that what is seen about a tip in 10⁻¹² of the domain is 10⁻²⁰ wide is no rounding.
+    /// What is found in it, isolines say, [`paths`](super::DeformedView::paths) carries over. About
+    /// a tip it may be finer than [`View::new`] allows: that what is seen about a tip in 10⁻¹² of
+    /// the domain is 10⁻²⁰ wide is no rounding.
     #[must_use]
     pub fn material_view(&self) -> Option<View> {
         let size = self.points.iter().map(|p| p.offset);
@@ -32,7 +34,8 @@ impl DeformedPoints<'_> {
         Some(view).filter(|view| view.pixel_size().is_normal())
     }
 
-    /// How far apart the points of neighbouring pixels lie on the plate where it is stretched most, but for a few.
+    /// How far apart the points of neighbouring pixels lie on the plate where it is stretched most,
+    /// but for a few.
     fn step(&self) -> Option<f64> {
         let [columns, rows] = self.view.view.pixels;
         let first = |i, j| self.at(i, j).first().map(|p| p.offset);

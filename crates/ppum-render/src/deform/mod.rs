@@ -4,15 +4,18 @@
 //! x = X + s u(X)        F = ∂x/∂X = I + s ∇u
 //! ```
 //!
-//! A [`Deformation`] is a displacement with its factor s. A [`DeformedView`] shows part of the deformed plane on pixels;
-//! [`DeformedView::points`] finds for each pixel's centre the points of the plate that lie there, to [`TOLERANCE`] of a pixel:
-//! none outside the plate and in opened cracks and holes, one in the plate, several where faces that have closed lie over
-//! each other or the plate folds. Each is known with the side of the crack that it belongs to. [`DeformedPoints::raster`]
-//! evaluates any quantity there; [`DeformedView::path`] and its like carry lines over.
+//! A [`Deformation`] is a displacement with its factor s. A [`DeformedView`] shows part of the
+//! deformed plane on pixels; [`DeformedView::points`] finds for each pixel's centre the points of
+//! the plate that lie there, to [`TOLERANCE`] of a pixel: none outside the plate and in opened
+//! cracks and holes, one in the plate, several where faces that have closed lie over each other or
+//! the plate folds. Each is known with the side of the crack that it belongs to.
+//! [`DeformedPoints::raster`] evaluates any quantity there; [`DeformedView::path`] and its like
+//! carry lines over.
 //!
-//! Pieces of the plate on one side of each crack (module [`pieces`](crate::pieces)) are halved until their images are nearly
-//! affine; a pixel in the image of a piece starts from the affine inverse and is found by Newton's method on the field itself,
-//! which does not leave the piece. So displacements like √r at a tip are as good as any others.
+//! Pieces of the plate on one side of each crack (module [`pieces`](crate::pieces)) are halved
+//! until their images are nearly affine; a pixel in the image of a piece starts from the affine
+//! inverse and is found by Newton's method on the field itself, which does not leave the piece. So
+//! displacements like √r at a tip are as good as any others.
 //!
 //! Points are offsets from a material anchor A, images offsets from the view's centre c:
 //!
@@ -20,8 +23,9 @@
 //! image(O) = (A + s u(A) − c) + O + s (u(A + O) − u(A))
 //! ```
 //!
-//! The first bracket is formed once, and is zero if the view is made [`around`](Deformation::around) a material point: a tip can be looked
-//! at in a view 10⁻⁹ of the domain wide, where the plate that is seen lies within 10⁻¹⁶ of the tip.
+//! The first bracket is formed once, and is zero if the view is made
+//! [`around`](Deformation::around) a material point: a tip can be looked at in a view 10⁻⁹ of the
+//! domain wide, where the plate that is seen lies within 10⁻¹⁶ of the tip.
 
 mod automatic;
 mod inverse;
@@ -45,11 +49,12 @@ use map::Map;
 pub use path::Paths;
 pub use points::{DeformedPoints, DeformedRaster, MaterialPoint};
 
-/// Largest distance of a found point's image from the pixel's centre, in pixels; what displacements are rounded by where that is more, as in
-/// views 10⁻¹² of the domain wide.
+/// Largest distance of a found point's image from the pixel's centre, in pixels; what displacements
+/// are rounded by where that is more, as in views 10⁻¹² of the domain wide.
 pub const TOLERANCE: f64 = 0.005;
 
-/// Largest factor: squares of what it magnifies must stay finite. From 10⁶ on pictures hardly change with it.
+/// Largest factor: squares of what it magnifies must stay finite. From 10⁶ on pictures hardly
+/// change with it.
 pub const LARGEST_FACTOR: f64 = 1e100;
 
 /// The reason why a plate is not drawn deformed.
@@ -102,7 +107,8 @@ impl<'f> Deformation<'f> {
     /// The plate with `factor` times its displacement; a negative one turns it round.
     ///
     /// # Errors
-    /// A field of an equation without displacements; a factor that is not finite, or larger than [`LARGEST_FACTOR`].
+    /// A field of an equation without displacements; a factor that is not finite, or larger
+    /// than [`LARGEST_FACTOR`].
     pub fn new(field: &'f Field<'f>, factor: f64) -> Result<Self, DeformError> {
         check(field)?;
         if factor.is_nan() || factor.abs() > LARGEST_FACTOR {
@@ -117,8 +123,8 @@ impl<'f> Deformation<'f> {
         self.factor
     }
 
-    /// What a view of the deformed plane shows. The anchor is a tip that is seen, else the point of the plate that is
-    /// seen in the middle.
+    /// What a view of the deformed plane shows. The anchor is a tip that is seen, else the point of
+    /// the plate that is seen in the middle.
     #[must_use]
     pub fn seen(&self, view: &View) -> DeformedView<'f> {
         let tip = self.nearest_tip(view);
@@ -245,8 +251,8 @@ impl<'f> DeformedView<'f> {
         self.view.pixel_size() > 4.0 * self.rounding()
     }
 
-    /// What a place may be off by rounding: of s u, and of A + s u(A) unless the view is made around that, whatever it is
-    /// rounded to.
+    /// What a place may be off by rounding: of s u, and of A + s u(A) unless the view is made
+    /// around that, whatever it is rounded to.
     fn rounding(&self) -> f64 {
         let anchor = if self.is_exact { 0.0 } else { self.anchor.length() };
         let moved = Vec2::from(self.reference).length() * self.factor().abs();

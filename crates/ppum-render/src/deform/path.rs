@@ -9,23 +9,28 @@ use super::map::Map;
 
 /// Largest distance of a path from the curve that it stands for \[pixels\].
 const CHORD: f64 = 0.1;
-/// Parts of a curve that are looked at, however straight it seems; fewer of one that is short in the picture.
+/// Parts of a curve that are looked at, however straight it seems; fewer of one that is short in
+/// the picture.
 const PARTS: usize = 16;
 /// Least length of such a part in pixels.
 const PART: f64 = 8.0;
 /// Most halvings of a part; f64 has no more numbers beside those that are not small.
 const HALVINGS: usize = 200;
-/// Most points of a part: no curve that a screen shows has as many, but one that jumps everywhere would.
+/// Most points of a part: no curve that a screen shows has as many, but one that jumps
+/// everywhere would.
 const MOST: usize = 1 << 14;
-/// Way from a border into the plate, in parts of the plate's size, that decides whether the border belongs to it.
+/// Way from a border into the plate, in parts of the plate's size, that decides whether the border
+/// belongs to it.
 const INWARD: f64 = 1e-9;
 
-/// Polylines, as offsets from the view's centre. They end where the plate does and where it has come apart.
+/// Polylines, as offsets from the view's centre. They end where the plate does and where it has
+/// come apart.
 pub type Paths = Vec<Vec<Vec2>>;
 
 impl DeformedView<'_> {
-    /// The image of a polyline of offsets from the anchor, to a tenth of a pixel; what is far outside the picture is coarser.
-    /// It is interrupted outside the plate and where it crosses a crack that has opened.
+    /// The image of a polyline of offsets from the anchor, to a tenth of a pixel; what is far
+    /// outside the picture is coarser. It is interrupted outside the plate and where it crosses a
+    /// crack that has opened.
     #[must_use]
     pub fn path(&self, points: &[Vec2]) -> Paths {
         self.paths(std::slice::from_ref(&points))
@@ -82,7 +87,8 @@ impl DeformedView<'_> {
         cracks.map(|crack| [Side::Above, Side::Below].map(|side| face(crack, side))).collect()
     }
 
-    /// The image of the plate's border: of the box and of the rims of holes, where they bound the plate.
+    /// The image of the plate's border: of the box and of the rims of holes, where they bound
+    /// the plate.
     #[must_use]
     pub fn outline(&self) -> Paths {
         let mut border = Border::new(self);
@@ -175,7 +181,8 @@ impl Face {
         })
     }
 
-    /// A point of the face moved off the crack by [`BESIDE`] of its distance to a tip, or of the segment's length.
+    /// A point of the face moved off the crack by [`BESIDE`] of its distance to a tip, or of the
+    /// segment's length.
     fn beside(&self, offset: Vec2) -> Vec2 {
         let [a, b] = self.ends;
         let of_tip = |(end, is_tip): (Vec2, bool)| {
@@ -253,8 +260,8 @@ impl<'a, 'f> Border<'a, 'f> {
         paths.all
     }
 
-    /// A circle with the plate around it. Angles are counted from the direction of the anchor, near which points differ from the
-    /// nearest one by little.
+    /// A circle with the plate around it. Angles are counted from the direction of the anchor, near
+    /// which points differ from the nearest one by little.
     fn circle(&mut self, center: Vec2, radius: f64) -> Paths {
         let away = self.view.anchor - center;
         let far = away.length();

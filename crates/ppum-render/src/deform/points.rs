@@ -18,7 +18,8 @@ use super::{DeformError, DeformedView};
 const ROWS: u32 = 256;
 /// Leaves that a thread takes at once.
 const BLOCK: usize = 32;
-/// Two points are one if their images are nearer than this part of a pixel by the gradient at one of them.
+/// Two points are one if their images are nearer than this part of a pixel by the gradient at one
+/// of them.
 const SAME: f64 = 0.05;
 /// Rounding of places, in parts of the plate.
 const ROUNDING: f64 = 1e-14;
@@ -37,7 +38,8 @@ pub struct MaterialPoint {
 pub struct DeformedPoints<'f> {
     /// The view.
     pub view: DeformedView<'f>,
-    /// For each pixel, row by row from the top, where its points begin; one entry more than there are pixels.
+    /// For each pixel, row by row from the top, where its points begin; one entry more than there
+    /// are pixels.
     pub(super) starts: Vec<u32>,
     pub(super) points: Vec<MaterialPoint>,
 }
@@ -52,12 +54,13 @@ pub struct DeformedRaster {
 }
 
 impl<'f> DeformedView<'f> {
-    /// The points of the plate at the centres of all pixels, on the threads of the pool that calls. Where there are several, the
-    /// first is one with its face up if there is one, and among these the one that lies highest, so that what covers what does not
-    /// change from pixel to pixel.
+    /// The points of the plate at the centres of all pixels, on the threads of the pool that calls.
+    /// Where there are several, the first is one with its face up if there is one, and among these
+    /// the one that lies highest, so that what covers what does not change from pixel to pixel.
     ///
     /// # Errors
-    /// [`DeformError::TooFolded`] if millions of pieces of the plate lie in the picture, [`DeformError::TooFine`], [`DeformError::Cancelled`].
+    /// [`DeformError::TooFolded`] if millions of pieces of the plate lie in the picture,
+    /// [`DeformError::TooFine`], [`DeformError::Cancelled`].
     pub fn points(&self, watcher: &dyn Watcher) -> Result<DeformedPoints<'f>, DeformError> {
         if !self.is_known() {
             return Err(DeformError::TooFine(self.view.width));
@@ -231,8 +234,8 @@ impl<'f> DeformedPoints<'f> {
         Ok(self.shown(values))
     }
 
-    /// The picture of one value per patch: each pixel has that of the cell in which its point lies, NaN where there is
-    /// no cell. Borders belong to the right and upper cell.
+    /// The picture of one value per patch: each pixel has that of the cell in which its point lies,
+    /// NaN where there is no cell. Borders belong to the right and upper cell.
     ///
     /// # Panics
     /// If there is not one value per patch.

@@ -18,7 +18,8 @@ use super::*;
 
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 
-/// One patch over [−2, 2]² on which both components are formulas: in the frame of the crack's last tip if there is one.
+/// One patch over [−2, 2]² on which both components are formulas: in the frame of the crack's last
+/// tip if there is one.
 fn by_formulas(texts: [&str; 2], crack: Option<[Vec2; 2]>) -> Dataset {
     let bounds = Rect::new(vec2(-2.0, -2.0), vec2(2.0, 2.0));
     let cover = ppum::cover::Cover::uniform(bounds, 0).unwrap();
@@ -41,8 +42,8 @@ fn by_formulas(texts: [&str; 2], crack: Option<[Vec2; 2]>) -> Dataset {
     Dataset::new(bounds, Equation::elasticity(MATERIAL)).with_step(step.with_field(field))
 }
 
-/// The crack of half length 0.8 about a point under all-round tension, where faces move along their normals:
-/// opened it is an ellipse.
+/// The crack of half length 0.8 about a point under all-round tension, where faces move along their
+/// normals: opened it is an ellipse.
 struct Opened {
     exact: CrackInPlane,
     center: Vec2,
@@ -63,7 +64,8 @@ impl Opened {
     fn dataset(&self) -> Dataset {
         let ends = [-Self::HALF, Self::HALF].map(|t| self.center + self.direction * t);
         let (a, n, kappa, scale) = (Self::HALF, 0.05, MATERIAL.kolosov(), 0.5 / MATERIAL.mu());
-        // in the frame of the tip, R = √ζ √(ζ + 2a) = p + iq and z/R = zr + i zi; see `CrackInPlane`
+        // in the frame of the tip, R = √ζ √(ζ + 2a) = p + iq and z/R = zr + i zi;
+        // see `CrackInPlane`
         let bind = format!(
             "let rho = sqrt(r*hypot(x + {d:?}, y)); let phi = (theta + atan2(y, x + {d:?}))/2; \
              let p = rho*cos(phi); let q = rho*sin(phi); let square = max(rho^2, 1e-300); \
@@ -127,7 +129,8 @@ fn deformed<'f>(field: &'f Field<'f>, factor: f64, view: &View) -> DeformedPoint
     points
 }
 
-/// Each pixel has the value of the cell in which its point lies; undeformed that is the picture of the cells.
+/// Each pixel has the value of the cell in which its point lies; undeformed that is the picture of
+/// the cells.
 #[test]
 fn cells_are_carried_along() {
     let (coefficients, degrees) = (Coefficients::Taylor, vec![2]);
@@ -219,7 +222,8 @@ fn inner(bounds: &Rect, p: Vec2) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// A bent plate against the polygon of its border, moved point by point: what lies inside has a point.
+/// A bent plate against the polygon of its border, moved point by point: what lies inside has
+/// a point.
 #[test]
 fn a_bent_plate_fills_the_polygon_of_its_moved_border() {
     let dataset =
@@ -282,8 +286,8 @@ fn an_opened_crack_is_an_empty_ellipse() {
     }
 }
 
-/// At 10⁻⁹ and 10⁻¹² of the plate from the moved tip, the plate that is seen lies within the square of that from the
-/// tip; the opened crack's end is a straight line across its direction.
+/// At 10⁻⁹ and 10⁻¹² of the plate from the moved tip, the plate that is seen lies within the square
+/// of that from the tip; the opened crack's end is a straight line across its direction.
 #[test]
 fn the_rounded_end_of_an_opened_crack_at_any_zoom() {
     for direction in [vec2(1.0, 0.0), vec2(0.6, 0.8)] {
@@ -353,8 +357,8 @@ fn closed_faces_overlap_in_the_ellipse() {
     assert!(overlaps > 300 && single > 3000, "{overlaps} {single}");
 }
 
-/// Ahead of a tip that closes the plate folds: for the map of one axis, x = X + s u(X) with u = c √(X² − a²), the
-/// places that three points of the axis move to are known.
+/// Ahead of a tip that closes the plate folds: for the map of one axis, x = X + s u(X) with u = c
+/// √(X² − a²), the places that three points of the axis move to are known.
 #[test]
 fn a_fold_is_found() {
     let dataset = by_formulas(["0.3*sin(3*x)", "0"], None);
@@ -408,8 +412,8 @@ fn without_displacement_nothing_changes() {
     }
 }
 
-/// Every point of the plate is found again at the place it moves to, in a picture of one pixel there: near kinks, faces
-/// and tips too.
+/// Every point of the plate is found again at the place it moves to, in a picture of one pixel
+/// there: near kinks, faces and tips too.
 #[test]
 fn no_point_of_the_plate_is_lost() {
     let mut random = Random(8);
@@ -626,8 +630,8 @@ fn paths_end_where_the_plate_has_come_apart() {
     assert!((total - exact).abs() < 0.01, "{total} {exact}");
 }
 
-/// Displacements are known to 2⁻⁵² of their size alone, as are places then: pixels of deep views are found for all that, and finer
-/// views refused.
+/// Displacements are known to 2⁻⁵² of their size alone, as are places then: pixels of deep views
+/// are found for all that, and finer views refused.
 #[test]
 fn what_rounding_blurs_is_found() {
     let texts = ["1.3 + sqrt(r)*cos(theta/2)", "0.7 + sqrt(r)*sin(theta/2)"];

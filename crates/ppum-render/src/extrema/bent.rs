@@ -25,7 +25,8 @@ pub(super) struct Bent {
 }
 
 impl Bent {
-    /// The point at a part of the way of the chord, pulled onto the curve along the chord's normal, and `beside` it.
+    /// The point at a part of the way of the chord, pulled onto the curve along the chord's normal,
+    /// and `beside` it.
     pub(super) fn at(&self, t: f64, beside: f64) -> Vec2 {
         let [a, b] = self.chord;
         let (middle, reach) = (a + (b - a) * t, (b - a).left() * 0.25);
@@ -59,7 +60,8 @@ pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect, pixel: f64) -> V
     found
 }
 
-/// Chords of the course of a curve through the squares of a grid of so many steps at most in each direction, where it crosses two sides.
+/// Chords of the course of a curve through the squares of a grid of so many steps at most in each
+/// direction, where it crosses two sides.
 fn chords(level: &Formula, anchor: Vec2, rect: &Rect, pixel: f64, steps: usize) -> Vec<[Vec2; 2]> {
     let size = rect.size();
     let count = |length: f64| ((length / pixel).ceil() as usize).clamp(1, steps);

@@ -26,7 +26,8 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Steps below this part of a pixel change nothing that is seen in the value.
 const LEAST: f64 = 1e-7;
 
-/// A step of Newton's method below which the peak is there: the value is known to its square, beside what a pixel changes.
+/// A step of Newton's method below which the peak is there: the value is known to its square,
+/// beside what a pixel changes.
 const THERE: f64 = 1e-4;
 
 /// Steps down to which something higher is looked for around such a peak.
@@ -35,8 +36,9 @@ const NEAR: f64 = 0.1;
 /// Most rounds of directions.
 const ROUNDS: usize = 2000;
 
-/// The pixels that are not below (for the sign −1 above) any of their neighbours, and the height that there may be around them if it
-/// rises as it does from the lowest neighbour; the most promising first, at most so many.
+/// The pixels that are not below (for the sign −1 above) any of their neighbours, and the height
+/// that there may be around them if it rises as it does from the lowest neighbour; the most
+/// promising first, at most so many.
 pub(super) fn starts<T: Sample>(
     raster: &Raster<T>,
     sign: f64,
@@ -66,7 +68,8 @@ pub(super) fn starts<T: Sample>(
     best_first(found.collect(), most)
 }
 
-/// NaN for what is infinite: singular points are looked at apart, since at a tip all quantities of the gradient are.
+/// NaN for what is infinite: singular points are looked at apart, since at a tip all quantities of
+/// the gradient are.
 pub(super) fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { f64::NAN }
 }
@@ -127,7 +130,8 @@ impl<H: Fn(Vec2) -> bool> Climber<'_, '_, H> {
         (is_peak && step.is_finite()).then_some(step)
     }
 
-    /// Tries directions, ever closer, until nothing is higher and steps are below the least one \[pixels\].
+    /// Tries directions, ever closer, until nothing is higher and steps are below the least
+    /// one \[pixels\].
     fn turn(&mut self, mut best: (f64, Vec2), pixel: f64, mut least: f64) -> (f64, Vec2) {
         let (mut step, mut failed, mut turned) = (0.5 * pixel, 0, 0.0);
         for _ in 0..ROUNDS {

@@ -35,8 +35,9 @@ enum Shape {
     Bent(Bent),
 }
 
-/// A part of a rim: the point at the angle ψ from the direction e to the anchor, at the distance a from the centre, is, relative to the
-/// anchor, e (r − a − 2 r sin² ψ/2) + e⊥ r sin ψ, without cancellation where ψ is small.
+/// A part of a rim: the point at the angle ψ from the direction e to the anchor, at the distance a
+/// from the centre, is, relative to the anchor, e (r − a − 2 r sin² ψ/2) + e⊥ r sin ψ, without
+/// cancellation where ψ is small.
 struct Arc {
     direction: Vec2,
     radius: f64,
@@ -153,7 +154,8 @@ fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Ve
     }
 }
 
-/// The part of a rim near a rectangle; all of it if the rectangle surrounds the centre or is no smaller than the hole.
+/// The part of a rim near a rectangle; all of it if the rectangle surrounds the centre or is no
+/// smaller than the hole.
 fn arc(radius: f64, d: Vec2, excess: f64, rect: &Rect) -> Option<Arc> {
     let away = d.length();
     let direction = if away > 0.0 { d / away } else { vec2(1.0, 0.0) };
@@ -222,7 +224,8 @@ fn clipped(
 }
 
 impl Curve {
-    /// Parts of a straight face that begins or ends at a point, between distances from it that are multiplied by a factor each time.
+    /// Parts of a straight face that begins or ends at a point, between distances from it that are
+    /// multiplied by a factor each time.
     pub(super) fn parts_from(&self, point: Vec2, [first, factor, last]: [f64; 3]) -> Vec<Self> {
         let (Shape::Straight([a, b]), On::Face(..)) = (&self.shape, self.on) else {
             return Vec::new();
@@ -248,9 +251,10 @@ pub(super) fn part(sample: usize, samples: usize) -> f64 {
     (sample as f64 / (samples - 1) as f64).min(1.0)
 }
 
-/// The samples of curves that are not below their neighbours (not above for the sign −1), by curve and number, and the height that
-/// there may be around them if it rises as it does from the lower neighbour; the most promising first, at most so many. Values
-/// that are not defined are passed over.
+/// The samples of curves that are not below their neighbours (not above for the sign −1), by curve
+/// and number, and the height that there may be around them if it rises as it does from the lower
+/// neighbour; the most promising first, at most so many. Values that are not defined are
+/// passed over.
 pub(super) fn tops(sampled: &[Vec<f64>], sign: f64, most: usize) -> Vec<Promise<[usize; 2]>> {
     let heights = || sampled.iter().flatten().map(|value| sign * value);
     let highest = heights().fold(f64::NEG_INFINITY, f64::max);
@@ -283,7 +287,8 @@ fn around(sample: usize, samples: usize) -> [usize; 2] {
     [sample.saturating_sub(1), (sample + 1).min(samples - 1)]
 }
 
-/// The largest f (smallest for the sign −1) on \[0, 1\] between the neighbours of a sample, by the golden section, and its place.
+/// The largest f (smallest for the sign −1) on \[0, 1\] between the neighbours of a sample, by the
+/// golden section, and its place.
 pub(super) fn golden(
     f: &mut dyn FnMut(f64) -> f64,
     sign: f64,

@@ -1,9 +1,10 @@
 //! Quantities that have one value all over the plate, but for rounding.
 //!
-//! σ_xx of a bar in tension is zero, and what a file holds of it is what its digits leave: drawn over the whole colour map it looks like
-//! a field. A quantity q of the values u and gradients ∇u has parts (∂q/∂u) |u| and (∂q/∂∇u) |∇u|, with the mean sizes of u and ∇u in
-//! the plate; they cancel down to [`BORNE`] times the relative rounding error that the solver tells of its stresses. What
-//! differs by less differs by nothing.
+//! σ_xx of a bar in tension is zero, and what a file holds of it is what its digits leave: drawn
+//! over the whole colour map it looks like a field. A quantity q of the values u and gradients ∇u
+//! has parts (∂q/∂u) |u| and (∂q/∂∇u) |∇u|, with the mean sizes of u and ∇u in the plate; they
+//! cancel down to [`BORNE`] times the relative rounding error that the solver tells of its
+//! stresses. What differs by less differs by nothing.
 
 use ppum::crack::Side;
 use ppum::field::Field;
@@ -15,18 +16,21 @@ use ppum::vec2::{Vec2, vec2};
 const CELLS: usize = 64;
 const PLACES: [Vec2; 3] = [vec2(0.05, -0.02), vec2(-0.37, 0.29), vec2(0.31, 0.41)];
 
-/// Error of the solution of the linear system, in units of the rounding of its evaluation: a condition of fine covers of high order.
-/// Measured on a plate in tension: 4·10³ at level 4 and order 2, 10⁵ at level 6 and order 3.
+/// Error of the solution of the linear system, in units of the rounding of its evaluation: a
+/// condition of fine covers of high order. Measured on a plate in tension: 4·10³ at level 4 and
+/// order 2, 10⁵ at level 6 and order 3.
 const BORNE: f64 = 1e6;
 
 /// Rounding of evaluation where the file does not tell it: eight roundings of a term.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Step of differences, in parts of what they are differences by: small beside it, and large beside rounding.
+/// Step of differences, in parts of what they are differences by: small beside it, and large
+/// beside rounding.
 const STEP: f64 = 1e-6;
 
-/// The one value of a quantity, zero if it is that but for rounding, and the size of its parts; none of a quantity that varies, or does
-/// not depend on the field, and of those of the partition or of errors, which are looked at for their last digits.
+/// The one value of a quantity, zero if it is that but for rounding, and the size of its parts;
+/// none of a quantity that varies, or does not depend on the field, and of those of the partition
+/// or of errors, which are looked at for their last digits.
 pub(super) fn value(field: &Field<'_>, quantity: &Quantity) -> Option<[f64; 2]> {
     if !matches!(quantity.source(), Source::Values | Source::Gradient) {
         return None;
@@ -106,8 +110,8 @@ mod tests {
     use ppum_testkit::random::Random;
     use ppum_testkit::synthetic::{Coefficients, Recipe};
 
-    /// Random homogeneous strains with noise of a part of 1e-13 in their coefficients: what is constant or zero is, and what varies by 1e-6
-    /// of its parts does.
+    /// Random homogeneous strains with noise of a part of 1e-13 in their coefficients: what is
+    /// constant or zero is, and what varies by 1e-6 of its parts does.
     #[test]
     fn noise_is_no_field() {
         let mut random = Random(4);

@@ -1,24 +1,31 @@
 //! Minimum and maximum of a quantity over a view, not just over its pixels, with their places.
 //!
-//! The largest value of a raster says how near a pixel's centre happens to be to a peak. Here the best pixels are where a search
-//! begins: Newton's method on the exact [gradient](QuantityGradient) where the quantity is smooth, with a Hessian by differences of
-//! it, and a search in turning directions where it is not. What is largest on a boundary is found there: on the border of the
-//! view and of the domain, on the rims of holes, on both faces of cracks, on both sides of interfaces, each sampled once a pixel
-//! and refined. Peaks and valleys narrower than a pixel are not seen but next to points where the quantity is infinite: around these
-//! it is looked at on rings, and on faces of cracks that end there, down to a thousandth of a pixel, as long as there are not
-//! dozens of such points. A valley that is narrower than the 7° between two places of a ring may be missed, or not followed to its end.
+//! The largest value of a raster says how near a pixel's centre happens to be to a peak. Here the
+//! best pixels are where a search begins: Newton's method on the exact [gradient](QuantityGradient)
+//! where the quantity is smooth, with a Hessian by differences of it, and a search in turning
+//! directions where it is not. What is largest on a boundary is found there: on the border of the
+//! view and of the domain, on the rims of holes, on both faces of cracks, on both sides of
+//! interfaces, each sampled once a pixel and refined. Peaks and valleys narrower than a pixel are
+//! not seen but next to points where the quantity is infinite: around these it is looked at on
+//! rings, and on faces of cracks that end there, down to a thousandth of a pixel, as long as there
+//! are not dozens of such points. A valley that is narrower than the 7° between two places of a
+//! ring may be missed, or not followed to its end.
 //!
-//! Only places are refined that may still hold the extremum by what their neighbours say, and boundaries have a sample for eight
-//! pixels of a large picture at most, together: the search takes a part of what drawing takes. Many boundaries are sampled less
-//! densely, and where there are too many for that, or too many points that may be singular, whatever the number of pixels, the pixels
-//! decide, [`On::Pixel`].
+//! Only places are refined that may still hold the extremum by what their neighbours say, and
+//! boundaries have a sample for eight pixels of a large picture at most, together: the search takes
+//! a part of what drawing takes. Many boundaries are sampled less densely, and where there are too
+//! many for that, or too many points that may be singular, whatever the number of pixels, the
+//! pixels decide, [`On::Pixel`].
 //!
-//! A quantity that has one value all over the plate, but for rounding, has it everywhere, [`On::Everywhere`].
+//! A quantity that has one value all over the plate, but for rounding, has it
+//! everywhere, [`On::Everywhere`].
 //!
-//! At a crack tip and at other singular points quantities may be infinite. Whether they are is seen in how they grow towards
-//! the point; then the extremum is, and its place is the point. Finite values next to such a point, within a thousandth of a pixel,
-//! are left out: there the last digits of the field decide. An extremum is infinite too if a pixel is, and if the search runs away from all pixels,
-//! beyond [`RUNAWAY`] times their size, to a pole: 1/x does between two of them. A peak that is narrow but finite keeps its value.
+//! At a crack tip and at other singular points quantities may be infinite. Whether they are is seen
+//! in how they grow towards the point; then the extremum is, and its place is the point. Finite
+//! values next to such a point, within a thousandth of a pixel, are left out: there the last digits
+//! of the field decide. An extremum is infinite too if a pixel is, and if the search runs away from
+//! all pixels, beyond [`RUNAWAY`] times their size, to a pole: 1/x does between two of them. A peak
+//! that is narrow but finite keeps its value.
 
 mod bent;
 mod climb;
@@ -45,16 +52,18 @@ use climb::Climber;
 use curves::Curve;
 pub use singular::{Singular, SingularKind};
 
-/// Pixels and samples of boundaries from which the search begins, at most, and how many of them before the rest is looked at again:
-/// the most promising ones first.
+/// Pixels and samples of boundaries from which the search begins, at most, and how many of them
+/// before the rest is looked at again: the most promising ones first.
 const STARTS: usize = 32;
 const ROUND: usize = 8;
 
-/// Samples of boundaries and looks at points that may be singular, at most: one for so many pixels, or what is [`affordable`]. That
-/// alone decides whether there are too many of them, so that it does not depend on the pixels whether a kink is infinite.
+/// Samples of boundaries and looks at points that may be singular, at most: one for so many pixels,
+/// or what is [`affordable`]. That alone decides whether there are too many of them, so that it
+/// does not depend on the pixels whether a kink is infinite.
 const PIXELS: usize = 8;
 const SAMPLES: usize = 1 << 15;
-/// As many are looked at in any field, and more as long as their functions take no more than some operations, together.
+/// As many are looked at in any field, and more as long as their functions take no more than some
+/// operations, together.
 const FEWEST: usize = 1 << 13;
 const OPERATIONS: usize = 1 << 28;
 
@@ -67,8 +76,9 @@ const PART: f64 = 1e-3;
 /// Distance of the places that tell a pole from a narrow peak, pixels.
 const BESIDE: f64 = 1e-5;
 
-/// Distance from the pixels' values, in parts of their size, from which an extremum may be a pole. On a rim that is no wider than a
-/// pixel stresses are some three times those around; 1/x grows by a million on the way from a pixel to its zero.
+/// Distance from the pixels' values, in parts of their size, from which an extremum may be a pole.
+/// On a rim that is no wider than a pixel stresses are some three times those around; 1/x grows by
+/// a million on the way from a pixel to its zero.
 pub const RUNAWAY: f64 = 10.0;
 
 /// Distance from a singular point below which finite values are left out, pixels.
@@ -109,18 +119,21 @@ pub enum On {
 /// Minimum and maximum of a quantity over a view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extrema {
-    /// The centre of the view that they were found in, from which places are counted: a picture of another view may show them.
+    /// The centre of the view that they were found in, from which places are counted: a picture of
+    /// another view may show them.
     pub center: Vec2,
     /// The smallest value.
     pub min: Extremum,
     /// The largest value.
     pub max: Extremum,
-    /// The singular points in the view, re-entrant corners of holes also where the represented field is finite.
+    /// The singular points in the view, re-entrant corners of holes also where the represented
+    /// field is finite.
     pub singular: Vec<Singular>,
 }
 
 impl On {
-    /// One word for it: `inside`, `border`, `face`, `rim`, `interface`, `singular`, `pixel`, `everywhere`.
+    /// One word for it: `inside`, `border`, `face`, `rim`, `interface`, `singular`, `pixel`,
+    /// `everywhere`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -137,8 +150,8 @@ impl On {
 }
 
 impl fmt::Display for Extrema {
-    /// `min 0.1 at -0.2,0.3 inside max inf at 0.5,0.0 singular`, with the shortest numbers that mean the doubles and places as offsets
-    /// from the view's centre.
+    /// `min 0.1 at -0.2,0.3 inside max inf at 0.5,0.0 singular`, with the shortest numbers that
+    /// mean the doubles and places as offsets from the view's centre.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let one = |Extremum { value, offset, on }: Extremum| {
             format!("{value:?} at {:?},{:?} {}", offset.x, offset.y, on.name())
@@ -148,7 +161,8 @@ impl fmt::Display for Extrema {
 }
 
 impl Extrema {
-    /// The smallest and the largest value at the pixels of a view, infinite ones too; `None` if there are none.
+    /// The smallest and the largest value at the pixels of a view, infinite ones too; `None` if
+    /// there are none.
     #[must_use]
     pub fn of_pixels<T: Sample>(raster: &Raster<T>, view: &View) -> Option<Self> {
         let values = || raster.values.iter().map(|&value| value.into()).enumerate();
@@ -173,8 +187,9 @@ impl Extrema {
         self.min.value.is_infinite() || self.max.value.is_infinite()
     }
 
-    /// Those of a quantity that has one value all over the plate, but for rounding: what is constant or zero within the digits that the
-    /// file bears. `None` of others, and where a view shows nothing of the plate.
+    /// Those of a quantity that has one value all over the plate, but for rounding: what is
+    /// constant or zero within the digits that the file bears. `None` of others, and where a view
+    /// shows nothing of the plate.
     #[must_use]
     pub fn of_constant<T: Sample>(
         field: &Field<'_>,
@@ -208,12 +223,12 @@ impl Extrema {
     }
 }
 
-/// Minimum and maximum of a quantity over the part of the domain that a view shows; `None` if that is nothing, or the quantity is nowhere
-/// defined. Where a search would take too long, and of formulas whose derivatives are too large, they are those of the pixels
-/// ([module](self)).
+/// Minimum and maximum of a quantity over the part of the domain that a view shows; `None` if that
+/// is nothing, or the quantity is nowhere defined. Where a search would take too long, and of
+/// formulas whose derivatives are too large, they are those of the pixels ([module](self)).
 ///
-/// `raster` holds the quantity at the view's pixel centres, by any renderer, in f64 or f32. The result depends on the raster only in
-/// where searches begin.
+/// `raster` holds the quantity at the view's pixel centres, by any renderer, in f64 or f32. The
+/// result depends on the raster only in where searches begin.
 ///
 /// # Errors
 /// The quantity has no meaning for the field; the watcher stops the call.
@@ -264,7 +279,8 @@ pub fn extrema<T: Sample>(
     Ok(Some(Extrema { center: view.center, min, max, singular }))
 }
 
-/// The number of samples of each curve; `None` if all of them, and the looks at points that may be singular, are too many.
+/// The number of samples of each curve; `None` if all of them, and the looks at points that may be
+/// singular, are too many.
 fn samples(field: &Field<'_>, view: &View, curves: &[Curve], points: usize) -> Option<Vec<usize>> {
     let pixels = view.pixels[0] as usize * view.pixels[1] as usize;
     let segments: usize = field.step.cracks.iter().map(|crack| crack.points.len()).sum();
@@ -325,8 +341,8 @@ impl Search<'_, '_> {
         if is_far && self.is_pole(best) { Extremum { value, ..best } } else { best }
     }
 
-    /// True if hardly any value around a place is half as large: not even the half of a peak that a border or a crack leaves, and
-    /// of a line of poles two points.
+    /// True if hardly any value around a place is half as large: not even the half of a peak that a
+    /// border or a crack leaves, and of a line of poles two points.
     fn is_pole(&self, best: Extremum) -> bool {
         let mut local = self.field.at(self.view.center);
         let mut is_high = |k: u32| {
@@ -401,8 +417,8 @@ impl Search<'_, '_> {
         Extremum { value, offset: curve.at(t, 0.0), on: curve.on }
     }
 
-    /// The quantity at a part of the way along a curve; NaN where it is infinite, and next to such a point, and where the curve has
-    /// left the view, as rims may.
+    /// The quantity at a part of the way along a curve; NaN where it is infinite, and next to such
+    /// a point, and where the curve has left the view, as rims may.
     fn on_curve(&self, local: &mut LocalField<'_>, curve: &Curve, t: f64) -> f64 {
         let at = curve.at(t, self.view.pixel_size());
         if self.is_hidden(at) || !self.is_seen(curve.at(t, 0.0)) {

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use super::curves::{Curve, best_first};
 use super::{HIDDEN, Promise, ROUND, Search, climb};
 
-/// Rings around a point, the radius of the least in units of what is hidden there, and how much larger each is than that before: to
-/// two pixels.
+/// Rings around a point, the radius of the least in units of what is hidden there, and how much
+/// larger each is than that before: to two pixels.
 const RINGS: usize = 20;
 const FIRST: f64 = 1.5;
 const WIDER: f64 = 1.46;
@@ -19,10 +19,12 @@ const SAMPLES: usize = 1 << 13;
 /// Places on a ring, at least and at most.
 const PLACES: [usize; 2] = [12, 48];
 
-/// Scale of the steps from a place, in parts of its distance from the point: some of the distance to the next one.
+/// Scale of the steps from a place, in parts of its distance from the point: some of the distance
+/// to the next one.
 const SCALE: f64 = 0.1;
 
-/// Faces of cracks next to points that they end at, in ever shorter parts; none if there are too many points.
+/// Faces of cracks next to points that they end at, in ever shorter parts; none if there are too
+/// many points.
 pub(super) fn faces(curves: &[Curve], hidden: &[Vec2], pixel: f64) -> Vec<Curve> {
     if hidden.len() * curves.len() > SAMPLES / RINGS {
         return Vec::new();
@@ -33,8 +35,8 @@ pub(super) fn faces(curves: &[Curve], hidden: &[Vec2], pixel: f64) -> Vec<Curve>
 }
 
 impl Search<'_, '_> {
-    /// Places beside singular points from which a search may begin, each with the scale of its steps, the most promising first;
-    /// none if there are too many such points.
+    /// Places beside singular points from which a search may begin, each with the scale of its
+    /// steps, the most promising first; none if there are too many such points.
     pub(super) fn beside_singular(&self, sign: f64) -> Vec<Promise<(Vec2, f64)>> {
         let places = SAMPLES / (RINGS * self.hidden.len().max(1));
         if places < PLACES[0] {
@@ -45,8 +47,8 @@ impl Search<'_, '_> {
         best_first(found.collect(), ROUND)
     }
 
-    /// The places around a point that are not below their neighbours nearer and farther, nor below both beside them: one of these may
-    /// lie on the other side of a crack.
+    /// The places around a point that are not below their neighbours nearer and farther, nor below
+    /// both beside them: one of these may lie on the other side of a crack.
     fn around(&self, point: Vec2, places: usize, sign: f64) -> Vec<Promise<(Vec2, f64)>> {
         let mut local = self.field.at(self.view.center);
         let at = |ring: usize, place: usize| {

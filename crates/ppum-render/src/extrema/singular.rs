@@ -8,7 +8,8 @@ use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
-/// Radii, in parts of the smallest patch there or of what is seen, between which a quantity is seen to grow.
+/// Radii, in parts of the smallest patch there or of what is seen, between which a quantity is seen
+/// to grow.
 const RADII: [f64; 2] = [1e-2, 1e-12];
 
 /// Growth between the radii that counts as without bound: r^(λ−1) with λ < 0.95 grows more.
@@ -37,8 +38,8 @@ pub enum SingularKind {
     Tip(TipId),
     /// A vertex inside a crack of this index.
     Kink(u32),
-    /// A re-entrant corner: of the polygonal hole of this index. Stresses of the exact solution are infinite there; those of
-    /// the represented field only if it has functions for it.
+    /// A re-entrant corner: of the polygonal hole of this index. Stresses of the exact solution are
+    /// infinite there; those of the represented field only if it has functions for it.
     Corner(usize),
     /// The origin of an enrichment's frame.
     Origin,
@@ -47,8 +48,8 @@ pub enum SingularKind {
 /// Evaluations that it takes to look at a point.
 pub(super) const LOOK: usize = 2 * DIRECTIONS as usize;
 
-/// The singular points among the given ones: those in which a quantity is infinite, as seen in a rectangle of offsets from an anchor, and
-/// all re-entrant corners of holes.
+/// The singular points among the given ones: those in which a quantity is infinite, as seen in a
+/// rectangle of offsets from an anchor, and all re-entrant corners of holes.
 pub(super) fn grown(
     field: &Field<'_>,
     anchor: Vec2,
@@ -109,7 +110,8 @@ fn corners(hole: &Hole) -> Vec<Vec2> {
     (0..sides.len()).filter(|&k| turns(k)).map(|k| sides[k][0]).collect()
 }
 
-/// Whether a quantity falls to −∞ and grows to +∞ towards a point, as seen in a rectangle around it.
+/// Whether a quantity falls to −∞ and grows to +∞ towards a point, as seen in a rectangle
+/// around it.
 fn grows(field: &Field<'_>, p: Vec2, rect: &Rect, quantity: &Quantity) -> [bool; 2] {
     let mut patches = Vec::new();
     field.tree.query_point(p, &mut patches);

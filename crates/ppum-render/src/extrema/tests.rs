@@ -72,7 +72,8 @@ fn a_peak_inside_and_a_corner() {
     assert_eq!(extrema(&field, &outside, &quantity, &raster, unwatched()), Ok(None));
 }
 
-/// Smooth random fields, and stresses that jump on borders of patches: nothing on a dense grid is beyond, and nothing near them either.
+/// Smooth random fields, and stresses that jump on borders of patches: nothing on a dense grid is
+/// beyond, and nothing near them either.
 #[test]
 fn random_fields_against_brute_force() {
     let mut random = Random(5);
@@ -119,7 +120,8 @@ fn random_fields_against_brute_force() {
     }
 }
 
-/// Fields that jump from sector to sector where cracks meet: nothing on a dense grid is beyond, nor near them, nor beside junctions.
+/// Fields that jump from sector to sector where cracks meet: nothing on a dense grid is beyond, nor
+/// near them, nor beside junctions.
 #[test]
 fn where_cracks_meet() {
     let mut random = Random(8);
@@ -180,7 +182,8 @@ fn opening(tip: Vec2, d: Vec2) -> Dataset {
     Dataset::new(domain, Equation::elasticity(MATERIAL)).with_step(step.with_field(displacement))
 }
 
-/// √r − 3 (r − 0.04)² along the upper face, and its negative on the lower one; looked at from both sides.
+/// √r − 3 (r − 0.04)² along the upper face, and its negative on the lower one; looked at from
+/// both sides.
 #[test]
 fn on_the_faces_of_a_crack() {
     let (tip, d) = (vec2(0.1, 0.2), vec2(0.8, 0.6));
@@ -201,7 +204,8 @@ fn on_the_faces_of_a_crack() {
     assert!(d.cross(high.offset + (view.center - tip)).abs() < 1e-15);
 }
 
-/// Kirsch's plate: 3 σ on the rim at the hole's side, −σ at its top; the hole in the middle, over the border, and tiny in the view.
+/// Kirsch's plate: 3 σ on the rim at the hole's side, −σ at its top; the hole in the middle, over
+/// the border, and tiny in the view.
 #[test]
 fn on_the_rim_of_a_hole() {
     let (center, radius) = (vec2(0.8, 0.2), 0.07);
@@ -299,7 +303,8 @@ fn infinity_is_in_the_field_not_in_the_pixels() {
     }
 }
 
-/// (± sin(θ/2)/√r − 1/√r₀)² + (1 + cos θ)/r₀ is 0 on one face at the distance r₀ from the tip alone, within its pixel.
+/// (± sin(θ/2)/√r − 1/√r₀)² + (1 + cos θ)/r₀ is 0 on one face at the distance r₀ from the tip
+/// alone, within its pixel.
 #[test]
 fn valleys_on_the_faces_of_a_tip() {
     let mut random = Random(11);
@@ -325,8 +330,8 @@ fn valleys_on_the_faces_of_a_tip() {
     }
 }
 
-/// The distance of the stresses from those of one place, squared: 0 there, within a fraction of a pixel beside the tip, where it grows
-/// without bound.
+/// The distance of the stresses from those of one place, squared: 0 there, within a fraction of a
+/// pixel beside the tip, where it grows without bound.
 #[test]
 fn valleys_beside_a_tip() {
     let mut random = Random(9);
@@ -353,7 +358,8 @@ fn valleys_beside_a_tip() {
     }
 }
 
-/// σ_xx = E of u_x = x jumps at a line, E = 2 + x − y on one side of it: the largest value lies on that side, at the border.
+/// σ_xx = E of u_x = x jumps at a line, E = 2 + x − y on one side of it: the largest value lies on
+/// that side, at the border.
 #[test]
 fn at_an_interface_and_at_corners() {
     let mut dataset = polynomial(&[0.0, 1.0]);
@@ -375,7 +381,8 @@ fn at_an_interface_and_at_corners() {
     assert_eq!(told.filter(|p| !p.max_infinite && !p.min_infinite).count(), 3);
 }
 
-/// σ_xx = E of u_x = x of a round inclusion, E = 2 + x y inside it and 1 outside: at the point of the rim where x y is largest.
+/// σ_xx = E of u_x = x of a round inclusion, E = 2 + x y inside it and 1 outside: at the point of
+/// the rim where x y is largest.
 #[test]
 fn at_a_round_interface() {
     let mut dataset = polynomial(&[0.0, 1.0]);
@@ -394,7 +401,8 @@ fn at_a_round_interface() {
     assert!(far.abs() < 1e-9 && (all.max.offset.x - all.max.offset.y).abs() < 1e-3, "{all:?}");
 }
 
-/// Curves are sampled in random order of magnitude: the extremes of sums of waves, against many more samples.
+/// Curves are sampled in random order of magnitude: the extremes of sums of waves, against many
+/// more samples.
 #[test]
 fn extremes_along_curves() {
     let mut random = Random(11);

@@ -7,8 +7,8 @@ use ppum::vec2::Vec2;
 use super::Isoline;
 use super::march::Segment;
 
-/// Ends on sides that two squares do not have in common, as where one of them is cut finer, are joined up to this
-/// distance, pixels.
+/// Ends on sides that two squares do not have in common, as where one of them is cut finer, are
+/// joined up to this distance, pixels.
 const NEAR: f64 = 0.02;
 
 /// A side by the bits of its ends.

@@ -10,11 +10,12 @@ use crate::pieces::Pieces;
 /// A square by its row from below and its column from the left: in this order squares are sorted.
 pub(super) type Cell = [u32; 2];
 
-/// Values of a raster in f32 may be wrong by this part of the largest around; of f64 by next to nothing. More is no mistake: it
-/// makes squares that are looked at.
+/// Values of a raster in f32 may be wrong by this part of the largest around; of f64 by next to
+/// nothing. More is no mistake: it makes squares that are looked at.
 const DOUBT: f64 = 100.0;
 
-/// Offsets of the lattice's columns and rows from the view's centre, rising: the pixel centres and the picture's border.
+/// Offsets of the lattice's columns and rows from the view's centre, rising: the pixel centres and
+/// the picture's border.
 pub(super) struct Lattice {
     x: Vec<f64>,
     y: Vec<f64>,
@@ -47,8 +48,8 @@ impl Lattice {
         Rect::new(at(i, j), at(to_i, to_j))
     }
 
-    /// The squares that lines may pass through, sorted: those whose values lie on both sides of a level as far as the raster
-    /// tells, those it knows nothing of, and those that something cuts.
+    /// The squares that lines may pass through, sorted: those whose values lie on both sides of a
+    /// level as far as the raster tells, those it knows nothing of, and those that something cuts.
     pub(super) fn candidates<T: Sample>(
         &self,
         raster: &Raster<T>,
@@ -115,7 +116,8 @@ impl Lattice {
         below.into_iter().chain(above).flatten()
     }
 
-    /// The square on the other side of a side of a square; `None` inside the square and on the picture's border.
+    /// The square on the other side of a side of a square; `None` inside the square and on the
+    /// picture's border.
     pub(super) fn neighbour(&self, [j, i]: Cell, [a, b]: [Vec2; 2]) -> Option<Cell> {
         let ([columns, rows], rect) = (self.size(), self.rect([j, i]));
         let on = |of: fn(Vec2) -> f64, at: f64| of(a) == at && of(b) == at;

@@ -11,7 +11,8 @@ use super::lattice::{Cell, Lattice};
 use super::root::root;
 use crate::pieces::{INSET, Piece, Pieces};
 
-/// Part of a gradient's size by which it changes between two points that are this near only by a jump.
+/// Part of a gradient's size by which it changes between two points that are this near only by
+/// a jump.
 const SAME: f64 = 1e-6;
 
 /// Corners nearer to each other than this part of a side are one.
@@ -58,8 +59,8 @@ struct Tile {
     piece: Piece,
     /// True if nothing cuts the square.
     is_whole: bool,
-    /// The values at the two ends of each side. Where something cuts the square the two of a corner may differ: it may
-    /// be a tip, or lie on a face.
+    /// The values at the two ends of each side. Where something cuts the square the two of a corner
+    /// may differ: it may be a tip, or lie on a face.
     values: Vec<[f64; 2]>,
 }
 
@@ -111,7 +112,8 @@ impl<'a, 'f> Marcher<'a, 'f> {
         segments
     }
 
-    /// The corners of pieces of the squares around: on the sides that they have in common lines must find the same.
+    /// The corners of pieces of the squares around: on the sides that they have in common lines
+    /// must find the same.
     fn beside(&self, cell: Cell, cuts: &Pieces<'_>) -> Vec<Vec2> {
         let around = self.lattice.around(cell).map(|cell| self.lattice.rect(cell));
         let cut = around.filter(|rect| cuts.may_cut(rect));
@@ -128,7 +130,8 @@ impl<'a, 'f> Marcher<'a, 'f> {
         let inner = passes.len() > 2 && self.value(tile.piece.center()) > level;
         for (k, &(_, is_above)) in passes.iter().enumerate() {
             let next = (k + 1) % passes.len();
-            // what lies between two crossings is cut off, on the right of the way from the first to the second
+            // what lies between two crossings is cut off, on the right of the way from the first to
+            // the second
             let (from, to) = if is_above { (next, k) } else { (k, next) };
             let is_apart = if passes.len() > 2 { is_above != inner } else { k == 0 };
             if is_apart && !(crossings[from].jumps && crossings[to].jumps) {
@@ -159,7 +162,8 @@ impl<'a, 'f> Marcher<'a, 'f> {
         (0..n).map(|k| [INSET, 1.0 - INSET].map(|t| self.value(tile.seen(k, t)))).collect()
     }
 
-    /// The place on a side where a level is passed, by Newton's method in a bracket; the same from both sides.
+    /// The place on a side where a level is passed, by Newton's method in a bracket; the same from
+    /// both sides.
     fn crossing(&mut self, tile: &Tile, pass: Pass, level: f64) -> Crossing {
         let k = match pass {
             Pass::Corner(k) => return tile.at_corner(k),
@@ -187,9 +191,9 @@ impl<'a, 'f> Marcher<'a, 'f> {
         Crossing { at: a + (b - a) * root.at, end, jumps }
     }
 
-    /// True if derivatives of the field differ between two near points, as they may on borders of patches. Lines
-    /// follow such a border from the one side's end to the other's; jumps that a quantity has by itself, as angles, are no
-    /// lines.
+    /// True if derivatives of the field differ between two near points, as they may on borders of
+    /// patches. Lines follow such a border from the one side's end to the other's; jumps that a
+    /// quantity has by itself, as angles, are no lines.
     fn field_jumps(&mut self, sides: [Vec2; 2]) -> bool {
         if self.slope.quantity().source() == Source::Partition {
             return false;
@@ -232,7 +236,8 @@ impl<'a, 'f> Marcher<'a, 'f> {
         }
     }
 
-    /// The point of the curve near a point, along gradients; none if there is none near, or it is outside the piece.
+    /// The point of the curve near a point, along gradients; none if there is none near, or it is
+    /// outside the piece.
     fn pulled(&mut self, tile: &Tile, level: f64, from: Vec2, reach: f64) -> Option<Vec2> {
         let mut at = from;
         for _ in 0..PULLS {
@@ -254,8 +259,8 @@ impl<'a, 'f> Marcher<'a, 'f> {
 }
 
 impl Tile {
-    /// Where a level is passed on the way around, and whether values are above it from there on; nothing where some are
-    /// not defined.
+    /// Where a level is passed on the way around, and whether values are above it from there on;
+    /// nothing where some are not defined.
     fn passes(&self, level: f64) -> Vec<(Pass, bool)> {
         let mut passes = Vec::new();
         if self.values.as_flattened().iter().any(|value| value.is_nan()) {
@@ -326,7 +331,8 @@ fn with_corners(piece: Piece, points: &[Vec2]) -> Piece {
     Piece { corners, faces, ..piece }
 }
 
-/// The part of the way along a side of the lattice at which a point lies; `None` if it does not, or is an end.
+/// The part of the way along a side of the lattice at which a point lies; `None` if it does not, or
+/// is an end.
 fn part(a: Vec2, b: Vec2, p: Vec2) -> Option<f64> {
     let t = if a.x == b.x && p.x == a.x {
         (p.y - a.y) / (b.y - a.y)

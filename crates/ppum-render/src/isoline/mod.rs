@@ -1,17 +1,22 @@
 //! Isolines: where a quantity has given values, followed through the picture on the exact field.
 //!
-//! The squares between the pixel centres, and a rim of half squares that reaches the picture's border, are marched
-//! through (marching squares; Lorensen, Cline 1987). The raster of any renderer says which squares to look at; all that a
-//! line consists of is then evaluated exactly, in double precision:
+//! The squares between the pixel centres, and a rim of half squares that reaches the picture's
+//! border, are marched through (marching squares; Lorensen, Cline 1987). The raster of any renderer
+//! says which squares to look at; all that a line consists of is then evaluated exactly, in
+//! double precision:
 //!
-//! - crossings of the sides of squares by Newton's method inside a bracket, with the quantity's [gradient](QuantityGradient);
+//! - crossings of the sides of squares by Newton's method inside a bracket, with the
+//!   quantity's [gradient](QuantityGradient);
 //! - of four crossings of a square those belong together that the value in its middle says;
-//! - between two crossings points are pulled onto the curve until chords are within [`CHORD`] pixels of it.
+//! - between two crossings points are pulled onto the curve until chords are within [`CHORD`]
+//!   pixels of it.
 //!
-//! So lines do not depend on the precision of the raster. Squares that a crack, a rim or an interface cuts are marched
-//! [piece](crate::pieces) by piece: no line runs along these jumps, and lines end on faces. Where derivatives jump at a border of patches, as with the linear weight, a line goes along
-//! the border to where its value is met again. Values at tips may be infinite:
-//! lines pass between what is finite around. A loop inside one square, and a line that enters and leaves a square by one side, are not seen.
+//! So lines do not depend on the precision of the raster. Squares that a crack, a rim or an
+//! interface cuts are marched [piece](crate::pieces) by piece: no line runs along these jumps, and
+//! lines end on faces. Where derivatives jump at a border of patches, as with the linear weight, a
+//! line goes along the border to where its value is met again. Values at tips may be infinite:
+//! lines pass between what is finite around. A loop inside one square, and a line that enters and
+//! leaves a square by one side, are not seen.
 
 mod join;
 mod lattice;
@@ -37,7 +42,8 @@ use march::{Marcher, Segment};
 /// Distance of chords from the curve up to which no point is put between, pixels.
 pub const CHORD: f64 = 0.02;
 
-/// Most points of all lines of a picture. A picture of 8000 × 6000 pixels with thirty lines across has a third as many.
+/// Most points of all lines of a picture. A picture of 8000 × 6000 pixels with thirty lines across
+/// has a third as many.
 pub const MOST_POINTS: usize = 1 << 21;
 
 /// Squares that one task marches through.
@@ -48,8 +54,8 @@ const TASK: usize = 64;
 pub struct Isoline {
     /// The value.
     pub level: f64,
-    /// Offsets from the view's centre; larger values are on the left. The first is not repeated at the end of a closed
-    /// line.
+    /// Offsets from the view's centre; larger values are on the left. The first is not repeated at
+    /// the end of a closed line.
     pub points: Vec<Vec2>,
     /// True of loops. Other lines end at the picture's border, at cracks, rims and interfaces.
     pub closed: bool,
@@ -64,15 +70,19 @@ impl Isoline {
     }
 }
 
-/// The lines on which a quantity has one of some values in a view, level by level; in an order that depends on nothing but the field.
+/// The lines on which a quantity has one of some values in a view, level by level; in an order that
+/// depends on nothing but the field.
 ///
-/// `raster` holds the quantity at the view's pixel centres, by any renderer, in f64 or f32. Each point of a line is
-/// within a tenth of a pixel of the exact curve. Levels that are not finite have no lines.
+/// `raster` holds the quantity at the view's pixel centres, by any renderer, in f64 or f32. Each
+/// point of a line is within a tenth of a pixel of the exact curve. Levels that are not finite have
+/// no lines.
 ///
-/// Costs some ten evaluations of the [gradient](QuantityGradient::at) for each pixel that a line passes.
+/// Costs some ten evaluations of the [gradient](QuantityGradient::at) for each pixel that a
+/// line passes.
 ///
 /// # Errors
-/// The quantity has no meaning for the field; more than [`MOST_POINTS`] points; the watcher stops the call.
+/// The quantity has no meaning for the field; more than [`MOST_POINTS`] points; the watcher stops
+/// the call.
 ///
 /// # Panics
 /// If the raster has not the view's pixels.

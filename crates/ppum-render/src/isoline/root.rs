@@ -16,7 +16,8 @@ pub(super) struct Root {
     pub(super) jump: Option<[f64; 2]>,
 }
 
-/// Where a function with values of different signs at 0 and 1 changes its sign. `f` gives value and slope.
+/// Where a function with values of different signs at 0 and 1 changes its sign. `f` gives value and
+/// slope.
 pub(super) fn root([at_0, at_1]: [f64; 2], f: &mut impl FnMut(f64) -> (f64, f64)) -> Root {
     let (mut lo, mut hi) = ((0.0, at_0), (1.0, at_1));
     let mut t = at_0 / (at_0 - at_1);

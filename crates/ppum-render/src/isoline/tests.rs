@@ -99,14 +99,16 @@ fn opening(tip: Vec2, d: Vec2) -> Dataset {
     Dataset::new(domain, Equation::elasticity(material)).with_step(step.with_field(displacement))
 }
 
-/// Radius of the line σ_vM = `level` in the direction θ from the crack: σ_vM = √(3μ² + (λ + μ)²(1 − 2ν)² cos²(θ/2)) / (2√r).
+/// Radius of the line σ_vM = `level` in the direction θ from the crack: σ_vM = √(3μ² + (λ + μ)²(1 −
+/// 2ν)² cos²(θ/2)) / (2√r).
 fn lobe(theta: f64, level: f64) -> f64 {
     let (mu, spread) = (0.5 / 1.3, 0.4 * (0.3 / (1.3 * 0.4) + 0.5 / 1.3));
     let square = 3.0 * mu * mu + (spread * (0.5 * theta).cos()).powi(2);
     0.25 * square / (level * level)
 }
 
-/// Lobes about a tip, down to 10⁻⁹ and 10⁻¹² of the domain, however the crack lies: one line around the tip that ends on both faces.
+/// Lobes about a tip, down to 10⁻⁹ and 10⁻¹² of the domain, however the crack lies: one line around
+/// the tip that ends on both faces.
 #[test]
 fn lobes_at_a_tip() {
     let tip = vec2(0.3, -0.7);
@@ -141,7 +143,8 @@ fn lobes_at_a_tip() {
     }
 }
 
-/// Westergaard's field of mode I with K_I = 2μ √(2π): u = √r (κ − cos θ) (cos(θ/2), sin(θ/2)) along and across the crack.
+/// Westergaard's field of mode I with K_I = 2μ √(2π): u = √r (κ − cos θ) (cos(θ/2), sin(θ/2)) along
+/// and across the crack.
 fn mode_one(tip: Vec2, d: Vec2) -> Dataset {
     let mut dataset = opening(tip, d);
     let step = &mut dataset.steps[0];
@@ -161,13 +164,15 @@ fn mode_one(tip: Vec2, d: Vec2) -> Dataset {
     dataset
 }
 
-/// Radius of the line σ_nn = `level`, n across the crack: σ_nn = 2μ/√r cos(θ/2) (1 + sin(θ/2) sin(3θ/2)).
+/// Radius of the line σ_nn = `level`, n across the crack: σ_nn = 2μ/√r cos(θ/2) (1 + sin(θ/2)
+/// sin(3θ/2)).
 fn stress_lobe(theta: f64, level: f64) -> f64 {
     let shape = (0.5 * theta).cos() * (1.0 + (0.5 * theta).sin() * (1.5 * theta).sin());
     (shape / (1.3 * level)).powi(2)
 }
 
-/// Westergaard's lobes of the stress across the crack: they begin and end at the tip, tangent to the faces.
+/// Westergaard's lobes of the stress across the crack: they begin and end at the tip, tangent to
+/// the faces.
 #[test]
 fn stress_lobes_of_mode_one() {
     let tip = vec2(-0.4, 0.2);
@@ -200,8 +205,8 @@ fn stress_lobes_of_mode_one() {
     }
 }
 
-/// A plate with three cracks, two of them kinked, and holes. Its weights are smooth, or else stresses jump on all borders of
-/// patches, as they do with linear ones, and degrees differ.
+/// A plate with three cracks, two of them kinked, and holes. Its weights are smooth, or else
+/// stresses jump on all borders of patches, as they do with linear ones, and degrees differ.
 fn plate(is_smooth: bool) -> Dataset {
     let mut recipe = Recipe::random(2);
     (recipe.coefficients, recipe.extra, recipe.level) = (Coefficients::Taylor, vec![], 2);
@@ -216,7 +221,8 @@ fn plate(is_smooth: bool) -> Dataset {
     dataset
 }
 
-/// How far the exact curve is from a point, by its value and gradient; beside a crack on the point's side.
+/// How far the exact curve is from a point, by its value and gradient; beside a crack on the
+/// point's side.
 fn off(slope: &QuantityGradient, field: &Field<'_>, view: &View, level: f64, p: Vec2) -> f64 {
     let at = slope.at(&mut field.at(view.center), p, Side::Above);
     (at.value - level).abs() / at.gradient.length() / view.pixel_size()
@@ -228,8 +234,8 @@ fn meeting() -> Dataset {
     Recipe { weight, degrees, ..Recipe::meeting() }.dataset()
 }
 
-/// Everywhere on lines the value is the level; no line crosses a crack or ends but where something ends; one of each side
-/// of a lattice's edges has a line through it if it passes the level.
+/// Everywhere on lines the value is the level; no line crosses a crack or ends but where something
+/// ends; one of each side of a lattice's edges has a line through it if it passes the level.
 #[test]
 fn lines_in_a_plate() {
     for (is_smooth, dataset) in [(true, plate(true)), (false, plate(false)), (true, meeting())] {
@@ -297,7 +303,8 @@ fn no_crack_is_crossed(field: &Field<'_>, view: &View, line: &Isoline) {
     }
 }
 
-/// Between neighbours of the pixel lattice with values on two sides of a level, nothing between them, there is a line.
+/// Between neighbours of the pixel lattice with values on two sides of a level, nothing between
+/// them, there is a line.
 fn every_edge_is_met(
     quantity: &Quantity,
     field: &Field<'_>,
@@ -326,8 +333,8 @@ fn every_edge_is_met(
     assert!(looked > 200, "{looked}");
 }
 
-/// A row of pixels on each side of a crack: the line u_x = c of a displacement that jumps ends on both faces at the places where the
-/// faces have that value.
+/// A row of pixels on each side of a crack: the line u_x = c of a displacement that jumps ends on
+/// both faces at the places where the faces have that value.
 #[test]
 fn faces_have_their_own_ends() {
     let (tip, d) = (vec2(0.0, 0.0), vec2(0.8, 0.6));
@@ -349,7 +356,8 @@ fn faces_have_their_own_ends() {
     }
 }
 
-/// σ_xx = 3 E x² of u_x = x³ at ν = 0 jumps where E does; each side has its own line, ending at the interface.
+/// σ_xx = 3 E x² of u_x = x³ at ν = 0 jumps where E does; each side has its own line, ending at
+/// the interface.
 #[test]
 fn interfaces_cut_lines() {
     // x³ is the seventh monomial; σ_xx = E (3x² + y) with u_x = x³ + x y
@@ -442,7 +450,8 @@ fn it_can_be_stopped() {
     assert!(matches!(found, Err(RenderError::Cancelled(_))));
 }
 
-/// A quantity that passes thousands of levels in each pixel is refused before its lines take memory without end.
+/// A quantity that passes thousands of levels in each pixel is refused before its lines take memory
+/// without end.
 #[test]
 fn too_many_lines_are_refused() {
     let plain = Recipe { cracks: vec![], cells: [1, 1], level: 0, ..Recipe::default() };

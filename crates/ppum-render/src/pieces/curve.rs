@@ -14,8 +14,8 @@ const SAMPLES: usize = 4;
 /// Most divisions in four, one inside the other.
 const DEPTH: usize = 4;
 
-/// The zeros of a formula of x and y. What shows no change of sign on corners, middles of sides and centroid of a
-/// polygon is not seen.
+/// The zeros of a formula of x and y. What shows no change of sign on corners, middles of sides and
+/// centroid of a polygon is not seen.
 #[derive(Debug)]
 pub(super) struct Curve {
     pub(super) level: Formula,
@@ -28,7 +28,8 @@ impl Curve {
         self.level.evaluate(&[p.x, p.y]) > 0.0
     }
 
-    /// False if samples say that the curve stays away from a rectangle: their least value is more than neighbours differ.
+    /// False if samples say that the curve stays away from a rectangle: their least value is more
+    /// than neighbours differ.
     pub(super) fn may_meet(&self, rect: &Rect) -> bool {
         let step = rect.size() / (SAMPLES - 1) as f64;
         let value = |k: usize| {
@@ -87,7 +88,8 @@ impl Curve {
         halves.filter_map(|[a, b]| self.root(a, b)).collect()
     }
 
-    /// The change of sign between two points, by bisection, whichever comes first; `None` if there is none.
+    /// The change of sign between two points, by bisection, whichever comes first; `None` if there
+    /// is none.
     fn root(&self, a: Vec2, b: Vec2) -> Option<Vec2> {
         let (mut a, mut b) = if (b.x, b.y) < (a.x, a.y) { (b, a) } else { (a, b) };
         let positive = self.is_positive(a);
@@ -101,7 +103,8 @@ impl Curve {
         Some((a + b) * 0.5)
     }
 
-    /// Distance of the middle of a chord from the curve; ∞ if it is more than a quarter of the chord.
+    /// Distance of the middle of a chord from the curve; ∞ if it is more than a quarter of
+    /// the chord.
     fn sagitta(&self, a: Vec2, b: Vec2) -> f64 {
         let (middle, reach) = ((a + b) * 0.5, (b - a).left() * 0.25);
         let root = self.root(middle - reach, middle + reach);

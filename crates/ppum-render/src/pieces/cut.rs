@@ -132,8 +132,8 @@ impl Polygon {
         self.corners[(side + 1) % self.corners.len()]
     }
 
-    /// The parts on the right and on the left of a line; a part is left out if it has no area, or is thinner
-    /// than `least` while the other is not.
+    /// The parts on the right and on the left of a line; a part is left out if it has no area, or
+    /// is thinner than `least` while the other is not.
     pub(super) fn split(self, cut: &Cut, least: f64) -> [Option<Self>; 2] {
         let distances: Vec<f64> = self.corners.iter().map(|&corner| cut.side(corner)).collect();
         let thickness = |sign: f64| distances.iter().fold(0.0, |a: f64, d| a.max(sign * d));
@@ -204,12 +204,14 @@ impl Polygon {
     }
 }
 
-/// The part of the way from one number to another at which a third lies; NaN if it lies at infinity.
+/// The part of the way from one number to another at which a third lies; NaN if it lies
+/// at infinity.
 fn part([a, b]: [f64; 2], c: f64) -> f64 {
     if c.is_finite() { (c - a) / (b - a) } else { f64::NAN }
 }
 
-/// The point between two at which distances of different signs are zero, whichever of them comes first.
+/// The point between two at which distances of different signs are zero, whichever of them
+/// comes first.
 fn crossing(a: Vec2, b: Vec2, [at_a, at_b]: [f64; 2]) -> Vec2 {
     if (b.x, b.y) < (a.x, a.y) {
         return crossing(b, a, [at_b, at_a]);

@@ -1,18 +1,19 @@
 //! Squares of a lattice cut into convex pieces, each on one side of every crack, interface and rim.
 //!
-//! What follows a field through a square, an isoline or the square's image in the deformed plate, must not jump on the
-//! way. A square that nothing crosses is its own only piece. Others are cut by
+//! What follows a field through a square, an isoline or the square's image in the deformed plate,
+//! must not jump on the way. A square that nothing crosses is its own only piece. Others are cut by
 //!
 //! - the lines of the segments of cracks that meet it: their extensions too, which does no harm,
-//! - the sides of polygonal holes and tangents of round ones, which leave the hole by less than [`SAGITTA`] of the square,
+//! - the sides of polygonal holes and tangents of round ones, which leave the hole by less than
+//!   [`SAGITTA`] of the square,
 //! - the border of the domain,
 //! - the sets on which the material's formulas may jump, curved ones by chords;
 //!
-//! and what lies outside the domain is dropped. All points are offsets from the anchor, as everywhere: pieces at a tip are as
-//! good in a view 10⁻¹² of the domain wide.
+//! and what lies outside the domain is dropped. All points are offsets from the anchor, as
+//! everywhere: pieces at a tip are as good in a view 10⁻¹² of the domain wide.
 //!
-//! A corner of a piece may lie on a crack. Its values are those *seen from inside*: at the corner moved by [`INSET`] of its way to
-//! the piece's centroid, so that no side has to be named.
+//! A corner of a piece may lie on a crack. Its values are those *seen from inside*: at the corner
+//! moved by [`INSET`] of its way to the piece's centroid, so that no side has to be named.
 
 mod curve;
 mod cut;
@@ -33,30 +34,35 @@ use round::Round;
 /// Part of the way from a corner to its piece's centroid at which the corner's values are taken.
 pub const INSET: f64 = 1e-6;
 
-/// Largest distance of a piece's straight side from the curve it stands for, in parts of the square's side.
+/// Largest distance of a piece's straight side from the curve it stands for, in parts of the
+/// square's side.
 pub const SAGITTA: f64 = 0.01;
 
-/// Squares with more lines in them than this are divided into four, again and again, up to [`DEPTH`] times:
-/// the lines of a corner with many sides do not all cut all pieces then.
+/// Squares with more lines in them than this are divided into four, again and again, up to
+/// [`DEPTH`] times: the lines of a corner with many sides do not all cut all pieces then.
 const LINES: usize = 8;
 const DEPTH: usize = 6;
 
-/// Parts that a cut leaves thinner than this part of the square are dropped: nobody sees them, and points could not be told to be
-/// inside them.
+/// Parts that a cut leaves thinner than this part of the square are dropped: nobody sees them, and
+/// points could not be told to be inside them.
 const SLIVER: f64 = 1e-5;
 
-/// Sides shorter than this part of the square are what rounding leaves where several lines meet in a point: they are none.
+/// Sides shorter than this part of the square are what rounding leaves where several lines meet in
+/// a point: they are none.
 const SHORTEST: f64 = 1e-9;
 
 /// A convex part of a square, wholly on one side of everything that a field jumps on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// Offsets from the anchor, counter-clockwise; three or more. Some may lie between their neighbours: a tip is a corner.
+    /// Offsets from the anchor, counter-clockwise; three or more. Some may lie between their
+    /// neighbours: a tip is a corner.
     pub corners: Vec<Vec2>,
-    /// For the side from each corner to the next whether the field may jump there or ends: a face of a crack, a
-    /// rim, an interface. The others lead on to a neighbour, in this square or the next.
+    /// For the side from each corner to the next whether the field may jump there or ends: a face
+    /// of a crack, a rim, an interface. The others lead on to a neighbour, in this square or
+    /// the next.
     pub faces: Vec<bool>,
-    /// Part of the way to the centroid for what is seen from inside: [`INSET`], or more at chords of curves.
+    /// Part of the way to the centroid for what is seen from inside: [`INSET`], or more at chords
+    /// of curves.
     pub inset: f64,
 }
 
@@ -91,7 +97,8 @@ impl<'f> Pieces<'f> {
         pieces
     }
 
-    /// For the field's values, which are continuous across interfaces: pieces end at cracks and rims only.
+    /// For the field's values, which are continuous across interfaces: pieces end at cracks and
+    /// rims only.
     #[must_use]
     pub fn of_values(field: &Field<'f>, anchor: Vec2) -> Self {
         let (domain, holes) = (field.domain, &field.domain.holes);
@@ -125,8 +132,8 @@ impl<'f> Pieces<'f> {
         }
     }
 
-    /// False if nothing cuts any square of a rectangle of offsets from the anchor; all of it lies in the domain then, or all
-    /// outside. Of curved interfaces samples tell.
+    /// False if nothing cuts any square of a rectangle of offsets from the anchor; all of it lies
+    /// in the domain then, or all outside. Of curved interfaces samples tell.
     #[must_use]
     pub fn may_cut(&self, rect: &Rect) -> bool {
         let near = self.bounds.intersection(rect);
@@ -141,8 +148,8 @@ impl<'f> Pieces<'f> {
             || self.rounds_in(rect).next().is_some()
     }
 
-    /// The pieces of a square, or another rectangle, of offsets from the anchor; none if all of it lies outside the
-    /// domain. O(log n) to find what cuts it.
+    /// The pieces of a square, or another rectangle, of offsets from the anchor; none if all of it
+    /// lies outside the domain. O(log n) to find what cuts it.
     #[must_use]
     pub fn of(&self, square: &Rect) -> Vec<Piece> {
         let mut pieces = Vec::new();
@@ -181,7 +188,8 @@ impl<'f> Pieces<'f> {
         pieces.extend(all.into_iter().filter_map(|polygon| self.finished(polygon, shortest)));
     }
 
-    /// The piece of a polygon that nothing cuts any more; none outside the domain, or where it has no area.
+    /// The piece of a polygon that nothing cuts any more; none outside the domain, or where it has
+    /// no area.
     fn finished(&self, polygon: Polygon, shortest: f64) -> Option<Piece> {
         let polygon = polygon.without_short_sides(shortest)?.with_ends();
         let center = centroid(&polygon.corners);
@@ -200,7 +208,8 @@ impl<'f> Pieces<'f> {
         })
     }
 
-    /// True if the material differs on the two sides of an interface, as seen from as far as chords of curves are from them.
+    /// True if the material differs on the two sides of an interface, as seen from as far as chords
+    /// of curves are from them.
     fn material_jumps(&self, cut: &Cut, middle: Vec2, center: Vec2) -> bool {
         let inward = (center - middle) * (2.0 * INSET).max(cut.inset(center));
         let [a, b] = [inward, -inward].map(|step| {

@@ -64,8 +64,8 @@ impl Round {
         parts
     }
 
-    /// First and last tangent beside a polygon, and the angle between neighbours: tangents are the same for all
-    /// squares of a size.
+    /// First and last tangent beside a polygon, and the angle between neighbours: tangents are the
+    /// same for all squares of a size.
     fn tangents(&self, corners: &[Vec2], size: f64) -> (i64, i64, f64) {
         // the corner of two tangents is r (1/cos(step/2) − 1) ≈ r step²/8 away from the rim
         let step = (8.0 * SAGITTA * size / self.radius).sqrt();

@@ -9,7 +9,8 @@ use ppum::jet::Jet;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::Recipe;
 
-/// Cracks with kinks, tips and a mouth, or ones that meet, round holes of many sizes, polygons, over each other and the border.
+/// Cracks with kinks, tips and a mouth, or ones that meet, round holes of many sizes, polygons,
+/// over each other and the border.
 fn dataset(seed: u64) -> Dataset {
     let recipe = if seed < 4 { Recipe::random(seed) } else { Recipe::meeting() };
     let mut dataset = recipe.dataset();
@@ -218,7 +219,8 @@ fn two_materials(young: &str) -> Dataset {
     dataset
 }
 
-/// Pieces lie on one side of interfaces, straight and round, as their values are taken; where nothing jumps there is no face.
+/// Pieces lie on one side of interfaces, straight and round, as their values are taken; where
+/// nothing jumps there is no face.
 #[test]
 fn interfaces() {
     for (young, level, jumps) in [

@@ -1,22 +1,25 @@
 //! The range of values that the colours span: chosen, or found from the values.
 //!
-//! The *automatic range* spans the [extrema](crate::extrema::extrema) of the view where they are known and finite: the true ones, whatever the number of
-//! pixels. Stresses grow like r^(−1/2) towards a tip, so with a tip in the view the largest value of a raster says how near a pixel's
-//! centre happens to be and nothing about the field. There, and where no extrema are known, the range is *robust*: it
-//! looks at the finite values' quantiles at 0.5 % and 99.5 %. An extreme value bounds the range if it lies at most
-//! a fifth of the quantiles' span outside them, else the quantile does, and what is outside is drawn
-//! in the colours below and above. On a logarithmic scale the same is done with the logarithms of the
-//! positive values. Further:
+//! The *automatic range* spans the [extrema](crate::extrema::extrema) of the view where they are
+//! known and finite: the true ones, whatever the number of pixels. Stresses grow like r^(−1/2)
+//! towards a tip, so with a tip in the view the largest value of a raster says how near a pixel's
+//! centre happens to be and nothing about the field. There, and where no extrema are known, the
+//! range is *robust*: it looks at the finite values' quantiles at 0.5 % and 99.5 %. An extreme
+//! value bounds the range if it lies at most a fifth of the quantiles' span outside them, else the
+//! quantile does, and what is outside is drawn in the colours below and above. On a logarithmic
+//! scale the same is done with the logarithms of the positive values. Further:
 //!
 //! - a logarithmic scale begins where the robust range does: zeros are peaks of the logarithm;
 //! - values that are nowhere negative and come near zero get a range from zero;
 //! - for a diverging colour map a range that was found is made symmetric if zero lies inside;
-//! - one value c everywhere, but for rounding, in the pixels or [all over the plate](crate::extrema::On::Everywhere), gets c ± |c|/2, zero gets −1/2 to 1/2; no usable value at all gets 0 to 1 (on a
-//!   logarithmic scale 0.1 to 1).
+//! - one value c everywhere, but for rounding, in the pixels or [all over the
+//!   plate](crate::extrema::On::Everywhere), gets c ± |c|/2, zero gets −1/2 to 1/2; no usable value
+//!   at all gets 0 to 1 (on a logarithmic scale 0.1 to 1).
 //!
-//! The *full range* spans all finite values: to the extrema, and to the pixels' largest value where the quantity is infinite.
-//! *Percentiles* are those of the pixels' finite values (on a logarithmic scale positive ones): P % of n sorted values, counted from 0, is
-//! number P (n − 1)/100, interpolated between two.
+//! The *full range* spans all finite values: to the extrema, and to the pixels' largest value where
+//! the quantity is infinite. *Percentiles* are those of the pixels' finite values (on a logarithmic
+//! scale positive ones): P % of n sorted values, counted from 0, is number P (n − 1)/100,
+//! interpolated between two.
 
 use std::fmt;
 use std::str::FromStr;
@@ -54,7 +57,8 @@ pub enum RangeError {
     /// Bounds that are not finite.
     #[error("the range from {} to {} has no end; give two finite numbers", exact(*.0), exact(*.1))]
     Endless(f64, f64),
-    /// Bounds whose difference is larger than the largest number, or smaller than the smallest normal one.
+    /// Bounds whose difference is larger than the largest number, or smaller than the smallest
+    /// normal one.
     #[error("the range from {} to {} is wider or narrower than double precision can tell", exact(*.0), exact(*.1))]
     Extreme(f64, f64),
     /// Percentiles that do not rise or lie outside 0 to 100.
@@ -234,8 +238,8 @@ impl Range {
         !matches!(self, Self::Fixed(..))
     }
 
-    /// The scale on this range, one that is found from the raster alone; `symmetric` asks for a range
-    /// around zero where it contains zero.
+    /// The scale on this range, one that is found from the raster alone; `symmetric` asks for a
+    /// range around zero where it contains zero.
     ///
     /// # Errors
     /// A fixed range that is empty or, on a logarithmic scale, not positive.
@@ -248,8 +252,8 @@ impl Range {
         self.span(scale, symmetric, raster, None).normalization(scale)
     }
 
-    /// The range of a raster's values; `values` are the extrema of the view where they are known, and `symmetric` asks for a range
-    /// around zero where one that is found contains zero.
+    /// The range of a raster's values; `values` are the extrema of the view where they are known,
+    /// and `symmetric` asks for a range around zero where one that is found contains zero.
     #[must_use]
     pub fn span<T: Sample>(
         &self,
@@ -282,11 +286,11 @@ impl Range {
     }
 }
 
-/// Share of the values on each side that may be a peak: a disc around a tip of a twelfth of a square
-/// picture's width.
+/// Share of the values on each side that may be a peak: a disc around a tip of a twelfth of a
+/// square picture's width.
 const TAIL: f64 = 0.005;
-/// Distance from the quantiles, in parts of their span, up to which an extreme value still bounds the range.
-/// Smooth fields stay below it (a quadratic: 0.01), a tip's r^(−1/2) is far above.
+/// Distance from the quantiles, in parts of their span, up to which an extreme value still bounds
+/// the range. Smooth fields stay below it (a quadratic: 0.01), a tip's r^(−1/2) is far above.
 const SLACK: f64 = 0.2;
 /// A range that starts within this part of its end above zero starts at zero.
 const NEAR_ZERO: f64 = 0.2;
@@ -317,7 +321,8 @@ impl<T: Sample> Seen<'_, T> {
         }
     }
 
-    /// Between extrema on a logarithmic scale, where zeros are peaks as poles are: errors are zero somewhere.
+    /// Between extrema on a logarithmic scale, where zeros are peaks as poles are: errors are
+    /// zero somewhere.
     fn to_zero(&self, min: f64, max: f64) -> (Basis, Bounds) {
         let bounds = self.robust().map(|(low, high)| (low, max.max(high)));
         let is_whole = bounds.is_some_and(|(low, _)| low <= min);

@@ -263,7 +263,8 @@ fn at_a_tip_it_is_robust_and_beside_it_true() {
         assert!(
             top.on == On::Singular(kind) && (top.offset + (at(256).center - tip)).length() < 1e-16
         );
-        // displacements are finite there, and all of them are shown: on the faces, and at the border
+        // displacements are finite there, and all of them are shown: on the faces, and at
+        // the border
         let moved = automatic(&dataset, &at(64), "magnitude");
         assert_eq!((moved.basis, moved.beyond()), (Basis::All, [None; 2]));
         let full = spanned(&dataset, &at(64), "von-mises", Range::Full, Scale::Linear);
@@ -380,7 +381,8 @@ fn shared_ranges_hold_all() {
     assert_eq!(Span::shared(std::slice::from_ref(&a), true), Some(a));
 }
 
-/// A zero is a peak of the logarithm: what is near it does not take all colours; a smooth field has them all.
+/// A zero is a peak of the logarithm: what is near it does not take all colours; a smooth field has
+/// them all.
 #[test]
 fn zeros_are_peaks_on_logarithmic_scales() {
     let extrema = |min: f64, max: f64| {

@@ -1,10 +1,11 @@
 //! What other programs do: sampling a field on a grid, and interpolating the samples at the pixels.
 //!
-//! It is here to be compared with. A [`Grid`] of nx × ny points over a rectangle is given the exact values of
-//! a quantity at its points, without any care for cracks between them, as tools that draw grids do; a point on a
-//! crack has the value above it, points in holes have none. [`Samples::raster`] finds the values at a picture's
-//! pixels by one of three [`Interpolation`]s, [`cells`] takes one value for each cell of the cover. [`norms`](mod@norms)
-//! tells how far they are from the field, and [`need`] which grid would be near enough.
+//! It is here to be compared with. A [`Grid`] of nx × ny points over a rectangle is given the exact
+//! values of a quantity at its points, without any care for cracks between them, as tools that draw
+//! grids do; a point on a crack has the value above it, points in holes have none.
+//! [`Samples::raster`] finds the values at a picture's pixels by one of three [`Interpolation`]s,
+//! [`cells`] takes one value for each cell of the cover. [`norms`](mod@norms) tells how far they
+//! are from the field, and [`need`] which grid would be near enough.
 //!
 //! ```text
 //! u_h(x, y) = Σ_i Σ_j w_i(x) w_j(y) u(x_i, y_j)
@@ -43,8 +44,8 @@ pub enum Interpolation {
     Nearest,
     /// Linear in x and in y between four points: second order, exact for 1, x, y, xy.
     Bilinear,
-    /// Cubic convolution of sixteen points with Keys' parameter −1/2, which is Catmull–Rom's spline: third order,
-    /// exact for quadratic polynomials, at the grid's border too (Keys 1981).
+    /// Cubic convolution of sixteen points with Keys' parameter −1/2, which is Catmull–Rom's
+    /// spline: third order, exact for quadratic polynomials, at the grid's border too (Keys 1981).
     Bicubic,
 }
 
@@ -187,8 +188,8 @@ impl Grid {
         8 * u64::from(self.size[0]) * u64::from(self.size[1])
     }
 
-    /// The exact values of a quantity at the points. Rows are spread over the threads of the pool that calls; the
-    /// watcher hears of each.
+    /// The exact values of a quantity at the points. Rows are spread over the threads of the pool
+    /// that calls; the watcher hears of each.
     ///
     /// # Errors
     /// As for [`render`](ppum_raster::scatter::render).
@@ -238,8 +239,8 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// The interpolated value at `grid.anchor + offset`: NaN outside the grid's rectangle, and where a value that
-    /// counts is none.
+    /// The interpolated value at `grid.anchor + offset`: NaN outside the grid's rectangle, and
+    /// where a value that counts is none.
     #[must_use]
     pub fn at(&self, interpolation: Interpolation, offset: Vec2) -> f64 {
         let Some([x, y]) = self.grid.stencils(interpolation, offset) else { return f64::NAN };
@@ -247,7 +248,8 @@ impl Samples {
         y.sum(|j| x.sum(|i| self.values[j as usize * columns + i as usize]))
     }
 
-    /// The interpolated values at the pixel centres of a view: the picture that the grid would give.
+    /// The interpolated values at the pixel centres of a view: the picture that the grid
+    /// would give.
     #[must_use]
     pub fn raster(&self, interpolation: Interpolation, view: &View) -> Raster {
         let shift = view.center - self.grid.anchor;
@@ -256,8 +258,8 @@ impl Samples {
     }
 }
 
-/// The picture of one value per cell of the cover, that at the cell's centre; NaN outside the cells, and in
-/// cells with their centre in a hole. It is made of 8 bytes per cell.
+/// The picture of one value per cell of the cover, that at the cell's centre; NaN outside the
+/// cells, and in cells with their centre in a hole. It is made of 8 bytes per cell.
 ///
 /// # Errors
 /// As for [`render`](ppum_raster::scatter::render).
@@ -295,9 +297,9 @@ pub fn cells(
     Ok(Raster::from_fn(view.pixels, value))
 }
 
-/// Memory of what a field is evaluated from \[bytes\]: supports and frames of the patches (four points each), blocks
-/// (function, degree, place of the coefficients; one entry per patch to find them), coefficients, vertices of the
-/// cracks and texts of the functions.
+/// Memory of what a field is evaluated from \[bytes\]: supports and frames of the patches (four
+/// points each), blocks (function, degree, place of the coefficients; one entry per patch to find
+/// them), coefficients, vertices of the cracks and texts of the functions.
 #[must_use]
 pub fn representation_bytes(field: &Field<'_>) -> u64 {
     const POINT: usize = 16;

@@ -1,11 +1,12 @@
 //! The grid that resampling would need for a given error, measured.
 //!
-//! [`converge`] doubles a grid and measures each time how far its picture is from the field, at pixels of the view
-//! (at most [`PIXELS`] in each direction, evenly spread). Only the grid's points that count at these pixels are
-//! evaluated, so a fine grid costs no more than a coarse one.
+//! [`converge`] doubles a grid and measures each time how far its picture is from the field, at
+//! pixels of the view (at most [`PIXELS`] in each direction, evenly spread). Only the grid's points
+//! that count at these pixels are evaluated, so a fine grid costs no more than a coarse one.
 //!
-//! What is measured at pixels falls for ever, since no pixel's centre lies at a tip or on a crack. The largest error
-//! between them does not where the quantity is infinite or jumps: [`Needed::Never`] says so for L∞.
+//! What is measured at pixels falls for ever, since no pixel's centre lies at a tip or on a crack.
+//! The largest error between them does not where the quantity is infinite or jumps:
+//! [`Needed::Never`] says so for L∞.
 
 use std::collections::BTreeSet;
 
@@ -69,16 +70,18 @@ pub enum Obstacle {
 /// The grid for an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Needed {
-    /// The first of the measured grids with no larger error; one of half its points has a larger one.
+    /// The first of the measured grids with no larger error; one of half its points has a
+    /// larger one.
     Grid([u32; 2]),
-    /// The size to which the last two measured errors lead, if they go on falling by the same power.
+    /// The size to which the last two measured errors lead, if they go on falling by the
+    /// same power.
     Extrapolated([f64; 2]),
     /// No grid.
     Never(Obstacle),
 }
 
-/// Errors of finer and finer grids, up to the first with relative errors of at most `target` in all norms, or to
-/// [`LARGEST`]. The watcher hears of every grid.
+/// Errors of finer and finer grids, up to the first with relative errors of at most `target` in all
+/// norms, or to [`LARGEST`]. The watcher hears of every grid.
 ///
 /// # Errors
 /// As for [`render`](ppum_raster::scatter::render).
@@ -130,7 +133,8 @@ impl Convergence {
     }
 }
 
-/// An error that falls by a smaller power of the spacing does not fall: it takes 10¹⁰ times the points for a tenth.
+/// An error that falls by a smaller power of the spacing does not fall: it takes 10¹⁰ times the
+/// points for a tenth.
 const LEAST_ORDER: f64 = 0.1;
 
 /// The sizes that are measured, of the shape of `size`.

@@ -2,12 +2,12 @@
 
 use ppum_raster::raster::Raster;
 
-/// Norms of a difference d over the n pixels where both pictures have a value, as means, so that they do not
-/// depend on the size of the view: Σ|d|/n, √(Σd²/n), max |d|.
+/// Norms of a difference d over the n pixels where both pictures have a value, as means, so that
+/// they do not depend on the size of the view: Σ|d|/n, √(Σd²/n), max |d|.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Norms {
-    /// L1, L2 and L∞ of the difference, over the pixels where both values are finite; L∞ is infinite if one value is
-    /// and the other is not.
+    /// L1, L2 and L∞ of the difference, over the pixels where both values are finite; L∞ is
+    /// infinite if one value is and the other is not.
     pub absolute: [f64; 3],
     /// The same norms of the field itself over the same pixels; L∞ of its finite values.
     pub field: [f64; 3],
@@ -76,7 +76,8 @@ pub(super) fn of_values(field: &[f64], other: &[f64]) -> Norms {
     found
 }
 
-/// The difference `other` − `field`; NaN where one of them has no value, and where both are infinite alike.
+/// The difference `other` − `field`; NaN where one of them has no value, and where both are
+/// infinite alike.
 ///
 /// # Panics
 /// If the pictures differ in size.

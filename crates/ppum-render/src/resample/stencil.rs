@@ -10,7 +10,8 @@ pub(super) struct Stencil {
 }
 
 impl Stencil {
-    /// The weights at a position `t`, counted in spacings from the first of `count` points, in 0 ..= count − 1.
+    /// The weights at a position `t`, counted in spacings from the first of `count` points, in 0
+    /// ..= count − 1.
     pub(super) fn new(interpolation: Interpolation, t: f64, count: u32) -> Self {
         let cell = (t as u32).min(count - 2);
         let s = t - f64::from(cell);
@@ -24,9 +25,9 @@ impl Stencil {
         }
     }
 
-    /// Weights of the points cell − 1 … cell + 2. Those that the row does not have are extrapolated: by
-    /// u₋₁ = 3 u₀ − 3 u₁ + u₂, which is exact for quadratic polynomials (Keys 1981), and of
-    /// two points by u₋₁ = 2 u₀ − u₁.
+    /// Weights of the points cell − 1 … cell + 2. Those that the row does not have are
+    /// extrapolated: by u₋₁ = 3 u₀ − 3 u₁ + u₂, which is exact for quadratic polynomials (Keys
+    /// 1981), and of two points by u₋₁ = 2 u₀ − u₁.
     fn cubic(cell: u32, s: f64, count: u32) -> Self {
         let [mut a, mut b, mut c, mut d] = catmull_rom(s);
         if count == 2 {

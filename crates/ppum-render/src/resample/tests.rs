@@ -88,8 +88,8 @@ fn polynomials_that_are_reproduced() {
     }
 }
 
-/// With the order k of the interpolation errors fall as h^k in all norms: nearest 1, bilinear 2, bicubic 3. Between
-/// grids of n and 2n points h is smaller by (2n − 1)/(n − 1).
+/// With the order k of the interpolation errors fall as h^k in all norms: nearest 1, bilinear 2,
+/// bicubic 3. Between grids of n and 2n points h is smaller by (2n − 1)/(n − 1).
 #[test]
 fn errors_of_smooth_fields_fall_as_theory_says() {
     let dataset = smooth("sin(2*x + 0.3)*exp(y/2) + cos(3*y)");
@@ -106,8 +106,8 @@ fn errors_of_smooth_fields_fall_as_theory_says() {
     }
 }
 
-/// At a tip √r is the best that can be had: the largest error falls as h^½ whatever the interpolation. The grids
-/// are placed alike about the tip, in a view that shrinks with them.
+/// At a tip √r is the best that can be had: the largest error falls as h^½ whatever the
+/// interpolation. The grids are placed alike about the tip, in a view that shrinks with them.
 #[test]
 fn errors_at_a_tip_fall_as_the_root_of_the_spacing() {
     let dataset = at_tip("sqrt(r)*cos(theta/2)");
@@ -131,8 +131,9 @@ fn errors_at_a_tip_fall_as_the_root_of_the_spacing() {
     }
 }
 
-/// Every interpolation against its definition: nearest by distances, bilinear as two lines, bicubic as four Hermite
-/// splines with the slopes of neighbouring points, as Catmull and Rom 1974 give them.
+/// Every interpolation against its definition: nearest by distances, bilinear as two lines, bicubic
+/// as four Hermite splines with the slopes of neighbouring points, as Catmull and Rom 1974
+/// give them.
 #[test]
 fn interpolations_against_their_definitions() {
     let mut random = Random(5);
@@ -259,7 +260,8 @@ fn memory_is_counted() {
     let dataset = smooth("x");
     let field = Field::new(&dataset, 0).unwrap();
     let patches = field.step.partition.len() as u64;
-    // four points a patch; one block and coefficient each; the list of blocks; a crack of two vertices; "x"
+    // four points a patch; one block and coefficient each; the list of blocks; a crack of two
+    // vertices; "x"
     let expected = patches * (64 + 13 + 8) + 4 * (patches + 1) + 32 + 1;
     assert_eq!(representation_bytes(&field), expected);
     let grid = Grid::over_domain(&field, [640, 480]).unwrap();
@@ -288,8 +290,8 @@ fn convergence(dataset: &Dataset, view: &View, name: &str, target: f64) -> Conve
     converge(&subject, target, unwatched()).unwrap()
 }
 
-/// Bilinear interpolation of (x² + y²)/2 errs by s(1 − s) h²/2 + t(1 − t) k²/2, at most (h² + k²)/8: the grid for an
-/// error follows.
+/// Bilinear interpolation of (x² + y²)/2 errs by s(1 − s) h²/2 + t(1 − t) k²/2, at most (h² +
+/// k²)/8: the grid for an error follows.
 #[test]
 fn the_grid_for_an_error() {
     let dataset = smooth("(x^2 + y^2)/2");

@@ -1,21 +1,27 @@
-//! Means over pixels, against jagged edges: N × N samples a pixel in place of the value at its centre.
+//! Means over pixels, against jagged edges: N × N samples a pixel in place of the value at
+//! its centre.
 //!
-//! A pixel is cut into N × N squares, and the field evaluated at the centre of each ([`View::finer`]). The pixel's value is
-//! the mean of those values that lie in the plate, on whichever side of a crack,
+//! A pixel is cut into N × N squares, and the field evaluated at the centre of each
+//! ([`View::finer`]). The pixel's value is the mean of those values that lie in the plate, on
+//! whichever side of a crack,
 //!
 //! ```text
 //! m = 1/n Σ_k q(x_k)        x_k in the plate, q(x_k) finite, n of them
 //! ```
 //!
-//! and its opacity the share of samples that lie in the plate. This is an area average by the midpoint rule, exact for linear
-//! fields; means are of *values*, not of colours, so a colour bar still tells what a colour means. Further:
+//! and its opacity the share of samples that lie in the plate. This is an area average by the
+//! midpoint rule, exact for linear fields; means are of *values*, not of colours, so a colour bar
+//! still tells what a colour means. Further:
 //!
-//! - samples of the plate without a value, as formulas have them, do not count; where no sample has one the pixel has none;
-//! - a value is infinite at points, as stresses are at a tip, which have no area: it does not count beside finite ones. Where
-//!   all are infinite so is the mean, and undefined if they are so with both signs;
+//! - samples of the plate without a value, as formulas have them, do not count; where no sample has
+//!   one the pixel has none;
+//! - a value is infinite at points, as stresses are at a tip, which have no area: it does not count
+//!   beside finite ones. Where all are infinite so is the mean, and undefined if they are so with
+//!   both signs;
 //! - one sample is the value at the centre, to the last bit.
 //!
-//! Costs N² times as much as the picture of centres; memory is bounded, since the finer view is drawn in strips.
+//! Costs N² times as much as the picture of centres; memory is bounded, since the finer view is
+//! drawn in strips.
 
 use std::num::NonZeroU8;
 use std::str::FromStr;
@@ -124,8 +130,8 @@ impl<T: Sample> Means<T> {
     }
 }
 
-/// The means of a quantity over the pixels of a view, computed in `T` = f64 or f32 on the threads of the pool that
-/// calls. Values of samples are those of [`render`](ppum_raster::scatter::render).
+/// The means of a quantity over the pixels of a view, computed in `T` = f64 or f32 on the threads
+/// of the pool that calls. Values of samples are those of [`render`](ppum_raster::scatter::render).
 ///
 /// # Errors
 /// Those of [`render`](ppum_raster::scatter::render); samples finer than f64 has numbers for.

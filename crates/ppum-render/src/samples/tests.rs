@@ -59,7 +59,8 @@ fn the_mean_of_a_linear_field_is_the_value_at_the_centre() {
     }
 }
 
-/// The mean of x² over N equal parts of a pixel of the side h by the midpoint rule is x_c² + h² (1 − 1/N²)/12.
+/// The mean of x² over N equal parts of a pixel of the side h by the midpoint rule is x_c² + h²
+/// (1 − 1/N²)/12.
 #[test]
 fn the_mean_of_a_square_is_that_of_the_midpoint_rule() {
     let dataset = polynomial(&[0.0, 0.0, 0.0, 1.0, 0.0, -2.0]);
@@ -141,8 +142,8 @@ fn chord([a, b]: [f64; 2], center: Vec2, radius: f64, y: f64) -> f64 {
     (b.min(center.x + half) - a.max(center.x - half)).max(0.0)
 }
 
-/// At the rim of a hole a pixel is as opaque as its area in the plate: of a curve through a pixel each row or column of
-/// samples is right to half a sample, and the rows to as much again.
+/// At the rim of a hole a pixel is as opaque as its area in the plate: of a curve through a pixel
+/// each row or column of samples is right to half a sample, and the rows to as much again.
 #[test]
 fn opacity_is_the_share_of_the_area() {
     let mut dataset = polynomial(&[1.0]);

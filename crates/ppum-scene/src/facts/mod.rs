@@ -1,5 +1,5 @@
-//! The facts of a dataset, made once: the commands print them as text and JSON, Python has them as objects, the window as
-//! tables.
+//! The facts of a dataset, made once: the commands print them as text and JSON, Python has them as
+//! objects, the window as tables.
 //!
 //! Each is a plain value in the shape of its JSON, which docs/cli.md documents.
 

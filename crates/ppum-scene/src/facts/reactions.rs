@@ -54,8 +54,8 @@ pub fn reactions(dataset: &Dataset, step: &Step) -> Vec<Reaction> {
 }
 
 impl Reaction {
-    /// `bottom (ux, uy): force (0, -2), moment 3 about (0, 0), 1 about its middle (0, -1)`; zero what is rounding beside
-    /// a force and a moment of these sizes.
+    /// `bottom (ux, uy): force (0, -2), moment 3 about (0, 0), 1 about its middle (0, -1)`; zero
+    /// what is rounding beside a force and a moment of these sizes.
     fn line(&self, places: &Places, [force_size, moment_size]: [f64; 2]) -> String {
         let place = format!("{} ({})", self.on, self.held.join(", "));
         let force = self
@@ -83,7 +83,8 @@ impl Reaction {
     }
 }
 
-/// A line for each reaction. A force is zero where it is rounding beside the largest one, a moment beside that at an arm of this length.
+/// A line for each reaction. A force is zero where it is rounding beside the largest one, a moment
+/// beside that at an arm of this length.
 #[must_use]
 pub fn reaction_lines(reactions: &[Reaction], places: &Places, arm: f64) -> Vec<String> {
     let forces = reactions.iter().flat_map(|reaction| &reaction.force);

@@ -12,8 +12,8 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Solver {
     kind: Option<&'static str>,
-    /// Steps of the multilevel solver, what they left of the residual in the norm of the preconditioner, and the condition
-    /// that they saw.
+    /// Steps of the multilevel solver, what they left of the residual in the norm of the
+    /// preconditioner, and the condition that they saw.
     iterations: Option<f64>,
     reduction: Option<f64>,
     condition: Option<f64>,

@@ -100,8 +100,8 @@ impl Tip {
         self.error.0 / self.size()
     }
 
-    /// Its numbers in words, in the order of [`HEADS`]: what is rounding of what stands beside it is zero, and what is not known a
-    /// dash.
+    /// Its numbers in words, in the order of [`HEADS`]: what is rounding of what stands beside it
+    /// is zero, and what is not known a dash.
     #[must_use]
     pub fn words(&self) -> [String; 8] {
         let (size, g) = (self.size(), self.g.0);

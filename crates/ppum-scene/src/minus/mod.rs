@@ -1,8 +1,8 @@
-//! The difference of two pictures of one view: both fields are evaluated at the centre of each pixel, and one value is taken
-//! from the other.
+//! The difference of two pictures of one view: both fields are evaluated at the centre of each
+//! pixel, and one value is taken from the other.
 //!
-//! It is computed by the processor in double precision alone. Where two fields are nearly the same their difference is what
-//! single precision has lost.
+//! It is computed by the processor in double precision alone. Where two fields are nearly the same
+//! their difference is what single precision has lost.
 
 use ppum::field::Field;
 use ppum::progress::Watcher;
@@ -89,7 +89,8 @@ impl Minus<'_> {
         Ok(colors.style(quantity, map))
     }
 
-    /// The words for it and its unit, as figures have them; no unit if the sides have different ones.
+    /// The words for it and its unit, as figures have them; no unit if the sides have
+    /// different ones.
     #[must_use]
     pub fn words(&self) -> [String; 2] {
         let ([own, unit], [other, its_unit]) = (self.right.words(), self.left.words());
@@ -129,8 +130,8 @@ pub fn named(right: &str, left: &str) -> String {
     }
 }
 
-/// The range of differences, with their extrema at the pixels: robust against peaks. Zero is in the middle of the colours of
-/// maps that have one, also where all differences have one sign.
+/// The range of differences, with their extrema at the pixels: robust against peaks. Zero is in the
+/// middle of the colours of maps that have one, also where all differences have one sign.
 #[must_use]
 pub fn span(drawn: &Drawn, style: &Style) -> Span {
     let values = match &drawn.values {

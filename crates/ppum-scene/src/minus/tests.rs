@@ -94,8 +94,8 @@ fn exchanged_sides_change_the_sign_and_nothing_else() {
     }
 }
 
-/// Each pixel is right − left as the field's evaluator has them; beside a crack or the rim of a support a rounded
-/// coordinate may be on the other side.
+/// Each pixel is right − left as the field's evaluator has them; beside a crack or the rim of a
+/// support a rounded coordinate may be on the other side.
 #[test]
 fn each_pixel_is_the_difference_of_two_evaluations() {
     let (mut asked, mut far, mut some) = (0, 0, 0);
@@ -216,7 +216,8 @@ fn what_is_subtracted_is_named_and_what_does_not_fit_is_told() {
     });
 }
 
-/// Zero has the middle colour, whatever the signs of the differences; a range and a map that are chosen stay.
+/// Zero has the middle colour, whatever the signs of the differences; a range and a map that are
+/// chosen stay.
 #[test]
 fn colours_are_even_around_zero_unless_chosen() {
     for seed in 0..20 {

@@ -12,8 +12,9 @@ use ppum_solve::space::Space;
 
 use super::{Named, PlotError};
 
-/// A curve for each error: those of the exact solution if all datasets have them, else the distances of energy and
-/// stress intensity factors from those of the dataset with most unknowns. Of one dataset alone all steps are compared.
+/// A curve for each error: those of the exact solution if all datasets have them, else the
+/// distances of energy and stress intensity factors from those of the dataset with most unknowns.
+/// Of one dataset alone all steps are compared.
 ///
 /// # Errors
 /// Fewer than three solutions of different sizes; solutions of several problems.
@@ -121,7 +122,8 @@ fn exact(solutions: &[Solution<'_>]) -> Result<Vec<Curve>, PlotError> {
     Ok(vec![curve("energy norm", energy), curve("L² norm", l2)])
 }
 
-/// Errors relative to the exact solution, in the energy norm and in L²; none if it, or the equation, is not known.
+/// Errors relative to the exact solution, in the energy norm and in L²; none if it, or the
+/// equation, is not known.
 fn errors(Solution { dataset, index, step }: &Solution<'_>) -> Result<Option<[f64; 2]>, PlotError> {
     let field = Field::new(dataset, *index).map_err(PlotError::of)?;
     if !field.has_exact() || dataset.equation == Equation::None {

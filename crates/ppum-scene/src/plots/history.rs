@@ -14,7 +14,8 @@ pub enum Work {
     Seconds,
     /// Megabytes that the phases make and keep, of a series the most
     Bytes,
-    /// Residuals after each iteration of the multilevel solver; of one file those that reach each level too
+    /// Residuals after each iteration of the multilevel solver; of one file those that reach each
+    /// level too
     Residuals,
     /// Patches, unknowns and values of the matrix on each level of the multilevel solver
     Levels,
@@ -35,7 +36,8 @@ pub fn history(datasets: &[Named<'_>], what: Work, step: Option<usize>) -> Resul
     Ok(plot)
 }
 
-/// Bars phase by phase, a colour for each dataset: of seconds the sum over the steps, of bytes the most.
+/// Bars phase by phase, a colour for each dataset: of seconds the sum over the steps, of bytes
+/// the most.
 fn phases(
     datasets: &[Named<'_>],
     step: Option<usize>,
@@ -87,8 +89,8 @@ fn not_iterated(named: &Named<'_>, what: &'static str) -> PlotError {
     PlotError::NotIterated { name: named.name.to_owned(), what }
 }
 
-/// The residual after each iteration as a part of the first one, on a logarithmic axis; of one dataset also what of it reaches
-/// each level, as a part of what did at first.
+/// The residual after each iteration as a part of the first one, on a logarithmic axis; of one
+/// dataset also what of it reaches each level, as a part of what did at first.
 fn residuals(datasets: &[Named<'_>], step: Option<usize>) -> Result<Plot, PlotError> {
     let mut curves = Vec::new();
     for named in datasets {

@@ -1,4 +1,5 @@
-//! Plots of datasets: values along curves, what was found in the steps of a series, errors against unknowns, the solver's work.
+//! Plots of datasets: values along curves, what was found in the steps of a series, errors against
+//! unknowns, the solver's work.
 
 mod convergence;
 mod history;

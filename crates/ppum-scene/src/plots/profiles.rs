@@ -11,7 +11,8 @@ use crate::table::Table;
 #[derive(Debug)]
 pub struct Profiles<'d> {
     variable: Variable,
-    /// True if the curve is a crack and no quantities were asked for: opening and sliding, or the jump, are drawn.
+    /// True if the curve is a crack and no quantities were asked for: opening and sliding, or the
+    /// jump, are drawn.
     jumps: bool,
     several: bool,
     titles: Vec<&'d str>,

@@ -224,7 +224,8 @@ mod tests {
     use ppum::dataset::{Advance, Fate, Growth, TipIntensity};
     use ppum_testkit::synthetic::growing;
 
-    /// Two tips: one grows by ½ in steps 0 and 1 and meets the border in the second, the other by ¼ in step 1 alone.
+    /// Two tips: one grows by ½ in steps 0 and 1 and meets the border in the second, the other by ¼
+    /// in step 1 alone.
     #[test]
     fn extensions_stay_when_tips_have_ended() {
         let mut dataset = growing(4);

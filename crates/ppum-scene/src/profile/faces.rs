@@ -54,8 +54,8 @@ fn columns(field: &Field<'_>, quantities: &[(String, Quantity)]) -> Vec<Column> 
     columns
 }
 
-/// Position, the quantities on both sides, the jumps of the components that follow them; normal to the
-/// crack and along it.
+/// Position, the quantities on both sides, the jumps of the components that follow them; normal to
+/// the crack and along it.
 fn row(station: &Station, (above, below): (&[f64], &[f64]), quantities: usize) -> Vec<f64> {
     let p = station.point();
     let pairs = || above.iter().zip(below);

@@ -24,7 +24,8 @@ pub use plot::{axis, columns, curve, unit, value_label};
 pub enum Along {
     /// The line between two points.
     Line {
-        /// Where its points are counted from: zero, or a point near by so that none of their digits is lost.
+        /// Where its points are counted from: zero, or a point near by so that none of their digits
+        /// is lost.
         #[serde(default)]
         anchor: [f64; 2],
         /// Its start.
@@ -96,7 +97,8 @@ pub struct Profile {
     pub table: Table,
     /// The places; along a crack those above it.
     pub places: Vec<Place>,
-    /// Quantities that have no value at some places of the plate, with the number of these and of all.
+    /// Quantities that have no value at some places of the plate, with the number of these and
+    /// of all.
     pub undefined: Vec<(String, [usize; 2])>,
 }
 
@@ -181,8 +183,8 @@ impl Along {
         matches!(self, Self::Crack { .. })
     }
 
-    /// One row for each place: the variable, position, side, quantities; of a crack those of both sides, jumps and
-    /// opening.
+    /// One row for each place: the variable, position, side, quantities; of a crack those of both
+    /// sides, jumps and opening.
     ///
     /// # Errors
     /// See [`ProfileError`].
@@ -200,8 +202,8 @@ impl Along {
         self.listed(field, quantities, self.places(field, count)?, watcher)
     }
 
-    /// The table of a curve that is drawn: a line or a circle has both sides of the cracks that it passes through,
-    /// first that from which it comes; at its ends that alone which it runs on.
+    /// The table of a curve that is drawn: a line or a circle has both sides of the cracks that it
+    /// passes through, first that from which it comes; at its ends that alone which it runs on.
     ///
     /// # Errors
     /// See [`ProfileError`].

@@ -23,7 +23,8 @@ pub fn axis(variable: Variable) -> PlotAxis {
     }
 }
 
-/// The curves of a table: of a crack without quantities opening and sliding, or the jump; else all quantities.
+/// The curves of a table: of a crack without quantities opening and sliding, or the jump; else
+/// all quantities.
 #[must_use]
 pub fn columns(table: &Table, variable: Variable, jumps: bool) -> Vec<(String, Vec<[f64; 2]>)> {
     let Some(first) = table.column(variable.name()) else { return Vec::new() };
@@ -48,8 +49,8 @@ pub fn columns(table: &Table, variable: Variable, jumps: bool) -> Vec<(String, V
     names.iter().filter(is_wanted).filter_map(points).collect()
 }
 
-/// The points of a curve with a gap between the two sides of a crack: where it passes through one, and where it runs
-/// along one, then one side after the other.
+/// The points of a curve with a gap between the two sides of a crack: where it passes through one,
+/// and where it runs along one, then one side after the other.
 fn broken(points: &[[f64; 2]], sides: &[f64]) -> Vec<[f64; 2]> {
     let mut all = Vec::with_capacity(points.len());
     let mut start = 0;
@@ -66,11 +67,12 @@ fn broken(points: &[[f64; 2]], sides: &[f64]) -> Vec<[f64; 2]> {
     all
 }
 
-/// The part of a ray, one in so many of its points, that is near enough to the tip for the exponent there.
+/// The part of a ray, one in so many of its points, that is near enough to the tip for the
+/// exponent there.
 const NEAR: usize = 3;
 
-/// A curve; away from a tip with the exponent of its power law near it, and by its magnitude: on logarithmic axes a
-/// negative quantity has no other place.
+/// A curve; away from a tip with the exponent of its power law near it, and by its magnitude: on
+/// logarithmic axes a negative quantity has no other place.
 #[must_use]
 pub fn curve(name: String, points: Vec<[f64; 2]>, variable: Variable) -> Curve {
     if variable != Variable::Distance {

@@ -11,8 +11,8 @@ use ppum::field::Field;
 use ppum::function::FunctionKind;
 use ppum::vec2::Vec2;
 
-/// The rate σ of the decay of Legendre coefficients from which on a field counts as smooth: each is less than
-/// exp(−1) of the one before.
+/// The rate σ of the decay of Legendre coefficients from which on a field counts as smooth: each is
+/// less than exp(−1) of the one before.
 const SMOOTH: f64 = 1.0;
 
 /// Says what to do about cells.
@@ -20,7 +20,8 @@ pub(crate) struct Adviser<'a> {
     kind: AdaptKind,
     field: &'a Field<'a>,
     space: &'a Space<'a>,
-    /// Tips, and what else is singular: functions times a few polynomials do not make the rest smooth.
+    /// Tips, and what else is singular: functions times a few polynomials do not make the
+    /// rest smooth.
     singular: Placed<Vec2>,
 }
 
@@ -51,8 +52,8 @@ impl<'a> Adviser<'a> {
         }
     }
 
-    /// True if no singular point lies in a patch, and its coefficients decay fast. Of two orders nothing can be said:
-    /// a third one will tell.
+    /// True if no singular point lies in a patch, and its coefficients decay fast. Of two orders
+    /// nothing can be said: a third one will tell.
     fn is_smooth(&self, patch: usize) -> bool {
         let support = self.space.partition().support(patch);
         if self.singular.near(&support).next().is_some() {
@@ -61,8 +62,8 @@ impl<'a> Adviser<'a> {
         rate(&self.squares(patch)).is_none_or(|rate| rate >= SMOOTH)
     }
 
-    /// The squares of the Legendre coefficients of a patch by their degree: of its polynomials and of what jumps
-    /// across cracks, not of other functions.
+    /// The squares of the Legendre coefficients of a patch by their degree: of its polynomials and
+    /// of what jumps across cracks, not of other functions.
     fn squares(&self, patch: usize) -> Vec<f64> {
         let data = self.field.data;
         let partition = self.space.partition();

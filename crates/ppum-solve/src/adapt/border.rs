@@ -1,4 +1,5 @@
-//! The border of a plate in parts on each of which the same conditions hold, those that nobody speaks of among them.
+//! The border of a plate in parts on each of which the same conditions hold, those that nobody
+//! speaks of among them.
 
 use crate::geometry::around;
 use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem};
@@ -46,7 +47,8 @@ impl Part {
         a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y
     }
 
-    /// Of each component whether its value is given, and that value or the traction (flux): zero where nothing is said.
+    /// Of each component whether its value is given, and that value or the traction (flux): zero
+    /// where nothing is said.
     pub(super) fn given(&self, problem: &Problem, x: Vec2, normal: Vec2) -> ([bool; 2], [f64; 2]) {
         let (mut held, mut values) = ([false; 2], [0.0; 2]);
         for condition in self.conditions.iter().map(|&k| &problem.boundary[k]) {

@@ -65,9 +65,10 @@ impl Data<'_> {
         if self.has_source { on_border + self.of_source(cell, rect, order) } else { on_border }
     }
 
-    /// (d/(π p))² ∫ |f − Π f|² / C with the cell's diagonal d and the best polynomial Π f of a degree below the order p: of
-    /// order 1 the bound of Payne and Weinberger (1960) for what the rest of the source does to the energy. Nothing is said of
-    /// cells with functions of the user's own: they are there to see what polynomials do not.
+    /// (d/(π p))² ∫ |f − Π f|² / C with the cell's diagonal d and the best polynomial Π f of a
+    /// degree below the order p: of order 1 the bound of Payne and Weinberger (1960) for what the
+    /// rest of the source does to the energy. Nothing is said of cells with functions of the user's
+    /// own: they are there to see what polynomials do not.
     fn of_source(&self, cell: usize, rect: &Rect, order: usize) -> f64 {
         if self.space.coverers[cell].iter().any(|&patch| self.space.has_own_functions(patch)) {
             return 0.0;
@@ -78,7 +79,8 @@ impl Data<'_> {
         d * d * unseen(&places, order, &mut values) / self.law.at(rect.center()).modulus(0)
     }
 
-    /// The points of a cell, in units of half its size, with the roots of their weights, and the source there.
+    /// The points of a cell, in units of half its size, with the roots of their weights, and the
+    /// source there.
     fn source_values(&self, rules: &[Rule], rect: &Rect) -> (Vec<(Vec2, f64)>, Vec<Vec<f64>>) {
         let (center, half) = (rect.center(), rect.size() * 0.5);
         let (mut places, mut values) = (Vec::new(), vec![Vec::new(); self.law.components]);
@@ -128,8 +130,8 @@ impl Data<'_> {
         sum
     }
 
-    /// The tips of the crack whose face a rule lies on: the tractions of tip functions one by one are not square
-    /// integrable there, but are with the distance as their weight.
+    /// The tips of the crack whose face a rule lies on: the tractions of tip functions one by one
+    /// are not square integrable there, but are with the distance as their weight.
     fn tips(&self, rule: &EdgeRule) -> Vec<Vec2> {
         let crack = rule.face.map(|face| &self.field.step.cracks[face.segment.crack as usize]);
         crack.iter().flat_map(|crack| crack.tips().map(|end| crack.end_point(end))).collect()

@@ -4,8 +4,8 @@
 //! v_i = Σ c_kl P_k(x) P_l(y) on the cell        e_d² = Σ_{k+l=d} c_kl²        e_d ~ exp(−σ d)
 //! ```
 //!
-//! Coefficients of analytic fields decay so with a rate σ, those of fields that are not smooth by powers of d
-//! (Mavriplis 1994).
+//! Coefficients of analytic fields decay so with a rate σ, those of fields that are not smooth by
+//! powers of d (Mavriplis 1994).
 
 use ppum::dataset::{MAX_DEGREE, monomials};
 use ppum::polynomial::exponents;
@@ -31,8 +31,8 @@ fn powers() -> Table {
     table
 }
 
-/// The squares e_d² of a polynomial, d = 0 … degree; its monomials are in the order of the dataset, of coordinates in
-/// which the cell is \[−s, s\]².
+/// The squares e_d² of a polynomial, d = 0 … degree; its monomials are in the order of the dataset,
+/// of coordinates in which the cell is \[−s, s\]².
 pub(super) fn squares(coefficients: &[f64], degree: usize, s: f64) -> Vec<f64> {
     let table = powers();
     let mut sums = [[0.0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
@@ -48,9 +48,10 @@ pub(super) fn squares(coefficients: &[f64], degree: usize, s: f64) -> Vec<f64> {
     (0..=degree).map(|d| (0..=d).map(|k| sums[k][d - k].powi(2)).sum()).collect()
 }
 
-/// The rate σ of the decay of e_d, from their squares without that of degree 0: the slope of the line nearest to
-/// ln e_d. Fields that are odd or even in something have small numbers in between, so each one counts as much as
-/// the larger of it and the next. None of less than two degrees; infinite of fields that are exact polynomials.
+/// The rate σ of the decay of e_d, from their squares without that of degree 0: the slope of the
+/// line nearest to ln e_d. Fields that are odd or even in something have small numbers in between,
+/// so each one counts as much as the larger of it and the next. None of less than two degrees;
+/// infinite of fields that are exact polynomials.
 pub(super) fn rate(squares: &[f64]) -> Option<f64> {
     let p = squares.len().checked_sub(1)?;
     let largest = squares[1..].iter().fold(0.0f64, |m, e| m.max(*e));

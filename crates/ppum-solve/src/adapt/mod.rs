@@ -9,10 +9,11 @@
 //! (p² + 1)/h ∫_Γ C |u − g|²                   nor is the value
 //! ```
 //!
-//! None of it is a bound. Fields that are smooth have errors of 0.4 to 1.1 η, those with singular points up to 1.3 η.
+//! None of it is a bound. Fields that are smooth have errors of 0.4 to 1.1 η, those with singular
+//! points up to 1.3 η.
 //!
-//! [`mark()`] takes the cells that make up a part of the estimated error (Dörfler 1996); [`Adviser`] says of each
-//! whether to divide it or to raise its order.
+//! [`mark()`] takes the cells that make up a part of the estimated error (Dörfler 1996);
+//! [`Adviser`] says of each whether to divide it or to raise its order.
 
 mod advice;
 mod border;
@@ -40,12 +41,14 @@ pub(crate) struct Estimated {
     pub(crate) squares: Vec<f64>,
     /// The parts of the squares that stand for what cells do not see of the data.
     pub(crate) unseen: Vec<f64>,
-    /// The products of the disagreements of the field and of all dual fields: a row for each of them.
+    /// The products of the disagreements of the field and of all dual fields: a row for each
+    /// of them.
     pub(crate) products: Vec<Mat<f64>>,
 }
 
-/// The estimated error of a field, and what it has in common with those of dual fields. Local fields do not count
-/// where one of the patch's lonely functions is other than zero. Advances the stage by twice the number of cells.
+/// The estimated error of a field, and what it has in common with those of dual fields. Local
+/// fields do not count where one of the patch's lonely functions is other than zero. Advances the
+/// stage by twice the number of cells.
 ///
 /// # Errors
 /// Cancelled.

@@ -4,9 +4,10 @@
 //! η_j² = ∫_{C_j} Σ_i s_i φ_i |ε(u_i) − ε(u)|²_C        u = Σ_i φ_i u_i        s_i = min(1, 2/p_i)²
 //! ```
 //!
-//! Neighbours approximate one smooth field with polynomials of their own; what each of them misses is other than
-//! what the next one misses. Where a patch is alone the integrand vanishes: its error is seen at the rim of its flat top.
-//! Of two fields the same integral has the product (σ(u_i) − σ(u)) : (ε(v_i) − ε(v)) in place of the square.
+//! Neighbours approximate one smooth field with polynomials of their own; what each of them misses
+//! is other than what the next one misses. Where a patch is alone the integrand vanishes: its error
+//! is seen at the rim of its flat top. Of two fields the same integral has the product (σ(u_i) −
+//! σ(u)) : (ε(v_i) − ε(v)) in place of the square.
 
 use crate::assembly::Strains;
 use crate::basis::{ShapeEvaluator, Shapes};
@@ -22,8 +23,9 @@ use std::ops::Range;
 /// φ below which a local field is not made out of φ times it: its share is rounding.
 const LEAST: f64 = 1e-10;
 
-/// The products of the disagreements of some fields of a space in each cell: a row for each of them, symmetric. The local
-/// field of a patch does not count where one of its lonely functions is other than zero. Advances the stage by the number of cells.
+/// The products of the disagreements of some fields of a space in each cell: a row for each of
+/// them, symmetric. The local field of a patch does not count where one of its lonely functions is
+/// other than zero. Advances the stage by the number of cells.
 ///
 /// # Errors
 /// Cancelled.
@@ -54,14 +56,15 @@ pub(super) fn disagreements(
     Ok(all)
 }
 
-/// Part of the disagreement that is the error: of smooth fields of the orders 1 to 8 the disagreement was 1.1, 1.4, 2.0,
-/// 2.9, 3.0, 4.2, 5.5 and 6.2 times the error, as polynomials of higher order differ more outside their flat tops than they
-/// err inside.
+/// Part of the disagreement that is the error: of smooth fields of the orders 1 to 8 the
+/// disagreement was 1.1, 1.4, 2.0, 2.9, 3.0, 4.2, 5.5 and 6.2 times the error, as polynomials of
+/// higher order differ more outside their flat tops than they err inside.
 fn share_of_error(order: usize) -> f64 {
     (2.0 / order.max(1) as f64).min(1.0)
 }
 
-/// The coefficients of all components of all fields on a patch, a row each, of functions as the solver has them.
+/// The coefficients of all components of all fields on a patch, a row each, of functions as the
+/// solver has them.
 fn of_patch(fields: &[&FieldData], space: &Space<'_>, patch: usize) -> Mat<f64> {
     let rows = fields.iter().flat_map(|field| field.coefficients_of(patch));
     let rows: Vec<Vec<f64>> = rows.map(|row| space.shifted(patch, row)).collect();
@@ -74,8 +77,9 @@ struct Seen<'a> {
     rule: &'a Rule,
     shapes: &'a Shapes,
     coefficients: &'a [Mat<f64>],
-    /// Of each patch, first functions of components: of these it has nearly nothing for itself, and many combinations of those of
-    /// several patches make one field. Its local field is no approximation there.
+    /// Of each patch, first functions of components: of these it has nearly nothing for itself, and
+    /// many combinations of those of several patches make one field. Its local field is no
+    /// approximation there.
     lonely: &'a [Vec<usize>],
 }
 
@@ -145,8 +149,8 @@ impl Seen<'_> {
         &array[row * self.shapes.points..][..self.shapes.points]
     }
 
-    /// The gradients of a part become ∇u_i − ∇u of all fields, ∇u_i = (∇(φ_i u_i) − u_i ∇φ_i)/φ_i, and ∇u, given whole, being
-    /// Σ_i ∇(φ_i u_i); some finite number where they have no weight.
+    /// The gradients of a part become ∇u_i − ∇u of all fields, ∇u_i = (∇(φ_i u_i) − u_i ∇φ_i)/φ_i,
+    /// and ∇u, given whole, being Σ_i ∇(φ_i u_i); some finite number where they have no weight.
     fn make_differences(&self, part: &mut Products, whole: &[Vec<f64>; 2], weights: &[f64]) {
         let phi = self.row(&self.shapes.value, part.phi).iter().zip(weights);
         let inverse: Vec<f64> =

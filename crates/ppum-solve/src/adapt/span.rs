@@ -6,8 +6,9 @@ use ppum::vec2::Vec2;
 /// Polynomials of which the others leave less than this part are taken for combinations of them.
 const DEPENDENT: f64 = 1e-6;
 
-/// Removes from columns of values at some places, times the roots of their weights, what polynomials of the degree
-/// below `order` have of them; the square of what is left. Places are in units of half a cell.
+/// Removes from columns of values at some places, times the roots of their weights, what
+/// polynomials of the degree below `order` have of them; the square of what is left. Places are in
+/// units of half a cell.
 pub(super) fn unseen(places: &[(Vec2, f64)], order: usize, rest: &mut [Vec<f64>]) -> f64 {
     let mut known: Vec<Vec<f64>> = Vec::new();
     for (a, b) in order.checked_sub(1).into_iter().flat_map(exponents) {

@@ -1,8 +1,10 @@
-//! Conditions on the border of a cell: Nitsche's method for given values, loads for given tractions.
+//! Conditions on the border of a cell: Nitsche's method for given values, loads for
+//! given tractions.
 //!
-//! If component i of u is given, u_i = g_i on Γ, the traction t_i(u) = (σ(u) n)_i is unknown. Multiplying
-//! −div σ(u) = b by a test function v and integrating by parts leaves it in the equation; Nitsche adds two terms
-//! that vanish for the solution, the first for symmetry, the second so that the system is positive definite:
+//! If component i of u is given, u_i = g_i on Γ, the traction t_i(u) = (σ(u) n)_i is unknown.
+//! Multiplying −div σ(u) = b by a test function v and integrating by parts leaves it in the
+//! equation; Nitsche adds two terms that vanish for the solution, the first for symmetry, the
+//! second so that the system is positive definite:
 //!
 //! ```text
 //! a(u, v) − ∫_Γ t_i(u) v_i − ∫_Γ t_i(v) (u_i − g_i) + β ∫_Γ (u_i − g_i) v_i = ∫ b·v + ∫_Γt t·v
@@ -17,15 +19,17 @@
 //! traction      B_(a,j)(b,k) = ∫_Γ t_i(N_a e_j) t_i(N_b e_k)
 //! ```
 //!
-//! summed over the components i that are held. β must be chosen so that v·K v > 0. By Cauchy's inequality
-//! 2 ∫ t_i(v) v_i ≤ ε ∫ t_i(v)² + ε⁻¹ ∫ v_i², and ∫ t_i(v)² ≤ λ a(v, v) with the largest λ of the pencil
-//! B x = λ A x, A the cell's stiffness before the terms above: any β > λ will do. β = 2 λ, and a cell cut
-//! into slivers so gets the larger value it needs (Griebel & Schweitzer 2003). Where β is much larger than
-//! elsewhere, the basis is made to see it: see [`StableBasis::damp`](crate::basis::StableBasis::damp).
+//! summed over the components i that are held. β must be chosen so that v·K v > 0. By Cauchy's
+//! inequality 2 ∫ t_i(v) v_i ≤ ε ∫ t_i(v)² + ε⁻¹ ∫ v_i², and ∫ t_i(v)² ≤ λ a(v, v) with the largest
+//! λ of the pencil B x = λ A x, A the cell's stiffness before the terms above: any β > λ will do.
+//! β = 2 λ, and a cell cut into slivers so gets the larger value it needs (Griebel & Schweitzer
+//! 2003). Where β is much larger than elsewhere, the basis is made to see it:
+//! see [`StableBasis::damp`](crate::basis::StableBasis::damp).
 //!
-//! If Γ is much shorter than the cell, that β is small: functions of the cell's size carry no traction
-//! through a short restraint, and β M would be a soft spring. So β is C h/ℓ² at least, C the modulus,
-//! h the size of the cell, ℓ the length of Γ in it: a spring C h/ℓ times as stiff as the plate.
+//! If Γ is much shorter than the cell, that β is small: functions of the cell's size carry no
+//! traction through a short restraint, and β M would be a soft spring. So β is C h/ℓ² at least, C
+//! the modulus, h the size of the cell, ℓ the length of Γ in it: a spring C h/ℓ times as stiff as
+//! the plate.
 
 use super::Assembly;
 use super::cell_system::CellSystem;
@@ -101,8 +105,8 @@ pub(crate) struct Border<'a> {
     restraints: Vec<Restraint>,
 }
 
-/// The functions of a cell at the points of a rule, as one held component i sees them. All carry the roots of the
-/// weights, so that products of rows are integrals.
+/// The functions of a cell at the points of a rule, as one held component i sees them. All carry
+/// the roots of the weights, so that products of rows are integrals.
 struct Trace<'s> {
     component: usize,
     /// N_a [functions × points].
@@ -205,8 +209,8 @@ impl<'a> Border<'a> {
         })
     }
 
-    /// Adds the points of a component whose value is given to the matrices M, C, B, to length and modulus of Γ,
-    /// and to the integrals of the restraint's reaction.
+    /// Adds the points of a component whose value is given to the matrices M, C, B, to length and
+    /// modulus of Γ, and to the integrals of the restraint's reaction.
     fn hold(&mut self, trace: &Trace<'_>, piece: &BorderPiece<'_>, rule: &EdgeRule) {
         self.measure(trace.component, rule);
         let Trace { values, value_rows, tractions, traction_rows, .. } = trace;
@@ -221,7 +225,8 @@ impl<'a> Border<'a> {
         }
     }
 
-    /// ℓ and the modulus C of the points where component i is given. A length counts once for all components.
+    /// ℓ and the modulus C of the points where component i is given. A length counts once for
+    /// all components.
     fn measure(&mut self, i: usize, rule: &EdgeRule) {
         let Assembly { law, .. } = self.assembly;
         let length: f64 = rule.weights.iter().sum();
@@ -265,7 +270,8 @@ impl<'a> Border<'a> {
         Ok(needed.max(self.modulus * ratio / self.length))
     }
 
-    /// Adds Nitsche's terms to the stiffness of the cell, which is complete, and to its system; `size` is that of the cell.
+    /// Adds Nitsche's terms to the stiffness of the cell, which is complete, and to its system;
+    /// `size` is that of the cell.
     ///
     /// # Errors
     /// Entries that are not finite.

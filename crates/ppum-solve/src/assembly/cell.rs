@@ -51,8 +51,9 @@ impl<'s> CellAssembler<'s> {
         Self { assembly, functionals, evaluator, shapes, strains }
     }
 
-    /// The system of one cell, given its quadrature, body forces and the pieces of its border. A stiffness that is `known`
-    /// needs no rules, and if nothing on the border is held it is the cell's: none is returned then.
+    /// The system of one cell, given its quadrature, body forces and the pieces of its border. A
+    /// stiffness that is `known` needs no rules, and if nothing on the border is held it is the
+    /// cell's: none is returned then.
     ///
     /// # Errors
     /// Entries that are not finite, which data that are not finite cause.
@@ -155,7 +156,8 @@ impl<'s> CellAssembler<'s> {
         self.shapes.add_loads(&loads, &numbers, self.assembly.components(), &mut system.load);
     }
 
-    /// Adds the points of the rule that was looked at last to a matrix of fields, or of functions where they are not tied.
+    /// Adds the points of the rule that was looked at last to a matrix of fields, or of functions
+    /// where they are not tied.
     fn stiffen(
         &mut self,
         rule: &Rule,

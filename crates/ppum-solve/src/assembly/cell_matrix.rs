@@ -4,8 +4,8 @@ use faer::{MatMut, MatRef};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// A symmetric matrix over the unknowns of some patches: the blocks of patches k ≤ l, each row-major, in the order
-/// (0, 0), (0, 1), (1, 1), (0, 2), …
+/// A symmetric matrix over the unknowns of some patches: the blocks of patches k ≤ l, each
+/// row-major, in the order (0, 0), (0, 1), (1, 1), (0, 2), …
 #[derive(Clone, Debug)]
 pub(super) struct CellMatrix {
     /// Unknowns of each patch.

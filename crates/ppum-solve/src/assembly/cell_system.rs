@@ -5,7 +5,8 @@ use super::reaction::CellReaction;
 use crate::basis::StableBasis;
 use faer::MatRef;
 
-/// The contribution of one cell beside its stiffness. Unknown (function a, component i) is row a · components + i.
+/// The contribution of one cell beside its stiffness. Unknown (function a, component i) is row a ·
+/// components + i.
 #[derive(Clone, Debug)]
 pub(crate) struct CellSystem {
     /// The functions that live in the cell.
@@ -23,8 +24,8 @@ pub(crate) struct CellSystem {
 }
 
 impl CellSystem {
-    /// Adds the functionals of a system of the same cell over the functions that are evaluated: of N = T ψ they are T times
-    /// those of ψ.
+    /// Adds the functionals of a system of the same cell over the functions that are evaluated: of
+    /// N = T ψ they are T times those of ψ.
     pub(super) fn add_functionals(&mut self, plain: &Self, basis: &StableBasis, components: usize) {
         let all = plain.moments.iter().chain(&plain.duals);
         for (sum, part) in self.moments.iter_mut().chain(&mut self.duals).zip(all) {

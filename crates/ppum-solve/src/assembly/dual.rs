@@ -8,7 +8,8 @@ use crate::space::Space;
 use faer::Mat;
 use ppum::vec2::Vec2;
 
-/// The factors of all tips as functionals: K(N) of both modes is integrated with the system, summed over the tips.
+/// The factors of all tips as functionals: K(N) of both modes is integrated with the system, summed
+/// over the tips.
 pub(crate) struct Duals<'a> {
     tips: &'a [Sensitivity<'a>],
     /// Of each cell, the tips whose discs it meets.
@@ -36,8 +37,8 @@ impl<'a> Duals<'a> {
         self.near[cell].is_empty()
     }
 
-    /// Adds the points of a rule of a cell to the parts of both modes; shapes are those of the rule's patches, `numbers` their
-    /// places in a part.
+    /// Adds the points of a rule of a cell to the parts of both modes; shapes are those of the
+    /// rule's patches, `numbers` their places in a part.
     pub(super) fn add(
         &self,
         (cell, rule): (usize, &Rule),

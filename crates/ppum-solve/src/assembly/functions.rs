@@ -51,14 +51,15 @@ impl CellFunctions {
         patches.iter().map(|&patch| self.position(patch)).collect()
     }
 
-    /// A matrix of zeros over all unknowns, or over all functions in each component where these are not tied.
+    /// A matrix of zeros over all unknowns, or over all functions in each component where these are
+    /// not tied.
     pub(super) fn zero(&self, assembly: &Assembly<'_>, tied: bool) -> CellMatrix {
         let fields = assembly.fields(&self.patches, tied);
         CellMatrix::new(fields.iter().map(|fields| fields.len(assembly.components())))
     }
 
-    /// The whole matrix over all functions in each component, component i of function a at a · components + i, of its blocks of
-    /// pairs of patches.
+    /// The whole matrix over all functions in each component, component i of function a at a ·
+    /// components + i, of its blocks of pairs of patches.
     pub(super) fn free_matrix<'m>(
         &self,
         components: usize,
@@ -91,20 +92,22 @@ impl CellFunctions {
         matrix
     }
 
-    /// All pairs of patches, in the order of the system: of patch 0 and all from 0 on, of patch 1 and all from 1 on, …
+    /// All pairs of patches, in the order of the system: of patch 0 and all from 0 on, of patch 1
+    /// and all from 1 on, …
     pub(super) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
         let n = self.patches.len();
         (0..n).flat_map(move |k| (k..n).map(move |l| (k, l)))
     }
 
-    /// The cell's unknowns of patch `k` in the order of the system, component-major; ties are still to come.
+    /// The cell's unknowns of patch `k` in the order of the system, component-major; ties are still
+    /// to come.
     pub(crate) fn free(&self, k: usize, components: usize) -> Vec<usize> {
         let functions = self.first[k]..self.first[k + 1];
         (0..components).flat_map(|i| functions.clone().map(move |a| a * components + i)).collect()
     }
 
-    /// Adds numbers of the cell's unknowns, component i of function a at a · components + i, to those
-    /// of all unknowns.
+    /// Adds numbers of the cell's unknowns, component i of function a at a · components + i, to
+    /// those of all unknowns.
     pub(crate) fn add_to(
         &self,
         basis: &StableBasis,

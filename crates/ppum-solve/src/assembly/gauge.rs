@@ -1,13 +1,14 @@
-//! Plates and pieces of plates that nothing holds: of all solutions, which differ by rigid-body modes,
-//! the one without any on average.
+//! Plates and pieces of plates that nothing holds: of all solutions, which differ by rigid-body
+//! modes, the one without any on average.
 //!
 //! ```text
 //! ∫ u·m_k dA = 0 over the piece, for each of its free modes m_k
 //! ```
 //!
-//! The condition couples all unknowns of a piece. So the system first gets a penalty on the unknowns of
-//! one patch, which is exact for balanced loads whatever its size. Solutions for the same functionals
-//! as loads are the rigid-body modes themselves, in whatever functions, and they are subtracted.
+//! The condition couples all unknowns of a piece. So the system first gets a penalty on the
+//! unknowns of one patch, which is exact for balanced loads whatever its size. Solutions for the
+//! same functionals as loads are the rigid-body modes themselves, in whatever functions, and they
+//! are subtracted.
 
 use crate::basis::Shapes;
 use crate::equilibrium::{PerMode, Pieces, Plate, RigidModes};
@@ -63,8 +64,8 @@ impl<'p> FreeModes<'p> {
         self.modes == gauge.modes && (self.modes.is_empty() || self.pieces.all().len() == 1)
     }
 
-    /// Adds ∫ N·m over the points of a rule in its piece for each mode m; shapes are those of the rule's patches, `numbers`
-    /// their places in a part.
+    /// Adds ∫ N·m over the points of a rule in its piece for each mode m; shapes are those of the
+    /// rule's patches, `numbers` their places in a part.
     pub(super) fn add(
         &self,
         rule: &Rule,
@@ -99,7 +100,8 @@ pub(crate) struct Gauge {
 }
 
 impl Gauge {
-    /// The gauge of free modes with these moments, ∫ N·m over their pieces in the order of the matrix.
+    /// The gauge of free modes with these moments, ∫ N·m over their pieces in the order of
+    /// the matrix.
     pub(crate) fn new(
         FreeModes { modes, groups, .. }: FreeModes<'_>,
         moments: Vec<Vec<f64>>,

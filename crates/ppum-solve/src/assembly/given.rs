@@ -1,5 +1,5 @@
-//! The data of a problem, its source and its boundary conditions, cell by cell: with rules of their own where those
-//! of the system do not resolve it.
+//! The data of a problem, its source and its boundary conditions, cell by cell: with rules of their
+//! own where those of the system do not resolve it.
 
 use super::border::BorderPiece;
 use super::cell::Source;

@@ -1,9 +1,10 @@
 //! Rules for loads and given values that the rules of the system do not resolve.
 //!
-//! A formula may jump, be bent, have layers and spikes where the functions of the space know nothing of it.
-//! Only integrals with the formula itself pay for that: cell by cell its moments by the rule of the system are
-//! compared with those by a rule that goes up to its kinks and is divided until it resolves the formula. Where
-//! they agree the rule of the system stays, else the other one takes its place for this load.
+//! A formula may jump, be bent, have layers and spikes where the functions of the space know
+//! nothing of it. Only integrals with the formula itself pay for that: cell by cell its moments by
+//! the rule of the system are compared with those by a rule that goes up to its kinks and is
+//! divided until it resolves the formula. Where they agree the rule of the system stays, else the
+//! other one takes its place for this load.
 
 use crate::problem::{BorderPart, BoundaryCondition, Condition, Expression, Problem};
 use crate::quadrature::{Doubt, EdgeRule, Face, Kink, Quadrature, Rule};
@@ -13,31 +14,32 @@ use crate::watched::{Halt, Stage, in_batches};
 use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-/// Difference of moments up to which the rule of the system stays, as a part of the mean load: of formulas
-/// with kinks, layers or spikes somewhere, and of smooth ones, which the polynomials of the space resolve no
-/// better.
+/// Difference of moments up to which the rule of the system stays, as a part of the mean load: of
+/// formulas with kinks, layers or spikes somewhere, and of smooth ones, which the polynomials of
+/// the space resolve no better.
 const SAME: f64 = 1e-9;
 const SAME_OF_SMOOTH: f64 = 1e-6;
 
 /// Gauss points more of the rule that smooth loads are compared with.
 const EXTRA: usize = 2;
 
-/// The mean load found must lie between these parts of the mean that was allowed for, or rules are made
-/// again: where points hit or miss a spike, the first mean is a guess.
+/// The mean load found must lie between these parts of the mean that was allowed for, or rules are
+/// made again: where points hit or miss a spike, the first mean is a guess.
 const MEAN_FOUND: [f64; 2] = [0.5, 10.0];
 
 /// Most times rules are made.
 const ROUNDS: usize = 4;
 
-/// Divisions that one load may cost in all cells together, and in each at least: a load that oscillates without
-/// end is not to take minutes.
+/// Divisions that one load may cost in all cells together, and in each at least: a load that
+/// oscillates without end is not to take minutes.
 const DIVISIONS: usize = 50_000;
 const LEAST_DIVISIONS: usize = 100;
 
 /// Polynomials of a cell whose products with a load are compared.
 const MOMENTS: usize = 6;
 
-/// Sides of a crack: functions jump across it, and what presses its faces apart has no sum over both.
+/// Sides of a crack: functions jump across it, and what presses its faces apart has no sum
+/// over both.
 const SIDES: usize = 2;
 
 /// A rule with its points.
@@ -108,8 +110,8 @@ impl<R: Points> LoadRules<R> {
         self.own.get(cell)?.as_deref()
     }
 
-    /// Estimated error of the load's resultant as a part of its magnitude, and the place of its largest
-    /// part; none if the load is resolved.
+    /// Estimated error of the load's resultant as a part of its magnitude, and the place of its
+    /// largest part; none if the load is resolved.
     pub(crate) fn doubt(&self) -> Option<(f64, Vec2)> {
         let error = self.doubt.load;
         (error > 0.0).then(|| (error / self.magnitude.max(f64::MIN_POSITIVE), self.doubt.at))
@@ -121,8 +123,8 @@ fn divisions(space: &Space<'_>) -> usize {
     (DIVISIONS / space.partition().len()).max(LEAST_DIVISIONS)
 }
 
-/// A load: its formulas, its values at places with their normals, and the rules that a quadrature has for the
-/// part of a cell that it acts on.
+/// A load: its formulas, its values at places with their normals, and the rules that a quadrature
+/// has for the part of a cell that it acts on.
 struct Load<'l, R> {
     formulas: Vec<&'l Expression>,
     values: &'l (dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync),
@@ -201,8 +203,8 @@ impl<R: Points> Load<'_, R> {
         space.smoothness().with_data(&box_of(space.partition()), &data)
     }
 
-    /// The rules that resolve the load up to parts of a mean; with a mean of zero those of the system, to
-    /// find one.
+    /// The rules that resolve the load up to parts of a mean; with a mean of zero those of the
+    /// system, to find one.
     fn round(
         &self,
         space: &Space<'_>,

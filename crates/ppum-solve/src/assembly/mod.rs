@@ -4,8 +4,9 @@
 //! K = ∫ ∇N·C·∇N + Nitsche's terms        f = ∫ N·b + ∫_Γt N·t + Nitsche's terms
 //! ```
 //!
-//! [`Given`] says what acts on a cell and on its border, `CellAssembler` integrates it into a `CellSystem`,
-//! [`System`] adds these up. [`Gauge`] makes solutions unique on pieces of the plate that nothing holds.
+//! [`Given`] says what acts on a cell and on its border, `CellAssembler` integrates it into a
+//! `CellSystem`, [`System`] adds these up. [`Gauge`] makes solutions unique on pieces of the plate
+//! that nothing holds.
 
 mod border;
 mod cell;

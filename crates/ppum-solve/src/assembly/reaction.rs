@@ -4,8 +4,9 @@
 //! R_k = ∫ m_k,i t_i     t_i = (σ(u) n)_i − β (u_i − g_i)     over the components i that are held
 //! ```
 //!
-//! m_k are the rigid-body modes. With Nitsche's own β the system, tested with a rigid-body mode, says just
-//! that the reactions balance the loads: what differs is rounding, however coarse the cells.
+//! m_k are the rigid-body modes. With Nitsche's own β the system, tested with a rigid-body mode,
+//! says just that the reactions balance the loads: what differs is rounding, however coarse
+//! the cells.
 
 use super::cell_system::CellSystem;
 use super::functions::CellFunctions;
@@ -20,7 +21,8 @@ pub(crate) fn modes(problem: &Problem) -> RigidModes {
     RigidModes::new(problem.domain.bounds.center(), 1.0, problem.components())
 }
 
-/// Integrals over the border of a cell where one condition gives values, for every rigid-body mode m.
+/// Integrals over the border of a cell where one condition gives values, for every rigid-body
+/// mode m.
 #[derive(Clone, Debug)]
 pub(crate) struct Restraint {
     /// Number of the condition.
@@ -96,7 +98,8 @@ impl Reactions {
         }
     }
 
-    /// The reactions of a solution in the order of the matrix, one entry per condition that gives values.
+    /// The reactions of a solution in the order of the matrix, one entry per condition that
+    /// gives values.
     pub(crate) fn of(
         &self,
         problem: &Problem,

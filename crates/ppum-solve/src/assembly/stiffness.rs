@@ -5,8 +5,9 @@
 //! K_(i,a)(j,b) = Σ_kl C_ikjl ∫ ∂_k ψ_a ∂_l ψ_b        of functions ψ that each component has for itself
 //! ```
 //!
-//! A row of strains is that of one vector field at all points of a rule, section by section; products of rows of strains with rows of
-//! weighted stresses are integrals. All components share the products of the slopes of ψ: a third of the operations.
+//! A row of strains is that of one vector field at all points of a rule, section by section;
+//! products of rows of strains with rows of weighted stresses are integrals. All components share
+//! the products of the slopes of ψ: a third of the operations.
 
 use super::Assembly;
 use super::cell_matrix::CellMatrix;
@@ -26,7 +27,8 @@ const SECTIONS: usize = 3;
 /// Slopes, strains and weighted stresses at the points of a rule.
 #[derive(Debug, Default)]
 pub(crate) struct Strains {
-    /// Of the functions that each component has for itself ∂₁ψ and ∂₂ψ, of each patch [2, functions, points].
+    /// Of the functions that each component has for itself ∂₁ψ and ∂₂ψ, of each patch [2,
+    /// functions, points].
     slopes: Vec<f64>,
     /// The same times weights and a coefficient of the law.
     weighted: Vec<f64>,
@@ -54,8 +56,9 @@ struct Rows {
 const SECTION: [[usize; 2]; 2] = [[0, 2], [2, 1]];
 
 impl Strains {
-    /// Adds the points of a rule to the stiffness of a cell. `shapes` are the plain functions there; `fields` are the
-    /// unknowns of the rule's patches, and `numbers` the places of these patches in the matrix, ascending.
+    /// Adds the points of a rule to the stiffness of a cell. `shapes` are the plain functions
+    /// there; `fields` are the unknowns of the rule's patches, and `numbers` the places of these
+    /// patches in the matrix, ascending.
     pub(super) fn integrate(
         &mut self,
         law: &Law<'_>,
@@ -92,7 +95,8 @@ impl Strains {
         }
     }
 
-    /// K_(i,a)(j,b) += Σ_kl C_ikjl ∫ a ∂_k ψ_a ∂_l ψ_b for the functions that each component has for itself, C a term of the law.
+    /// K_(i,a)(j,b) += Σ_kl C_ikjl ∫ a ∂_k ψ_a ∂_l ψ_b for the functions that each component has
+    /// for itself, C a term of the law.
     fn add_scalars(
         &mut self,
         law: &LawAt,
@@ -139,8 +143,8 @@ impl Strains {
         matmul(to, Accum::Add, of(&self.strain, p), other.transpose(), 1.0, Par::Seq);
     }
 
-    /// Adds ∫ ε_a·σ_b of all pairs of fields to a matrix, with weights of their own at the points of a rule. The slopes by x and y
-    /// have a row for each component of each field.
+    /// Adds ∫ ε_a·σ_b of all pairs of fields to a matrix, with weights of their own at the points
+    /// of a rule. The slopes by x and y have a row for each component of each field.
     pub(crate) fn add_products(
         &mut self,
         law: &Law<'_>,
@@ -196,7 +200,8 @@ impl Strains {
         }
     }
 
-    /// The slopes and strains of the unknowns of all patches, whose functions stand one after the other.
+    /// The slopes and strains of the unknowns of all patches, whose functions stand one after
+    /// the other.
     fn see_all(&mut self, fields: &[Fields<'_>], shapes: &Shapes) -> Vec<Rows> {
         let length = fields.iter().map(|fields| 2 * fields.scalar.nrows() * shapes.points).sum();
         self.slopes.resize(length, 0.0);
@@ -240,7 +245,8 @@ impl Strains {
             0 => &mut [],
             _ => &mut self.strain[first..first + (rows - 1) * length + n],
         };
-        // not `from_row_major_slice_with_stride_mut`: that of faer 0.24.4 swaps the strides and lets products write beyond the slice
+        // not `from_row_major_slice_with_stride_mut`: that of faer 0.24.4 swaps the strides and
+        // lets products write beyond the slice
         MatMut::from_column_major_slice_with_stride_mut(values, n, rows, length).transpose_mut()
     }
 }

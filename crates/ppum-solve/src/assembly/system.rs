@@ -56,12 +56,12 @@ enum Part<'t> {
     Duals(CellSystem),
 }
 
-/// Nitsche's β in units of (λ + 2μ) / width from which on a cell's border is cut into slivers; whole cells
-/// have 3 to 36.
+/// Nitsche's β in units of (λ + 2μ) / width from which on a cell's border is cut into slivers;
+/// whole cells have 3 to 36.
 const SLIVER: f64 = 50.0;
 
-/// The penalties of the cells where β is so large that the basis should see it. Advances the stage by the number of
-/// cells.
+/// The penalties of the cells where β is so large that the basis should see it. Advances the stage
+/// by the number of cells.
 ///
 /// # Errors
 /// Data that are not finite, with their place; cancelled.
@@ -117,8 +117,9 @@ fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
 }
 
 impl System {
-    /// Assembles the system of what is given, and functionals, as far as it is not that of an earlier one with the same basis,
-    /// data and free modes. Advances the stage by the number of cells.
+    /// Assembles the system of what is given, and functionals, as far as it is not that of an
+    /// earlier one with the same basis, data and free modes. Advances the stage by the number
+    /// of cells.
     ///
     /// # Errors
     /// Data that are not finite, with their place; cancelled.
@@ -203,8 +204,8 @@ impl System {
         }
     }
 
-    /// Takes what an earlier system has of patches that are as they were. Of their cells those were left out here that nothing
-    /// else was to be known of.
+    /// Takes what an earlier system has of patches that are as they were. Of their cells those were
+    /// left out here that nothing else was to be known of.
     fn inherit(&mut self, unchanged: &Unchanged, earlier: &Self) {
         self.matrix.take_blocks(&earlier.matrix, |patch| unchanged.patch(patch));
         for patch in 0..self.matrix.n_blocks() {

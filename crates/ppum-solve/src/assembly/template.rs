@@ -1,4 +1,5 @@
-//! The stiffness of cells that are alike, with patches that are alike: one matrix serves all of them.
+//! The stiffness of cells that are alike, with patches that are alike: one matrix serves all
+//! of them.
 
 use super::Assembly;
 use super::cell::CellAssembler;
@@ -8,8 +9,8 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-/// Cells from which on a matrix is kept: all that are kept take less memory than the system then. For fewer cells it is
-/// made each time, with the same bits.
+/// Cells from which on a matrix is kept: all that are kept take less memory than the system then.
+/// For fewer cells it is made each time, with the same bits.
 const MANY: usize = 16;
 
 /// The templates of a system.
@@ -151,8 +152,8 @@ mod tests {
         assert!(all > 50, "{all} cells have templates");
     }
 
-    /// Most of the cells of a uniform cover have one template, whatever rounding does to its coordinates, and none does where the
-    /// material varies.
+    /// Most of the cells of a uniform cover have one template, whatever rounding does to its
+    /// coordinates, and none does where the material varies.
     #[test]
     fn cells_of_a_uniform_cover_are_alike() {
         let cover = "cells = [20, 20], order = 1";

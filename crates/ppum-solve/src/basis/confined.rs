@@ -1,9 +1,10 @@
 //! Jumps that two patches have in common.
 //!
-//! Where cracks branch, what lies between two arms may belong to two patches only where these overlap. There the sum of
-//! their partition functions is one, or nearly, and a function b of the one can be had from the other as well:
-//! φ₁ (φ₂ q) = φ₂ (φ₁ q). Jumps *confined* so make the system singular, or nearly so as the branch moves. Of each patch
-//! what earlier ones have of them is left out: with their joint Gram matrix and N for what the earlier ones keep,
+//! Where cracks branch, what lies between two arms may belong to two patches only where these
+//! overlap. There the sum of their partition functions is one, or nearly, and a function b of the
+//! one can be had from the other as well: φ₁ (φ₂ q) = φ₂ (φ₁ q). Jumps *confined* so make the
+//! system singular, or nearly so as the branch moves. Of each patch what earlier ones have of them
+//! is left out: with their joint Gram matrix and N for what the earlier ones keep,
 //!
 //! ```text
 //! S = G_ii − G_iN G_NN⁻¹ G_Ni = U Λ Uᵀ,   keep λ > τ        where G_ii = I
@@ -29,8 +30,8 @@ use std::sync::Arc;
 /// Part of the square of a jump outside of another patch up to which the other patch confines it.
 const OUTSIDE: f64 = 0.1;
 
-/// Square τ of the part of a function that earlier patches must lack. The condition is bounded by 1/τ; smaller ones
-/// change no stress intensity factor by more than 1e-6.
+/// Square τ of the part of a function that earlier patches must lack. The condition is bounded by
+/// 1/τ; smaller ones change no stress intensity factor by more than 1e-6.
 const LACKING: f64 = 1e-4;
 
 /// A jump of a patch that no point of its has for itself, or nearly none.
@@ -167,7 +168,8 @@ fn blocks(rows: &[usize], columns: &[usize], block: &dyn Fn(usize, usize) -> Mat
     matrix
 }
 
-/// The combinations of a patch's n functions that stay: all those not among the parts, and of these their rows.
+/// The combinations of a patch's n functions that stay: all those not among the parts, and of these
+/// their rows.
 pub(super) fn matrix(n: usize, parts: &[Part]) -> Mat<f64> {
     let is_whole = |k: &usize| !parts.iter().any(|(functions, _)| functions.contains(k));
     let whole: Vec<usize> = (0..n).filter(is_whole).collect();
@@ -184,8 +186,9 @@ pub(super) fn matrix(n: usize, parts: &[Part]) -> Mat<f64> {
 /// Turn of a crack, in radians, from which on what lies in it is a wedge.
 const CORNER: f64 = 0.3;
 
-/// The first functions of the jumps of a patch of which nearly nothing lies where it is alone: of the components at junctions, and
-/// of the sides of a crack that turns in the patch. Slivers beside straight cracks are none of them.
+/// The first functions of the jumps of a patch of which nearly nothing lies where it is alone: of
+/// the components at junctions, and of the sides of a crack that turns in the patch. Slivers beside
+/// straight cracks are none of them.
 pub(super) fn lonely(space: &Space<'_>, patch: usize, gram: &Gram) -> Vec<usize> {
     let (step, support) = (space.step(), space.partition().support(patch));
     let turns = |points: &[Vec2]| {
@@ -293,7 +296,8 @@ struct Seen<'a> {
     shapes: &'a Shapes,
 }
 
-/// Adds the integrals of all pairs of jumps of different patches that are not zero at the same points.
+/// Adds the integrals of all pairs of jumps of different patches that are not zero at the
+/// same points.
 fn add_pairs(
     seen: &Seen<'_>,
     jumps: &[Jump],

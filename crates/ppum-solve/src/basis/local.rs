@@ -15,7 +15,8 @@ use std::borrow::Cow;
 pub(super) struct LocalBasis {
     /// T, shape [kept, functions].
     pub(super) matrix: Mat<f64>,
-    /// What the unknowns are of the functions of all components, where these share any: [unknowns, components · kept].
+    /// What the unknowns are of the functions of all components, where these share any: [unknowns,
+    /// components · kept].
     pub(super) tie: Option<Mat<f64>>,
     tied: Option<Tied>,
     /// Number of unknowns that were cut off for each component, or for all where they are tied.
@@ -24,11 +25,12 @@ pub(super) struct LocalBasis {
     pub(super) least: f64,
 }
 
-/// The unknowns of a patch where components share any: first those of functions that each component has for itself,
-/// component by component, then those of vector fields.
+/// The unknowns of a patch where components share any: first those of functions that each component
+/// has for itself, component by component, then those of vector fields.
 #[derive(Clone, Debug)]
 struct Tied {
-    /// Number of functions that each component has for itself: the first ones. They are polynomials and jumps.
+    /// Number of functions that each component has for itself: the first ones. They are polynomials
+    /// and jumps.
     scalar: usize,
     /// Number of plain functions that they are made of: the first ones.
     plain: usize,

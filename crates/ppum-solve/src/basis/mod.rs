@@ -1,8 +1,8 @@
 //! The stable basis: shape functions transformed patch by patch before anything is integrated.
 //!
 //! The system could be assembled in the plain functions and transformed afterwards, T K Tᵀ. That
-//! multiplies the rounding errors of K by up to 1/ε, which forces a cut-off ε of 1e-9; a cut-off that
-//! large drops jumps across slivers and leaves an error floor at 1e-4 (see
+//! multiplies the rounding errors of K by up to 1/ε, which forces a cut-off ε of 1e-9; a cut-off
+//! that large drops jumps across slivers and leaves an error floor at 1e-4 (see
 //! `docs/decisions/0002-stable-basis.md`). Functions transformed at the quadrature points have no
 //! such amplification.
 
@@ -30,7 +30,8 @@ use std::ops::Range;
 use std::sync::Arc;
 use williams::stored;
 
-/// A penalty on values at a part of the border, β ∫ N Nᵀ: what Nitsche's method adds to a cell's system.
+/// A penalty on values at a part of the border, β ∫ N Nᵀ: what Nitsche's method adds to a
+/// cell's system.
 pub(crate) struct Penalty {
     /// Rules on the border of one cell where values are given.
     pub(crate) rules: Vec<EdgeRule>,
@@ -46,8 +47,8 @@ pub(crate) struct StableBasis {
     kinds: Vec<Option<usize>>,
     /// Of each patch, the number of functions kept.
     pub(crate) sizes: Vec<usize>,
-    /// Of each patch, the first functions of the jumps around corners and junctions of cracks of which nearly nothing lies
-    /// where it is alone.
+    /// Of each patch, the first functions of the jumps around corners and junctions of cracks of
+    /// which nearly nothing lies where it is alone.
     pub(crate) lonely: Vec<Vec<usize>>,
     grams: Vec<Arc<Gram>>,
 }
@@ -56,8 +57,8 @@ pub(crate) struct StableBasis {
 pub(crate) type Earlier<'a, T> = Option<(&'a Unchanged, &'a T)>;
 
 impl StableBasis {
-    /// The basis of a space, from the Gram matrices of its patches, as far as they are not those of an earlier one. Advances the
-    /// stage by twice the number of cells.
+    /// The basis of a space, from the Gram matrices of its patches, as far as they are not those of
+    /// an earlier one. Advances the stage by twice the number of cells.
     ///
     /// # Errors
     /// Functions that are not finite, with their place; cancelled.
@@ -117,7 +118,8 @@ impl StableBasis {
         self.kinds[patch as usize]
     }
 
-    /// What the unknowns of a patch are: vector fields, or all functions in each component where `tied` is false.
+    /// What the unknowns of a patch are: vector fields, or all functions in each component where
+    /// `tied` is false.
     pub(crate) fn fields(&self, patch: u32, tied: bool) -> Fields<'_> {
         self.patches[patch as usize].fields(tied)
     }
@@ -127,9 +129,9 @@ impl StableBasis {
         self.patches[patch].is_same(&other.patches[its])
     }
 
-    /// Makes the basis of patches orthonormal in I + Σ w ∫ N Nᵀ, the sum over penalties with weights w: functions
-    /// that a large penalty acts on become small, and no row of the matrix is much larger than others. Nothing is
-    /// cut off.
+    /// Makes the basis of patches orthonormal in I + Σ w ∫ N Nᵀ, the sum over penalties with
+    /// weights w: functions that a large penalty acts on become small, and no row of the matrix is
+    /// much larger than others. Nothing is cut off.
     ///
     /// # Errors
     /// Functions that are not finite, with their place; cancelled.
@@ -174,7 +176,8 @@ impl StableBasis {
         self.patches.iter().map(move |patch| patch.cut_off(components))
     }
 
-    /// Of each patch, the least eigenvalue of its Gram matrix that was kept, see [`LocalBasis::least`].
+    /// Of each patch, the least eigenvalue of its Gram matrix that was kept,
+    /// see [`LocalBasis::least`].
     pub(crate) fn least(&self) -> Vec<f64> {
         self.patches.iter().map(|patch| patch.least).collect()
     }
@@ -191,8 +194,8 @@ impl StableBasis {
         self.patches[patch as usize].matrix.as_ref()
     }
 
-    /// Of a patch whose components share unknowns, what these are of each function in each component: [unknowns, components ·
-    /// functions], component by component.
+    /// Of a patch whose components share unknowns, what these are of each function in each
+    /// component: [unknowns, components · functions], component by component.
     pub(crate) fn tie(&self, patch: u32) -> Option<&Mat<f64>> {
         self.patches[patch as usize].tie.as_ref()
     }
@@ -316,8 +319,8 @@ impl Gram {
         self.alone.iter_mut().zip(&part.alone).for_each(|(sum, part)| *sum += part);
     }
 
-    /// Adds points of a patch's functions φψ times the roots of the weights; the first one has ψ = 1. Of the weighted matrix
-    /// only the lower half is added to.
+    /// Adds points of a patch's functions φψ times the roots of the weights; the first one has
+    /// ψ = 1. Of the weighted matrix only the lower half is added to.
     fn add(&mut self, shapes: &Shapes, range: Range<usize>, weights: &[f64], half: Vec2) {
         let h2 = 1.0 / (half.x * half.y);
         for (array, factor) in [(&shapes.dx, 1.0), (&shapes.dy, 1.0), (&shapes.value, h2)] {
@@ -351,7 +354,8 @@ impl Gram {
 /// φ at which nothing of φψ is left but rounding.
 const LEAST: f64 = 1e-280;
 
-/// The Gram matrix of every patch, over the domain: of those that are as they were, the one that they had.
+/// The Gram matrix of every patch, over the domain: of those that are as they were, the one that
+/// they had.
 fn grams(
     space: &Space<'_>,
     earlier: Earlier<'_, StableBasis>,

@@ -64,8 +64,9 @@ impl Shapes {
         MatRef::from_row_major_slice(part, functions.len(), self.points)
     }
 
-    /// Adds Σ N · load over the points, loads times weights, to a load over the functions of a cell, of which
-    /// `numbers` are those of the rows; component i of function a is entry a · components + i.
+    /// Adds Σ N · load over the points, loads times weights, to a load over the functions of a
+    /// cell, of which `numbers` are those of the rows; component i of function a is entry a ·
+    /// components + i.
     pub(crate) fn add_loads(
         &self,
         loads: &[[f64; 2]],
@@ -80,7 +81,8 @@ impl Shapes {
         }
     }
 
-    /// Σ G·∇N over the points, for vectors G with a column of points each, of their x and of their y: \[functions, vectors\].
+    /// Σ G·∇N over the points, for vectors G with a column of points each, of their x and of their
+    /// y: \[functions, vectors\].
     pub(crate) fn slopes_along(&self, [x, y]: [&Mat<f64>; 2]) -> Mat<f64> {
         let all = 0..self.functions;
         let mut sum = Mat::zeros(self.functions, x.ncols());
@@ -90,7 +92,8 @@ impl Shapes {
         sum
     }
 
-    /// Writes the value and the slopes of a function at as many points from `point` on as there are lanes.
+    /// Writes the value and the slopes of a function at as many points from `point` on as there are
+    /// lanes.
     #[inline(always)]
     fn set<R: Real<Scalar = f64>>(&mut self, function: usize, point: usize, [v, x, y]: [R; 3]) {
         let (at, lanes) = (function * self.points + point, R::LANES.min(self.points - point));
@@ -99,7 +102,8 @@ impl Shapes {
         y.store_some(&mut self.dy[at..at + lanes]);
     }
 
-    /// Writes a factor times all monomials to functions from `function` on, at as many points from `point` on as there are lanes.
+    /// Writes a factor times all monomials to functions from `function` on, at as many points from
+    /// `point` on as there are lanes.
     #[inline(always)]
     fn set_products<R: Real<Scalar = f64>>(
         &mut self,
@@ -145,8 +149,8 @@ impl<'s> ShapeEvaluator<'s> {
         Self { space, seen: None, scratch: Scratch::default(), series: false }
     }
 
-    /// An evaluator for the functions that the solver takes: of the series of a tip those of their terms, 4N in place of
-    /// 2N(N + 1).
+    /// An evaluator for the functions that the solver takes: of the series of a tip those of their
+    /// terms, 4N in place of 2N(N + 1).
     #[must_use]
     pub(crate) fn of_series(space: &'s Space<'s>) -> Self {
         Self { series: true, ..Self::new(space) }
@@ -271,7 +275,8 @@ impl ShapeEvaluator<'_> {
         patches.iter().enumerate().flat_map(of_patch).collect()
     }
 
-    /// The terms of a tip's series if these are evaluated as such, and the blocks that they take the place of.
+    /// The terms of a tip's series if these are evaluated as such, and the blocks that they take
+    /// the place of.
     fn terms(&self, anchor: Vec2, patch: u32, series: &Series) -> Option<(Range<usize>, Terms)> {
         let Origin::Tip(tip) = series.origin else { return None };
         let frame = TipFrame::new(self.space.step(), patch as usize, tip);
@@ -353,7 +358,8 @@ impl Filling<'_, '_> {
         jets
     }
 
-    /// The partition functions φ of the patches, in the same order; exactly 1 where a patch is alone.
+    /// The partition functions φ of the patches, in the same order; exactly 1 where a patch
+    /// is alone.
     #[inline(always)]
     fn partition<R: Real<Scalar = f64>>(&self, points: &[[R; 2]], zero: R) -> Vec<Jet<R>> {
         let (n, one) = (points.len(), zero.lit(1.0));
@@ -422,8 +428,9 @@ impl Filling<'_, '_> {
         monomials_of(block.degree)
     }
 
-    /// Writes c, s, C and S of all terms of a tip, from a function on; returns their number. With z in the frame of the tip
-    /// they are zⁿ √r e^{iθ/2} and zⁿ √r e^{−3iθ/2}, made of the functions of the tip as [`Origin::Tip`] has it.
+    /// Writes c, s, C and S of all terms of a tip, from a function on; returns their number. With z
+    /// in the frame of the tip they are zⁿ √r e^{iθ/2} and zⁿ √r e^{−3iθ/2}, made of the functions
+    /// of the tip as [`Origin::Tip`] has it.
     #[inline(always)]
     fn terms<R: Real<Scalar = f64>>(
         &mut self,
@@ -531,8 +538,8 @@ mod tests {
         (rect.center(), offsets, space.coverers[cell].clone())
     }
 
-    /// Combined with coefficients, all functions at all points are what the field is there, point by point: any number of points,
-    /// weights and orders, jumps, tips and formulas.
+    /// Combined with coefficients, all functions at all points are what the field is there, point
+    /// by point: any number of points, weights and orders, jumps, tips and formulas.
     #[test]
     fn shapes_are_those_of_the_field() {
         let mut random = Random(5);
@@ -554,7 +561,8 @@ mod tests {
                     for (component, expected) in expected.iter().enumerate() {
                         let (found, size) = combined(&space, &shapes, &patches, component, q);
                         let expected = [expected.v, expected.x, expected.y];
-                        // slopes of φ are differences of terms as large as 1 over the size of a patch
+                        // slopes of φ are differences of terms as large as 1 over the size of
+                        // a patch
                         let halves =
                             patches.iter().map(|&k| step.partition.boxes().half[k as usize]);
                         let least = halves.fold(f64::INFINITY, |h, half| h.min(half.x.min(half.y)));

@@ -1,16 +1,18 @@
 //! Ties: functions whose components share their unknowns.
 //!
-//! The stable basis N of a patch is orthonormal, so that coordinates tell all of a function: those of ψ are T M ψ. The vector
-//! fields v of a patch are the polynomials and jumps, with each component for itself, and fields whose components are tied;
-//! with the coordinates of the latter as the rows of A, those of polynomials and jumps out,
+//! The stable basis N of a patch is orthonormal, so that coordinates tell all of a function: those
+//! of ψ are T M ψ. The vector fields v of a patch are the polynomials and jumps, with each
+//! component for itself, and fields whose components are tied; with the coordinates of the latter
+//! as the rows of A, those of polynomials and jumps out,
 //!
 //! ```text
 //! A Aᵀ = U Λ Uᵀ,   keep λ > ε,   C = Λ^−½ Uᵀ A
 //! ```
 //!
-//! The rows of C are orthonormal. The unknowns are those of C N, fields that are formed at the quadrature points, before anything
-//! is integrated. Where borders are held the system of a cell is assembled in N with all components free, and what goes into the
-//! matrix is C K Cᵀ: rounding errors are not amplified.
+//! The rows of C are orthonormal. The unknowns are those of C N, fields that are formed at the
+//! quadrature points, before anything is integrated. Where borders are held the system of a cell is
+//! assembled in N with all components free, and what goes into the matrix is C K Cᵀ: rounding
+//! errors are not amplified.
 
 use super::transform::{CUT_OFF, Transform};
 use crate::linear::{EigenError, SymmetricEigen};
@@ -21,7 +23,8 @@ pub(super) type VectorField = [Vec<f64>; 2];
 
 /// The tie C of a patch: [unknowns, components · functions], component by component.
 ///
-/// `gram` is the plain Gram matrix M, and `fields` are those beside the functions that T keeps first.
+/// `gram` is the plain Gram matrix M, and `fields` are those beside the functions that T keeps
+/// first.
 ///
 /// # Errors
 /// Functions that are not finite.

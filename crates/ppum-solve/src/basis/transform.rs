@@ -12,8 +12,9 @@
 //! T    = [T_P 0; T_E] D,   T M Tᵀ = I
 //! ```
 //!
-//! The fields of series tie components, jumps leave each component its own. So that jumps need no fields, series give way to
-//! them: in the second step E are the jumps alone, in a third one P are all functions so far and E the series.
+//! The fields of series tie components, jumps leave each component its own. So that jumps need no
+//! fields, series give way to them: in the second step E are the jumps alone, in a third one P are
+//! all functions so far and E the series.
 //!
 //! The functions are transformed before anything is integrated ([`crate::basis`]); the plain
 //! coefficients are u = Tᵀ ũ. An enrichment is
@@ -21,11 +22,11 @@
 //! way to enrichments. The limit of the Schur complement S is absolute because its functions have
 //! norm one after the scaling, or less:
 //!
-//! A crack may leave a corner of the patch where φ is nearly nothing, the less the smoother the weight: a jump
-//! there has a tiny norm, and made to have norm one it gets coefficients that hide the field elsewhere, where
-//! they have to cancel. n² = ∫ h⁻² ψ² dx, without φ, tells such a function from one that is merely small: no
-//! function is scaled beyond κ/n, with κ = [`REACH`]. What φ reaches with less than √ε/κ is cut off, and
-//! coefficients are at most κ/(n √ε).
+//! A crack may leave a corner of the patch where φ is nearly nothing, the less the smoother the
+//! weight: a jump there has a tiny norm, and made to have norm one it gets coefficients that hide
+//! the field elsewhere, where they have to cancel. n² = ∫ h⁻² ψ² dx, without φ, tells such a
+//! function from one that is merely small: no function is scaled beyond κ/n, with κ = [`REACH`].
+//! What φ reaches with less than √ε/κ is cut off, and coefficients are at most κ/(n √ε).
 //!
 //! The construction follows Schweitzer, "Stable enrichment and local preconditioning in the
 //! particle-partition of unity method", Numer. Math. 118 (2011), with another inner product: one
@@ -37,16 +38,16 @@ use crate::linear::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
 
 /// Cut-off ε below which a function counts as dependent.
 ///
-/// Small enough to lose nothing that is seen in the error (1e−12 costs 1e−5 of the energy norm where a
-/// tip function is nearly a polynomial, 1e−9 ten times that), large enough above the rounding of the
-/// eigenvalues, 1e−15. `docs/decisions/0002-stable-basis.md` has the measurements.
+/// Small enough to lose nothing that is seen in the error (1e−12 costs 1e−5 of the energy norm
+/// where a tip function is nearly a polynomial, 1e−9 ten times that), large enough above the
+/// rounding of the eigenvalues, 1e−15. `docs/decisions/0002-stable-basis.md` has the measurements.
 pub(crate) const CUT_OFF: f64 = 1e-13;
 
 /// Ratio κ of the norms of ψ and of φψ beyond which an enrichment is out of φ's reach.
 ///
-/// Large enough to leave alone whatever has a share in the solution, small enough to bound coefficients: those of
-/// a field of size one stay below κ/√ε times its error of discretisation. `docs/decisions/0002-stable-basis.md`
-/// has the measurements.
+/// Large enough to leave alone whatever has a share in the solution, small enough to bound
+/// coefficients: those of a field of size one stay below κ/√ε times its error of discretisation.
+/// `docs/decisions/0002-stable-basis.md` has the measurements.
 pub(crate) const REACH: f64 = 100.0;
 
 /// Diagonal entries up to this fraction of the largest belong to functions that vanish on the
@@ -58,19 +59,21 @@ const VANISHING: f64 = 1e-40;
 pub(crate) struct Transform {
     /// T, shape [kept, functions]: row k holds the new function k in the plain functions.
     pub(crate) matrix: Mat<f64>,
-    /// Number of new functions that are made of the first plain ones, polynomials and jumps: the first ones.
+    /// Number of new functions that are made of the first plain ones, polynomials and jumps: the
+    /// first ones.
     pub(crate) first: usize,
     /// Number of functions that were cut off.
     pub(crate) dropped: usize,
-    /// The least eigenvalue that was kept, of the polynomials as a part of their largest: far from one the functions nearly
-    /// depend on each other. One if nothing was kept.
+    /// The least eigenvalue that was kept, of the polynomials as a part of their largest: far from
+    /// one the functions nearly depend on each other. One if nothing was kept.
     pub(crate) least: f64,
 }
 
 impl Transform {
     /// The transformation of a patch with the Gram matrix `gram` [n × n, symmetric], whose first p
-    /// functions are the polynomials and whose functions from f on give way to all before them, with cut-off `eps`
-    /// (usually [`CUT_OFF`]); `plain` are the squares of the norms of the functions without φ, n².
+    /// functions are the polynomials and whose functions from f on give way to all before them,
+    /// with cut-off `eps` (usually [`CUT_OFF`]); `plain` are the squares of the norms of the
+    /// functions without φ, n².
     ///
     /// # Errors
     /// An entry of the Gram matrix that is not finite.
@@ -102,7 +105,8 @@ impl Transform {
     }
 }
 
-/// T_P [kept × p] of the scaled polynomial block, and its least kept eigenvalue as a part of the largest.
+/// T_P [kept × p] of the scaled polynomial block, and its least kept eigenvalue as a part of
+/// the largest.
 fn orthonormal_polynomials(m: MatRef<'_, f64>, eps: f64) -> Result<(Mat<f64>, f64), EigenError> {
     let eigen = SymmetricEigen::new(m)?;
     let largest = eigen.values.first().copied().unwrap_or(0.0);
@@ -116,8 +120,8 @@ fn least_of(eigen: &SymmetricEigen, kept: usize) -> f64 {
     kept.checked_sub(1).map_or(1.0, |last| eigen.values[last])
 }
 
-/// T_P, or the rows of other functions that are orthonormal, and T_E below [kept × n] for the scaled Gram matrix `m`, and the
-/// least kept eigenvalue of S.
+/// T_P, or the rows of other functions that are orthonormal, and T_E below [kept × n] for the
+/// scaled Gram matrix `m`, and the least kept eigenvalue of S.
 fn with_enrichments(
     m: MatRef<'_, f64>,
     first: MatRef<'_, f64>,
@@ -248,7 +252,8 @@ mod tests {
         assert!((back - &plain.matrix).norm_max() < 1e-7 * plain.matrix.norm_max());
     }
 
-    /// Functions 1, x and what is left of a jump and of a jump times x where a factor takes all but `part` of it.
+    /// Functions 1, x and what is left of a jump and of a jump times x where a factor takes all but
+    /// `part` of it.
     #[test]
     fn a_function_out_of_reach_gets_no_large_coefficients() {
         let bound = REACH / CUT_OFF.sqrt();

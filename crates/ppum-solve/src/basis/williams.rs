@@ -1,5 +1,5 @@
-//! Williams' series at tips and corners: displacement fields that satisfy equilibrium and leave the faces of a straight crack,
-//! or the sides of a wedge, free.
+//! Williams' series at tips and corners: displacement fields that satisfy equilibrium and leave the
+//! faces of a straight crack, or the sides of a wedge, free.
 //!
 //! ```text
 //! c, s = r^λ cos λθ, r^λ sin λθ      C, S = r^λ cos (λ−2)θ, r^λ sin (λ−2)θ
@@ -7,9 +7,10 @@
 //! II    2μ u_x = −(κ + b) s + λ S     2μ u_y = (κ − b) c + λ C
 //! ```
 //!
-//! in the frame of the tip or of the wedge's bisector, from Kolosov's potentials φ = z^λ, ψ = b z^λ and φ = i z^λ, ψ = −i b z^λ. At a
-//! tip λ = n + ½ with b = 1 − λ and 1 + λ (Williams 1957), of a wedge they are [`Term`]s (Williams 1952). One unknown each: they *tie*
-//! the components of the functions c, s, C and S. Of Poisson's equation s alone leaves the faces of a crack free.
+//! in the frame of the tip or of the wedge's bisector, from Kolosov's potentials φ = z^λ, ψ = b z^λ
+//! and φ = i z^λ, ψ = −i b z^λ. At a tip λ = n + ½ with b = 1 − λ and 1 + λ (Williams 1957), of a
+//! wedge they are [`Term`]s (Williams 1952). One unknown each: they *tie* the components of the
+//! functions c, s, C and S. Of Poisson's equation s alone leaves the faces of a crack free.
 
 use super::confined::Part;
 use super::local::times;
@@ -42,7 +43,8 @@ pub(super) fn parts(space: &Space<'_>, patch: usize) -> Vec<Part> {
     space.evaluated_series(patch).map(part).collect()
 }
 
-/// Coefficients of the functions of a patch as they are stored from those of the functions that the solver evaluates.
+/// Coefficients of the functions of a patch as they are stored from those of the functions that the
+/// solver evaluates.
 pub(super) fn stored(space: &Space<'_>, patch: usize, mut evaluated: &[f64]) -> Vec<f64> {
     let mut out = Vec::with_capacity(space.sizes[patch]);
     for series in space.series(patch) {
@@ -57,8 +59,8 @@ pub(super) fn stored(space: &Space<'_>, patch: usize, mut evaluated: &[f64]) -> 
     out
 }
 
-/// The fields of the series of a patch as combinations of the functions that the solver evaluates, one for each component;
-/// none without series, or with one component.
+/// The fields of the series of a patch as combinations of the functions that the solver evaluates,
+/// one for each component; none without series, or with one component.
 pub(super) fn fields(space: &Space<'_>, patch: usize) -> Option<Vec<[Vec<f64>; 2]>> {
     let Equation::Elasticity(body) = space.equation() else { return None };
     if space.series(patch).is_empty() {
@@ -123,8 +125,8 @@ fn placed(part: &[f64], first: usize, n: usize) -> Vec<f64> {
     all
 }
 
-/// c, s, C and S of all terms as combinations of the tip's functions F₁…F₄ times monomials, in units of the farthest distance
-/// in the patch: \[4N, 4 monomials(N − 1)\].
+/// c, s, C and S of all terms as combinations of the tip's functions F₁…F₄ times monomials, in
+/// units of the farthest distance in the patch: \[4N, 4 monomials(N − 1)\].
 ///
 /// √r e^{iθ/2} = F₁ + iF₂ and √r e^{−3iθ/2} = (F₁ − 2F₃) + i(F₂ − 2F₄).
 fn angular(step: &Step, patch: usize, tip: TipId, series: &Series) -> Mat<f64> {

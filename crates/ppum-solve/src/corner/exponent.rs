@@ -1,24 +1,26 @@
 //! The exponents of wedges.
 //!
-//! Elasticity: with Kolosov's formulas and φ = A z^λ, ψ = B z^λ the displacement and the resultant force of
-//! the tractions along a ray are r^λ times
+//! Elasticity: with Kolosov's formulas and φ = A z^λ, ψ = B z^λ the displacement and the resultant
+//! force of the tractions along a ray are r^λ times
 //!
 //! ```text
 //! 2μ (u_x + i u_y) ~ κ A e^{iλθ} − λ Ā e^{i(2−λ)θ} − B̄ e^{−iλθ}
 //! i (F_x + i F_y)  ~   A e^{iλθ} + λ Ā e^{i(2−λ)θ} + B̄ e^{−iλθ}
 //! ```
 //!
-//! Two conditions on each of the two rays make a determinant of order four, an entire function of λ (real and
-//! imaginary parts of A and B are its unknowns); its zeros are the exponents (Williams 1952). The smallest is
-//! found by counting zeros in rectangles with the argument principle, so that complex ones are not missed.
-//! Laplace: λ = π/ω with the same condition on both rays, π/(2ω) otherwise.
+//! Two conditions on each of the two rays make a determinant of order four, an entire function of λ
+//! (real and imaginary parts of A and B are its unknowns); its zeros are the exponents (Williams
+//! 1952). The smallest is found by counting zeros in rectangles with the argument principle, so
+//! that complex ones are not missed. Laplace: λ = π/ω with the same condition on both rays,
+//! π/(2ω) otherwise.
 
 use super::Constants;
 use super::sectors::Sector;
 use faer::c64;
 use std::f64::consts::PI;
 
-/// Smallest and largest exponents that are looked for. At 2π a wedge that is held on one ray has 1/4.
+/// Smallest and largest exponents that are looked for. At 2π a wedge that is held on one ray
+/// has 1/4.
 const LEAST: f64 = 0.1;
 const LARGEST: f64 = 0.99;
 
@@ -61,8 +63,8 @@ fn elastic(sector: &Sector, kappa: f64) -> f64 {
     0.5 * (none + some)
 }
 
-/// Number of zeros with LEAST < Re λ < `right`: the turns of the determinant around the rectangle. It is
-/// real on the real axis, so the upper half of the way says all.
+/// Number of zeros with LEAST < Re λ < `right`: the turns of the determinant around the rectangle.
+/// It is real on the real axis, so the upper half of the way says all.
 fn zeros(sector: &Sector, kappa: f64, right: f64) -> usize {
     let corners = [(LEAST, 0.0), (LEAST, HEIGHT), (right, HEIGHT), (right, 0.0)];
     let mut turned = 0.0;
@@ -97,15 +99,16 @@ fn determinant(sector: &Sector, kappa: f64, lambda: c64) -> c64 {
     pairs.iter().map(both).fold(c64::new(0.0, 0.0), |sum, part| sum + part)
 }
 
-/// The two conditions on a ray: of each component the displacement where it is held, else the traction,
-/// which belongs to the other component of i F.
+/// The two conditions on a ray: of each component the displacement where it is held, else the
+/// traction, which belongs to the other component of i F.
 fn conditions(held: [bool; 2], kappa: f64, lambda: c64, angle: f64) -> [[c64; 4]; 2] {
     let displacement = fields(lambda, angle, c64::new(kappa, 0.0), -1.0);
     let force = fields(lambda, angle, c64::new(1.0, 0.0), 1.0);
     [0, 1].map(|i| if held[i] { displacement[i] } else { force[1 - i] })
 }
 
-/// Real and imaginary part of s A e^{iλθ} + t (λ Ā e^{i(2−λ)θ} + B̄ e^{−iλθ}), continued to complex λ.
+/// Real and imaginary part of s A e^{iλθ} + t (λ Ā e^{i(2−λ)θ} + B̄ e^{−iλθ}), continued to
+/// complex λ.
 fn fields(lambda: c64, angle: f64, s: c64, t: f64) -> [[c64; 4]; 2] {
     let (sin, cos) = ((lambda * angle).sin(), (lambda * angle).cos());
     let other = (c64::new(2.0, 0.0) - lambda) * angle;

@@ -1,10 +1,12 @@
-//! Singular points that are no tips: where the border of the plate turns inwards or its conditions change.
+//! Singular points that are no tips: where the border of the plate turns inwards or its
+//! conditions change.
 //!
-//! Around such a point the solution is a sum of r^λ times functions of the angle, with exponents λ that the
-//! openings of the material, the conditions on their two rays and Poisson's ratio decide (Williams 1952).
-//! If the smallest Re λ is below one, stresses are infinite, and polynomials see the field badly: kinks of
-//! cracks, corners of holes, the ends of held pieces of edges, clamped corners, mouths of cracks at held edges.
-//! They are found from the geometry and the conditions alone.
+//! Around such a point the solution is a sum of r^λ times functions of the angle, with exponents λ
+//! that the openings of the material, the conditions on their two rays and Poisson's ratio decide
+//! (Williams 1952). If the smallest Re λ is below one, stresses are infinite, and polynomials see
+//! the field badly: kinks of cracks, corners of holes, the ends of held pieces of edges, clamped
+//! corners, mouths of cracks at held edges. They are found from the geometry and the
+//! conditions alone.
 
 mod exponent;
 mod sectors;
@@ -29,8 +31,8 @@ const SAME_ANGLE: f64 = 1e-6;
 /// Stand-in for 1 − λ where loads jump.
 const LOGARITHM: f64 = 0.3;
 
-/// Exponent, that of a turn of 24°, from which on a kink or a corner of a hole has no functions: cells see its field well,
-/// and vertices of paths that follow curves are no corners.
+/// Exponent, that of a turn of 24°, from which on a kink or a corner of a hole has no functions:
+/// cells see its field well, and vertices of paths that follow curves are no corners.
 const MILD: f64 = 0.8;
 
 /// Most corners with functions: each has up to eight, which drawing compiles.
@@ -41,7 +43,8 @@ const MOST: usize = 64;
 pub(crate) struct Corner {
     /// Its place.
     pub(crate) at: Vec2,
-    /// The smallest Re λ > 0 of u ~ r^λ there; below one, but for the ends of loads; zero where values jump.
+    /// The smallest Re λ > 0 of u ~ r^λ there; below one, but for the ends of loads; zero where
+    /// values jump.
     pub(crate) exponent: f64,
     /// Distance to what is next: another corner of the border, a tip, a rim, a crack.
     pub(crate) room: f64,
@@ -80,7 +83,8 @@ impl Corner {
         part.corners().iter().all(|p| (*p - self.at).length() < room)
     }
 
-    /// The part of the field around the point that is not smooth: 1 − λ, and a constant where loads jump.
+    /// The part of the field around the point that is not smooth: 1 − λ, and a constant where
+    /// loads jump.
     pub(crate) fn weakness(&self) -> f64 {
         match self.nature {
             Nature::Load => LOGARITHM,
@@ -98,8 +102,8 @@ pub(crate) enum Nature {
     Corner,
     /// The end of what is held.
     Support,
-    /// Loads that no uniform stress has: a loaded piece of an edge ends, or a sheared side meets a free one.
-    /// u ~ r ln r, or r times a function of the angle.
+    /// Loads that no uniform stress has: a loaded piece of an edge ends, or a sheared side meets a
+    /// free one. u ~ r ln r, or r times a function of the angle.
     Load,
     /// A jump of given values, whose field has infinite energy.
     Jump,
@@ -118,7 +122,8 @@ impl Nature {
     }
 }
 
-/// The singular points of a problem, in the order: box, edges, holes, cracks. Its cost is quadratic in their number.
+/// The singular points of a problem, in the order: box, edges, holes, cracks. Its cost is quadratic
+/// in their number.
 pub(crate) fn corners(problem: &Problem) -> Vec<Corner> {
     let touch = touch(&problem.domain.bounds);
     let places = distinct(places(problem), touch);
@@ -177,12 +182,13 @@ impl Constants {
     }
 }
 
-/// Part of the loads at a point by which they may differ from those of a uniform stress: more than smooth loads
-/// change on the short way on which they are looked at.
+/// Part of the loads at a point by which they may differ from those of a uniform stress: more than
+/// smooth loads change on the short way on which they are looked at.
 const UNFIT: f64 = 1e-4;
 
-/// True if no uniform stress (gradient) has the loads of a sector's two rays: t₁ = σ n₁ and t₂ = σ n₂ need
-/// n₂·t₁ = n₁·t₂, on a straight border t₁ = t₂. Any two fluxes fit but on a straight border.
+/// True if no uniform stress (gradient) has the loads of a sector's two rays: t₁ = σ n₁ and t₂ = σ
+/// n₂ need n₂·t₁ = n₁·t₂, on a straight border t₁ = t₂. Any two fluxes fit but on a
+/// straight border.
 fn is_unfit(sector: &Sector, components: usize) -> bool {
     let [n1, n2] = sector.normals();
     let [t1, t2] = sector.load.map(Vec2::from);
@@ -200,8 +206,9 @@ fn is_free(sector: &Sector) -> bool {
     sector.held == [[false; 2]; 2]
 }
 
-/// The wedge of a free sector: if nothing else around the point is material, or both sides belong to a crack that turns
-/// there. Its fields jump on the ray opposite of the bisector, which lies in a hole, or on the other side of the crack.
+/// The wedge of a free sector: if nothing else around the point is material, or both sides belong
+/// to a crack that turns there. Its fields jump on the ray opposite of the bisector, which lies in
+/// a hole, or on the other side of the crack.
 fn wedge(
     problem: &Problem,
     (at, room, nature): (Vec2, f64, Nature),
@@ -226,7 +233,8 @@ fn wedge(
     Some(Wedge { bisector, room, side, terms: wedge::terms(sector.opening, constants) })
 }
 
-/// True if the given values of a component jump from ray to ray, measured by the size of all of them.
+/// True if the given values of a component jump from ray to ray, measured by the size of all
+/// of them.
 fn values_jump(sector: &Sector, scale: f64) -> bool {
     let jumps = |i: usize| {
         let is_held = sector.held[0][i] && sector.held[1][i];

@@ -58,7 +58,8 @@ enum On {
 }
 
 impl On {
-    /// True if conditions on a part of the border hold here. The material is on the left of a first ray.
+    /// True if conditions on a part of the border hold here. The material is on the left of a
+    /// first ray.
     fn is_part_of(self, part: BorderPart, is_first: bool) -> bool {
         match (self, part) {
             (Self::Edge(edge, s), BorderPart::Edge { edge: other, from, to }) => {
@@ -82,8 +83,8 @@ pub(super) struct Surroundings<'p> {
 }
 
 impl Surroundings<'_> {
-    /// Distance of a point to the nearest part of the border and of cracks that does not go through it. A
-    /// circle that does is as far as its radius.
+    /// Distance of a point to the nearest part of the border and of cracks that does not go through
+    /// it. A circle that does is as far as its radius.
     pub(super) fn distance(&self, p: Vec2) -> f64 {
         let domain = &self.problem.domain;
         let edges = Edge::ALL.map(|edge| edge.depth(&domain.bounds, p).abs());
@@ -100,8 +101,8 @@ impl Surroundings<'_> {
         all.filter(|distance| !self.is_on(*distance)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The sectors of material around a point whose surroundings are free up to `room`; none inside the
-    /// plate and at tips.
+    /// The sectors of material around a point whose surroundings are free up to `room`; none inside
+    /// the plate and at tips.
     pub(super) fn sectors(&self, p: Vec2, room: f64) -> Vec<Sector> {
         let mut rays = self.rays(p, room);
         rays.sort_by(|a, b| a.angle.total_cmp(&b.angle));

@@ -42,7 +42,8 @@ fn free_wedges_have_the_exponents_of_their_equation() {
     assert_eq!(wedge(0.3, 0.9 * PI, [FREE; 2], 2.0), 1.0);
 }
 
-/// 4κ sin²(λω) = (κ + 1)² − 4λ² sin²ω for a wedge held on one side, κ² sin²(λω) = λ² sin²ω held on both.
+/// 4κ sin²(λω) = (κ + 1)² − 4λ² sin²ω for a wedge held on one side, κ² sin²(λω) = λ² sin²ω held
+/// on both.
 #[test]
 fn held_wedges_have_the_exponents_of_their_equations() {
     for kappa in [1.2f64, 1.8, 2.6] {
@@ -145,8 +146,8 @@ fn corners_of_holes_and_kinks_are_found_where_they_are_in_the_plate() {
     assert!((kink.room - 0.25).abs() < 1e-12);
 }
 
-/// In the room of a kink's functions the side of its crack is that of the two segments there, also where the crack comes
-/// back, as coils, hooks and a Z do, and where its extensions pass.
+/// In the room of a kink's functions the side of its crack is that of the two segments there, also
+/// where the crack comes back, as coils, hooks and a Z do, and where its extensions pass.
 #[test]
 fn sides_in_the_rooms_of_kinks() {
     let mut random = Random(23);
@@ -175,8 +176,8 @@ fn sides_in_the_rooms_of_kinks() {
     assert!(kinks > 60 && rooms > 0.1 * f64::from(kinks), "{kinks} {rooms}");
 }
 
-/// A half circle out of a held edge leaves two right angles, held on one side; rims that cross make corners
-/// below π, which are singular only where something is held.
+/// A half circle out of a held edge leaves two right angles, held on one side; rims that cross make
+/// corners below π, which are singular only where something is held.
 #[test]
 fn crossing_rims_make_corners() {
     let mut problem = plate().with_boundary(Edge::Bottom, clamp());
@@ -188,8 +189,8 @@ fn crossing_rims_make_corners() {
     assert_eq!(all, [at(-1.0), at(-0.25), at(0.25), at(1.0)]);
 }
 
-/// A uniform stress loads a plate with a crack and a notch without any corner; a shear that one of its sides
-/// lacks makes one at both ends of the side and at a mouth in it, whatever is pulled.
+/// A uniform stress loads a plate with a crack and a notch without any corner; a shear that one of
+/// its sides lacks makes one at both ends of the side and at a mouth in it, whatever is pulled.
 #[test]
 fn loads_that_no_stress_has_make_corners() {
     let traction = |t: [f64; 2]| t.map(|t| Condition::Neumann(t.into())).to_vec();

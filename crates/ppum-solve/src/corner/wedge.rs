@@ -7,14 +7,14 @@
 //! antisymmetric   sin λω = +λ sin ω      A = i   B = i (cos λω − λ cos ω)
 //! ```
 //!
-//! have tractions r^λ times zero on both sides (Williams 1952). Of Laplace's equation r^λ sin λθ with λ = π/ω and
-//! r^λ cos λθ with λ = 2π/ω have no flux there.
+//! have tractions r^λ times zero on both sides (Williams 1952). Of Laplace's equation r^λ sin λθ
+//! with λ = π/ω and r^λ cos λθ with λ = 2π/ω have no flux there.
 
 use super::Constants;
 use std::f64::consts::PI;
 
-/// Exponents that are taken: between 1 and 2 gradients are finite and polynomials still see the fields badly. Complex
-/// ones, from 1.5 on, are left out.
+/// Exponents that are taken: between 1 and 2 gradients are finite and polynomials still see the
+/// fields badly. Complex ones, from 1.5 on, are left out.
 const TAKEN: [f64; 2] = [0.49, 1.95];
 
 /// Exponents nearer to one than this are those of polynomials.
@@ -112,7 +112,8 @@ mod tests {
     use super::*;
     use ppum_testkit::random::Random;
 
-    /// The resultant force of the tractions along a ray, r^λ times A e^{iλθ} + λ Ā e^{i(2−λ)θ} + B̄ e^{−iλθ}.
+    /// The resultant force of the tractions along a ray, r^λ times A e^{iλθ} + λ Ā e^{i(2−λ)θ} +
+    /// B̄ e^{−iλθ}.
     fn force(term: &Term, theta: f64) -> [f64; 2] {
         let lambda = term.exponent;
         let way = |angle: f64| [angle.cos(), angle.sin()];

@@ -10,11 +10,13 @@ use ppum::field::Field;
 use ppum::text::Places;
 use ppum::vec2::Rect;
 
-/// Part of the energy that may be missed at a singular point; factors nearby are off by several times that.
+/// Part of the energy that may be missed at a singular point; factors nearby are off by several
+/// times that.
 const LARGE_MISS: f64 = 5e-4;
 
-/// Part of their own energy that cells at a singular point miss, over (1 − λ)²: 0.5 to 2 in plates with clamped corners,
-/// restraints that end, corners of holes and kinks (order 2, held against energies of another method).
+/// Part of their own energy that cells at a singular point miss, over (1 − λ)²: 0.5 to 2 in plates
+/// with clamped corners, restraints that end, corners of holes and kinks (order 2, held against
+/// energies of another method).
 const MISSED: f64 = 0.9;
 
 /// The warnings about the singular points of a problem; `energy` is that of the field.

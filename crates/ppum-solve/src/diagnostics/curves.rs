@@ -1,14 +1,15 @@
 //! T of cracks that are curves to their user, and polylines here.
 //!
-//! K of a polyline along a curve is that of the curve but for squares of its turns, T is not: a kink of angle α at the distance s
-//! from a tip changes T there by −c α K_II / √s, to first order, and a curve is the sum of its kinks. What a polyline lacks of it,
+//! K of a polyline along a curve is that of the curve but for squares of its turns, T is not: a
+//! kink of angle α at the distance s from a tip changes T there by −c α K_II / √s, to first order,
+//! and a curve is the sum of its kinks. What a polyline lacks of it,
 //!
 //! ```text
 //! T_curve − T = −c K_II ( Σ α_k / √s_k − ∫ κ / √s ds )
 //! ```
 //!
-//! falls like the root of the segments' length. The curve goes on as at the last of the vertices that are looked at, where the
-//! formula of Euler and Maclaurin ends the sum.
+//! falls like the root of the segments' length. The curve goes on as at the last of the vertices
+//! that are looked at, where the formula of Euler and Maclaurin ends the sum.
 
 use super::{kind, short, warning};
 use crate::intensity::Outcome;
@@ -87,7 +88,8 @@ mod tests {
     use ppum::progress::unwatched;
     use std::fmt::Write;
 
-    /// T of the first tip of an arc of ±0.9 in equal tension, given by a line of the problem, and what a curve has more.
+    /// T of the first tip of an arc of ±0.9 in equal tension, given by a line of the problem, and
+    /// what a curve has more.
     fn t_of(crack: &str) -> [f64; 2] {
         let mut text = format!(
             "[domain]\nmin = [-12, -12]\nmax = [12, 12]\n[material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
@@ -106,7 +108,8 @@ mod tests {
         [factors.t_stress.expect("T"), -PER_KINK * factors.k2 * lacking]
     }
 
-    /// Polylines along tangents and inscribed ones, coarse and fine: their T differ by 40 %, those of their curve by 2 %.
+    /// Polylines along tangents and inscribed ones, coarse and fine: their T differ by 40 %, those
+    /// of their curve by 2 %.
     #[test]
     fn t_is_that_of_the_curve() {
         let arc = "arc = { center = [0, 0], radius = 1, from = \"90 + 0.9*180/pi\", to = \"90 - 0.9*180/pi\" }";

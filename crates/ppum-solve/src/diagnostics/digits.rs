@@ -1,8 +1,9 @@
 //! Digits that the coefficients of a dataset bear.
 //!
-//! Coefficients that are large and cancel cost evaluation digits. Their number is found without knowing why: the field
-//! whose coefficients are δ_k c_k, |δ_k| ≤ 1 without pattern, is what rounding of the c_k to a part ε adds,
-//! divided by ε. Its gradient over that of the field, times some ε, is the relative rounding error of stresses.
+//! Coefficients that are large and cancel cost evaluation digits. Their number is found without
+//! knowing why: the field whose coefficients are δ_k c_k, |δ_k| ≤ 1 without pattern, is what
+//! rounding of the c_k to a part ε adds, divided by ε. Its gradient over that of the field, times
+//! some ε, is the relative rounding error of stresses.
 
 use super::{Cutters, kind, short, warning};
 use ppum::crack::Side;
@@ -26,8 +27,8 @@ const NOTHING: f64 = 0.1;
 const PLACES: [[f64; 2]; 5] =
     [[0.0, 0.0], [-0.26, -0.23], [0.24, -0.27], [-0.22, 0.25], [0.28, 0.21]];
 
-/// Mean of the rounding errors over that of the gradients from which on a field is nothing but rounding: a plate that moves as
-/// a rigid body.
+/// Mean of the rounding errors over that of the gradients from which on a field is nothing but
+/// rounding: a plate that moves as a rigid body.
 const ALL: f64 = 1e-3;
 
 /// Relative rounding errors of the gradient of a field.
@@ -48,8 +49,8 @@ impl Rounding {
     }
 }
 
-/// Relative rounding errors of the gradient of a step's first field, evaluated in double precision; single precision has
-/// 2²⁹ times that.
+/// Relative rounding errors of the gradient of a step's first field, evaluated in double precision;
+/// single precision has 2²⁹ times that.
 ///
 /// # Errors
 /// Functions that do not compile.

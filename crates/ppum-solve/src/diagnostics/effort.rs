@@ -1,9 +1,11 @@
-//! The effort of finding the stress intensity factors of a dataset's step again, known before anything of it is done.
+//! The effort of finding the stress intensity factors of a dataset's step again, known before
+//! anything of it is done.
 //!
-//! Factors are integrals over all cells in a disc, and a file of some kilobytes can ask for a hundred thousand tips in a
-//! hundred thousand cells. What is looked at, and how often, is added up here from sizes alone, and compared with bounds
-//! that are above what solved problems take: a plate of a million patches with a few cracks and holes, or of a hundred
-//! thousand patches with a thousand cracks, stays below them.
+//! Factors are integrals over all cells in a disc, and a file of some kilobytes can ask for a
+//! hundred thousand tips in a hundred thousand cells. What is looked at, and how often, is added up
+//! here from sizes alone, and compared with bounds that are above what solved problems take: a
+//! plate of a million patches with a few cracks and holes, or of a hundred thousand patches with a
+//! thousand cracks, stays below them.
 
 use crate::geometry::TipClearance;
 use crate::problem::Problem;
@@ -16,12 +18,12 @@ use ppum::function::{FunctionError, FunctionKind, FunctionTable, Slot};
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::collections::BTreeSet;
 
-/// Most pairs of cells and patches that meet, and of patches and the kinks and singular points of their functions:
-/// lists of them are kept, 256 MiB.
+/// Most pairs of cells and patches that meet, and of patches and the kinks and singular points of
+/// their functions: lists of them are kept, 256 MiB.
 const MOST_PAIRS: u64 = 1 << 26;
 
-/// Most comparisons: of tips with cells, cracks and rims, of cells with the segments near them, of kinks with each other.
-/// Some ten seconds.
+/// Most comparisons: of tips with cells, cracks and rims, of cells with the segments near them, of
+/// kinks with each other. Some ten seconds.
 const MOST_LOOKS: u64 = 1 << 34;
 
 /// Most operations of evaluations: ten minutes, of which a vector does several at once.
@@ -76,8 +78,8 @@ pub enum EffortError {
     Function(#[from] FunctionError),
 }
 
-/// Looks whether the factors of a step's tips can be found within bounds of time and memory, and the warnings about a
-/// `problem` that it solves.
+/// Looks whether the factors of a step's tips can be found within bounds of time and memory, and
+/// the warnings about a `problem` that it solves.
 ///
 /// # Errors
 /// The first thing of which there is too much.
@@ -229,8 +231,8 @@ impl Count<'_> {
         Rect::around(crack.end_point(tip.end), vec2(radius, radius).max(Vec2::ZERO))
     }
 
-    /// Operations of an evaluation in a cell with these patches around it, and the number of kinks and singular
-    /// points that their functions declare.
+    /// Operations of an evaluation in a cell with these patches around it, and the number of kinks
+    /// and singular points that their functions declare.
     fn work(&self, patches: &[u32], declared: &[u64]) -> (u64, u64) {
         let (mut groups, mut work) = (BTreeSet::new(), PATCH * patches.len() as u64);
         let mut functions = BTreeSet::new();

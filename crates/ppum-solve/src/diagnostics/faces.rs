@@ -55,7 +55,8 @@ fn overlap(field: &Field<'_>, (index, crack): (usize, &Crack), seats: &Places) -
     })
 }
 
-/// Points along a crack, equally apart and none at a vertex, with their segment and the normal there.
+/// Points along a crack, equally apart and none at a vertex, with their segment and the
+/// normal there.
 fn places(crack: &Crack, index: usize) -> impl Iterator<Item = (Vec2, SegmentId, Vec2)> {
     let length = crack.length();
     (0..).zip(crack.points.windows(2)).flat_map(move |(segment, s)| {

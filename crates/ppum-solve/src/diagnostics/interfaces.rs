@@ -15,14 +15,15 @@ use crate::law::Law;
 /// Points in each direction of a cell at which its energy is looked at.
 const LOOKS: usize = 4;
 
-/// Error of a cell's energy, relative to it, where the contrast is one: an order of magnitude, not calibrated.
+/// Error of a cell's energy, relative to it, where the contrast is one: an order of magnitude,
+/// not calibrated.
 const SHARE: f64 = 0.1;
 
 /// Estimated relative error of the energy from which on it is told.
 const LARGE: f64 = 1e-3;
 
-/// The warnings about interfaces: for each cause one, at the worst place, its value the estimated relative error
-/// of the energy.
+/// The warnings about interfaces: for each cause one, at the worst place, its value the estimated
+/// relative error of the energy.
 pub(super) fn of_interfaces(field: &Field<'_>, dataset: &Dataset, places: &Places) -> Vec<Warning> {
     let interfaces = Interfaces::new(&dataset.equation, &dataset.domain);
     if interfaces.all.is_empty() {

@@ -1,8 +1,9 @@
-//! Diagnostics: findings about a solution that do not make it wrong to have, but wrong to trust unread.
+//! Diagnostics: findings about a solution that do not make it wrong to have, but wrong to
+//! trust unread.
 //!
-//! Each is a [`Warning`] with a word for its kind, a place, the number that gave rise to it and the bound
-//! that it passes. [`solve()`](crate::solve::solve) stores them in the dataset; [`recompute`] finds them
-//! again from a dataset, with the stress intensity factors.
+//! Each is a [`Warning`] with a word for its kind, a place, the number that gave rise to it and the
+//! bound that it passes. [`solve()`](crate::solve::solve) stores them in the dataset; [`recompute`]
+//! finds them again from a dataset, with the stress intensity factors.
 
 mod corners;
 mod curves;
@@ -49,13 +50,13 @@ pub const LARGE_IMBALANCE: f64 = 1e-8;
 /// Part of the unknowns that the stable basis may cut off.
 pub const LARGE_CUT_OFF: f64 = 0.25;
 
-/// Nitsche's β in units of (λ + 2μ) / cell width from which on a held border holds far more tightly than the
-/// rest of the plate resolves. Whole cells have 3 to 36, a crack that ends beside a held edge 710, one along
-/// such an edge 8e4 at 1e-4 of a cell.
+/// Nitsche's β in units of (λ + 2μ) / cell width from which on a held border holds far more tightly
+/// than the rest of the plate resolves. Whole cells have 3 to 36, a crack that ends beside a held
+/// edge 710, one along such an edge 8e4 at 1e-4 of a cell.
 pub const LARGE_NITSCHE: f64 = 1e4;
 
-/// Part of a load's magnitude that its resultant may err by, and of the integrals of functions and coefficients
-/// over a piece of a cell: quadrature aims at 1e-10.
+/// Part of a load's magnitude that its resultant may err by, and of the integrals of functions and
+/// coefficients over a piece of a cell: quadrature aims at 1e-10.
 pub const LARGE_ERROR: f64 = 1e-6;
 /// Part of the energy that may be lost to locking.
 pub const LARGE_LOCKING: f64 = 2e-3;
@@ -146,8 +147,8 @@ pub enum RecomputeError {
     Cancelled(#[from] Cancelled),
 }
 
-/// The stress intensity factors of a step's first field, and the warnings about it. `problem` is what
-/// it solves, on the cracks of the step: its loads act near the tips. Without one none do.
+/// The stress intensity factors of a step's first field, and the warnings about it. `problem` is
+/// what it solves, on the cracks of the step: its loads act near the tips. Without one none do.
 ///
 /// [`check_effort`](effort::check_effort) tells before whether it takes too much.
 ///

@@ -1,16 +1,16 @@
 //! Pressure that oscillates from cell to cell, in a plate that hardly changes its volume.
 //!
-//! Polynomials of order p that are free of locking have right displacements, energies and factors, but λ div u multiplies
-//! what is left of div u by λ. A pressure that is right is smooth: over three cells in each direction it is, as well as the
-//! displacements are, a polynomial of degree p − 1. What the computed one has beyond that, its expansion in Chebyshev
-//! polynomials tells,
+//! Polynomials of order p that are free of locking have right displacements, energies and factors,
+//! but λ div u multiplies what is left of div u by λ. A pressure that is right is smooth: over
+//! three cells in each direction it is, as well as the displacements are, a polynomial of degree
+//! p − 1. What the computed one has beyond that, its expansion in Chebyshev polynomials tells,
 //!
 //! ```text
 //! p = Σ c_rs T_r T_s,   tail² = Σ_(r + s ≥ p) c_rs²,   error ≈ median of tail / root mean square of the stresses
 //! ```
 //!
-//! Cell by cell the tail is 0.8 to 1.3 times the error away from singular points, where the pressure is no polynomial;
-//! so the median by area is told.
+//! Cell by cell the tail is 0.8 to 1.3 times the error away from singular points, where the
+//! pressure is no polynomial; so the median by area is told.
 
 use super::{kind, short, warning};
 use crate::law::{Law, LawAt};
@@ -77,8 +77,8 @@ fn mean_stress(all: &[Oscillation]) -> f64 {
     all.iter().map(|f| f.area * f.stress).sum::<f64>() / area
 }
 
-/// The pressure in a cell and around it up to the distance of its size; `None` if that does not lie in the plate, or the
-/// volume may change there.
+/// The pressure in a cell and around it up to the distance of its size; `None` if that does not lie
+/// in the plate, or the volume may change there.
 fn oscillation(field: &Field<'_>, law: &Law<'_>, cell: usize) -> Option<Oscillation> {
     let (rect, data) = (field.step.partition.boxes().cell[cell], &field.step.fields[0]);
     let order =
@@ -137,7 +137,8 @@ fn node(k: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// The tail of a polynomial of degree three in x plus one of degree five in y, of which the part T_4 + T_5 is left.
+    /// The tail of a polynomial of degree three in x plus one of degree five in y, of which the
+    /// part T_4 + T_5 is left.
     #[test]
     fn tails_are_what_polynomials_leave() {
         let t = |n: f64, k: usize| (n * angle(k)).cos();

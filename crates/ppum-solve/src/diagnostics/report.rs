@@ -6,8 +6,8 @@ use crate::report::{SolverReport, Stop};
 use ppum::dataset::{Step, Warning};
 use ppum::domain::Domain;
 
-/// The warnings about the solution as a whole, from the solver's report. What the report does not hold is not
-/// judged.
+/// The warnings about the solution as a whole, from the solver's report. What the report does not
+/// hold is not judged.
 pub(super) fn of_report(
     report: &SolverReport,
     adaptivity: Option<&Adaptivity>,
@@ -57,7 +57,8 @@ fn of_tolerance(report: &SolverReport, adaptivity: Option<&Adaptivity>) -> Optio
 /// The meaning of a number of the report, on a plate with these cutters.
 type Text = fn(f64, Cutters) -> String;
 
-/// The things that cut cells of a plate into parts, as far as there are any: texts speak of nothing else.
+/// The things that cut cells of a plate into parts, as far as there are any: texts speak of
+/// nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cutters {
     Nothing,

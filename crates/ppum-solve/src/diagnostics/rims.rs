@@ -9,8 +9,8 @@ use ppum::field::Field;
 use ppum::text::Places;
 use ppum::vec2::Rect;
 
-/// Estimated error of the stress at a rim, relative to the largest one, from which on it is told: cells that are chosen
-/// by the program aim at less than half of it.
+/// Estimated error of the stress at a rim, relative to the largest one, from which on it is told:
+/// cells that are chosen by the program aim at less than half of it.
 const LARGE: f64 = 0.02;
 
 /// A hole and the cell that is the worst of those on its rim.

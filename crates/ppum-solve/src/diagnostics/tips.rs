@@ -15,8 +15,8 @@ pub(super) const LARGE_SPREAD: f64 = 0.01;
 /// Part of |K| that K_I may be negative by where it should be zero.
 const NOISE: f64 = 1e-3;
 
-/// Part of the [strength](Outcome::strength) below which factors are rounding and discretisation: a crack
-/// along the load has none.
+/// Part of the [strength](Outcome::strength) below which factors are rounding and discretisation: a
+/// crack along the load has none.
 const NOTHING: f64 = 0.01;
 
 /// Distance of a tip to the border, in lengths of its crack, below which the ligament is nearly

@@ -69,7 +69,8 @@ impl fmt::Display for UnbalancedError {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Balance {
     pub(crate) modes: RigidModes,
-    /// ∫ m_k·m_l of the rigid-body modes over the border where values are given, held components only.
+    /// ∫ m_k·m_l of the rigid-body modes over the border where values are given, held
+    /// components only.
     held: [PerMode; MODES],
     /// Work of body forces and tractions on the rigid-body modes.
     resultant: PerMode,

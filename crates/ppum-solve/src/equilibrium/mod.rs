@@ -1,5 +1,5 @@
-//! Equilibrium of the pieces that cracks and holes cut a plate into: their rigid-body modes, what holds
-//! them and what loads them.
+//! Equilibrium of the pieces that cracks and holes cut a plate into: their rigid-body modes, what
+//! holds them and what loads them.
 
 mod balance;
 mod pieces;

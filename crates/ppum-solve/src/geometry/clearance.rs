@@ -9,27 +9,30 @@ use ppum::domain::Domain;
 use ppum::segment;
 use ppum::vec2::{Rect, Vec2};
 
-/// Distance from a tip, in cells, at which the material is compared with the tip's: more than rounding of the
-/// coordinates, and nothing against the lengths over which a material varies smoothly.
+/// Distance from a tip, in cells, at which the material is compared with the tip's: more than
+/// rounding of the coordinates, and nothing against the lengths over which a material
+/// varies smoothly.
 const BESIDE: f64 = 1e-9;
 
-/// Radius of the clearance, in cells at the tip, from which on stress intensity factors are off by less than 0.2 %
-/// with tips beside another tip and beside the border (order 2; 0.05 % at order 3; docs/decisions/0004).
+/// Radius of the clearance, in cells at the tip, from which on stress intensity factors are off by
+/// less than 0.2 % with tips beside another tip and beside the border (order 2; 0.05 % at order
+/// 3; docs/decisions/0004).
 pub(crate) const AMPLE_CLEARANCE: f64 = 2.0;
 
-/// Turn of a crack from its last segment on, in radians, up to which it counts as straight for the cells at its tip: K of a
-/// crack with a kink of 0.1 at 1/50 of its length from the tip is off by 6e-6, with one of 0.2 by 5e-5. On an arc
-/// turns up to 0.6 change nothing.
+/// Turn of a crack from its last segment on, in radians, up to which it counts as straight for the
+/// cells at its tip: K of a crack with a kink of 0.1 at 1/50 of its length from the tip is off by
+/// 6e-6, with one of 0.2 by 5e-5. On an arc turns up to 0.6 change nothing.
 const GENTLE: f64 = 0.1;
 
-/// The largest disc around a tip that holds no border, no hole, no other crack, and of its own crack no more than the part
-/// that leads away from the tip. This part may have kinks. The material may vary and jump in the disc; a tip at which it
-/// jumps has none.
+/// The largest disc around a tip that holds no border, no hole, no other crack, and of its own
+/// crack no more than the part that leads away from the tip. This part may have kinks. The material
+/// may vary and jump in the disc; a tip at which it jumps has none.
 ///
-/// The crack leads away from its tip as long as the distance to the tip grows along it, and as long as it is behind the
-/// tip, where x < 0 in the tip's frame. So every circle in the disc meets it once, and none of it lies ahead of the tip:
-/// with its last segment extended out of the disc it divides the plane in two, and fields that jump on it are fields of one
-/// angle θ. A crack that comes back, a hook, would need a sheet of its own for each arm.
+/// The crack leads away from its tip as long as the distance to the tip grows along it, and as long
+/// as it is behind the tip, where x < 0 in the tip's frame. So every circle in the disc meets it
+/// once, and none of it lies ahead of the tip: with its last segment extended out of the disc it
+/// divides the plane in two, and fields that jump on it are fields of one angle θ. A crack that
+/// comes back, a hook, would need a sheet of its own for each arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TipClearance {
     /// Its radius.
@@ -85,8 +88,9 @@ impl TipClearance {
         Self::nearest(cracks.iter().enumerate(), domain, (own, tip), room)
     }
 
-    /// The disc in which also the own crack is nothing but its last segment, among some of the cracks, with their numbers,
-    /// of which the tip's own one is left out: what cells at the tip have to resolve.
+    /// The disc in which also the own crack is nothing but its last segment, among some of the
+    /// cracks, with their numbers, of which the tip's own one is left out: what cells at the tip
+    /// have to resolve.
     pub(crate) fn among<'c>(
         cracks: impl Iterator<Item = (usize, &'c Crack)>,
         domain: &Domain,
@@ -95,7 +99,8 @@ impl TipClearance {
         Self::nearest(cracks, domain, (own, tip), behind(own, tip.end))
     }
 
-    /// The nearest of border, rims, other cracks, and what is at the distance `of_own` of the own one.
+    /// The nearest of border, rims, other cracks, and what is at the distance `of_own` of the own
+    /// one.
     fn nearest<'c>(
         cracks: impl Iterator<Item = (usize, &'c Crack)>,
         domain: &Domain,
@@ -128,8 +133,8 @@ fn behind(own: &Crack, end: End) -> f64 {
     vertices.min(segment::polyline_distance(&bent, tip))
 }
 
-/// The vertices of a crack from an end on, from that one beyond which it has turned by more than [`GENTLE`] up to its
-/// other end, which is always among them.
+/// The vertices of a crack from an end on, from that one beyond which it has turned by more than
+/// [`GENTLE`] up to its other end, which is always among them.
 pub(crate) fn bent_part(own: &Crack, end: End) -> Vec<Vec2> {
     let points: Vec<Vec2> = from_tip(own, end).collect();
     let first = points[1] - points[0];
@@ -150,14 +155,16 @@ pub(crate) fn from_tip(own: &Crack, end: End) -> impl Iterator<Item = Vec2> {
     })
 }
 
-/// Distance of a tip to the part of its crack that does not lead away from it: the other end at least.
+/// Distance of a tip to the part of its crack that does not lead away from it: the other end
+/// at least.
 fn comes_back(own: &Crack, end: End) -> f64 {
     let ([_, rest], tip) = (led_away(own, end), own.end_point(end));
     let end = rest.iter().map(|&p| (p - tip).length()).fold(f64::INFINITY, f64::min);
     end.min(segment::polyline_distance(&rest, tip))
 }
 
-/// The vertices of the part of a crack that leads away from a tip, and of the rest, which begins where the other ends.
+/// The vertices of the part of a crack that leads away from a tip, and of the rest, which begins
+/// where the other ends.
 pub(super) fn led_away(own: &Crack, end: End) -> [Vec<Vec2>; 2] {
     let points: Vec<Vec2> = from_tip(own, end).collect();
     let (tip, axis) = (points[0], own.growth_direction(end));
@@ -171,8 +178,9 @@ pub(super) fn led_away(own: &Crack, end: End) -> [Vec<Vec2>; 2] {
     [points[..=away].to_vec(), points[away..].to_vec()]
 }
 
-/// Distance from a tip up to which θ surely jumps on its crack alone. Of a hook, whose extensions meet it or each other,
-/// that is up to where the other end's extension, or what comes back, may be nearer than the tip's own part.
+/// Distance from a tip up to which θ surely jumps on its crack alone. Of a hook, whose extensions
+/// meet it or each other, that is up to where the other end's extension, or what comes back, may be
+/// nearer than the tip's own part.
 fn led_astray(own: &Crack, end: End, bounds: &Rect) -> f64 {
     let reach = bounds.size().length();
     if extensions(own, reach, 0.0).is_some() {
@@ -183,8 +191,9 @@ fn led_astray(own: &Crack, end: End, bounds: &Rect) -> f64 {
     0.5 * beyond.min(comes_back(own, end))
 }
 
-/// Distance from a vertex of a crack up to which the crack's side changes nowhere but on the two segments there. Of a hook,
-/// whose side is not that of the whole plane, it ends half way to the next part or extension: there that is as near.
+/// Distance from a vertex of a crack up to which the crack's side changes nowhere but on the two
+/// segments there. Of a hook, whose side is not that of the whole plane, it ends half way to the
+/// next part or extension: there that is as near.
 pub(crate) fn sure_side(crack: &Crack, at: Vec2, bounds: &Rect, touch: f64) -> f64 {
     let reach = bounds.size().length();
     if extensions(crack, reach, 0.0).is_some() {

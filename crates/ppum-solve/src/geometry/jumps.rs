@@ -1,12 +1,14 @@
 //! The functions that let a field jump across the cracks in a patch.
 //!
-//! The side of a crack serves where it says what the crack does to the patch: the crack passes through once, meets no
-//! other one there, and its straight extensions, across which the side jumps too, stay away. Wherever cracks meet,
-//! come back or end on holes the patch has the indicators of its [`Components`].
+//! The side of a crack serves where it says what the crack does to the patch: the crack passes
+//! through once, meets no other one there, and its straight extensions, across which the side jumps
+//! too, stay away. Wherever cracks meet, come back or end on holes the patch has the indicators of
+//! its [`Components`].
 //!
-//! A crack that leaves the middle of the patch whole cuts a sliver off it, where the weight is small and the polynomials
-//! vary little. Its side is not small outside of the sliver: the solution there would be a small difference of large
-//! parts. So it gives the patch the indicator of the sliver.
+//! A crack that leaves the middle of the patch whole cuts a sliver off it, where the weight is
+//! small and the polynomials vary little. Its side is not small outside of the sliver: the solution
+//! there would be a small difference of large parts. So it gives the patch the indicator of
+//! the sliver.
 
 use super::clearance::led_away;
 use super::clip::{clipped, inside, meets, segment_inside, solid_part};
@@ -53,7 +55,8 @@ impl<'p> Jumps<'p> {
         }
     }
 
-    /// The functions of a patch with this open box; none if more segments meet each other there than can be looked at.
+    /// The functions of a patch with this open box; none if more segments meet each other there
+    /// than can be looked at.
     pub(crate) fn of(&self, open: &Rect) -> Vec<FunctionKind> {
         let cut = self.cut(open);
         let holes: Vec<_> = self.holes.near(open).copied().collect();
@@ -66,8 +69,8 @@ impl<'p> Jumps<'p> {
         self.indicators(&cut, open, &holes)
     }
 
-    /// The cracks that pass through a patch with this open box; none where cracks meet, come back or end on holes, whose sides
-    /// jump in the material, too.
+    /// The cracks that pass through a patch with this open box; none where cracks meet, come back
+    /// or end on holes, whose sides jump in the material, too.
     pub(crate) fn through(&self, open: &Rect) -> Vec<u32> {
         let cut = self.cut(open);
         if self.holes.near(open).next().is_some() || !self.are_apart(&cut, open) {
@@ -76,8 +79,8 @@ impl<'p> Jumps<'p> {
         self.passing(&cut, open).map(|run| run[0].0.crack).collect()
     }
 
-    /// The function that jumps on a crack which passes through a box: its side, or the indicator of the sliver that it
-    /// cuts off.
+    /// The function that jumps on a crack which passes through a box: its side, or the indicator of
+    /// the sliver that it cuts off.
     fn across(&self, run: &[(SegmentId, Segment)], open: &Rect) -> Vec<FunctionKind> {
         let middle = middle(open);
         if run.len() > MOST || run.iter().any(|(_, s)| meets(*s, &middle)) {
@@ -117,9 +120,9 @@ impl<'p> Jumps<'p> {
         })
     }
 
-    /// True if the angle θ at a tip may jump in a box beside the tip's crack: it does so on the crack, or where
-    /// another part of a crack that comes back, or its other end's extension, is as near as the part that leads away from the
-    /// tip.
+    /// True if the angle θ at a tip may jump in a box beside the tip's crack: it does so on the
+    /// crack, or where another part of a crack that comes back, or its other end's extension, is as
+    /// near as the part that leads away from the tip.
     pub(crate) fn mislead(&self, tip: TipId, within: &Rect) -> bool {
         if self.extensions[tip.crack as usize].is_some() {
             return false;
@@ -134,8 +137,8 @@ impl<'p> Jumps<'p> {
         others.any(|s| super::clip::distance(s, within) <= farthest)
     }
 
-    /// True if a box that does not hold a tip meets the straight extension of the crack's other end, on which the angle
-    /// at the tip jumps and nothing else does.
+    /// True if a box that does not hold a tip meets the straight extension of the crack's other
+    /// end, on which the angle at the tip jumps and nothing else does.
     pub(crate) fn is_beyond(&self, tip: TipId, within: &Rect) -> bool {
         let crack = &self.cracks[tip.crack as usize];
         let other_end = if tip.end == End::Start { End::Last } else { End::Start };
@@ -177,8 +180,8 @@ impl<'p> Jumps<'p> {
         crack.tips().any(|end| inside(open, crack.end_point(end)))
     }
 
-    /// True if the cracks in a box pass through it once each, and keep away from each other and from the
-    /// extensions.
+    /// True if the cracks in a box pass through it once each, and keep away from each other and
+    /// from the extensions.
     fn are_apart(&self, cut: &[(SegmentId, Segment)], open: &Rect) -> bool {
         let runs: Vec<_> = cut.chunk_by(|a, b| a.0.crack == b.0.crack).collect();
         let once = |run: &&[(SegmentId, Segment)]| {
@@ -223,8 +226,8 @@ pub(super) fn extension(crack: &Crack, end: End, length: f64) -> Segment {
     [tip, tip + crack.growth_direction(end) * length]
 }
 
-/// The straight extensions of a crack, of a length; none if one of them comes near to the crack or the other one:
-/// between the two its side is not that of the nearest segment.
+/// The straight extensions of a crack, of a length; none if one of them comes near to the crack or
+/// the other one: between the two its side is not that of the nearest segment.
 pub(super) fn extensions(crack: &Crack, reach: f64, touch: f64) -> Option<[Segment; 2]> {
     let points = &crack.points;
     let rays = [End::Start, End::Last].map(|end| extension(crack, end, reach));

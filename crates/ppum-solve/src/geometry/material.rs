@@ -4,8 +4,8 @@ use ppum::dataset::{Elasticity, Material};
 use ppum::vec2::{Vec2, vec2};
 use std::f64::consts::TAU;
 
-/// Directions in which interfaces are looked for, and steps in each: one that passes at the distance d is
-/// found at 1.002 d.
+/// Directions in which interfaces are looked for, and steps in each: one that passes at the
+/// distance d is found at 1.002 d.
 const RAYS: u32 = 64;
 const STEPS: u32 = 64;
 
@@ -24,8 +24,8 @@ pub(super) fn jumps(body: &Elasticity, p: Vec2, distance: f64) -> bool {
     rays().any(|ray| change(&own, &body.at(p + ray * distance)) > JUMP)
 }
 
-/// Distance of a point to the nearest interface across which the material jumps notably, if it is below
-/// `reach`.
+/// Distance of a point to the nearest interface across which the material jumps notably, if it is
+/// below `reach`.
 pub(crate) fn interface_distance(body: &Elasticity, p: Vec2, reach: f64) -> Option<f64> {
     if body.uniform().is_some() {
         return None;
@@ -45,8 +45,8 @@ fn change(a: &Material, b: &Material) -> f64 {
     young.max((a.poisson - b.poisson).abs())
 }
 
-/// The least distance below `reach` at which the material jumps. What changes over a step and no more
-/// when that is halved to nothing has varied smoothly.
+/// The least distance below `reach` at which the material jumps. What changes over a step and no
+/// more when that is halved to nothing has varied smoothly.
 fn first_jump(at: &dyn Fn(f64) -> Material, reach: f64) -> Option<f64> {
     let r = |k: u32| reach * f64::from(k) / f64::from(STEPS);
     (0..STEPS).find_map(|k| {

@@ -18,8 +18,9 @@ pub(crate) use jumps::Jumps;
 pub(crate) use material::interface_distance;
 pub(crate) use placed::{Placed, around, wider};
 
-/// Part of a length by which another may exceed it and still be as long, and cosine of angles that are right ones: lengths
-/// of cracks are often whole cells, and their rounding must not decide which cells are divided.
+/// Part of a length by which another may exceed it and still be as long, and cosine of angles that
+/// are right ones: lengths of cracks are often whole cells, and their rounding must not decide
+/// which cells are divided.
 const AS_LONG: f64 = 1e-6;
 
 /// True if a length is larger than another by more than rounding of either.

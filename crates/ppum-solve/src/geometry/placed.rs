@@ -23,7 +23,8 @@ impl<T> Placed<T> {
         Self { tree: BoxTree::new(&boxes), all }
     }
 
-    /// The things whose boxes meet a box, and some that only nearly do, in the order they were given.
+    /// The things whose boxes meet a box, and some that only nearly do, in the order they
+    /// were given.
     pub(crate) fn near<'a>(&'a self, rect: &Rect) -> impl Iterator<Item = &'a T> + use<'a, T> {
         let mut found = Vec::new();
         self.tree.query_box(rect, &mut found);

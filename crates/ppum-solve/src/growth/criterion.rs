@@ -6,9 +6,10 @@
 //! k_I = F_11(θ) K_I + F_12(θ) K_II      k_II = F_21(θ) K_I + F_22(θ) K_II
 //! ```
 //!
-//! with functions that are the same in every body (Amestoy & Leblond 1992, Int. J. Solids Struct. 29, 465). Of the criteria one asks
-//! for k_II = 0, one for the largest k_I² + k_II², and one looks at the stress before the kink only. They agree where
-//! K_II = 0, and so on the smooth part of every path.
+//! with functions that are the same in every body (Amestoy & Leblond 1992, Int. J. Solids Struct.
+//! 29, 465). Of the criteria one asks for k_II = 0, one for the largest k_I² + k_II², and one looks
+//! at the stress before the kink only. They agree where K_II = 0, and so on the smooth part of
+//! every path.
 
 use crate::problem::Criterion;
 use ppum::dataset::TipIntensity;
@@ -23,13 +24,15 @@ pub struct Kink {
     pub strength: f64,
 }
 
-/// Angles of kinks are below it: 70.5°, 77.4° and 75.8° are the largest of the criteria, at K_I = 0.
+/// Angles of kinks are below it: 70.5°, 77.4° and 75.8° are the largest of the criteria, at
+/// K_I = 0.
 const WIDEST: f64 = 1.4;
 
-/// The kink of a tip; none where K_I is negative, so that the faces overlap, or where nothing drives it.
+/// The kink of a tip; none where K_I is negative, so that the faces overlap, or where nothing
+/// drives it.
 ///
-/// Angles are those of the criterion's closed form to the last digits; the functions of kinks that two of the criteria
-/// rest on are right to 1e-5 up to 80°.
+/// Angles are those of the criterion's closed form to the last digits; the functions of kinks that
+/// two of the criteria rest on are right to 1e-5 up to 80°.
 pub fn kink(criterion: Criterion, factors: &TipIntensity) -> Option<Kink> {
     let hoop = factors.growth_angle()?;
     let k = [factors.k1.max(0.0), factors.k2];
@@ -65,8 +68,8 @@ fn slope_of_release(angle: f64, [k1, k2]: [f64; 2]) -> f64 {
     each[0] + each[1]
 }
 
-/// The one zero of a function between the direction of the crack and the widest kink, on the side to which a K_II of this sign
-/// turns it: bisection to the last digit.
+/// The one zero of a function between the direction of the crack and the widest kink, on the side
+/// to which a K_II of this sign turns it: bisection to the last digit.
 fn root(k2: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (mut near, mut far) = (0.0, -WIDEST * k2.signum());
     // at the direction of the crack the function may vanish, too
@@ -81,8 +84,8 @@ fn root(k2: f64, value: impl Fn(f64) -> f64) -> f64 {
     }
 }
 
-/// The powers m, m³, …, m¹⁹ of F_12 and F_21 with m = θ/π, and 1, m², …, m²⁰ of F_11 and F_22: first the exact
-/// coefficients, then those that Amestoy & Leblond have computed.
+/// The powers m, m³, …, m¹⁹ of F_12 and F_21 with m = θ/π, and 1, m², …, m²⁰ of F_11 and F_22:
+/// first the exact coefficients, then those that Amestoy & Leblond have computed.
 fn kinked(angle: f64) -> [[[f64; 2]; 2]; 2] {
     let (p2, p3, p4, p5, p6) = (PI.powi(2), PI.powi(3), PI.powi(4), PI.powi(5), PI.powi(6));
     let f11 = [
@@ -183,7 +186,8 @@ mod tests {
         assert!((degrees(Criterion::Hoop, 0.0, 1.0) + 70.528_779_4).abs() < 1e-6);
     }
 
-    /// Angles found by looking at thousands of kinks: those of k_II = 0 and of the largest k_I² + k_II², to 1e-6°.
+    /// Angles found by looking at thousands of kinks: those of k_II = 0 and of the largest k_I² +
+    /// k_II², to 1e-6°.
     #[test]
     fn angles_are_those_of_the_criteria() {
         let mut random = Random(3);
@@ -212,7 +216,8 @@ mod tests {
         }
     }
 
-    /// What other authors find for pure sliding: 77.3° (Amestoy & Leblond 1992), and 75.6° to 75.8° with √1.517 times the factor.
+    /// What other authors find for pure sliding: 77.3° (Amestoy & Leblond 1992), and 75.6° to 75.8°
+    /// with √1.517 times the factor.
     #[test]
     fn pure_sliding() {
         assert!((degrees(Criterion::LocalSymmetry, 0.0, 1.0) + 77.33).abs() < 0.01);
@@ -221,8 +226,8 @@ mod tests {
         assert!((released.strength.powi(2) - 1.517).abs() < 1e-3);
     }
 
-    /// Straight cracks under opening go straight on, with K_I; sliding one way mirrors the other; factors scale; criteria
-    /// differ in second order only: by 3.7° at most up to K_II = K_I / 2.
+    /// Straight cracks under opening go straight on, with K_I; sliding one way mirrors the other;
+    /// factors scale; criteria differ in second order only: by 3.7° at most up to K_II = K_I / 2.
     #[test]
     fn properties() {
         let mut random = Random(4);

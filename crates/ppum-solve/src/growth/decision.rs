@@ -8,8 +8,8 @@ use ppum::dataset::{Advance, Fate, Growth, GrowthStop, TipIntensity};
 use ppum::text::{short, trimmed};
 use ppum::vec2::Vec2;
 
-/// Loads at which tips reach their toughness that count as one, relative: those of a symmetric plate differ by the errors of
-/// their factors.
+/// Loads at which tips reach their toughness that count as one, relative: those of a symmetric
+/// plate differ by the errors of their factors.
 const TOGETHER: f64 = 1e-2;
 
 /// Turn in radians from which on a change of direction is a kink, and not a part of a smooth path.
@@ -21,8 +21,8 @@ const LARGEST_TURN: f64 = 0.35;
 /// Turn of a chosen increment.
 const CHOSEN_TURN: f64 = 0.1;
 
-/// A chosen increment in parts of the length of the shortest crack with a tip, and of the plate's shorter side; and how much
-/// less it is where a path turns.
+/// A chosen increment in parts of the length of the shortest crack with a tip, and of the plate's
+/// shorter side; and how much less it is where a path turns.
 const CHOSEN: f64 = 0.25;
 const OF_PLATE: f64 = 0.02;
 const LEAST_CHOSEN: f64 = 0.125;
@@ -86,7 +86,8 @@ pub enum Undecided {
 /// Largest factor of a load, and one over the smallest: squares of it are far from the ends of f64.
 const FARTHEST: f64 = 1e60;
 
-/// Decides what the tips do, from their factors under the loads of the problem and from what was decided in the step before.
+/// Decides what the tips do, from their factors under the loads of the problem and from what was
+/// decided in the step before.
 ///
 /// # Errors
 /// A toughness, a load or a number of cycles that is none.
@@ -172,9 +173,10 @@ impl<'a> Driven<'a> {
         turned(0.0, self.axis + self.kink.map_or(0.0, |kink| kink.angle))
     }
 
-    /// The curvature of the path: half of it how the direction has changed along the last increment, half what it was taken for
-    /// there. The change alone would answer errors of the last direction with larger ones of the next, and paths would swing. Behind a
-    /// kink nothing is known of it yet.
+    /// The curvature of the path: half of it how the direction has changed along the last
+    /// increment, half what it was taken for there. The change alone would answer errors of the
+    /// last direction with larger ones of the next, and paths would swing. Behind a kink nothing is
+    /// known of it yet.
     fn curvature(&self) -> f64 {
         let is_smooth = self.kink.is_some_and(|kink| kink.angle.abs() < SHARP);
         let before = self.before.filter(|row| is_smooth && row.length > 0.0);
@@ -229,7 +231,8 @@ pub(super) fn bent(problem: &Problem, growth: &Growth, curvatures: &[(TipId, f64
     bent
 }
 
-/// True if another crack has come to a tip in this step: both end there then, whichever of them would have gone on.
+/// True if another crack has come to a tip in this step: both end there then, whichever of them
+/// would have gone on.
 fn is_joined(problem: &Problem, cracks: &[Crack], tip: TipId) -> bool {
     let at = problem.cracks[tip.crack as usize].end_point(tip.end);
     let others = (0u32..).zip(cracks).filter(|(k, _)| *k != tip.crack);
@@ -285,8 +288,8 @@ fn share(rule: &GrowthRule, driven: &mut [Driven<'_>], load: f64) {
     }
 }
 
-/// The length of the largest increment: the one given, or one that the cracks and the plate allow and the paths do not turn much
-/// on.
+/// The length of the largest increment: the one given, or one that the cracks and the plate allow
+/// and the paths do not turn much on.
 fn increment(problem: &Problem, rule: &GrowthRule, driven: &[Driven<'_>]) -> f64 {
     if let Some(increment) = rule.increment {
         return increment;
@@ -300,7 +303,8 @@ fn increment(problem: &Problem, rule: &GrowthRule, driven: &[Driven<'_>]) -> f64
     largest.min(CHOSEN_TURN / sharpest).max(LEAST_CHOSEN * largest)
 }
 
-/// Load cycles up to this step: those of the steps before, and those of the last increment of the tip that was driven most.
+/// Load cycles up to this step: those of the steps before, and those of the last increment of the
+/// tip that was driven most.
 fn cycles(
     rule: &GrowthRule,
     before: Option<&Growth>,
@@ -319,8 +323,8 @@ fn cycles(
     if last.is_normal() { Ok(Some(so_far + last)) } else { Err(Undecided::Cycles(last)) }
 }
 
-/// ∫ da / rate along a length on which the rate grows or falls like an exponential from one value to another, given by their
-/// logarithms.
+/// ∫ da / rate along a length on which the rate grows or falls like an exponential from one value
+/// to another, given by their logarithms.
 fn cycles_along(length: f64, from: f64, to: f64) -> f64 {
     let growth = to - from;
     // (1 − e^−x) / x

@@ -4,12 +4,13 @@
 //! cracks ─▶ solution ─▶ factors of the tips ─▶ decision: who grows, how far, where to ─▶ cracks of the next step
 //! ```
 //!
-//! A tip goes on along an arc. Its direction is that of the criterion, its curvature that with which the path has turned so far:
-//! tips then lie on the path up to the second power of the increments. By the criterion of local symmetry the arc is bent
-//! until K_II = 0 at its end.
+//! A tip goes on along an arc. Its direction is that of the criterion, its curvature that with
+//! which the path has turned so far: tips then lie on the path up to the second power of the
+//! increments. By the criterion of local symmetry the arc is bent until K_II = 0 at its end.
 //!
-//! Each step is solved for itself, from its cracks alone, and given away when it is complete. What follows it is decided with it
-//! and stored in its [`Growth`], so that a series goes on from any of its steps with the same bits.
+//! Each step is solved for itself, from its cracks alone, and given away when it is complete. What
+//! follows it is decided with it and stored in its [`Growth`], so that a series goes on from any of
+//! its steps with the same bits.
 
 mod criterion;
 mod decision;
@@ -83,10 +84,11 @@ struct Series<'a> {
     shelf: Shelf,
 }
 
-/// Solves a problem whose cracks grow, and gives each step to `keep` as a dataset of its own when it is complete: from the
-/// first, or from one after the last that there is.
+/// Solves a problem whose cracks grow, and gives each step to `keep` as a dataset of its own when
+/// it is complete: from the first, or from one after the last that there is.
 ///
-/// A step is complete when it is known whether a next one can be solved. A call that is cancelled gives it away before.
+/// A step is complete when it is known whether a next one can be solved. A call that is cancelled
+/// gives it away before.
 ///
 /// # Errors
 /// A first step that cannot be solved; cancelled; those of `keep`.
@@ -130,7 +132,8 @@ pub fn grow<E>(
     Ok(())
 }
 
-/// True if a series of one problem may go on as one of the other: they differ in nothing but names and the number of steps.
+/// True if a series of one problem may go on as one of the other: they differ in nothing but names
+/// and the number of steps.
 #[must_use]
 pub fn is_same_series(one: &Problem, other: &Problem) -> bool {
     let core = |problem: &Problem| {
@@ -162,7 +165,8 @@ pub fn series(
     Ok(all.expect("a series has a first step"))
 }
 
-/// Number and problem of the next step, and what was decided in the one before; none if the series has ended.
+/// Number and problem of the next step, and what was decided in the one before; none if the series
+/// has ended.
 fn start(problem: &Problem, last: Option<Last<'_>>) -> Option<(usize, Problem, Option<Before>)> {
     let Some(Last { number, step }) = last else { return Some((0, problem.clone(), None)) };
     let growth = step.growth.as_ref().filter(|growth| growth.stop.is_none())?;
@@ -214,7 +218,8 @@ impl Series<'_> {
         Ok(plan.with_shelf(&self.shelf))
     }
 
-    /// The dataset of a step under its load, with what is decided in it: if nothing can be, the end of the series.
+    /// The dataset of a step under its load, with what is decided in it: if nothing can be, the end
+    /// of the series.
     ///
     /// # Errors
     /// Nothing can be decided in the first step.

@@ -27,12 +27,12 @@ pub(super) struct Way {
     pub(super) fate: Fate,
 }
 
-/// Part of an increment that may not be left between the new tip and what is ahead of it: the way there is divided in two
-/// equal ones instead, each more than half of what was asked for.
+/// Part of an increment that may not be left between the new tip and what is ahead of it: the way
+/// there is divided in two equal ones instead, each more than half of what was asked for.
 const LEFT: f64 = 0.5;
 
-/// Distance at which a tip joins the tip of another crack that it would pass, in increments: nearer ones would leave a
-/// sliver between them that no cell resolves.
+/// Distance at which a tip joins the tip of another crack that it would pass, in increments: nearer
+/// ones would leave a sliver between them that no cell resolves.
 const JOINS: f64 = 0.25;
 
 /// The way of a tip along an arc, among the cracks as they are.
@@ -285,7 +285,8 @@ mod tests {
         }
     }
 
-    /// The nearest of several cracks is met; a tip that would be passed closely is joined; the own crack is not crossed.
+    /// The nearest of several cracks is met; a tip that would be passed closely is joined; the own
+    /// crack is not crossed.
     #[test]
     fn cracks() {
         let walls: [&[[f64; 2]]; 3] =

@@ -1,7 +1,8 @@
 //! Arcs that are bent until the crack at their ends is loaded symmetrically: K_II = 0.
 //!
-//! Turning the end of an arc by δ changes K_II there by ½ δ K_I to first order (Cotterell & Rice 1980), and so the angle
-//! θ ≈ −2 K_II / K_I that the criterion asks for by −δ: the curvature changes by θ over the length of the arc.
+//! Turning the end of an arc by δ changes K_II there by ½ δ K_I to first order (Cotterell & Rice
+//! 1980), and so the angle θ ≈ −2 K_II / K_I that the criterion asks for by −δ: the curvature
+//! changes by θ over the length of the arc.
 
 use super::criterion::kink;
 use super::decision::{bent, grown};
@@ -13,12 +14,12 @@ use ppum::dataset::{Advance, Dataset, Fate, Growth, TipIntensity, Warning};
 use ppum::progress::Watcher;
 use ppum::text::trimmed;
 
-/// Angle of the criterion at the end of an arc, in radians, that counts as none: K_II is 5e-5 of K_I then. What is left has one
-/// sign along a path, and paths would drift by half of it.
+/// Angle of the criterion at the end of an arc, in radians, that counts as none: K_II is 5e-5 of
+/// K_I then. What is left has one sign along a path, and paths would drift by half of it.
 const SYMMETRIC: f64 = 1e-4;
 
-/// Most times that arcs are bent. The first leaves about a tenth of the angle, and each after it the product of the two before;
-/// tips that shade each other need some more.
+/// Most times that arcs are bent. The first leaves about a tenth of the angle, and each after it
+/// the product of the two before; tips that shade each other need some more.
 const ROUNDS: usize = 8;
 
 /// The solution of a step, and its cracks, whose last arcs are bent if the criterion asks for it.
@@ -97,8 +98,8 @@ impl Bend {
         Self { tip: row.tip, curvature: row.curvature, angle, length: row.length }
     }
 
-    /// The curvature at which the angle vanishes, on the line through this and what was found before, or else by what theory
-    /// says of its slope.
+    /// The curvature at which the angle vanishes, on the line through this and what was found
+    /// before, or else by what theory says of its slope.
     fn next(&self, known: &[Self]) -> f64 {
         let before = known.iter().find(|bend| bend.tip == self.tip);
         let measured = before.map(|b| (self.angle - b.angle) / (self.curvature - b.curvature));

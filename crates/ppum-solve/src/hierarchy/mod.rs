@@ -1,8 +1,10 @@
-//! Coarser levels of a system, for its multilevel solver: coarser meshes, the same problem on them, and the way up.
+//! Coarser levels of a system, for its multilevel solver: coarser meshes, the same problem on them,
+//! and the way up.
 //!
-//! A level is discretised anew \[Griebel & Schweitzer 2002\]: its patches have the enrichments that the problem gives patches
-//! of their size, its matrix is integrated on its own cells. Pᵀ K P would keep what a prolongation between
-//! different enrichments gets wrong (`docs/decisions/0020-multilevel.md`).
+//! A level is discretised anew \[Griebel & Schweitzer 2002\]: its patches have the enrichments that
+//! the problem gives patches of their size, its matrix is integrated on its own cells. Pᵀ K P would
+//! keep what a prolongation between different enrichments gets
+//! wrong (`docs/decisions/0020-multilevel.md`).
 
 mod transfer;
 
@@ -20,8 +22,8 @@ use transfer::transfer;
 /// Unknowns up to which a level is solved directly: in less time than the levels above it take.
 const DIRECT: usize = 3_000;
 
-/// Part of the cells of a level up to which the next one may have them: where the cover is deep and narrow, several steps to
-/// coarser cells are taken at once.
+/// Part of the cells of a level up to which the next one may have them: where the cover is deep and
+/// narrow, several steps to coarser cells are taken at once.
 const FEWER: f64 = 0.7;
 
 /// A system to find coarser levels of.
@@ -43,7 +45,8 @@ struct Level<'p> {
 /// Why a level cannot be made.
 enum Trouble {
     Cancelled(Cancelled),
-    /// A cover so coarse that the problem makes no sense on it: the level before it is the coarsest.
+    /// A cover so coarse that the problem makes no sense on it: the level before it is
+    /// the coarsest.
     TooCoarse,
 }
 

@@ -1,5 +1,5 @@
-//! From the unknowns of a coarse level to those of the next finer one: a fine patch takes the local field of its parent, the
-//! coarse patch whose cell holds the middle of its own.
+//! From the unknowns of a coarse level to those of the next finer one: a fine patch takes the local
+//! field of its parent, the coarse patch whose cell holds the middle of its own.
 //!
 //! ```text
 //! min over u_i of ∫ |∇(φ_i (u_i − u_k))|² + h⁻² φ_i² (u_i − u_k)²
@@ -108,7 +108,8 @@ impl Sums {
 }
 
 impl Between<'_> {
-    /// True if polynomials are all that there is on both sides, and the fine ones hold the coarse ones.
+    /// True if polynomials are all that there is on both sides, and the fine ones hold the
+    /// coarse ones.
     fn is_polynomial(&self, i: usize, k: usize) -> bool {
         let (fine, basis) = self.fine;
         let plain =
@@ -285,8 +286,8 @@ impl<'a> Integrator<'a> {
     }
 }
 
-/// Adds the products of rows of `own` with each other and with φ times `parent`, φ being a row of `plain` that has the
-/// roots of the weights.
+/// Adds the products of rows of `own` with each other and with φ times `parent`, φ being a row of
+/// `plain` that has the roots of the weights.
 fn add_products(
     own: &Shapes,
     rows: Range<usize>,

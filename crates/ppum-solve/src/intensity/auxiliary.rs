@@ -1,5 +1,5 @@
-//! The auxiliary fields in a uniform body of the tip's material: Williams fields of unit intensity, and that of a unit
-//! force at the tip.
+//! The auxiliary fields in a uniform body of the tip's material: Williams fields of unit intensity,
+//! and that of a unit force at the tip.
 
 use super::integral::MODES;
 use ppum::crack::TipPoint;
@@ -38,8 +38,8 @@ impl Body {
         Self { lame: [lambda, mu], kappa: material.kolosov(), scale }
     }
 
-    /// The fields with K_I = 1 and with K_II = 1 and that of the force, with derivatives up to `D`: 1 for the gradient alone,
-    /// 2 for its derivative along the crack.
+    /// The fields with K_I = 1 and with K_II = 1 and that of the force, with derivatives up to `D`:
+    /// 1 for the gradient alone, 2 for its derivative along the crack.
     #[inline(always)]
     pub(super) fn fields<R: Real, const D: usize>(
         &self,
@@ -58,8 +58,8 @@ impl Body {
         ]
     }
 
-    /// Both modes from a derivative of the Westergaard functions F₁…F₄: with κ of Kolosov, 2μ√(2π) u is
-    /// ((κ−1)F₁ + F₃, (κ+1)F₂ − F₄) and ((κ+1)F₂ + F₄, −(κ−1)F₁ + F₃).
+    /// Both modes from a derivative of the Westergaard functions F₁…F₄: with κ of Kolosov, 2μ√(2π)
+    /// u is ((κ−1)F₁ + F₃, (κ+1)F₂ − F₄) and ((κ+1)F₂ + F₄, −(κ−1)F₁ + F₃).
     #[inline(always)]
     fn modes<R: Real>(&self, f1: [R; 2], f2: [R; 2], f3: [R; 2], f4: [R; 2]) -> [Gradients<R>; 2] {
         let scale = self.scale[0];
@@ -69,14 +69,16 @@ impl Body {
         [[plus(f1, f3), minus(f2, f4)], [plus(f2, f4), minus(f3, f1)]]
     }
 
-    /// The field of the force 1 along the axis at the tip of a crack, or in the plane without one: a pull in the direction of r,
+    /// The field of the force 1 along the axis at the tip of a crack, or in the plane without one:
+    /// a pull in the direction of r,
     ///
     /// ```text
     /// σ_rr = −cos θ / (π r)   σ_θθ = σ_rθ = 0
     /// 8πμ u_x = −(κ + 1) ln r − 2 sin² θ   8πμ u_y = −(κ − 1) θ + 2 sin θ cos θ
     /// ```
     ///
-    /// (Kfouri 1986). It loads no ray from the tip, so no face along the axis, and its gradient is that of one angle everywhere.
+    /// (Kfouri 1986). It loads no ray from the tip, so no face along the axis, and its gradient is
+    /// that of one angle everywhere.
     #[inline(always)]
     fn point_force<R: Real, const D: usize>(&self, point: &TipPoint<R>) -> Auxiliary<R> {
         let (kappa, scale, one) = (self.kappa, self.scale[1], point.x.lit(1.0));

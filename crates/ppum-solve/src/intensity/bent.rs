@@ -56,8 +56,8 @@ impl Interaction<'_> {
         sums
     }
 
-    /// σᵃ_i2 ∂u_i/∂s, with s along the face so that the normal points to its left: what P_j n_j is but for the
-    /// traction's part.
+    /// σᵃ_i2 ∂u_i/∂s, with s along the face so that the normal points to its left: what P_j n_j is
+    /// but for the traction's part.
     fn crossing(&self, u: &Gradients, aux: &Gradients, normal: Vec2) -> f64 {
         let (stress, along) = (stress(self.body.lame, aux), -normal.left());
         (0..2).map(|i| stress[i][1] * Vec2::from(u[i]).dot(along)).sum()

@@ -62,7 +62,8 @@ impl<'b> Block<'b> {
         f64::dispatch(Kernels { block: self, weights })
     }
 
-    /// The points from one on, as many as there are lanes; the last stands in for those that are missing.
+    /// The points from one on, as many as there are lanes; the last stands in for those that
+    /// are missing.
     #[inline(always)]
     fn points<R: Real<Scalar = f64>>(&self, first: usize, zero: R) -> TipPoint<R> {
         let at = |k: usize| self.offsets[(first + k).min(self.offsets.len() - 1)];
@@ -121,8 +122,9 @@ impl<R: Real> Place<R> {
         Integrands { flows, sources, stress: own }
     }
 
-    /// What P_j x_j is of ∇uᵃ: with σᵃ_ij u_i,1 x_j = C:(u_,1 x) on ∇uᵃ, and P_j = σ_ij uᵃ_i,1 + σᵃ_ij u_i,1 −
-    /// σᵃ_ik ε_ik δ_1j, where σᵃ_ik ε_ik is the stress that the tip's material would have, on εᵃ.
+    /// What P_j x_j is of ∇uᵃ: with σᵃ_ij u_i,1 x_j = C:(u_,1 x) on ∇uᵃ, and P_j = σ_ij uᵃ_i,1 +
+    /// σᵃ_ij u_i,1 − σᵃ_ik ε_ik δ_1j, where σᵃ_ik ε_ik is the stress that the tip's material would
+    /// have, on εᵃ.
     #[inline(always)]
     fn through(&self, own: &Gradients<R>, at_tip: &Gradients<R>, lame: [R; 2]) -> Gradients<R> {
         let (x, y, u) = (self.point.x, self.point.y, &self.u);
@@ -134,8 +136,8 @@ impl<R: Real> Place<R> {
         ]
     }
 
-    /// P_j,j = σ_ij (S_tip − S)_ijkl σᵃ_kl,1 − b_i uᵃ_i,1 with the compliance S, written without it:
-    /// what σ exceeds the stress of the tip's material by, on εᵃ,_1.
+    /// P_j,j = σ_ij (S_tip − S)_ijkl σᵃ_kl,1 − b_i uᵃ_i,1 with the compliance S, written without
+    /// it: what σ exceeds the stress of the tip's material by, on εᵃ,_1.
     #[inline(always)]
     fn divergence(&self, own: &Gradients<R>, at_tip: &Gradients<R>, auxiliary: &Auxiliary<R>) -> R {
         let ([a, b], [s, t]) = (own, at_tip);
@@ -145,7 +147,8 @@ impl<R: Real> Place<R> {
     }
 }
 
-/// E_j x_j with E_j = W δ_1j − σ_ij u_i,1 and W = ½ σ_ij u_i,j: the flow of energy whose integral round a tip is J.
+/// E_j x_j with E_j = W δ_1j − σ_ij u_i,1 and W = ½ σ_ij u_i,j: the flow of energy whose integral
+/// round a tip is J.
 #[inline(always)]
 fn energy_flow<R: Real>(stress: &Gradients<R>, u: &Gradients<R>, point: &TipPoint<R>) -> R {
     let flow = |j: usize| stress[0][j] * u[0][0] + stress[1][j] * u[1][0];

@@ -4,8 +4,8 @@ use crate::geometry::from_tip;
 use ppum::crack::{Crack, End, LocalTip, TipId};
 use ppum::vec2::Vec2;
 
-/// Ratio of the distances to the tip at the ends of a [piece](Course::pieces). Auxiliary fields are powers of the distance:
-/// on an interval from r to 2r twelve Gauss points leave an error of 1e-15.
+/// Ratio of the distances to the tip at the ends of a [piece](Course::pieces). Auxiliary fields are
+/// powers of the distance: on an interval from r to 2r twelve Gauss points leave an error of 1e-15.
 const RATIO: f64 = 2.0;
 
 /// Length of the piece at the tip, in parts of its segment.
@@ -13,8 +13,8 @@ const FIRST: f64 = 1e-3;
 
 /// The part of a crack from its tip to the first vertex outside of a disc.
 ///
-/// The auxiliary fields jump on it and on its straight continuation, not on the rest of the crack: what that does far away
-/// must not decide on which side a point of the disc lies.
+/// The auxiliary fields jump on it and on its straight continuation, not on the rest of the crack:
+/// what that does far away must not decide on which side a point of the disc lies.
 #[derive(Debug)]
 pub(super) struct Course {
     crack: Crack,
@@ -86,8 +86,9 @@ impl Course {
         })
     }
 
-    /// The pieces of a part between which its distance to the tip takes the given values, or doubles. Those of the segment
-    /// at the tip begin with one from there, on which only the field itself is singular.
+    /// The pieces of a part between which its distance to the tip takes the given values, or
+    /// doubles. Those of the segment at the tip begin with one from there, on which only the field
+    /// itself is singular.
     pub(super) fn pieces(&self, part: &Part, at: &[f64]) -> Vec<[Vec2; 2]> {
         let center = self.center();
         let [from, to] = part.ends.map(|p| (p - center).length());
@@ -106,7 +107,8 @@ impl Course {
     }
 }
 
-/// The point of a segment that leads away from `center` at the distance `radius` from it; the end if that is nearer.
+/// The point of a segment that leads away from `center` at the distance `radius` from it; the end
+/// if that is nearer.
 fn reached([from, to]: [Vec2; 2], center: Vec2, radius: f64) -> Vec2 {
     if (to - center).length() <= radius {
         return to;
@@ -143,7 +145,8 @@ mod tests {
         }
     }
 
-    /// Pieces follow each other, end at the circles that are asked for, and are no longer than their distance.
+    /// Pieces follow each other, end at the circles that are asked for, and are no longer than
+    /// their distance.
     #[test]
     fn pieces_of_a_part() {
         let course = Course::new(&crack(), TipId { crack: 0, end: End::Last }, 3.0);

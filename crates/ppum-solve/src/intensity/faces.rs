@@ -10,13 +10,13 @@ use ppum::crack::{LocalTip, Side};
 /// Gauss points of a panel.
 const ORDER: usize = 8;
 
-/// Panels that a face is looked at with before it is known where its load varies, and most divisions of
-/// each: a jump of the load is then placed to 1e-11 of the disc.
+/// Panels that a face is looked at with before it is known where its load varies, and most
+/// divisions of each: a jump of the load is then placed to 1e-11 of the disc.
 const PANELS: u32 = 8;
 const DIVISIONS: u32 = 45;
 
-/// The place at which panels are divided. Not the middle: the rules of a panel and of its halves give the same for a jump
-/// beside it.
+/// The place at which panels are divided. Not the middle: the rules of a panel and of its halves
+/// give the same for a jump beside it.
 const SHARE: f64 = 0.4;
 
 /// Most panels that are divided at a time: loads that vary everywhere are noise.
@@ -25,12 +25,12 @@ const MOST: usize = 256;
 /// Difference of rules on a panel that is rounding, in parts of the integral of the magnitude.
 const ACCURACY: f64 = 1e-11;
 
-/// Places along the segment at the tip, in parts of it, at which loads are looked at. At the first they are those at the
-/// tip: what grows like √r is 1e-6 there.
+/// Places along the segment at the tip, in parts of it, at which loads are looked at. At the first
+/// they are those at the tip: what grows like √r is 1e-6 there.
 const LOOKS: [f64; 5] = [1e-12, 1e-3, 0.03, 0.3, 1.0];
 
-/// Part of the segment at the tip on which a resultant of the loads is rounding of their places, which the field of the force,
-/// like 1/r, would blow up.
+/// Part of the segment at the tip on which a resultant of the loads is rounding of their places,
+/// which the field of the force, like 1/r, would blow up.
 const AT_TIP: f64 = 1e-10;
 
 /// Most places at which a part is divided for its loads: those that vary everywhere are noise.
@@ -52,13 +52,14 @@ pub(super) struct Faces<'a> {
     /// Radii of the discs, ascending.
     pub(super) radii: &'a [f64],
     pub(super) load: FaceLoad<'a>,
-    /// False if the loads have a resultant at the tip: the integral for T has no value then, and is left out.
+    /// False if the loads have a resultant at the tip: the integral for T has no value then, and is
+    /// left out.
     pub(super) is_balanced: bool,
 }
 
 impl Faces<'_> {
-    /// −∫ t_i uᵃ_i,1 q ds over both faces. Panels are divided until they resolve the load, which may bend
-    /// or jump anywhere.
+    /// −∫ t_i uᵃ_i,1 q ds over both faces. Panels are divided until they resolve the load, which
+    /// may bend or jump anywhere.
     pub(super) fn integrals(&self) -> Modes {
         self.course.parts().map(|part| self.part(&part)).fold(zero(), plus)
     }
@@ -117,8 +118,8 @@ impl Faces<'_> {
         (ends, self.integral(of, ends, gauss(ORDER)))
     }
 
-    /// A rule on an interval of the unit interval. At the tip the square of its coordinate goes along the part: then the
-    /// integrand has no singularity.
+    /// A rule on an interval of the unit interval. At the tip the square of its coordinate goes
+    /// along the part: then the integrand has no singularity.
     fn integral(&self, (part, tip): Seen<'_>, [from, to]: [f64; 2], rule: &GaussRule) -> Modes {
         let length = (part.ends[1] - part.ends[0]).length();
         let node = |(s, ds): (f64, f64)| {
@@ -151,8 +152,8 @@ impl Faces<'_> {
     }
 }
 
-/// σ_22 in the tip's frame that the loads on the faces at a tip stand for; none if these have a resultant, under which
-/// stresses grow like log r.
+/// σ_22 in the tip's frame that the loads on the faces at a tip stand for; none if these have a
+/// resultant, under which stresses grow like log r.
 pub(super) fn pressed(course: &Course, load: FaceLoad<'_>) -> Option<f64> {
     let first = course.parts().next()?;
     let loads = LOOKS.map(|part| {
@@ -208,8 +209,9 @@ mod tests {
         .integrals()
     }
 
-    /// A pressure p on both faces gives E′/2 M = √(2/π) ∫ p q/√r dr, with r = s²: loads that jump at r = c,
-    /// have a kink there, and a layer. Gauss rules up to c and from there are the reference.
+    /// A pressure p on both faces gives E′/2 M = √(2/π) ∫ p q/√r dr, with r = s²: loads that jump
+    /// at r = c, have a kink there, and a layer. Gauss rules up to c and from there are
+    /// the reference.
     #[test]
     fn loads_that_jump_and_bend() {
         let exact = |p: &dyn Fn(f64) -> f64, radius: f64, from: f64, to: f64| {

@@ -21,15 +21,16 @@ use ppum::real::Real;
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
-/// Exponent of the cut-off q = (1 − r²/R²)^m, which [`cut_off`] multiplies out. It is smooth enough for plain Gauss rules across r = R:
-/// with m = 4 their error is seen at 1e-7, with more at 1e-10.
+/// Exponent of the cut-off q = (1 − r²/R²)^m, which [`cut_off`] multiplies out. It is smooth enough
+/// for plain Gauss rules across r = R: with m = 4 their error is seen at 1e-7, with more at 1e-10.
 const CUT_OFF_POWER: u8 = 6;
 
 /// Gauss points in each direction of large pieces and at the tip: the cut-off bends there.
 const ORDER: usize = 12;
 
-/// Size of pieces from which on they are large, in radii of the smallest disc. Smaller ones take fewer points, down to the
-/// order of the assembly. With 1 that is seen at 1e-8 in discs no larger than the cells.
+/// Size of pieces from which on they are large, in radii of the smallest disc. Smaller ones take
+/// fewer points, down to the order of the assembly. With 1 that is seen at 1e-8 in discs no larger
+/// than the cells.
 const ALL_POINTS: f64 = 0.5;
 
 /// Discs for each tip.
@@ -142,7 +143,8 @@ impl<'a> Interaction<'a> {
         near.filter(move |&c| all[c].distance(self.center) < radius)
     }
 
-    /// The pieces of the crack that are not along the axis, or loaded, in all cells that they may meet.
+    /// The pieces of the crack that are not along the axis, or loaded, in all cells that they
+    /// may meet.
     fn bends(&self, cells: &Placed<usize>) -> Vec<Bend> {
         let faces = self.faces();
         let mut all = Vec::new();
@@ -188,8 +190,8 @@ impl<'a> Interaction<'a> {
         quadrature.disc(&self.space.partition().cell[c], &self.space.coverers[c], disc)
     }
 
-    /// The part of a rule's points inside the largest disc. `seen` is the field as it was last looked at: most rules around a
-    /// tip have the tip as their anchor.
+    /// The part of a rule's points inside the largest disc. `seen` is the field as it was last
+    /// looked at: most rules around a tip have the tip as their anchor.
     fn rule(&self, rule: &Rule, seen: &mut Option<LocalField<'a>>) -> Integrals {
         let near = rule.anchor - self.center;
         let all = rule.offsets.iter().zip(&rule.weights);
@@ -212,13 +214,15 @@ impl<'a> Interaction<'a> {
         self.loads.force.is_some() || !self.law.is_uniform()
     }
 
-    /// What is particular to a point, where the field has a gradient that is given in the tip's frame.
+    /// What is particular to a point, where the field has a gradient that is given in the
+    /// tip's frame.
     pub(super) fn local(&self, world: Vec2) -> Local {
         let force = self.loads.force.map_or(Vec2::ZERO, |force| turned(self.axis, force(world)));
         Local { lame: self.lame(world), force: force.into() }
     }
 
-    /// E_j,j of the flow of energy: what the material's variation and the body force add to it, ½ ε:C,_1:ε + b_i u_i,1.
+    /// E_j,j of the flow of energy: what the material's variation and the body force add to it, ½
+    /// ε:C,_1:ε + b_i u_i,1.
     pub(super) fn energy_source(&self, world: Vec2, local: &Local, u: &Gradients) -> f64 {
         let graded = self.slope.as_ref().map_or(0.0, |s| s.energy(world, self.axis, u));
         graded + local.force[0] * u[0][0] + local.force[1] * u[1][0]
@@ -239,8 +243,9 @@ impl<'a> Interaction<'a> {
         Integrals { modes, ..Integrals::default() }
     }
 
-    /// K = E′/2 M, and T = E′M + σ_22. Of the part of the field that is constant at the tip the force sees ε_11 by its work,
-    /// and σ_22 by the opening of its own field, u_2(−π) − u_2(π) = (κ − 1)/(4μ): together E′M = σ_11 − σ_22.
+    /// K = E′/2 M, and T = E′M + σ_22. Of the part of the field that is constant at the tip the
+    /// force sees ε_11 by its work, and σ_22 by the opening of its own field, u_2(−π) − u_2(π) =
+    /// (κ − 1)/(4μ): together E′M = σ_11 − σ_22.
     fn found(&self, integrals: &Integrals) -> Found {
         let modulus = self.modulus();
         let rings = std::array::from_fn(|k| {
@@ -259,8 +264,8 @@ impl<'a> Interaction<'a> {
     }
 }
 
-/// Divisions of cells with formulas that vary fast, for all discs together. A cell in a layer takes some hundred; what
-/// more would be good for is told by a [`Doubt`].
+/// Divisions of cells with formulas that vary fast, for all discs together. A cell in a layer takes
+/// some hundred; what more would be good for is told by a [`Doubt`].
 const MOST_DIVISIONS: usize = 50_000;
 
 /// The same in operations of the formulas, one of which takes these many points in a division.

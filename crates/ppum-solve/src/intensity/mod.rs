@@ -1,8 +1,8 @@
 //! Stress intensity factors by the interaction integral, and what stands beside them.
 //!
-//! With the field u, an auxiliary Williams field uᵃ with K = 1 in one mode, both in the tip's frame,
-//! and a cut-off q that is 1 at the tip and 0 outside a disc (Yau, Wang & Corten 1980; domain form
-//! of Moran & Shih 1987)
+//! With the field u, an auxiliary Williams field uᵃ with K = 1 in one mode, both in the tip's
+//! frame, and a cut-off q that is 1 at the tip and 0 outside a disc (Yau, Wang & Corten 1980;
+//! domain form of Moran & Shih 1987)
 //!
 //! ```text
 //! M = ∫ P_j q_,j + P_j,j q dA − ∫ t_i uᵃ_i,1 q ds      K = E′/2 M
@@ -10,41 +10,46 @@
 //! P_j,j = σ_ij (S_tip − S)_ijkl σᵃ_kl,1 − b_i uᵃ_i,1
 //! ```
 //!
-//! with the compliance S of the material, the body force b, and the tractions t on both faces of the crack.
-//! E′ and uᵃ are those of a uniform body of the material at the tip, and σᵃ is the stress in that body, in
-//! equilibrium but at odds with ε = S σ elsewhere (Dolbow & Gosz 2002): P_j,j is what that costs. It needs no
-//! derivative of the material and is of the order 1/r at the tip. In a uniform material it is the body force's
-//! part alone.
+//! with the compliance S of the material, the body force b, and the tractions t on both faces of
+//! the crack. E′ and uᵃ are those of a uniform body of the material at the tip, and σᵃ is the
+//! stress in that body, in equilibrium but at odds with ε = S σ elsewhere (Dolbow & Gosz 2002):
+//! P_j,j is what that costs. It needs no derivative of the material and is of the order 1/r at the
+//! tip. In a uniform material it is the body force's part alone.
 //!
-//! Across an interface of two materials P_j n_j does not jump: tractions are continuous, and so is u, so that
-//! \[u_i,j\] = a_i n_j, and the jumps of the second and the third part cancel (Yu et al. 2009). Interfaces may lie in
-//! the disc; only a tip on one has no factors, because its field is another one.
+//! Across an interface of two materials P_j n_j does not jump: tractions are continuous, and so is
+//! u, so that \[u_i,j\] = a_i n_j, and the jumps of the second and the third part cancel (Yu et al.
+//! 2009). Interfaces may lie in the disc; only a tip on one has no factors, because its field is
+//! another one.
 //!
-//! The crack may have kinks in the disc. The auxiliary fields then jump on the crack itself, where θ does, and not on its
-//! axis; so they load the faces that are not along it, and the last integral is −∫ P_j n_j q ds there. Of the gradient
-//! along a face, ∂u/∂s, and of that across it, the second cancels from σᵃ_ij n_j u_i,1 − σᵃ_ij u_i,j n_1, and with the
-//! outward normal n on the left of s
+//! The crack may have kinks in the disc. The auxiliary fields then jump on the crack itself, where
+//! θ does, and not on its axis; so they load the faces that are not along it, and the last integral
+//! is −∫ P_j n_j q ds there. Of the gradient along a face, ∂u/∂s, and of that across it, the second
+//! cancels from σᵃ_ij n_j u_i,1 − σᵃ_ij u_i,j n_1, and with the outward normal n on the left of s
 //!
 //! ```text
 //! −∫ P_j n_j q ds = −∫ (t_i uᵃ_i,1 + σᵃ_i2 ∂u_i/∂s) q ds
 //! ```
 //!
-//! on all faces: σᵃ_i2 = 0 where they are along the axis. The field of each side is taken as it is on that side. Nothing
-//! else may lie in the disc: the radii are chosen in the [`TipClearance`] of the tip.
+//! on all faces: σᵃ_i2 = 0 where they are along the axis. The field of each side is taken as it is
+//! on that side. Nothing else may lie in the disc: the radii are chosen in the [`TipClearance`] of
+//! the tip.
 
-//! T, the part of σ_11 at the tip that is finite, comes from the same integral with the field of a force 1 along the axis at
-//! the tip (Kfouri 1986): T = E′M + σ_22, where σ_22 is what the loads on the faces press the tip with. That field loads no
-//! face along the axis, and has no K. Loads with a resultant at the tip make σ_11 grow like log r, and there is no T.
+//! T, the part of σ_11 at the tip that is finite, comes from the same integral with the field of a
+//! force 1 along the axis at the tip (Kfouri 1986): T = E′M + σ_22, where σ_22 is what the loads on
+//! the faces press the tip with. That field loads no face along the axis, and has no K. Loads with
+//! a resultant at the tip make σ_11 grow like log r, and there is no T.
 //!
-//! J is the energy that is released, by the domain form of the J-integral (Li, Shih & Needleman 1985)
+//! J is the energy that is released, by the domain form of the J-integral (Li, Shih &
+//! Needleman 1985)
 //!
 //! ```text
 //! J = −∫ E_j q_,j + E_j,j q dA + ∫ (W n_1 − t_i u_i,1) q ds      W = ½ σ_ij ε_ij
 //! E_j = W δ_1j − σ_ij u_i,1      E_j,j = ½ ε:C,_1:ε + b_i u_i,1
 //! ```
 //!
-//! with the second integral over all faces. It knows nothing of auxiliary fields: that J = G = (K_I² + K_II²)/E′ is a check. C
-//! is differentiated, so that there is no J where the material jumps in the disc.
+//! with the second integral over all faces. It knows nothing of auxiliary fields: that J = G =
+//! (K_I² + K_II²)/E′ is a check. C is differentiated, so that there is no J where the material
+//! jumps in the disc.
 
 mod auxiliary;
 mod bent;
@@ -69,15 +74,16 @@ use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Rect, Vec2};
 pub(crate) use sensitivity::{FACTORS, Sensitivity, sensitivities};
 
-/// Radii in parts of the tip's [`TipClearance`]; the last one is preferred, its integral averages most.
+/// Radii in parts of the tip's [`TipClearance`]; the last one is preferred, its integral averages
+/// most.
 const RADII: [f64; RINGS] = [0.5, 0.7, 0.9];
 
 /// Least radius of a tip's [`TipClearance`], in cells at the tip, for which factors are given.
 ///
-/// Measured with tips beside another tip and beside the border, at orders 2 and 3 (docs/decisions/0004):
-/// factors are off by at most 0.8 % from half a cell on, by 0.9 % from a fifth on, but by 4 % at a tenth of a
-/// cell, where the spread of the radii may say a tenth of that: the error is that of the field, which cells
-/// larger than the clearance do not resolve.
+/// Measured with tips beside another tip and beside the border, at orders 2 and 3
+/// (docs/decisions/0004): factors are off by at most 0.8 % from half a cell on, by 0.9 % from a
+/// fifth on, but by 4 % at a tenth of a cell, where the spread of the radii may say a tenth of
+/// that: the error is that of the field, which cells larger than the clearance do not resolve.
 const LEAST_CLEARANCE: f64 = 0.5;
 
 /// The words for what is found here.
@@ -109,13 +115,14 @@ pub struct Outcome {
     pub clearance: TipClearance,
     /// The longest side of the cells it lies in.
     pub cell: f64,
-    /// Distance to the nearest interface of two materials, if it is within the clearance and nearer than two of these
-    /// cells.
+    /// Distance to the nearest interface of two materials, if it is within the clearance and nearer
+    /// than two of these cells.
     pub interface: Option<f64>,
     /// Its factors; none if the clearance is too small for them, see [`Outcome::needed`].
     pub factors: Option<TipIntensity>,
-    /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that K has
-    /// where the crack concentrates stress, and far above K where nothing does. Zero without factors.
+    /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that
+    /// K has where the crack concentrates stress, and far above K where nothing does. Zero
+    /// without factors.
     pub strength: f64,
     /// Errors that quadrature leaves in the discs.
     pub doubt: Doubt,
@@ -195,7 +202,8 @@ pub enum CircleError {
     Cancelled(#[from] Cancelled),
 }
 
-/// The largest disc around a tip of a step in which nothing disturbs its field; none if there is no such tip.
+/// The largest disc around a tip of a step in which nothing disturbs its field; none if there is no
+/// such tip.
 #[must_use]
 pub fn clearance(dataset: &Dataset, step: usize, tip: TipId) -> Option<TipClearance> {
     let step = dataset.steps.get(step).filter(|step| step.partition.mesh().is_none())?;
@@ -204,9 +212,9 @@ pub fn clearance(dataset: &Dataset, step: usize, tip: TipId) -> Option<TipCleara
     Some(TipClearance::new(dataset, &step.cracks, tip, cell))
 }
 
-/// The stress intensity factors at one tip by the discs inside a circle around it: the preferred ring is the circle's
-/// own, two others have the parts of its radius that those of [`intensities`] have. The loads are those of the
-/// problem, if one is known.
+/// The stress intensity factors at one tip by the discs inside a circle around it: the preferred
+/// ring is the circle's own, two others have the parts of its radius that those of [`intensities`]
+/// have. The loads are those of the problem, if one is known.
 ///
 /// # Errors
 /// See [`CircleError`].

@@ -4,8 +4,9 @@
 //! K_m = ∫ G_m : ∇u dA + …      G_m : ∇u = E′/2 (P_j q_,j + (σ − σ_tip) : εᵃ_,1 q)
 //! ```
 //!
-//! with the integrand of the interaction integral over the largest disc, which is linear in ∇u. The body force and the loads on
-//! faces add numbers that no error of the field changes. What faces behind kinks add is left out: it is small beside the rest.
+//! with the integrand of the interaction integral over the largest disc, which is linear in ∇u. The
+//! body force and the loads on faces add numbers that no error of the field changes. What faces
+//! behind kinks add is left out: it is small beside the rest.
 
 use super::block::Block;
 use super::integral::Interaction;
@@ -21,7 +22,8 @@ use ppum::vec2::Vec2;
 /// The modes I and II.
 pub(crate) const FACTORS: usize = 2;
 
-/// G of a mode at a point, times the weight of the point: of each component the vector that its gradient is multiplied with.
+/// G of a mode at a point, times the weight of the point: of each component the vector that its
+/// gradient is multiplied with.
 pub(crate) type Kernel = [Vec2; 2];
 
 /// The factors of one tip as functionals.

@@ -15,8 +15,9 @@ pub(super) struct Slope<'a> {
 }
 
 impl<'a> Slope<'a> {
-    /// The variation in a disc. None if the material jumps there: the energy that crosses an interface is no integral
-    /// over the disc. None if its formulas are too large to be differentiated.
+    /// The variation in a disc. None if the material jumps there: the energy that crosses an
+    /// interface is no integral over the disc. None if its formulas are too large to
+    /// be differentiated.
     pub(super) fn new(body: &'a Elasticity, center: Vec2, radius: f64) -> Option<Self> {
         if interface_distance(body, center, radius).is_some() {
             return None;
@@ -28,8 +29,8 @@ impl<'a> Slope<'a> {
         Some(Self { body, constants: [jets(&body.young)?, jets(&body.poisson)?] })
     }
 
-    /// ½ ε:C,_1:ε = ½ λ,_1 (tr ε)² + μ,_1 ε:ε, the derivative along `axis` at a point where u has the gradient `u` in the
-    /// frame of that axis.
+    /// ½ ε:C,_1:ε = ½ λ,_1 (tr ε)² + μ,_1 ε:ε, the derivative along `axis` at a point where u has
+    /// the gradient `u` in the frame of that axis.
     pub(super) fn energy(&self, at: Vec2, axis: Vec2, u: &Gradients) -> f64 {
         let [young, poisson] = [0, 1].map(|k| self.along(k, at, axis));
         if young == 0.0 && poisson == 0.0 {

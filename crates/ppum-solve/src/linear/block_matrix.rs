@@ -146,7 +146,8 @@ impl BlockMatrix {
         sum += block;
     }
 
-    /// Takes the blocks of patches that an earlier matrix has, too: `earlier` tells which of its patches a patch is.
+    /// Takes the blocks of patches that an earlier matrix has, too: `earlier` tells which of its
+    /// patches a patch is.
     ///
     /// # Panics
     /// If the earlier matrix has no such block, or one of another shape.
@@ -289,7 +290,8 @@ mod tests {
         assert!(blocks.block(1, 3).is_none());
     }
 
-    /// Patches 1, 2 and 3 of one matrix are 0, 1 and 2 of the other: only what couples two of them is taken.
+    /// Patches 1, 2 and 3 of one matrix are 0, 1 and 2 of the other: only what couples two of them
+    /// is taken.
     #[test]
     fn blocks_of_an_earlier_matrix() {
         let (mut blocks, _) = random_matrix(&[3, 2, 0, 4]);

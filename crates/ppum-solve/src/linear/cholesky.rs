@@ -1,13 +1,14 @@
-//! Direct solution of K u = f by the sparse Cholesky factorisation P D K D P^T = L L^T, D = diag(K)^−½.
+//! Direct solution of K u = f by the sparse Cholesky factorisation P D K D P^T = L L^T, D =
+//! diag(K)^−½.
 //!
-//! Shape functions of several patches can be dependent where those of each patch are not: on a strip
-//! between two cracks that lies in the overlap of two rows of patches all of φ_1 P + φ_2 Q vanishes
-//! for P = φ_2 R, Q = −φ_1 R, which are polynomials there. Pivots then vanish, and the unknowns they
-//! belong to are left out: K is semi-definite, f consistent, and any solution is the same field. Whether
-//! f is consistent is seen from the residual of the whole system.
+//! Shape functions of several patches can be dependent where those of each patch are not: on a
+//! strip between two cracks that lies in the overlap of two rows of patches all of φ_1 P + φ_2 Q
+//! vanishes for P = φ_2 R, Q = −φ_1 R, which are polynomials there. Pivots then vanish, and the
+//! unknowns they belong to are left out: K is semi-definite, f consistent, and any solution is the
+//! same field. Whether f is consistent is seen from the residual of the whole system.
 //!
-//! The order of elimination is found on the graph of the blocks, and fronts of the tree that it makes are dense matrices:
-//! `docs/decisions/0027-factorisation.md` has the measurements.
+//! The order of elimination is found on the graph of the blocks, and fronts of the tree that it
+//! makes are dense matrices: `docs/decisions/0027-factorisation.md` has the measurements.
 
 use super::block_matrix::BlockMatrix;
 use super::elimination::Elimination;
@@ -23,14 +24,16 @@ const REFINEMENTS: usize = 2;
 /// Relative size of a correction after which the next one is rounding: it is about its square.
 const LAST_CORRECTION: f64 = 1e-9;
 
-/// Relative residual up to which a load is consistent with a semi-definite matrix. Seen are 1e−12 to
-/// 1e−7, where pivots just above the limit are left; loads on a piece that nothing holds leave 1.
+/// Relative residual up to which a load is consistent with a semi-definite matrix. Seen are 1e−12
+/// to 1e−7, where pivots just above the limit are left; loads on a piece that nothing holds
+/// leave 1.
 const CONSISTENT: f64 = 1e-6;
 
 /// Pivots are at most one, the diagonal, but for those that are replaced.
 const REPLACED: f64 = 2.0;
 
-/// The factorisation of a symmetric positive semi-definite matrix, for any number of right-hand sides.
+/// The factorisation of a symmetric positive semi-definite matrix, for any number of
+/// right-hand sides.
 #[derive(Debug)]
 pub(crate) struct Cholesky<'a> {
     matrix: Cow<'a, BlockMatrix>,
@@ -45,7 +48,8 @@ impl<'a> Cholesky<'a> {
     /// Factorises `matrix`.
     ///
     /// # Errors
-    /// A diagonal entry or pivot that is not positive or not finite; a matrix too large for the memory.
+    /// A diagonal entry or pivot that is not positive or not finite; a matrix too large for
+    /// the memory.
     pub(crate) fn new(matrix: &'a BlockMatrix) -> Result<Self, LinearError> {
         Self::of(Cow::Borrowed(matrix))
     }

@@ -1,7 +1,8 @@
 //! Conjugate gradients for K u = f with a preconditioner M ≈ K⁻¹ \[Hestenes & Stiefel 1952\].
 //!
-//! The error in the energy norm falls with every step. (rᵀ M r)^½ stands for it: between the two lies no more than the condition
-//! of M K, which the coefficients of the iteration tell: they make the tridiagonal matrix of Lanczos' method.
+//! The error in the energy norm falls with every step. (rᵀ M r)^½ stands for it: between the two
+//! lies no more than the condition of M K, which the coefficients of the iteration tell: they make
+//! the tridiagonal matrix of Lanczos' method.
 
 use super::eigen::SymmetricEigen;
 use faer::Mat;
@@ -19,7 +20,8 @@ pub(crate) struct Course {
     pub(crate) residuals: Vec<f64>,
     /// Condition of M K, a bound from below.
     pub(crate) condition: f64,
-    /// Of each step and each level, the finest first, the norm of its right-hand side as a part of that of the first step.
+    /// Of each step and each level, the finest first, the norm of its right-hand side as a part of
+    /// that of the first step.
     pub(crate) levels: Vec<Vec<f64>>,
 }
 

@@ -1,8 +1,10 @@
-//! The order in which the blocks of a symmetric matrix are eliminated, and the tree that it makes of them.
+//! The order in which the blocks of a symmetric matrix are eliminated, and the tree that it makes
+//! of them.
 //!
-//! Blocks that are eliminated together are the *pivots* of a front; the later blocks that they couple are *below* them. What a
-//! front leaves there goes to its parent, the front of the first block below. So fronts of different subtrees know nothing of
-//! each other, and each front is a dense matrix. Columns of blocks are joined to fronts with more zeros in them where that is
+//! Blocks that are eliminated together are the *pivots* of a front; the later blocks that they
+//! couple are *below* them. What a front leaves there goes to its parent, the front of the first
+//! block below. So fronts of different subtrees know nothing of each other, and each front is a
+//! dense matrix. Columns of blocks are joined to fronts with more zeros in them where that is
 //! faster than to take them one after the other.
 
 use super::block_matrix::BlockPattern;
@@ -12,14 +14,15 @@ use super::ordering::by_degree;
 use std::cmp::Reverse;
 use std::ops::Range;
 
-/// What a value of a front costs in operations, for what is written, read and added to the parent's.
+/// What a value of a front costs in operations, for what is written, read and added to
+/// the parent's.
 const TRAFFIC: f64 = 12.0;
 
 /// What a front costs in operations, however small it is.
 const FRONT: f64 = 1e5;
 
-/// Subtrees with at most this part of all work are done by one thread. Enough of them that threads are busy until the end, and
-/// few fronts that are left: these are divided among threads.
+/// Subtrees with at most this part of all work are done by one thread. Enough of them that threads
+/// are busy until the end, and few fronts that are left: these are divided among threads.
 const SUBTREE: f64 = 1.0 / 32.0;
 
 /// An order of elimination with its tree.
@@ -213,7 +216,8 @@ impl Draft {
     }
 }
 
-/// The fronts, children before parents: those of subtrees of little work, subtree by subtree, and then all others.
+/// The fronts, children before parents: those of subtrees of little work, subtree by subtree, and
+/// then all others.
 fn sequence(drafts: &[Draft]) -> (Vec<usize>, Vec<Range<usize>>) {
     let fronts = || (0..drafts.len()).filter(|&number| !drafts[number].pivots.is_empty());
     let (mut work, mut parents) = (vec![0.0; drafts.len()], vec![None; drafts.len()]);

@@ -1,8 +1,9 @@
 //! The factor L L^T of a symmetric block matrix, front by front.
 //!
-//! A front holds the columns of its pivots with what earlier fronts have left there, eliminates them as a dense matrix, and hands
-//! on what that leaves to its parent (the multifrontal method of Duff & Reid 1983). Threads take subtrees, and strips of large
-//! fronts. What belongs to a strip is computed in one order, so that results have the same bits on any number of threads.
+//! A front holds the columns of its pivots with what earlier fronts have left there, eliminates
+//! them as a dense matrix, and hands on what that leaves to its parent (the multifrontal method of
+//! Duff & Reid 1983). Threads take subtrees, and strips of large fronts. What belongs to a strip is
+//! computed in one order, so that results have the same bits on any number of threads.
 
 use super::block_matrix::BlockMatrix;
 use super::elimination::Elimination;
@@ -39,7 +40,8 @@ struct Source<'m> {
 /// What a child has left, and where that is in its parent.
 type Left<'e> = (&'e [Run], Vec<Strip>);
 
-/// What a front has left: the columns of its pivots, and until its parent takes it what is below them.
+/// What a front has left: the columns of its pivots, and until its parent takes it what is
+/// below them.
 #[derive(Debug, Default)]
 struct Done {
     pivots: Vec<Strip>,
@@ -93,7 +95,8 @@ impl Source<'_> {
         Ok(done.into_iter().map(|front| front.pivots).collect())
     }
 
-    /// Eliminates a front. Those of its subtree are done, the first of them with the number `first`.
+    /// Eliminates a front. Those of its subtree are done, the first of them with the
+    /// number `first`.
     fn eliminate(&self, number: usize, done: &mut [Done], first: usize) -> Result<(), Stop> {
         let front = &self.elimination.fronts[number];
         let of_child = |&child: &usize| {

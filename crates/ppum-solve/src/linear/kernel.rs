@@ -1,7 +1,7 @@
 //! Modes of a singular symmetric matrix, K z = 0, in the way of iteration.
 //!
-//! K u = f has solutions for balanced f alone, zᵀ f = 0. What a load lacks of that is taken by the functionals r_k that would hold
-//! the modes, as a penalty γ Σ r_k r_kᵀ takes it whatever its size:
+//! K u = f has solutions for balanced f alone, zᵀ f = 0. What a load lacks of that is taken by the
+//! functionals r_k that would hold the modes, as a penalty γ Σ r_k r_kᵀ takes it whatever its size:
 //!
 //! ```text
 //! f ← f − Σ s_k r_k,   zᵀ f = 0
@@ -58,7 +58,8 @@ impl Kernel {
         self.project(f);
     }
 
-    /// The largest ‖K z‖ over the stiffness of the stiffest unknown; not a number where modes are none.
+    /// The largest ‖K z‖ over the stiffness of the stiffest unknown; not a number where modes
+    /// are none.
     pub(super) fn force(&self, rows: &Rows<'_>, stiffest: f64) -> f64 {
         let of = |mode: &Vec<f64>| {
             let mut product = vec![0.0; mode.len()];

@@ -1,12 +1,14 @@
-//! Knots: blocks of a matrix that nearly depend on each other, so that relaxing one at a time does not solve them.
+//! Knots: blocks of a matrix that nearly depend on each other, so that relaxing one at a time does
+//! not solve them.
 //!
 //! ```text
 //! cos² = the largest eigenvalue of K_ii⁻¹ K_ij K_jj⁻¹ K_ji
 //! ```
 //!
-//! is one if a function of block i is one of block j: sweeps part the two at a rate of cos², and coarser levels have nothing
-//! like them. A knot is a group of blocks that such pairs tie together. What is left of the residual there is solved for at
-//! once, after the sweep forward and before the sweep back.
+//! is one if a function of block i is one of block j: sweeps part the two at a rate of cos², and
+//! coarser levels have nothing like them. A knot is a group of blocks that such pairs tie together.
+//! What is left of the residual there is solved for at once, after the sweep forward and before the
+//! sweep back.
 
 use super::block_matrix::BlockMatrix;
 use super::dense::product;
@@ -17,11 +19,13 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use rayon::prelude::*;
 
-/// cos² from which on a pair is a knot: sweeps one by one would take twenty to reduce what is between them to a third. Ordinary
-/// neighbours have less, also at tips; pairs at junctions that make steps grow have 0.95 to 0.9995.
+/// cos² from which on a pair is a knot: sweeps one by one would take twenty to reduce what is
+/// between them to a third. Ordinary neighbours have less, also at tips; pairs at junctions that
+/// make steps grow have 0.95 to 0.9995.
 const NEAR: f64 = 0.9;
 
-/// Unknowns of a knot that are factorised in less time than a level is swept; pairs that would make it larger stay apart.
+/// Unknowns of a knot that are factorised in less time than a level is swept; pairs that would make
+/// it larger stay apart.
 const LARGEST: usize = 1_000;
 
 /// Blocks that are solved for together.
@@ -35,7 +39,8 @@ pub(super) struct Knot {
 }
 
 impl Knot {
-    /// x ← x + A⁻¹ r with the part A of the matrix and the part r of `rest`, the residual of x, which is renewed.
+    /// x ← x + A⁻¹ r with the part A of the matrix and the part r of `rest`, the residual of x,
+    /// which is renewed.
     pub(super) fn relax(&self, rows: &Rows<'_>, f: &[f64], x: &mut [f64], rest: &mut [f64]) {
         self.correct(rows, rest, x);
         for &i in &self.around {
@@ -105,8 +110,9 @@ fn part(matrix: &BlockMatrix, blocks: &[usize]) -> Mat<f64> {
     all
 }
 
-/// Pairs of blocks with cos² above [`NEAR`], the nearest first. Of blocks that have no more unknowns than the smallest one
-/// nothing is asked: they are all alike, and far from depending on each other.
+/// Pairs of blocks with cos² above [`NEAR`], the nearest first. Of blocks that have no more
+/// unknowns than the smallest one nothing is asked: they are all alike, and far from depending on
+/// each other.
 fn near_pairs(matrix: &BlockMatrix) -> Vec<(f64, usize, usize)> {
     let size = |i: usize| matrix.unknowns(i).len();
     let least = (0..matrix.n_blocks()).map(size).min().unwrap_or(0);
@@ -167,8 +173,8 @@ mod tests {
     use ppum_testkit::random::Random;
     use std::borrow::Cow;
 
-    /// Blocks of 1, 2, 3, 3, 2 and 1 unknowns in a row, each coupled to the next by a matrix of norm 0.4, but 2 and 3 by the
-    /// diagonal c, ½, 0 beside unit matrices: their cosine is c.
+    /// Blocks of 1, 2, 3, 3, 2 and 1 unknowns in a row, each coupled to the next by a matrix of
+    /// norm 0.4, but 2 and 3 by the diagonal c, ½, 0 beside unit matrices: their cosine is c.
     fn chain(c: f64) -> BlockMatrix {
         let sizes = [1, 2, 3, 3, 2, 1];
         let pattern =
@@ -216,7 +222,8 @@ mod tests {
         assert_eq!(groups(&large, &pairs), [vec![0, 1], vec![3, 4]]);
     }
 
-    /// Smoothing forward and back is symmetric with knots too, and parts nearly dependent blocks, which sweeps alone do not.
+    /// Smoothing forward and back is symmetric with knots too, and parts nearly dependent blocks,
+    /// which sweeps alone do not.
     #[test]
     fn knots_part_what_sweeps_do_not() {
         let left = |c: f64, with_knots: bool| {
@@ -234,7 +241,8 @@ mod tests {
             let mut vector = || (0..12).map(|_| random.between(-1.0, 1.0)).collect::<Vec<f64>>();
             let (f, g) = (vector(), vector());
             assert!((dot(&f, &m(&g)) - dot(&g, &m(&f))).abs() < 1e-9 * dot(&f, &m(&f)).abs());
-            // the error of the vector of which blocks 2 and 3 have opposite parts: its energy is 2 (1 − c)
+            // the error of the vector of which blocks 2 and 3 have opposite parts: its energy is 2
+            // (1 − c)
             let mut x = vec![0.0; 12];
             let [one, other] = [2, 3].map(|i| smoother.rows.unknowns(i).start);
             (x[one], x[other]) = (1.0, -1.0);

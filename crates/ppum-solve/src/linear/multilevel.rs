@@ -1,4 +1,5 @@
-//! Solution of K u = f by conjugate gradients, preconditioned by one cycle through coarser and coarser levels.
+//! Solution of K u = f by conjugate gradients, preconditioned by one cycle through coarser and
+//! coarser levels.
 //!
 //! ```text
 //! x = (D + L)⁻¹ f                      sweep forward, then the knots
@@ -6,8 +7,8 @@
 //! x ← x + (D + Lᵀ)⁻¹ (f − K x)         the knots, then sweep backward
 //! ```
 //!
-//! The coarse matrices K_c are what the caller gives: Pᵀ K P need not be among them. The cycle is symmetric and positive
-//! definite whatever they are, as long as they are.
+//! The coarse matrices K_c are what the caller gives: Pᵀ K P need not be among them. The cycle is
+//! symmetric and positive definite whatever they are, as long as they are.
 
 use super::block_matrix::BlockMatrix;
 use super::cholesky::Cholesky;
@@ -23,19 +24,22 @@ use std::borrow::Cow;
 /// Steps that no problem with working levels needs.
 const MOST_STEPS: usize = 300;
 
-/// Times that the iteration starts again from the true residual, which rounding takes away from the one that it keeps.
+/// Times that the iteration starts again from the true residual, which rounding takes away from the
+/// one that it keeps.
 const RESTARTS: usize = 2;
 
 /// How much larger than asked the true residual may be in the end.
 const SLACK: f64 = 3.0;
 
-/// Force on a motion of size one that counts as none, in units of the largest stiffness: rounding leaves about 1e-14.
+/// Force on a motion of size one that counts as none, in units of the largest stiffness: rounding
+/// leaves about 1e-14.
 const RIGID: f64 = 1e-10;
 
 /// What dual solutions need, which only weigh estimated errors.
 const ROUGH: f64 = 1e-7;
 
-/// Rounding of K x, in units of the stiffest unknown times x: about fifty products in a row, of which each has 1e-16.
+/// Rounding of K x, in units of the stiffest unknown times x: about fifty products in a row, of
+/// which each has 1e-16.
 const ROUNDING: f64 = 2e-14;
 
 /// A coarse level: its matrix, and the way from it to the next finer one.
@@ -66,9 +70,10 @@ pub(crate) struct Multilevel<'a> {
 }
 
 impl<'a> Multilevel<'a> {
-    /// The solver of a system with coarser levels of it, the finest of them first. The matrix is singular with as many modes
-    /// as there are functionals `free`, each on the unknowns of one block. The number is the part of the error in the energy
-    /// norm that may be left; who stands beside it is asked before each step whether to go on.
+    /// The solver of a system with coarser levels of it, the finest of them first. The matrix is
+    /// singular with as many modes as there are functionals `free`, each on the unknowns of one
+    /// block. The number is the part of the error in the energy norm that may be left; who stands
+    /// beside it is asked before each step whether to go on.
     ///
     /// # Errors
     /// Those of the factorisation of the coarsest level; modes that the levels do not show.
@@ -147,7 +152,8 @@ impl<'a> Multilevel<'a> {
         self.levels.get(level).map_or(&self.coarsest.0, |level| &level.smoother.rows)
     }
 
-    /// One cycle from some level on: an approximation of K⁻¹ f. The norms of the right-hand sides are appended.
+    /// One cycle from some level on: an approximation of K⁻¹ f. The norms of the right-hand sides
+    /// are appended.
     fn cycle(&self, level: usize, f: &[f64], norms: &mut Vec<f64>) -> Vec<f64> {
         norms.push(dot(f, f).sqrt());
         let Some(Level { smoother, transfer }) = self.levels.get(level) else {
@@ -348,7 +354,8 @@ mod tests {
         matrix
     }
 
-    /// Two points take the value of one; a coarse cell is twice as long, so that differences have half the stiffness.
+    /// Two points take the value of one; a coarse cell is twice as long, so that differences have
+    /// half the stiffness.
     fn levels(n: usize, is_held: bool, factor: f64) -> Vec<Coarse> {
         let halves = std::iter::successors(Some(n / 2), |n| Some(n / 2)).take_while(|n| *n > 10);
         let level = |(k, n): (usize, usize)| {
@@ -378,7 +385,8 @@ mod tests {
         (0..n).map(|_| random.between(-1.0, 1.0)).collect()
     }
 
-    /// xᵀ M y = yᵀ M x, and what any of them makes of itself is positive: M is what conjugate gradients ask for.
+    /// xᵀ M y = yᵀ M x, and what any of them makes of itself is positive: M is what conjugate
+    /// gradients ask for.
     #[test]
     fn a_cycle_is_symmetric_and_positive() {
         let matrix = line(640, true);
@@ -390,7 +398,8 @@ mod tests {
         assert!(dot(&y, &m(&y)) > 0.0);
     }
 
-    /// Against the factor: any matrix on one level, second differences on many, in steps that do not grow.
+    /// Against the factor: any matrix on one level, second differences on many, in steps that do
+    /// not grow.
     #[test]
     fn solutions_are_those_of_the_factor() {
         let mut steps = Vec::new();
@@ -411,8 +420,8 @@ mod tests {
         assert!(steps[3] <= 2 * steps[1] && steps[3] < 60, "{steps:?}");
     }
 
-    /// Nothing holds the line: constants are its modes, loads without resultant have solutions, and what is left of others is
-    /// taken by the functional.
+    /// Nothing holds the line: constants are its modes, loads without resultant have solutions, and
+    /// what is left of others is taken by the functional.
     #[test]
     fn a_singular_matrix_with_its_mode() {
         let n = 640;

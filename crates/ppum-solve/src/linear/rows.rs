@@ -1,17 +1,19 @@
-//! All rows of a symmetric block matrix of which one half is stored, in an order that may be worked on in parallel.
+//! All rows of a symmetric block matrix of which one half is stored, in an order that may be worked
+//! on in parallel.
 //!
-//! Blocks get *colours* so that no two of a colour are coupled, greedily in their order: about four on a uniform cover.
-//! Vectors hold the unknowns of the first colour, then those of the second, and so on: a colour is one slice, and its
-//! blocks are parts of it that threads write to at the same time. What is computed for a block depends on its row alone,
-//! so that results have the same bits on any number of threads.
+//! Blocks get *colours* so that no two of a colour are coupled, greedily in their order: about four
+//! on a uniform cover. Vectors hold the unknowns of the first colour, then those of the second, and
+//! so on: a colour is one slice, and its blocks are parts of it that threads write to at the same
+//! time. What is computed for a block depends on its row alone, so that results have the same bits
+//! on any number of threads.
 
 use super::block_matrix::BlockMatrix;
 use super::neighbours::Neighbours;
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Blocks that one thread takes at a time: enough to hide what it costs to hand work to a thread, few enough for all
-/// threads to have some on small levels.
+/// Blocks that one thread takes at a time: enough to hide what it costs to hand work to a thread,
+/// few enough for all threads to have some on small levels.
 const GRAIN: usize = 64;
 
 /// A symmetric matrix by rows.

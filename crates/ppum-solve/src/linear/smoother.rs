@@ -4,9 +4,10 @@
 //! K = L + D + Lᵀ      forward: x = (D + L)⁻¹ f      backward: x ← x + (D + Lᵀ)⁻¹ (f − K x)
 //! ```
 //!
-//! D holds the diagonal blocks, L what couples a block to earlier colours. A sweep from zero, a correction and the sweep back
-//! make a symmetric positive definite preconditioner of whatever is done between them. Blocks that nearly depend on each other,
-//! [knots](super::knots), are relaxed together besides.
+//! D holds the diagonal blocks, L what couples a block to earlier colours. A sweep from zero, a
+//! correction and the sweep back make a symmetric positive definite preconditioner of whatever is
+//! done between them. Blocks that nearly depend on each other, [knots](super::knots), are relaxed
+//! together besides.
 
 use super::block_matrix::BlockMatrix;
 use super::eigen::{SymmetricEigen, inverse_root_diagonal, scaled};
@@ -16,8 +17,9 @@ use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, MatRef, Side};
 use rayon::prelude::*;
 
-/// Eigenvalues of a diagonal block, scaled to ones on its diagonal, up to this one belong to functions that depend on others,
-/// or to motions without energy: they are left alone. What the stable basis keeps is far above.
+/// Eigenvalues of a diagonal block, scaled to ones on its diagonal, up to this one belong to
+/// functions that depend on others, or to motions without energy: they are left alone. What the
+/// stable basis keeps is far above.
 const DEPENDENT: f64 = 1e-11;
 
 /// A matrix with the inverses of its diagonal blocks.
@@ -115,7 +117,8 @@ fn diagonal(matrix: &BlockMatrix, i: usize) -> MatRef<'_, f64> {
     matrix.block(i, i).expect("a block is coupled to itself")
 }
 
-/// The inverse of a part of the matrix, row-major; of one that is nearly singular the pseudo-inverse.
+/// The inverse of a part of the matrix, row-major; of one that is nearly singular
+/// the pseudo-inverse.
 pub(super) fn inverse(block: MatRef<'_, f64>) -> Vec<f64> {
     let scale = inverse_root_diagonal(block, 0.0);
     let scaled = scaled(block, &scale);

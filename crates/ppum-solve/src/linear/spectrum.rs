@@ -1,9 +1,9 @@
 //! Extreme eigenvalues of the system: how well the stable basis is conditioned.
 //!
-//! Lanczos' method with full reorthogonalisation, on K for the largest eigenvalue and on K⁻¹, by the
-//! Cholesky factor, for the smallest. A Ritz value θ lies within |β s| of an eigenvalue, β the last
-//! coupling and s the last entry of its vector in the Krylov space: iteration ends when that is a
-//! thousandth of θ (Parlett, "The Symmetric Eigenvalue Problem", 1980, chapter 13).
+//! Lanczos' method with full reorthogonalisation, on K for the largest eigenvalue and on K⁻¹, by
+//! the Cholesky factor, for the smallest. A Ritz value θ lies within |β s| of an eigenvalue, β the
+//! last coupling and s the last entry of its vector in the Krylov space: iteration ends when that
+//! is a thousandth of θ (Parlett, "The Symmetric Eigenvalue Problem", 1980, chapter 13).
 
 use super::block_matrix::BlockMatrix;
 use super::eigen::{EigenError, SymmetricEigen};
@@ -16,11 +16,12 @@ const ACCURACY: f64 = 1e-3;
 /// Steps after which the best value so far is taken, a lower bound of the largest eigenvalue.
 const MOST_STEPS: usize = 120;
 
-/// The golden ratio less one: the fractions {k² g} are spread evenly and without pattern, so that a start vector of
-/// such numbers has parts of all eigenvectors.
+/// The golden ratio less one: the fractions {k² g} are spread evenly and without pattern, so that a
+/// start vector of such numbers has parts of all eigenvectors.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// The extreme eigenvalues of a stiffness matrix in the stable basis, restraints and gauge included.
+/// The extreme eigenvalues of a stiffness matrix in the stable basis, restraints and
+/// gauge included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spectrum {
     /// The smallest eigenvalue.
@@ -30,8 +31,8 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// The extreme eigenvalues of a matrix and its solver. `step` is called before each product, and ends the work
-    /// by an error.
+    /// The extreme eigenvalues of a matrix and its solver. `step` is called before each product,
+    /// and ends the work by an error.
     ///
     /// # Errors
     /// That of `step`; entries that are not finite.

@@ -13,8 +13,8 @@ use rayon::prelude::*;
 /// between 1e−3 and 1e−7; an exactly singular one leaves about 1e−16.
 const PIVOT_LIMIT: f64 = 1e-13;
 
-/// Pivots up to this fraction of K_kk are replaced in a matrix that has vanishing ones: functions that
-/// are dependent up to rounding come with others that nearly are.
+/// Pivots up to this fraction of K_kk are replaced in a matrix that has vanishing ones: functions
+/// that are dependent up to rounding come with others that nearly are.
 const LEFT_OUT_BELOW: f64 = 1e-10;
 
 /// Substitute for a vanishing pivot: its unknown becomes zero, and the rest does not see it.

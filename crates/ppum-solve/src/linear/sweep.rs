@@ -1,4 +1,5 @@
-//! Solutions with a factor, of several right-hand sides at once: what takes time is to read the factor.
+//! Solutions with a factor, of several right-hand sides at once: what takes time is to read
+//! the factor.
 
 use super::factor::Factor;
 use super::front::{Front, divided};
@@ -57,7 +58,8 @@ impl Factor {
         }
     }
 
-    /// The pivots of a front without what is above them; what they take from the rows below is left for the parent.
+    /// The pivots of a front without what is above them; what they take from the rows below is left
+    /// for the parent.
     fn forward(&self, number: usize, x: &mut Part, left: &mut [Mat<f64>], first: usize) {
         let front = &self.elimination.fronts[number];
         let (pivots, n) = (self.elimination.unknowns(number..number + 1), front.n_pivots());

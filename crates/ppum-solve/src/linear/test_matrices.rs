@@ -4,7 +4,8 @@ use super::{BlockMatrix, BlockPattern};
 use faer::Mat;
 use ppum_testkit::random::Random;
 
-/// n × m blocks of one to three unknowns, each coupled to its eight neighbours, with a dominant diagonal.
+/// n × m blocks of one to three unknowns, each coupled to its eight neighbours, with a
+/// dominant diagonal.
 pub(crate) fn grid_matrix(n: usize, m: usize, random: &mut Random) -> BlockMatrix {
     let (mut starts, mut columns) = (vec![0], Vec::new());
     for (y, x) in (0..m).flat_map(|y| (0..n).map(move |x| (y, x))) {

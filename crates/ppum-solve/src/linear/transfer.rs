@@ -1,10 +1,11 @@
-//! Vectors between the levels: each block of a fine level takes its values from one block of the coarse level.
+//! Vectors between the levels: each block of a fine level takes its values from one block of the
+//! coarse level.
 
 use super::rows::{Rows, add_product, add_transposed};
 use faer::Mat;
 
-/// The prolongation P from a coarse level, block-diagonal: x_i = (I ⊗ B_i) y_k with the parent k of block i, the unit matrix
-/// having as many rows as components are interpolated alike.
+/// The prolongation P from a coarse level, block-diagonal: x_i = (I ⊗ B_i) y_k with the parent k of
+/// block i, the unit matrix having as many rows as components are interpolated alike.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Transfer {
     parents: Vec<Option<u32>>,
@@ -22,7 +23,8 @@ impl Transfer {
         Self { children: vec![Vec::new(); n], starts: vec![0], ..Self::default() }
     }
 
-    /// Adds the next fine block: its parent with B, and how often B stands on the diagonal; or none, and it stays zero.
+    /// Adds the next fine block: its parent with B, and how often B stands on the diagonal; or
+    /// none, and it stays zero.
     pub(crate) fn push(&mut self, from: Option<(u32, &Mat<f64>, u8)>) {
         let block = self.parents.len() as u32;
         self.parents.push(from.map(|(parent, ..)| parent));

@@ -6,14 +6,16 @@
 pub struct Adaptivity {
     /// Most times that the cover is improved.
     pub steps: usize,
-    /// θ: the cells that make up this part of the square of the estimated error are improved, in (0, 1].
+    /// θ: the cells that make up this part of the square of the estimated error are improved, in
+    /// (0, 1].
     pub fraction: f64,
     /// Most unknowns of a step.
     pub max_unknowns: usize,
-    /// Estimated error that is small enough, in the energy norm, as a part of the norm of the solution.
+    /// Estimated error that is small enough, in the energy norm, as a part of the norm of
+    /// the solution.
     pub tolerance: Option<f64>,
-    /// Estimated relative error of the stress intensity factors that is small enough, without tips of the energy: the goal, for
-    /// which cells are improved instead of for the energy norm.
+    /// Estimated relative error of the stress intensity factors that is small enough, without tips
+    /// of the energy: the goal, for which cells are improved instead of for the energy norm.
     pub accuracy: Option<f64>,
     /// What is done to a cell.
     pub kind: AdaptKind,
@@ -43,8 +45,8 @@ pub enum Keep {
     All,
 }
 
-/// Defaults: up to ten steps and 100,000 unknowns, which a direct solver on one machine makes in less than a minute;
-/// θ = 0.6; the cells are divided.
+/// Defaults: up to ten steps and 100,000 unknowns, which a direct solver on one machine makes in
+/// less than a minute; θ = 0.6; the cells are divided.
 impl Default for Adaptivity {
     fn default() -> Self {
         Self {
@@ -66,15 +68,16 @@ const STEPS_TO_GOAL: usize = 30;
 const EASY: f64 = 1e-3;
 
 impl Adaptivity {
-    /// The steps to a relative error of the factors, or without tips of the energy: orders are raised and cells divided.
+    /// The steps to a relative error of the factors, or without tips of the energy: orders are
+    /// raised and cells divided.
     #[must_use]
     pub fn to(accuracy: f64) -> Self {
         let (steps, accuracy) = (STEPS_TO_GOAL, Some(accuracy));
         Self { steps, accuracy, ..Self::new(AdaptKind::Hp) }
     }
 
-    /// Level of the cover that the steps to an accuracy begin with, if none is given. Plates with cracks need about that cover,
-    /// and [this order](Self::first_order), so that steps are few.
+    /// Level of the cover that the steps to an accuracy begin with, if none is given. Plates with
+    /// cracks need about that cover, and [this order](Self::first_order), so that steps are few.
     pub(super) fn first_level(accuracy: f64) -> u32 {
         if accuracy < EASY { 3 } else { 2 }
     }

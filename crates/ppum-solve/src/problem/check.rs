@@ -250,7 +250,8 @@ fn check_discretization(problem: &Problem) -> Vec<MistakeAt> {
     found
 }
 
-/// Most steps of an adaptation: each at least adds a cell to the one before, and most half as many again.
+/// Most steps of an adaptation: each at least adds a cell to the one before, and most half as
+/// many again.
 const MAX_STEPS: usize = 100;
 
 /// Accuracies that one may ask for: double precision ends below.
@@ -384,7 +385,8 @@ fn claims(index: usize, condition: &BoundaryCondition) -> Vec<Claim> {
     components.flat_map(|k| faces.iter().map(move |&face| (k, face))).map(claim).collect()
 }
 
-/// No component is given twice at a place. Of the conditions that an earlier one contradicts each is told once.
+/// No component is given twice at a place. Of the conditions that an earlier one contradicts each
+/// is told once.
 fn check_contradictions(boundary: &[BoundaryCondition]) -> Vec<MistakeAt> {
     let mut all: Vec<_> =
         boundary.iter().enumerate().flat_map(|(k, part)| claims(k, part)).collect();

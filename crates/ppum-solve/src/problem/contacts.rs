@@ -17,8 +17,8 @@ const MOST_TOLD: usize = 100;
 /// Most pairs of segments that meet: what they cut the plate into is found for each.
 const MOST_MEETINGS: usize = 100_000;
 
-/// Ends that lie on other cracks, up to the distance `touch`, are no tips but junctions. Where cracks lie too close
-/// together to look at all of them, which is a mistake, they stay tips.
+/// Ends that lie on other cracks, up to the distance `touch`, are no tips but junctions. Where
+/// cracks lie too close together to look at all of them, which is a mistake, they stay tips.
 pub(super) fn find_junctions(cracks: &mut [Crack], touch: f64) {
     let of_crack = |(k, crack): (usize, &Crack)| {
         crack.points.windows(2).map(|s| (k, [s[0], s[1]])).collect::<Vec<_>>()
@@ -43,7 +43,8 @@ pub(super) fn find_junctions(cracks: &mut [Crack], touch: f64) {
     }
 }
 
-/// No two of the cracks run along each other, and not too many meet. They may cross and end on each other.
+/// No two of the cracks run along each other, and not too many meet. They may cross and end on
+/// each other.
 pub(super) fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -> Vec<MistakeAt> {
     let of_crack = |&crack: &usize| {
         let segments = cracks[crack].points.windows(2).enumerate();
@@ -83,7 +84,8 @@ fn overlap(((crack, other), k): ((usize, usize), usize)) -> MistakeAt {
     MistakeAt::new(points_of(crack).index(k), message).with_other(points_of(other))
 }
 
-/// True if two segments have more than a point in common: both ends of what one covers of the other lie on it.
+/// True if two segments have more than a point in common: both ends of what one covers of the other
+/// lie on it.
 fn run_along([a, b]: Segment, other: Segment, touch: f64) -> bool {
     let (along, length) = ((b - a).unit(), (b - a).length());
     let [p, q] = other.map(|end| along.dot(end - a).clamp(0.0, length));

@@ -18,19 +18,21 @@ use crate::geometry::{Placed, wider};
 /// touch, and no cover resolves them.
 pub(super) const TOUCH: f64 = 1e-9;
 
-/// A crack along a polyline: ends on the border of the box, to which they are moved, and on the rim or inside of a hole (up
-/// to 10⁻⁹ of the domain's size) are mouths, all others tips. Of cracks that meet, see [`cracks`].
+/// A crack along a polyline: ends on the border of the box, to which they are moved, and on the rim
+/// or inside of a hole (up to 10⁻⁹ of the domain's size) are mouths, all others tips. Of cracks
+/// that meet, see [`cracks`].
 #[must_use]
 pub fn crack(points: Vec<Vec2>, domain: &Domain) -> Crack {
     let lines = [points];
     cracks(lines, domain).pop().unwrap_or(Crack { points: Vec::new(), ends: [CrackEnd::Tip; 2] })
 }
 
-/// Cracks along polylines, with their ends as [`crack`] has them, but for ends on other cracks (up to the same
-/// distance), which are junctions.
+/// Cracks along polylines, with their ends as [`crack`] has them, but for ends on other cracks (up
+/// to the same distance), which are junctions.
 ///
-/// What is meant to meet or to be straight, up to that distance, does so and is: the points are those of the lines but for
-/// vertices that are not needed, and for junctions, which are moved onto each other and onto lines.
+/// What is meant to meet or to be straight, up to that distance, does so and is: the points are
+/// those of the lines but for vertices that are not needed, and for junctions, which are moved onto
+/// each other and onto lines.
 #[must_use]
 pub fn cracks(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Domain) -> Vec<Crack> {
     settled(with_ends(lines, domain), domain)
@@ -148,8 +150,8 @@ fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Mis
     found
 }
 
-/// Each point inside the closed box; on its border only the ends, and then exactly. The first that is not is told: a curve has
-/// many.
+/// Each point inside the closed box; on its border only the ends, and then exactly. The first that
+/// is not is told: a curve has many.
 fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option<MistakeAt> {
     let place = |(index, p): (usize, &Vec2)| {
         let is_end = index == 0 || index + 1 == points.len();

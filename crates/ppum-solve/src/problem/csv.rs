@@ -47,8 +47,8 @@ fn words(content: &str) -> Vec<Word<'_>> {
     content.split(',').take(MOST_WORDS).map(word).collect()
 }
 
-/// Longest file, in bytes: a million lines, most points that cells can be made of and most values that a
-/// dataset holds in tables, take some ten MiB.
+/// Longest file, in bytes: a million lines, most points that cells can be made of and most values
+/// that a dataset holds in tables, take some ten MiB.
 const LONGEST: u64 = 64 << 20;
 
 /// Most mistakes of one file that are told: a file of another kind has one on every line.

@@ -13,8 +13,8 @@ pub struct Discretization {
     pub cells: Cells,
     /// Refine where cracks need it; false keeps the base cover.
     pub refine: bool,
-    /// Degree of the local polynomials. Problem files that give none get 2, and 4 where the plate is nearly
-    /// incompressible.
+    /// Degree of the local polynomials. Problem files that give none get 2, and 4 where the plate
+    /// is nearly incompressible.
     pub order: Order,
     /// α: a patch is its cell enlarged by this factor, in [`OVERLAP`](ppum::cover::OVERLAP).
     pub overlap: f64,
@@ -29,8 +29,8 @@ pub struct Discretization {
     pub enrichment_radius: Option<f64>,
     /// Degree of the polynomial that multiplies the tip functions on patches that contain a tip.
     pub tip_degree: usize,
-    /// Number of terms of Williams' series, r^½ to r^(N − ½), with [`Enrichment::Williams`]; `None` for as many as the order
-    /// of a patch asks for: the order itself, from 3 to 6.
+    /// Number of terms of Williams' series, r^½ to r^(N − ½), with [`Enrichment::Williams`]; `None`
+    /// for as many as the order of a patch asks for: the order itself, from 3 to 6.
     pub tip_terms: Option<usize>,
 }
 
@@ -49,10 +49,11 @@ pub enum Cells {
 }
 
 impl Cells {
-    /// The cells of the base cover as a grid of roots, each halved so often along both sides; nothing for points.
+    /// The cells of the base cover as a grid of roots, each halved so often along both sides;
+    /// nothing for points.
     ///
-    /// A level makes 4^level equal cells, none more than twice as long as wide unless the domain is longer than that
-    /// allows: 4^k root cells along a long domain, each halved level − k times.
+    /// A level makes 4^level equal cells, none more than twice as long as wide unless the domain is
+    /// longer than that allows: 4^k root cells along a long domain, each halved level − k times.
     pub(crate) fn roots(&self, domain: &Rect) -> Option<([u32; 2], u32)> {
         let level = match *self {
             Self::Level(level) => level,
@@ -96,8 +97,8 @@ pub enum Enrichment {
     /// Jumps on patches cut through, tip functions on all patches that meet the disc of the
     /// enrichment radius around a tip.
     Zone,
-    /// As `Zone`, with Williams' series in place of its first term times polynomials: of each power r^(n − ½) the two
-    /// displacement fields that leave the faces free, an unknown each.
+    /// As `Zone`, with Williams' series in place of its first term times polynomials: of each power
+    /// r^(n − ½) the two displacement fields that leave the faces free, an unknown each.
     #[default]
     Williams,
     /// As `Zone` but without jumps: figure 5 of Üffinger et al. 2011.
@@ -105,8 +106,8 @@ pub enum Enrichment {
 }
 
 impl Discretization {
-    /// Defaults on the given cells: order 2, α = 1.3, linear weights, Williams' series in zones around tips, refined at
-    /// tips.
+    /// Defaults on the given cells: order 2, α = 1.3, linear weights, Williams' series in zones
+    /// around tips, refined at tips.
     #[must_use]
     pub fn new(cells: Cells) -> Self {
         Self {

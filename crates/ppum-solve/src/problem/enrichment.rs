@@ -15,8 +15,8 @@ use crate::geometry::meets;
 /// Functions that the local spaces of some patches hold beside polynomials, each times all
 /// polynomials up to a degree: `[[enrichment]]` in problem files.
 ///
-/// The built-in enrichment of tips is one of them: the Westergaard functions, with everything at its
-/// default.
+/// The built-in enrichment of tips is one of them: the Westergaard functions, with everything at
+/// its default.
 ///
 /// ```
 /// use ppum::dataset::Equation;
@@ -42,9 +42,11 @@ pub struct LocalEnrichment {
     /// The patches that have the functions.
     pub region: Region,
     /// Degree of the polynomials that multiply the functions. `None` is 0, but at tips
-    /// [`Discretization::tip_degree`](super::Discretization::tip_degree) on patches that hold the tip.
+    /// [`Discretization::tip_degree`](super::Discretization::tip_degree) on patches that hold the
+    /// tip.
     pub degree: Option<usize>,
-    /// Places at which the functions are not smooth, beside what their formulas show; in their frame.
+    /// Places at which the functions are not smooth, beside what their formulas show; in
+    /// their frame.
     pub declared: Declared,
 }
 
@@ -70,14 +72,14 @@ pub enum Site {
 /// The patches that have an enrichment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
-    /// The region that suits the site. World: all patches; a point or a segment: as `Near(0.0)`; tips: `Near` with
-    /// the [enrichment radius](super::Problem::enrichment_radius).
+    /// The region that suits the site. World: all patches; a point or a segment: as `Near(0.0)`;
+    /// tips: `Near` with the [enrichment radius](super::Problem::enrichment_radius).
     Default,
     /// Patches that hold the point or tip inside or are cut by the segment, and those whose support
     /// is nearer to it than this length.
     Near(f64),
-    /// Patches on whose support, as far as it lies in the domain, this expression of world coordinates
-    /// is positive at the centre, at a corner, or in the middle of an edge.
+    /// Patches on whose support, as far as it lies in the domain, this expression of world
+    /// coordinates is positive at the centre, at a corner, or in the middle of an edge.
     Where(Expression),
 }
 

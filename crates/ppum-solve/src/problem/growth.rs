@@ -13,7 +13,8 @@ use ppum::text::trimmed;
 pub struct GrowthRule {
     /// Where a tip goes.
     pub criterion: Criterion,
-    /// Length by which the tip that grows most does in a step; chosen step by step if none is given.
+    /// Length by which the tip that grows most does in a step; chosen step by step if none
+    /// is given.
     pub increment: Option<f64>,
     /// Most increments.
     pub steps: usize,
@@ -43,11 +44,13 @@ pub enum LoadControl {
     /// It is that of the problem.
     #[default]
     Constant,
-    /// It is multiplied by a factor so that the strength of one tip is its toughness, and that of no other is larger.
+    /// It is multiplied by a factor so that the strength of one tip is its toughness, and that of
+    /// no other is larger.
     Critical,
 }
 
-/// Growth per cycle da/dN = c ΔK^m, ΔK = (1 − ratio) × strength, above a threshold (Paris & Erdogan 1963).
+/// Growth per cycle da/dN = c ΔK^m, ΔK = (1 − ratio) × strength, above a threshold (Paris &
+/// Erdogan 1963).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paris {
     /// c > 0, in the units of the problem: length per cycle for ΔK = 1.
@@ -100,7 +103,8 @@ impl Paris {
     }
 }
 
-/// Least increment in units of the length below which things touch: an arc may have several vertices.
+/// Least increment in units of the length below which things touch: an arc may have
+/// several vertices.
 const LEAST_INCREMENT: f64 = 100.0;
 
 /// Least ratio of loads: in the largest cycles there are the load is turned around, ratio −1.

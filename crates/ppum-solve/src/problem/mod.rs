@@ -9,8 +9,8 @@
 //! with components of u (Dirichlet) or of the traction σ n, the flux κ ∂u/∂n (Neumann), given on
 //! parts of the border. `docs/problem-file.md` describes the file for users.
 //!
-//! A [`Problem`] is plain data. Reading reports everything that is wrong at once, with places; for a
-//! problem built in code [`Problem::check`] applies the same rules:
+//! A [`Problem`] is plain data. Reading reports everything that is wrong at once, with places; for
+//! a problem built in code [`Problem::check`] applies the same rules:
 //!
 //! ```
 //! use ppum::dataset::{Material, StressState};
@@ -133,8 +133,8 @@ pub struct Solver {
     pub kind: SolverKind,
     /// Part of the error in the energy norm that iteration may leave, estimated by its residual.
     pub tolerance: f64,
-    /// Use native kernels where there are any; false evaluates their formulas, which should give the
-    /// same to rounding.
+    /// Use native kernels where there are any; false evaluates their formulas, which should give
+    /// the same to rounding.
     pub kernels: bool,
 }
 
@@ -144,8 +144,8 @@ impl Default for Solver {
     }
 }
 
-/// Default tolerance of iteration: fields and stress intensity factors are those of the direct solver to 1e-9, a
-/// thousand times that, whatever they weigh in the energy.
+/// Default tolerance of iteration: fields and stress intensity factors are those of the direct
+/// solver to 1e-9, a thousand times that, whatever they weigh in the energy.
 pub(crate) const TOLERANCE: f64 = 1e-12;
 
 /// The linear solver.
@@ -162,17 +162,18 @@ pub enum SolverKind {
 }
 
 impl Problem {
-    /// True if tips have Williams' series, and corners theirs: where the material varies they have other ones.
+    /// True if tips have Williams' series, and corners theirs: where the material varies they have
+    /// other ones.
     pub(crate) fn has_series(&self) -> bool {
         self.discretization.enrichment == Enrichment::Williams && self.equation.is_uniform()
     }
 
-    /// Reads a problem file of at most [`MAX_LENGTH`] bytes. Paths in it are relative to its folder, and lead to files of at
-    /// most 64 MiB.
+    /// Reads a problem file of at most [`MAX_LENGTH`] bytes. Paths in it are relative to its
+    /// folder, and lead to files of at most 64 MiB.
     ///
     /// # Errors
-    /// Everything that is wrong, with file, line, column and remedy, of a file of numbers the first 100
-    /// mistakes; or that the file cannot be read.
+    /// Everything that is wrong, with file, line, column and remedy, of a file of numbers the first
+    /// 100 mistakes; or that the file cannot be read.
     pub fn read(path: &Path) -> Result<Self, ProblemError> {
         let file = path.display().to_string();
         let text = ppum_file::text(path, MAX_LENGTH).map_err(|error| Mistake {
@@ -193,8 +194,8 @@ impl Problem {
         read::read(text, file_name, read::Files::In(base_dir))
     }
 
-    /// The problem of a dataset, from the text it holds; none if it holds none. Tables and points that
-    /// were read from files are those of the dataset: the files need not be there any more.
+    /// The problem of a dataset, from the text it holds; none if it holds none. Tables and points
+    /// that were read from files are those of the dataset: the files need not be there any more.
     ///
     /// # Errors
     /// Everything that is wrong in the text.
@@ -203,7 +204,8 @@ impl Problem {
         dataset.problem.as_ref().map(read).transpose()
     }
 
-    /// The problem of another text, with the tables and points of a dataset in place of the files that the text names.
+    /// The problem of another text, with the tables and points of a dataset in place of the files
+    /// that the text names.
     ///
     /// # Errors
     /// Everything that is wrong in the text.
@@ -254,9 +256,10 @@ impl Problem {
         }
     }
 
-    /// The problem with one more crack; its ends on the border, also on rims
-    /// and in holes, become mouths, those on other cracks junctions, and all others tips. Ends of the cracks before
-    /// it that lie on it become junctions, too. Cost: that of looking at all cracks; [`cracks()`] makes many at once.
+    /// The problem with one more crack; its ends on the border, also on rims and in holes, become
+    /// mouths, those on other cracks junctions, and all others tips. Ends of the cracks before it
+    /// that lie on it become junctions, too. Cost: that of looking at all cracks; [`cracks()`]
+    /// makes many at once.
     #[must_use]
     pub fn with_crack(mut self, points: &[[f64; 2]]) -> Self {
         let new = points.iter().copied().map(Vec2::from).collect();

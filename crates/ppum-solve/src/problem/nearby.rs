@@ -8,8 +8,8 @@ use ppum::vec2::Rect;
 
 use crate::geometry::{around, wider};
 
-/// Most pairs of near segments that are looked at: a second or two. Cracks and rims that a cover can resolve have a
-/// few pairs a segment.
+/// Most pairs of near segments that are looked at: a second or two. Cracks and rims that a cover
+/// can resolve have a few pairs a segment.
 const MOST: usize = 50_000_000;
 
 /// Segments that are found by their places.

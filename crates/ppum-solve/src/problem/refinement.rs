@@ -16,11 +16,12 @@ pub(super) const MAX_REFINEMENTS: usize = 1024;
 /// Places along each axis at which a formula of the size is tried before anything is computed.
 const SAMPLES: u32 = 16;
 
-/// Cells of a part of the plate that are divided until they have a size: `[[refine]]` in problem files.
+/// Cells of a part of the plate that are divided until they have a size: `[[refine]]` in problem
+/// files.
 ///
-/// A cell that meets the place, or is nearer to it than `distance`, has no side longer than `size`. Of a formula that
-/// is its smallest value at nine places of what the cell has in common with the box around the place: corners,
-/// centre and middles of the sides.
+/// A cell that meets the place, or is nearer to it than `distance`, has no side longer than `size`.
+/// Of a formula that is its smallest value at nine places of what the cell has in common with the
+/// box around the place: corners, centre and middles of the sides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalRefinement {
     /// Where.

@@ -1,11 +1,12 @@
-//! Restraints: parts of the border where values are given, in the words that reactions are stored with.
+//! Restraints: parts of the border where values are given, in the words that reactions are
+//! stored with.
 
 use super::{BorderPart, Edge};
 use ppum::domain::Domain;
 use ppum::vec2::Vec2;
 
-/// The middle of a restraint by the words of its reaction: of an edge or a piece of it, of a circle, of the box
-/// around a polygon. None for words of other programs.
+/// The middle of a restraint by the words of its reaction: of an edge or a piece of it, of a
+/// circle, of the box around a polygon. None for words of other programs.
 #[must_use]
 pub fn restraint_center(on: &str, domain: &Domain) -> Option<Vec2> {
     let bounds = &domain.bounds;

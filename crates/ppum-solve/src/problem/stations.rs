@@ -22,8 +22,8 @@ pub struct Station {
 }
 
 impl Problem {
-    /// Points along the parts of the border that have conditions, about `spacing` apart, each in the middle of
-    /// its piece of the border, those in holes left out; nothing of a potential.
+    /// Points along the parts of the border that have conditions, about `spacing` apart, each in
+    /// the middle of its piece of the border, those in holes left out; nothing of a potential.
     #[must_use]
     pub fn stations(&self, spacing: f64) -> Vec<Station> {
         if self.equation.elastic().is_none() {
@@ -132,8 +132,8 @@ mod tests {
         assert_eq!(held[0].traction, Vec2::ZERO);
     }
 
-    /// Normals point out of the material and tractions of a pressure into it, on rims and faces alike: a step
-    /// along the normal leaves the plate.
+    /// Normals point out of the material and tractions of a pressure into it, on rims and faces
+    /// alike: a step along the normal leaves the plate.
     #[test]
     fn pressure_presses_on_the_material() {
         for (border, count) in [

@@ -4,8 +4,8 @@ use ppum::dataset::Equation;
 use ppum::domain::Domain;
 use ppum::vec2::vec2;
 
-/// λ/μ from which on a plate counts as nearly incompressible: ν = 0.476 in plane strain. In plane stress λ/μ stays
-/// below 2.
+/// λ/μ from which on a plate counts as nearly incompressible: ν = 0.476 in plane strain. In plane
+/// stress λ/μ stays below 2.
 pub(crate) const STIFF: f64 = 20.0;
 
 /// Order of polynomials without locking.

@@ -1,9 +1,10 @@
 //! Cracks without what rounding adds to them.
 //!
-//! Vertices are left out that a crack does not need: it keeps to its course without them up to the length that counts as
-//! zero. Where ends of cracks meet, or lie on other cracks, they become one point, on the line of those that go on straight
-//! there. So two segments that meet have one line or differ by more than rounding, and the side of a line that something
-//! lies on is not decided by it.
+//! Vertices are left out that a crack does not need: it keeps to its course without them up to the
+//! length that counts as zero. Where ends of cracks meet, or lie on other cracks, they become one
+//! point, on the line of those that go on straight there. So two segments that meet have one line
+//! or differ by more than rounding, and the side of a line that something lies on is not decided
+//! by it.
 
 use std::collections::BTreeMap;
 
@@ -12,11 +13,12 @@ use ppum::vec2::Vec2;
 
 use super::nearby::{Nearby, TooDense};
 
-/// Times that joints are looked for: those of the first time move the ends of lines that others are on.
+/// Times that joints are looked for: those of the first time move the ends of lines that others
+/// are on.
 const ROUNDS: usize = 2;
 
-/// Distance of ends that count as one place, in lengths that count as zero: each may be as far from a vertex that is left
-/// out.
+/// Distance of ends that count as one place, in lengths that count as zero: each may be as far from
+/// a vertex that is left out.
 const MEETS: f64 = 2.0;
 
 /// Sine of the angle between lines from which on their crossing is where they meet.
@@ -25,7 +27,8 @@ const APART: f64 = 1e-3;
 /// An end of a line, by the line's number; true of the last vertex.
 type LineEnd = (usize, bool);
 
-/// Lines without vertices that they do not need, their ends that meet in one point. Ends that are `held` stay.
+/// Lines without vertices that they do not need, their ends that meet in one point. Ends that are
+/// `held` stay.
 pub(super) fn straightened(
     lines: impl IntoIterator<Item = Vec<Vec2>>,
     is_held: impl Fn(Vec2) -> bool,
@@ -45,8 +48,8 @@ pub(super) fn straightened(
     lines
 }
 
-/// The vertices of a line that keep it within `touch` of its course. Vertices that are no farther apart all stay: they are
-/// mistakes.
+/// The vertices of a line that keep it within `touch` of its course. Vertices that are no farther
+/// apart all stay: they are mistakes.
 fn needed(points: &[Vec2], touch: f64) -> Vec<Vec2> {
     let mut kept: Vec<Vec2> = points.first().copied().into_iter().collect();
     let mut range: Option<Range> = None;
@@ -65,7 +68,8 @@ fn needed(points: &[Vec2], touch: f64) -> Vec<Vec2> {
     kept
 }
 
-/// The directions, as angles from a first one, of the lines from a vertex that pass what follows it.
+/// The directions, as angles from a first one, of the lines from a vertex that pass what
+/// follows it.
 #[derive(Clone, Copy)]
 struct Range {
     first: Vec2,
@@ -203,8 +207,9 @@ mod tests {
         Jumps::new(&cracks, &domain, touch(&around)).of(&unit).len() + 1
     }
 
-    /// Two cracks that go on from each other on a line, or off it by rounding or more, with vertices beside their joint, a
-    /// branch there, in any order, also where coordinates have few digits: no way leads through.
+    /// Two cracks that go on from each other on a line, or off it by rounding or more, with
+    /// vertices beside their joint, a branch there, in any order, also where coordinates have few
+    /// digits: no way leads through.
     #[test]
     fn joints_beside_a_line_are_closed() {
         let mut random = Random(19);
@@ -232,7 +237,8 @@ mod tests {
         }
     }
 
-    /// Vertices on a line are left out, whatever their rounding; others stay, and a second time changes nothing.
+    /// Vertices on a line are left out, whatever their rounding; others stay, and a second time
+    /// changes nothing.
     #[test]
     fn vertices_that_are_not_needed() {
         let mut random = Random(20);

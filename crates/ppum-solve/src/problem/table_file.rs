@@ -1,7 +1,7 @@
 //! Files of tables.
 //!
-//! A curve has a line `x,value` for each knot. A surface is a grid: its first line holds the knots in x
-//! after an empty place, `,x1,x2,…`; each further line holds a knot in y and the values there,
+//! A curve has a line `x,value` for each knot. A surface is a grid: its first line holds the knots
+//! in x after an empty place, `,x1,x2,…`; each further line holds a knot in y and the values there,
 //! `y,v1,v2,…`.
 
 use std::path::Path;
@@ -22,8 +22,8 @@ pub(super) struct Data {
 /// Reads a file.
 ///
 /// # Errors
-/// One mistake per line that has the wrong number of entries, an entry that is not a finite number, or
-/// a knot that does not exceed the one before; or one for the file.
+/// One mistake per line that has the wrong number of entries, an entry that is not a finite number,
+/// or a knot that does not exceed the one before; or one for the file.
 pub(super) fn read(path: &Path) -> Result<Data, Vec<Mistake>> {
     let text = csv::read(path, "table").map_err(|mistake| vec![mistake])?;
     let data = parse(&text, &path.display().to_string())?;
@@ -35,8 +35,8 @@ pub(super) fn read(path: &Path) -> Result<Data, Vec<Mistake>> {
 }
 
 /// Reads a table from a file, as `file` of `[[table]]` in problem files: a line `x,value` for each
-/// knot, or a grid with the knots in x after an empty place on the first line, `,x1,x2,…`, and lines
-/// `y,v1,v2,…`.
+/// knot, or a grid with the knots in x after an empty place on the first line, `,x1,x2,…`, and
+/// lines `y,v1,v2,…`.
 ///
 /// # Errors
 /// Every line that is wrong; or data that make no table.

@@ -1,17 +1,18 @@
 //! Adaptive division of pieces on which functions vary too fast for one rule.
 //!
-//! The integrals of f, f² and |∇f|² over a piece are compared with the sums over its halves, divided
-//! in each of a few directions. While the differences add up to more than a part of the integrals
-//! over all pieces, the worst piece is replaced by its halves in the direction that matters most. A
-//! layer exp(−d/ε) across pieces of size h takes O(log(h/ε)) of them, because polygons are divided
-//! across the direction in which the gradient changes.
+//! The integrals of f, f² and |∇f|² over a piece are compared with the sums over its halves,
+//! divided in each of a few directions. While the differences add up to more than a part of the
+//! integrals over all pieces, the worst piece is replaced by its halves in the direction that
+//! matters most. A layer exp(−d/ε) across pieces of size h takes O(log(h/ε)) of them, because
+//! polygons are divided across the direction in which the gradient changes.
 //!
-//! A layer along a side of a piece may be so thin that no Gauss point sees it. Therefore Gauss rules
-//! are also compared with rules that have points as good as on the border. What vanishes at all
-//! points of these rules is not seen.
+//! A layer along a side of a piece may be so thin that no Gauss point sees it. Therefore Gauss
+//! rules are also compared with rules that have points as good as on the border. What vanishes at
+//! all points of these rules is not seen.
 //!
-//! Of loads only the integral of f itself is held, and to a part of all the load: they may be singular,
-//! and vanish almost everywhere. Where division ends before, the error that is left is a [`Doubt`].
+//! Of loads only the integral of f itself is held, and to a part of all the load: they may be
+//! singular, and vanish almost everywhere. Where division ends before, the error that is left is
+//! a [`Doubt`].
 
 use super::doubt::Doubt;
 use super::edge::Face;
@@ -36,8 +37,8 @@ pub(super) const MOST_DIVISIONS: usize = 10_000;
 /// piece is found with fewer.
 const FIRST_CHECK: usize = 32;
 
-/// The share they must come down to. Noise does not get less by division, while the value on a border
-/// of a layer that is still too thin to be seen otherwise counts half at each.
+/// The share they must come down to. Noise does not get less by division, while the value on a
+/// border of a layer that is still too thin to be seen otherwise counts half at each.
 const SHARE: f64 = 0.8;
 
 /// Most divisions one inside the other. Halves of halves are rounding before.
@@ -369,8 +370,8 @@ impl Demand<'_> {
     }
 
     /// The error that each integral over all parts may have. That of |∇f|² may be a part of f² over
-    /// the square of the cell's size, too: where f hardly varies its gradient may be rounding. That of a
-    /// load may be a part of the mean load.
+    /// the square of the cell's size, too: where f hardly varies its gradient may be rounding. That
+    /// of a load may be a part of the mean load.
     fn allowed<P>(&self, entries: &[Entry<P>]) -> Vec<f64> {
         let size = |k: usize| entries.iter().map(|e| e.integrals[k].size).sum::<f64>();
         let measure: f64 = entries.iter().map(|e| e.measure).sum();

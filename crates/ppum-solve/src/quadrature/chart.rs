@@ -37,8 +37,8 @@ pub(super) struct Apex {
 }
 
 /// The part of a chart's window below or above a curve. In one axis, the height, the unit interval
-/// is the way from the window's border to the curve or on to the opposite border; the other axis, the
-/// base, keeps its direction.
+/// is the way from the window's border to the curve or on to the opposite border; the other axis,
+/// the base, keeps its direction.
 #[derive(Clone)]
 pub(super) struct Strip<'c> {
     pub(super) level: LevelOn<'c>,

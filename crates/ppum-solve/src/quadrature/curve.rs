@@ -2,12 +2,13 @@
 //!
 //! A curve ψ = 0 that runs across a window as a graph over one of its axes divides it into strips
 //! whose borders are the curve itself, found by a root on each line of Gauss points: no chord, no
-//! order of the geometry, the rule is as good as the functions are smooth along the curve (after Saye,
-//! "High-order quadrature methods for implicitly defined surfaces and volumes in hyperrectangles",
-//! SIAM J. Sci. Comput. 37 (2015)). Windows in which no axis will do are divided into four.
+//! order of the geometry, the rule is as good as the functions are smooth along the curve (after
+//! Saye, "High-order quadrature methods for implicitly defined surfaces and volumes in
+//! hyperrectangles", SIAM J. Sci. Comput. 37 (2015)). Windows in which no axis will do are divided
+//! into four.
 //!
-//! The curve is known by samples only. What is smaller than a sixteenth of a piece and nowhere shows
-//! in the level function's course, its differences and extrema, is not seen.
+//! The curve is known by samples only. What is smaller than a sixteenth of a piece and nowhere
+//! shows in the level function's course, its differences and extrema, is not seen.
 
 use super::chart::{Chart, LevelOn, Strip, UNIT, range};
 use super::geometry::Level;
@@ -32,15 +33,16 @@ const FLAT: f64 = 1e-11;
 /// Values below this part of a level function's size are zero.
 const ZERO: f64 = 1e-14;
 
-/// Distances to a curve below this part of the coordinates are rounding: of two level functions with the
-/// same zero set one has such values where the other is zero, and must not cut slivers off there.
+/// Distances to a curve below this part of the coordinates are rounding: of two level functions
+/// with the same zero set one has such values where the other is zero, and must not cut slivers
+/// off there.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Differences of values below this many times what counts as zero are rounding.
 const ROUNDED: f64 = 4.0;
 
-/// Neighbours in a grid that are nearer to each other than this part of the largest distance of two do
-/// not say how steep a level function is.
+/// Neighbours in a grid that are nearer to each other than this part of the largest distance of two
+/// do not say how steep a level function is.
 const PINCHED: f64 = 1e-3;
 
 /// Distances of crossings below this part of a window are rounding.
@@ -93,7 +95,8 @@ pub(super) fn cut_all<'c>(
     curves: &[&'c Level],
     anchor: Vec2,
 ) -> (Vec<Window<'c>>, bool) {
-    // Slivers between curves that coincide do not say how steep a level function is; whole pieces do.
+    // Slivers between curves that coincide do not say how steep a level function is; whole
+    // pieces do.
     let rounding = |&level: &&'c Level| {
         let of_window = |window: &Window<'c>| {
             let chart = Rc::clone(&window.chart);

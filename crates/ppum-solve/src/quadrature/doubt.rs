@@ -6,8 +6,8 @@ use ppum::vec2::Vec2;
 /// because it did not help.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Doubt {
-    /// Estimated error of the integral of |f| of the loads, the larger of two rules' difference and what
-    /// a further division changes; zero where it is within what is allowed.
+    /// Estimated error of the integral of |f| of the loads, the larger of two rules' difference and
+    /// what a further division changes; zero where it is within what is allowed.
     pub load: f64,
     /// The same of functions and coefficients, relative to the integrals over their pieces.
     pub functions: f64,

@@ -65,8 +65,8 @@ pub(crate) struct EdgeRule {
     pub patches: Vec<u32>,
     /// Unit normals out of the material, one per point.
     pub normals: Vec<Vec2>,
-    /// The face that the points lie on, if they are on one. Rounding may put them on either side of the
-    /// crack: what has sides there takes that of the face.
+    /// The face that the points lie on, if they are on one. Rounding may put them on either side of
+    /// the crack: what has sides there takes that of the face.
     pub face: Option<Face>,
     /// Errors that the points leave.
     pub doubt: Doubt,
@@ -119,9 +119,10 @@ impl Quadrature<'_> {
 
     /// Rules on the part of a straight segment that belongs to a cell; empty if none does.
     ///
-    /// `normal` is the segment's unit normal out of the material. Parts without material behind them count
-    /// for nothing. A segment along a cell's border belongs to the cell that `normal` points out of.
-    /// `coverers` are the patches whose open supports meet the cell; more of them do no harm.
+    /// `normal` is the segment's unit normal out of the material. Parts without material behind
+    /// them count for nothing. A segment along a cell's border belongs to the cell that `normal`
+    /// points out of. `coverers` are the patches whose open supports meet the cell; more of them do
+    /// no harm.
     #[must_use]
     pub(crate) fn edge(
         &self,
@@ -161,8 +162,8 @@ struct Line {
     /// The segment that the points are on, and s at its ends.
     segment: [Vec2; 2],
     ends: [f64; 2],
-    /// Distances that are rounding. They are those of the segment, not of a cell: cells of several sizes on both
-    /// sides of it must agree whose it is.
+    /// Distances that are rounding. They are those of the segment, not of a cell: cells of several
+    /// sizes on both sides of it must agree whose it is.
     slack: f64,
 }
 
@@ -179,8 +180,8 @@ impl Line {
         Self { anchor, tangent, normal, foot, segment, ends, slack }
     }
 
-    /// The part of \[ends\] inside a box, if it has a length, however short: boxes of different sizes must agree. A line
-    /// along a border is inside for a positive `slack`, a distance.
+    /// The part of \[ends\] inside a box, if it has a length, however short: boxes of different
+    /// sizes must agree. A line along a border is inside for a positive `slack`, a distance.
     fn inside(&self, rect: &Rect, ends: [f64; 2], slack: f64) -> Option<(f64, f64)> {
         let [mut lo, mut hi] = ends;
         let main = usize::from(self.tangent.y.abs() > self.tangent.x.abs());
@@ -203,7 +204,8 @@ impl Line {
         (component(rect.min - self.anchor, axis), component(rect.max - self.anchor, axis))
     }
 
-    /// Coordinate of the segment along an axis, relative to the anchor, if that is one place but for rounding.
+    /// Coordinate of the segment along an axis, relative to the anchor, if that is one place but
+    /// for rounding.
     fn level(&self, axis: usize) -> Option<f64> {
         let [from, to] = self.segment.map(|p| component(p, axis));
         let middle = 0.5 * (from + to) - component(self.anchor, axis);
@@ -225,8 +227,8 @@ impl Line {
         (component(self.tangent, axis) != 0.0).then(|| self.crossing(axis, at))
     }
 
-    /// The same on a line that is not across the axis. Counted from the nearer end of the segment, so that
-    /// all cells find the same point, however small the angle to their border.
+    /// The same on a line that is not across the axis. Counted from the nearer end of the segment,
+    /// so that all cells find the same point, however small the angle to their border.
     fn crossing(&self, axis: usize, at: f64) -> f64 {
         let ways = self.segment.map(|end| at - component(end, axis));
         let k = usize::from(ways[1].abs() < ways[0].abs());
@@ -367,7 +369,8 @@ impl Run<'_> {
     /// the line itself.
     fn graded(&self, lo: f64, hi: f64, at: &Singular, order: usize) -> Vec<Stretch> {
         let (s, d) = self.line.seen_from(at.point);
-        // an end at the point itself is there exactly: what rounding would leave between them counts
+        // an end at the point itself is there exactly: what rounding would leave between
+        // them counts
         let from_point = |x: f64| if (x - s).abs() > ON_LINE * (hi - lo) { x - s } else { 0.0 };
         let (lo, hi) = (from_point(lo), from_point(hi));
         let tangent = self.line.tangent;

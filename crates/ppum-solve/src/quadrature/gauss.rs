@@ -76,9 +76,9 @@ pub(crate) fn gauss(n: usize) -> &'static GaussRule {
 /// the right side of a jump at the end, whatever rounding does to coordinates.
 const INSET: f64 = 1e-6;
 
-/// A rule with n + 1 points, 1 ≤ n ≤ [`MAX_POINTS`], two of them as good as at the ends, and exact to
-/// 1e-12 where the Gauss rule with n points is exact. It sees what happens there, which Gauss rules
-/// do not.
+/// A rule with n + 1 points, 1 ≤ n ≤ [`MAX_POINTS`], two of them as good as at the ends, and exact
+/// to 1e-12 where the Gauss rule with n points is exact. It sees what happens there, which Gauss
+/// rules do not.
 ///
 /// The Lobatto rule on the interval without its outermost millionths, whose share is given to the
 /// points at their inner ends.
@@ -98,8 +98,8 @@ fn lobatto_inside(n: usize) -> GaussRule {
     GaussRule { nodes, weights }
 }
 
-/// The Lobatto rule on \[−1, 1\] with n + 1 points, ±1 and the zeros of P_n′, and the weights
-/// 2 / (n (n + 1) P_n(x)²). Newton iteration from the extrema of the Chebyshev polynomial, with P_n″
+/// The Lobatto rule on \[−1, 1\] with n + 1 points, ±1 and the zeros of P_n′, and the weights 2 /
+/// (n (n + 1) P_n(x)²). Newton iteration from the extrema of the Chebyshev polynomial, with P_n″
 /// from Legendre's equation.
 fn lobatto(n: usize) -> GaussRule {
     let order = n as f64;

@@ -16,8 +16,8 @@ const LEAST_EXPONENT: f64 = 0.04;
 /// More points along a ray for the exponent λ: this over √λ.
 const EXTRA_POINTS: f64 = 8.0;
 
-/// The geometry that decides where integrands are smooth. Lists of a patch are indices into the slices before
-/// them, in any order; an empty `patch_…` slice means that no patch has any.
+/// The geometry that decides where integrands are smooth. Lists of a patch are indices into the
+/// slices before them, in any order; an empty `patch_…` slice means that no patch has any.
 #[derive(Clone, Copy)]
 pub(crate) struct Geometry<'a> {
     /// The partition of unity.
@@ -194,9 +194,9 @@ fn powers(lambda: f64, n: usize) -> Grading {
 
 /// A level function: negative on one side of its zero set, positive on the other.
 ///
-/// It should be smooth but for single points and for kinks that are declared before it, and its size
-/// tell of the distance to the zero set, as a polynomial or a distance does. Cuts are made where
-/// samples show that it changes its sign; values that are no numbers count as positive.
+/// It should be smooth but for single points and for kinks that are declared before it, and its
+/// size tell of the distance to the zero set, as a polynomial or a distance does. Cuts are made
+/// where samples show that it changes its sign; values that are no numbers count as positive.
 pub(crate) type Level = dyn Fn(Vec2) -> f64 + Send + Sync;
 
 /// A line or curve across which a function or one of its derivatives jumps.
@@ -222,8 +222,8 @@ impl fmt::Debug for Kink {
 
 /// Functions that the quadrature may look at to see whether its pieces resolve them.
 pub(crate) trait Probes: Sync {
-    /// Appends \[f, ∂f/∂x, ∂f/∂y\] of one function at each of the points `anchor + offset`. Points on a `face` of a crack
-    /// have its side, wherever rounding has put them.
+    /// Appends \[f, ∂f/∂x, ∂f/∂y\] of one function at each of the points `anchor + offset`. Points
+    /// on a `face` of a crack have its side, wherever rounding has put them.
     fn evaluate(
         &self,
         function: u32,
@@ -232,8 +232,9 @@ pub(crate) trait Probes: Sync {
         out: &mut Vec<[f64; 3]>,
     );
 
-    /// Of a load the mean of |f| over all that it acts on: integrals of f alone count, and errors that
-    /// are small against the load as a whole do not. None for functions of a space and coefficients.
+    /// Of a load the mean of |f| over all that it acts on: integrals of f alone count, and errors
+    /// that are small against the load as a whole do not. None for functions of a space
+    /// and coefficients.
     fn load(&self, function: u32) -> Option<f64> {
         let _ = function;
         None

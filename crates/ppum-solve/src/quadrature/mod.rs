@@ -1,25 +1,28 @@
 //! Quadrature: where the solver looks at the fields.
 //!
-//! The leaf cells of a cover tile the domain's box. [`Quadrature::cell`] divides a cell into pieces on
-//! which all integrands of the method are smooth and gives each a Gauss rule:
+//! The leaf cells of a cover tile the domain's box. [`Quadrature::cell`] divides a cell into pieces
+//! on which all integrands of the method are smooth and gives each a Gauss rule:
 //!
 //! 1. rectangles with a constant set of covering patches;
 //! 2. cut at kinks of the partition functions, where these do not cancel;
-//! 3. cut by the crack segments that meet the rectangle, each of which divides the pieces that it meets along its
-//!    line, so that all of them stay convex; the straight extensions of cracks, across which sides jump, cut too, and
-//!    straight kinks of the active functions and of the material;
+//! 3. cut by the crack segments that meet the rectangle, each of which divides the pieces that it
+//!    meets along its line, so that all of them stay convex; the straight extensions of cracks,
+//!    across which sides jump, cut too, and straight kinks of the active functions and of
+//!    the material;
 //! 4. near a point at which an active function is singular, triangles with their apex there and a
-//!    rule for the powers of r that occur ([`Growth`]), and bisection of pieces that are closer to it
-//!    than their diameter;
+//!    rule for the powers of r that occur ([`Growth`]), and bisection of pieces that are closer to
+//!    it than their diameter;
 //! 5. cut along curved kinks, the pieces getting sides that follow the curve;
 //! 6. the same along the rims of holes, and what lies in a hole dropped;
 //! 7. divided until rules resolve functions that may vary fast ([`Probes`]).
 //!
-//! Points are an anchor plus offsets. Near a singular point the anchor is that point itself, so that
-//! the distance to it carries no rounding of the coordinates. [`Quadrature::edge`] does the same along
-//! segments and faces of cracks, [`Quadrature::rim`] along the rims of holes, [`Quadrature::disc`] for the domain integrals of stress intensity.
+//! Points are an anchor plus offsets. Near a singular point the anchor is that point itself, so
+//! that the distance to it carries no rounding of the coordinates. [`Quadrature::edge`] does the
+//! same along segments and faces of cracks, [`Quadrature::rim`] along the rims of holes,
+//! [`Quadrature::disc`] for the domain integrals of stress intensity.
 //!
-//! Nothing here knows fields, formulas or basis functions: [`Geometry`] says where something happens.
+//! Nothing here knows fields, formulas or basis functions: [`Geometry`] says where something
+//! happens.
 
 mod adapt;
 mod chart;
@@ -142,7 +145,8 @@ pub(crate) struct Disc {
     pub scale: f64,
     /// Gauss points in each direction of pieces as large as that, and at the centre.
     pub order: usize,
-    /// Gauss points of pieces that are next to nothing against it, enough for what else is in the integrand.
+    /// Gauss points of pieces that are next to nothing against it, enough for what else is in
+    /// the integrand.
     pub least: usize,
 }
 
@@ -187,7 +191,8 @@ impl<'a> Quadrature<'a> {
         self.rules(cell, coverers, self.orders, None)
     }
 
-    /// True if nothing cuts a cell but borders of patches, and all that multiplies their weights is smooth there.
+    /// True if nothing cuts a cell but borders of patches, and all that multiplies their weights is
+    /// smooth there.
     #[must_use]
     pub(crate) fn is_whole(&self, cell: &Rect, coverers: &[u32]) -> bool {
         let Geometry { common_kinks, common_probes, .. } = self.geometry;
@@ -198,8 +203,8 @@ impl<'a> Quadrature<'a> {
             && !self.boxes.iter().any(|hole| hole.overlaps(cell))
     }
 
-    /// The rules on the pieces of a cell that meet a disc, with more points than the disc asks for where the weight function
-    /// needs them.
+    /// The rules on the pieces of a cell that meet a disc, with more points than the disc asks for
+    /// where the weight function needs them.
     ///
     /// The integrand may be singular like r⁻¹ at the disc's centre, whichever functions are active,
     /// and must vanish outside the disc: of the cell the part inside the disc's bounding square is
@@ -336,7 +341,8 @@ impl Run<'_> {
         }
     }
 
-    /// The rectangle cut by the segments that meet it and by straight kinks, relative to the anchor.
+    /// The rectangle cut by the segments that meet it and by straight kinks, relative to
+    /// the anchor.
     fn cut(&self, rect: &Rect, anchor: Vec2, kinks: &[&Kink]) -> Vec<Polygon> {
         let meets = |cut: &&Cut| meets(rect, cut.ends[0], cut.ends[1]);
         let meeting = self.segments.iter().filter(meets).copied();

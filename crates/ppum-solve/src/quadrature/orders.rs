@@ -52,8 +52,8 @@ pub(super) struct Active {
 
 impl Orders {
     /// The orders for polynomials of degree p and linear weights, with more points in overlaps than
-    /// [`Orders::for_weight`] finds necessary. A product of two polynomials is exact where one patch
-    /// is alone, cracks or not.
+    /// [`Orders::for_weight`] finds necessary. A product of two polynomials is exact where one
+    /// patch is alone, cracks or not.
     ///
     /// On a square that is its diameter away from a tip, max(p + 2, 8) points integrate ξ^2p / r to
     /// 1e-5 or better (docs/decisions/0030-points.md).
@@ -74,11 +74,11 @@ impl Orders {
     /// overlaps.
     ///
     /// `weight` gives \[w, dw/dξ\] at ξ ∈ (−1, 1); `breakpoints` are the places t = |ξ| where a
-    /// derivative jumps; `stretch` is α, the size of a patch relative to its cell. On a line of cells
-    /// of two sizes the products φ_i φ_k, φ_i′ φ_k′ and the same times ξ_i^p ξ_k^p are integrated
-    /// with more and more points, on more and more parts of each overlap, until the error is below
-    /// `accuracy` times the largest. The returned error is larger only if no rule is good enough,
-    /// which is then the best of those tried. Takes some milliseconds.
+    /// derivative jumps; `stretch` is α, the size of a patch relative to its cell. On a line of
+    /// cells of two sizes the products φ_i φ_k, φ_i′ φ_k′ and the same times ξ_i^p ξ_k^p are
+    /// integrated with more and more points, on more and more parts of each overlap, until the
+    /// error is below `accuracy` times the largest. The returned error is larger only if no rule is
+    /// good enough, which is then the best of those tried. Takes some milliseconds.
     #[must_use]
     pub(crate) fn for_weight(
         p: usize,

@@ -61,8 +61,8 @@ impl Cut {
 /// |b − a| times the signed distance of `p` to the line from `a` to `b`, positive on the left; zero
 /// where only rounding tells it from zero.
 ///
-/// Formed as (a − p) × (b − p): the same from whichever cell or piece it is asked, and exact at both
-/// ends of the segment.
+/// Formed as (a − p) × (b − p): the same from whichever cell or piece it is asked, and exact at
+/// both ends of the segment.
 pub(super) fn line_side(a: Vec2, b: Vec2, p: Vec2) -> f64 {
     let (u, v) = (a - p, b - p);
     let size = (u.x * v.y).abs() + (u.y * v.x).abs();
@@ -155,11 +155,12 @@ impl Polygon {
         from < to
     }
 
-    /// The polygon divided so that no cut runs through the inside of a part, without the parts smaller than `least`.
+    /// The polygon divided so that no cut runs through the inside of a part, without the parts
+    /// smaller than `least`.
     ///
-    /// A cut divides the parts that it meets, each along the whole of its line. Where there are many, the polygon is halved
-    /// before: of a chain of n segments that lie on one line but for noise, some n parts are left, none of them much
-    /// longer than the segments.
+    /// A cut divides the parts that it meets, each along the whole of its line. Where there are
+    /// many, the polygon is halved before: of a chain of n segments that lie on one line but for
+    /// noise, some n parts are left, none of them much longer than the segments.
     pub(super) fn pieces(self, cuts: &[Cut], least: f64) -> Vec<Self> {
         let mut pieces = Vec::new();
         self.add_pieces(cuts.to_vec(), DEEPEST, &mut pieces);
@@ -205,8 +206,9 @@ impl Polygon {
         pieces
     }
 
-    /// Two or more smaller polygons: triangles, or a triangle's halves across its longest edge; of a sliver the halves of its
-    /// length, as its triangles would lie beside each other again and again.
+    /// Two or more smaller polygons: triangles, or a triangle's halves across its longest edge; of
+    /// a sliver the halves of its length, as its triangles would lie beside each other again
+    /// and again.
     pub(super) fn parts(&self) -> Vec<Self> {
         if let Some(halves) = self.halves_of_sliver() {
             return halves.into();
@@ -270,8 +272,8 @@ mod tests {
         assert_eq!(square().pieces(&[outside], 0.0).len(), 1);
     }
 
-    /// However far the vertices of a chain lie beside a line, a few parts come to each; they are the square, and no
-    /// segment runs through one.
+    /// However far the vertices of a chain lie beside a line, a few parts come to each; they are
+    /// the square, and no segment runs through one.
     #[test]
     fn chains_along_a_line_leave_few_parts() {
         let mut random = Random(11);

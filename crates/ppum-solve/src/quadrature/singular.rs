@@ -4,10 +4,10 @@
 //! than its diameter gets plain Gauss rules; one that touches the point is cut into triangles with
 //! their apex there, and with s = t² along the rays and x = foot + d sinh u along the far edge (at
 //! distance d) the integrand is a polynomial in t and smooth in u; any other piece is bisected.
-//! With other exponents the rays get another power of t and more points ([`Growth`]).
-//! After Duffy, "Quadrature over a pyramid or cube of integrands with a singularity at a vertex", SIAM
-//! J. Numer. Anal. 19 (1982), and Johnston & Elliott, "A sinh transformation for evaluating nearly
-//! singular boundary element integrals", Int. J. Numer. Meth. Engng 62 (2005).
+//! With other exponents the rays get another power of t and more points ([`Growth`]). After Duffy,
+//! "Quadrature over a pyramid or cube of integrands with a singularity at a vertex", SIAM J. Numer.
+//! Anal. 19 (1982), and Johnston & Elliott, "A sinh transformation for evaluating nearly singular
+//! boundary element integrals", Int. J. Numer. Meth. Engng 62 (2005).
 //!
 //! [`Growth`]: super::Growth
 
@@ -57,8 +57,8 @@ pub(super) struct Pieces<'r, 'c> {
 }
 
 impl Pieces<'_, '_> {
-    /// Adds the rule of a polygon given relative to `anchor`, with the `singular` points that may be
-    /// near it.
+    /// Adds the rule of a polygon given relative to `anchor`, with the `singular` points that may
+    /// be near it.
     pub(super) fn add(&mut self, anchor: Vec2, polygon: &Polygon, singular: &[Singular]) {
         if polygon.area() <= self.least {
             return;
@@ -153,8 +153,8 @@ fn apex_triangle<'c>(at: &Singular, a: Vec2, b: Vec2, n: usize) -> Vec<Window<'c
     panels(tangent.dot(a), tangent.dot(b), height).map(window).collect()
 }
 
-/// Intervals of u for \[lo, hi\], where x = d sinh u is the coordinate along a line at distance d > 0
-/// from a singular point, measured from the foot of the perpendicular.
+/// Intervals of u for \[lo, hi\], where x = d sinh u is the coordinate along a line at distance d >
+/// 0 from a singular point, measured from the foot of the perpendicular.
 pub(super) fn panels(lo: f64, hi: f64, d: f64) -> impl Iterator<Item = (f64, f64)> {
     let (from, to) = ((lo / d).asinh(), (hi / d).asinh());
     let panels = ((to - from) / PANEL).ceil().max(1.0);

@@ -1,10 +1,10 @@
-//! Cells that shrink towards what polynomials see badly: singular points of the border, and round rims. Corners with functions
-//! ask for a few small cells that leave these the room they need.
+//! Cells that shrink towards what polynomials see badly: singular points of the border, and round
+//! rims. Corners with functions ask for a few small cells that leave these the room they need.
 //!
-//! A cell at a distance d is at most slope · d large, down to a finest size. At a singular point
-//! u ~ r^λ the energy that cells of size h miss is C (1 − λ) (h/R)^{2λ} of that of the surroundings, R away
-//! from what is next: it vanishes with the singularity. What remains beside that is missed ring by ring, the
-//! same part in each, and does not depend on the finest size.
+//! A cell at a distance d is at most slope · d large, down to a finest size. At a singular point u
+//! ~ r^λ the energy that cells of size h miss is C (1 − λ) (h/R)^{2λ} of that of the surroundings,
+//! R away from what is next: it vanishes with the singularity. What remains beside that is missed
+//! ring by ring, the same part in each, and does not depend on the finest size.
 
 use super::rim::{Bend, FOR_ENERGY, bends, finest};
 use crate::corner::{Corner, Nature};
@@ -20,29 +20,31 @@ const MISSED: f64 = 1e-4;
 /// Largest cells at a distance, in parts of it.
 const SLOPE: f64 = 1.0;
 
-/// The same where a restraint ends within an edge, on [`STRONG`] exponents: reactions concentrate there, and the
-/// energy with them.
+/// The same where a restraint ends within an edge, on [`STRONG`] exponents: reactions concentrate
+/// there, and the energy with them.
 const STEEP: f64 = 0.35;
 
 /// Exponents of a restraint that are near 1/2.
 const STRONG: f64 = 0.6;
 
-/// Radius around a corner with functions within which cells are small, and their size, in parts of the corner's room: most
-/// of the patches in the room then have the functions.
+/// Radius around a corner with functions within which cells are small, and their size, in parts of
+/// the corner's room: most of the patches in the room then have the functions.
 const WITH_FUNCTIONS: f64 = 0.5;
 const CELLS_OF_FUNCTIONS: f64 = 0.25;
 
-/// Smallest cells that are asked for, in parts of the base cover's: what is smaller is not resolved.
+/// Smallest cells that are asked for, in parts of the base cover's: what is smaller is
+/// not resolved.
 pub(super) const SMALLEST: f64 = 1.0 / 16_384.0;
 
 /// Cells of a ring around a point, at slope 1.
 const RING: f64 = 12.0;
 
-/// Cells along a rim, times their size over its length: two to three layers, and what they take to the size of the
-/// others. Rims in cells of 1/4 to 20 radii had 5 to 8.
+/// Cells along a rim, times their size over its length: two to three layers, and what they take to
+/// the size of the others. Rims in cells of 1/4 to 20 radii had 5 to 8.
 const ON_RIM: f64 = 8.0;
 
-/// Step by which rims are coarsened: less than the factor of two between cells, as they are of different radii.
+/// Step by which rims are coarsened: less than the factor of two between cells, as they are of
+/// different radii.
 const STEP: f64 = 1.25;
 
 /// The demand of one point or rim on the cells.
@@ -60,7 +62,8 @@ enum Shape {
     Bend(Bend),
 }
 
-/// The demands of the singular points and the round rims of a problem on a base cover with cells of the given size.
+/// The demands of the singular points and the round rims of a problem on a base cover with cells of
+/// the given size.
 pub(super) fn graded(problem: &Problem, corners: &[Corner], size: f64) -> Vec<Graded> {
     let plate = problem.domain.bounds.size();
     let bits = |p: Vec2| [p.x.to_bits(), p.y.to_bits()];
@@ -130,7 +133,8 @@ impl Graded {
         self.finest *= 2.0;
     }
 
-    /// Asks for coarser cells at a rim, as far as its energy bears them; false if it bears no coarser ones.
+    /// Asks for coarser cells at a rim, as far as its energy bears them; false if it bears no
+    /// coarser ones.
     pub(super) fn coarsen_rim(&mut self) -> bool {
         let radius = match self.from {
             Shape::Point(_) => return false,

@@ -1,5 +1,5 @@
-//! Cells in ligaments: where little material is left between a hole and an edge, another hole or a crack, the
-//! plate bends like a beam, and a few cells must lie across.
+//! Cells in ligaments: where little material is left between a hole and an edge, another hole or a
+//! crack, the plate bends like a beam, and a few cells must lie across.
 
 use super::graded::SMALLEST;
 use crate::geometry::exceeds;
@@ -8,8 +8,8 @@ use ppum::domain::Hole;
 use ppum::segment::polyline_distance;
 use ppum::vec2::{Rect, Vec2};
 
-/// Largest cells in a ligament, in parts of its width: the energy is right to 4e-4 then, with half as many
-/// cells across to 4e-3.
+/// Largest cells in a ligament, in parts of its width: the energy is right to 4e-4 then, with half
+/// as many cells across to 4e-3.
 const ACROSS: f64 = 1.0 / 3.0;
 
 /// Ligaments below this part of the plate's size are as good as broken through.
@@ -59,7 +59,8 @@ pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
 }
 
 impl Ligament<'_> {
-    /// Farthest distance from a cell of a hole whose ligament asks it to be smaller, in sizes of the cell.
+    /// Farthest distance from a cell of a hole whose ligament asks it to be smaller, in sizes of
+    /// the cell.
     pub(super) const REACH: f64 = 1.0 / ACROSS;
 
     /// The box of the hole.
@@ -72,7 +73,8 @@ impl Ligament<'_> {
         self.finest *= 2.0;
     }
 
-    /// About how many cells are added to cells of a size: a few across, along where it is about as thin.
+    /// About how many cells are added to cells of a size: a few across, along where it is about
+    /// as thin.
     pub(super) fn cells(&self, size: f64) -> f64 {
         let length = match self.hole {
             Hole::Circle { radius, .. } => 2.0 * (2.0 * radius * self.finest / ACROSS).sqrt(),
@@ -98,7 +100,8 @@ impl Other<'_> {
         }
     }
 
-    /// Points of which one is nearest to a circle or to a polygon that keeps apart, beside the polygon's own.
+    /// Points of which one is nearest to a circle or to a polygon that keeps apart, beside the
+    /// polygon's own.
     fn corners(&self) -> Vec<Vec2> {
         match self {
             Self::Edge(..) | Self::Hole(Hole::Circle { .. }) => Vec::new(),

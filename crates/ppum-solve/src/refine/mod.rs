@@ -1,19 +1,21 @@
-//! The cover of a problem, divided where it says so ([`by_hand`]), and by itself where cracks and rims need it.
+//! The cover of a problem, divided where it says so ([`by_hand`]), and by itself where cracks and
+//! rims need it.
 //!
 //! - No patch holds two tips, or a tip and a kink of its crack.
-//! - The cells around a tip are at most a quarter of the crack length belonging to it, and those at the tip
-//!   half its clearance, and half the distance to the next interface of two
-//!   materials.
-//! - Cells at corners of interfaces, and where these meet the border or a crack, have an eighth of the size,
-//!   unless the problem has functions of its own: the field is singular there.
-//! - In no patch with a tip, or near it, does anything mislead the angle at the tip ([`Jumps::mislead`]).
-//! - No patch is crossed twice by the rim of a polygon, down to a part of its size: it has no functions of their own
-//!   for the two sides. Cracks may cross it and each other as they like, up to what [`Jumps`] can look at.
+//! - The cells around a tip are at most a quarter of the crack length belonging to it, and those at
+//!   the tip half its clearance, and half the distance to the next interface of two materials.
+//! - Cells at corners of interfaces, and where these meet the border or a crack, have an eighth of
+//!   the size, unless the problem has functions of its own: the field is singular there.
+//! - In no patch with a tip, or near it, does anything mislead the angle at the
+//!   tip ([`Jumps::mislead`]).
+//! - No patch is crossed twice by the rim of a polygon, down to a part of its size: it has no
+//!   functions of their own for the two sides. Cracks may cross it and each other as they like, up
+//!   to what [`Jumps`] can look at.
 //! - Three cells lie across what is left between a hole and its neighbours.
 //!
-//! Enrichment does the rest at tips, and at corners that turn inwards between free sides: grading toward them gains nothing
-//! once the singular functions are there. Other singular points, and round rims, have no such functions: cells are graded
-//! towards them.
+//! Enrichment does the rest at tips, and at corners that turn inwards between free sides: grading
+//! toward them gains nothing once the singular functions are there. Other singular points, and
+//! round rims, have no such functions: cells are graded towards them.
 
 mod by_hand;
 mod graded;
@@ -42,8 +44,9 @@ pub(crate) use rim::{coarsest, rim_error};
 /// Part of a hole's size below which cells are not divided to part the sides of its rim.
 const LEAST_GAP: f64 = 1.0 / 128.0;
 
-/// Cells that are added without asking, for all but tips; beyond them, and four times the base cover, all is
-/// resolved less finely, rims first. A dozen round holes take them at order 2, half a minute on one core.
+/// Cells that are added without asking, for all but tips; beyond them, and four times the base
+/// cover, all is resolved less finely, rims first. A dozen round holes take them at order 2, half a
+/// minute on one core.
 const FREE_CELLS: usize = 12_000;
 
 /// Largest cells around a tip, in parts of the crack length belonging to it.
@@ -56,8 +59,8 @@ const NEAR: f64 = 0.75;
 /// nearly at the border or an interface would ask for cells without end.
 const SMALLEST: f64 = 1.0 / 256.0;
 
-/// Levels by which cells are refined at singular points of interfaces. Of r^λ with λ ≈ 0.8 each takes two
-/// thirds of the error of the energy away.
+/// Levels by which cells are refined at singular points of interfaces. Of r^λ with λ ≈ 0.8 each
+/// takes two thirds of the error of the energy away.
 const AT_INTERFACES: u8 = 3;
 
 /// Lengths below this part of the domain's size are rounding of the end of a crack on a rim.
@@ -128,8 +131,8 @@ pub enum RefineError {
     Cancelled(#[from] Cancelled),
 }
 
-/// The cover of a problem, divided by hand where it says so and, unless it says otherwise, by itself, of at most so many
-/// cells.
+/// The cover of a problem, divided by hand where it says so and, unless it says otherwise, by
+/// itself, of at most so many cells.
 pub(crate) fn cover(
     problem: &Problem,
     most: usize,
@@ -155,7 +158,8 @@ pub(crate) fn cover(
             || jumps.are_too_many(&patch.intersection(bounds))
             || needs.misleads(&patch, &jumps)
     };
-    // an adaptation from coarse cells finds by itself where small ones pay; one to an accuracy begins near its end
+    // an adaptation from coarse cells finds by itself where small ones pay; one to an accuracy
+    // begins near its end
     let finds_itself = problem.adaptivity.as_ref().is_some_and(|set| set.accuracy.is_none());
     for _ in 0..DEEPEST {
         if cover.n_cells() > most {
@@ -223,8 +227,8 @@ fn patch_of(cell: &Rect, problem: &Problem) -> Rect {
     Rect::around(cell.center(), cell.size() * (0.5 * problem.discretization.overlap))
 }
 
-/// Refinement that makes solutions better, as far as it does not cost too much: cells at singular points, rims, in
-/// ligaments, and at singular points of interfaces.
+/// Refinement that makes solutions better, as far as it does not cost too much: cells at singular
+/// points, rims, in ligaments, and at singular points of interfaces.
 struct Wishes<'p> {
     problem: &'p Problem,
     graded: Placed<Graded>,
@@ -327,7 +331,8 @@ impl<'p> Rims<'p> {
         Self { domain: problem.domain.bounds, overlap, rims: Placed::new(rims) }
     }
 
-    /// True if a patch, as far as the domain reaches, holds several runs of a rim and is larger than a part of it.
+    /// True if a patch, as far as the domain reaches, holds several runs of a rim and is larger
+    /// than a part of it.
     fn cross_twice(&self, patch: &Rect) -> bool {
         let size = patch.size().x.max(patch.size().y) / self.overlap;
         let inside = patch.intersection(&self.domain);
@@ -381,8 +386,8 @@ impl Need {
     }
 }
 
-/// The demands of a crack's ends at holes: the side of the crack, which jumps on its straight extension
-/// too, must not be among the functions beyond the hole.
+/// The demands of a crack's ends at holes: the side of the crack, which jumps on its straight
+/// extension too, must not be among the functions beyond the hole.
 fn mouths(crack: &Crack, problem: &Problem) -> Vec<Need> {
     let ends = [End::Start, End::Last].into_iter().zip(crack.ends);
     let at_hole = ends.filter_map(|(end, kind)| {
@@ -401,7 +406,8 @@ fn mouths(crack: &Crack, problem: &Problem) -> Vec<Need> {
     at_hole.collect()
 }
 
-/// The point at which the way from the end of a crack at a hole comes out of it into the plate again.
+/// The point at which the way from the end of a crack at a hole comes out of it into the
+/// plate again.
 fn behind_holes(from: Vec2, way: Vec2, domain: &Domain) -> Option<Vec2> {
     let crossings = domain.holes.iter().flat_map(|hole| rim_crossings(from, from + way, hole));
     let mut all: Vec<f64> = crossings.filter(|t| *t > BEYOND).collect();

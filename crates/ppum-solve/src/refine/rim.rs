@@ -7,19 +7,21 @@ use ppum::vec2::{Rect, Vec2};
 /// Error of the stress at a rim, relative to the largest one, that its cells aim at.
 const AIM: f64 = 0.0075;
 
-/// The same in cells as large as the radius of curvature: polynomials of order p in cells of size h leave
-/// ROUGH (h/R)^p at most, at the worst of all points of a rim. Plates with round holes under tension (Kirsch 1898)
-/// had 2.4, 2.6, 1.8 and 1.0 for the orders 1 to 4.
+/// The same in cells as large as the radius of curvature: polynomials of order p in cells of size h
+/// leave ROUGH (h/R)^p at most, at the worst of all points of a rim. Plates with round holes under
+/// tension (Kirsch 1898) had 2.4, 2.6, 1.8 and 1.0 for the orders 1 to 4.
 const ROUGH: f64 = 2.6;
 
-/// Largest cells at a rim, in its radii: energies are right to 2e-4 then. Cells of 0.23 radii had 1.3e-3 under bending.
+/// Largest cells at a rim, in its radii: energies are right to 2e-4 then. Cells of 0.23 radii had
+/// 1.3e-3 under bending.
 pub(super) const FOR_ENERGY: f64 = 0.22;
 
-/// Smallest cells at a rim, in its radii: those of order 2, as order 1 would ask for cells without end.
+/// Smallest cells at a rim, in its radii: those of order 2, as order 1 would ask for cells
+/// without end.
 const LEAST: f64 = 0.05;
 
-/// Largest angle, in radians, by which a rim turns at a corner that belongs to a curve: what turns more has a
-/// singular field, see [`corner`](crate::corner).
+/// Largest angle, in radians, by which a rim turns at a corner that belongs to a curve: what turns
+/// more has a singular field, see [`corner`](crate::corner).
 const TURN: f64 = 0.3;
 
 /// A corner of a polygon where it follows a curve.
@@ -32,7 +34,8 @@ pub(super) struct Bend {
     pub(super) length: f64,
 }
 
-/// Estimated error of the stress at a rim, relative to the largest one, in cells of a size in radii.
+/// Estimated error of the stress at a rim, relative to the largest one, in cells of a size
+/// in radii.
 pub(crate) fn rim_error(size: f64, order: usize) -> f64 {
     (ROUGH * size.powi(order.max(1) as i32)).min(1.0)
 }
@@ -57,8 +60,8 @@ pub(super) fn bends(hole: &Hole) -> Vec<Bend> {
     (0..n).filter_map(bend).collect()
 }
 
-/// Largest part of its radius of curvature that a cell at the rim of a hole is long, with the cell's number; none if no
-/// cell is there, or the rim is not curved.
+/// Largest part of its radius of curvature that a cell at the rim of a hole is long, with the
+/// cell's number; none if no cell is there, or the rim is not curved.
 pub(crate) fn coarsest(hole: &Hole, cells: &[(u32, Rect)]) -> Option<(f64, u32)> {
     let size = |cell: &Rect| cell.size().x.max(cell.size().y);
     let on = |bends: &[Bend], cell: &Rect| match *hole {

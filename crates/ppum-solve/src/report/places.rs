@@ -1,6 +1,7 @@
 //! Names of records of which there are many: of iterations and of levels.
 
-/// What names of records of the course of iterations begin with: `iteration 7`, `iteration 7 level 2`.
+/// What names of records of the course of iterations begin with: `iteration 7`,
+/// `iteration 7 level 2`.
 pub(super) const ITERATION: &str = "iteration ";
 
 /// What names of records of levels begin with: `level 2`.

@@ -1,11 +1,12 @@
-//! Places at which the functions of a step and the coefficients of its equation are not smooth, for quadrature.
+//! Places at which the functions of a step and the coefficients of its equation are not smooth,
+//! for quadrature.
 //!
-//! Formulas show where they have kinks; the singular points of a function are the origin of its frame,
-//! if it uses polar coordinates, and those it declares. How fast it grows there is measured. The
-//! Westergaard functions of a tip are known: half powers of r times smooth functions of θ.
+//! Formulas show where they have kinks; the singular points of a function are the origin of its
+//! frame, if it uses polar coordinates, and those it declares. How fast it grows there is measured.
+//! The Westergaard functions of a tip are known: half powers of r times smooth functions of θ.
 //!
-//! Body forces and data on the border have places of their own, [`Smoothness::with_data`]; they matter in
-//! the integrals of these data alone.
+//! Body forces and data on the border have places of their own, [`Smoothness::with_data`]; they
+//! matter in the integrals of these data alone.
 
 mod growth;
 mod interfaces;
@@ -48,8 +49,8 @@ pub(crate) struct Smoothness {
     probes: ProbeList,
     patch_probes: Vec<Vec<u32>>,
     common_probes: Vec<u32>,
-    /// Largest degree of a product of a block's polynomial with its function, where that is a piecewise
-    /// polynomial, and with the coefficients, as far as they are.
+    /// Largest degree of a product of a block's polynomial with its function, where that is a
+    /// piecewise polynomial, and with the coefficients, as far as they are.
     degree: usize,
 }
 
@@ -101,8 +102,8 @@ impl Smoothness {
         Ok(all)
     }
 
-    /// The same for integrals with data, each with the mean of its absolute value, and where the data are
-    /// not smooth; none if they are polynomials.
+    /// The same for integrals with data, each with the mean of its absolute value, and where the
+    /// data are not smooth; none if they are polynomials.
     pub(crate) fn with_data(
         &self,
         domain: &Rect,
@@ -160,8 +161,8 @@ impl Smoothness {
         self.degree
     }
 
-    /// The index of a kink, of an equal one if there is one: a curve that several functions have in common
-    /// is cut along once.
+    /// The index of a kink, of an equal one if there is one: a curve that several functions have in
+    /// common is cut along once.
     fn add_kink(&mut self, new: Kink, domain: &Rect) -> u32 {
         let known = self.kinks.iter().position(|known| same(known, &new, domain));
         known.unwrap_or_else(|| {

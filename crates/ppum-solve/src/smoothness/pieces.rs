@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 /// Highest degree of a piecewise polynomial that is seen to be one.
 const POLYNOMIAL: usize = 3;
 
-/// Most lines and curves between which a function is taken for a polynomial on every piece; one with
-/// more, a spline of many knots, is probed.
+/// Most lines and curves between which a function is taken for a polynomial on every piece; one
+/// with more, a spline of many knots, is probed.
 const MOST_SETS: usize = 64;
 
 /// Angles among which zeros of functions of θ are looked for.

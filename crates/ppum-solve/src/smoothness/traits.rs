@@ -128,8 +128,9 @@ impl<'s> Surroundings<'s> {
                 }
             }
         }
-        // Distances from points other than the origin carry the rounding of coordinates. Nothing may
-        // look nearer than the rule for half powers does: noise would be taken for the function.
+        // Distances from points other than the origin carry the rounding of coordinates. Nothing
+        // may look nearer than the rule for half powers does: noise would be taken for
+        // the function.
         for &point in &declared.singular {
             traits.add_singular(axes.to_world(point), Growth::HalfPowers);
         }
@@ -167,8 +168,8 @@ pub(super) fn traits_of_coefficient(coefficient: &Expression) -> Traits {
     Traits { kinks: in_world(sets), probe, degree: degree.unwrap_or(0), ..Traits::default() }
 }
 
-/// The traits of a load or of given values, whose absolute value has a `mean`; none of a polynomial of
-/// low degree, which every rule resolves.
+/// The traits of a load or of given values, whose absolute value has a `mean`; none of a polynomial
+/// of low degree, which every rule resolves.
 pub(super) fn traits_of_data(data: &Expression, mean: f64) -> Option<Traits> {
     if data.constant().is_some() {
         return None;

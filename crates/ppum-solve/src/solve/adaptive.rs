@@ -100,8 +100,8 @@ impl<'p> Solved<'p> {
         }
     }
 
-    /// The mesh of the next step, given the parts that the cells have in the error; none if nothing can be improved where
-    /// it is needed.
+    /// The mesh of the next step, given the parts that the cells have in the error; none if nothing
+    /// can be improved where it is needed.
     fn improved(&self, set: &Adaptivity, parts: &[f64]) -> Result<Option<Mesh>, SolveError> {
         let Plan { problem, mesh, dataset, space, .. } = &self.plan;
         let field = Field::new(dataset, 0)?;

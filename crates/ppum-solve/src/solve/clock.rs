@@ -14,7 +14,8 @@ impl Clock {
         Self { last: Instant::now(), seconds: Vec::new() }
     }
 
-    /// The phase that ends now has lasted since the end of the one before; a phase in several parts has their sum.
+    /// The phase that ends now has lasted since the end of the one before; a phase in several parts
+    /// has their sum.
     pub(super) fn lap(&mut self, phase: Phase) {
         let seconds = self.last.elapsed().as_secs_f64();
         match self.seconds.iter_mut().find(|(known, _)| *known == phase) {

@@ -1,9 +1,9 @@
 //! The effort of a solution, known before it is computed: unknowns, non-zeros, memory and time.
 //!
-//! The patches that overlap are known once there is a cover, and with them the non-zeros of the system. What the
-//! elimination adds is counted on the graph of the patches, in the order of the elimination, each patch with the number
-//! of its unknowns. Before there is a cover a bound from below is known, which sorts out what would take too long to
-//! be counted.
+//! The patches that overlap are known once there is a cover, and with them the non-zeros of the
+//! system. What the elimination adds is counted on the graph of the patches, in the order of the
+//! elimination, each patch with the number of its unknowns. Before there is a cover a bound from
+//! below is known, which sorts out what would take too long to be counted.
 
 use crate::assembly::pattern;
 use crate::linear::{BlockPattern, fill};
@@ -23,8 +23,8 @@ const SYSTEM_BYTES: f64 = 8.0;
 /// Bytes of a value of the factor.
 const FACTOR_BYTES: f64 = 8.0;
 
-/// Memory beside the values of system and factor, as a part of them: stable basis, triangles that are held in full, what fronts
-/// leave for their parents.
+/// Memory beside the values of system and factor, as a part of them: stable basis, triangles that
+/// are held in full, what fronts leave for their parents.
 const BESIDE: f64 = 0.4;
 
 /// Memory of any solution: the program, the work on cells.
@@ -33,34 +33,37 @@ const FIXED_BYTES: f64 = 3e7;
 /// Values of a patch beside its blocks.
 const PATCH_BYTES: f64 = 1_500.0;
 
-/// Bytes of a value of the system with all levels and the inverses of their diagonal blocks, and of a patch with its
-/// ancestors: measured (`docs/decisions/0020-multilevel.md`).
+/// Bytes of a value of the system with all levels and the inverses of their diagonal blocks, and of
+/// a patch with its ancestors: measured (`docs/decisions/0020-multilevel.md`).
 const LEVELS_BYTES: f64 = 18.0;
 const LEVELS_PATCH_BYTES: f64 = 2_500.0;
 
-/// Seconds of a step of the multilevel solver for a value of the system, which memory decides and not the number of
-/// cores.
+/// Seconds of a step of the multilevel solver for a value of the system, which memory decides and
+/// not the number of cores.
 const STEP_SECONDS: f64 = 1.0e-8;
 
 /// Steps of a solution, and of the dual solutions that tips need beside.
 const STEPS: f64 = 22.0;
 const DUAL_STEPS: f64 = 2.0 * 12.0;
 
-/// Work on the cells of all coarser levels and on the ways between them, as a part of that on the finest: a third, and
-/// more where there are enrichments.
+/// Work on the cells of all coarser levels and on the ways between them, as a part of that on the
+/// finest: a third, and more where there are enrichments.
 const COARSER: f64 = 0.6;
 
-/// Memory above which the direct solver gives way even where it would be faster: half of what small machines have.
+/// Memory above which the direct solver gives way even where it would be faster: half of what small
+/// machines have.
 const LARGE_BYTES: f64 = 4e9;
 
-/// Patches from which on nobody counts what elimination would add: the direct solver takes minutes and tens of gigabytes.
+/// Patches from which on nobody counts what elimination would add: the direct solver takes minutes
+/// and tens of gigabytes.
 const TOO_MANY_TO_COUNT: usize = 600_000;
 
 /// Patches that a patch of a uniform cover overlaps with, itself and of each pair only one counted.
 const NEIGHBOURS: f64 = 5.0;
 
-/// Seconds of an operation of the factorisation, of a value of the factor in all solutions with it, and of a product of
-/// functions at a quadrature point, on one core of a machine of 2023 (`docs/decisions/0027-factorisation.md`).
+/// Seconds of an operation of the factorisation, of a value of the factor in all solutions with it,
+/// and of a product of functions at a quadrature point, on one core of a machine of
+/// 2023 (`docs/decisions/0027-factorisation.md`).
 const FACTOR_SECONDS: f64 = 4.0e-11;
 const SWEEP_SECONDS: f64 = 1.2e-8;
 const ASSEMBLY_SECONDS: f64 = 1.1e-9;
@@ -88,8 +91,8 @@ pub struct Estimate {
     pub memory: f64,
     /// True if the direct solver could take the place of the chosen one.
     pub(super) falls_back: bool,
-    /// Time on this number of cores \[s\], right within a factor of about three on a machine of today; what the
-    /// formulas of a problem take is not in it.
+    /// Time on this number of cores \[s\], right within a factor of about three on a machine of
+    /// today; what the formulas of a problem take is not in it.
     pub seconds: f64,
 }
 
@@ -102,8 +105,8 @@ struct Work {
 }
 
 impl Estimate {
-    /// The estimate for the space of a problem, with the linear solver that the problem names or that suits it and a memory
-    /// \[bytes\].
+    /// The estimate for the space of a problem, with the linear solver that the problem names or
+    /// that suits it and a memory \[bytes\].
     pub(crate) fn of_space(problem: &Problem, space: &Space<'_>, memory: Option<u64>) -> Self {
         let sizes: Vec<_> = (0..space.sizes.len()).map(|patch| space.unknowns(patch)).collect();
         let pattern = pattern(space);
@@ -211,7 +214,8 @@ impl Estimate {
     }
 }
 
-/// `4,096 patches, 73,728 unknowns, 5.8 million non-zeros, 31 million in the factor: about 0.5 GiB and 20 s`
+/// `4,096 patches, 73,728 unknowns, 5.8 million non-zeros, 31 million in the factor: about 0.5 GiB
+/// and 20 s`
 impl fmt::Display for Estimate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let solver = match self.solver {

@@ -1,18 +1,21 @@
 //! Estimated errors of stress intensity factors.
 //!
-//! A factor is a linear functional of the field, K(u) = a(u, z) with a dual solution z of its own, so that its error is
-//! a(u − u_h, z − z_h) (Becker & Rannacher 2001). The disagreements of local fields stand for both errors,
+//! A factor is a linear functional of the field, K(u) = a(u, z) with a dual solution z of its own,
+//! so that its error is a(u − u_h, z − z_h) (Becker & Rannacher 2001). The disagreements of local
+//! fields stand for both errors,
 //!
 //! ```text
 //! |K − K_h| ≈ Σ_j |∫_{C_j} Σ_i s_i φ_i (σ(u_i) − σ(u_h)) : (ε(z_i) − ε(z_h))| + Σ_j d_j(u) η_j(z)
 //! ```
 //!
-//! with the parts d_j of the estimated error that stand for data. Without the absolute values the first sum has the sign of the error,
-//! and may cancel where the error does not; products of norms, Σ_j η_j(u) η_j(z), were up to a hundred times the error (docs/decisions/0018).
+//! with the parts d_j of the estimated error that stand for data. Without the absolute values the
+//! first sum has the sign of the error, and may cancel where the error does not; products of norms,
+//! Σ_j η_j(u) η_j(z), were up to a hundred times the error (docs/decisions/0018).
 //!
-//! The functionals of all tips are added up, so that two dual solutions serve any number of tips. What a cell adds may be due to any of
-//! them, the more the nearer: the strain of a dual solution falls like r^(−3/2) from its tip, so a tip at the distance r counts
-//! (r_nearest / r)^(3/2) of it. A cell far from all tips, as at a corner that pollutes all factors, counts fully for each.
+//! The functionals of all tips are added up, so that two dual solutions serve any number of tips.
+//! What a cell adds may be due to any of them, the more the nearer: the strain of a dual solution
+//! falls like r^(−3/2) from its tip, so a tip at the distance r counts (r_nearest / r)^(3/2) of it.
+//! A cell far from all tips, as at a corner that pollutes all factors, counts fully for each.
 
 use super::SolveError;
 use super::solution::{Solving, write_coefficients};

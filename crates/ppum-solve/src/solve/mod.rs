@@ -29,12 +29,12 @@ pub(crate) use shelf::Shelf;
 use solution::{Assembled, Solving};
 use solved::{Found, Solved};
 
-/// Solves a problem: one step, one field; several steps where the problem asks for adaptation and wants to keep
-/// all of them. The watcher is told how far the work has come.
+/// Solves a problem: one step, one field; several steps where the problem asks for adaptation and
+/// wants to keep all of them. The watcher is told how far the work has come.
 ///
 /// The coefficients belong to the plain functions; neither the transformed basis nor what it cut
-/// off is seen in the dataset. Results do not depend on the number of threads. The step's history is a
-/// [`SolverReport`](crate::report::SolverReport).
+/// off is seen in the dataset. Results do not depend on the number of threads. The step's history
+/// is a [`SolverReport`](crate::report::SolverReport).
 ///
 /// # Errors
 /// See [`SolveError`]; cancelled, within the time of a cell or of one step of the linear solver.
@@ -99,12 +99,12 @@ pub struct Plan<'p> {
 }
 
 impl<'p> Plan<'p> {
-    /// The plan of a problem, whose solution may take so much memory \[bytes\]. Of a problem that asks for adaptation
-    /// it is the plan of the first step.
+    /// The plan of a problem, whose solution may take so much memory \[bytes\]. Of a problem that
+    /// asks for adaptation it is the plan of the first step.
     ///
     /// # Errors
-    /// A space that cannot be built, functions that are not finite, a solution that takes more memory or could not
-    /// be stored; cancelled.
+    /// A space that cannot be built, functions that are not finite, a solution that takes more
+    /// memory or could not be stored; cancelled.
     pub fn new(
         problem: &'p Problem,
         memory: Option<u64>,
@@ -136,7 +136,8 @@ impl<'p> Plan<'p> {
         Ok(Self { problem, mesh, memory, dataset, space, estimate, crossed_twice, shelf, clock })
     }
 
-    /// The plan of a solution that takes from a shelf what has not changed since the one before, and leaves there its own.
+    /// The plan of a solution that takes from a shelf what has not changed since the one before,
+    /// and leaves there its own.
     pub(crate) fn with_shelf(self, shelf: &'p Shelf) -> Self {
         Self { shelf: Some(shelf), ..self }
     }
@@ -153,8 +154,8 @@ impl<'p> Plan<'p> {
         &self.dataset
     }
 
-    /// Looks whether the loads on each piece of the plate balance, or something holds it. That takes their
-    /// integrals, and no system.
+    /// Looks whether the loads on each piece of the plate balance, or something holds it. That
+    /// takes their integrals, and no system.
     ///
     /// # Errors
     /// Loads without restraint, data that are not finite; cancelled.
@@ -178,7 +179,8 @@ impl<'p> Plan<'p> {
         self.problem
     }
 
-    /// Solves the problem, and goes on to errors and warnings only if its stress intensity factors are those that are wanted.
+    /// Solves the problem, and goes on to errors and warnings only if its stress intensity factors
+    /// are those that are wanted.
     ///
     /// # Errors
     /// See [`SolveError`].

@@ -1,4 +1,5 @@
-//! What a solution leaves for the next one of a series: integrals over cells on which nothing has changed.
+//! What a solution leaves for the next one of a series: integrals over cells on which nothing
+//! has changed.
 
 use crate::assembly::{FreeModes, Gauge, Given, System};
 use crate::basis::StableBasis;
@@ -15,7 +16,8 @@ pub(crate) struct Shelf(Mutex<Option<Kept>>);
 pub(super) struct Kept {
     prints: Prints,
     basis: StableBasis,
-    /// The system with its moments, and with the penalties of the gauge if the solver has needed them.
+    /// The system with its moments, and with the penalties of the gauge if the solver has
+    /// needed them.
     system: System,
     gauge: Gauge,
 }
@@ -27,7 +29,8 @@ pub(super) struct Reused {
 }
 
 impl Shelf {
-    /// What there is for a space. It is taken away, so that its memory is free as soon as there is a new system.
+    /// What there is for a space. It is taken away, so that its memory is free as soon as there is
+    /// a new system.
     pub(super) fn take(&self, space: &Space<'_>) -> Reused {
         let before = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
         let prints = Prints::new(space);
@@ -60,9 +63,10 @@ impl Reused {
         self.before.as_ref().map(|(unchanged, kept)| (unchanged, &kept.basis))
     }
 
-    /// What is as it was of the system, too: of patches with the same basis and without penalties, if data and free modes are the
-    /// same. In each of their cells all functions are the same, since how a border is held depends on all of them, and rounding
-    /// in products of matrices on their number.
+    /// What is as it was of the system, too: of patches with the same basis and without penalties,
+    /// if data and free modes are the same. In each of their cells all functions are the same,
+    /// since how a border is held depends on all of them, and rounding in products of matrices on
+    /// their number.
     pub(super) fn system(
         &self,
         space: &Space<'_>,
@@ -91,7 +95,8 @@ mod tests {
     use ppum_testkit::random::Random;
     use std::path::Path;
 
-    /// A plate with an edge crack that has random bends, and a second crack that grows at its start.
+    /// A plate with an edge crack that has random bends, and a second crack that grows at
+    /// its start.
     fn plate(random: &mut Random, level: u32, more: &str) -> [Problem; 3] {
         let mut edge = vec![[-1.0, random.between(-0.4, 0.4)]];
         for _ in 0..5 {
@@ -159,7 +164,8 @@ mod tests {
         }
     }
 
-    /// Most of the plate is taken over where cracks grow, and nothing where all patches are others or the law is one.
+    /// Most of the plate is taken over where cracks grow, and nothing where all patches are others
+    /// or the law is one.
     #[test]
     fn what_is_taken_over() {
         let [first, second, _] = plate(&mut Random(3), 5, PULLED);

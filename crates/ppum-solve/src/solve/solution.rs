@@ -29,7 +29,8 @@ pub(super) struct Solution {
     reactions: Vec<Reaction>,
     /// Integrands that quadrature did not resolve.
     pub(super) unresolved: Vec<Unresolved>,
-    /// Of each patch, the first functions of components of which nearly nothing lies where it is alone.
+    /// Of each patch, the first functions of components of which nearly nothing lies where it
+    /// is alone.
     pub(super) lonely: Vec<Vec<usize>>,
     /// The dual solutions of stress intensity factors, if there are any.
     pub(super) duals: Option<DualSolutions>,

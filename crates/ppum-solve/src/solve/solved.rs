@@ -14,11 +14,12 @@ use ppum::dataset::{Attribute, Dataset, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
 
-/// Part of the largest [strength](Outcome::strength) of a tip below which factors count as nothing, and are no measure of their
-/// errors.
+/// Part of the largest [strength](Outcome::strength) of a tip below which factors count as nothing,
+/// and are no measure of their errors.
 const NOTHING: f64 = 1e-2;
 
-/// Part of the energy that a field of the same size could have up to which the energy is rounding: of rigid motions.
+/// Part of the energy that a field of the same size could have up to which the energy is rounding:
+/// of rigid motions.
 const ROUNDING: f64 = 1e-20;
 
 /// A plan whose dataset has its coefficients, with the factors of its tips.
@@ -91,8 +92,8 @@ impl<'p> Found<'p> {
 }
 
 impl Solved<'_> {
-    /// The largest estimated error of the factors of a tip, as a part of their size, and of each cell its part in the sum of all;
-    /// without tips those of the energy.
+    /// The largest estimated error of the factors of a tip, as a part of their size, and of each
+    /// cell its part in the sum of all; without tips those of the energy.
     pub(super) fn goal(&self) -> (f64, Vec<f64>) {
         let with_factors = self.tips.iter().filter_map(|o| Some((o.strength, o.factors.as_ref()?)));
         let (strengths, sizes): (Vec<_>, Vec<_>) =
@@ -107,8 +108,8 @@ impl Solved<'_> {
         (errors.fold(0.0, f64::max), cells.collect())
     }
 
-    /// The dataset of a solution with its stress intensity factors, its diagnosis and its report; of the last step of
-    /// an adaptation with what has ended it.
+    /// The dataset of a solution with its stress intensity factors, its diagnosis and its report;
+    /// of the last step of an adaptation with what has ended it.
     pub(super) fn finish(
         self,
         stop: Option<Stop>,
@@ -150,7 +151,8 @@ fn energy_of_size(field: &Field<'_>) -> f64 {
     law.modulus(0) * largest * largest
 }
 
-/// The attribute `indicator`, η_j / ‖u‖ in the energy norm: the root of the sum of its squares is the estimated error.
+/// The attribute `indicator`, η_j / ‖u‖ in the energy norm: the root of the sum of its squares is
+/// the estimated error.
 fn indicator(squares: &[f64], energy: f64) -> Attribute {
     let values = squares.iter().map(|square| (square / (2.0 * energy)).sqrt()).collect();
     Attribute { name: "indicator".into(), values }

@@ -1,13 +1,15 @@
 //! Cells that look alike.
 //!
-//! In a cell that nothing cuts and on which all functions are polynomials, integrals of functions with each other depend on
-//! where the patches around it lie as seen from its centre, and on their orders. On a uniform cover all cells are of one kind
-//! but those at the border and near cracks. What is integrated of a kind is integrated once, on a cell at the origin.
-//! Patches of a kind's cells have one size and one order, so that there are few kinds, whatever the cover.
+//! In a cell that nothing cuts and on which all functions are polynomials, integrals of functions
+//! with each other depend on where the patches around it lie as seen from its centre, and on their
+//! orders. On a uniform cover all cells are of one kind but those at the border and near cracks.
+//! What is integrated of a kind is integrated once, on a cell at the origin. Patches of a kind's
+//! cells have one size and one order, so that there are few kinds, whatever the cover.
 //!
-//! A kind is known by its measures, rounded to [`PARTS`] of its size, so that rounding of coordinates does not tell cells apart.
-//! The cell at the origin has the rounded ones: it is the same in every space that has the kind, whatever else is
-//! in that, so that integrals of a kind have the same bits in all steps of a series.
+//! A kind is known by its measures, rounded to [`PARTS`] of its size, so that rounding of
+//! coordinates does not tell cells apart. The cell at the origin has the rounded ones: it is the
+//! same in every space that has the kind, whatever else is in that, so that integrals of a kind
+//! have the same bits in all steps of a series.
 
 use super::Space;
 use crate::quadrature::Rule;
@@ -18,11 +20,12 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-/// Parts of a cell's size that its measures are rounded to: fine enough that borders of patches that coincide still do for
-/// quadrature, coarse enough for the rounding of coordinates.
+/// Parts of a cell's size that its measures are rounded to: fine enough that borders of patches
+/// that coincide still do for quadrature, coarse enough for the rounding of coordinates.
 const PARTS: f64 = (1_u64 << 42) as f64;
 
-/// Measures that are not a small multiple of the cell's size are not rounded, but left to the cells themselves.
+/// Measures that are not a small multiple of the cell's size are not rounded, but left to the
+/// cells themselves.
 const LARGEST: f64 = 1e3;
 
 /// Cells that are measured at once.
@@ -58,7 +61,8 @@ pub(crate) struct Member {
     pub(crate) patches: Vec<u32>,
 }
 
-/// A kind of patches: all its cells, with the seat that the patch has in each, in an order that depends on nothing else.
+/// A kind of patches: all its cells, with the seat that the patch has in each, in an order that
+/// depends on nothing else.
 pub(crate) type PatchKind = Vec<(u32, u32)>;
 
 impl Alike {
@@ -166,8 +170,8 @@ impl Kind {
         self.rules = quadrature.cell(&space.partition().cell[0], &space.coverers[0]);
     }
 
-    /// The space of the cell at the origin and its patches: its first cell is the one, and its patches stand in the order
-    /// of their seats.
+    /// The space of the cell at the origin and its patches: its first cell is the one, and its
+    /// patches stand in the order of their seats.
     pub(crate) fn space<'d>(&self, like: &Space<'d>) -> Space<'d> {
         let (size, seats) = self.measures.split_at(2);
         let size = vec2(f64::from_bits(size[0] as u64), f64::from_bits(size[1] as u64));
@@ -205,7 +209,8 @@ impl<'d> Space<'d> {
         self.alike.get_or_init(|| Alike::new(self))
     }
 
-    /// The space of a step with polynomials only, in which all patches cover the first cell, with the quadrature of this one.
+    /// The space of a step with polynomials only, in which all patches cover the first cell, with
+    /// the quadrature of this one.
     fn alone(&self, step: Step) -> Space<'d> {
         let n = step.partition.len();
         let size = |patch: usize| super::block_size(&step.fields[0], patch);
@@ -253,8 +258,8 @@ impl Seat {
     }
 }
 
-/// The measures of a cell, and its patches in the order of their seats; none where not all functions are polynomials of one order
-/// on patches of one size.
+/// The measures of a cell, and its patches in the order of their seats; none where not all
+/// functions are polynomials of one order on patches of one size.
 fn measures(space: &Space<'_>, cell: usize) -> Option<(Vec<i64>, Vec<u32>)> {
     let (rect, data) = (&space.partition().cell[cell], space.data());
     let seat = |&patch: &u32| {

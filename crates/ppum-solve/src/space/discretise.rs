@@ -47,8 +47,8 @@ impl From<RefineError> for SpaceError {
 /// The step of a problem with all coefficients zero.
 ///
 /// # Errors
-/// A cover that cannot be built or refined, an order formula that gives no order, a function that is
-/// not finite on its patches; cancelled.
+/// A cover that cannot be built or refined, an order formula that gives no order, a function that
+/// is not finite on its patches; cancelled.
 pub fn discretise(problem: &Problem, watcher: &dyn Watcher) -> Result<Step, SpaceError> {
     let stage = Stage::uncounted(watcher, Phase::Cover)?;
     discretise_on(problem, &Mesh::new(problem, usize::MAX, &stage)?, &stage)
@@ -89,8 +89,8 @@ pub(crate) fn discretise_on(
 /// Cells of which holes leave no more than this part are dropped: it is rounding.
 const LEAST_PART: f64 = 1e-12;
 
-/// A partition with its cells as far as they lie in the domain, and the raised orders of those of which something does: the last
-/// cells of coarser meshes may reach beyond it.
+/// A partition with its cells as far as they lie in the domain, and the raised orders of those of
+/// which something does: the last cells of coarser meshes may reach beyond it.
 fn inner_part(
     mut partition: BoxPartition,
     raised: &[u8],
@@ -154,10 +154,12 @@ fn solid_part(
 /// Places of a cell in each direction that are looked at before its area is integrated.
 const LOOKS: u32 = 5;
 
-/// Distance from rims and borders, in sizes of a cell, of a place that shows enough of the material.
+/// Distance from rims and borders, in sizes of a cell, of a place that shows enough of
+/// the material.
 const ROOM: f64 = 1e-5;
 
-/// True if one of some places in a cell lies clearly outside of holes: most cells are seen to be solid so.
+/// True if one of some places in a cell lies clearly outside of holes: most cells are seen to be
+/// solid so.
 fn has_room(cell: &Rect, holes: &[&Hole]) -> bool {
     let size = cell.size();
     let along = |k: u32| (f64::from(k) + 0.5) / f64::from(LOOKS);

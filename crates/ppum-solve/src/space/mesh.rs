@@ -19,7 +19,8 @@ pub(crate) enum Change {
     Raise,
 }
 
-/// A cover, and of each of its cells by how much the order is raised above the one that the problem gives.
+/// A cover, and of each of its cells by how much the order is raised above the one that the
+/// problem gives.
 #[derive(Clone, Debug)]
 pub(crate) struct Mesh {
     pub(super) cover: Cover,
@@ -46,8 +47,8 @@ impl Mesh {
         self.raised.len()
     }
 
-    /// The mesh of cells twice as wide, each with the least raised order of those in its place; none if this one is a
-    /// single cell.
+    /// The mesh of cells twice as wide, each with the least raised order of those in its place;
+    /// none if this one is a single cell.
     pub(crate) fn coarser(&self) -> Option<Self> {
         let cover = self.cover.coarser()?;
         let cells: Vec<Rect> = cover.cells().into_iter().map(|(cell, _)| cell).collect();
@@ -64,8 +65,9 @@ impl Mesh {
         Some(Self { cover, raised })
     }
 
-    /// The mesh after changes to the cells of a partition, which is this mesh's but for cells in holes. Cells beside
-    /// those that are divided may have to be divided, too. None if nothing can be changed.
+    /// The mesh after changes to the cells of a partition, which is this mesh's but for cells in
+    /// holes. Cells beside those that are divided may have to be divided, too. None if nothing can
+    /// be changed.
     ///
     /// # Errors
     /// Too many cells.

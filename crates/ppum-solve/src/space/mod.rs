@@ -32,16 +32,17 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 pub(crate) use williams::{ANGULAR, Origin, Series};
 
-/// Accuracy of the quadrature of products of partition functions with polynomials of the highest degree.
+/// Accuracy of the quadrature of products of partition functions with polynomials of the
+/// highest degree.
 ///
-/// What a solution has of the highest degree falls with the order as its error does, so the same part
-/// of it is allowed at all orders: 2e-5, which changes factors by less than a thousandth of their error
-/// (docs/decisions/0030-points.md).
+/// What a solution has of the highest degree falls with the order as its error does, so the same
+/// part of it is allowed at all orders: 2e-5, which changes factors by less than a thousandth of
+/// their error (docs/decisions/0030-points.md).
 const WEIGHT_ACCURACY: f64 = 2e-5;
 
-/// A step and its walks. Errors, energies and stress intensity factors of a solution are integrated over
-/// the same cells as the system, so one space serves from the first estimate to the last warning: what it
-/// looks at of its step is everything but the coefficients.
+/// A step and its walks. Errors, energies and stress intensity factors of a solution are integrated
+/// over the same cells as the system, so one space serves from the first estimate to the last
+/// warning: what it looks at of its step is everything but the coefficients.
 #[derive(Debug)]
 pub struct Space<'d> {
     step: Cow<'d, Step>,
@@ -53,13 +54,15 @@ pub struct Space<'d> {
     pub(crate) coverers: Vec<Vec<u32>>,
     /// The number of functions of a patch's local space, patch by patch.
     pub(crate) sizes: Vec<usize>,
-    /// The constant σ that a block's function f is replaced by f − σ with while solving, block by block.
+    /// The constant σ that a block's function f is replaced by f − σ with while solving, block
+    /// by block.
     ///
     /// For the side of a crack σ is the side of the patch's centre, so that f − σ vanishes on the
     /// larger part of the patch: the jump across a sliver is a function of its own, not a small
     /// difference of large ones. Zero for all other functions.
     pub(crate) shifts: Vec<f64>,
-    /// Of each patch, those functions that stand for the series of tips and corners; empty if there are none anywhere.
+    /// Of each patch, those functions that stand for the series of tips and corners; empty if there
+    /// are none anywhere.
     series: Vec<Vec<Series>>,
     /// The functions of the table that they are made of.
     in_series: BTreeSet<u32>,
@@ -89,7 +92,8 @@ impl<'d> Space<'d> {
         Self::on(Cow::Borrowed(step), domain, equation, tables)
     }
 
-    /// The walks over a step of a problem, with formulas in place of kernels where the problem wants that.
+    /// The walks over a step of a problem, with formulas in place of kernels where the problem
+    /// wants that.
     ///
     /// # Errors
     /// A function of the step that does not compile.
@@ -156,8 +160,8 @@ impl<'d> Space<'d> {
         self.quadrature_of(&self.smoothness, extra)
     }
 
-    /// The rules of the default quadrature on a cell. Where formulas are probed they cost up to seconds, and
-    /// are made once; on cells that are alike they are moved.
+    /// The rules of the default quadrature on a cell. Where formulas are probed they cost up to
+    /// seconds, and are made once; on cells that are alike they are moved.
     pub(crate) fn rules(&self, quadrature: &Quadrature<'_>, cell: usize) -> Cow<'_, [Rule]> {
         if let Some(rules) = self.alike().rules(self, cell) {
             return Cow::Owned(rules);
@@ -213,7 +217,8 @@ impl<'d> Space<'d> {
         self.data().block_degree[self.data().blocks(patch).start].into()
     }
 
-    /// The coefficients of a patch's functions as they are while solving, from those of the dataset: Σ c f = Σ c (f − σ) + σ c.
+    /// The coefficients of a patch's functions as they are while solving, from those of the
+    /// dataset: Σ c f = Σ c (f − σ) + σ c.
     pub(crate) fn shifted(&self, patch: usize, plain: &[f64]) -> Vec<f64> {
         let (mut coefficients, mut first) = (plain.to_vec(), 0);
         for block in self.data().blocks(patch) {

@@ -1,8 +1,10 @@
-//! What a space has in common with an earlier one, cell by cell: what integrals there are the same to the last bit.
+//! What a space has in common with an earlier one, cell by cell: what integrals there are the same
+//! to the last bit.
 //!
-//! A *print* of a cell is a digest of all that its quadrature and the plain functions on it depend on: the patches that cover
-//! it, their functions, and of cracks what lies near. Where a crack grows far away the print stays what it was, so that of a
-//! series most of what a step has integrated serves the next. Digests have 128 bits: that two of a million cells have one by
+//! A *print* of a cell is a digest of all that its quadrature and the plain functions on it depend
+//! on: the patches that cover it, their functions, and of cracks what lies near. Where a crack
+//! grows far away the print stays what it was, so that of a series most of what a step has
+//! integrated serves the next. Digests have 128 bits: that two of a million cells have one by
 //! chance is as likely as 1 in 10²⁶.
 
 use super::Space;
@@ -27,15 +29,17 @@ pub(crate) struct Prints {
     covered: Vec<Vec<u32>>,
 }
 
-/// Of each patch of a space the patch of an earlier space that it is, if their functions are the same on the same cells. The
-/// order of these patches, and of their cells, is the same in both spaces.
+/// Of each patch of a space the patch of an earlier space that it is, if their functions are the
+/// same on the same cells. The order of these patches, and of their cells, is the same in
+/// both spaces.
 #[derive(Clone, Debug)]
 pub(crate) struct Unchanged(Vec<Option<u32>>);
 
 /// The word by which a formula asks for the side of a crack.
 const SIDE: &str = "side";
 
-/// Segments farther away than another one by this factor are not the nearest to any point of a cell, and no tie.
+/// Segments farther away than another one by this factor are not the nearest to any point of a
+/// cell, and no tie.
 const NEAR: f64 = 1.01;
 
 /// Part of a cell's size by which its box is larger where ends of cracks are looked for.
@@ -94,8 +98,8 @@ impl Unchanged {
         patches.iter().all(|&patch| self.0[patch as usize].is_some())
     }
 
-    /// The same without the patches, given with what they were, of which something is not true, and without those that share
-    /// a cell with one that is not as it was.
+    /// The same without the patches, given with what they were, of which something is not true, and
+    /// without those that share a cell with one that is not as it was.
     #[must_use]
     pub(crate) fn filter(
         mut self,
@@ -205,8 +209,8 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// What decides the side of a crack in a cell: of its segments, the first and the last of which go on for ever, those that may
-    /// be nearest to a point there.
+    /// What decides the side of a crack in a cell: of its segments, the first and the last of which
+    /// go on for ever, those that may be nearest to a point there.
     fn side(&self, crack: u32, rect: &Rect, digest: &mut Digest) {
         let points = &self.space.step().cracks[crack as usize].points;
         let segments = || points.windows(2).map(|s| [s[0], s[1]]);
@@ -226,7 +230,8 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// The segments of cracks that cut a cell, and which of their ends are ends of the crack in the cell.
+    /// The segments of cracks that cut a cell, and which of their ends are ends of the crack in
+    /// the cell.
     fn cuts(&self, rect: &Rect, digest: &mut Digest) {
         let slack = rect.size() * SLACK;
         let near = Rect::new(rect.min - slack, rect.max + slack);

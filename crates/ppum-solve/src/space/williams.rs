@@ -1,4 +1,5 @@
-//! Functions that stand for the series of tips and corners: the solution takes combinations of them only.
+//! Functions that stand for the series of tips and corners: the solution takes combinations of
+//! them only.
 
 use super::Space;
 use crate::corner::{Corner, Symmetry, Term, corners};
@@ -26,15 +27,18 @@ pub(crate) struct Series {
 /// The singular point of a series.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Origin {
-    /// The functions of a tip on a patch are the four of [`WESTERGAARD`] times polynomials. With z = x + iy in the tip's frame
+    /// The functions of a tip on a patch are the four of [`WESTERGAARD`] times polynomials. With
+    /// z = x + iy in the tip's frame
     ///
     /// ```text
     /// r^(n+½) e^{i(n+½)θ} = zⁿ √r e^{iθ/2}      r^(n+½) e^{i(n−3/2)θ} = zⁿ √r e^{−3iθ/2}
     /// ```
     ///
-    /// so that Williams' series up to r^(N − ½) are combinations of them with polynomials of degree N − 1.
+    /// so that Williams' series up to r^(N − ½) are combinations of them with polynomials of degree
+    /// N − 1.
     Tip(TipId),
-    /// The four of [`WEDGE`] in the frame of a corner make one field. Of Poisson's equation one of them does.
+    /// The four of [`WEDGE`] in the frame of a corner make one field. Of Poisson's equation one of
+    /// them does.
     Corner {
         at: Vec2,
         /// Angle of the bisector.
@@ -56,8 +60,8 @@ impl Series {
         }
     }
 
-    /// Number of functions that the solver evaluates for it: of a tip those that the terms are made of, not those
-    /// that they are stored as.
+    /// Number of functions that the solver evaluates for it: of a tip those that the terms are made
+    /// of, not those that they are stored as.
     pub(crate) fn evaluated(&self) -> usize {
         match self.origin {
             Origin::Tip(_) => ANGULAR * self.terms(),
@@ -71,8 +75,8 @@ impl Series {
     }
 }
 
-/// The series of all patches of a problem's step, and the functions of its table that they are made of; none where the
-/// material varies, as terms are others then.
+/// The series of all patches of a problem's step, and the functions of its table that they are made
+/// of; none where the material varies, as terms are others then.
 pub(super) fn series(problem: &Problem, step: &Step) -> (Vec<Vec<Series>>, BTreeSet<u32>) {
     if !problem.has_series() {
         return (Vec::new(), BTreeSet::new());
@@ -183,7 +187,8 @@ impl Space<'_> {
         self.sizes[patch] - self.series(patch).iter().map(fewer).sum::<usize>()
     }
 
-    /// The series of a patch with the numbers of their functions among those that the solver evaluates.
+    /// The series of a patch with the numbers of their functions among those that the
+    /// solver evaluates.
     pub(crate) fn evaluated_series(
         &self,
         patch: usize,

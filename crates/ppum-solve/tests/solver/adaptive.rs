@@ -48,8 +48,9 @@ impl Study {
         Self { name: "crack", problem: crack(), energy: Some(CRACK) }
     }
 
-    /// Asserts that the error of an h-adaptive cover has the rate p in unknowns^½, less a part of it that the caller allows for,
-    /// however singular the field. The first steps, on which everything is coarse, do not count.
+    /// Asserts that the error of an h-adaptive cover has the rate p in unknowns^½, less a part of
+    /// it that the caller allows for, however singular the field. The first steps, on which
+    /// everything is coarse, do not count.
     fn assert_rate(&self, order: usize, part: f64, unknowns: Range<usize>) {
         println!("{}, order {order}", self.name);
         let problem = on(self.problem.clone(), order, set(AdaptKind::H, 20, unknowns.end));
@@ -61,8 +62,9 @@ impl Study {
         assert!(-slope > part * order as f64, "{}, order {order}: {slope}", self.name);
     }
 
-    /// Asserts that the logarithm of the error of an hp-adaptive cover falls along a straight line over unknowns^⅓, with a slope
-    /// of `least` at least. A rate of h would bend the line up: the second half is to be as steep as 60 % of the first.
+    /// Asserts that the logarithm of the error of an hp-adaptive cover falls along a straight line
+    /// over unknowns^⅓, with a slope of `least` at least. A rate of h would bend the line up: the
+    /// second half is to be as steep as 60 % of the first.
     fn assert_exponential(&self, order: usize, least: f64, unknowns: Range<usize>) {
         let mut set = set(AdaptKind::Hp, 40, unknowns.end);
         set.fraction = 0.5;
@@ -94,8 +96,9 @@ fn divided_cells_have_the_rate_of_smooth_fields() {
     }
 }
 
-/// Lines through the five steps of the crack are as good as 15 %. The four corners of the hole lie somewhere in their cells:
-/// every other step divides them to little avail, so that lines through these few are as good as 25 %.
+/// Lines through the five steps of the crack are as good as 15 %. The four corners of the hole lie
+/// somewhere in their cells: every other step divides them to little avail, so that lines through
+/// these few are as good as 25 %.
 #[test]
 #[ignore = "slow: thousands of unknowns at order 3 and around a hole with four corners"]
 fn divided_cells_have_the_rate_of_smooth_fields_in_plates() {
@@ -135,8 +138,8 @@ fn p_raises_orders_and_divides_nothing() {
     assert!(points[3][1] < 0.1 * points[0][1], "{points:?}");
 }
 
-/// Energies of random plates with cracks and holes grow from step to step towards that of the last one: spaces that are
-/// all but nested.
+/// Energies of random plates with cracks and holes grow from step to step towards that of the last
+/// one: spaces that are all but nested.
 #[test]
 fn energies_of_random_plates_grow() {
     let mut random = Random(11);
@@ -197,7 +200,8 @@ fn stop(dataset: &Dataset) -> Option<Stop> {
     Stop::of_code(record(dataset.steps.last().expect("steps"), "adaptation stop"))
 }
 
-/// Each end of an adaptation is told, only in its last step; one that has not come to its tolerance warns.
+/// Each end of an adaptation is told, only in its last step; one that has not come to its
+/// tolerance warns.
 #[test]
 fn what_has_ended_it_is_told() {
     let with = |change: &dyn Fn(&mut Adaptivity)| {

@@ -1,5 +1,5 @@
-//! Cracks where meshes would have a hard time: short ones, ones that nearly touch a border or each other,
-//! sharp kinks; very long plates.
+//! Cracks where meshes would have a hard time: short ones, ones that nearly touch a border or each
+//! other, sharp kinks; very long plates.
 
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::unwatched;
@@ -86,7 +86,8 @@ fn assert_flat_angle(degrees: f64) {
     assert!(error < 1e-3, "{degrees} degrees: {error}");
 }
 
-/// The wedge between crack and border is a hundredth of a cell high in the middle of its first cell.
+/// The wedge between crack and border is a hundredth of a cell high in the middle of its
+/// first cell.
 #[test]
 fn a_crack_that_leaves_at_a_flat_angle() {
     assert_flat_angle(1.0);
@@ -127,8 +128,8 @@ fn a_long_plate_that_lies() {
 
 /// Asserts that a crack beside another, longer one, a thousandth of a cell away, does not matter.
 ///
-/// K_I / (σ √(πa)) = 1.333712 of the longer crack alone, in the middle; beside the middle it is larger by
-/// less than 0.2 %.
+/// K_I / (σ √(πa)) = 1.333712 of the longer crack alone, in the middle; beside the middle it is
+/// larger by less than 0.2 %.
 fn assert_strip_does_not_matter(y: f64) {
     let alone = 1.333712 * (0.5 * std::f64::consts::PI).sqrt();
     let beside = y + 1e-3 * CELL;
@@ -143,7 +144,8 @@ fn assert_strip_does_not_matter(y: f64) {
     assert!((left / right - 1.0).abs() < 1e-6, "symmetry: {left} {right}");
 }
 
-/// On a line of cells both lie in the overlap of two rows of patches, whose functions are dependent on the strip.
+/// On a line of cells both lie in the overlap of two rows of patches, whose functions are dependent
+/// on the strip.
 #[test]
 fn a_strip_between_cracks() {
     assert_strip_does_not_matter(0.0);
@@ -155,8 +157,9 @@ fn a_strip_within_cells() {
     assert_strip_does_not_matter(0.07);
 }
 
-/// Asserts that K does not depend on the cells one starts from, but for what is glued together within a 128th of the crack's length
-/// around its kinks: patches that a crack crosses twice are refined.
+/// Asserts that K does not depend on the cells one starts from, but for what is glued together
+/// within a 128th of the crack's length around its kinks: patches that a crack crosses twice
+/// are refined.
 fn assert_independent_of_cells(crack: &[[f64; 2]]) {
     let solution = |cells| solved(&pulled(SQUARE, [cells, cells], &[crack]));
     let [coarse, fine] = [4, 9].map(solution);

@@ -1,8 +1,8 @@
 //! Singular points that are no tips, round rims and ligaments, with default settings.
 //!
-//! The values are those of an independent solver: finite elements of order 10 on meshes refined geometrically
-//! towards every singular point (NGSolve 6.2.2608), right to 1e-7. Cells that are not refined towards these points
-//! had errors of 0.1 to 3.7 % in the energy and up to 5.6 % in K.
+//! The values are those of an independent solver: finite elements of order 10 on meshes refined
+//! geometrically towards every singular point (NGSolve 6.2.2608), right to 1e-7. Cells that are not
+//! refined towards these points had errors of 0.1 to 3.7 % in the energy and up to 5.6 % in K.
 
 use ppum::crack::End;
 use ppum::dataset::Dataset;
@@ -30,7 +30,8 @@ on = "top"
 traction = [0.3, 1.0]
 "#;
 
-/// The plate [-1, 1]² of E = 1, ν = 0.3 in plane strain with more tables and the keys of `[discretization]`.
+/// The plate [-1, 1]² of E = 1, ν = 0.3 in plane strain with more tables and the keys
+/// of `[discretization]`.
 fn plate(tables: &str, keys: &str) -> Problem {
     let text = format!(
         "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
@@ -114,7 +115,8 @@ impl Cornered {
         Self::new(tables, 2.50174376, [1.0771817, 0.52795673], [0.92661204, 0.53215622])
     }
 
-    /// Asserts what [`assert_near`] does, and the errors of the energy and of the first tip's factors, which fall with the order.
+    /// Asserts what [`assert_near`] does, and the errors of the energy and of the first tip's
+    /// factors, which fall with the order.
     fn assert_errors(&self, order: usize) {
         let (level, of_energy, of_factors) = match order {
             2 => (4, 1e-4, 5e-4),
@@ -254,7 +256,8 @@ fn functions_of_corners_need_no_small_cells() {
     assert!(error < 2e-4, "{error}");
 }
 
-/// Asserts that the side of a kink that turns inwards is found whichever way the crack runs, and in the mirror.
+/// Asserts that the side of a kink that turns inwards is found whichever way the crack runs, and in
+/// the mirror.
 fn assert_kink_has_no_direction(keys: &str) {
     let crack = |points: [[f64; 2]; 3]| {
         solved_with(&format!("{PULLED}[[crack]]\npoints = {points:?}\n"), keys)
@@ -285,8 +288,8 @@ fn kinks_from_both_ends_and_in_the_mirror() {
     }
 }
 
-/// A kink and a hole of four corners, both under pressure, oblique, reversed, far from the origin and small; the values
-/// are those of the same solver.
+/// A kink and a hole of four corners, both under pressure, oblique, reversed, far from the origin
+/// and small; the values are those of the same solver.
 #[test]
 fn loaded_corners_anywhere() {
     let solution = |scale: f64, shift: [f64; 2], is_reversed: bool, keys: &str| {
@@ -375,7 +378,8 @@ fn corners_of_potentials_at_other_orders() {
     assert_potential(ELL, 4, 2, 1e-4);
 }
 
-/// Where the material varies exponents are others, and of very many corners functions would cost more than cells.
+/// Where the material varies exponents are others, and of very many corners functions would cost
+/// more than cells.
 #[test]
 fn corners_without_functions() {
     let square = |x: f64, y: f64, size: f64| {
@@ -396,8 +400,8 @@ fn corners_without_functions() {
     assert!(!has_functions(&many, ""));
 }
 
-/// A displacement that jumps along an edge has infinite energy: that is told, with the place, and nothing is told
-/// of one that bends.
+/// A displacement that jumps along an edge has infinite energy: that is told, with the place, and
+/// nothing is told of one that bends.
 #[test]
 fn given_values_that_jump_are_told() {
     let held = |value: &str| {

@@ -12,7 +12,8 @@ use ppum_solve::problem::Problem;
 use ppum_testkit::random::Random;
 use std::path::Path;
 
-/// A plate of half width `half` at a level with more tables, pulled by these tractions along x and y.
+/// A plate of half width `half` at a level with more tables, pulled by these tractions along x and
+/// y.
 fn plate(half: f64, level: u32, [x, y]: [f64; 2], tables: &str) -> Problem {
     let text = format!(
         "[domain]\nmin = [-{half}, -{half}]\nmax = [{half}, {half}]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
@@ -23,7 +24,8 @@ fn plate(half: f64, level: u32, [x, y]: [f64; 2], tables: &str) -> Problem {
     Problem::parse(&text, "plate.toml", Path::new(".")).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-/// The plate on 8 × 8 cells, none of which is divided: enough where two solutions are compared that should be alike.
+/// The plate on 8 × 8 cells, none of which is divided: enough where two solutions are compared that
+/// should be alike.
 fn unrefined(half: f64, loads: [f64; 2], tables: &str) -> Problem {
     plate(half, 3, loads, &format!("refine = false\n{tables}"))
 }
@@ -60,8 +62,8 @@ fn an_arc_in_a_large_plate() {
     assert_eq!(kinds, [kind::CURVE; 2]);
 }
 
-/// Asserts that K converges with the number of segments like its power −3/2 at least, and that the default, which has about 58 of
-/// them in a long arc, is right to 4e-5.
+/// Asserts that K converges with the number of segments like its power −3/2 at least, and that the
+/// default, which has about 58 of them in a long arc, is right to 4e-5.
 fn assert_division_does_not_show(range: [f64; 2]) {
     let of = |more: &str| {
         let crack = arc([0.0, 0.0], 1.0, range, more);
@@ -89,8 +91,8 @@ fn the_division_of_short_arcs_does_not_show() {
     assert_division_does_not_show([200.0, 220.0]);
 }
 
-/// Asserts that an arc turned by a right angle, listed the other way round, and scaled has the same factors, K with the root of the
-/// scale.
+/// Asserts that an arc turned by a right angle, listed the other way round, and scaled has the same
+/// factors, K with the root of the scale.
 fn assert_turned_reversed_and_scaled(random: &mut Random, sweeps: [f64; 2]) {
     let (from, sweep) = (random.between(0.0, 360.0), random.between(sweeps[0], sweeps[1]));
     let center = [random.between(-0.3, 0.3), random.between(-0.3, 0.3)];
@@ -124,7 +126,8 @@ fn long_arcs_turned_reversed_and_scaled() {
     assert_turned_reversed_and_scaled(&mut Random(9), [60.0, 150.0]);
 }
 
-/// One arc as an ellipse with equal axes, as a path of two pieces, and as a spline through points of it.
+/// One arc as an ellipse with equal axes, as a path of two pieces, and as a spline through points
+/// of it.
 #[test]
 fn one_curve_in_many_ways() {
     let solution = |crack: &str| factors(&solved(&unrefined(2.0, [0.5, 1.0], crack)));
@@ -170,7 +173,8 @@ fn circles_as_ellipses() {
     assert!((a / b - 1.0).abs() < 0.01, "{a} {b}");
 }
 
-/// Asserts Inglis' stress σ = 1 + 2 a/b at the end (−0.1, 0) of the axis a across the pull; the plate of 20 a adds 0.2 %.
+/// Asserts Inglis' stress σ = 1 + 2 a/b at the end (−0.1, 0) of the axis a across the pull; the
+/// plate of 20 a adds 0.2 %.
 fn assert_inglis(problem: &Problem, exact: f64, bound: f64) {
     let dataset = solved(problem);
     let Hole::Polygon { points } = &dataset.domain.holes[0] else { panic!("a polygon") };

@@ -45,7 +45,8 @@ fn an_estimate_counts_what_the_solution_has() {
     }
 }
 
-/// A memory is enough or not, to the byte; what is known before there is a cover never refuses what fits.
+/// A memory is enough or not, to the byte; what is known before there is a cover never refuses
+/// what fits.
 #[test]
 fn what_the_memory_does_not_hold_is_refused() {
     let kinds = [SolverKind::Direct, SolverKind::Multilevel];
@@ -61,7 +62,8 @@ fn what_the_memory_does_not_hold_is_refused() {
     }
 }
 
-/// The multilevel solver is chosen where the memory does not hold the factor; a direct solver asked for is refused there.
+/// The multilevel solver is chosen where the memory does not hold the factor; a direct solver asked
+/// for is refused there.
 #[test]
 fn a_small_memory_chooses_the_multilevel_solver() {
     let mut problem = plate(6, 2);
@@ -82,7 +84,8 @@ fn a_small_memory_chooses_the_multilevel_solver() {
     assert!(matches!(chosen(&problem, between), Err(SolveError::TooLarge { .. })));
 }
 
-/// A million patches of order 8 would take hours to look at: they are refused at once, with numbers.
+/// A million patches of order 8 would take hours to look at: they are refused at once,
+/// with numbers.
 #[test]
 fn what_no_machine_holds_is_refused_without_a_cover() {
     let problem = plate(10, 8);

@@ -1,7 +1,8 @@
 //! The estimated error against the error.
 //!
-//! It is no bound. The limits of its effectivity, the estimated error over the error, were set from the cases below with
-//! a third of room: 0.75 to 1.45 where the source is smooth and resolved, up to 2.2 where it is neither.
+//! It is no bound. The limits of its effectivity, the estimated error over the error, were set from
+//! the cases below with a third of room: 0.75 to 1.45 where the source is smooth and resolved, up
+//! to 2.2 where it is neither.
 
 use crate::studies::exact_fields::{MATERIAL, OBLIQUE, SQUARE, discretization, expressions, held};
 use crate::studies::plates::pulled;
@@ -20,7 +21,8 @@ use std::path::Path;
 /// Bounds of the effectivity of solutions that see their data.
 const SMOOTH: [f64; 2] = [0.7, 1.8];
 
-/// The same where sources are steep or jump within cells, as what cells of this size make of them is bounded only.
+/// The same where sources are steep or jump within cells, as what cells of this size make of them
+/// is bounded only.
 const ROUGH: [f64; 2] = [0.7, 3.0];
 
 fn assert_effective(name: &str, dataset: &Dataset, error: f64, [least, most]: [f64; 2]) {
@@ -34,7 +36,8 @@ fn parsed(text: &str) -> Problem {
     Problem::parse(text, "plate.toml", Path::new(".")).expect("a problem")
 }
 
-/// Asserts the estimate of a field on [−1, 1]² with its body force, given on the border, at pairs of an order and a level.
+/// Asserts the estimate of a field on [−1, 1]² with its body force, given on the border, at pairs
+/// of an order and a level.
 fn assert_manufactured(covers: &[(usize, u32)]) {
     let field = Smooth { material: MATERIAL };
     for &(order, level) in covers {
@@ -100,9 +103,9 @@ fn round_holes() {
     }
 }
 
-/// Energies of plates without known fields: loads that end within cells beside clamped corners, a body force on a clamped
-/// plate, a crack. By finite elements of order 10 and 12 (NGSolve 6.2.2608), right to 1e-7. The error's square is what
-/// the energy lacks.
+/// Energies of plates without known fields: loads that end within cells beside clamped corners, a
+/// body force on a clamped plate, a crack. By finite elements of order 10 and 12 (NGSolve
+/// 6.2.2608), right to 1e-7. The error's square is what the energy lacks.
 #[test]
 fn known_energies() {
     let head = "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
@@ -157,8 +160,8 @@ fn assert_potential(
     }
 }
 
-/// u = max(d, 0)² with the distance d to an oblique line, under a source that jumps there: order 1 errs everywhere, others
-/// where it jumps.
+/// u = max(d, 0)² with the distance d to an oblique line, under a source that jumps there: order 1
+/// errs everywhere, others where it jumps.
 #[test]
 fn a_source_that_jumps() {
     let problem = potential("max(0.8*x + 0.6*y - 0.1, 0)^2", "if(0.8*x + 0.6*y < 0.1, 0, -2)", "");
@@ -183,8 +186,8 @@ fn a_source_in_a_spot() {
     assert_potential("spot", &problem, &exact, ROUGH);
 }
 
-/// An interface that the local spaces do not know of: a kink of u inside of cells. No part of the estimated error sees the
-/// jump of the flux, so it misses some of the error.
+/// An interface that the local spaces do not know of: a kink of u inside of cells. No part of the
+/// estimated error sees the jump of the flux, so it misses some of the error.
 #[test]
 fn an_interface_that_nobody_resolves() {
     let d = "(0.8*x + 0.6*y - 0.1)";
@@ -201,7 +204,8 @@ fn an_interface_that_nobody_resolves() {
     assert_potential("interface", &problem, &exact, [0.4, 1.5]);
 }
 
-/// A field that the local spaces hold has no error, and the scale of loads and lengths plays no part.
+/// A field that the local spaces hold has no error, and the scale of loads and lengths plays
+/// no part.
 #[test]
 fn nothing_is_estimated_of_nothing_and_scale_plays_no_part() {
     let linear = potential("0.3 + x - 0.7*y", "0", "");
@@ -233,8 +237,8 @@ fn problem_top(length: f64) -> ppum_solve::problem::BorderPart {
     ppum_solve::problem::BorderPart::edge(Edge::Top, &Rect::new(-half, half))
 }
 
-/// Kinked cracks in [−1, 1]², the angle by which they turn, their ends, and energies by finite elements of order 10 (NGSolve
-/// 6.2.2608), good to 2e-7.
+/// Kinked cracks in [−1, 1]², the angle by which they turn, their ends, and energies by finite
+/// elements of order 10 (NGSolve 6.2.2608), good to 2e-7.
 const KINKS: [(u32, [f64; 2], f64); 4] = [
     (120, [0.099783, 0.438798], 2.004413623),
     (150, [0.305814, 0.330118], 1.977975139),

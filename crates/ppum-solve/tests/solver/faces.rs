@@ -1,8 +1,9 @@
 //! Loads on faces of cracks and rims, against what superposition says of them.
 //!
-//! A plate under the tractions σ n of a uniform stress σ on its edges and one under −σ n on its faces and
-//! rims differ by the uniform field alone. It is in the space from order 1 on, so the two discrete
-//! problems differ by nothing else either: what remains is quadrature and rounding, whatever the cells.
+//! A plate under the tractions σ n of a uniform stress σ on its edges and one under −σ n on its
+//! faces and rims differ by the uniform field alone. It is in the space from order 1 on, so the two
+//! discrete problems differ by nothing else either: what remains is quadrature and rounding,
+//! whatever the cells.
 
 use crate::studies::support::{solved, strain_energy};
 use ppum::crack::{End, Side};
@@ -157,9 +158,9 @@ impl Case {
         solved(&problem)
     }
 
-    /// The rules in the cells are made to leave 1e-8 of the energy at order 1 (`Orders::for_degree`), of
-    /// coarse cells with tips a few times as much; each order more leaves a twentieth, halved cells less.
-    /// Rules along faces leave nothing that is seen.
+    /// The rules in the cells are made to leave 1e-8 of the energy at order 1
+    /// (`Orders::for_degree`), of coarse cells with tips a few times as much; each order more
+    /// leaves a twentieth, halved cells less. Rules along faces leave nothing that is seen.
     fn tolerance(&self) -> f64 {
         let cells = if self.level < 4 { 3e-7 } else { 1e-9 };
         (cells * 20f64.powi(1 - self.order as i32)).max(EQUAL)
@@ -233,8 +234,8 @@ fn oblique(level: u32, order: usize) -> Case {
 #[test]
 fn pressure_is_tension() {
     oblique(2, 1).check();
-    // hp finite elements of an independent solver, good to the digits given; cells of this size come as
-    // near as 1e-4
+    // hp finite elements of an independent solver, good to the digits given; cells of this size
+    // come as near as 1e-4
     let dataset = oblique(4, 2).on_faces();
     for ([k1, _], expected) in factors(&dataset).into_iter().zip([1.53939, 1.55280]) {
         assert!((k1 / expected - 1.0).abs() < 2e-4, "{k1} instead of {expected}");
@@ -310,8 +311,8 @@ fn fluxes_of_a_potential() {
     }
 }
 
-/// A load on one face alone, in a plate that its edge holds: what the edge bears is what acts on the face, and
-/// the direction in which the crack is given tells nothing.
+/// A load on one face alone, in a plate that its edge holds: what the edge bears is what acts on
+/// the face, and the direction in which the crack is given tells nothing.
 #[test]
 fn one_face_alone() {
     let mut random = Random(6);

@@ -1,4 +1,5 @@
-//! Problems made of formulas: enrichments of one's own against exact solutions, with and without them.
+//! Problems made of formulas: enrichments of one's own against exact solutions, with and
+//! without them.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -62,8 +63,8 @@ pub(crate) fn given(problem: &Problem) -> impl Fn(Vec2, Vec2) -> [Jet<f64>; 2] +
     }
 }
 
-/// Relative error in the energy norm, integrated over the pieces of the space of `fine`, which has the
-/// same cover.
+/// Relative error in the energy norm, integrated over the pieces of the space of `fine`, which has
+/// the same cover.
 pub(crate) fn energy_error(dataset: &Dataset, fine: &Problem, exact: Exact<'_>) -> f64 {
     let step = discretise(fine, unwatched()).expect("a space");
     let space = Space::new(&step, &fine.domain, &fine.equation, &fine.tables)
@@ -164,7 +165,8 @@ fn corner_problem(order: usize, level: u32) -> Problem {
     problem
 }
 
-/// Errors at the levels 3 and 4, and the rate, with the corner's function in a fixed zone and kinks along the interfaces.
+/// Errors at the levels 3 and 4, and the rate, with the corner's function in a fixed zone and kinks
+/// along the interfaces.
 fn study_of_corner(order: usize) -> ([f64; 2], f64) {
     study(3, |level| {
         let problem = corner_problem(order, level);
@@ -182,7 +184,8 @@ fn a_corner_function_restores_the_rate() {
     assert!(rate > 1.85 && errors[0] < 3e-3, "{errors:?}");
 }
 
-/// Errors at a level and the next one, and the rate, with some of the enrichments of the corner's problem.
+/// Errors at a level and the next one, and the rate, with some of the enrichments of the
+/// corner's problem.
 fn study_of_part(enrichments: Range<usize>, level: u32) -> ([f64; 2], f64) {
     study(level, |level| {
         let fine = corner_problem(2, level);
@@ -192,7 +195,8 @@ fn study_of_part(enrichments: Range<usize>, level: u32) -> ([f64; 2], f64) {
     })
 }
 
-/// With kinks alone the rate is about λ = 0.7; with nothing the error on level 3 is 18 %, as examples/README.md says.
+/// With kinks alone the rate is about λ = 0.7; with nothing the error on level 3 is 18 %, as
+/// examples/README.md says.
 #[test]
 fn without_the_corner_function_the_rate_is_low() {
     for (enrichments, rate_bound, least) in [(1..3, 0.8, 0.03), (0..0, 0.9, 0.15)] {
@@ -222,8 +226,8 @@ fn a_corner_function_everywhere_is_exact() {
     assert!(error < 1e-10, "{error}");
 }
 
-/// exp(−x/ε) times polynomials makes the rate p on cells up to 250 times as wide as ε, with a weight
-/// function that is no spline; without it nothing is seen of the layer.
+/// exp(−x/ε) times polynomials makes the rate p on cells up to 250 times as wide as ε, with a
+/// weight function that is no spline; without it nothing is seen of the layer.
 #[test]
 fn a_layer_is_resolved() {
     let error = |level| {
@@ -284,8 +288,8 @@ value = "exact"
 level = 2
 "#;
 
-/// u = c x inside, (1 + d/r²) x outside with c = 2/(1 + 5), d = R² (1 − 5)/(1 + 5): the interface is a
-/// curve.
+/// u = c x inside, (1 + d/r²) x outside with c = 2/(1 + 5), d = R² (1 − 5)/(1 + 5): the interface
+/// is a curve.
 #[test]
 fn a_round_inclusion() {
     let problem = |level| {
@@ -308,8 +312,8 @@ fn a_round_inclusion() {
     assert!(rate < 0.8, "{rate}");
 }
 
-/// u = 0 on the right half of the lower edge of a plate, no flux on the left half: √r sin(θ/2), singular
-/// at a point of the border.
+/// u = 0 on the right half of the lower edge of a plate, no flux on the left half: √r sin(θ/2),
+/// singular at a point of the border.
 fn changing_boundary() -> Problem {
     let domain = Rect::new(vec2(-1.0, 0.0), vec2(1.0, 1.0));
     let mut set = discretization(Cells::Grid([6, 3]), 2);
@@ -343,8 +347,8 @@ fn a_singular_point_on_the_border() {
     assert!(found[0] < 1e-9 && found[1] < 0.3 * found[2], "{found:?}");
 }
 
-/// Higher terms of Williams' series as enrichments: a field with an r^{3/2} term is in the space of both
-/// sets of functions.
+/// Higher terms of Williams' series as enrichments: a field with an r^{3/2} term is in the space of
+/// both sets of functions.
 #[test]
 fn williams_terms_as_enrichments() {
     let field = OBLIQUE.field().with_intensities(1.0, 0.5).with_term(3, 0.4, 0.3);
@@ -371,8 +375,8 @@ fn williams_terms_as_enrichments() {
     assert!(with < 1e-9 && without > 1e-3, "{with} {without}");
 }
 
-/// The built-in tip functions and the same ones as an enrichment of one's own give the same step, bit by
-/// bit.
+/// The built-in tip functions and the same ones as an enrichment of one's own give the same step,
+/// bit by bit.
 #[test]
 fn built_in_and_own_tip_functions_are_one() {
     let field = OBLIQUE.field().with_intensities(1.0, 0.5);

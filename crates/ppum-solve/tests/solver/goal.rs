@@ -1,4 +1,5 @@
-//! Estimated errors of stress intensity factors against the errors, and accuracies that are asked for.
+//! Estimated errors of stress intensity factors against the errors, and accuracies that are
+//! asked for.
 
 use crate::studies::factors::{errors_of_factors, plates};
 use crate::studies::plates::{Known, Plate, centre_cracks, end_shear, slanted_cracks};
@@ -7,15 +8,18 @@ use ppum_solve::diagnostics::kind;
 use ppum_solve::problem::{Adaptivity, Cells, Order, Problem};
 use std::path::Path;
 
-/// Limits of the effectivity, the estimated error over the error. Where K is nearly right by chance it is larger.
+/// Limits of the effectivity, the estimated error over the error. Where K is nearly right by chance
+/// it is larger.
 const EFFECTIVE: std::ops::Range<f64> = 0.8..20.0;
 
-/// Places in [`plates`] of cracks in the middle and at the edge of a plate, across the tension, and of a slanted one.
+/// Places in [`plates`] of cracks in the middle and at the edge of a plate, across the tension, and
+/// of a slanted one.
 const CENTRE: usize = 4;
 const EDGE: usize = 16;
 const SLANTED: usize = 19;
 
-/// The estimate is no bound, but has never been much less than the error. docs/validation.md has more plates.
+/// The estimate is no bound, but has never been much less than the error. docs/validation.md has
+/// more plates.
 #[test]
 fn errors_of_factors_are_known() {
     let mut all = Vec::new();
@@ -40,7 +44,8 @@ fn errors_of_factors_are_known() {
     assert!((1.0..5.0).contains(&all[all.len() / 2]));
 }
 
-/// Slanted crack in a square that is clamped below and nearly incompressible, ν = 0.49: hpfem of order 12, right to 1e-8.
+/// Slanted crack in a square that is clamped below and nearly incompressible, ν = 0.49: hpfem of
+/// order 12, right to 1e-8.
 fn clamped_and_stiff() -> Plate {
     let text = "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[material]\nyoung = 1\npoisson = 0.49\nstate = \"plane-strain\"\n\
                 [[crack]]\npoints = [[-0.4, -0.2], [0.4, 0.1]]\n[[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n\
@@ -55,8 +60,8 @@ fn clamped_and_stiff() -> Plate {
     plate
 }
 
-/// Asserts that an accuracy that is asked for is reached, and that the estimate says so. docs/validation.md has more plates and
-/// accuracies.
+/// Asserts that an accuracy that is asked for is reached, and that the estimate says so.
+/// docs/validation.md has more plates and accuracies.
 fn assert_reached(plate: &Plate, accuracy: f64) {
     let mut problem = plate.problem.clone().with_adaptivity(Adaptivity::to(accuracy));
     if problem.discretization.order == Order::Uniform(2) {

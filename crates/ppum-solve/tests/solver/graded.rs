@@ -21,8 +21,8 @@ use std::path::Path;
 const K: [f64; 2] = [1.0, 0.5];
 const T_STRESS: f64 = 0.3;
 
-/// A grading around the tip of [`OBLIQUE`]: E = exp(a·d) + b d_x d_y and ν = 0.3 + 0.1 sin(c·d) with the
-/// distance d to the tip, where it is the uniform material with E = 1, ν = 0.3.
+/// A grading around the tip of [`OBLIQUE`]: E = exp(a·d) + b d_x d_y and ν = 0.3 + 0.1 sin(c·d)
+/// with the distance d to the tip, where it is the uniform material with E = 1, ν = 0.3.
 struct Grading {
     state: StressState,
     a: Vec2,
@@ -79,8 +79,8 @@ impl Grading {
         [vec2(normal[0], shear), vec2(shear, normal[1])]
     }
 
-    /// The body force −div σ under which the field of a uniform body is that of the graded one: with
-    /// λ_0 ∇tr ε + 2μ_0 div ε = 0 it is −(tr ε ∇λ + 2 ε ∇μ) − (λ − μ λ_0/μ_0) ∇tr ε.
+    /// The body force −div σ under which the field of a uniform body is that of the graded one:
+    /// with λ_0 ∇tr ε + 2μ_0 div ε = 0 it is −(tr ε ∇λ + 2 ε ∇μ) − (λ − μ λ_0/μ_0) ∇tr ε.
     fn body_force(&self, field: &Williams, p: Vec2) -> [f64; 2] {
         let [u, v] = field.evaluate(p);
         let [lambda, mu] = self.lame(p);
@@ -144,8 +144,9 @@ fn error(found: &TipIntensity) -> f64 {
     all.into_iter().fold(0.0, f64::max)
 }
 
-/// The field of a uniform body is that of any graded one under the right body force and tractions on the faces,
-/// and has the same K: at every radius, to what the solver and the quadrature leave of it, 1e-9.
+/// The field of a uniform body is that of any graded one under the right body force and tractions
+/// on the faces, and has the same K: at every radius, to what the solver and the quadrature leave
+/// of it, 1e-9.
 #[test]
 fn exact_fields_in_graded_bodies() {
     let mut random = Random(20);
@@ -237,8 +238,9 @@ fn spread(tip: &TipIntensity) -> f64 {
     tip.rings.iter().map(from_last).fold(0.0, f64::max) / size(tip)
 }
 
-/// E = exp(1.5 x) in a strip 1 × 2 with a crack a = 0.5 from its soft edge, pulled: K_I = 3.007973 by finite
-/// elements of order 10 on a mesh graded towards the tip, 3.00798 from σ_yy √(2πr) ahead of the tip there.
+/// E = exp(1.5 x) in a strip 1 × 2 with a crack a = 0.5 from its soft edge, pulled: K_I = 3.007973
+/// by finite elements of order 10 on a mesh graded towards the tip, 3.00798 from σ_yy √(2πr) ahead
+/// of the tip there.
 #[test]
 fn convergence_along_a_grading() {
     const EXACT: [f64; 2] = [3.007973, 0.0];
@@ -257,8 +259,9 @@ fn convergence_along_a_grading() {
 /// A plate and K_I and K_II of its tips.
 type Case<'a> = (&'static str, Plate<'a>, Vec<[f64; 2]>);
 
-/// Asserts values of finite elements of order 10 on meshes graded towards tips and fitted to interfaces, good to
-/// 1e-6. The bounds are what other problems of such cells are off by: 2e-3 in uniform materials.
+/// Asserts values of finite elements of order 10 on meshes graded towards tips and fitted to
+/// interfaces, good to 1e-6. The bounds are what other problems of such cells are off by: 2e-3 in
+/// uniform materials.
 fn assert_references(cases: &[Case<'_>]) {
     for (name, plate, expected) in cases {
         let tips = plate.tips();
@@ -345,7 +348,8 @@ fn more_references() {
     ]);
 }
 
-/// Asserts that plate, load and grading turned by 90°, or seen in a mirror, have the same K_I, and K_II with its sign.
+/// Asserts that plate, load and grading turned by 90°, or seen in a mirror, have the same K_I, and
+/// K_II with its sign.
 fn assert_turned_and_mirrored(state: &str, random: &mut Random) {
     let ends = |on: [&str; 2], traction: [[f64; 2]; 2]| {
         let end =
@@ -384,7 +388,8 @@ fn rotations_and_reflections() {
     }
 }
 
-/// Interfaces may lie in the disc; a tip on one has no factors, and a warning says so with the place.
+/// Interfaces may lie in the disc; a tip on one has no factors, and a warning says so with
+/// the place.
 #[test]
 fn tips_at_interfaces() {
     let plate = |young: &'static str| {
@@ -418,7 +423,8 @@ fn before_interface(gap: f64) -> Step {
     Plate { young: &young, crack: LEVEL, rest: &rest, ..PLATE }.solve().steps.remove(0)
 }
 
-/// Asserts values by finite elements of order 10, as above; what is left is that of the tip far from the interface.
+/// Asserts values by finite elements of order 10, as above; what is left is that of the tip far
+/// from the interface.
 fn assert_before_interface(gap: f64, expected: [f64; 2]) {
     let step = before_interface(gap);
     let error = distance(&step.intensities[1], expected);
@@ -432,8 +438,8 @@ fn tips_at_some_distance_from_interfaces() {
     assert_before_interface(0.02, [0.698063, -0.020478]);
 }
 
-/// Cells at a tip become as small as the next interface asks for; without that, and closer than they may
-/// become, there is a warning with the place.
+/// Cells at a tip become as small as the next interface asks for; without that, and closer than
+/// they may become, there is a warning with the place.
 #[test]
 fn tips_near_interfaces() {
     assert_before_interface(0.005, [0.571446, -0.017543]);

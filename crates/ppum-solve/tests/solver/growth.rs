@@ -1,4 +1,5 @@
-//! Cracks that grow: kinks, paths, what they meet, loads and cycles, and series that are interrupted.
+//! Cracks that grow: kinks, paths, what they meet, loads and cycles, and series that
+//! are interrupted.
 
 use ppum::crack::{CrackEnd, End, TipId};
 use ppum::dataset::{Advance, Dataset, Fate, GrowthStop, Step, TipIntensity};
@@ -45,8 +46,8 @@ fn sheared(growth: &str) -> String {
     )
 }
 
-/// A square plate under tension with a crack and whatever else is given, in coarse cells: what becomes of paths is decided by signs
-/// and sizes of factors, not by their digits.
+/// A square plate under tension with a crack and whatever else is given, in coarse cells: what
+/// becomes of paths is decided by signs and sizes of factors, not by their digits.
 fn pulled(crack: &str, more: &str, growth: &str) -> String {
     pulled_in(3, crack, more, growth)
 }
@@ -70,9 +71,10 @@ fn pulled_in(level: u32, crack: &str, more: &str, growth: &str) -> String {
     )
 }
 
-/// The field r^½ of K_I and K_II ahead of a long crack, given on the border; the crack has a short kink. What the kink's tip
-/// has tends to F_11 K_I + F_12 K_II, F_21 K_I + F_22 K_II: the way of the tip of a growing crack says so by its direction and
-/// strength. A kink of the length ℓ is off by a first power of ℓ, which two lengths extrapolate.
+/// The field r^½ of K_I and K_II ahead of a long crack, given on the border; the crack has a short
+/// kink. What the kink's tip has tends to F_11 K_I + F_12 K_II, F_21 K_I + F_22 K_II: the way of
+/// the tip of a growing crack says so by its direction and strength. A kink of the length ℓ is off
+/// by a first power of ℓ, which two lengths extrapolate.
 #[test]
 fn kinks_of_local_symmetry() {
     let (mu, kappa) = (1.0 / 2.6, 1.8);
@@ -120,7 +122,8 @@ fn kinks_of_local_symmetry() {
     assert!(limit[1].abs() < 2e-3 * strength, "{limit:?}");
 }
 
-/// Asserts that behind the first kink K_II is next to nothing: below a part of K_I by hoop stress and by energy, 0.1 % by local symmetry.
+/// Asserts that behind the first kink K_II is next to nothing: below a part of K_I by hoop stress
+/// and by energy, 0.1 % by local symmetry.
 fn assert_sliding_ends(increments: usize, part: f64) {
     for (criterion, bound) in [("hoop", part), ("energy", part), ("local-symmetry", 1e-3)] {
         let rule = format!(r#"criterion = "{criterion}", increment = 0.5, steps = {increments}"#);
@@ -146,8 +149,9 @@ fn sliding_does_not_come_back() {
     assert_sliding_ends(3, 0.03);
 }
 
-/// Asserts that the place of the tip after a given length of growth converges as increments are halved, with an order between 1 and
-/// 2: the path begins like x^3/2 behind a kink. docs/validation.md has more increments.
+/// Asserts that the place of the tip after a given length of growth converges as increments are
+/// halved, with an order between 1 and 2: the path begins like x^3/2 behind a kink.
+/// docs/validation.md has more increments.
 fn assert_path_converges(criterion: &str, length: f64, parts: [usize; 3]) {
     let [a, b, c] = parts.map(|n| {
         let increment = length / n as f64;
@@ -171,8 +175,8 @@ fn paths_by_hoop_stress_converge() {
     assert_path_converges("hoop", 2.0, [4, 8, 16]);
 }
 
-/// docs/validation.md has paths of more increments: that by hoop stress with eight of them is 4e-3 off at its end, that by local
-/// symmetry with four 5e-3.
+/// docs/validation.md has paths of more increments: that by hoop stress with eight of them is 4e-3
+/// off at its end, that by local symmetry with four 5e-3.
 #[test]
 #[ignore = "slow: twelve increments, a third of them bent"]
 fn criteria_lead_to_one_place() {
@@ -193,7 +197,8 @@ struct Image {
     loads: [(&'static str, [f64; 2]); 2],
 }
 
-/// Paths turn, mirror, move and grow with the plate, and do not know in which direction a crack is listed, or the size of the load.
+/// Paths turn, mirror, move and grow with the plate, and do not know in which direction a crack is
+/// listed, or the size of the load.
 #[test]
 fn paths_do_not_depend_on_the_frame() {
     let plate = |image: &Image, reversed: bool, load: f64| {
@@ -313,8 +318,8 @@ fn ends_of_paths() {
     }
 }
 
-/// Two tips that come to each other in one step: one goes on to the other, which is a tip no more and stays, and the cracks are one.
-/// Which of them goes is a matter of their order.
+/// Two tips that come to each other in one step: one goes on to the other, which is a tip no more
+/// and stays, and the cracks are one. Which of them goes is a matter of their order.
 #[test]
 fn tips_that_meet() {
     let cracks = ["[[-1, 0], [0, 0]]", "[[0.15, 0.03], [0.35, 0.03]]"];
@@ -338,7 +343,8 @@ fn tips_that_meet() {
     }
 }
 
-/// A plate that tears apart: the crack reaches the other side, and both halves are free of each other, with loads that do not balance.
+/// A plate that tears apart: the crack reaches the other side, and both halves are free of each
+/// other, with loads that do not balance.
 #[test]
 fn pieces_come_off() {
     let text = pulled("[[-1, 0], [0.5, 0]]", "", "increment = 0.2, steps = 9");
@@ -351,7 +357,8 @@ fn pieces_come_off() {
     assert!(steps.len() == 3 || steps.len() == 4, "{}", steps.len());
 }
 
-/// Tips stay where K_I is negative or their strength below the toughness, and so does a series that has no tips or none that grows.
+/// Tips stay where K_I is negative or their strength below the toughness, and so does a series that
+/// has no tips or none that grows.
 #[test]
 fn tips_that_stay() {
     let steps = grown(&pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", "steps = 5, toughness = 10"));
@@ -381,8 +388,8 @@ fn tips_that_stay() {
     assert_eq!(stop(&steps), Some(GrowthStop::NoTips));
 }
 
-/// Under the critical load the strength of a tip is its toughness and no other is larger; twice the load has half the factor, and
-/// all of the step is under it.
+/// Under the critical load the strength of a tip is its toughness and no other is larger; twice the
+/// load has half the factor, and all of the step is under it.
 #[test]
 fn critical_loads() {
     let plate = |load: f64| {
@@ -425,7 +432,8 @@ fn factors(dataset: &Dataset) -> f64 {
     found[0].factors.as_ref().expect("factors").k1
 }
 
-/// Cycles of an edge crack against the integral of Paris' law over K of the same plate, F(a/W) by Tada: good to 0.5 %.
+/// Cycles of an edge crack against the integral of Paris' law over K of the same plate, F(a/W) by
+/// Tada: good to 0.5 %.
 #[test]
 fn cycles() {
     let text = r#"
@@ -462,8 +470,8 @@ fn cycles() {
     }
 }
 
-/// Powers of ΔK that no number holds leave the shares of tips and the cycles as they are: with c in units in which K is a
-/// billion times larger both are the same.
+/// Powers of ΔK that no number holds leave the shares of tips and the cycles as they are: with c in
+/// units in which K is a billion times larger both are the same.
 #[test]
 fn powers_out_of_range() {
     let cracks = "[[crack]]\npoints = [[-1, -0.5], [-0.5, -0.5]]";
@@ -488,8 +496,8 @@ fn powers_out_of_range() {
     }
 }
 
-/// A toughness that is none at a tip, a load beyond all bounds, cycles without number: an error in the first step, and later
-/// the end of the series, with the reason.
+/// A toughness that is none at a tip, a load beyond all bounds, cycles without number: an error in
+/// the first step, and later the end of the series, with the reason.
 #[test]
 fn what_cannot_be_decided() {
     let first = |growth: &str| {
@@ -525,8 +533,8 @@ fn what_cannot_be_decided() {
     }
 }
 
-/// Asserts that K_II vanishes at the ends of arcs, or that a warning says how far it does not, and returns in how many steps there
-/// is one.
+/// Asserts that K_II vanishes at the ends of arcs, or that a warning says how far it does not, and
+/// returns in how many steps there is one.
 fn unsettled_steps(increments: usize) -> usize {
     let rule = format!("steps = {increments}, increment = 0.2, criterion = 'local-symmetry'");
     let beside = "[[crack]]\npoints = [[0.1, -0.3], [0.5, -0.15]]";
@@ -547,14 +555,16 @@ fn arcs_are_settled_or_a_warning_says_so() {
     unsettled_steps(1);
 }
 
-/// Arcs that turn too much for their length are not bent until K_II vanishes, and a warning says so.
+/// Arcs that turn too much for their length are not bent until K_II vanishes, and a warning
+/// says so.
 #[test]
 #[ignore = "slow: arcs are bent many times"]
 fn unsettled_arcs() {
     assert!(unsettled_steps(2) > 0);
 }
 
-/// The slower of two cracks has grown what the law says of its strength in the same cycles; it may lag by half an increment.
+/// The slower of two cracks has grown what the law says of its strength in the same cycles; it may
+/// lag by half an increment.
 #[test]
 fn slow_tips() {
     let more = "[[crack]]\npoints = [[1, 0.5], [0.8, 0.5]]";
@@ -583,8 +593,9 @@ fn fracture_ends_fatigue() {
     assert!(*last >= 2.6 && others.iter().all(|strength| *strength < 2.6), "{strengths:?}");
 }
 
-/// A series that goes on from one of its steps has the same bits as one that was not interrupted, by all criteria: what is
-/// decided is stored, and what a step takes over from the one before it is what it would have integrated itself.
+/// A series that goes on from one of its steps has the same bits as one that was not interrupted,
+/// by all criteria: what is decided is stored, and what a step takes over from the one before it is
+/// what it would have integrated itself.
 #[test]
 fn series_go_on_from_their_steps() {
     let edge = "[[-1, 0.1], [-0.2, 0.15]]";
@@ -621,7 +632,8 @@ fn timeless(step: &Step) -> String {
     format!("{step:?}")
 }
 
-/// Whoever cancels a series has all steps that are complete; a place that takes no more steps ends it.
+/// Whoever cancels a series has all steps that are complete; a place that takes no more steps
+/// ends it.
 #[test]
 fn series_are_cancelled() {
     let problem = parsed(&pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", "steps = 5, increment = 0.05"));

@@ -73,7 +73,8 @@ fn stress(dataset: &Dataset, quantity: &Quantity, p: Vec2) -> f64 {
     quantity.at(&mut field.at(p), Vec2::ZERO, Side::Above)
 }
 
-/// Asserts the study's error in the energy norm (numerics, section 16), up to a tenth; eight cells are 1 wide.
+/// Asserts the study's error in the energy norm (numerics, section 16), up to a tenth; eight cells
+/// are 1 wide.
 fn assert_as_in_the_study(order: usize, cells: u32, expected: f64) {
     let found = energy_error(&solved(&kirsch_plate(cells, order)), &kirsch());
     println!("order {order}, {cells} cells: {found:.4}, study {expected}");
@@ -155,8 +156,8 @@ fn a_rim_that_is_held() {
     assert!(error < 0.04, "{error}");
 }
 
-/// The stress concentration at the rim of a quarter of the plate between two planes of symmetry; the hole sits in its corner. That
-/// of whole plates is in [`rims`](super::rims).
+/// The stress concentration at the rim of a quarter of the plate between two planes of symmetry;
+/// the hole sits in its corner. That of whole plates is in [`rims`](super::rims).
 #[test]
 fn stress_concentration() {
     let field = RoundHole::new(MATERIAL, Vec2::ZERO, 1.0).with_remote([0.0, 1.0, 0.0]);
@@ -178,12 +179,12 @@ fn stress_concentration() {
     assert!((found - 3.0).abs() < 0.03, "{found}");
 }
 
-/// Two equal cracks of length a from opposite sides of a round hole of radius 1, across the tension; the second pair is given as one
-/// crack through the hole.
+/// Two equal cracks of length a from opposite sides of a round hole of radius 1, across the
+/// tension; the second pair is given as one crack through the hole.
 ///
-/// References K/(σ√(πa)): the singular integral equation for dislocations beside a round hole in the
-/// plane, solved with 400 Gauss–Chebyshev points, right to 1e-5; Bowie's table (1956) has 1.83 and 1.45.
-/// The plate is 64 times as large as the hole: that raises K by some 1e-3.
+/// References K/(σ√(πa)): the singular integral equation for dislocations beside a round hole in
+/// the plane, solved with 400 Gauss–Chebyshev points, right to 1e-5; Bowie's table (1956) has 1.83
+/// and 1.45. The plate is 64 times as large as the hole: that raises K by some 1e-3.
 #[test]
 fn cracks_from_a_hole() {
     let two = vec![[[1.0, 0.0], [1.5, 0.0]], [[-1.5, 0.0], [-1.0, 0.0]]];
@@ -258,8 +259,8 @@ fn slivers_at_rims() {
     }
 }
 
-/// A load on ever shorter intervals is the same force: displacements away from it differ by what the
-/// width does, and short restraints hold the plate.
+/// A load on ever shorter intervals is the same force: displacements away from it differ by what
+/// the width does, and short restraints hold the plate.
 #[test]
 fn short_intervals() {
     let on =

@@ -41,8 +41,8 @@ fn the_order_follows_the_material_where_none_is_given() {
     assert_eq!(order("poisson = 0.5\nstate = \"plane-stress\"", ""), Order::Uniform(2));
 }
 
-/// K_I of both tips is 1.67156 for any ν (hpfem of order 10, ν = 0.499 and 0.4999: 1.671560 and the same to 1e-7); with
-/// order 2 it was off by 2e-3 … 1e-2.
+/// K_I of both tips is 1.67156 for any ν (hpfem of order 10, ν = 0.499 and 0.4999: 1.671560 and the
+/// same to 1e-7); with order 2 it was off by 2e-3 … 1e-2.
 #[test]
 fn k_is_right_by_default() {
     let dataset = solved(&cracked(&strain("0.4999"), "level = 2"));
@@ -64,8 +64,8 @@ fn locking(dataset: &Dataset) -> f64 {
     found.map_or(0.0, |warning| warning.value)
 }
 
-/// The error of the energy that is warned of is right within a factor of three: energies of hpfem, order 10,
-/// right to 1e-6.
+/// The error of the energy that is warned of is right within a factor of three: energies of hpfem,
+/// order 10, right to 1e-6.
 #[test]
 fn an_order_that_locks_is_warned_of_with_a_number() {
     for (poisson, exact) in ENERGIES {
@@ -91,8 +91,8 @@ fn all_round_pressure_is_not_warned_of() {
     assert!(dataset.steps[0].warnings.is_empty(), "{:?}", dataset.steps[0].warnings);
 }
 
-/// A plate whose displacement is u = (∂ψ/∂y, −∂ψ/∂x) + (x², 0)/λ, ψ = sin(2x + 0.3) cos(1.5y), given on the border; λ div u
-/// is 2x.
+/// A plate whose displacement is u = (∂ψ/∂y, −∂ψ/∂x) + (x², 0)/λ, ψ = sin(2x + 0.3) cos(1.5y),
+/// given on the border; λ div u is 2x.
 fn manufactured(poisson: f64, level: u32, order: usize) -> (Material, Dataset) {
     let material = Material { young: 1.0, poisson, state: StressState::PlaneStrain };
     let (lambda, mu) = (material.lambda(), material.mu());
@@ -119,7 +119,8 @@ fn manufactured_errors(level: u32, order: usize) -> Errors {
     })
 }
 
-/// Order 4 keeps its rate at ν = 0.4999, where the energy of the error of order 1 is a multiple of that of the field.
+/// Order 4 keeps its rate at ν = 0.4999, where the energy of the error of order 1 is a multiple of
+/// that of the field.
 #[test]
 fn the_default_order_keeps_its_rate() {
     let found = [1, 2, 3].map(|level| manufactured_errors(level, 4).energy);
@@ -129,8 +130,8 @@ fn the_default_order_keeps_its_rate() {
     assert!(manufactured_errors(3, 1).energy > 1.0);
 }
 
-/// The error of the stresses that is warned of is right within a factor of two, whatever ν and order are, and what is not
-/// warned of is small.
+/// The error of the stresses that is warned of is right within a factor of two, whatever ν and
+/// order are, and what is not warned of is small.
 #[test]
 fn pressure_that_oscillates_is_warned_of_with_a_number() {
     let mut told = 0;
@@ -155,7 +156,8 @@ fn pressure_that_oscillates_is_warned_of_with_a_number() {
     assert!((4..=10).contains(&told), "{told} of 11 are warned of");
 }
 
-/// The root mean square of the error of λ div u at random points of the inner plate, in parts of that of the stresses.
+/// The root mean square of the error of λ div u at random points of the inner plate, in parts of
+/// that of the stresses.
 fn error_of_pressure(dataset: &Dataset, material: &Material) -> f64 {
     let (field, mut random) = (Field::new(dataset, 0).expect("a field"), Random(7));
     let (lambda, mu) = (material.lambda(), material.mu());

@@ -19,9 +19,9 @@ fn outcomes(dataset: &Dataset, loads: Loads<'_>) -> Vec<Outcome> {
         .expect("nobody stops it")
 }
 
-/// The right half of two collinear cracks in the infinite plane, cut out by its exact tractions: the
-/// line of symmetry, on which u_x and the shear vanish, is the left border at the distance `gap` from the
-/// inner tip.
+/// The right half of two collinear cracks in the infinite plane, cut out by its exact tractions:
+/// the line of symmetry, on which u_x and the shear vanish, is the left border at the distance
+/// `gap` from the inner tip.
 fn half_of_two_cracks(gap: f64, order: usize, refine: bool) -> (Problem, [f64; 2]) {
     let field = CollinearCracks::new(gap, gap + 1.0, 1.0);
     let domain = Rect::new(vec2(0.0, -1.5), vec2(2.5, 1.5));
@@ -74,8 +74,8 @@ fn too_little_room_is_no_value() {
     assert_eq!(TipIntensity { error: None, ..stored.clone() }, factors);
 }
 
-/// σ_xx = −f x balances the body force (f, 0) and loads neither the crack on y = 0 nor its tip: with
-/// E′ = E/(1 − ν²), ν′ = ν/(1 − ν) its displacement is f/(2E′) (−x² − ν′ y², 2ν′ x y).
+/// σ_xx = −f x balances the body force (f, 0) and loads neither the crack on y = 0 nor its tip:
+/// with E′ = E/(1 − ν²), ν′ = ν/(1 − ν) its displacement is f/(2E′) (−x² − ν′ y², 2ν′ x y).
 #[test]
 fn a_constant_body_force() {
     const FORCE: f64 = 3.0;

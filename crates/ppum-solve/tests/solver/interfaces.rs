@@ -41,8 +41,8 @@ fn kinks(step: &Step) -> Vec<&str> {
     names.filter(|name| name.starts_with("kink at")).collect()
 }
 
-/// u = d n/E with the distance d to a straight interface: the traction on it is the same on both sides, as
-/// Poisson's ratio is. Piecewise linear, so that nothing but rounding is left.
+/// u = d n/E with the distance d to a straight interface: the traction on it is the same on both
+/// sides, as Poisson's ratio is. Piecewise linear, so that nothing but rounding is left.
 #[test]
 fn a_stretch_across_a_straight_interface_is_exact() {
     let d = "let d = 0.6*x + 0.8*y - 0.1234; let young = if(d > 0, 100, 1);";
@@ -58,8 +58,8 @@ fn a_stretch_across_a_straight_interface_is_exact() {
     }
 }
 
-/// A disc in a plate under tension along x far away, with other E and ν: Goodier's solution, in potentials of
-/// Kolosov and Muskhelishvili. Of the all-round half of the load
+/// A disc in a plate under tension along x far away, with other E and ν: Goodier's solution, in
+/// potentials of Kolosov and Muskhelishvili. Of the all-round half of the load
 ///
 /// ```text
 /// outside 2μ u = ((κ − 1) T/2 − c/r²) z,  c = R² (T' − T),   inside 2μ' u = (κ' − 1) T'/2 z,
@@ -104,7 +104,8 @@ fn goodier(young: f64, poisson: f64, state: &str) -> Problem {
     )
 }
 
-/// A disc of conductivity k in a uniform field: u = 2 x/(1 + k) inside, (1 + (1 − k)/(1 + k) R²/r²) x outside.
+/// A disc of conductivity k in a uniform field: u = 2 x/(1 + k) inside, (1 + (1 − k)/(1 + k) R²/r²)
+/// x outside.
 fn disc_in_a_field(k: f64) -> Problem {
     let (c, d) = (2.0 / (1.0 + k), 0.36 * (1.0 - k) / (1.0 + k));
     let inside = "hypot(x - 0.05, y + 0.03) < 0.6";
@@ -118,8 +119,9 @@ fn disc_in_a_field(k: f64) -> Problem {
     )
 }
 
-/// Rates in the energy norm. Cut patches are better than others, and the ring that they fill shrinks: of the
-/// rate p at each place, up to 0.35 are missing in the sum. Unresolved interfaces have the rate 1/2.
+/// Rates in the energy norm. Cut patches are better than others, and the ring that they fill
+/// shrinks: of the rate p at each place, up to 0.35 are missing in the sum. Unresolved interfaces
+/// have the rate 1/2.
 fn assert_rate(problem: &Problem, order: usize) {
     let (_, rate) = study(3, |level| error(&with(problem, order, level)));
     let near = order as f64 - 0.35..order as f64 + 0.3;
@@ -164,8 +166,8 @@ fn an_interface_is_resolved_once() {
     }
 }
 
-/// Continuous materials have kinks that are mere kinks; a jump that ends is resolved as far as it goes; a crack
-/// that crosses parts it.
+/// Continuous materials have kinks that are mere kinks; a jump that ends is resolved as far as it
+/// goes; a crack that crosses parts it.
 #[test]
 fn only_jumps_are_interfaces() {
     assert!(kinks(&space(&cracked("1 + abs(x) + max(y, 0)", "0.3"))).is_empty());
@@ -187,7 +189,8 @@ fn only_jumps_are_interfaces() {
     assert_eq!(kinks(&step), ["kink at 0.1234 - x = 0", "kink at 0.1234 - x = 0, side of crack 0"]);
 }
 
-/// A kink of the problem's own comes first, in whatever frame; `interfaces = false` and `"none"` leave all out.
+/// A kink of the problem's own comes first, in whatever frame; `interfaces = false` and `"none"`
+/// leave all out.
 #[test]
 fn own_kinks_and_switches() {
     let auto = cracked("if(x > 0.1234, 5, 1)", "0.3");
@@ -205,8 +208,9 @@ fn own_kinks_and_switches() {
     assert!(kinks(&space(&none)).is_empty());
 }
 
-/// K of an edge crack before stiffer material, and the energy, against finite elements of order 10 (error
-/// below 1e-6); the bounds are half a percent and a thousandth. The same turned, moved and enlarged.
+/// K of an edge crack before stiffer material, and the energy, against finite elements of order 10
+/// (error below 1e-6); the bounds are half a percent and a thousandth. The same turned, moved
+/// and enlarged.
 #[test]
 fn a_crack_before_stiffer_material() {
     let plate = |s: f64, [x, y]: [f64; 2], turned: bool| {

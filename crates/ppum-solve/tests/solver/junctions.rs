@@ -58,8 +58,8 @@ fn close(found: &[[f64; 2]], expected: &[[f64; 2]], tolerance: f64) {
     }
 }
 
-/// Asserts F = K/√(πa) of a star in the plane under all-round tension (dislocation integral equations; shared reference table). A
-/// plate of 40 half-lengths adds (a/W)², 0.05 %.
+/// Asserts F = K/√(πa) of a star in the plane under all-round tension (dislocation integral
+/// equations; shared reference table). A plate of 40 half-lengths adds (a/W)², 0.05 %.
 fn assert_star_in_plane(arms: usize, exact: f64, level: u32, order: usize) {
     let found = factors(&plate(40.0, &star([0.0; 2], arms, 0.2), true, level, order));
     println!("{found:?}");
@@ -77,8 +77,9 @@ fn a_star_of_three_arms() {
     assert_star_in_plane(3, 0.941_499, 4, 3);
 }
 
-/// A symmetric branch of 45° with legs of equal length: F_I 1.0435 at the leg's tip, F_I 0.4948 and F_II ± 0.5059 at
-/// those of the arms, known to 1e-4, with K/√(πc) and c half the extent of the whole.
+/// A symmetric branch of 45° with legs of equal length: F_I 1.0435 at the leg's tip, F_I 0.4948 and
+/// F_II ± 0.5059 at those of the arms, known to 1e-4, with K/√(πc) and c half the extent of
+/// the whole.
 #[test]
 fn a_branch_in_a_large_plate() {
     let arm = |angle: f64| vec![[0.0, 0.0], polar(1.0, angle)];
@@ -89,8 +90,9 @@ fn a_branch_in_a_large_plate() {
     close(&found, &expected.map(|f| f.map(|f| f * unit)), 1e-3);
 }
 
-/// One crack with a kink, and two cracks that meet end to end: K/√π is 1.2148, −0.0226 at the straight one's tip, and
-/// 1.1520, 0.3178 at the other's, known to 1e-4; the plate of 80 adds 0.05 %.
+/// One crack with a kink, and two cracks that meet end to end: K/√π is 1.2148, −0.0226 at the
+/// straight one's tip, and 1.1520, 0.3178 at the other's, known to 1e-4; the plate of 80 adds
+/// 0.05 %.
 #[test]
 fn a_kink_of_one_crack_and_of_two() {
     let tip = [1.0 + (PI / 12.0).cos(), (PI / 12.0).sin()];
@@ -104,8 +106,9 @@ fn a_kink_of_one_crack_and_of_two() {
     }
 }
 
-/// K of cracks in the square [−1, 1]² under all-round tension, by finite elements of order 10 on a mesh that follows
-/// the cracks (tests/random/README.md), whose own estimates of its errors are below 4e-6.
+/// K of cracks in the square [−1, 1]² under all-round tension, by finite elements of order 10 on a
+/// mesh that follows the cracks (tests/random/README.md), whose own estimates of its errors are
+/// below 4e-6.
 fn assert_factors(cases: &[Case], level: u32, order: usize) {
     for (name, lines, expected) in cases {
         println!("{name}");
@@ -195,8 +198,8 @@ fn divided_hook(random: &mut Random) -> Line {
     points
 }
 
-/// Vertices on the straight parts of a hook do not change the number of cells by much; that factors stay is in
-/// [`factors_of_a_hook`].
+/// Vertices on the straight parts of a hook do not change the number of cells by much; that factors
+/// stay is in [`factors_of_a_hook`].
 #[test]
 fn vertices_of_a_hook() {
     let mut random = Random(31);
@@ -207,8 +210,8 @@ fn vertices_of_a_hook() {
     }
 }
 
-/// Factors of hooks with vertices. Those of a hook with one near a tip come to what hp finite elements of order 10 have
-/// (`tests/random`), from level to level.
+/// Factors of hooks with vertices. Those of a hook with one near a tip come to what hp finite
+/// elements of order 10 have (`tests/random`), from level to level.
 #[test]
 #[ignore = "slow: small cells around four kinks at order 3"]
 fn factors_of_a_hook() {
@@ -265,8 +268,8 @@ fn factors_of_lines(lines: &[&[Vec2]]) -> Vec<[f64; 2]> {
     factors(&plate(1.0, &lines, true, 2, 3))
 }
 
-/// The crossing of two cracks is that of four that end there: the functions span the same, so K is equal up to what the
-/// covers differ in around kinks.
+/// The crossing of two cracks is that of four that end there: the functions span the same, so K is
+/// equal up to what the covers differ in around kinks.
 #[test]
 fn a_crossing_given_in_two_ways() {
     let [a, b, c, d, o] = crossing();
@@ -284,8 +287,8 @@ fn a_crossing_of_bent_cracks() {
     close(&[bent[0], bent[2], bent[1], bent[3]], &two, 1e-4);
 }
 
-/// A star of three arms whose middle lies from 1e-1 to 1e-12 of a cell beside a corner of cells, of patches, or a line
-/// of cells.
+/// A star of three arms whose middle lies from 1e-1 to 1e-12 of a cell beside a corner of cells, of
+/// patches, or a line of cells.
 fn beside(place: usize, exponent: i32) -> Vec<Line> {
     let cell = 16.0 / 64.0;
     let places = [[0.0, 0.0], [0.0, 0.4], [0.15, 0.15], [0.15, -0.15]];
@@ -308,8 +311,8 @@ fn assert_alike(conditions: &[f64]) {
     assert!(conditions.iter().all(|condition| *condition < 10.0 * least), "{conditions:?}");
 }
 
-/// Asserts the factors of a star of three arms of length 1 in a plate of half-width 8: finite elements of order 10 have 1.68484
-/// and twice 1.68508 for one that is not turned.
+/// Asserts the factors of a star of three arms of length 1 in a plate of half-width 8: finite
+/// elements of order 10 have 1.68484 and twice 1.68508 for one that is not turned.
 fn assert_star(lines: &[Line]) {
     let found = factors(&plate(8.0, lines, true, 4, 2));
     println!("{found:?}");
@@ -333,8 +336,9 @@ fn a_junction_at_all_places() {
     stars.iter().step_by(2).for_each(|lines| assert_star(lines));
 }
 
-/// Asserts the estimated errors of a star anywhere in its cells, on level 3 at order 2, against a reference of order 4: of the
-/// energy norm within a factor of 2.5, and of the largest error of K never less than half.
+/// Asserts the estimated errors of a star anywhere in its cells, on level 3 at order 2, against a
+/// reference of order 4: of the energy norm within a factor of 2.5, and of the largest error of K
+/// never less than half.
 fn assert_estimates(arms: usize, random: &mut Random) {
     let centre = [random.between(-0.13, 0.13), random.between(-0.13, 0.13)];
     let turn = random.between(0.0, 2.0 * PI);

@@ -97,8 +97,8 @@ fn strains(a: &Dataset, b: &Dataset) -> f64 {
     worst
 }
 
-/// Of the higher terms of the series some combination is always close to what the cut-off leaves out, and rounding decides
-/// over it: strains beside the tip, which are of size 10, know.
+/// Of the higher terms of the series some combination is always close to what the cut-off leaves
+/// out, and rounding decides over it: strains beside the tip, which are of size 10, know.
 #[test]
 fn formulas_solve_like_kernels() {
     let formulas = |of: &str| solved(&format!("{of}[solver]\nkernels = false\n"));

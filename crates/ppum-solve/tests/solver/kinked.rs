@@ -50,7 +50,8 @@ fn vertices_on_a_straight_crack() {
     assert!((rings(&divided) / rings(&straight) - 1.0).abs() < 1e-14, "as large as before");
     for (a, b) in factors(&divided).into_iter().zip(factors(&straight)) {
         println!("{:.1e}", apart(a, b));
-        // rounding of the system, whose condition is 1e5 or so with functions that are nearly dependent
+        // rounding of the system, whose condition is 1e5 or so with functions that are
+        // nearly dependent
         assert!(apart(a, b) < 1e-10, "{a:?} {b:?}");
     }
 }
@@ -59,8 +60,8 @@ fn vertices_on_a_straight_crack() {
 const KINKED: ([[f64; 2]; 4], [f64; 2]) =
     ([[-1.0, 0.1], [-0.6, 0.0], [-0.3, 0.15], [0.1, 0.05]], [6.3503997, -0.7922601]);
 
-/// Asserts factors from discs without a kink, with one and with two of them, of a crack that bends both ways: the error is that of the
-/// solution, and the same in all discs but for its tenth part.
+/// Asserts factors from discs without a kink, with one and with two of them, of a crack that bends
+/// both ways: the error is that of the solution, and the same in all discs but for its tenth part.
 fn assert_discs(level: u32, bound: f64, ends: &[End]) {
     for &end in ends {
         let (mut points, exact) = KINKED;
@@ -110,7 +111,8 @@ fn the_radius_that_is_allowed() {
     assert_eq!(message(0.91), "the circle meets the border; its radius can be at most 0.9");
 }
 
-/// Pressure on all faces of a crack is what tension all round the plate is, less a uniform stress without K.
+/// Pressure on all faces of a crack is what tension all round the plate is, less a uniform stress
+/// without K.
 #[test]
 fn pressure_on_faces_behind_kinks() {
     let points = [[-0.5, 0.1], [-0.2, -0.05], [0.1, 0.0], [0.45, 0.25]];
@@ -130,8 +132,9 @@ fn pressure_on_faces_behind_kinks() {
     assert!(apart([without.k1, without.k2], pressed[1]) > 0.1);
 }
 
-/// An arc of radius 1 and half angle α in the infinite plane under all-round tension 1 (Tada, Paris & Irwin; from
-/// Muskhelishvili 1953, §124): K_I = √(π sin α) cos(α/2) / (1 + sin²(α/2)), K_II the same with sin(α/2).
+/// An arc of radius 1 and half angle α in the infinite plane under all-round tension 1 (Tada, Paris
+/// & Irwin; from Muskhelishvili 1953, §124): K_I = √(π sin α) cos(α/2) / (1 + sin²(α/2)), K_II the
+/// same with sin(α/2).
 ///
 /// Its polygons of n segments end at an angle of α/n to it, and go to it like 1/n.
 #[test]
@@ -163,14 +166,15 @@ fn an_arc_of_many_segments() {
     assert!(apart(limit, exact) < 3e-3, "{limit:?} {exact:?}");
 }
 
-/// A turn of the crack from (−0.5, 0) by the origin to the end that is given, and (K_I, K_II) of both tips by independent hp finite
-/// elements of order 12.
+/// A turn of the crack from (−0.5, 0) by the origin to the end that is given, and (K_I, K_II) of
+/// both tips by independent hp finite elements of order 12.
 const TURNS: [([f64; 2], [[f64; 2]; 2]); 2] = [
     ([0.4, 0.3], [[1.508952340, -0.067842413], [1.1193465313, 0.8933126020]]),
     ([0.44, 0.24], [[1.570275403, -0.067735143], [1.327223874, 0.758464465]]),
 ];
 
-/// Fields of kinks are functions from a turn of 24° on: stresses beside one of 30° are as infinite as beside one of 90°.
+/// Fields of kinks are functions from a turn of 24° on: stresses beside one of 30° are as infinite
+/// as beside one of 90°.
 #[test]
 fn kinks_of_small_turns_are_resolved() {
     let plate = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));

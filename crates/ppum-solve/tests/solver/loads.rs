@@ -1,4 +1,5 @@
-//! Loads that jump, are bent, have layers and spikes: resultants against closed forms, warnings about the rest.
+//! Loads that jump, are bent, have layers and spikes: resultants against closed forms, warnings
+//! about the rest.
 //!
 //! The reactions of the restraints balance the loads as they were integrated, to rounding
 //! (see [`reactions`](super::reactions)): they tell of quadrature alone, however coarse the cells.
@@ -75,7 +76,8 @@ fn assert_resultant(rest: &str, [force, moment]: [f64; 2], size: f64) {
         let error = (f - force).abs().max(moment_error);
         println!("{error:e} {}", points(&dataset));
         assert!(error <= ACCURACY * size, "{rest} at level {level}, order {order}: {f} {m}");
-        // of stresses, which are not looked at: cells at rims and, as none is divided, at the corners that are held are coarse
+        // of stresses, which are not looked at: cells at rims and, as none is divided, at the
+        // corners that are held are coarse
         let of_stresses = ["coarse-hole", "singular-point"];
         let others = warnings(&dataset).iter().filter(|w| !of_stresses.contains(&&*w.kind));
         assert_eq!(others.count(), 0, "{rest}: {:?}", warnings(&dataset));
@@ -103,7 +105,8 @@ fn tractions_on_an_edge() {
     assert_resultant(&top(&text), [1.0 - c, moment], 1.0);
 }
 
-/// A hat as a table: a cubic spline through 0, 1, 0 with its ends constant beyond, and its mirror image.
+/// A hat as a table: a cubic spline through 0, 1, 0 with its ends constant beyond, and its
+/// mirror image.
 #[test]
 fn tabulated_tractions() {
     let table = "[[table]]\nname = \"hat\"\nx = [0.0, 0.1, 0.2]\nvalues = [0.0, 1.0, 0.0]\n";
@@ -150,7 +153,8 @@ fn rims_and_faces() {
     assert!((force - 0.246).abs() < ACCURACY && (moment - 0.246 * 0.07).abs() < ACCURACY);
 }
 
-/// A pressure that jumps on both faces of a crack is one on each: that they balance each other tells nothing of their rules.
+/// A pressure that jumps on both faces of a crack is one on each: that they balance each other
+/// tells nothing of their rules.
 #[test]
 fn pressures_of_both_faces() {
     let mut random = Random(7);
@@ -174,8 +178,8 @@ fn pressures_of_both_faces() {
     }
 }
 
-/// −u″ = f with f = 1 up to a, u(0) = 0, u′(1) = 0: u(1) = ∫ x f = a²/2. The Green's function of the end is x,
-/// which the space holds, so that Galerkin's value there is exact if the load is.
+/// −u″ = f with f = 1 up to a, u(0) = 0, u′(1) = 0: u(1) = ∫ x f = a²/2. The Green's function of
+/// the end is x, which the space holds, so that Galerkin's value there is exact if the load is.
 #[test]
 fn the_end_of_a_bar() {
     for a in [0.1234, 0.5, 0.777] {
@@ -204,8 +208,8 @@ fn given_values_that_jump() {
         let problem = Problem::parse(text, "plate.toml", Path::new("")).expect("a problem");
         solved(&problem).steps[0].reactions.iter().map(|r| r.force[0]).collect::<Vec<_>>()
     };
-    // Green's second identity with x: twice the flow through the plate, of width 2, is the difference of the
-    // integrals of what is given on the right and on the left.
+    // Green's second identity with x: twice the flow through the plate, of width 2, is the
+    // difference of the integrals of what is given on the right and on the left.
     let flows = flow(text);
     let expected = 1.123 - 0.877;
     assert!((flows[0] + flows[1]).abs() < ACCURACY, "{flows:?}");
@@ -225,7 +229,8 @@ fn smooth_loads_cost_nothing() {
     }
 }
 
-/// Loads that are singular but integrable are right, or said to be wrong by about as much as they are.
+/// Loads that are singular but integrable are right, or said to be wrong by about as much as
+/// they are.
 #[test]
 fn singular_loads() {
     let root = 2.0 * (0.7_f64.sqrt() + 1.3_f64.sqrt());

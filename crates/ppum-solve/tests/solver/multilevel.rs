@@ -1,4 +1,5 @@
-//! The multilevel solver: steps that do not grow with the cover, and the answers of the direct solver.
+//! The multilevel solver: steps that do not grow with the cover, and the answers of the
+//! direct solver.
 //!
 //! Covers have at least 3,000 unknowns, below which a system is its own coarsest level.
 
@@ -33,7 +34,8 @@ fn parse(text: &str, level: u32, order: usize) -> Problem {
     Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem")
 }
 
-/// The solution by a solver. A multilevel one has several levels: on one alone it would be the direct solver.
+/// The solution by a solver. A multilevel one has several levels: on one alone it would be the
+/// direct solver.
 fn by(kind: SolverKind, problem: &Problem) -> Dataset {
     let mut problem = problem.clone();
     problem.solver.kind = kind;
@@ -171,8 +173,8 @@ fn free_cracks() {
     agree("two free pieces", &parse(&format!("{HEAD}{STEEL}{ends}{through}"), 4, 2));
 }
 
-/// Asserts few steps to 1e-12 where cracks branch, and functions of two patches nearly depend on each other. Without junctions it
-/// takes about 20.
+/// Asserts few steps to 1e-12 where cracks branch, and functions of two patches nearly depend on
+/// each other. Without junctions it takes about 20.
 fn assert_few_steps_at_a_junction(level: u32) {
     let problem = parse(&format!("{HEAD}{STEEL}{HELD}{}", branch()), level, 2);
     let dataset = by(SolverKind::Multilevel, &problem);
@@ -262,7 +264,8 @@ fn it_can_be_stopped() {
     assert!(matches!(error, SolveError::Cancelled(_)), "{error}");
 }
 
-/// Strips between cracks that lie side by side: coarser levels, whose cells many of them cross, cannot tell them apart.
+/// Strips between cracks that lie side by side: coarser levels, whose cells many of them cross,
+/// cannot tell them apart.
 #[test]
 #[ignore = "slow: 11,000 unknowns by both solvers"]
 fn the_direct_solver_takes_its_place() {

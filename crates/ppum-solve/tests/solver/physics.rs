@@ -11,7 +11,8 @@ use crate::studies::support::{errors, solved, squares};
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::problem::{Cells, Condition, Edge, Expression, Problem};
 
-/// A linear displacement is reproduced: the patch test on a uniform cover, where quadrature is exact.
+/// A linear displacement is reproduced: the patch test on a uniform cover, where quadrature
+/// is exact.
 #[test]
 fn patch_test() {
     for order in [1, 2] {
@@ -90,15 +91,16 @@ fn all_rows_of_the_numerical_study() {
     STUDY[..3].iter().for_each(|row| assert_as_in_the_study(row, 4, row.expected[2]));
 }
 
-/// Asserts that a zone of fixed radius restores the optimal rate for the pure tip field, between two covers.
+/// Asserts that a zone of fixed radius restores the optimal rate for the pure tip field, between
+/// two covers.
 ///
-/// The zone is made of whole patches: all that meet the disc. On a square plate its border creeps in
-/// by about a cell toward the disc as the cells shrink; as the error is O(h^p R^{1/2 − p}) in the
-/// radius R that is really enriched, rates are seen below p until R is 8 (p = 2) or 12 (p = 3) cells.
-/// At that point the singular functions are polynomials up to 1e-6 in the outer patches, and those of
-/// p = 3 are cut off as dependent. So the statement is tested where the zone is one and the same set
-/// of points on all covers: a strip, low against the radius, whose patches meet the disc just for
-/// |x| < 1.
+/// The zone is made of whole patches: all that meet the disc. On a square plate its border creeps
+/// in by about a cell toward the disc as the cells shrink; as the error is O(h^p R^{1/2 − p}) in
+/// the radius R that is really enriched, rates are seen below p until R is 8 (p = 2) or 12 (p = 3)
+/// cells. At that point the singular functions are polynomials up to 1e-6 in the outer patches, and
+/// those of p = 3 are cut off as dependent. So the statement is tested where the zone is one and
+/// the same set of points on all covers: a strip, low against the radius, whose patches meet the
+/// disc just for |x| < 1.
 fn assert_rate_in_a_fixed_zone(order: usize) {
     let e = [0, 1].map(|level| Strip::errors(level, order).energy);
     let rate = (e[0] / e[1]).log2();
@@ -117,7 +119,8 @@ fn a_fixed_zone_restores_the_rate_of_order_three() {
     assert_rate_in_a_fixed_zone(3);
 }
 
-/// Strain energy, displacements and stresses of the pure tip field on [−1,1]², both states and modes.
+/// Strain energy, displacements and stresses of the pure tip field on [−1,1]², both states
+/// and modes.
 #[test]
 fn values_of_the_tip_field() {
     for plate in TipPlate::ALL {
@@ -125,7 +128,8 @@ fn values_of_the_tip_field() {
         for known in tip_energies(&plate).into_iter().chain(tip_points(&plate)) {
             let error = known.error(&solution);
             println!("{}, {}: {error:.1e}", plate.name(), known.name);
-            // references have ten digits, and of functions that are nearly dependent the cut-off leaves some out
+            // references have ten digits, and of functions that are nearly dependent the cut-off
+            // leaves some out
             assert!(error.abs() < 5e-9, "{}, {}: {error}", plate.name(), known.name);
         }
     }

@@ -36,7 +36,8 @@ fn centre_cracks_of_the_table() {
     }
 }
 
-/// The widest plate with the shortest crack has most of the error that is allowed, 9.2e-4; on the next cover it has 5.6e-4.
+/// The widest plate with the shortest crack has most of the error that is allowed, 9.2e-4; on the
+/// next cover it has 5.6e-4.
 #[test]
 #[ignore = "slow: eleven plates"]
 fn other_cracks_of_the_tables() {
@@ -102,7 +103,8 @@ fn the_number_of_threads_does_not_matter() {
     assert_eq!(solve_with(1), solve_with(2));
 }
 
-/// Higher orders lower the error in the energy norm of an oblique crack; its rates are in docs/validation.md.
+/// Higher orders lower the error in the energy norm of an oblique crack; its rates are
+/// in docs/validation.md.
 #[test]
 fn orders_beside_a_tip() {
     let errors = [1, 2, 3].map(|order| oblique_crack(3, order).0);

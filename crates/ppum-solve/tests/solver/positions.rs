@@ -1,7 +1,7 @@
 //! One crack at awkward places between the cells.
 //!
-//! The field is that of a crack in the plane under tension and shear, given on the border of the plate:
-//! wherever the crack is, K is exactly the same.
+//! The field is that of a crack in the plane under tension and shear, given on the border of the
+//! plate: wherever the crack is, K is exactly the same.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -93,8 +93,8 @@ fn condition(problem: &Problem) -> f64 {
     spectrum(problem, unwatched()).expect("a system").condition()
 }
 
-/// Asserts that K is found to 2e-4 everywhere, and that the condition number is that of the same cover without a
-/// crack, up to a quarter: of 60 random positions the worst had 1.6e-4 and 1.23.
+/// Asserts that K is found to 2e-4 everywhere, and that the condition number is that of the same
+/// cover without a crack, up to a quarter: of 60 random positions the worst had 1.6e-4 and 1.23.
 fn assert_good(positions: &[Position]) {
     let mut uncracked = positions[0].problem();
     uncracked.cracks.clear();
@@ -127,8 +127,8 @@ fn neither_k_nor_the_condition_depends_on_any_position() {
 /// What a crack leaves between itself and a held edge.
 const GAP: f64 = 1e-4 * CELL;
 
-/// Asserts that the condition number of the same cover without a crack is not exceeded by the factor of ten that the method is meant
-/// to keep, and returns the largest of Nitsche's β.
+/// Asserts that the condition number of the same cover without a crack is not exceeded by the
+/// factor of ten that the method is meant to keep, and returns the largest of Nitsche's β.
 fn assert_slivers_do_not_spoil_the_condition(cracks: &[[[f64; 2]; 2]]) -> f64 {
     let mut plate = Position { name: "", tip: vec2(0.5, 0.0), angle: 0.0 }.problem();
     plate.cracks.clear();
@@ -146,8 +146,8 @@ fn assert_slivers_do_not_spoil_the_condition(cracks: &[[[f64; 2]; 2]]) -> f64 {
     largest
 }
 
-/// Cracks that cut cells at held edges into slivers: Nitsche's β is larger than usual by up to 4e4 times. Without damping of the
-/// basis the condition number would be exceeded by up to 2e7.
+/// Cracks that cut cells at held edges into slivers: Nitsche's β is larger than usual by up to 4e4
+/// times. Without damping of the basis the condition number would be exceeded by up to 2e7.
 #[test]
 fn slivers_at_held_edges_do_not_spoil_the_condition() {
     let largest = assert_slivers_do_not_spoil_the_condition(&[

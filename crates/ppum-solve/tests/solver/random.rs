@@ -12,18 +12,20 @@ use serde_json::Value;
 
 use crate::studies::support::solved;
 
-/// Errors that default settings promise to stay below. The reference knows K to 5e-4 and energies to 1e-4,
-/// mostly far better.
+/// Errors that default settings promise to stay below. The reference knows K to 5e-4 and energies
+/// to 1e-4, mostly far better.
 const K: f64 = 5e-3;
 const ENERGY: f64 = 1e-3;
 
-/// Smaller K than this part of the problem's scale of K, the strongest tip's or σ √(πa), are measured against it.
+/// Smaller K than this part of the problem's scale of K, the strongest tip's or σ √(πa), are
+/// measured against it.
 const WEAK: f64 = 0.2;
 
 /// An estimate of an error is of the right size within this factor, either way.
 const FACTOR: f64 = 10.0;
 
-/// A warning's place is where something is within this part of the plate's longer side, about two of its cells.
+/// A warning's place is where something is within this part of the plate's longer side, about two
+/// of its cells.
 const NEAR: f64 = 0.15;
 
 /// Warnings whose numbers are no errors, but lengths, ratios and differences.
@@ -76,8 +78,8 @@ fn known_error(error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }
 
-/// |ΔK| / |K| with K = (K_I, K_II); weak tips are measured against a part of the problem's scale of K, that of
-/// its strongest tip or σ √(πa). Infinite for a tip without factors.
+/// |ΔK| / |K| with K = (K_I, K_II); weak tips are measured against a part of the problem's scale of
+/// K, that of its strongest tip or σ √(πa). Infinite for a tip without factors.
 fn error_of_k(tips: &[TipIntensity], known: &Value, scale: f64) -> f64 {
     let is_it =
         |t: &&TipIntensity| known["crack"] == t.tip.crack && known["end"] == t.tip.end.name();
@@ -106,7 +108,8 @@ fn distance_to_anything(problem: &Problem, p: Vec2) -> f64 {
     edges.chain(rims).chain(cracks).fold(f64::INFINITY, f64::min)
 }
 
-/// Whether a warning is about an error, and where something is; an interface of materials may be anywhere.
+/// Whether a warning is about an error, and where something is; an interface of materials may
+/// be anywhere.
 fn names_a_place(problem: &Problem, warning: &Warning) -> bool {
     let Some(at) = warning.at else { return false };
     let size = problem.domain.bounds.max - problem.domain.bounds.min;
@@ -129,8 +132,8 @@ fn complaint(problem: &Problem, dataset: &Dataset, known: &Value) -> Option<Stri
     (worst > 0.0 && !warned).then_some(words)
 }
 
-/// Asserts that the problems whose numbers pass a filter have K within 0.5 %, energies within 0.1 %, or a warning with a place
-/// and an error of the right size.
+/// Asserts that the problems whose numbers pass a filter have K within 0.5 %, energies within 0.1
+/// %, or a warning with a place and an error of the right size.
 fn assert_right_or_warned(is_wanted: impl Fn(&str) -> bool) {
     let values = values();
     let silent: Vec<String> = files()
@@ -144,8 +147,8 @@ fn assert_right_or_warned(is_wanted: impl Fn(&str) -> bool) {
     assert!(silent.is_empty(), "{} problems:\n{}", silent.len(), silent.join("\n"));
 }
 
-/// Problems of different kinds that are solved quickly: a kinked edge crack, a potential, held pieces, a potential around a hole,
-/// pressure and traction on faces.
+/// Problems of different kinds that are solved quickly: a kinked edge crack, a potential, held
+/// pieces, a potential around a hole, pressure and traction on faces.
 const QUICK: [&str; 6] = ["032", "052", "127", "134", "151", "152"];
 
 /// Second problems of a kind that take long.

@@ -33,8 +33,8 @@ fn total(reactions: &[Reaction]) -> Vec<f64> {
     (0..3).map(part).collect()
 }
 
-/// A square of width 2 on two rollers. Pulled by 1 along the top, the lower one bears −2; pulled along
-/// the right half of the top, both together bear −1 and the moment −1/2 about the centre.
+/// A square of width 2 on two rollers. Pulled by 1 along the top, the lower one bears −2; pulled
+/// along the right half of the top, both together bear −1 and the moment −1/2 about the centre.
 #[test]
 fn rollers_bear_what_pulls() {
     let pull = || Condition::Neumann(1.0.into());
@@ -56,8 +56,8 @@ fn rollers_bear_what_pulls() {
     assert_close(&total(&solved(&right).steps[0].reactions), &[0.0, -1.0, -0.5], 1.0);
 }
 
-/// A bar stretched between its ends by u = x: exact tractions σ = E′ on the ends, given values that are
-/// not zero, a piece of an edge.
+/// A bar stretched between its ends by u = x: exact tractions σ = E′ on the ends, given values that
+/// are not zero, a piece of an edge.
 #[test]
 fn given_values_stretch() {
     let mut bar = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(1), 1))

@@ -77,8 +77,8 @@ fn place(kind: usize, random: &mut Random) -> (Place, Vec<Vec2>, Away) {
     }
 }
 
-/// Cells at random places are as small as was said, no smaller than half of that, and divided only as near as the
-/// balance of neighbours takes them.
+/// Cells at random places are as small as was said, no smaller than half of that, and divided only
+/// as near as the balance of neighbours takes them.
 #[test]
 fn cells_are_as_small_as_was_said() {
     let mut random = Random(11);
@@ -101,7 +101,8 @@ fn cells_are_as_small_as_was_said() {
             assert!(of_hole || !meets || longest(cell) <= size, "{case}: {cell:?}");
             let corner = cell.corners().into_iter().chain([cell.center()]);
             let nearest = corner.map(&away).fold(f64::INFINITY, f64::min);
-            // a cell is there since its parent of twice its size touches a cell half as large: 2 √2 (s + s/2 + …)
+            // a cell is there since its parent of twice its size touches a cell half as large: 2 √2
+            // (s + s/2 + …)
             let ring = 5.7 * longest(cell);
             if longest(cell) < base {
                 assert!(longest(cell) > 0.499 * size, "{case}: {cell:?} is smaller than asked for");
@@ -111,7 +112,8 @@ fn cells_are_as_small_as_was_said() {
     }
 }
 
-/// A cell that is as large as was said stays, whatever the rounding of both; lines of cells belong to both sides.
+/// A cell that is as large as was said stays, whatever the rounding of both; lines of cells belong
+/// to both sides.
 #[test]
 fn sizes_of_cells_themselves() {
     for (cells, size, expected) in [("[2, 2]", 1.0, 4), ("[20, 20]", 0.1, 400), ("[2, 2]", 0.5, 16)]

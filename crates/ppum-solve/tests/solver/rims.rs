@@ -49,8 +49,8 @@ fn stress(field: &Field<'_>, p: Vec2) -> [f64; 3] {
         .map(|(a, b)| Quantity::Stress(a, b).at(&mut field.at(p), Vec2::ZERO, Side::Above))
 }
 
-/// Largest error of the hoop stress 1 + 2 cos 2θ at 720 places of the rim, relative to the largest stress, 3; and the
-/// largest stress found.
+/// Largest error of the hoop stress 1 + 2 cos 2θ at 720 places of the rim, relative to the largest
+/// stress, 3; and the largest stress found.
 fn on_the_rim(dataset: &Dataset, center: Vec2, radius: f64) -> (f64, f64) {
     let field = Field::new(dataset, 0).expect("a field");
     let at = |k: u32| {
@@ -67,8 +67,9 @@ fn coarse(dataset: &Dataset) -> Option<&ppum::dataset::Warning> {
     dataset.steps[0].warnings.iter().find(|warning| warning.kind == "coarse-hole")
 }
 
-/// Two holes of random radii, between 1/120 of the plate and a third of it, and one much smaller than the base cells, at random
-/// places: the stress is right everywhere on the rim, and with it the concentration of 3 (Kirsch 1898).
+/// Two holes of random radii, between 1/120 of the plate and a third of it, and one much smaller
+/// than the base cells, at random places: the stress is right everywhere on the rim, and with it
+/// the concentration of 3 (Kirsch 1898).
 #[test]
 fn stress_concentration_of_random_holes() {
     let mut random = Random(21);
@@ -102,7 +103,8 @@ fn higher_orders_take_larger_cells() {
     assert!(cells[0] > cells[1], "{cells:?}");
 }
 
-/// Cells divided by hand: the error at the rim falls like h², and the estimate of the warning is above it, not by far.
+/// Cells divided by hand: the error at the rim falls like h², and the estimate of the warning is
+/// above it, not by far.
 #[test]
 fn errors_at_the_rim_are_estimated() {
     let (center, radius) = (vec2(0.03, 0.041), 0.25);
@@ -147,7 +149,8 @@ fn pulled(holes: Numbers<'_>, level: u32) -> Problem {
         .with_boundary(Edge::Top, load(1.0))
 }
 
-/// Asserts values of σ_yy by finite elements of order 10 (NGSolve 6.2.2608, geometric meshes), right to 1e-4.
+/// Asserts values of σ_yy by finite elements of order 10 (NGSolve 6.2.2608, geometric meshes),
+/// right to 1e-4.
 fn assert_stresses(holes: Numbers<'_>, values: Numbers<'_>) {
     let dataset = solved(&pulled(holes, 3));
     assert_eq!(dataset.steps[0].warnings, [], "{holes:?}");

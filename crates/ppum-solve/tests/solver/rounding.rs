@@ -1,4 +1,5 @@
-//! Rounding of coordinates decides nothing: K of cracks whose vertices are moved by next to nothing.
+//! Rounding of coordinates decides nothing: K of cracks whose vertices are moved by next
+//! to nothing.
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization};
 use crate::studies::support::solved;
@@ -62,8 +63,8 @@ fn vertices_that_a_straight_crack_does_not_need() {
     }
 }
 
-/// Cracks in all manners of joints, their vertices on lines of the cover: K changes by no more than its derivative says,
-/// also where the whole plate is moved far away.
+/// Cracks in all manners of joints, their vertices on lines of the cover: K changes by no more than
+/// its derivative says, also where the whole plate is moved far away.
 #[test]
 fn vertices_that_are_moved_by_rounding() {
     moved_by_rounding(false);

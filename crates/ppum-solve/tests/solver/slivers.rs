@@ -69,8 +69,9 @@ fn measured(dataset: &Dataset, random: &mut Random) -> f64 {
     (0..150).map(|_| error()).fold(0.0, f64::max)
 }
 
-/// Asserts that stresses of the file are right to 1e-12 of their local size, wherever the crack is; they were to 1e-6 … 3
-/// with smooth weights while sliver functions had coefficients up to 1e20. What is reported is of that size.
+/// Asserts that stresses of the file are right to 1e-12 of their local size, wherever the crack is;
+/// they were to 1e-6 … 3 with smooth weights while sliver functions had coefficients up to 1e20.
+/// What is reported is of that size.
 fn assert_twelve_digits<'a>(cases: impl Iterator<Item = (&'a str, usize)>) {
     let mut random = Random(11);
     for (weight, order) in cases {
@@ -85,8 +86,8 @@ fn assert_twelve_digits<'a>(cases: impl Iterator<Item = (&'a str, usize)>) {
     }
 }
 
-/// Parts of stresses are of the size of the field wherever a crack is, straight or bent: single precision has three
-/// digits of them.
+/// Parts of stresses are of the size of the field wherever a crack is, straight or bent: single
+/// precision has three digits of them.
 #[test]
 fn parts_are_of_the_size_of_the_field() {
     let mut random = Random(13);
@@ -117,8 +118,8 @@ fn coefficients_of_order_four_bear_twelve_digits() {
     assert_twelve_digits([("cubic", 4), ("bump", 4)].into_iter());
 }
 
-/// Asserts that K of a crack does not depend on how little of a patch it leaves: it is that of larger patches, where the crack
-/// leaves more, up to the error of the discretisation, 1e-3.
+/// Asserts that K of a crack does not depend on how little of a patch it leaves: it is that of
+/// larger patches, where the crack leaves more, up to the error of the discretisation, 1e-3.
 fn assert_slivers_do_not_change_k(cases: [(&str, f64); 2]) {
     let mut random = Random(12);
     for (weight, part) in cases {
@@ -160,8 +161,8 @@ fn coefficients_that_cancel_are_reported_with_their_place() {
         matches!(function.kind, FunctionKind::Component { .. })
     };
     let jump = data.blocks(patch).find(is_sliver).expect("a jump");
-    // the side of the crack, the first after the function 1, in place of the sliver's indicator: as older files have
-    // it; what is on the sliver alone goes
+    // the side of the crack, the first after the function 1, in place of the sliver's indicator: as
+    // older files have it; what is on the sliver alone goes
     data.block_function[jump] = 1;
     let [smooth, jump] = [data.blocks(patch).start, jump].map(|b| data.block_offset[b] as usize);
     data.coefficients.iter_mut().for_each(|row| row[jump..jump + 6].fill(0.0));

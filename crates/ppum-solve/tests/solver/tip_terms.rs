@@ -24,7 +24,8 @@ fn check(tip: &TipIntensity) -> f64 {
     tip.j.expect("a value") / tip.energy_release(&MATERIAL) - 1.0
 }
 
-/// The field of given K and T is in the space: only rounding and quadrature are left, in discs of any size.
+/// The field of given K and T is in the space: only rounding and quadrature are left, in discs of
+/// any size.
 #[test]
 fn given_terms_are_found() {
     for (k1, k2, t) in [(1.0, 0.5, 0.3), (0.0, 1.0, -2.0)] {
@@ -42,8 +43,8 @@ fn given_terms_are_found() {
     }
 }
 
-/// A crack of half length 0.4 in the infinite plane under the stresses N_x, N_y, τ in its frame (Muskhelishvili 1953, §120),
-/// cut out by its exact displacements.
+/// A crack of half length 0.4 in the infinite plane under the stresses N_x, N_y, τ in its frame
+/// (Muskhelishvili 1953, §120), cut out by its exact displacements.
 fn in_plane(remote: [f64; 3], angle: f64) -> (Problem, CrackInPlane) {
     let (center, along) = (vec2(0.03, 0.02), vec2(angle.cos(), angle.sin()));
     let field = CrackInPlane::biaxial(MATERIAL, center, along, 0.4, 1.0).with_remote(remote);
@@ -62,13 +63,15 @@ fn t_in_the_infinite_plane() {
         for tip in stored(&dataset) {
             let error = t_stress(tip) - (remote[0] - remote[1]);
             println!("{remote:?}: T off by {error:.1e}, J/G − 1 {:.1e}", check(tip));
-            // what the cells leave, as of K: with the rate 3 eight times the 1e-5 and 2e-6 of cells half as large
+            // what the cells leave, as of K: with the rate 3 eight times the 1e-5 and 2e-6 of cells
+            // half as large
             assert!(error.abs() < 8e-5 && check(tip).abs() < 1.6e-5, "{tip:?}");
         }
     }
 }
 
-/// Pressure 1 on the faces is all-round tension less a uniform stress: σ_11 = σ_22 = −1 beside the terms of K, and T = −1.
+/// Pressure 1 on the faces is all-round tension less a uniform stress: σ_11 = σ_22 = −1 beside the
+/// terms of K, and T = −1.
 #[test]
 fn t_and_j_under_pressure() {
     let (plate, field) = in_plane([1.0, 1.0, 0.0], 0.3);
@@ -151,13 +154,14 @@ fn near(a: &[f64; 3], b: &[f64; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9)
 }
 
-/// Quadrature divides cells segment by segment: in another order, or with other rounding, its error is another one.
+/// Quadrature divides cells segment by segment: in another order, or with other rounding, its error
+/// is another one.
 fn near_on_other_pieces(a: &[f64; 3], b: &[f64; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-8)
 }
 
-/// K and T are linear in the loads and J is a quadratic form; none depends on the direction of the crack, on the
-/// directions of the axes, or but for their units on lengths and stresses.
+/// K and T are linear in the loads and J is a quadratic form; none depends on the direction of the
+/// crack, on the directions of the axes, or but for their units on lengths and stresses.
 #[test]
 fn superposition_and_invariance() {
     let mut random = Random(8);

@@ -27,8 +27,8 @@ fn values<'s>(step: &'s Step, name: &str) -> &'s [f64] {
     &found.unwrap_or_else(|| panic!("no {name}")).values
 }
 
-/// Inner cells of a uniform cover have the same nine parts, and so the same points; what the patches have adds up to the record,
-/// and tips need more.
+/// Inner cells of a uniform cover have the same nine parts, and so the same points; what the
+/// patches have adds up to the record, and tips need more.
 #[test]
 fn quadrature_points_are_told() {
     let dataset = plate("discretization = { level = 3, order = 2, refine = false }");
@@ -59,7 +59,8 @@ fn quadrature_points_are_told() {
     }
 }
 
-/// Orthogonal functions have the eigenvalue one; a function that nearly is a polynomial has a small one.
+/// Orthogonal functions have the eigenvalue one; a function that nearly is a polynomial has a
+/// small one.
 #[test]
 fn eigenvalues_tell_of_dependence() {
     let own = |formula: &str| {

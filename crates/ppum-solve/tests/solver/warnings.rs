@@ -56,7 +56,8 @@ fn places(warnings: &[Warning]) -> Vec<Vec2> {
 
 const STRAIGHT: &str = "[[-0.5, 0.0], [0.5, 0.0]]";
 
-/// What moves as a rigid body has strains of rounding only: nothing is said of signs and differences of its factors.
+/// What moves as a rigid body has strains of rounding only: nothing is said of signs and
+/// differences of its factors.
 #[test]
 fn rigid_motions() {
     let moved = |on: &str| format!("[[boundary]]\non = \"{on}\"\ndisplacement = [1, 2]\n");
@@ -70,8 +71,9 @@ fn rigid_motions() {
     }
 }
 
-/// Strains that cancel in a material 1e9 times as stiff as the rest keep 1e-16 · 1e9 of the load, times what the
-/// stiffness of a cell is above that of its softest mode: digits of the linear system are lost, in proportion.
+/// Strains that cancel in a material 1e9 times as stiff as the rest keep 1e-16 · 1e9 of the load,
+/// times what the stiffness of a cell is above that of its softest mode: digits of the linear
+/// system are lost, in proportion.
 #[test]
 fn lost_digits() {
     let residual = |ratio: &str| {
@@ -230,9 +232,9 @@ fn slivers_at_held_edges() {
     assert_eq!(of(&at(0.025)), None);
 }
 
-/// The sides of a notch like a V are both in three patches without its corner: in those on [−0.0625, 0.3125] up to
-/// y = 0.136, which are two above that of the corner, in the one left of these up to y = −0.277. A crack of that shape
-/// has functions for its two sides.
+/// The sides of a notch like a V are both in three patches without its corner: in those on
+/// [−0.0625, 0.3125] up to y = 0.136, which are two above that of the corner, in the one left of
+/// these up to y = −0.277. A crack of that shape has functions for its two sides.
 #[test]
 fn patches_crossed_twice() {
     let loads = sides("[-1, 0]", "[1, 0]");
@@ -252,7 +254,8 @@ fn patches_crossed_twice() {
     assert!(crossed.message.contains("use smaller cells"), "{}", crossed.message);
 }
 
-/// Cracks that turn in an inclusion a fifth as stiff, at random: what their faces look at there is resolved.
+/// Cracks that turn in an inclusion a fifth as stiff, at random: what their faces look at there
+/// is resolved.
 #[test]
 fn cracks_in_inclusions_are_resolved() {
     for seed in 1..5 {

@@ -90,7 +90,8 @@ fn without_seconds(mut dataset: Dataset) -> Dataset {
     dataset
 }
 
-/// Everything runs on the pool that it is called from, with the same bits whatever its size, watched or not.
+/// Everything runs on the pool that it is called from, with the same bits whatever its size,
+/// watched or not.
 #[test]
 fn threads_are_those_of_the_caller() {
     let problem = plate();

@@ -9,8 +9,8 @@ use ppum_solve::problem::{Cells, Condition, Discretization, Edge, Order, Problem
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization, held};
 use crate::studies::support::{errors, solved};
 
-/// Error of the displacement (0.3 (x² − c y²) + x − y/2, 0.7 x + y), which with c = (λ + 2μ)/μ needs no
-/// body force and is in the space: only quadrature is in the way.
+/// Error of the displacement (0.3 (x² − c y²) + x − y/2, 0.7 x + y), which with c = (λ + 2μ)/μ
+/// needs no body force and is in the space: only quadrature is in the way.
 fn patch_test(weight: WeightFunction, level: u32) -> f64 {
     let mut set = discretization(Cells::Level(level), 2);
     set.weight = weight;
@@ -36,8 +36,8 @@ fn every_weight_of_the_library_passes_the_patch_test() {
     }
 }
 
-/// K_I of the centre crack at the bounds of the overlap, on cells graded to the tips: 1.6715603 (hpfem of order 10, and the
-/// series solution to 1e-7). α = 1.3 leaves 5e-6; 1 + 1e-12 gave K = 0.
+/// K_I of the centre crack at the bounds of the overlap, on cells graded to the tips: 1.6715603
+/// (hpfem of order 10, and the series solution to 1e-7). α = 1.3 leaves 5e-6; 1 + 1e-12 gave K = 0.
 #[test]
 fn k_is_right_at_the_bounds_of_the_overlap() {
     for alpha in [*OVERLAP.start(), *OVERLAP.end()] {

@@ -31,8 +31,9 @@ fn field(crack: &TipProblem, material: Material) -> Williams {
     Williams::new(material, crack.tip, vec2(crack.angle.cos(), crack.angle.sin()))
 }
 
-/// Asserts that each of the fields r^(n/2) is in the space as soon as there are enough terms, whatever the crack's place and
-/// direction and the material, with two unknowns a term; with one term less it is not.
+/// Asserts that each of the fields r^(n/2) is in the space as soon as there are enough terms,
+/// whatever the crack's place and direction and the material, with two unknowns a term; with one
+/// term less it is not.
 fn assert_in_the_space(fields: &[(usize, u32)]) {
     let mut random = Random(16);
     for &(order, n) in fields {
@@ -61,7 +62,8 @@ fn many_terms_are_in_the_space() {
     assert_in_the_space(&[(2, 3), (4, 7), (6, 11)]);
 }
 
-/// Where the material varies there is no series: the step is that of the first term alone, with free components.
+/// Where the material varies there is no series: the step is that of the first term alone, with
+/// free components.
 #[test]
 fn a_varying_material_has_the_first_term() {
     let (crack, material) = random_tip(&mut Random(5));
@@ -112,8 +114,8 @@ fn nine_digits_of_k() {
     assert_digits([9, 18], 7, 25_000, 1e-9);
 }
 
-/// Asserts the rate of the energy norm's error between a level and the next, with the series in a disc, of a field that has
-/// Williams' terms to the eighth.
+/// Asserts the rate of the energy norm's error between a level and the next, with the series in a
+/// disc, of a field that has Williams' terms to the eighth.
 fn assert_rate(order: usize, level: u32, least: f64) {
     let crack = TipProblem { domain: SQUARE, tip: vec2(0.03, 0.041), angle: 0.2 };
     let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
@@ -124,15 +126,16 @@ fn assert_rate(order: usize, level: u32, least: f64) {
         set.enrichment_radius = Some(0.6);
         crack.errors(&exact, set).energy
     };
-    // from coarse covers on also patches beyond the disc have the series: fewer of them as cells shrink
+    // from coarse covers on also patches beyond the disc have the series: fewer of them as
+    // cells shrink
     let [coarse, fine] = [error(level), error(level + 1)];
     let rate = (coarse / fine).log2();
     println!("order {order}: {coarse:.2e}, {fine:.2e}: rate {rate:.2}");
     assert!(rate > least, "order {order}: rate {rate}");
 }
 
-/// With the series the error of the energy norm falls with the order of the polynomials although the field has all of Williams'
-/// terms: rates of √r functions alone end at 3/2.
+/// With the series the error of the energy norm falls with the order of the polynomials although
+/// the field has all of Williams' terms: rates of √r functions alone end at 3/2.
 #[test]
 fn rates_are_those_of_the_polynomials() {
     assert_rate(2, 3, 1.9);

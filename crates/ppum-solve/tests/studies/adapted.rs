@@ -10,8 +10,9 @@ use ppum_solve::problem::{AdaptKind, Adaptivity, Cells, Keep, Order, Problem};
 use std::f64::consts::PI;
 use std::path::Path;
 
-/// Strain energies by finite elements of order 10 and 12 on meshes graded towards the singular points (NGSolve
-/// 6.2.2608): of a plate with a crack, good to 1e-9, and of one with a square hole, good to 2e-8.
+/// Strain energies by finite elements of order 10 and 12 on meshes graded towards the singular
+/// points (NGSolve 6.2.2608): of a plate with a crack, good to 1e-9, and of one with a square hole,
+/// good to 2e-8.
 pub(crate) const CRACK: f64 = 2.428_931_916;
 /// See [`CRACK`].
 pub(crate) const SQUARE_HOLE: f64 = 2.512_525_532;
@@ -66,7 +67,8 @@ fn at_corner(x: Vec2) -> Both {
     ([r.powf(2.0 / 3.0) * s, 0.0], [gradient, Vec2::ZERO])
 }
 
-/// Unknowns, relative error and estimated error of each step: from the energy under loads alone, or of [`corner`] from the field.
+/// Unknowns, relative error and estimated error of each step: from the energy under loads alone, or
+/// of [`corner`] from the field.
 pub(crate) fn course(dataset: &Dataset, energy: Option<f64>) -> Vec<[f64; 3]> {
     let error = |step: &Step| match energy {
         Some(energy) => (1.0 - record(step, "energy") / energy).abs().sqrt(),

@@ -94,7 +94,8 @@ impl TipProblem {
     }
 }
 
-/// A strip in which the zone of radius [`Strip::RADIUS`] is the same piece, |x| < 1, on three covers.
+/// A strip in which the zone of radius [`Strip::RADIUS`] is the same piece, |x| < 1, on three
+/// covers.
 pub(crate) struct Strip;
 
 impl Strip {

@@ -3,8 +3,8 @@
 use super::plates::{Plate, centre_cracks, edge_cracks, end_shear, slanted_cracks};
 use ppum::dataset::{Dataset, TipIntensity};
 
-/// Of each tip with known factors, the lengths of (K_I, K_II), of its error and of the estimated error; a factor that is not known
-/// vanishes.
+/// Of each tip with known factors, the lengths of (K_I, K_II), of its error and of the estimated
+/// error; a factor that is not known vanishes.
 pub(crate) fn errors_of_factors(plate: &Plate, dataset: &Dataset) -> Vec<[f64; 3]> {
     let of_tip = |(k, found): (usize, &TipIntensity)| {
         let mut exact = [0.0; 2];

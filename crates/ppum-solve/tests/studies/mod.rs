@@ -1,5 +1,5 @@
-//! Problems whose answers are known. The tests hold the solver to them; the example `validation` of ppum-bench prints
-//! what they give.
+//! Problems whose answers are known. The tests hold the solver to them; the example `validation` of
+//! ppum-bench prints what they give.
 
 pub(crate) mod adapted;
 pub(crate) mod exact_fields;

@@ -28,8 +28,8 @@ pub(crate) struct Plate {
 enum Covers {
     /// Grids; the cells of the first one.
     Grid([u32; 2]),
-    /// Cells of size 1 in |x|, |y| < 4, of twice the size to twice as far, and so on to the border of a
-    /// square plate of this half-width, a power of two.
+    /// Cells of size 1 in |x|, |y| < 4, of twice the size to twice as far, and so on to the border
+    /// of a square plate of this half-width, a power of two.
     Rings(f64),
 }
 
@@ -114,12 +114,13 @@ pub(crate) fn pulled(domain: Rect, cells: [u32; 2], cracks: &[&[[f64; 2]]]) -> P
         .with_boundary(Edge::Top, traction(0.0.into(), 1.0.into()))
 }
 
-/// Strain energy of [`oblique_crack`]: finite elements of order 12 on a mesh graded towards the tips and the
-/// corners, good to 2e-9.
+/// Strain energy of [`oblique_crack`]: finite elements of order 12 on a mesh graded towards the
+/// tips and the corners, good to 2e-9.
 const OBLIQUE_ENERGY: f64 = 2.428_931_916;
 
-/// A crack of half-length 0.5 whose slope is 3 : 4 in the middle of [−1, 1]², pulled: the relative error in the energy
-/// norm, whose square under loads alone is what the strain energy lacks, and the number of unknowns.
+/// A crack of half-length 0.5 whose slope is 3 : 4 in the middle of [−1, 1]², pulled: the relative
+/// error in the energy norm, whose square under loads alone is what the strain energy lacks, and
+/// the number of unknowns.
 pub(crate) fn oblique_crack(level: u32, order: usize) -> (f64, usize) {
     let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
     let mut problem = pulled(domain, [1, 1], &[&[[-0.4, -0.3], [0.4, 0.3]]]);
@@ -215,7 +216,8 @@ pub(crate) fn end_shear() -> Plate {
     end_shear_at(0.25, [34.0425413592, 4.5369400294])
 }
 
-/// Edge crack under end shear: W = 7, L = 16, a = 3.5, bottom clamped; K_I and K_II of Poisson's ratio.
+/// Edge crack under end shear: W = 7, L = 16, a = 3.5, bottom clamped; K_I and K_II of
+/// Poisson's ratio.
 pub(crate) fn end_shear_at(poisson: f64, [first, second]: [f64; 2]) -> Plate {
     let domain = Rect::new(vec2(0.0, 0.0), vec2(7.0, 16.0));
     let material = Material { young: 3e7, poisson, state: StressState::PlaneStrain };
@@ -284,8 +286,8 @@ pub(crate) fn kinked_in_plane() -> Plate {
     }
 }
 
-/// Two cracks of half-length 1 at distance 2, one above the other, order 3, in a plate of half-width 256
-/// that stands for the infinite plane.
+/// Two cracks of half-length 1 at distance 2, one above the other, order 3, in a plate of
+/// half-width 256 that stands for the infinite plane.
 pub(crate) fn stacked_cracks() -> Plate {
     let domain = Rect::new(vec2(-256.0, -256.0), vec2(256.0, 256.0));
     let mut problem =

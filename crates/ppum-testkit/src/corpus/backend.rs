@@ -23,7 +23,8 @@ pub trait Backend {
     fn evaluate(&mut self, case: &Case) -> Outcome;
 }
 
-/// Double precision at one point, each derivative made by [`Formula::derivative`] as a formula of its own.
+/// Double precision at one point, each derivative made by [`Formula::derivative`] as a formula of
+/// its own.
 #[derive(Debug, Default)]
 pub struct Derivatives {
     scratch: Vec<f64>,
@@ -74,15 +75,16 @@ impl Backend for Scalar {
 
 /// Blocks of points on lanes, in the precision of `T`.
 ///
-/// The case's point stands at several places of a block, other numbers and NaN between them: its results
-/// must not depend on where it stands.
+/// The case's point stands at several places of a block, other numbers and NaN between them: its
+/// results must not depend on where it stands.
 #[derive(Debug)]
 pub struct Lanes<T> {
     name: String,
     scratch: Scratch<T>,
 }
 
-/// The places of the case's point: first, last, and between, in different lanes of vectors of up to 16.
+/// The places of the case's point: first, last, and between, in different lanes of vectors of up
+/// to 16.
 const PLACES: [usize; 5] = [0, 7, 16, 31, 63];
 
 impl<T: Number> Lanes<T> {

@@ -1,5 +1,5 @@
-//! The conformance corpus of formulas: `tests/corpus` at the repository's root, whose `README.md` says
-//! what a record means and where its numbers come from.
+//! The conformance corpus of formulas: `tests/corpus` at the repository's root, whose `README.md`
+//! says what a record means and where its numbers come from.
 //!
 //! [`cases`] reads it, a [`Backend`] evaluates a case, [`check`] compares and counts.
 
@@ -47,8 +47,8 @@ pub struct Case {
     pub variables: Vec<String>,
     /// One number for each of [`Scope::inputs`].
     pub inputs: Vec<f64>,
-    /// Value, gradient, Hessian by pairs of variables (first, first), (first, second), …; what is not
-    /// promised is missing at the end.
+    /// Value, gradient, Hessian by pairs of variables (first, first), (first, second), …; what is
+    /// not promised is missing at the end.
     pub expected: Vec<Vec<f64>>,
     /// Bounds of the errors of value, gradient and Hessian.
     pub bounds: [Bound; 3],

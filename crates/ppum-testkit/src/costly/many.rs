@@ -196,7 +196,8 @@ fn sides_of_vertices() -> Dataset {
     with_functions(plate(2, 1, vec![crack; 64]), (0..64).map(side).collect())
 }
 
-/// Cracks that cross in every patch, each of which has functions of three of its four components: 1,200 of them.
+/// Cracks that cross in every patch, each of which has functions of three of its four components:
+/// 1,200 of them.
 fn junctions() -> Dataset {
     const N: u32 = 20;
     let through =

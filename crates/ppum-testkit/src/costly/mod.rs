@@ -1,8 +1,10 @@
-//! Small files that ask for much: for every loop over what a file says there is one whose sizes multiply.
+//! Small files that ask for much: for every loop over what a file says there is one whose
+//! sizes multiply.
 //!
-//! All of them are datasets as a writer could make them, most of equal numbers, so that hundreds of thousands of
-//! patches, blocks or cracks are some ten kilobytes of a file. Each is there to be read within the bounds of
-//! docs/cli.md, or to be refused with its reason; [`Costly::refused`] says which.
+//! All of them are datasets as a writer could make them, most of equal numbers, so that hundreds of
+//! thousands of patches, blocks or cracks are some ten kilobytes of a file. Each is there to be
+//! read within the bounds of docs/cli.md, or to be refused with its reason; [`Costly::refused`]
+//! says which.
 
 mod formulas;
 mod many;

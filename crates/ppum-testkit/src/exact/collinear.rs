@@ -61,9 +61,9 @@ impl CollinearCracks {
         let (l, h) = (self.inner, self.outer);
         let [inner, outer, lambda, sigma, squares] =
             [l, h, self.lambda, self.sigma, l * l + h * h].map(number);
-        // z² = zr + i zi, z² − λ = ar + i zi; root = √rho e^{i phi}, 1/root = c + i s;
-        // 2 root² − (z² − λ)(2z² − l² − h²) = nr + i ni, z times that mr + i mi, root⁻³ = kr + i ki;
-        // Re Z = vr, Z′ = sr + i si
+        // z² = zr + i zi, z² − λ = ar + i zi; root = √rho e^{i phi}, 1/root = c + i s; 2 root² −
+        // (z² − λ)(2z² − l² − h²) = nr + i ni, z times that mr + i mi, root⁻³ = kr + i ki; Re Z =
+        // vr, Z′ = sr + i si
         let bind = format!(
             "let zr = x*x - y*y; let zi = 2*x*y; let ar = zr - {lambda}; \
              let rho = hypot(x - {outer}, y)*hypot(x + {outer}, y)\

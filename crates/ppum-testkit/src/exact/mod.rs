@@ -1,7 +1,7 @@
 //! Exact solutions: as Rust functions, and as formula text for problem files.
 //!
-//! Both forms of a field are written separately — the functions in complex numbers, the text in real
-//! ones — so that each checks the other. The texts are formulas of x and y in the syntax of
+//! Both forms of a field are written separately — the functions in complex numbers, the text in
+//! real ones — so that each checks the other. The texts are formulas of x and y in the syntax of
 //! `ppum::formula`; what they bind with `let` is named `dx`, `px`, … and never `r` or `theta`.
 
 mod collinear;

@@ -7,9 +7,10 @@ use ppum::vec2::Vec2;
 
 /// A round hole under uniform stresses far away and a pressure on its rim.
 ///
-/// With Kolosov's functions φ = N/4 z + A/z, ψ = D/2 z + B/z + A a²/z³, where N = σ_xx + σ_yy,
-/// D = σ_yy − σ_xx + 2i σ_xy far away, A = −a² D̄/2, B = −a² (N/2 + p); (Kirsch 1898; Muskhelishvili 1953,
-/// section 56). On the rim of a plate under σ_yy = S the hoop stress is S (1 + 2 cos 2θ), 3 S at most.
+/// With Kolosov's functions φ = N/4 z + A/z, ψ = D/2 z + B/z + A a²/z³, where N = σ_xx + σ_yy, D =
+/// σ_yy − σ_xx + 2i σ_xy far away, A = −a² D̄/2, B = −a² (N/2 + p); (Kirsch 1898; Muskhelishvili
+/// 1953, section 56). On the rim of a plate under σ_yy = S the hoop stress is S (1 + 2 cos 2θ), 3 S
+/// at most.
 #[derive(Clone, Copy, Debug)]
 pub struct RoundHole {
     material: Material,

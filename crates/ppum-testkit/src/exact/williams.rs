@@ -154,7 +154,8 @@ impl Williams {
         self
     }
 
-    /// The field at polar coordinates of the tip, in the tip's axes. This reaches both faces, θ = ±π.
+    /// The field at polar coordinates of the tip, in the tip's axes. This reaches both faces, θ =
+    /// ±π.
     #[must_use]
     pub fn at_polar(&self, r: f64, theta: f64) -> [Component; 2] {
         self.local(r, theta).components()

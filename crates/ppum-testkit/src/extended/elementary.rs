@@ -1,5 +1,5 @@
-//! Elementary functions of double-double numbers, some 28 digits: series after plain reductions, Newton's method
-//! for inverse functions. Slow, and in other terms than what is tested against it.
+//! Elementary functions of double-double numbers, some 28 digits: series after plain reductions,
+//! Newton's method for inverse functions. Slow, and in other terms than what is tested against it.
 
 use super::Double;
 
@@ -73,7 +73,8 @@ pub fn sin_cos(x: Double) -> [Double; 2] {
     }
 }
 
-/// The angle of (x, y), which is not the origin, and whose lengths are numbers that may be multiplied.
+/// The angle of (x, y), which is not the origin, and whose lengths are numbers that may
+/// be multiplied.
 #[must_use]
 pub fn angle(y: Double, x: Double) -> Double {
     // turned back by a first guess it is small

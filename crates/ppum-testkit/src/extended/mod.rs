@@ -1,8 +1,9 @@
 //! Evaluation of datasets in double-double arithmetic (some 31 digits), for comparison.
 //!
 //! Written from the definition of the field, in other terms than the evaluator of `ppum`: absolute
-//! coordinates of 106 bits, derivatives by dual numbers, φ_i one by one, powers of ξ, sides of cracks
-//! by counting how often a ray crosses them, components by walking down their trees. Slow: every patch is looked at.
+//! coordinates of 106 bits, derivatives by dual numbers, φ_i one by one, powers of ξ, sides of
+//! cracks by counting how often a ray crosses them, components by walking down their trees. Slow:
+//! every patch is looked at.
 
 mod double;
 pub mod elementary;
@@ -188,7 +189,8 @@ impl<'d> Extended<'d> {
         let [dx, dy] = minus(p, crack.end_point(tip.end));
         let x = Dual { v: ahead[0] * dx + ahead[1] * dy, x: ahead[0], y: ahead[1] };
         let y = Dual { v: ahead[0] * dy - ahead[1] * dx, x: -ahead[1], y: ahead[0] };
-        // Behind the tip the crack's left is the frame's left at the last vertex, its right at the first.
+        // Behind the tip the crack's left is the frame's left at the last vertex, its right at
+        // the first.
         let left = if y.v >= 0.0 { 1.0 } else { -1.0 };
         let line = if tip.end == End::Last { left } else { -left };
         let [real, imaginary] = root(x, y);
@@ -211,8 +213,8 @@ fn minus(p: Point, q: Vec2) -> Point {
     [p[0] - q.x, p[1] - q.y]
 }
 
-/// w(|s|); the derivative of |s| at 0 is +1. A weight by formula has the digits of f64: it multiplies sums,
-/// and cancels nowhere.
+/// w(|s|); the derivative of |s| at 0 is +1. A weight by formula has the digits of f64: it
+/// multiplies sums, and cancels nowhere.
 fn spline(weight: &WeightFunction, s: Dual) -> Dual {
     let t = if s.v >= 0.0 { s } else { -s };
     let one = Dual::constant(1.0);
@@ -272,7 +274,8 @@ pub fn side(crack: &Crack, p: Point) -> f64 {
     if crossings.is_multiple_of(2) { far } else { -far }
 }
 
-/// 1 in the component of a tree of cuts, 0 outside: the areas of triangles of segments and the point tell the way.
+/// 1 in the component of a tree of cuts, 0 outside: the areas of triangles of segments and the
+/// point tell the way.
 ///
 /// # Panics
 /// If a cut or a segment is not there.
@@ -288,7 +291,8 @@ pub fn indicator(cuts: &[Cut], cracks: &[Crack], p: Point) -> f64 {
     }
 }
 
-/// The side far out in a direction: left is what lies anticlockwise between the crack's end and start.
+/// The side far out in a direction: left is what lies anticlockwise between the crack's end
+/// and start.
 fn far_side(start: Point, end: Point, direction: Point) -> f64 {
     let (turn, to_start) = (angle(end, direction), angle(end, start));
     if turn < to_start { 1.0 } else { -1.0 }

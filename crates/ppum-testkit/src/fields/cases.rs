@@ -238,8 +238,8 @@ fn unrelated() -> Recipe {
     }
 }
 
-/// Zooms by factors up to 1e12 to a tip, beside it, to the middle of an oblique crack and to a kink; the
-/// picture's centre lies on them, or a few pixels beside the tip.
+/// Zooms by factors up to 1e12 to a tip, beside it, to the middle of an oblique crack and to a
+/// kink; the picture's centre lies on them, or a few pixels beside the tip.
 #[must_use]
 pub fn zooms() -> Case {
     let recipe = Recipe { tip_level: 9, ..Recipe::default() };
@@ -260,8 +260,9 @@ fn zoomed(recipe: &Recipe, center: Vec2, zoom: f64) -> Window {
     Window { center, width: recipe.domain.size().x / zoom, pixels: [65, 49] }
 }
 
-/// Zooms by factors of 1e3 to 1e12 to all junctions, and to the middle of an arm. Patches there are no finer than is seen of jumps in
-/// single precision: their slopes are differences of constants over the size of a patch.
+/// Zooms by factors of 1e3 to 1e12 to all junctions, and to the middle of an arm. Patches there are
+/// no finer than is seen of jumps in single precision: their slopes are differences of constants
+/// over the size of a patch.
 #[must_use]
 pub fn junction_zooms() -> Case {
     let recipe = Recipe { tip_level: 4, ..Recipe::meeting() };

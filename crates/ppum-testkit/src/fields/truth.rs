@@ -8,8 +8,8 @@ use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::Window;
 
-/// Half the width of the band along cracks and borders, pixels. Positions in single precision are good to some
-/// 10⁻⁵ of a pixel.
+/// Half the width of the band along cracks and borders, pixels. Positions in single precision are
+/// good to some 10⁻⁵ of a pixel.
 pub const BAND: f64 = 1.0 / 256.0;
 
 /// A window of a field, evaluated point by point.
@@ -103,8 +103,9 @@ impl<'f> Truth<'f> {
         Expected { band: &self.band, values, scale, anisotropy }
     }
 
-    /// A component with derivatives: all pixels of v, x, y, xx, xy, yy. Second derivatives are differences of terms
-    /// of the size |∇u| |∇φ_i| and have that for their scale: |∇u| over the smallest half-extent of a patch in sight.
+    /// A component with derivatives: all pixels of v, x, y, xx, xy, yy. Second derivatives are
+    /// differences of terms of the size |∇u| |∇φ_i| and have that for their scale: |∇u| over the
+    /// smallest half-extent of a patch in sight.
     #[must_use]
     pub fn component(&self, component: usize) -> [Expected<'_>; 6] {
         let mut local = self.field.at(self.window.center);

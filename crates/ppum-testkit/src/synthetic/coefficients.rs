@@ -14,13 +14,14 @@ use ppum::vec2::{Rect, Vec2, vec2};
 pub enum Coefficients {
     /// Uniform in \[−1, 1): patches have nothing to do with each other.
     Random,
-    /// As a solver finds them: the field is [`smooth`] plus [`amplitude`] × Westergaard functions of
-    /// the tips × [`cut_off`], plus a [`level`] for each component at a junction × cut-off. Patches near a tip have its functions with these factors, all else is
-    /// expanded by Taylor's formula about each patch, so that neighbours agree up to h³.
+    /// As a solver finds them: the field is [`smooth`] plus [`amplitude`] × Westergaard functions
+    /// of the tips × [`cut_off`], plus a [`level`] for each component at a junction × cut-off.
+    /// Patches near a tip have its functions with these factors, all else is expanded by Taylor's
+    /// formula about each patch, so that neighbours agree up to h³.
     Taylor,
     /// The same polynomial everywhere: for each component the coefficients of the monomials, in the
-    /// order of datasets, of x and y measured from the domain's centre. Blocks other than the smooth
-    /// one get zeros. Degrees of blocks must suffice.
+    /// order of datasets, of x and y measured from the domain's centre. Blocks other than the
+    /// smooth one get zeros. Degrees of blocks must suffice.
     Polynomial(Vec<Vec<f64>>),
 }
 
@@ -30,7 +31,8 @@ pub fn amplitude(tip: usize, k: usize, component: usize) -> f64 {
     0.3 * (1.7 * (tip + 1) as f64 + 2.3 * k as f64 + 1.1 * component as f64).sin()
 }
 
-/// Size of component `k` at a junction in [`Coefficients::Taylor`]: a tenth of the field, as cracks open under strains of size one.
+/// Size of component `k` at a junction in [`Coefficients::Taylor`]: a tenth of the field, as cracks
+/// open under strains of size one.
 #[must_use]
 pub fn level(junction: usize, k: usize, component: usize) -> f64 {
     0.1 * (0.7 + 1.3 * junction as f64 + 1.9 * k as f64 + 0.6 * component as f64).sin()
@@ -44,8 +46,8 @@ pub fn smooth(component: usize, p: Vec2) -> Jet<f64> {
     Jet { v: s, x: a * c, y: b * c, xx: -a * a * s, xy: -a * b * s, yy: -b * b * s }
 }
 
-/// 1 within `zone` of a tip, falling smoothly to 0 at twice that: beyond the other end of the crack a
-/// tip's functions would go on jumping. `d` is the point minus the tip.
+/// 1 within `zone` of a tip, falling smoothly to 0 at twice that: beyond the other end of the crack
+/// a tip's functions would go on jumping. `d` is the point minus the tip.
 #[must_use]
 pub fn cut_off(d: Vec2, zone: f64) -> Jet<f64> {
     let scale = 1.0 / (3.0 * zone * zone);
@@ -116,8 +118,8 @@ fn cutting(recipe: &Recipe, bounds: &Rect) -> Vec<u32> {
     cracks.filter(|(_, crack)| cuts_through(crack, &bounds)).map(|(k, _)| k).collect()
 }
 
-/// The components of a patch that has functions of them: its cracks leave more than the two that a side tells apart, or two
-/// cracks leave two.
+/// The components of a patch that has functions of them: its cracks leave more than the two that a
+/// side tells apart, or two cracks leave two.
 fn components(recipe: &Recipe, partition: &BoxPartition, patch: usize) -> Option<Components> {
     if recipe.junctions.is_empty() || !recipe.jumps {
         return None;
@@ -164,7 +166,8 @@ impl Maker<'_> {
         self.add_extra(patch);
     }
 
-    /// The smooth block is the field on the first component; those of the others are what the field differs by there.
+    /// The smooth block is the field on the first component; those of the others are what the field
+    /// differs by there.
     fn add_components(&mut self, patch: usize, degree: u8, components: &Components, near: &[bool]) {
         let center = self.partition.center[patch];
         let on = |k: usize| {
@@ -240,7 +243,8 @@ impl Maker<'_> {
         self.data.block_offset.push(self.data.coefficients[0].len() as u64);
     }
 
-    /// A block whose polynomial has given jets at a point, unless the recipe wants other coefficients.
+    /// A block whose polynomial has given jets at a point, unless the recipe wants
+    /// other coefficients.
     fn add_polynomial(
         &mut self,
         patch: usize,
@@ -341,7 +345,8 @@ fn moved(jet: &Jet<f64>, d: Vec2) -> Jet<f64> {
     Jet { v, x, y, ..*jet }
 }
 
-/// Coefficients of ξ = (x − origin) / scale of a quadratic polynomial with a given jet at the origin.
+/// Coefficients of ξ = (x − origin) / scale of a quadratic polynomial with a given jet at
+/// the origin.
 fn taylor(jet: &Jet<f64>, s: Vec2) -> [f64; 6] {
     let (xx, yy) = (0.5 * jet.xx * s.x * s.x, 0.5 * jet.yy * s.y * s.y);
     [jet.v, jet.x * s.x, jet.y * s.y, xx, jet.xy * s.x * s.y, yy]

@@ -1,7 +1,8 @@
 //! What cracks leave of a box: connected components, and the functions that are 1 on one of them.
 //!
-//! In the box cracks may cross, branch, kink and end on each other, but no tip lies in it. Then the lines of the segments
-//! cut it into convex cells whose sides lie on a crack wholly or not at all, and cells are joined across the others.
+//! In the box cracks may cross, branch, kink and end on each other, but no tip lies in it. Then the
+//! lines of the segments cut it into convex cells whose sides lie on a crack wholly or not at all,
+//! and cells are joined across the others.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +12,8 @@ use ppum::vec2::{Rect, Vec2};
 
 /// Areas and steps that nobody sees, in parts of the box.
 const ROUNDING: f64 = 1e-9;
-/// Sides of cells shorter than this, in parts of the box, are what rounding has left at a junction: a step across them may lead
-/// anywhere.
+/// Sides of cells shorter than this, in parts of the box, are what rounding has left at a junction:
+/// a step across them may lead anywhere.
 const SHORTEST: f64 = 1e-6;
 
 /// The connected components of a box.
@@ -275,7 +276,8 @@ mod tests {
         }
     }
 
-    /// A crossing has four, a T three, a comb of two teeth four; a crack that kinks and one apart from it, three.
+    /// A crossing has four, a T three, a comb of two teeth four; a crack that kinks and one apart
+    /// from it, three.
     #[test]
     fn components_are_counted() {
         let through = |points: &[[f64; 2]]| crack(points, [CrackEnd::Mouth; 2]);

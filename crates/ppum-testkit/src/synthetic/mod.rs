@@ -2,8 +2,9 @@
 //!
 //! A [`Recipe`] says what a dataset looks like: its cover, cracks, functions and coefficients. The
 //! blocks are those of a solver: every patch has a smooth block; a patch that a crack cuts through
-//! has its side function, one in which cracks meet functions of the components that they leave of it; a
-//! patch near a tip has the tip's Westergaard functions. So every recipe jumps on its cracks and nowhere else.
+//! has its side function, one in which cracks meet functions of the components that they leave of
+//! it; a patch near a tip has the tip's Westergaard functions. So every recipe jumps on its cracks
+//! and nowhere else.
 
 mod coefficients;
 mod components;
@@ -55,8 +56,8 @@ pub struct Recipe {
     pub zone: f64,
     /// Patches that a crack cuts through have its side function.
     pub jumps: bool,
-    /// Places where cracks meet. Where there are any, patches that cracks cut into more than two components have functions
-    /// of these in place of sides.
+    /// Places where cracks meet. Where there are any, patches that cracks cut into more than two
+    /// components have functions of these in place of sides.
     pub junctions: Vec<Junction>,
     /// Texts that stand for the four Westergaard functions in the tips' frames.
     pub tip_functions: [String; 4],
@@ -75,8 +76,8 @@ pub struct Recipe {
 pub struct Junction {
     /// Where they meet.
     pub center: Vec2,
-    /// Within this distance the field of [`Coefficients::Taylor`] jumps from component to component of what the cracks leave of
-    /// the box around it; no tip lies in it.
+    /// Within this distance the field of [`Coefficients::Taylor`] jumps from component to component
+    /// of what the cracks leave of the box around it; no tip lies in it.
     pub radius: f64,
 }
 
@@ -121,8 +122,8 @@ pub fn crack(points: &[[f64; 2]], ends: [CrackEnd; 2]) -> Crack {
 }
 
 impl Recipe {
-    /// A recipe in which everything is random and present: a graded cover, the default domain with a
-    /// kinked, a straight and an edge crack, degrees 0 to 8, polynomial frames of their own,
+    /// A recipe in which everything is random and present: a graded cover, the default domain with
+    /// a kinked, a straight and an edge crack, degrees 0 to 8, polynomial frames of their own,
     /// formulas, random coefficients.
     #[must_use]
     pub fn random(seed: u64) -> Self {
@@ -155,7 +156,8 @@ impl Recipe {
         }
     }
 
-    /// Cracks that cross, branch and end on each other, with patches of several sizes around where they do.
+    /// Cracks that cross, branch and end on each other, with patches of several sizes around where
+    /// they do.
     #[must_use]
     pub fn meeting() -> Self {
         let (cracks, junctions) = meeting::cracks();
@@ -225,8 +227,8 @@ impl Recipe {
         cover
     }
 
-    /// The table of functions: one, the side of each crack, four functions of each tip, the extra ones, those of components
-    /// in the order of their patches.
+    /// The table of functions: one, the side of each crack, four functions of each tip, the extra
+    /// ones, those of components in the order of their patches.
     #[must_use]
     pub fn functions(&self) -> Vec<Function> {
         let mut all = vec![Function { name: "one".into(), kind: FunctionKind::One }];

@@ -5,8 +5,8 @@ use ppum::dataset::Dataset;
 
 use super::{Recipe, crack};
 
-/// A step for each load: that of its recipe, with coefficients times the load. Domain and components of all recipes are
-/// those of the first.
+/// A step for each load: that of its recipe, with coefficients times the load. Domain and
+/// components of all recipes are those of the first.
 ///
 /// # Panics
 /// Without loads.
@@ -25,8 +25,8 @@ pub fn series(loads: &[f64], recipe: impl Fn(usize) -> Recipe) -> Dataset {
     dataset
 }
 
-/// A crack that grows from the left edge, step by step, under a load that rises from 0 to 1; each step has cells that are small
-/// at its own tip.
+/// A crack that grows from the left edge, step by step, under a load that rises from 0 to 1; each
+/// step has cells that are small at its own tip.
 ///
 /// # Panics
 /// If there are not two steps at least.

@@ -19,8 +19,8 @@ const fn over(text: &'static str, [low, high]: [f64; 2], absolute: f64) -> Eleme
     Elementary { text, low, high, absolute }
 }
 
-/// Functions wherever they are finite. Far angles are reduced to 3e-9 of a quarter turn, near ones to a rounding
-/// of the third part of their π/2.
+/// Functions wherever they are finite. Far angles are reduced to 3e-9 of a quarter turn, near ones
+/// to a rounding of the third part of their π/2.
 pub const ELEMENTARY: [Elementary; 21] = [
     over("exp(a)", [-87.3, 88.7], 0.0),
     over("exp(a)", [-1.0, 1.0], 0.0),

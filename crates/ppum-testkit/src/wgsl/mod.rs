@@ -1,11 +1,11 @@
-//! Modules of WGSL, checked as a driver would, and functions of them executed: what shaders compute, without
-//! a graphics card.
+//! Modules of WGSL, checked as a driver would, and functions of them executed: what shaders
+//! compute, without a graphics card.
 //!
-//! naga parses and validates. The interpreter here walks its representation with the operations that formulas
-//! and fields need: numbers and conditions, vectors, arrays and structures of them, variables, branches, loops
-//! and calls. It
-//! computes as IEEE 754 says in single precision, other functions than √ and ⌊⌋ in double precision and
-//! rounded. Where WGSL leaves a result open, it is NaN, so that nobody can rely on it.
+//! naga parses and validates. The interpreter here walks its representation with the operations
+//! that formulas and fields need: numbers and conditions, vectors, arrays and structures of them,
+//! variables, branches, loops and calls. It computes as IEEE 754 says in single precision, other
+//! functions than √ and ⌊⌋ in double precision and rounded. Where WGSL leaves a result open, it is
+//! NaN, so that nobody can rely on it.
 
 mod backend;
 mod elementary;
@@ -46,8 +46,8 @@ impl Module {
     /// The numbers that a function of numbers gives: one, or those of an array.
     ///
     /// # Errors
-    /// When there is no such function, it has other parameters, or it uses what this interpreter does not
-    /// know.
+    /// When there is no such function, it has other parameters, or it uses what this interpreter
+    /// does not know.
     pub fn call(&self, function: &str, arguments: &[f32]) -> Result<Vec<f32>, String> {
         let found = self.naga.functions.iter().find(|(_, f)| f.name.as_deref() == Some(function));
         let (_, found) = found.ok_or_else(|| format!("no function `{function}`"))?;

@@ -67,7 +67,8 @@ const ARROWS: [(&str, &[&str]); 15] = [
     ),
 ];
 
-/// Foreign crates that are known in one place of the product only, so that they can be replaced there.
+/// Foreign crates that are known in one place of the product only, so that they can be
+/// replaced there.
 const DOORS: [(&str, &str); 23] = [
     ("ab_glyph", "ppum-figure"),
     ("clap", "ppum-cli"),
@@ -126,7 +127,8 @@ fn text(value: &Value) -> &str {
     value.as_str().expect("a text of `cargo metadata`")
 }
 
-/// Dependencies of each crate for which `kind` holds: `None` for normal ones, else `dev` or `build`.
+/// Dependencies of each crate for which `kind` holds: `None` for normal ones, else `dev` or
+/// `build`.
 fn dependencies(kind: impl Fn(Option<&str>) -> bool) -> Arrows {
     let of = |package: &Value| {
         let chosen = list(&package["dependencies"]).iter().filter(|d| kind(d["kind"].as_str()));
@@ -143,7 +145,8 @@ fn is_ours(name: &str) -> bool {
     name == "ppum" || name.starts_with("ppum-")
 }
 
-/// The table of ARCHITECTURE.md: rows of three cells, the first a crate, the last what it depends on.
+/// The table of ARCHITECTURE.md: rows of three cells, the first a crate, the last what it
+/// depends on.
 fn documented() -> Arrows {
     let page = std::fs::read_to_string(root().join("ARCHITECTURE.md")).expect("the page is there");
     let quoted = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect();

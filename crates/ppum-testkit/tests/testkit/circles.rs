@@ -1,11 +1,12 @@
-//! Modules import in one direction: none needs itself by way of others, files inside modules included.
+//! Modules import in one direction: none needs itself by way of others, files inside
+//! modules included.
 
 use crate::sources::{Imports, circles, imports};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// The circles that are left, of each crate as it may be, by their first modules and sizes. What ends one of them
-/// strikes its line; new ones are refused.
+/// The circles that are left, of each crate as it may be, by their first modules and sizes. What
+/// ends one of them strikes its line; new ones are refused.
 const LEFT: &[(&str, &str, usize)] = &[
     ("ppum", "check", 7),
     ("ppum", "crack", 2),

@@ -1,5 +1,5 @@
-//! Hostile texts end in an error with a place or in numbers: never in a panic, an overflow of the stack, a
-//! loop without end or unbounded memory.
+//! Hostile texts end in an error with a place or in numbers: never in a panic, an overflow of the
+//! stack, a loop without end or unbounded memory.
 
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
@@ -9,10 +9,12 @@ use ppum_testkit::corpus::hostile::{
 };
 use ppum_testkit::random::Random;
 
-/// The longest time for one text. Only a text that never ends takes it; the slowest takes about a second.
+/// The longest time for one text. Only a text that never ends takes it; the slowest takes about
+/// a second.
 const TIME_LIMIT: Duration = Duration::from_secs(300);
 
-/// Runs texts on a small stack, one after the other; counts their fates. Each text must end in time.
+/// Runs texts on a small stack, one after the other; counts their fates. Each text must end
+/// in time.
 fn run(texts: impl Iterator<Item = (String, String)> + Send + 'static, seed: u64) -> [usize; 3] {
     let (report, reports) = mpsc::channel();
     let work = move || {

@@ -15,8 +15,8 @@ struct Crate {
     names: BTreeMap<Module, BTreeMap<String, Module>>,
 }
 
-/// What the files below a folder of sources import from each other. A name that a module hands on counts as its origin's;
-/// comments and unit tests count for nothing.
+/// What the files below a folder of sources import from each other. A name that a module hands on
+/// counts as its origin's; comments and unit tests count for nothing.
 pub(crate) fn imports(sources: &Path) -> Imports {
     let mut found = Crate { code: BTreeMap::new(), names: BTreeMap::new() };
     read(sources, &mut Vec::new(), &mut found.code);

@@ -80,8 +80,8 @@ const EDGES: [f32; 22] = [
     f32::NAN,
 ];
 
-/// The values of double precision, rounded, up to 4 roundoffs: cube root and common logarithm are made of
-/// up to four rounded operations. The smallest numbers are sparse.
+/// The values of double precision, rounded, up to 4 roundoffs: cube root and common logarithm are
+/// made of up to four rounded operations. The smallest numbers are sparse.
 #[track_caller]
 fn agrees(found: f32, exact: f64, place: &str) {
     let expected = exact as f32;
@@ -172,7 +172,8 @@ fn tables_at_edges() {
             let found = module.call("f", &[a, b]).unwrap_or_else(|error| panic!("{error}"));
             jets.evaluate(&[f64::from(a), f64::from(b)], &mut Vec::new(), &mut exact);
             for ((found, exact), text) in found.iter().zip(&exact).zip(&texts) {
-                // coefficients and partial sums of these tables are below 64, with some 20 roundings
+                // coefficients and partial sums of these tables are below 64, with some
+                // 20 roundings
                 let near = (f64::from(*found) - exact).abs() <= 64.0 * 20.0 * 6e-8;
                 assert!(
                     near || found.is_nan() && exact.is_nan(),
@@ -183,7 +184,8 @@ fn tables_at_edges() {
     }
 }
 
-/// Constants that single precision has not are infinite or 0, and no errors of constant expressions.
+/// Constants that single precision has not are infinite or 0, and no errors of
+/// constant expressions.
 #[test]
 fn constants_beyond_single_precision() {
     let scope = Scope::new(&["x"]).expect("a name");
@@ -214,7 +216,8 @@ fn inputs_have_names() {
     assert!(text.starts_with(head), "{text}");
 }
 
-/// Names that mean something to WGSL, to the prelude or to the writer are names of variables as others.
+/// Names that mean something to WGSL, to the prelude or to the writer are names of variables
+/// as others.
 #[test]
 fn any_name_is_valid() {
     let words = naga_words();
@@ -271,7 +274,8 @@ fn library_is_valid() {
     assert!(module.functions().count() > all.len());
 }
 
-/// Angles to a few units of the last place, all round and at any distance: WGSL promises four digits of its own.
+/// Angles to a few units of the last place, all round and at any distance: WGSL promises four
+/// digits of its own.
 #[test]
 fn angles_are_accurate() {
     let atan2 = module(&[jets(&["atan2(y, x)"], &Scope::cartesian(), 0).wgsl("f")]);

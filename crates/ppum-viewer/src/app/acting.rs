@@ -137,7 +137,8 @@ impl Viewer {
         true
     }
 
-    /// Reads values, goes through the steps, takes pictures out; false if the action is none that does.
+    /// Reads values, goes through the steps, takes pictures out; false if the action is none
+    /// that does.
     fn read(&mut self, ctx: &egui::Context, action: Action) -> bool {
         let active = self.session.active;
         let (pane, stage) = (&mut self.session.panes[active], &mut self.stages[active]);

@@ -204,7 +204,8 @@ impl Viewer {
         self.session.active = 0;
     }
 
-    /// The difference of two views, of which the second one is made if there is none, or its own values.
+    /// The difference of two views, of which the second one is made if there is none, or its
+    /// own values.
     pub(crate) fn minus(&mut self, ctx: &egui::Context) {
         if self.session.panes.len() < 2 {
             self.split(ctx);
@@ -216,7 +217,8 @@ impl Viewer {
         }
     }
 
-    /// Goes a step back or forward in the settings, or asks first if a view with a solution is to go.
+    /// Goes a step back or forward in the settings, or asks first if a view with a solution is
+    /// to go.
     pub(crate) fn restore(&mut self, ctx: &egui::Context, back: bool) {
         // a change that is not yet at rest is a step too
         self.settings.note(&self.session.settings());
@@ -354,7 +356,8 @@ impl eframe::App for Viewer {
         self.show(ui);
     }
 
-    /// The ground around the plate. Nothing is drawn there: a software driver takes longer for that than for all the rest.
+    /// The ground around the plate. Nothing is drawn there: a software driver takes longer for that
+    /// than for all the rest.
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.extreme_bg_color.to_normalized_gamma_f32()
     }

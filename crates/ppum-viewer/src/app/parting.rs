@@ -1,4 +1,5 @@
-//! Closing a dataset or the window, or opening something in its place: not without a word where a solution would be lost that no file has.
+//! Closing a dataset or the window, or opening something in its place: not without a word where a
+//! solution would be lost that no file has.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -22,7 +23,8 @@ pub enum Parting {
     Arrival,
     /// The second view, by a step back (or forward) in the settings, if that takes it.
     View(bool),
-    /// What the active view shows, for the solution of the problem that is written, or of an example, by its number.
+    /// What the active view shows, for the solution of the problem that is written, or of an
+    /// example, by its number.
     Solve(Option<usize>),
 }
 
@@ -158,7 +160,8 @@ impl Viewer {
         self.stages.get(pane).and_then(|stage| stage.opened.as_ref()).is_some_and(is_unsaved)
     }
 
-    /// True if the dataset of a view is to make place for the solution that is computed: that was asked for.
+    /// True if the dataset of a view is to make place for the solution that is computed: that was
+    /// asked for.
     #[must_use]
     pub fn is_given_up(&self, pane: usize) -> bool {
         let opened = self.stages.get(pane).and_then(|stage| stage.opened.as_ref());
@@ -167,7 +170,8 @@ impl Viewer {
         self.replaced.as_ref().is_some_and(is_it)
     }
 
-    /// The view for a solution: that for which it was computed, another one if a solution has come there meanwhile.
+    /// The view for a solution: that for which it was computed, another one if a solution has come
+    /// there meanwhile.
     pub(super) fn free_pane(&mut self, ctx: &Context, pane: usize) -> usize {
         let pane = pane.min(self.stages.len() - 1);
         let is_meant = self.is_given_up(pane);
@@ -207,7 +211,8 @@ impl Viewer {
         (0..self.stages.len()).any(|other| other != pane && dataset(other) == dataset(pane))
     }
 
-    /// Keeps a window open that is about to close where a solution would be lost, and shows the question.
+    /// Keeps a window open that is about to close where a solution would be lost, and shows
+    /// the question.
     pub(super) fn ask_before_parting(&mut self, ui: &Ui) {
         let ctx = ui.ctx();
         let is_closing = ctx.input(|input| input.viewport().close_requested());
@@ -244,7 +249,8 @@ impl Viewer {
         }
     }
 
-    /// Closes what was to be closed once its solution is saved; if it was not after all, everything stays.
+    /// Closes what was to be closed once its solution is saved; if it was not after all,
+    /// everything stays.
     pub(super) fn leave_when_saved(&mut self, ctx: &Context) {
         let Question::Saving(parting, pane) = self.parting else { return };
         if self.files.is_saving() {

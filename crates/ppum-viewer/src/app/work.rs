@@ -1,4 +1,5 @@
-//! What the window does with files and problems: what was read is shown, what has changed is read again, what was solved is seen.
+//! What the window does with files and problems: what was read is shown, what has changed is read
+//! again, what was solved is seen.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -178,7 +179,8 @@ impl Viewer {
         }
     }
 
-    /// Solves the problem of the text, or an example in its place; what the active view shows makes place for the solution.
+    /// Solves the problem of the text, or an example in its place; what the active view shows makes
+    /// place for the solution.
     pub(super) fn solve(&mut self, example: Option<usize>) {
         if let Some(example) = example.and_then(|k| examples::ALL.get(k))
             && !self.take_example(example)
@@ -199,7 +201,8 @@ impl Viewer {
         }
     }
 
-    /// Takes the text of an example, with the files that it names in a folder; tells it if these cannot be put there.
+    /// Takes the text of an example, with the files that it names in a folder; tells it if these
+    /// cannot be put there.
     fn take_example(&mut self, example: &Example) -> bool {
         let own = self.files.folder().map_or_else(std::env::temp_dir, Path::to_owned);
         match example.folder(&own) {
@@ -333,7 +336,8 @@ impl Viewer {
         (0..=last).find(|pane| self.is_of_pane(path, *pane)).or(is_text.then_some(0))
     }
 
-    /// What a file is read for that is open already, or that a session names; an error if something else is in it.
+    /// What a file is read for that is open already, or that a session names; an error if something
+    /// else is in it.
     fn expected(&self, path: &Path, why: Why, content: Content) -> Result<Content, String> {
         let is_dataset = (0..self.session.panes.len()).any(|pane| self.is_of_pane(path, pane));
         let (is, wanted) = match &content {

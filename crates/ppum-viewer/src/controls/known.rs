@@ -1,4 +1,5 @@
-//! What a field can show, in groups, with symbols and meanings; and the names that formulas of it may use.
+//! What a field can show, in groups, with symbols and meanings; and the names that formulas of it
+//! may use.
 
 use std::sync::Arc;
 

@@ -1,5 +1,5 @@
-//! What the panels of one view remember while it is open, and what is not the session's: texts that are being written, lists that
-//! are open, work in the background, a factor that swings.
+//! What the panels of one view remember while it is open, and what is not the session's: texts that
+//! are being written, lists that are open, work in the background, a factor that swings.
 
 pub mod draft;
 pub mod facts;
@@ -66,7 +66,8 @@ pub struct Controls {
 }
 
 impl Controls {
-    /// Goes on with all that goes on by itself: what is known, the range of the plate, the factor that swings.
+    /// Goes on with all that goes on by itself: what is known, the range of the plate, the factor
+    /// that swings.
     pub fn advance(&mut self, ctx: &egui::Context, pane: &mut Pane, frames: &Frames) {
         if let Some(frame) = frames.newest() {
             self.known.look_up(&frame.field);

@@ -7,7 +7,8 @@ pub(crate) fn parse(text: &str) -> Option<f64> {
     text.trim().replace('−', "-").parse().ok().filter(|value: &f64| value.is_finite())
 }
 
-/// The digits that tell a thousandth of a range, and `least` at least: deep inside, values have their first ones in common.
+/// The digits that tell a thousandth of a range, and `least` at least: deep inside, values have
+/// their first ones in common.
 pub(crate) fn digits([min, max]: [f64; 2], least: usize) -> usize {
     const PARTS: f64 = 3.0;
     // as many as doubles have, at most

@@ -1,4 +1,5 @@
-//! The deformed plate in motion: its factor goes from nothing to what was chosen and back. Nothing of that is the session's.
+//! The deformed plate in motion: its factor goes from nothing to what was chosen and back. Nothing
+//! of that is the session's.
 
 use ppum_scene::deformed::Factor;
 

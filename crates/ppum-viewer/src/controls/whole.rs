@@ -38,8 +38,8 @@ pub enum Outcome {
 }
 
 impl Whole {
-    /// Looks for the range of a scene on the whole plate at some steps, or of its difference from another one, whatever its range
-    /// and its overlays are.
+    /// Looks for the range of a scene on the whole plate at some steps, or of its difference from
+    /// another one, whatever its range and its overlays are.
     #[must_use]
     pub fn new(
         ctx: &egui::Context,

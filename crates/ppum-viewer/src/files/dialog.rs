@@ -1,4 +1,5 @@
-//! A field for the name of a file, with what is in its folder; and the dialog of the system, where there is one.
+//! A field for the name of a file, with what is in its folder; and the dialog of the system, where
+//! there is one.
 
 use std::env;
 use std::fs;

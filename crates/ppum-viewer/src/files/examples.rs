@@ -75,7 +75,8 @@ impl Example {
         line.map_or(self.name, |title| title.trim_end_matches('"'))
     }
 
-    /// The folder of the file of numbers that it reads, where that file is put now; none if it reads none.
+    /// The folder of the file of numbers that it reads, where that file is put now; none if it
+    /// reads none.
     ///
     /// # Errors
     /// A folder that cannot be written.

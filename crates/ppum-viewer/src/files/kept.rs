@@ -54,8 +54,9 @@ impl Kept {
     }
 }
 
-/// The session of the last time; an error in words if a file is there that is none. That file may be of a newer program, and hold a
-/// text that no other has: it is set aside, since the session of today takes its name.
+/// The session of the last time; an error in words if a file is there that is none. That file may
+/// be of a newer program, and hold a text that no other has: it is set aside, since the session of
+/// today takes its name.
 ///
 /// # Errors
 /// What is wrong with the file, and where it is now.

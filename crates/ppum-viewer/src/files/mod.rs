@@ -162,8 +162,8 @@ impl Files {
         self.is_kept = false;
     }
 
-    /// Keeps what is remembered, in the background and one writing after the other: recent files at once, the session a
-    /// while after it has changed. A disk that is full is told once.
+    /// Keeps what is remembered, in the background and one writing after the other: recent files at
+    /// once, the session a while after it has changed. A disk that is full is told once.
     pub fn keep(&mut self, session: &Session) {
         if let Some(outcome) = self.keeping.as_ref().and_then(Job::poll) {
             self.keeping = None;
@@ -210,7 +210,8 @@ impl Files {
         }
     }
 
-    /// Waits until everything is written, and all that is remembered too: the window is about to close.
+    /// Waits until everything is written, and all that is remembered too: the window is about
+    /// to close.
     pub fn finish(&mut self, session: &Session) {
         let is_busy = |files: &Self| !files.writings.is_empty() || files.keeping.is_some();
         while is_busy(self) {
@@ -274,7 +275,8 @@ impl Files {
         self.dialog = Some(Dialog::new(purpose, &start));
     }
 
-    /// The folder of a file, or of the last one that was opened; the one that the program was started in if that is gone.
+    /// The folder of a file, or of the last one that was opened; the one that the program was
+    /// started in if that is gone.
     #[must_use]
     pub fn folder_near(&self, near: Option<&Path>) -> PathBuf {
         let recent = self.kept.recent.first().map(PathBuf::as_path);
@@ -288,7 +290,8 @@ impl Files {
         self.dialog.is_some() || !self.writings.is_empty()
     }
 
-    /// Shows the field for a name while it is open; what it is for and the file, once one is chosen.
+    /// Shows the field for a name while it is open; what it is for and the file, once one
+    /// is chosen.
     pub fn show(&mut self, ui: &Ui) -> Option<(Purpose, PathBuf)> {
         let dialog = self.dialog.as_mut()?;
         let done = dialog.show(ui)?;

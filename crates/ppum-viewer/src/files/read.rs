@@ -79,7 +79,8 @@ impl Reading {
         Self { path, pane, why, since: Instant::now(), stamp, job, bytes }
     }
 
-    /// The part of the file that was read, of those whose length is known; what follows is checked then.
+    /// The part of the file that was read, of those whose length is known; what follows is
+    /// checked then.
     #[must_use]
     pub fn part(&self) -> Option<f32> {
         let (length, _) = self.stamp?;

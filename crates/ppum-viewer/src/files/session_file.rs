@@ -35,7 +35,8 @@ pub enum SessionError {
     Newer(u32),
 }
 
-/// The text of a session that is kept in a folder; files in that folder and below are named from there.
+/// The text of a session that is kept in a folder; files in that folder and below are named
+/// from there.
 ///
 /// # Errors
 /// A file whose name is no Unicode.
@@ -67,7 +68,8 @@ pub fn parse(text: &str, folder: &Path) -> Result<Session, SessionError> {
     Ok(session)
 }
 
-/// Leaves what could not be read again, such as a range that somebody is about to write: the rest is not lost with it.
+/// Leaves what could not be read again, such as a range that somebody is about to write: the rest
+/// is not lost with it.
 fn make_readable(pane: &mut Pane) {
     let is_finite =
         |place: &Place| place.center.iter().chain([&place.width]).all(|v| v.is_finite());

@@ -1,4 +1,5 @@
-//! What lies over a picture: items that the window draws, or their pixels where they are too many for that.
+//! What lies over a picture: items that the window draws, or their pixels where they are too many
+//! for that.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -11,7 +12,8 @@ use ppum_scene::layers::Layers;
 #[derive(Debug, Default)]
 pub struct Laid {
     layers: Layers,
-    /// Pixels in place of the items, where they are too many to be drawn each time that the window is shown.
+    /// Pixels in place of the items, where they are too many to be drawn each time that the window
+    /// is shown.
     pub pixels: Option<Arc<ColorImage>>,
 }
 
@@ -49,8 +51,8 @@ fn points(items: &[Item]) -> usize {
     items.iter().map(of).sum()
 }
 
-/// The items with nothing below them: on black they are what they add, and what they let through is how much lighter
-/// they are on white.
+/// The items with nothing below them: on black they are what they add, and what they let through is
+/// how much lighter they are on white.
 fn drawn(items: Vec<Item>, size: [u32; 2]) -> ColorImage {
     let mut canvas = Canvas { size, paper: [0, 0, 0, 255], items };
     let black = canvas.image();

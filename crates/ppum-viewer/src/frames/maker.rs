@@ -59,7 +59,8 @@ pub(super) enum Next {
 
 /// Time between pictures whose range glides.
 const GLIDE: Duration = Duration::from_millis(16);
-/// Time between looks at a card that is prepared meanwhile: should there be none after all, that is told.
+/// Time between looks at a card that is prepared meanwhile: should there be none after all, that
+/// is told.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// What a range is found from.
@@ -178,7 +179,8 @@ impl Maker {
         })
     }
 
-    /// The range that belongs to the picture, if it is known: one that is found has to be looked for, at rest.
+    /// The range that belongs to the picture, if it is known: one that is found has to be looked
+    /// for, at rest.
     fn goal(
         &self,
         place: &Place,
@@ -366,8 +368,8 @@ fn ranged(drawn: &Arc<Drawn>, style: &Style) -> Ranged {
     (Same::of(drawn), style.scale, style.range.to_string(), style.colormap.diverging)
 }
 
-/// How long a picture that is nearly there is made on, although something else is wanted: someone who moves all the time
-/// sees pictures all the same. It grows with each picture that was given up.
+/// How long a picture that is nearly there is made on, although something else is wanted: someone
+/// who moves all the time sees pictures all the same. It grows with each picture that was given up.
 #[derive(Debug)]
 pub(super) struct Patience(pub(super) Duration);
 

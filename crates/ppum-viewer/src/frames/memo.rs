@@ -27,7 +27,8 @@ impl<K: PartialEq, V: Clone> Memo<K, V> {
         self.kept.as_ref()
     }
 
-    /// The one that is made from this: the last one, or a new one. An old one goes first, so that there are never two.
+    /// The one that is made from this: the last one, or a new one. An old one goes first, so that
+    /// there are never two.
     pub(super) fn get_or<E>(
         &mut self,
         key: K,

@@ -1,10 +1,12 @@
-//! Pictures, computed in the background: the window says what is wanted, and takes the newest there is.
+//! Pictures, computed in the background: the window says what is wanted, and takes the newest
+//! there is.
 //!
-//! A picture comes about in stages, each of which keeps what it made last: the subject (field, quantity, deformation), its
-//! values, their range, their colours, what lies over them, what resampling gives. Only what has changed is made anew. Of slow
-//! values there is a rough picture first: in single precision, of the strips that have come into view alone where a picture was
-//! moved by whole pixels, at a quarter of the resolution where all of it would take too long. Once one rests the picture
-//! is that of `ppum render`, to the last bit.
+//! A picture comes about in stages, each of which keeps what it made last: the subject (field,
+//! quantity, deformation), its values, their range, their colours, what lies over them, what
+//! resampling gives. Only what has changed is made anew. Of slow values there is a rough picture
+//! first: in single precision, of the strips that have come into view alone where a picture was
+//! moved by whole pixels, at a quarter of the resolution where all of it would take too long. Once
+//! one rests the picture is that of `ppum render`, to the last bit.
 
 mod ease;
 mod laid;
@@ -72,7 +74,8 @@ impl Wanted {
         Arc::ptr_eq(&self.dataset, &other.dataset) && is_same_left
     }
 
-    /// True if another one is of a plate of the same shape and kind: of a file that was written again, for instance.
+    /// True if another one is of a plate of the same shape and kind: of a file that was written
+    /// again, for instance.
     fn is_alike(&self, other: &Self) -> bool {
         let (dataset, other) = (&self.dataset, &other.dataset);
         dataset.domain == other.domain && dataset.equation == other.equation
@@ -228,8 +231,8 @@ impl Frames {
         is_new
     }
 
-    /// Forgets a picture of another dataset where it would stand for the one that is wanted: once that has none, or at
-    /// once if the plate is another one.
+    /// Forgets a picture of another dataset where it would stand for the one that is wanted: once
+    /// that has none, or at once if the plate is another one.
     fn drop_foreign(&mut self) {
         let (Some((asked, _)), Some(newest)) = (&self.asked, &self.newest) else { return };
         let is_without =

@@ -43,7 +43,8 @@ impl Deref for Painted {
     }
 }
 
-/// By this thread alone: it may be that of the window, which must not wait for long work of the pool.
+/// By this thread alone: it may be that of the window, which must not wait for long work of
+/// the pool.
 fn texture(image: &Image) -> ColorImage {
     let color = |&[r, g, b, a]: &[u8; 4]| Color32::from_rgba_unmultiplied(r, g, b, a);
     let pixels = image.rgba.as_chunks::<4>().0.iter().map(color);

@@ -81,8 +81,8 @@ mod cards {
         }
     );
 
-    /// A graphics card, opened when it is needed first. Opening it, uploading and compiling take their time: a thread sees
-    /// to them, and until it is done the processor draws.
+    /// A graphics card, opened when it is needed first. Opening it, uploading and compiling take
+    /// their time: a thread sees to them, and until it is done the processor draws.
     pub(super) struct Cards {
         backend: Backend,
         card: Card,
@@ -103,7 +103,8 @@ mod cards {
     /// The card, if it is open, and the subject compiled on it.
     type Prepared = (Option<Box<Renderer>>, Result<Compiled, RenderError>);
 
-    /// True once it is known that this machine has no card: each look for one keeps some megabytes of the drivers for good.
+    /// True once it is known that this machine has no card: each look for one keeps some megabytes
+    /// of the drivers for good.
     static HAS_NO_CARD: AtomicBool = AtomicBool::new(false);
 
     impl Cards {

@@ -1,4 +1,5 @@
-//! A picture that has moved by whole pixels: what it shares with the new view is kept, the strips that have come into view are drawn.
+//! A picture that has moved by whole pixels: what it shares with the new view is kept, the strips
+//! that have come into view are drawn.
 
 use ppum::vec2::vec2;
 use ppum_render::raster::Raster;
@@ -12,7 +13,8 @@ pub(super) struct Shift {
     rows: i64,
 }
 
-/// Pixels whose places doubles know to no better than this part of themselves cannot be put side by side.
+/// Pixels whose places doubles know to no better than this part of themselves cannot be put side
+/// by side.
 const BLURRED: f64 = 0.01;
 /// Less than this part of a picture is not worth keeping.
 const WORTH: f64 = 0.5;

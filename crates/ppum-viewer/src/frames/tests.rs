@@ -75,7 +75,8 @@ fn values(drawn: &Drawn) -> Raster {
     }
 }
 
-/// The largest difference, in parts of the range of the picture or of a value beyond it; the same pixels have a value.
+/// The largest difference, in parts of the range of the picture or of a value beyond it; the same
+/// pixels have a value.
 fn difference(a: &Raster, b: &Raster, range: f64) -> f64 {
     assert_eq!(a.size, b.size);
     let parts = a.values.iter().zip(&b.values).map(|(a, b)| {
@@ -226,8 +227,8 @@ fn who_moves_sees_strips_of_differences() {
     assert_eq!(Arc::strong_count(&other), 1);
 }
 
-/// Deep at a tip single precision is as good as elsewhere, since offsets are formed in double precision; pixels that doubles
-/// cannot put side by side are drawn whole.
+/// Deep at a tip single precision is as good as elsewhere, since offsets are formed in double
+/// precision; pixels that doubles cannot put side by side are drawn whole.
 #[test]
 fn deep_at_a_tip_single_precision_is_enough() {
     let (dataset, mut maker) = (dataset(), maker());

@@ -57,7 +57,8 @@ impl Values {
         }
     }
 
-    /// True if a place needs a rough picture: it may take long, or one moves on before it could be done.
+    /// True if a place needs a rough picture: it may take long, or one moves on before it could
+    /// be done.
     pub(super) fn needs_rough(&self, place: &Place, is_moving: bool) -> bool {
         let is_quick =
             self.pace.of(&place.subject).whole.is_some_and(|pace| is_quick(pace, &place.view));
@@ -104,12 +105,14 @@ impl Values {
         Ok(apart.drawn)
     }
 
-    /// How far the two sides of a difference are from each other, in the view that was last drawn whole.
+    /// How far the two sides of a difference are from each other, in the view that was last
+    /// drawn whole.
     pub(super) fn norms(&self, subject: &Subject) -> Option<Norms> {
         self.norms.get(subject)
     }
 
-    /// Draws what is soon done: strips beside what was seen before, all in single precision, or a coarse picture.
+    /// Draws what is soon done: strips beside what was seen before, all in single precision, or a
+    /// coarse picture.
     pub(super) fn draw_rough(
         &mut self,
         place: &Place,

@@ -13,7 +13,8 @@ use super::{Failure, Fault, Outcome};
 /// Calls whoever shows the pictures.
 pub(super) type Wake = Box<dyn Fn() + Send>;
 
-/// One step: what is to be shown of it, and when the next is due. A panic is told as a failure, and forgets everything.
+/// One step: what is to be shown of it, and when the next is due. A panic is told as a failure, and
+/// forgets everything.
 pub(super) fn step(
     maker: &mut Maker,
     backend: Backend,
@@ -68,7 +69,8 @@ impl Shared {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The wish to work for, with its number, when something is to be done for it; none if nobody wants anything any more.
+    /// The wish to work for, with its number, when something is to be done for it; none if nobody
+    /// wants anything any more.
     fn next(&self, number: usize, next: Next) -> Option<(Wish, usize)> {
         let is_waiting = |state: &mut State| state.wishes == number && !state.is_closed;
         let mut state = self.state();

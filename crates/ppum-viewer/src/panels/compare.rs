@@ -1,4 +1,5 @@
-//! The direct picture against a resampled one: the method, the grid, and what it costs; and against the one on the left.
+//! The direct picture against a resampled one: the method, the grid, and what it costs; and against
+//! the one on the left.
 
 use egui::{Grid, RichText, Slider, Ui};
 use ppum::text::trimmed_to;

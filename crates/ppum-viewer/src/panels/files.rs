@@ -75,7 +75,8 @@ pub fn recent(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
 }
 
-/// What is being read, and what is told of files: over the plate's upper edge, so that nothing moves for it.
+/// What is being read, and what is told of files: over the plate's upper edge, so that nothing
+/// moves for it.
 pub fn notes(ui: &Ui, desk: &mut Desk<'_>) {
     let waits = desk.files.readings().iter().filter_map(|r| QUICK.checked_sub(r.since.elapsed()));
     if let Some(rest) = waits.min() {

@@ -11,7 +11,8 @@ const WIDTH: f32 = 380.0;
 /// Around the columns \[points\].
 const MARGIN: f32 = 60.0;
 
-/// What is pressed while the sheet is open is not done behind it; its own key closes it, and so does Escape.
+/// What is pressed while the sheet is open is not done behind it; its own key closes it, and so
+/// does Escape.
 pub fn take(ctx: &egui::Context, is_open: &mut bool, actions: &mut Vec<Action>) {
     if *is_open {
         actions.retain(|action| *action == Action::Help);

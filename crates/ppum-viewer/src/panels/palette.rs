@@ -12,7 +12,8 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// Shows it, with the actions that are possible; true once it is done, with the action that was chosen, if any.
+    /// Shows it, with the actions that are possible; true once it is done, with the action that was
+    /// chosen, if any.
     pub fn show(
         &mut self,
         ui: &Ui,
@@ -51,7 +52,8 @@ impl Palette {
     }
 }
 
-/// The actions whose names, or other words for them, have all words of a text; those of that name first.
+/// The actions whose names, or other words for them, have all words of a text; those of that
+/// name first.
 fn found(text: &str) -> Vec<&'static Entry> {
     let text = text.to_lowercase();
     let has_all = |words: &str| text.split_whitespace().all(|word| words.contains(word));

@@ -93,8 +93,8 @@ fn told(ui: &mut Ui, probed: &Probed, [name, unit]: &[String; 2]) {
     }
 }
 
-/// The probes with all digits: places as anchor and offset, a row for each side of a crack; of a difference also the values on the
-/// right and on the left.
+/// The probes with all digits: places as anchor and offset, a row for each side of a crack; of a
+/// difference also the values on the right and on the left.
 #[must_use]
 pub fn table(probes: &[Probed], [name, unit]: &[String; 2]) -> Table {
     let plain = ["probe", "x", "y", "dx", "dy", "side"].map(|name| Column::new(name, ""));

@@ -53,7 +53,8 @@ impl Integral {
         }
     }
 
-    /// What was found on the circle that is shown, or the reason why there is nothing; none while it is on its way.
+    /// What was found on the circle that is shown, or the reason why there is nothing; none while
+    /// it is on its way.
     pub fn found(&mut self) -> Option<Result<Arc<TipIntensity>, String>> {
         let asked = match self.asked.as_ref()? {
             Err(reason) => return Some(Err(reason.clone())),
@@ -63,7 +64,8 @@ impl Integral {
         (*key == asked).then(|| answer.as_ref().clone().map(Arc::new))
     }
 
-    /// What is said of the circle. It is of the dataset and the step that were asked about, also where another one is shown since.
+    /// What is said of the circle. It is of the dataset and the step that were asked about, also
+    /// where another one is shown since.
     pub fn words(&mut self) -> String {
         let found = self.found();
         match (found, &self.asked) {
@@ -140,7 +142,8 @@ fn asked(along: Along, dataset: &Arc<Dataset>, step: usize) -> Option<Result<Ask
     }
 }
 
-/// The radius of the circle around a tip on which the solver finds factors, if nothing disturbs the tip's field there.
+/// The radius of the circle around a tip on which the solver finds factors, if nothing disturbs the
+/// tip's field there.
 #[must_use]
 pub fn usual_radius(dataset: &Dataset, step: usize, tip: TipId) -> Option<f64> {
     let clear = clearance(dataset, step, tip)?.radius;
@@ -150,8 +153,9 @@ pub fn usual_radius(dataset: &Dataset, step: usize, tip: TipId) -> Option<f64> {
 /// Part of a tip's clearance that the solver's preferred ring has.
 const PREFERRED: f64 = 0.9;
 
-/// `K_I = 1.23, K_II = 0, T = …, G = …, angle …` of the circle, and below it the factors that the solver stored for the tip, with their
-/// estimated error. The field of the circle has that error too.
+/// `K_I = 1.23, K_II = 0, T = …, G = …, angle …` of the circle, and below it the factors that the
+/// solver stored for the tip, with their estimated error. The field of the circle has that
+/// error too.
 #[must_use]
 pub fn told(dataset: &Dataset, index: usize, factors: &TipIntensity) -> String {
     let Some(step) = dataset.steps.get(index) else { return String::new() };

@@ -1,7 +1,8 @@
 //! Reading values: at points, along curves, on circles around tips.
 //!
 //! What is chosen (probes, a curve) stands in the [`Pane`]. What has become of it is here: values
-//! at the pointer and at the probes, evaluated exactly and at once, and what is found in the background along curves.
+//! at the pointer and at the probes, evaluated exactly and at once, and what is found in the
+//! background along curves.
 
 pub mod integral;
 pub mod output;

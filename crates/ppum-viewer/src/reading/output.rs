@@ -30,8 +30,8 @@ enum OutputError {
 }
 
 impl Output {
-    /// Writes bytes to the file of the name with an end of its own, in one step, and tells it; never over an input, over
-    /// another file if that is asked for twice.
+    /// Writes bytes to the file of the name with an end of its own, in one step, and tells it;
+    /// never over an input, over another file if that is asked for twice.
     pub fn save(&mut self, end: &str, bytes: &[u8], inputs: &[&Path]) {
         let saved = self.try_save(end, bytes, inputs);
         let told = saved.map(|path| path.display().to_string());

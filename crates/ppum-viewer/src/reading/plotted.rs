@@ -57,8 +57,8 @@ pub struct Values {
 }
 
 impl Asked {
-    /// What a pane asks for; nothing without a curve. The quantity is that of the picture where none is given: along a
-    /// crack its opening.
+    /// What a pane asks for; nothing without a curve. The quantity is that of the picture where
+    /// none is given: along a crack its opening.
     #[must_use]
     pub fn of(pane: &Pane, field: &Arc<OwnedField>) -> Option<Self> {
         let along = pane.curve?;
@@ -125,7 +125,8 @@ fn named(field: &Field<'_>, list: &str) -> Result<Vec<(String, Quantity)>, Fault
 }
 
 impl Values {
-    /// The plot, its axes logarithmic or not; where both are, each curve with the exponent of its power law.
+    /// The plot, its axes logarithmic or not; where both are, each curve with the exponent of its
+    /// power law.
     #[must_use]
     pub fn plot(&self, log: [bool; 2]) -> Plot {
         let scale = |axis: PlotAxis, is_log: bool| {

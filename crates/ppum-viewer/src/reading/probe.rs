@@ -1,4 +1,5 @@
-//! Exact values at a point: of the quantity and its gradient, on both sides of a crack, with cell and patches.
+//! Exact values at a point: of the quantity and its gradient, on both sides of a crack, with cell
+//! and patches.
 
 use std::sync::Arc;
 
@@ -63,8 +64,8 @@ impl Probed {
         self.cell.is_none()
     }
 
-    /// The difference from what is read on the left. Where a crack runs on one side alone, the other has one value for both of
-    /// its faces.
+    /// The difference from what is read on the left. Where a crack runs on one side alone, the
+    /// other has one value for both of its faces.
     fn minus(self, left: &Self) -> Self {
         let count = self.sides.len().max(left.sides.len());
         let of = |sides: &[Sided], k: usize| sides[k.min(sides.len() - 1)];
@@ -256,7 +257,8 @@ impl Reader {
         all.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// The point of a crack nearest to a point, seen from the nearer end of its segment, with its distance.
+    /// The point of a crack nearest to a point, seen from the nearer end of its segment, with
+    /// its distance.
     #[must_use]
     pub fn nearest_on_crack(&self, spot: &Spot) -> Option<(f64, Spot)> {
         let mut nearest: Option<(f64, Spot)> = None;
@@ -280,8 +282,8 @@ impl Reader {
         tips(cracks).position(is_here)
     }
 
-    /// The segment that a point lies on: the one that it was put on if the step still has it, or one that it lies on but
-    /// for rounding.
+    /// The segment that a point lies on: the one that it was put on if the step still has it, or
+    /// one that it lies on but for rounding.
     fn segment_of(&self, spot: &Spot) -> Option<SegmentId> {
         let cracks = &self.field.field().step.cracks;
         if let Some([crack, segment]) = spot.on {
@@ -301,8 +303,8 @@ impl Reader {
         Segments::new(cracks).at(spot.anchor(), spot.offset())
     }
 
-    /// The patch whose cell a point lies in, of those that cover it, with its level: borders belong to the cell on their
-    /// right and above.
+    /// The patch whose cell a point lies in, of those that cover it, with its level: borders belong
+    /// to the cell on their right and above.
     fn cell_of(&self, point: Vec2, patches: &[u32]) -> Option<(u32, u8)> {
         let partition = self.field.field().step.partition.boxes();
         if partition.is_empty() {

@@ -23,9 +23,9 @@ impl<K, V> Default for Question<K, V> {
 }
 
 impl<K: Clone + PartialEq, V: Send + 'static> Question<K, V> {
-    /// Asks for something unless that is known or on its way. What is asked for while other work runs has to be asked
-    /// for again; if it is `urgent` that work is stopped. So no two threads ever work for one question, however long the
-    /// first takes to stop.
+    /// Asks for something unless that is known or on its way. What is asked for while other work
+    /// runs has to be asked for again; if it is `urgent` that work is stopped. So no two threads
+    /// ever work for one question, however long the first takes to stop.
     pub fn ask(
         &mut self,
         key: &K,

@@ -41,7 +41,8 @@ impl Places<'_> {
         if rounded.is_finite() { rounded } else { v }
     }
 
-    /// Where places near the middle of the view are counted from, with its name: a tip that is seen, or the middle.
+    /// Where places near the middle of the view are counted from, with its name: a tip that is
+    /// seen, or the middle.
     #[must_use]
     pub fn origin(&self) -> (Vec2, String) {
         let at = |tip: TipId| self.cracks[tip.crack as usize].end_point(tip.end);
@@ -103,7 +104,8 @@ pub fn values(probed: &Probed, name: &str, unit: &str) -> String {
     values_to(probed, name, unit, DIGITS)
 }
 
-/// The same with so many digits: `von-mises = 2.71`, `ux = 0.1 above, −0.1 below, jump 0.2`, `syy = ∞ at tip 1`.
+/// The same with so many digits: `von-mises = 2.71`, `ux = 0.1 above, −0.1 below, jump 0.2`,
+/// `syy = ∞ at tip 1`.
 #[must_use]
 pub fn values_to(probed: &Probed, name: &str, unit: &str, digits: usize) -> String {
     if probed.is_outside() {
@@ -128,7 +130,8 @@ pub fn values_to(probed: &Probed, name: &str, unit: &str, digits: usize) -> Stri
     }
 }
 
-/// The two values of a difference: `right 3.1, left 3`; of both sides one after the other. None of what is none.
+/// The two values of a difference: `right 3.1, left 3`; of both sides one after the other. None of
+/// what is none.
 #[must_use]
 pub fn terms(probed: &Probed) -> Option<String> {
     let of = |sided: &Sided| {
@@ -141,8 +144,8 @@ pub fn terms(probed: &Probed) -> Option<String> {
     all.filter(|_| !probed.is_outside()).map(|all| all.join("; "))
 }
 
-/// The gradient by its size and direction: `gradient 3.2 at 45°`; of both sides one after the other. None where
-/// there is none.
+/// The gradient by its size and direction: `gradient 3.2 at 45°`; of both sides one after the
+/// other. None where there is none.
 #[must_use]
 pub fn gradients(probed: &Probed) -> Option<String> {
     let words = |sided: &Sided| {
@@ -174,7 +177,8 @@ pub fn patches(probed: &Probed) -> Option<String> {
     (!all.is_empty()).then(|| format!("φ {}", all.join(", ")))
 }
 
-/// The patches with their φ in ever fewer words: all of them, with fewer digits, then the largest alone and `…`.
+/// The patches with their φ in ever fewer words: all of them, with fewer digits, then the largest
+/// alone and `…`.
 #[must_use]
 pub fn shorter(probed: &Probed) -> Vec<String> {
     let (long, short) = (listed(probed, 3), listed(probed, 2));
@@ -192,7 +196,8 @@ fn listed(probed: &Probed, digits: usize) -> Vec<String> {
     all.iter().map(|(patch, phi)| format!("{} of {patch}", number(*phi, digits))).collect()
 }
 
-/// All that is read at a point, as a text to be copied: the place and the values with all their digits.
+/// All that is read at a point, as a text to be copied: the place and the values with all
+/// their digits.
 #[must_use]
 pub fn all(probed: &Probed, name: &str, unit: &str) -> String {
     let [x, y] = probed.spot.texts();

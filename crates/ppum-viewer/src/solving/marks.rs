@@ -1,4 +1,5 @@
-//! The text of a problem as it is seen: comments, headings and strings in their colours, mistakes underlined.
+//! The text of a problem as it is seen: comments, headings and strings in their colours,
+//! mistakes underlined.
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Color32, FontId, Stroke, Visuals};
@@ -104,7 +105,8 @@ fn is_word(letter: char) -> bool {
     letter.is_alphanumeric() || matches!(letter, '_' | '-' | '.' | '+')
 }
 
-/// The parts of a line of TOML, one behind the other. Strings of several lines are not told apart from others.
+/// The parts of a line of TOML, one behind the other. Strings of several lines are not told apart
+/// from others.
 fn parts(line: &str) -> Vec<([usize; 2], Kind)> {
     if line.trim_start().starts_with('[') && line.trim_end().ends_with(']') && !line.contains('=') {
         return vec![([0, line.len()], Kind::Heading)];

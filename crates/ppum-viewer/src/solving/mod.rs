@@ -359,7 +359,8 @@ impl Watcher for Follower<'_> {
     }
 }
 
-/// On threads of their own, so that pictures, which are made on the others, do not wait for the solution.
+/// On threads of their own, so that pictures, which are made on the others, do not wait for
+/// the solution.
 fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Stopped> {
     let pool = rayon::ThreadPoolBuilder::new().build();
     pool.map(|pool| pool.install(work)).map_err(|error| Stopped::Failed(error.to_string()))
@@ -384,7 +385,8 @@ fn solve(
     Ok(Work { dataset, stopped: None })
 }
 
-/// What no file can hold is no solution: a load that is too large leaves numbers that are not finite.
+/// What no file can hold is no solution: a load that is too large leaves numbers that are
+/// not finite.
 fn holds(dataset: &Dataset) -> Result<(), Stopped> {
     ppum_format::check(dataset).map_err(|error| Stopped::Failed(error.to_string()))
 }

@@ -22,7 +22,8 @@ pub struct Preview {
 const SPACING: f64 = 0.1;
 /// Room around the plate for supports and loads, in parts of the picture's sides.
 const MARGIN: f64 = 0.16;
-/// Most cracks and holes that are drawn: more of them are specks, and every picture of the window draws all.
+/// Most cracks and holes that are drawn: more of them are specks, and every picture of the window
+/// draws all.
 const MOST: usize = 2000;
 
 const PLATE: Rgba = [150, 160, 175, 110];

@@ -1,4 +1,5 @@
-//! The direct picture against a resampled one: on the left of a divider what is exact, on its right what a grid makes of it.
+//! The direct picture against a resampled one: on the left of a divider what is exact, on its right
+//! what a grid makes of it.
 
 use egui::{Align2, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2};
 use ppum_render::view::View;

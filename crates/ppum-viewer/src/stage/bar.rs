@@ -1,5 +1,6 @@
-//! The colour bar on the plate: drawn as figures draw it, and the control of the range. Its ends are dragged, its middle shifts both,
-//! the wheel spreads them; a click on an end edits its number, a double click leaves the range to the program.
+//! The colour bar on the plate: drawn as figures draw it, and the control of the range. Its ends
+//! are dragged, its middle shifts both, the wheel spreads them; a click on an end edits its number,
+//! a double click leaves the range to the program.
 
 use std::sync::Arc;
 
@@ -32,12 +33,13 @@ pub struct Grip {
     grabbed: Option<Grabbed>,
     /// The end that is written, and what.
     edited: Option<Edited>,
-    /// The extrema of values, which are looked for with ranges that are found and hold for those that are given.
+    /// The extrema of values, which are looked for with ranges that are found and hold for those
+    /// that are given.
     extrema: Option<(Arc<Drawn>, Extrema)>,
 }
 
-/// A bar as it was when it was grabbed. One that is dragged has other labels and other ends; what the hand does is measured on the one
-/// that it took.
+/// A bar as it was when it was grabbed. One that is dragged has other labels and other ends; what
+/// the hand does is measured on the one that it took.
 #[derive(Clone, Copy, Debug)]
 struct Grabbed {
     norm: Normalization,
@@ -55,7 +57,8 @@ struct Edited {
     is_new: bool,
 }
 
-/// Length of the bar in parts of the plate's height, and at most; no bar where it would be shorter than the least.
+/// Length of the bar in parts of the plate's height, and at most; no bar where it would be shorter
+/// than the least.
 const PART: f32 = 0.6;
 const MOST: f32 = 420.0;
 const LEAST: f32 = 140.0;
@@ -112,7 +115,8 @@ pub fn show(
     }
 }
 
-/// Shows the bar of the difference to a resampled picture, where that is seen: beside the other one, and nothing drags it.
+/// Shows the bar of the difference to a resampled picture, where that is seen: beside the other
+/// one, and nothing drags it.
 pub fn of_difference(ui: &Ui, plate: Rect, (pane, is_compared): (&Pane, bool), frame: &Frame) {
     let length = length(plate);
     let Some(other) = frame.other.as_ref().filter(|_| is_compared) else { return };

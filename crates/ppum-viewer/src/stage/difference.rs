@@ -1,4 +1,5 @@
-//! Two views side by side: what each shows, which is taken from which, how large the difference is, and why there is none.
+//! Two views side by side: what each shows, which is taken from which, how large the difference is,
+//! and why there is none.
 
 use egui::{Align, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 use ppum::text::trimmed_to;
@@ -43,7 +44,8 @@ const SMALL: f32 = 11.5;
 /// Where there is less room one norm stands alone.
 const NARROW: f32 = 400.0;
 
-/// Says on both plates what they are to each other, in the upper right corner; something on the left takes some of the width.
+/// Says on both plates what they are to each other, in the upper right corner; something on the
+/// left takes some of the width.
 pub fn show(
     ui: &mut Ui,
     (plate, taken): (Rect, f32),
@@ -100,7 +102,8 @@ fn told(frames: &Frames, is_short: bool) -> Vec<(String, bool)> {
     lines
 }
 
-/// The means and the largest of the differences in the view, also in parts of the left's own; in short L2 alone.
+/// The means and the largest of the differences in the view, also in parts of the left's own; in
+/// short L2 alone.
 fn words(norms: &Norms, unit: &str, is_short: bool) -> String {
     match norms.absolute {
         _ if norms.compared == 0 => return "no point of this view has both values".into(),

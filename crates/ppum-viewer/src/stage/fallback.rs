@@ -1,4 +1,5 @@
-//! What is shown where something was chosen that a dataset does not have: a file that was written anew, a session of another one.
+//! What is shown where something was chosen that a dataset does not have: a file that was written
+//! anew, a session of another one.
 
 use egui::{Align, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 use ppum_scene::colors::Colors;
@@ -10,8 +11,9 @@ use crate::stage::Stage;
 use crate::widgets::wrong;
 
 impl Stage {
-    /// Leaves what keeps a dataset from having any picture, as if it was opened without; that can be undone. Where there is
-    /// a picture of it the mistake is to be mended, and the picture stays.
+    /// Leaves what keeps a dataset from having any picture, as if it was opened without; that can
+    /// be undone. Where there is a picture of it the mistake is to be mended, and the
+    /// picture stays.
     pub(super) fn fall_back(&mut self, pane: &mut Pane) {
         if self.frames.newest().is_some() {
             return;

@@ -40,8 +40,8 @@ impl Locator {
         if is_shown { width + 24.0 } else { 0.0 }
     }
 
-    /// Shows the map in the upper left corner of the stage, if the view is a small part of the plate; tells the point of
-    /// the plate that was clicked.
+    /// Shows the map in the upper left corner of the stage, if the view is a small part of the
+    /// plate; tells the point of the plate that was clicked.
     pub fn show(&self, ui: &Ui, rect: Rect, view: &View) -> Option<Vec2> {
         let [width, height] = self.map.pixels.map(|n| n as f32);
         if self.width(rect, view) == 0.0 {

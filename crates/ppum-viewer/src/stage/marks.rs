@@ -1,4 +1,5 @@
-//! Marks over the plate: the patches at the pointer, the curve with its handles, probes, extrema, K beside its circle.
+//! Marks over the plate: the patches at the pointer, the curve with its handles, probes, extrema, K
+//! beside its circle.
 
 use std::sync::Arc;
 
@@ -21,7 +22,8 @@ const INK: Color32 = Color32::from_rgb(214, 88, 0);
 const HALO: Color32 = Color32::from_rgba_premultiplied(225, 225, 225, 225);
 
 impl Stage {
-    /// Marks over the plate: the patches at the pointer, the curve with its handles, probes, extrema.
+    /// Marks over the plate: the patches at the pointer, the curve with its handles,
+    /// probes, extrema.
     pub(super) fn marks(&mut self, ui: &mut Ui, sight: &Sight, pane: &Pane) {
         let painter = ui.painter_at(sight.rect);
         let cracks = self.cracks(pane);

@@ -1,6 +1,8 @@
-//! The point of the plate that the displacement has moved to a place: x + s u(x) = y, by Newton's method.
+//! The point of the plate that the displacement has moved to a place: x + s u(x) = y, by
+//! Newton's method.
 //!
-//! What is found is such a point, whichever start has led there; where the plate folds it is one of several.
+//! What is found is such a point, whichever start has led there; where the plate folds it is one
+//! of several.
 
 use ppum::crack::{Side, tips};
 use ppum::field::{Field, LocalField};
@@ -19,8 +21,8 @@ const NEAR: f64 = 1e-3;
 /// What is missed at most, in pixels.
 const MISS: f64 = 1e-3;
 
-/// The point that `factor` times its displacement moves to `center + offset`, to a thousandth of a pixel; none if no
-/// point of the plate lies there.
+/// The point that `factor` times its displacement moves to `center + offset`, to a thousandth of a
+/// pixel; none if no point of the plate lies there.
 #[must_use]
 pub fn material(
     field: &Field<'_>,

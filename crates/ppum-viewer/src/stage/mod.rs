@@ -100,7 +100,8 @@ pub struct Stage {
     now: f64,
 }
 
-/// What a box is looked for around: the deformed plate, and its border as it was if that is drawn too.
+/// What a box is looked for around: the deformed plate, and its border as it was if that is
+/// drawn too.
 #[derive(Clone)]
 struct Moved {
     field: Arc<OwnedField>,
@@ -265,7 +266,8 @@ impl Stage {
         self.flight = Some(Flight::new(Place::of(&view), Place::of(&end), to, self.now));
     }
 
-    /// A box around the plate as it is drawn, where it is deformed too; that is looked for in the background.
+    /// A box around the plate as it is drawn, where it is deformed too; that is looked for in
+    /// the background.
     fn whole(&mut self, ctx: &egui::Context, pane: &Pane, dataset: &Dataset) -> ppum::vec2::Rect {
         match (pane.scene.deformed, self.frames.newest()) {
             (Some(factor), Some(frame)) => {
@@ -421,8 +423,8 @@ impl Stage {
         }
     }
 
-    /// The way from the view's centre to the point that a ring marks near the pointer, else to the pointer itself, so that one
-    /// who enlarges a point of a crack stays on the crack.
+    /// The way from the view's centre to the point that a ring marks near the pointer, else to the
+    /// pointer itself, so that one who enlarges a point of a crack stays on the crack.
     fn snapped(&self, view: &View, pointer: Vec2, scale: f64) -> Vec2 {
         let ring = self.reading.hover.as_ref().filter(|probed| probed.spot.on.is_some());
         let offset = ring.map(|probed| probed.spot.from(view.center));
@@ -430,14 +432,16 @@ impl Stage {
         offset.filter(|offset| (*offset - pointer).length() < reach).unwrap_or(pointer)
     }
 
-    /// The newest picture of the dataset that is open: not of the one before, which may still be seen.
+    /// The newest picture of the dataset that is open: not of the one before, which may still
+    /// be seen.
     #[must_use]
     pub fn frame(&self) -> Option<&Arc<Frame>> {
         let dataset = &self.opened.as_ref()?.dataset;
         self.frames.newest().filter(|frame| Arc::ptr_eq(&frame.wanted.dataset, dataset))
     }
 
-    /// Shows a dataset from now on: where another plate was, if it has the same place, and else the whole of it.
+    /// Shows a dataset from now on: where another plate was, if it has the same place, and else the
+    /// whole of it.
     pub fn take(&mut self, pane: &mut Pane, opened: Opened) {
         let bounds = |opened: &Opened| opened.dataset.domain.bounds;
         if self.opened.as_ref().is_some_and(|before| bounds(before) != bounds(&opened)) {

@@ -1,7 +1,8 @@
 //! Pixels of a picture drawn by a shader of our own, which does nothing but fetch them.
 //!
-//! That of egui filters, dithers and counts with remainders at every pixel; a software driver computes all of it, whatever it
-//! needs, which takes ten times as long as all the rest of a frame (docs/decisions/0012-frames-of-the-window.md).
+//! That of egui filters, dithers and counts with remainders at every pixel; a software driver
+//! computes all of it, whatever it needs, which takes ten times as long as all the rest of a
+//! frame (docs/decisions/0012-frames-of-the-window.md).
 
 use std::sync::{Arc, Weak};
 
@@ -39,7 +40,8 @@ fn id() -> Id {
 #[derive(Clone, Default)]
 pub(super) struct Place(Arc<()>);
 
-/// Draws a picture with its corners at those of a rectangle, a coarse one smoothly; false if egui has to.
+/// Draws a picture with its corners at those of a rectangle, a coarse one smoothly; false if egui
+/// has to.
 pub(super) fn draw(
     painter: &Painter,
     place: &Place,

@@ -149,7 +149,8 @@ impl Stage {
         Some(text)
     }
 
-    /// The parts of the line, the most important first, and the patches in words, the longest first.
+    /// The parts of the line, the most important first, and the patches in words, the
+    /// longest first.
     fn words(&mut self, pane: &Pane) -> (Vec<String>, Vec<String>) {
         if let Some(tool) = self.reading.tool {
             return (vec![format!("{}; Escape leaves it", tool.hint())], Vec::new());
@@ -172,8 +173,8 @@ impl Stage {
     }
 }
 
-/// The parts that have room beside each other, and as many of the patches as there is room for then; `…` where something
-/// was left out.
+/// The parts that have room beside each other, and as many of the patches as there is room for
+/// then; `…` where something was left out.
 fn fitting(ui: &Ui, parts: Vec<String>, patches: &[String]) -> Vec<String> {
     let font = egui::TextStyle::Body.resolve(ui.style());
     let width = |text: &String| {

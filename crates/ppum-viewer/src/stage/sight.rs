@@ -1,4 +1,5 @@
-//! Where points of the plate lie in the window, and which point of the plate lies under the pointer.
+//! Where points of the plate lie in the window, and which point of the plate lies under
+//! the pointer.
 
 use std::sync::Arc;
 
@@ -112,7 +113,8 @@ fn between(pair: &[Spot], part: f64) -> Spot {
     Spot::new(a.anchor(), a.offset() + (b.from(a.anchor()) - a.offset()) * part)
 }
 
-/// The part of a line inside a box from zero to `size`, with some room around it (Liang and Barsky 1984).
+/// The part of a line inside a box from zero to `size`, with some room around it (Liang and Barsky
+/// 1984).
 fn clipped([a, b]: [Vec2; 2], size: Vec2) -> Option<[Vec2; 2]> {
     const ROOM: f64 = 8.0;
     let way = b - a;

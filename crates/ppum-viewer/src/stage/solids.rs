@@ -1,5 +1,6 @@
-//! Everything that has no letters and no pixels, drawn by a shader of our own: that of egui looks up a texture for every
-//! pixel, which takes a software driver a hundred nanoseconds (docs/decisions/0012-frames-of-the-window.md).
+//! Everything that has no letters and no pixels, drawn by a shader of our own: that of egui looks
+//! up a texture for every pixel, which takes a software driver a hundred
+//! nanoseconds (docs/decisions/0012-frames-of-the-window.md).
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -36,7 +37,8 @@ enum Layer {
     Other(ClippedShape),
 }
 
-/// Shapes as few layers: a solid one is drawn together with one of before, unless it covers something in between.
+/// Shapes as few layers: a solid one is drawn together with one of before, unless it covers
+/// something in between.
 fn layers(shapes: Vec<ClippedShape>) -> Vec<Layer> {
     let mut found = Layers::default();
     for ClippedShape { clip_rect, shape, transform_after_tessellation } in shapes {

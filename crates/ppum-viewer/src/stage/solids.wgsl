@@ -1,4 +1,5 @@
-// Triangles of plain colours: positions from −1 to 1 across the window, colours as they are to appear, premultiplied.
+// Triangles of plain colours: positions from −1 to 1 across the window, colours as they are to
+// appear, premultiplied.
 
 struct Corner {
     @builtin(position) position: vec4<f32>,

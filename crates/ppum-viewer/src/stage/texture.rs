@@ -52,7 +52,8 @@ impl Texture {
     }
 }
 
-/// A picture as it fits onto the device: of one that is larger than textures may be every second pixel, or third.
+/// A picture as it fits onto the device: of one that is larger than textures may be every second
+/// pixel, or third.
 fn fitting(ctx: &egui::Context, image: &Arc<ColorImage>) -> Arc<ColorImage> {
     let most = ctx.input(|input| input.max_texture_side).max(1);
     let [columns, rows] = image.size;

@@ -78,7 +78,8 @@ impl Stage {
         }
     }
 
-    /// The handle that a drag has begun at; that of a new curve if a tool is chosen, by itself or by a key that is held.
+    /// The handle that a drag has begun at; that of a new curve if a tool is chosen, by itself or
+    /// by a key that is held.
     fn gripped(&mut self, ui: &Ui, pen: &Pen<'_>, pane: &mut Pane) -> Option<Grip> {
         let at = ui.input(|input| input.pointer.press_origin())?;
         let modifiers = ui.input(|input| input.modifiers);
@@ -97,8 +98,8 @@ impl Stage {
         Some(grip)
     }
 
-    /// A circle around the tip nearest to the pointer: the solver's own if that is seen, else one that is. False where
-    /// there is no tip.
+    /// A circle around the tip nearest to the pointer: the solver's own if that is seen, else one
+    /// that is. False where there is no tip.
     pub fn circle_nearest_tip(&mut self, pane: &mut Pane) -> bool {
         let (Some(cracks), Some(spot), Some(view)) = (self.cracks(pane), self.spot(), self.view)
         else {
@@ -125,7 +126,8 @@ impl Stage {
         crate::reading::integral::usual_radius(dataset, step, tip)
     }
 
-    /// A curve to begin with, if there is none: the crack nearest to the pointer, or the middle line of the plate.
+    /// A curve to begin with, if there is none: the crack nearest to the pointer, or the middle
+    /// line of the plate.
     pub fn choose_curve(&mut self, pane: &mut Pane) {
         let (Some(cracks), Some(spot)) = (self.cracks(pane), self.spot()) else { return };
         if pane.curve.is_none() {
@@ -134,7 +136,8 @@ impl Stage {
         }
     }
 
-    /// The reason why there is nothing of a curve on the plate: a radius or a length that leaves it, or is none.
+    /// The reason why there is nothing of a curve on the plate: a radius or a length that leaves
+    /// it, or is none.
     #[must_use]
     pub fn refusal(&self, pane: &Pane, along: &Along) -> Option<String> {
         let bounds = self.opened.as_ref()?.dataset.domain.bounds;
@@ -183,7 +186,8 @@ impl Stage {
     }
 }
 
-/// The cracks of a step, kept with their dataset: in every picture of the window they are asked for, and there may be many.
+/// The cracks of a step, kept with their dataset: in every picture of the window they are asked
+/// for, and there may be many.
 pub(crate) struct Cracks {
     dataset: Arc<Dataset>,
     step: usize,

@@ -17,7 +17,8 @@ pub struct Chart {
     area: Area,
 }
 
-/// Shows a plot under a name in a room of some size \[points\]; a small room shows all of it, smaller.
+/// Shows a plot under a name in a room of some size \[points\]; a small room shows all of
+/// it, smaller.
 pub fn chart(ui: &mut Ui, name: &str, figure: &Plot, size: egui::Vec2) -> Chart {
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
@@ -42,7 +43,8 @@ impl Chart {
         self.area.across(f64::from((x - self.placed.corner.x) / self.placed.scale))
     }
 
-    /// Draws a line at a value of the horizontal axis, from the lower to the upper end of the other one.
+    /// Draws a line at a value of the horizontal axis, from the lower to the upper end of the
+    /// other one.
     pub fn mark(&self, ui: &Ui, value: f64) {
         let Area { corner, size, .. } = self.area;
         let across = self.area.size.x * (value - self.area.across(corner.x));

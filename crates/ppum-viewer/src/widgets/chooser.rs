@@ -1,4 +1,5 @@
-//! A list that one chooses from: closed it is a button; open, a text above it says what is looked for.
+//! A list that one chooses from: closed it is a button; open, a text above it says what is
+//! looked for.
 
 use egui::{Button, Key, Modifiers, Response, RichText, ScrollArea, TextEdit, Ui};
 
@@ -53,7 +54,8 @@ impl Chooser {
         }
     }
 
-    /// Shows the list if it is open; returns what is chosen. `row` shows a choice, true if the keys are at it.
+    /// Shows the list if it is open; returns what is chosen. `row` shows a choice, true if the keys
+    /// are at it.
     pub fn show(
         &mut self,
         ui: &mut Ui,
@@ -136,7 +138,8 @@ impl Chooser {
     }
 }
 
-/// The choices that have all words of a text; those whose own name begins with it come first in their group.
+/// The choices that have all words of a text; those whose own name begins with it come first in
+/// their group.
 fn found<'a>(text: &str, choices: &'a [Choice]) -> Vec<&'a Choice> {
     let text = text.to_lowercase();
     let fits = |choice: &&Choice| {

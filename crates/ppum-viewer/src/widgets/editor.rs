@@ -1,4 +1,5 @@
-//! Formulas that are written: checked at every letter, mistakes marked at their place, names completed.
+//! Formulas that are written: checked at every letter, mistakes marked at their place,
+//! names completed.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -16,7 +17,8 @@ use ppum_scene::scene::ShownError;
 
 use super::wrong;
 
-/// A text that is written. What is right is the session's at once; what is wrong stays here until it is mended, and so does the picture.
+/// A text that is written. What is right is the session's at once; what is wrong stays here until
+/// it is mended, and so does the picture.
 #[derive(Clone, Debug, Default)]
 pub struct Editor {
     draft: String,
@@ -37,7 +39,8 @@ struct Checked {
 pub struct Mistake {
     /// The reason, with the remedy.
     pub message: String,
-    /// The bytes that it lies at, if it lies somewhere; of a text that ends too early none after the last.
+    /// The bytes that it lies at, if it lies somewhere; of a text that ends too early none after
+    /// the last.
     pub place: Option<Range<usize>>,
 }
 

@@ -2,8 +2,8 @@
 
 use egui::{TextEdit, Ui};
 
-/// Shows a text that can be edited, under a name; the new one once Enter or leaving the field finishes it;
-/// Escape gives it up.
+/// Shows a text that can be edited, under a name; the new one once Enter or leaving the field
+/// finishes it; Escape gives it up.
 pub fn entry(ui: &mut Ui, name: &str, text: &str, hint: &str, width: f32) -> Option<String> {
     let id = ui.scope_id().with(name);
     let unfinished = ui.data(|data| data.get_temp::<String>(id));

@@ -28,7 +28,8 @@ pub(crate) fn wrong(ui: &Ui) -> Color32 {
     red(ui.visuals().dark_mode)
 }
 
-/// Colours of letters that are read without effort: every kind of text has a contrast of at least 4.5 to its ground.
+/// Colours of letters that are read without effort: every kind of text has a contrast of at least
+/// 4.5 to its ground.
 pub(crate) fn make_readable(visuals: &mut Visuals) {
     visuals.error_fg_color = red(visuals.dark_mode);
     let [text, button] = if visuals.dark_mode { [190, 205] } else { [40, 40] };
@@ -57,8 +58,8 @@ fn pale(ui: &Ui) -> Color32 {
     ui.visuals().text_color().gamma_multiply(PALE)
 }
 
-/// The same in a room that is always so many lines high, for words that change all the time; what has no room is told on
-/// hover.
+/// The same in a room that is always so many lines high, for words that change all the time; what
+/// has no room is told on hover.
 pub(crate) fn note_of(ui: &mut Ui, text: &str, lines: usize) {
     let width = ui.available_width();
     let mut job = LayoutJob::simple(text.to_owned(), FontId::proportional(NOTE), pale(ui), width);

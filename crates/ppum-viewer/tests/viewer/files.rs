@@ -120,7 +120,8 @@ fn two_files_that_are_dropped_stand_side_by_side() {
     assert_eq!(files, paths.map(Some));
 }
 
-/// Replaced, broken, gone and back again: the view stays, and so does the last dataset that could be read.
+/// Replaced, broken, gone and back again: the view stays, and so does the last dataset that could
+/// be read.
 #[test]
 fn an_open_file_is_watched() {
     let mut lab = Lab::new();
@@ -231,7 +232,8 @@ fn other() -> ppum::dataset::Dataset {
     solved.expect("it can be solved")
 }
 
-/// A picture of one dataset never stands for another one: neither while that is drawn, nor where it cannot be.
+/// A picture of one dataset never stands for another one: neither while that is drawn, nor where it
+/// cannot be.
 #[test]
 fn a_file_that_has_become_another_plate_is_shown_as_that() {
     for quantity in ["syy + sxx*2", "uy"] {

@@ -44,7 +44,8 @@ fn a_drag_moves_the_picture_and_ends_with_the_whole_one() {
     };
     window.event(button(mouse, true));
     window.step();
-    // on a busy machine the whole picture may replace a strip before it is seen: the drag goes on, to and fro
+    // on a busy machine the whole picture may replace a strip before it is seen: the drag goes on,
+    // to and fro
     let (mut was_rough, mut moves, start) = (false, 0, mouse);
     wait_until("strips are drawn while one drags", || {
         let is_back = moves / 10 % 2 == 1;

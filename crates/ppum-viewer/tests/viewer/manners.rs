@@ -1,4 +1,5 @@
-//! Manners: keys that do what they say and nothing else, reasons where nothing is done, room that stays as it is.
+//! Manners: keys that do what they say and nothing else, reasons where nothing is done, room that
+//! stays as it is.
 
 use std::path::Path;
 

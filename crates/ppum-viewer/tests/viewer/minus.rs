@@ -162,7 +162,8 @@ fn the_switch_of_the_panel_is_the_key() {
     assert!(frame.is_final && frame.subtracted.is_some());
 }
 
-/// Two quantities: at every pixel the values of one minus those of the other, whatever is moved, sized and chosen.
+/// Two quantities: at every pixel the values of one minus those of the other, whatever is moved,
+/// sized and chosen.
 #[test]
 fn any_two_views_are_subtracted_pixel_by_pixel() {
     let mut random = Random(25);

@@ -73,7 +73,8 @@ fn a_line_is_drawn_and_its_ends_can_be_moved() {
     assert!(to.iter().all(|v| format!("{v}").len() < 9), "{to:?}");
 }
 
-/// The table of a drawn line is what `ppum sample` writes for it, and the plot has both sides of the crack.
+/// The table of a drawn line is what `ppum sample` writes for it, and the plot has both sides of
+/// the crack.
 #[test]
 fn a_line_has_the_values_that_the_program_samples() {
     let dataset = plate();
@@ -135,8 +136,9 @@ fn a_ray_has_the_exponent_of_the_singularity() {
     assert_eq!(plot.curves[0].label, "syy, slope −0.500");
 }
 
-/// Circles around a tip have the factors that the solver stores: on its own radius the same number, on others as near
-/// as its three radii are to each other, a hundred times their spread allowed for.
+/// Circles around a tip have the factors that the solver stores: on its own radius the same number,
+/// on others as near as its three radii are to each other, a hundred times their spread
+/// allowed for.
 #[test]
 fn circles_around_a_tip_have_its_factors() {
     let dataset = plate();

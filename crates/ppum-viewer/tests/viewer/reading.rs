@@ -117,7 +117,8 @@ fn a_tip_has_an_infinite_stress_and_a_finite_displacement() {
     assert!(hovered(&window).sides[0].value.is_finite());
 }
 
-/// In a view 10⁻¹² of the plate wide, around an anchor that is a tip, the value is that of `tip + offset`.
+/// In a view 10⁻¹² of the plate wide, around an anchor that is a tip, the value is that of
+/// `tip + offset`.
 #[test]
 fn deep_inside_no_digit_is_lost() {
     let dataset = plate();
@@ -241,8 +242,9 @@ fn what_is_read_is_copied_with_all_digits() {
     assert!(text.contains(&format!("uy = {value:?}")), "{text}");
 }
 
-/// On the deformed plate the point that is read is the one whose value the picture shows there, found by the renderer
-/// in quite another way; where the picture shows no plate, there is nothing to read.
+/// On the deformed plate the point that is read is the one whose value the picture shows there,
+/// found by the renderer in quite another way; where the picture shows no plate, there is nothing
+/// to read.
 #[test]
 fn the_deformed_plate_is_read_where_it_is_seen() {
     let mut window = window(plate(), SIZE);
@@ -288,7 +290,8 @@ fn the_deformed_plate_is_read_where_it_is_seen() {
     assert!(seen > 60 && missing > 20, "{seen} {missing}");
 }
 
-/// Wherever the pointer goes, in holes, outside, at tips, on deformed plates: a reading or none, never a panic.
+/// Wherever the pointer goes, in holes, outside, at tips, on deformed plates: a reading or none,
+/// never a panic.
 #[test]
 fn the_pointer_may_go_anywhere() {
     const ELASTIC: [&str; 7] = ["von-mises", "uy", "phi:3", "overlap", "1/x", "level", "sqrt(sxx)"];

@@ -308,8 +308,8 @@ fn places_that_nothing_can_show_are_the_whole_plate() {
     }
 }
 
-/// Colours, quantities, functions and parts that are not there: the window shows the plate without and tells it, a
-/// picture of it is refused.
+/// Colours, quantities, functions and parts that are not there: the window shows the plate without
+/// and tells it, a picture of it is refused.
 #[test]
 fn what_a_session_asks_in_vain_is_told() {
     let mut lab = Lab::new();

@@ -1,4 +1,5 @@
-//! Problems: mistakes at their places, solved in the background, stopped, refused, saved only when it is asked for.
+//! Problems: mistakes at their places, solved in the background, stopped, refused, saved only when
+//! it is asked for.
 
 use std::fs;
 use std::path::Path;
@@ -196,7 +197,8 @@ fn what_cannot_be_solved_is_refused_with_the_reason() {
     assert!(lab.dataset(0).is_none());
 }
 
-/// The text goes into its file when that is asked for, and not before; one that changes on disk is taken, unless both have.
+/// The text goes into its file when that is asked for, and not before; one that changes on disk is
+/// taken, unless both have.
 #[test]
 fn the_file_is_written_when_it_is_saved() {
     let mut lab = lab(&text(3));
@@ -298,7 +300,8 @@ fn a_problem_has_room_in_a_small_window() {
     }
 }
 
-/// Loads whose solution no number holds: the words are those of `ppum solve`, and what was solved before can be saved.
+/// Loads whose solution no number holds: the words are those of `ppum solve`, and what was solved
+/// before can be saved.
 #[test]
 fn a_solution_that_is_not_finite_is_none() {
     let mut lab = lab(&text(2));
@@ -394,7 +397,8 @@ fn no_solution_is_lost_without_a_word() {
     assert_eq!(ppum_format::read(&lab.path("plate.h5")).expect("a dataset"), *solved);
 }
 
-/// Whatever is done by a key, a menu or the palette: a solution that no file has, and one that is computed, go by no action alone.
+/// Whatever is done by a key, a menu or the palette: a solution that no file has, and one that is
+/// computed, go by no action alone.
 #[test]
 fn no_action_loses_a_solution_unasked() {
     let mut lab = lab(&text(2));

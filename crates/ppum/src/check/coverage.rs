@@ -1,9 +1,10 @@
 //! The supports of a partition cover its cells, and not just by their rims.
 //!
-//! Functions of the partition of unity are quotients of weights, φ = W / Σ W. Where all weights are near zero, as in a thin
-//! strip that two supports share, gradients grow like 1/thickness and lose digits twice; where all are zero there is no
-//! value. So each point of a cell has |s| ≤ [`CORE`] for some patch, s the position in its support in units of half extents.
-//! Cells with their own supports, 1.01 times as large or more, obey at once. For others a line sweeps over the plane.
+//! Functions of the partition of unity are quotients of weights, φ = W / Σ W. Where all weights are
+//! near zero, as in a thin strip that two supports share, gradients grow like 1/thickness and lose
+//! digits twice; where all are zero there is no value. So each point of a cell has |s| ≤ [`CORE`]
+//! for some patch, s the position in its support in units of half extents. Cells with their own
+//! supports, 1.01 times as large or more, obey at once. For others a line sweeps over the plane.
 
 use super::line::Line;
 use super::ranks::{Ranks, in_order};
@@ -12,8 +13,8 @@ use crate::dataset::BoxPartition;
 use crate::domain::Domain;
 use crate::vec2::{Rect, Vec2, vec2};
 
-/// The part of a support, in each direction, that counts as covered by it. Just more than 1/1.01, the cell of the
-/// least [`OVERLAP`](crate::cover::OVERLAP) of covers.
+/// The part of a support, in each direction, that counts as covered by it. Just more than 1/1.01,
+/// the cell of the least [`OVERLAP`](crate::cover::OVERLAP) of covers.
 const CORE: f64 = 0.991;
 
 /// Checks that supports cover cells that tile the domain.
@@ -43,7 +44,8 @@ fn uncovered(boxes: impl Iterator<Item = Rect>, bounds: &Rect) -> Option<Vec2> {
     let y = Ranks::new(corners().map(|p| p.y), 0.0);
     let column = |at: f64| x.up_to(at) - 1;
     let row = |at: f64| y.up_to(at) as usize - 1;
-    // minus the number of boxes that cover an interval between two borders; what lies beyond the last is of no concern
+    // minus the number of boxes that cover an interval between two borders; what lies beyond the
+    // last is of no concern
     let mut line = Line::new(y.len());
     line.add(row(bounds.max.y), y.len().next_power_of_two(), -1);
     let mut at = 0;
@@ -70,7 +72,8 @@ mod tests {
 
     const BOX: Rect = Rect::new(vec2(-1.0, 0.1), vec2(2.0, 1.6));
 
-    /// Boxes of random sizes on a lattice, so that borders coincide, against the middles of the lattice's cells.
+    /// Boxes of random sizes on a lattice, so that borders coincide, against the middles of the
+    /// lattice's cells.
     #[test]
     fn what_is_uncovered_is_found() {
         let (mut random, mut covered) = (Random(3), 0);

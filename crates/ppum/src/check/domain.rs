@@ -3,8 +3,8 @@
 use super::{Checked, Errors, check_box, check_number, check_points, require};
 use crate::domain::{Domain, Hole};
 
-/// Most circles and corners of polygons that holes may have together: whether a point lies in a hole
-/// asks all of them.
+/// Most circles and corners of polygons that holes may have together: whether a point lies in a
+/// hole asks all of them.
 const MAX_RIMS: usize = 1 << 14;
 
 pub(super) fn check(domain: &Domain, errors: &mut Errors) {

@@ -99,7 +99,8 @@ fn check_spaces(field: &FieldData, step: &Step) -> Checked {
     })
 }
 
-/// Each block has coefficients of its own: blocks that shared them could ask for far more than a file holds.
+/// Each block has coefficients of its own: blocks that shared them could ask for far more than a
+/// file holds.
 fn check_offsets(field: &FieldData) -> Checked {
     let count = field.coefficients.first().map_or(0, Vec::len) as u64;
     let offsets = &field.block_offset;

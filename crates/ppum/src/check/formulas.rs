@@ -14,8 +14,8 @@ use crate::quantity::{QuantityFormula, Vocabulary, names};
 use crate::weight::WeightFunction;
 use ppum_formula::{Formula, Scope, ScopeError, Table, VARIABLES};
 
-/// Checks names of tables, then all formulas but those of quantities, which need checked fields. True if there
-/// is nothing wrong with them.
+/// Checks names of tables, then all formulas but those of quantities, which need checked fields.
+/// True if there is nothing wrong with them.
 pub(super) fn check(dataset: &Dataset, errors: &mut Errors) -> bool {
     let tables = &dataset.tables;
     let few = errors.add(at_most("tables", tables.len(), MAX_TABLES, "tables"));
@@ -75,8 +75,8 @@ fn check_functions(step: &Step, tables: &[Arc<Table>]) -> Checked {
     fail(&format!("functions[{}].{part}", error.index), error.source.to_string())
 }
 
-/// Checks the quantities that a dataset names: names of their own, and formulas of the first field of
-/// each step, which may use the quantities before them.
+/// Checks the quantities that a dataset names: names of their own, and formulas of the first field
+/// of each step, which may use the quantities before them.
 pub(super) fn check_quantities(dataset: &Dataset, errors: &mut Errors) {
     let all = || {
         check_quantity_names(dataset)?;
@@ -115,7 +115,8 @@ fn check_quantity_texts(dataset: &Dataset) -> Checked {
     Ok(())
 }
 
-/// True for fields whose number of components is no error: what names of thousands mean takes too long to say.
+/// True for fields whose number of components is no error: what names of thousands mean takes too
+/// long to say.
 fn is_bounded(field: &&FieldData) -> bool {
     field.components.len() <= MAX_COMPONENTS
 }

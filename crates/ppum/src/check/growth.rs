@@ -7,7 +7,8 @@ use crate::crack::tips;
 use crate::dataset::Step;
 use crate::growth::Advance;
 
-/// The rows belong to tips of the step, each to another; lengths are none or positive, everything but strengths is finite.
+/// The rows belong to tips of the step, each to another; lengths are none or positive, everything
+/// but strengths is finite.
 pub(super) fn check_growth(step: &Step, errors: &mut Errors) {
     let Some(growth) = &step.growth else { return };
     if growth.cycles.is_some_and(|cycles| !(cycles >= 0.0 && cycles.is_finite())) {

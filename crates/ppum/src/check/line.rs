@@ -1,6 +1,7 @@
 //! Sums over the intervals of a line that sweeps over the plane, of which the largest is known.
 
-/// Sums over the intervals of a line: a tree whose nodes know what was added to all below them, and the largest sum there.
+/// Sums over the intervals of a line: a tree whose nodes know what was added to all below them, and
+/// the largest sum there.
 pub(super) struct Line {
     leaves: usize,
     added: Vec<i64>,

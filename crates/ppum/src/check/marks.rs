@@ -1,6 +1,7 @@
 //! Marks on a row of places, the nearest of which is found at once.
 
-/// Marks on the places up to a bound: bits, and above each 64 words of them a word that says which are not zero.
+/// Marks on the places up to a bound: bits, and above each 64 words of them a word that says which
+/// are not zero.
 pub(super) struct Marks {
     levels: Vec<Vec<u64>>,
 }

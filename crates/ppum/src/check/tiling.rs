@@ -1,7 +1,8 @@
 //! The cells of a partition tile the box of the domain; where holes are, cells may be missing.
 //!
-//! A line sweeps over the box from left to right. What it crosses is a list of intervals in y, each of a cell or
-//! of a gap, and it changes only where a cell begins or ends: linear in n cells, but for the sorting of different borders.
+//! A line sweeps over the box from left to right. What it crosses is a list of intervals in y, each
+//! of a cell or of a gap, and it changes only where a cell begins or ends: linear in n cells, but
+//! for the sorting of different borders.
 
 use super::marks::Marks;
 use super::ranks::{Ranks, in_order};
@@ -10,20 +11,23 @@ use crate::dataset::BoxPartition;
 use crate::domain::{Domain, Hole};
 use crate::vec2::{Rect, Vec2, vec2};
 
-/// Borders nearer to each other than this part of the box are one: rounding. The smallest cells of a cover are
-/// 2⁻³⁰ of its largest.
+/// Borders nearer to each other than this part of the box are one: rounding. The smallest cells of
+/// a cover are 2⁻³⁰ of its largest.
 const ROUNDING: f64 = 1e-12;
 
-/// Most circles and sides of holes that are looked at for the gaps of a partition, the largest gaps first.
+/// Most circles and sides of holes that are looked at for the gaps of a partition, the largest
+/// gaps first.
 const LOOKS: usize = 1 << 26;
 
 /// Places of a gap that are looked at in each direction, as parts of its size.
 const PLACES: [f64; 3] = [1.0 / 16.0, 0.5, 15.0 / 16.0];
 
-/// Farthest a place of a gap may lie beside a hole, as part of the gap's size: rims belong to the domain.
+/// Farthest a place of a gap may lie beside a hole, as part of the gap's size: rims belong to
+/// the domain.
 const BESIDE: f64 = 1e-9;
 
-/// Checks that cells, which are boxes, lie in the domain's box, do not overlap, and leave no gap beside holes.
+/// Checks that cells, which are boxes, lie in the domain's box, do not overlap, and leave no gap
+/// beside holes.
 pub(super) fn check(partition: &BoxPartition, domain: &Domain) -> Checked {
     let layout = Layout::new(&partition.cell, &domain.bounds)?;
     if layout.covers_once() {
@@ -85,8 +89,8 @@ impl Layout {
         Rect::new(vec2(self.x.at(x0), self.y.at(y0)), vec2(self.x.at(x1), self.y.at(y1)))
     }
 
-    /// True if each interval between two borders in both directions is covered once. Of covers with many different
-    /// borders that is not asked.
+    /// True if each interval between two borders in both directions is covered once. Of covers with
+    /// many different borders that is not asked.
     fn covers_once(&self) -> bool {
         let [width, height] = [&self.x, &self.y].map(Borders::intervals);
         let all = width * height;
@@ -145,7 +149,8 @@ fn corners(b: &Rect) -> String {
     format!("({}, {}) to ({}, {})", b.min.x, b.min.y, b.max.x, b.max.y)
 }
 
-/// The borders of cells and of the box in one direction, increasing; those that rounding parts are one.
+/// The borders of cells and of the box in one direction, increasing; those that rounding parts
+/// are one.
 struct Borders {
     ranks: Ranks,
     /// Those of the box.

@@ -1,7 +1,7 @@
 //! Bounds of the work of an evaluation at a point.
 //!
-//! A small file can say that a hundred thousand patches lie over each other. Every command evaluates at points, so what
-//! a point takes is bounded here, once, and all others rely on it.
+//! A small file can say that a hundred thousand patches lie over each other. Every command
+//! evaluates at points, so what a point takes is bounded here, once, and all others rely on it.
 
 use super::line::Line;
 use super::ranks::{Ranks, in_order};
@@ -12,11 +12,11 @@ use crate::mesh::{Clip, Mesh};
 use crate::vec2::{Rect, Vec2, vec2};
 use crate::weight::WeightFunction;
 
-/// Most that an evaluation at a point may take: coefficients of the blocks of all patches that cover it, operations of
-/// weights and functions, segments of cracks.
+/// Most that an evaluation at a point may take: coefficients of the blocks of all patches that
+/// cover it, operations of weights and functions, segments of cracks.
 ///
-/// A patch of order 2 with jump and tip functions takes 50, one of order 8 some 500, and graded covers have up to thirty
-/// patches over a point. A crack of 100,000 vertices may cut through.
+/// A patch of order 2 with jump and tip functions takes 50, one of order 8 some 500, and graded
+/// covers have up to thirty patches over a point. A crack of 100,000 vertices may cut through.
 const MOST_WORK: u64 = 1 << 18;
 
 /// Cost of a patch beside its blocks: finding it, its weight.
@@ -98,10 +98,11 @@ fn weight(partition: &BoxPartition) -> usize {
 /// Most parts of the plane in each direction.
 const PARTS: usize = 1 << 10;
 
-/// Equal parts of the plane, about as many as there are patches, with the works of the boxes that reach into each: at no
-/// point of a part there is more. Most covers are known to be fine by this.
+/// Equal parts of the plane, about as many as there are patches, with the works of the boxes that
+/// reach into each: at no point of a part there is more. Most covers are known to be fine by this.
 struct Parts {
-    /// The changes of the sums from each part to the next in both directions, with a row and a column more at the end.
+    /// The changes of the sums from each part to the next in both directions, with a row and a
+    /// column more at the end.
     changes: Vec<i64>,
     stride: usize,
     from: Vec2,
@@ -146,8 +147,8 @@ impl Parts {
     }
 }
 
-/// A point at which the works of the boxes over it are too much together; half-open boxes do not touch. A line sweeps
-/// over the plane from left to right. O(n log n).
+/// A point at which the works of the boxes over it are too much together; half-open boxes do not
+/// touch. A line sweeps over the plane from left to right. O(n log n).
 fn too_much(boxes: &[(Rect, u64)]) -> Option<Vec2> {
     let x = Ranks::new(boxes.iter().flat_map(|(b, _)| [b.min.x, b.max.x]), 0.0);
     let y = Ranks::new(boxes.iter().flat_map(|(b, _)| [b.min.y, b.max.y]), 0.0);

@@ -4,12 +4,13 @@ use super::{Cover, CoverError, Node, Place};
 use crate::vec2::{Rect, Vec2};
 
 impl Cover {
-    /// The cover whose cells are twice as wide as the ones of this cover in their places, as far as balance allows; none
-    /// if this one is a single cell.
+    /// The cover whose cells are twice as wide as the ones of this cover in their places, as far as
+    /// balance allows; none if this one is a single cell.
     ///
-    /// A grid of root cells becomes one of half as many in each direction, with the depths of the trees kept; where it
-    /// is one cell wide, four sibling leaves become one. Each cell holds whole cells of this cover. So where a number is odd the
-    /// last cells reach beyond the domain: it grows by one cell. Points that generated cells are forgotten.
+    /// A grid of root cells becomes one of half as many in each direction, with the depths of the
+    /// trees kept; where it is one cell wide, four sibling leaves become one. Each cell holds whole
+    /// cells of this cover. So where a number is odd the last cells reach beyond the domain: it
+    /// grows by one cell. Points that generated cells are forgotten.
     #[must_use]
     pub fn coarser(&self) -> Option<Self> {
         let [columns, rows] = self.grid.roots;
@@ -106,7 +107,8 @@ mod tests {
         assert!(cover.coarser().is_none());
     }
 
-    /// Odd numbers: the last cells reach beyond the domain, which has the corners (−1, 0) and (2, 1.5).
+    /// Odd numbers: the last cells reach beyond the domain, which has the corners (−1, 0) and
+    /// (2, 1.5).
     #[test]
     fn grids_have_half_as_many_cells_in_each_direction() {
         for (cells, coarse, end) in [
@@ -128,8 +130,8 @@ mod tests {
         }
     }
 
-    /// Towards a point: each cell of the coarser cover holds cells no wider than itself, and half of them at least are
-    /// less wide; the cover stays balanced; in the end there is one cell.
+    /// Towards a point: each cell of the coarser cover holds cells no wider than itself, and half
+    /// of them at least are less wide; the cover stays balanced; in the end there is one cell.
     #[test]
     fn graded_covers_become_coarser_everywhere() {
         for roots in [[1, 1], [4, 2], [5, 3]] {

@@ -45,8 +45,8 @@ impl Grid {
 
     /// Position of grid line `k` of `level`: (min (n − k) + max k) / n with n lines in all.
     ///
-    /// k and n are exact in f64, and going down a level doubles both and so changes no bit. Exact on
-    /// lattices that f64 can hold, mirrored domains have mirrored lines.
+    /// k and n are exact in f64, and going down a level doubles both and so changes no bit. Exact
+    /// on lattices that f64 can hold, mirrored domains have mirrored lines.
     fn border(&self, axis: usize, k: u64, level: u8) -> f64 {
         let [min, max]: [f64; 2] = match axis {
             0 => [self.domain.min.x, self.domain.max.x],

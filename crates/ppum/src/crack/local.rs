@@ -4,8 +4,9 @@
 //! formed once, in f64, without cancellation; evaluation adds the offset only. So a view
 //! 10⁻¹² of the domain wide has no noise, at a tip, at a kink or in the middle of an oblique crack.
 //!
-//! Points that are known to lie on a segment are seen [on it](LocalCrack::on): there the distance is zero
-//! however their coordinates were rounded, and the [`Side`] that is asked for is the one that is met.
+//! Points that are known to lie on a segment are seen [on it](LocalCrack::on): there the distance
+//! is zero however their coordinates were rounded, and the [`Side`] that is asked for is the one
+//! that is met.
 
 use super::{Crack, End, Side};
 use crate::compensated::cross;
@@ -20,8 +21,8 @@ pub struct LocalCrack {
 }
 
 /// One segment: coordinates of a point are `along` its line, from the anchor, and `distance` from
-/// it, positive on the left. The segment's ends are at `lo` and `hi` along it, each the small number
-/// it is when the anchor is near that end.
+/// it, positive on the left. The segment's ends are at `lo` and `hi` along it, each the small
+/// number it is when the anchor is near that end.
 #[derive(Clone, Copy, Debug)]
 pub struct LocalSegment {
     /// Unit vector along the segment.
@@ -63,7 +64,8 @@ impl LocalSegment {
         x.lit(self.tangent.x).mul_add(x, x.lit(self.tangent.y) * y)
     }
 
-    /// How far a point lies beyond the end of the segment, along it; negative before its begin, zero between them.
+    /// How far a point lies beyond the end of the segment, along it; negative before its begin,
+    /// zero between them.
     #[inline(always)]
     fn beyond<R: Real>(&self, offset: [R; 2]) -> R {
         let along = self.along(offset);
@@ -112,8 +114,8 @@ impl LocalCrack {
         sign(self.nearest_distance(offset), side)
     }
 
-    /// Both segments at a vertex name the same line behind it, and the one that is nearest beside that sector, so it
-    /// does not matter which of the two rounding takes for the nearer one.
+    /// Both segments at a vertex name the same line behind it, and the one that is nearest beside
+    /// that sector, so it does not matter which of the two rounding takes for the nearer one.
     #[inline(always)]
     fn nearest_distance<R: Real>(&self, offset: [R; 2]) -> R {
         let mut own = self.segments[0].distance_of(offset);
@@ -210,8 +212,8 @@ impl LocalTip {
 
     /// The point `anchor + offset` in the tip's frame.
     ///
-    /// In the region nearest to the tip's own segment the branch is +1 by construction: both signs come
-    /// from the same number.
+    /// In the region nearest to the tip's own segment the branch is +1 by construction: both signs
+    /// come from the same number.
     #[inline(always)]
     pub fn point<R: Real>(&self, offset: [R; 2], side: Side) -> TipPoint<R> {
         let one = offset[0].lit(1.0);
@@ -246,8 +248,8 @@ impl<R: Real> TipPoint<R> {
 
     /// √r cos(θ/2) and √r sin(θ/2), the parts of √z, for `r` = |z|: no trigonometry.
     ///
-    /// The larger of the two magnitudes is a root, the smaller follows by division, so nothing cancels
-    /// near θ = ±π. Both are zero at r = 0.
+    /// The larger of the two magnitudes is a root, the smaller follows by division, so nothing
+    /// cancels near θ = ±π. Both are zero at r = 0.
     #[inline(always)]
     pub fn half_root(&self, r: R) -> [R; 2] {
         let (zero, half) = (r.lit(0.0), r.lit(0.5));
@@ -260,7 +262,8 @@ impl<R: Real> TipPoint<R> {
         ]
     }
 
-    /// cos(θ/2) and sin(θ/2), from [`TipPoint::half_root`]; those of θ = 0 on the branch at `r` = 0.
+    /// cos(θ/2) and sin(θ/2), from [`TipPoint::half_root`]; those of θ = 0 on the branch at
+    /// `r` = 0.
     #[inline(always)]
     pub fn half_angle(&self, r: R) -> [R; 2] {
         let [c, s] = self.half_root(r);

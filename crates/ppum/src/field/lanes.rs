@@ -62,7 +62,8 @@ impl<const D: usize> Job<f64> for Over<'_, '_, D> {
 pub(super) const NOWHERE: Jet<f64> =
     Jet { v: f64::NAN, x: f64::NAN, y: f64::NAN, xx: f64::NAN, xy: f64::NAN, yy: f64::NAN };
 
-/// Writes the first lanes of a jet, with `D` derivatives and zeros for others, into every `stride`-th of `out`.
+/// Writes the first lanes of a jet, with `D` derivatives and zeros for others, into every
+/// `stride`-th of `out`.
 #[inline(always)]
 fn scatter<R: Real<Scalar = f64>, const D: usize>(
     jet: &Jet<R>,
@@ -90,9 +91,9 @@ impl LocalField<'_> {
     /// Evaluates at many points, vectorised over lanes: `out` holds the components of the first
     /// point, then those of the second, and so on; points outside the domain give NaN.
     ///
-    /// Points that follow each other should be near each other: lanes share the patches of all. So the
-    /// last digit of a value may depend on the points beside it: where a single patch covers a point, its
-    /// weight is left out, or, for the sake of its neighbours, multiplied and divided.
+    /// Points that follow each other should be near each other: lanes share the patches of all. So
+    /// the last digit of a value may depend on the points beside it: where a single patch covers a
+    /// point, its weight is left out, or, for the sake of its neighbours, multiplied and divided.
     ///
     /// # Panics
     /// If `out` is shorter than points × components.

@@ -70,7 +70,8 @@ impl<'f> LocalField<'f> {
     /// Evaluates all components at `anchor + offset` with `D` derivatives (0, 1 or 2).
     ///
     /// On a crack the field of the given side is taken. Returns false, and leaves `out` alone,
-    /// outside the domain. Cost: O(log N) to find the patches, then a few hundred operations a patch.
+    /// outside the domain. Cost: O(log N) to find the patches, then a few hundred operations
+    /// a patch.
     ///
     /// # Panics
     /// If `out` is shorter than the number of components.
@@ -98,7 +99,8 @@ impl<'f> LocalField<'f> {
         Some(self.mesh.as_ref()?.owner(offset, side)?.patch)
     }
 
-    /// True where the field was evaluated in the domain: on a mesh values say so, since finding the element is most of the work.
+    /// True where the field was evaluated in the domain: on a mesh values say so, since finding the
+    /// element is most of the work.
     #[must_use]
     pub(crate) fn has_values(&self, offset: Vec2, jets: &[Jet<f64>]) -> bool {
         match &self.mesh {
@@ -107,7 +109,8 @@ impl<'f> LocalField<'f> {
         }
     }
 
-    /// All components on the element that owns a point, and the number of its patch; `None` outside.
+    /// All components on the element that owns a point, and the number of its patch; `None`
+    /// outside.
     pub(super) fn on_mesh<const D: usize>(
         &self,
         offset: Vec2,
@@ -181,7 +184,8 @@ impl<'f> LocalField<'f> {
         }
     }
 
-    /// As [`over_patches`](Self::over_patches), lane by lane: NaN where none of the patches holds a point.
+    /// As [`over_patches`](Self::over_patches), lane by lane: NaN where none of the patches holds a
+    /// point.
     #[cold]
     fn over_elements<R: Real, const D: usize>(
         &self,
@@ -212,7 +216,8 @@ impl<'f> LocalField<'f> {
         }
     }
 
-    /// The parts of the elements among some patches: the owner's has the share 1, those of others 0.
+    /// The parts of the elements among some patches: the owner's has the share 1, those of
+    /// others 0.
     fn parts_of_mesh<const D: usize>(
         &self,
         mesh: &LocalMesh<'_>,
@@ -231,9 +236,9 @@ impl<'f> LocalField<'f> {
         }
     }
 
-    /// The parts φ_i and v_i of some patches at `anchor + offset`, which must be all that cover the point: what
-    /// [`over_patches`](Self::over_patches) sums up to v = Σ φ_i v_i. Of a field of more than two components the
-    /// first two.
+    /// The parts φ_i and v_i of some patches at `anchor + offset`, which must be all that cover the
+    /// point: what [`over_patches`](Self::over_patches) sums up to v = Σ φ_i v_i. Of a field of
+    /// more than two components the first two.
     pub fn parts<const D: usize>(
         &self,
         offset: Vec2,
@@ -262,8 +267,8 @@ impl<'f> LocalField<'f> {
         out.iter_mut().for_each(|part| part.share = part.share.over::<D>(weight_sum));
     }
 
-    /// The part W_i v_i of a sum, zero on the lanes that the patch does not cover: there v_i need not
-    /// have a value.
+    /// The part W_i v_i of a sum, zero on the lanes that the patch does not cover: there v_i need
+    /// not have a value.
     #[inline(always)]
     fn shared<R: Real, const D: usize>(
         &self,

@@ -1,8 +1,9 @@
 //! Evaluation of a field: v = Σ_i φ_i v_i with gradient and Hessian.
 //!
-//! A [`Field`] is a dataset's field at one step, compiled. [`Field::at`] looks at it from an anchor;
-//! points are `anchor + offset`. The weights, weight gradients and weighted local fields of the
-//! covering patches are summed and divided once (Üffinger et al. 2011, equations (4), (9), (10)):
+//! A [`Field`] is a dataset's field at one step, compiled. [`Field::at`] looks at it from an
+//! anchor; points are `anchor + offset`. The weights, weight gradients and weighted local fields of
+//! the covering patches are summed and divided once (Üffinger et al. 2011, equations (4),
+//! (9), (10)):
 //!
 //! ```text
 //! S = Σ W_i     U = Σ W_i v_i     u = U / S     ∇u = (∇U − u ∇S) / S
@@ -185,8 +186,8 @@ impl<'d> Field<'d> {
         LocalField::new(self, anchor, self.functions.at(&self.step.cracks, anchor))
     }
 
-    /// The field as seen from an anchor, for points on a segment of a crack: there an evaluation takes
-    /// the side of this crack that it is told, wherever rounding has put the points.
+    /// The field as seen from an anchor, for points on a segment of a crack: there an evaluation
+    /// takes the side of this crack that it is told, wherever rounding has put the points.
     ///
     /// # Panics
     /// If there is no such segment.

@@ -67,8 +67,8 @@ impl Formulas {
         self.compiled.formulas.len()
     }
 
-    /// Operations of an evaluation with the first derivatives, inputs and the segments of cracks whose sides
-    /// are needed counted too.
+    /// Operations of an evaluation with the first derivatives, inputs and the segments of cracks
+    /// whose sides are needed counted too.
     pub(super) fn cost(&self, cracks: &[Crack]) -> usize {
         let Compiled { jets, uses, .. } = &*self.compiled;
         let sides = cracks.iter().zip(&uses[POLAR..]).filter(|(_, used)| **used);
@@ -121,8 +121,8 @@ impl LocalFrame {
         }
     }
 
-    /// The point `anchor + offset` in the frame. In a fixed frame the negative x axis belongs to the
-    /// upper side, θ = +π.
+    /// The point `anchor + offset` in the frame. In a fixed frame the negative x axis belongs to
+    /// the upper side, θ = +π.
     #[inline(always)]
     fn point<R: Real>(&self, offset: [R; 2], side: Side) -> TipPoint<R> {
         match self {
@@ -161,7 +161,8 @@ pub(super) struct LocalFormulas<'t> {
 }
 
 thread_local! {
-    /// Memory for an evaluation at a point: allocating it each time would cost as much as the formulas.
+    /// Memory for an evaluation at a point: allocating it each time would cost as much as
+    /// the formulas.
     static WORKSPACE: RefCell<Workspace> = RefCell::default();
 }
 

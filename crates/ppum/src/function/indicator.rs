@@ -1,8 +1,9 @@
 //! Indicator functions of connected components of what cracks leave of a patch.
 //!
-//! Cracks that meet cut a patch into more parts than their sides tell apart: behind a branch, or beyond a crack's end
-//! on another one, the side of a crack jumps where the field does not. The indicator function of a component jumps on
-//! the component's own faces only. It is a tree of cuts, each by the straight line of one segment of a crack:
+//! Cracks that meet cut a patch into more parts than their sides tell apart: behind a branch, or
+//! beyond a crack's end on another one, the side of a crack jumps where the field does not. The
+//! indicator function of a component jumps on the component's own faces only. It is a tree of cuts,
+//! each by the straight line of one segment of a crack:
 //!
 //! ```text
 //!              segment 0 of crack 0
@@ -91,7 +92,8 @@ impl LocalIndicator {
 
     /// 1 in the component, 0 elsewhere; `side` decides on the lines of the cuts.
     ///
-    /// A cut stands before those that follow from it, so one pass over the tree brings every lane to its part.
+    /// A cut stands before those that follow from it, so one pass over the tree brings every lane
+    /// to its part.
     #[inline(always)]
     pub(super) fn value<R: Real>(&self, offset: [R; 2], side: Side) -> R {
         let (zero, one) = (offset[0].lit(0.0), offset[0].lit(1.0));

@@ -36,9 +36,11 @@ pub enum FunctionKind {
         /// Index of the crack.
         crack: u32,
     },
-    /// f = 1 on one connected component of what cracks leave of a patch, 0 on the others: a jump where cracks meet.
+    /// f = 1 on one connected component of what cracks leave of a patch, 0 on the others: a jump
+    /// where cracks meet.
     Component {
-        /// The component's tree: the first cut is the root, each other one stands behind the one it follows from.
+        /// The component's tree: the first cut is the root, each other one stands behind the one it
+        /// follows from.
         cuts: Vec<Cut>,
     },
     /// f = ±1, the sign of a level field of a mesh.
@@ -88,7 +90,8 @@ pub struct Declared {
     pub singular: Vec<Vec2>,
 }
 
-/// The coordinates of a formula. In each of them r = √(x² + y²) and θ ∈ \[−π, π\] is the polar angle.
+/// The coordinates of a formula. In each of them r = √(x² + y²) and θ ∈ \[−π, π\] is the
+/// polar angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Frame {
@@ -101,10 +104,10 @@ pub enum Frame {
         /// Angle of the x axis, radians.
         angle: f64,
     },
-    /// A crack tip: origin at the tip, x along the direction of growth; θ jumps on the crack itself,
-    /// kinks included.
+    /// A crack tip: origin at the tip, x along the direction of growth; θ jumps on the crack
+    /// itself, kinks included.
     Tip(TipId),
-    /// Two level fields of a mesh, as indices of the step's fields, are x and y: the distances along an interpolated crack
-    /// and from it. θ jumps where y = 0 and x < 0.
+    /// Two level fields of a mesh, as indices of the step's fields, are x and y: the distances
+    /// along an interpolated crack and from it. θ jumps where y = 0 and x < 0.
     Levels([u32; 2]),
 }

@@ -4,8 +4,8 @@ use crate::crack::{Crack, LocalCrack, LocalSegment, LocalTip, SegmentId, TipId};
 use crate::segment::Segment;
 use crate::vec2::Vec2;
 
-/// Distance of the ends of a segment from a line, in parts of its length, within which it lies on the line: ends
-/// meant to be there are rounded.
+/// Distance of the ends of a segment from a line, in parts of its length, within which it lies on
+/// the line: ends meant to be there are rounded.
 const COLLINEAR: f64 = 1e-9;
 
 /// Cracks seen from an anchor.
@@ -34,7 +34,8 @@ impl Seen<'_> {
         }
     }
 
-    /// The line of a segment, and whether all points lie on it along a segment that runs the other way.
+    /// The line of a segment, and whether all points lie on it along a segment that runs the
+    /// other way.
     pub(super) fn line(&self, id: SegmentId) -> (LocalSegment, bool) {
         let [a, b] = self.ends(id);
         let line = LocalSegment::new(a, b, self.anchor);

@@ -1,7 +1,8 @@
 //! A step's functions, ready to be evaluated.
 //!
-//! Functions that share their geometry form a *group* and are evaluated at once: the side of a crack, a
-//! component's indicator, the four Westergaard functions of a tip, formulas in one frame that follow each other.
+//! Functions that share their geometry form a *group* and are evaluated at once: the side of a
+//! crack, a component's indicator, the four Westergaard functions of a tip, formulas in one frame
+//! that follow each other.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
@@ -53,7 +54,8 @@ enum Group {
     Formulas(Formulas),
 }
 
-/// How a group of functions depends on the level fields of a mesh: the patch that holds a point evaluates them.
+/// How a group of functions depends on the level fields of a mesh: the patch that holds a point
+/// evaluates them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LevelUse {
     /// It is the sign of this one.
@@ -100,13 +102,16 @@ pub struct TooLarge {
 
 /// Bytes of all formulas of a table.
 const MAX_TEXT: usize = 1 << 22;
-/// Names that the formulas of a table know: cracks, tables and parameters, counted for each function.
+/// Names that the formulas of a table know: cracks, tables and parameters, counted for
+/// each function.
 const MAX_NAMES: usize = 1 << 20;
-/// Parameters of a function: each is compared with all others, and looked for wherever a formula has a name.
+/// Parameters of a function: each is compared with all others, and looked for wherever a formula
+/// has a name.
 const MAX_PARAMETERS: usize = 1 << 10;
 /// Operations of all different formulas of a table with two derivatives: a hundred megabytes.
 const MAX_OPERATIONS: usize = 1 << 20;
-/// Operations that each different formula counts as beside its own: what it takes to compile and keep even `x`.
+/// Operations that each different formula counts as beside its own: what it takes to compile and
+/// keep even `x`.
 const FORMULA: usize = 32;
 
 impl FunctionTable {
@@ -122,8 +127,8 @@ impl FunctionTable {
         Compiler { kernels: true, ..Compiler::new(cracks, tables) }.compile(functions)
     }
 
-    /// Like [`FunctionTable::new`], but formulas are evaluated as such where there is a native kernel
-    /// for them too.
+    /// Like [`FunctionTable::new`], but formulas are evaluated as such where there is a native
+    /// kernel for them too.
     ///
     /// # Errors
     /// A formula that does not parse.
@@ -157,8 +162,8 @@ impl FunctionTable {
         }
     }
 
-    /// Cost of an evaluation of a group with its first derivatives: operations, and segments of cracks.
-    /// What every group costs is in it.
+    /// Cost of an evaluation of a group with its first derivatives: operations, and segments of
+    /// cracks. What every group costs is in it.
     ///
     /// # Panics
     /// If the cracks are not those of the table's step.
@@ -191,9 +196,9 @@ impl FunctionTable {
         LocalFunctions::new(self, Seen { cracks, anchor, on: None })
     }
 
-    /// The table as seen from an anchor, for points that lie on a segment of a crack: what depends on
-    /// that crack is evaluated on it, on the side that is asked for, wherever rounding has put the points.
-    /// All else goes by their position.
+    /// The table as seen from an anchor, for points that lie on a segment of a crack: what depends
+    /// on that crack is evaluated on it, on the side that is asked for, wherever rounding has put
+    /// the points. All else goes by their position.
     ///
     /// # Panics
     /// If there is no such segment.
@@ -370,16 +375,16 @@ impl<'a> Compiler<'a> {
     }
 }
 
-/// The tip and index if a formula is one of the [Westergaard functions](WESTERGAARD) in a tip's frame:
-/// then [`westergaard()`] evaluates it.
+/// The tip and index if a formula is one of the [Westergaard functions](WESTERGAARD) in a tip's
+/// frame: then [`westergaard()`] evaluates it.
 #[must_use]
 pub fn native(text: &str, frame: Frame) -> Option<(TipId, u32)> {
     let Frame::Tip(tip) = frame else { return None };
     (0..).zip(WESTERGAARD).find(|(_, known)| *known == text).map(|(k, _)| (tip, k))
 }
 
-/// The names that the formula of a function may use: x, y, r, theta of its frame, its parameters, the sides of
-/// the step's cracks, the tables.
+/// The names that the formula of a function may use: x, y, r, theta of its frame, its parameters,
+/// the sides of the step's cracks, the tables.
 ///
 /// # Errors
 /// Parameters or tables whose names are none or clash.
@@ -395,8 +400,8 @@ pub fn function_scope(
 
 /// The functions of a step seen from an anchor.
 ///
-/// A step may have far more functions than are needed near an anchor, so each is formed when it is first asked
-/// for, and the places for them are made in pages.
+/// A step may have far more functions than are needed near an anchor, so each is formed when it is
+/// first asked for, and the places for them are made in pages.
 #[derive(Clone, Debug)]
 pub struct LocalFunctions<'t> {
     table: &'t FunctionTable,
@@ -472,8 +477,8 @@ impl<'t> LocalFunctions<'t> {
         }
     }
 
-    /// Fills the jets of a group of formulas at a point that is known in their frame too, with derivatives by x and y of the
-    /// frame [of level fields](Frame::Levels).
+    /// Fills the jets of a group of formulas at a point that is known in their frame too, with
+    /// derivatives by x and y of the frame [of level fields](Frame::Levels).
     pub(crate) fn evaluate_in_frame<R: Real, const D: usize>(
         &self,
         group: usize,
@@ -507,8 +512,9 @@ impl<'t> LocalFunctions<'t> {
         }
     }
 
-    /// The tip of a group, if its functions are the four of [`westergaard()`]: [`at_tip`] evaluates them. Who knows this before a
-    /// loop over points spares the loop the choice, and keeps the functions in registers.
+    /// The tip of a group, if its functions are the four of [`westergaard()`]: [`at_tip`] evaluates
+    /// them. Who knows this before a loop over points spares the loop the choice, and keeps the
+    /// functions in registers.
     #[inline(always)]
     #[must_use]
     pub fn tip(&self, group: usize) -> Option<&LocalTip> {

@@ -7,7 +7,8 @@ use ppum_formula::real::Real;
 /// The four functions of [`WESTERGAARD`](super::WESTERGAARD) with derivatives in the tip's frame.
 ///
 /// Half-angle algebra on z^½ = √r e^{iθ/2}: two square roots and two divisions, no trigonometry.
-/// Nothing cancels near θ = ±π, see [`TipPoint::half_root`]. At r = 0 the values are zero and the derivatives NaN: they do not exist.
+/// Nothing cancels near θ = ±π, see [`TipPoint::half_root`]. At r = 0 the values are zero and the
+/// derivatives NaN: they do not exist.
 #[inline(always)]
 pub fn westergaard<R: Real, const D: usize>(p: &TipPoint<R>) -> [Jet<R>; 4] {
     let r = p.x.mul_add(p.x, p.y * p.y).sqrt();

@@ -1,4 +1,5 @@
-//! The field on one element: polynomials of ξ, functions of the world and of level fields, the chain rule.
+//! The field on one element: polynomials of ξ, functions of the world and of level fields, the
+//! chain rule.
 
 use super::local::{LocalMesh, Location, Near};
 use crate::crack::{Side, TipPoint};
@@ -144,7 +145,8 @@ pub(super) struct At<R> {
 }
 
 impl<R: Real> At<R> {
-    /// +1 where a level field is positive, −1 where it is negative; where it is zero, that of the side.
+    /// +1 where a level field is positive, −1 where it is negative; where it is zero, that of
+    /// the side.
     #[inline(always)]
     fn sign(&self, level: R) -> R {
         let (zero, one) = (level.lit(0.0), level.lit(1.0));
@@ -156,7 +158,8 @@ impl<R: Real> At<R> {
     }
 }
 
-/// The chain rule from ξ to the world: G = DM⁻¹, ∇v = Gᵀ ∇_ξ v, ∇²v = Gᵀ (∇²_ξ v − Σ_i ∂v/∂x_i ∇²_ξ x_i) G.
+/// The chain rule from ξ to the world: G = DM⁻¹, ∇v = Gᵀ ∇_ξ v, ∇²v = Gᵀ (∇²_ξ v − Σ_i ∂v/∂x_i ∇²_ξ
+/// x_i) G.
 struct World<R> {
     image: [Jet<R>; 2],
     /// Gᵀ in rows.

@@ -1,7 +1,8 @@
 //! A mesh as seen from an anchor: who owns a point.
 //!
-//! An element beside the anchor is seen from the ξ of the anchor: its map, its blocks and its level fields are polynomials in
-//! δ = ξ − at, and M(at + δ) − M(at) has no constant, so offsets of any size are solved without cancellation.
+//! An element beside the anchor is seen from the ξ of the anchor: its map, its blocks and its level
+//! fields are polynomials in δ = ξ − at, and M(at + δ) − M(at) has no constant, so offsets of any
+//! size are solved without cancellation.
 
 use std::collections::BTreeMap;
 
@@ -14,8 +15,8 @@ use crate::dataset::FieldData;
 use crate::field::Field;
 use crate::vec2::{Rect, Vec2};
 
-/// Part of its own size by which the box of an element is larger than what holds it: who looks for the elements at an
-/// anchor finds those beside it, too.
+/// Part of its own size by which the box of an element is larger than what holds it: who looks for
+/// the elements at an anchor finds those beside it, too.
 const BESIDE: f64 = 1.0 / 32.0;
 
 /// A box that holds a patch and what lies beside it.
@@ -43,8 +44,8 @@ pub(super) struct Near {
     pub(super) inverse: Inverse,
     /// anchor − origin − M(at): what rounding leaves.
     rest: [Pair; 2],
-    /// The fields that are used, by their index: coefficients in δ of the patch's blocks, for each component one block after
-    /// the other.
+    /// The fields that are used, by their index: coefficients in δ of the patch's blocks, for each
+    /// component one block after the other.
     fields: BTreeMap<usize, Vec<f64>>,
 }
 
@@ -99,8 +100,8 @@ impl<'f> LocalMesh<'f> {
         self.first(side, all.map(|candidate| self.location(&candidate, offset, None)))
     }
 
-    /// The first of some places that lies in its patch; if none does, the one that misses it by the least, by no more than
-    /// rounding.
+    /// The first of some places that lies in its patch; if none does, the one that misses it by the
+    /// least, by no more than rounding.
     #[inline]
     pub(super) fn first<'m>(
         &self,

@@ -1,4 +1,5 @@
-//! Many points: each one's owner first, beginning with the place of its neighbour, then those of one patch on lanes.
+//! Many points: each one's owner first, beginning with the place of its neighbour, then those of
+//! one patch on lanes.
 
 use super::evaluate::At;
 use super::local::{Candidate, LocalMesh, Location};
@@ -17,7 +18,8 @@ const NOWHERE: Jet<f64> =
     Jet { v: f64::NAN, x: f64::NAN, y: f64::NAN, xx: f64::NAN, xy: f64::NAN, yy: f64::NAN };
 
 impl LocalMesh<'_> {
-    /// The field at many points, components of one after those of the other; NaN outside. Fastest for points near each other.
+    /// The field at many points, components of one after those of the other; NaN outside. Fastest
+    /// for points near each other.
     pub(crate) fn evaluate_many<const D: usize>(
         &self,
         functions: &LocalFunctions<'_>,

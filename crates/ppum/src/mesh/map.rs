@@ -1,8 +1,8 @@
 //! The map of one element: x = M(ξ), its derivatives, its inverse.
 //!
-//! Inversion is by Newton's method from the linear part. Where that does not find a ξ of the shape, the shape is halved again
-//! and again. On a part with the centre c and the half-width s let J be DM(c) and N the terms of higher degree in
-//! u = (ξ − c)/s, each c_k times J⁻¹:
+//! Inversion is by Newton's method from the linear part. Where that does not find a ξ of the shape,
+//! the shape is halved again and again. On a part with the centre c and the half-width s let J be
+//! DM(c) and N the terms of higher degree in u = (ξ − c)/s, each c_k times J⁻¹:
 //!
 //! ```text
 //! κ = Σ |J⁻¹ c_k|     |u − J⁻¹ (t − M(c))| ≤ κ for every solution u of the part          (nothing here: leave it)
@@ -19,7 +19,8 @@ use ppum_formula::real::Real;
 /// Most coefficients: those of Q_8.
 const MOST: usize = 81;
 
-/// A point owns a patch if its ξ lies no farther outside the shape than this, and no other patch holds it.
+/// A point owns a patch if its ξ lies no farther outside the shape than this, and no other patch
+/// holds it.
 pub(super) const TOLERANCE: f64 = 1e-11;
 
 /// Largest contraction L that is iterated.
@@ -223,8 +224,8 @@ impl Inverse {
         Some(Self { map, matrix, kappa, lipschitz })
     }
 
-    /// A ξ of the shape, or beside it, with M(ξ) = t, for t and its rounding error. Newton's method begins at `start`, if that is
-    /// known.
+    /// A ξ of the shape, or beside it, with M(ξ) = t, for t and its rounding error. Newton's method
+    /// begins at `start`, if that is known.
     #[inline]
     pub(super) fn at(
         &self,

@@ -7,8 +7,8 @@
 //! v(x) = Σ_b f_b(x) P_b(ξ)        x = origin + M(ξ)        ξ in the reference shape
 //! ```
 //!
-//! A cut element is two patches with the same map and opposite clips: one where a level field is ≥ 0,
-//! one where it is < 0.
+//! A cut element is two patches with the same map and opposite clips: one where a level field is ≥
+//! 0, one where it is < 0.
 
 mod evaluate;
 mod local;
@@ -28,7 +28,8 @@ pub use shape::Shape;
 /// Steps of Newton's method for the place of a point in an element.
 const NEWTON: usize = 4;
 
-/// The elements of a mesh as patches. Structure of arrays; vectors have one entry per patch where nothing else is said.
+/// The elements of a mesh as patches. Structure of arrays; vectors have one entry per patch where
+/// nothing else is said.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// The reference shapes.
@@ -87,7 +88,8 @@ impl Mesh {
         [&self.map[0][range.clone()], &self.map[1][range]]
     }
 
-    /// A box that holds the patch: |ξ|, |η| ≤ 1, so no component is farther from the origin's than Σ |coefficient|.
+    /// A box that holds the patch: |ξ|, |η| ≤ 1, so no component is farther from the origin's than
+    /// Σ |coefficient|.
     #[must_use]
     pub fn bounds(&self, patch: usize) -> Rect {
         let [x, y] = self.map_of(patch).map(|c| c.iter().map(|c| c.abs()).sum());

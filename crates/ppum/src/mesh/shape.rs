@@ -34,8 +34,9 @@ impl Shape {
         }
     }
 
-    /// How far ξ = at + δ lies inside: min(ξ + ½, η + ½, ½ − ξ − η) of a triangle, 1 − max(|ξ|, |η|) of a square. The part
-    /// of `at` is formed first, so that tiny δ beside an edge keep their digits.
+    /// How far ξ = at + δ lies inside: min(ξ + ½, η + ½, ½ − ξ − η) of a triangle, 1 −
+    /// max(|ξ|, |η|) of a square. The part of `at` is formed first, so that tiny δ beside an edge
+    /// keep their digits.
     #[must_use]
     pub fn margin(self, at: [f64; 2], delta: [f64; 2]) -> f64 {
         let edge = |&[a, b, c]: &Edge| sum(a, b * at[0], c * at[1]) + (b * delta[0] + c * delta[1]);
@@ -70,7 +71,8 @@ fn sum(a: f64, b: f64, c: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Corners lie on two edges, the centroid inside, and nothing of the shape is left out by |ξ|, |η| ≤ 1.
+    /// Corners lie on two edges, the centroid inside, and nothing of the shape is left out
+    /// by |ξ|, |η| ≤ 1.
     #[test]
     fn corners_and_margins() {
         for (shape, inner, count) in [(Shape::Triangle, 0.5, 16), (Shape::Square, 1.0, 26)] {

@@ -1,7 +1,7 @@
 //! Polynomials as seen from another point: P(at + δ) in powers of δ, with twice the digits.
 //!
-//! Near a crack's tip or an edge values are differences of coefficients that nearly cancel; formed once with twice the digits,
-//! a view 10⁻¹⁵ of an element wide has no noise.
+//! Near a crack's tip or an edge values are differences of coefficients that nearly cancel; formed
+//! once with twice the digits, a view 10⁻¹⁵ of an element wide has no noise.
 
 use crate::compensated::{Pair, plus, product};
 use crate::dataset::MAX_DEGREE;

@@ -42,8 +42,8 @@ impl<'a> Vocabulary<'a> {
 
 /// A quantity as a formula, e.g. `sqrt(ux^2 + uy^2)` or `sxx - young*exx`.
 ///
-/// It may use the position `x`, `y`; the components and derivatives of the field, `ux`, `dux_dx`, …;
-/// the constants of the equation, `young`, `poisson`, `mu`, `lambda`, `out_of_plane` (= σ_zz /
+/// It may use the position `x`, `y`; the components and derivatives of the field, `ux`, `dux_dx`,
+/// …; the constants of the equation, `young`, `poisson`, `mu`, `lambda`, `out_of_plane` (= σ_zz /
 /// (σ_xx + σ_yy)) or `conductivity`; the [library's](crate::library::ELASTICITY) quantities, `-` in
 /// names written as `_`; the dataset's named quantities and tables.
 #[derive(Clone, Debug)]
@@ -271,8 +271,9 @@ impl QuantityFormula {
     }
 }
 
-/// Points at which a quantity by formula is evaluated together, as many vectors as a [`Block`] has: so that what a
-/// step of the formula costs is shared. Give it the field input by input, run it, and take the values.
+/// Points at which a quantity by formula is evaluated together, as many vectors as a [`Block`] has:
+/// so that what a step of the formula costs is shared. Give it the field input by input, run it,
+/// and take the values.
 #[derive(Debug)]
 pub struct QuantityBlock<'a, T> {
     formula: &'a QuantityFormula,
@@ -286,13 +287,15 @@ impl<'a, T: Scalar> QuantityBlock<'a, T> {
         Block::<T>::POINTS / R::LANES
     }
 
-    /// The inputs that are to be filled with the field's numbers: all but the constants of the equation.
+    /// The inputs that are to be filled with the field's numbers: all but the constants of
+    /// the equation.
     #[must_use]
     pub fn field_inputs(&self) -> &'a [(usize, Input)] {
         &self.formula.of_field
     }
 
-    /// The numbers of an input at all points, vector by vector. They stay until they are filled anew.
+    /// The numbers of an input at all points, vector by vector. They stay until they are
+    /// filled anew.
     pub fn input_mut(&mut self, index: usize) -> &mut [T] {
         self.block.input(index)
     }
@@ -312,7 +315,8 @@ impl<'a, T: Scalar> QuantityBlock<'a, T> {
         self.block.run();
     }
 
-    /// The values at a vector of points, those of [`Quantity::of_field`](super::Quantity::of_field).
+    /// The values at a vector of points, those
+    /// of [`Quantity::of_field`](super::Quantity::of_field).
     #[inline(always)]
     #[must_use]
     pub fn value<R: Real<Scalar = T>>(&self, vector: usize, like: R) -> R {

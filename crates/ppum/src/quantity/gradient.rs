@@ -1,14 +1,15 @@
 //! Gradients of quantities, exact: no differences.
 //!
-//! A quantity q is a formula of the position, the field's values and first derivatives and the moduli. Its gradient
-//! is the chain rule over these inputs a,
+//! A quantity q is a formula of the position, the field's values and first derivatives and the
+//! moduli. Its gradient is the chain rule over these inputs a,
 //!
 //! ```text
 //! ∇q = Σ_a ∂q/∂a ∇a        ∇(∂u/∂x) = (u_xx, u_xy)   ∇λ = ∂λ/∂E ∇E + ∂λ/∂ν ∇ν   …
 //! ```
 //!
-//! with the formula differentiated symbolically and the field's Hessian, through weights, functions and
-//! polynomials. Built-in quantities are differentiated from their [texts](crate::library::ELASTICITY).
+//! with the formula differentiated symbolically and the field's Hessian, through weights, functions
+//! and polynomials. Built-in quantities are differentiated from
+//! their [texts](crate::library::ELASTICITY).
 
 use super::formula::{Input, QuantityFormula, QuantityFormulaError, Vocabulary};
 use super::material::MaterialGradient;
@@ -104,11 +105,12 @@ impl QuantityGradient {
         &self.quantity
     }
 
-    /// Value and gradient at `anchor + offset`; on a crack those of the given side, NaN outside the domain.
+    /// Value and gradient at `anchor + offset`; on a crack those of the given side, NaN outside the
+    /// domain.
     ///
-    /// Where the quantity has no gradient, as |u| at u = 0, σ₁ where both principal stresses are one, or
-    /// stresses at a tip, it is not finite, or that of one piece, as [formulas](ppum_formula) say.
-    /// Costs a few times [`Quantity::at`].
+    /// Where the quantity has no gradient, as |u| at u = 0, σ₁ where both principal stresses are
+    /// one, or stresses at a tip, it is not finite, or that of one piece, as
+    /// [formulas](ppum_formula) say. Costs a few times [`Quantity::at`].
     ///
     /// # Panics
     /// If the field has fewer components than the one that this was made for.
@@ -127,8 +129,8 @@ impl QuantityGradient {
         if inside { self.of_jets(local, offset, &jets) } else { Slope::NOWHERE }
     }
 
-    /// The same at many points, evaluated on lanes: points that follow each other should be near each other.
-    /// The numbers are those of [`at`](Self::at) up to rounding.
+    /// The same at many points, evaluated on lanes: points that follow each other should be near
+    /// each other. The numbers are those of [`at`](Self::at) up to rounding.
     ///
     /// # Panics
     /// As [`at`](Self::at).
@@ -148,7 +150,8 @@ impl QuantityGradient {
         rows.map(one).collect()
     }
 
-    /// Value and gradient where the field is known to its second derivatives; NaN outside the domain.
+    /// Value and gradient where the field is known to its second derivatives; NaN outside
+    /// the domain.
     pub(crate) fn known(
         &self,
         local: &mut LocalField<'_>,

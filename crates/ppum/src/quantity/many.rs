@@ -7,10 +7,11 @@ use crate::jet::Jet;
 use crate::vec2::Vec2;
 
 impl Quantity {
-    /// Several quantities at many points `anchor + offset`, a row for each point; NaN outside the domain.
+    /// Several quantities at many points `anchor + offset`, a row for each point; NaN outside the
+    /// domain.
     ///
-    /// The field is evaluated once for all of them, on lanes, so points that follow each other should be
-    /// near each other. The values are those of [`Quantity::at`] up to rounding.
+    /// The field is evaluated once for all of them, on lanes, so points that follow each other
+    /// should be near each other. The values are those of [`Quantity::at`] up to rounding.
     #[must_use]
     pub fn at_many(
         quantities: &[Self],

@@ -3,7 +3,8 @@
 //! With displacement u, strain ε = (∇u + ∇uᵀ)/2 and stress σ = λ tr(ε) I + 2μ ε. Where a derivative
 //! does not exist (at a crack tip) quantities of the gradient are +∞: nothing is clamped.
 //!
-//! Quantities have names, or are [formulas](QuantityFormula) of those that have; [`QuantityGradient`] has their exact gradients.
+//! Quantities have names, or are [formulas](QuantityFormula) of those that have;
+//! [`QuantityGradient`] has their exact gradients.
 
 mod formula;
 mod gradient;
@@ -202,8 +203,8 @@ pub fn names(equation: &Equation, components: &[String]) -> Vec<(String, Quantit
     all
 }
 
-/// Names of all that can be shown of a field: those of its equation that have what they need, those that the
-/// dataset defines, and `phi:N`.
+/// Names of all that can be shown of a field: those of its equation that have what they need, those
+/// that the dataset defines, and `phi:N`.
 #[must_use]
 pub fn available(field: &Field<'_>) -> Vec<String> {
     let all = names(field.equation, &field.data.components);
@@ -374,8 +375,8 @@ impl Quantity {
         }
     }
 
-    /// The unit of the quantity for labels, if the dataset gives one: that of the field for components
-    /// and magnitude, that of a quantity which the dataset names.
+    /// The unit of the quantity for labels, if the dataset gives one: that of the field for
+    /// components and magnitude, that of a quantity which the dataset names.
     #[must_use]
     pub fn unit<'q>(&'q self, field: &'q Field<'_>) -> &'q str {
         match self {

@@ -1,4 +1,5 @@
-//! Strain and stress of a displacement gradient: the native kernels of the quantities of elasticity.
+//! Strain and stress of a displacement gradient: the native kernels of the quantities
+//! of elasticity.
 
 use crate::equation::Moduli;
 use crate::jet::Jet;
@@ -72,7 +73,8 @@ impl<R: Real> Stress<R> {
         high.max(self.zz) - low.min(self.zz)
     }
 
-    /// ½ atan2(2σ_xy, σ_xx − σ_yy) in the half-angle form atan(σ_xy / (radius + half difference)), π/2 on its pole.
+    /// ½ atan2(2σ_xy, σ_xx − σ_yy) in the half-angle form atan(σ_xy / (radius + half difference)),
+    /// π/2 on its pole.
     #[inline(always)]
     pub(super) fn direction(&self) -> R {
         let half = (self.xx - self.yy) * self.xx.lit(0.5);

@@ -22,11 +22,12 @@ pub struct Passage {
     pub places: [Place; 2],
 }
 
-/// Passages nearer to each other than this part of the curve are one: through a kink, or through its two segments.
+/// Passages nearer to each other than this part of the curve are one: through a kink, or through
+/// its two segments.
 const SAME: f64 = 1e-12;
 
-/// The points at which a curve passes through the cracks, in its order; not tips, nor where it runs along a segment.
-/// Linear in the number of segments.
+/// The points at which a curve passes through the cracks, in its order; not tips, nor where it runs
+/// along a segment. Linear in the number of segments.
 #[must_use]
 pub fn passages(cracks: &[Crack], curve: Curve) -> Vec<Passage> {
     let mut found: Vec<Passage> = Vec::new();
@@ -44,8 +45,8 @@ pub fn passages(cracks: &[Crack], curve: Curve) -> Vec<Passage> {
     found
 }
 
-/// The same of a curve whose points are counted from an anchor, that of a circle its centre: near it no digit of them is
-/// lost.
+/// The same of a curve whose points are counted from an anchor, that of a circle its centre: near
+/// it no digit of them is lost.
 #[must_use]
 pub fn passages_from(cracks: &[Crack], anchor: Vec2, curve: Curve) -> Vec<Passage> {
     if anchor == Vec2::ZERO {
@@ -107,8 +108,9 @@ impl Curve {
         }
     }
 
-    /// The point at which the curve, a circle one about the origin, meets the line of a segment, near a point where it is
-    /// known to do so: found from the end that is nearer to the origin, so that near it no digit is lost.
+    /// The point at which the curve, a circle one about the origin, meets the line of a segment,
+    /// near a point where it is known to do so: found from the end that is nearer to the origin, so
+    /// that near it no digit is lost.
     fn refined(&self, [p, q]: [Vec2; 2], known: Vec2) -> Vec2 {
         let near = if p.length() < q.length() { p } else { q };
         let tangent = (q - p).unit();
@@ -170,7 +172,8 @@ mod tests {
         ((q - p).cross(a - p) > 0.0) != ((q - p).cross(b - p) > 0.0)
     }
 
-    /// Lines pass through the segments whose ends they part, and come from the side on which they begin.
+    /// Lines pass through the segments whose ends they part, and come from the side on which
+    /// they begin.
     #[test]
     fn lines_pass_from_one_side_to_the_other() {
         let mut passed = 0;

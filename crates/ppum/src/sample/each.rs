@@ -1,8 +1,9 @@
 //! Values that depend on their places alone, not on what else is asked for.
 //!
-//! Lanes share the patches of all their points, and where one patch alone covers a point its weight cancels: whether it is
-//! left out, or multiplied and divided, may change the last digit. So points that one patch covers are
-//! evaluated by it, and the others apart from them, where a patch that does not cover a point adds zero.
+//! Lanes share the patches of all their points, and where one patch alone covers a point its weight
+//! cancels: whether it is left out, or multiplied and divided, may change the last digit. So points
+//! that one patch covers are evaluated by it, and the others apart from them, where a patch that
+//! does not cover a point adds zero.
 
 use super::Place;
 use crate::crack::{SegmentId, Side};
@@ -73,11 +74,11 @@ const CHUNK: usize = 1 << 16;
 /// Points that several patches cover, evaluated together: the lanes of the widest processors.
 const LANES: usize = 8;
 
-/// What is wanted at each place, in rows: shape (places, [width](Wanted::width)), flattened; NaN outside the domain and
-/// where a quantity has no value.
+/// What is wanted at each place, in rows: shape (places, [width](Wanted::width)), flattened; NaN
+/// outside the domain and where a quantity has no value.
 ///
-/// Equal places have equal rows, to the last bit, whatever the other places are and their order. Places may stand in any
-/// order; those that are near each other are evaluated together.
+/// Equal places have equal rows, to the last bit, whatever the other places are and their order.
+/// Places may stand in any order; those that are near each other are evaluated together.
 #[must_use]
 pub fn evaluate_each(field: &Field<'_>, wanted: Wanted<'_>, places: &[Place]) -> Vec<f64> {
     let width = wanted.width();
@@ -212,8 +213,8 @@ fn seat(place: &Place) -> ([u64; 2], Option<SegmentId>, bool) {
     ([x.to_bits(), y.to_bits()], place.on, place.side == Side::Above)
 }
 
-/// 48 bits that bring together places of one seat, in them those of one patch, and of these neighbours. That different
-/// ones have the same key takes a little time, and changes no value.
+/// 48 bits that bring together places of one seat, in them those of one patch, and of these
+/// neighbours. That different ones have the same key takes a little time, and changes no value.
 fn key(field: &Field<'_>, place: &Place, patches: &[u32]) -> u64 {
     let ([x, y], on, above) = seat(place);
     let on = on.map_or(0, |on| ((u64::from(on.crack) << 32) | u64::from(on.segment)) + 1);

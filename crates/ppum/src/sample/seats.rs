@@ -1,15 +1,16 @@
 //! Anchors that follow from places alone.
 //!
-//! The last digits of a value depend on the anchor that it is seen from. Where anchors belong to lists of points, so do
-//! these digits; here they belong to the plane, and a point has the same value alone and amid others. An anchor is
-//! the tip that is near if the way from it is an f64 number, else the nearest point of a lattice of powers of two,
+//! The last digits of a value depend on the anchor that it is seen from. Where anchors belong to
+//! lists of points, so do these digits; here they belong to the plane, and a point has the same
+//! value alone and amid others. An anchor is the tip that is near if the way from it is an f64
+//! number, else the nearest point of a lattice of powers of two,
 //!
 //! ```text
 //! a = h round(p / h)        h = 2ᵏ, about the size of the largest patch
 //! ```
 //!
-//! from which p − a is exact, too: a is zero, or the difference no longer than p. So smaller patches lose nothing by a lattice
-//! that is wider than they are.
+//! from which p − a is exact, too: a is zero, or the difference no longer than p. So smaller
+//! patches lose nothing by a lattice that is wider than they are.
 
 use super::{Place, ROUNDING, largest, settle};
 use crate::box_tree::BoxTree;
@@ -75,8 +76,8 @@ impl<'d> Seats<'d> {
         }
     }
 
-    /// The place of a point, on a side of the crack that it lies on. A point on a border of the domain, but for rounding,
-    /// is of the domain.
+    /// The place of a point, on a side of the crack that it lies on. A point on a border of the
+    /// domain, but for rounding, is of the domain.
     #[must_use]
     pub fn at(&self, point: Vec2, side: Side) -> Place {
         let mut place = self.offset(point, Vec2::ZERO, side);
@@ -103,8 +104,8 @@ impl<'d> Seats<'d> {
         self.tip_near(point).unwrap_or_else(|| vec2(nearest(point.x), nearest(point.y)))
     }
 
-    /// The nearest tip, none of those farther away than the lattice's spacing in x or y or by a way that has to be rounded; of
-    /// several the first.
+    /// The nearest tip, none of those farther away than the lattice's spacing in x or y or by a way
+    /// that has to be rounded; of several the first.
     fn tip_near(&self, point: Vec2) -> Option<Vec2> {
         let mut near = Vec::new();
         let reach = vec2(self.spacing, self.spacing);

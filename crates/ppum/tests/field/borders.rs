@@ -70,7 +70,8 @@ fn the_limit_from_the_right_and_from_above() {
             for (at, right) in at.iter().zip(&right) {
                 assert_close(at, right, 1e-4, 1.0, size);
             }
-            // the derivative that jumps: 1 for linear, 2 for quadratic, none up to 2 for cubic weights
+            // the derivative that jumps: 1 for linear, 2 for quadratic, none up to 2 for
+            // cubic weights
             let jump = |order: std::ops::Range<usize>, scale: f64| {
                 let apart = at.iter().zip(&left).flat_map(|(at, left)| {
                     let (a, b) = (entries(at), entries(left));
@@ -85,8 +86,8 @@ fn the_limit_from_the_right_and_from_above() {
                 _ => jump(1..6, 1.0 / (size * size)),
             });
         }
-        // Where only the centre line of the patch alone is crossed, and for quadratic weights on every
-        // centre line, nothing jumps.
+        // Where only the centre line of the patch alone is crossed, and for quadratic weights on
+        // every centre line, nothing jumps.
         let share = differ as f64 / places.len() as f64;
         match weight {
             WeightFunction::Linear => assert!(share > 0.5, "{share}"),

@@ -68,7 +68,8 @@ fn kinds_add_up_to_the_whole() {
     assert_sum(&meeting.dataset(), &[Part::Smooth, Part::Jump, Part::Tip], 40);
 }
 
-/// Functions of components are jumps: without them the rest is the same on both faces of an arm of a star.
+/// Functions of components are jumps: without them the rest is the same on both faces of an arm of
+/// a star.
 #[test]
 fn components_are_jumps() {
     let recipe = Recipe::meeting();

@@ -94,7 +94,8 @@ fn around_junctions() {
     }
 }
 
-/// Rounding errors of ∇u = Σ ∇φ_i v_i + … are of the size 10⁻¹⁶ |u| / h: they grow as patches shrink.
+/// Rounding errors of ∇u = Σ ∇φ_i v_i + … are of the size 10⁻¹⁶ |u| / h: they grow as
+/// patches shrink.
 #[test]
 fn on_a_fine_cover() {
     let cracks = vec![crack(&[[0.5713, 0.0931], [1.1831, 0.3973]], [CrackEnd::Tip; 2])];

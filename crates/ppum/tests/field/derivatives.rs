@@ -10,8 +10,8 @@ use ppum::weight::WeightFunction;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::Recipe;
 
-/// Derivatives of all entries of a component's jet along `direction`: central differences with steps
-/// h, h/2 and h/4, extrapolated twice (error of order h⁶).
+/// Derivatives of all entries of a component's jet along `direction`: central differences with
+/// steps h, h/2 and h/4, extrapolated twice (error of order h⁶).
 fn difference(
     local: &mut LocalField<'_>,
     offset: Vec2,

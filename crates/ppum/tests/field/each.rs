@@ -65,7 +65,8 @@ fn values_depend_on_their_places_alone() {
     }
 }
 
-/// The scalar evaluation about the same anchor, to rounding; and about the point itself, where no tip is near.
+/// The scalar evaluation about the same anchor, to rounding; and about the point itself, where no
+/// tip is near.
 #[test]
 fn values_are_those_of_the_field() {
     for seed in 0..24 {

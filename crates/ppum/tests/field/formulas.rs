@@ -42,8 +42,8 @@ fn formulas_agree_with_the_native_kernel() {
     }
 }
 
-/// The functions by themselves, to 1e-12 of √r in the value, r^{−1/2} in the gradient and r^{−3/2} in
-/// the Hessian, right up to the faces and on both of them.
+/// The functions by themselves, to 1e-12 of √r in the value, r^{−1/2} in the gradient and r^{−3/2}
+/// in the Hessian, right up to the faces and on both of them.
 #[test]
 fn single_functions_agree() {
     let native = Recipe::random(2);

@@ -22,8 +22,8 @@ const FORMULAS: [&str; 5] = [
     "out_of_plane*(sxx + syy)/(1 + von_mises)",
 ];
 
-/// Derivative along `direction`: central differences with steps h, h/2, h/4, extrapolated twice; and how far the
-/// last extrapolation went.
+/// Derivative along `direction`: central differences with steps h, h/2, h/4, extrapolated twice;
+/// and how far the last extrapolation went.
 fn difference(
     quantity: &Quantity,
     local: &mut LocalField<'_>,
@@ -53,7 +53,8 @@ fn heterogeneous(state: StressState) -> Equation {
     Equation::Elasticity(Elasticity { young: parse(young), poisson: parse(poisson), state })
 }
 
-/// Coefficients as a solver finds them, so that scales are known: u, its derivatives and the stresses are about one.
+/// Coefficients as a solver finds them, so that scales are known: u, its derivatives and the
+/// stresses are about one.
 fn datasets() -> Vec<Dataset> {
     let mut all = Vec::new();
     for (seed, weight) in (0..3).flat_map(|s| WeightFunction::ALL.map(|w| (s, w))) {
@@ -94,7 +95,8 @@ fn every_quantity_against_differences() {
                 // of the size of the second derivatives of φ, which are sums of such terms
                 let scale = (100.0 / (size * size)).max(found.gradient.length());
                 let error = (found.gradient - expected).length() / scale;
-                // principal stresses bend sharply where they are nearly equal: differences see less there
+                // principal stresses bend sharply where they are nearly equal: differences see
+                // less there
                 let blur = error_x.max(error_y) / scale;
                 sharp += usize::from(blur > 1e-7);
                 assert!(error < blur.max(1e-7), "{name} at {p:?}: {found:?}, {expected:?}");
@@ -132,7 +134,8 @@ fn many_points() {
     }
 }
 
-/// u = e √r sin(θ/2) of a crack along the direction d to the tip at `tip`, with the unit vector e ⊥ d.
+/// u = e √r sin(θ/2) of a crack along the direction d to the tip at `tip`, with the unit vector e ⊥
+/// d.
 fn opening(tip: Vec2, d: Vec2) -> Dataset {
     let domain = Rect::around(tip, vec2(1.0, 1.0));
     let partition = Cover::uniform(domain, 3).expect("a cover");
@@ -156,7 +159,8 @@ fn power(s: f64, r: f64, theta: f64, p: f64) -> [f64; 2] {
     [s * r.powf(p) * cos, s * r.powf(p) * sin]
 }
 
-/// σ_yy = (2μ + λ) Re w and von Mises' stress of the opening, with w = 1/(2√z): in the frame of the tip.
+/// σ_yy = (2μ + λ) Re w and von Mises' stress of the opening, with w = 1/(2√z): in the frame of
+/// the tip.
 fn closed_form(r: f64, theta: f64) -> [Slope; 2] {
     let (mu, lambda) = (0.5 / 1.3, 0.3 / (1.3 * 0.4));
     // ε_yy = Re w, 2 ε_xy = Im w

@@ -1,4 +1,5 @@
-//! Indicators of components where rounding would decide: against trees walked with 31 digits, and on the segments themselves.
+//! Indicators of components where rounding would decide: against trees walked with 31 digits, and
+//! on the segments themselves.
 
 use ppum::crack::{Crack, CrackEnd, SegmentId, Side};
 use ppum::function::{Cut, Function, FunctionKind, FunctionTable, Part};
@@ -65,7 +66,8 @@ fn compare(cuts: &[Cut], cracks: &[Crack], anchor: Vec2, offset: Vec2, margin: f
     sure
 }
 
-/// Points from 1e-26 to 1e-13 beside a face of an arm; the anchor itself is not on it but some 1e-17 off.
+/// Points from 1e-26 to 1e-13 beside a face of an arm; the anchor itself is not on it but some
+/// 1e-17 off.
 #[test]
 fn beside_the_faces() {
     let (mut random, mut sure) = (Random(1), 0);
@@ -84,8 +86,9 @@ fn beside_the_faces() {
     assert!(sure > 2800, "{sure}");
 }
 
-/// All round junctions: from 1e-26 to 1e-13 seen from the junction itself, from 1e-16 to 1e-9 seen from 1e-9 beside. Half of the
-/// stars have an arm more that ends on the middle of another one, where rounding has put it beside.
+/// All round junctions: from 1e-26 to 1e-13 seen from the junction itself, from 1e-16 to 1e-9 seen
+/// from 1e-9 beside. Half of the stars have an arm more that ends on the middle of another one,
+/// where rounding has put it beside.
 #[test]
 fn around_junctions() {
     let (mut random, mut sure) = (Random(2), 0);
@@ -111,7 +114,8 @@ fn around_junctions() {
     assert!(sure > 7800, "{sure}");
 }
 
-/// Two cracks on one line, the second one against the first or along it, farther on; a third across both.
+/// Two cracks on one line, the second one against the first or along it, farther on; a third
+/// across both.
 fn collinear(random: &mut Random, opposite: bool) -> Vec<Crack> {
     let (a, along) = (random.direction() * 3.0, random.direction());
     let at = |t: f64| <[f64; 2]>::from(a + along * t);
@@ -124,8 +128,9 @@ fn collinear(random: &mut Random, opposite: bool) -> Vec<Crack> {
     ]
 }
 
-/// Points on a segment that rounding has put on it or on either side of it: functions seen on the segment have the limits from
-/// the side that is asked for, whatever segments on the same line cut the tree, and which way they run.
+/// Points on a segment that rounding has put on it or on either side of it: functions seen on the
+/// segment have the limits from the side that is asked for, whatever segments on the same line cut
+/// the tree, and which way they run.
 #[test]
 fn told_where_points_lie() {
     let (mut random, mut both) = (Random(3), 0);
@@ -152,8 +157,8 @@ fn told_where_points_lie() {
     assert!(both > 300, "{both} of the trees jump there");
 }
 
-/// Where a coordinate is exact, the side that is asked for decides without further ado: above a segment that runs the other way
-/// is its right.
+/// Where a coordinate is exact, the side that is asked for decides without further ado: above a
+/// segment that runs the other way is its right.
 #[test]
 fn the_caller_chooses_the_side_on_a_line() {
     let cracks = vec![

@@ -15,7 +15,8 @@ use ppum_testkit::synthetic::{Coefficients, Recipe, crack};
 const STEP: f64 = 1e-12;
 
 /// Steps over all lines on which something could go wrong: the lines of all segments, extended; the
-/// lines that halve the angle at a kink, both ways; borders and centre lines of patches; and anything.
+/// lines that halve the angle at a kink, both ways; borders and centre lines of patches;
+/// and anything.
 fn steps(field: &Field<'_>, random: &mut Random) -> Vec<(Vec2, Vec2)> {
     let mut steps = Vec::new();
     let mut over = |p: Vec2, tangent: Vec2| {
@@ -182,7 +183,8 @@ fn the_chosen_side_is_the_limit_from_there() {
     }
 }
 
-/// True if p lies on the same level, upright or exact diagonal as the anchor, so that p − anchor is exact.
+/// True if p lies on the same level, upright or exact diagonal as the anchor, so that p − anchor
+/// is exact.
 fn exact(anchor: Vec2, p: Vec2) -> bool {
     let d = p - anchor;
     anchor + d == p && (d.x == 0.0 || d.y == 0.0)

@@ -29,7 +29,8 @@ fn compare<const D: usize>(field: &Field<'_>, anchor: Vec2, points: &[Vec2], sid
     }
 }
 
-/// Points anywhere, a third of them outside, in chunks of mixed origin, and a rest that fills no vector.
+/// Points anywhere, a third of them outside, in chunks of mixed origin, and a rest that fills
+/// no vector.
 #[test]
 fn lanes_equal_single_points() {
     for seed in 0..13 {

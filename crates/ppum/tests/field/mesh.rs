@@ -41,7 +41,8 @@ fn truth(p: &Polynomial, map: &[Polynomial; 2], xi: [f64; 2]) -> [f64; 3] {
     [p.at(xi), gradient[0], gradient[1]].map(Double::to_f64)
 }
 
-/// Largest errors of value and gradient on random elements, relative to the largest value and slope.
+/// Largest errors of value and gradient on random elements, relative to the largest value
+/// and slope.
 fn errors(
     random: &mut Random,
     (shape, space, map_degree): (Shape, PolynomialSpace, usize),
@@ -76,7 +77,8 @@ fn errors(
     [0, 1].map(|k| errors[k] / most[k].max(1e-9))
 }
 
-/// Every point of an element is found, and values have their digits: affine, bilinear, curved, thin, nearly folded.
+/// Every point of an element is found, and values have their digits: affine, bilinear, curved,
+/// thin, nearly folded.
 #[test]
 fn elements_of_all_kinds() {
     let mut random = Random(11);
@@ -101,8 +103,9 @@ fn elements_of_all_kinds() {
     }
 }
 
-/// A quartic map of the plane, and a quadratic u of the world: of degree 8 on each element. Values, gradients and second
-/// derivatives are those of u; all points are owned, those on edges and at corners too.
+/// A quartic map of the plane, and a quadratic u of the world: of degree 8 on each element. Values,
+/// gradients and second derivatives are those of u; all points are owned, those on edges and at
+/// corners too.
 #[test]
 fn a_curved_mesh_reproduces_polynomials() {
     let mut random = Random(3);
@@ -140,7 +143,8 @@ fn a_curved_mesh_reproduces_polynomials() {
     }
 }
 
-/// Points on shared edges and corners, exactly: the first element in order owns them, whatever it is worth there.
+/// Points on shared edges and corners, exactly: the first element in order owns them, whatever it
+/// is worth there.
 #[test]
 fn the_first_element_owns_what_is_shared() {
     let elements = Elements::grid([4, 4], 1, &plane());
@@ -180,7 +184,8 @@ fn the_first_element_owns_what_is_shared() {
     }
 }
 
-/// A square cut twice: the line y = 0, and on its upper side the line x = 0. Three sectors with values 1, 2, 3.
+/// A square cut twice: the line y = 0, and on its upper side the line x = 0. Three sectors with
+/// values 1, 2, 3.
 fn junction() -> Dataset {
     let mut elements = Elements::default();
     for _ in 0..3 {
@@ -269,7 +274,8 @@ fn tip_field(
     dataset
 }
 
-/// Straight level fields are the frame of a tip: values, gradients and second derivatives, on both faces, from 1 to 1e-13.
+/// Straight level fields are the frame of a tip: values, gradients and second derivatives, on both
+/// faces, from 1 to 1e-13.
 #[test]
 fn straight_levels_are_the_frame_of_a_tip() {
     let mut elements = Elements::default();
@@ -305,8 +311,8 @@ fn straight_levels_are_the_frame_of_a_tip() {
     assert!((above[0] - below[0]).abs() > 0.01);
 }
 
-/// Tip functions of curved level fields on a curved element, around the tip from 1e-3 to 1e-15: against the same with 31 digits'
-/// ξ, found by fixed-point iteration of small numbers.
+/// Tip functions of curved level fields on a curved element, around the tip from 1e-3 to 1e-15:
+/// against the same with 31 digits' ξ, found by fixed-point iteration of small numbers.
 #[test]
 fn curved_levels_have_their_digits_near_the_tip() {
     let curve = |linear: Polynomial, xx: f64, xy: f64, yy: f64| {
@@ -349,8 +355,8 @@ fn curved_levels_have_their_digits_near_the_tip() {
     }
 }
 
-/// Views down to 1e-15 of a curved element keep differences of the field, the place of an edge and that of a cut: all are
-/// exact polynomials of small δ.
+/// Views down to 1e-15 of a curved element keep differences of the field, the place of an edge and
+/// that of a cut: all are exact polynomials of small δ.
 #[test]
 fn deep_zoom_on_an_edge_and_a_cut() {
     let mut random = Random(21);
@@ -408,8 +414,8 @@ fn deep_zoom_on_an_edge_and_a_cut() {
     }
 }
 
-/// Where one box alone covers a point φ = 1: the field is that of squares in place of the boxes, in values, gradients and second
-/// derivatives.
+/// Where one box alone covers a point φ = 1: the field is that of squares in place of the boxes, in
+/// values, gradients and second derivatives.
 #[test]
 fn boxes_are_squares_where_they_do_not_overlap() {
     let recipe =
@@ -427,7 +433,8 @@ fn boxes_are_squares_where_they_do_not_overlap() {
         let kinds: Vec<_> =
             blocks.clone().map(|b| (data.block_function[b], data.block_degree[b])).collect();
         field.push_patch(&kinds);
-        // ξ of the box is s = h/scale times that of the cell, moved by the distance of their centres
+        // ξ of the box is s = h/scale times that of the cell, moved by the distance of
+        // their centres
         let (s, d) = (partition.scale[patch], c - partition.origin[patch]);
         let [x, y] = [
             Polynomial::linear(d.x / s.x, h.x / s.x, 0.0),
@@ -472,8 +479,9 @@ fn boxes_are_squares_where_they_do_not_overlap() {
     assert!(count > 400, "{count}");
 }
 
-/// Many points at once, on lanes and each from the place of its neighbour, are what they are alone: on a curved mesh cut by a
-/// level line, in views as wide as the mesh and 1e-9 of it, with the sign of the level field.
+/// Many points at once, on lanes and each from the place of its neighbour, are what they are alone:
+/// on a curved mesh cut by a level line, in views as wide as the mesh and 1e-9 of it, with the sign
+/// of the level field.
 #[test]
 fn many_points_are_those_of_single_ones() {
     let mut random = Random(14);

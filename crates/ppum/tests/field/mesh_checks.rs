@@ -115,7 +115,8 @@ fn level_fields() {
     assert!(enriched.contains("block 2 has a function"), "{enriched}");
 }
 
-/// Level fields and tensor products belong to meshes, meshes have domains without holes and follow no boxes.
+/// Level fields and tensor products belong to meshes, meshes have domains without holes and follow
+/// no boxes.
 #[test]
 fn meshes_and_boxes_do_not_mix() {
     let holes = error(|d| {
@@ -162,8 +163,8 @@ fn meshes_and_boxes_do_not_mix() {
     assert!(spaces.contains("block_space: has 1 entries, expected 3"), "{spaces}");
 }
 
-/// A thousand elements over each other are one thing, a million another; fewer of those that are bent so much that a point may
-/// have to be looked for in many parts of them.
+/// A thousand elements over each other are one thing, a million another; fewer of those that are
+/// bent so much that a point may have to be looked for in many parts of them.
 #[test]
 fn what_a_point_takes_is_bounded() {
     let piled = |n: usize, is_bent: bool| {

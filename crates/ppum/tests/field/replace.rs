@@ -65,7 +65,8 @@ fn functions_that_were_no_formulas() {
     assert_same(&dataset, &original);
 }
 
-/// The functions of all patches' components have one name, and each has its own; a formula in their place is one of the world.
+/// The functions of all patches' components have one name, and each has its own; a formula in their
+/// place is one of the world.
 #[test]
 fn functions_of_components() {
     let original = Recipe::meeting().dataset();

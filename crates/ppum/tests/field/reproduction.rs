@@ -26,7 +26,8 @@ fn powers(coefficients: &[f64], degree: usize, p: Vec2) -> Jet<f64> {
     sum
 }
 
-/// Of degree 0 to 8 for every weight, with blocks of higher degrees, sides and tip functions around.
+/// Of degree 0 to 8 for every weight, with blocks of higher degrees, sides and tip
+/// functions around.
 #[test]
 fn polynomials_of_every_degree() {
     for (degree, weight) in (0..=8).flat_map(|d| WeightFunction::ALL.map(|w| (d, w))) {

@@ -30,8 +30,8 @@ fn compare<T: Scalar>(crack: &Crack, anchor: Vec2, offset: Vec2, margin: f64) ->
     sure
 }
 
-/// Points from 1e-26 to 1e-13 beside the middle of oblique cracks; the anchor itself is not on the crack
-/// but some 1e-17 off, and only exact arithmetic tells on which side.
+/// Points from 1e-26 to 1e-13 beside the middle of oblique cracks; the anchor itself is not on the
+/// crack but some 1e-17 off, and only exact arithmetic tells on which side.
 #[test]
 fn beside_the_faces() {
     let (mut random, mut sure) = (Random(1), 0);
@@ -67,8 +67,8 @@ fn around_kinks() {
     assert!(sure > 4900, "{sure}");
 }
 
-/// All round blunt and sharp kinks, in single precision: right but for the roundings of coordinates, however far the anchor
-/// is, as it is in a picture.
+/// All round blunt and sharp kinks, in single precision: right but for the roundings of
+/// coordinates, however far the anchor is, as it is in a picture.
 #[test]
 fn around_kinks_in_single_precision() {
     let (mut random, mut sure) = (Random(4), 0);
@@ -85,7 +85,8 @@ fn around_kinks_in_single_precision() {
     assert!(sure > 4900, "{sure}");
 }
 
-/// Sides, tip functions of both ends by kernel and by formula, and formulas of sides, for two cracks.
+/// Sides, tip functions of both ends by kernel and by formula, and formulas of sides, for
+/// two cracks.
 fn functions(tips: &[TipId]) -> Vec<Function> {
     let side = (0..2).map(|crack| FunctionKind::Side { crack });
     let sides = ["x*side(0) + side(1)", "side(0)*side(1)"];
@@ -107,8 +108,9 @@ fn all(local: &LocalFunctions<'_>, offset: Vec2, side: Side) -> Vec<Jet<f64>> {
     (0..local.table().groups()).flat_map(&mut groups).collect()
 }
 
-/// Points on a segment that rounding has put on it or on either side of it: functions seen on the segment
-/// have the limits from the side that is asked for, and θ behind a tip is ±π to the last bit.
+/// Points on a segment that rounding has put on it or on either side of it: functions seen on the
+/// segment have the limits from the side that is asked for, and θ behind a tip is ±π to the
+/// last bit.
 #[test]
 fn told_where_points_lie() {
     let mut random = Random(3);

@@ -39,7 +39,8 @@ pub(crate) fn entries(jet: &Jet<f64>) -> [f64; 6] {
 /// The order of the derivative each of the [`entries`] is.
 pub(crate) const ORDERS: [i32; 6] = [0, 1, 1, 2, 2, 2];
 
-/// Asserts that two jets agree: derivatives of order k to `tolerance` · size / length^k, or relatively.
+/// Asserts that two jets agree: derivatives of order k to `tolerance` · size / length^k, or
+/// relatively.
 #[track_caller]
 pub(crate) fn assert_close(a: &Jet<f64>, b: &Jet<f64>, tolerance: f64, size: f64, length: f64) {
     for ((a, b), order) in entries(a).into_iter().zip(entries(b)).zip(ORDERS) {
@@ -60,7 +61,8 @@ pub(crate) fn patch_size(step: &Step, p: Vec2) -> f64 {
     (0..partition.len()).filter(covers).map(half).fold(f64::INFINITY, f64::min)
 }
 
-/// Distance, in the maximum norm, from `p` to the lines where the weight of any patch is not smooth.
+/// Distance, in the maximum norm, from `p` to the lines where the weight of any patch is not
+/// smooth.
 pub(crate) fn distance_to_kinks(step: &Step, p: Vec2) -> f64 {
     let partition = step.partition.boxes();
     let places = || partition.weight.breakpoints().iter().chain(&[1.0]);

@@ -30,8 +30,9 @@ use sheet::Layout;
 
 /// Compare direct drawing with resampling: pictures, errors, memory, time
 ///
-/// Resampling takes exact values at the points of a grid, as other programs do, and interpolates them at
-/// the pixels. The picture shows the field, what each method makes of it, and the differences.
+/// Resampling takes exact values at the points of a grid, as other programs do, and interpolates
+/// them at the pixels. The picture shows the field, what each method makes of it, and
+/// the differences.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {

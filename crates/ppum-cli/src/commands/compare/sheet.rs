@@ -1,7 +1,8 @@
 //! The figure of a comparison.
 //!
-//! Of one method its panels stand in a row, resampled, direct, difference, and below each other for long plates; of several the
-//! differences are a second row, or column. One bar explains the field and what was resampled.
+//! Of one method its panels stand in a row, resampled, direct, difference, and below each other for
+//! long plates; of several the differences are a second row, or column. One bar explains the field
+//! and what was resampled.
 
 use ppum::field::Field;
 use ppum_figure::canvas::Canvas;

@@ -81,7 +81,8 @@ pub(super) fn parameters<'p>(parameters: impl Iterator<Item = (&'p str, f64)>) -
 }
 
 impl Report {
-    /// Everything about some formulas, with values if a point is given, and with WGSL if that is wanted.
+    /// Everything about some formulas, with values if a point is given, and with WGSL if that
+    /// is wanted.
     pub(super) fn new(
         subjects: &[Subject],
         at: &[(String, f64)],

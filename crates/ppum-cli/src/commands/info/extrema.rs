@@ -33,8 +33,8 @@ pub(super) struct Report {
 struct Row {
     value: Number,
     at: [f64; 2],
-    /// What the place lies on: `inside`, `border`, `face`, `rim`, `interface`, `singular`; `pixel` where only pixels were
-    /// looked at.
+    /// What the place lies on: `inside`, `border`, `face`, `rim`, `interface`, `singular`; `pixel`
+    /// where only pixels were looked at.
     on: &'static str,
     /// Index of the crack or the hole; of a face with its side.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -114,8 +114,8 @@ const TIPS: usize = 4;
 /// Lines of tips that grow for each step: a dozen cracks.
 const GROWING: usize = 24;
 
-/// The steps: load, unknowns, length of all cracks, K_I and K_II of the first tips. Of cracks that grow there is a line for each
-/// tip, with what it does next.
+/// The steps: load, unknowns, length of all cracks, K_I and K_II of the first tips. Of cracks that
+/// grow there is a line for each tip, with what it does next.
 pub(super) fn table(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
     if rows.iter().any(|row| row.growth.is_some()) {
         return table_of_growth(out, rows);

@@ -18,8 +18,9 @@ use crate::target;
 
 /// Plot exact values along a line, a crack or a circle, around a tip, or how a solution came about
 ///
-/// Of several datasets the curves stand in one plot. Near a tip, --tip K --angle A has logarithmic axes and says the
-/// exponents of the power laws; --convergence compares solutions of one problem on finer and finer covers.
+/// Of several datasets the curves stand in one plot. Near a tip, --tip K --angle A has logarithmic
+/// axes and says the exponents of the power laws; --convergence compares solutions of one problem
+/// on finer and finer covers.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group = clap::ArgGroup::new("where").required(true))]
@@ -29,8 +30,8 @@ pub(crate) struct Args {
     files: Vec<PathBuf>,
     #[command(flatten)]
     profile: Profile,
-    /// Errors against unknowns, a dataset each: those of the exact solution, or the distance of energy and stress
-    /// intensity factors from those of the largest dataset
+    /// Errors against unknowns, a dataset each: those of the exact solution, or the distance of
+    /// energy and stress intensity factors from those of the largest dataset
     #[arg(long, group = "where")]
     convergence: bool,
     /// The solver's work: seconds of its phases, or --history=residuals and others
@@ -43,8 +44,8 @@ pub(crate) struct Args {
     /// What --series is drawn over
     #[arg(long, value_enum, requires = "series", default_value = "step")]
     over: Over,
-    /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: those that suit]; with --series of k1, k2,
-    /// load, length and extension [default: k1,k2]
+    /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: those that suit]; with
+    /// --series of k1, k2, load, length and extension [default: k1,k2]
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
     #[arg(conflicts_with_all = ["convergence", "history"])]
     quantity: Vec<String>,
@@ -90,7 +91,8 @@ enum What {
     Seconds,
     /// Megabytes that the phases make and keep, of a series the most
     Bytes,
-    /// Residuals after each iteration of the multilevel solver; of one file those that reach each level too
+    /// Residuals after each iteration of the multilevel solver; of one file those that reach each
+    /// level too
     Residuals,
     /// Patches, unknowns and values of the matrix on each level of the multilevel solver
     Levels,

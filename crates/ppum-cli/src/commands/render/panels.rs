@@ -106,8 +106,8 @@ impl Args {
         shots.map(shot).collect()
     }
 
-    /// The arrangement: as given; else a row for each of several quantities of several parts, or that with the largest
-    /// pictures.
+    /// The arrangement: as given; else a row for each of several quantities of several parts, or
+    /// that with the largest pictures.
     fn grid(&self, title: &str, captions: &[&str], sources: &[Source<'_>]) -> anyhow::Result<Grid> {
         let (count, parts, shared_bar) = (captions.len(), sources.len(), self.shared_range);
         let of = |columns: usize| {
@@ -138,7 +138,8 @@ impl Args {
         best.map_or_else(|| Ok(width(of(count)).map(|_| of(count))?), |(_, grid)| Ok(grid))
     }
 
-    /// The words of the panels, `(a) σ_yy` above the first; where one bar is for all it names what they share.
+    /// The words of the panels, `(a) σ_yy` above the first; where one bar is for all it names what
+    /// they share.
     fn labels(&self, all: &[Part<'_>], parts: usize) -> anyhow::Result<Vec<Labels>> {
         let captions = self.subject.replacements.captions();
         let is_one = all.len() == parts;

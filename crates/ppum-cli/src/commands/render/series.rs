@@ -1,4 +1,5 @@
-//! Several steps: numbered pictures or a moving one, with one range, one size, one factor of deformation.
+//! Several steps: numbered pictures or a moving one, with one range, one size, one factor
+//! of deformation.
 
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -26,8 +27,8 @@ use ppum_scene::shot::{Shot, Source};
 /// The options of series.
 #[derive(Debug, clap::Args)]
 pub(super) struct Series {
-    /// Steps to draw, with one range for all: all, A..B with both ends, A..B:STRIDE, or a list of these; as
-    /// numbered pictures, or as GIF or APNG
+    /// Steps to draw, with one range for all: all, A..B with both ends, A..B:STRIDE, or a list of
+    /// these; as numbered pictures, or as GIF or APNG
     #[arg(long, value_name = "all|A..B|A,B,…", conflicts_with = "step")]
     steps: Option<Steps>,
     /// Steps that a moving picture shows in a second, up to 50 [default: 5]
@@ -153,7 +154,8 @@ fn form(path: &Path) -> Option<Form> {
     }
 }
 
-/// The file of a step's picture: `name-007.png`, with as many digits as the last step of the dataset has, three at least.
+/// The file of a step's picture: `name-007.png`, with as many digits as the last step of the
+/// dataset has, three at least.
 fn numbered(path: &Path, step: usize, all: usize) -> PathBuf {
     let width = all.saturating_sub(1).to_string().len().max(3);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();

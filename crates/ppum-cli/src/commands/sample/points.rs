@@ -11,8 +11,8 @@ use ppum_scene::profile::MOST;
 /// Longest file of points, in bytes: those of [`MOST`] points in all digits.
 const LONGEST: u64 = 1 << 30;
 
-/// The points of a text file: lines with x and y apart by commas, semicolons or blanks; more columns are
-/// ignored, and so are a first line of names, empty lines and what follows `#`.
+/// The points of a text file: lines with x and y apart by commas, semicolons or blanks; more
+/// columns are ignored, and so are a first line of names, empty lines and what follows `#`.
 pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Vec2>> {
     let context = || format!("cannot read {}", path.display());
     let text = match is_standard(path) {

@@ -129,7 +129,8 @@ impl<'f> Writer<'f> {
         self.content.end_text();
     }
 
-    /// The pieces of a path; those that lead to no place are left out. False if there are no others.
+    /// The pieces of a path; those that lead to no place are left out. False if there are
+    /// no others.
     fn path(&mut self, path: &Path, is_closed: bool) -> bool {
         let mut is_drawn = false;
         for points in path.pieces.iter().filter(|points| points.iter().all(|p| p.is_finite())) {

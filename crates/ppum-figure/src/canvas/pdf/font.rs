@@ -1,7 +1,7 @@
 //! The font in PDF files.
 //!
-//! Characters have codes in the order in which they come. A code leads to its glyph and, for who searches or
-//! copies, to its character; so even a character whose glyph is lacking can be copied.
+//! Characters have codes in the order in which they come. A code leads to its glyph and, for who
+//! searches or copies, to its character; so even a character whose glyph is lacking can be copied.
 
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Finish as _, Name, Rect, Ref, Str};

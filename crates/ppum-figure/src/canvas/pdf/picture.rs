@@ -41,7 +41,8 @@ fn channels(file: &mut File, place: Ref, size: [u32; 2], values: &[u8], opacity:
     how.finish();
 }
 
-/// Rows as their differences to the row above, the filter `Up` of PNG: colours of fields change slowly.
+/// Rows as their differences to the row above, the filter `Up` of PNG: colours of fields change
+/// slowly.
 fn differences(values: &[u8], width: usize) -> Vec<u8> {
     const UP: u8 = 2;
     let mut above = vec![0; width];

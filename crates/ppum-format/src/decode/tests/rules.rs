@@ -11,7 +11,8 @@ use crate::{checksum, encode, everything, hdf5};
 use broken::RULES;
 use edit::{edit, put, remove, set, text, texts};
 
-/// A dataset of elasticity with all that the format has, and one of Poisson's equation with what 1.0 had.
+/// A dataset of elasticity with all that the format has, and one of Poisson's equation with what
+/// 1.0 had.
 const FULL: u64 = 1;
 const PLAIN: u64 = 2;
 /// A dataset of Poisson's equation with all that the format has.
@@ -57,7 +58,8 @@ fn each_rule_is_asked() {
     }
 }
 
-/// The error of each rule is about an object that there is, or that is missing: its path is one of HDF5.
+/// The error of each rule is about an object that there is, or that is missing: its path is one
+/// of HDF5.
 #[test]
 fn errors_name_objects_of_the_file() {
     for (rule, seed, damage, _) in RULES {
@@ -117,7 +119,8 @@ fn all_errors_are_found_at_once() {
     }
 }
 
-/// No number but the values of attributes and of the history, the places of warnings, and what is not known of tips may be NaN.
+/// No number but the values of attributes and of the history, the places of warnings, and what is
+/// not known of tips may be NaN.
 #[test]
 fn numbers_are_finite() {
     let free = ["attributes/values", "history/value", "warnings/at"];
@@ -188,7 +191,8 @@ fn objects_are_of_their_form() {
     }
 }
 
-/// Groups are there as a whole: with nothing in them they are no shorter way to say that there is nothing.
+/// Groups are there as a whole: with nothing in them they are no shorter way to say that there
+/// is nothing.
 #[test]
 fn empty_groups_are_errors() {
     let good = encoded(FULL, 1);

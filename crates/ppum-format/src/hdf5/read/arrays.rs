@@ -115,8 +115,8 @@ impl<'f> Fixed<'f> {
     }
 }
 
-/// An array that grows: some entries in the index block, then data blocks of growing size, first found
-/// through the index block and then through super blocks.
+/// An array that grows: some entries in the index block, then data blocks of growing size, first
+/// found through the index block and then through super blocks.
 pub(super) struct Extensible<'f> {
     blocks: Blocks<'f>,
     index: Option<u64>,
@@ -134,7 +134,8 @@ pub(super) struct Extensible<'f> {
 
 /// The place of an entry of a data block.
 struct Place {
-    /// Data blocks of a growing size come in groups; the data block in its group; the entry in that.
+    /// Data blocks of a growing size come in groups; the data block in its group; the entry
+    /// in that.
     group: u64,
     block: u64,
     entry: u64,

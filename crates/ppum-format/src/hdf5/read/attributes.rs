@@ -11,7 +11,8 @@ use crate::content::{Array, Values};
 /// Kind of the index of attributes by name.
 const INDEX: u8 = 8;
 
-/// Bytes of a record of the index: identifier in the heap, flags, order of creation, hash of the name.
+/// Bytes of a record of the index: identifier in the heap, flags, order of creation, hash of
+/// the name.
 const RECORD: usize = 8 + 1 + 4 + 4;
 
 /// Flag of a record: the attribute stands elsewhere.

@@ -25,7 +25,8 @@ struct Waiting<'a, 'f> {
     mask: u32,
 }
 
-/// Most chunks of a batch, and most bytes that they have together, with and without filters, unless one has more.
+/// Most chunks of a batch, and most bytes that they have together, with and without filters, unless
+/// one has more.
 const BATCH_CHUNKS: usize = 16;
 const BATCH_BYTES: u64 = 1 << 24;
 
@@ -66,7 +67,8 @@ impl<'a, 'f> Batch<'a, 'f> {
         Ok(())
     }
 
-    /// Undoes the filters of the chunks that wait. Of several mistakes that of the first chunk is told.
+    /// Undoes the filters of the chunks that wait. Of several mistakes that of the first chunk
+    /// is told.
     pub(super) fn finish(&mut self) -> Parsed<()> {
         let (pipeline, waiting) = (self.pipeline, std::mem::take(&mut self.waiting));
         let undone: Vec<_> = waiting
@@ -114,8 +116,8 @@ impl<'a> Part<'a> {
         (!extent.contains(&0)).then(|| Self { grid, start: start.to_vec(), extent })
     }
 
-    /// The bytes of the array in which the part lies in one piece, as it does in the chunk: it is one row, or some whole
-    /// rows that the chunk has as whole ones, too.
+    /// The bytes of the array in which the part lies in one piece, as it does in the chunk: it is
+    /// one row, or some whole rows that the chunk has as whole ones, too.
     fn place(&self, size: usize) -> Option<Range<usize>> {
         let (chunk, shape) = (self.grid.chunk, &self.grid.space.shape);
         let first = self.extent.iter().take_while(|n| **n == 1).count();

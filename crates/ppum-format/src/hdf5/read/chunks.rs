@@ -108,7 +108,8 @@ fn entry(entry: Option<Cursor>, grid: &Grid) -> Parsed<Option<Stored>> {
     stored(address, &mut entry, grid, 0).map(Some)
 }
 
-/// The place of a chunk, given at the front of an entry that has `after` bytes of something else at its end.
+/// The place of a chunk, given at the front of an entry that has `after` bytes of something else at
+/// its end.
 fn stored(address: u64, entry: &mut Cursor, grid: &Grid, after: usize) -> Parsed<Stored> {
     if !grid.is_filtered {
         return Ok(Stored { address, bytes: grid.bytes, mask: 0 });
@@ -148,8 +149,8 @@ fn tree(source: Source, address: u64, grid: &Grid, visit: Visit) -> Parsed<()> {
     Ok(())
 }
 
-/// Visits the chunks of an index that counts them through. The direction that grows counts last, the others
-/// as far as the array can grow.
+/// Visits the chunks of an index that counts them through. The direction that grows counts last,
+/// the others as far as the array can grow.
 fn each(
     grid: &Grid,
     visit: Visit,

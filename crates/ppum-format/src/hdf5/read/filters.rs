@@ -59,8 +59,8 @@ const LENGTHENING: u64 = 1024;
 
 /// What deflation gives of a chunk.
 enum Inflated {
-    /// Of each of so many planes of a length, which make up the chunk, its first bytes. One is a chunk that is not
-    /// divided.
+    /// Of each of so many planes of a length, which make up the chunk, its first bytes. One is a
+    /// chunk that is not divided.
     Planes { count: u64, length: u64, keep: u64 },
     /// All of what other filters have made of it.
     All,
@@ -79,8 +79,8 @@ impl Pipeline {
         !self.applied(mask).is_empty()
     }
 
-    /// Pays for what [`undo`](Self::undo) does with a chunk: for the bytes that filters give, and for those of them that
-    /// are kept for a while.
+    /// Pays for what [`undo`](Self::undo) does with a chunk: for the bytes that filters give, and
+    /// for those of them that are kept for a while.
     pub(super) fn pay(&self, stored: Stored, keep: u64, account: &Account) -> Parsed<()> {
         let applied = self.applied(stored.mask);
         for (k, filter) in applied.iter().enumerate().rev() {
@@ -105,7 +105,8 @@ impl Pipeline {
         usize::try_from(self.most()).or(fail(TOO_LARGE))
     }
 
-    /// The elements of a chunk as they were before the filters, the first `keep` at least. It has been paid for.
+    /// The elements of a chunk as they were before the filters, the first `keep` at least. It has
+    /// been paid for.
     pub(super) fn undo<'r>(&self, raw: &'r [u8], mask: u32, keep: u64) -> Parsed<Undone<'r>> {
         let (applied, mut data) = (self.applied(mask), Cow::Borrowed(raw));
         for (k, filter) in applied.iter().enumerate().rev() {
@@ -129,8 +130,9 @@ impl Pipeline {
         shuffle.parameters.first().is_some_and(|&size| size as usize != self.size)
     }
 
-    /// What deflation gives, which came after some other filters. Of a chunk that is larger than its array only the
-    /// beginning is kept: of its bytes, or of each of the planes that shuffling divides it into.
+    /// What deflation gives, which came after some other filters. Of a chunk that is larger than
+    /// its array only the beginning is kept: of its bytes, or of each of the planes that shuffling
+    /// divides it into.
     fn inflated(&self, before: &[&Filter], keep: u64) -> Inflated {
         let size = self.size as u64;
         match before {

@@ -193,7 +193,8 @@ impl<'f> Heap<'f> {
 /// A heap and its index.
 type Dense<'f> = (Heap<'f>, Vec<&'f [u8]>);
 
-/// The heap and the records of the index that goes with it; none if all stands in the header itself.
+/// The heap and the records of the index that goes with it; none if all stands in the
+/// header itself.
 pub(super) fn dense(mut info: Cursor, order: usize, kind: u8) -> Parsed<Option<Dense>> {
     info.version(0, "an index is")?;
     if info.u8()? & 1 != 0 {

@@ -17,7 +17,8 @@ impl<'d> Stream<'d> {
         Self { inflate: Inflate::new(true, WINDOW), rest: data, is_at_end: false }
     }
 
-    /// The number of bytes that come next, as many as there is room for or as there are; none if the stream is broken.
+    /// The number of bytes that come next, as many as there is room for or as there are; none if
+    /// the stream is broken.
     fn fill(&mut self, mut room: &mut [u8]) -> Option<usize> {
         let whole = room.len();
         while !self.is_at_end {
@@ -57,7 +58,8 @@ impl<'d> Stream<'d> {
     }
 }
 
-/// The first `keep` bytes of each of `count` planes of `length` bytes; of whole planes the stream must end with them.
+/// The first `keep` bytes of each of `count` planes of `length` bytes; of whole planes the stream
+/// must end with them.
 pub(super) fn planes(data: &[u8], count: usize, length: u64, keep: usize) -> Option<Vec<u8>> {
     let (mut planes, mut stream) = (vec![0; keep * count], Stream::new(data));
     if keep as u64 == length {

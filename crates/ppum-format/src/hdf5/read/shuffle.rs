@@ -1,7 +1,8 @@
 //! Shuffling: the first bytes of all elements come first, then the second ones, and so on.
 
-/// Puts the first elements of a shuffled chunk in order, as many as there is room for. Elements have as many bytes as
-/// the chunk has planes; the room is for whole elements, but where it is for all of the chunk.
+/// Puts the first elements of a shuffled chunk in order, as many as there is room for. Elements
+/// have as many bytes as the chunk has planes; the room is for whole elements, but where it is for
+/// all of the chunk.
 pub(super) fn unshuffle(chunk: &[u8], planes: usize, elements: &mut [u8]) {
     let count = chunk.len() / planes;
     match planes {
@@ -44,8 +45,8 @@ fn in_eights<const N: usize>(chunk: &[u8], count: usize, elements: &mut [u8]) {
     }
 }
 
-/// A square of eight by eight bytes, its rows as columns: squares of four by four bytes are exchanged across the
-/// diagonal, in each those of two by two, and in these the bytes.
+/// A square of eight by eight bytes, its rows as columns: squares of four by four bytes are
+/// exchanged across the diagonal, in each those of two by two, and in these the bytes.
 fn turned(mut rows: [u64; 8]) -> [u64; 8] {
     for (size, mask) in [(4, 0xffff_ffff), (2, 0xffff_0000_ffff), (1, 0x00ff_00ff_00ff_00ff)] {
         for k in (0..8).filter(|k| k & size == 0) {

@@ -31,10 +31,12 @@ impl Ranges for Vec<u8> {
     }
 }
 
-/// Parts are read by pages of so many bytes: the headers of a group and of its small arrays in a few of them.
+/// Parts are read by pages of so many bytes: the headers of a group and of its small arrays in a
+/// few of them.
 pub(super) const PAGE: u64 = 1 << 12;
 
-/// Parts of a file that have been read, each in its link of a chain: what has been read once does not move.
+/// Parts of a file that have been read, each in its link of a chain: what has been read once does
+/// not move.
 #[derive(Default)]
 pub(super) struct Chain(OnceCell<Box<Link>>);
 

@@ -19,7 +19,8 @@ pub(super) struct Start {
     before: u64,
     sizes: (u8, u8),
     pub(super) root: u64,
-    /// The end of the file: counted from the signature, or by some programs from the start of the file.
+    /// The end of the file: counted from the signature, or by some programs from the start of
+    /// the file.
     end: u64,
 }
 

@@ -25,7 +25,8 @@ use crate::decode::RESULTS;
 const FIXED: &[u8] = include_bytes!("../../../tests/data/h5py/v110-fixed.h5");
 const GROWING: &[u8] = include_bytes!("../../../tests/data/h5py/v200-first.h5");
 
-/// Runs work on a single thread, and checks that it takes no more than some seconds of processor time.
+/// Runs work on a single thread, and checks that it takes no more than some seconds of
+/// processor time.
 fn run_within_limit<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
     pool.install(|| {
@@ -195,7 +196,8 @@ fn paddings() {
     }
 }
 
-/// Numbers are whole, in either order of bytes: others are types outside the format, and told by name.
+/// Numbers are whole, in either order of bytes: others are types outside the format, and told
+/// by name.
 #[test]
 fn types_of_numbers() {
     let account = Account::for_file(0);
@@ -231,8 +233,8 @@ impl Ranges for Counted {
     }
 }
 
-/// Bytes of each step in a file of so many, and those that are read for its outline, for three of its steps and for their
-/// results.
+/// Bytes of each step in a file of so many, and those that are read for its outline, for three of
+/// its steps and for their results.
 struct Costs {
     length: u64,
     outline: u64,

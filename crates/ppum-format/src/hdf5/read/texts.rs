@@ -29,7 +29,8 @@ impl<'f> Texts<'f> {
         Self { source, collections: BTreeMap::new(), known: 0 }
     }
 
-    /// The text that an element refers to: its length, and address of a collection and number in it.
+    /// The text that an element refers to: its length, and address of a collection and number
+    /// in it.
     pub(super) fn read(&mut self, element: &'_ [u8]) -> Parsed<String> {
         let (length, place) = element.split_at_checked(4).unwrap_or_default();
         let (address, number) =

@@ -53,7 +53,8 @@ fn node(source: Source<'_>, address: u64, kind: u8, key: usize) -> Parsed<(u8, E
     Ok((level, children.collect::<Parsed<_>>()?))
 }
 
-/// Smallest record of a tree of version 2: what is shorter would take more memory than the file is long.
+/// Smallest record of a tree of version 2: what is shorter would take more memory than the file
+/// is long.
 const SMALLEST_RECORD: usize = 8;
 
 /// A tree of version 2.
@@ -92,7 +93,8 @@ const NODE_BYTES: u64 = 10;
 /// Levels of any tree: with two children each it would have more records than a file has bytes.
 const MOST_LEVELS: u16 = 64;
 
-/// Widths of the numbers of records that a child has itself (the first) and under it, at each level.
+/// Widths of the numbers of records that a child has itself (the first) and under it, at
+/// each level.
 fn widths(source: Source, node: u32, record: usize, depth: u16) -> Parsed<Vec<usize>> {
     if depth > MOST_LEVELS {
         return fail("an index is too deep");

@@ -146,8 +146,8 @@ fn integer(flags: u64, size: u32, message: &mut Cursor) -> Parsed<Kind> {
 /// Flag of numbers: the first byte is the most significant one.
 const BIG_ENDIAN: u64 = 1;
 
-/// Order of bits of an IEEE double in little-endian bytes, and then: offset, bits; place and size of exponent and
-/// mantissa, the exponent's bias.
+/// Order of bits of an IEEE double in little-endian bytes, and then: offset, bits; place and size
+/// of exponent and mantissa, the exponent's bias.
 const DOUBLE: (u64, [u8; 12]) = (0x3f20, [0, 0, 64, 0, 52, 11, 0, 52, 0xff, 3, 0, 0]);
 
 fn float(flags: u64, size: u32, message: &mut Cursor) -> Parsed<Kind> {

@@ -1,7 +1,7 @@
 // Finding the patches of a pixel on any cover, see bins.rs and pages.rs.
 
-// The bin of a pixel: the page at hand, its texel, and the vector from the bin's lower left corner to the pixel, as the
-// sum of two.
+// The bin of a pixel: the page at hand, its texel, and the vector from the bin's lower left corner
+// to the pixel, as the sum of two.
 struct Bin {
     page: u32,
     high: vec2<f32>,
@@ -57,7 +57,8 @@ fn texel_of(bin: Bin, k: u32) -> vec4<f32> {
     return bitcast<vec4<f32>>(load_place(bin.page + k));
 }
 
-// Reciprocal half-extents along an axis: those of the largest patches doubled level by level, or numbers of their own.
+// Reciprocal half-extents along an axis: those of the largest patches doubled level by level, or
+// numbers of their own.
 fn inverse_of(bin: Bin, largest: f32, k: u32) -> vec4<f32> {
     if !HAS_LEVELS {
         return texel_of(bin, k);

@@ -21,8 +21,9 @@ fn crack_nearest(crack: Crack, offset: vec2<f32>) -> f32 {
     return crack_nearest_segment(crack, offset).distance;
 }
 
-// The nearest segment; where its nearest point is a vertex (the sector behind a kink), that of the two segments
-// there with the larger line distance. Both name the same one, so rounding may choose between them.
+// The nearest segment; where its nearest point is a vertex (the sector behind a kink), that of the
+// two segments there with the larger line distance. Both name the same one, so rounding may choose
+// between them.
 fn crack_nearest_segment(crack: Crack, offset: vec2<f32>) -> Nearest {
     var nearest = Nearest(crack_line_distance(crack, 0u, offset), 0u);
     if !HAS_KINKS {
@@ -47,8 +48,8 @@ fn crack_nearest_segment(crack: Crack, offset: vec2<f32>) -> Nearest {
     return nearest;
 }
 
-// A power of two that makes the larger of two positive numbers about 1, so that squares neither vanish nor
-// overflow.
+// A power of two that makes the larger of two positive numbers about 1, so that squares neither
+// vanish nor overflow.
 fn crack_scale(size: vec2<f32>) -> f32 {
     let exponent = clamp(bitcast<u32>(max(size.x, size.y)) >> 23u, 1u, 253u);
     return bitcast<f32>((254u - exponent) << 23u);
@@ -61,8 +62,8 @@ fn crack_line_distance(crack: Crack, k: u32, offset: vec2<f32>) -> f32 {
     return tangent.x * offset.y - tangent.y * offset.x + load_view(at + 1u).x;
 }
 
-// How far a point lies beyond the ends of a segment, along it, and how far from its line. The first and the
-// last segment of a crack have no end.
+// How far a point lies beyond the ends of a segment, along it, and how far from its line. The first
+// and the last segment of a crack have no end.
 fn crack_vector(crack: Crack, k: u32, offset: vec2<f32>) -> vec2<f32> {
     let at = crack.first + SEGMENT_PAIRS * k;
     let along = dot(load_view(at), offset);

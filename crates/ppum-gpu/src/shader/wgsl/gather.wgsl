@@ -1,8 +1,9 @@
 // One pass: each pixel gathers what covers it.
 //
-// Processors that run many pixels in step take every branch that one of them takes, and some take all. So the work is in
-// loops over what is there: over the patches that cover a pixel, then over their terms. Some leave a loop at its end only,
-// and go on to there when no pixel is left: so it is asked at the end of a round, too, whether that was the last.
+// Processors that run many pixels in step take every branch that one of them takes, and some take
+// all. So the work is in loops over what is there: over the patches that cover a pixel, then over
+// their terms. Some leave a loop at its end only, and go on to there when no pixel is left: so it
+// is asked at the end of a round, too, whether that was the last.
 
 // Up to four patches that may cover a pixel.
 struct Four {
@@ -104,7 +105,8 @@ fn add_four(four: Four, pixel: Pixel, sums: ptr<function, Sums>) {
     }
 }
 
-// Which of four patches cover a pixel, a bit each. Borders belong to the patch on their right or upper side.
+// Which of four patches cover a pixel, a bit each. Borders belong to the patch on their right or
+// upper side.
 fn covering_of(four: Four) -> u32 {
     let one = vec4<f32>(1.0);
     let in_x = (four.support.x >= -one) & (four.support.x < one);

@@ -1,5 +1,5 @@
-// What is read of the view's data by the point functions: frames of groups, cracks. The twin is geometry.rs,
-// which writes it. Whole numbers are floats there.
+// What is read of the view's data by the point functions: frames of groups, cracks. The twin is
+// geometry.rs, which writes it. Whole numbers are floats there.
 
 // The crack whose side is a group's function.
 fn crack_of(group: u32) -> Crack {

@@ -3,8 +3,8 @@
 // Where the cuts of a component's tree are in the view's data, and how many.
 struct Indicator { first: u32, count: u32 }
 
-// 1 in the component, 0 outside. On the line of a cut its left is taken. A cut stands before those that follow from it, so no way
-// through the tree is longer than the tree.
+// 1 in the component, 0 outside. On the line of a cut its left is taken. A cut stands before those
+// that follow from it, so no way through the tree is longer than the tree.
 fn indicator_value(indicator: Indicator, offset: vec2<f32>) -> f32 {
     var cut = 0u;
     for (var k = 0u; k < indicator.count; k++) {

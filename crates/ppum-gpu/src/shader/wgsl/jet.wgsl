@@ -1,5 +1,5 @@
-// Values with derivatives up to the constant ORDER, and their algebra: the twin of ppum::jet. Members
-// above ORDER stay 0.
+// Values with derivatives up to the constant ORDER, and their algebra: the twin of ppum::jet.
+// Members above ORDER stay 0.
 
 struct Jet { v: f32, x: f32, y: f32, xx: f32, xy: f32, yy: f32 }
 
@@ -83,7 +83,8 @@ fn jets_over(sum: Jets, s: Jet) -> Jets {
     return out;
 }
 
-// Derivatives with respect to the world of functions of a frame whose x axis is the unit vector `axis`.
+// Derivatives with respect to the world of functions of a frame whose x axis is the unit
+// vector `axis`.
 fn functions_turned(f: Functions, axis: vec2<f32>) -> Functions {
     let c = axis.x;
     let s = axis.y;

@@ -1,5 +1,5 @@
-// All data are read here. Texels of four words: of the dataset by `load`, of the region by `load_place`; pairs of
-// the view by `load_view`.
+// All data are read here. Texels of four words: of the dataset by `load`, of the region by
+// `load_place`; pairs of the view by `load_view`.
 
 fn load(at: u32) -> vec4<u32> {
     return textureLoad(data, texel_at(at), 0);

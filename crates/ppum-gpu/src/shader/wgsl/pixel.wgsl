@@ -32,8 +32,8 @@ fn is_inside(pixel: Pixel) -> bool {
     return after && before && !holes_contain(view.holes, view.n_holes, pixel.offset);
 }
 
-// A point of the triangle that covers the picture; it is drawn once for each area, as the instance that has the number
-// of the area's group.
+// A point of the triangle that covers the picture; it is drawn once for each area, as the instance
+// that has the number of the area's group.
 struct Covered {
     @builtin(position) position: vec4<f32>,
     @location(0) @interpolate(flat) group: u32,

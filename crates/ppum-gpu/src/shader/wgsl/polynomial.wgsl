@@ -1,8 +1,8 @@
 // Polynomials of two variables by nested Horner schemes: the twin of ppum::polynomial.
 
 // The sum of c ξ^a η^b over a + b <= degree with its derivatives in the world; `inverse` holds the
-// reciprocal scales of ξ. At `at` are the coefficients in the order they are needed: b = degree … 0, for
-// each a = degree - b … 0, all components of one side by side.
+// reciprocal scales of ξ. At `at` are the coefficients in the order they are needed: b = degree …
+// 0, for each a = degree - b … 0, all components of one side by side.
 fn polynomial(at: u32, degree: u32, xi: vec2<f32>, inverse: vec2<f32>) -> Jets {
     let last = at + ((degree + 1u) * (degree + 2u) / 2u - 1u) * LANE_PAIRS;
     return polynomial_with(at, degree, xi, inverse, load_lanes(last));

@@ -1,12 +1,12 @@
 // The three passes of Üffinger et al. 2011, section 4 and figure 3: patches drawn as quads.
 //
-//   1  S = Σ W_i and ∇S by additive blending                                   splat_weight
-//   2  φ_i v_i and ∇(φ_i v_i) = ∇φ_i v_i + φ_i ∇v_i, likewise, φ_i = W_i / S     splat_field
-//   3  the quantity of the sums, then its colour                               sample_of, finish.wgsl
+//   1  S = Σ W_i and ∇S by additive blending                                 splat_weight
+//   2  φ_i v_i and ∇(φ_i v_i) = ∇φ_i v_i + φ_i ∇v_i, likewise, φ_i = W_i / S  splat_field
+//   3  the quantity of the sums, then its colour                             sample_of
 //
-// A quad is clipped to the view and its corners put on borders of pixels in double precision. Its local
-// coordinates are given at its first pixel, with their steps from pixel to pixel: exact where the
-// interpolation of corners is not.
+// A quad is clipped to the view and its corners put on borders of pixels in double precision. Its
+// local coordinates are given at its first pixel, with their steps from pixel to pixel: exact where
+// the interpolation of corners is not.
 
 struct Quad {
     @builtin(position) position: vec4<f32>,
@@ -32,7 +32,8 @@ fn splat_quad(@builtin(vertex_index) vertex: u32, quad: Instance) -> Quad {
     );
 }
 
-// Where the pixel at hand lies in the frame that has ξ and these steps at the first pixel of its quad.
+// Where the pixel at hand lies in the frame that has ξ and these steps at the first pixel of
+// its quad.
 fn quad_coordinates(quad: Quad, xi: vec2<f32>, step: vec2<f32>) -> Coordinates {
     let steps = vec2<f32>(vec2<u32>(quad.position.xy) - quad.first);
     return Coordinates(xi + steps * step, vec2<f32>(1.0, -1.0) * step / view.pixel_size);
@@ -150,7 +151,8 @@ fn jets_of(group: u32, index: vec2<u32>) -> Jets {
     return out;
 }
 
-// Slot k of the pairs of components of a group, beginning with `pair`: two numbers of each component.
+// Slot k of the pairs of components of a group, beginning with `pair`: two numbers of each
+// component.
 fn slot_pairs(pair: u32, k: u32, index: vec2<u32>) -> array<Lanes, 2> {
     let a = field_slot(pair * SLOTS + k, index);
     if LANES == 2u {

@@ -1,8 +1,8 @@
 // Points in the frames of functions: the twins of TipPoint and LocalTip in ppum::crack.
 
-// A tip seen from the view's centre: centre minus tip, the direction of growth; the distance of the centre from
-// the line of the segment it ends, and +1 at the last vertex of its crack, -1 at the first; which crack and
-// segment these are.
+// A tip seen from the view's centre: centre minus tip, the direction of growth; the distance of the
+// centre from the line of the segment it ends, and +1 at the last vertex of its crack, -1 at the
+// first; which crack and segment these are.
 struct Tip {
     from_tip: vec2<f32>,
     axis: vec2<f32>,
@@ -15,9 +15,9 @@ struct Tip {
 // A fixed frame: the view's centre minus its origin, and its x axis.
 struct Fixed { from_origin: vec2<f32>, axis: vec2<f32> }
 
-// A point in a frame: x ahead, y to the left; the sign of the polar angle before the branch is taken; and
-// -1 where the point lies between a kinked crack and the straight extension of its last segment, so that θ
-// must be shifted by 2π, else +1.
+// A point in a frame: x ahead, y to the left; the sign of the polar angle before the branch is
+// taken; and -1 where the point lies between a kinked crack and the straight extension of its last
+// segment, so that θ must be shifted by 2π, else +1.
 struct TipPoint { x: f32, y: f32, sign: f32, branch: f32 }
 
 fn tip_point(tip: Tip, offset: vec2<f32>) -> TipPoint {
@@ -51,8 +51,8 @@ fn tip_radius(p: TipPoint) -> f32 {
     return large * sqrt(slope * slope + 1.0);
 }
 
-// √r cos(θ/2) and √r sin(θ/2) for r = |z|. The larger of the two magnitudes is a root, the smaller follows by
-// division, so nothing cancels near θ = ±π. Both are zero at r = 0.
+// √r cos(θ/2) and √r sin(θ/2) for r = |z|. The larger of the two magnitudes is a root, the smaller
+// follows by division, so nothing cancels near θ = ±π. Both are zero at r = 0.
 fn tip_half_root(p: TipPoint, r: f32) -> vec2<f32> {
     if r == 0.0 {
         return vec2<f32>();
@@ -71,8 +71,8 @@ fn tip_half_angle(p: TipPoint, r: f32) -> vec2<f32> {
     return tip_half_root(p, r) / sqrt(r);
 }
 
-// θ on the branch that jumps on the crack itself, from cos(θ/2) and sin(θ/2): 4 arctan(tan(θ/4)), beyond a
-// half turn by the angle that is missing from a full one.
+// θ on the branch that jumps on the crack itself, from cos(θ/2) and sin(θ/2): 4 arctan(tan(θ/4)),
+// beyond a half turn by the angle that is missing from a full one.
 fn tip_theta(half: vec2<f32>) -> f32 {
     let angle = 4.0 * ppum_atan(abs(half.y) / (1.0 + abs(half.x)));
     let size = select(angle, 6.2831853 - angle, half.x < 0.0);

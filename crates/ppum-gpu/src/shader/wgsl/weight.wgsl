@@ -1,7 +1,8 @@
 // Weight functions: the twin of ppum::weight. Those of a formula are generated.
 
-// (w, dw/dt, d²w/dt²) at t = |ξ| as derivatives by ξ, zero outside [-1, 1). Where a derivative jumps, the
-// one from the right is taken, so that a border belongs to the patch on its right or upper side.
+// (w, dw/dt, d²w/dt²) at t = |ξ| as derivatives by ξ, zero outside [-1, 1). Where a derivative
+// jumps, the one from the right is taken, so that a border belongs to the patch on its right or
+// upper side.
 fn weight_even(xi: f32, w: vec3<f32>) -> vec3<f32> {
     let inside = (xi >= -1.0) & (xi < 1.0);
     let slope = select(-w.y, w.y, xi >= 0.0);

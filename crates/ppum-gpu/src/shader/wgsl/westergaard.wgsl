@@ -1,9 +1,9 @@
 // The Westergaard functions √r {cos θ/2, sin θ/2, sin θ/2 sin θ, cos θ/2 sin θ}: the twin of
 // ppum::function::westergaard.
 
-// The four functions with derivatives in the tip's frame. They are homogeneous of degree 1/2: what is needed
-// is found on the unit circle and scaled by powers of √r, so no power of r is formed that the result has
-// not. At r = 0 the values are zero and the derivatives NaN: they do not exist.
+// The four functions with derivatives in the tip's frame. They are homogeneous of degree 1/2: what
+// is needed is found on the unit circle and scaled by powers of √r, so no power of r is formed that
+// the result has not. At r = 0 the values are zero and the derivatives NaN: they do not exist.
 fn westergaard(p: TipPoint) -> Functions {
     let r = tip_radius(p);
     if r == 0.0 {
@@ -38,8 +38,9 @@ fn westergaard_at_tip() -> Functions {
     return out;
 }
 
-// At r = 1 for (cos θ/2, sin θ/2), cos θ and sin θ. With C = Re z^½ and S = Im z^½ the functions are
-// C, S, S sin θ, C sin θ; derivatives of the roots are those of z^½, (z^½)′ = ½ z^{-½}, (z^½)″ = -¼ z^{-3/2}.
+// At r = 1 for (cos θ/2, sin θ/2), cos θ and sin θ. With C = Re z^½ and S = Im z^½ the functions
+// are C, S, S sin θ, C sin θ; derivatives of the roots are those of z^½, (z^½)′ = ½ z^{-½},
+// (z^½)″ = -¼ z^{-3/2}.
 fn westergaard_on_circle(half: vec2<f32>, ct: f32, st: f32) -> Functions {
     let c = half.x;
     let s = half.y;

@@ -96,7 +96,8 @@ fn formula(text: &str, frame: Frame, parameters: &[(&str, f64)]) -> FunctionKind
     kind
 }
 
-/// Compares all functions with derivatives up to an order with the reference: formulas in double precision.
+/// Compares all functions with derivatives up to an order with the reference: formulas in
+/// double precision.
 fn compare(functions: &[Function], groups: &Groups, tables: &[Arc<Table>], order: usize) {
     let cracks = &cracks();
     let (shader, _) = shader(functions, groups, cracks, tables, order);
@@ -123,7 +124,8 @@ fn compare(functions: &[Function], groups: &Groups, tables: &[Arc<Table>], order
             let expected = [jet.v, jet.x, jet.y, jet.xx, jet.xy, jet.yy];
             for (k, (a, b)) in found.iter().zip(expected).enumerate() {
                 let b = if k < count { b } else { 0.0 };
-                // offsets and origins of single precision, derivatives of size 1/r and 1/r² near a tip
+                // offsets and origins of single precision, derivatives of size 1/r and 1/r² near
+                // a tip
                 assert!(
                     (a - b).abs() <= 2e-5 * (1.0 + b.abs()),
                     "{} derivative {k} at {offset:?}: {a:e} {b:e}",
@@ -151,7 +153,8 @@ fn all_kinds() -> Vec<FunctionKind> {
     ]
 }
 
-/// Left of the second segment of the first crack, and there right of the second crack; or right of all of these.
+/// Left of the second segment of the first crack, and there right of the second crack; or right of
+/// all of these.
 fn component() -> FunctionKind {
     let cut =
         |crack, segment, left, right| Cut { segment: SegmentId { crack, segment }, left, right };
@@ -180,7 +183,8 @@ fn functions_of_every_kind() {
     }
 }
 
-/// Formulas in place of a kernel's function, of a side, of a component and of 1, some of them at one tip only.
+/// Formulas in place of a kernel's function, of a side, of a component and of 1, some of them at
+/// one tip only.
 #[test]
 fn replaced_functions() {
     let plain = Recipe { cracks: cracks(), ..Recipe::default() };

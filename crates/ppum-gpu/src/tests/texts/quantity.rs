@@ -21,8 +21,8 @@ fn lanes(components: usize) -> usize {
     components.clamp(2, 4)
 }
 
-/// The structures that a quantity sees, and a function of the position and of each component's value and
-/// gradient.
+/// The structures that a quantity sees, and a function of the position and of each component's
+/// value and gradient.
 fn surroundings(components: usize) -> String {
     let (lanes, groups) = (lanes(components), components.div_ceil(4));
     let parameters: Vec<String> =
@@ -72,7 +72,8 @@ fn dataset(components: usize) -> Dataset {
     dataset
 }
 
-/// A place and a gradient of single precision; every third nearly without shear or change of volume.
+/// A place and a gradient of single precision; every third nearly without shear or change
+/// of volume.
 fn sample(random: &mut Random, components: usize, k: usize) -> (Vec<f32>, Vec<Jet<f64>>) {
     let mut arguments = vec![random.between(0.3, 1.4) as f32, random.between(-0.2, 0.6) as f32];
     let mut numbers: Vec<f32> =
@@ -99,8 +100,8 @@ fn expected(field: &Field<'_>, quantity: &Quantity, arguments: &[f32], jets: &[J
     quantity.of_field(&Sample { anchor: Vec2::ZERO, offset, moduli, jets, exact: &[] })
 }
 
-/// Unit roundoffs of single precision that a quantity may be apart: some operations, each of numbers that
-/// are no larger than the constants times the gradient.
+/// Unit roundoffs of single precision that a quantity may be apart: some operations, each of
+/// numbers that are no larger than the constants times the gradient.
 const ROUNDING: f64 = 16.0 * f32::EPSILON as f64;
 
 /// Compares a quantity with its twin; `size` is that of what it is made of.
@@ -167,7 +168,8 @@ fn quantities_of_materials() {
     compare(&field, "conductivity*du_dx", |_| 4.0);
 }
 
-/// Stresses of a nearly incompressible solid, by thousands larger than what they differ in: still all digits.
+/// Stresses of a nearly incompressible solid, by thousands larger than what they differ in: still
+/// all digits.
 #[test]
 fn stresses_keep_their_digits() {
     for poisson in [0.3, 0.499, 0.499_99] {

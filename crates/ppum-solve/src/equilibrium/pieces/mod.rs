@@ -42,7 +42,8 @@ struct Map {
     mesh: Mesh,
     /// Of each triangle, its piece; none in a hole.
     piece_of: Vec<Option<usize>>,
-    /// Of each segment of each crack, the ends of the edges along it, in the direction of the crack.
+    /// Of each segment of each crack, the ends of the edges along it, in the direction of
+    /// the crack.
     along: Along,
 }
 
@@ -82,8 +83,8 @@ impl Pieces {
         if domain.holes.is_empty() && found.all.len() == 1 { all_of_it() } else { found }
     }
 
-    /// The rigid-body modes of the pieces. Those of a plate in one piece are about the centre of its box: they stay the same to the
-    /// last bit where cracks grow.
+    /// The rigid-body modes of the pieces. Those of a plate in one piece are about the centre of
+    /// its box: they stay the same to the last bit where cracks grow.
     pub(crate) fn rigid_modes(&self, components: usize) -> Vec<RigidModes> {
         let modes = |piece: &Piece| RigidModes::new(piece.centroid, piece.area.sqrt(), components);
         match self.all.as_slice() {
@@ -116,8 +117,8 @@ impl Pieces {
         &self.all
     }
 
-    /// The number of the piece that holds a point of the plate, which must not lie on a crack. A point
-    /// that rounding has put outside belongs to the piece next to it.
+    /// The number of the piece that holds a point of the plate, which must not lie on a crack. A
+    /// point that rounding has put outside belongs to the piece next to it.
     pub(crate) fn of(&self, p: Vec2) -> usize {
         let Some(Map { mesh, piece_of, .. }) = self.map() else { return 0 };
         let face = match mesh.locate(to_unit(&self.bounds, p)) {
@@ -206,8 +207,8 @@ fn into_holes(crack: &Crack, bounds: &Rect) -> Vec<Vec2> {
     points
 }
 
-/// What closes the gaps of rounding between ends of cracks and the cracks that they lie on: from each such end to the
-/// nearest place, and a little farther.
+/// What closes the gaps of rounding between ends of cracks and the cracks that they lie on: from
+/// each such end to the nearest place, and a little farther.
 fn stitches(cracks: &[Crack], bounds: &Rect) -> Vec<[Vec2; 2]> {
     let far = INWARD * bounds.size().length();
     let mut found = Vec::new();

@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 /// Corners of a polygon in a circle that nothing crosses.
 const CORNERS: u32 = 16;
 
-/// The domain with polygons for holes. Those of circles lie inside, with corners wherever another curve
-/// crosses the circle: so what touches the circle touches the polygon.
+/// The domain with polygons for holes. Those of circles lie inside, with corners wherever another
+/// curve crosses the circle: so what touches the circle touches the polygon.
 pub(super) fn with_polygons(domain: &Domain, cracks: &[Vec<Vec2>]) -> Domain {
     let mut segments = border(&domain.bounds).to_vec();
     segments.extend(cracks.iter().flat_map(|crack| crack.windows(2)).map(|s| [s[0], s[1]]));
@@ -55,7 +55,8 @@ fn crossings([a, b]: [Vec2; 2], radius: f64) -> Vec<Vec2> {
     places.into_iter().filter(|s| (0.0..=1.0).contains(s)).map(|s| a + along * s).collect()
 }
 
-/// Crossings of the circle around the origin and one around another point; none if they do not meet.
+/// Crossings of the circle around the origin and one around another point; none if they do
+/// not meet.
 fn common(other: Vec2, radius: f64, reach: f64) -> Vec<Vec2> {
     let distance = other.length();
     let along = 0.5 * (distance + (radius - reach) * (radius + reach) / distance);

@@ -91,8 +91,8 @@ fn holes_and_cracks() {
     assert_eq!(found.of(vec2(-0.5, 0.5)), found.of(vec2(0.1, 0.3)));
 }
 
-/// A bar of holes from border to border cuts without any crack; holes that reach over the border are
-/// notches.
+/// A bar of holes from border to border cuts without any crack; holes that reach over the border
+/// are notches.
 #[test]
 fn holes_alone() {
     let bar = vec![vec2(-2.0, -0.1), vec2(2.0, -0.1), vec2(2.0, 0.1), vec2(-2.0, 0.1)];
@@ -104,7 +104,8 @@ fn holes_alone() {
     assert!((notch.all()[0].area - 3.5).abs() < 1e-12);
 }
 
-/// A chain of round holes cuts if they overlap, by however little. The first one reaches the border.
+/// A chain of round holes cuts if they overlap, by however little. The first one reaches
+/// the border.
 #[test]
 fn chains_of_holes() {
     let hole = |x: f64, radius| Hole::Circle { center: vec2(x, 0.1), radius };
@@ -139,7 +140,8 @@ fn cracks_from_a_round_hole() {
     }
 }
 
-/// Cracks that cross, branch and end on each other cut out what lies between them, whatever their numbers are.
+/// Cracks that cross, branch and end on each other cut out what lies between them, whatever their
+/// numbers are.
 #[test]
 fn cracks_that_meet() {
     let mut random = ppum_testkit::random::Random(16);
@@ -182,7 +184,8 @@ fn cracks_that_meet() {
     }
 }
 
-/// What the components of patches are, and the pieces of a plate that is the patch: found in two ways, the same.
+/// What the components of patches are, and the pieces of a plate that is the patch: found in two
+/// ways, the same.
 #[test]
 fn pieces_of_a_box_are_its_components() {
     use ppum::function::{Function, FunctionTable, GROUP};

@@ -40,7 +40,8 @@ impl Sides {
         self.parts[side].push((part, self.interval(ends)));
     }
 
-    /// The pairs of parts, on the left and on the right, between which the way is open for longer than `gap`.
+    /// The pairs of parts, on the left and on the right, between which the way is open for longer
+    /// than `gap`.
     pub(super) fn open(&self, holes: &[&Hole], gap: f64) -> Vec<[usize; 2]> {
         let [left, right] = &self.parts;
         let pairs = left.iter().flat_map(|a| right.iter().map(move |b| (a, b)));

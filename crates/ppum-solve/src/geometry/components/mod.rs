@@ -1,10 +1,11 @@
 //! The connected components of what cracks leave of a box.
 //!
-//! The box is cut by the lines of segments, one after the other, each within the part of the box that the segment lies
-//! in (a binary space partition): no line is drawn farther than the segments behind it ask for, so n segments that do
-//! not cross leave about n + 1 convex parts. Two parts are joined where their common side is not covered by cracks and
-//! does not lie in holes. The tree of the cuts, with what is joined taken as one, tells the component of any point of
-//! the box, which is what [`FunctionKind::Component`](ppum::function::FunctionKind::Component) evaluates.
+//! The box is cut by the lines of segments, one after the other, each within the part of the box
+//! that the segment lies in (a binary space partition): no line is drawn farther than the segments
+//! behind it ask for, so n segments that do not cross leave about n + 1 convex parts. Two parts are
+//! joined where their common side is not covered by cracks and does not lie in holes. The tree of
+//! the cuts, with what is joined taken as one, tells the component of any point of the box, which
+//! is what [`FunctionKind::Component`](ppum::function::FunctionKind::Component) evaluates.
 //!
 //! Ends of cracks within the box need no rule: the parts beside a line are joined beyond the end.
 
@@ -48,8 +49,8 @@ pub(crate) struct Components {
 }
 
 impl Components {
-    /// The components of a box, of which `segments` of cracks and the holes are left out. Gaps in the cracks up to the
-    /// length `gap` count as closed.
+    /// The components of a box, of which `segments` of cracks and the holes are left out. Gaps in
+    /// the cracks up to the length `gap` count as closed.
     ///
     /// Takes time in proportion to the square of the number of segments in the box.
     pub(crate) fn new(
@@ -73,8 +74,9 @@ impl Components {
         self.weights.len()
     }
 
-    /// The trees of the indicator functions of all components but that with the most room in the middle, which a patch
-    /// has for itself: with the constants they span what is constant on each component.
+    /// The trees of the indicator functions of all components but that with the most room in the
+    /// middle, which a patch has for itself: with the constants they span what is constant on
+    /// each component.
     pub(crate) fn indicators(&self) -> Vec<Vec<Cut>> {
         let numbers = 0..self.weights.len();
         let heavier = |a: &usize, b: &usize| self.weights[*a].total_cmp(&self.weights[*b]);
@@ -168,7 +170,8 @@ impl Building {
         Components { tree: self.tree, of_leaf, weights }
     }
 
-    /// Joins what is not larger than a gap, where ends that are meant to meet miss each other, to what lies beside it.
+    /// Joins what is not larger than a gap, where ends that are meant to meet miss each other, to
+    /// what lies beside it.
     fn join_crumbs(&self, joined: &mut [usize], gap: f64) {
         let mut areas = vec![0.0; joined.len()];
         for (leaf, region) in self.leaves.iter().enumerate() {

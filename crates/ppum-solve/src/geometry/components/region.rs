@@ -70,7 +70,8 @@ impl Piece {
     }
 }
 
-/// A corner of a region, and the cut that made the side from it to the next corner; none on the border of the box.
+/// A corner of a region, and the cut that made the side from it to the next corner; none on the
+/// border of the box.
 type Corner = (Vec2, Option<usize>);
 
 /// A convex polygon, counter-clockwise.
@@ -90,8 +91,8 @@ impl Region {
 
     /// The parts on the left and on the right of the line of a segment.
     ///
-    /// A side that the segment ends on is divided there: the crossing of lines at a small angle is lost in rounding, and
-    /// cracks that meet at a point would leave a way between them.
+    /// A side that the segment ends on is divided there: the crossing of lines at a small angle is
+    /// lost in rounding, and cracks that meet at a point would leave a way between them.
     pub(super) fn split(&self, line: &Line, ends: Segment, cut: usize, thinnest: f64) -> [Self; 2] {
         let (mut left, mut right) = (Vec::new(), Vec::new());
         for (k, &(p, side)) in self.0.iter().enumerate() {

@@ -99,8 +99,8 @@ fn ends_that_miss_by_rounding_meet() {
     }
 }
 
-/// Cracks that go on from each other at angles down to what counts as none: no way leads through where they meet, also on
-/// the last one that is cut by.
+/// Cracks that go on from each other at angles down to what counts as none: no way leads through
+/// where they meet, also on the last one that is cut by.
 #[test]
 fn joints_of_small_angles_are_closed() {
     let mut random = Random(19);
@@ -131,8 +131,9 @@ fn cracks_that_end_on_holes() {
     assert_eq!(on(&[&[[-1.0, 0.5], [0.35, 0.5]]], &wall), 1, "not quite");
 }
 
-/// A random network on the unit box: a way that meets no crack does not leave its component. The ways lead along the
-/// edges of a fine grid. That components are not larger is held by `equilibrium::pieces`, which finds them otherwise.
+/// A random network on the unit box: a way that meets no crack does not leave its component. The
+/// ways lead along the edges of a fine grid. That components are not larger is held by
+/// `equilibrium::pieces`, which finds them otherwise.
 #[test]
 fn components_are_what_ways_lead_to() {
     const N: usize = 96;
@@ -185,8 +186,8 @@ fn crosses([a, b]: [Vec2; 2], [p, q]: [Vec2; 2]) -> bool {
     side(a, b, p) != side(a, b, q) && side(p, q, a) != side(p, q, b)
 }
 
-/// Beside the faces, from 1e-3 to 1e-15 away: the component jumps where two components meet and nowhere else; on a
-/// face that is known the side decides.
+/// Beside the faces, from 1e-3 to 1e-15 away: the component jumps where two components meet and
+/// nowhere else; on a face that is known the side decides.
 #[test]
 fn at_the_faces_of_a_star() {
     let mut random = Random(17);

@@ -1,11 +1,12 @@
 //! Curves of cracks and rims, divided into segments so finely that the division does not show in K.
 //!
-//! A polygon inscribed in a curve ends at half a segment's turn to its tangent, and K is off like the first power of
-//! the segments' length. Here an open curve keeps its ends and its tangents there: the first and the last segment
-//! lie on them. The other vertices lie beside the curve, on the outer side of the bend by κ h²/12 where segments
-//! of length h would have κ h²/8 between chord and curve, so that the segments enclose as much on one side of the curve as on
-//! the other. What the short pieces at the tips do to K, of the order h^1.5,
-//! depends on the length of the first and the last segment, and vanishes at about a quarter of h.
+//! A polygon inscribed in a curve ends at half a segment's turn to its tangent, and K is off like
+//! the first power of the segments' length. Here an open curve keeps its ends and its tangents
+//! there: the first and the last segment lie on them. The other vertices lie beside the curve, on
+//! the outer side of the bend by κ h²/12 where segments of length h would have κ h²/8 between chord
+//! and curve, so that the segments enclose as much on one side of the curve as on the other. What
+//! the short pieces at the tips do to K, of the order h^1.5, depends on the length of the first and
+//! the last segment, and vanishes at about a quarter of h.
 
 mod spline;
 
@@ -13,18 +14,20 @@ use ppum::vec2::{Vec2, vec2};
 pub(super) use spline::Spline;
 use std::f64::consts::TAU;
 
-/// Turn of the curve from vertex to vertex, in radians: K of arcs is right to 4e-5 then (`tests/solver/curved.rs`).
+/// Turn of the curve from vertex to vertex, in radians: K of arcs is right to 4e-5
+/// then (`tests/solver/curved.rs`).
 const TURN: f64 = 1.0 / 32.0;
 
-/// Least number of segments along a curve, however little it turns: K is off by less than that turn times 2e-4.
+/// Least number of segments along a curve, however little it turns: K is off by less than that turn
+/// times 2e-4.
 const LEAST: f64 = 16.0;
 
 /// Most segments of one curve: what asks for more has a cusp.
 pub(super) const MOST: usize = 4096;
 
-/// Length of the first and the last segment in those of the others. K of an arc of 138° in 18 and in 50 segments is off by
-/// 1.2e-3 and 2e-4 at 0.408, where the tangent meets the line of the other vertices, by −1.2e-4 and −7e-5 at 0.2, by
-/// 4e-4 and 4e-5 at 0.28.
+/// Length of the first and the last segment in those of the others. K of an arc of 138° in 18 and
+/// in 50 segments is off by 1.2e-3 and 2e-4 at 0.408, where the tangent meets the line of the other
+/// vertices, by −1.2e-4 and −7e-5 at 0.2, by 4e-4 and 4e-5 at 0.28.
 const END: f64 = 0.24;
 
 /// Places at which a curve is looked at to divide it; at each joint of a spline in addition.
@@ -33,7 +36,8 @@ const LOOKS: usize = 4096;
 /// A smooth curve without corners.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Curve {
-    /// A part of an ellipse: c + R(angle) (a cos t, b sin t), from ≤ t ≤ to or back; all angles in radians.
+    /// A part of an ellipse: c + R(angle) (a cos t, b sin t), from ≤ t ≤ to or back; all angles
+    /// in radians.
     Ellipse { center: Vec2, axes: Vec2, angle: f64, from: f64, to: f64 },
     /// A cubic spline.
     Spline(Spline),
@@ -69,7 +73,8 @@ impl Curve {
         [self.place(from).at, self.place(to).at]
     }
 
-    /// The vertices of an open curve from end to end, in so many segments if given, else in as many as it takes.
+    /// The vertices of an open curve from end to end, in so many segments if given, else in as many
+    /// as it takes.
     ///
     /// # Errors
     /// It takes too many.
@@ -207,7 +212,8 @@ impl<'c> Walk<'c> {
         to - from
     }
 
-    /// The vertex at a count, beside the curve on the outer side of its bend, of segments of `step` counts.
+    /// The vertex at a count, beside the curve on the outer side of its bend, of segments of `step`
+    /// counts.
     fn beside(&self, count: f64, step: f64) -> Vec2 {
         let (k, part) = self.find(count);
         let t = self.parameters[k] + (self.parameters[k + 1] - self.parameters[k]) * part;
@@ -232,8 +238,9 @@ fn summed(values: impl Iterator<Item = f64>, step: f64) -> Vec<f64> {
 /// Turn of an arc, in radians, below which it is straight: its height is an eighth of that.
 const STRAIGHT: f64 = 1e-6;
 
-/// The vertices of an arc that begins at a point in a direction (an angle to the x axis), with a curvature, positive where it
-/// turns left; the point itself is none of them. It turns by less than a whole turn.
+/// The vertices of an arc that begins at a point in a direction (an angle to the x axis), with a
+/// curvature, positive where it turns left; the point itself is none of them. It turns by less than
+/// a whole turn.
 pub(crate) fn arc_from(at: Vec2, direction: f64, curvature: f64, length: f64) -> Vec<Vec2> {
     let along = vec2(direction.cos(), direction.sin());
     let turn = curvature * length;
@@ -281,7 +288,8 @@ mod tests {
         }
     }
 
-    /// Ends and tangents there are those of the curve; the others turn by 1/32; whichever way it runs.
+    /// Ends and tangents there are those of the curve; the others turn by 1/32; whichever way
+    /// it runs.
     #[test]
     fn arcs_end_on_their_tangents() {
         let mut random = Random(6);

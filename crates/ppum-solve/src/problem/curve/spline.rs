@@ -1,4 +1,5 @@
-//! Cubic splines through points: two continuous derivatives, so that tangent and curvature are continuous.
+//! Cubic splines through points: two continuous derivatives, so that tangent and curvature
+//! are continuous.
 
 use ppum::vec2::Vec2;
 
@@ -13,9 +14,10 @@ pub(in super::super) struct Spline {
 }
 
 impl Spline {
-    /// From the first point to the last; three points or more, no two successive ones equal. At the second point and
-    /// the last but one the third derivative is continuous, too ("not a knot"): without curvature at its ends, as
-    /// natural splines are, it would miss the tangents there, and K with them.
+    /// From the first point to the last; three points or more, no two successive ones equal. At the
+    /// second point and the last but one the third derivative is continuous, too ("not a knot"):
+    /// without curvature at its ends, as natural splines are, it would miss the tangents there, and
+    /// K with them.
     pub(in super::super) fn open(points: &[Vec2]) -> Self {
         let chords: Vec<f64> = points.windows(2).map(|p| (p[1] - p[0]).length()).collect();
         let inner = points.len() - 2;
@@ -43,12 +45,14 @@ impl Spline {
         Self { points: points.to_vec(), chords, bends }
     }
 
-    /// Through all points and back to the first one; three points or more, no two successive ones equal.
+    /// Through all points and back to the first one; three points or more, no two successive
+    /// ones equal.
     pub(in super::super) fn closed(points: &[Vec2]) -> Self {
         let n = points.len();
         let round: Vec<Vec2> = (0..n + 2).map(|k| points[k % n]).collect();
         let chords: Vec<f64> = round.windows(2).map(|p| (p[1] - p[0]).length()).collect();
-        // the unknown bend at point 0 couples to both ends of the others: two solutions, and their sum that closes
+        // the unknown bend at point 0 couples to both ends of the others: two solutions, and their
+        // sum that closes
         let row = |k: usize| (chords[k], 2.0 * (chords[k] + chords[k + 1]), chords[k + 1]);
         let rows: Vec<_> = (0..n - 1).map(row).collect();
         let right: Vec<Vec2> = (0..n - 1).map(|k| slope_jump(&round, &chords, k)).collect();
@@ -72,7 +76,8 @@ impl Spline {
         self.chords.len()
     }
 
-    /// Place and two derivatives at a parameter, whole numbers at the points; per span, so that lengths of derivatives jump.
+    /// Place and two derivatives at a parameter, whole numbers at the points; per span, so that
+    /// lengths of derivatives jump.
     pub(super) fn at(&self, t: f64) -> [Vec2; 3] {
         let k = (t.max(0.0) as usize).min(self.spans() - 1);
         let (s, h) = (t - k as f64, self.chords[k]);
@@ -85,12 +90,14 @@ impl Spline {
     }
 }
 
-/// The bend at an end of the chord in whose other end the bend is `near`, on the line through the next one.
+/// The bend at an end of the chord in whose other end the bend is `near`, on the line through the
+/// next one.
 fn beyond([near, next]: [Vec2; 2], ratio: f64) -> Vec2 {
     near + (near - next) * ratio
 }
 
-/// The coefficients of an end's first two inner bends, with the end's own, that of `chord`, expressed by them.
+/// The coefficients of an end's first two inner bends, with the end's own, that of `chord`,
+/// expressed by them.
 fn run_out(middle: f64, next: f64, chord: f64) -> (f64, f64) {
     let ratio = chord / next;
     (middle + chord * (1.0 + ratio), next - chord * ratio)
@@ -125,7 +132,8 @@ mod tests {
     use ppum::vec2::vec2;
     use ppum_testkit::random::Random;
 
-    /// Random points: the spline passes through them; tangent and curvature (by the length of chords) are continuous.
+    /// Random points: the spline passes through them; tangent and curvature (by the length of
+    /// chords) are continuous.
     #[test]
     fn two_derivatives_are_continuous() {
         let mut random = Random(9);

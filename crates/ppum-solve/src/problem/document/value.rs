@@ -197,7 +197,8 @@ impl<'a> Value<'a> {
         self.error(&format!("is {value}, but must be finite"))
     }
 
-    /// The result of parsing the value's text, or a report of a mistake at its place inside the text.
+    /// The result of parsing the value's text, or a report of a mistake at its place inside
+    /// the text.
     pub(in super::super) fn inside<T>(
         &self,
         text: &str,
@@ -210,8 +211,8 @@ impl<'a> Value<'a> {
         result.map_err(report).ok()
     }
 
-    /// The byte of a place in the value's text. Texts with escapes differ from what the file holds: for
-    /// them where the value begins.
+    /// The byte of a place in the value's text. Texts with escapes differ from what the file holds:
+    /// for them where the value begins.
     fn offset_in_text(&self, text: &str, line: usize, column: usize) -> usize {
         let Range { start, end } = self.item.span();
         let raw = self.report.text.get(start..end).unwrap_or_default();

@@ -10,8 +10,8 @@ const KINDS: [(&str, AdaptKind); 3] =
 
 const KEEPS: [(&str, Keep); 2] = [("last", Keep::Last), ("all", Keep::All)];
 
-/// The table, or its defaults for the accuracy that `[discretization]` asks for. Values that are wrong are reported, and left at
-/// their defaults.
+/// The table, or its defaults for the accuracy that `[discretization]` asks for. Values that are
+/// wrong are reported, and left at their defaults.
 pub(super) fn adaptivity(root: &Section<'_>) -> Option<Adaptivity> {
     let asked = root.section("discretization").and_then(|section| section.get("accuracy"));
     let accuracy = asked.and_then(|value| value.number());

@@ -76,11 +76,12 @@ pub(super) fn read(text: &str, file: &str, files: Files<'_>) -> Result<Problem, 
     Ok(Problem { title, cracks, text: Some(text.to_owned()), files, ..problem })
 }
 
-/// The message where a bracket is open; every line that follows is then read as a part of the array.
+/// The message where a bracket is open; every line that follows is then read as a part of
+/// the array.
 const IN_ARRAY: &str = "missing comma between array elements";
 
-/// Reports what is no TOML; only the first mistake of a line, as the others mostly follow from it, and
-/// nothing after an open bracket.
+/// Reports what is no TOML; only the first mistake of a line, as the others mostly follow from it,
+/// and nothing after an open bracket.
 fn report_syntax(report: &Report<'_>, errors: &[toml::de::Error]) {
     let mut seen = BTreeSet::new();
     for error in errors {

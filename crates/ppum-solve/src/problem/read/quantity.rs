@@ -29,7 +29,8 @@ pub(super) fn quantities(
     found
 }
 
-/// Reports formulas that are longer together than a dataset can hold: each is read with all before it.
+/// Reports formulas that are longer together than a dataset can hold: each is read with all
+/// before it.
 fn is_too_long(sections: &[Section<'_>]) -> bool {
     let mut sum = 0;
     let too_long = sections.iter().find(|section| {

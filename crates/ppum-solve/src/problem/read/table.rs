@@ -11,8 +11,8 @@ use super::super::scopes;
 use super::super::table_file::{self, Data};
 use super::Files;
 
-/// The tables. For one that is wrong in all but its name another one stands in, so that formulas that
-/// read it are not found wrong as well.
+/// The tables. For one that is wrong in all but its name another one stands in, so that formulas
+/// that read it are not found wrong as well.
 pub(super) fn tables(root: &Section<'_>, files: Files<'_>, equation: &Equation) -> Vec<Arc<Table>> {
     let folder = match files {
         Files::In(folder) => folder,

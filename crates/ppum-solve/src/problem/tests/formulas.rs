@@ -171,8 +171,8 @@ fn files_of_tables() {
     wrong("k.csv: there are no values");
 }
 
-/// Every line left out or given another value: what is refused is refused with a reason, and what is
-/// accepted passes the checks.
+/// Every line left out or given another value: what is refused is refused with a reason, and what
+/// is accepted passes the checks.
 #[test]
 fn nothing_is_refused_without_a_reason() {
     const VALUES: [&str; 9] =

@@ -15,8 +15,8 @@ use ppum::weight::WeightFunction;
 
 use super::*;
 
-/// A good file; the tests replace parts of it. Line numbers: 1 title, 2 domain, 5 material, 9 crack,
-/// 11 and 14 boundary, 17 discretization.
+/// A good file; the tests replace parts of it. Line numbers: 1 title, 2 domain, 5 material, 9
+/// crack, 11 and 14 boundary, 17 discretization.
 const PLATE: &str = include_str!("../../../tests/bad_files/centre_crack.toml");
 
 /// The same for Poisson. Line numbers: 1 domain, 4 equation, 6 material, 8 and 11 boundary,
@@ -251,8 +251,8 @@ fn the_example_of_the_documentation() {
     assert_eq!(problem.boundary.len(), 2);
 }
 
-/// Every line left out, cut short, or given another value: what is refused is refused with a reason,
-/// and what is accepted passes the checks.
+/// Every line left out, cut short, or given another value: what is refused is refused with a
+/// reason, and what is accepted passes the checks.
 #[test]
 fn nothing_is_refused_without_a_reason() {
     const VALUES: [&str; 15] = [

@@ -141,8 +141,9 @@ fn cracks_on_or_beside_the_lines_of_the_cover_keep_the_area() {
     }
 }
 
-/// Cracks given by many points that lie on one line up to rounding, up to noise, or not: the points of the rules are a
-/// few times those of the straight crack for each segment in a cell, with areas and powers of r right.
+/// Cracks given by many points that lie on one line up to rounding, up to noise, or not: the points
+/// of the rules are a few times those of the straight crack for each segment in a cell, with areas
+/// and powers of r right.
 #[test]
 fn noise_of_vertices_is_cheap() {
     let mut random = Random(12);

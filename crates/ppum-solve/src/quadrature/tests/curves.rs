@@ -163,8 +163,8 @@ fn straight_curves_are_lines() {
     }
 }
 
-/// The error of the area of a disc's quarter in a square, n points on a given number of bisections of
-/// each strip along the curve.
+/// The error of the area of a disc's quarter in a square, n points on a given number of bisections
+/// of each strip along the curve.
 fn error(n: usize, bisections: u32) -> f64 {
     let (c, r) = (vec2(-0.3, -0.4), 1.1);
     let [Kink::Curve(level), _] = circles(c, r) else { unreachable!() };
@@ -297,8 +297,8 @@ fn strips_are_divided_where_a_curve_bends() {
     assert_near(below, 0.5, 1e-9, "area below");
 }
 
-/// One circle as two formulas whose zeros differ by rounding cuts no slivers: it takes the same pieces as
-/// once, wherever it lies.
+/// One circle as two formulas whose zeros differ by rounding cuts no slivers: it takes the same
+/// pieces as once, wherever it lies.
 #[test]
 fn curves_that_coincide_are_one() {
     let mut random = Random(11);

@@ -209,8 +209,8 @@ fn overlaps_along_edges_are_divided() {
     assert_eq!((three, more), (3 * one, all + 2 * one));
 }
 
-/// ∫ over both faces of segments in general position, along lines of cells and tilted against them by
-/// 1e-16 … 1e-8: none of it is lost, none counts twice.
+/// ∫ over both faces of segments in general position, along lines of cells and tilted against them
+/// by 1e-16 … 1e-8: none of it is lost, none counts twice.
 #[test]
 fn faces_keep_their_resultants() {
     let mut random = Random(11);
@@ -249,7 +249,8 @@ fn faces_keep_their_resultants() {
     }
 }
 
-/// Segments that end beside lines of the cover by rounding or more: the own patch of a cell is among those of each rule in it.
+/// Segments that end beside lines of the cover by rounding or more: the own patch of a cell is
+/// among those of each rule in it.
 #[test]
 fn shortest_parts_have_the_patches_of_their_cells() {
     let mut random = Random(31);

@@ -229,7 +229,8 @@ fn noise_is_left_whole() {
 
 #[test]
 fn layers_at_a_corner_with_a_power() {
-    // r^λ exp(−r/ε) on a quarter disc's worth of the plane: ∫ r^(2λ−1) e^(−2r/ε) dr = (ε/2)^(2λ) Γ(2λ)
+    // r^λ exp(−r/ε) on a quarter disc's worth of the plane: ∫ r^(2λ−1) e^(−2r/ε) dr =
+    // (ε/2)^(2λ) Γ(2λ)
     let (lambda, eps) = (0.5_f64, 1e-3);
     let f = move |a: Vec2, x: Vec2| {
         let p = a + x;

@@ -48,8 +48,8 @@ impl Complex {
     }
 }
 
-/// ∫ z^q dA over a convex polygon on one side of the real axis, q > −2 and no whole number: by Green's theorem it
-/// is (1/2i) ∮ z^q z̄ dz, and z̄ = α + β z along an edge.
+/// ∫ z^q dA over a convex polygon on one side of the real axis, q > −2 and no whole number: by
+/// Green's theorem it is (1/2i) ∮ z^q z̄ dz, and z̄ = α + β z along an edge.
 pub(super) fn power_integral(polygon: &[Vec2], q: f64, upper: bool) -> Complex {
     let mut sum = Complex(0.0, 0.0);
     for (k, a) in polygon.iter().enumerate() {

@@ -66,8 +66,8 @@ fn all_kinds_of_geometry_keep_the_area_and_tell_sides() {
 
 #[test]
 fn discs_honour_kinks_and_probes() {
-    // ∫ (1 − r²/R²)¹² / r over the half of a disc on one side of a line through its centre, and over
-    // the part inside a smaller circle about it
+    // ∫ (1 − r²/R²)¹² / r over the half of a disc on one side of a line through its centre, and
+    // over the part inside a smaller circle about it
     let (tip, radius, small) = (vec2(0.1, -0.05), 0.7, 0.31);
     let case = Case::new(uniform(3), vec![crack(&[vec2(-1.0, -0.05), tip])], vec![tip]);
     let (normal, way) = (vec2(0.6, 0.8), vec2(-0.8, 0.6));

@@ -17,8 +17,8 @@ fn spline(weight: WeightFunction) -> impl Fn(f64) -> [f64; 2] {
     }
 }
 
-/// ∫ φ′² of two bumps with centres 0 and c, half-sizes h and k, on \[lo, hi\], by many trapezia: all
-/// derivatives vanish at both ends of the overlap.
+/// ∫ φ′² of two bumps with centres 0 and c, half-sizes h and k, on \[lo, hi\], by many trapezia:
+/// all derivatives vanish at both ends of the overlap.
 fn trapezia(h: f64, c: f64, k: f64) -> f64 {
     let (lo, hi) = (c - k, h);
     let n = 100_000;
@@ -133,7 +133,8 @@ fn discs_have_the_points_that_the_weight_needs() {
     assert!(more > few && same == alone);
 }
 
-/// The rule of the solver on a graded cover, and the default, which is right for linear weights only.
+/// The rule of the solver on a graded cover, and the default, which is right for linear
+/// weights only.
 #[test]
 fn all_weights_of_the_library_are_integrated() {
     let accuracy = 1e-5;

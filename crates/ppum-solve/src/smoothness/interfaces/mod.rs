@@ -1,15 +1,15 @@
 //! Interfaces: lines and curves across which constants of the material jump.
 //!
-//! Displacements are continuous there; their gradients are not, so that tractions are. If ψ is a smooth
-//! function that vanishes on the interface and whose gradient does not, such a field is
+//! Displacements are continuous there; their gradients are not, so that tractions are. If ψ is a
+//! smooth function that vanishes on the interface and whose gradient does not, such a field is
 //!
 //! ```text
 //! u = v + |ψ| w        v, w smooth
 //! ```
 //!
-//! so |ψ| times polynomials of degree p − 1, beside polynomials of degree p, has the full order. ψ is what
-//! the material's formula shows: the argument of its `sign`, of the inequality of its `if`. Whether the
-//! constants really jump is seen by looking at both sides.
+//! so |ψ| times polynomials of degree p − 1, beside polynomials of degree p, has the full order. ψ
+//! is what the material's formula shows: the argument of its `sign`, of the inequality of its `if`.
+//! Whether the constants really jump is seen by looking at both sides.
 
 mod place;
 mod trouble;
@@ -110,8 +110,8 @@ fn along([a, b, c]: [f64; 3], near: Vec2) -> Frame {
     Frame::Fixed { origin, angle: (-way.y).atan2(-way.x) }
 }
 
-/// True if two functions are multiples of each other, as far as points all over a box tell: then they
-/// vanish at the same places.
+/// True if two functions are multiples of each other, as far as points all over a box tell: then
+/// they vanish at the same places.
 pub(crate) fn proportional(f: &dyn Fn(Vec2) -> f64, g: &dyn Fn(Vec2) -> f64, rect: &Rect) -> bool {
     let part = |k: usize| (k as f64 + 0.4142) / COMPARED as f64;
     let (min, size) = (rect.min, rect.size());

@@ -5,18 +5,19 @@ use crate::geometry::inside;
 use crate::quadrature::may_meet;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-/// Steps of the grid on which an interface is looked for. What is missed between them is a corner of a
-/// patch in which its weight vanishes.
+/// Steps of the grid on which an interface is looked for. What is missed between them is a corner
+/// of a patch in which its weight vanishes.
 const STEPS: usize = 16;
 
 /// Bisections of a step, to rounding.
 const BISECTIONS: usize = 48;
 
-/// Distance beside an interface at which its two sides are looked at, in parts of a box: beyond rounding, and less
-/// than a material that varies smoothly changes over.
+/// Distance beside an interface at which its two sides are looked at, in parts of a box: beyond
+/// rounding, and less than a material that varies smoothly changes over.
 pub(crate) const BESIDE: f64 = 1e-6;
 
-/// Contrast below which the material counts as continuous: the kink of the solution is of this size.
+/// Contrast below which the material counts as continuous: the kink of the solution is of
+/// this size.
 const LEAST_CONTRAST: f64 = 1e-4;
 
 /// A point of an interface at which the material jumps.
@@ -31,8 +32,8 @@ pub(crate) struct Place {
 }
 
 impl Interfaces<'_> {
-    /// Points of an interface inside an open box and the domain at which the material jumps, on the lines
-    /// of a grid; none if it does not run there.
+    /// Points of an interface inside an open box and the domain at which the material jumps, on the
+    /// lines of a grid; none if it does not run there.
     pub(crate) fn places(&self, interface: &Interface, rect: &Rect) -> Vec<Place> {
         let level = interface.level.as_ref();
         let size = rect.size();

@@ -64,7 +64,8 @@ impl Cause {
 type Run = (usize, Vec<Place>);
 
 impl Interfaces<'_> {
-    /// The trouble with the interfaces in an open box inside the domain, if kinks do not resolve them.
+    /// The trouble with the interfaces in an open box inside the domain, if kinks do not
+    /// resolve them.
     pub(crate) fn trouble(&self, rect: &Rect, cracks: &[Crack]) -> Option<Trouble> {
         let runs: Vec<Run> = (0..self.all.len())
             .map(|index| (index, self.places(&self.all[index], rect)))

@@ -27,8 +27,9 @@ const ON: f64 = 1e-9;
 type Cut = (usize, Option<usize>);
 
 impl Enrichments<'_> {
-    /// Adds |ψ| on the patches that an interface ψ = 0 cuts, as far as the material jumps there and no other
-    /// function has the kink; and side(k) |ψ| where crack k cuts through patch and interface.
+    /// Adds |ψ| on the patches that an interface ψ = 0 cuts, as far as the material jumps there and
+    /// no other function has the kink; and side(k) |ψ| where crack k cuts through patch
+    /// and interface.
     ///
     /// # Errors
     /// A function of the problem's own that does not compile; cancelled.

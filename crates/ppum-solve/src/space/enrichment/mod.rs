@@ -1,14 +1,14 @@
 //! The functions that each patch's local space holds beside its polynomials.
 //!
-//! All enrichments, built in or of a problem's own, are *instances*: functions, the patches that have
-//! them, the degree of the polynomials that multiply them.
+//! All enrichments, built in or of a problem's own, are *instances*: functions, the patches that
+//! have them, the degree of the polynomials that multiply them.
 //!
-//! A patch that cracks cut into several parts gets functions that jump there times its polynomials: the
-//! sides of cracks, or where these meet or cut slivers off indicators of the parts ([`Jumps`]). A patch with a tip
-//! inside gets the Westergaard functions of the tip, times linear polynomials by default: the far
-//! part of such a patch is cut but holds no jump, and without them the r^{3/2} term of the solution
-//! is badly seen there. In a zone of fixed radius around a tip all patches get the Westergaard
-//! functions, beside jumps where they are cut.
+//! A patch that cracks cut into several parts gets functions that jump there times its polynomials:
+//! the sides of cracks, or where these meet or cut slivers off indicators of the parts ([`Jumps`]).
+//! A patch with a tip inside gets the Westergaard functions of the tip, times linear polynomials by
+//! default: the far part of such a patch is cut but holds no jump, and without them the r^{3/2}
+//! term of the solution is badly seen there. In a zone of fixed radius around a tip all patches get
+//! the Westergaard functions, beside jumps where they are cut.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -89,7 +89,8 @@ enum Degree {
     Fixed(u8),
     /// This degree on patches that hold the point, else 0.
     Holding(Vec2, u8),
-    /// That of so many terms of Williams' series, or as many as the patch's smooth polynomials ask for.
+    /// That of so many terms of Williams' series, or as many as the patch's smooth polynomials
+    /// ask for.
     Series(Option<usize>),
 }
 
@@ -173,12 +174,14 @@ impl<'p> Enrichments<'p> {
         self.instances.push(Instance { functions, tip, patches, degree });
     }
 
-    /// Gives the functions of the tips, so far the only instances, the degree of Williams' series of some number of terms.
+    /// Gives the functions of the tips, so far the only instances, the degree of Williams' series
+    /// of some number of terms.
     fn take_series(&mut self, terms: Option<usize>) {
         self.instances.iter_mut().for_each(|new| new.degree = Degree::Series(terms));
     }
 
-    /// Gives the patches of a partition in the rooms of corners that turn inwards the functions of these.
+    /// Gives the patches of a partition in the rooms of corners that turn inwards the functions
+    /// of these.
     pub(crate) fn add_corners(&mut self, partition: &BoxPartition) {
         let bounds = self.problem.domain.bounds;
         for corner in corners(self.problem) {
@@ -208,8 +211,8 @@ impl<'p> Enrichments<'p> {
         self.instances.extend(behind);
     }
 
-    /// The blocks of one patch with polynomials of degree `degree`: polynomials first, then jumps, then the
-    /// other enrichments.
+    /// The blocks of one patch with polynomials of degree `degree`: polynomials first, then jumps,
+    /// then the other enrichments.
     pub(crate) fn blocks(
         &mut self,
         partition: &BoxPartition,
@@ -240,7 +243,8 @@ impl<'p> Enrichments<'p> {
         all.into_iter().enumerate().map(|(k, kind)| self.jump(k, kind, patch)).collect()
     }
 
-    /// The number of a patch's k-th jump in the table. Patches that one crack cuts in the same way share it.
+    /// The number of a patch's k-th jump in the table. Patches that one crack cuts in the same way
+    /// share it.
     fn jump(&mut self, k: usize, kind: FunctionKind, patch: &Patch<'_>) -> u32 {
         let new = self.table.len() as u32;
         let cuts = match &kind {
@@ -265,8 +269,8 @@ impl<'p> Enrichments<'p> {
     }
 }
 
-/// Number of terms of Williams' series beside polynomials of a degree. Measured at orders 1 to 8 (docs/decisions/0016): fewer
-/// limit the rate at which errors fall, more gain nothing.
+/// Number of terms of Williams' series beside polynomials of a degree. Measured at orders 1 to 8
+/// (docs/decisions/0016): fewer limit the rate at which errors fall, more gain nothing.
 fn terms(degree: usize) -> usize {
     degree.clamp(FEWEST_TERMS, ENOUGH_TERMS)
 }

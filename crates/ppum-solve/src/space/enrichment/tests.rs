@@ -59,7 +59,8 @@ fn world() {
     let new = LocalEnrichment { degree: Some(1), ..LocalEnrichment::new(&["x^9"], Site::World) };
     let found = having(&with(new.clone()), "x^9");
     assert!(found.len() == 64 && found.iter().all(|f| f.1 == 1));
-    // The supports of the cells from 5 on reach beyond x = 5.1, that of cell 4 to 5.25, of 3 to 4.25.
+    // The supports of the cells from 5 on reach beyond x = 5.1, that of cell 4 to 5.25, of 3
+    // to 4.25.
     let right = "if(x > 5.1, 1, 0)".parse().expect("an expression");
     let found = having(&with(LocalEnrichment { region: Region::Where(right), ..new }), "x^9");
     assert!(found.len() == 32 && found.iter().all(|f| f.0[0] >= 4), "{found:?}");
@@ -92,8 +93,8 @@ fn along_a_segment() {
     assert_eq!(found, expected.into_iter().filter(|p| !corner(p)).collect::<Vec<_>>());
 }
 
-/// The built-in enrichment of tips and the same functions as an enrichment of one's own stand on the
-/// same patches with the same degrees.
+/// The built-in enrichment of tips and the same functions as an enrichment of one's own stand on
+/// the same patches with the same degrees.
 #[test]
 fn at_tips_as_built_in() {
     let mut built_in = problem().with_crack(&[[0.0, 4.5], [3.1, 4.5]]);
@@ -116,7 +117,8 @@ fn at_tips_as_built_in() {
     assert_eq!(found, having(&tip_patch, name));
 }
 
-/// Tip functions alone stand in the zone and along the crack, on the half that is nearer to the tip.
+/// Tip functions alone stand in the zone and along the crack, on the half that is nearer to
+/// the tip.
 #[test]
 fn additive_only() {
     let mut problem = problem().with_crack(&[[1.5, 4.5], [6.7, 4.5]]);

@@ -1,8 +1,8 @@
 //! Texts that try to break evaluators of formulas: kept ones, and mutants of them.
 //!
-//! [`seeds`] reads `tests/corpus/hostile`, [`mutant`] makes new texts, and `survive` sends one through
-//! parser, derivatives and all back ends. Whatever the text, the outcome is an error with a place in it or
-//! numbers, which may be NaN.
+//! [`seeds`] reads `tests/corpus/hostile`, [`mutant`] makes new texts, and `survive` sends one
+//! through parser, derivatives and all back ends. Whatever the text, the outcome is an error with a
+//! place in it or numbers, which may be NaN.
 
 mod mutate;
 #[cfg(feature = "wgsl")]
@@ -15,8 +15,9 @@ pub use mutate::mutant;
 #[cfg(feature = "wgsl")]
 pub use survive::{Arena, Fate, survive};
 
-/// Stack of the thread that `survive` is run on, in bytes: what wasm32 gives to a program, the least of
-/// all platforms. The parser needs most, at its deepest nesting with all precedences in each level.
+/// Stack of the thread that `survive` is run on, in bytes: what wasm32 gives to a program, the
+/// least of all platforms. The parser needs most, at its deepest nesting with all precedences in
+/// each level.
 pub const STACK: usize = 1 << 20;
 
 /// A kept text.
@@ -57,8 +58,8 @@ pub fn valid_seeds() -> Vec<Seed> {
     seeds
 }
 
-/// A recipe's text: its parts, each repeated, `{n}` and `{m}` being the number of the repetition counted
-/// from 0 and from 1.
+/// A recipe's text: its parts, each repeated, `{n}` and `{m}` being the number of the repetition
+/// counted from 0 and from 1.
 fn cooked(record: &Record) -> Seed {
     let part = |count: &str, quoted: &str| -> String {
         let count: usize = count.parse().unwrap_or_else(|_| record.fail("expected a count"));

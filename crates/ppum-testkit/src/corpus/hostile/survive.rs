@@ -55,7 +55,8 @@ const SPICY: [f64; 20] = [
 /// Points a formula is evaluated at.
 const POINTS: usize = 4;
 
-/// Longest program whose derivative is printed and parsed again: more takes long, and is no different.
+/// Longest program whose derivative is printed and parsed again: more takes long, and is
+/// no different.
 const PRINTED: usize = 4_000;
 
 /// Longest program whose text of WGSL is validated and run.
@@ -64,8 +65,8 @@ const SHADED: usize = 400;
 /// Most sets whose places are searched: each costs thousands of evaluations.
 const SEARCHED: usize = 8;
 
-/// Longest message of an error, in bytes: two lines of a terminal for the source and one for the message,
-/// in characters of up to four bytes.
+/// Longest message of an error, in bytes: two lines of a terminal for the source and one for the
+/// message, in characters of up to four bytes.
 const MESSAGE: usize = 1_000;
 
 /// Parameters of all scopes: the names that formulas of the conformance corpus use.
@@ -73,7 +74,8 @@ const PARAMETERS: &str =
     "scale k n a amplitude length lambda mu kappa k1 k2 young poisson ux uy sxx syy sxy";
 
 impl Arena {
-    /// Scopes of one variable, of the plane, and of a tip with sides, all with tables and parameters.
+    /// Scopes of one variable, of the plane, and of a tip with sides, all with tables
+    /// and parameters.
     ///
     /// # Panics
     /// When the corpus' tables are missing.
@@ -101,8 +103,8 @@ impl Default for Arena {
     }
 }
 
-/// Sends a text through everything: in the first of the scopes where it is a formula, and if there is
-/// none, through the errors of all.
+/// Sends a text through everything: in the first of the scopes where it is a formula, and if there
+/// is none, through the errors of all.
 ///
 /// # Errors
 /// When a promise is broken: the message says which. Panics and overflows of the stack are for the

@@ -180,8 +180,8 @@ fn told(value: f64) -> String {
     ppum::text::trimmed_to(value, DIGITS)
 }
 
-/// A curve with the numbers of a text, of which those that stand as they did are what they were; none if these are not the
-/// ones that it needs.
+/// A curve with the numbers of a text, of which those that stand as they did are what they were;
+/// none if these are not the ones that it needs.
 fn with_numbers(along: Along, text: &str, before: &[f64]) -> Option<Along> {
     let read = |(k, part): (usize, &str)| {
         let part = part.trim().replace('−', "-");

@@ -48,7 +48,8 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     });
 }
 
-/// Curves of a plot: of more tips or cracks the first ones are drawn, since nobody could tell them apart.
+/// Curves of a plot: of more tips or cracks the first ones are drawn, since nobody could tell
+/// them apart.
 const MOST: usize = 24;
 /// The least width of a plot that can be read \[points\].
 const LEAST: f32 = 210.0;

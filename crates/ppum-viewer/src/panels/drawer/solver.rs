@@ -1,4 +1,5 @@
-//! What the solver has told of a step: its numbers, the seconds of its phases, its warnings; and values of patches as colours.
+//! What the solver has told of a step: its numbers, the seconds of its phases, its warnings; and
+//! values of patches as colours.
 
 use egui::{Grid, ScrollArea, Ui, vec2};
 use ppum::dataset::{Dataset, Record, Step, Warning};
@@ -73,7 +74,8 @@ fn numbers(ui: &mut Ui, step: &Step, height: f32) {
                 ui.end_row();
             };
             row("patches", step.partition.len().to_string());
-            // the course of iterations and the sizes of levels, hundreds of records, are for programs
+            // the course of iterations and the sizes of levels, hundreds of records, are
+            // for programs
             let many = ["iteration ", "level "];
             let is_told = |r: &&Record| !many.iter().any(|word| r.name.starts_with(word));
             let told = numbers.into_iter().filter(is_told);

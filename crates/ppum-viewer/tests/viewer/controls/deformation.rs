@@ -26,7 +26,8 @@ fn a_factor_is_chosen() {
     assert_eq!(frame(&window).factor, None);
 }
 
-/// A factor in motion is no change of settings: nothing is undone of it, and the session keeps its factor.
+/// A factor in motion is no change of settings: nothing is undone of it, and the session keeps
+/// its factor.
 #[test]
 fn the_deformation_plays_without_changing_the_session() {
     let mut window = window(plate(), [700.0, 500.0]);

@@ -1,4 +1,5 @@
-//! Any changes whatever: there is a picture or a reason why there is none, and all can be taken back.
+//! Any changes whatever: there is a picture or a reason why there is none, and all can be
+//! taken back.
 
 use egui::{Key, Modifiers};
 use ppum_render::range::Range;

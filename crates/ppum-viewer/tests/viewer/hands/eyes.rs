@@ -13,12 +13,14 @@ use crate::lab::Lab;
 
 /// What was seen.
 pub(super) struct Eyes {
-    /// The pictures that took longest: of the processor in this thread, by the clock, and what was done then.
+    /// The pictures that took longest: of the processor in this thread, by the clock, and what was
+    /// done then.
     longest: Vec<(Duration, Duration, String)>,
     /// Memory in MB, from time to time.
     memory: Vec<f64>,
     frames: usize,
-    /// Views with solutions that no file had when they were last seen, but for those that were given up.
+    /// Views with solutions that no file had when they were last seen, but for those that were
+    /// given up.
     unsaved: Vec<(usize, Weak<Dataset>)>,
     /// True if a problem was being solved, and if something was asked.
     was_solving: bool,
@@ -112,7 +114,8 @@ impl Eyes {
         self.memory.extend(memory());
     }
 
-    /// Memory does not grow: in the last quarter of a long time there is not much more of it than in the second.
+    /// Memory does not grow: in the last quarter of a long time there is not much more of it than
+    /// in the second.
     pub(super) fn check_memory(&self, most: f64) {
         let quarter = self.memory.len() / 4;
         if quarter < 5 {

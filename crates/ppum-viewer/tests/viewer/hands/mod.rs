@@ -1,7 +1,8 @@
-//! Hands that do anything: clicks, drags, keys, words, wheels, other sizes, other files, all seeded.
+//! Hands that do anything: clicks, drags, keys, words, wheels, other sizes, other files,
+//! all seeded.
 //!
-//! `PPUM_HANDS` says how many things they do, `PPUM_HANDS_MINUTES` for how long at most, `PPUM_HANDS_SEED` whose hands they are.
-//! Memory is compared in runs of some thousand deeds.
+//! `PPUM_HANDS` says how many things they do, `PPUM_HANDS_MINUTES` for how long at most,
+//! `PPUM_HANDS_SEED` whose hands they are. Memory is compared in runs of some thousand deeds.
 
 mod deeds;
 mod eyes;
@@ -81,7 +82,8 @@ impl Hands {
         self.eyes.look(&self.lab, &self.doing, watch);
     }
 
-    /// The window has all that it needs to go on: whatever is open is left by Escape, and a plate can be seen.
+    /// The window has all that it needs to go on: whatever is open is left by Escape, and a plate
+    /// can be seen.
     fn ends_well(&mut self) {
         let ctx = self.lab.window.ctx.clone();
         self.lab.state().act(&ctx, Action::CancelSolving);
@@ -147,7 +149,8 @@ fn whatever_hands_do_the_window_stays() {
     }
 }
 
-/// In each of two views somebody writes an end of the colours: fields of their own, as everything is in two views.
+/// In each of two views somebody writes an end of the colours: fields of their own, as everything
+/// is in two views.
 #[test]
 fn ends_are_written_in_two_views_at_once() {
     let mut hands = Hands::new(1);
