@@ -121,5 +121,5 @@ pub(super) fn tanh<R: Double>(x: R) -> R {
     let e = sum(high, rest);
     let [below, more] = sum(e[0].max(two), e[0].min(two));
     let [high, low] = quotient(e, [below, more + e[1]]);
-    R::select(x.abs().gt(x.lit(1e-300)), (high + low).copysign(x), x)
+    R::select(x.abs().gt(x.lit(1e-300)), high + low, x).copysign(x)
 }

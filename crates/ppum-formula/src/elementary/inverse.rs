@@ -75,8 +75,8 @@ pub(super) fn atan2<R: Double>(y: R, x: R) -> R {
     let scaled = |a: R| R::select(are_infinite, one, a * scale);
     let (width, height) = (scaled(width), scaled(height));
     let side = R::select(zero.gt(one.copysign(x)), -one, one);
-    let angle = first_octants(height, width, side).copysign(y);
-    R::select(x.ge(x), R::select(y.ge(y), angle, y), x)
+    let angle = first_octants(height, width, side);
+    R::select(x.ge(x), R::select(y.ge(y), angle, y), x).copysign(y)
 }
 
 /// The angle of (x, y) with x, y ≥ 0, or of (−x, y) if `side` is −1: with a ≤ b the lengths, it is
