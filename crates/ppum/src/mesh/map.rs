@@ -29,9 +29,6 @@ const CONTRACTION: f64 = 0.75;
 /// Most parts that are looked at.
 const MOST_PARTS: usize = 1 << 6;
 
-/// Operations that a part takes for each column of the map: it is expanded about the part's centre.
-const EXPANSION: usize = 8;
-
 /// The polynomials of a map in ξ, or in δ = ξ − at; the constants are 0.
 #[derive(Clone, Debug)]
 pub(super) struct Map {
@@ -94,10 +91,12 @@ impl Map {
         self
     }
 
-    /// Operations that halving may take, on a shape where the linear part does not decide alone.
+    /// Operations that halving may take, on a shape where the linear part does not decide alone: one
+    /// for each column of a part. Expanding a part about its centre takes more, but most parts are
+    /// left at once.
     pub(super) fn search_work(&self, columns: usize) -> usize {
         let is_bent = self.bounds().is_some_and(|(_, _, lipschitz)| lipschitz > CONTRACTION);
-        if is_bent { MOST_PARTS * EXPANSION * columns } else { 0 }
+        if is_bent { MOST_PARTS * columns } else { 0 }
     }
 
     /// J⁻¹, κ and L.
