@@ -40,7 +40,7 @@ pub struct Abandoned(
 
 /// A file that disappears unless it has taken its target's place.
 #[derive(Debug)]
-pub(crate) struct Part {
+pub(crate) struct PartFile {
     path: PathBuf,
     file: File,
 }
@@ -48,7 +48,7 @@ pub(crate) struct Part {
 /// Most names that are tried: others may have taken some.
 const MOST_NAMES: u32 = 1000;
 
-impl Part {
+impl PartFile {
     /// A new file next to `target`, never one that exists. Those of dead programs are removed.
     pub(crate) fn create(target: &Path) -> io::Result<Self> {
         static COUNT: AtomicU32 = AtomicU32::new(0);
@@ -83,7 +83,7 @@ impl Part {
     }
 }
 
-impl Drop for Part {
+impl Drop for PartFile {
     fn drop(&mut self) {
         if live().remove(&self.path) {
             // nothing better can be done about a file that cannot be removed

@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use crate::lock::refuse_taken;
-use crate::part::{Part, folder};
+use crate::part::{PartFile, folder};
 
 /// Writes a file by `write`, completely or not at all.
 ///
@@ -34,7 +34,7 @@ pub(crate) fn replace_locked<E: From<io::Error>>(
     write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
 ) -> Result<(), E> {
     let permissions = replaceable(target)?;
-    let part = Part::create(target)?;
+    let part = PartFile::create(target)?;
     let mut out = BufWriter::with_capacity(1 << 16, part.file());
     write(&mut out)?;
     out.flush()?;
@@ -52,10 +52,10 @@ pub fn check(path: &Path) -> io::Result<()> {
     let target = resolve(path)?;
     refuse_taken(&target)?;
     replaceable(&target)?;
-    Part::create(&target).map(drop)
+    PartFile::create(&target).map(drop)
 }
 
-fn finish(part: Part, target: &Path, permissions: Option<Permissions>) -> io::Result<()> {
+fn finish(part: PartFile, target: &Path, permissions: Option<Permissions>) -> io::Result<()> {
     if let Some(permissions) = permissions {
         part.file().set_permissions(permissions)?;
     }

@@ -3,7 +3,7 @@
 use ppum::dataset::Dataset;
 
 use crate::bytes::{all_errors, checked};
-use crate::content::{Array, Content, Values};
+use crate::content::{Array, ArrayValues, Content};
 use crate::error::ReadError;
 use crate::limits::FORMAT_VERSION;
 
@@ -24,7 +24,7 @@ impl Default for Arrays {
 impl Arrays {
     /// Adds an array (`steps/0000/partition/center`) or an attribute (`steps/0000@load`, `@title`),
     /// row-major, of shape `[]` if it is a scalar.
-    pub fn insert(&mut self, path: &str, shape: Vec<u64>, values: Values) {
+    pub fn insert(&mut self, path: &str, shape: Vec<u64>, values: ArrayValues) {
         self.0.insert(path.to_owned(), Array { shape, values });
     }
 
@@ -73,9 +73,9 @@ mod tests {
     #[test]
     fn all_errors_have_paths() {
         let (_, mut arrays) = arrays();
-        arrays.insert("steps/0000/partition/level", vec![1], Values::U8(vec![0]));
-        arrays.insert("steps/0000/fields/0000/block_degree", vec![1], Values::I64(vec![0]));
-        arrays.insert("equation@young", vec![], Values::F64(vec![1.0]));
+        arrays.insert("steps/0000/partition/level", vec![1], ArrayValues::U8(vec![0]));
+        arrays.insert("steps/0000/fields/0000/block_degree", vec![1], ArrayValues::I64(vec![0]));
+        arrays.insert("equation@young", vec![], ArrayValues::F64(vec![1.0]));
         let errors = arrays.dataset().expect_err("three errors");
         let places: Vec<_> = errors.iter().filter_map(ReadError::place).collect();
         for path in ["equation@young", "partition/level", "block_degree"] {

@@ -53,7 +53,7 @@ pub(crate) fn appended(
     trunk: &Trunk,
     number: usize,
     step: &Step,
-) -> Result<(hdf5::Step, Trunk), WriteError> {
+) -> Result<(hdf5::AppendedStep, Trunk), WriteError> {
     let mut content = encode::one_step(number, step)?;
     hdf5::check_texts(&content)?;
     let path = step_path(number);

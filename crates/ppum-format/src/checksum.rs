@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use crate::content::{Array, Content, Form, Values, key, step_of};
+use crate::content::{Array, ArrayValues, Content, ObjectKind, key, step_of};
 use crate::error::ReadError;
 
 /// Name of the attribute that holds the checksum as 64 hexadecimal digits: of the root over all, of
@@ -37,7 +37,7 @@ impl Scope {
     /// The attribute's name in the content.
     fn key(&self) -> String {
         let (group, name) = self.place();
-        key(group, name, Form::Attribute)
+        key(group, name, ObjectKind::Attribute)
     }
 
     /// The items that count, by the names under which they do, in their order. Its own checksum
@@ -129,9 +129,9 @@ pub(crate) fn verify_step(content: &Content, path: &str) -> Result<(), ReadError
 
 fn check(content: &Content, scope: &Scope) -> Result<(), ReadError> {
     let (group, name) = scope.place();
-    content.holds(group, name, Form::Attribute)?;
+    content.holds(group, name, ObjectKind::Attribute)?;
     let Some(stored) = content.get(&scope.key()) else { return Ok(()) };
-    let (Values::Text(stored), []) = (&stored.values, stored.shape.as_slice()) else {
+    let (ArrayValues::Text(stored), []) = (&stored.values, stored.shape.as_slice()) else {
         let mistake = "expected a string of 64 hexadecimal digits";
         return Err(ReadError::object(&scope.key(), mistake));
     };
@@ -156,18 +156,18 @@ fn digest(content: &Content, scope: &Scope) -> Result<String, ReadError> {
     }))
 }
 
-fn update(hash: &mut Sha256, values: &Values) -> Result<(), String> {
+fn update(hash: &mut Sha256, values: &ArrayValues) -> Result<(), String> {
     match values {
-        Values::F64(v) => update_by(hash, v, |x| x.to_le_bytes()),
-        Values::U8(v) => hash.update(v),
-        Values::U32(v) => update_by(hash, v, |x| x.to_le_bytes()),
-        Values::U64(v) => update_by(hash, v, |x| x.to_le_bytes()),
-        Values::I64(v) => update_by(hash, v, |x| x.to_le_bytes()),
-        Values::Text(v) => v.iter().for_each(|x| {
+        ArrayValues::F64(v) => update_by(hash, v, |x| x.to_le_bytes()),
+        ArrayValues::U8(v) => hash.update(v),
+        ArrayValues::U32(v) => update_by(hash, v, |x| x.to_le_bytes()),
+        ArrayValues::U64(v) => update_by(hash, v, |x| x.to_le_bytes()),
+        ArrayValues::I64(v) => update_by(hash, v, |x| x.to_le_bytes()),
+        ArrayValues::Text(v) => v.iter().for_each(|x| {
             hash.update(x.as_bytes());
             hash.update([0]);
         }),
-        Values::Other(name) => {
+        ArrayValues::Other(name) => {
             return Err(format!(
                 "type {name} is outside the format, so the checksum cannot be verified; keep own \
                  additions in the group `user`, or delete the attribute with the checksum"

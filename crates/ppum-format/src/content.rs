@@ -30,15 +30,15 @@ impl DerefMut for Content {
     }
 }
 
-/// The forms of an object of a file.
+/// The kinds of objects in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Form {
+pub(crate) enum ObjectKind {
     Attribute,
     Dataset,
     Group,
 }
 
-impl Form {
+impl ObjectKind {
     const ALL: [Self; 3] = [Self::Attribute, Self::Dataset, Self::Group];
 
     fn words(self) -> &'static str {
@@ -88,15 +88,20 @@ impl Content {
     /// # Errors
     ///
     /// There is none, but one of this name and another form.
-    pub(crate) fn holds(&self, group: &str, name: &str, form: Form) -> Result<bool, ReadError> {
-        let is_there = |form: Form| match form {
-            Form::Group => self.groups.contains(&join(group, name)),
+    pub(crate) fn holds(
+        &self,
+        group: &str,
+        name: &str,
+        form: ObjectKind,
+    ) -> Result<bool, ReadError> {
+        let is_there = |form: ObjectKind| match form {
+            ObjectKind::Group => self.groups.contains(&join(group, name)),
             _ => self.arrays.contains_key(&key(group, name, form)),
         };
         if is_there(form) {
             return Ok(true);
         }
-        match Form::ALL.into_iter().find(|&other| is_there(other)) {
+        match ObjectKind::ALL.into_iter().find(|&other| is_there(other)) {
             None => Ok(false),
             Some(other) => Err(ReadError::object(
                 &key(group, name, other),
@@ -134,10 +139,10 @@ impl Content {
 }
 
 /// The full name of an object of a group; the root's path is empty.
-pub(crate) fn key(group: &str, name: &str, form: Form) -> String {
+pub(crate) fn key(group: &str, name: &str, form: ObjectKind) -> String {
     match form {
-        Form::Attribute => join(group, &format!("@{name}")),
-        Form::Dataset | Form::Group => join(group, name),
+        ObjectKind::Attribute => join(group, &format!("@{name}")),
+        ObjectKind::Dataset | ObjectKind::Group => join(group, name),
     }
 }
 
@@ -164,12 +169,12 @@ pub(crate) fn join(path: &str, name: &str) -> String {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Array {
     pub(crate) shape: Vec<u64>,
-    pub(crate) values: Values,
+    pub(crate) values: ArrayValues,
 }
 
 /// The values of an array, in one of the element types of the format.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Values {
+pub enum ArrayValues {
     /// Floating-point numbers.
     F64(Vec<f64>),
     /// Bytes.
@@ -187,7 +192,7 @@ pub enum Values {
 }
 
 #[cfg(feature = "damage")]
-impl Values {
+impl ArrayValues {
     /// Number of values; none of a type outside the format.
     pub(crate) fn len(&self) -> usize {
         match self {
@@ -206,26 +211,26 @@ impl Values {
 pub(crate) trait Element: Clone {
     /// Name of the type in messages and in the checksum.
     const NAME: &'static str;
-    fn wrap(values: Vec<Self>) -> Values;
+    fn wrap(values: Vec<Self>) -> ArrayValues;
     /// The values, if they are of this type.
-    fn of(values: &Values) -> Option<&[Self]>;
+    fn of(values: &ArrayValues) -> Option<&[Self]>;
 }
 
 macro_rules! elements {
     ($($type:ty, $variant:ident, $name:literal;)*) => {
         $(impl Element for $type {
             const NAME: &'static str = $name;
-            fn wrap(values: Vec<Self>) -> Values {
-                Values::$variant(values)
+            fn wrap(values: Vec<Self>) -> ArrayValues {
+                ArrayValues::$variant(values)
             }
-            fn of(values: &Values) -> Option<&[Self]> {
+            fn of(values: &ArrayValues) -> Option<&[Self]> {
                 match values {
-                    Values::$variant(values) => Some(values),
+                    ArrayValues::$variant(values) => Some(values),
                     _ => None,
                 }
             }
         })*
-        impl Values {
+        impl ArrayValues {
             /// Name of the element type.
             pub(crate) fn type_name(&self) -> &str {
                 match self {
@@ -267,6 +272,6 @@ impl Array {
     /// A matrix of the given rows, all of `columns` entries.
     pub(crate) fn matrix(rows: &[Vec<f64>], columns: usize) -> Self {
         let shape = vec![rows.len() as u64, columns as u64];
-        Self { shape, values: Values::F64(rows.concat()) }
+        Self { shape, values: ArrayValues::F64(rows.concat()) }
     }
 }

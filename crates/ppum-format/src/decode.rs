@@ -20,7 +20,7 @@ use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::{WeightError, WeightFunction};
 
-use crate::content::{Array, Content, Element, Form, step_path};
+use crate::content::{Array, Content, Element, ObjectKind, step_path};
 use crate::error::ReadError;
 use crate::limits::FORMAT_VERSION;
 use crate::names::{
@@ -29,7 +29,7 @@ use crate::names::{
 };
 use functions::functions;
 pub(crate) use group::missing;
-use group::{Group, attempt, numbered, optional, read};
+use group::{GroupReader, attempt, numbered, optional, read};
 use growth::growth;
 use mesh::mesh;
 use tables::{Scopes, tables};
@@ -41,7 +41,7 @@ pub(crate) fn check_version(content: &Content) -> Read<u32> {
     if content.get("@format") != Some(&Array::scalar("ppum".to_owned())) {
         return Err(ReadError::NotADataset);
     }
-    let version = |group: &Group| group.version();
+    let version = |group: &GroupReader| group.version();
     let [major, minor] = read(content, version).map_err(first)?;
     match major {
         0 => Err(ReadError::object("@format_version", "the major version is at least 1")),
@@ -67,7 +67,7 @@ pub(crate) fn diagnose(content: &Content) -> (Dataset, Vec<ReadError>) {
     attempt(content, whole)
 }
 
-fn whole(root: &Group) -> Dataset {
+fn whole(root: &GroupReader) -> Dataset {
     let (mut dataset, scopes) = head_of(root);
     dataset.steps = numbered(root, "steps", |group| step(group, &scopes));
     if root.is_fine() {
@@ -78,7 +78,7 @@ fn whole(root: &Group) -> Dataset {
 }
 
 /// A mesh is its own domain: domain and partition are both of the kind, or none of them.
-fn one_kind(root: &Group, domain: &str, number: usize, step: &Step) {
+fn one_kind(root: &GroupReader, domain: &str, number: usize, step: &Step) {
     let is_mesh = step.partition.mesh().is_some();
     if is_mesh != (domain == MESH) {
         let own = if is_mesh { MESH } else { BOXES };
@@ -100,7 +100,7 @@ pub(crate) const RESULTS: &[&str] = &["cracks", "intensities", "history", "warni
 /// The cracks of a step, and what its solver tells of it, in a content that holds this alone. The
 /// step has no patches.
 pub(crate) fn results(content: &Content, path: &str) -> Read<Step> {
-    let results = |root: &Group| {
+    let results = |root: &GroupReader| {
         let group = &root.group(path);
         let mut step = empty_step(group.attribute("load"));
         step.cracks = cracks(&group.group("cracks"));
@@ -132,12 +132,12 @@ pub(crate) fn head(content: &Content) -> Read<Dataset> {
 
 /// The dataset without its steps, and the scopes of its formulas if nothing is wrong with
 /// the tables.
-fn head_of(root: &Group) -> (Dataset, Option<Scopes>) {
+fn head_of(root: &GroupReader) -> (Dataset, Option<Scopes>) {
     let tables = tables(root);
     let scopes = if root.is_fine() { scopes(root, &tables) } else { None };
     let title = root.attribute("title");
     let program = root.attribute("program");
-    let problem = root.holds("problem", Form::Dataset).then(|| root.scalar("problem"));
+    let problem = root.holds("problem", ObjectKind::Dataset).then(|| root.scalar("problem"));
     let domain = domain(&root.group("domain"));
     let mut dataset = Dataset::new(domain, equation(&root.group("equation"), &scopes));
     (dataset.title, dataset.program, dataset.problem) = (title, program, problem);
@@ -147,17 +147,17 @@ fn head_of(root: &Group) -> (Dataset, Option<Scopes>) {
 }
 
 /// Scopes of formulas with these tables, if their names do not clash.
-fn scopes(root: &Group, tables: &[Arc<Table>]) -> Option<Scopes> {
+fn scopes(root: &GroupReader, tables: &[Arc<Table>]) -> Option<Scopes> {
     root.or_report(Scopes::new(tables))
 }
 
-fn domain(group: &Group) -> Domain {
+fn domain(group: &GroupReader) -> Domain {
     let bounds = Rect::new(group.attribute_point("min"), group.attribute_point("max"));
     let words = [PLAIN_BOX, BOX_WITH_HOLES, MESH].map(|word| (word, word));
     let holes = match group.attribute_word(&words, "kind") {
         Some(BOX_WITH_HOLES) => holes(&group.group("holes")),
         Some(word) => {
-            group.refuse("holes", Form::Group, word);
+            group.refuse("holes", ObjectKind::Group, word);
             Vec::new()
         }
         None => Vec::new(),
@@ -165,7 +165,7 @@ fn domain(group: &Group) -> Domain {
     Domain { bounds, holes }
 }
 
-fn holes(group: &Group) -> Vec<Hole> {
+fn holes(group: &GroupReader) -> Vec<Hole> {
     let n = group.rows_of(&["kind", "radius"]);
     let (kinds, radii) = (group.column::<String>("kind", n), group.column::<f64>("radius", n));
     let parts = group.parts("offsets", n, ("points", &group.points("points")));
@@ -185,11 +185,11 @@ fn holes(group: &Group) -> Vec<Hole> {
     rows.filter_map(hole).collect()
 }
 
-fn equation(group: &Group, scopes: &Option<Scopes>) -> Equation {
+fn equation(group: &GroupReader, scopes: &Option<Scopes>) -> Equation {
     let constant = |name| constant(group, name, scopes);
     match group.attribute_word(EQUATIONS, "kind") {
         Some(EquationKind::Elasticity) => {
-            group.refuse("conductivity", Form::Attribute, ELASTICITY);
+            group.refuse("conductivity", ObjectKind::Attribute, ELASTICITY);
             Equation::Elasticity(Elasticity {
                 young: constant("young"),
                 poisson: constant("poisson"),
@@ -200,13 +200,13 @@ fn equation(group: &Group, scopes: &Option<Scopes>) -> Equation {
         }
         Some(EquationKind::Poisson) => {
             for name in ["young", "poisson", "state"] {
-                group.refuse(name, Form::Attribute, POISSON);
+                group.refuse(name, ObjectKind::Attribute, POISSON);
             }
             Equation::Poisson { conductivity: constant("conductivity") }
         }
         Some(EquationKind::None) => {
             for name in ["young", "poisson", "state", "conductivity"] {
-                group.refuse(name, Form::Attribute, NO_EQUATION);
+                group.refuse(name, ObjectKind::Attribute, NO_EQUATION);
             }
             Equation::None
         }
@@ -215,7 +215,7 @@ fn equation(group: &Group, scopes: &Option<Scopes>) -> Equation {
 }
 
 /// A constant of the material: a number, or the text of a formula.
-fn constant(group: &Group, name: &str, scopes: &Option<Scopes>) -> Expression {
+fn constant(group: &GroupReader, name: &str, scopes: &Option<Scopes>) -> Expression {
     if !group.has_text(name) {
         return Expression::number(group.attribute(name));
     }
@@ -227,7 +227,7 @@ fn constant(group: &Group, name: &str, scopes: &Option<Scopes>) -> Expression {
     parsed.unwrap_or_else(|| Expression::number(1.0))
 }
 
-fn quantities(group: &Group) -> Vec<NamedQuantity> {
+fn quantities(group: &GroupReader) -> Vec<NamedQuantity> {
     let n = group.rows_of(&["name", "formula", "unit"]);
     let [names, formulas, units] =
         ["name", "formula", "unit"].map(|name| group.column::<String>(name, n));
@@ -235,7 +235,7 @@ fn quantities(group: &Group) -> Vec<NamedQuantity> {
     all.map(|((name, text), unit)| NamedQuantity { name, text, unit }).collect()
 }
 
-fn step(group: &Group, scopes: &Option<Scopes>) -> Step {
+fn step(group: &GroupReader, scopes: &Option<Scopes>) -> Step {
     let load = group.attribute("load");
     let mut step = Step::new(partition(&group.group("partition"), scopes));
     step.load = load;
@@ -251,7 +251,7 @@ fn step(group: &Group, scopes: &Option<Scopes>) -> Step {
     step
 }
 
-fn partition(group: &Group, scopes: &Option<Scopes>) -> Partition {
+fn partition(group: &GroupReader, scopes: &Option<Scopes>) -> Partition {
     let kind = group.attribute_word(&[(false, BOXES), (true, MESH)], "kind");
     // of an unknown kind the arrays are read as what they look like: one error, not one for each
     // that is missing
@@ -261,7 +261,7 @@ fn partition(group: &Group, scopes: &Option<Scopes>) -> Partition {
     }
 }
 
-fn boxes(group: &Group, scopes: &Option<Scopes>) -> BoxPartition {
+fn boxes(group: &GroupReader, scopes: &Option<Scopes>) -> BoxPartition {
     let n = group.rows_of(&["center", "half", "origin", "scale", "cell", "level", "point"]);
     let point = group.column::<i64>("point", n);
     let cell = |[x0, y0, x1, y1]: [f64; 4]| Rect::new(vec2(x0, y0), vec2(x1, y1));
@@ -278,7 +278,7 @@ fn boxes(group: &Group, scopes: &Option<Scopes>) -> BoxPartition {
     }
 }
 
-fn weight(group: &Group, scopes: &Option<Scopes>) -> Option<WeightFunction> {
+fn weight(group: &GroupReader, scopes: &Option<Scopes>) -> Option<WeightFunction> {
     let word: Option<Option<WeightFunction>> = group.attribute_word(WEIGHTS, "weight");
     let breakpoints = group.vector::<f64>("weight_breakpoints");
     match word? {
@@ -298,7 +298,7 @@ fn weight(group: &Group, scopes: &Option<Scopes>) -> Option<WeightFunction> {
         }
         Some(weight) => {
             let name = weight.name();
-            group.refuse("weight_formula", Form::Attribute, name);
+            group.refuse("weight_formula", ObjectKind::Attribute, name);
             let right = weight.breakpoints();
             if breakpoints != right {
                 let mistake = format!("are {breakpoints:?}, but those of `{name}` are {right:?}");
@@ -309,7 +309,7 @@ fn weight(group: &Group, scopes: &Option<Scopes>) -> Option<WeightFunction> {
     }
 }
 
-fn point_index(group: &Group, p: i64) -> Option<u32> {
+fn point_index(group: &GroupReader, p: i64) -> Option<u32> {
     let index = u32::try_from(p).ok();
     if index.is_none() && p != -1 {
         group.error("point", format!("{p} is neither an index nor -1"));
@@ -317,7 +317,7 @@ fn point_index(group: &Group, p: i64) -> Option<u32> {
     index
 }
 
-fn cracks(group: &Group) -> Vec<Crack> {
+fn cracks(group: &GroupReader) -> Vec<Crack> {
     let by_offsets = || group.rows_of(&["offsets"]).saturating_sub(1);
     let n = group.row_count("ends").unwrap_or_else(by_offsets);
     let ends = group.rows::<String, 2>("ends", n);
@@ -327,7 +327,7 @@ fn cracks(group: &Group) -> Vec<Crack> {
     all.map(|(points, [start, last])| Crack { points, ends: [kind(&start), kind(&last)] }).collect()
 }
 
-fn field(group: &Group) -> FieldData {
+fn field(group: &GroupReader) -> FieldData {
     let components = group.rows_of(&["components", "coefficients"]);
     let blocks = group.rows_of(&["block_function", "block_degree", "block_offset"]);
     let mut data = FieldData::new(&group.attribute::<String>("name"), &[]);
@@ -337,7 +337,7 @@ fn field(group: &Group) -> FieldData {
     data.block_function = group.column("block_function", blocks);
     data.block_degree = group.column("block_degree", blocks);
     data.block_offset = group.column("block_offset", blocks);
-    if group.holds("block_space", Form::Dataset) {
+    if group.holds("block_space", ObjectKind::Dataset) {
         let spaces = mesh::spaces(group, "block_space", blocks);
         data.block_space =
             if spaces.contains(&PolynomialSpace::Tensor) { spaces } else { Vec::new() };
@@ -347,17 +347,17 @@ fn field(group: &Group) -> FieldData {
     data
 }
 
-fn optional_vector<T: Element>(group: &Group, name: &str) -> Option<Vec<T>> {
-    group.holds(name, Form::Dataset).then(|| group.vector(name))
+fn optional_vector<T: Element>(group: &GroupReader, name: &str) -> Option<Vec<T>> {
+    group.holds(name, ObjectKind::Dataset).then(|| group.vector(name))
 }
 
-fn attributes(group: &Group) -> Vec<Attribute> {
+fn attributes(group: &GroupReader) -> Vec<Attribute> {
     let n = group.rows_of(&["name", "values"]);
     let (names, values) = (group.column::<String>("name", n), group.matrix("values", n));
     std::iter::zip(names, values).map(|(name, values)| Attribute { name, values }).collect()
 }
 
-fn intensities(group: &Group) -> Vec<TipIntensity> {
+fn intensities(group: &GroupReader) -> Vec<TipIntensity> {
     let n = group.rows_of(&["crack", "end", "k1", "k2"]);
     let tips = tip_ids(group, n);
     let (k1, k2) = (group.column::<f64>("k1", n), group.column::<f64>("k2", n));
@@ -376,22 +376,22 @@ fn intensities(group: &Group) -> Vec<TipIntensity> {
 }
 
 /// The tips that the rows of a table are about.
-fn tip_ids(group: &Group, n: usize) -> Vec<TipId> {
+fn tip_ids(group: &GroupReader, n: usize) -> Vec<TipId> {
     let (cracks, ends) = (group.column::<u32>("crack", n), group.column::<String>("end", n));
     let end = |word: &str| group.word(ENDS, word, "end").unwrap_or(End::Start);
     cracks.into_iter().zip(ends).map(|(crack, word)| TipId { crack, end: end(&word) }).collect()
 }
 
 /// Values that are not there, or NaN, where they are not known.
-fn known(group: &Group, name: &str, n: usize) -> Vec<Option<f64>> {
-    if !group.holds(name, Form::Dataset) {
+fn known(group: &GroupReader, name: &str, n: usize) -> Vec<Option<f64>> {
+    if !group.holds(name, ObjectKind::Dataset) {
         return vec![None; n];
     }
     let values = group.column::<f64>(name, n);
     values.into_iter().map(|v| (!v.is_nan()).then_some(v)).collect()
 }
 
-fn history(group: &Group) -> Vec<Record> {
+fn history(group: &GroupReader) -> Vec<Record> {
     let n = group.rows_of(&["name", "value", "unit"]);
     let [names, units] = ["name", "unit"].map(|name| group.column::<String>(name, n));
     let values = group.column::<f64>("value", n);
@@ -399,7 +399,7 @@ fn history(group: &Group) -> Vec<Record> {
     records.map(|((name, value), unit)| Record { name, value, unit }).collect()
 }
 
-fn warnings(group: &Group) -> Vec<Warning> {
+fn warnings(group: &GroupReader) -> Vec<Warning> {
     let n = group.rows_of(&["kind", "message", "at", "value", "limit"]);
     let [kinds, messages] = ["kind", "message"].map(|name| group.column::<String>(name, n));
     let at = group.point_rows("at", n);
@@ -413,7 +413,7 @@ fn warnings(group: &Group) -> Vec<Warning> {
     texts.map(warning).collect()
 }
 
-fn reactions(group: &Group) -> Vec<Reaction> {
+fn reactions(group: &GroupReader) -> Vec<Reaction> {
     let n = group.rows_of(&["on", "held", "force", "moment"]);
     let places = group.column::<String>("on", n);
     let (held, forces) = (group.matrix("held", n), group.matrix("force", n));

@@ -16,7 +16,7 @@ use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::{Rect, Vec2};
 use ppum::weight::WeightFunction;
 
-use crate::content::{Array, Content, Element, Values, join, step_path};
+use crate::content::{Array, ArrayValues, Content, Element, join, step_path};
 use crate::error::WriteError;
 use crate::limits::{FORMAT_VERSION, MAX_TABLE_VALUES};
 use crate::names::{
@@ -34,7 +34,7 @@ pub(crate) fn content(dataset: &Dataset) -> Result<Content, WriteError> {
 /// The same of the first steps alone.
 pub(crate) fn beginning(dataset: &Dataset, steps: usize) -> Result<Content, WriteError> {
     let mut content = Content::new();
-    let mut root = Group { path: String::new(), content: &mut content };
+    let mut root = GroupWriter { path: String::new(), content: &mut content };
     let (major, minor) = FORMAT_VERSION;
     root.attribute("format", Array::scalar("ppum".to_owned()));
     root.attribute("format_version", Array::vector([major, minor]));
@@ -57,11 +57,11 @@ pub(crate) fn beginning(dataset: &Dataset, steps: usize) -> Result<Content, Writ
 /// A step under its names in the file.
 pub(crate) fn one_step(number: usize, one: &Step) -> Result<Content, WriteError> {
     let mut content = Content::new();
-    step(&mut Group { path: step_path(number), content: &mut content }, one)?;
+    step(&mut GroupWriter { path: step_path(number), content: &mut content }, one)?;
     Ok(content)
 }
 
-fn domain(group: &mut Group, domain: &Domain, is_mesh: bool) {
+fn domain(group: &mut GroupWriter, domain: &Domain, is_mesh: bool) {
     let kind = match (is_mesh, domain.holes.is_empty()) {
         (true, _) => MESH,
         (false, true) => PLAIN_BOX,
@@ -75,7 +75,7 @@ fn domain(group: &mut Group, domain: &Domain, is_mesh: bool) {
     }
 }
 
-fn holes(group: &mut Group, holes: &[Hole]) {
+fn holes(group: &mut GroupWriter, holes: &[Hole]) {
     let rows = holes.iter().map(|hole| match hole {
         Hole::Circle { center, radius } => (CIRCLE, *radius, std::slice::from_ref(center)),
         Hole::Polygon { points } => (POLYGON, 0.0, points.as_slice()),
@@ -87,15 +87,15 @@ fn holes(group: &mut Group, holes: &[Hole]) {
     group.vector("radius", rows.map(|(_, radius, _)| radius));
 }
 
-/// A place in the file to put arrays into.
-struct Group<'a> {
+/// Puts arrays into a group of the file.
+struct GroupWriter<'a> {
     path: String,
     content: &'a mut Content,
 }
 
-impl Group<'_> {
-    fn group(&mut self, name: &str) -> Group<'_> {
-        Group { path: self.path_of(name), content: self.content }
+impl GroupWriter<'_> {
+    fn group(&mut self, name: &str) -> GroupWriter<'_> {
+        GroupWriter { path: self.path_of(name), content: self.content }
     }
 
     fn path_of(&self, name: &str) -> String {
@@ -129,7 +129,7 @@ impl Group<'_> {
     }
 }
 
-fn equation(group: &mut Group, equation: &Equation) -> Written {
+fn equation(group: &mut GroupWriter, equation: &Equation) -> Written {
     for (name, expression) in equation.constants() {
         match expression.constant() {
             Some(value) => group.attribute(name, Array::scalar(value)),
@@ -149,7 +149,7 @@ fn equation(group: &mut Group, equation: &Equation) -> Written {
     Ok(())
 }
 
-fn tables(root: &mut Group, tables: &[Arc<Table>]) -> Written {
+fn tables(root: &mut GroupWriter, tables: &[Arc<Table>]) -> Written {
     for (k, table) in tables.iter().enumerate() {
         let mut group = root.group(&format!("tables/{k:04}"));
         let (x, y, values) = (table.x(), table.y(), table.values());
@@ -160,7 +160,7 @@ fn tables(root: &mut Group, tables: &[Arc<Table>]) -> Written {
         } else {
             group.vector("y", y.iter().copied());
             let shape = vec![y.len() as u64, x.len() as u64];
-            group.array("values", Array { shape, values: Values::F64(values.to_vec()) });
+            group.array("values", Array { shape, values: ArrayValues::F64(values.to_vec()) });
         }
     }
     let total: usize = tables.iter().map(|table| table.values().len()).sum();
@@ -172,7 +172,7 @@ fn tables(root: &mut Group, tables: &[Arc<Table>]) -> Written {
 }
 
 /// Nothing where there are none, like everything that came with version 1.1.
-fn quantities(group: &mut Group, quantities: &[NamedQuantity]) {
+fn quantities(group: &mut GroupWriter, quantities: &[NamedQuantity]) {
     if !quantities.is_empty() {
         group.vector("name", quantities.iter().map(|q| q.name.clone()));
         group.vector("formula", quantities.iter().map(|q| q.text.clone()));
@@ -180,7 +180,7 @@ fn quantities(group: &mut Group, quantities: &[NamedQuantity]) {
     }
 }
 
-fn step(group: &mut Group, step: &Step) -> Written {
+fn step(group: &mut GroupWriter, step: &Step) -> Written {
     group.attribute("load", Array::scalar(step.load));
     match &step.partition {
         Partition::Boxes(boxes) => partition(&mut group.group("partition"), boxes),
@@ -204,7 +204,7 @@ fn step(group: &mut Group, step: &Step) -> Written {
     step.growth.iter().try_for_each(|g| growth(&mut group.group("growth"), g))
 }
 
-fn partition(group: &mut Group, partition: &BoxPartition) {
+fn partition(group: &mut GroupWriter, partition: &BoxPartition) {
     let weight = &partition.weight;
     group.attribute("kind", Array::scalar(BOXES.to_owned()));
     group.attribute("weight", Array::scalar(weight.name().to_owned()));
@@ -237,7 +237,7 @@ fn offsets(lengths: impl Iterator<Item = usize>) -> Array {
     Array::vector(std::iter::once(0).chain(ends).collect::<Vec<u64>>())
 }
 
-fn cracks(group: &mut Group, cracks: &[Crack]) -> Written {
+fn cracks(group: &mut GroupWriter, cracks: &[Crack]) -> Written {
     let points = cracks.iter().flat_map(|c| &c.points);
     let mut ends = Vec::with_capacity(cracks.len());
     for crack in cracks {
@@ -284,7 +284,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    fn of(kind: &'a FunctionKind, group: &Group) -> Result<Self, WriteError> {
+    fn of(kind: &'a FunctionKind, group: &GroupWriter) -> Result<Self, WriteError> {
         match kind {
             FunctionKind::One => Ok(Self::new("one")),
             FunctionKind::Side { crack } => {
@@ -304,7 +304,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    fn in_frame(self, frame: &Frame, group: &Group) -> Result<Self, WriteError> {
+    fn in_frame(self, frame: &Frame, group: &GroupWriter) -> Result<Self, WriteError> {
         Ok(match *frame {
             Frame::World => Self { frame: "world", ..self },
             Frame::Fixed { origin, angle } => {
@@ -322,7 +322,7 @@ impl<'a> Row<'a> {
     }
 }
 
-fn functions(group: &mut Group, functions: &[Function]) -> Written {
+fn functions(group: &mut GroupWriter, functions: &[Function]) -> Written {
     let rows: Vec<Row> =
         functions.iter().map(|f| Row::of(&f.kind, group)).collect::<Result<_, _>>()?;
     group.vector("name", functions.iter().map(|f| f.name.clone()));
@@ -345,7 +345,7 @@ fn functions(group: &mut Group, functions: &[Function]) -> Written {
     Ok(())
 }
 
-fn cuts(group: &mut Group, rows: &[Row]) {
+fn cuts(group: &mut GroupWriter, rows: &[Row]) {
     let all: Vec<_> = rows.iter().flat_map(|r| r.cuts).collect();
     if !all.is_empty() {
         group.array("cut_offsets", offsets(rows.iter().map(|r| r.cuts.len())));
@@ -357,7 +357,7 @@ fn cut(&Cut { segment: SegmentId { crack, segment }, left, right }: &Cut) -> [i6
     [crack.into(), segment.into(), left.number(), right.number()]
 }
 
-fn declared(group: &mut Group, rows: &[Row]) {
+fn declared(group: &mut GroupWriter, rows: &[Row]) {
     let kinks: Vec<_> = rows.iter().flat_map(|r| r.kinks).collect();
     if !kinks.is_empty() {
         group.array("kink_offsets", offsets(rows.iter().map(|r| r.kinks.len())));
@@ -370,7 +370,7 @@ fn declared(group: &mut Group, rows: &[Row]) {
     }
 }
 
-fn field(group: &mut Group, field: &FieldData) -> Written {
+fn field(group: &mut GroupWriter, field: &FieldData) -> Written {
     let coefficients = field.coefficients.first().map_or(0, Vec::len);
     group.attribute("name", Array::scalar(field.name.clone()));
     group.attribute("unit", Array::scalar(field.unit.clone()));
@@ -387,7 +387,7 @@ fn field(group: &mut Group, field: &FieldData) -> Written {
     Ok(())
 }
 
-fn intensities(group: &mut Group, intensities: &[TipIntensity]) -> Written {
+fn intensities(group: &mut GroupWriter, intensities: &[TipIntensity]) -> Written {
     let mut ends = Vec::with_capacity(intensities.len());
     for intensity in intensities {
         ends.push(group.word(ENDS, intensity.tip.end, "end")?);
@@ -406,20 +406,20 @@ fn intensities(group: &mut Group, intensities: &[TipIntensity]) -> Written {
 }
 
 /// Nothing where no value is known; NaN stands for those that are not.
-fn known(group: &mut Group, name: &str, values: impl Iterator<Item = Option<f64>> + Clone) {
+fn known(group: &mut GroupWriter, name: &str, values: impl Iterator<Item = Option<f64>> + Clone) {
     if values.clone().any(|value| value.is_some()) {
         group.vector(name, values.map(|value| value.unwrap_or(f64::NAN)));
     }
 }
 
-fn history(group: &mut Group, history: &[Record]) {
+fn history(group: &mut GroupWriter, history: &[Record]) {
     group.vector("name", history.iter().map(|r| r.name.clone()));
     group.vector("value", history.iter().map(|r| r.value));
     group.vector("unit", history.iter().map(|r| r.unit.clone()));
 }
 
 /// Nothing where there are none; the place of a warning without one is NaN.
-fn warnings(group: &mut Group, warnings: &[Warning]) {
+fn warnings(group: &mut GroupWriter, warnings: &[Warning]) {
     if warnings.is_empty() {
         return;
     }
@@ -432,7 +432,7 @@ fn warnings(group: &mut Group, warnings: &[Warning]) {
 }
 
 /// Nothing where there are none.
-fn reactions(group: &mut Group, reactions: &[Reaction]) {
+fn reactions(group: &mut GroupWriter, reactions: &[Reaction]) {
     let Some(first) = reactions.first() else { return };
     let components = first.force.len();
     let flags = |r: &Reaction| r.held.iter().map(|&h| f64::from(u8::from(h))).collect();
@@ -444,7 +444,7 @@ fn reactions(group: &mut Group, reactions: &[Reaction]) {
     group.vector("moment", reactions.iter().map(|r| r.moment));
 }
 
-fn growth(group: &mut Group, growth: &Growth) -> Written {
+fn growth(group: &mut GroupWriter, growth: &Growth) -> Written {
     if let Some(cycles) = growth.cycles {
         group.attribute("cycles", Array::scalar(cycles));
     }
@@ -469,7 +469,7 @@ fn growth(group: &mut Group, growth: &Growth) -> Written {
 }
 
 /// The word of a fate, and the index of what is met.
-fn fate(group: &Group, fate: Fate) -> Result<(String, i64), WriteError> {
+fn fate(group: &GroupWriter, fate: Fate) -> Result<(String, i64), WriteError> {
     match fate {
         Fate::MeetsHole(k) => Ok((MEETS_HOLE.to_owned(), k.into())),
         Fate::MeetsCrack(k) => Ok((MEETS_CRACK.to_owned(), k.into())),

@@ -17,7 +17,7 @@ mod read;
 mod values;
 mod write;
 
-pub(crate) use append::{Step, Trunk};
+pub(crate) use append::{AppendedStep, Trunk};
 #[cfg(feature = "damage")]
 pub(crate) use lookup3::lookup3;
 pub(crate) use read::{Outline, Ranges, from_bytes, from_file};

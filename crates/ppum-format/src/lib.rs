@@ -65,7 +65,7 @@ mod series;
 pub use append::SeriesWriter;
 pub use arrays::Arrays;
 pub use bytes::{check, diagnose_bytes, from_bytes, to_bytes};
-pub use content::Values;
+pub use content::ArrayValues;
 pub use error::{ReadError, WriteError};
 pub use file::{diagnose, read, write};
 pub use limits::{FORMAT_VERSION, MAX_LENGTH, MAX_SERIES_LENGTH};

@@ -1,7 +1,7 @@
 //! The places of a dataset's errors, in the file: a path through the data model becomes that of an
 //! HDF5 object.
 
-use crate::content::{Content, Form, Values, join, key, step_path};
+use crate::content::{ArrayValues, Content, ObjectKind, join, key, step_path};
 
 /// Lists whose entries are rows of the arrays of a group.
 const TABLES: &[&str] =
@@ -56,7 +56,7 @@ pub(crate) fn in_file(place: &str, content: &Content) -> String {
         } else if name == "load" {
             found = join(&found, "@load");
         } else if let (Some((_, list, array, offsets)), Some(k)) = (in_part, row) {
-            let first = entry(content, &key(&found, offsets, Form::Dataset), k);
+            let first = entry(content, &key(&found, offsets, ObjectKind::Dataset), k);
             // kinks are counted by their ends
             let within = numbers.first().map_or(0, |n| if *list == "kinks" { n / 2 } else { *n });
             found = join(&found, array);
@@ -81,7 +81,7 @@ fn column(name: &str) -> Option<usize> {
 /// An entry of an array of offsets, 0 if there is none.
 fn entry(content: &Content, name: &str, k: usize) -> usize {
     match content.get(name).map(|array| &array.values) {
-        Some(Values::U64(values)) => values.get(k).map_or(0, |v| *v as usize),
+        Some(ArrayValues::U64(values)) => values.get(k).map_or(0, |v| *v as usize),
         _ => 0,
     }
 }

@@ -181,14 +181,14 @@ fn did_you_mean(suggestion: Option<&str>) -> String {
 
 /// A place in the text, as a range of bytes on character borders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Span {
+pub(crate) struct TextSpan {
     /// First byte.
     pub(crate) start: usize,
     /// One past the last byte.
     pub(crate) end: usize,
 }
 
-impl Span {
+impl TextSpan {
     /// The smallest place that covers both.
     pub(crate) fn to(self, other: Self) -> Self {
         Self { start: self.start.min(other.start), end: self.end.max(other.end) }
@@ -220,7 +220,7 @@ impl FormulaError {
     }
 
     /// The error at a place of `source`.
-    pub(crate) fn new(source: &str, span: Span, mistake: Mistake) -> Self {
+    pub(crate) fn new(source: &str, span: TextSpan, mistake: Mistake) -> Self {
         let before = &source[..span.start];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
         let rest = &source[line_start..];

@@ -35,7 +35,7 @@ pub(crate) fn print(program: &Program, scope: &Scope) -> String {
 
 /// Text of a subexpression.
 #[derive(Clone)]
-struct Piece {
+struct PrintedTerm {
     text: String,
     /// Precedence of its outermost operator.
     strength: u8,
@@ -52,7 +52,7 @@ struct Printer<'a> {
     numbers: Vec<bool>,
     /// Number of texts that the text of each operation is part of.
     uses: Vec<u32>,
-    pieces: Vec<Piece>,
+    pieces: Vec<PrintedTerm>,
     bindings: String,
     n_names: usize,
 }
@@ -80,7 +80,7 @@ impl<'a> Printer<'a> {
     }
 
     /// Binds a piece to a new name.
-    fn name(&mut self, piece: &Piece) -> Piece {
+    fn name(&mut self, piece: &PrintedTerm) -> PrintedTerm {
         let name = loop {
             self.n_names += 1;
             let name = format!("s{}", self.n_names);
@@ -92,7 +92,7 @@ impl<'a> Printer<'a> {
         atom(name, 0)
     }
 
-    fn piece(&mut self, op: Op) -> Piece {
+    fn piece(&mut self, op: Op) -> PrintedTerm {
         match op {
             Op::Constant(bits) => number(f64::from_bits(bits)),
             Op::Input(index) => atom(self.inputs[index as usize].to_owned(), 0),
@@ -107,7 +107,7 @@ impl<'a> Printer<'a> {
             Op::Binary(op, a, b) => self.binary(op, a, b),
             Op::Table { table, orders, x, y } => self.table(table as usize, orders, x, y),
             Op::Select(c, a, b) => self.call(Function::If, &[c, a, b]),
-            Op::Truth(holds) => Piece {
+            Op::Truth(holds) => PrintedTerm {
                 text: if holds { "0 == 0" } else { "0 == 1" }.to_owned(),
                 strength: precedence::COMPARISON,
                 depth: 0,
@@ -119,7 +119,7 @@ impl<'a> Printer<'a> {
         }
     }
 
-    fn binary(&mut self, op: Binary, a: NodeId, b: NodeId) -> Piece {
+    fn binary(&mut self, op: Binary, a: NodeId, b: NodeId) -> PrintedTerm {
         match op {
             Binary::Add => self.infix(a, " + ", b, precedence::SUM),
             Binary::Sub => self.infix(a, " - ", b, precedence::SUM),
@@ -130,7 +130,11 @@ impl<'a> Printer<'a> {
             Binary::Pow => {
                 let (a, b) = (self.operand(a, precedence::ATOM), self.operand(b, precedence::ATOM));
                 let depth = a.depth.max(b.depth);
-                Piece { text: format!("{}^{}", a.text, b.text), strength: precedence::POWER, depth }
+                PrintedTerm {
+                    text: format!("{}^{}", a.text, b.text),
+                    strength: precedence::POWER,
+                    depth,
+                }
             }
             Binary::Atan2 | Binary::Min | Binary::Max | Binary::Hypot => {
                 self.call(Function::Binary(op), &[a, b])
@@ -139,39 +143,39 @@ impl<'a> Printer<'a> {
     }
 
     /// `a sign b`, grouped from the left; comparisons group neither way.
-    fn infix(&mut self, a: NodeId, sign: &str, b: NodeId, strength: u8) -> Piece {
+    fn infix(&mut self, a: NodeId, sign: &str, b: NodeId, strength: u8) -> PrintedTerm {
         let left = strength + u8::from(strength == precedence::COMPARISON);
         let (a, b) = (self.operand(a, left), self.operand(b, strength + 1));
         let depth = a.depth.max(b.depth);
-        Piece { text: format!("{}{sign}{}", a.text, b.text), strength, depth }
+        PrintedTerm { text: format!("{}{sign}{}", a.text, b.text), strength, depth }
     }
 
-    fn prefix(&mut self, sign: &str, a: NodeId, weakest: u8, strength: u8) -> Piece {
+    fn prefix(&mut self, sign: &str, a: NodeId, weakest: u8, strength: u8) -> PrintedTerm {
         let a = self.operand(a, weakest);
-        Piece { text: format!("{sign}{}", a.text), strength, depth: a.depth + 1 }
+        PrintedTerm { text: format!("{sign}{}", a.text), strength, depth: a.depth + 1 }
     }
 
-    fn before(&mut self, a: NodeId, weakest: u8, sign: &str, strength: u8) -> Piece {
+    fn before(&mut self, a: NodeId, weakest: u8, sign: &str, strength: u8) -> PrintedTerm {
         let a = self.operand(a, weakest);
-        Piece { text: format!("{}{sign}", a.text), strength, depth: a.depth }
+        PrintedTerm { text: format!("{}{sign}", a.text), strength, depth: a.depth }
     }
 
-    fn call(&mut self, function: Function, arguments: &[NodeId]) -> Piece {
-        let pieces: Vec<Piece> = arguments.iter().map(|&a| self.operand(a, 0)).collect();
+    fn call(&mut self, function: Function, arguments: &[NodeId]) -> PrintedTerm {
+        let pieces: Vec<PrintedTerm> = arguments.iter().map(|&a| self.operand(a, 0)).collect();
         let depth = pieces.iter().map(|piece| piece.depth).max().unwrap_or(0);
         let texts: Vec<&str> = pieces.iter().map(|piece| piece.text.as_str()).collect();
         atom(format!("{}({})", name_of(function), texts.join(", ")), depth + 1)
     }
 
     /// `table(name, x, y)` or `dtable(name, m, n, x, y)`.
-    fn table(&self, table: usize, orders: [u8; 2], x: NodeId, y: Option<NodeId>) -> Piece {
+    fn table(&self, table: usize, orders: [u8; 2], x: NodeId, y: Option<NodeId>) -> PrintedTerm {
         let given = 1 + usize::from(y.is_some());
         let mut parts = vec![self.tables[table].to_owned()];
         let derived = orders != [0, 0];
         if derived {
             parts.extend(orders[..given].iter().map(u8::to_string));
         }
-        let pieces: Vec<Piece> =
+        let pieces: Vec<PrintedTerm> =
             [Some(x), y].into_iter().flatten().map(|a| self.operand(a, 0)).collect();
         let depth = pieces.iter().map(|piece| piece.depth).max().unwrap_or(0);
         parts.extend(pieces.into_iter().map(|piece| piece.text));
@@ -180,7 +184,7 @@ impl<'a> Printer<'a> {
     }
 
     /// The text of an operand, in parentheses if it binds less tightly than `weakest`.
-    fn operand(&self, id: NodeId, weakest: u8) -> Piece {
+    fn operand(&self, id: NodeId, weakest: u8) -> PrintedTerm {
         let piece = self.pieces[id.index()].clone();
         if piece.strength >= weakest {
             return piece;
@@ -214,14 +218,14 @@ fn uses(program: &Program, defined: &[Option<&str>]) -> Vec<u32> {
     uses
 }
 
-fn atom(text: String, depth: usize) -> Piece {
-    Piece { text, strength: precedence::ATOM, depth }
+fn atom(text: String, depth: usize) -> PrintedTerm {
+    PrintedTerm { text, strength: precedence::ATOM, depth }
 }
 
 /// The shortest text that gives the same number; infinities and NaN as quotients.
-fn number(value: f64) -> Piece {
+fn number(value: f64) -> PrintedTerm {
     let quotient =
-        |text: &str| Piece { text: text.to_owned(), strength: precedence::PRODUCT, depth: 0 };
+        |text: &str| PrintedTerm { text: text.to_owned(), strength: precedence::PRODUCT, depth: 0 };
     if value.is_nan() {
         return quotient("0/0");
     }
@@ -231,7 +235,7 @@ fn number(value: f64) -> Piece {
     let text = format!("{value:?}");
     let text = text.strip_suffix(".0").unwrap_or(&text).to_owned();
     let strength = if text.starts_with('-') { precedence::MINUS } else { precedence::ATOM };
-    Piece { text, strength, depth: 0 }
+    PrintedTerm { text, strength, depth: 0 }
 }
 
 fn sign(op: Comparison) -> &'static str {

@@ -227,12 +227,12 @@ impl Table {
         if m > 3 || n > 3 || n > 0 && self.y.is_empty() {
             return zero;
         }
-        let column = Place::new(&self.x, x);
+        let column = KnotSpan::new(&self.x, x);
         if self.y.is_empty() {
             let cubic = self.cubic(column.cells.map(|cell| 4.0 * cell), x);
             return column.unless_flat(m, polynomial(cubic, m, column.distance));
         }
-        let row = Place::new(&self.y, y);
+        let row = KnotSpan::new(&self.y, y);
         let columns = (self.x.len() - 1) as f64;
         let (mut in_y, mut k) = ([zero; 4], 0);
         while k < 4 {
@@ -256,8 +256,8 @@ impl Table {
     }
 }
 
-/// The places of arguments among the knots.
-struct Place<R: Double> {
+/// The intervals of knots that arguments lie in, and the arguments relative to their starts.
+struct KnotSpan<R: Double> {
     /// Whole numbers.
     cells: Lanes,
     /// From the cell's first knot; of the nearest end of the range if the argument is outside.
@@ -269,7 +269,7 @@ struct Place<R: Double> {
 /// Most knots that are all looked at, on vectors; among more each lane searches for itself.
 const FEW: usize = 24;
 
-impl<R: Double> Place<R> {
+impl<R: Double> KnotSpan<R> {
     #[inline(always)]
     fn new(knots: &[f64], x: R) -> Self {
         let (first, last) = (x.lit(knots[0]), x.lit(knots[knots.len() - 1]));

@@ -4,7 +4,7 @@ use numpy::{Element, PyArray1, PyReadonlyArray1};
 use ppum::cover::Cover;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
-use ppum_format::{Arrays, ReadError, Values};
+use ppum_format::{ArrayValues, Arrays, ReadError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -24,14 +24,14 @@ pub(crate) enum Given<'py> {
 }
 
 impl Given<'_> {
-    fn values(self) -> Values {
+    fn values(self) -> ArrayValues {
         match self {
-            Self::F64(array) => Values::F64(list(&array)),
-            Self::U8(array) => Values::U8(list(&array)),
-            Self::U32(array) => Values::U32(list(&array)),
-            Self::U64(array) => Values::U64(list(&array)),
-            Self::I64(array) => Values::I64(list(&array)),
-            Self::Text(texts) => Values::Text(texts),
+            Self::F64(array) => ArrayValues::F64(list(&array)),
+            Self::U8(array) => ArrayValues::U8(list(&array)),
+            Self::U32(array) => ArrayValues::U32(list(&array)),
+            Self::U64(array) => ArrayValues::U64(list(&array)),
+            Self::I64(array) => ArrayValues::I64(list(&array)),
+            Self::Text(texts) => ArrayValues::Text(texts),
         }
     }
 }

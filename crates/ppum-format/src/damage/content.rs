@@ -1,7 +1,7 @@
 //! Damage to what a file means: its named arrays.
 
 use super::Damaged;
-use crate::content::{Array, Content, Values};
+use crate::content::{Array, ArrayValues, Content};
 use crate::{checksum, hdf5};
 
 type Below<'a> = &'a mut dyn FnMut(usize) -> usize;
@@ -10,7 +10,8 @@ type Below<'a> = &'a mut dyn FnMut(usize) -> usize;
 /// not written.
 pub(super) fn damaged(file: &[u8], below: Below) -> Option<Damaged> {
     let mut content = hdf5::from_bytes(file).ok()?;
-    if content.is_empty() || content.values().any(|array| matches!(array.values, Values::Other(_)))
+    if content.is_empty()
+        || content.values().any(|array| matches!(array.values, ArrayValues::Other(_)))
     {
         return None;
     }
@@ -84,15 +85,15 @@ fn change(content: &mut Content, below: Below) -> Option<String> {
 }
 
 /// The same number of values of another type.
-fn of_another_type(values: &Values, below: Below) -> Values {
+fn of_another_type(values: &ArrayValues, below: Below) -> ArrayValues {
     let n = values.len();
     match below(6) {
-        0 => Values::F64(vec![0.5; n]),
-        1 => Values::U8(vec![1; n]),
-        2 => Values::U32(vec![1; n]),
-        3 => Values::U64(vec![0; n]),
-        4 => Values::I64(vec![-1; n]),
-        _ => Values::Text(vec!["1".to_owned(); n]),
+        0 => ArrayValues::F64(vec![0.5; n]),
+        1 => ArrayValues::U8(vec![1; n]),
+        2 => ArrayValues::U32(vec![1; n]),
+        3 => ArrayValues::U64(vec![0; n]),
+        4 => ArrayValues::I64(vec![-1; n]),
+        _ => ArrayValues::Text(vec!["1".to_owned(); n]),
     }
 }
 
@@ -118,13 +119,13 @@ fn resize(array: &mut Array, below: Below) {
     array.shape[0] = rows;
     let n = (rows * row) as usize;
     match &mut array.values {
-        Values::F64(v) => v.resize(n, 0.25),
-        Values::U8(v) => v.resize(n, 0),
-        Values::U32(v) => v.resize(n, 0),
-        Values::U64(v) => v.resize(n, 0),
-        Values::I64(v) => v.resize(n, 0),
-        Values::Text(v) => v.resize(n, "one".to_owned()),
-        Values::Other(_) => {}
+        ArrayValues::F64(v) => v.resize(n, 0.25),
+        ArrayValues::U8(v) => v.resize(n, 0),
+        ArrayValues::U32(v) => v.resize(n, 0),
+        ArrayValues::U64(v) => v.resize(n, 0),
+        ArrayValues::I64(v) => v.resize(n, 0),
+        ArrayValues::Text(v) => v.resize(n, "one".to_owned()),
+        ArrayValues::Other(_) => {}
     }
 }
 
@@ -137,62 +138,62 @@ fn zeros(array: &Array, below: Below) -> Array {
     }
     let n = shape.iter().product::<u64>().min(1 << 23) as usize;
     let values = match &array.values {
-        Values::U8(_) => Values::U8(vec![0; n]),
-        Values::U32(_) => Values::U32(vec![0; n]),
-        Values::U64(_) => Values::U64(vec![0; n]),
-        Values::I64(_) => Values::I64(vec![0; n]),
-        Values::Text(_) => Values::Text(vec!["x".to_owned(); n.min(1 << 16)]),
-        _ => Values::F64(vec![0.0; n]),
+        ArrayValues::U8(_) => ArrayValues::U8(vec![0; n]),
+        ArrayValues::U32(_) => ArrayValues::U32(vec![0; n]),
+        ArrayValues::U64(_) => ArrayValues::U64(vec![0; n]),
+        ArrayValues::I64(_) => ArrayValues::I64(vec![0; n]),
+        ArrayValues::Text(_) => ArrayValues::Text(vec!["x".to_owned(); n.min(1 << 16)]),
+        _ => ArrayValues::F64(vec![0.0; n]),
     };
     Array { shape, values }
 }
 
-fn swap(values: &mut Values, below: Below) {
+fn swap(values: &mut ArrayValues, below: Below) {
     let n = values.len();
     if n == 0 {
         return;
     }
     let (a, b) = (below(n), below(n));
     match values {
-        Values::F64(v) => v.swap(a, b),
-        Values::U8(v) => v.swap(a, b),
-        Values::U32(v) => v.swap(a, b),
-        Values::U64(v) => v.swap(a, b),
-        Values::I64(v) => v.swap(a, b),
-        Values::Text(v) => v.swap(a, b),
-        Values::Other(_) => {}
+        ArrayValues::F64(v) => v.swap(a, b),
+        ArrayValues::U8(v) => v.swap(a, b),
+        ArrayValues::U32(v) => v.swap(a, b),
+        ArrayValues::U64(v) => v.swap(a, b),
+        ArrayValues::I64(v) => v.swap(a, b),
+        ArrayValues::Text(v) => v.swap(a, b),
+        ArrayValues::Other(_) => {}
     }
 }
 
-fn each(values: &mut Values, below: Below) {
+fn each(values: &mut ArrayValues, below: Below) {
     match values {
-        Values::F64(v) => {
+        ArrayValues::F64(v) => {
             let value = number(v.first().copied().unwrap_or(1.0), below);
             v.fill(value);
         }
-        Values::U8(v) => v.fill(integer(below) as u8),
-        Values::U32(v) => v.fill(integer(below) as u32),
-        Values::U64(v) => v.fill(integer(below)),
-        Values::I64(v) => v.fill(integer(below) as i64),
-        Values::Text(v) => v.fill(text(below)),
-        Values::Other(_) => {}
+        ArrayValues::U8(v) => v.fill(integer(below) as u8),
+        ArrayValues::U32(v) => v.fill(integer(below) as u32),
+        ArrayValues::U64(v) => v.fill(integer(below)),
+        ArrayValues::I64(v) => v.fill(integer(below) as i64),
+        ArrayValues::Text(v) => v.fill(text(below)),
+        ArrayValues::Other(_) => {}
     }
 }
 
-fn one(values: &mut Values, below: Below) {
+fn one(values: &mut ArrayValues, below: Below) {
     let n = values.len();
     if n == 0 {
         return;
     }
     let at = below(n);
     match values {
-        Values::F64(v) => v[at] = number(v[at], below),
-        Values::U8(v) => v[at] = integer(below) as u8,
-        Values::U32(v) => v[at] = integer(below) as u32,
-        Values::U64(v) => v[at] = integer(below),
-        Values::I64(v) => v[at] = integer(below) as i64,
-        Values::Text(v) => v[at] = text(below),
-        Values::Other(_) => {}
+        ArrayValues::F64(v) => v[at] = number(v[at], below),
+        ArrayValues::U8(v) => v[at] = integer(below) as u8,
+        ArrayValues::U32(v) => v[at] = integer(below) as u32,
+        ArrayValues::U64(v) => v[at] = integer(below),
+        ArrayValues::I64(v) => v[at] = integer(below) as i64,
+        ArrayValues::Text(v) => v[at] = text(below),
+        ArrayValues::Other(_) => {}
     }
 }
 

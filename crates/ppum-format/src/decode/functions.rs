@@ -4,12 +4,12 @@ use ppum::crack::{SegmentId, TipId};
 use ppum::function::{Cut, Declared, Frame, Function, FunctionKind, Part};
 use ppum::vec2::{Vec2, vec2};
 
-use super::group::Group;
-use crate::content::Form;
+use super::group::GroupReader;
+use crate::content::ObjectKind;
 use crate::names::{ENDS, NO_LEVELS, Words};
 
 #[derive(Clone, Copy)]
-enum Kind {
+enum FunctionTag {
     One,
     Side,
     Formula,
@@ -17,12 +17,12 @@ enum Kind {
     Level,
 }
 
-const KINDS: &Words<Kind> = &[
-    (Kind::One, "one"),
-    (Kind::Side, "side"),
-    (Kind::Formula, "formula"),
-    (Kind::Component, "component"),
-    (Kind::Level, "level"),
+const KINDS: &Words<FunctionTag> = &[
+    (FunctionTag::One, "one"),
+    (FunctionTag::Side, "side"),
+    (FunctionTag::Formula, "formula"),
+    (FunctionTag::Component, "component"),
+    (FunctionTag::Level, "level"),
 ];
 
 #[derive(Clone, Copy)]
@@ -58,7 +58,7 @@ struct Columns {
 const COLUMNS: [&str; 8] =
     ["name", "kind", "crack", "formula", "frame", "frame_end", "frame_origin", "frame_angle"];
 
-pub(super) fn functions(group: &Group) -> Vec<Function> {
+pub(super) fn functions(group: &GroupReader) -> Vec<Function> {
     let n = group.rows_of(&COLUMNS);
     let names = group.column::<String>("name", n);
     let kinds = group.column::<String>("kind", n);
@@ -82,14 +82,14 @@ pub(super) fn functions(group: &Group) -> Vec<Function> {
 }
 
 /// The level fields of each function, −1 for none.
-fn levels(group: &Group, functions: usize) -> Vec<[i64; 2]> {
-    match group.holds("levels", Form::Dataset) {
+fn levels(group: &GroupReader, functions: usize) -> Vec<[i64; 2]> {
+    match group.holds("levels", ObjectKind::Dataset) {
         true => group.rows("levels", functions),
         false => vec![NO_LEVELS; functions],
     }
 }
 
-fn parameters(group: &Group, functions: usize) -> Vec<Vec<(String, f64)>> {
+fn parameters(group: &GroupReader, functions: usize) -> Vec<Vec<(String, f64)>> {
     let n = group.rows_of(&["parameter_name", "parameter_value"]);
     let names = group.column::<String>("parameter_name", n);
     let values = group.column::<f64>("parameter_value", n);
@@ -100,19 +100,19 @@ fn parameters(group: &Group, functions: usize) -> Vec<Vec<(String, f64)>> {
 /// A list that belongs to each function, which may be missing from the file together with
 /// its offsets.
 fn lists<T: Clone>(
-    group: &Group,
+    group: &GroupReader,
     [name, offsets]: [&str; 2],
     functions: usize,
     list: impl Fn() -> Vec<T>,
 ) -> Vec<Vec<T>> {
-    if [name, offsets].map(|name| group.holds(name, Form::Dataset)) == [false; 2] {
+    if [name, offsets].map(|name| group.holds(name, ObjectKind::Dataset)) == [false; 2] {
         return vec![Vec::new(); functions];
     }
     group.parts(offsets, functions, (name, &list()))
 }
 
 /// The cuts of components.
-fn cuts(group: &Group, functions: usize) -> Vec<Vec<Cut>> {
+fn cuts(group: &GroupReader, functions: usize) -> Vec<Vec<Cut>> {
     let none = Cut {
         segment: SegmentId { crack: 0, segment: 0 },
         left: Part::Outside,
@@ -141,7 +141,7 @@ fn cut([crack, segment, left, right]: [i64; 4]) -> Option<Cut> {
 }
 
 /// Kinks and singular points.
-fn declared(group: &Group, functions: usize) -> Vec<Declared> {
+fn declared(group: &GroupReader, functions: usize) -> Vec<Declared> {
     let kinks = lists(group, ["kinks", "kink_offsets"], functions, || {
         let segment = |[x0, y0, x1, y1]: [f64; 4]| [vec2(x0, y0), vec2(x1, y1)];
         group.all_rows("kinks").into_iter().map(segment).collect()
@@ -156,13 +156,15 @@ impl Columns {
     /// Takes the row of a function out of the columns. What its kind does not use must be left
     /// there as nothing: a row that says more than its kind was damaged, or written for
     /// another kind.
-    fn function_kind(&mut self, group: &Group, k: usize, word: &str) -> Option<FunctionKind> {
+    fn function_kind(&mut self, group: &GroupReader, k: usize, word: &str) -> Option<FunctionKind> {
         let function = match group.word(KINDS, word, "kind")? {
-            Kind::One => FunctionKind::One,
-            Kind::Side => FunctionKind::Side { crack: self.take_crack(group, k) },
-            Kind::Level => FunctionKind::Level { field: self.take_level(group, k, 1) },
-            Kind::Component => FunctionKind::Component { cuts: std::mem::take(&mut self.cuts[k]) },
-            Kind::Formula => FunctionKind::Formula {
+            FunctionTag::One => FunctionKind::One,
+            FunctionTag::Side => FunctionKind::Side { crack: self.take_crack(group, k) },
+            FunctionTag::Level => FunctionKind::Level { field: self.take_level(group, k, 1) },
+            FunctionTag::Component => {
+                FunctionKind::Component { cuts: std::mem::take(&mut self.cuts[k]) }
+            }
+            FunctionTag::Formula => FunctionKind::Formula {
                 frame: self.take_frame(group, k)?,
                 text: std::mem::take(&mut self.formula[k]),
                 parameters: std::mem::take(&mut self.parameters[k]),
@@ -198,7 +200,7 @@ impl Columns {
         .find_map(|(name, is_nothing, nothing)| (!is_nothing).then_some((name, nothing)))
     }
 
-    fn take_frame(&mut self, group: &Group, k: usize) -> Option<Frame> {
+    fn take_frame(&mut self, group: &GroupReader, k: usize) -> Option<Frame> {
         let word = std::mem::take(&mut self.frame[k]);
         Some(match group.word(FRAMES, &word, "frame")? {
             FrameKind::World => Frame::World,
@@ -216,7 +218,7 @@ impl Columns {
         })
     }
 
-    fn take_level(&mut self, group: &Group, k: usize, column: usize) -> u32 {
+    fn take_level(&mut self, group: &GroupReader, k: usize, column: usize) -> u32 {
         let field = std::mem::replace(&mut self.levels[k][column], -1);
         u32::try_from(field).unwrap_or_else(|_| {
             group.error(
@@ -227,7 +229,7 @@ impl Columns {
         })
     }
 
-    fn take_crack(&mut self, group: &Group, k: usize) -> u32 {
+    fn take_crack(&mut self, group: &GroupReader, k: usize) -> u32 {
         let crack = std::mem::replace(&mut self.crack[k], -1);
         u32::try_from(crack).unwrap_or_else(|_| {
             group.error("crack", format!("function {k} has no crack ({crack})"));

@@ -10,15 +10,15 @@ use std::ops::Range;
 use ppum::vec2::{Vec2, vec2};
 
 use super::Read;
-use crate::content::{Content, Element, Form, Values, join, key};
+use crate::content::{ArrayValues, Content, Element, ObjectKind, join, key};
 use crate::error::ReadError;
 use crate::names::{Words, value};
 
 /// Most errors that are kept.
 const MOST_ERRORS: usize = 100;
 
-/// A place in the file to take arrays from.
-pub(super) struct Group<'a> {
+/// Takes arrays from a group of the file.
+pub(super) struct GroupReader<'a> {
     pub(super) path: String,
     pub(super) content: &'a Content,
     errors: &'a RefCell<Vec<ReadError>>,
@@ -27,7 +27,7 @@ pub(super) struct Group<'a> {
 /// What `read` makes of a content, or all that is wrong with it.
 pub(super) fn read<T>(
     content: &Content,
-    read: impl FnOnce(&Group) -> T,
+    read: impl FnOnce(&GroupReader) -> T,
 ) -> Result<T, Vec<ReadError>> {
     let (found, errors) = attempt(content, read);
     if errors.is_empty() { Ok(found) } else { Err(errors) }
@@ -35,13 +35,16 @@ pub(super) fn read<T>(
 
 /// Returns what `read` makes of a content, and all errors; where there are any, the first is not to
 /// be used.
-pub(super) fn attempt<T>(content: &Content, read: impl FnOnce(&Group) -> T) -> (T, Vec<ReadError>) {
+pub(super) fn attempt<T>(
+    content: &Content,
+    read: impl FnOnce(&GroupReader) -> T,
+) -> (T, Vec<ReadError>) {
     let errors = RefCell::default();
-    let found = read(&Group { path: String::new(), content, errors: &errors });
+    let found = read(&GroupReader { path: String::new(), content, errors: &errors });
     (found, errors.into_inner())
 }
 
-impl<'a> Group<'a> {
+impl<'a> GroupReader<'a> {
     fn at(&self, path: String) -> Self {
         Self { path, content: self.content, errors: self.errors }
     }
@@ -59,7 +62,7 @@ impl<'a> Group<'a> {
 
     /// A group in this one.
     pub(super) fn group(&self, name: &str) -> Self {
-        if self.is_there(name, Form::Group) == Some(false) {
+        if self.is_there(name, ObjectKind::Group) == Some(false) {
             self.error(name, "is missing");
         }
         self.at(self.path_of(name))
@@ -70,17 +73,17 @@ impl<'a> Group<'a> {
     }
 
     /// True if there is an object of this name and form.
-    pub(super) fn holds(&self, name: &str, form: Form) -> bool {
+    pub(super) fn holds(&self, name: &str, form: ObjectKind) -> bool {
         self.is_there(name, form) == Some(true)
     }
 
     /// As [`holds`](Self::holds); none, and an error, if there is one of another form.
-    fn is_there(&self, name: &str, form: Form) -> Option<bool> {
+    fn is_there(&self, name: &str, form: ObjectKind) -> Option<bool> {
         self.or_report(self.content.holds(&self.path, name, form))
     }
 
     /// Refuses an object that belongs to another word than the one the group has.
-    pub(super) fn refuse(&self, name: &str, form: Form, word: &str) {
+    pub(super) fn refuse(&self, name: &str, form: ObjectKind, word: &str) {
         if self.holds(name, form) {
             let key = key(&self.path, name, form);
             let mistake = format!("does not belong to `{word}`; leave it out");
@@ -108,7 +111,7 @@ impl<'a> Group<'a> {
     }
 
     /// The values of an array or attribute of the given shape.
-    fn look<T: Element>(&self, name: &str, form: Form, shape: &[Extent]) -> Option<&'a [T]> {
+    fn look<T: Element>(&self, name: &str, form: ObjectKind, shape: &[Extent]) -> Option<&'a [T]> {
         let is_there = self.is_there(name, form)?;
         let key = key(&self.path, name, form);
         let Some(array) = self.content.get(&key).filter(|_| is_there) else {
@@ -139,19 +142,19 @@ impl<'a> Group<'a> {
 
     /// True if the attribute is there and is a text.
     pub(super) fn has_text(&self, name: &str) -> bool {
-        let array = self.content.get(&key(&self.path, name, Form::Attribute));
-        array.is_some_and(|array| matches!(array.values, Values::Text(_)))
+        let array = self.content.get(&key(&self.path, name, ObjectKind::Attribute));
+        array.is_some_and(|array| matches!(array.values, ArrayValues::Text(_)))
     }
 
     pub(super) fn scalar<T: Element + Default>(&self, name: &str) -> T {
-        self.one(name, Form::Dataset).unwrap_or_default()
+        self.one(name, ObjectKind::Dataset).unwrap_or_default()
     }
 
     pub(super) fn attribute<T: Element + Default>(&self, name: &str) -> T {
-        self.one(name, Form::Attribute).unwrap_or_default()
+        self.one(name, ObjectKind::Attribute).unwrap_or_default()
     }
 
-    fn one<T: Element>(&self, name: &str, form: Form) -> Option<T> {
+    fn one<T: Element>(&self, name: &str, form: ObjectKind) -> Option<T> {
         let value = self.look::<T>(name, form, &[])?.first();
         if value.is_none() {
             self.report(ReadError::object(&key(&self.path, name, form), "is empty"));
@@ -161,25 +164,25 @@ impl<'a> Group<'a> {
 
     /// The value of a word that is an attribute. None, and an error, if it is not there or unknown.
     pub(super) fn attribute_word<T: Clone>(&self, words: &Words<T>, name: &str) -> Option<T> {
-        let word = self.one::<String>(name, Form::Attribute)?;
+        let word = self.one::<String>(name, ObjectKind::Attribute)?;
         self.word(words, &word, &format!("@{name}"))
     }
 
     /// Major and minor version of the format.
     pub(super) fn version(&self) -> [u32; 2] {
         let shape = [Extent::Is(2)];
-        self.look("format_version", Form::Attribute, &shape).map_or([0; 2], |v| [v[0], v[1]])
+        self.look("format_version", ObjectKind::Attribute, &shape).map_or([0; 2], |v| [v[0], v[1]])
     }
 
     pub(super) fn attribute_point(&self, name: &str) -> Vec2 {
-        let p = self.look::<f64>(name, Form::Attribute, &[Extent::Is(2)]);
+        let p = self.look::<f64>(name, ObjectKind::Attribute, &[Extent::Is(2)]);
         p.map_or(Vec2::ZERO, |p| vec2(p[0], p[1]))
     }
 
     /// The number of rows of an array whose values were read.
     pub(super) fn row_count(&self, name: &str) -> Option<usize> {
-        let array = self.content.get(&key(&self.path, name, Form::Dataset))?;
-        let is_read = !matches!(array.values, Values::Other(_));
+        let array = self.content.get(&key(&self.path, name, ObjectKind::Dataset))?;
+        let is_read = !matches!(array.values, ArrayValues::Other(_));
         array.shape.first().filter(|_| is_read).map(|&n| n as usize)
     }
 
@@ -192,7 +195,7 @@ impl<'a> Group<'a> {
 
     /// The values of an array of the given shape, row-major, if it is of that.
     pub(super) fn array<T: Element>(&self, name: &str, shape: &[Extent]) -> Option<Vec<T>> {
-        self.look(name, Form::Dataset, shape).map(<[T]>::to_vec)
+        self.look(name, ObjectKind::Dataset, shape).map(<[T]>::to_vec)
     }
 
     /// A vector of any length.
@@ -202,7 +205,7 @@ impl<'a> Group<'a> {
 
     /// A vector of this length.
     pub(super) fn column<T: Element + Default>(&self, name: &str, length: usize) -> Vec<T> {
-        let values = self.look(name, Form::Dataset, &[Extent::Is(length as u64)]);
+        let values = self.look(name, ObjectKind::Dataset, &[Extent::Is(length as u64)]);
         values.map_or_else(|| vec![T::default(); length], <[T]>::to_vec)
     }
 
@@ -213,14 +216,15 @@ impl<'a> Group<'a> {
         rows: usize,
     ) -> Vec<[T; N]> {
         let shape = [Extent::Is(rows as u64), Extent::Is(N as u64)];
-        let values = self.look::<T>(name, Form::Dataset, &shape);
+        let values = self.look::<T>(name, ObjectKind::Dataset, &shape);
         let none = || vec![std::array::from_fn(|_| T::default()); rows];
         values.map_or_else(none, |values| values.as_chunks().0.to_vec())
     }
 
     /// A matrix of `N` columns.
     pub(super) fn all_rows<T: Element + Default, const N: usize>(&self, name: &str) -> Vec<[T; N]> {
-        let values = self.look::<T>(name, Form::Dataset, &[Extent::Any, Extent::Is(N as u64)]);
+        let values =
+            self.look::<T>(name, ObjectKind::Dataset, &[Extent::Any, Extent::Is(N as u64)]);
         let none = || vec![std::array::from_fn(|_| T::default()); self.rows_of(&[name])];
         values.map_or_else(none, |values| values.as_chunks().0.to_vec())
     }
@@ -238,7 +242,7 @@ impl<'a> Group<'a> {
     /// The rows of a matrix with a given number of them.
     pub(super) fn matrix(&self, name: &str, rows: usize) -> Vec<Vec<f64>> {
         let shape = [Extent::Is(rows as u64), Extent::Any];
-        let values = self.look::<f64>(name, Form::Dataset, &shape).unwrap_or_default();
+        let values = self.look::<f64>(name, ObjectKind::Dataset, &shape).unwrap_or_default();
         let columns = values.len().checked_div(rows).unwrap_or(0);
         (0..rows).map(|k| values[k * columns..(k + 1) * columns].to_vec()).collect()
     }
@@ -252,7 +256,7 @@ impl<'a> Group<'a> {
         (of, list): (&str, &[T]),
     ) -> Vec<Vec<T>> {
         let shape = [Extent::Is(count as u64 + 1)];
-        let Some(ends) = self.look::<u64>(name, Form::Dataset, &shape) else {
+        let Some(ends) = self.look::<u64>(name, ObjectKind::Dataset, &shape) else {
             return vec![Vec::new(); count];
         };
         let rising = ends.is_sorted();
@@ -297,15 +301,19 @@ impl std::fmt::Display for Extent {
 }
 
 /// The groups `0000`, `0001`, … of a group. Members that are no numbers are of no concern.
-pub(super) fn numbered<T>(parent: &Group, name: &str, mut item: impl FnMut(&Group) -> T) -> Vec<T> {
-    if !parent.holds(name, Form::Group) {
+pub(super) fn numbered<T>(
+    parent: &GroupReader,
+    name: &str,
+    mut item: impl FnMut(&GroupReader) -> T,
+) -> Vec<T> {
+    if !parent.holds(name, ObjectKind::Group) {
         return Vec::new();
     }
     let list = parent.group(name);
     let is_number = |name: &&str| name.bytes().all(|b| b.is_ascii_digit());
     let count = list.content.members(&list.path).filter(is_number).count();
     let names = (0..count).map(|number| format!("{number:04}"));
-    let present = names.filter(|number| match list.is_there(number, Form::Group) {
+    let present = names.filter(|number| match list.is_there(number, ObjectKind::Group) {
         Some(false) => {
             list.report(missing(&list.path_of(number), count));
             false
@@ -325,6 +333,10 @@ pub(crate) fn missing(path: &str, count: usize) -> ReadError {
 }
 
 /// The content of a group, nothing if it is not there.
-pub(super) fn optional<T: Default>(parent: &Group, name: &str, items: impl Fn(&Group) -> T) -> T {
-    if parent.holds(name, Form::Group) { items(&parent.group(name)) } else { T::default() }
+pub(super) fn optional<T: Default>(
+    parent: &GroupReader,
+    name: &str,
+    items: impl Fn(&GroupReader) -> T,
+) -> T {
+    if parent.holds(name, ObjectKind::Group) { items(&parent.group(name)) } else { T::default() }
 }

@@ -2,15 +2,15 @@
 
 use ppum::dataset::{Advance, Fate, Growth};
 
-use super::group::Group;
+use super::group::GroupReader;
 use super::tip_ids;
-use crate::content::Form;
+use crate::content::ObjectKind;
 use crate::names::{FATES, GROWTH_NUMBERS, MEETS_CRACK, MEETS_HOLE, STOPS};
 
-pub(super) fn growth(group: &Group) -> Growth {
+pub(super) fn growth(group: &GroupReader) -> Growth {
     let mut growth = Growth::default();
-    growth.cycles = group.holds("cycles", Form::Attribute).then(|| group.attribute("cycles"));
-    if group.holds("stop", Form::Attribute) {
+    growth.cycles = group.holds("cycles", ObjectKind::Attribute).then(|| group.attribute("cycles"));
+    if group.holds("stop", ObjectKind::Attribute) {
         growth.stop = group.attribute_word(STOPS, "stop");
     }
     let n = group.rows_of(&["crack", "end", "fate", "other"]);
@@ -28,7 +28,7 @@ pub(super) fn growth(group: &Group) -> Growth {
 }
 
 /// A fate from its word, and the index of what is met, −1 for none.
-fn fate(group: &Group, word: &str, other: i64) -> Fate {
+fn fate(group: &GroupReader, word: &str, other: i64) -> Fate {
     let index = || {
         let index = u32::try_from(other);
         index.unwrap_or_else(|_| {

@@ -3,8 +3,8 @@
 use ppum::mesh::{Clip, Mesh, Shape};
 use ppum::polynomial::PolynomialSpace;
 
-use super::group::Group;
-use crate::content::Form;
+use super::group::GroupReader;
+use crate::content::ObjectKind;
 use crate::names::{Codes, SHAPES, SIDES, SPACES};
 
 /// The arrays with a row for each patch.
@@ -13,11 +13,11 @@ const COLUMNS: [&str; 6] = ["shape", "origin", "map_degree", "map_space", "map_o
 /// The optional arrays of clips.
 const CLIPS: [&str; 3] = ["clip_offsets", "clip_field", "clip_side"];
 
-pub(super) fn mesh(group: &Group) -> Mesh {
+pub(super) fn mesh(group: &GroupReader) -> Mesh {
     let n = group.rows_of(&COLUMNS);
     let mut rows = group.matrix("map", 2).into_iter();
     let mut row = || rows.next().unwrap_or_default();
-    let has_clips = CLIPS.iter().any(|name| group.holds(name, Form::Dataset));
+    let has_clips = CLIPS.iter().any(|name| group.holds(name, ObjectKind::Dataset));
     let clips = if has_clips { clips(group) } else { Vec::new() };
     Mesh {
         shape: codes(group, "shape", SHAPES, n, Shape::Triangle),
@@ -32,7 +32,7 @@ pub(super) fn mesh(group: &Group) -> Mesh {
     }
 }
 
-fn clips(group: &Group) -> Vec<Clip> {
+fn clips(group: &GroupReader) -> Vec<Clip> {
     let n = group.rows_of(&CLIPS[1..]);
     let fields = group.column::<u32>("clip_field", n);
     let sides = codes(group, "clip_side", SIDES, n, true);
@@ -41,12 +41,18 @@ fn clips(group: &Group) -> Vec<Clip> {
 }
 
 /// The monomials of maps or of blocks.
-pub(super) fn spaces(group: &Group, name: &str, rows: usize) -> Vec<PolynomialSpace> {
+pub(super) fn spaces(group: &GroupReader, name: &str, rows: usize) -> Vec<PolynomialSpace> {
     codes(group, name, SPACES, rows, PolynomialSpace::Total)
 }
 
 /// A column of codes.
-fn codes<T: Copy>(group: &Group, name: &str, codes: &Codes<T>, rows: usize, default: T) -> Vec<T> {
+fn codes<T: Copy>(
+    group: &GroupReader,
+    name: &str,
+    codes: &Codes<T>,
+    rows: usize,
+    default: T,
+) -> Vec<T> {
     let column = group.column::<u8>(name, rows);
     let known = |(k, code): (usize, u8)| match codes.get(usize::from(code)) {
         Some((value, _)) => *value,

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use ppum::formula::{Scope, ScopeError, Table, TableError, VARIABLES};
 
 use super::Read;
-use super::group::{Extent, Group, numbered};
-use crate::content::Form;
+use super::group::{Extent, GroupReader, numbered};
+use crate::content::ObjectKind;
 use crate::error::ReadError;
 use crate::limits::MAX_TABLE_VALUES;
 
@@ -30,17 +30,17 @@ impl Scopes {
     }
 }
 
-pub(super) fn tables(root: &Group) -> Vec<Arc<Table>> {
+pub(super) fn tables(root: &GroupReader) -> Vec<Arc<Table>> {
     let mut left = MAX_TABLE_VALUES;
     let tables = numbered(root, "tables", |group| table(group, &mut left).map(Arc::new));
     tables.into_iter().flatten().collect()
 }
 
 /// A table, if there is nothing wrong with it.
-fn table(group: &Group, left: &mut usize) -> Option<Table> {
+fn table(group: &GroupReader, left: &mut usize) -> Option<Table> {
     let name: String = group.attribute("name");
     let knots = |name| group.array::<f64>(name, &[Extent::Any]);
-    let (x, y) = (knots("x"), group.holds("y", Form::Dataset).then(|| knots("y")));
+    let (x, y) = (knots("x"), group.holds("y", ObjectKind::Dataset).then(|| knots("y")));
     let extent = |knots: &Option<Vec<f64>>| {
         knots.as_ref().map_or(Extent::Any, |knots| Extent::Is(knots.len() as u64))
     };

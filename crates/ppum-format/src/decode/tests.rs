@@ -6,7 +6,7 @@ mod rules;
 use std::sync::LazyLock;
 
 use super::*;
-use crate::content::Values;
+use crate::content::ArrayValues;
 use crate::{checksum, encode, everything};
 
 fn content() -> Content {
@@ -61,7 +61,7 @@ fn nothing_follows_from_a_missing_item() {
 fn a_wrong_type_or_rank_is_named() {
     for key in content().keys().filter(|key| !key.starts_with("@format")) {
         let mut damaged = content();
-        damaged.get_mut(key).unwrap().values = Values::Other("complex".into());
+        damaged.get_mut(key).unwrap().values = ArrayValues::Other("complex".into());
         assert_eq!(complaint(damaged).as_ref(), Some(key));
         let mut damaged = content();
         damaged.get_mut(key).unwrap().shape.push(1);
@@ -88,7 +88,7 @@ fn unknown_words_are_named() {
     let keys = step.map(|key| format!("steps/0000/{key}")).into_iter();
     for key in keys.chain(["domain/holes/kind".into()]) {
         let mut damaged = content();
-        let Values::Text(words) = &mut damaged.get_mut(&key).unwrap().values else {
+        let ArrayValues::Text(words) = &mut damaged.get_mut(&key).unwrap().values else {
             panic!("{key} holds words")
         };
         words.fill("sideways".into());
@@ -113,7 +113,7 @@ fn lists_that_do_not_divide_are_named() {
             },
         ] {
             let mut damaged = content();
-            let Values::U64(offsets) = &mut damaged.get_mut(&key).unwrap().values else {
+            let ArrayValues::U64(offsets) = &mut damaged.get_mut(&key).unwrap().values else {
                 panic!("{key} holds offsets")
             };
             change(offsets);
@@ -136,7 +136,7 @@ fn put(content: &mut Content, key: &str, array: Array) {
 
 /// Puts a text in the place of the last one of an array that is not empty.
 fn put_last(content: &mut Content, key: &str, text: &str) {
-    let Values::Text(texts) = &mut content.get_mut(key).expect(key).values else {
+    let ArrayValues::Text(texts) = &mut content.get_mut(key).expect(key).values else {
         panic!("{key} holds texts")
     };
     let last = texts.iter_mut().rfind(|text| !text.is_empty());
@@ -166,7 +166,7 @@ fn tables_are_checked() {
     }
     let none = complaint_after(|c| {
         put(c, "tables/0002/y", Array::vector([0.0; 0]));
-        put(c, "tables/0002/values", Array { shape: vec![0, 4], values: Values::F64(vec![]) });
+        put(c, "tables/0002/values", Array { shape: vec![0, 4], values: ArrayValues::F64(vec![]) });
     });
     assert!(none.starts_with("tables/0002/y: ") && none.contains("0 knots in y"), "{none}");
     for name in ["x", "theta", "t", "sin", "1a", "", "surface"] {
@@ -245,7 +245,7 @@ fn constants_and_breakpoints_have_ranges() {
     assert!(weight("(1 - t)*(t - 0.5)").contains("a weight must be positive"));
     let kinks = complaint_after(|c| {
         let key = "steps/0000/functions/kinks";
-        let Values::F64(v) = &mut c.get_mut(key).expect(key).values else { panic!("numbers") };
+        let ArrayValues::F64(v) = &mut c.get_mut(key).expect(key).values else { panic!("numbers") };
         v[1] = f64::INFINITY;
     });
     assert!(kinks.contains("functions/kinks[0]: "), "{kinks}");
@@ -257,7 +257,7 @@ fn plain_datasets_have_no_objects_of_version_1_1() {
     let new = ["tables", "quantities", "weight_formula", "kink", "singular"];
     let found = plain.keys().find(|key| new.iter().any(|new| key.contains(new)));
     assert_eq!(found, None);
-    assert!(matches!(plain["equation@young"].values, Values::F64(_)));
+    assert!(matches!(plain["equation@young"].values, ArrayValues::F64(_)));
     let full = content();
     for new in new {
         assert!(full.keys().any(|key| key.contains(new)), "{new}");
@@ -280,7 +280,7 @@ fn cuts_are_written_where_there_are_components() {
 fn cuts_that_are_none_are_named() {
     let row = |at: usize, value: i64| {
         complaint_after(|c| {
-            let Values::I64(cuts) =
+            let ArrayValues::I64(cuts) =
                 &mut c.get_mut("steps/0000/functions/cuts").expect("cuts").values
             else {
                 panic!("cuts are whole numbers")

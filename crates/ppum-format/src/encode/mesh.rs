@@ -3,12 +3,12 @@
 use ppum::mesh::{Clip, Mesh, Shape};
 use ppum::polynomial::PolynomialSpace;
 
-use super::Group;
-use crate::content::{Array, Values};
+use super::GroupWriter;
+use crate::content::{Array, ArrayValues};
 use crate::error::WriteError;
 use crate::names::{MESH, SHAPES, SPACES, code};
 
-pub(super) fn mesh(group: &mut Group, mesh: &Mesh) -> Result<(), WriteError> {
+pub(super) fn mesh(group: &mut GroupWriter, mesh: &Mesh) -> Result<(), WriteError> {
     let shape: Option<Vec<u8>> = mesh.shape.iter().map(|s: &Shape| code(SHAPES, *s)).collect();
     group.attribute("kind", Array::scalar(MESH.to_owned()));
     group.vector("shape", shape.ok_or_else(|| group.unknown("shape"))?);
@@ -17,7 +17,7 @@ pub(super) fn mesh(group: &mut Group, mesh: &Mesh) -> Result<(), WriteError> {
     spaces(group, "map_space", &mesh.map_space)?;
     group.vector("map_offset", mesh.map_offset.iter().copied());
     let shape = vec![2, mesh.map[0].len() as u64];
-    group.array("map", Array { shape, values: Values::F64(mesh.map.concat()) });
+    group.array("map", Array { shape, values: ArrayValues::F64(mesh.map.concat()) });
     group.vector("element", mesh.element.iter().copied());
     if !mesh.clips.is_empty() {
         group.vector("clip_offsets", mesh.clip_offsets.iter().copied());
@@ -29,7 +29,7 @@ pub(super) fn mesh(group: &mut Group, mesh: &Mesh) -> Result<(), WriteError> {
 
 /// The monomials of maps or of blocks.
 pub(super) fn spaces(
-    group: &mut Group,
+    group: &mut GroupWriter,
     name: &str,
     spaces: &[PolynomialSpace],
 ) -> Result<(), WriteError> {

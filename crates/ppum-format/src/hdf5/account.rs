@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 
-use crate::content::{Array, Values};
+use crate::content::{Array, ArrayValues};
 
 /// Memory that the arrays of any file may take, beside [`EXPANSION`] times its length: 64 MiB.
 const FREE_BYTES: u64 = 1 << 26;
@@ -121,13 +121,13 @@ pub(super) fn memory(count: u64, size: u64, is_text: bool) -> Option<u64> {
 /// Memory of an array that is there.
 pub(super) fn memory_of(array: &Array) -> u64 {
     let bytes = match &array.values {
-        Values::F64(v) => size_of_val(v.as_slice()),
-        Values::U8(v) => v.len(),
-        Values::U32(v) => size_of_val(v.as_slice()),
-        Values::U64(v) => size_of_val(v.as_slice()),
-        Values::I64(v) => size_of_val(v.as_slice()),
-        Values::Text(v) => v.iter().map(|text| text.len() + TEXT_BYTES as usize).sum(),
-        Values::Other(_) => 0,
+        ArrayValues::F64(v) => size_of_val(v.as_slice()),
+        ArrayValues::U8(v) => v.len(),
+        ArrayValues::U32(v) => size_of_val(v.as_slice()),
+        ArrayValues::U64(v) => size_of_val(v.as_slice()),
+        ArrayValues::I64(v) => size_of_val(v.as_slice()),
+        ArrayValues::Text(v) => v.iter().map(|text| text.len() + TEXT_BYTES as usize).sum(),
+        ArrayValues::Other(_) => 0,
     };
     ARRAY_BYTES + bytes as u64
 }

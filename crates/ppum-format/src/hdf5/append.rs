@@ -50,8 +50,8 @@ pub(crate) struct Trunk {
     links: Vec<Message>,
 }
 
-/// What is appended to a file.
-pub(crate) struct Step {
+/// The bytes of a step that are appended to a file.
+pub(crate) struct AppendedStep {
     /// The end of the file, behind which the bytes belong.
     pub(crate) end: u64,
     pub(crate) bytes: Vec<u8>,
@@ -86,7 +86,11 @@ impl Trunk {
     }
 
     /// What makes a step part of the file, and the trunk of the file that has it.
-    pub(crate) fn step(&self, content: &Content, path: &str) -> Result<(Step, Self), WriteError> {
+    pub(crate) fn step(
+        &self,
+        content: &Content,
+        path: &str,
+    ) -> Result<(AppendedStep, Self), WriteError> {
         let (addition, address) = self.objects(content, path)?;
         let name = path.rsplit('/').next().unwrap_or(path);
         self.clone().grown(addition, Message::link(name, address))
@@ -105,7 +109,11 @@ impl Trunk {
         if memory <= EXPANSION * length { Ok((addition, address)) } else { stored(false) }
     }
 
-    fn grown(mut self, mut addition: Addition, link: Message) -> Result<(Step, Self), WriteError> {
+    fn grown(
+        mut self,
+        mut addition: Addition,
+        link: Message,
+    ) -> Result<(AppendedStep, Self), WriteError> {
         let end = self.end();
         if self.links.len() >= LINKS {
             self.move_links(&mut addition)?;
@@ -119,7 +127,7 @@ impl Trunk {
         let sum = lookup3(&self.superblock[..SUPERBLOCK - 4]);
         self.superblock[SUPERBLOCK - 4..].copy_from_slice(&sum.to_le_bytes());
         let start = self.superblock.to_vec();
-        Ok((Step { end, bytes: addition.into_bytes(), start }, self))
+        Ok((AppendedStep { end, bytes: addition.into_bytes(), start }, self))
     }
 
     /// Moves the links of `steps` to a block, which continues where the header has continued until

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::messages::{Addition, LINK_INFO, Message, NO_HEAP, header};
 use super::values::{bytes, contiguous, datatype, large};
-use crate::content::{Array, Content, Form, join, key};
+use crate::content::{Array, Content, ObjectKind, join, key};
 use crate::error::WriteError;
 
 /// Kinds of messages.
@@ -45,7 +45,7 @@ fn headers(
     let mut messages =
         vec![Message::new(LINK_INFO, NO_HEAP.to_vec()), Message::new(GROUP_INFO, vec![0; 2])];
     for name in content.attributes(path) {
-        let full = key(path, name, Form::Attribute);
+        let full = key(path, name, ObjectKind::Attribute);
         messages.push(Message::new(ATTRIBUTE, attribute(&full, name, &content[&full])?));
     }
     let mut members: Vec<&str> = content.members(path).collect();

@@ -24,18 +24,18 @@ mod types;
 use std::collections::BTreeMap;
 
 use super::account::{Account, memory};
-use crate::content::{Array, Content, Values, join, step_of};
+use crate::content::{Array, ArrayValues, Content, join, step_of};
 use crate::error::ReadError;
 use crate::limits::MAX_LENGTH;
 use header::{DATASPACE, DATATYPE, GROUP_INFO, Header, LAYOUT, LINK, LINK_INFO, SYMBOL_TABLE};
 use links::{Target, links};
-use source::{Mistake, Parsed, Source, fail};
+use source::{Hdf5Error, Hdf5File, Parsed, fail};
 use storage::elements;
 use store::Chain;
 pub(crate) use store::Ranges;
 use superblock::Start;
 use texts::Texts;
-use types::{Kind, Space, Type};
+use types::{DatatypeClass, Space, Type};
 
 /// Root group that is neither read nor part of the checksum: for additions by anybody.
 const USER: &str = "user";
@@ -48,7 +48,7 @@ pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Content, ReadError> {
     let account = Account::for_file(bytes.len() as u64);
     let start = Start::of_bytes(bytes).map_err(unreadable)?;
     let source = start.memory(bytes, &account).map_err(unreadable)?;
-    let mut walk = Walk::new(source, Choice::All);
+    let mut walk = Walk::new(source, ReadChoice::All);
     walk.root(start.root)?;
     Ok(walk.content)
 }
@@ -60,7 +60,7 @@ pub(crate) fn from_file(file: &dyn Ranges, length: u64) -> Result<Content, ReadE
     Ok(content)
 }
 
-fn unreadable(Mistake(message): Mistake) -> ReadError {
+fn unreadable(Hdf5Error(message): Hdf5Error) -> ReadError {
     ReadError::Hdf5 { message: message.into() }
 }
 
@@ -79,7 +79,7 @@ impl Outline {
     pub(crate) fn read(file: &dyn Ranges, length: u64) -> Result<Self, ReadError> {
         let start = Start::of_file(file, length).map_err(unreadable)?;
         let (content, steps) = parts(start, file, length, |walk| {
-            walk.choice = Choice::NoSteps;
+            walk.choice = ReadChoice::NoSteps;
             walk.root(start.root)
         })?;
         Ok(Self { start, length, content, steps })
@@ -103,7 +103,7 @@ impl Outline {
     ) -> Result<Content, ReadError> {
         let &address = self.steps.get(path).ok_or_else(|| error(path, "is missing"))?;
         let (content, _) = parts(self.start, file, self.length, |walk| {
-            walk.choice = only.map_or(Choice::All, Choice::Only);
+            walk.choice = only.map_or(ReadChoice::All, ReadChoice::Only);
             walk.object(&Target::Object(address), path.to_owned(), DEPTH - 1)
         })?;
         Ok(content)
@@ -121,7 +121,7 @@ fn parts(
     let chain = Chain::default();
     let parts = start.parts(file, length, &chain);
     let source = start.source(&parts, &account).map_err(unreadable)?;
-    let mut walk = Walk::new(source, Choice::All);
+    let mut walk = Walk::new(source, ReadChoice::All);
     visit(&mut walk)?;
     Ok((walk.content, walk.steps))
 }
@@ -130,16 +130,16 @@ fn parts(
 /// this length can hold, before anything is allocated.
 struct Walk<'f> {
     content: Content,
-    source: Source<'f>,
+    source: Hdf5File<'f>,
     texts: Texts<'f>,
-    choice: Choice,
+    choice: ReadChoice,
     /// Steps that were left out.
     steps: BTreeMap<String, u64>,
 }
 
-/// What is read.
+/// The members of a file that are read.
 #[derive(Clone, Copy)]
-enum Choice {
+enum ReadChoice {
     All,
     /// All but what the numbered members of `steps` hold.
     NoSteps,
@@ -147,15 +147,15 @@ enum Choice {
     Only(&'static [&'static str]),
 }
 
-/// The kinds of objects of a file.
-enum Form {
+/// The types of objects that HDF5 knows.
+enum ObjectType {
     Group,
     Array,
     NamedType,
 }
 
 impl<'f> Walk<'f> {
-    fn new(source: Source<'f>, choice: Choice) -> Self {
+    fn new(source: Hdf5File<'f>, choice: ReadChoice) -> Self {
         let (content, texts) = (Content::new(), Texts::new(source));
         Self { content, source, texts, choice, steps: BTreeMap::new() }
     }
@@ -195,14 +195,14 @@ impl<'f> Walk<'f> {
     }
 
     fn is_chosen(&self, path: &str) -> bool {
-        let Choice::Only(members) = self.choice else { return true };
+        let ReadChoice::Only(members) = self.choice else { return true };
         let mut names = path.split('/');
         names.nth(2).is_none_or(|member| members.contains(&member))
     }
 
     fn object(&mut self, target: &Target, path: String, depth: usize) -> Result<(), ReadError> {
         let Target::Object(address) = *target else { return Err(elsewhere(&path)) };
-        if matches!(self.choice, Choice::NoSteps) && step_of(&path).is_some() {
+        if matches!(self.choice, ReadChoice::NoSteps) && step_of(&path).is_some() {
             self.visit(&path)?;
             return match self.steps.insert(path.clone(), address) {
                 None => Ok(()),
@@ -211,15 +211,15 @@ impl<'f> Walk<'f> {
         }
         let header = self.header(address, &path)?;
         match form(&header) {
-            Form::Group => {
+            ObjectType::Group => {
                 self.content.insert_group(&path);
                 self.group(&header, &path, depth - 1)
             }
-            Form::Array => {
+            ObjectType::Array => {
                 let array = self.array(&header).map_err(|e| error(&path, e))?;
                 self.insert(path, array)
             }
-            Form::NamedType => Err(elsewhere(&path)),
+            ObjectType::NamedType => Err(elsewhere(&path)),
         }
     }
 
@@ -242,10 +242,10 @@ impl<'f> Walk<'f> {
     fn array(&mut self, header: &Header<'f>) -> Parsed<Array> {
         let kind = Type::parse(header.get(DATATYPE)?)?;
         let Some(space) = Space::parse(header.get(DATASPACE)?)? else {
-            return Ok(Array { shape: vec![], values: Values::Other("null".into()) });
+            return Ok(Array { shape: vec![], values: ArrayValues::Other("null".into()) });
         };
-        if let Kind::Other(name) = kind.kind {
-            return Ok(Array { shape: space.shape, values: Values::Other(name) });
+        if let DatatypeClass::Other(name) = kind.kind {
+            return Ok(Array { shape: space.shape, values: ArrayValues::Other(name) });
         }
         let cost = space.count().and_then(|n| memory(n, kind.size as u64, kind.is_text()));
         if !self.source.account.pay_memory(cost) {
@@ -263,18 +263,18 @@ impl<'f> Walk<'f> {
     }
 }
 
-fn form(header: &Header) -> Form {
+fn form(header: &Header) -> ObjectType {
     let is_group = [SYMBOL_TABLE, LINK_INFO, LINK, GROUP_INFO].iter().any(|kind| header.has(*kind));
     match is_group {
-        true => Form::Group,
-        false if header.has(LAYOUT) => Form::Array,
-        false => Form::NamedType,
+        true => ObjectType::Group,
+        false if header.has(LAYOUT) => ObjectType::Array,
+        false => ObjectType::NamedType,
     }
 }
 
 /// An error at an object; the root is `/`.
-fn error(path: &str, mistake: impl Into<Mistake>) -> ReadError {
-    let Mistake(mistake) = mistake.into();
+fn error(path: &str, mistake: impl Into<Hdf5Error>) -> ReadError {
+    let Hdf5Error(mistake) = mistake.into();
     ReadError::object(if path.is_empty() { "/" } else { path }, mistake)
 }
 

@@ -10,7 +10,7 @@ use flate2::write::ZlibEncoder;
 
 use super::messages::{ALIGNMENT, Addition, Message, sealed};
 use super::write::{DEFLATE_LEVEL, check_text, chunk, is_chunked};
-use crate::content::{Array, Values};
+use crate::content::{Array, ArrayValues};
 use crate::error::WriteError;
 
 /// Kinds of messages.
@@ -30,12 +30,12 @@ fn text_length(texts: &[String]) -> usize {
 }
 
 /// Bytes of an element.
-fn size(values: &Values) -> usize {
+fn size(values: &ArrayValues) -> usize {
     match values {
-        Values::F64(_) | Values::U64(_) | Values::I64(_) => 8,
-        Values::U32(_) => 4,
-        Values::U8(_) | Values::Other(_) => 1,
-        Values::Text(texts) => text_length(texts),
+        ArrayValues::F64(_) | ArrayValues::U64(_) | ArrayValues::I64(_) => 8,
+        ArrayValues::U32(_) => 4,
+        ArrayValues::U8(_) | ArrayValues::Other(_) => 1,
+        ArrayValues::Text(texts) => text_length(texts),
     }
 }
 
@@ -46,22 +46,22 @@ pub(super) fn datatype(name: &str, array: &Array) -> Result<Vec<u8>, WriteError>
         [[0x10, flags, 0, 0].as_slice(), &number(size), &[0, 0], &[8 * size as u8, 0]].concat()
     };
     Ok(match &array.values {
-        Values::U8(_) | Values::U32(_) | Values::U64(_) => whole(0),
-        Values::I64(_) => whole(8),
+        ArrayValues::U8(_) | ArrayValues::U32(_) | ArrayValues::U64(_) => whole(0),
+        ArrayValues::I64(_) => whole(8),
         // little-endian, its sign the last bit; bits, place and length of exponent and
         // mantissa, bias
-        Values::F64(_) => [
+        ArrayValues::F64(_) => [
             [0x11, 0x20, 0x3f, 0].as_slice(),
             &number(size),
             &[0, 0, 64, 0, 52, 11, 0, 52, 0xff, 0x03, 0, 0],
         ]
         .concat(),
-        Values::Text(texts) => {
+        ArrayValues::Text(texts) => {
             check_text(name, texts)?;
             // padded with NUL, UTF-8
             [[0x13, 0x11, 0, 0].as_slice(), &number(size)].concat()
         }
-        Values::Other(t) => return Err(WriteError::object(name, format!("cannot store {t}"))),
+        ArrayValues::Other(t) => return Err(WriteError::object(name, format!("cannot store {t}"))),
     })
 }
 
@@ -74,31 +74,31 @@ pub(super) fn bytes(array: &Array) -> Vec<u8> {
     bytes_of(&array.values)
 }
 
-fn bytes_of(values: &Values) -> Vec<u8> {
+fn bytes_of(values: &ArrayValues) -> Vec<u8> {
     match values {
-        Values::F64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
-        Values::U8(v) => v.clone(),
-        Values::U32(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
-        Values::U64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
-        Values::I64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
-        Values::Text(v) => {
+        ArrayValues::F64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        ArrayValues::U8(v) => v.clone(),
+        ArrayValues::U32(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        ArrayValues::U64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        ArrayValues::I64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        ArrayValues::Text(v) => {
             let length = text_length(v);
             let padding = |text: &String| std::iter::repeat_n(0, length - text.len());
             v.iter().flat_map(|text| text.bytes().chain(padding(text))).collect()
         }
-        Values::Other(_) => Vec::new(),
+        ArrayValues::Other(_) => Vec::new(),
     }
 }
 
 /// True if deflation makes less than half of an array, as some parts of it show.
 pub(super) fn shrinks(array: &Array) -> bool {
     let parts = match &array.values {
-        Values::F64(v) => Values::F64(parts(v)),
-        Values::U8(v) => Values::U8(parts(v)),
-        Values::U32(v) => Values::U32(parts(v)),
-        Values::U64(v) => Values::U64(parts(v)),
-        Values::I64(v) => Values::I64(parts(v)),
-        Values::Text(_) | Values::Other(_) => return false,
+        ArrayValues::F64(v) => ArrayValues::F64(parts(v)),
+        ArrayValues::U8(v) => ArrayValues::U8(parts(v)),
+        ArrayValues::U32(v) => ArrayValues::U32(parts(v)),
+        ArrayValues::U64(v) => ArrayValues::U64(parts(v)),
+        ArrayValues::I64(v) => ArrayValues::I64(parts(v)),
+        ArrayValues::Text(_) | ArrayValues::Other(_) => return false,
     };
     let bytes = bytes_of(&parts);
     let packed = deflated(&shuffled(&bytes, size(&parts)));

@@ -6,7 +6,7 @@ use hdf5_pure::{AttrValue, DatasetBuilder, FileBuilder, FinishedGroup, GroupBuil
 
 use super::account::{PLAIN_BYTES, memory_of};
 use super::values::shrinks;
-use crate::content::{Array, Content, Values, join};
+use crate::content::{Array, ArrayValues, Content, join};
 use crate::error::WriteError;
 
 /// Arrays from this length on are stored in chunks, shuffled and deflated, if they shrink to less
@@ -41,14 +41,14 @@ fn stored(content: &Content, compressed: bool) -> Result<Vec<u8>, WriteError> {
     let groups: Vec<String> = content.groups().map(|path| join(path, "")).collect();
     let groups = groups.iter().map(|path| (path.as_str(), path.as_str(), None));
     let arrays = content.iter().map(|(name, array)| (name.as_str(), name.as_str(), Some(array)));
-    let entries: Vec<Entry> = groups.chain(arrays).collect();
+    let entries: Vec<NamedArray> = groups.chain(arrays).collect();
     fill(&mut file, &entries, compressed)?;
     file.finish().map_err(|e| WriteError::Hdf5 { message: e.to_string() })
 }
 
 /// Full name, name inside the group at hand, array. The names of groups, which have none, end in
 /// a slash.
-type Entry<'a> = (&'a str, &'a str, Option<&'a Array>);
+type NamedArray<'a> = (&'a str, &'a str, Option<&'a Array>);
 
 /// The root and other groups, which the library builds by different types.
 trait Parent {
@@ -80,8 +80,12 @@ macro_rules! parent {
 parent!(FileBuilder);
 parent!(GroupBuilder);
 
-fn fill(parent: &mut impl Parent, entries: &[Entry], compressed: bool) -> Result<(), WriteError> {
-    let mut children: BTreeMap<&str, Vec<Entry>> = BTreeMap::new();
+fn fill(
+    parent: &mut impl Parent,
+    entries: &[NamedArray],
+    compressed: bool,
+) -> Result<(), WriteError> {
+    let mut children: BTreeMap<&str, Vec<NamedArray>> = BTreeMap::new();
     for &(full, name, array) in entries {
         match (name.find(['/', '@']), array) {
             (Some(0), Some(array)) => parent.attribute(&name[1..], attribute_value(full, array)?),
@@ -105,7 +109,7 @@ fn fill(parent: &mut impl Parent, entries: &[Entry], compressed: bool) -> Result
 /// Makes sure that all texts can be stored.
 pub(crate) fn check_texts(content: &Content) -> Result<(), WriteError> {
     content.iter().try_for_each(|(name, array)| match &array.values {
-        Values::Text(texts) => check_text(name, texts).map(drop),
+        ArrayValues::Text(texts) => check_text(name, texts).map(drop),
         _ => Ok(()),
     })
 }
@@ -129,15 +133,15 @@ fn store(
     compressed: bool,
 ) -> Result<(), WriteError> {
     match &array.values {
-        Values::F64(v) => builder.with_f64_data(v),
-        Values::U8(v) => builder.with_u8_data(v),
-        Values::U32(v) => builder.with_u32_data(v),
-        Values::U64(v) => builder.with_u64_data(v),
-        Values::I64(v) => builder.with_i64_data(v),
-        Values::Text(v) => builder
+        ArrayValues::F64(v) => builder.with_f64_data(v),
+        ArrayValues::U8(v) => builder.with_u8_data(v),
+        ArrayValues::U32(v) => builder.with_u32_data(v),
+        ArrayValues::U64(v) => builder.with_u64_data(v),
+        ArrayValues::I64(v) => builder.with_i64_data(v),
+        ArrayValues::Text(v) => builder
             .with_strings(&check_text(name, v)?)
             .map_err(|e| WriteError::object(name, e.to_string()))?,
-        Values::Other(t) => return Err(WriteError::object(name, format!("cannot store {t}"))),
+        ArrayValues::Other(t) => return Err(WriteError::object(name, format!("cannot store {t}"))),
     }
     .with_shape(&array.shape);
     if compressed && is_chunked(array) {
@@ -149,7 +153,7 @@ fn store(
 /// True for arrays that are compressed where that is allowed.
 pub(super) fn is_chunked(array: &Array) -> bool {
     let is_large = array.shape.iter().product::<u64>() >= COMPRESSED_ELEMENTS;
-    is_large && !matches!(array.values, Values::Text(_)) && shrinks(array)
+    is_large && !matches!(array.values, ArrayValues::Text(_)) && shrinks(array)
 }
 
 /// The largest block of whole rows with at most [`CHUNK_ELEMENTS`] elements.
@@ -172,17 +176,17 @@ pub(super) fn chunk(shape: &[u64]) -> Vec<u64> {
 /// have others.
 fn attribute_value(name: &str, array: &Array) -> Result<AttrValue, WriteError> {
     match (&array.values, array.shape.len()) {
-        (Values::Text(v), 0) => {
+        (ArrayValues::Text(v), 0) => {
             check_text(name, v)?;
             Ok(AttrValue::String(v.concat()))
         }
-        (Values::Text(v), 1) => {
+        (ArrayValues::Text(v), 1) => {
             check_text(name, v)?;
             Ok(AttrValue::StringArray(v.clone()))
         }
-        (Values::F64(v), 0) => Ok(AttrValue::F64(v[0])),
-        (Values::F64(v), _) => Ok(AttrValue::F64Array(v.clone())),
-        (Values::U32(v), 1) => Ok(AttrValue::U32Array(v.clone())),
+        (ArrayValues::F64(v), 0) => Ok(AttrValue::F64(v[0])),
+        (ArrayValues::F64(v), _) => Ok(AttrValue::F64Array(v.clone())),
+        (ArrayValues::U32(v), 1) => Ok(AttrValue::U32Array(v.clone())),
         (other, _) => Err(WriteError::object(name, format!("cannot store {}", other.type_name()))),
     }
 }

@@ -7,7 +7,7 @@
 //! these in double precision. Nothing is fused: in double precision each result is that of the
 //! scalar back end to the last bit.
 
-use super::tape::{Step, Tape};
+use super::tape::{Instruction, Tape};
 use crate::elementary;
 use crate::real::{Double, DoubleFunction, Job, Numbers, Real, Scalar};
 use crate::table::Table;
@@ -19,17 +19,17 @@ pub(crate) const VECTORS: usize = 8;
 /// interpreter is compiled here and not in every crate that uses it.
 pub(crate) fn interpret(tape: &Tape, registers: Numbers<'_>) {
     match registers {
-        Numbers::Double(registers) => f64::dispatch(Run { tape, registers }),
-        Numbers::Single(registers) => f32::dispatch(Run { tape, registers }),
+        Numbers::Double(registers) => f64::dispatch(TapeRun { tape, registers }),
+        Numbers::Single(registers) => f32::dispatch(TapeRun { tape, registers }),
     }
 }
 
-struct Run<'r, T> {
+struct TapeRun<'r, T> {
     tape: &'r Tape,
     registers: &'r mut [T],
 }
 
-impl<T: Scalar> Job<T> for Run<'_, T> {
+impl<T: Scalar> Job<T> for TapeRun<'_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -39,8 +39,8 @@ impl<T: Scalar> Job<T> for Run<'_, T> {
         while part < Machine::<R>::PARTS {
             let registers = &mut registers[part..];
             let mut machine = Machine { tape: self.tape, registers, zero };
-            for step in &self.tape.steps {
-                machine.run(step);
+            for op in &self.tape.instructions {
+                machine.run(op);
             }
             part += 1;
         }
@@ -131,14 +131,14 @@ macro_rules! actions {
 
         impl<R: Real> Machine<'_, R> {
             #[inline(always)]
-            fn run(&mut self, step: &Step) {
-                match step.action {
-                    $(Action::$name => self.$run(function!([$($a),+] $value), step),)+
-                    Action::Power(n) => self.one(Power(n), step),
-                    Action::Fill => self.each1(function!([a] a), self.same(step, 0), step),
+            fn run(&mut self, op: &Instruction) {
+                match op.action {
+                    $(Action::$name => self.$run(function!([$($a),+] $value), op),)+
+                    Action::Power(n) => self.one(Power(n), op),
+                    Action::Fill => self.each1(function!([a] a), self.same(op, 0), op),
                     Action::Table { table, orders } => {
                         let tape = self.tape;
-                        self.long(LookUp { table: &tape.tables[table as usize], orders }, step);
+                        self.long(LookUp { table: &tape.tables[table as usize], orders }, op);
                     }
                 }
             }
@@ -262,49 +262,49 @@ impl DoubleFunction<2> for LookUp<'_> {
 /// The loops over the vectors of a block, for each pattern of constants that a tape may have.
 impl<R: Real> Machine<'_, R> {
     #[inline(always)]
-    fn each(&self, step: &Step, operand: usize) -> Each<R> {
-        Each { register: step.operands[operand] as usize, zero: self.zero }
+    fn each(&self, op: &Instruction, operand: usize) -> Each<R> {
+        Each { register: op.operands[operand] as usize, zero: self.zero }
     }
 
     #[inline(always)]
-    fn same(&self, step: &Step, operand: usize) -> Same<R> {
-        Same(self.zero.lit(self.tape.constants[step.operands[operand] as usize]))
+    fn same(&self, op: &Instruction, operand: usize) -> Same<R> {
+        Same(self.zero.lit(self.tape.constants[op.operands[operand] as usize]))
     }
 
     #[inline(always)]
-    fn one(&mut self, f: impl Function<1>, step: &Step) {
-        self.each1(f, self.each(step, 0), step);
+    fn one(&mut self, f: impl Function<1>, op: &Instruction) {
+        self.each1(f, self.each(op, 0), op);
     }
 
     #[inline(always)]
-    fn two(&mut self, f: impl Function<2>, step: &Step) {
-        match step.constants {
-            0b00 => self.each2(f, self.each(step, 0), self.each(step, 1), step),
-            0b01 => self.each2(f, self.same(step, 0), self.each(step, 1), step),
-            _ => self.each2(f, self.each(step, 0), self.same(step, 1), step),
+    fn two(&mut self, f: impl Function<2>, op: &Instruction) {
+        match op.constants {
+            0b00 => self.each2(f, self.each(op, 0), self.each(op, 1), op),
+            0b01 => self.each2(f, self.same(op, 0), self.each(op, 1), op),
+            _ => self.each2(f, self.each(op, 0), self.same(op, 1), op),
         }
     }
 
     #[inline(always)]
-    fn three(&mut self, f: impl Function<3>, step: &Step) {
-        let a = self.each(step, 0);
-        match step.constants {
-            0b000 => self.each3(f, a, self.each(step, 1), self.each(step, 2), step),
-            0b010 => self.each3(f, a, self.same(step, 1), self.each(step, 2), step),
-            0b100 => self.each3(f, a, self.each(step, 1), self.same(step, 2), step),
-            _ => self.each3(f, a, self.same(step, 1), self.same(step, 2), step),
+    fn three(&mut self, f: impl Function<3>, op: &Instruction) {
+        let a = self.each(op, 0);
+        match op.constants {
+            0b000 => self.each3(f, a, self.each(op, 1), self.each(op, 2), op),
+            0b010 => self.each3(f, a, self.same(op, 1), self.each(op, 2), op),
+            0b100 => self.each3(f, a, self.each(op, 1), self.same(op, 2), op),
+            _ => self.each3(f, a, self.same(op, 1), self.same(op, 2), op),
         }
     }
 
     #[inline(always)]
-    fn four(&mut self, f: impl Function<4>, step: &Step) {
-        let (a, b) = (self.each(step, 0), self.each(step, 1));
-        let (c, d) = (self.each(step, 2), self.each(step, 3));
+    fn four(&mut self, f: impl Function<4>, op: &Instruction) {
+        let (a, b) = (self.each(op, 0), self.each(op, 1));
+        let (c, d) = (self.each(op, 2), self.each(op, 3));
         let mut k = 0;
         while k < VECTORS {
             let r = &*self.registers;
             let value = f.apply([a.at(r, k), b.at(r, k), c.at(r, k), d.at(r, k)]);
-            self.store(value, step, k);
+            self.store(value, op, k);
             k += 1;
         }
     }
@@ -312,38 +312,44 @@ impl<R: Real> Machine<'_, R> {
     /// A function of many operations, any of its operands a constant: a loop, not eight times
     /// its text.
     #[inline(always)]
-    fn long<const N: usize>(&mut self, f: impl Function<N>, step: &Step) {
+    fn long<const N: usize>(&mut self, f: impl Function<N>, op: &Instruction) {
         let mut k = 0;
         while k < VECTORS {
             let (mut operands, mut i) = ([self.zero; N], 0);
             while i < N {
-                operands[i] = if step.constants >> i & 1 == 1 {
-                    self.same(step, i).0
+                operands[i] = if op.constants >> i & 1 == 1 {
+                    self.same(op, i).0
                 } else {
-                    self.each(step, i).at(self.registers, k)
+                    self.each(op, i).at(self.registers, k)
                 };
                 i += 1;
             }
-            self.store(f.apply(operands), step, k);
+            self.store(f.apply(operands), op, k);
             k += 1;
         }
     }
 
     #[inline(always)]
-    fn each1(&mut self, f: impl Function<1>, a: impl Operand<R>, step: &Step) {
+    fn each1(&mut self, f: impl Function<1>, a: impl Operand<R>, op: &Instruction) {
         let mut k = 0;
         while k < VECTORS {
-            self.store(f.apply([a.at(self.registers, k)]), step, k);
+            self.store(f.apply([a.at(self.registers, k)]), op, k);
             k += 1;
         }
     }
 
     #[inline(always)]
-    fn each2(&mut self, f: impl Function<2>, a: impl Operand<R>, b: impl Operand<R>, step: &Step) {
+    fn each2(
+        &mut self,
+        f: impl Function<2>,
+        a: impl Operand<R>,
+        b: impl Operand<R>,
+        op: &Instruction,
+    ) {
         let mut k = 0;
         while k < VECTORS {
             let r = &*self.registers;
-            self.store(f.apply([a.at(r, k), b.at(r, k)]), step, k);
+            self.store(f.apply([a.at(r, k), b.at(r, k)]), op, k);
             k += 1;
         }
     }
@@ -355,18 +361,18 @@ impl<R: Real> Machine<'_, R> {
         a: impl Operand<R>,
         b: impl Operand<R>,
         c: impl Operand<R>,
-        step: &Step,
+        op: &Instruction,
     ) {
         let mut k = 0;
         while k < VECTORS {
             let r = &*self.registers;
-            self.store(f.apply([a.at(r, k), b.at(r, k), c.at(r, k)]), step, k);
+            self.store(f.apply([a.at(r, k), b.at(r, k), c.at(r, k)]), op, k);
             k += 1;
         }
     }
 
     #[inline(always)]
-    fn store(&mut self, value: R, step: &Step, k: usize) {
-        value.store_array(&mut self.registers[step.to as usize * Self::PARTS][k]);
+    fn store(&mut self, value: R, op: &Instruction, k: usize) {
+        value.store_array(&mut self.registers[op.to as usize * Self::PARTS][k]);
     }
 }

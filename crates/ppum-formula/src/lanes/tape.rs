@@ -16,7 +16,7 @@ use crate::table::Table;
 /// A program for blocks of points.
 #[derive(Clone, Debug)]
 pub(crate) struct Tape {
-    pub(crate) steps: Vec<Step>,
+    pub(crate) instructions: Vec<Instruction>,
     pub(crate) constants: Vec<f64>,
     pub(crate) tables: Arc<[Arc<Table>]>,
     /// Registers 0 .. `n_outputs` are the outputs, `n_inputs` more the inputs, then `n_slots`
@@ -28,7 +28,7 @@ pub(crate) struct Tape {
 
 /// One operation on all points of a block.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Step {
+pub(crate) struct Instruction {
     pub(crate) action: Action,
     /// Registers, or indices of constants.
     pub(crate) operands: [u32; 4],
@@ -41,16 +41,16 @@ pub(crate) struct Step {
 impl Tape {
     /// The tape of a program with a number of inputs.
     pub(crate) fn new(program: &Program, n_inputs: usize) -> Self {
-        let forms = forms(program);
-        let mut writer = Writer::new(program, &forms, n_inputs);
-        for (id, form) in (0..).map(NodeId).zip(&forms) {
+        let lowered = lowered(program);
+        let mut writer = Writer::new(program, &lowered, n_inputs);
+        for (id, form) in (0..).map(NodeId).zip(&lowered) {
             if let Some(form) = form {
-                writer.step(id, form);
+                writer.instruction(id, form);
             }
         }
         writer.copy_outputs(program);
         Self {
-            steps: writer.steps,
+            instructions: writer.instructions,
             constants: writer.constants,
             tables: Arc::clone(program.tables()),
             n_outputs: program.outputs().len(),
@@ -67,22 +67,22 @@ impl Tape {
 
 /// The action that computes an operation, and its operands.
 #[derive(Clone, Debug)]
-struct Form {
+struct LoweredOperation {
     action: Action,
     operands: Vec<NodeId>,
 }
 
 /// The forms of the operations; none for constants, inputs, and products that are part of
 /// the form of their only user.
-fn forms(program: &Program) -> Vec<Option<Form>> {
-    let mut forms = vec![None; program.ops().len()];
+fn lowered(program: &Program) -> Vec<Option<LoweredOperation>> {
+    let mut lowered = vec![None; program.ops().len()];
     let mut products = Products::new(program);
     for id in (0..program.ops().len()).rev() {
         if !products.is_absorbed[id] {
-            forms[id] = form(program.ops()[id], &mut products);
+            lowered[id] = form(program.ops()[id], &mut products);
         }
     }
-    forms
+    lowered
 }
 
 /// The products that can be computed by their only user.
@@ -124,25 +124,25 @@ impl<'a> Products<'a> {
     }
 
     /// A step that computes the product `p` and another operation.
-    fn three(&mut self, op: Action, p: NodeId, other: NodeId) -> Option<Form> {
+    fn three(&mut self, op: Action, p: NodeId, other: NodeId) -> Option<LoweredOperation> {
         let [a, b] = self.factors(p)?;
         self.is_absorbed[p.index()] = true;
-        Some(Form { action: op, operands: vec![a, b, other] })
+        Some(LoweredOperation { action: op, operands: vec![a, b, other] })
     }
 
     /// A step that computes the products `p` and `q` and their sum or difference.
-    fn four(&mut self, op: Action, p: NodeId, q: NodeId) -> Option<Form> {
+    fn four(&mut self, op: Action, p: NodeId, q: NodeId) -> Option<LoweredOperation> {
         let [[a, b], [c, d]] = [self.factors(p)?, self.factors(q)?];
         if self.is_constant(b) || self.is_constant(d) {
             return None;
         }
         self.is_absorbed[p.index()] = true;
         self.is_absorbed[q.index()] = true;
-        Some(Form { action: op, operands: vec![a, b, c, d] })
+        Some(LoweredOperation { action: op, operands: vec![a, b, c, d] })
     }
 }
 
-fn form(op: Op, products: &mut Products<'_>) -> Option<Form> {
+fn form(op: Op, products: &mut Products<'_>) -> Option<LoweredOperation> {
     let joined = match op {
         Op::Binary(Binary::Add, a, b) => products
             .four(Action::MulAddMul, a, b)
@@ -160,7 +160,7 @@ fn form(op: Op, products: &mut Products<'_>) -> Option<Form> {
     };
     joined.or_else(|| {
         let action = action(op)?;
-        Some(Form { action, operands: op.operands().collect() })
+        Some(LoweredOperation { action, operands: op.operands().collect() })
     })
 }
 
@@ -221,9 +221,9 @@ fn binary(op: Binary) -> Action {
     }
 }
 
-/// The place of an operation's result.
+/// The register or constant that holds the result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Place {
+enum ResultLocation {
     Register(u32),
     Constant(u32),
     Nowhere,
@@ -231,10 +231,10 @@ enum Place {
 
 /// Assigns registers while it writes the steps in order.
 struct Writer {
-    steps: Vec<Step>,
+    instructions: Vec<Instruction>,
     constants: Vec<f64>,
     /// The place of each operation so far.
-    places: Vec<Place>,
+    locations: Vec<ResultLocation>,
     /// The last operation whose form has each as an operand.
     last_use: Vec<u32>,
     /// The output register of the operations that are outputs.
@@ -246,14 +246,14 @@ struct Writer {
 }
 
 impl Writer {
-    fn new(program: &Program, forms: &[Option<Form>], n_inputs: usize) -> Self {
-        let mut last_use = vec![0; forms.len()];
-        for (user, form) in (0..).zip(forms) {
+    fn new(program: &Program, lowered: &[Option<LoweredOperation>], n_inputs: usize) -> Self {
+        let mut last_use = vec![0; lowered.len()];
+        for (user, form) in (0..).zip(lowered) {
             for operand in form.iter().flat_map(|form| &form.operands) {
                 last_use[operand.index()] = user;
             }
         }
-        let mut output = vec![None; forms.len()];
+        let mut output = vec![None; lowered.len()];
         for (register, node) in (0..).zip(program.outputs()) {
             output[node.index()].get_or_insert(register);
         }
@@ -261,17 +261,17 @@ impl Writer {
         let mut constants = Vec::new();
         let mut constant = |value| {
             constants.push(value);
-            Place::Constant(constants.len() as u32 - 1)
+            ResultLocation::Constant(constants.len() as u32 - 1)
         };
-        let place = |&op: &Op| match op {
+        let location = |&op: &Op| match op {
             Op::Constant(bits) => constant(f64::from_bits(bits)),
             Op::Truth(holds) => constant(f64::from(u8::from(holds))),
-            Op::Input(index) => Place::Register(n_outputs + index),
-            _ => Place::Nowhere,
+            Op::Input(index) => ResultLocation::Register(n_outputs + index),
+            _ => ResultLocation::Nowhere,
         };
         Self {
-            steps: Vec::new(),
-            places: program.ops().iter().map(place).collect(),
+            instructions: Vec::new(),
+            locations: program.ops().iter().map(location).collect(),
             constants,
             last_use,
             output,
@@ -281,24 +281,24 @@ impl Writer {
         }
     }
 
-    fn step(&mut self, id: NodeId, form: &Form) {
+    fn instruction(&mut self, id: NodeId, form: &LoweredOperation) {
         let (mut operands, mut mask) = ([0; 4], 0);
         for (k, operand) in form.operands.iter().enumerate() {
-            operands[k] = match self.places[operand.index()] {
-                Place::Register(register) => register,
-                Place::Constant(constant) => {
+            operands[k] = match self.locations[operand.index()] {
+                ResultLocation::Register(register) => register,
+                ResultLocation::Constant(constant) => {
                     mask |= 1 << k;
                     constant
                 }
-                Place::Nowhere => unreachable!("operands come before what uses them"),
+                ResultLocation::Nowhere => unreachable!("operands come before what uses them"),
             };
         }
         for operand in &form.operands {
             self.free_after(*operand, id);
         }
         let to = self.output[id.index()].unwrap_or_else(|| self.slot());
-        self.steps.push(Step { action: form.action, operands, constants: mask, to });
-        self.places[id.index()] = Place::Register(to);
+        self.instructions.push(Instruction { action: form.action, operands, constants: mask, to });
+        self.locations[id.index()] = ResultLocation::Register(to);
     }
 
     /// A slot that is free.
@@ -311,11 +311,11 @@ impl Writer {
 
     /// Frees the slot of an operand if this was its last use.
     fn free_after(&mut self, operand: NodeId, user: NodeId) {
-        if let Place::Register(register) = self.places[operand.index()]
+        if let ResultLocation::Register(register) = self.locations[operand.index()]
             && register >= self.first_slot
             && self.last_use[operand.index()] == user.0
         {
-            self.places[operand.index()] = Place::Nowhere;
+            self.locations[operand.index()] = ResultLocation::Nowhere;
             self.free.push(register);
         }
     }
@@ -323,13 +323,18 @@ impl Writer {
     /// Fills the outputs that are constants, inputs, or equal to earlier outputs.
     fn copy_outputs(&mut self, program: &Program) {
         for (to, node) in (0..).zip(program.outputs()) {
-            let (action, operand) = match self.places[node.index()] {
-                Place::Register(register) if register == to => continue,
-                Place::Register(register) => (Action::Copy, register),
-                Place::Constant(constant) => (Action::Fill, constant),
-                Place::Nowhere => unreachable!("outputs are no slots"),
+            let (action, operand) = match self.locations[node.index()] {
+                ResultLocation::Register(register) if register == to => continue,
+                ResultLocation::Register(register) => (Action::Copy, register),
+                ResultLocation::Constant(constant) => (Action::Fill, constant),
+                ResultLocation::Nowhere => unreachable!("outputs are no slots"),
             };
-            self.steps.push(Step { action, operands: [operand, 0, 0, 0], constants: 0, to });
+            self.instructions.push(Instruction {
+                action,
+                operands: [operand, 0, 0, 0],
+                constants: 0,
+                to,
+            });
         }
     }
 }

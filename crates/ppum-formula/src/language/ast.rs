@@ -1,6 +1,6 @@
 //! The syntax tree of a formula, names resolved.
 
-use crate::error::Span;
+use crate::error::TextSpan;
 use crate::library::Function;
 
 /// A parsed formula. Nodes stand in an arena, operands before what uses them; so a pass is a loop,
@@ -30,7 +30,7 @@ pub(crate) struct Expr {
     /// Its kind.
     pub(crate) kind: ExprKind,
     /// Its place.
-    pub(crate) span: Span,
+    pub(crate) span: TextSpan,
 }
 
 /// The kinds of nodes. A name bound by `let` is no node: it stands for the node of its value.

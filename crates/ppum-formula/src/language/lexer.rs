@@ -1,6 +1,6 @@
 //! Text → tokens.
 
-use crate::error::{FormulaError, Mistake, Span};
+use crate::error::{FormulaError, Mistake, TextSpan};
 
 /// A piece of the text that the grammar knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,7 +8,7 @@ pub(crate) struct Token {
     /// Its kind.
     pub(crate) kind: TokenKind,
     /// Its place.
-    pub(crate) span: Span,
+    pub(crate) span: TextSpan,
 }
 
 /// The kinds of tokens. The text of a name is found by the token's span.
@@ -138,7 +138,7 @@ impl Lexer<'_> {
 
     /// Makes a token of the next `length` bytes.
     fn take(&mut self, kind: TokenKind, length: usize) -> Token {
-        let span = Span { start: self.position, end: self.position + length };
+        let span = TextSpan { start: self.position, end: self.position + length };
         self.position = span.end;
         Token { kind, span }
     }
@@ -184,7 +184,7 @@ impl Lexer<'_> {
     }
 
     fn error(&self, length: usize, mistake: Mistake) -> FormulaError {
-        let span = Span { start: self.position, end: self.position + length };
+        let span = TextSpan { start: self.position, end: self.position + length };
         FormulaError::new(self.source, span, mistake)
     }
 }

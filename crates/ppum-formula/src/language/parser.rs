@@ -1,6 +1,6 @@
 //! Tokens → syntax tree, by precedence climbing. Names are resolved on the way.
 
-use crate::error::{FormulaError, Mistake, Span, nearest};
+use crate::error::{FormulaError, Mistake, TextSpan, nearest};
 use crate::language::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix, precedence};
 use crate::language::lexer::{Token, TokenKind, tokens};
 use crate::language::scope::{Meaning, Scope};
@@ -11,7 +11,7 @@ use crate::limits::MAX_LENGTH;
 /// Parses a formula whose names are those of `scope`.
 pub(crate) fn parse(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
     if source.len() > MAX_LENGTH {
-        return Err(FormulaError::new(source, Span { start: 0, end: 0 }, Mistake::TooLong));
+        return Err(FormulaError::new(source, TextSpan { start: 0, end: 0 }, Mistake::TooLong));
     }
     let tokens = tokens(source)?;
     let mut parser =
@@ -138,7 +138,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn name(&mut self, span: Span) -> Parsed {
+    fn name(&mut self, span: TextSpan) -> Parsed {
         let name = self.text(span);
         if let Some(&(_, value)) = self.locals.iter().rev().find(|(local, _)| *local == name) {
             return value.ok_or_else(|| self.error(span, Mistake::SelfReference));
@@ -153,7 +153,7 @@ impl<'a> Parser<'a> {
     }
 
     /// The arguments of the function whose name stands at `name`.
-    fn call(&mut self, name: Span) -> Parsed {
+    fn call(&mut self, name: TextSpan) -> Parsed {
         let function = self.function(name)?;
         self.expect(TokenKind::Open, "`(`")?;
         let Some(expected) = function.arity() else {
@@ -187,7 +187,7 @@ impl<'a> Parser<'a> {
 
     /// `name, x)`, `name, x, y)` or, of a derivative, `name, m, x)`, `name, m, n, x, y)` after the
     /// parenthesis of `table(`; its name stands at `function`.
-    fn table(&mut self, function: Span, derivative: bool) -> Parsed {
+    fn table(&mut self, function: TextSpan, derivative: bool) -> Parsed {
         let name = self.expect(TokenKind::Name, "the name of a table")?.span;
         let table = self.table_named(name)?;
         let n = self.scope.tables()[table as usize].n_arguments();
@@ -208,7 +208,7 @@ impl<'a> Parser<'a> {
     }
 
     /// `k)` after the parenthesis of `side(`; its name stands at `function`.
-    fn side(&mut self, function: Span) -> Parsed {
+    fn side(&mut self, function: TextSpan) -> Parsed {
         let cracks = self.scope.n_sides();
         if cracks == 0 {
             return Err(self.error(function, Mistake::NoCracks));
@@ -229,7 +229,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn table_named(&self, span: Span) -> Result<u32, FormulaError> {
+    fn table_named(&self, span: TextSpan) -> Result<u32, FormulaError> {
         let name = self.text(span);
         if let Some(Meaning::Table(table)) = self.scope.meaning(name) {
             return Ok(table);
@@ -254,7 +254,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn function(&self, span: Span) -> Result<Function, FormulaError> {
+    fn function(&self, span: TextSpan) -> Result<Function, FormulaError> {
         let name = self.text(span);
         let mistake = match Function::named(name) {
             Some(function) => return Ok(function),
@@ -270,7 +270,7 @@ impl<'a> Parser<'a> {
     }
 
     /// The function of a similar name that takes this many arguments.
-    fn with_arguments(&self, name: Span, given: usize) -> Option<&'static str> {
+    fn with_arguments(&self, name: TextSpan, given: usize) -> Option<&'static str> {
         let fits = |function: Function| function.arity() == Some(given);
         let fitting = library::FUNCTIONS.iter().filter(|(_, function)| fits(*function));
         let found = nearest(self.text(name), fitting.map(|&(known, _)| known))?;
@@ -314,17 +314,17 @@ impl<'a> Parser<'a> {
         Ok(value)
     }
 
-    fn push(&mut self, kind: ExprKind, span: Span) -> ExprId {
+    fn push(&mut self, kind: ExprKind, span: TextSpan) -> ExprId {
         let id = u32::try_from(self.nodes.len()).expect("fewer nodes than MAX_LENGTH");
         self.nodes.push(Expr { kind, span });
         ExprId(id)
     }
 
-    fn span(&self, id: ExprId) -> Span {
+    fn span(&self, id: ExprId) -> TextSpan {
         self.nodes[id.index()].span
     }
 
-    fn text(&self, span: Span) -> &'a str {
+    fn text(&self, span: TextSpan) -> &'a str {
         &self.source[span.range()]
     }
 
@@ -355,7 +355,7 @@ impl<'a> Parser<'a> {
         Ok(token)
     }
 
-    fn error(&self, span: Span, mistake: Mistake) -> FormulaError {
+    fn error(&self, span: TextSpan, mistake: Mistake) -> FormulaError {
         FormulaError::new(self.source, span, mistake)
     }
 }

@@ -1,6 +1,6 @@
 //! Formulas and tables.
 
-use super::{Maker, middle, plate, straight, with_functions};
+use super::{CostlyCase, middle, plate, straight, with_functions};
 use ppum::dataset::{Dataset, Elasticity, Equation, NamedQuantity, StressState};
 use ppum::expression::Expression;
 use ppum::formula::{Scope, Table};
@@ -10,7 +10,7 @@ use ppum::weight::WeightFunction;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-pub(super) const ALL: &[Maker] = &[
+pub(super) const ALL: &[CostlyCase] = &[
     ("functions-and-table", None, functions_and_table),
     ("functions-of-table", None, functions_of_table),
     ("parameters", None, parameters),

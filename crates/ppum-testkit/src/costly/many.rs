@@ -1,13 +1,13 @@
 //! Many of a thing.
 
-use super::{Maker, displacement, middle, piled, plate, straight, with_functions};
+use super::{CostlyCase, displacement, middle, piled, plate, straight, with_functions};
 use ppum::crack::{Crack, CrackEnd, End, SegmentId, TipId, tips};
 use ppum::dataset::{Attribute, Dataset, Ring, TipIntensity};
 use ppum::domain::Hole;
 use ppum::function::{Cut, Frame, Function, FunctionKind, Part, WESTERGAARD};
 use ppum::vec2::{Vec2, vec2};
 
-pub(super) const ALL: &[Maker] = &[
+pub(super) const ALL: &[CostlyCase] = &[
     ("blocks", Some("coefficients"), blocks),
     ("blocks-of-one", Some("at a point"), blocks_of_one),
     ("patches", None, patches),

@@ -39,7 +39,7 @@ pub fn all() -> Vec<Costly> {
 /// Those that are chosen by their name and by the words of the error.
 #[must_use]
 pub fn chosen(is_chosen: impl Fn(&str, Option<&str>) -> bool) -> Vec<Costly> {
-    let makers: [&[Maker]; 3] = [many::ALL, formulas::ALL, stored::ALL];
+    let makers: [&[CostlyCase]; 3] = [many::ALL, formulas::ALL, stored::ALL];
     let chosen = makers.into_iter().flatten().filter(|maker| is_chosen(maker.0, maker.1));
     chosen.map(|&(name, refused, make)| Costly { name, dataset: make(), refused }).collect()
 }
@@ -50,13 +50,13 @@ pub fn chosen(is_chosen: impl Fn(&str, Option<&str>) -> bool) -> Vec<Costly> {
 /// If there is none.
 #[must_use]
 pub fn named(name: &str) -> Dataset {
-    let makers: [&[Maker]; 3] = [many::ALL, formulas::ALL, stored::ALL];
+    let makers: [&[CostlyCase]; 3] = [many::ALL, formulas::ALL, stored::ALL];
     let maker = makers.into_iter().flatten().find(|maker| maker.0 == name);
     (maker.unwrap_or_else(|| panic!("there is no costly dataset `{name}`")).2)()
 }
 
 /// Name, words of the error if it is refused, and what makes it.
-type Maker = (&'static str, Option<&'static str>, fn() -> Dataset);
+type CostlyCase = (&'static str, Option<&'static str>, fn() -> Dataset);
 
 /// The plate all of them are made from: [0, 1]², cells × cells patches of the order, with cracks.
 fn plate(cells: u32, order: u8, cracks: Vec<Crack>) -> Dataset {

@@ -1,9 +1,9 @@
 //! The text of the problem that a dataset keeps.
 
-use super::{Maker, middle, plate};
+use super::{CostlyCase, middle, plate};
 use ppum::dataset::Dataset;
 
-pub(super) const ALL: &[Maker] = &[
+pub(super) const ALL: &[CostlyCase] = &[
     ("problem-keys", None, problem_keys),
     ("problem-boundaries", None, problem_boundaries),
     ("problem-mistakes", None, problem_mistakes),

@@ -22,18 +22,18 @@ use std::f64::consts::TAU;
 pub struct Williams {
     axes: Axes,
     material: Material,
-    terms: Vec<Term>,
+    terms: Vec<WilliamsTerm>,
 }
 
 /// One order.
 #[derive(Clone, Copy, Debug)]
-struct Term {
+struct WilliamsTerm {
     order: u32,
     a: f64,
     b: f64,
 }
 
-impl Term {
+impl WilliamsTerm {
     fn lambda(&self) -> f64 {
         0.5 * f64::from(self.order)
     }
@@ -150,7 +150,7 @@ impl Williams {
     #[must_use]
     pub fn with_term(mut self, order: u32, a: f64, b: f64) -> Self {
         assert!(order > 0, "orders start at 1");
-        self.terms.push(Term { order, a, b });
+        self.terms.push(WilliamsTerm { order, a, b });
         self
     }
 

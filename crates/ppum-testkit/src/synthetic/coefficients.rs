@@ -77,7 +77,7 @@ pub(super) fn field(
     let random = Random(recipe.seed ^ 0xc0ef);
     let around = around(recipe);
     let next = first_indicator(recipe);
-    let mut maker = Maker { recipe, partition, table, data, random, around, next };
+    let mut maker = CoefficientMaker { recipe, partition, table, data, random, around, next };
     for patch in 0..partition.len() {
         maker.add_patch(patch);
         maker.data.patch_blocks.push(maker.data.block_function.len() as u32);
@@ -85,7 +85,7 @@ pub(super) fn field(
     maker.data
 }
 
-struct Maker<'a> {
+struct CoefficientMaker<'a> {
     recipe: &'a Recipe,
     partition: &'a BoxPartition,
     table: FunctionTable,
@@ -145,13 +145,13 @@ pub(super) fn indicators(recipe: &Recipe, partition: &BoxPartition) -> Vec<Funct
 }
 
 /// A crack that cuts a patch through, and half the jump of the field there, expanded about `at`.
-struct Cut {
+struct PatchCut {
     crack: u32,
     at: Vec2,
     half_jump: Vec<Jet<f64>>,
 }
 
-impl Maker<'_> {
+impl CoefficientMaker<'_> {
     fn add_patch(&mut self, patch: usize) {
         let degree = self.recipe.degrees[patch % self.recipe.degrees.len()];
         let center = self.partition.center[patch];
@@ -277,7 +277,7 @@ impl Maker<'_> {
     }
 
     /// The cracks that cut a patch through: none of their tips lies in its open box.
-    fn cuts(&self, patch: usize, near: &[bool]) -> Vec<Cut> {
+    fn cuts(&self, patch: usize, near: &[bool]) -> Vec<PatchCut> {
         if !self.recipe.jumps {
             return Vec::new();
         }
@@ -288,7 +288,7 @@ impl Maker<'_> {
             let step = normal * (1e-9 * support.size().x);
             let (above, below) = (self.remainder(at, step, near), self.remainder(at, -step, near));
             let half = |(a, b): (&Jet<f64>, &Jet<f64>)| a.minus::<2>(*b).scaled::<2>(0.5);
-            Cut { crack: index, at, half_jump: above.iter().zip(&below).map(half).collect() }
+            PatchCut { crack: index, at, half_jump: above.iter().zip(&below).map(half).collect() }
         };
         cutting(self.recipe, &support).into_iter().map(cut).collect()
     }
@@ -323,7 +323,7 @@ impl Maker<'_> {
     }
 }
 
-impl Maker<'_> {
+impl CoefficientMaker<'_> {
     /// Adds what the field has on the components at junctions.
     fn add_levels(&self, p: Vec2, jets: &mut [Jet<f64>]) {
         for (junction, (place, components)) in

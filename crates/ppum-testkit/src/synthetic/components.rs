@@ -20,7 +20,7 @@ const SHORTEST: f64 = 1e-6;
 #[derive(Clone, Debug)]
 pub struct Components {
     root: Node,
-    lines: Vec<Line>,
+    lines: Vec<CrackSegment>,
     /// The convex cells.
     cells: Vec<Vec<Vec2>>,
     /// Of each cell, the component.
@@ -36,7 +36,7 @@ enum Node {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Line {
+struct CrackSegment {
     id: SegmentId,
     ends: [Vec2; 2],
 }
@@ -174,15 +174,15 @@ impl Components {
     }
 }
 
-fn lines(crack: u32, of: &Crack) -> impl Iterator<Item = Line> {
-    let line = move |(segment, ends): (u32, &[Vec2])| Line {
+fn lines(crack: u32, of: &Crack) -> impl Iterator<Item = CrackSegment> {
+    let line = move |(segment, ends): (u32, &[Vec2])| CrackSegment {
         id: SegmentId { crack, segment },
         ends: [ends[0], ends[1]],
     };
     (0..).zip(of.points.windows(2)).map(line)
 }
 
-impl Line {
+impl CrackSegment {
     /// Distance of a point from the line, positive on its left.
     fn distance(&self, p: Vec2) -> f64 {
         let [a, b] = self.ends;
@@ -205,7 +205,7 @@ impl Line {
 }
 
 /// The part of a convex polygon on one side of a line.
-fn clipped(polygon: &[Vec2], line: &Line, side: f64) -> Vec<Vec2> {
+fn clipped(polygon: &[Vec2], line: &CrackSegment, side: f64) -> Vec<Vec2> {
     let next = polygon.iter().cycle().skip(1);
     let mut part = Vec::new();
     for (&a, &b) in polygon.iter().zip(next) {

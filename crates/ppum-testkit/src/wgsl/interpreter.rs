@@ -7,7 +7,7 @@ use naga::{
 use super::value::{Value, binary, math, unary, unknown};
 
 /// One call of a function.
-pub(super) struct Frame<'m> {
+pub(super) struct CallFrame<'m> {
     module: &'m Module,
     function: &'m Function,
     arguments: Vec<Value>,
@@ -24,7 +24,7 @@ enum Flow {
     Return(Option<Value>),
 }
 
-impl<'m> Frame<'m> {
+impl<'m> CallFrame<'m> {
     /// The result of a function.
     pub(super) fn call(
         module: &'m Module,

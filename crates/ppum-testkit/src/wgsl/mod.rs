@@ -16,7 +16,7 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 pub use backend::{Shader, tells_wrong_derivative, with_wrong_derivative};
 pub use elementary::{ELEMENTARY, Elementary};
-use interpreter::Frame;
+use interpreter::CallFrame;
 use value::Value;
 
 /// A valid module.
@@ -52,7 +52,7 @@ impl Module {
         let found = self.naga.functions.iter().find(|(_, f)| f.name.as_deref() == Some(function));
         let (_, found) = found.ok_or_else(|| format!("no function `{function}`"))?;
         let arguments: Vec<Value> = arguments.iter().map(|&a| Value::F32(a)).collect();
-        let result = Frame::call(&self.naga, found, arguments);
+        let result = CallFrame::call(&self.naga, found, arguments);
         result.and_then(|value| value.numbers()).map_err(|error| format!("`{function}`: {error}"))
     }
 }

@@ -6,7 +6,7 @@
 //! for some patch, s the position in its support in units of half extents. Cells with their own
 //! supports, 1.01 times as large or more, obey at once. For others a line sweeps over the plane.
 
-use super::line::Line;
+use super::line::IntervalSums;
 use super::ranks::{Ranks, in_order};
 use super::{Checked, fail, tiling};
 use crate::dataset::BoxPartition;
@@ -46,7 +46,7 @@ fn uncovered(boxes: impl Iterator<Item = Rect>, bounds: &Rect) -> Option<Vec2> {
     let row = |at: f64| y.up_to(at) as usize - 1;
     // minus the number of boxes that cover an interval between two borders; what lies beyond the
     // last is of no concern
-    let mut line = Line::new(y.len());
+    let mut line = IntervalSums::new(y.len());
     line.add(row(bounds.max.y), y.len().next_power_of_two(), -1);
     let mut at = 0;
     for event in in_order(boxes.iter().flat_map(|b| [column(b.min.x), column(b.max.x)]), x.len()) {

@@ -2,13 +2,13 @@
 
 /// Sums over the intervals of a line: a tree whose nodes know what was added to all below them, and
 /// the largest sum there.
-pub(super) struct Line {
+pub(super) struct IntervalSums {
     leaves: usize,
     added: Vec<i64>,
     most: Vec<i64>,
 }
 
-impl Line {
+impl IntervalSums {
     pub(super) fn new(intervals: usize) -> Self {
         let leaves = intervals.next_power_of_two();
         Self { leaves, added: vec![0; 2 * leaves], most: vec![0; 2 * leaves] }

@@ -56,10 +56,11 @@ pub(super) fn gaps(partition: &BoxPartition, domain: &Domain) -> Vec<Rect> {
 struct Layout {
     x: Borders,
     y: Borders,
-    places: Vec<Place>,
+    extents: Vec<CellExtent>,
 }
 
-struct Place {
+/// The numbers of a cell's first and last border in each direction.
+struct CellExtent {
     columns: [u32; 2],
     rows: [u32; 2],
 }
@@ -71,18 +72,18 @@ impl Layout {
     fn new(cells: &[Rect], bounds: &Rect) -> Result<Self, CheckError> {
         let x = Borders::new(cells, bounds, |p| p.x);
         let y = Borders::new(cells, bounds, |p| p.y);
-        let mut places = Vec::with_capacity(cells.len());
+        let mut extents = Vec::with_capacity(cells.len());
         for (k, cell) in cells.iter().enumerate() {
-            let place = Place { columns: x.ends(cell), rows: y.ends(cell) };
-            if [place.columns, place.rows].iter().any(|[from, to]| from == to) {
+            let extent = CellExtent { columns: x.ends(cell), rows: y.ends(cell) };
+            if [extent.columns, extent.rows].iter().any(|[from, to]| from == to) {
                 wrong(k, cell, "is thinner than the rounding of its corners")?;
             }
-            if !(x.hold(place.columns) && y.hold(place.rows)) {
+            if !(x.hold(extent.columns) && y.hold(extent.rows)) {
                 wrong(k, cell, "reaches out of the domain's box")?;
             }
-            places.push(place);
+            extents.push(extent);
         }
-        Ok(Self { x, y, places })
+        Ok(Self { x, y, extents })
     }
 
     fn rect(&self, [x0, y0, x1, y1]: [u32; 4]) -> Rect {
@@ -94,18 +95,18 @@ impl Layout {
     fn covers_once(&self) -> bool {
         let [width, height] = [&self.x, &self.y].map(Borders::intervals);
         let all = width * height;
-        let covered = self.places.iter().map(Place::intervals).fold(0, u64::saturating_add);
-        if covered != all || all > MARKED * self.places.len() as u64 {
+        let covered = self.extents.iter().map(CellExtent::intervals).fold(0, u64::saturating_add);
+        if covered != all || all > MARKED * self.extents.len() as u64 {
             return false;
         }
         let mut marks = vec![false; all as usize];
-        self.places.iter().all(|place| self.mark(place, &mut marks, width as usize))
+        self.extents.iter().all(|extent| self.mark(extent, &mut marks, width as usize))
     }
 
     /// Marks what a cell covers; false if some of it is marked already.
-    fn mark(&self, place: &Place, marks: &mut [bool], width: usize) -> bool {
-        let [left, right] = place.columns.map(|column| (column - self.x.bounds[0]) as usize);
-        let [below, above] = place.rows.map(|row| (row - self.y.bounds[0]) as usize);
+    fn mark(&self, extent: &CellExtent, marks: &mut [bool], width: usize) -> bool {
+        let [left, right] = extent.columns.map(|column| (column - self.x.bounds[0]) as usize);
+        let [below, above] = extent.rows.map(|row| (row - self.y.bounds[0]) as usize);
         marks.chunks_exact_mut(width).take(above).skip(below).all(|row| {
             let is_free = !row[left..right].contains(&true);
             row[left..right].fill(true);
@@ -115,15 +116,15 @@ impl Layout {
 
     /// What no cell covers, or a cell that overlaps another.
     fn gaps(&self) -> Result<Vec<[u32; 4]>, usize> {
-        let Self { x, y, places } = self;
+        let Self { x, y, extents } = self;
         // of those at one border cells that end come first
-        let keys = places.iter().flat_map(|place| {
-            let [begin, end] = place.columns;
+        let keys = extents.iter().flat_map(|extent| {
+            let [begin, end] = extent.columns;
             [2 * begin + 1, 2 * end]
         });
         let mut sweep = Sweep::new(x.bounds[0], y.bounds, y.ranks.len());
         for event in in_order(keys, 2 * x.ranks.len()) {
-            let Place { columns, rows } = &places[event as usize / 2];
+            let CellExtent { columns, rows } = &extents[event as usize / 2];
             if event % 2 == 1 {
                 sweep.end(columns[1], *rows);
             } else if !sweep.begin(columns[0], *rows) {
@@ -134,7 +135,7 @@ impl Layout {
     }
 }
 
-impl Place {
+impl CellExtent {
     fn intervals(&self) -> u64 {
         let [width, height] = [self.columns, self.rows].map(|[from, to]| u64::from(to - from));
         width * height
@@ -224,23 +225,23 @@ impl Sweep {
 
     /// A cell begins: the gaps before it end. False if there is a cell.
     fn begin(&mut self, at: u32, [from, to]: [u32; 2]) -> bool {
-        let mut place = from;
-        while place < to {
-            let Some(start) = self.starts.last_up_to(place) else { return false };
+        let mut extent = from;
+        while extent < to {
+            let Some(start) = self.starts.last_up_to(extent) else { return false };
             let Interval { end, gap: Some(since) } = self.line[start as usize] else {
                 return false;
             };
             self.starts.clear(start);
             let gap = Some(since);
-            if start < place {
-                self.put(start, Interval { end: place, gap });
+            if start < extent {
+                self.put(start, Interval { end: extent, gap });
             }
             if to < end {
                 self.put(to, Interval { end, gap });
             }
             let until = end.min(to);
-            self.leave([since, place, at, until]);
-            place = until;
+            self.leave([since, extent, at, until]);
+            extent = until;
         }
         self.put(from, Interval { end: to, gap: None });
         true
@@ -288,9 +289,9 @@ fn check_gaps(mut gaps: Vec<Rect>, holes: &[Hole]) -> Checked {
 fn place_beside(gap: &Rect, holes: &[Hole]) -> Option<Vec2> {
     let (corner, size) = (gap.min, gap.size());
     let near = BESIDE * size.x.max(size.y);
-    let places = PLACES.iter().flat_map(|j| PLACES.map(|i| corner + vec2(i * size.x, j * size.y)));
+    let extents = PLACES.iter().flat_map(|j| PLACES.map(|i| corner + vec2(i * size.x, j * size.y)));
     let is_in = |hole: &Hole, p: Vec2| hole.contains(p) || hole.rim_distance(p) <= near;
-    places.into_iter().find(|&p| !holes.iter().any(|hole| is_in(hole, p)))
+    extents.into_iter().find(|&p| !holes.iter().any(|hole| is_in(hole, p)))
 }
 
 #[cfg(test)]
@@ -353,9 +354,12 @@ mod tests {
             let numbers = gone.split(['(', ',', ')']).filter_map(|part| part.trim().parse().ok());
             let found: Vec<f64> = numbers.collect();
             // the gap, or a part of it beside a smaller neighbour, and a place in it
-            let places: Vec<Vec2> = found.as_chunks::<2>().0.iter().map(|&p| p.into()).collect();
-            let inside = places.iter().all(|&p| cell.distance(p) < 1e-9);
-            assert!(gone.starts_with("cell: none covers") && places.len() == 3 && inside, "{gone}");
+            let extents: Vec<Vec2> = found.as_chunks::<2>().0.iter().map(|&p| p.into()).collect();
+            let inside = extents.iter().all(|&p| cell.distance(p) < 1e-9);
+            assert!(
+                gone.starts_with("cell: none covers") && extents.len() == 3 && inside,
+                "{gone}"
+            );
             for (mistake, text) in [
                 (changed(|c, q| c.max.x -= q.x), "none covers"),
                 (changed(|c, q| c.min.y += q.y), "none covers"),

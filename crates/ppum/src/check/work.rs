@@ -3,7 +3,7 @@
 //! A small file can say that a hundred thousand patches lie over each other. Every command
 //! evaluates at points, so what a point takes is bounded here, once, and all others rely on it.
 
-use super::line::Line;
+use super::line::IntervalSums;
 use super::ranks::{Ranks, in_order};
 use super::{Checked, fail};
 use crate::dataset::{BoxPartition, Dataset, FieldData, Step};
@@ -28,7 +28,7 @@ pub(super) fn check(dataset: &Dataset) -> Checked {
         let table = FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables);
         let Ok(table) = table else { continue };
         for (f, field) in step.fields.iter().enumerate() {
-            let mut parts = Parts::new(step.partition.len(), &dataset.domain.bounds);
+            let mut parts = WorkGrid::new(step.partition.len(), &dataset.domain.bounds);
             each_work(step, field, &table, |part, work| parts.add(&part, work));
             if parts.most() <= MOST_WORK as i64 {
                 continue;
@@ -100,7 +100,7 @@ const PARTS: usize = 1 << 10;
 
 /// Equal parts of the plane, about as many as there are patches, with the works of the boxes that
 /// reach into each: at no point of a part there is more. Most covers are known to be fine by this.
-struct Parts {
+struct WorkGrid {
     /// The changes of the sums from each part to the next in both directions, with a row and a
     /// column more at the end.
     changes: Vec<i64>,
@@ -109,7 +109,7 @@ struct Parts {
     scale: Vec2,
 }
 
-impl Parts {
+impl WorkGrid {
     fn new(patches: usize, bounds: &Rect) -> Self {
         let parts = patches.isqrt().clamp(1, PARTS);
         let (size, count, stride) = (bounds.size(), parts as f64, parts + 1);
@@ -156,7 +156,7 @@ fn too_much(boxes: &[(Rect, u64)]) -> Option<Vec2> {
     let row = |at: f64| y.up_to(at) as usize - 1;
     // what ends at a place goes before what begins there
     let keys = boxes.iter().flat_map(|(b, _)| [2 * column(b.min.x) + 1, 2 * column(b.max.x)]);
-    let mut line = Line::new(y.len());
+    let mut line = IntervalSums::new(y.len());
     for event in in_order(keys, 2 * x.len()) {
         let (b, work) = &boxes[event as usize / 2];
         let (at, work) =
@@ -208,7 +208,8 @@ mod tests {
                     .collect();
                 let most = largest(&boxes);
                 let told = too_much(&boxes);
-                let mut parts = Parts::new(n as usize, &Rect::new(vec2(1.0, 0.0), vec2(8.0, 9.0)));
+                let mut parts =
+                    WorkGrid::new(n as usize, &Rect::new(vec2(1.0, 0.0), vec2(8.0, 9.0)));
                 boxes.iter().for_each(|(b, work)| parts.add(b, *work));
                 assert!(parts.most() >= most as i64, "{boxes:?}");
                 assert_eq!(told.is_some(), most > MOST_WORK, "{boxes:?}");
@@ -227,7 +228,7 @@ mod tests {
     /// What lies in one part is added up, and nothing else.
     #[test]
     fn sums_of_parts() {
-        let mut parts = Parts::new(16, &Rect::new(vec2(0.0, 0.0), vec2(4.0, 4.0)));
+        let mut parts = WorkGrid::new(16, &Rect::new(vec2(0.0, 0.0), vec2(4.0, 4.0)));
         let mut add = |x0, y0, x1, y1, work| {
             parts.add(&Rect::new(vec2(x0, y0), vec2(x1, y1)), work);
             parts.most()

@@ -1,6 +1,6 @@
 //! Coarser covers: cells twice as wide where that can be.
 
-use super::{Cover, CoverError, Node, Place};
+use super::{Cover, CoverError, Node, NodeCell};
 use crate::vec2::{Rect, Vec2};
 
 impl Cover {
@@ -60,7 +60,7 @@ impl Cover {
     }
 
     /// The leaf that holds a point of the closed domain.
-    fn leaf_at(&self, p: Vec2) -> Place {
+    fn leaf_at(&self, p: Vec2) -> NodeCell {
         let mut place = self.root(self.grid.root_of(p));
         while !self.nodes[place.node].is_leaf() {
             place = self.child(place, self.grid.quadrant_of(place.cell, p));

@@ -31,12 +31,12 @@ impl TreeCell {
 
 /// The box of the domain, cut into `roots[0]` × `roots[1]` root cells.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Grid {
+pub(super) struct RootGrid {
     pub(super) domain: Rect,
     pub(super) roots: [u32; 2],
 }
 
-impl Grid {
+impl RootGrid {
     /// The cell as a box. Cells of any levels that share a border get the same bits for it.
     pub(super) fn rect(&self, cell: TreeCell) -> Rect {
         let corner = |x, y| vec2(self.border(0, x, cell.level), self.border(1, y, cell.level));

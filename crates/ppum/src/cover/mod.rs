@@ -34,7 +34,7 @@ use crate::dataset::BoxPartition;
 use crate::morton::morton;
 use crate::vec2::{Rect, Vec2};
 use crate::weight::WeightFunction;
-use grid::{Grid, TreeCell};
+use grid::{RootGrid, TreeCell};
 use std::ops::RangeInclusive;
 
 /// Deepest level of a cell, that is how often a root cell can be halved: a 10⁻⁹th of its width,
@@ -117,7 +117,7 @@ pub enum CoverError {
 /// error while refining the cover is valid but perhaps not balanced.
 #[derive(Clone, Debug)]
 pub struct Cover {
-    grid: Grid,
+    grid: RootGrid,
     /// Root cells first, row by row; children follow in groups of four as cells are split.
     nodes: Vec<Node>,
     /// The root cells in Morton order.
@@ -143,7 +143,7 @@ impl Node {
 
 /// A node together with its cell.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct NodeCell {
     node: usize,
     cell: TreeCell,
 }
@@ -170,7 +170,7 @@ impl Cover {
             _ => return Err(CoverError::TooManyCells),
         }
         Ok(Self {
-            grid: Grid { domain, roots: cells },
+            grid: RootGrid { domain, roots: cells },
             nodes: vec![Node::default(); n_leaves],
             roots: roots_in_order(cells),
             n_leaves,
@@ -321,12 +321,12 @@ impl Cover {
         }
     }
 
-    fn split_all(&mut self, leaves: &[Place]) -> Result<(), CoverError> {
+    fn split_all(&mut self, leaves: &[NodeCell]) -> Result<(), CoverError> {
         leaves.iter().try_for_each(|&leaf| self.split(leaf))
     }
 
     /// Replaces a leaf by its four quadrants; its point moves down.
-    fn split(&mut self, leaf: Place) -> Result<(), CoverError> {
+    fn split(&mut self, leaf: NodeCell) -> Result<(), CoverError> {
         let (cell, middle) = (self.grid.rect(leaf.cell), self.grid.middle(leaf.cell));
         let inside = |min, mid, max| min < mid && mid < max;
         if leaf.cell.level == MAX_LEVEL
@@ -366,7 +366,7 @@ impl Cover {
     }
 
     /// Splits leaves until `target` is a cell of the tree; those split are appended.
-    fn ensure(&mut self, target: TreeCell, split: &mut Vec<Place>) -> Result<(), CoverError> {
+    fn ensure(&mut self, target: TreeCell, split: &mut Vec<NodeCell>) -> Result<(), CoverError> {
         let mut place = self.root(target.ancestor(0));
         while place.cell.level < target.level {
             if self.nodes[place.node].is_leaf() {
@@ -379,12 +379,12 @@ impl Cover {
     }
 
     /// The leaves in Morton order.
-    fn leaves(&self) -> Vec<Place> {
+    fn leaves(&self) -> Vec<NodeCell> {
         self.places(Node::is_leaf)
     }
 
     /// The nodes that pass a test, in Morton order.
-    fn places(&self, wanted: impl Fn(Node) -> bool) -> Vec<Place> {
+    fn places(&self, wanted: impl Fn(Node) -> bool) -> Vec<NodeCell> {
         let mut found = Vec::with_capacity(self.n_leaves);
         let mut waiting = Vec::new();
         for &root in &self.roots {
@@ -402,14 +402,14 @@ impl Cover {
         found
     }
 
-    fn root(&self, cell: TreeCell) -> Place {
+    fn root(&self, cell: TreeCell) -> NodeCell {
         let node = (cell.y * u64::from(self.grid.roots[0]) + cell.x) as usize;
-        Place { node, cell }
+        NodeCell { node, cell }
     }
 
-    fn child(&self, parent: Place, quadrant: u32) -> Place {
+    fn child(&self, parent: NodeCell, quadrant: u32) -> NodeCell {
         let node = (self.nodes[parent.node].children + quadrant) as usize;
-        Place { node, cell: parent.cell.child(quadrant) }
+        NodeCell { node, cell: parent.cell.child(quadrant) }
     }
 }
 

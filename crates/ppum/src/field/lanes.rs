@@ -36,7 +36,7 @@ impl<const D: usize> Job<f64> for Many<'_, '_, D> {
 }
 
 /// [`LocalField::evaluate_over`] on lanes.
-struct Over<'a, 'f, const D: usize> {
+struct LaneEvaluation<'a, 'f, const D: usize> {
     local: &'a LocalField<'f>,
     offsets: &'a [Vec2],
     side: Side,
@@ -44,7 +44,7 @@ struct Over<'a, 'f, const D: usize> {
     out: &'a mut [Jet<f64>],
 }
 
-impl<const D: usize> Job<f64> for Over<'_, '_, D> {
+impl<const D: usize> Job<f64> for LaneEvaluation<'_, '_, D> {
     type Output = ();
 
     #[inline(always)]
@@ -121,7 +121,7 @@ impl LocalField<'_> {
         patches: &[u32],
         out: &mut [Jet<f64>],
     ) {
-        f64::dispatch(Over::<D> { local: self, offsets, side, patches, out });
+        f64::dispatch(LaneEvaluation::<D> { local: self, offsets, side, patches, out });
     }
 
     /// Evaluates at no more points than there are lanes; `lanes` holds one vector per component.

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::Frame;
-use super::seen::Seen;
+use super::seen::AnchoredCracks;
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
 use crate::jet::Jet;
 use crate::vec2::{Vec2, vec2};
@@ -86,7 +86,7 @@ impl Formulas {
     }
 
     /// The functions as they see the cracks.
-    pub(super) fn seen(&self, seen: &Seen<'_>) -> LocalFormulas<'_> {
+    pub(super) fn seen(&self, seen: &AnchoredCracks<'_>) -> LocalFormulas<'_> {
         let used = |(crack, &used): (u32, &bool)| used.then(|| seen.crack(crack));
         LocalFormulas {
             compiled: &self.compiled,
@@ -109,7 +109,7 @@ enum LocalFrame {
 }
 
 impl LocalFrame {
-    fn new(seen: &Seen<'_>, frame: Frame) -> Self {
+    fn new(seen: &AnchoredCracks<'_>, frame: Frame) -> Self {
         let anchor = seen.anchor;
         match frame {
             Frame::World => Self::Fixed { from_origin: anchor, axis: vec2(1.0, 0.0) },

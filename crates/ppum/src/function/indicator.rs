@@ -13,7 +13,7 @@
 //!      inside   outside
 //! ```
 
-use super::seen::Seen;
+use super::seen::AnchoredCracks;
 use crate::crack::{LocalSegment, SegmentId, Side};
 use ppum_formula::real::Real;
 
@@ -81,7 +81,7 @@ struct LocalCut {
 }
 
 impl LocalIndicator {
-    pub(super) fn new(cuts: &[Cut], seen: &Seen<'_>) -> Self {
+    pub(super) fn new(cuts: &[Cut], seen: &AnchoredCracks<'_>) -> Self {
         let cut = |cut: &Cut| {
             let (line, reversed) = seen.line(cut.segment);
             let [left, right] = [cut.left, cut.right].map(|part| part.number() as f64);

@@ -10,14 +10,14 @@ const COLLINEAR: f64 = 1e-9;
 
 /// Cracks seen from an anchor.
 #[derive(Clone, Debug)]
-pub(super) struct Seen<'a> {
+pub(super) struct AnchoredCracks<'a> {
     pub(super) cracks: &'a [Crack],
     pub(super) anchor: Vec2,
     /// The segment that all points lie on, if one is known.
     pub(super) on: Option<SegmentId>,
 }
 
-impl Seen<'_> {
+impl AnchoredCracks<'_> {
     pub(super) fn crack(&self, crack: u32) -> LocalCrack {
         let points = &self.cracks[crack as usize];
         match self.segment_of(crack) {

@@ -9,7 +9,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::formulas::{Formulas, LocalFormulas};
 use super::indicator::{Cut, LocalIndicator};
-use super::seen::Seen;
+use super::seen::AnchoredCracks;
 use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
 use crate::crack::{Crack, LocalCrack, LocalTip, SegmentId, Side, TipId, TipPoint};
 use crate::jet::Jet;
@@ -193,7 +193,7 @@ impl FunctionTable {
     /// The table as seen from an anchor. What a group sees is formed when it is first asked for.
     #[must_use]
     pub fn at<'t>(&'t self, cracks: &'t [Crack], anchor: Vec2) -> LocalFunctions<'t> {
-        LocalFunctions::new(self, Seen { cracks, anchor, on: None })
+        LocalFunctions::new(self, AnchoredCracks { cracks, anchor, on: None })
     }
 
     /// The table as seen from an anchor, for points that lie on a segment of a crack: what depends
@@ -210,7 +210,7 @@ impl FunctionTable {
         anchor: Vec2,
     ) -> LocalFunctions<'t> {
         assert!((segment.crack as usize) < cracks.len(), "there is no crack {}", segment.crack);
-        LocalFunctions::new(self, Seen { cracks, anchor, on: Some(segment) })
+        LocalFunctions::new(self, AnchoredCracks { cracks, anchor, on: Some(segment) })
     }
 }
 
@@ -222,7 +222,7 @@ struct Compiler<'a> {
     kernels: bool,
     sides: BTreeMap<u32, u32>,
     tips: BTreeMap<TipId, u32>,
-    groups: Vec<Draft>,
+    groups: Vec<GroupDraft>,
     /// Bytes of formulas, and names in their scopes.
     text: usize,
     names: usize,
@@ -273,7 +273,7 @@ fn key(function: &Function, formulas: &[Formula]) -> String {
 }
 
 /// A group to be.
-enum Draft {
+enum GroupDraft {
     Side(u32),
     Westergaard(TipId),
     Component(Vec<Cut>),
@@ -301,11 +301,11 @@ impl<'a> Compiler<'a> {
         let (mut known, mut groups) = (Known::default(), Vec::with_capacity(self.groups.len()));
         for draft in self.groups {
             groups.push(match draft {
-                Draft::Side(crack) => Group::Side(crack),
-                Draft::Westergaard(tip) => Group::Westergaard(tip),
-                Draft::Component(cuts) => Group::Component(cuts),
-                Draft::Level(field) => Group::Level(field),
-                Draft::Formulas(first, frame, formulas) => {
+                GroupDraft::Side(crack) => Group::Side(crack),
+                GroupDraft::Westergaard(tip) => Group::Westergaard(tip),
+                GroupDraft::Component(cuts) => Group::Component(cuts),
+                GroupDraft::Level(field) => Group::Level(field),
+                GroupDraft::Formulas(first, frame, formulas) => {
                     let compiled = known.compile(&functions[first], formulas, frame);
                     Group::Formulas(compiled.map_err(|e| error(first, e))?)
                 }
@@ -329,17 +329,17 @@ impl<'a> Compiler<'a> {
             FunctionKind::One => Slot::One,
             FunctionKind::Side { crack } => {
                 let group = *self.sides.entry(*crack).or_insert(new);
-                self.slot_of(group, 0, || Draft::Side(*crack))
+                self.slot_of(group, 0, || GroupDraft::Side(*crack))
             }
             FunctionKind::Component { cuts } => {
-                self.slot_of(new, 0, || Draft::Component(cuts.clone()))
+                self.slot_of(new, 0, || GroupDraft::Component(cuts.clone()))
             }
-            FunctionKind::Level { field } => self.slot_of(new, 0, || Draft::Level(*field)),
+            FunctionKind::Level { field } => self.slot_of(new, 0, || GroupDraft::Level(*field)),
             FunctionKind::Formula { text, frame, parameters, .. } => {
                 match native(text, *frame).filter(|_| self.kernels) {
                     Some((tip, entry)) => {
                         let group = *self.tips.entry(tip).or_insert(new);
-                        self.slot_of(group, entry, || Draft::Westergaard(tip))
+                        self.slot_of(group, entry, || GroupDraft::Westergaard(tip))
                     }
                     None => {
                         self.count(text, parameters.len())?;
@@ -352,7 +352,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// The slot of an entry of a group, which is made if it is new.
-    fn slot_of(&mut self, group: u32, entry: u32, draft: impl FnOnce() -> Draft) -> Slot {
+    fn slot_of(&mut self, group: u32, entry: u32, draft: impl FnOnce() -> GroupDraft) -> Slot {
         if group as usize == self.groups.len() {
             self.groups.push(draft());
         }
@@ -361,7 +361,7 @@ impl<'a> Compiler<'a> {
 
     /// The slot of a formula: in the last group if that is of its kind and has room.
     fn formula(&mut self, index: usize, frame: Frame, formula: Formula) -> Slot {
-        if let Some(Draft::Formulas(_, of, formulas)) = self.groups.last_mut()
+        if let Some(GroupDraft::Formulas(_, of, formulas)) = self.groups.last_mut()
             && *of == frame
             && formulas.len() < GROUP
             && formulas[0].scope() == formula.scope()
@@ -371,7 +371,7 @@ impl<'a> Compiler<'a> {
             return Slot::Jet { group: self.groups.len() as u32 - 1, entry };
         }
         let group = self.groups.len() as u32;
-        self.slot_of(group, 0, || Draft::Formulas(index, frame, vec![formula]))
+        self.slot_of(group, 0, || GroupDraft::Formulas(index, frame, vec![formula]))
     }
 }
 
@@ -405,7 +405,7 @@ pub fn function_scope(
 #[derive(Clone, Debug)]
 pub struct LocalFunctions<'t> {
     table: &'t FunctionTable,
-    seen: Seen<'t>,
+    seen: AnchoredCracks<'t>,
     /// Groups of a page.
     page: usize,
     pages: Vec<OnceLock<Page<'t>>>,
@@ -425,7 +425,7 @@ enum LocalGroup<'t> {
 
 impl<'t> LocalFunctions<'t> {
     /// As many pages as a page has places.
-    fn new(table: &'t FunctionTable, seen: Seen<'t>) -> Self {
+    fn new(table: &'t FunctionTable, seen: AnchoredCracks<'t>) -> Self {
         let page = table.groups.len().isqrt() + 1;
         Self { table, seen, page, pages: vec![OnceLock::new(); page] }
     }

@@ -155,10 +155,10 @@ impl Map {
                 continue;
             }
             match self.search_part(shape, (at, size), t) {
-                Part::Solution(xi) => return Some(xi),
-                Part::Nothing => {}
-                Part::Unknown if size < 1e-6 => {}
-                Part::Unknown => {
+                SearchOutcome::Solution(xi) => return Some(xi),
+                SearchOutcome::Nothing => {}
+                SearchOutcome::Unknown if size < 1e-6 => {}
+                SearchOutcome::Unknown => {
                     let h = 0.5 * size;
                     let quarter = |[i, j]: [f64; 2]| ([at[0] + i * h, at[1] + j * h], h);
                     parts.extend([[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]].map(quarter));
@@ -168,24 +168,24 @@ impl Map {
         None
     }
 
-    fn search_part(&self, shape: Shape, (at, size): ([f64; 2], f64), t: [f64; 2]) -> Part {
+    fn search_part(&self, shape: Shape, (at, size): ([f64; 2], f64), t: [f64; 2]) -> SearchOutcome {
         let (map, constant) = self.shifted(at);
         let map = map.scaled(size);
         let t = [t[0] - constant[0].0 - constant[0].1, t[1] - constant[1].0 - constant[1].1];
-        let Some((inverse, kappa, lipschitz)) = map.bounds() else { return Part::Unknown };
+        let Some((inverse, kappa, lipschitz)) = map.bounds() else { return SearchOutcome::Unknown };
         if largest(inverse.times(t)) > 1.0 + kappa + 1e-9 {
-            return Part::Nothing;
+            return SearchOutcome::Nothing;
         }
         if lipschitz > CONTRACTION {
-            return Part::Unknown;
+            return SearchOutcome::Unknown;
         }
         match map.contracted(&inverse, t) {
             Some(u) => {
                 let xi = [at[0] + size * u[0], at[1] + size * u[1]];
                 let is_here = shape.margin([0.0; 2], xi) >= -TOLERANCE;
-                if is_here { Part::Solution(xi) } else { Part::Nothing }
+                if is_here { SearchOutcome::Solution(xi) } else { SearchOutcome::Nothing }
             }
-            None => Part::Nothing,
+            None => SearchOutcome::Nothing,
         }
     }
 
@@ -273,8 +273,8 @@ impl Inverse {
     }
 }
 
-/// What is known of the solutions in a part.
-enum Part {
+/// The result of the search for a solution in a box.
+enum SearchOutcome {
     Solution([f64; 2]),
     Nothing,
     Unknown,

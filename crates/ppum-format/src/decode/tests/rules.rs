@@ -6,7 +6,7 @@ mod edit;
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::content::{Values, key};
+use crate::content::{ArrayValues, key};
 use crate::{checksum, encode, everything, hdf5};
 use broken::RULES;
 use edit::{edit, put, remove, set, text, texts};
@@ -127,7 +127,7 @@ fn numbers_are_finite() {
     for seed in [FULL, PLAIN] {
         let good = encoded(seed, 1);
         let holds_numbers =
-            |array: &Array| matches!(&array.values, Values::F64(v) if !v.is_empty());
+            |array: &Array| matches!(&array.values, ArrayValues::F64(v) if !v.is_empty());
         for (name, _) in good.iter().filter(|(_, array)| holds_numbers(array)) {
             for value in [f64::NAN, f64::INFINITY] {
                 let mut damaged = good.clone();
@@ -158,8 +158,8 @@ fn objects_are_of_their_form() {
     };
     for (name, array) in good.iter() {
         let (group, own) = split(name);
-        let form = if name.contains('@') { Form::Attribute } else { Form::Dataset };
-        for other in [Form::Attribute, Form::Dataset, Form::Group] {
+        let form = if name.contains('@') { ObjectKind::Attribute } else { ObjectKind::Dataset };
+        for other in [ObjectKind::Attribute, ObjectKind::Dataset, ObjectKind::Group] {
             if other == form {
                 continue;
             }
@@ -167,19 +167,19 @@ fn objects_are_of_their_form() {
             damaged.remove(name);
             let path = key(&group, &own, other);
             match other {
-                Form::Group => damaged.insert_group(&path),
+                ObjectKind::Group => damaged.insert_group(&path),
                 // attributes of any type cannot be written
-                Form::Attribute => put(&mut damaged, &path, Array::scalar(1.0)),
-                Form::Dataset => put(&mut damaged, &path, array.clone()),
+                ObjectKind::Attribute => put(&mut damaged, &path, Array::scalar(1.0)),
+                ObjectKind::Dataset => put(&mut damaged, &path, array.clone()),
             }
             assert_ne!(complaint(damaged), None, "{name} as {other:?}");
         }
     }
     for group in good.groups() {
         let (parent, own) = split(group);
-        for form in [Form::Attribute, Form::Dataset] {
+        for form in [ObjectKind::Attribute, ObjectKind::Dataset] {
             // the number of groups in a list is that of its members; attributes are none
-            if own.starts_with('0') && form == Form::Attribute {
+            if own.starts_with('0') && form == ObjectKind::Attribute {
                 continue;
             }
             let mut damaged = good.clone();
@@ -215,9 +215,9 @@ fn what_is_not_described_is_ignored() {
     let mut more = content(FULL);
     for group in ["", "domain", "steps", "steps/0000", "steps/0000/fields", "steps/0000/partition"]
     {
-        put(&mut more, &key(group, "colour", Form::Attribute), text("red"));
-        put(&mut more, &key(group, "notes", Form::Dataset), Array::vector([1_u8]));
-        more.insert_group(&key(group, "more", Form::Group));
+        put(&mut more, &key(group, "colour", ObjectKind::Attribute), text("red"));
+        put(&mut more, &key(group, "notes", ObjectKind::Dataset), Array::vector([1_u8]));
+        more.insert_group(&key(group, "more", ObjectKind::Group));
     }
     more.insert_group("user/steps/0009");
     put(&mut more, "user/title", Array::scalar(2.0));

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::source::{Cursor, Parsed, Source, fail};
+use super::source::{Cursor, Hdf5File, Parsed, fail};
 
 /// Parts of an array, each read and checked once.
 struct Blocks<'f> {
-    source: Source<'f>,
+    source: Hdf5File<'f>,
     known: BTreeMap<u64, Cursor<'f>>,
     /// Bytes of an entry.
     entry: usize,
@@ -61,7 +61,7 @@ fn is_set(bits: &[u8], at: u64) -> bool {
 }
 
 /// Bytes before the entries of a block: signature, version, kind, address of the header.
-fn prefix(source: Source) -> u64 {
+fn prefix(source: Hdf5File) -> u64 {
     6 + source.offset_size() as u64
 }
 
@@ -74,7 +74,7 @@ pub(super) struct Fixed<'f> {
 }
 
 impl<'f> Fixed<'f> {
-    pub(super) fn open(source: Source<'f>, address: u64) -> Parsed<Self> {
+    pub(super) fn open(source: Hdf5File<'f>, address: u64) -> Parsed<Self> {
         let length = 12 + source.offset_size() + source.length_size();
         let mut header = source.sealed(address, length as u64)?;
         header.signature(b"FAHD")?;
@@ -132,8 +132,8 @@ pub(super) struct Extensible<'f> {
     width: u64,
 }
 
-/// The place of an entry of a data block.
-struct Place {
+/// The position of an entry: its data block, and its number in it.
+struct EntryIndex {
     /// Data blocks of a growing size come in groups; the data block in its group; the entry
     /// in that.
     group: u64,
@@ -144,7 +144,7 @@ struct Place {
 }
 
 impl<'f> Extensible<'f> {
-    pub(super) fn open(source: Source<'f>, address: u64) -> Parsed<Self> {
+    pub(super) fn open(source: Hdf5File<'f>, address: u64) -> Parsed<Self> {
         let length = 16 + source.offset_size() + 6 * source.length_size();
         let mut header = source.sealed(address, length as u64)?;
         header.signature(b"EAHD")?;
@@ -199,16 +199,16 @@ impl<'f> Extensible<'f> {
     }
 
     /// The place of an entry, counted from the first one that is not in the index block.
-    fn place(&self, number: u64) -> Place {
+    fn place(&self, number: u64) -> EntryIndex {
         // group k has 2^k times the entries of the smallest data block
         let group = u64::from((number / self.smallest).saturating_add(1).ilog2());
         let entries = self.smallest << group.div_ceil(2);
         let within = number - self.smallest * ((1 << group) - 1);
-        Place { group, block: within / entries, entry: within % entries, entries }
+        EntryIndex { group, block: within / entries, entry: within % entries, entries }
     }
 
     /// An entry in a data block of a group that has a super block.
-    fn far(&mut self, group: u64, place: &Place) -> Parsed<Option<Cursor<'f>>> {
+    fn far(&mut self, group: u64, place: &EntryIndex) -> Parsed<Option<Cursor<'f>>> {
         let (offset, count) = (self.offset_size(), 1_u64 << (place.group / 2));
         let pages = if place.entries > self.page { place.entries / self.page } else { 0 };
         let (prefix, bits) = (self.prefix(), pages.div_ceil(8).saturating_mul(count));
@@ -233,7 +233,7 @@ impl<'f> Extensible<'f> {
         prefix(self.blocks.source) + self.width
     }
 
-    fn data(&mut self, data: u64, place: &Place) -> Parsed<Option<Cursor<'f>>> {
+    fn data(&mut self, data: u64, place: &EntryIndex) -> Parsed<Option<Cursor<'f>>> {
         let prefix = self.prefix();
         let mut block = self.blocks.get(data, self.blocks.bytes(prefix, place.entries))?;
         block.skip(prefix as usize)?;

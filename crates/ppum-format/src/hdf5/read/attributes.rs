@@ -5,8 +5,8 @@ use super::header::{ATTRIBUTE, ATTRIBUTE_INFO, DATATYPE, Header, shared};
 use super::heap::dense;
 use super::source::{Cursor, Parsed, fail};
 use super::texts::{Texts, text};
-use super::types::{Kind, Space, Type, end_without};
-use crate::content::{Array, Values};
+use super::types::{DatatypeClass, Space, Type, end_without};
+use crate::content::{Array, ArrayValues};
 
 /// Kind of the index of attributes by name.
 const INDEX: u8 = 8;
@@ -71,11 +71,12 @@ fn attribute(mut message: Cursor) -> Parsed<Attribute> {
 
 impl Attribute<'_> {
     pub(super) fn read(mut self, texts: &mut Texts) -> Parsed<Array> {
-        let Some(space) = self.space.filter(|_| !matches!(self.kind.kind, Kind::Other(_))) else {
-            let Kind::Other(name) = self.kind.kind else {
-                return Ok(Array { shape: vec![], values: Values::Other("null".into()) });
+        let Some(space) = self.space.filter(|_| !matches!(self.kind.kind, DatatypeClass::Other(_)))
+        else {
+            let DatatypeClass::Other(name) = self.kind.kind else {
+                return Ok(Array { shape: vec![], values: ArrayValues::Other("null".into()) });
             };
-            return Ok(Array { shape: vec![], values: Values::Other(name) });
+            return Ok(Array { shape: vec![], values: ArrayValues::Other(name) });
         };
         let count = space.count();
         let size = count.and_then(|n| usize::try_from(n).ok()?.checked_mul(self.kind.size));

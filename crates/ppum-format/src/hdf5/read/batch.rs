@@ -5,14 +5,14 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::chunks::{Grid, Stored};
+use super::chunks::{ChunkGrid, Stored};
 use super::filters::{Pipeline, Undone};
-use super::source::{Parsed, Source, fail};
+use super::source::{Hdf5File, Parsed, fail};
 use super::storage::step;
 
 /// Chunks whose filters are undone together, on several threads.
 pub(super) struct Batch<'a, 'f> {
-    source: Source<'f>,
+    source: Hdf5File<'f>,
     pipeline: &'a Pipeline,
     array: &'a mut [u8],
     waiting: Vec<Waiting<'a, 'f>>,
@@ -20,7 +20,7 @@ pub(super) struct Batch<'a, 'f> {
 
 /// A chunk as it is stored.
 struct Waiting<'a, 'f> {
-    part: Part<'a>,
+    slab: Hyperslab<'a>,
     raw: Cow<'f, [u8]>,
     mask: u32,
 }
@@ -31,39 +31,44 @@ const BATCH_CHUNKS: usize = 16;
 const BATCH_BYTES: u64 = 1 << 24;
 
 impl<'a, 'f> Batch<'a, 'f> {
-    pub(super) fn new(source: Source<'f>, pipeline: &'a Pipeline, array: &'a mut [u8]) -> Self {
+    pub(super) fn new(source: Hdf5File<'f>, pipeline: &'a Pipeline, array: &'a mut [u8]) -> Self {
         Self { source, pipeline, array, waiting: Vec::new() }
     }
 
-    pub(super) fn add(&mut self, part: Part<'a>, stored: Stored, is_plain: bool) -> Parsed<()> {
+    pub(super) fn add(
+        &mut self,
+        slab: Hyperslab<'a>,
+        stored: Stored,
+        is_plain: bool,
+    ) -> Parsed<()> {
         if is_plain || !self.pipeline.applies(stored.mask) {
-            return self.copy(&part, stored.address);
+            return self.copy(&slab, stored.address);
         }
-        let cost = |raw: u64, part: &Part| raw.saturating_add(self.kept(part));
-        let waiting = self.waiting.iter().map(|w| cost(w.raw.len() as u64, &w.part)).sum::<u64>();
-        let is_full = waiting.saturating_add(cost(stored.bytes, &part)) > BATCH_BYTES;
+        let cost = |raw: u64, slab: &Hyperslab| raw.saturating_add(self.kept(slab));
+        let waiting = self.waiting.iter().map(|w| cost(w.raw.len() as u64, &w.slab)).sum::<u64>();
+        let is_full = waiting.saturating_add(cost(stored.bytes, &slab)) > BATCH_BYTES;
         if is_full || self.waiting.len() == BATCH_CHUNKS {
             self.finish()?;
         }
         let raw = self.source.values(stored.address, stored.bytes)?;
-        self.pipeline.pay(stored, part.keep(), self.source.account)?;
-        self.waiting.push(Waiting { part, raw, mask: stored.mask });
+        self.pipeline.pay(stored, slab.keep(), self.source.account)?;
+        self.waiting.push(Waiting { slab, raw, mask: stored.mask });
         Ok(())
     }
 
     /// Bytes of the elements of a chunk that are kept.
-    fn kept(&self, part: &Part) -> u64 {
-        part.keep() * self.pipeline.size as u64
+    fn kept(&self, slab: &Hyperslab) -> u64 {
+        slab.keep() * self.pipeline.size as u64
     }
 
     /// Copies a chunk without filters.
-    fn copy(&mut self, part: &Part, address: u64) -> Parsed<()> {
+    fn copy(&mut self, slab: &Hyperslab, address: u64) -> Parsed<()> {
         let size = self.pipeline.size;
-        if let Some(place) = part.place(size) {
+        if let Some(place) = slab.place(size) {
             return self.source.fill(address, &mut self.array[place]);
         }
-        let values = self.source.values(address, self.kept(part))?;
-        part.copy(&values, self.array, size);
+        let values = self.source.values(address, self.kept(slab))?;
+        slab.copy(&values, self.array, size);
         Ok(())
     }
 
@@ -73,27 +78,27 @@ impl<'a, 'f> Batch<'a, 'f> {
         let (pipeline, waiting) = (self.pipeline, std::mem::take(&mut self.waiting));
         let undone: Vec<_> = waiting
             .par_iter()
-            .map(|Waiting { part, raw, mask }| pipeline.undo(raw, *mask, part.keep()))
+            .map(|Waiting { slab, raw, mask }| pipeline.undo(raw, *mask, slab.keep()))
             .collect();
-        for (Waiting { part, .. }, undone) in waiting.iter().zip(undone) {
-            self.put(part, &undone?)?;
+        for (Waiting { slab, .. }, undone) in waiting.iter().zip(undone) {
+            self.put(slab, &undone?)?;
         }
         Ok(())
     }
 
     /// Puts the elements of a chunk where they belong.
-    fn put(&mut self, part: &Part, undone: &Undone) -> Parsed<()> {
-        let bytes = self.kept(part) as usize;
+    fn put(&mut self, slab: &Hyperslab, undone: &Undone) -> Parsed<()> {
+        let bytes = self.kept(slab) as usize;
         let size = self.pipeline.size;
         if undone.len() < bytes {
             return fail("a chunk holds fewer values than its shape says");
         }
-        match part.place(size) {
+        match slab.place(size) {
             Some(place) => undone.put(&mut self.array[place]),
             None => {
                 let mut elements = vec![0; bytes];
                 undone.put(&mut elements);
-                part.copy(&elements, self.array, size);
+                slab.copy(&elements, self.array, size);
             }
         }
         Ok(())
@@ -101,15 +106,15 @@ impl<'a, 'f> Batch<'a, 'f> {
 }
 
 /// The part of an array that is in a chunk.
-pub(super) struct Part<'a> {
-    grid: &'a Grid<'a>,
+pub(super) struct Hyperslab<'a> {
+    grid: &'a ChunkGrid<'a>,
     start: Vec<u64>,
     pub(super) extent: Vec<u64>,
 }
 
-impl<'a> Part<'a> {
+impl<'a> Hyperslab<'a> {
     /// None for a chunk outside the array.
-    pub(super) fn new(grid: &'a Grid<'a>, start: &[u64]) -> Option<Self> {
+    pub(super) fn new(grid: &'a ChunkGrid<'a>, start: &[u64]) -> Option<Self> {
         let shape = grid.space.shape.iter().zip(grid.chunk).zip(start);
         let extent: Vec<u64> =
             shape.map(|((n, chunk), start)| n.saturating_sub(*start).min(*chunk)).collect();

@@ -1,13 +1,13 @@
 //! The indexes of chunks.
 
 use super::arrays::{Extensible, Fixed};
-use super::source::{Cursor, Parsed, Source, fail};
+use super::source::{Cursor, Hdf5File, Parsed, fail};
 use super::storage::step;
 use super::trees::{self, CHUNKS};
 use super::types::Space;
 
 /// The division of an array.
-pub(super) struct Grid<'a> {
+pub(super) struct ChunkGrid<'a> {
     pub(super) space: &'a Space,
     /// Elements of a chunk in each direction.
     pub(super) chunk: &'a [u64],
@@ -74,7 +74,7 @@ impl Index {
     }
 
     /// Calls `visit` with the first element and the place of each chunk that is stored.
-    pub(super) fn visit(self, source: Source, grid: &Grid, visit: Visit) -> Parsed<()> {
+    pub(super) fn visit(self, source: Hdf5File, grid: &ChunkGrid, visit: Visit) -> Parsed<()> {
         match self {
             Self::OldTree(Some(address)) => old_tree(source, address, grid, visit),
             Self::Tree(Some(address)) => tree(source, address, grid, visit),
@@ -102,7 +102,7 @@ impl Index {
 }
 
 /// The chunk of an entry of an array; none if it is not stored.
-fn entry(entry: Option<Cursor>, grid: &Grid) -> Parsed<Option<Stored>> {
+fn entry(entry: Option<Cursor>, grid: &ChunkGrid) -> Parsed<Option<Stored>> {
     let Some(mut entry) = entry else { return Ok(None) };
     let Some(address) = entry.offset()? else { return Ok(None) };
     stored(address, &mut entry, grid, 0).map(Some)
@@ -110,7 +110,7 @@ fn entry(entry: Option<Cursor>, grid: &Grid) -> Parsed<Option<Stored>> {
 
 /// The place of a chunk, given at the front of an entry that has `after` bytes of something else at
 /// its end.
-fn stored(address: u64, entry: &mut Cursor, grid: &Grid, after: usize) -> Parsed<Stored> {
+fn stored(address: u64, entry: &mut Cursor, grid: &ChunkGrid, after: usize) -> Parsed<Stored> {
     if !grid.is_filtered {
         return Ok(Stored { address, bytes: grid.bytes, mask: 0 });
     }
@@ -120,7 +120,7 @@ fn stored(address: u64, entry: &mut Cursor, grid: &Grid, after: usize) -> Parsed
     Ok(Stored { address, bytes: entry.number(width)?, mask: entry.u32()? })
 }
 
-fn old_tree(source: Source, address: u64, grid: &Grid, visit: Visit) -> Parsed<()> {
+fn old_tree(source: Hdf5File, address: u64, grid: &ChunkGrid, visit: Visit) -> Parsed<()> {
     let rank = grid.chunk.len();
     for (key, address) in trees::entries(source, address, CHUNKS, 8 * (rank + 2))? {
         let mut key = source.cursor(key);
@@ -134,7 +134,7 @@ fn old_tree(source: Source, address: u64, grid: &Grid, visit: Visit) -> Parsed<(
     Ok(())
 }
 
-fn tree(source: Source, address: u64, grid: &Grid, visit: Visit) -> Parsed<()> {
+fn tree(source: Hdf5File, address: u64, grid: &ChunkGrid, visit: Visit) -> Parsed<()> {
     let rank = grid.chunk.len();
     for record in trees::records(source, address, &TREES)? {
         let mut record = source.cursor(record);
@@ -152,7 +152,7 @@ fn tree(source: Source, address: u64, grid: &Grid, visit: Visit) -> Parsed<()> {
 /// Visits the chunks of an index that counts them through. The direction that grows counts last,
 /// the others as far as the array can grow.
 fn each(
-    grid: &Grid,
+    grid: &ChunkGrid,
     visit: Visit,
     growing: usize,
     mut find: impl FnMut(u64) -> Parsed<Option<Stored>>,

@@ -1,6 +1,6 @@
 //! Headers of objects: what a file says of a group or an array is a list of messages.
 
-use super::source::{Cursor, Parsed, Source, fail};
+use super::source::{Cursor, Hdf5File, Parsed, fail};
 
 /// Kinds of messages.
 pub(super) const DATASPACE: u16 = 0x01;
@@ -31,12 +31,12 @@ struct Message<'f> {
 
 /// The messages of an object.
 pub(super) struct Header<'f> {
-    pub(super) source: Source<'f>,
+    pub(super) source: Hdf5File<'f>,
     messages: Vec<Message<'f>>,
 }
 
 impl<'f> Header<'f> {
-    pub(super) fn read(source: Source<'f>, address: u64) -> Parsed<Self> {
+    pub(super) fn read(source: Hdf5File<'f>, address: u64) -> Parsed<Self> {
         let mut header = Self { source, messages: Vec::new() };
         let is_new = source.at(address, 4)?.rest() == b"OHDR";
         if is_new {
@@ -81,7 +81,7 @@ impl<'f> Header<'f> {
         };
         let mut first = self.source.sealed(address, length)?;
         first.skip((before + width) as usize)?;
-        let next = |source: Source<'f>, address, length| {
+        let next = |source: Hdf5File<'f>, address, length| {
             let mut block = source.sealed(address, length)?;
             block.signature(b"OCHK")?;
             Ok(block)
@@ -98,7 +98,7 @@ impl<'f> Header<'f> {
     fn blocks(
         &mut self,
         first: Cursor<'f>,
-        next: impl Fn(Source<'f>, u64, u64) -> Parsed<Cursor<'f>>,
+        next: impl Fn(Hdf5File<'f>, u64, u64) -> Parsed<Cursor<'f>>,
         prefix: impl Fn(&mut Cursor<'f>) -> Parsed<(u16, u16, u8)>,
     ) -> Parsed<()> {
         let (mut blocks, mut total) = (vec![first], 0);

@@ -1,6 +1,6 @@
 //! Fractal heaps, where groups with many links or attributes keep them.
 
-use super::source::{Cursor, Parsed, Source, fail};
+use super::source::{Cursor, Hdf5File, Parsed, fail};
 use super::trees::{records, width};
 
 /// Types of the objects of a heap, from bits 4 and 5 of the first byte of their identifiers.
@@ -16,7 +16,7 @@ const HUGE_INDEX: u8 = 1;
 
 /// A heap: blocks of doubling size, some hold objects and some the addresses of others.
 pub(super) struct Heap<'f> {
-    source: Source<'f>,
+    source: Hdf5File<'f>,
     id_length: usize,
     huge: Option<u64>,
     /// Blocks in a row.
@@ -33,7 +33,7 @@ pub(super) struct Heap<'f> {
 }
 
 impl<'f> Heap<'f> {
-    pub(super) fn open(source: Source<'f>, address: u64) -> Parsed<Self> {
+    pub(super) fn open(source: Hdf5File<'f>, address: u64) -> Parsed<Self> {
         let length = 26 + 3 * source.offset_size() + 12 * source.length_size();
         let mut header = source.sealed(address, length as u64)?;
         header.signature(b"FRHP")?;

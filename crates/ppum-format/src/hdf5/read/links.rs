@@ -2,7 +2,7 @@
 
 use super::header::{Header, LINK, LINK_INFO, SYMBOL_TABLE};
 use super::heap::dense;
-use super::source::{Cursor, Parsed, Source, fail};
+use super::source::{Cursor, Hdf5File, Parsed, fail};
 use super::trees::{GROUPS, entries};
 
 /// The end of a link: an object of this file, or nothing that is read.
@@ -92,7 +92,7 @@ fn old(mut table: Cursor, found: &mut Vec<(String, Target)>) -> Parsed<()> {
 const SOFT: u32 = 2;
 
 /// The names of the links of a group.
-fn names(source: Source<'_>, address: u64) -> Parsed<&[u8]> {
+fn names(source: Hdf5File<'_>, address: u64) -> Parsed<&[u8]> {
     let mut heap =
         source.at(address, 8 + 2 * source.length_size() as u64 + source.offset_size() as u64)?;
     heap.signature(b"HEAP")?;

@@ -8,29 +8,29 @@ use super::store::Bytes;
 
 /// The reason why a part of a file cannot be read.
 #[derive(Debug)]
-pub(super) struct Mistake(pub(super) Cow<'static, str>);
+pub(super) struct Hdf5Error(pub(super) Cow<'static, str>);
 
-pub(super) type Parsed<T> = Result<T, Mistake>;
+pub(super) type Parsed<T> = Result<T, Hdf5Error>;
 
-impl From<&'static str> for Mistake {
+impl From<&'static str> for Hdf5Error {
     fn from(text: &'static str) -> Self {
         Self(text.into())
     }
 }
 
-impl From<String> for Mistake {
+impl From<String> for Hdf5Error {
     fn from(text: String) -> Self {
         Self(text.into())
     }
 }
 
-pub(super) fn fail<T>(mistake: impl Into<Mistake>) -> Parsed<T> {
+pub(super) fn fail<T>(mistake: impl Into<Hdf5Error>) -> Parsed<T> {
     Err(mistake.into())
 }
 
 /// A file, with the widths of addresses and lengths in it.
 #[derive(Clone, Copy)]
-pub(super) struct Source<'f> {
+pub(super) struct Hdf5File<'f> {
     bytes: Bytes<'f>,
     offset_size: usize,
     length_size: usize,
@@ -40,7 +40,7 @@ pub(super) struct Source<'f> {
 /// Bytes of a checksum.
 const CHECKSUM: usize = 4;
 
-impl<'f> Source<'f> {
+impl<'f> Hdf5File<'f> {
     pub(super) fn new(bytes: Bytes<'f>, sizes: (u8, u8), account: &'f Account) -> Parsed<Self> {
         if [sizes.0, sizes.1].iter().any(|size| ![2, 4, 8].contains(size)) {
             return fail("its addresses or lengths have an unknown width");
@@ -108,7 +108,7 @@ impl<'f> Source<'f> {
 /// Bytes of the file, taken from the front.
 #[derive(Clone, Copy)]
 pub(super) struct Cursor<'f> {
-    pub(super) source: Source<'f>,
+    pub(super) source: Hdf5File<'f>,
     left: &'f [u8],
 }
 

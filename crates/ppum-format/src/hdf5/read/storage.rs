@@ -1,7 +1,7 @@
 //! Places of the values of an array: in its header, in one piece, or in chunks.
 
-use super::batch::{Batch, Part};
-use super::chunks::{Grid, Index};
+use super::batch::{Batch, Hyperslab};
+use super::chunks::{ChunkGrid, Index};
 use super::filters::{Pipeline, filters};
 use super::header::{EXTERNAL_FILES, FILL_VALUE, FILTERS, Header, LAYOUT, OLD_FILL_VALUE};
 use super::source::{Cursor, Parsed, fail};
@@ -122,14 +122,14 @@ fn chunked(
     let Some(bytes) = product(chunk).and_then(|n| n.checked_mul(size as u64)) else {
         return fail("its chunks are too large");
     };
-    let grid = Grid { space, chunk, bytes, is_filtered: !pipeline.is_empty() };
+    let grid = ChunkGrid { space, chunk, bytes, is_filtered: !pipeline.is_empty() };
     let pipeline = Pipeline { filters: pipeline, size, bytes };
     repeat(array, &fill(header, size)?);
     let mut batch = Batch::new(header.source, &pipeline, array);
     index.visit(header.source, &grid, &mut |start, stored| {
-        let Some(part) = Part::new(&grid, start) else { return Ok(()) };
-        let is_plain = flags & PLAIN_BORDER != 0 && part.extent != grid.chunk;
-        batch.add(part, stored, is_plain)
+        let Some(slab) = Hyperslab::new(&grid, start) else { return Ok(()) };
+        let is_plain = flags & PLAIN_BORDER != 0 && slab.extent != grid.chunk;
+        batch.add(slab, stored, is_plain)
     })?;
     batch.finish()
 }

@@ -59,11 +59,11 @@ impl Drop for Chain {
 #[derive(Clone, Copy)]
 pub(super) enum Bytes<'f> {
     Memory(&'f [u8]),
-    File(&'f Parts<'f>),
+    File(&'f ReadRanges<'f>),
 }
 
 /// A file, and the parts of it that have been read.
-pub(super) struct Parts<'f> {
+pub(super) struct ReadRanges<'f> {
     file: &'f dyn Ranges,
     /// Bytes of the user's before the signature, and of the file after them.
     start: u64,
@@ -73,7 +73,7 @@ pub(super) struct Parts<'f> {
     known: RefCell<BTreeMap<u64, &'f [u8]>>,
 }
 
-impl<'f> Parts<'f> {
+impl<'f> ReadRanges<'f> {
     pub(super) fn new(file: &'f dyn Ranges, start: u64, length: u64, chain: &'f Chain) -> Self {
         Self { file, start, length, end: Cell::new(&chain.0), known: RefCell::default() }
     }

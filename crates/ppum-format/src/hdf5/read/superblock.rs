@@ -1,8 +1,8 @@
 //! The start of a file: widths of numbers, and where the root group is.
 
 use super::super::account::Account;
-use super::source::{Cursor, Parsed, Source, fail};
-use super::store::{Bytes, Chain, Parts, Ranges};
+use super::source::{Cursor, Hdf5File, Parsed, fail};
+use super::store::{Bytes, Chain, Ranges, ReadRanges};
 
 const SIGNATURE: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
 
@@ -65,8 +65,8 @@ impl Start {
     }
 
     /// The file without the user's bytes.
-    pub(super) fn memory<'f>(self, bytes: &'f [u8], account: &'f Account) -> Parsed<Source<'f>> {
-        Source::new(Bytes::Memory(&bytes[self.before as usize..]), self.sizes, account)
+    pub(super) fn memory<'f>(self, bytes: &'f [u8], account: &'f Account) -> Parsed<Hdf5File<'f>> {
+        Hdf5File::new(Bytes::Memory(&bytes[self.before as usize..]), self.sizes, account)
     }
 
     /// The parts of a file of so many bytes.
@@ -75,25 +75,25 @@ impl Start {
         file: &'f dyn Ranges,
         length: u64,
         chain: &'f Chain,
-    ) -> Parts<'f> {
-        Parts::new(file, self.before, length.saturating_sub(self.before), chain)
+    ) -> ReadRanges<'f> {
+        ReadRanges::new(file, self.before, length.saturating_sub(self.before), chain)
     }
 
     pub(super) fn source<'f>(
         self,
-        parts: &'f Parts<'f>,
+        parts: &'f ReadRanges<'f>,
         account: &'f Account,
-    ) -> Parsed<Source<'f>> {
-        Source::new(Bytes::File(parts), self.sizes, account)
+    ) -> Parsed<Hdf5File<'f>> {
+        Hdf5File::new(Bytes::File(parts), self.sizes, account)
     }
 }
 
 /// The widths of addresses and lengths, the end and the root.
-type Found = ((u8, u8), u64, u64);
+type SuperblockFields = ((u8, u8), u64, u64);
 
-fn old(bytes: &[u8], version: u8, account: &Account) -> Parsed<Found> {
+fn old(bytes: &[u8], version: u8, account: &Account) -> Parsed<SuperblockFields> {
     let sizes = (at(bytes, 13, 0), at(bytes, 14, 0));
-    let source = Source::new(Bytes::Memory(bytes), sizes, account)?;
+    let source = Hdf5File::new(Bytes::Memory(bytes), sizes, account)?;
     let mut start = source.cursor(bytes);
     // sizes of the nodes of trees, flags
     start.skip(24 + if version == 1 { 4 } else { 0 })?;
@@ -102,9 +102,9 @@ fn old(bytes: &[u8], version: u8, account: &Account) -> Parsed<Found> {
     Ok((sizes, end, root))
 }
 
-fn new(bytes: &[u8], account: &Account) -> Parsed<Found> {
+fn new(bytes: &[u8], account: &Account) -> Parsed<SuperblockFields> {
     let sizes = (at(bytes, 9, 0), at(bytes, 10, 0));
-    let source = Source::new(Bytes::Memory(bytes), sizes, account)?;
+    let source = Hdf5File::new(Bytes::Memory(bytes), sizes, account)?;
     let mut start = source.sealed(0, (16 + 4 * source.offset_size()) as u64)?;
     start.skip(12)?;
     // base, extension

@@ -13,12 +13,12 @@ use super::chunks::Stored;
 use super::filters::{Pipeline, filters};
 use super::header::Header;
 use super::packing::unpacked;
-use super::source::{Mistake, Parsed, Source};
+use super::source::{Hdf5Error, Hdf5File, Parsed};
 use super::store::{Bytes, PAGE};
 use super::trees::{CHUNKS, entries};
-use super::types::{Kind, Padding, Type};
+use super::types::{DatatypeClass, Padding, Type};
 use super::{Outline, Ranges, Texts, arrays, from_bytes};
-use crate::content::{Values, step_path};
+use crate::content::{ArrayValues, step_path};
 use crate::damage::{seal, sealed_parts};
 use crate::decode::RESULTS;
 
@@ -39,13 +39,13 @@ fn run_within_limit<T: Send>(work: impl FnOnce() -> T + Send) -> T {
 }
 
 /// The reason why a structure in a file of these bytes is refused.
-fn refusal(bytes: &[u8], read: impl Fn(Source) -> Parsed<()> + Sync) -> String {
+fn refusal(bytes: &[u8], read: impl Fn(Hdf5File) -> Parsed<()> + Sync) -> String {
     run_within_limit(|| {
         let account = Account::for_file(bytes.len() as u64);
-        let Ok(source) = Source::new(Bytes::Memory(bytes), (8, 8), &account) else {
+        let Ok(source) = Hdf5File::new(Bytes::Memory(bytes), (8, 8), &account) else {
             panic!("the widths are known")
         };
-        let Err(Mistake(mistake)) = read(source) else { panic!("it is not refused") };
+        let Err(Hdf5Error(mistake)) = read(source) else { panic!("it is not refused") };
         mistake.into()
     })
 }
@@ -133,7 +133,7 @@ fn pipeline(ids: &[u8], bytes: u64) -> Parsed<Pipeline> {
     let account = Account::for_file(0);
     let mut message = vec![2, ids.len() as u8];
     ids.iter().for_each(|id| message.extend([*id, 0, 0, 0, 0, 0]));
-    let source = Source::new(Bytes::Memory(&message), (8, 8), &account)?;
+    let source = Hdf5File::new(Bytes::Memory(&message), (8, 8), &account)?;
     Ok(Pipeline { filters: filters(source.cursor(&message))?, size: 8, bytes })
 }
 
@@ -142,12 +142,12 @@ fn pipeline(ids: &[u8], bytes: u64) -> Parsed<Pipeline> {
 fn bombs() {
     let stored = Stored { address: 0, bytes: 100, mask: 0 };
     for (ids, bytes) in [(&[2, 1][..], 1_u64 << 33), (&[2, 1], 1 << 50), (&[3, 1], 1 << 28)] {
-        let paid = |source: Source| pipeline(ids, bytes)?.pay(stored, 5, source.account);
+        let paid = |source: Hdf5File| pipeline(ids, bytes)?.pay(stored, 5, source.account);
         let mistake = refusal(&[0; 1000], paid);
         assert!(mistake.contains("too large"), "{ids:?} {bytes}: {mistake}");
     }
     // two of 3 GiB are together too much, though each is not; neither can be decompressed
-    let paid = |source: Source| {
+    let paid = |source: Hdf5File| {
         let pipeline = pipeline(&[2, 1], 3 << 30)?;
         assert!(pipeline.undo(&[0; 100], 0, 5).is_err_and(|e| e.0.contains("decompressed")));
         assert!(pipeline.pay(stored, 5, source.account).is_ok());
@@ -172,7 +172,7 @@ fn packed_texts() {
 #[test]
 fn paddings() {
     let account = Account::for_file(0);
-    let Ok(source) = Source::new(Bytes::Memory(&[]), (8, 8), &account) else {
+    let Ok(source) = Hdf5File::new(Bytes::Memory(&[]), (8, 8), &account) else {
         panic!("the widths are known")
     };
     for (padding, raw, expected) in [
@@ -183,7 +183,7 @@ fn paddings() {
         (Padding::Nuls, b"\xffb\0\0\0", None),
         (Padding::Nuls, b"\0\0\0\0\0", Some("")),
     ] {
-        let values = Type { kind: Kind::Text(padding), size: 5, is_big: false }.values(
+        let values = Type { kind: DatatypeClass::Text(padding), size: 5, is_big: false }.values(
             1,
             &mut Texts::new(source),
             |bytes| {
@@ -191,7 +191,7 @@ fn paddings() {
                 Ok(())
             },
         );
-        let expected = expected.map(|text| Values::Text(vec![text.to_owned()]));
+        let expected = expected.map(|text| ArrayValues::Text(vec![text.to_owned()]));
         assert_eq!(values.ok(), expected, "{padding:?} {raw:?}");
     }
 }
@@ -202,22 +202,22 @@ fn paddings() {
 fn types_of_numbers() {
     let account = Account::for_file(0);
     let name = |message: &[u8]| {
-        let source = Source::new(Bytes::Memory(message), (8, 8), &account).ok()?;
+        let source = Hdf5File::new(Bytes::Memory(message), (8, 8), &account).ok()?;
         Some(Type::parse(source.cursor(message)).ok()?.kind)
     };
     let integer = |flags: u8, size: u8, bits: u8| [0x10, flags, 0, 0, size, 0, 0, 0, 0, 0, bits, 0];
-    assert_eq!(name(&integer(0, 8, 64)), Some(Kind::U64));
-    assert_eq!(name(&integer(8, 8, 64)), Some(Kind::I64));
-    assert_eq!(name(&integer(1, 8, 64)), Some(Kind::U64));
-    assert_eq!(name(&integer(8, 4, 32)), Some(Kind::Other("i32".into())));
-    assert_eq!(name(&integer(0, 4, 31)), Some(Kind::Other("u31".into())));
+    assert_eq!(name(&integer(0, 8, 64)), Some(DatatypeClass::U64));
+    assert_eq!(name(&integer(8, 8, 64)), Some(DatatypeClass::I64));
+    assert_eq!(name(&integer(1, 8, 64)), Some(DatatypeClass::U64));
+    assert_eq!(name(&integer(8, 4, 32)), Some(DatatypeClass::Other("i32".into())));
+    assert_eq!(name(&integer(0, 4, 31)), Some(DatatypeClass::Other("u31".into())));
     assert_eq!(name(&integer(0, 0, 0)), None);
     let float = |order: u8, bias: u8| {
         [0x11, 0x20 | order, 0x3f, 0, 8, 0, 0, 0, 0, 0, 64, 0, 52, 11, 0, 52, bias, 3, 0, 0]
     };
-    assert_eq!(name(&float(0, 0xff)), Some(Kind::F64));
-    assert_eq!(name(&float(1, 0xff)), Some(Kind::F64));
-    assert_eq!(name(&float(0, 0xfe)), Some(Kind::Other("f64".into())));
+    assert_eq!(name(&float(0, 0xff)), Some(DatatypeClass::F64));
+    assert_eq!(name(&float(1, 0xff)), Some(DatatypeClass::F64));
+    assert_eq!(name(&float(0, 0xfe)), Some(DatatypeClass::Other("f64".into())));
 }
 
 /// A file that counts what is read of it.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::source::{Parsed, Source, fail};
+use super::source::{Hdf5File, Parsed, fail};
 use super::types::end_without;
 
 /// The characters of a text of the format.
@@ -18,14 +18,14 @@ const OBJECT_BYTES: u64 = 16;
 
 /// The collections that texts were found in, each parsed once as long as they fit.
 pub(super) struct Texts<'f> {
-    source: Source<'f>,
+    source: Hdf5File<'f>,
     collections: BTreeMap<u64, BTreeMap<u16, &'f [u8]>>,
     /// Objects in the collections.
     known: u64,
 }
 
 impl<'f> Texts<'f> {
-    pub(super) fn new(source: Source<'f>) -> Self {
+    pub(super) fn new(source: Hdf5File<'f>) -> Self {
         Self { source, collections: BTreeMap::new(), known: 0 }
     }
 
@@ -67,7 +67,7 @@ fn little(bytes: &[u8]) -> u64 {
     bytes.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte))
 }
 
-fn collection(source: Source<'_>, address: u64) -> Parsed<BTreeMap<u16, &[u8]>> {
+fn collection(source: Hdf5File<'_>, address: u64) -> Parsed<BTreeMap<u16, &[u8]>> {
     let prefix = 8 + source.length_size();
     let mut start = source.at(address, prefix as u64)?;
     start.signature(b"GCOL")?;

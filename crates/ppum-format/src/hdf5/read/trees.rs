@@ -1,6 +1,6 @@
 //! B-trees: the indexes of links, attributes and chunks.
 
-use super::source::{Cursor, Parsed, Source, fail};
+use super::source::{Cursor, Hdf5File, Parsed, fail};
 
 /// The uses of B-trees of the first version: the links of groups, and chunks.
 pub(super) const GROUPS: u8 = 0;
@@ -8,7 +8,7 @@ pub(super) const CHUNKS: u8 = 1;
 
 /// The keys of a tree of version 1, each with the address that belongs to it, in their order.
 pub(super) fn entries(
-    source: Source<'_>,
+    source: Hdf5File<'_>,
     root: u64,
     kind: u8,
     key: usize,
@@ -32,7 +32,7 @@ pub(super) fn entries(
 }
 
 /// No more of an index than the file can hold.
-fn limit(source: Source, count: usize, size: usize) -> Parsed<()> {
+fn limit(source: Hdf5File, count: usize, size: usize) -> Parsed<()> {
     match (count as u64).checked_mul(size as u64) {
         Some(bytes) if bytes <= source.length() => Ok(()),
         _ => fail("an index is larger than the file"),
@@ -41,7 +41,7 @@ fn limit(source: Source, count: usize, size: usize) -> Parsed<()> {
 
 type Entries<'f> = Vec<(&'f [u8], u64)>;
 
-fn node(source: Source<'_>, address: u64, kind: u8, key: usize) -> Parsed<(u8, Entries<'_>)> {
+fn node(source: Hdf5File<'_>, address: u64, kind: u8, key: usize) -> Parsed<(u8, Entries<'_>)> {
     let prefix = 8 + 2 * source.offset_size();
     let mut node = source.at(address, prefix as u64)?;
     node.signature(b"TREE")?;
@@ -59,7 +59,7 @@ const SMALLEST_RECORD: usize = 8;
 
 /// A tree of version 2.
 struct Tree<'f> {
-    source: Source<'f>,
+    source: Hdf5File<'f>,
     kind: u8,
     record: usize,
     /// Widths, at each level above the leaves, of the numbers of records under a child.
@@ -68,7 +68,11 @@ struct Tree<'f> {
 }
 
 /// The records of a tree of version 2, of one of these kinds, in their order.
-pub(super) fn records<'f>(source: Source<'f>, address: u64, kinds: &[u8]) -> Parsed<Vec<&'f [u8]>> {
+pub(super) fn records<'f>(
+    source: Hdf5File<'f>,
+    address: u64,
+    kinds: &[u8],
+) -> Parsed<Vec<&'f [u8]>> {
     let length = 22 + source.offset_size() + source.length_size();
     let mut header = source.sealed(address, length as u64)?;
     header.signature(b"BTHD")?;
@@ -95,7 +99,7 @@ const MOST_LEVELS: u16 = 64;
 
 /// Widths of the numbers of records that a child has itself (the first) and under it, at
 /// each level.
-fn widths(source: Source, node: u32, record: usize, depth: u16) -> Parsed<Vec<usize>> {
+fn widths(source: Hdf5File, node: u32, record: usize, depth: u16) -> Parsed<Vec<usize>> {
     if depth > MOST_LEVELS {
         return fail("an index is too deep");
     }

@@ -4,12 +4,12 @@ use bytemuck::Pod;
 
 use super::source::{Cursor, Parsed, fail};
 use super::texts::{Texts, text};
-use crate::content::{Element as _, Values};
+use crate::content::{ArrayValues, Element as _};
 
 /// An element type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Type {
-    pub(super) kind: Kind,
+    pub(super) kind: DatatypeClass,
     /// Bytes of an element.
     pub(super) size: usize,
     /// True for numbers whose first byte is the most significant one.
@@ -17,7 +17,7 @@ pub(super) struct Type {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum DatatypeClass {
     F64,
     U8,
     U32,
@@ -72,16 +72,16 @@ impl Type {
         let kind = match class {
             FIXED_POINT => integer(flags, size, &mut message)?,
             FLOATING_POINT => float(flags, size, &mut message)?,
-            STRING => Kind::Text(padding(flags)?),
-            VARIABLE_LENGTH if flags & 15 == 1 => Kind::LongText,
-            _ => Kind::Other((*name).to_owned()),
+            STRING => DatatypeClass::Text(padding(flags)?),
+            VARIABLE_LENGTH if flags & 15 == 1 => DatatypeClass::LongText,
+            _ => DatatypeClass::Other((*name).to_owned()),
         };
         let size = usize::try_from(size).or(fail("its elements are too large"))?;
         Ok(Self { kind, size, is_big })
     }
 
     pub(super) fn is_text(&self) -> bool {
-        matches!(self.kind, Kind::Text(_) | Kind::LongText)
+        matches!(self.kind, DatatypeClass::Text(_) | DatatypeClass::LongText)
     }
 
     /// So many values, whose bytes are put where they are wanted by `fill`.
@@ -90,26 +90,26 @@ impl Type {
         count: usize,
         texts: &mut Texts,
         fill: impl FnOnce(&mut [u8]) -> Parsed<()>,
-    ) -> Parsed<Values> {
+    ) -> Parsed<ArrayValues> {
         Ok(match &self.kind {
-            Kind::F64 => f64::wrap(self.numbers(count, fill)?),
-            Kind::U8 => u8::wrap(self.numbers(count, fill)?),
-            Kind::U32 => u32::wrap(self.numbers(count, fill)?),
-            Kind::U64 => u64::wrap(self.numbers(count, fill)?),
-            Kind::I64 => i64::wrap(self.numbers(count, fill)?),
-            Kind::Text(_) | Kind::LongText => {
+            DatatypeClass::F64 => f64::wrap(self.numbers(count, fill)?),
+            DatatypeClass::U8 => u8::wrap(self.numbers(count, fill)?),
+            DatatypeClass::U32 => u32::wrap(self.numbers(count, fill)?),
+            DatatypeClass::U64 => u64::wrap(self.numbers(count, fill)?),
+            DatatypeClass::I64 => i64::wrap(self.numbers(count, fill)?),
+            DatatypeClass::Text(_) | DatatypeClass::LongText => {
                 let mut raw = vec![0; count * self.size];
                 fill(&mut raw)?;
                 let texts = raw.chunks_exact(self.size).map(|raw| self.text(raw, texts));
                 String::wrap(texts.collect::<Parsed<_>>()?)
             }
-            Kind::Other(name) => Values::Other(name.clone()),
+            DatatypeClass::Other(name) => ArrayValues::Other(name.clone()),
         })
     }
 
     fn text(&self, raw: &[u8], texts: &mut Texts) -> Parsed<String> {
         match self.kind {
-            Kind::Text(padding) => text(padding.cut(raw)),
+            DatatypeClass::Text(padding) => text(padding.cut(raw)),
             _ => texts.read(raw),
         }
     }
@@ -130,16 +130,16 @@ impl Type {
     }
 }
 
-fn integer(flags: u64, size: u32, message: &mut Cursor) -> Parsed<Kind> {
+fn integer(flags: u64, size: u32, message: &mut Cursor) -> Parsed<DatatypeClass> {
     let (offset, bits) = (message.u16()?, message.u16()?);
     let is_whole = offset == 0 && u64::from(bits) == 8 * u64::from(size);
     let is_signed = flags & 8 != 0;
     Ok(match (is_signed, size) {
-        (false, 1) if is_whole => Kind::U8,
-        (false, 4) if is_whole => Kind::U32,
-        (false, 8) if is_whole => Kind::U64,
-        (true, 8) if is_whole => Kind::I64,
-        _ => Kind::Other(format!("{}{bits}", if is_signed { 'i' } else { 'u' })),
+        (false, 1) if is_whole => DatatypeClass::U8,
+        (false, 4) if is_whole => DatatypeClass::U32,
+        (false, 8) if is_whole => DatatypeClass::U64,
+        (true, 8) if is_whole => DatatypeClass::I64,
+        _ => DatatypeClass::Other(format!("{}{bits}", if is_signed { 'i' } else { 'u' })),
     })
 }
 
@@ -150,10 +150,14 @@ const BIG_ENDIAN: u64 = 1;
 /// of exponent and mantissa, the exponent's bias.
 const DOUBLE: (u64, [u8; 12]) = (0x3f20, [0, 0, 64, 0, 52, 11, 0, 52, 0xff, 3, 0, 0]);
 
-fn float(flags: u64, size: u32, message: &mut Cursor) -> Parsed<Kind> {
+fn float(flags: u64, size: u32, message: &mut Cursor) -> Parsed<DatatypeClass> {
     let is_ieee = flags & !BIG_ENDIAN == DOUBLE.0 && size == 8;
     let is_double = is_ieee && message.take(12)? == DOUBLE.1;
-    Ok(if is_double { Kind::F64 } else { Kind::Other(format!("f{}", 8 * u64::from(size))) })
+    Ok(if is_double {
+        DatatypeClass::F64
+    } else {
+        DatatypeClass::Other(format!("f{}", 8 * u64::from(size)))
+    })
 }
 
 fn padding(flags: u64) -> Parsed<Padding> {

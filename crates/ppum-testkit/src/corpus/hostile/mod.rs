@@ -42,7 +42,7 @@ pub fn seeds() -> Vec<Seed> {
     seeds.extend(
         lines.map(|(k, line)| Seed { name: format!("texts.txt:{k}"), text: unescaped(line) }),
     );
-    seeds.extend(found(&folder));
+    seeds.extend(stored_seeds(&folder));
     seeds
 }
 
@@ -78,7 +78,7 @@ fn cooked(record: &Record) -> Seed {
 }
 
 /// Files `found-*.txt`, each one text, as the fuzzer writes them.
-fn found(folder: &std::path::Path) -> Vec<Seed> {
+fn stored_seeds(folder: &std::path::Path) -> Vec<Seed> {
     let entries = std::fs::read_dir(folder).expect("the folder is kept");
     let paths = entries.map(|entry| entry.expect("readable").path());
     let is_found = |path: &std::path::PathBuf| {

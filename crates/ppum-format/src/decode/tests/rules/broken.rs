@@ -2,7 +2,7 @@
 
 use super::edit::{edit, put, remove, rename, set, text, texts};
 use super::{FULL, PLAIN};
-use crate::content::{Array, Content, Element, Values};
+use crate::content::{Array, ArrayValues, Content, Element};
 
 /// A rule in words, the file that is damaged, the damage, and parts of what the reader says.
 pub(super) type Rule = (&'static str, u64, fn(&mut Content), &'static [&'static str]);
@@ -507,7 +507,7 @@ pub(super) const RULES: &[Rule] = &[
 /// The number of the first function of a kind, in a frame if it is a formula.
 fn function(content: &Content, kind: &str, frame: &str) -> usize {
     let column = |name: &str| match &content[&format!("steps/0000/functions/{name}")].values {
-        Values::Text(texts) => texts.clone(),
+        ArrayValues::Text(texts) => texts.clone(),
         other => panic!("{other:?}"),
     };
     let (kinds, frames) = (column("kind"), column("frame"));
