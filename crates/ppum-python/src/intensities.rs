@@ -6,7 +6,7 @@ use ppum::progress::Watcher;
 use ppum_scene::facts::Tip;
 use ppum_solve::diagnostics::effort::check_effort;
 use ppum_solve::diagnostics::{RecomputeError, recompute};
-use ppum_solve::intensity::{CircleError, Outcome, on_circle};
+use ppum_solve::intensity::{CircleError, TipOutcome, on_circle};
 use ppum_solve::problem::Problem;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -63,7 +63,7 @@ fn all(
         RecomputeError::Field(error) => no_field(error),
         error => SolveError::new_err(error.to_string()),
     })?;
-    let tip = |outcome: &Outcome| {
+    let tip = |outcome: &TipOutcome| {
         let unknown = || TipIntensity::new(outcome.tip, f64::NAN, f64::NAN);
         Tip::new(dataset, step, &outcome.factors.clone().unwrap_or_else(unknown))
     };

@@ -67,7 +67,9 @@ pub fn energy(field: &Field<'_>, space: &Space<'_>) -> f64 {
 
 /// The part of the [`energy`] in some cells, by their indices.
 pub(crate) fn energy_of(field: &Field<'_>, space: &Space<'_>, cells: &[usize]) -> f64 {
-    let add = |sum: &mut Norms, at: &Place, u: &[Jet<f64>; 2], weight| sum.add(&at.law, u, weight);
+    let add = |sum: &mut Norms, at: &QuadraturePoint, u: &[Jet<f64>; 2], weight| {
+        sum.add(&at.law, u, weight)
+    };
     let parts = over_cells(field, space, cells, 0, add);
     parts.iter().map(|part| 0.5 * part.energy).sum()
 }
@@ -79,7 +81,7 @@ pub(crate) fn energy_of(field: &Field<'_>, space: &Space<'_>, cells: &[usize]) -
 /// If the field is not of the step of `space`.
 #[must_use]
 pub(crate) fn fluctuation(field: &Field<'_>, space: &Space<'_>) -> f64 {
-    let add = |sum: &mut Volume, at: &Place, u: &[Jet<f64>; 2], weight| {
+    let add = |sum: &mut Volume, at: &QuadraturePoint, u: &[Jet<f64>; 2], weight| {
         sum.norms.add(&at.law, u, weight);
         let (lambda, d) = (weight * at.law.lambda(), u[0].x + u[1].y);
         sum.lambda += lambda;
@@ -107,8 +109,8 @@ fn all_cells(space: &Space<'_>) -> Vec<usize> {
     (0..space.partition().len()).collect()
 }
 
-/// A point of integration.
-struct Place {
+/// A point of a rule, with the material law there.
+struct QuadraturePoint {
     anchor: Vec2,
     offset: Vec2,
     law: LawAt,
@@ -120,7 +122,7 @@ fn over_cells<S: Default + Send>(
     space: &Space<'_>,
     cells: &[usize],
     extra: usize,
-    add: impl Fn(&mut S, &Place, &[Jet<f64>; 2], f64) + Sync,
+    add: impl Fn(&mut S, &QuadraturePoint, &[Jet<f64>; 2], f64) + Sync,
 ) -> Vec<S> {
     let (law, quadrature) = (Law::new(field.equation), space.quadrature(extra));
     let rules = |c: usize| match extra {
@@ -136,7 +138,7 @@ fn over_cells<S: Default + Send>(
                 let place = [offset.x, offset.y];
                 local.over_patches::<f64, 1>(place, Side::Above, &rule.patches, &mut u);
                 let law = law.at(rule.anchor + offset);
-                add(&mut sum, &Place { anchor: rule.anchor, offset, law }, &u, weight);
+                add(&mut sum, &QuadraturePoint { anchor: rule.anchor, offset, law }, &u, weight);
             }
         }
         sum

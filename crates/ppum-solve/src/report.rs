@@ -56,7 +56,7 @@ pub struct SolverReport {
     pub estimated_error: Option<f64>,
     /// Largest estimated error of the stress intensity factors of a tip, as a part of their size.
     pub factor_error: Option<f64>,
-    /// What has ended the adaptation, the [code](Stop::code) of a [`Stop`].
+    /// The reason that ended the adaptation, the [code](StopReason::code) of a [`StopReason`].
     pub stop: Option<f64>,
     /// Relative error of stresses evaluated in double precision.
     pub rounding: Option<f64>,
@@ -139,9 +139,9 @@ impl LinearKind {
     }
 }
 
-/// What has ended an adaptation.
+/// The reason why an adaptation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
+pub enum StopReason {
     /// The estimated error is as small as wanted.
     Tolerance,
     /// As many steps were made as wanted.
@@ -154,7 +154,7 @@ pub enum Stop {
     Limits,
 }
 
-impl Stop {
+impl StopReason {
     /// All reasons, in the order of their codes.
     pub const ALL: [Self; 5] =
         [Self::Tolerance, Self::Steps, Self::Unknowns, Self::Memory, Self::Limits];
@@ -185,10 +185,10 @@ impl Stop {
 }
 
 /// A number of the report by its name in files.
-type Entry = (&'static str, fn(&mut SolverReport) -> &mut Option<f64>);
+type ReportEntry = (&'static str, fn(&mut SolverReport) -> &mut Option<f64>);
 
 /// All numbers but the seconds, in the order of files.
-const ENTRIES: [Entry; 21] = [
+const ENTRIES: [ReportEntry; 21] = [
     ("crossed twice", |r| &mut r.crossed_twice),
     ("unknowns", |r| &mut r.unknowns),
     ("cut-off", |r| &mut r.cut_off),
@@ -259,7 +259,7 @@ pub fn forget_times(step: &mut Step) {
 pub fn word(name: &str, value: f64) -> Option<&'static str> {
     match name {
         SOLVER => LinearKind::of_code(value).map(LinearKind::word),
-        STOP => Stop::of_code(value).map(Stop::word),
+        STOP => StopReason::of_code(value).map(StopReason::word),
         _ => None,
     }
 }

@@ -11,7 +11,7 @@ use ppum_scene::facts::{self, Tip, all_tips};
 use ppum_scene::range::places;
 use ppum_solve::diagnostics::effort::{EffortError, check_effort};
 use ppum_solve::diagnostics::{kind, recompute};
-use ppum_solve::intensity::Outcome;
+use ppum_solve::intensity::TipOutcome;
 use ppum_solve::problem::Problem;
 use serde::Serialize;
 
@@ -158,7 +158,7 @@ fn computed(
     // the error is that of the stored field, which only its solver can estimate
     let stored = &dataset.steps[index].intensities;
     let error = |tip: TipId| stored.iter().find(|known| known.tip == tip)?.error;
-    let tip = |outcome: &Outcome| match &outcome.factors {
+    let tip = |outcome: &TipOutcome| match &outcome.factors {
         Some(factors) => {
             let factors = TipIntensity { error: error(outcome.tip), ..factors.clone() };
             Tip::new(dataset, index, &factors)

@@ -11,7 +11,7 @@ use ppum::dataset::{Dataset, Record, Step};
 use ppum_scene::facts::{self, Tip, all_tips};
 use ppum_scene::range::places;
 use ppum_solve::problem::Problem;
-use ppum_solve::report::{LinearKind, SolverReport, Stop};
+use ppum_solve::report::{LinearKind, SolverReport, StopReason};
 use ppum_solve::solve::Plan;
 use serde::Serialize;
 
@@ -195,7 +195,7 @@ impl Adaptation {
     /// None of a dataset that was solved once.
     fn new(dataset: &Dataset) -> Option<Self> {
         let last = SolverReport::of(&dataset.steps.last()?.history);
-        let stop = Stop::of_code(last.stop?)?.word();
+        let stop = StopReason::of_code(last.stop?)?.word();
         Some(Self { stop, steps: dataset.steps.iter().map(StepRow::new).collect() })
     }
 

@@ -7,13 +7,13 @@ use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2};
 
 /// A part of the border with the conditions on it, by their numbers.
-pub(super) struct Part {
+pub(super) struct BorderConditions {
     pub(super) on: BorderPart,
     conditions: Vec<usize>,
     bounds: Rect,
 }
 
-impl Part {
+impl BorderConditions {
     /// The parts of edges, the rims, and the faces of cracks.
     pub(super) fn all(problem: &Problem) -> Vec<Self> {
         let edges = Edge::ALL.into_iter().flat_map(|edge| pieces(problem, edge));

@@ -1,6 +1,6 @@
 //! What is given and not seen in a solution: sources, tractions and values.
 
-use super::border::Part;
+use super::border::BorderConditions;
 use super::span::unseen;
 use crate::assembly::border_rules;
 use crate::law::Law;
@@ -25,13 +25,13 @@ pub(super) fn unseen_data(
     stage: &Stage<'_>,
 ) -> Result<Vec<f64>, Halt> {
     let n = space.partition().len();
-    let data = Data {
+    let data = DataResidual {
         problem,
         field,
         space,
         law: Law::new(field.equation),
         quadrature: space.quadrature(0),
-        border: Part::all(problem),
+        border: BorderConditions::all(problem),
         has_source: problem.source.iter().any(|f| f.formula().constant().is_none()),
     };
     let mut squares = Vec::with_capacity(n);
@@ -40,19 +40,19 @@ pub(super) fn unseen_data(
     Ok(squares)
 }
 
-/// What is given, and the field that should obey it.
-struct Data<'a> {
+/// Prescribed data, and the field that should satisfy them.
+struct DataResidual<'a> {
     problem: &'a Problem,
     field: &'a Field<'a>,
     space: &'a Space<'a>,
     law: Law<'a>,
     quadrature: Quadrature<'a>,
-    border: Vec<Part>,
+    border: Vec<BorderConditions>,
     /// True if the source varies: a constant is a polynomial.
     has_source: bool,
 }
 
-impl Data<'_> {
+impl DataResidual<'_> {
     fn in_cell(&self, cell: usize) -> f64 {
         let (rect, order) = (&self.space.partition().cell[cell], self.space.order(cell));
         let near = self.border.iter().filter(|part| part.may_meet(rect));
@@ -97,7 +97,13 @@ impl Data<'_> {
     }
 
     /// The squares of what the field misses of the tractions and values at the points of a rule.
-    fn on_border(&self, part: &Part, rule: &EdgeRule, rect: &Rect, order: usize) -> f64 {
+    fn on_border(
+        &self,
+        part: &BorderConditions,
+        rule: &EdgeRule,
+        rect: &Rect,
+        order: usize,
+    ) -> f64 {
         let h = rect.size().x.max(rect.size().y);
         let (p, tips) = (order as f64, self.tips(rule));
         let (local, side) = match rule.face {

@@ -11,12 +11,12 @@ use ppum::dataset::{MAX_DEGREE, monomials};
 use ppum::polynomial::exponents;
 
 /// Rows a: x^a = Σ_k table\[a\]\[k\] P_k with Legendre polynomials of the norm 1 on \[−1, 1\].
-type Table = [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1];
+type LegendreTable = [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1];
 
 /// The powers in orthonormal Legendre polynomials: x P_k = b_k P_{k−1} + b_{k+1} P_{k+1} with
 /// b_k = k / √(4 k² − 1).
-fn powers() -> Table {
-    let mut table = Table::default();
+fn powers() -> LegendreTable {
+    let mut table = LegendreTable::default();
     table[0][0] = 2f64.sqrt();
     let b = |k: usize| k as f64 / ((4 * k * k) as f64 - 1.0).sqrt();
     for a in 1..=MAX_DEGREE {

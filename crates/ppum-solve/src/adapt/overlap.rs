@@ -47,7 +47,7 @@ pub(super) fn disagreements(
         let rules = space.rules(&quadrature, cell);
         for rule in rules.iter().filter(|rule| rule.patches.len() > 1) {
             evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
-            let seen = Seen { space, rule, shapes, coefficients: &coefficients, lonely };
+            let seen = SampledSolution { space, rule, shapes, coefficients: &coefficients, lonely };
             seen.add(&law, strains, &mut sum);
         }
         Ok(sum)
@@ -72,7 +72,7 @@ fn of_patch(fields: &[&FieldData], space: &Space<'_>, patch: usize) -> Mat<f64> 
 }
 
 /// Shapes at the points of a rule, and the coefficients of all patches.
-struct Seen<'a> {
+struct SampledSolution<'a> {
     space: &'a Space<'a>,
     rule: &'a Rule,
     shapes: &'a Shapes,
@@ -95,7 +95,7 @@ struct Products {
     dy: Vec<f64>,
 }
 
-impl Seen<'_> {
+impl SampledSolution<'_> {
     fn add(&self, law: &Law<'_>, strains: &mut Strains, sum: &mut Mat<f64>) {
         let mut products = self.products();
         let whole = [total(&products, |part| &part.dx), total(&products, |part| &part.dy)];

@@ -54,7 +54,7 @@ const STIFFEST: f64 = 1e3;
 
 /// The terms that a rule is for: the matrices, what is given, or both.
 #[derive(Clone, Copy, PartialEq)]
-enum Part {
+enum BorderTerms {
     Both,
     Stiffness,
     Data,
@@ -143,21 +143,21 @@ impl<'a> Border<'a> {
         shapes: &mut Shapes,
         system: &mut CellSystem,
     ) {
-        let own = piece.own.unwrap_or_default().iter().map(|rule| (rule, Part::Data));
-        let part = if piece.own.is_some() { Part::Stiffness } else { Part::Both };
-        for (rule, part) in piece.rules.iter().map(|rule| (rule, part)).chain(own) {
+        let own = piece.own.unwrap_or_default().iter().map(|rule| (rule, BorderTerms::Data));
+        let terms = if piece.own.is_some() { BorderTerms::Stiffness } else { BorderTerms::Both };
+        for (rule, terms) in piece.rules.iter().map(|rule| (rule, terms)).chain(own) {
             evaluator.evaluate_edge(rule, shapes);
             let numbers = system.functions.numbers(&rule.patches);
-            if part != Part::Stiffness {
+            if terms != BorderTerms::Stiffness {
                 self.load(piece, rule, &numbers, shapes, &mut system.load);
             }
             shapes.scale(&rule.weights);
             for i in (0..self.assembly.components()).filter(|&i| piece.held[i]) {
                 let trace = self.trace(i, rule, &numbers, shapes);
-                if part != Part::Data {
+                if terms != BorderTerms::Data {
                     self.hold(&trace, piece, rule);
                 }
-                if part != Part::Stiffness {
+                if terms != BorderTerms::Stiffness {
                     self.give(&trace, piece, rule);
                 }
             }

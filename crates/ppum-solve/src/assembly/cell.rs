@@ -22,7 +22,7 @@ pub(crate) type Data<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
 
 /// The source, and rules for it in a cell that take the place of the cell's.
 #[derive(Clone, Copy)]
-pub(crate) struct Source<'a> {
+pub(crate) struct SourceTerm<'a> {
     pub(crate) values: Data<'a>,
     pub(crate) rules: Option<&'a [Rule]>,
 }
@@ -61,7 +61,7 @@ impl<'s> CellAssembler<'s> {
         &mut self,
         cell: usize,
         rules: &[Rule],
-        source: Option<Source<'_>>,
+        source: Option<SourceTerm<'_>>,
         border: &[BorderPiece<'_>],
         known: Option<&Stiffness<'_>>,
     ) -> Result<(CellSystem, Option<CellMatrix>), EigenError> {

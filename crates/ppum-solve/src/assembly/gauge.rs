@@ -11,7 +11,7 @@
 //! are subtracted.
 
 use crate::basis::Shapes;
-use crate::equilibrium::{PerMode, Pieces, Plate, RigidModes};
+use crate::equilibrium::{BodyPieces, PerMode, Plate, RigidModes};
 use crate::linear::{BlockMatrix, LinearError, LinearSolver};
 use crate::quadrature::Rule;
 use faer::Mat;
@@ -30,7 +30,7 @@ struct Mode {
 
 /// The free modes of all pieces.
 pub(crate) struct FreeModes<'p> {
-    pieces: &'p Pieces,
+    pieces: &'p BodyPieces,
     modes: Vec<Mode>,
     /// Number of pieces that are free.
     groups: usize,

@@ -2,10 +2,10 @@
 //! own where those of the system do not resolve it.
 
 use super::border::BorderPiece;
-use super::cell::Source;
+use super::cell::SourceTerm;
 use super::loads::{LoadRules, border_rules, of_condition, of_source};
 use super::reaction::modes;
-use crate::equilibrium::{Balance, Pieces};
+use crate::equilibrium::{Balance, BodyPieces};
 use crate::problem::{BoundaryCondition, Problem};
 use crate::quadrature::{EdgeRule, Quadrature, Rule};
 use crate::report::Unresolved;
@@ -84,9 +84,9 @@ impl<'p> Given<'p> {
     }
 
     /// The source, with the rules that it has in a cell for its own.
-    pub(crate) fn source(&self, cell: usize) -> Option<Source<'_>> {
+    pub(crate) fn source(&self, cell: usize) -> Option<SourceTerm<'_>> {
         let values = self.source.as_deref()?;
-        Some(Source { values, rules: self.source_rules.of(cell) })
+        Some(SourceTerm { values, rules: self.source_rules.of(cell) })
     }
 
     /// The pieces of a cell's border on which something is given.
@@ -112,7 +112,7 @@ impl<'p> Given<'p> {
     pub(crate) fn balance(
         &self,
         space: &Space<'_>,
-        pieces: &Pieces,
+        pieces: &BodyPieces,
         stage: &Stage<'_>,
     ) -> Result<Vec<Balance>, Halt> {
         let components = self.problem.components();
@@ -173,9 +173,9 @@ impl<'p> GivenCondition<'p> {
 
 fn add_source(
     sum: &mut [Balance],
-    source: &Source<'_>,
+    source: &SourceTerm<'_>,
     rules: &[Rule],
-    pieces: &Pieces,
+    pieces: &BodyPieces,
     components: usize,
 ) {
     for rule in rules {
@@ -186,7 +186,12 @@ fn add_source(
     }
 }
 
-fn add_border(sum: &mut [Balance], piece: &BorderPiece<'_>, pieces: &Pieces, components: usize) {
+fn add_border(
+    sum: &mut [Balance],
+    piece: &BorderPiece<'_>,
+    pieces: &BodyPieces,
+    components: usize,
+) {
     let points = |rules: &[EdgeRule], visit: &mut dyn FnMut(usize, Vec2, Vec2, f64)| {
         for rule in rules {
             for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {

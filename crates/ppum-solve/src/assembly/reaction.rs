@@ -47,8 +47,8 @@ impl Restraint {
         &mut self,
         k: usize,
         mode: &[f64],
-        (tractions, traction_rows): Rows<'_>,
-        (values, value_rows): Rows<'_>,
+        (tractions, traction_rows): FunctionRows<'_>,
+        (values, value_rows): FunctionRows<'_>,
     ) {
         for (q, m) in mode.iter().enumerate() {
             for (a, &row) in traction_rows.iter().enumerate() {
@@ -76,7 +76,7 @@ impl Restraint {
 }
 
 /// Functions at points, and the cell's unknown of each row.
-type Rows<'a> = (faer::MatRef<'a, f64>, &'a [usize]);
+type FunctionRows<'a> = (faer::MatRef<'a, f64>, &'a [usize]);
 
 /// R_k = work_k · u + given_k, u the cell's unknowns.
 #[derive(Clone, Debug)]

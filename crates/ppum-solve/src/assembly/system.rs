@@ -49,7 +49,7 @@ struct CellFacts {
 }
 
 /// What a cell adds to a system.
-enum Part<'t> {
+enum CellContribution<'t> {
     /// All that there is.
     Whole(CellSystem, Stiffness<'t>),
     /// Its part in the factors of tips: the rest is known.
@@ -150,7 +150,8 @@ impl System {
                 if let Some(facts) = known(cell, &pieces) {
                     let rules = || space.rules(&quadrature, cell);
                     let near = !functionals.duals.is_far(cell);
-                    let duals = near.then(|| Part::Duals(assembler.duals(cell, &rules())));
+                    let duals =
+                        near.then(|| CellContribution::Duals(assembler.duals(cell, &rules())));
                     let seconds = start.elapsed().as_secs_f64();
                     return Ok((CellFacts { seconds, ..facts }, duals));
                 }
@@ -171,14 +172,17 @@ impl System {
                 let stiffness = made.or(template).expect("it is made unless there is a template");
                 let doubt = doubt_of(&rules, &pieces);
                 let seconds = start.elapsed().as_secs_f64();
-                Ok((CellFacts { points, doubt, seconds }, Some(Part::Whole(part, stiffness))))
+                Ok((
+                    CellFacts { points, doubt, seconds },
+                    Some(CellContribution::Whole(part, stiffness)),
+                ))
             },
             |cell, (facts, part)| {
                 system.cells.push(facts);
                 match part {
                     None => {}
-                    Some(Part::Duals(part)) => system.add_functionals(&part, &assembly),
-                    Some(Part::Whole(part, stiffness)) => {
+                    Some(CellContribution::Duals(part)) => system.add_functionals(&part, &assembly),
+                    Some(CellContribution::Whole(part, stiffness)) => {
                         let penalty = part.penalty * width(&space.partition().cell[cell]);
                         system.nitsche = system.nitsche.max(penalty);
                         system.add(part, &stiffness, &assembly);

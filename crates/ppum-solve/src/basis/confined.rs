@@ -61,7 +61,7 @@ pub(super) fn reductions(
     space: &Space<'_>,
     grams: &[Arc<Gram>],
     stage: &Stage<'_>,
-) -> Result<BTreeMap<usize, Vec<Part>>, Halt> {
+) -> Result<BTreeMap<usize, Vec<FunctionCombinations>>, Halt> {
     let jumps: Vec<Jump> =
         (0..grams.len()).flat_map(|i| lonely_jumps(space, i, &grams[i], is_jump)).collect();
     let shared = Shared { jumps: &jumps, grams, common: common(space, &jumps, stage)? };
@@ -71,7 +71,7 @@ pub(super) fn reductions(
         let place = || Halt::at(space.partition().support(jumps[i].patch));
         kept.insert(i, rows.map_err(|_| place())?);
     }
-    let mut parts: BTreeMap<usize, Vec<Part>> = BTreeMap::new();
+    let mut parts: BTreeMap<usize, Vec<FunctionCombinations>> = BTreeMap::new();
     for (i, rows) in kept.into_iter().filter(|(_, kept)| kept.lost > 0) {
         parts.entry(jumps[i].patch).or_default().push((jumps[i].functions.clone(), rows.rows));
     }
@@ -79,10 +79,10 @@ pub(super) fn reductions(
 }
 
 /// Functions of a patch, and the combinations of them that are kept.
-pub(super) type Part = (Range<usize>, Mat<f64>);
+pub(super) type FunctionCombinations = (Range<usize>, Mat<f64>);
 
-/// What is kept of a jump's functions.
-struct Kept {
+/// The combinations of a jump's functions that its patch keeps.
+struct ReducedJump {
     /// Orthonormal combinations [kept × functions].
     rows: Mat<f64>,
     /// Number of combinations that earlier patches have.
@@ -104,11 +104,15 @@ impl Shared<'_> {
     }
 
     /// What is kept of a jump beside what is kept of those before it.
-    fn kept(&self, i: usize, before: &BTreeMap<usize, Kept>) -> Result<Kept, EigenError> {
+    fn kept(
+        &self,
+        i: usize,
+        before: &BTreeMap<usize, ReducedJump>,
+    ) -> Result<ReducedJump, EigenError> {
         let rows = self.orthonormal(i)?;
         let partners: Vec<usize> = before.keys().copied().filter(|&n| self.has(n, i)).collect();
         if partners.is_empty() {
-            return Ok(Kept { rows, lost: 0 });
+            return Ok(ReducedJump { rows, lost: 0 });
         }
         let of = |n: usize| &before[&n].rows;
         let joint = blocks(&partners, &partners, &|a, b| self.product(a, b, of(a), of(b)));
@@ -120,7 +124,7 @@ impl Shared<'_> {
         let eigen = SymmetricEigen::new(lacking.as_ref())?;
         let kept = eigen.values.iter().take_while(|&&value| value > LACKING).count();
         let stays = eigen.vectors.subcols(0, kept).transpose() * &rows;
-        Ok(Kept { lost: rows.nrows() - kept, rows: stays })
+        Ok(ReducedJump { lost: rows.nrows() - kept, rows: stays })
     }
 
     fn has(&self, a: usize, b: usize) -> bool {
@@ -170,7 +174,7 @@ fn blocks(rows: &[usize], columns: &[usize], block: &dyn Fn(usize, usize) -> Mat
 
 /// The combinations of a patch's n functions that stay: all those not among the parts, and of these
 /// their rows.
-pub(super) fn matrix(n: usize, parts: &[Part]) -> Mat<f64> {
+pub(super) fn matrix(n: usize, parts: &[FunctionCombinations]) -> Mat<f64> {
     let is_whole = |k: &usize| !parts.iter().any(|(functions, _)| functions.contains(k));
     let whole: Vec<usize> = (0..n).filter(is_whole).collect();
     let rows = whole.len() + parts.iter().map(|(_, rows)| rows.nrows()).sum::<usize>();
@@ -261,7 +265,7 @@ fn common(
                 if here.len() > 1 {
                     evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
                     shapes.scale(&rule.weights);
-                    add_pairs(&Seen { space, rule, shapes }, jumps, &here, &mut parts);
+                    add_pairs(&WeightedShapes { space, rule, shapes }, jumps, &here, &mut parts);
                 }
             }
             Ok(parts)
@@ -290,7 +294,7 @@ impl Common {
 }
 
 /// Shapes times the roots of the weights at the points of a rule.
-struct Seen<'a> {
+struct WeightedShapes<'a> {
     space: &'a Space<'a>,
     rule: &'a Rule,
     shapes: &'a Shapes,
@@ -299,7 +303,7 @@ struct Seen<'a> {
 /// Adds the integrals of all pairs of jumps of different patches that are not zero at the
 /// same points.
 fn add_pairs(
-    seen: &Seen<'_>,
+    seen: &WeightedShapes<'_>,
     jumps: &[Jump],
     here: &[usize],
     parts: &mut Vec<((usize, usize), Common)>,
@@ -313,7 +317,7 @@ fn add_pairs(
     }
 }
 
-impl Seen<'_> {
+impl WeightedShapes<'_> {
     /// The first function of the patch among those of the rule.
     fn first(&self, patch: usize) -> usize {
         let before = self.rule.patches.iter().take_while(|&&p| p as usize != patch);

@@ -1,7 +1,7 @@
 //! The basis of one patch.
 
 use super::Gram;
-use super::confined::{Part, matrix};
+use super::confined::{FunctionCombinations, matrix};
 use super::tie::{self, tie};
 use super::transform::{CUT_OFF, Transform};
 use super::williams::{fields, parts};
@@ -83,11 +83,11 @@ impl LocalBasis {
         space: &Space<'_>,
         patch: usize,
         gram: &Gram,
-        confined: &[Part],
+        confined: &[FunctionCombinations],
     ) -> Result<Self, EigenError> {
         let series = parts(space, patch);
         let n_series: usize = series.iter().map(|(_, rows)| rows.nrows()).sum();
-        let all: Vec<Part> = confined.iter().cloned().chain(series).collect();
+        let all: Vec<FunctionCombinations> = confined.iter().cloned().chain(series).collect();
         let rows = (!all.is_empty()).then(|| matrix(space.evaluated(patch), &all));
         let first = rows.as_ref().map_or(space.evaluated(patch), Mat::nrows) - n_series;
         let transform = transform(gram, rows.as_ref(), [space.n_polynomials(patch), first])?;

@@ -4,7 +4,7 @@
 
 use super::williams::TipFrame;
 use crate::quadrature::{EdgeRule, Face};
-use crate::space::{ANGULAR, Origin, Series, Space};
+use crate::space::{ANGULAR, Origin, SeriesFunctions, Space};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use ppum::crack::Side;
@@ -223,19 +223,19 @@ fn groups_of(space: &Space<'_>, patches: &[u32]) -> Vec<usize> {
 }
 
 /// Functions of a patch that are evaluated together.
-struct Block {
+struct FunctionBatch {
     /// The place of the patch among those of the points.
     patch: usize,
     degree: usize,
     /// The constant that its function is shifted by.
     shift: f64,
     /// Its function, and of a series those after it; in place of the function 1 there is none.
-    functions: [Option<Entry>; GROUP],
+    functions: [Option<GroupEntry>; GROUP],
     series: Option<Terms>,
 }
 
 /// A function: the place of its group among those that are evaluated, and its entry there.
-type Entry = [usize; 2];
+type GroupEntry = [usize; 2];
 
 /// The terms of a series of a tip.
 #[derive(Clone, Copy)]
@@ -248,7 +248,7 @@ struct Terms {
 
 impl ShapeEvaluator<'_> {
     /// The functions of some patches seen from an anchor, in order.
-    fn blocks(&self, anchor: Vec2, patches: &[u32], groups: &[usize]) -> Vec<Block> {
+    fn blocks(&self, anchor: Vec2, patches: &[u32], groups: &[usize]) -> Vec<FunctionBatch> {
         let data = self.space.data();
         let of_patch = |(place, &patch): (usize, &u32)| {
             let all = self.space.series(patch as usize).iter();
@@ -262,7 +262,7 @@ impl ShapeEvaluator<'_> {
                     .clone()
                     .zip(&mut entries)
                     .for_each(|(b, entry)| *entry = self.entry(b, groups));
-                (functions.start == b).then(|| Block {
+                (functions.start == b).then(|| FunctionBatch {
                     patch: place,
                     degree: data.block_degree[b].into(),
                     shift: self.space.shifts[b],
@@ -277,7 +277,12 @@ impl ShapeEvaluator<'_> {
 
     /// The terms of a tip's series if these are evaluated as such, and the blocks that they take
     /// the place of.
-    fn terms(&self, anchor: Vec2, patch: u32, series: &Series) -> Option<(Range<usize>, Terms)> {
+    fn terms(
+        &self,
+        anchor: Vec2,
+        patch: u32,
+        series: &SeriesFunctions,
+    ) -> Option<(Range<usize>, Terms)> {
         let Origin::Tip(tip) = series.origin else { return None };
         let frame = TipFrame::new(self.space.step(), patch as usize, tip);
         let terms = Terms { count: series.terms(), frame, from_tip: anchor - frame.at };
@@ -285,7 +290,7 @@ impl ShapeEvaluator<'_> {
     }
 
     /// The function of a block.
-    fn entry(&self, block: usize, groups: &[usize]) -> Option<Entry> {
+    fn entry(&self, block: usize, groups: &[usize]) -> Option<GroupEntry> {
         match self.space.functions.of(self.space.data().block_function[block]) {
             Slot::One => None,
             Slot::Jet { group, entry } => {
@@ -304,7 +309,7 @@ struct Filling<'a, 's> {
     offsets: &'a [Vec2],
     patches: &'a [u32],
     groups: &'a [usize],
-    blocks: &'a [Block],
+    blocks: &'a [FunctionBatch],
     scratch: &'a mut Scratch<f64>,
     out: &'a mut Shapes,
 }
@@ -402,7 +407,7 @@ impl Filling<'_, '_> {
     #[inline(always)]
     fn products<R: Real<Scalar = f64>>(
         &mut self,
-        block: &Block,
+        block: &FunctionBatch,
         first: usize,
         points: &[[R; 2]],
         phi: &[Jet<R>],
@@ -434,7 +439,7 @@ impl Filling<'_, '_> {
     #[inline(always)]
     fn terms<R: Real<Scalar = f64>>(
         &mut self,
-        block: &Block,
+        block: &FunctionBatch,
         terms: &Terms,
         first: usize,
         points: &[[R; 2]],

@@ -9,13 +9,13 @@
 //!
 //! in the frame of the tip or of the wedge's bisector, from Kolosov's potentials φ = z^λ, ψ = b z^λ
 //! and φ = i z^λ, ψ = −i b z^λ. At a tip λ = n + ½ with b = 1 − λ and 1 + λ (Williams 1957), of a
-//! wedge they are [`Term`]s (Williams 1952). One unknown each: they *tie* the components of the
-//! functions c, s, C and S. Of Poisson's equation s alone leaves the faces of a crack free.
+//! wedge they are [`WedgeTerm`]s (Williams 1952). One unknown each: they *tie* the components of
+//! the functions c, s, C and S. Of Poisson's equation s alone leaves the faces of a crack free.
 
-use super::confined::Part;
+use super::confined::FunctionCombinations;
 use super::local::times;
-use crate::corner::{Symmetry, Term};
-use crate::space::{ANGULAR, Origin, Series, Space};
+use crate::corner::{Symmetry, WedgeTerm};
+use crate::space::{ANGULAR, Origin, SeriesFunctions, Space};
 use faer::Mat;
 use ppum::crack::TipId;
 use ppum::dataset::{BoxPartition, Elasticity, Equation, Step, monomials};
@@ -27,9 +27,9 @@ use std::ops::Range;
 type Polynomial = Vec<[f64; 2]>;
 
 /// The combinations that the functions of a patch's series are taken in.
-pub(super) fn parts(space: &Space<'_>, patch: usize) -> Vec<Part> {
+pub(super) fn parts(space: &Space<'_>, patch: usize) -> Vec<FunctionCombinations> {
     let is_scalar = space.equation().components() == 1;
-    let part = |(functions, series): (Range<usize>, &Series)| {
+    let part = |(functions, series): (Range<usize>, &SeriesFunctions)| {
         let n = functions.len();
         let rows = match series.origin {
             // s alone
@@ -67,7 +67,7 @@ pub(super) fn fields(space: &Space<'_>, patch: usize) -> Option<Vec<[Vec<f64>; 2
         return None;
     }
     let n = space.evaluated(patch);
-    let of_series = |(functions, series): (Range<usize>, &Series)| {
+    let of_series = |(functions, series): (Range<usize>, &SeriesFunctions)| {
         let fields = match series.origin {
             Origin::Tip(tip) => of_tip(space.step(), tip, series, body),
             Origin::Corner { at, bisector, term } => vec![of_corner(at, bisector, &term, body)],
@@ -85,13 +85,14 @@ pub(super) fn fields(space: &Space<'_>, patch: usize) -> Option<Vec<[Vec<f64>; 2
 type Field = [[f64; ANGULAR]; 2];
 
 /// The fields of a tip, of each term for opening and for sliding.
-fn of_tip(step: &Step, tip: TipId, series: &Series, body: &Elasticity) -> Vec<Field> {
+fn of_tip(step: &Step, tip: TipId, series: &SeriesFunctions, body: &Elasticity) -> Vec<Field> {
     let crack = &step.cracks[tip.crack as usize];
     let axis = crack.growth_direction(tip.end);
     let kappa = body.at(crack.end_point(tip.end)).kolosov();
     let modes = |n: usize| {
         let lambda = n as f64 + 0.5;
-        let term = |symmetry, factor| mode(kappa, &Term { exponent: lambda, symmetry, factor });
+        let term =
+            |symmetry, factor| mode(kappa, &WedgeTerm { exponent: lambda, symmetry, factor });
         let (opening, sliding) = (Symmetry::Symmetric, Symmetry::Antisymmetric);
         [term(opening, 1.0 - lambda), term(sliding, 1.0 + lambda)].map(|mode| world(&mode, axis))
     };
@@ -99,13 +100,13 @@ fn of_tip(step: &Step, tip: TipId, series: &Series, body: &Elasticity) -> Vec<Fi
 }
 
 /// The field of a corner.
-fn of_corner(at: Vec2, bisector: f64, term: &Term, body: &Elasticity) -> Field {
+fn of_corner(at: Vec2, bisector: f64, term: &WedgeTerm, body: &Elasticity) -> Field {
     world(&mode(body.at(at).kolosov(), term), vec2(bisector.cos(), bisector.sin()))
 }
 
 /// A term in the frame of the tip or corner.
-fn mode(kappa: f64, term: &Term) -> Field {
-    let Term { exponent: l, factor: b, symmetry } = *term;
+fn mode(kappa: f64, term: &WedgeTerm) -> Field {
+    let WedgeTerm { exponent: l, factor: b, symmetry } = *term;
     match symmetry {
         Symmetry::Symmetric => [[kappa - b, 0.0, -l, 0.0], [0.0, kappa + b, 0.0, l]],
         Symmetry::Antisymmetric => [[0.0, -(kappa + b), 0.0, l], [kappa - b, 0.0, l, 0.0]],
@@ -129,7 +130,7 @@ fn placed(part: &[f64], first: usize, n: usize) -> Vec<f64> {
 /// units of the farthest distance in the patch: \[4N, 4 monomials(N − 1)\].
 ///
 /// √r e^{iθ/2} = F₁ + iF₂ and √r e^{−3iθ/2} = (F₁ − 2F₃) + i(F₂ − 2F₄).
-fn angular(step: &Step, patch: usize, tip: TipId, series: &Series) -> Mat<f64> {
+fn angular(step: &Step, patch: usize, tip: TipId, series: &SeriesFunctions) -> Mat<f64> {
     let size = monomials(series.degree);
     let mut rows = Mat::zeros(ANGULAR * series.terms(), ANGULAR * size);
     for (n, power) in powers(step, patch, tip, series).iter().enumerate() {
@@ -171,7 +172,7 @@ impl TipFrame {
 }
 
 /// zⁿ for n up to N − 1, z being in the tip's frame and over the farthest distance in the patch.
-fn powers(step: &Step, patch: usize, tip: TipId, series: &Series) -> Vec<Polynomial> {
+fn powers(step: &Step, patch: usize, tip: TipId, series: &SeriesFunctions) -> Vec<Polynomial> {
     let (origin, scale) =
         (step.partition.boxes().origin[patch], step.partition.boxes().scale[patch]);
     let TipFrame { at, axis, unit } = TipFrame::new(step, patch, tip);

@@ -23,7 +23,7 @@ use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use sectors::{LOOK, Sector, Surroundings};
 use std::f64::consts::TAU;
-pub(crate) use wedge::{Symmetry, Term};
+pub(crate) use wedge::{Symmetry, WedgeTerm};
 
 /// Rounding of angles.
 const SAME_ANGLE: f64 = 1e-6;
@@ -64,7 +64,7 @@ pub(crate) struct Wedge {
     /// The side of the crack that it lies on, if what is beside it is material, too.
     pub(crate) side: Option<(u32, Side)>,
     /// Its fields that polynomials see badly.
-    pub(crate) terms: Vec<Term>,
+    pub(crate) terms: Vec<WedgeTerm>,
 }
 
 impl Corner {

@@ -40,7 +40,7 @@ pub(crate) enum Symmetry {
 
 /// A field of a wedge.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Term {
+pub(crate) struct WedgeTerm {
     /// λ
     pub(crate) exponent: f64,
     pub(crate) symmetry: Symmetry,
@@ -49,23 +49,23 @@ pub(crate) struct Term {
 }
 
 /// The fields of a wedge of an opening, by their exponents.
-pub(super) fn terms(opening: f64, constants: Constants) -> Vec<Term> {
+pub(super) fn terms(opening: f64, constants: Constants) -> Vec<WedgeTerm> {
     match constants {
         Constants::Elastic(_) => elastic(opening),
         Constants::Poisson => harmonic(opening),
     }
 }
 
-fn elastic(opening: f64) -> Vec<Term> {
+fn elastic(opening: f64) -> Vec<WedgeTerm> {
     let both = [(Symmetry::Symmetric, 1.0), (Symmetry::Antisymmetric, -1.0)];
     let of = |(symmetry, sign): (Symmetry, f64)| {
         let term = move |exponent: f64| {
             let factor = -(exponent * opening).cos() - sign * exponent * opening.cos();
-            Term { exponent, symmetry, factor }
+            WedgeTerm { exponent, symmetry, factor }
         };
         exponents(opening, sign).into_iter().map(term)
     };
-    let mut all: Vec<Term> = both.into_iter().flat_map(of).collect();
+    let mut all: Vec<WedgeTerm> = both.into_iter().flat_map(of).collect();
     all.sort_by(|a, b| a.exponent.total_cmp(&b.exponent));
     all
 }
@@ -98,11 +98,11 @@ fn rounded(exponent: f64) -> f64 {
     (exponent / ROUNDED).round() * ROUNDED
 }
 
-fn harmonic(opening: f64) -> Vec<Term> {
+fn harmonic(opening: f64) -> Vec<WedgeTerm> {
     let term = |k: u8| {
         let symmetry =
             if k.is_multiple_of(2) { Symmetry::Symmetric } else { Symmetry::Antisymmetric };
-        Term { exponent: rounded(f64::from(k) * PI / opening), symmetry, factor: 0.0 }
+        WedgeTerm { exponent: rounded(f64::from(k) * PI / opening), symmetry, factor: 0.0 }
     };
     (1..=4).map(term).filter(|term| term.exponent < TAKEN[1]).collect()
 }
@@ -114,7 +114,7 @@ mod tests {
 
     /// The resultant force of the tractions along a ray, r^λ times A e^{iλθ} + λ Ā e^{i(2−λ)θ} +
     /// B̄ e^{−iλθ}.
-    fn force(term: &Term, theta: f64) -> [f64; 2] {
+    fn force(term: &WedgeTerm, theta: f64) -> [f64; 2] {
         let lambda = term.exponent;
         let way = |angle: f64| [angle.cos(), angle.sin()];
         let times_i = |[re, im]: [f64; 2]| [-im, re];

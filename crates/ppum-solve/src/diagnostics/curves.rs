@@ -12,7 +12,7 @@
 //! that are looked at, where the formula of Euler and Maclaurin ends the sum.
 
 use super::{kind, short, warning};
-use crate::intensity::Outcome;
+use crate::intensity::TipOutcome;
 use ppum::crack::{Crack, End};
 use ppum::dataset::{TipIntensity, Warning};
 use ppum::vec2::Vec2;
@@ -32,7 +32,7 @@ pub(super) const LARGE_T: f64 = 0.01;
 
 /// The warning about T of a tip, if its crack may be meant as a curve.
 pub(super) fn of_curve(
-    outcome: &Outcome,
+    outcome: &TipOutcome,
     factors: &TipIntensity,
     crack: &Crack,
     at: &str,

@@ -23,8 +23,8 @@ pub(super) fn of_faces(field: &Field<'_>, seats: &Places) -> Vec<Warning> {
     cracks.filter_map(|(k, crack)| overlap(field, (k, crack), seats)).collect()
 }
 
-/// A place on a crack.
-struct Place {
+/// Opening and strain at a point of a crack.
+struct FaceSample {
     at: Vec2,
     /// Normal component of the jump.
     opening: f64,
@@ -35,7 +35,8 @@ struct Place {
 }
 
 fn overlap(field: &Field<'_>, (index, crack): (usize, &Crack), seats: &Places) -> Option<Warning> {
-    let places: Vec<Place> = places(crack, index).filter_map(|p| Place::new(field, p)).collect();
+    let places: Vec<FaceSample> =
+        places(crack, index).filter_map(|p| FaceSample::new(field, p)).collect();
     // an opening is small against other jumps, or against what the strain makes of the length
     let jump = places.iter().fold(0.0f64, |m, p| m.max(p.jump));
     let strain = places.iter().map(|p| p.strain).sum::<f64>() / places.len() as f64;
@@ -68,7 +69,7 @@ fn places(crack: &Crack, index: usize) -> impl Iterator<Item = (Vec2, SegmentId,
     })
 }
 
-impl Place {
+impl FaceSample {
     fn new(field: &Field<'_>, (at, on, normal): (Vec2, SegmentId, Vec2)) -> Option<Self> {
         let mut local = field.on(on, at);
         let mut face = |side: Side| {

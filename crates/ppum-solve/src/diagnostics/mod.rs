@@ -19,7 +19,7 @@ mod tips;
 
 pub use digits::{FEW_DIGITS, Rounding, rounding};
 
-use crate::intensity::{FACTORS_OF, Outcome, intensities_under};
+use crate::intensity::{FACTORS_OF, TipOutcome, intensities_under};
 use crate::problem::Problem;
 use crate::report::{SolverReport, Unresolved};
 use crate::space::Space;
@@ -114,7 +114,7 @@ pub mod kind {
 }
 
 /// A solution that is to be diagnosed.
-pub(crate) struct Case<'a> {
+pub(crate) struct DiagnosedSolution<'a> {
     pub(crate) dataset: &'a Dataset,
     /// Number of the step.
     pub(crate) step: usize,
@@ -159,7 +159,7 @@ pub fn recompute(
     step: usize,
     problem: Option<&Problem>,
     watcher: &dyn Watcher,
-) -> Result<(Vec<Outcome>, Vec<Warning>), RecomputeError> {
+) -> Result<(Vec<TipOutcome>, Vec<Warning>), RecomputeError> {
     let field = Field::new(dataset, step)?;
     field.on_boxes(FACTORS_OF)?;
     let Dataset { domain, equation, tables, .. } = dataset;
@@ -167,19 +167,19 @@ pub fn recompute(
     let tips = intensities_under(problem, dataset, &field, &space, watcher)?;
     let report = &SolverReport::of(&field.step.history);
     let (field, space) = (&field, &space);
-    let case = Case { dataset, step, field, space, problem, report, unresolved: &[] };
+    let case = DiagnosedSolution { dataset, step, field, space, problem, report, unresolved: &[] };
     let Diagnosis { warnings, .. } = case.diagnose(&tips, watcher)?;
     Ok((tips, warnings))
 }
 
-impl Case<'_> {
+impl DiagnosedSolution<'_> {
     /// The findings about the solution and its tips.
     ///
     /// # Errors
     /// Functions that do not compile; cancelled.
     pub(crate) fn diagnose(
         &self,
-        tips: &[Outcome],
+        tips: &[TipOutcome],
         watcher: &dyn Watcher,
     ) -> Result<Diagnosis, RecomputeError> {
         let Self { dataset, field, space, .. } = *self;

@@ -2,7 +2,7 @@
 
 use super::{LARGE_CUT_OFF, LARGE_IMBALANCE, LARGE_NITSCHE, LARGE_RESIDUAL, kind, warning};
 use crate::problem::Adaptivity;
-use crate::report::{SolverReport, Stop};
+use crate::report::{SolverReport, StopReason};
 use ppum::dataset::{Step, Warning};
 use ppum::domain::Domain;
 
@@ -32,7 +32,7 @@ pub(super) fn of_report(
 
 /// The warning about an adaptation that ended before the estimated error was as small as wanted.
 fn of_tolerance(report: &SolverReport, adaptivity: Option<&Adaptivity>) -> Option<Warning> {
-    let stop = Stop::of_code(report.stop?)?;
+    let stop = StopReason::of_code(report.stop?)?;
     let adaptivity = adaptivity?;
     let of_energy = report.estimated_error?.powi(2);
     let (key, wanted, found) = match (adaptivity.accuracy, adaptivity.tolerance) {
@@ -40,11 +40,11 @@ fn of_tolerance(report: &SolverReport, adaptivity: Option<&Adaptivity>) -> Optio
         (None, tolerance) => ("tolerance", tolerance?, report.estimated_error?),
     };
     let (reason, remedy) = match stop {
-        Stop::Tolerance => return None,
-        Stop::Steps => ("`steps` are made", "raise it"),
-        Stop::Unknowns => ("the next step would exceed `max_unknowns`", "raise it"),
-        Stop::Memory => ("the memory does not hold the next step", "give more of it"),
-        Stop::Limits => {
+        StopReason::Tolerance => return None,
+        StopReason::Steps => ("`steps` are made", "raise it"),
+        StopReason::Unknowns => ("the next step would exceed `max_unknowns`", "raise it"),
+        StopReason::Memory => ("the memory does not hold the next step", "give more of it"),
+        StopReason::Limits => {
             ("orders and cells are at their limits", "take another `kind` or smaller cells")
         }
     };

@@ -3,7 +3,7 @@
 use super::curves::of_curve;
 use super::{LARGE_ERROR, kind, short, warning};
 use crate::geometry::AMPLE_CLEARANCE;
-use crate::intensity::{Obstacle, Outcome};
+use crate::intensity::{Obstacle, TipOutcome};
 use ppum::crack::Crack;
 use ppum::dataset::{TipIntensity, Warning};
 use ppum::text::{Places, trimmed_to};
@@ -15,8 +15,8 @@ pub(super) const LARGE_SPREAD: f64 = 0.01;
 /// Part of |K| that K_I may be negative by where it should be zero.
 const NOISE: f64 = 1e-3;
 
-/// Part of the [strength](Outcome::strength) below which factors are rounding and discretisation: a
-/// crack along the load has none.
+/// Part of the [strength](TipOutcome::strength) below which factors are rounding and
+/// discretisation: a crack along the load has none.
 const NOTHING: f64 = 0.01;
 
 /// Distance of a tip to the border, in lengths of its crack, below which the ligament is nearly
@@ -27,8 +27,8 @@ const NEAR_BORDER: f64 = 0.05;
 const LEAST_CELLS: f64 = 4.0;
 
 /// The warnings about the tips of a step, whose cracks these are.
-pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack], places: &Places) -> Vec<Warning> {
-    let of_tip = |outcome: &Outcome| {
+pub(super) fn of_tips(outcomes: &[TipOutcome], cracks: &[Crack], places: &Places) -> Vec<Warning> {
+    let of_tip = |outcome: &TipOutcome| {
         let crack = &cracks[outcome.tip.crack as usize];
         let length = crack.length();
         let at = &places.show(outcome.at);
@@ -53,11 +53,11 @@ pub(super) fn of_tips(outcomes: &[Outcome], cracks: &[Crack], places: &Places) -
 }
 
 /// |K|, or more where that is nothing but noise.
-fn size(outcome: &Outcome, factors: &TipIntensity) -> f64 {
+fn size(outcome: &TipOutcome, factors: &TipIntensity) -> f64 {
     factors.k1.hypot(factors.k2).max(NOTHING * outcome.strength)
 }
 
-fn negative(outcome: &Outcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
+fn negative(outcome: &TipOutcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
     let k1 = factors.k1;
     let limit = -NOISE * size(outcome, factors);
     let message = format!(
@@ -68,7 +68,7 @@ fn negative(outcome: &Outcome, factors: &TipIntensity, at: &str) -> Option<Warni
     (k1 < limit).then(|| warning(kind::NEGATIVE_K1, Some(outcome.at), [k1, limit], message))
 }
 
-fn spread(outcome: &Outcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
+fn spread(outcome: &TipOutcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
     let spread = factors.largest_difference() / size(outcome, factors);
     let message = format!(
         "tip {at}: the values at three radii, which should agree, differ by {} % (no estimate of the error, \
@@ -79,7 +79,7 @@ fn spread(outcome: &Outcome, factors: &TipIntensity, at: &str) -> Option<Warning
         .then(|| warning(kind::SPREAD, Some(outcome.at), [spread, LARGE_SPREAD], message))
 }
 
-fn unresolved(outcome: &Outcome, tip: &str, place: &str) -> Option<Warning> {
+fn unresolved(outcome: &TipOutcome, tip: &str, place: &str) -> Option<Warning> {
     let error = outcome.doubt.functions;
     let message = format!(
         "tip {tip}: a function or a coefficient varies too fast around {place}: integrals over a piece of a cell in its disc \
@@ -89,7 +89,7 @@ fn unresolved(outcome: &Outcome, tip: &str, place: &str) -> Option<Warning> {
     (error > LARGE_ERROR).then(|| warning(kind::QUADRATURE, place, [error, LARGE_ERROR], message))
 }
 
-fn no_room(outcome: &Outcome, at: &str) -> Warning {
+fn no_room(outcome: &TipOutcome, at: &str) -> Warning {
     let (radius, needed) = (outcome.clearance.radius, outcome.needed());
     let message = if outcome.clearance.end == Obstacle::Interface {
         format!(
@@ -115,7 +115,7 @@ fn no_room(outcome: &Outcome, at: &str) -> Warning {
     warning(kind::NO_ROOM, Some(outcome.at), [radius, needed], message)
 }
 
-fn little_room(outcome: &Outcome, at: &str) -> Option<Warning> {
+fn little_room(outcome: &TipOutcome, at: &str) -> Option<Warning> {
     let (radius, ample) = (outcome.clearance.radius, AMPLE_CLEARANCE * outcome.cell);
     let little = outcome.factors.is_some() && radius < ample;
     little.then(|| {
@@ -130,7 +130,7 @@ fn little_room(outcome: &Outcome, at: &str) -> Option<Warning> {
     })
 }
 
-fn near_interface(outcome: &Outcome, at: &str) -> Option<Warning> {
+fn near_interface(outcome: &TipOutcome, at: &str) -> Option<Warning> {
     let (distance, ample) = (outcome.interface?, AMPLE_CLEARANCE * outcome.cell);
     outcome.factors.as_ref()?;
     let message = format!(
@@ -143,7 +143,7 @@ fn near_interface(outcome: &Outcome, at: &str) -> Option<Warning> {
     Some(warning(kind::NEAR_INTERFACE, Some(outcome.at), [distance, ample], message))
 }
 
-fn near_border(outcome: &Outcome, length: f64, at: &str) -> Option<Warning> {
+fn near_border(outcome: &TipOutcome, length: f64, at: &str) -> Option<Warning> {
     let (radius, limit) = (outcome.clearance.radius, NEAR_BORDER * length);
     let free = matches!(outcome.clearance.end, Obstacle::Border | Obstacle::Hole(_));
     (free && radius < limit).then(|| {
@@ -158,7 +158,7 @@ fn near_border(outcome: &Outcome, length: f64, at: &str) -> Option<Warning> {
     })
 }
 
-fn coarse(outcome: &Outcome, length: f64, at: &str) -> Option<Warning> {
+fn coarse(outcome: &TipOutcome, length: f64, at: &str) -> Option<Warning> {
     let cells = length / outcome.cell;
     (cells < LEAST_CELLS).then(|| {
         let message = format!(

@@ -1,7 +1,7 @@
 //! Restraints and loads of a piece of the plate: the rigid-body modes that nothing holds, and
 //! whether the loads are in equilibrium there.
 
-use super::pieces::Pieces;
+use super::pieces::BodyPieces;
 use super::rigid::{MODES, PerMode, RigidModes};
 use crate::linear::{EigenError, SymmetricEigen};
 use faer::Mat;
@@ -80,7 +80,7 @@ pub(crate) struct Balance {
 
 impl Balance {
     /// One balance per piece, all empty.
-    pub(crate) fn of(pieces: &Pieces, components: usize) -> Vec<Self> {
+    pub(crate) fn of(pieces: &BodyPieces, components: usize) -> Vec<Self> {
         let empty = |modes: RigidModes| Self {
             modes,
             held: [[0.0; MODES]; MODES],

@@ -1,13 +1,13 @@
 //! The pieces of a plate, what loads them and what holds them.
 
 use super::balance::{Balance, UnbalancedError};
-use super::pieces::{Piece, Pieces};
+use super::pieces::{BodyPiece, BodyPieces};
 use super::rigid::PerMode;
 use crate::linear::EigenError;
 
 /// A plate in equilibrium, piece by piece.
 pub(crate) struct Plate {
-    pub(crate) pieces: Pieces,
+    pub(crate) pieces: BodyPieces,
     /// Restraints and loads of each piece.
     pub(crate) balances: Vec<Balance>,
     /// The rigid-body modes of each piece that nothing holds.
@@ -30,9 +30,9 @@ impl Plate {
     ///
     /// # Errors
     /// Loads that do work on free modes, data that are not finite.
-    pub(crate) fn new(pieces: Pieces, balances: Vec<Balance>) -> Result<Self, PlateError> {
+    pub(crate) fn new(pieces: BodyPieces, balances: Vec<Balance>) -> Result<Self, PlateError> {
         let several = pieces.all().len() > 1;
-        let of_piece = |(balance, piece): (&Balance, &Piece)| {
+        let of_piece = |(balance, piece): (&Balance, &BodyPiece)| {
             let free = balance.free()?;
             balance.check(&free, several.then_some(piece.inside))?;
             Ok(free)

@@ -77,7 +77,7 @@ struct Before {
 }
 
 /// A series on its way.
-struct Series<'a> {
+struct GrowthSeries<'a> {
     rule: &'a GrowthRule,
     memory: Option<u64>,
     /// Integrals that the steps have in common.
@@ -101,7 +101,7 @@ pub fn grow<E>(
 ) -> Result<(), GrowthError<E>> {
     let single = GrowthRule::new(0);
     let rule = problem.growth.as_ref().unwrap_or(&single);
-    let series = Series { rule, memory, shelf: Shelf::default() };
+    let series = GrowthSeries { rule, memory, shelf: Shelf::default() };
     let (mut number, mut current, mut before) = match start(problem, last) {
         Some(start) => start,
         None => return Ok(()),
@@ -205,7 +205,7 @@ impl Obstacle {
     }
 }
 
-impl Series<'_> {
+impl GrowthSeries<'_> {
     /// The plan of a problem whose loads balance.
     fn plan<'p>(
         &'p self,

@@ -6,7 +6,7 @@
 
 use super::criterion::kink;
 use super::decision::{bent, grown};
-use super::{Before, Series};
+use super::{Before, GrowthSeries};
 use crate::problem::Criterion;
 use crate::solve::{Attempt, Plan, SolveError};
 use ppum::crack::{Crack, TipId};
@@ -26,7 +26,7 @@ const ROUNDS: usize = 8;
 pub(super) fn settled(
     plan: Plan<'_>,
     before: Option<&Before>,
-    series: &Series<'_>,
+    series: &GrowthSeries<'_>,
     watcher: &dyn Watcher,
 ) -> Result<(Vec<Crack>, Dataset), SolveError> {
     let cracks = plan.problem().cracks.clone();

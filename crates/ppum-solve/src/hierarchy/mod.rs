@@ -37,7 +37,7 @@ pub(crate) struct Finest<'a> {
 }
 
 /// A level while the next coarser one is made.
-struct Level<'p> {
+struct FinerLevel<'p> {
     space: Space<'p>,
     basis: StableBasis,
 }
@@ -58,7 +58,7 @@ impl Finest<'_> {
     pub(crate) fn coarser(&self, stage: &Stage<'_>) -> Result<Vec<Coarse>, Cancelled> {
         let components = self.problem.components();
         let mut levels: Vec<Coarse> = Vec::new();
-        let mut last: Option<Level<'_>> = None;
+        let mut last: Option<FinerLevel<'_>> = None;
         let mut mesh = self.mesh.clone();
         loop {
             let (space, basis) = last
@@ -86,7 +86,11 @@ impl Finest<'_> {
     }
 
     /// The problem on a mesh.
-    fn level(&self, mesh: &Mesh, stage: &Stage<'_>) -> Result<(Level<'_>, BlockMatrix), Trouble> {
+    fn level(
+        &self,
+        mesh: &Mesh,
+        stage: &Stage<'_>,
+    ) -> Result<(FinerLevel<'_>, BlockMatrix), Trouble> {
         let problem = self.problem;
         let step = discretise_on(problem, mesh, stage)?;
         let space = Space::of_problem(problem, step).map_err(|_| Trouble::TooCoarse)?;
@@ -99,7 +103,7 @@ impl Finest<'_> {
         let given = Given::restraints(problem);
         let system = System::new(assembly, &given, Functionals { free, duals }, None, stage)?;
         let matrix = system.matrix;
-        Ok((Level { space, basis }, matrix))
+        Ok((FinerLevel { space, basis }, matrix))
     }
 }
 

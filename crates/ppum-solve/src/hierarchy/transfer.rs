@@ -33,16 +33,16 @@ use ppum::vec2::Vec2;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// A level as transfers see it.
-type Level<'a> = (&'a Space<'a>, &'a StableBasis);
+/// The space and the stable basis of a level.
+type SpaceWithBasis<'a> = (&'a Space<'a>, &'a StableBasis);
 
 /// The transfer between two levels.
 ///
 /// # Errors
 /// Cancelled.
 pub(super) fn transfer(
-    fine: Level<'_>,
-    coarse: Level<'_>,
+    fine: SpaceWithBasis<'_>,
+    coarse: SpaceWithBasis<'_>,
     stage: &Stage<'_>,
 ) -> Result<Transfer, Halt> {
     let between = Between { fine, coarse, parents: parents(fine.0, coarse.0) };
@@ -80,8 +80,8 @@ fn parents(fine: &Space<'_>, coarse: &Space<'_>) -> Vec<Option<u32>> {
 
 /// Two levels.
 struct Between<'a> {
-    fine: Level<'a>,
-    coarse: Level<'a>,
+    fine: SpaceWithBasis<'a>,
+    coarse: SpaceWithBasis<'a>,
     parents: Vec<Option<u32>>,
 }
 

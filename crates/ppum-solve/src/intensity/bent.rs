@@ -1,7 +1,7 @@
 //! The part of the interaction integral that comes from the faces of the crack behind its kinks.
 
 use super::auxiliary::{Gradients, stress, work};
-use super::course::Part;
+use super::course::CourseSegment;
 use super::integral::{Integrals, Interaction, cut_off, in_frame, square, turned};
 use crate::quadrature::{EdgeRule, Face, Quadrature};
 use ppum::crack::{SegmentId, Side};
@@ -11,7 +11,7 @@ use ppum::vec2::{Vec2, vec2};
 /// A piece of the crack in a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bend {
-    pub(super) part: Part,
+    pub(super) part: CourseSegment,
     pub(super) ends: [Vec2; 2],
     pub(super) cell: usize,
 }
@@ -34,7 +34,12 @@ impl Interaction<'_> {
     }
 
     /// The points of a rule on one face.
-    fn along(&self, part: &Part, Face { segment, side }: Face, rule: &EdgeRule) -> Integrals {
+    fn along(
+        &self,
+        part: &CourseSegment,
+        Face { segment, side }: Face,
+        rule: &EdgeRule,
+    ) -> Integrals {
         let tip = self.course.on(part, rule.anchor);
         let mut jets = vec![Jet::constant(0.0); 2 * rule.offsets.len()];
         let local = self.field.on(segment, rule.anchor);

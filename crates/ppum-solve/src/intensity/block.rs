@@ -21,7 +21,7 @@ pub(super) struct Local {
 }
 
 /// Points that see a tip from one anchor.
-pub(super) struct Block<'b> {
+pub(super) struct PointBlock<'b> {
     tip: &'b Interaction<'b>,
     local_tip: LocalTip,
     anchor: Vec2,
@@ -30,7 +30,7 @@ pub(super) struct Block<'b> {
     locals: Option<Vec<Local>>,
 }
 
-impl<'b> Block<'b> {
+impl<'b> PointBlock<'b> {
     pub(super) fn new(tip: &'b Interaction<'b>, anchor: Vec2, offsets: &'b [Vec2]) -> Self {
         let local = |&offset: &Vec2| tip.local(anchor + offset);
         let locals = tip.has_sources().then(|| offsets.iter().map(local).collect());
@@ -85,8 +85,8 @@ impl<'b> Block<'b> {
     }
 }
 
-/// A place, and the field there in the tip's frame.
-struct Place<R> {
+/// A point and the field there, in the tip's frame.
+struct FieldSample<R> {
     point: TipPoint<R>,
     u: Gradients<R>,
     lame: [R; 2],
@@ -100,7 +100,7 @@ struct Integrands<R> {
     stress: Gradients<R>,
 }
 
-impl<R: Real> Place<R> {
+impl<R: Real> FieldSample<R> {
     /// The integrands in a body that has the constants `lame` at the tip.
     #[inline(always)]
     fn integrands<const D: usize>(
@@ -157,7 +157,7 @@ fn energy_flow<R: Real>(stress: &Gradients<R>, u: &Gradients<R>, point: &TipPoin
 
 /// The sums of all integrands over the points of a block, in their order.
 struct Sums<'b> {
-    block: &'b Block<'b>,
+    block: &'b PointBlock<'b>,
     weights: &'b [f64],
     gradients: &'b [Gradients],
     /// E_j,j, if it is not zero.
@@ -192,7 +192,7 @@ impl Sums<'_> {
     /// The integrands at the points from one on.
     #[inline(always)]
     fn densities<R: Real<Scalar = f64>, const D: usize>(&self, first: usize, zero: R) -> [R; SUMS] {
-        let Block { tip, .. } = self.block;
+        let PointBlock { tip, .. } = self.block;
         let at = |k: usize| (first + k).min(self.weights.len() - 1);
         let (lame, force) = self.block.locals(first, zero);
         let u = [
@@ -205,14 +205,14 @@ impl Sums<'_> {
                 zero.with_lanes(|k| self.gradients[at(k)][1][1]),
             ],
         ];
-        let place = Place { point: self.block.points(first, zero), u, lame, force };
-        let auxiliary = tip.body.fields::<R, D>(&place.point);
-        let of = place.integrands::<D>(tip.body.lame, &auxiliary);
+        let sample = FieldSample { point: self.block.points(first, zero), u, lame, force };
+        let auxiliary = tip.body.fields::<R, D>(&sample.point);
+        let of = sample.integrands::<D>(tip.body.lame, &auxiliary);
         let source = match &self.energies {
             Some(energies) => zero.with_lanes(|k| energies[at(k)]),
             None => zero,
         };
-        let square = square(&place.point);
+        let square = square(&sample.point);
         let mut densities = [zero; SUMS];
         let mut last = (zero, zero);
         for (modes, radius) in densities.chunks_exact_mut(MODES).zip(tip.radii) {
@@ -221,16 +221,16 @@ impl Sums<'_> {
                 *density = last.1 * *flow + last.0 * source;
             }
         }
-        let energy = energy_flow(&of.stress, &place.u, &place.point);
+        let energy = energy_flow(&of.stress, &sample.u, &sample.point);
         densities[SUMS - 2] = last.1 * energy + last.0 * source;
-        densities[SUMS - 1] = work(&of.stress, &place.u);
+        densities[SUMS - 1] = work(&of.stress, &sample.u);
         densities
     }
 }
 
 /// What the integrands over the largest disc are of ∇u, times E′/2 and the weights.
 struct Kernels<'b> {
-    block: &'b Block<'b>,
+    block: &'b PointBlock<'b>,
     weights: &'b [f64],
 }
 
@@ -268,7 +268,7 @@ impl Kernels<'_> {
         first: usize,
         zero: R,
     ) -> [[[R; FACTORS]; 2]; 2] {
-        let Block { tip, .. } = self.block;
+        let PointBlock { tip, .. } = self.block;
         let (lame, force) = self.block.locals(first, zero);
         let point = self.block.points(first, zero);
         let auxiliary = tip.body.fields::<R, D>(&point);
@@ -279,7 +279,8 @@ impl Kernels<'_> {
             for (axis, of_modes) in of_component.iter_mut().enumerate() {
                 let [[a, b], [c, d]] = unit(component, axis, tip.axis);
                 let u = [[zero.lit(a), zero.lit(b)], [zero.lit(c), zero.lit(d)]];
-                let of = Place { point, u, lame, force }.integrands::<D>(tip.body.lame, &auxiliary);
+                let of = FieldSample { point, u, lame, force }
+                    .integrands::<D>(tip.body.lame, &auxiliary);
                 for (density, (flow, source)) in
                     of_modes.iter_mut().zip(of.flows.iter().zip(of.sources))
                 {

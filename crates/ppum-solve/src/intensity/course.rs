@@ -26,7 +26,7 @@ pub(super) struct Course {
 
 /// One segment of a course, as far as it lies in the disc.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct CourseSegment {
     /// Its number in the course, and in the whole crack.
     local: u32,
     pub(super) segment: u32,
@@ -67,12 +67,12 @@ impl Course {
     }
 
     /// The same for points that lie on a part.
-    pub(super) fn on(&self, part: &Part, anchor: Vec2) -> LocalTip {
+    pub(super) fn on(&self, part: &CourseSegment, anchor: Vec2) -> LocalTip {
         LocalTip::on(&self.crack, part.local, self.tip.end, anchor)
     }
 
     /// The segments, from the tip on, up to the border of the disc.
-    pub(super) fn parts(&self) -> impl Iterator<Item = Part> {
+    pub(super) fn parts(&self) -> impl Iterator<Item = CourseSegment> {
         let points: Vec<Vec2> = from_tip(&self.crack, self.tip.end).collect();
         let last = points.len() - 2;
         (0..=last).map(move |k| {
@@ -82,14 +82,14 @@ impl Course {
             };
             let (segment, whole) = ((self.first + local) as u32, [points[k], points[k + 1]]);
             let to = reached(whole, points[0], self.radius);
-            Part { local: local as u32, segment, ends: [whole[0], to], is_first: k == 0 }
+            CourseSegment { local: local as u32, segment, ends: [whole[0], to], is_first: k == 0 }
         })
     }
 
     /// The pieces of a part between which its distance to the tip takes the given values, or
     /// doubles. Those of the segment at the tip begin with one from there, on which only the field
     /// itself is singular.
-    pub(super) fn pieces(&self, part: &Part, at: &[f64]) -> Vec<[Vec2; 2]> {
+    pub(super) fn pieces(&self, part: &CourseSegment, at: &[f64]) -> Vec<[Vec2; 2]> {
         let center = self.center();
         let [from, to] = part.ends.map(|p| (p - center).length());
         let from = from.max(to * FIRST);

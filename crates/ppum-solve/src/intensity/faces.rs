@@ -2,7 +2,7 @@
 
 use super::FaceLoad;
 use super::auxiliary::Body;
-use super::course::{Course, Part};
+use super::course::{Course, CourseSegment};
 use super::integral::{Modes, cut_off, square, turned};
 use crate::quadrature::{GaussRule, closed, gauss};
 use ppum::crack::{LocalTip, Side};
@@ -43,7 +43,7 @@ const BALANCED: f64 = 1e-5;
 type Panel = ([f64; 2], Modes);
 
 /// A part of the crack, and the tip as seen from it.
-type Seen<'s> = (&'s Part, &'s LocalTip);
+type SegmentAtTip<'s> = (&'s CourseSegment, &'s LocalTip);
 
 /// The faces of a crack behind one tip, in the discs around it.
 pub(super) struct Faces<'a> {
@@ -64,12 +64,12 @@ impl Faces<'_> {
         self.course.parts().map(|part| self.part(&part)).fold(zero(), plus)
     }
 
-    fn part(&self, part: &Part) -> Modes {
+    fn part(&self, part: &CourseSegment) -> Modes {
         self.resolved(part).into_iter().fold(zero(), |sum, (_, modes)| plus(sum, modes))
     }
 
     /// The distances to the tip at which a part has to be divided for its loads.
-    pub(super) fn breaks(&self, part: &Part) -> Vec<f64> {
+    pub(super) fn breaks(&self, part: &CourseSegment) -> Vec<f64> {
         let [from, to] = part.ends.map(|p| p - self.course.center());
         let along = |s: f64| if part.is_first { s * s } else { s };
         let panels = self.resolved(part);
@@ -79,7 +79,7 @@ impl Faces<'_> {
     }
 
     /// Panels that resolve the loads on a part.
-    fn resolved(&self, part: &Part) -> Vec<Panel> {
+    fn resolved(&self, part: &CourseSegment) -> Vec<Panel> {
         let tip = &self.course.on(part, self.course.center());
         let at = |k: u32| f64::from(k) / f64::from(PANELS);
         let mut open: Vec<_> =
@@ -109,18 +109,23 @@ impl Faces<'_> {
         done
     }
 
-    fn halves(&self, of: Seen<'_>, [from, to]: [f64; 2]) -> [Panel; 2] {
+    fn halves(&self, of: SegmentAtTip<'_>, [from, to]: [f64; 2]) -> [Panel; 2] {
         let between = from + SHARE * (to - from);
         [[from, between], [between, to]].map(|ends| self.panel(of, ends))
     }
 
-    fn panel(&self, of: Seen<'_>, ends: [f64; 2]) -> Panel {
+    fn panel(&self, of: SegmentAtTip<'_>, ends: [f64; 2]) -> Panel {
         (ends, self.integral(of, ends, gauss(ORDER)))
     }
 
     /// A rule on an interval of the unit interval. At the tip the square of its coordinate goes
     /// along the part: then the integrand has no singularity.
-    fn integral(&self, (part, tip): Seen<'_>, [from, to]: [f64; 2], rule: &GaussRule) -> Modes {
+    fn integral(
+        &self,
+        (part, tip): SegmentAtTip<'_>,
+        [from, to]: [f64; 2],
+        rule: &GaussRule,
+    ) -> Modes {
         let length = (part.ends[1] - part.ends[0]).length();
         let node = |(s, ds): (f64, f64)| {
             let (along, slope) = if part.is_first { (s * s, 2.0 * s) } else { (s, 1.0) };
@@ -130,7 +135,7 @@ impl Faces<'_> {
     }
 
     /// −t_i uᵃ_i,1 q of both faces, `along` going from 0 to 1 along the part.
-    fn at(&self, (part, tip): Seen<'_>, along: f64) -> Modes {
+    fn at(&self, (part, tip): SegmentAtTip<'_>, along: f64) -> Modes {
         let [from, to] = part.ends;
         let offset = (from - self.course.center()) + (to - from) * along;
         let of_side = |side: Side| {

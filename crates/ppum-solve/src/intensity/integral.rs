@@ -3,7 +3,7 @@
 use super::Loads;
 use super::auxiliary::{Auxiliary, Body, Gradients};
 use super::bent::Bend;
-use super::block::{Block, Local};
+use super::block::{Local, PointBlock};
 use super::course::Course;
 use super::faces::{Faces, pressed};
 use super::slope::Slope;
@@ -54,18 +54,18 @@ pub(super) struct Integrals {
     pub(super) doubt: Doubt,
 }
 
-/// The findings at a tip.
-pub(super) struct Found {
+/// The integrals of a tip, ring by ring, and what follows from them.
+pub(super) struct TipIntegrals {
     pub(super) rings: [Ring; RINGS],
     pub(super) t_stress: Option<f64>,
     pub(super) j: Option<f64>,
-    /// See [`Outcome::strength`](super::Outcome::strength).
+    /// See [`TipOutcome::strength`](super::TipOutcome::strength).
     pub(super) strength: f64,
     /// Errors that quadrature leaves in the discs.
     pub(super) doubt: Doubt,
 }
 
-impl Found {
+impl TipIntegrals {
     /// The same as they are stored: the values of the largest disc, whose integral averages most.
     pub(super) fn factors(&self, tip: TipId) -> TipIntensity {
         let Ring { k1, k2, .. } = self.rings[RINGS - 1];
@@ -201,7 +201,7 @@ impl<'a> Interaction<'a> {
         let known = seen.take().filter(|local| local.anchor == rule.anchor);
         let local = seen.insert(known.unwrap_or_else(|| self.field.at(rule.anchor)));
         local.evaluate_over::<1>(&offsets, Side::Above, &rule.patches, &mut jets);
-        Block::new(self, rule.anchor, &offsets).integrals(&weights, &jets)
+        PointBlock::new(self, rule.anchor, &offsets).integrals(&weights, &jets)
     }
 
     /// E′ at the tip.
@@ -246,7 +246,7 @@ impl<'a> Interaction<'a> {
     /// K = E′/2 M, and T = E′M + σ_22. Of the part of the field that is constant at the tip the
     /// force sees ε_11 by its work, and σ_22 by the opening of its own field, u_2(−π) − u_2(π) =
     /// (κ − 1)/(4μ): together E′M = σ_11 − σ_22.
-    fn found(&self, integrals: &Integrals) -> Found {
+    fn integrals(&self, integrals: &Integrals) -> TipIntegrals {
         let modulus = self.modulus();
         let rings = std::array::from_fn(|k| {
             let [m1, m2, _] = integrals.modes[k];
@@ -254,7 +254,7 @@ impl<'a> Interaction<'a> {
         });
         let of_force = modulus * integrals.modes[RINGS - 1][2];
         let strength = (modulus * integrals.energy.max(0.0) / self.largest()).sqrt();
-        Found {
+        TipIntegrals {
             rings,
             t_stress: self.pressed.map(|pressed| of_force + pressed).filter(|t| t.is_finite()),
             j: self.slope.as_ref().map(|_| integrals.j).filter(|j| j.is_finite()),
@@ -275,8 +275,8 @@ const DIVISION_POINTS: usize = 1 << 10;
 /// Pieces of work that are done at a time.
 const BATCH: usize = 1 << 14;
 
-/// A piece of the work at a tip, given by its number.
-enum Work {
+/// A region to integrate over at a tip, which its number gives.
+enum TipRegion {
     Cell(usize, usize),
     Bend(usize, Bend),
 }
@@ -285,21 +285,21 @@ enum Work {
 ///
 /// # Errors
 /// Cancelled.
-pub(super) fn found<'a>(
+pub(super) fn integrate_tips<'a>(
     space: &Space<'_>,
     tips: &[Interaction<'a>],
     watcher: &dyn Watcher,
-) -> Result<Vec<Found>, Cancelled> {
+) -> Result<Vec<TipIntegrals>, Cancelled> {
     let near = Placed::new(space.partition().cell.iter().copied().zip(0..));
     let of_tip = |(k, tip): (usize, &Interaction<'_>)| {
-        let of_cells = tip.cells(&near).map(|c| Work::Cell(k, c));
-        of_cells.chain(tip.bends(&near).into_iter().map(|bend| Work::Bend(k, bend))).collect()
+        let of_cells = tip.cells(&near).map(|c| TipRegion::Cell(k, c));
+        of_cells.chain(tip.bends(&near).into_iter().map(|bend| TipRegion::Bend(k, bend))).collect()
     };
-    let work: Vec<Vec<Work>> = tips.par_iter().enumerate().map(of_tip).collect();
-    let count = |is_counted: fn(&Work) -> bool| {
+    let work: Vec<Vec<TipRegion>> = tips.par_iter().enumerate().map(of_tip).collect();
+    let count = |is_counted: fn(&TipRegion) -> bool| {
         work.iter().flatten().filter(|work| is_counted(work)).count().max(1)
     };
-    let cells_of_tips = count(|work| matches!(work, Work::Cell(..)));
+    let cells_of_tips = count(|work| matches!(work, TipRegion::Cell(..)));
     let stage = Stage::new(watcher, Phase::Intensity, count(|_| true))?;
     let operations = space.probe_operations().max(1);
     let divisions = MOST_DIVISIONS.min(DIVISION_OPERATIONS / (DIVISION_POINTS * operations));
@@ -312,10 +312,10 @@ pub(super) fn found<'a>(
         if batch.is_empty() {
             break;
         }
-        let part = |seen: &mut Option<LocalField<'a>>, work: &Work| {
+        let part = |seen: &mut Option<LocalField<'a>>, work: &TipRegion| {
             stage.advance(1).map(|()| match work {
-                Work::Cell(k, c) => (*k, tips[*k].cell(&quadrature, seen, *c)),
-                Work::Bend(k, bend) => (*k, tips[*k].bend(&finer, bend)),
+                TipRegion::Cell(k, c) => (*k, tips[*k].cell(&quadrature, seen, *c)),
+                TipRegion::Bend(k, bend) => (*k, tips[*k].bend(&finer, bend)),
             })
         };
         let parts: Vec<_> = batch.par_iter().map_init(|| None, part).collect();
@@ -324,7 +324,7 @@ pub(super) fn found<'a>(
             integrals[k] = integrals[k].plus(part);
         }
     }
-    Ok(tips.iter().zip(integrals).map(|(tip, sums)| tip.found(&sums)).collect())
+    Ok(tips.iter().zip(integrals).map(|(tip, sums)| tip.integrals(&sums)).collect())
 }
 
 impl Integrals {

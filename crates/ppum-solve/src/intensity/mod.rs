@@ -66,7 +66,7 @@ use crate::problem::Problem;
 pub use crate::quadrature::Doubt;
 use crate::space::Space;
 use crate::watched::Stage;
-use integral::{Interaction, RINGS, found};
+use integral::{Interaction, RINGS, integrate_tips};
 use ppum::crack::{Side, TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::field::{Field, FieldError};
@@ -106,7 +106,7 @@ pub struct Loads<'a> {
 
 /// The findings about a tip.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
+pub struct TipOutcome {
     /// The tip.
     pub tip: TipId,
     /// Its place.
@@ -118,7 +118,7 @@ pub struct Outcome {
     /// Distance to the nearest interface of two materials, if it is within the clearance and nearer
     /// than two of these cells.
     pub interface: Option<f64>,
-    /// Its factors; none if the clearance is too small for them, see [`Outcome::needed`].
+    /// Its factors; none if the clearance is too small for them, see [`TipOutcome::needed`].
     pub factors: Option<TipIntensity>,
     /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that
     /// K has where the crack concentrates stress, and far above K where nothing does. Zero
@@ -128,7 +128,7 @@ pub struct Outcome {
     pub doubt: Doubt,
 }
 
-impl Outcome {
+impl TipOutcome {
     /// Radius of the clearance below which a tip has no factors.
     #[must_use]
     pub fn needed(&self) -> f64 {
@@ -158,19 +158,19 @@ pub fn intensities(
     space: &Space<'_>,
     loads: Loads<'_>,
     watcher: &dyn Watcher,
-) -> Result<Vec<Outcome>, Cancelled> {
+) -> Result<Vec<TipOutcome>, Cancelled> {
     if dataset.equation.elastic().is_none() || field.components() != dataset.equation.components() {
         return Ok(Vec::new());
     }
     let stage = Stage::uncounted(watcher, Phase::Intensity)?;
-    let outcome = |tip| stage.advance(0).map(|()| Outcome::new(dataset, space, tip));
+    let outcome = |tip| stage.advance(0).map(|()| TipOutcome::new(dataset, space, tip));
     let mut tips = tips(&field.step.cracks).map(outcome).collect::<Result<Vec<_>, _>>()?;
     let wanted: Vec<_> = tips.iter_mut().filter(|outcome| outcome.has_room()).collect();
     let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.clearance.radius)));
     let integrals: Vec<_> = discs
         .filter_map(|(tip, radii)| Interaction::new(field, space, tip, radii, loads))
         .collect();
-    for (outcome, found) in wanted.into_iter().zip(found(space, &integrals, watcher)?) {
+    for (outcome, found) in wanted.into_iter().zip(integrate_tips(space, &integrals, watcher)?) {
         outcome.strength = found.strength;
         outcome.doubt = found.doubt;
         outcome.factors = Some(found.factors(outcome.tip));
@@ -243,7 +243,7 @@ pub fn on_circle(
     let radii = RADII.map(|part| part / RADII[RINGS - 1] * radius);
     let found = under(problem, field.step.load, |loads| {
         let integral = Interaction::new(&field, &space, tip, radii, loads);
-        found(&space, integral.as_slice(), watcher)
+        integrate_tips(&space, integral.as_slice(), watcher)
     })?;
     let found = found.into_iter().next().ok_or(CircleError::NoDisplacement)?;
     Ok(found.factors(tip))
@@ -259,7 +259,7 @@ pub(crate) fn intensities_under(
     field: &Field<'_>,
     space: &Space<'_>,
     watcher: &dyn Watcher,
-) -> Result<Vec<Outcome>, Cancelled> {
+) -> Result<Vec<TipOutcome>, Cancelled> {
     let find = |loads: Loads<'_>| intensities(dataset, field, space, loads, watcher);
     under(problem, field.step.load, find)
 }
@@ -288,7 +288,7 @@ fn cell_at(cells: &[Rect], at: Vec2) -> f64 {
     own.map(|cell| cell.size().x.max(cell.size().y)).fold(0.0, f64::max)
 }
 
-impl Outcome {
+impl TipOutcome {
     fn new(dataset: &Dataset, space: &Space<'_>, tip: TipId) -> Self {
         let at = space.step().cracks[tip.crack as usize].end_point(tip.end);
         let cell = cell_at(&space.partition().cell, at);

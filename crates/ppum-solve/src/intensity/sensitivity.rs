@@ -8,9 +8,9 @@
 //! body force and the loads on faces add numbers that no error of the field changes. What faces
 //! behind kinks add is left out: it is small beside the rest.
 
-use super::block::Block;
+use super::block::PointBlock;
 use super::integral::Interaction;
-use super::{Loads, Outcome, RADII};
+use super::{Loads, RADII, TipOutcome};
 use crate::geometry::Placed;
 use crate::quadrature::Rule;
 use crate::space::Space;
@@ -35,12 +35,12 @@ pub(crate) fn sensitivities<'a>(
     field: &'a Field<'a>,
     space: &'a Space<'a>,
 ) -> Vec<Sensitivity<'a>> {
-    let of_tip = |outcome: Outcome| {
+    let of_tip = |outcome: TipOutcome| {
         let radii = RADII.map(|part| part * outcome.clearance.radius);
         Interaction::new(field, space, outcome.tip, radii, Loads::default())
     };
-    let outcomes = tips(&field.step.cracks).map(|tip| Outcome::new(dataset, space, tip));
-    outcomes.filter(Outcome::has_room).filter_map(of_tip).map(Sensitivity).collect()
+    let outcomes = tips(&field.step.cracks).map(|tip| TipOutcome::new(dataset, space, tip));
+    outcomes.filter(TipOutcome::has_room).filter_map(of_tip).map(Sensitivity).collect()
 }
 
 impl Sensitivity<'_> {
@@ -56,6 +56,6 @@ impl Sensitivity<'_> {
 
     /// G of both modes at the points of a rule; zero outside the disc.
     pub(crate) fn kernels(&self, rule: &Rule) -> Vec<[Kernel; FACTORS]> {
-        Block::new(&self.0, rule.anchor, &rule.offsets).kernels(&rule.weights)
+        PointBlock::new(&self.0, rule.anchor, &rule.offsets).kernels(&rule.weights)
     }
 }

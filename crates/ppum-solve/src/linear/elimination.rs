@@ -68,7 +68,7 @@ impl Elimination {
             offsets.push(offsets[offsets.len() - 1] + sizes[block as usize]);
         }
         let front = |&draft: &usize| {
-            let Draft { pivots, below, children, .. } = &drafts[draft];
+            let SymbolicFront { pivots, below, children, .. } = &drafts[draft];
             let place = |&rank: &u32| places[ranked[rank as usize] as usize];
             let first = pivots.first().map_or(0, |rank| place(rank) as usize);
             let mut below: Vec<u32> = below.iter().map(place).collect();
@@ -84,8 +84,8 @@ impl Elimination {
         }
         let shapes = || sequence.iter().map(|&draft| drafts[draft].shape);
         let fill = Fill {
-            values: shapes().map(Shape::values).sum(),
-            operations: shapes().map(Shape::operations).sum(),
+            values: shapes().map(FrontSize::values).sum(),
+            operations: shapes().map(FrontSize::operations).sum(),
         };
         Self { order, places, offsets, fronts, subtrees, fill }
     }
@@ -116,7 +116,7 @@ struct Numbered {
 }
 
 impl Numbered {
-    fn new(drafts: &[Draft], sequence: &[usize], ranked: &[u32]) -> Self {
+    fn new(drafts: &[SymbolicFront], sequence: &[usize], ranked: &[u32]) -> Self {
         let pivots = sequence.iter().flat_map(|&draft| &drafts[draft].pivots);
         let order: Vec<u32> = pivots.map(|&rank| ranked[rank as usize]).collect();
         let (mut places, mut numbers) = (vec![0; order.len()], vec![0; drafts.len()]);
@@ -128,12 +128,12 @@ impl Numbered {
 
 /// The unknowns of a front: its pivots and those below them.
 #[derive(Clone, Copy, Debug, Default)]
-struct Shape {
+struct FrontSize {
     pivots: f64,
     below: f64,
 }
 
-impl Shape {
+impl FrontSize {
     fn all(self) -> f64 {
         self.pivots + self.below
     }
@@ -156,21 +156,21 @@ impl Shape {
 
 /// A front while blocks have ranks only, not the places of the last order.
 #[derive(Debug, Default)]
-struct Draft {
+struct SymbolicFront {
     /// Empty once they belong to another front.
     pivots: Vec<u32>,
     below: Vec<u32>,
     children: Vec<usize>,
-    shape: Shape,
+    shape: FrontSize,
 }
 
 /// The fronts of a ranking, each with the number of its last pivot.
-fn drafts(neighbours: &Neighbours, sizes: &[usize], ranked: &[u32]) -> Vec<Draft> {
+fn drafts(neighbours: &Neighbours, sizes: &[usize], ranked: &[u32]) -> Vec<SymbolicFront> {
     let n = ranked.len();
     let mut ranks = vec![0; n];
     (0..).zip(ranked).for_each(|(rank, &block)| ranks[block as usize] = rank);
     let size = |rank: u32| sizes[ranked[rank as usize] as usize] as f64;
-    let mut drafts: Vec<Draft> = Vec::with_capacity(n);
+    let mut drafts: Vec<SymbolicFront> = Vec::with_capacity(n);
     let mut waiting: Vec<Vec<usize>> = vec![Vec::new(); n];
     let mut seen = vec![u32::MAX; n];
     for (k, &block) in (0..n as u32).zip(ranked) {
@@ -187,21 +187,22 @@ fn drafts(neighbours: &Neighbours, sizes: &[usize], ranked: &[u32]) -> Vec<Draft
         if let Some(&parent) = below.first() {
             waiting[parent as usize].push(k as usize);
         }
-        let shape = Shape { pivots: size(k), below: below.iter().map(|&rank| size(rank)).sum() };
-        let draft = Draft { pivots: vec![k], below, children: Vec::new(), shape };
+        let shape =
+            FrontSize { pivots: size(k), below: below.iter().map(|&rank| size(rank)).sum() };
+        let draft = SymbolicFront { pivots: vec![k], below, children: Vec::new(), shape };
         let draft = draft.with_children(children, &mut drafts);
         drafts.push(draft);
     }
     drafts
 }
 
-impl Draft {
+impl SymbolicFront {
     /// Takes children, and the pivots of those with which it is faster to be one front.
     fn with_children(mut self, mut children: Vec<usize>, drafts: &mut [Self]) -> Self {
         children.sort_by_key(|&child| Reverse(drafts[child].pivots.len()));
         for number in children {
             let child = &mut drafts[number];
-            let joined = Shape { pivots: self.shape.pivots + child.shape.pivots, ..self.shape };
+            let joined = FrontSize { pivots: self.shape.pivots + child.shape.pivots, ..self.shape };
             if joined.cost() > self.shape.cost() + child.shape.cost() {
                 self.children.push(number);
                 continue;
@@ -218,7 +219,7 @@ impl Draft {
 
 /// The fronts, children before parents: those of subtrees of little work, subtree by subtree, and
 /// then all others.
-fn sequence(drafts: &[Draft]) -> (Vec<usize>, Vec<Range<usize>>) {
+fn sequence(drafts: &[SymbolicFront]) -> (Vec<usize>, Vec<Range<usize>>) {
     let fronts = || (0..drafts.len()).filter(|&number| !drafts[number].pivots.is_empty());
     let (mut work, mut parents) = (vec![0.0; drafts.len()], vec![None; drafts.len()]);
     for number in fronts() {

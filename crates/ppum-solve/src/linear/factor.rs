@@ -7,9 +7,9 @@
 
 use super::block_matrix::BlockMatrix;
 use super::elimination::Elimination;
-use super::front::{Front, Run, divided};
+use super::front::{Front, RowRun, divided};
 use super::neighbours::Neighbours;
-use super::strip::{Stop, Strip, Vanishing};
+use super::strip::{FactorFailure, Strip, Vanishing};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -28,7 +28,7 @@ pub(super) struct Factor {
 }
 
 /// A matrix that is to be factorised, and how.
-struct Source<'m> {
+struct FactorInput<'m> {
     matrix: &'m BlockMatrix,
     neighbours: Neighbours,
     /// D
@@ -38,7 +38,7 @@ struct Source<'m> {
 }
 
 /// What a child has left, and where that is in its parent.
-type Left<'e> = (&'e [Run], Vec<Strip>);
+type Left<'e> = (&'e [RowRun], Vec<Strip>);
 
 /// What a front has left: the columns of its pivots, and until its parent takes it what is
 /// below them.
@@ -54,12 +54,15 @@ impl Factor {
         matrix: &BlockMatrix,
         scale: &[f64],
         elimination: Elimination,
-    ) -> Result<Self, Stop> {
+    ) -> Result<Self, FactorFailure> {
         let neighbours = Neighbours::new(matrix.pattern());
         let vanishing = Vanishing::Refused;
-        let source = Source { matrix, neighbours, scale, elimination: &elimination, vanishing };
+        let source =
+            FactorInput { matrix, neighbours, scale, elimination: &elimination, vanishing };
         let strips = match source.factor() {
-            Err(Stop::Pivot) => Source { vanishing: Vanishing::LeftOut, ..source }.factor()?,
+            Err(FactorFailure::Pivot) => {
+                FactorInput { vanishing: Vanishing::LeftOut, ..source }.factor()?
+            }
             other => other?,
         };
         Ok(Self { elimination, strips })
@@ -81,8 +84,8 @@ impl Factor {
     }
 }
 
-impl Source<'_> {
-    fn factor(&self) -> Result<Vec<Vec<Strip>>, Stop> {
+impl FactorInput<'_> {
+    fn factor(&self) -> Result<Vec<Vec<Strip>>, FactorFailure> {
         let Elimination { fronts, subtrees, .. } = self.elimination;
         let mut done: Vec<Done> = Vec::new();
         done.resize_with(fronts.len(), Done::default);
@@ -97,7 +100,12 @@ impl Source<'_> {
 
     /// Eliminates a front. Those of its subtree are done, the first of them with the
     /// number `first`.
-    fn eliminate(&self, number: usize, done: &mut [Done], first: usize) -> Result<(), Stop> {
+    fn eliminate(
+        &self,
+        number: usize,
+        done: &mut [Done],
+        first: usize,
+    ) -> Result<(), FactorFailure> {
         let front = &self.elimination.fronts[number];
         let of_child = |&child: &usize| {
             let runs = self.elimination.fronts[child].runs.as_slice();
@@ -126,8 +134,13 @@ impl Source<'_> {
     }
 
     /// The strips of a front: entries of the matrix, and what the children have left.
-    fn gathered(&self, front: &Front, left: &[Left<'_>], shared: bool) -> Result<Vec<Strip>, Stop> {
-        let strip = |blocks: &Range<usize>| -> Result<Strip, Stop> {
+    fn gathered(
+        &self,
+        front: &Front,
+        left: &[Left<'_>],
+        shared: bool,
+    ) -> Result<Vec<Strip>, FactorFailure> {
+        let strip = |blocks: &Range<usize>| -> Result<Strip, FactorFailure> {
             let [from, to] = [blocks.start, blocks.end].map(|block| front.starts[block]);
             let mut strip = Strip::new(from, to - from, front.rows())?;
             if from < front.n_pivots() {
@@ -173,7 +186,7 @@ impl Source<'_> {
 }
 
 /// Adds what a child has left to a strip of its parent.
-fn add(strip: &mut Strip, runs: &[Run], left: &[Strip]) {
+fn add(strip: &mut Strip, runs: &[RowRun], left: &[Strip]) {
     let columns = strip.first..strip.end();
     for part in left {
         let mut number = runs.partition_point(|run| run.end() <= part.first);

@@ -13,12 +13,12 @@ pub(super) struct Front {
     /// The first row of each block, those of the pivots first, and the number of rows.
     pub(super) starts: Vec<usize>,
     /// The rows below, and in the parent.
-    pub(super) runs: Vec<Run>,
+    pub(super) runs: Vec<RowRun>,
 }
 
 /// Rows below a front that follow each other in its parent, too.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
+pub(super) struct RowRun {
     /// The first of them below the front.
     pub(super) from: usize,
     /// The same row of the parent.
@@ -26,7 +26,7 @@ pub(super) struct Run {
     len: usize,
 }
 
-impl Run {
+impl RowRun {
     /// The row below the front behind the last.
     pub(super) fn end(&self) -> usize {
         self.from + self.len
@@ -96,15 +96,15 @@ impl Front {
 }
 
 /// The rows below a front in its parent.
-pub(super) fn runs(front: &Front, parent: &Front) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
+pub(super) fn runs(front: &Front, parent: &Front) -> Vec<RowRun> {
+    let mut runs: Vec<RowRun> = Vec::new();
     let rows = &front.starts[front.pivots.len()..];
     for (rows, &place) in rows.windows(2).zip(&front.below) {
         let (from, len) = (rows[0] - front.n_pivots(), rows[1] - rows[0]);
         let to = parent.starts[parent.local(place as usize)];
         match runs.last_mut() {
             Some(last) if last.to + last.len == to => last.len += len,
-            _ => runs.push(Run { from, to, len }),
+            _ => runs.push(RowRun { from, to, len }),
         }
     }
     runs.retain(|run| run.len > 0);

@@ -51,7 +51,7 @@ pub(crate) struct Coarse {
 
 /// A level that is smoothed, with the way to the next coarser one.
 #[derive(Debug)]
-struct Level<'a> {
+struct SmoothedLevel<'a> {
     smoother: Smoother<'a>,
     transfer: Transfer,
 }
@@ -59,7 +59,7 @@ struct Level<'a> {
 /// A system with its levels.
 pub(crate) struct Multilevel<'a> {
     /// The system, by rows.
-    levels: Vec<Level<'a>>,
+    levels: Vec<SmoothedLevel<'a>>,
     /// The coarsest level: its rows, in whose order vectors are, and its factor.
     coarsest: (Rows<'a>, Cholesky<'a>),
     kernel: Kernel,
@@ -87,7 +87,7 @@ impl<'a> Multilevel<'a> {
         let mut finer = Cow::Borrowed(matrix);
         for Coarse { matrix, transfer } in coarser {
             let smoother = Smoother::new(Rows::new(finer));
-            levels.push(Level { smoother, transfer });
+            levels.push(SmoothedLevel { smoother, transfer });
             finer = Cow::Owned(matrix);
         }
         let rows = Rows::new(finer);
@@ -108,7 +108,7 @@ impl<'a> Multilevel<'a> {
             let mut z = functional.clone();
             self.coarsest.1.apply_inverse(&mut z);
             let mut z = self.coarsest.0.coloured(&z);
-            for (k, Level { smoother, transfer }) in self.levels.iter().enumerate().rev() {
+            for (k, SmoothedLevel { smoother, transfer }) in self.levels.iter().enumerate().rev() {
                 let mut finer = vec![0.0; smoother.rows.n_unknowns()];
                 transfer.add_prolonged((self.rows(k + 1), &z), &smoother.rows, &mut finer);
                 z = finer;
@@ -156,7 +156,7 @@ impl<'a> Multilevel<'a> {
     /// are appended.
     fn cycle(&self, level: usize, f: &[f64], norms: &mut Vec<f64>) -> Vec<f64> {
         norms.push(dot(f, f).sqrt());
-        let Some(Level { smoother, transfer }) = self.levels.get(level) else {
+        let Some(SmoothedLevel { smoother, transfer }) = self.levels.get(level) else {
             let (rows, factor) = &self.coarsest;
             let mut x = rows.plain(f);
             factor.apply_inverse(&mut x);
@@ -288,11 +288,15 @@ impl Multilevel<'_> {
 }
 
 /// Functionals on the finest level as ones on the coarsest, in the order of its matrix.
-fn restricted(levels: &[Level<'_>], coarsest: &Rows<'_>, free: &[Vec<f64>]) -> Vec<Vec<f64>> {
+fn restricted(
+    levels: &[SmoothedLevel<'_>],
+    coarsest: &Rows<'_>,
+    free: &[Vec<f64>],
+) -> Vec<Vec<f64>> {
     let of = |functional: &Vec<f64>| {
         let Some(finest) = levels.first() else { return functional.clone() };
         let mut r = finest.smoother.rows.coloured(functional);
-        for (k, Level { smoother, transfer }) in levels.iter().enumerate() {
+        for (k, SmoothedLevel { smoother, transfer }) in levels.iter().enumerate() {
             let coarser = levels.get(k + 1).map_or(coarsest, |level| &level.smoother.rows);
             r = transfer.restricted((&smoother.rows, &r), coarser);
         }

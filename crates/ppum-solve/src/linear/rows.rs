@@ -35,7 +35,7 @@ pub(crate) struct Rows<'a> {
 
 /// The blocks of a row that a sum runs over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum BlockSubset {
     /// All.
     All,
     /// Those of earlier colours.
@@ -118,7 +118,7 @@ impl<'a> Rows<'a> {
     pub(crate) fn multiply(&self, x: &[f64], out: &mut [f64]) {
         self.for_all(out, &|block, out| {
             out.fill(0.0);
-            self.add_row(block, Part::All, &Vectors::whole(x), 1.0, out);
+            self.add_row(block, BlockSubset::All, &Vectors::whole(x), 1.0, out);
         });
     }
 
@@ -126,7 +126,7 @@ impl<'a> Rows<'a> {
     pub(super) fn add_row(
         &self,
         i: usize,
-        part: Part,
+        subset: BlockSubset,
         x: &Vectors<'_>,
         factor: f64,
         out: &mut [f64],
@@ -134,11 +134,11 @@ impl<'a> Rows<'a> {
         let colour = self.colours[i];
         for entry in self.neighbours.of(i) {
             let j = entry.column as usize;
-            let wanted = match part {
-                Part::All => true,
-                Part::Before => self.colours[j] < colour,
-                Part::After => self.colours[j] > colour,
-                Part::Others => j != i,
+            let wanted = match subset {
+                BlockSubset::All => true,
+                BlockSubset::Before => self.colours[j] < colour,
+                BlockSubset::After => self.colours[j] > colour,
+                BlockSubset::Others => j != i,
             };
             if wanted {
                 let (block, x) =
@@ -161,7 +161,7 @@ impl<'a> Rows<'a> {
     pub(super) fn remainder(&self, i: usize, f: &[f64], x: &[f64], r: &mut [f64]) {
         let own = self.unknowns(i);
         r[own.clone()].copy_from_slice(&f[own.clone()]);
-        self.add_row(i, Part::All, &Vectors::whole(x), -1.0, &mut r[own]);
+        self.add_row(i, BlockSubset::All, &Vectors::whole(x), -1.0, &mut r[own]);
     }
 
     /// Calls `work` with each block and its part of `out`, on all threads.

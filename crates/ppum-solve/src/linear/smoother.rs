@@ -12,7 +12,7 @@
 use super::block_matrix::BlockMatrix;
 use super::eigen::{SymmetricEigen, inverse_root_diagonal, scaled};
 use super::knots::{Knot, knots};
-use super::rows::{Part, Rows, Vectors, add_product};
+use super::rows::{BlockSubset, Rows, Vectors, add_product};
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, MatRef, Side};
 use rayon::prelude::*;
@@ -81,7 +81,8 @@ impl<'a> Smoother<'a> {
         let mut x = vec![0.0; f.len()];
         for colour in 0..self.rows.n_colours() {
             let (others, own) = Vectors::without(&mut x, self.rows.of_colour(colour));
-            self.rows.for_colour(colour, own, &|i, x| self.relax(i, Part::Before, f, &others, x));
+            self.rows
+                .for_colour(colour, own, &|i, x| self.relax(i, BlockSubset::Before, f, &others, x));
         }
         x
     }
@@ -91,7 +92,7 @@ impl<'a> Smoother<'a> {
         let mut residual = vec![0.0; x.len()];
         let x = Vectors::whole(x);
         self.rows.for_all(&mut residual, &|i, out| {
-            self.rows.add_row(i, Part::After, &x, -1.0, out);
+            self.rows.add_row(i, BlockSubset::After, &x, -1.0, out);
         });
         residual
     }
@@ -100,14 +101,15 @@ impl<'a> Smoother<'a> {
     fn backward(&self, f: &[f64], x: &mut [f64]) {
         for colour in (0..self.rows.n_colours()).rev() {
             let (others, own) = Vectors::without(x, self.rows.of_colour(colour));
-            self.rows.for_colour(colour, own, &|i, x| self.relax(i, Part::Others, f, &others, x));
+            self.rows
+                .for_colour(colour, own, &|i, x| self.relax(i, BlockSubset::Others, f, &others, x));
         }
     }
 
     /// x_i ← D_ii⁻¹ (f_i − Σ_j K_ij x_j)
-    fn relax(&self, i: usize, part: Part, f: &[f64], others: &Vectors<'_>, x: &mut [f64]) {
+    fn relax(&self, i: usize, subset: BlockSubset, f: &[f64], others: &Vectors<'_>, x: &mut [f64]) {
         let mut rest = f[self.rows.unknowns(i)].to_vec();
-        self.rows.add_row(i, part, others, -1.0, &mut rest);
+        self.rows.add_row(i, subset, others, -1.0, &mut rest);
         x.fill(0.0);
         add_product(&self.inverses[self.starts[i]..self.starts[i + 1]], &rest, 1.0, x);
     }

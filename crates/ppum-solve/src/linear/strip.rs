@@ -34,7 +34,7 @@ pub(super) enum Vanishing {
 
 /// The reason why a factorisation ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stop {
+pub(super) enum FactorFailure {
     Memory,
     Pivot,
 }
@@ -50,9 +50,9 @@ pub(super) struct Strip {
 
 impl Strip {
     /// Zeros, in a matrix of `rows` rows.
-    pub(super) fn new(first: usize, width: usize, rows: usize) -> Result<Self, Stop> {
+    pub(super) fn new(first: usize, width: usize, rows: usize) -> Result<Self, FactorFailure> {
         let (height, mut values) = (rows - first, Vec::new());
-        values.try_reserve_exact(width * height).map_err(|_| Stop::Memory)?;
+        values.try_reserve_exact(width * height).map_err(|_| FactorFailure::Memory)?;
         values.resize(width * height, 0.0);
         Ok(Self { first, width, height, values })
     }
@@ -92,7 +92,11 @@ impl Strip {
     }
 
     /// Eliminates its columns: L L^T = A of the square, and B ← B L^−T of what is below.
-    pub(super) fn eliminate(&mut self, vanishing: Vanishing, parallel: bool) -> Result<(), Stop> {
+    pub(super) fn eliminate(
+        &mut self,
+        vanishing: Vanishing,
+        parallel: bool,
+    ) -> Result<(), FactorFailure> {
         let all = MatMut::from_column_major_slice_mut(&mut self.values, self.height, self.width);
         let (mut square, below) = all.split_at_row_mut(self.width);
         match vanishing {
@@ -121,23 +125,23 @@ impl Strip {
 }
 
 /// L L^T of a definite matrix.
-fn positive(mut square: MatMut<'_, f64>) -> Result<(), Stop> {
+fn positive(mut square: MatMut<'_, f64>) -> Result<(), FactorFailure> {
     let scratch =
         llt::cholesky_in_place_scratch::<f64>(square.nrows(), Par::Seq, Default::default());
-    let mut buffer = MemBuffer::try_new(scratch).map_err(|_| Stop::Memory)?;
+    let mut buffer = MemBuffer::try_new(scratch).map_err(|_| FactorFailure::Memory)?;
     let stack = MemStack::new(&mut buffer);
     let (regular, how) = (Default::default(), Default::default());
     llt::cholesky_in_place(square.as_mut(), regular, Par::Seq, stack, how)
-        .map_err(|_| Stop::Pivot)?;
+        .map_err(|_| FactorFailure::Pivot)?;
     let is_positive = |k: usize| square[(k, k)] * square[(k, k)] > PIVOT_LIMIT;
-    (0..square.nrows()).all(is_positive).then_some(()).ok_or(Stop::Pivot)
+    (0..square.nrows()).all(is_positive).then_some(()).ok_or(FactorFailure::Pivot)
 }
 
 /// L L^T of a semi-definite matrix with replaced pivots; none is finite where one is not.
-fn semidefinite(mut square: MatMut<'_, f64>) -> Result<(), Stop> {
+fn semidefinite(mut square: MatMut<'_, f64>) -> Result<(), FactorFailure> {
     let n = square.nrows();
     let scratch = ldlt::cholesky_in_place_scratch::<f64>(n, Par::Seq, Default::default());
-    let mut buffer = MemBuffer::try_new(scratch).map_err(|_| Stop::Memory)?;
+    let mut buffer = MemBuffer::try_new(scratch).map_err(|_| FactorFailure::Memory)?;
     let positive = vec![1; n];
     let replace = LdltRegularization {
         dynamic_regularization_signs: Some(&positive),

@@ -12,13 +12,13 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Part of a solution: the rows of the pivots of a subtree or of the top.
-struct Part {
+struct PartialSolution {
     /// Its first row, in the order of elimination.
     first: usize,
     rows: Mat<f64>,
 }
 
-impl Part {
+impl PartialSolution {
     fn of(&self, rows: Range<usize>) -> MatRef<'_, f64> {
         self.rows.as_ref().subrows(rows.start - self.first, rows.len())
     }
@@ -36,16 +36,17 @@ impl Factor {
         let part = |fronts: Range<usize>| {
             let rows = tree.unknowns(fronts);
             let own = columns.as_ref().subrows(rows.start, rows.len()).to_owned();
-            Part { first: rows.start, rows: own }
+            PartialSolution { first: rows.start, rows: own }
         };
-        let mut parts: Vec<Part> = tree.subtrees.iter().cloned().map(part).collect();
+        let mut parts: Vec<PartialSolution> = tree.subtrees.iter().cloned().map(part).collect();
         let mut last = part(top.clone());
         let mut left: Vec<Mat<f64>> = Vec::new();
         left.resize_with(tree.fronts.len(), Mat::new);
         let slots = divided(&mut left, &tree.subtrees);
-        let forward = |((fronts, slots), x): ((&Range<usize>, &mut [Mat<f64>]), &mut Part)| {
-            fronts.clone().for_each(|front| self.forward(front, x, slots, fronts.start));
-        };
+        let forward =
+            |((fronts, slots), x): ((&Range<usize>, &mut [Mat<f64>]), &mut PartialSolution)| {
+                fronts.clone().for_each(|front| self.forward(front, x, slots, fronts.start));
+            };
         let trees = || tree.subtrees.par_iter();
         trees().zip(slots).zip(parts.par_iter_mut()).with_max_len(1).for_each(forward);
         top.clone().for_each(|front| self.forward(front, &mut last, &mut left, 0));
@@ -53,14 +54,14 @@ impl Factor {
         trees().zip(parts.par_iter_mut()).with_max_len(1).for_each(|(fronts, x)| {
             fronts.clone().rev().for_each(|front| self.backward(front, x, Some(&last)));
         });
-        for Part { first, rows } in parts.iter().chain([&last]) {
+        for PartialSolution { first, rows } in parts.iter().chain([&last]) {
             columns.as_mut().subrows_mut(*first, rows.nrows()).copy_from(rows);
         }
     }
 
     /// The pivots of a front without what is above them; what they take from the rows below is left
     /// for the parent.
-    fn forward(&self, number: usize, x: &mut Part, left: &mut [Mat<f64>], first: usize) {
+    fn forward(&self, number: usize, x: &mut PartialSolution, left: &mut [Mat<f64>], first: usize) {
         let front = &self.elimination.fronts[number];
         let (pivots, n) = (self.elimination.unknowns(number..number + 1), front.n_pivots());
         let mut rows = Mat::zeros(front.rows(), x.rows.ncols());
@@ -81,7 +82,7 @@ impl Factor {
     }
 
     /// The pivots of a front from the rows below, which are known: of its own part, or of the top.
-    fn backward(&self, number: usize, x: &mut Part, top: Option<&Part>) {
+    fn backward(&self, number: usize, x: &mut PartialSolution, top: Option<&PartialSolution>) {
         let front = &self.elimination.fronts[number];
         let pivots = self.elimination.unknowns(number..number + 1);
         let mut rows = Mat::zeros(front.rows(), x.rows.ncols());

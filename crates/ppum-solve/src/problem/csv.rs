@@ -5,7 +5,7 @@ use std::path::Path;
 use super::error::{Location, Mistake};
 
 /// A line that says something.
-pub(super) struct Line<'t> {
+pub(super) struct CsvLine<'t> {
     /// Its number, from 1.
     pub(super) number: usize,
     pub(super) words: Vec<Word<'t>>,
@@ -26,12 +26,12 @@ impl Word<'_> {
 }
 
 /// The lines of a text without empty ones, and without what follows `#`.
-pub(super) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
+pub(super) fn lines(text: &str) -> impl Iterator<Item = CsvLine<'_>> {
     let numbered = (1..).zip(text.trim_start_matches('\u{feff}').lines());
     let contents = numbered.map(|(number, line)| (number, line.split('#').next().unwrap_or("")));
     contents
         .filter(|(_, content)| !content.trim().is_empty())
-        .map(|(number, content)| Line { number, words: words(content) })
+        .map(|(number, content)| CsvLine { number, words: words(content) })
 }
 
 /// Most words of a line that are looked at: as many values as a dataset holds in tables.

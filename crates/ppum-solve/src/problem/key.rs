@@ -8,26 +8,26 @@ use toml::de::{DeTable, DeValue};
 
 /// The way from the root of a problem file to a value, e.g. `crack[0].points[1]`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Key(Vec<Step>);
+pub(super) struct Key(Vec<KeySegment>);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Step {
+enum KeySegment {
     Name(&'static str),
     Index(usize),
 }
 
 impl Key {
     pub(super) fn new(name: &'static str) -> Self {
-        Self(vec![Step::Name(name)])
+        Self(vec![KeySegment::Name(name)])
     }
 
     pub(super) fn name(mut self, name: &'static str) -> Self {
-        self.0.push(Step::Name(name));
+        self.0.push(KeySegment::Name(name));
         self
     }
 
     pub(super) fn index(mut self, index: usize) -> Self {
-        self.0.push(Step::Index(index));
+        self.0.push(KeySegment::Index(index));
         self
     }
 
@@ -35,8 +35,8 @@ impl Key {
     pub(super) fn span(&self, root: &DeTable<'_>) -> Range<usize> {
         let mut steps = self.0.iter();
         let first = steps.next().and_then(|step| match step {
-            Step::Name(name) => root.get(*name),
-            Step::Index(_) => None,
+            KeySegment::Name(name) => root.get(*name),
+            KeySegment::Index(_) => None,
         });
         let Some(first) = first else { return 0..0 };
         let descend = |value, step| child(value, step).ok_or(value);
@@ -44,10 +44,13 @@ impl Key {
     }
 }
 
-fn child<'a, 'i>(value: &'a Spanned<DeValue<'i>>, step: &Step) -> Option<&'a Spanned<DeValue<'i>>> {
+fn child<'a, 'i>(
+    value: &'a Spanned<DeValue<'i>>,
+    step: &KeySegment,
+) -> Option<&'a Spanned<DeValue<'i>>> {
     match step {
-        Step::Name(name) => value.get_ref().get(*name),
-        Step::Index(index) => value.get_ref().get(*index),
+        KeySegment::Name(name) => value.get_ref().get(*name),
+        KeySegment::Index(index) => value.get_ref().get(*index),
     }
 }
 
@@ -55,9 +58,9 @@ impl fmt::Display for Key {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (place, step) in self.0.iter().enumerate() {
             match step {
-                Step::Name(name) if place == 0 => write!(f, "{name}")?,
-                Step::Name(name) => write!(f, ".{name}")?,
-                Step::Index(index) => write!(f, "[{index}]")?,
+                KeySegment::Name(name) if place == 0 => write!(f, "{name}")?,
+                KeySegment::Name(name) => write!(f, ".{name}")?,
+                KeySegment::Index(index) => write!(f, "[{index}]")?,
             }
         }
         Ok(())

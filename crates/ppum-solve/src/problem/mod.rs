@@ -76,7 +76,7 @@ pub use error::{Location, Mistake, ProblemError};
 pub use growth::{Criterion, GrowthRule, LoadControl, Paris};
 pub use ppum::expression::Expression;
 pub(crate) use refinement::{DEEPEST, nine};
-pub use refinement::{LocalRefinement, Place};
+pub use refinement::{LocalRefinement, RefinementRegion};
 pub use restraint::restraint_center;
 pub(crate) use restraint::restraint_words;
 pub use stations::Station;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ppum::vec2::Vec2;
 
-use super::csv::{self, Line, mistake};
+use super::csv::{self, CsvLine, mistake};
 use super::error::Mistake;
 
 /// Reads a file of points: `x,y` a line, empty lines and what follows `#` left out.
@@ -41,7 +41,7 @@ fn parse(text: &str, file: &str) -> Result<Vec<Vec2>, Vec<Mistake>> {
 }
 
 /// The point of a line, or the column and the message of what is wrong.
-fn point(line: &Line<'_>) -> Result<Vec2, (usize, String)> {
+fn point(line: &CsvLine<'_>) -> Result<Vec2, (usize, String)> {
     let mut values = Vec::new();
     for word in &line.words {
         let message = || format!("`{}` is not a finite number; write `x,y`", word.text);

@@ -25,16 +25,16 @@ const SAMPLES: u32 = 16;
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalRefinement {
     /// Where.
-    pub place: Place,
+    pub place: RefinementRegion,
     /// Cells nearer than this to the place are divided as well.
     pub distance: f64,
     /// The longest side of a cell, of x and y.
     pub size: Expression,
 }
 
-/// A part of the plate.
+/// The part of the domain that is refined.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
+pub enum RefinementRegion {
     /// All of it.
     Plate,
     /// A box.
@@ -55,7 +55,7 @@ pub enum Place {
 impl LocalRefinement {
     /// Cells of at most a size where they meet a place.
     #[must_use]
-    pub fn new(place: Place, size: impl Into<Expression>) -> Self {
+    pub fn new(place: RefinementRegion, size: impl Into<Expression>) -> Self {
         Self { place, distance: 0.0, size: size.into() }
     }
 
@@ -71,11 +71,13 @@ impl LocalRefinement {
     /// The box around all that is divided; that of the plate if it is everywhere.
     pub(crate) fn bounds(&self, problem: &Problem) -> Rect {
         let around = match self.place {
-            Place::Plate => return problem.domain.bounds,
-            Place::Box(rect) => rect,
-            Place::Disc { center, radius } => Rect::around(center, vec2(radius, radius)),
-            Place::Hole(hole) => problem.domain.holes[hole].bounds(),
-            Place::Crack(crack) => crate::geometry::around(&problem.cracks[crack].points),
+            RefinementRegion::Plate => return problem.domain.bounds,
+            RefinementRegion::Box(rect) => rect,
+            RefinementRegion::Disc { center, radius } => Rect::around(center, vec2(radius, radius)),
+            RefinementRegion::Hole(hole) => problem.domain.holes[hole].bounds(),
+            RefinementRegion::Crack(crack) => {
+                crate::geometry::around(&problem.cracks[crack].points)
+            }
         };
         crate::geometry::wider(&around, self.distance)
     }
@@ -112,7 +114,7 @@ fn bad_place(new: &LocalRefinement, problem: &Problem) -> Option<(&'static str, 
         (&problem.domain.bounds, problem.domain.holes.len(), problem.cracks.len());
     let missed = |what: &str| format!("the {what} misses the domain; move it in, or leave it out");
     match new.place {
-        Place::Box(rect) => {
+        RefinementRegion::Box(rect) => {
             let has_sides = rect.min.x < rect.max.x && rect.min.y < rect.max.y;
             let message = if !(has_sides && rect.min.is_finite() && rect.max.is_finite()) {
                 "`box` must be [x0, y0, x1, y1] with x0 < x1 and y0 < y1, all finite".to_owned()
@@ -123,20 +125,20 @@ fn bad_place(new: &LocalRefinement, problem: &Problem) -> Option<(&'static str, 
             };
             Some(("box", message))
         }
-        Place::Disc { center, .. } if !center.is_finite() => {
+        RefinementRegion::Disc { center, .. } if !center.is_finite() => {
             Some(("center", "the centre is not finite".to_owned()))
         }
-        Place::Disc { radius, .. } if !(radius > 0.0 && radius.is_finite()) => {
+        RefinementRegion::Disc { radius, .. } if !(radius > 0.0 && radius.is_finite()) => {
             let message = format!("`radius` is {radius}, but must be positive and finite");
             Some(("radius", message))
         }
-        Place::Disc { center, radius } if bounds.distance(center) >= radius => {
+        RefinementRegion::Disc { center, radius } if bounds.distance(center) >= radius => {
             Some(("radius", missed("disc")))
         }
-        Place::Hole(hole) if hole >= holes => {
+        RefinementRegion::Hole(hole) if hole >= holes => {
             Some(("hole", format!("there is no hole {hole}; {}", numbered(holes, "[[hole]]"))))
         }
-        Place::Crack(crack) if crack >= cracks => {
+        RefinementRegion::Crack(crack) if crack >= cracks => {
             let message = format!("there is no crack {crack}; {}", numbered(cracks, "[[crack]]"));
             Some(("crack", message))
         }
@@ -148,7 +150,7 @@ fn bad_distance(new: &LocalRefinement) -> Option<(&'static str, String)> {
     let distance = new.distance;
     let message = if !(distance >= 0.0 && distance.is_finite()) {
         format!("`distance` is {distance}, but must be finite and not negative")
-    } else if distance > 0.0 && new.place == Place::Plate {
+    } else if distance > 0.0 && new.place == RefinementRegion::Plate {
         "`distance` has no meaning on the whole plate; remove it, or say from what".to_owned()
     } else {
         return None;

@@ -8,12 +8,12 @@ use std::path::Path;
 
 use ppum::formula::{Table, TableError};
 
-use super::csv::{self, Line, mistake};
+use super::csv::{self, CsvLine, mistake};
 use super::error::{Mistake, ProblemError};
 
 /// Knots and values; `y` is empty in a curve. The values of a surface stand in rows of constant y.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Data {
+pub(super) struct TableData {
     pub(super) x: Vec<f64>,
     pub(super) y: Vec<f64>,
     pub(super) values: Vec<f64>,
@@ -24,7 +24,7 @@ pub(super) struct Data {
 /// # Errors
 /// One mistake per line that has the wrong number of entries, an entry that is not a finite number,
 /// or a knot that does not exceed the one before; or one for the file.
-pub(super) fn read(path: &Path) -> Result<Data, Vec<Mistake>> {
+pub(super) fn read(path: &Path) -> Result<TableData, Vec<Mistake>> {
     let text = csv::read(path, "table").map_err(|mistake| vec![mistake])?;
     let data = parse(&text, &path.display().to_string())?;
     if data.values.is_empty() {
@@ -45,7 +45,7 @@ pub fn read_table(name: &str, path: &Path) -> Result<Table, ProblemError> {
     data.table(name).map_err(|error| csv::of_file(path, error.to_string()).into())
 }
 
-impl Data {
+impl TableData {
     /// The table of the data.
     pub(super) fn table(self, name: &str) -> Result<Table, TableError> {
         let Self { x, y, values } = self;
@@ -56,9 +56,9 @@ impl Data {
     }
 }
 
-fn parse(text: &str, file: &str) -> Result<Data, Vec<Mistake>> {
+fn parse(text: &str, file: &str) -> Result<TableData, Vec<Mistake>> {
     let mut lines = csv::lines(text).peekable();
-    let mut reader = Reader { file, data: Data::default(), mistakes: Vec::new() };
+    let mut reader = Reader { file, data: TableData::default(), mistakes: Vec::new() };
     match lines.next_if(|first| first.words[0].text.is_empty()) {
         Some(first) => reader.grid(&first, lines),
         None => reader.knots(lines),
@@ -68,12 +68,12 @@ fn parse(text: &str, file: &str) -> Result<Data, Vec<Mistake>> {
 
 struct Reader<'f> {
     file: &'f str,
-    data: Data,
+    data: TableData,
     mistakes: Vec<Mistake>,
 }
 
 impl Reader<'_> {
-    fn grid<'t>(&mut self, first: &Line<'_>, rest: impl Iterator<Item = Line<'t>>) {
+    fn grid<'t>(&mut self, first: &CsvLine<'_>, rest: impl Iterator<Item = CsvLine<'t>>) {
         let count = first.words.len();
         for place in 1..count {
             if csv::is_enough(&self.mistakes) {
@@ -99,7 +99,7 @@ impl Reader<'_> {
     }
 
     /// The lines of a curve.
-    fn knots<'t>(&mut self, lines: impl Iterator<Item = Line<'t>>) {
+    fn knots<'t>(&mut self, lines: impl Iterator<Item = CsvLine<'t>>) {
         for line in lines {
             if csv::is_enough(&self.mistakes) {
                 return;
@@ -113,7 +113,7 @@ impl Reader<'_> {
         }
     }
 
-    fn numbers(&mut self, line: &Line<'_>, count: usize) -> Option<Vec<f64>> {
+    fn numbers(&mut self, line: &CsvLine<'_>, count: usize) -> Option<Vec<f64>> {
         let found = line.words.len();
         if found != count {
             let message = match count {
@@ -126,7 +126,7 @@ impl Reader<'_> {
         (0..count).map(|place| self.number(line, place)).collect()
     }
 
-    fn number(&mut self, line: &Line<'_>, place: usize) -> Option<f64> {
+    fn number(&mut self, line: &CsvLine<'_>, place: usize) -> Option<f64> {
         let word = &line.words[place];
         let number = word.number();
         if number.is_none() {
@@ -157,10 +157,10 @@ mod tests {
     fn curves_and_grids() {
         let curve = parse("# x, value\n 0, 1\n\n0.5,4 # middle\n1,9\n", "t.csv");
         let (x, values) = (vec![0.0, 0.5, 1.0], vec![1.0, 4.0, 9.0]);
-        assert_eq!(curve, Ok(Data { x, y: vec![], values }));
+        assert_eq!(curve, Ok(TableData { x, y: vec![], values }));
         let grid = parse(", 1, 2, 4\n-1, 10, 20, 40\n3, 11, 21, 41\n", "t.csv");
         let (x, y) = (vec![1.0, 2.0, 4.0], vec![-1.0, 3.0]);
-        assert_eq!(grid, Ok(Data { x, y, values: vec![10.0, 20.0, 40.0, 11.0, 21.0, 41.0] }));
+        assert_eq!(grid, Ok(TableData { x, y, values: vec![10.0, 20.0, 40.0, 11.0, 21.0, 41.0] }));
     }
 
     #[test]

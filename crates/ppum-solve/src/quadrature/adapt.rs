@@ -57,13 +57,13 @@ const RIDGE: f64 = 1e-4;
 /// Directions whose angle is smaller than this are one.
 const PARALLEL: f64 = 1e-3;
 
-/// Something with a Gauss rule that can be divided.
-pub(super) trait Part: Clone {
+/// A region of integration with a Gauss rule that can be subdivided.
+pub(super) trait Subregion: Clone {
     /// Calls `push` with the offsets and weights of a rule that is as exact as `n` Gauss points in
     /// each direction.
     fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64));
 
-    /// Ways to divide the part in two. `directions` are those in which the gradients of functions
+    /// Ways to divide the region in two. `directions` are those in which the gradients of functions
     /// change.
     fn divisions(&self, directions: &[Vec2]) -> Vec<[Self; 2]>;
 }
@@ -93,7 +93,7 @@ pub(super) struct Demand<'a> {
 
 /// Parts that were divided, and what they do not resolve.
 pub(super) struct Refined<P> {
-    pub(super) parts: Vec<P>,
+    pub(super) regions: Vec<P>,
     pub(super) doubt: Doubt,
 }
 
@@ -105,8 +105,8 @@ struct Integral {
 }
 
 /// A part with its integrals, the errors of its rule, and the ways to divide it.
-struct Entry<P> {
-    part: P,
+struct SubregionEntry<P> {
+    region: P,
     depth: usize,
     /// Its area or length.
     measure: f64,
@@ -125,24 +125,24 @@ struct Division<P> {
 
 /// The parts divided until their rules resolve the functions that are demanded; as they are if
 /// division does not help.
-pub(super) fn refined<P: Part>(parts: Vec<P>, demand: &Demand<'_>) -> Refined<P> {
+pub(super) fn refined<P: Subregion>(regions: Vec<P>, demand: &Demand<'_>) -> Refined<P> {
     if demand.active.is_empty() && !demand.curved {
-        return Refined { parts, doubt: Doubt::default() };
+        return Refined { regions, doubt: Doubt::default() };
     }
-    let mut entries: Vec<Entry<P>> =
-        parts.iter().map(|part| demand.entry(part.clone(), 0)).collect();
+    let mut entries: Vec<SubregionEntry<P>> =
+        regions.iter().map(|region| demand.entry(region.clone(), 0)).collect();
     let helped = divide(&mut entries, demand);
     let doubt = demand.doubt(&entries);
     // what is known of a load is kept
     let keep = helped || doubt.load > 0.0;
     Refined {
-        parts: if keep { entries.into_iter().map(|e| e.part).collect() } else { parts },
+        regions: if keep { entries.into_iter().map(|e| e.region).collect() } else { regions },
         doubt,
     }
 }
 
 /// Divides the worst part again and again; false if errors do not come down.
-fn divide<P: Part>(entries: &mut Vec<Entry<P>>, demand: &Demand<'_>) -> bool {
+fn divide<P: Subregion>(entries: &mut Vec<SubregionEntry<P>>, demand: &Demand<'_>) -> bool {
     let mut progress = Progress { check: FIRST_CHECK, before: f64::INFINITY };
     while entries.len() < BUDGET && demand.left.get() > 0 {
         let allowed = demand.allowed(entries);
@@ -153,7 +153,7 @@ fn divide<P: Part>(entries: &mut Vec<Entry<P>>, demand: &Demand<'_>) -> bool {
         let depth = entries[at].depth + 1;
         let Some(halves) = entries[at].best_halves(&allowed) else { break };
         demand.left.set(demand.left.get() - 1);
-        let [first, second] = halves.map(|part| demand.entry(part, depth));
+        let [first, second] = halves.map(|region| demand.entry(region, depth));
         entries[at] = first;
         entries.push(second);
     }
@@ -169,32 +169,32 @@ struct Progress {
 }
 
 impl Progress {
-    fn has_stopped(&mut self, parts: usize, error: impl FnOnce() -> f64) -> bool {
-        if parts < self.check {
+    fn has_stopped(&mut self, regions: usize, error: impl FnOnce() -> f64) -> bool {
+        if regions < self.check {
             return false;
         }
         let error = error();
         let stopped = error > SHARE * self.before;
-        *self = Self { check: 2 * parts, before: error };
+        *self = Self { check: 2 * regions, before: error };
         stopped
     }
 }
 
 /// Largest ratio of the error of an integral over all parts to what is allowed.
-fn excess<P>(entries: &[Entry<P>], allowed: &[f64]) -> f64 {
+fn excess<P>(entries: &[SubregionEntry<P>], allowed: &[f64]) -> f64 {
     let error = |k: usize| entries.iter().map(|e| e.errors[k]).sum::<f64>();
     allowed.iter().enumerate().map(|(k, allowed)| error(k) / allowed).fold(0.0, f64::max)
 }
 
 /// The entry with the largest error of those integrals whose errors add up to too much.
-fn worst<P>(entries: &[Entry<P>], allowed: &[f64]) -> Option<usize> {
+fn worst<P>(entries: &[SubregionEntry<P>], allowed: &[f64]) -> Option<usize> {
     let mut found: Option<(usize, f64)> = None;
     for (k, allowed) in allowed.iter().enumerate() {
         if entries.iter().map(|e| e.errors[k]).sum::<f64>() > *allowed {
             for (i, entry) in entries.iter().enumerate() {
-                let part = entry.errors[k] / allowed;
-                if found.is_none_or(|(_, most)| part > most) {
-                    found = Some((i, part));
+                let region = entry.errors[k] / allowed;
+                if found.is_none_or(|(_, most)| region > most) {
+                    found = Some((i, region));
                 }
             }
         }
@@ -202,7 +202,7 @@ fn worst<P>(entries: &[Entry<P>], allowed: &[f64]) -> Option<usize> {
     found.map(|(i, _)| i)
 }
 
-impl<P> Entry<P> {
+impl<P> SubregionEntry<P> {
     /// Takes the halves that change most, in parts of what each integral may err.
     fn best_halves(&mut self, allowed: &[f64]) -> Option<[P; 2]> {
         let change = |d: &Division<P>| -> f64 {
@@ -257,13 +257,13 @@ impl Samples {
 }
 
 impl Demand<'_> {
-    fn entry<P: Part>(&self, part: P, depth: usize) -> Entry<P> {
-        let (inside, border) = (self.samples(&part, gauss), self.samples(&part, closed));
+    fn entry<P: Subregion>(&self, region: P, depth: usize) -> SubregionEntry<P> {
+        let (inside, border) = (self.samples(&region, gauss), self.samples(&region, closed));
         let whole = Sums { gauss: self.integrals(&inside), closed: self.integrals(&border) };
         let mut errors = differences(&whole.gauss, &whole.closed);
         let hidden = errors.iter().zip(&whole.gauss).any(|(e, i)| *e > ACCURACY * i.size);
         let ways = if depth < DEPTH {
-            part.divisions(&self.directions([&inside, &border]))
+            region.divisions(&self.directions([&inside, &border]))
         } else {
             Vec::new()
         };
@@ -282,17 +282,17 @@ impl Demand<'_> {
         }
         let measure = inside.weights.iter().sum();
         let at = self.anchor + inside.offsets.first().copied().unwrap_or(Vec2::ZERO);
-        Entry { part, depth, measure, at, integrals: whole.larger(), errors, divisions }
+        SubregionEntry { region, depth, measure, at, integrals: whole.larger(), errors, divisions }
     }
 
     /// False if a load is not finite at a point of the rule that a part gets in the end.
-    fn is_finite<P: Part>(&self, part: &P) -> bool {
+    fn is_finite<P: Subregion>(&self, region: &P) -> bool {
         let mut loads = self.active.iter().filter(|&&f| self.probes.load(f).is_some()).peekable();
         if loads.peek().is_none() {
             return true;
         }
         let (mut offsets, mut values) = (Vec::new(), Vec::new());
-        part.nodes(gauss, self.order, &mut |x, _| offsets.push(x));
+        region.nodes(gauss, self.order, &mut |x, _| offsets.push(x));
         loads.for_each(|&f| self.evaluate(f, &offsets, &mut values));
         values.iter().all(|value| value[0].is_finite())
     }
@@ -305,7 +305,7 @@ impl Demand<'_> {
     }
 
     /// Errors that parts leave.
-    fn doubt<P>(&self, entries: &[Entry<P>]) -> Doubt {
+    fn doubt<P>(&self, entries: &[SubregionEntry<P>]) -> Doubt {
         let allowed = self.allowed(entries);
         let cut = entries.len() >= BUDGET || self.left.get() == 0;
         let mut doubt = Doubt::default();
@@ -328,9 +328,9 @@ impl Demand<'_> {
     }
 
     /// The functions at the points of a rule of a part.
-    fn samples<P: Part>(&self, part: &P, rules: Rules1d) -> Samples {
+    fn samples<P: Subregion>(&self, region: &P, rules: Rules1d) -> Samples {
         let mut samples = Samples::default();
-        part.nodes(rules, self.points, &mut |x, w| {
+        region.nodes(rules, self.points, &mut |x, w| {
             samples.offsets.push(x);
             samples.weights.push(w);
         });
@@ -359,9 +359,9 @@ impl Demand<'_> {
     }
 
     /// The integrals over two parts together.
-    fn sums<P: Part>(&self, parts: &[P; 2], rules: Rules1d) -> Vec<Integral> {
+    fn sums<P: Subregion>(&self, regions: &[P; 2], rules: Rules1d) -> Vec<Integral> {
         let [mut sums, other] =
-            parts.each_ref().map(|part| self.integrals(&self.samples(part, rules)));
+            regions.each_ref().map(|region| self.integrals(&self.samples(region, rules)));
         for (sum, other) in sums.iter_mut().zip(other) {
             sum.value += other.value;
             sum.size += other.size;
@@ -372,7 +372,7 @@ impl Demand<'_> {
     /// The error that each integral over all parts may have. That of |∇f|² may be a part of f² over
     /// the square of the cell's size, too: where f hardly varies its gradient may be rounding. That
     /// of a load may be a part of the mean load.
-    fn allowed<P>(&self, entries: &[Entry<P>]) -> Vec<f64> {
+    fn allowed<P>(&self, entries: &[SubregionEntry<P>]) -> Vec<f64> {
         let size = |k: usize| entries.iter().map(|e| e.integrals[k].size).sum::<f64>();
         let measure: f64 = entries.iter().map(|e| e.measure).sum();
         let of_function = |k: usize| {

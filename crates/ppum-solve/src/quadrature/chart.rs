@@ -1,7 +1,7 @@
 //! Smooth maps of rectangles onto pieces: what tensor Gauss rules and curves are laid out in.
 
 use super::gauss::{MAX_POINTS, Rules1d};
-use super::geometry::{Grading, Level};
+use super::geometry::{Grading, LevelFunction};
 use super::polygon::Polygon;
 use super::roots::{tame, zero};
 use super::split::component;
@@ -52,7 +52,7 @@ pub(super) struct Strip<'c> {
 pub(super) struct LevelOn<'c> {
     pub(super) chart: Rc<Chart<'c>>,
     pub(super) anchor: Vec2,
-    pub(super) level: &'c Level,
+    pub(super) level: &'c LevelFunction,
 }
 
 impl LevelOn<'_> {

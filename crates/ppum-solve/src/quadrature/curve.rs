@@ -11,7 +11,7 @@
 //! shows in the level function's course, its differences and extrema, is not seen.
 
 use super::chart::{Chart, LevelOn, Strip, UNIT, range};
-use super::geometry::Level;
+use super::geometry::LevelFunction;
 use super::roots::sign_changes;
 use super::split::breaks;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -58,12 +58,12 @@ const LOOKS: usize = 1000;
 
 /// A rectangle in the coordinates of a chart.
 #[derive(Clone)]
-pub(super) struct Window<'c> {
+pub(super) struct ChartWindow<'c> {
     pub(super) chart: Rc<Chart<'c>>,
     pub(super) range: Rect,
 }
 
-impl<'c> Window<'c> {
+impl<'c> ChartWindow<'c> {
     pub(super) fn whole(chart: Chart<'c>) -> Self {
         Self { chart: Rc::new(chart), range: UNIT }
     }
@@ -91,16 +91,16 @@ impl<'c> Window<'c> {
 
 /// The windows cut along curves, and whether any of them was.
 pub(super) fn cut_all<'c>(
-    mut windows: Vec<Window<'c>>,
-    curves: &[&'c Level],
+    mut windows: Vec<ChartWindow<'c>>,
+    curves: &[&'c LevelFunction],
     anchor: Vec2,
-) -> (Vec<Window<'c>>, bool) {
+) -> (Vec<ChartWindow<'c>>, bool) {
     // Slivers between curves that coincide do not say how steep a level function is; whole
     // pieces do.
-    let rounding = |&level: &&'c Level| {
-        let of_window = |window: &Window<'c>| {
+    let rounding = |&level: &&'c LevelFunction| {
+        let of_window = |window: &ChartWindow<'c>| {
             let chart = Rc::clone(&window.chart);
-            Grid::new(&LevelOn { chart, anchor, level }, window, COARSE, 0.0).rounding
+            LevelGrid::new(&LevelOn { chart, anchor, level }, window, COARSE, 0.0).rounding
         };
         windows.iter().map(of_window).fold(0.0, f64::max)
     };
@@ -110,7 +110,7 @@ pub(super) fn cut_all<'c>(
         let mut parts = Vec::new();
         for window in windows {
             let mut looks = LOOKS;
-            match cut(&window, Curve { level, anchor, zero }, &mut looks, DEPTH) {
+            match cut(&window, AnchoredLevel { level, anchor, zero }, &mut looks, DEPTH) {
                 Some(cut) => {
                     any = true;
                     parts.extend(cut);
@@ -125,39 +125,39 @@ pub(super) fn cut_all<'c>(
 
 /// A level function of offsets from an anchor.
 #[derive(Clone, Copy)]
-struct Curve<'c> {
-    level: &'c Level,
+struct AnchoredLevel<'c> {
+    level: &'c LevelFunction,
     anchor: Vec2,
     /// Values up to this are rounding.
     zero: f64,
 }
 
 /// False if samples say that the curve stays well away from a rectangle.
-pub(crate) fn may_meet(level: &Level, rect: &Rect) -> bool {
+pub(crate) fn may_meet(level: &LevelFunction, rect: &Rect) -> bool {
     let corners = [rect.min, vec2(rect.max.x, rect.min.y), rect.max, vec2(rect.min.x, rect.max.y)];
     let chart = Rc::new(Chart::Quadrilateral(corners.map(|p| p - rect.min)));
     let level = LevelOn { chart, anchor: rect.min, level };
-    let window = Window { chart: Rc::clone(&level.chart), range: UNIT };
-    !Grid::new(&level, &window, COARSE, 0.0).is_clear()
+    let window = ChartWindow { chart: Rc::clone(&level.chart), range: UNIT };
+    !LevelGrid::new(&level, &window, COARSE, 0.0).is_clear()
 }
 
 /// The parts of a window on both sides of a curve; none if the curve does not run through it.
 fn cut<'c>(
-    window: &Window<'c>,
-    curve: Curve<'c>,
+    window: &ChartWindow<'c>,
+    curve: AnchoredLevel<'c>,
     looks: &mut usize,
     depth: usize,
-) -> Option<Vec<Window<'c>>> {
+) -> Option<Vec<ChartWindow<'c>>> {
     if *looks == 0 || depth == 0 {
         return None;
     }
     *looks -= 1;
-    let Curve { level, anchor, zero } = curve;
+    let AnchoredLevel { level, anchor, zero } = curve;
     let level_on = LevelOn { chart: Rc::clone(&window.chart), anchor, level };
-    if Grid::new(&level_on, window, COARSE, zero).is_clear() {
+    if LevelGrid::new(&level_on, window, COARSE, zero).is_clear() {
         return None;
     }
-    let grid = Grid::new(&level_on, window, FINE, zero);
+    let grid = LevelGrid::new(&level_on, window, FINE, zero);
     if grid.is_clear() {
         return None;
     }
@@ -176,11 +176,11 @@ fn cut<'c>(
 
 /// The parts of a window through which a curve runs as a graph over the axis that is not `height`.
 fn strips<'c>(
-    window: &Window<'c>,
+    window: &ChartWindow<'c>,
     level: &LevelOn<'c>,
     height: usize,
     zero: f64,
-) -> Option<Vec<Window<'c>>> {
+) -> Option<Vec<ChartWindow<'c>>> {
     let base = 1 - height;
     let ((bottom, top), (lo, hi)) = (range(&window.range, height), range(&window.range, base));
     let value = |h: f64, b: f64| {
@@ -202,7 +202,7 @@ fn strips<'c>(
             any = true;
             parts.extend([false, true].map(|above| {
                 let (level, window) = (level.clone(), part.range);
-                Window::whole(Chart::Strip(Strip { level, window, height, above }))
+                ChartWindow::whole(Chart::Strip(Strip { level, window, height, above }))
             }));
         } else {
             parts.push(part);
@@ -212,7 +212,7 @@ fn strips<'c>(
 }
 
 /// Values of a level function on a grid over a closed window.
-struct Grid {
+struct LevelGrid {
     steps: usize,
     values: Vec<f64>,
     /// Largest absolute value.
@@ -223,9 +223,9 @@ struct Grid {
     rounding: f64,
 }
 
-impl Grid {
+impl LevelGrid {
     /// Samples a level function whose values up to `zero` are rounding.
-    fn new(level: &LevelOn<'_>, window: &Window<'_>, steps: usize, zero: f64) -> Self {
+    fn new(level: &LevelOn<'_>, window: &ChartWindow<'_>, steps: usize, zero: f64) -> Self {
         let part = |axis: usize, k: usize| window.between(axis, k as f64 / steps as f64);
         let (points, mut values): (Vec<Vec2>, Vec<f64>) = (0..=steps)
             .flat_map(|j| (0..=steps).map(move |i| (i, j)))

@@ -1,16 +1,18 @@
 //! Rules along segments: parts of the boundary, faces of cracks.
 
-use super::adapt::{Demand, Part as _, Refined, refined};
+use super::adapt::{Demand, Refined, Subregion as _, refined};
 use super::doubt::Doubt;
 use super::gauss::gauss;
 use super::orders::Active;
-use super::polygon::Cut;
+use super::polygon::SegmentCut;
 use super::polygon::line_side;
 use super::roots::{sign_changes, tame};
 use super::singular::panels;
 use super::split::{breaks, component, divided, kinks, varies};
 use super::stretch::{Path, Stretch};
-use super::{Kink, Level, Quadrature, SAME_POINT, Singular, TOLERANCE, distinct, straight_cut};
+use super::{
+    Kink, LevelFunction, Quadrature, SAME_POINT, Singular, TOLERANCE, distinct, straight_cut,
+};
 use ppum::crack::{Crack, SegmentId, Side};
 use ppum::vec2::{Rect, Vec2};
 use std::cell::Cell;
@@ -114,7 +116,7 @@ impl Quadrature<'_> {
         let ends = face.ends(self.geometry.cracks);
         let left = (ends[1] - ends[0]).unit().left();
         let normal = if face.side == Side::Above { -left } else { left };
-        self.along(cell, coverers, Line::new(cell.center(), part, normal), Some(face))
+        self.along(cell, coverers, EdgeLine::new(cell.center(), part, normal), Some(face))
     }
 
     /// Rules on the part of a straight segment that belongs to a cell; empty if none does.
@@ -131,14 +133,14 @@ impl Quadrature<'_> {
         ends: [Vec2; 2],
         normal: Vec2,
     ) -> Vec<EdgeRule> {
-        self.along(cell, coverers, Line::new(cell.center(), ends, normal), None)
+        self.along(cell, coverers, EdgeLine::new(cell.center(), ends, normal), None)
     }
 
     fn along(
         &self,
         cell: &Rect,
         coverers: &[u32],
-        line: Line,
+        line: EdgeLine,
         face: Option<Face>,
     ) -> Vec<EdgeRule> {
         let tolerance = TOLERANCE * cell.size().length();
@@ -146,15 +148,22 @@ impl Quadrature<'_> {
         let inside = line.inside(cell, line.ends, line.slack).filter(counts);
         let Some((lo, hi)) = inside else { return Vec::new() };
         let left = Cell::new(self.divisions);
-        let mut run =
-            Run { quadrature: self, line, face, tolerance, cell, rules: Vec::new(), left };
+        let mut run = LineIntegration {
+            quadrature: self,
+            line,
+            face,
+            tolerance,
+            cell,
+            rules: Vec::new(),
+            left,
+        };
         run.add(lo, hi, coverers);
         run.rules
     }
 }
 
 /// The points anchor + foot + s · tangent.
-struct Line {
+struct EdgeLine {
     anchor: Vec2,
     tangent: Vec2,
     normal: Vec2,
@@ -167,7 +176,7 @@ struct Line {
     slack: f64,
 }
 
-impl Line {
+impl EdgeLine {
     fn new(anchor: Vec2, segment: [Vec2; 2], normal: Vec2) -> Self {
         let [from, to] = segment.map(|p| p - anchor);
         let tangent = (segment[1] - segment[0]).unit();
@@ -242,9 +251,9 @@ impl Line {
     }
 }
 
-struct Run<'a> {
+struct LineIntegration<'a> {
     quadrature: &'a Quadrature<'a>,
-    line: Line,
+    line: EdgeLine,
     /// The face that the line lies on, if it is on one.
     face: Option<Face>,
     tolerance: f64,
@@ -254,7 +263,7 @@ struct Run<'a> {
     left: Cell<usize>,
 }
 
-impl Run<'_> {
+impl LineIntegration<'_> {
     /// Splits at the borders of supports.
     fn add(&mut self, lo: f64, hi: f64, coverers: &[u32]) {
         let partition = self.quadrature.geometry.partition;
@@ -303,7 +312,7 @@ impl Run<'_> {
     /// Crossings of the line with crack segments that meet the cell, and with kinks.
     fn crossings(&self, lo: f64, hi: f64, kinks: &[&Kink]) -> Vec<f64> {
         let point = |s: f64| self.line.foot + self.line.tangent * s;
-        let crossing = |cut: Cut| {
+        let crossing = |cut: SegmentCut| {
             let cut = cut.seen_from(self.line.anchor);
             let [from, to] = [lo, hi].map(|s| line_side(cut.ends[0], cut.ends[1], point(s)));
             let at = (from != to).then(|| lo + (hi - lo) * (from / (from - to)))?;
@@ -323,7 +332,7 @@ impl Run<'_> {
         lines.filter_map(crossing).chain(curved).collect()
     }
 
-    fn curve_crossings(&self, lo: f64, hi: f64, level: &Level) -> Vec<f64> {
+    fn curve_crossings(&self, lo: f64, hi: f64, level: &LevelFunction) -> Vec<f64> {
         let start = self.line.anchor + self.line.foot;
         let at = |s: f64| tame(level(start + self.line.tangent * s));
         let size =
@@ -413,7 +422,7 @@ impl Run<'_> {
             self.rules.len() - 1
         });
         let rule = &mut self.rules[at];
-        let Refined { parts, doubt } = refined(stretches, &demand);
+        let Refined { regions: parts, doubt } = refined(stretches, &demand);
         rule.doubt.add(&doubt);
         for stretch in parts {
             stretch.nodes(gauss, order, &mut |x, w| {

@@ -197,7 +197,7 @@ fn powers(lambda: f64, n: usize) -> Grading {
 /// It should be smooth but for single points and for kinks that are declared before it, and its
 /// size tell of the distance to the zero set, as a polynomial or a distance does. Cuts are made
 /// where samples show that it changes its sign; values that are no numbers count as positive.
-pub(crate) type Level = dyn Fn(Vec2) -> f64 + Send + Sync;
+pub(crate) type LevelFunction = dyn Fn(Vec2) -> f64 + Send + Sync;
 
 /// A line or curve across which a function or one of its derivatives jumps.
 #[derive(Clone)]
@@ -207,7 +207,7 @@ pub(crate) enum Kink {
     /// A segment.
     Segment([Vec2; 2]),
     /// The zero set of a smooth function.
-    Curve(Arc<Level>),
+    Curve(Arc<LevelFunction>),
 }
 
 impl fmt::Debug for Kink {

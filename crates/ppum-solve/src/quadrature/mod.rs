@@ -48,16 +48,16 @@ pub use doubt::Doubt;
 pub(crate) use edge::{EdgeRule, Face};
 pub(crate) use gauss::closed;
 pub(crate) use gauss::{GaussRule, gauss};
-pub(crate) use geometry::{Geometry, Growth, Kink, Level, Probes, Singular};
+pub(crate) use geometry::{Geometry, Growth, Kink, LevelFunction, Probes, Singular};
 pub(crate) use orders::Orders;
 pub(crate) use roots::{sign_changes, tame};
 
 use orders::Active;
-use polygon::{Cut, Polygon, line_side};
+use polygon::{Polygon, SegmentCut, line_side};
 use ppum::crack::Crack;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
-use singular::Pieces;
+use singular::PieceQuadrature;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -126,9 +126,9 @@ pub(crate) struct Quadrature<'a> {
     geometry: Geometry<'a>,
     orders: Orders,
     /// Segments of cracks and sides of holes.
-    segments: Vec<Cut>,
+    segments: Vec<SegmentCut>,
     /// Round rims: at least as many as there are round holes.
-    circles: Vec<Arc<Level>>,
+    circles: Vec<Arc<LevelFunction>>,
     /// Boxes of the holes, and of the round ones.
     boxes: Vec<Rect>,
     circle_boxes: Vec<Rect>,
@@ -168,7 +168,7 @@ impl<'a> Quadrature<'a> {
     /// The quadrature for a geometry.
     #[must_use]
     pub(crate) fn new(geometry: Geometry<'a>, orders: Orders) -> Self {
-        let sides = geometry.holes.iter().flat_map(Hole::sides).map(Cut::segment);
+        let sides = geometry.holes.iter().flat_map(Hole::sides).map(SegmentCut::segment);
         let segments = geometry.cracks.iter().flat_map(cuts).chain(sides).collect();
         let circles = geometry.holes.iter().filter_map(holes::level).collect();
         let round = geometry.holes.iter().filter(|hole| matches!(hole, Hole::Circle { .. }));
@@ -235,7 +235,8 @@ impl<'a> Quadrature<'a> {
         let least = LEAST_AREA * size.x * size.y;
         let (rules, left) = (Rules::default(), Cell::new(self.divisions));
         let quadrature = self;
-        let mut run = Run { quadrature, cell, orders, disc, segments, holes, least, rules, left };
+        let mut run =
+            CellIntegration { quadrature, cell, orders, disc, segments, holes, least, rules, left };
         let mut sorted = coverers.to_vec();
         sorted.sort_unstable();
         let partition = self.geometry.partition;
@@ -251,16 +252,16 @@ impl<'a> Quadrature<'a> {
     }
 
     /// The segments of cracks and sides of holes that meet the closed box.
-    fn cuts_near(&self, rect: &Rect) -> impl Iterator<Item = Cut> {
+    fn cuts_near(&self, rect: &Rect) -> impl Iterator<Item = SegmentCut> {
         self.segments.iter().copied().filter(|cut| meets(rect, cut.ends[0], cut.ends[1]))
     }
 }
 
 /// The segments of a crack, which goes on beyond its ends.
-fn cuts(crack: &Crack) -> impl Iterator<Item = Cut> {
+fn cuts(crack: &Crack) -> impl Iterator<Item = SegmentCut> {
     let last = crack.points.len().saturating_sub(2);
     let segments = crack.points.windows(2).enumerate();
-    segments.map(move |(k, s)| Cut { ends: [s[0], s[1]], goes_on: [k == 0, k == last] })
+    segments.map(move |(k, s)| SegmentCut { ends: [s[0], s[1]], goes_on: [k == 0, k == last] })
 }
 
 /// True if the segment meets the closed box, up to rounding.
@@ -274,12 +275,12 @@ fn meets(rect: &Rect, a: Vec2, b: Vec2) -> bool {
 }
 
 /// One cell's work.
-struct Run<'a> {
+struct CellIntegration<'a> {
     quadrature: &'a Quadrature<'a>,
     cell: &'a Rect,
     orders: Orders,
     disc: Option<Disc>,
-    segments: Vec<Cut>,
+    segments: Vec<SegmentCut>,
     /// The holes whose boxes meet the cell.
     holes: Vec<&'a Hole>,
     least: f64,
@@ -288,7 +289,7 @@ struct Run<'a> {
     left: Cell<usize>,
 }
 
-impl Run<'_> {
+impl CellIntegration<'_> {
     /// Adds a rectangle on which the partition functions of `patches` are smooth.
     fn add(&mut self, rect: &Rect, patches: &[u32]) {
         if self.disc.is_some_and(|d| rect.distance(d.center) >= d.radius) {
@@ -324,7 +325,7 @@ impl Run<'_> {
             _ => order,
         };
         let polygons = self.cut(rect, anchor, &kinks);
-        let mut pieces = Pieces {
+        let mut pieces = PieceQuadrature {
             rules: &mut self.rules,
             patches,
             order,
@@ -344,7 +345,7 @@ impl Run<'_> {
     /// The rectangle cut by the segments that meet it and by straight kinks, relative to
     /// the anchor.
     fn cut(&self, rect: &Rect, anchor: Vec2, kinks: &[&Kink]) -> Vec<Polygon> {
-        let meets = |cut: &&Cut| meets(rect, cut.ends[0], cut.ends[1]);
+        let meets = |cut: &&SegmentCut| meets(rect, cut.ends[0], cut.ends[1]);
         let meeting = self.segments.iter().filter(meets).copied();
         let straight = kinks.iter().filter_map(|kink| straight_cut(kink, rect));
         let cuts: Vec<_> = meeting.chain(straight).map(|cut| cut.seen_from(anchor)).collect();
@@ -373,10 +374,10 @@ fn distinct(points: Vec<Singular>, apart: f64) -> Vec<Singular> {
 }
 
 /// The cut of a straight kink through a rectangle, if it meets that.
-fn straight_cut(kink: &Kink, rect: &Rect) -> Option<Cut> {
+fn straight_cut(kink: &Kink, rect: &Rect) -> Option<SegmentCut> {
     match *kink {
-        Kink::Line(line) => Some(Cut::line(line)),
-        Kink::Segment([a, b]) => meets(rect, a, b).then_some(Cut::segment([a, b])),
+        Kink::Line(line) => Some(SegmentCut::line(line)),
+        Kink::Segment([a, b]) => meets(rect, a, b).then_some(SegmentCut::segment([a, b])),
         Kink::Curve(_) => None,
     }
 }
@@ -396,7 +397,7 @@ impl Kink {
 }
 
 /// The level functions of the curved kinks that may meet a rectangle.
-fn curves_near<'k>(kinks: &[&'k Kink], rect: &Rect) -> Vec<&'k Level> {
+fn curves_near<'k>(kinks: &[&'k Kink], rect: &Rect) -> Vec<&'k LevelFunction> {
     let levels = kinks.iter().filter_map(|kink| match *kink {
         Kink::Curve(level) => Some(level.as_ref()),
         _ => None,

@@ -87,7 +87,7 @@ impl Orders {
         weight: &dyn Fn(f64) -> [f64; 2],
         accuracy: f64,
     ) -> (Self, f64) {
-        let line = Line::new(stretch, breakpoints, weight);
+        let line = AxisPatches::new(stretch, breakpoints, weight);
         let exact = line.products(p, MOST_POINTS, 4 * PARTS[PARTS.len() - 1]);
         let default = Self::for_degree(p);
         let mut tried: Vec<(usize, usize)> = (default.flat..=MOST_POINTS.max(default.overlap))
@@ -130,7 +130,7 @@ const fn at_least_8(n: usize) -> usize {
 }
 
 /// Patches on a line.
-struct Line<'a> {
+struct AxisPatches<'a> {
     /// Centres and half-sizes.
     patches: Vec<(f64, f64)>,
     /// Ends of the intervals on which the partition functions are smooth.
@@ -138,7 +138,7 @@ struct Line<'a> {
     weight: &'a dyn Fn(f64) -> [f64; 2],
 }
 
-impl<'a> Line<'a> {
+impl<'a> AxisPatches<'a> {
     fn new(stretch: f64, breakpoints: &[f64], weight: &'a dyn Fn(f64) -> [f64; 2]) -> Self {
         let (mut end, mut patches) = (0.0, Vec::new());
         for size in CELLS {

@@ -1,8 +1,8 @@
 //! Pieces of a cell as parts that can be integrated and divided.
 
-use super::adapt::Part;
+use super::adapt::Subregion;
 use super::chart::{UNIT, quadrilaterals};
-use super::curve::Window;
+use super::curve::ChartWindow;
 use super::gauss::Rules1d;
 use super::polygon::Polygon;
 use ppum::vec2::{Vec2, vec2};
@@ -12,14 +12,14 @@ const WAYS: usize = 4;
 
 /// A piece on which the integrand is smooth, relative to an anchor.
 #[derive(Clone)]
-pub(super) enum Piece<'c> {
+pub(super) enum SmoothPiece<'c> {
     /// With straight sides, away from singular points.
     Polygon(Polygon),
     /// In the coordinates of a chart.
-    Window(Window<'c>),
+    Window(ChartWindow<'c>),
 }
 
-impl Part for Piece<'_> {
+impl Subregion for SmoothPiece<'_> {
     fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
         match self {
             Self::Polygon(polygon) => {
@@ -38,11 +38,11 @@ impl Part for Piece<'_> {
 }
 
 /// The halves of a polygon along each of some directions; along the axes if there are none.
-fn divisions<'c>(polygon: &Polygon, directions: &[Vec2]) -> Vec<[Piece<'c>; 2]> {
+fn divisions<'c>(polygon: &Polygon, directions: &[Vec2]) -> Vec<[SmoothPiece<'c>; 2]> {
     let axes = [vec2(1.0, 0.0), vec2(0.0, 1.0)];
     let ways = if directions.is_empty() { &axes } else { directions };
     let halves = ways.iter().take(WAYS).filter_map(|&e| halves(polygon, e));
-    halves.map(|halves| halves.map(Piece::Polygon)).collect()
+    halves.map(|halves| halves.map(SmoothPiece::Polygon)).collect()
 }
 
 /// The two parts of a polygon that reach equally far in a direction.

@@ -30,13 +30,13 @@ pub(super) struct Polygon(pub(super) Vec<Vec2>);
 
 /// A segment that cuts polygons along its line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cut {
+pub(super) struct SegmentCut {
     pub(super) ends: [Vec2; 2],
     /// Whether it also cuts what it meets only beyond this end.
     pub(super) goes_on: [bool; 2],
 }
 
-impl Cut {
+impl SegmentCut {
     pub(super) fn line(ends: [Vec2; 2]) -> Self {
         Self { ends, goes_on: [true; 2] }
     }
@@ -139,7 +139,7 @@ impl Polygon {
     }
 
     /// True if a cut has a part of positive length in the polygon.
-    fn is_met(&self, cut: &Cut) -> bool {
+    fn is_met(&self, cut: &SegmentCut) -> bool {
         let ([a, b], [before, behind]) = (cut.ends, cut.goes_on);
         let mut from = if before { f64::NEG_INFINITY } else { 0.0 };
         let mut to = if behind { f64::INFINITY } else { 1.0 };
@@ -161,15 +161,15 @@ impl Polygon {
     /// A cut divides the parts that it meets, each along the whole of its line. Where there are
     /// many, the polygon is halved before: of a chain of n segments that lie on one line but for
     /// noise, some n parts are left, none of them much longer than the segments.
-    pub(super) fn pieces(self, cuts: &[Cut], least: f64) -> Vec<Self> {
+    pub(super) fn pieces(self, cuts: &[SegmentCut], least: f64) -> Vec<Self> {
         let mut pieces = Vec::new();
         self.add_pieces(cuts.to_vec(), DEEPEST, &mut pieces);
         pieces.retain(|p| p.area() > least);
         pieces
     }
 
-    fn add_pieces(self, cuts: Vec<Cut>, depth: usize, pieces: &mut Vec<Self>) {
-        let met: Vec<Cut> = cuts.into_iter().filter(|cut| self.is_met(cut)).collect();
+    fn add_pieces(self, cuts: Vec<SegmentCut>, depth: usize, pieces: &mut Vec<Self>) {
+        let met: Vec<SegmentCut> = cuts.into_iter().filter(|cut| self.is_met(cut)).collect();
         if met.len() > MANY
             && depth > 0
             && let Some(halves) = self.halves()
@@ -194,7 +194,7 @@ impl Polygon {
         self.cut(middle, middle + along)
     }
 
-    fn cut_by(self, cuts: &[Cut]) -> Vec<Self> {
+    fn cut_by(self, cuts: &[SegmentCut]) -> Vec<Self> {
         let mut pieces = vec![self];
         for cut in cuts {
             let parts = |p: Self| match p.is_met(cut).then(|| p.cut(cut.ends[0], cut.ends[1])) {
@@ -244,7 +244,7 @@ mod tests {
     #[test]
     fn parts_of_a_cut_add_up() {
         let segments = [[vec2(-1.0, 0.3), vec2(2.0, 0.4)], [vec2(0.2, -5.0), vec2(0.7, 3.0)]];
-        let pieces = square().pieces(&segments.map(Cut::segment), 0.0);
+        let pieces = square().pieces(&segments.map(SegmentCut::segment), 0.0);
         assert_eq!(pieces.len(), 4);
         let total: f64 = pieces.iter().map(Polygon::area).sum();
         assert!((total - 1.0).abs() < 1e-15);
@@ -252,9 +252,9 @@ mod tests {
 
     #[test]
     fn lines_along_edges_and_through_corners_make_no_slivers() {
-        let edge = [Cut::line([vec2(-3.0, 1.0), vec2(7.0, 1.0)])];
+        let edge = [SegmentCut::line([vec2(-3.0, 1.0), vec2(7.0, 1.0)])];
         assert_eq!(square().pieces(&edge, 0.0).len(), 1);
-        let diagonal = [Cut::line([vec2(-0.1, -0.1), vec2(1.3, 1.3)])];
+        let diagonal = [SegmentCut::line([vec2(-0.1, -0.1), vec2(1.3, 1.3)])];
         let pieces = square().pieces(&diagonal, 0.0);
         assert_eq!(pieces.iter().map(|p| p.0.len()).collect::<Vec<_>>(), [3, 3]);
     }
@@ -263,12 +263,13 @@ mod tests {
     #[test]
     fn segments_cut_what_they_meet() {
         let ends = [vec2(0.2, 0.3), vec2(0.4, 0.3)];
-        let wall = Cut::line([vec2(0.5, 0.0), vec2(0.5, 1.0)]);
+        let wall = SegmentCut::line([vec2(0.5, 0.0), vec2(0.5, 1.0)]);
         for (goes_on, expected) in [([false; 2], 3), ([true, false], 3), ([false, true], 4)] {
-            let pieces = square().pieces(&[wall, Cut { ends, goes_on }], 0.0);
+            let pieces = square().pieces(&[wall, SegmentCut { ends, goes_on }], 0.0);
             assert_eq!(pieces.len(), expected, "{goes_on:?}");
         }
-        let outside = Cut { ends: [vec2(-2.0, 0.5), vec2(-1.0, 0.5)], goes_on: [true, false] };
+        let outside =
+            SegmentCut { ends: [vec2(-2.0, 0.5), vec2(-1.0, 0.5)], goes_on: [true, false] };
         assert_eq!(square().pieces(&[outside], 0.0).len(), 1);
     }
 
@@ -284,7 +285,8 @@ mod tests {
                 vec2(s, 0.2 + 0.4 * s + noise * random.between(-1.0, 1.0))
             };
             let points: Vec<Vec2> = (0..=n).map(&mut vertex).collect();
-            let cuts: Vec<Cut> = points.windows(2).map(|s| Cut::segment([s[0], s[1]])).collect();
+            let cuts: Vec<SegmentCut> =
+                points.windows(2).map(|s| SegmentCut::segment([s[0], s[1]])).collect();
             let pieces = square().pieces(&cuts, 0.0);
             let area: f64 = pieces.iter().map(Polygon::area).sum();
             assert!(

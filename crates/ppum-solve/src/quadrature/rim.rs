@@ -1,6 +1,6 @@
 //! Rules along the rims of holes.
 
-use super::adapt::{Demand, Part, Refined, refined};
+use super::adapt::{Demand, Refined, Subregion, refined};
 use super::edge::EdgeRule;
 use super::gauss::{MAX_POINTS, Rules1d, gauss};
 use super::orders::Active;
@@ -144,7 +144,7 @@ impl Quadrature<'_> {
             left: &left,
         };
         let arc = Arc { circle, anchor: rule.anchor, turns: [from, to] };
-        let Refined { parts, doubt } = refined(vec![arc], &demand);
+        let Refined { regions: parts, doubt } = refined(vec![arc], &demand);
         rule.doubt.add(&doubt);
         for Arc { turns: [from, to], .. } in parts {
             for (turn, weight) in gauss((order + EXTRA_POINTS).min(MAX_POINTS)).on(from, to) {
@@ -164,7 +164,7 @@ struct Arc<'c> {
     turns: [f64; 2],
 }
 
-impl Part for Arc<'_> {
+impl Subregion for Arc<'_> {
     fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
         let [from, to] = self.turns;
         for (turn, weight) in rules((n + EXTRA_POINTS).min(MAX_POINTS)).on(from, to) {

@@ -12,13 +12,13 @@
 //! [`Growth`]: super::Growth
 
 use super::Rules;
-use super::adapt::{Demand, Part as _, Refined, refined};
+use super::adapt::{Demand, Refined, Subregion as _, refined};
 use super::chart::{Apex, Chart, quadrilaterals};
-use super::curve::{Window, cut_all};
+use super::curve::{ChartWindow, cut_all};
 use super::gauss::gauss;
-use super::geometry::{Level, Probes, Singular};
+use super::geometry::{LevelFunction, Probes, Singular};
 use super::holes;
-use super::piece::Piece;
+use super::piece::SmoothPiece;
 use super::polygon::Polygon;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -33,7 +33,7 @@ const PANEL: f64 = 1.0;
 const FLAT: f64 = 1e-14;
 
 /// Integrates over pieces of one rectangle.
-pub(super) struct Pieces<'r, 'c> {
+pub(super) struct PieceQuadrature<'r, 'c> {
     /// Receives the points.
     pub(super) rules: &'r mut Rules,
     /// The patches that cover the rectangle.
@@ -47,7 +47,7 @@ pub(super) struct Pieces<'r, 'c> {
     /// Pieces smaller than this are dropped.
     pub(super) least: f64,
     /// Curves across which integrands jump.
-    pub(super) curves: &'r [&'c Level],
+    pub(super) curves: &'r [&'c LevelFunction],
     /// Holes that may meet the rectangle.
     pub(super) holes: &'r [&'r Hole],
     /// Functions that have to be resolved: all, and the active ones.
@@ -56,7 +56,7 @@ pub(super) struct Pieces<'r, 'c> {
     pub(super) left: &'r Cell<usize>,
 }
 
-impl Pieces<'_, '_> {
+impl PieceQuadrature<'_, '_> {
     /// Adds the rule of a polygon given relative to `anchor`, with the `singular` points that may
     /// be near it.
     pub(super) fn add(&mut self, anchor: Vec2, polygon: &Polygon, singular: &[Singular]) {
@@ -78,13 +78,13 @@ impl Pieces<'_, '_> {
 
     fn add_regular(&mut self, anchor: Vec2, polygon: &Polygon) {
         if !self.curves.is_empty() {
-            let windows = quadrilaterals(polygon).map(Window::whole).collect();
+            let windows = quadrilaterals(polygon).map(ChartWindow::whole).collect();
             let (windows, cut) = cut_all(windows, self.curves, anchor);
             if cut {
                 return self.add_windows(anchor, windows, true);
             }
         }
-        self.add_parts(anchor, vec![Piece::Polygon(polygon.clone())], false);
+        self.add_parts(anchor, vec![SmoothPiece::Polygon(polygon.clone())], false);
     }
 
     /// Adds triangles with their apex at the singular point, one for each edge of the polygon.
@@ -96,12 +96,12 @@ impl Pieces<'_, '_> {
         self.add_windows(at.point, windows, cut);
     }
 
-    fn add_windows(&mut self, anchor: Vec2, windows: Vec<Window<'_>>, curved: bool) {
-        self.add_parts(anchor, windows.into_iter().map(Piece::Window).collect(), curved);
+    fn add_windows(&mut self, anchor: Vec2, windows: Vec<ChartWindow<'_>>, curved: bool) {
+        self.add_parts(anchor, windows.into_iter().map(SmoothPiece::Window).collect(), curved);
     }
 
     /// Adds the rules of pieces, divided until they resolve what they have to.
-    fn add_parts(&mut self, anchor: Vec2, mut parts: Vec<Piece<'_>>, curved: bool) {
+    fn add_parts(&mut self, anchor: Vec2, mut parts: Vec<SmoothPiece<'_>>, curved: bool) {
         holes::remove(self.holes, anchor, &mut parts);
         let (probes, active) = self.probes;
         let points = self.order.saturating_sub(self.reserve).max(1);
@@ -117,7 +117,7 @@ impl Pieces<'_, '_> {
             left: self.left,
         };
         let rule = self.rules.rule(self.patches, anchor);
-        let Refined { parts, doubt } = refined(parts, &demand);
+        let Refined { regions: parts, doubt } = refined(parts, &demand);
         rule.doubt.add(&doubt);
         for part in parts {
             part.nodes(gauss, self.order, &mut |x, w| rule.push(x, w));
@@ -136,7 +136,7 @@ fn near(anchor: Vec2, polygon: &Polygon, singular: &[Singular]) -> Vec<Singular>
 }
 
 /// The triangle (0, a, b) in panels along its far edge, for integrands singular at 0.
-fn apex_triangle<'c>(at: &Singular, a: Vec2, b: Vec2, n: usize) -> Vec<Window<'c>> {
+fn apex_triangle<'c>(at: &Singular, a: Vec2, b: Vec2, n: usize) -> Vec<ChartWindow<'c>> {
     let edge = b - a;
     if a.cross(edge) <= FLAT * edge.dot(edge) {
         return Vec::new();
@@ -146,7 +146,7 @@ fn apex_triangle<'c>(at: &Singular, a: Vec2, b: Vec2, n: usize) -> Vec<Window<'c
     let foot = -tangent.left() * height;
     let apex = Apex { foot, tangent, height, grading: at.growth.over_areas(n) };
     let chart = Rc::new(Chart::Apex(apex));
-    let window = |(from, to)| Window {
+    let window = |(from, to)| ChartWindow {
         chart: Rc::clone(&chart),
         range: Rect::new(vec2(from, 0.0), vec2(to, 1.0)),
     };

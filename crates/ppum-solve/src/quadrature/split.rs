@@ -28,7 +28,7 @@ struct Splitter<'a> {
 }
 
 /// A line x = at (axis 0) or y = at (axis 1).
-struct Line {
+struct SplitLine {
     axis: usize,
     at: f64,
     /// Part of the rectangle's extent over which it is a border of a patch.
@@ -53,7 +53,7 @@ impl Splitter<'_> {
 
     /// The patch border that runs through the largest part of the rectangle: cutting along it first
     /// leaves the fewest rectangles.
-    fn main_border(&self, rect: &Rect, patches: &[u32]) -> Option<Line> {
+    fn main_border(&self, rect: &Rect, patches: &[u32]) -> Option<SplitLine> {
         let mut lines = self.borders(rect, patches);
         lines.sort_by(|a, b| a.axis.cmp(&b.axis).then(a.at.total_cmp(&b.at)));
         lines.dedup_by(|next, kept| {
@@ -66,7 +66,7 @@ impl Splitter<'_> {
         lines.into_iter().reduce(|best, line| if line.share > best.share { line } else { best })
     }
 
-    fn borders(&self, rect: &Rect, patches: &[u32]) -> Vec<Line> {
+    fn borders(&self, rect: &Rect, patches: &[u32]) -> Vec<SplitLine> {
         let size = rect.size();
         let mut lines = Vec::new();
         for &patch in patches {
@@ -76,7 +76,7 @@ impl Splitter<'_> {
                 let share = component(common, 1 - axis) / component(size, 1 - axis);
                 for at in [component(support.min, axis), component(support.max, axis)] {
                     if self.crosses(rect, axis, at) {
-                        lines.push(Line { axis, at, share });
+                        lines.push(SplitLine { axis, at, share });
                     }
                 }
             }
@@ -106,7 +106,7 @@ impl Splitter<'_> {
     }
 }
 
-fn halves(rect: &Rect, line: &Line) -> [Rect; 2] {
+fn halves(rect: &Rect, line: &SplitLine) -> [Rect; 2] {
     let (mut low, mut high) = (*rect, *rect);
     match line.axis {
         0 => (low.max.x, high.min.x) = (line.at, line.at),

@@ -1,6 +1,6 @@
 //! Parts of a segment, graded where it passes a singular point.
 
-use super::adapt::Part;
+use super::adapt::Subregion;
 use super::gauss::{MAX_POINTS, Rules1d};
 use super::geometry::Grading;
 use ppum::vec2::Vec2;
@@ -51,7 +51,7 @@ impl Stretch {
     }
 }
 
-impl Part for Stretch {
+impl Subregion for Stretch {
     fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
         let (lo, hi) = self.interval;
         for (u, w) in rules(self.path.points(n)).on(lo, hi) {

@@ -2,7 +2,7 @@
 
 use super::RefineError;
 use crate::geometry::{Placed, around, distance, wider};
-use crate::problem::{DEEPEST, LocalRefinement, Place, Problem, nine};
+use crate::problem::{DEEPEST, LocalRefinement, Problem, RefinementRegion, nine};
 use crate::watched::Stage;
 use ppum::cover::Cover;
 use ppum::domain::Hole;
@@ -103,11 +103,13 @@ fn demands(problem: &Problem) -> Placed<Demand<'_>> {
     };
     let demand = |(index, refinement): (usize, &'_ LocalRefinement)| {
         let lines = match refinement.place {
-            Place::Plate => Lines::Plate,
-            Place::Box(rect) => Lines::Box(rect),
-            Place::Disc { center, radius } => Lines::Disc(center, radius),
-            Place::Hole(hole) => Lines::Rim(&problem.domain.holes[hole], sides(true, hole)),
-            Place::Crack(crack) => Lines::Crack(sides(false, crack)),
+            RefinementRegion::Plate => Lines::Plate,
+            RefinementRegion::Box(rect) => Lines::Box(rect),
+            RefinementRegion::Disc { center, radius } => Lines::Disc(center, radius),
+            RefinementRegion::Hole(hole) => {
+                Lines::Rim(&problem.domain.holes[hole], sides(true, hole))
+            }
+            RefinementRegion::Crack(crack) => Lines::Crack(sides(false, crack)),
         };
         let bounds = refinement.bounds(problem);
         (bounds, (index, bounds, lines))

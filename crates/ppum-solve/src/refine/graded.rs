@@ -49,14 +49,14 @@ const STEP: f64 = 1.25;
 
 /// The demand of one point or rim on the cells.
 pub(super) struct Graded {
-    from: Shape,
+    from: GradedShape,
     /// Size below which cells stay as they are.
     finest: f64,
     /// Largest size over distance.
     slope: f64,
 }
 
-enum Shape {
+enum GradedShape {
     Point(Vec2),
     Circle(Vec2, f64),
     Bend(Bend),
@@ -87,7 +87,7 @@ impl Graded {
             return None;
         }
         if corner.wedge.is_some() {
-            let from = Shape::Circle(at, WITH_FUNCTIONS * room);
+            let from = GradedShape::Circle(at, WITH_FUNCTIONS * room);
             return Some(Self { from, finest: CELLS_OF_FUNCTIONS * room, slope: SLOPE });
         }
         // a small room holds a small part of the energy
@@ -95,7 +95,7 @@ impl Graded {
         let finest = room * missed.powf(0.5 / exponent).min(1.0);
         let is_steep = nature == Nature::Support && exponent < STRONG;
         let slope = if is_steep { STEEP } else { SLOPE };
-        Some(Self { from: Shape::Point(at), finest, slope })
+        Some(Self { from: GradedShape::Point(at), finest, slope })
     }
 
     /// The demands of the rim of a hole where it is curved.
@@ -103,10 +103,12 @@ impl Graded {
         let part = finest(&problem.discretization.order, &hole.bounds());
         let of = |from, radius: f64| Self { from, finest: part * radius, slope: SLOPE };
         match *hole {
-            Hole::Circle { center, radius } => vec![of(Shape::Circle(center, radius), radius)],
+            Hole::Circle { center, radius } => {
+                vec![of(GradedShape::Circle(center, radius), radius)]
+            }
             Hole::Polygon { .. } => {
                 let all = bends(hole).into_iter();
-                all.map(|bend| of(Shape::Bend(bend), bend.radius)).collect()
+                all.map(|bend| of(GradedShape::Bend(bend), bend.radius)).collect()
             }
         }
     }
@@ -117,8 +119,8 @@ impl Graded {
     /// The box of what cells are graded towards.
     pub(super) fn place(&self) -> Rect {
         match self.from {
-            Shape::Point(p) | Shape::Bend(Bend { at: p, .. }) => around(&[p]),
-            Shape::Circle(center, radius) => wider(&around(&[center]), radius),
+            GradedShape::Point(p) | GradedShape::Bend(Bend { at: p, .. }) => around(&[p]),
+            GradedShape::Circle(center, radius) => wider(&around(&[center]), radius),
         }
     }
 
@@ -137,8 +139,8 @@ impl Graded {
     /// coarser ones.
     pub(super) fn coarsen_rim(&mut self) -> bool {
         let radius = match self.from {
-            Shape::Point(_) => return false,
-            Shape::Circle(_, radius) | Shape::Bend(Bend { radius, .. }) => radius,
+            GradedShape::Point(_) => return false,
+            GradedShape::Circle(_, radius) | GradedShape::Bend(Bend { radius, .. }) => radius,
         };
         let is_finer = self.finest * STEP <= FOR_ENERGY * radius;
         self.finest *= if is_finer { STEP } else { 1.0 };
@@ -150,15 +152,15 @@ impl Graded {
         let rings = (size / self.finest).log2().max(0.0);
         let length = match self.from {
             _ if rings == 0.0 => 0.0,
-            Shape::Point(_) => return RING * rings / (self.slope * self.slope),
-            Shape::Circle(_, radius) => std::f64::consts::TAU * radius,
-            Shape::Bend(bend) => bend.length,
+            GradedShape::Point(_) => return RING * rings / (self.slope * self.slope),
+            GradedShape::Circle(_, radius) => std::f64::consts::TAU * radius,
+            GradedShape::Bend(bend) => bend.length,
         };
         ON_RIM * length / self.finest
     }
 }
 
-impl Shape {
+impl GradedShape {
     fn distance(&self, cell: &Rect) -> f64 {
         match *self {
             Self::Point(p) | Self::Bend(Bend { at: p, .. }) => cell.distance(p),

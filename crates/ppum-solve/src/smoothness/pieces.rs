@@ -17,14 +17,14 @@ const ANGLES: usize = 720;
 const BISECTIONS: usize = 60;
 
 /// A formula as quadrature sees it.
-pub(super) struct Pieces {
+pub(super) struct SmoothPieces {
     /// Lines and curves between which it is smooth.
     pub(super) sets: Vec<Kink>,
     /// Its degree, if it is a polynomial of x and y on every piece between them.
     pub(super) degree: Option<usize>,
 }
 
-impl Pieces {
+impl SmoothPieces {
     pub(super) fn new(formula: &Formula) -> Self {
         // The origin of a polar frame is no curve.
         let singular = formula.singularities().into_iter().filter(|set| set.value.text() != "r");

@@ -1,4 +1,4 @@
-use super::pieces::{Pieces, rays};
+use super::pieces::{SmoothPieces, rays};
 use super::traits::{Surroundings, Traits, traits_of_coefficient};
 use crate::quadrature::{Growth, Kink, Singular};
 use ppum::crack::{Crack, CrackEnd, End, TipId};
@@ -10,8 +10,9 @@ use std::sync::Arc;
 
 #[test]
 fn degrees_of_piecewise_polynomials() {
-    let degree =
-        |text: &str| Pieces::new(&Formula::parse(text, &Scope::polar()).expect("a formula")).degree;
+    let degree = |text: &str| {
+        SmoothPieces::new(&Formula::parse(text, &Scope::polar()).expect("a formula")).degree
+    };
     for (text, expected) in [
         ("7", Some(0)),
         ("if(y > 0, 10, 1)", Some(0)),
@@ -39,7 +40,7 @@ fn knots_of_splines() {
     };
     let pieces = |n: usize| {
         let scope = Scope::cartesian().with_table(table(n)).expect("a name");
-        Pieces::new(&Formula::parse("table(k, 2*x)", &scope).expect("a formula"))
+        SmoothPieces::new(&Formula::parse("table(k, 2*x)", &scope).expect("a formula"))
     };
     let few = pieces(5);
     assert_eq!(few.degree, Some(3));

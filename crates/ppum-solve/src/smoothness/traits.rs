@@ -1,7 +1,7 @@
 //! The traits of one function or coefficient that quadrature has to know.
 
 use super::growth::{Behaviour, growth};
-use super::pieces::{Pieces, rays};
+use super::pieces::{SmoothPieces, rays};
 use super::probe::Probe;
 use crate::quadrature::{Growth, Kink, Singular};
 use ppum::crack::Crack;
@@ -100,7 +100,7 @@ impl<'s> Surroundings<'s> {
         declared: &Declared,
     ) -> Result<Traits, FunctionError> {
         let probe = Probe::function(function, &self.cracks, self.tables)?;
-        let Pieces { sets, degree } = Pieces::new(formula);
+        let SmoothPieces { sets, degree } = SmoothPieces::new(formula);
         let mut traits = Traits { degree: degree.unwrap_or(0), ..Traits::default() };
         for set in sets {
             if let Some(line) = set.line() {
@@ -163,7 +163,7 @@ pub(super) fn traits_of_coefficient(coefficient: &Expression) -> Traits {
         return Traits::default();
     }
     let formula = coefficient.formula();
-    let Pieces { sets, degree } = Pieces::new(formula);
+    let SmoothPieces { sets, degree } = SmoothPieces::new(formula);
     let probe = degree.is_none().then(|| Probe::coefficient(formula).ok()).flatten();
     Traits { kinks: in_world(sets), probe, degree: degree.unwrap_or(0), ..Traits::default() }
 }
@@ -175,7 +175,7 @@ pub(super) fn traits_of_data(data: &Expression, mean: f64) -> Option<Traits> {
         return None;
     }
     let formula = data.formula();
-    let Pieces { mut sets, degree } = Pieces::new(formula);
+    let SmoothPieces { mut sets, degree } = SmoothPieces::new(formula);
     if degree.is_some() && sets.is_empty() {
         return None;
     }
@@ -200,7 +200,7 @@ pub(crate) fn levels_of_data(data: &Expression) -> Vec<Formula> {
     if data.constant().is_some() {
         return Vec::new();
     }
-    Pieces::new(data.formula()).sets.into_iter().map(|set| set.value).collect()
+    SmoothPieces::new(data.formula()).sets.into_iter().map(|set| set.value).collect()
 }
 
 /// Sets of a formula of the plate's x and y.

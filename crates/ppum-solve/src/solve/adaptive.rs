@@ -5,7 +5,7 @@ use super::solved::Solved;
 use super::{Plan, SolveError, most_cells};
 use crate::adapt::{Adviser, mark};
 use crate::problem::{Adaptivity, Keep};
-use crate::report::Stop;
+use crate::report::StopReason;
 use crate::space::{Change, Mesh};
 use crate::watched::Stage;
 use ppum::dataset::Dataset;
@@ -27,7 +27,7 @@ impl Watcher for InStep<'_> {
 /// The next step, or why there is none.
 enum Next<'p> {
     Plan(Box<Plan<'p>>),
-    Stop(Stop),
+    Stop(StopReason),
 }
 
 /// Solves step by step: solve, estimate, mark, improve, from a plan of the first step.
@@ -76,25 +76,25 @@ impl<'p> Solved<'p> {
             wanted.into_iter().filter_map(|(most, error)| Some(error <= most?)).peekable();
         let is_enough = wanted.peek().is_some() && wanted.all(|reached| reached);
         if error == 0.0 || is_enough {
-            return Ok(Next::Stop(Stop::Tolerance));
+            return Ok(Next::Stop(StopReason::Tolerance));
         }
         if step >= set.steps {
-            return Ok(Next::Stop(Stop::Steps));
+            return Ok(Next::Stop(StopReason::Steps));
         }
         let clock = Clock::new();
         let stage = Stage::uncounted(watcher, Phase::Cover)?;
         let parts = if set.accuracy.is_some() { &parts } else { &self.squares };
         let Some(mesh) = self.improved(set, parts)? else {
-            return Ok(Next::Stop(Stop::Limits));
+            return Ok(Next::Stop(StopReason::Limits));
         };
         let Plan { problem, memory, .. } = self.plan;
         if mesh.n_cells() > most_cells(problem, memory) {
-            return Ok(Next::Stop(Stop::Memory));
+            return Ok(Next::Stop(StopReason::Memory));
         }
         match Plan::on(problem, mesh, memory, (clock, &stage)) {
-            Err(SolveError::TooLarge { .. }) => Ok(Next::Stop(Stop::Memory)),
+            Err(SolveError::TooLarge { .. }) => Ok(Next::Stop(StopReason::Memory)),
             Ok(plan) if plan.estimate.unknowns > set.max_unknowns as f64 => {
-                Ok(Next::Stop(Stop::Unknowns))
+                Ok(Next::Stop(StopReason::Unknowns))
             }
             other => Ok(Next::Plan(Box::new(other?))),
         }

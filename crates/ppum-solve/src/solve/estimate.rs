@@ -98,7 +98,7 @@ pub struct Estimate {
 
 /// The work of a solution, counted in operations.
 #[derive(Clone, Copy, Debug, Default)]
-struct Work {
+struct OperationCount {
     assembly: f64,
     factor: f64,
     tips: f64,
@@ -111,7 +111,7 @@ impl Estimate {
         let sizes: Vec<_> = (0..space.sizes.len()).map(|patch| space.unknowns(patch)).collect();
         let pattern = pattern(space);
         let tips = if problem.equation.elastic().is_some() { n_tips(problem) } else { 0.0 };
-        let work = Work { assembly: assembly(space), factor: 0.0, tips };
+        let work = OperationCount { assembly: assembly(space), factor: 0.0, tips };
         let (patches, nonzeros) = (sizes.len() as f64, nonzeros(&pattern, &sizes));
         let multilevel = || Self::multilevel(patches, &sizes, nonzeros, work);
         let direct = || {
@@ -121,7 +121,7 @@ impl Estimate {
                 &sizes,
                 nonzeros,
                 fill.values,
-                Work { factor: fill.operations, ..work },
+                OperationCount { factor: fill.operations, ..work },
             )
         };
         match problem.solver.kind {
@@ -158,7 +158,7 @@ impl Estimate {
         let points = points(least_order(problem));
         let functions = (NEIGHBOURS + 4.0).min(patches) * least_size(problem) as f64;
         let assembly = patches * points * functions * functions;
-        let work = Work { assembly, ..Work::default() };
+        let work = OperationCount { assembly, ..OperationCount::default() };
         let direct = Self { unknowns, ..Self::new(patches, &[], nonzeros, nonzeros, work) };
         let multilevel = Self { unknowns, ..Self::multilevel(patches, &[], nonzeros, work) };
         match problem.solver.kind {
@@ -180,7 +180,13 @@ impl Estimate {
         (memory as f64 / (values + PATCH_BYTES)) as usize
     }
 
-    fn new(patches: f64, sizes: &[usize], nonzeros: f64, factor: f64, work: Work) -> Self {
+    fn new(
+        patches: f64,
+        sizes: &[usize],
+        nonzeros: f64,
+        factor: f64,
+        work: OperationCount,
+    ) -> Self {
         let cores = rayon::current_num_threads() as f64;
         let values = SYSTEM_BYTES * nonzeros + FACTOR_BYTES * factor;
         let cells = CELL_SECONDS * patches + ASSEMBLY_SECONDS * work.assembly;
@@ -200,8 +206,9 @@ impl Estimate {
 
 impl Estimate {
     /// The estimate with the multilevel solver.
-    fn multilevel(patches: f64, sizes: &[usize], nonzeros: f64, work: Work) -> Self {
-        let direct = Self::new(patches, sizes, nonzeros, 0.0, Work { factor: 0.0, ..work });
+    fn multilevel(patches: f64, sizes: &[usize], nonzeros: f64, work: OperationCount) -> Self {
+        let direct =
+            Self::new(patches, sizes, nonzeros, 0.0, OperationCount { factor: 0.0, ..work });
         let cells = CELL_SECONDS * patches + ASSEMBLY_SECONDS * work.assembly;
         let coarser = COARSER * cells / rayon::current_num_threads() as f64;
         let steps = STEPS + if work.tips > 0.0 { DUAL_STEPS } else { 0.0 };

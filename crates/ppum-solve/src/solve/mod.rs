@@ -27,7 +27,7 @@ use ppum::dataset::{Dataset, Step, TipIntensity};
 use ppum::progress::{Phase, Watcher};
 pub(crate) use shelf::Shelf;
 use solution::{Assembled, Solving};
-use solved::{Found, Solved};
+use solved::{PlanSolution, Solved};
 
 /// Solves a problem: one step, one field; several steps where the problem asks for adaptation and
 /// wants to keep all of them. The watcher is told how far the work has come.
@@ -194,7 +194,7 @@ impl<'p> Plan<'p> {
             let wanted = is_wanted(&dataset.steps[0].intensities);
             return Ok(Attempt::of(dataset, wanted));
         }
-        let found = self.found(watcher)?;
+        let found = self.solve_plan(watcher)?;
         let factors = found.factors();
         if !is_wanted(&factors) {
             return Ok(Attempt::Refused(factors));
@@ -205,19 +205,19 @@ impl<'p> Plan<'p> {
             .map(|dataset| Attempt::Done(Box::new(dataset)))
     }
 
-    /// The solution with its factors.
-    fn found(mut self, watcher: &dyn Watcher) -> Result<Found<'p>, SolveError> {
+    /// Solves the plan, and integrates the factors of its tips.
+    fn solve_plan(mut self, watcher: &dyn Watcher) -> Result<PlanSolution<'p>, SolveError> {
         let Self { problem, ref mesh, ref space, estimate, shelf, .. } = self;
         let Estimate { solver: kind, falls_back, .. } = estimate;
         let solving = Solving { problem, mesh, space, kind, falls_back, shelf, watcher };
         let mut solution = solving.solution(&self.dataset, &mut self.clock)?;
         solution.store(&mut self.dataset.steps[0]);
-        Found::new(self, solution, watcher)
+        PlanSolution::new(self, solution, watcher)
     }
 
     /// The solution with its estimated error.
     fn solved(self, watcher: &dyn Watcher) -> Result<Solved<'p>, SolveError> {
-        self.found(watcher)?.estimated(watcher)
+        self.solve_plan(watcher)?.estimated(watcher)
     }
 
     fn solving<'a>(&'a self, watcher: &'a dyn Watcher) -> Solving<'a> {

@@ -10,10 +10,10 @@ use std::sync::{Mutex, PoisonError};
 ///
 /// Solutions have the same bits with and without it.
 #[derive(Default)]
-pub(crate) struct Shelf(Mutex<Option<Kept>>);
+pub(crate) struct Shelf(Mutex<Option<CachedSystem>>);
 
 /// Basis and system of a space.
-pub(super) struct Kept {
+pub(super) struct CachedSystem {
     prints: Prints,
     basis: StableBasis,
     /// The system with its moments, and with the penalties of the gauge if the solver has
@@ -25,7 +25,7 @@ pub(super) struct Kept {
 /// What is kept of an earlier space, as this one sees it.
 pub(super) struct Reused {
     prints: Prints,
-    before: Option<(Unchanged, Kept)>,
+    before: Option<(Unchanged, CachedSystem)>,
 }
 
 impl Shelf {
@@ -47,7 +47,7 @@ impl Shelf {
         mut gauge: Gauge,
     ) {
         (system.moments, system.duals) = (gauge.take_moments(), Vec::new());
-        let kept = Kept { prints, basis, system, gauge };
+        let kept = CachedSystem { prints, basis, system, gauge };
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(kept);
     }
 }

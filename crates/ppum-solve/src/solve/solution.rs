@@ -7,7 +7,7 @@ use super::goal::DualSolutions;
 use super::shelf::{Reused, Shelf};
 use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Gauge, Given, System, slivers};
 use crate::basis::StableBasis;
-use crate::equilibrium::{Pieces, Plate};
+use crate::equilibrium::{BodyPieces, Plate};
 use crate::hierarchy::Finest;
 use crate::intensity::{Sensitivity, sensitivities};
 use crate::law::Law;
@@ -68,7 +68,7 @@ impl Solving<'_> {
     /// Loads without restraint, data that are not finite; cancelled.
     pub(super) fn loaded(&self) -> Result<(Given<'_>, Plate), SolveError> {
         let Self { problem, space, watcher, .. } = *self;
-        let pieces = Pieces::new(&problem.domain, &problem.cracks);
+        let pieces = BodyPieces::new(&problem.domain, &problem.cracks);
         if pieces.all().is_empty() {
             return Err(SpaceError::Nothing.into());
         }
@@ -132,14 +132,14 @@ impl Solving<'_> {
         let field = Field::new(dataset, 0)?;
         let tips = sensitivities(dataset, &field, self.space);
         let mut assembled = self.assemble(&given, &plate, &tips, clock)?;
-        let found = match self.found(self.kind, &mut assembled, &plate, &tips) {
+        let found = match self.solve_system(self.kind, &mut assembled, &plate, &tips) {
             Err(error) if self.falls_back && is_of_levels(&error) => {
-                let found = self.found(LinearKind::Direct, &mut assembled, &plate, &tips);
+                let found = self.solve_system(LinearKind::Direct, &mut assembled, &plate, &tips);
                 found.map(|found| found.told_of_fallback())
             }
             other => other,
         };
-        let Found { unknowns: solution, duals, report } = found?;
+        let SystemSolution { unknowns: solution, duals, report } = found?;
         let Assembled { basis, mut system, gauge, prints } = assembled;
         clock.lap(Phase::Solution);
         let components = self.problem.components();
@@ -188,13 +188,13 @@ impl Solving<'_> {
     }
 
     /// The solution of the system, without what is left of free motions, and the dual solutions.
-    fn found(
+    fn solve_system(
         &self,
         kind: LinearKind,
         Assembled { basis, system, gauge, .. }: &mut Assembled,
         plate: &Plate,
         tips: &[Sensitivity<'_>],
-    ) -> Result<Found, SolveError> {
+    ) -> Result<SystemSolution, SolveError> {
         let located = |error| self.located(error);
         let stage = Stage::new(self.watcher, Phase::Solution, 3)?;
         let goes_on = || stage.advance(0).is_ok();
@@ -220,7 +220,7 @@ impl Solving<'_> {
         stage.advance(1)?;
         let duals = self.duals(tips, (basis, &system.duals), solver)?;
         let report = chosen.report(solution.relative_residual, solution.course);
-        Ok(Found { unknowns: solution.unknowns, duals, report })
+        Ok(SystemSolution { unknowns: solution.unknowns, duals, report })
     }
 
     /// The error at the place of its patch.
@@ -236,15 +236,15 @@ impl Solving<'_> {
     }
 }
 
-/// What the linear solver has found.
-struct Found {
+/// The unknowns and dual solutions of a system.
+struct SystemSolution {
     unknowns: Vec<f64>,
     duals: Option<DualSolutions>,
     /// The numbers of the report that the linear solver knows.
     report: SolverReport,
 }
 
-impl Found {
+impl SystemSolution {
     fn told_of_fallback(self) -> Self {
         Self { report: SolverReport { fallback: Some(1.0), ..self.report }, ..self }
     }

@@ -4,18 +4,18 @@ use super::goal::Goal;
 use super::solution::Solution;
 use super::{Plan, SolveError};
 use crate::adapt::estimated;
-use crate::diagnostics::Case;
-use crate::intensity::{Outcome, intensities_under};
+use crate::diagnostics::DiagnosedSolution;
+use crate::intensity::{TipOutcome, intensities_under};
 use crate::law::Law;
 use crate::norms::energy;
-use crate::report::{SolverReport, Stop, Unresolved};
+use crate::report::{SolverReport, StopReason, Unresolved};
 use crate::watched::Stage;
 use ppum::dataset::{Attribute, Dataset, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
 
-/// Part of the largest [strength](Outcome::strength) of a tip below which factors count as nothing,
-/// and are no measure of their errors.
+/// Part of the largest [strength](TipOutcome::strength) of a tip below which factors count as
+/// nothing, and are no measure of their errors.
 const NOTHING: f64 = 1e-2;
 
 /// Part of the energy that a field of the same size could have up to which the energy is rounding:
@@ -23,10 +23,10 @@ const NOTHING: f64 = 1e-2;
 const ROUNDING: f64 = 1e-20;
 
 /// A plan whose dataset has its coefficients, with the factors of its tips.
-pub(super) struct Found<'p> {
+pub(super) struct PlanSolution<'p> {
     plan: Plan<'p>,
     solution: Solution,
-    tips: Vec<Outcome>,
+    tips: Vec<TipOutcome>,
 }
 
 /// The same with its estimated error.
@@ -38,11 +38,11 @@ pub(super) struct Solved<'p> {
     /// The squares of the estimated error, cell by cell.
     pub(super) squares: Vec<f64>,
     /// What is known of the tips.
-    tips: Vec<Outcome>,
+    tips: Vec<TipOutcome>,
     goal: Goal,
 }
 
-impl<'p> Found<'p> {
+impl<'p> PlanSolution<'p> {
     /// Finds the factors.
     pub(super) fn new(
         mut plan: Plan<'p>,
@@ -112,19 +112,20 @@ impl Solved<'_> {
     /// of the last step of an adaptation with what has ended it.
     pub(super) fn finish(
         self,
-        stop: Option<Stop>,
+        stop: Option<StopReason>,
         watcher: &dyn Watcher,
     ) -> Result<Dataset, SolveError> {
         let Self { plan, mut report, unresolved, tips, .. } = self;
         let Plan { problem, mut dataset, ref space, crossed_twice, mut clock, .. } = plan;
         let field = Field::new(&dataset, 0)?;
         report.crossed_twice = Some(crossed_twice as f64);
-        report.stop = stop.map(Stop::code);
+        report.stop = stop.map(StopReason::code);
         let problem = Some(problem);
         let diagnosis = {
             let (dataset, field, report) = (&dataset, &field, &report);
             let unresolved = &unresolved;
-            let case = Case { dataset, step: 0, field, space, problem, report, unresolved };
+            let case =
+                DiagnosedSolution { dataset, step: 0, field, space, problem, report, unresolved };
             case.diagnose(&tips, watcher)?
         };
         clock.lap(Phase::Estimation);

@@ -37,7 +37,7 @@ const SIZE_BITS: u64 = 12;
 /// The cells of a space that are alike.
 #[derive(Debug, Default)]
 pub(crate) struct Alike {
-    kinds: Vec<Kind>,
+    kinds: Vec<ReferenceCell>,
     /// Of each cell that is of a kind, that kind and its patches.
     cells: Vec<Option<Member>>,
     /// Of each patch all cells of which are of kinds, its own kind.
@@ -45,9 +45,9 @@ pub(crate) struct Alike {
     patch_kinds: Vec<PatchKind>,
 }
 
-/// A kind of cells.
+/// A cell whose rules all cells that are congruent to it share.
 #[derive(Debug)]
-pub(crate) struct Kind {
+pub(crate) struct ReferenceCell {
     measures: Vec<i64>,
     /// The rules of the cell at the origin; patches are seats.
     rules: Vec<Rule>,
@@ -97,7 +97,7 @@ impl Alike {
         let mut place = vec![0; all.len()];
         (0..).zip(&all).for_each(|(new, (_, old))| place[*old as usize] = new);
         cells.iter_mut().flatten().for_each(|member| member.kind = place[member.kind as usize]);
-        let kind = |(measures, _)| Kind { measures, rules: Vec::new() };
+        let kind = |(measures, _)| ReferenceCell { measures, rules: Vec::new() };
         Self { kinds: all.into_iter().map(kind).collect(), cells, ..Self::default() }
     }
 
@@ -125,7 +125,7 @@ impl Alike {
     }
 
     /// All kinds of cells.
-    pub(crate) fn kinds(&self) -> &[Kind] {
+    pub(crate) fn kinds(&self) -> &[ReferenceCell] {
         &self.kinds
     }
 
@@ -158,7 +158,7 @@ impl Alike {
     }
 }
 
-impl Kind {
+impl ReferenceCell {
     /// The rules of the cell at the origin, whose patches are the seats.
     pub(crate) fn rules(&self) -> &[Rule] {
         &self.rules

@@ -30,7 +30,7 @@ pub(crate) use prints::{Prints, Unchanged};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
-pub(crate) use williams::{ANGULAR, Origin, Series};
+pub(crate) use williams::{ANGULAR, Origin, SeriesFunctions};
 
 /// Accuracy of the quadrature of products of partition functions with polynomials of the
 /// highest degree.
@@ -63,7 +63,7 @@ pub struct Space<'d> {
     pub(crate) shifts: Vec<f64>,
     /// Of each patch, those functions that stand for the series of tips and corners; empty if there
     /// are none anywhere.
-    series: Vec<Vec<Series>>,
+    series: Vec<Vec<SeriesFunctions>>,
     /// The functions of the table that they are made of.
     in_series: BTreeSet<u32>,
     equation: &'d Equation,

@@ -2,7 +2,7 @@
 //! them only.
 
 use super::Space;
-use crate::corner::{Corner, Symmetry, Term, corners};
+use crate::corner::{Corner, Symmetry, WedgeTerm, corners};
 use crate::problem::Problem;
 use ppum::crack::{Side, TipId};
 use ppum::dataset::{Equation, Step, monomials};
@@ -14,7 +14,7 @@ use std::ops::Range;
 
 /// Functions of a patch that stand for a series, or for one term of it.
 #[derive(Clone, Debug)]
-pub(crate) struct Series {
+pub(crate) struct SeriesFunctions {
     pub(crate) origin: Origin,
     /// The blocks that they are stored in.
     pub(crate) blocks: Range<usize>,
@@ -43,14 +43,14 @@ pub(crate) enum Origin {
         at: Vec2,
         /// Angle of the bisector.
         bisector: f64,
-        term: Term,
+        term: WedgeTerm,
     },
 }
 
 /// Functions of a term at a tip: r^λ cos λθ, r^λ sin λθ, r^λ cos (λ−2)θ, r^λ sin (λ−2)θ.
 pub(crate) const ANGULAR: usize = 4;
 
-impl Series {
+impl SeriesFunctions {
     /// Number of unknowns.
     pub(crate) fn unknowns(&self, components: usize) -> usize {
         match self.origin {
@@ -77,7 +77,7 @@ impl Series {
 
 /// The series of all patches of a problem's step, and the functions of its table that they are made
 /// of; none where the material varies, as terms are others then.
-pub(super) fn series(problem: &Problem, step: &Step) -> (Vec<Vec<Series>>, BTreeSet<u32>) {
+pub(super) fn series(problem: &Problem, step: &Step) -> (Vec<Vec<SeriesFunctions>>, BTreeSet<u32>) {
     if !problem.has_series() {
         return (Vec::new(), BTreeSet::new());
     }
@@ -130,7 +130,7 @@ const OF_CORNER: &str = "r^";
 pub(super) fn of_corner(corner: &Corner, equation: &Equation) -> Vec<(Vec<Function>, Origin)> {
     let Some(wedge) = &corner.wedge else { return Vec::new() };
     let frame = Frame::Fixed { origin: corner.at, angle: wedge.bisector };
-    let function = |term: &Term, text: &str| Function {
+    let function = |term: &WedgeTerm, text: &str| Function {
         name: format!("{OF_CORNER}{:.3} at [{}, {}]", term.exponent, corner.at.x, corner.at.y),
         kind: FunctionKind::Formula {
             text: on_side(text, wedge.side),
@@ -140,12 +140,12 @@ pub(super) fn of_corner(corner: &Corner, equation: &Equation) -> Vec<(Vec<Functi
             declared: Declared { singular: vec![Vec2::ZERO], ..Declared::default() },
         },
     };
-    let texts = |term: &Term| match (equation, term.symmetry) {
+    let texts = |term: &WedgeTerm| match (equation, term.symmetry) {
         (Equation::Elasticity(_), _) => &WEDGE[..],
         (_, Symmetry::Symmetric) => &WEDGE[..1],
         (_, Symmetry::Antisymmetric) => &WEDGE[1..2],
     };
-    let group = |term: &Term| {
+    let group = |term: &WedgeTerm| {
         let functions = texts(term).iter().map(|text| function(term, text)).collect();
         let (at, bisector) = (corner.at, wedge.bisector);
         (functions, Origin::Corner { at, bisector, term: *term })
@@ -162,13 +162,18 @@ fn on_side(text: &str, side: Option<(u32, Side)>) -> String {
     }
 }
 
-fn of_patch(step: &Step, patch: usize, groups: &Groups) -> Vec<Series> {
+fn of_patch(step: &Step, patch: usize, groups: &Groups) -> Vec<SeriesFunctions> {
     let (data, mut at, mut found) = (&step.fields[0], 0, Vec::new());
     for block in data.blocks(patch) {
         let degree = usize::from(data.block_degree[block]);
         if let Some((origin, count)) = groups.get(&data.block_function[block]) {
             let functions = at..at + count * monomials(degree);
-            found.push(Series { origin: *origin, blocks: block..block + count, functions, degree });
+            found.push(SeriesFunctions {
+                origin: *origin,
+                blocks: block..block + count,
+                functions,
+                degree,
+            });
         }
         at += monomials(degree);
     }
@@ -177,13 +182,13 @@ fn of_patch(step: &Step, patch: usize, groups: &Groups) -> Vec<Series> {
 
 impl Space<'_> {
     /// The series of a patch.
-    pub(crate) fn series(&self, patch: usize) -> &[Series] {
+    pub(crate) fn series(&self, patch: usize) -> &[SeriesFunctions] {
         self.series.get(patch).map_or(&[], Vec::as_slice)
     }
 
     /// Number of functions of a patch that the solver evaluates.
     pub(crate) fn evaluated(&self, patch: usize) -> usize {
-        let fewer = |series: &Series| series.functions.len() - series.evaluated();
+        let fewer = |series: &SeriesFunctions| series.functions.len() - series.evaluated();
         self.sizes[patch] - self.series(patch).iter().map(fewer).sum::<usize>()
     }
 
@@ -192,7 +197,7 @@ impl Space<'_> {
     pub(crate) fn evaluated_series(
         &self,
         patch: usize,
-    ) -> impl Iterator<Item = (Range<usize>, &Series)> {
+    ) -> impl Iterator<Item = (Range<usize>, &SeriesFunctions)> {
         let mut fewer = 0;
         self.series(patch).iter().map(move |series| {
             let (first, n) = (series.functions.start - fewer, series.evaluated());

@@ -12,7 +12,7 @@ use ppum::progress::{Phase, Progress, Verdict, unwatched};
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::diagnostics::kind;
 use ppum_solve::problem::{AdaptKind, Adaptivity, Cells, Keep, Problem};
-use ppum_solve::report::{Stop, forget_times};
+use ppum_solve::report::{StopReason, forget_times};
 use ppum_solve::solve::{Plan, SolveError, solve};
 use ppum_testkit::random::Random;
 use std::ops::Range;
@@ -196,8 +196,8 @@ fn results_do_not_depend_on_threads() {
     assert!(with(1) == with(3));
 }
 
-fn stop(dataset: &Dataset) -> Option<Stop> {
-    Stop::of_code(record(dataset.steps.last().expect("steps"), "adaptation stop"))
+fn stop(dataset: &Dataset) -> Option<StopReason> {
+    StopReason::of_code(record(dataset.steps.last().expect("steps"), "adaptation stop"))
 }
 
 /// Each end of an adaptation is told, only in its last step; one that has not come to its
@@ -214,20 +214,20 @@ fn what_has_ended_it_is_told() {
         dataset.steps.iter().map(of).collect::<Vec<_>>()
     };
     let steps = with(&|set| set.tolerance = Some(1e-9));
-    assert_eq!((stop(&steps), steps.steps.len()), (Some(Stop::Steps), 3));
+    assert_eq!((stop(&steps), steps.steps.len()), (Some(StopReason::Steps), 3));
     assert_eq!(warns(&steps), [false, false, true]);
     let tolerance = with(&|set| set.tolerance = Some(0.15));
-    assert_eq!((stop(&tolerance), tolerance.steps.len()), (Some(Stop::Tolerance), 2));
+    assert_eq!((stop(&tolerance), tolerance.steps.len()), (Some(StopReason::Tolerance), 2));
     assert_eq!(warns(&tolerance), [false, false]);
     let few = with(&|set| set.max_unknowns = 100);
-    assert_eq!((stop(&few), few.steps.len()), (Some(Stop::Unknowns), 2));
+    assert_eq!((stop(&few), few.steps.len()), (Some(StopReason::Unknowns), 2));
     assert!(few.steps.iter().all(|step| record(step, "unknowns") <= 100.0));
     let last = with(&|set| set.keep = Keep::Last);
-    assert_eq!((stop(&last), last.steps.len()), (Some(Stop::Steps), 1));
+    assert_eq!((stop(&last), last.steps.len()), (Some(StopReason::Steps), 1));
     assert_eq!(last.steps[0].partition, steps.steps[2].partition);
     // of the highest order
     let limits = solved(&on(corner(), 8, set(AdaptKind::P, 3, 100_000)));
-    assert_eq!((stop(&limits), limits.steps.len()), (Some(Stop::Limits), 1));
+    assert_eq!((stop(&limits), limits.steps.len()), (Some(StopReason::Limits), 1));
 }
 
 /// A step that the memory does not hold is not made.
@@ -240,7 +240,7 @@ fn memory_ends_it() {
     let memory = plan.estimate().memory as u64;
     let plan = Plan::new(&problem, Some(memory), unwatched()).expect("a plan");
     let dataset = plan.solve(unwatched()).expect("a solution");
-    assert_eq!(stop(&dataset), Some(Stop::Memory));
+    assert_eq!(stop(&dataset), Some(StopReason::Memory));
     assert!(dataset.steps.len() > 1);
 }
 

@@ -6,12 +6,12 @@ use ppum::dataset::{Dataset, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_solve::intensity::{Loads, Obstacle, Outcome, intensities};
+use ppum_solve::intensity::{Loads, Obstacle, TipOutcome, intensities};
 use ppum_solve::problem::{BorderPart, Cells, Condition, Edge, Expression, Problem};
 use ppum_solve::space::Space;
 use ppum_testkit::exact::{CollinearCracks, CrackInPlane, ExactField as _, Williams};
 
-fn outcomes(dataset: &Dataset, loads: Loads<'_>) -> Vec<Outcome> {
+fn outcomes(dataset: &Dataset, loads: Loads<'_>) -> Vec<TipOutcome> {
     let step = &dataset.steps[0];
     let space =
         Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables).expect("functions");

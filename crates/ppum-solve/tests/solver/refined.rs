@@ -4,7 +4,7 @@ use crate::studies::support::solved;
 use ppum::progress::unwatched;
 use ppum::segment::polyline_distance;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_solve::problem::{LocalRefinement, Place, Problem};
+use ppum_solve::problem::{LocalRefinement, Problem, RefinementRegion};
 use ppum_solve::space::discretise;
 use ppum_testkit::random::Random;
 use std::path::Path;
@@ -33,7 +33,7 @@ fn longest(cell: &Rect) -> f64 {
 type Away = Box<dyn Fn(Vec2) -> f64>;
 
 /// A random place with points of it, which lie dense, and the distance of a point to it.
-fn place(kind: usize, random: &mut Random) -> (Place, Vec<Vec2>, Away) {
+fn place(kind: usize, random: &mut Random) -> (RefinementRegion, Vec<Vec2>, Away) {
     let mut point = || vec2(random.between(-0.9, 0.9), random.between(-0.9, 0.9));
     let grid = |rect: Rect| {
         let at = move |k: u32| {
@@ -46,25 +46,28 @@ fn place(kind: usize, random: &mut Random) -> (Place, Vec<Vec2>, Away) {
         0 => {
             let (a, b) = (point(), point());
             let rect = Rect::new(a.min(b), a.max(b));
-            (Place::Box(rect), grid(rect), Box::new(move |p| rect.distance(p)))
+            (RefinementRegion::Box(rect), grid(rect), Box::new(move |p| rect.distance(p)))
         }
         1 => {
             let (center, radius) = (point(), 0.05 + 0.2 * point().x.abs());
             let all = grid(Rect::around(center, vec2(radius, radius)));
             let inside = all.into_iter().filter(|p| (*p - center).length() < radius).collect();
             let away = move |p: Vec2| ((p - center).length() - radius).max(0.0);
-            (Place::Disc { center, radius }, inside, Box::new(away))
+            (RefinementRegion::Disc { center, radius }, inside, Box::new(away))
         }
         2 => {
             let center = vec2(0.5, 0.45);
             let turn = |k: u32| std::f64::consts::TAU * f64::from(k) / 400.0;
             let on = (0..400).map(|k| center + vec2(turn(k).cos(), turn(k).sin()) * 0.2).collect();
-            (Place::Hole(0), on, Box::new(move |p| ((p - center).length() - 0.2).abs()))
+            (RefinementRegion::Hole(0), on, Box::new(move |p| ((p - center).length() - 0.2).abs()))
         }
         _ => {
             let (place, points) = match kind {
-                3 => (Place::Hole(1), vec![[-0.7, 0.3], [-0.3, 0.4], [-0.5, 0.7], [-0.7, 0.3]]),
-                _ => (Place::Crack(0), vec![[-0.5, -0.4], [0.0, -0.3], [0.3, -0.5]]),
+                3 => (
+                    RefinementRegion::Hole(1),
+                    vec![[-0.7, 0.3], [-0.3, 0.4], [-0.5, 0.7], [-0.7, 0.3]],
+                ),
+                _ => (RefinementRegion::Crack(0), vec![[-0.5, -0.4], [0.0, -0.3], [0.3, -0.5]]),
             };
             let points: Vec<Vec2> = points.into_iter().map(Vec2::from).collect();
             let on = |k: u32| {
@@ -97,7 +100,7 @@ fn cells_are_as_small_as_was_said() {
             let meets = dense
                 .iter()
                 .any(|p| (distance == 0.0 && cell.contains(*p)) || cell.distance(*p) < distance);
-            let of_hole = matches!(place, Place::Hole(_));
+            let of_hole = matches!(place, RefinementRegion::Hole(_));
             assert!(of_hole || !meets || longest(cell) <= size, "{case}: {cell:?}");
             let corner = cell.corners().into_iter().chain([cell.center()]);
             let nearest = corner.map(&away).fold(f64::INFINITY, f64::min);
@@ -120,13 +123,13 @@ fn sizes_of_cells_themselves() {
     {
         let mut problem = plate(&format!("cells = {cells}"), "");
         problem.domain.holes.clear();
-        problem.refinements = vec![LocalRefinement::new(Place::Plate, size)];
+        problem.refinements = vec![LocalRefinement::new(RefinementRegion::Plate, size)];
         assert_eq!(cells_of(&problem).len(), expected, "{cells}, {size}");
     }
     let mut problem = plate("cells = [4, 4]", "");
     problem.domain.holes.clear();
     let quarter = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
-    problem.refinements = vec![LocalRefinement::new(Place::Box(quarter), 0.3)];
+    problem.refinements = vec![LocalRefinement::new(RefinementRegion::Box(quarter), 0.3)];
     assert_eq!(cells_of(&problem).len(), 12 + 16, "the box and no cell beside it");
 }
 

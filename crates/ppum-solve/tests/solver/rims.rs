@@ -8,7 +8,8 @@ use ppum::field::Field;
 use ppum::quantity::{Axis, Quantity};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::problem::{
-    Cells, Condition, Discretization, Edge, Expression, LocalRefinement, Order, Place, Problem,
+    Cells, Condition, Discretization, Edge, Expression, LocalRefinement, Order, Problem,
+    RefinementRegion,
 };
 use ppum_testkit::exact::{ElasticField as _, RoundHole};
 use ppum_testkit::random::Random;
@@ -112,7 +113,7 @@ fn errors_at_the_rim_are_estimated() {
         let mut set = Discretization::new(Cells::Grid([5, 5]));
         set.refine = false;
         let mut problem = kirsch(1.0, center, radius, set);
-        problem.refinements = vec![LocalRefinement::new(Place::Hole(0), size)];
+        problem.refinements = vec![LocalRefinement::new(RefinementRegion::Hole(0), size)];
         let dataset = solved(&problem);
         let warning = coarse(&dataset).map(|warning| (warning.value, warning.message.clone()));
         (on_the_rim(&dataset, center, radius).0, warning)

@@ -29,16 +29,16 @@ type Triangle<'m> = FaceHandle<'m, InnerTag, Point2<f64>, (), spade::CdtEdge<()>
 
 /// The connected components of the domain without its cracks.
 #[derive(Debug)]
-pub(crate) struct Pieces {
+pub(crate) struct BodyPieces {
     bounds: Rect,
     /// Of each piece, what is known of it.
-    all: Vec<Piece>,
-    map: Option<Map>,
+    all: Vec<BodyPiece>,
+    map: Option<PieceMap>,
 }
 
 /// The places of the pieces.
 #[derive(Debug)]
-struct Map {
+struct PieceMap {
     mesh: Mesh,
     /// Of each triangle, its piece; none in a hole.
     piece_of: Vec<Option<usize>>,
@@ -52,7 +52,7 @@ type Along = Vec<Vec<Vec<[FixedVertexHandle; 2]>>>;
 
 /// One connected component.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Piece {
+pub(crate) struct BodyPiece {
     /// Area, rims of round holes replaced by polygons.
     pub(crate) area: f64,
     /// Centroid; it need not lie in the piece.
@@ -61,13 +61,13 @@ pub(crate) struct Piece {
     pub(crate) inside: Vec2,
 }
 
-impl Pieces {
+impl BodyPieces {
     /// The pieces of a domain without cracks.
     ///
     /// In a box one crack with a tip does not cut anything.
     pub(crate) fn new(domain: &Domain, cracks: &[Crack]) -> Self {
         let bounds = domain.bounds;
-        let all_of_it = || Self { bounds, all: vec![Piece::of_box(&bounds)], map: None };
+        let all_of_it = || Self { bounds, all: vec![BodyPiece::of_box(&bounds)], map: None };
         let has_tip = cracks.iter().all(|crack| crack.ends.contains(&CrackEnd::Tip));
         if domain.holes.is_empty() && cracks.len() < 2 && has_tip {
             return all_of_it();
@@ -86,9 +86,10 @@ impl Pieces {
     /// The rigid-body modes of the pieces. Those of a plate in one piece are about the centre of
     /// its box: they stay the same to the last bit where cracks grow.
     pub(crate) fn rigid_modes(&self, components: usize) -> Vec<RigidModes> {
-        let modes = |piece: &Piece| RigidModes::new(piece.centroid, piece.area.sqrt(), components);
+        let modes =
+            |piece: &BodyPiece| RigidModes::new(piece.centroid, piece.area.sqrt(), components);
         match self.all.as_slice() {
-            [_] => vec![modes(&Piece::of_box(&self.bounds))],
+            [_] => vec![modes(&BodyPiece::of_box(&self.bounds))],
             several => several.iter().map(modes).collect(),
         }
     }
@@ -102,25 +103,25 @@ impl Pieces {
         for face in mesh.inner_faces() {
             if material[index(&face)] && piece_of[index(&face)].is_none() {
                 let found = flood(&mesh, face, &material);
-                let piece = Piece::of_faces(&bounds, &mesh, &found);
+                let piece = BodyPiece::of_faces(&bounds, &mesh, &found);
                 if piece.area > LEAST_AREA * bounds.size().x * bounds.size().y {
                     found.iter().for_each(|&face| piece_of[face] = Some(all.len()));
                     all.push(piece);
                 }
             }
         }
-        Self { bounds, all, map: Some(Map { mesh, piece_of, along }) }
+        Self { bounds, all, map: Some(PieceMap { mesh, piece_of, along }) }
     }
 
     /// The pieces; at least one if anything is left of the box.
-    pub(crate) fn all(&self) -> &[Piece] {
+    pub(crate) fn all(&self) -> &[BodyPiece] {
         &self.all
     }
 
     /// The number of the piece that holds a point of the plate, which must not lie on a crack. A
     /// point that rounding has put outside belongs to the piece next to it.
     pub(crate) fn of(&self, p: Vec2) -> usize {
-        let Some(Map { mesh, piece_of, .. }) = self.map() else { return 0 };
+        let Some(PieceMap { mesh, piece_of, .. }) = self.map() else { return 0 };
         let face = match mesh.locate(to_unit(&self.bounds, p)) {
             PositionInTriangulation::OnFace(face) => Some(mesh.face(face)),
             PositionInTriangulation::OnEdge(edge)
@@ -137,7 +138,7 @@ impl Pieces {
     }
 
     /// The map, if there are several pieces.
-    fn map(&self) -> Option<&Map> {
+    fn map(&self) -> Option<&PieceMap> {
         self.map.as_ref().filter(|_| self.all.len() > 1)
     }
 
@@ -157,7 +158,7 @@ impl Pieces {
 
     /// The piece that a face of a crack belongs to at a point of it.
     fn beside(&self, face: Face, p: Vec2) -> usize {
-        let Some(Map { mesh, piece_of, along }) = self.map() else { return 0 };
+        let Some(PieceMap { mesh, piece_of, along }) = self.map() else { return 0 };
         let SegmentId { crack, segment } = face.segment;
         let p = to_unit(&self.bounds, p);
         let way =
@@ -171,7 +172,7 @@ impl Pieces {
     }
 }
 
-impl Piece {
+impl BodyPiece {
     fn of_box(bounds: &Rect) -> Self {
         let center = bounds.center();
         Self { area: bounds.size().x * bounds.size().y, centroid: center, inside: center }

@@ -11,19 +11,19 @@ fn domain(holes: &[Vec<Vec2>]) -> Domain {
     Domain { bounds: bounds(), holes }
 }
 
-fn mouths(domain: &Domain, cracks: &[&[[f64; 2]]]) -> Pieces {
+fn mouths(domain: &Domain, cracks: &[&[[f64; 2]]]) -> BodyPieces {
     let along = |points: &&[[f64; 2]]| Crack {
         points: points.iter().copied().map(Vec2::from).collect(),
         ends: [CrackEnd::Mouth; 2],
     };
-    Pieces::new(domain, &cracks.iter().map(along).collect::<Vec<_>>())
+    BodyPieces::new(domain, &cracks.iter().map(along).collect::<Vec<_>>())
 }
 
-fn pieces(holes: &[Vec<Vec2>], cracks: &[&[[f64; 2]]]) -> Pieces {
+fn pieces(holes: &[Vec<Vec2>], cracks: &[&[[f64; 2]]]) -> BodyPieces {
     let along = |points: &&[[f64; 2]]| {
         crack(points.iter().copied().map(Vec2::from).collect(), &bounds().into())
     };
-    Pieces::new(&domain(holes), &cracks.iter().map(along).collect::<Vec<_>>())
+    BodyPieces::new(&domain(holes), &cracks.iter().map(along).collect::<Vec<_>>())
 }
 
 fn square(center: Vec2, half: f64) -> Vec<Vec2> {
@@ -34,7 +34,7 @@ fn square(center: Vec2, half: f64) -> Vec<Vec2> {
 #[test]
 fn tips_cut_nothing() {
     let found = pieces(&[], &[&[[-1.0, 0.0], [0.5, 0.0]], &[[0.0, 0.5], [0.3, 0.7]]]);
-    assert_eq!(found.all(), [Piece { area: 4.0, centroid: Vec2::ZERO, inside: Vec2::ZERO }]);
+    assert_eq!(found.all(), [BodyPiece { area: 4.0, centroid: Vec2::ZERO, inside: Vec2::ZERO }]);
     assert_eq!(found.of(vec2(0.3, 0.3)), 0);
 }
 
@@ -172,7 +172,7 @@ fn cracks_that_meet() {
             lines.into_iter().map(|line| line.into_iter().map(Vec2::from).collect()),
             &bounds().into(),
         );
-        let found = Pieces::new(&domain(&[]), &cracks);
+        let found = BodyPieces::new(&domain(&[]), &cracks);
         let cut_out = if round % 3 == 2 { 0.63 * area } else { area };
         let areas: Vec<f64> = found.all().iter().map(|piece| piece.area).collect();
         assert_eq!(areas.len(), 2, "round {round}: {corners:?} {areas:?}");
@@ -196,7 +196,7 @@ fn pieces_of_a_box_are_its_components() {
             (0..2 + round % 5).map(|k| (0..2 + k % 3).map(|_| point()).collect()).collect();
         let around = Rect::around(Vec2::ZERO, vec2(9.0, 9.0)).into();
         let whole = crate::problem::cracks(lines.iter().cloned(), &around);
-        let pieces = Pieces::new(&domain(&[]), &whole);
+        let pieces = BodyPieces::new(&domain(&[]), &whole);
         let kinds = crate::geometry::Jumps::new(&whole, &bounds.into(), 1e-9).of(&bounds);
         let functions: Vec<_> =
             kinds.into_iter().map(|kind| Function { name: "any".into(), kind }).collect();

@@ -1,6 +1,6 @@
 //! The two sides of a cut: the parts along it, and what lies between them.
 
-use super::region::{Line, Piece};
+use super::region::{SegmentPiece, StraightLine};
 use crate::geometry::rim_crossings;
 use ppum::domain::Hole;
 use ppum::segment::Segment;
@@ -12,7 +12,7 @@ type Interval = [f64; 2];
 /// What is known of a cut.
 #[derive(Debug)]
 pub(super) struct Sides {
-    line: Line,
+    line: StraightLine,
     /// Where cracks lie on it.
     covered: Vec<Interval>,
     /// The parts along it on the left and on the right.
@@ -20,7 +20,7 @@ pub(super) struct Sides {
 }
 
 impl Sides {
-    pub(super) fn new(line: Line) -> Self {
+    pub(super) fn new(line: StraightLine) -> Self {
         Self { line, covered: Vec::new(), parts: [Vec::new(), Vec::new()] }
     }
 
@@ -30,7 +30,7 @@ impl Sides {
     }
 
     /// A piece of a crack lies on the line.
-    pub(super) fn cover(&mut self, piece: &Piece) {
+    pub(super) fn cover(&mut self, piece: &SegmentPiece) {
         self.covered.push(self.interval(piece.ends));
     }
 

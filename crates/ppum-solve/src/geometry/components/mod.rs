@@ -19,7 +19,7 @@ use ppum::domain::Hole;
 use ppum::function::Cut;
 use ppum::segment::Segment;
 use ppum::vec2::Rect;
-use region::{Piece, Region};
+use region::{Region, SegmentPiece};
 use tree::{Node, Tree};
 
 /// Thickness of parts that are rounding, in sizes of the box; the same as quadrature has.
@@ -61,7 +61,8 @@ impl Components {
     ) -> Self {
         let reach = open.min.length().max(open.max.length());
         let thinnest = (THINNEST * open.size().length()).max(ROUNDING * reach);
-        let pieces = segments.filter_map(|(id, ends)| Piece::inside(id, ends, open, thinnest));
+        let pieces =
+            segments.filter_map(|(id, ends)| SegmentPiece::inside(id, ends, open, thinnest));
         let mut building = Building::new(thinnest);
         let region = Region::of_box(open);
         building.part(region, pieces.collect());
@@ -102,7 +103,7 @@ impl Building {
     }
 
     /// Cuts a part of the box by the pieces in it; returns its node.
-    fn part(&mut self, region: Region, mut pieces: Vec<Piece>) -> usize {
+    fn part(&mut self, region: Region, mut pieces: Vec<SegmentPiece>) -> usize {
         while let Some(chosen) = choose(&pieces, self.thinnest) {
             let line = pieces[chosen].line;
             if region.is_split_by(&line, self.thinnest) {
@@ -116,8 +117,8 @@ impl Building {
         self.tree.push(Node::Leaf(self.leaves.len() - 1))
     }
 
-    fn cut(&mut self, region: Region, pieces: Vec<Piece>, chosen: usize) -> usize {
-        let Piece { id, line, ends } = pieces[chosen];
+    fn cut(&mut self, region: Region, pieces: Vec<SegmentPiece>, chosen: usize) -> usize {
+        let SegmentPiece { id, line, ends } = pieces[chosen];
         let number = self.sides.len();
         self.sides.push(Sides::new(line));
         let node = self.tree.push(Node::Cut { segment: id, left: 0, right: 0 });
@@ -200,11 +201,12 @@ fn root(joined: &[usize], mut part: usize) -> usize {
 const CANDIDATES: usize = 8;
 
 /// The piece whose line cuts the fewest others.
-fn choose(pieces: &[Piece], thinnest: f64) -> Option<usize> {
+fn choose(pieces: &[SegmentPiece], thinnest: f64) -> Option<usize> {
     let step = pieces.len().div_ceil(CANDIDATES).max(1);
     let cuts = |&k: &usize| {
-        let cut =
-            |piece: &&Piece| piece.split(&pieces[k].line, thinnest).iter().all(Option::is_some);
+        let cut = |piece: &&SegmentPiece| {
+            piece.split(&pieces[k].line, thinnest).iter().all(Option::is_some)
+        };
         pieces.iter().filter(cut).count()
     };
     (0..pieces.len()).step_by(step).min_by_key(cuts)

@@ -7,12 +7,12 @@ use ppum::vec2::{Rect, Vec2};
 
 /// A straight line: a point of it and its direction, a unit vector.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(super) struct StraightLine {
     from: Vec2,
     along: Vec2,
 }
 
-impl Line {
+impl StraightLine {
     /// Distance, positive on the left.
     pub(super) fn distance(&self, p: Vec2) -> f64 {
         self.along.cross(p - self.from)
@@ -31,19 +31,19 @@ impl Line {
 
 /// A piece of a segment, and the line of the whole segment.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub(super) struct SegmentPiece {
     pub(super) id: SegmentId,
-    pub(super) line: Line,
+    pub(super) line: StraightLine,
     pub(super) ends: Segment,
 }
 
-impl Piece {
+impl SegmentPiece {
     /// The part of a segment in a box, if it is longer than rounding.
     pub(super) fn inside(id: SegmentId, ends: Segment, open: &Rect, thinnest: f64) -> Option<Self> {
         let [from, to] = crate::geometry::clipped(ends[0], ends[1], open)?;
         let at = |t: f64| if t == 1.0 { ends[1] } else { ends[0] + (ends[1] - ends[0]) * t };
         let piece = [at(from), at(to)];
-        let line = Line { from: piece[0], along: (ends[1] - ends[0]).unit() };
+        let line = StraightLine { from: piece[0], along: (ends[1] - ends[0]).unit() };
         let piece = Self { id, line, ends: piece };
         (piece.length() > thinnest).then_some(piece)
     }
@@ -53,7 +53,7 @@ impl Piece {
     }
 
     /// What lies on the left and on the right of a line; nothing of what lies on it.
-    pub(super) fn split(&self, line: &Line, thinnest: f64) -> [Option<Self>; 2] {
+    pub(super) fn split(&self, line: &StraightLine, thinnest: f64) -> [Option<Self>; 2] {
         let [a, b] = self.ends;
         let (da, db) = (line.distance(a), line.distance(b));
         let on = |p: f64| p.abs() <= thinnest;
@@ -84,7 +84,7 @@ impl Region {
     }
 
     /// True if a line leaves something on both of its sides.
-    pub(super) fn is_split_by(&self, line: &Line, thinnest: f64) -> bool {
+    pub(super) fn is_split_by(&self, line: &StraightLine, thinnest: f64) -> bool {
         let distances = || self.0.iter().map(|(p, _)| line.distance(*p));
         distances().any(|d| d > thinnest) && distances().any(|d| d < -thinnest)
     }
@@ -93,7 +93,13 @@ impl Region {
     ///
     /// A side that the segment ends on is divided there: the crossing of lines at a small angle is
     /// lost in rounding, and cracks that meet at a point would leave a way between them.
-    pub(super) fn split(&self, line: &Line, ends: Segment, cut: usize, thinnest: f64) -> [Self; 2] {
+    pub(super) fn split(
+        &self,
+        line: &StraightLine,
+        ends: Segment,
+        cut: usize,
+        thinnest: f64,
+    ) -> [Self; 2] {
         let (mut left, mut right) = (Vec::new(), Vec::new());
         for (k, &(p, side)) in self.0.iter().enumerate() {
             let next = self.0[(k + 1) % self.0.len()].0;
@@ -107,7 +113,7 @@ impl Region {
                 right.push((p, if d == 0.0 && dn > 0.0 { Some(cut) } else { side }));
             }
             if d * dn < 0.0 {
-                let along = Line { from: p, along: (next - p).unit() };
+                let along = StraightLine { from: p, along: (next - p).unit() };
                 let is_on = |end: &Vec2| {
                     let place = 0.0..=(next - p).length();
                     along.distance(*end).abs() <= thinnest && place.contains(&along.place(*end))
@@ -129,12 +135,12 @@ impl Region {
     /// The cuts along which a piece runs on the border of the region.
     pub(super) fn cuts_along(
         &self,
-        piece: &Piece,
+        piece: &SegmentPiece,
         thinnest: f64,
     ) -> impl Iterator<Item = usize> + '_ {
         let (line, ends) = (piece.line, piece.ends);
         let runs = move |side: &Segment| {
-            let along = Line { from: side[0], along: (side[1] - side[0]).unit() };
+            let along = StraightLine { from: side[0], along: (side[1] - side[0]).unit() };
             let near = |d: f64| d.abs() <= 2.0 * thinnest;
             ends.iter().all(|p| near(along.distance(*p)))
                 || side.iter().all(|p| near(line.distance(*p)))
@@ -152,7 +158,7 @@ impl Region {
         let corners = part.corners();
         let sides = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]);
         sides.fold(self.clone(), |region, [a, b]| {
-            let line = Line { from: a, along: (b - a).unit() };
+            let line = StraightLine { from: a, along: (b - a).unit() };
             region.split(&line, [a, b], 0, thinnest).into_iter().next().unwrap_or(region)
         })
     }

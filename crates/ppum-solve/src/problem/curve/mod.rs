@@ -35,7 +35,7 @@ const LOOKS: usize = 4096;
 
 /// A smooth curve without corners.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Curve {
+pub(super) enum SmoothCurve {
     /// A part of an ellipse: c + R(angle) (a cos t, b sin t), from ≤ t ≤ to or back; all angles
     /// in radians.
     Ellipse { center: Vec2, axes: Vec2, angle: f64, from: f64, to: f64 },
@@ -50,9 +50,9 @@ pub(super) struct TooSharp {
     pub(super) at: Vec2,
 }
 
-/// A place on a curve.
+/// Position, tangent and curvature at a parameter of a curve.
 #[derive(Clone, Copy)]
-struct Place {
+struct CurvePoint {
     at: Vec2,
     tangent: Vec2,
     /// Curvature, positive where the curve turns left.
@@ -61,7 +61,7 @@ struct Place {
     speed: f64,
 }
 
-impl Curve {
+impl SmoothCurve {
     /// An arc of a circle.
     pub(super) fn arc(center: Vec2, radius: f64, from: f64, to: f64) -> Self {
         Self::Ellipse { center, axes: vec2(radius, radius), angle: 0.0, from, to }
@@ -70,7 +70,7 @@ impl Curve {
     /// Its begin and its end.
     pub(super) fn ends(&self) -> [Vec2; 2] {
         let [from, to] = self.range();
-        [self.place(from).at, self.place(to).at]
+        [self.point(from).at, self.point(to).at]
     }
 
     /// The vertices of an open curve from end to end, in so many segments if given, else in as many
@@ -88,7 +88,7 @@ impl Curve {
         let [first, last] = self.ends();
         let mut points = vec![first];
         points.extend((0..=inner).map(|k| match k {
-            0 => first + walk.places[0].tangent * walk.length_of([0.0, END * step]),
+            0 => first + walk.nodes[0].tangent * walk.length_of([0.0, END * step]),
             k if k == inner => {
                 let reach = walk.length_of([walk.total() - END * step, walk.total()]);
                 last - walk.last().tangent * reach
@@ -121,7 +121,7 @@ impl Curve {
         }
     }
 
-    fn place(&self, t: f64) -> Place {
+    fn point(&self, t: f64) -> CurvePoint {
         let [at, first, second] = match *self {
             Self::Ellipse { center, axes, angle, .. } => {
                 let turned = |x: f64, y: f64| {
@@ -138,15 +138,15 @@ impl Curve {
         let way = if to < from { -1.0 } else { 1.0 };
         let speed = first.length();
         let curvature = way * first.cross(second) / (speed * speed * speed);
-        Place { at, tangent: first * (way / speed), curvature, speed }
+        CurvePoint { at, tangent: first * (way / speed), curvature, speed }
     }
 }
 
 /// A curve with the number of segments that it takes from its begin up to each of many places.
 struct Walk<'c> {
-    curve: &'c Curve,
+    curve: &'c SmoothCurve,
     parameters: Vec<f64>,
-    places: Vec<Place>,
+    nodes: Vec<CurvePoint>,
     /// Length up to each place.
     lengths: Vec<f64>,
     /// Segments up to each place.
@@ -156,35 +156,35 @@ struct Walk<'c> {
 }
 
 impl<'c> Walk<'c> {
-    fn new(curve: &'c Curve) -> Self {
+    fn new(curve: &'c SmoothCurve) -> Self {
         let [from, to] = curve.range();
         let looks = match curve {
-            Curve::Ellipse { .. } => LOOKS,
+            SmoothCurve::Ellipse { .. } => LOOKS,
             // joints are among the places
-            Curve::Spline(spline) => spline.spans() * LOOKS.div_ceil(spline.spans()),
+            SmoothCurve::Spline(spline) => spline.spans() * LOOKS.div_ceil(spline.spans()),
         };
         let at = |k: usize| from + (to - from) * (k as f64 / looks as f64);
         let parameters: Vec<f64> = (0..=looks).map(at).collect();
-        let places: Vec<_> = parameters.iter().map(|t| curve.place(*t)).collect();
+        let nodes: Vec<_> = parameters.iter().map(|t| curve.point(*t)).collect();
         let step = (to - from).abs() / looks as f64;
-        let lengths = summed(places.iter().map(|place| place.speed), step);
+        let lengths = summed(nodes.iter().map(|point| point.speed), step);
         let least = LEAST / lengths.last().copied().unwrap_or(1.0);
-        let mut walk = Self { curve, parameters, places, lengths, counts: Vec::new(), least };
-        walk.counts = summed(walk.places.iter().map(|p| walk.density(p) * p.speed), step);
+        let mut walk = Self { curve, parameters, nodes, lengths, counts: Vec::new(), least };
+        walk.counts = summed(walk.nodes.iter().map(|p| walk.density(p) * p.speed), step);
         walk
     }
 
     /// Segments by length at a place.
-    fn density(&self, place: &Place) -> f64 {
-        (place.curvature / TURN).hypot(self.least)
+    fn density(&self, point: &CurvePoint) -> f64 {
+        (point.curvature / TURN).hypot(self.least)
     }
 
     fn total(&self) -> f64 {
         self.counts.last().copied().unwrap_or(0.0)
     }
 
-    fn last(&self) -> &Place {
-        &self.places[self.places.len() - 1]
+    fn last(&self) -> &CurvePoint {
+        &self.nodes[self.nodes.len() - 1]
     }
 
     /// The number of whole segments, and of `ends` more, that the curve takes.
@@ -193,8 +193,9 @@ impl<'c> Walk<'c> {
         if count < MOST as f64 {
             return Ok((count.max(0.0) as usize).max(least));
         }
-        let turns = |a: &&Place, b: &&Place| a.curvature.abs().total_cmp(&b.curvature.abs());
-        Err(TooSharp { at: self.places.iter().max_by(turns).map_or(Vec2::ZERO, |place| place.at) })
+        let turns =
+            |a: &&CurvePoint, b: &&CurvePoint| a.curvature.abs().total_cmp(&b.curvature.abs());
+        Err(TooSharp { at: self.nodes.iter().max_by(turns).map_or(Vec2::ZERO, |point| point.at) })
     }
 
     /// Number of the place before a count, and how far it lies beyond.
@@ -217,9 +218,9 @@ impl<'c> Walk<'c> {
     fn beside(&self, count: f64, step: f64) -> Vec2 {
         let (k, part) = self.find(count);
         let t = self.parameters[k] + (self.parameters[k + 1] - self.parameters[k]) * part;
-        let place = self.curve.place(t);
-        let length = step / self.density(&place);
-        place.at - place.tangent.left() * (place.curvature * length * length / 12.0)
+        let point = self.curve.point(t);
+        let length = step / self.density(&point);
+        point.at - point.tangent.left() * (point.curvature * length * length / 12.0)
     }
 }
 
@@ -253,7 +254,7 @@ pub(crate) fn arc_from(at: Vec2, direction: f64, curvature: f64, length: f64) ->
     let from = out.y.atan2(out.x);
     let segments = (turn.abs() / TURN).ceil() as usize + 2;
     // it ends on its tangents, and has no cusp
-    let points = Curve::arc(center, radius, from, from + turn).divided(Some(segments));
+    let points = SmoothCurve::arc(center, radius, from, from + turn).divided(Some(segments));
     points.map_or_else(|_| vec![at + along * length], |points| points[1..].to_vec())
 }
 
@@ -280,7 +281,7 @@ mod tests {
             let mut number = || random.between(0.2, 1.0);
             let (axes, angle) = (vec2(number(), number()), 7.0 * number());
             let [from, to] = around(0.0);
-            let curve = Curve::Ellipse { center: vec2(0.3, -0.2), axes, angle, from, to };
+            let curve = SmoothCurve::Ellipse { center: vec2(0.3, -0.2), axes, angle, from, to };
             let exact = std::f64::consts::PI * axes.x * axes.y;
             let error = |n| (area(&curve.closed(n).expect("smooth")) / exact - 1.0).abs();
             let (coarse, fine) = (error(Some(40)), error(Some(80)));
@@ -295,7 +296,7 @@ mod tests {
         let mut random = Random(6);
         for _ in 0..50 {
             let (from, sweep) = (random.between(-4.0, 4.0), random.between(-3.0, 3.0));
-            let curve = Curve::arc(vec2(1.0, 2.0), 0.5, from, from + sweep);
+            let curve = SmoothCurve::arc(vec2(1.0, 2.0), 0.5, from, from + sweep);
             let points = curve.divided(None).expect("smooth");
             let way = sweep.signum();
             for (end, first, angle) in [
@@ -313,7 +314,7 @@ mod tests {
                 way * a.cross(b).atan2(a.dot(b))
             });
             assert!(turns.into_iter().all(|turn| turn > 0.0 && turn < 1.07 * TURN));
-            let back = Curve::arc(vec2(1.0, 2.0), 0.5, from + sweep, from).divided(None);
+            let back = SmoothCurve::arc(vec2(1.0, 2.0), 0.5, from + sweep, from).divided(None);
             let back = back.expect("smooth");
             assert_eq!(back.len(), points.len());
             let apart = back.iter().rev().zip(&points).map(|(a, b)| (*a - *b).length());
@@ -326,7 +327,7 @@ mod tests {
     #[test]
     fn straight_splines() {
         let points = [[0.0, 0.0], [1.0, 0.5], [1.5, 0.75], [4.0, 2.0]].map(Vec2::from);
-        let curve = Curve::Spline(Spline::open(&points));
+        let curve = SmoothCurve::Spline(Spline::open(&points));
         let found = curve.divided(None).expect("smooth");
         assert!(found.len() <= 19, "{}", found.len());
         assert!(found.iter().all(|p| p.cross(vec2(4.0, 2.0)).abs() < 1e-14));
@@ -336,7 +337,7 @@ mod tests {
     /// A curve that stops and turns back is no crack.
     #[test]
     fn cusps_are_refused() {
-        let flat = Curve::Ellipse {
+        let flat = SmoothCurve::Ellipse {
             center: Vec2::ZERO,
             axes: vec2(1.0, 1e-6),
             angle: 0.0,

@@ -6,11 +6,11 @@ use ppum::vec2::{Rect, vec2};
 
 use super::super::boundary::{BorderPart, BoundaryCondition, Condition, Edge};
 use super::super::document::{Section, Value};
-use super::{Kind, Words, all, components};
+use super::{EquationKeys, EquationKind, all, components};
 use ppum::expression::Expression;
 
 /// Names that conditions may use.
-pub(super) struct Data<'e> {
+pub(super) struct ConditionNames<'e> {
     pub(super) scope: &'e Scope,
     /// The exact solution: empty if there is none, `None` if it cannot be read.
     pub(super) exact: Option<&'e [Expression]>,
@@ -19,16 +19,16 @@ pub(super) struct Data<'e> {
 /// The conditions; none at all if one of them cannot be read, as the checks count them.
 pub(super) fn boundary(
     root: &Section<'_>,
-    kind: Kind,
+    kind: EquationKind,
     domain: Option<Rect>,
-    data: &Data<'_>,
+    data: &ConditionNames<'_>,
 ) -> Vec<BoundaryCondition> {
     let domain = domain.unwrap_or(Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)));
     let condition = |section: Section<'_>| {
-        let Words { unknown, neumann, .. } = kind.words();
+        let EquationKeys { unknown, neumann, .. } = kind.words();
         let known: &[_] = match kind {
-            Kind::Elasticity => &["on", unknown, neumann, "pressure", "symmetry"],
-            Kind::Poisson => &["on", unknown, neumann],
+            EquationKind::Elasticity => &["on", unknown, neumann, "pressure", "symmetry"],
+            EquationKind::Poisson => &["on", unknown, neumann],
         };
         let section = section.only(known, kind.foreign());
         let on = section.require("on", "on = \"top\"").and_then(|value| part(&value, &domain));
@@ -45,10 +45,10 @@ pub(super) fn boundary(
 fn special(
     section: &Section<'_>,
     on: Option<BorderPart>,
-    kind: Kind,
-    data: &Data<'_>,
+    kind: EquationKind,
+    data: &ConditionNames<'_>,
 ) -> Option<BoundaryCondition> {
-    let Words { unknown, neumann, .. } = kind.words();
+    let EquationKeys { unknown, neumann, .. } = kind.words();
     let keys = ["pressure", "symmetry", unknown, neumann];
     let given: Vec<_> = keys.into_iter().filter(|key| section.mentions(key)).collect();
     if let [first, second, ..] = given[..] {
@@ -107,10 +107,14 @@ fn part(value: &Value<'_>, domain: &Rect) -> Option<BorderPart> {
 
 /// The conditions of one `[[boundary]]`, which may give some components of u and others of the
 /// traction.
-fn conditions(section: &Section<'_>, kind: Kind, data: &Data<'_>) -> Option<Vec<Condition>> {
+fn conditions(
+    section: &Section<'_>,
+    kind: EquationKind,
+    data: &ConditionNames<'_>,
+) -> Option<Vec<Condition>> {
     let words = kind.words();
     let (given, loads) = (section.get(words.unknown), section.get(words.neumann));
-    let Words { unknown, neumann: load, .. } = words;
+    let EquationKeys { unknown, neumann: load, .. } = words;
     if !section.mentions(unknown) && !section.mentions(load) {
         section.error(format!("[[boundary]] says nothing; add `{unknown}` or `{load}`"));
     }
@@ -126,7 +130,11 @@ fn conditions(section: &Section<'_>, kind: Kind, data: &Data<'_>) -> Option<Vec<
     }))
 }
 
-fn dirichlet(value: &Value<'_>, kind: Kind, data: &Data<'_>) -> Option<Vec<Condition>> {
+fn dirichlet(
+    value: &Value<'_>,
+    kind: EquationKind,
+    data: &ConditionNames<'_>,
+) -> Option<Vec<Condition>> {
     if value.as_text() == Some("exact") {
         let exact = known(value, data.exact?, kind)?;
         return Some(exact.iter().cloned().map(Condition::Dirichlet).collect());
@@ -143,13 +151,17 @@ fn dirichlet(value: &Value<'_>, kind: Kind, data: &Data<'_>) -> Option<Vec<Condi
 }
 
 /// The exact solution, which must have been given where a value asks for it.
-fn known<'e>(value: &Value<'_>, exact: &'e [Expression], kind: Kind) -> Option<&'e [Expression]> {
+fn known<'e>(
+    value: &Value<'_>,
+    exact: &'e [Expression],
+    kind: EquationKind,
+) -> Option<&'e [Expression]> {
     let unknown = kind.words().unknown;
     let missing = format!("is \"exact\", but there is no [exact]; add it with `{unknown}`");
     if exact.is_empty() { value.error(&missing) } else { Some(exact) }
 }
 
-fn neumann(value: &Value<'_>, kind: Kind, scope: &Scope) -> Option<Vec<Condition>> {
+fn neumann(value: &Value<'_>, kind: EquationKind, scope: &Scope) -> Option<Vec<Condition>> {
     let condition = |value: &Value<'_>| match value.as_text() {
         Some("free") => Some(Condition::Free),
         Some("exact") => value.error("cannot be \"exact\"; write its formula"),

@@ -3,7 +3,7 @@
 use ppum::text::trimmed;
 use ppum::vec2::{Vec2, vec2};
 
-use super::super::curve::{self, Curve, MOST, Spline, TooSharp};
+use super::super::curve::{self, MOST, SmoothCurve, Spline, TooSharp};
 use super::super::document::{Section, Value};
 use super::all;
 
@@ -58,29 +58,29 @@ pub(super) fn rim(section: &Section<'_>) -> Option<Option<Vec<Vec2>>> {
         let segments = segments(section)?;
         let curve = match *key {
             "ellipse" => ellipse(&value, false)?,
-            _ => Curve::Spline(Spline::closed(&knots(&value, 3, true)?)),
+            _ => SmoothCurve::Spline(Spline::closed(&knots(&value, 3, true)?)),
         };
-        told(curve.closed(segments), &value)
+        points_or_mistake(curve.closed(segments), &value)
     };
     Some(read())
 }
 
 /// The curve of a key, if that is given, with its value.
-fn open<'a>(section: &Section<'a>, key: &str) -> Option<(Option<Curve>, Value<'a>)> {
+fn open<'a>(section: &Section<'a>, key: &str) -> Option<(Option<SmoothCurve>, Value<'a>)> {
     let value = section.get(key)?;
     let curve = match key {
         "arc" => arc(&value),
         "ellipse" => ellipse(&value, true),
-        _ => knots(&value, 3, false).map(|points| Curve::Spline(Spline::open(&points))),
+        _ => knots(&value, 3, false).map(|points| SmoothCurve::Spline(Spline::open(&points))),
     };
     Some((curve, value))
 }
 
-fn vertices(curve: &Curve, segments: Option<usize>, value: &Value<'_>) -> Option<Vec<Vec2>> {
-    told(curve.divided(segments), value)
+fn vertices(curve: &SmoothCurve, segments: Option<usize>, value: &Value<'_>) -> Option<Vec<Vec2>> {
+    points_or_mistake(curve.divided(segments), value)
 }
 
-fn told(points: Result<Vec<Vec2>, TooSharp>, value: &Value<'_>) -> Option<Vec<Vec2>> {
+fn points_or_mistake(points: Result<Vec<Vec2>, TooSharp>, value: &Value<'_>) -> Option<Vec<Vec2>> {
     let report = |TooSharp { at }: TooSharp| {
         let message = format!(
             "turns too sharply around [{}, {}]: it would take more than {MOST} segments; make it rounder, or say how \
@@ -141,18 +141,18 @@ fn piece(value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
     Some(found)
 }
 
-fn arc(value: &Value<'_>) -> Option<Curve> {
+fn arc(value: &Value<'_>) -> Option<SmoothCurve> {
     let example = "{ center = [0, 0], radius = 1, from = 0, to = 90 }";
     let section = value.table("`arc`", example)?.only(&["center", "radius", "from", "to"], &[]);
     let center = section.require("center", "center = [0, 0]").and_then(|value| value.point());
     let radius = section.require("radius", "radius = 1").and_then(|value| positive(&value));
     let range = range(&section);
     let ([from, to], radius) = (range?, radius?);
-    Some(Curve::arc(center?, radius, from, to))
+    Some(SmoothCurve::arc(center?, radius, from, to))
 }
 
 /// A part of an ellipse, or all of it.
-fn ellipse(value: &Value<'_>, is_part: bool) -> Option<Curve> {
+fn ellipse(value: &Value<'_>, is_part: bool) -> Option<SmoothCurve> {
     let (keys, example): (&[_], _) = match is_part {
         true => (
             &["center", "axes", "angle", "from", "to"],
@@ -170,7 +170,7 @@ fn ellipse(value: &Value<'_>, is_part: bool) -> Option<Curve> {
     let angle = section.get("angle").map_or(Some(0.0), |value| value.constant());
     let range = if is_part { range(&section) } else { Some(curve::around(0.0)) };
     let (axes, angle, [from, to]) = (axes?, angle?.to_radians(), range?);
-    Some(Curve::Ellipse { center: center?, axes, angle, from, to })
+    Some(SmoothCurve::Ellipse { center: center?, axes, angle, from, to })
 }
 
 fn positive(value: &Value<'_>) -> Option<f64> {

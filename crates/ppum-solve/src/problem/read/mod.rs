@@ -27,7 +27,7 @@ use super::check::mistakes;
 use super::document::{Instead, Report, Section, Value};
 use super::error::ProblemError;
 use super::stiffness::default_order;
-use super::{Adaptivity, BorderPart, Order, Place, Problem, Solver, SolverKind, scopes};
+use super::{Adaptivity, BorderPart, Order, Problem, RefinementRegion, Solver, SolverKind, scopes};
 use adaptivity::adaptivity;
 use boundary::boundary;
 use curve::course;
@@ -108,13 +108,13 @@ fn report_violations(report: &Report<'_>, document: &DeTable<'_>, problem: &Prob
 
 /// The kind of equation, which decides what other tables may say.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum EquationKind {
     Elasticity,
     Poisson,
 }
 
 /// Words of a problem file that differ with the equation.
-struct Words {
+struct EquationKeys {
     /// Table of the right-hand side.
     source: &'static str,
     /// Key of the unknown field.
@@ -125,13 +125,13 @@ struct Words {
     components: usize,
 }
 
-impl Kind {
-    fn words(self) -> Words {
+impl EquationKind {
+    fn words(self) -> EquationKeys {
         let (source, unknown, neumann, components) = match self {
             Self::Elasticity => ("body_force", "displacement", "traction", 2),
             Self::Poisson => ("source", "value", "flux", 1),
         };
-        Words { source, unknown, neumann, components }
+        EquationKeys { source, unknown, neumann, components }
     }
 
     /// An equation of this kind.
@@ -169,7 +169,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
     let root = &sections(root, kind);
     let title = root.get("title").and_then(|value| value.text()).unwrap_or_default();
     let domain = domain(root);
-    let tables = tables(root, files, &kind.unwrap_or(Kind::Elasticity).example());
+    let tables = tables(root, files, &kind.unwrap_or(EquationKind::Elasticity).example());
     let scope = scopes::position(&tables).ok()?;
     let discretization = discretization(root, files, &tables);
     let solver = solver(root);
@@ -183,12 +183,12 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
     let source = source(root, kind, &scope);
     let equation = equation(root, kind, &scope);
     let quantities = quantities(root, &equation, &tables);
-    let given = boundary::Data { scope: &scope, exact: exact.as_deref() };
+    let given = boundary::ConditionNames { scope: &scope, exact: exact.as_deref() };
     let mut boundary = boundary(root, kind, domain, &given);
     if cracks.is_empty() && root.mentions("crack") {
         // none could be read: what is said of them cannot be judged
         boundary.retain(|condition| !matches!(condition.on, BorderPart::Crack { .. }));
-        refinements.retain(|new| !matches!(new.place, Place::Crack(_)));
+        refinements.retain(|new| !matches!(new.place, RefinementRegion::Crack(_)));
     }
     let domain = Domain { bounds: domain?, holes: holes? };
     let (mut discretization, adaptivity) = (discretization?, adaptivity(root));
@@ -219,7 +219,7 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
 }
 
 /// Reports tables that are not known, and that none acts. Without a kind those of all kinds are.
-fn sections(root: Section<'_>, kind: Option<Kind>) -> Section<'_> {
+fn sections(root: Section<'_>, kind: Option<EquationKind>) -> Section<'_> {
     let mut known = vec!["title", "domain", "equation", "material", "crack", "hole", "boundary"];
     known.extend([
         "exact",
@@ -269,19 +269,19 @@ fn domain(root: &Section<'_>) -> Option<Rect> {
     Some(Rect::new(min?, max?))
 }
 
-fn kind(root: &Section<'_>) -> Option<Kind> {
+fn kind(root: &Section<'_>) -> Option<EquationKind> {
     if !root.mentions("equation") {
-        return Some(Kind::Elasticity);
+        return Some(EquationKind::Elasticity);
     }
     let section = root.section("equation")?.only(&["kind"], &[]);
-    let choices = [("elasticity", Kind::Elasticity), ("poisson", Kind::Poisson)];
+    let choices = [("elasticity", EquationKind::Elasticity), ("poisson", EquationKind::Poisson)];
     section.require("kind", "kind = \"elasticity\"")?.choice(&choices)
 }
 
-fn equation(root: &Section<'_>, kind: Kind, scope: &Scope) -> Equation {
+fn equation(root: &Section<'_>, kind: EquationKind, scope: &Scope) -> Equation {
     match kind {
-        Kind::Elasticity => Equation::Elasticity(material(root, scope)),
-        Kind::Poisson => {
+        EquationKind::Elasticity => Equation::Elasticity(material(root, scope)),
+        EquationKind::Poisson => {
             let read = || {
                 let section = root.section("material")?.only(&["conductivity"], kind.foreign());
                 section.get("conductivity")?.expression(scope)
@@ -296,7 +296,7 @@ fn material(root: &Section<'_>, scope: &Scope) -> Elasticity {
     let states =
         [("plane-strain", StressState::PlaneStrain), ("plane-stress", StressState::PlaneStress)];
     let keys = ["young", "poisson", "state"];
-    let section = required(root, "material", &keys, Kind::Elasticity.foreign());
+    let section = required(root, "material", &keys, EquationKind::Elasticity.foreign());
     let value = |key, example| section.as_ref()?.require(key, example);
     let constant = |key, example| value(key, example)?.expression(scope);
     let state = || value("state", "state = \"plane-strain\"")?.choice(&states);
@@ -316,37 +316,38 @@ fn points(value: &Value<'_>) -> Option<Vec<Vec2>> {
     all(value.list("a list of points [[x, y], …]")?.iter().map(Value::point))
 }
 
-fn source(root: &Section<'_>, kind: Kind, scope: &Scope) -> Vec<Expression> {
+fn source(root: &Section<'_>, kind: EquationKind, scope: &Scope) -> Vec<Expression> {
     let words = kind.words();
     let read = || {
         let section = root.section(words.source)?.only(&["value"], &[]);
-        let example = if kind == Kind::Poisson { "value = 1.0" } else { "value = [0.0, -1.0]" };
+        let example =
+            if kind == EquationKind::Poisson { "value = 1.0" } else { "value = [0.0, -1.0]" };
         expressions(&section.require("value", example)?, kind, scope)
     };
     read().unwrap_or_else(|| vec![Expression::number(0.0); words.components])
 }
 
 /// The exact solution: empty if there is none, `None` if it cannot be read.
-fn exact(root: &Section<'_>, kind: Kind, scope: &Scope) -> Option<Vec<Expression>> {
+fn exact(root: &Section<'_>, kind: EquationKind, scope: &Scope) -> Option<Vec<Expression>> {
     if !root.mentions("exact") {
         return Some(Vec::new());
     }
     let unknown = kind.words().unknown;
     let section = root.section("exact")?.only(&[unknown], kind.foreign());
-    let formulas = if kind == Kind::Poisson { "\"x*y\"" } else { "[\"x*y\", \"x + y\"]" };
+    let formulas = if kind == EquationKind::Poisson { "\"x*y\"" } else { "[\"x*y\", \"x + y\"]" };
     let value = section.require(unknown, &format!("{unknown} = {formulas}"))?;
     expressions(&value, kind, scope)
 }
 
 /// One value per component: those of an array, or the value itself if there is but one.
-fn components<'a>(value: &Value<'a>, kind: Kind) -> Option<Vec<Value<'a>>> {
+fn components<'a>(value: &Value<'a>, kind: EquationKind) -> Option<Vec<Value<'a>>> {
     match kind {
-        Kind::Elasticity => value.pair("an array of two, one per component").map(Vec::from),
-        Kind::Poisson => Some(vec![value.clone()]),
+        EquationKind::Elasticity => value.pair("an array of two, one per component").map(Vec::from),
+        EquationKind::Poisson => Some(vec![value.clone()]),
     }
 }
 
-fn expressions(value: &Value<'_>, kind: Kind, scope: &Scope) -> Option<Vec<Expression>> {
+fn expressions(value: &Value<'_>, kind: EquationKind, scope: &Scope) -> Option<Vec<Expression>> {
     all(components(value, kind)?.iter().map(|value| value.expression(scope)))
 }
 

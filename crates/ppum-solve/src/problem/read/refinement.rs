@@ -6,7 +6,7 @@ use ppum::formula::Table;
 use ppum::vec2::{Rect, vec2};
 
 use super::super::document::{Section, Value};
-use super::super::refinement::{LocalRefinement, Place};
+use super::super::refinement::{LocalRefinement, RefinementRegion};
 use super::super::scopes;
 use super::all;
 
@@ -26,7 +26,7 @@ fn refinement(section: &Section<'_>, tables: &[Arc<Table>]) -> Option<LocalRefin
     Some(LocalRefinement { place: place?, distance: distance?, size: size? })
 }
 
-fn place(section: &Section<'_>) -> Option<Place> {
+fn place(section: &Section<'_>) -> Option<RefinementRegion> {
     let round = section.get("center").or_else(|| section.get("radius"));
     let given = [section.get("box"), round, section.get("hole"), section.get("crack")];
     let mut given = given.iter().flatten();
@@ -34,20 +34,20 @@ fn place(section: &Section<'_>) -> Option<Place> {
         return second.error("names another place; write one [[refine]] for each");
     }
     if let Some(value) = section.get("box") {
-        return rect(&value).map(Place::Box);
+        return rect(&value).map(RefinementRegion::Box);
     }
     if let Some(hole) = section.get("hole") {
-        return hole.whole().map(|hole| Place::Hole(hole as usize));
+        return hole.whole().map(|hole| RefinementRegion::Hole(hole as usize));
     }
     if let Some(crack) = section.get("crack") {
-        return crack.whole().map(|crack| Place::Crack(crack as usize));
+        return crack.whole().map(|crack| RefinementRegion::Crack(crack as usize));
     }
     if section.mentions("center") || section.mentions("radius") {
         let center = section.require("center", "center = [0.0, 0.0]").and_then(|v| v.point());
         let radius = section.require("radius", "radius = 0.5").and_then(|v| v.constant());
-        return Some(Place::Disc { center: center?, radius: radius? });
+        return Some(RefinementRegion::Disc { center: center?, radius: radius? });
     }
-    Some(Place::Plate)
+    Some(RefinementRegion::Plate)
 }
 
 fn rect(value: &Value<'_>) -> Option<Rect> {

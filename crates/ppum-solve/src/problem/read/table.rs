@@ -8,7 +8,7 @@ use ppum::formula::{Table, TableError};
 
 use super::super::document::{Section, Value};
 use super::super::scopes;
-use super::super::table_file::{self, Data};
+use super::super::table_file::{self, TableData};
 use super::Files;
 
 /// The tables. For one that is wrong in all but its name another one stands in, so that formulas
@@ -47,7 +47,7 @@ fn stand_in(name: &str, is_surface: bool) -> Option<Arc<Table>> {
     table.ok().map(Arc::new)
 }
 
-fn data(section: &Section<'_>, folder: &Path) -> Option<Data> {
+fn data(section: &Section<'_>, folder: &Path) -> Option<TableData> {
     match (section.get("file"), ["x", "y", "values"].iter().find_map(|key| section.get(key))) {
         (Some(_), Some(own)) => own.error("contradicts `file`; give one of them"),
         (Some(file), None) => {
@@ -64,13 +64,13 @@ fn data(section: &Section<'_>, folder: &Path) -> Option<Data> {
     }
 }
 
-fn inline(section: &Section<'_>) -> Option<Data> {
+fn inline(section: &Section<'_>) -> Option<TableData> {
     let x = section.require("x", "x = [0.0, 0.5, 1.0]").and_then(|value| numbers(&value));
     let y = section.get("y").map_or(Some(Vec::new()), |value| numbers(&value));
     let values = section.require("values", "values = [1.0, 2.0, 4.0]");
     let (x, y, values) = (x?, y?, values?);
     let values = if y.is_empty() { numbers(&values)? } else { rows(&values, x.len())? };
-    Some(Data { x, y, values })
+    Some(TableData { x, y, values })
 }
 
 fn numbers(value: &Value<'_>) -> Option<Vec<f64>> {
@@ -90,7 +90,7 @@ fn rows(values: &Value<'_>, length: usize) -> Option<Vec<f64>> {
     Some(super::all(values.list("a list of rows")?.iter().map(row))?.concat())
 }
 
-fn table(section: &Section<'_>, name: &str, data: Data) -> Option<Arc<Table>> {
+fn table(section: &Section<'_>, name: &str, data: TableData) -> Option<Arc<Table>> {
     data.table(name).map(Arc::new).map_err(|error| report(section, &error)).ok()
 }
 

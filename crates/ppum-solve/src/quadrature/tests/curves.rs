@@ -1,9 +1,9 @@
 //! Curved kinks.
 
-use super::adapt::{Demand, Part as _, refined};
+use super::adapt::{Demand, Subregion as _, refined};
 use super::chart::Chart;
-use super::curve::{Window, cut_all};
-use super::piece::Piece;
+use super::curve::{ChartWindow, cut_all};
+use super::piece::SmoothPiece;
 use super::*;
 use std::f64::consts::PI;
 use std::slice::from_ref;
@@ -169,7 +169,7 @@ fn error(n: usize, bisections: u32) -> f64 {
     let (c, r) = (vec2(-0.3, -0.4), 1.1);
     let [Kink::Curve(level), _] = circles(c, r) else { unreachable!() };
     let square = Chart::Quadrilateral(UNIT.corners());
-    let (mut windows, _) = cut_all(vec![Window::whole(square)], &[level.as_ref()], Vec2::ZERO);
+    let (mut windows, _) = cut_all(vec![ChartWindow::whole(square)], &[level.as_ref()], Vec2::ZERO);
     for _ in 0..bisections {
         windows = windows.iter().flat_map(|w| w.halves(1)).flat_map(|w| w.halves(0)).collect();
     }
@@ -276,7 +276,7 @@ fn strips_are_divided_where_a_curve_bends() {
     let level = curve(bend);
     let Kink::Curve(level) = &level else { unreachable!() };
     let square = Chart::Quadrilateral(UNIT.corners());
-    let (windows, cut) = cut_all(vec![Window::whole(square)], &[level.as_ref()], Vec2::ZERO);
+    let (windows, cut) = cut_all(vec![ChartWindow::whole(square)], &[level.as_ref()], Vec2::ZERO);
     assert!(cut);
     let left = std::cell::Cell::new(100);
     let demand = Demand {
@@ -291,7 +291,7 @@ fn strips_are_divided_where_a_curve_bends() {
         left: &left,
     };
     let mut below = 0.0;
-    for part in refined(windows.into_iter().map(Piece::Window).collect(), &demand).parts {
+    for part in refined(windows.into_iter().map(SmoothPiece::Window).collect(), &demand).regions {
         part.nodes(gauss, 6, &mut |x, w| below += if bend(x) < 0.0 { w } else { 0.0 });
     }
     assert_near(below, 0.5, 1e-9, "area below");
@@ -312,8 +312,8 @@ fn curves_that_coincide_are_one() {
             let d = p - center;
             (cos * d.x + sin * d.y).hypot(cos * d.y - sin * d.x) - radius
         };
-        let (squares, turned): (&Level, &Level) = (&squares, &turned);
-        let whole = || vec![Window::whole(Chart::Quadrilateral(UNIT.corners()))];
+        let (squares, turned): (&LevelFunction, &LevelFunction) = (&squares, &turned);
+        let whole = || vec![ChartWindow::whole(Chart::Quadrilateral(UNIT.corners()))];
         let (once, _) = cut_all(whole(), &[squares], Vec2::ZERO);
         let (twice, _) = cut_all(whole(), &[squares, turned], Vec2::ZERO);
         assert_eq!(once.len(), twice.len(), "{center:?} {radius}");

@@ -14,11 +14,11 @@
 mod place;
 mod trouble;
 
-pub(crate) use place::{BESIDE, Place};
+pub(crate) use place::{BESIDE, InterfacePoint};
 pub(crate) use trouble::{Cause, Trouble};
 
 use crate::law::Law;
-use crate::quadrature::Level;
+use crate::quadrature::LevelFunction;
 use ppum::dataset::Equation;
 use ppum::domain::Domain;
 use ppum::formula::{Formula, Kink, one_line};
@@ -42,7 +42,7 @@ pub(crate) struct Interfaces<'e> {
 
 /// A set on which a constant may jump: the zeros of a level function ψ.
 pub(crate) struct Interface {
-    level: Arc<Level>,
+    level: Arc<LevelFunction>,
     /// The derivatives of ψ.
     slopes: [Formula; 2],
     /// The text of ψ in the plate's coordinates.

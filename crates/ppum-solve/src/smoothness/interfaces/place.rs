@@ -22,7 +22,7 @@ const LEAST_CONTRAST: f64 = 1e-4;
 
 /// A point of an interface at which the material jumps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Place {
+pub(crate) struct InterfacePoint {
     /// The point.
     pub(crate) at: Vec2,
     /// Unit normal, toward growing ψ.
@@ -34,7 +34,7 @@ pub(crate) struct Place {
 impl Interfaces<'_> {
     /// Points of an interface inside an open box and the domain at which the material jumps, on the
     /// lines of a grid; none if it does not run there.
-    pub(crate) fn places(&self, interface: &Interface, rect: &Rect) -> Vec<Place> {
+    pub(crate) fn places(&self, interface: &Interface, rect: &Rect) -> Vec<InterfacePoint> {
         let level = interface.level.as_ref();
         let size = rect.size();
         if !(size.x > 0.0 && size.y > 0.0 && may_meet(level, rect)) {
@@ -46,7 +46,7 @@ impl Interfaces<'_> {
         inner.filter_map(|at| self.place(interface, at, beside)).collect()
     }
 
-    fn place(&self, interface: &Interface, at: Vec2, beside: f64) -> Option<Place> {
+    fn place(&self, interface: &Interface, at: Vec2, beside: f64) -> Option<InterfacePoint> {
         let normal = interface.gradient(at).unit();
         let sides = [-1.0, 1.0].map(|sign| self.law.coefficients(at + normal * (sign * beside)));
         let [below, above] = sides;
@@ -56,7 +56,7 @@ impl Interfaces<'_> {
             sum += weight * (above[k].abs() + below[k].abs());
         }
         let contrast = jump / sum;
-        (contrast > LEAST_CONTRAST).then_some(Place { at, normal, contrast })
+        (contrast > LEAST_CONTRAST).then_some(InterfacePoint { at, normal, contrast })
     }
 }
 

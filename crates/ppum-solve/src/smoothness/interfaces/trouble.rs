@@ -1,6 +1,6 @@
 //! Places at which interfaces ask for more than a kink across a patch.
 
-use super::{Interfaces, Place};
+use super::{InterfacePoint, Interfaces};
 use crate::geometry::inside;
 use ppum::crack::{Crack, End};
 use ppum::segment;
@@ -61,24 +61,24 @@ impl Cause {
 }
 
 /// The places of one interface.
-type Run = (usize, Vec<Place>);
+type InterfaceRun = (usize, Vec<InterfacePoint>);
 
 impl Interfaces<'_> {
     /// The trouble with the interfaces in an open box inside the domain, if kinks do not
     /// resolve them.
     pub(crate) fn trouble(&self, rect: &Rect, cracks: &[Crack]) -> Option<Trouble> {
-        let runs: Vec<Run> = (0..self.all.len())
+        let runs: Vec<InterfaceRun> = (0..self.all.len())
             .map(|index| (index, self.places(&self.all[index], rect)))
             .filter(|(_, places)| !places.is_empty())
             .collect();
         let all = || runs.iter().flat_map(|(_, places)| places);
-        let contrast = all().fold(0.0f64, |most, place| most.max(place.contrast));
+        let contrast = all().fold(0.0f64, |most, point| most.max(point.contrast));
         if contrast < LEAST_CONTRAST {
             return None;
         }
         let touch = TOUCH * rect.size().length();
         let many = (runs.len() > MOST).then(|| (Cause::Many, rect.center()));
-        let at_border = || all().find(|place| self.at_border(place, touch)).map(|p| p.at);
+        let at_border = || all().find(|point| self.at_border(point, touch)).map(|p| p.at);
         let at_crack = || cracks.iter().find_map(|crack| at_crack(crack, all(), rect, touch));
         let (cause, at) = many
             .or_else(|| runs.iter().find_map(turn).map(|at| (Cause::Turn, at)))
@@ -89,41 +89,42 @@ impl Interfaces<'_> {
     }
 
     /// The place at which two interfaces meet.
-    fn corner(&self, runs: &[Run], touch: f64) -> Option<Vec2> {
-        let near = |index: usize, place: &Place| {
+    fn corner(&self, runs: &[InterfaceRun], touch: f64) -> Option<Vec2> {
+        let near = |index: usize, point: &InterfacePoint| {
             let interface = &self.all[index];
-            let slope = interface.gradient(place.at);
-            interface.value(place.at).abs() <= touch * slope.length()
-                && slope.unit().cross(place.normal).abs() > ASLANT
+            let slope = interface.gradient(point.at);
+            interface.value(point.at).abs() <= touch * slope.length()
+                && slope.unit().cross(point.normal).abs() > ASLANT
         };
         runs.iter().enumerate().find_map(|(k, (i, own))| {
             runs[k + 1..].iter().find_map(|(j, others)| {
-                let place = own.iter().find(|place| near(*j, place))?;
-                others.iter().any(|other| near(*i, other)).then_some(place.at)
+                let point = own.iter().find(|point| near(*j, point))?;
+                others.iter().any(|other| near(*i, other)).then_some(point.at)
             })
         })
     }
 
     /// True if the interface runs into the border or a rim at a place.
-    fn at_border(&self, place: &Place, touch: f64) -> bool {
-        let (near, far) = (place.at - self.domain.bounds.min, self.domain.bounds.max - place.at);
-        let aslant = |normal: Vec2| normal.cross(place.normal).abs() > ASLANT;
+    fn at_border(&self, point: &InterfacePoint, touch: f64) -> bool {
+        let (near, far) = (point.at - self.domain.bounds.min, self.domain.bounds.max - point.at);
+        let aslant = |normal: Vec2| normal.cross(point.normal).abs() > ASLANT;
         (near.x.min(far.x) < touch && aslant(vec2(1.0, 0.0)))
             || (near.y.min(far.y) < touch && aslant(vec2(0.0, 1.0)))
-            || self.domain.holes.iter().any(|hole| hole.rim_distance(place.at) < touch)
+            || self.domain.holes.iter().any(|hole| hole.rim_distance(point.at) < touch)
     }
 }
 
 /// A place at which an interface is turned away from where it was.
-fn turn((_, places): &Run) -> Option<Vec2> {
-    let away = |place: &&Place| places.iter().any(|other| other.normal.dot(place.normal) < TURN);
-    places.iter().find(away).map(|place| place.at)
+fn turn((_, places): &InterfaceRun) -> Option<Vec2> {
+    let away =
+        |point: &&InterfacePoint| places.iter().any(|other| other.normal.dot(point.normal) < TURN);
+    places.iter().find(away).map(|point| point.at)
 }
 
 /// The place at which a crack runs into an interface, or a tip of it in the box.
 fn at_crack<'p>(
     crack: &Crack,
-    mut places: impl Iterator<Item = &'p Place>,
+    mut places: impl Iterator<Item = &'p InterfacePoint>,
     rect: &Rect,
     touch: f64,
 ) -> Option<Vec2> {
@@ -131,11 +132,11 @@ fn at_crack<'p>(
     if let Some(end) = ends.into_iter().find(|&end| inside(rect, crack.end_point(end))) {
         return Some(crack.end_point(end));
     }
-    let meets = |place: &&Place| {
+    let meets = |point: &&InterfacePoint| {
         crack.points.windows(2).any(|s| {
-            segment::distance([s[0], s[1]], place.at) < touch
-                && (s[1] - s[0]).unit().dot(place.normal).abs() > ASLANT
+            segment::distance([s[0], s[1]], point.at) < touch
+                && (s[1] - s[0]).unit().dot(point.normal).abs() > ASLANT
         })
     };
-    places.find(meets).map(|place| place.at)
+    places.find(meets).map(|point| point.at)
 }

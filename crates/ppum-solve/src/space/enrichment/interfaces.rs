@@ -2,7 +2,7 @@
 
 use super::{Degree, Enrichments, Instance, Patch, Patches};
 use crate::problem::Enrichment;
-use crate::smoothness::{BESIDE, Interface, Interfaces, Place, Probe};
+use crate::smoothness::{BESIDE, Interface, InterfacePoint, Interfaces, Probe};
 use crate::space::SpaceError;
 use crate::space::inspect::InspectError;
 use crate::watched::Stage;
@@ -83,7 +83,7 @@ impl Enrichments<'_> {
         let mut cuts = Vec::new();
         for (index, interface) in interfaces.all.iter().enumerate() {
             let places = interfaces.places(interface, &patch.open);
-            let known = |place: &Place| {
+            let known = |place: &InterfacePoint| {
                 self.has_kink(&own, probes, place, width)
                     || found.iter().any(|&k| runs_through(&interfaces.all[k], place.at, width))
             };
@@ -113,7 +113,13 @@ impl Enrichments<'_> {
 
     /// True if the gradient of one of the problem's own functions of some instances jumps across an
     /// interface.
-    fn has_kink(&self, own: &[&Instance], probes: &[Probe], place: &Place, width: f64) -> bool {
+    fn has_kink(
+        &self,
+        own: &[&Instance],
+        probes: &[Probe],
+        place: &InterfacePoint,
+        width: f64,
+    ) -> bool {
         let first = self.instances[self.own.clone()].first().map_or(0, |new| new.functions.start);
         let mut functions = own.iter().flat_map(|new| new.functions.clone());
         functions.any(|index| {
@@ -134,8 +140,8 @@ fn runs_through(interface: &Interface, p: Vec2, width: f64) -> bool {
 }
 
 /// True if the places lie on both sides of a crack.
-fn parts(crack: &Crack, places: &[Place]) -> bool {
-    let above = |place: &Place| {
+fn parts(crack: &Crack, places: &[InterfacePoint]) -> bool {
+    let above = |place: &InterfacePoint| {
         let seen = LocalCrack::new(crack, place.at);
         seen.side([0.0, 0.0], Side::Above) > 0.0
     };

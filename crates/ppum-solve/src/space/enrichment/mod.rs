@@ -62,7 +62,7 @@ struct Instance {
 enum Patches {
     All,
     /// Those that hold the shape or are cut by it, and those nearer to it than a length.
-    Near(Shape, f64),
+    Near(ZoneCore, f64),
     /// Of those that the tip's crack meets and that are not within the length of the tip, the ones
     /// that have no other tip of the crack nearer.
     Behind(TipId, f64),
@@ -74,7 +74,7 @@ enum Patches {
 
 /// A shape that patches can be near to.
 #[derive(Clone, Copy)]
-enum Shape {
+enum ZoneCore {
     Point(Vec2),
     Segment([Vec2; 2]),
 }
@@ -94,11 +94,11 @@ enum Degree {
     Series(Option<usize>),
 }
 
-/// The place of the functions of an enrichment, of which there may be several.
-struct Place {
+/// Frame and extent of the functions of an enrichment, which may have several of these zones.
+struct EnrichmentZone {
     frame: Frame,
     /// The shape that patches are near to; none in the world's frame.
-    shape: Option<Shape>,
+    shape: Option<ZoneCore>,
     /// Their distance from it by default.
     radius: f64,
     degree: Degree,
@@ -150,15 +150,15 @@ impl<'p> Enrichments<'p> {
     }
 
     fn add(&mut self, new: &LocalEnrichment) {
-        for place in places(self.problem, new.site) {
-            let patches = match (&new.region, place.shape) {
+        for zone in zones(self.problem, new.site) {
+            let patches = match (&new.region, zone.shape) {
                 (Region::Where(condition), _) => Patches::Where(condition.clone()),
                 (Region::Near(radius), Some(shape)) => Patches::Near(shape, *radius),
-                (_, Some(shape)) => Patches::Near(shape, place.radius),
+                (_, Some(shape)) => Patches::Near(shape, zone.radius),
                 (_, None) => Patches::All,
             };
-            let degree = new.degree.map_or(place.degree, |degree| Degree::Fixed(degree as u8));
-            self.push(functions(new, &place), patches, degree);
+            let degree = new.degree.map_or(zone.degree, |degree| Degree::Fixed(degree as u8));
+            self.push(functions(new, &zone), patches, degree);
         }
     }
 
@@ -295,19 +295,19 @@ impl Degree {
 impl Enrichments<'_> {
     fn placed(&self) -> &Placed<usize> {
         let instances = self.instances.iter().enumerate();
-        let place = |(k, new): (usize, &Instance)| (new.patches.place(self.problem), k);
-        self.placed.get_or_init(|| Placed::new(instances.map(place)))
+        let zone = |(k, new): (usize, &Instance)| (new.patches.zone(self.problem), k);
+        self.placed.get_or_init(|| Placed::new(instances.map(zone)))
     }
 }
 
 impl Patches {
     /// A box that all of the patches meet.
-    fn place(&self, problem: &Problem) -> Rect {
+    fn zone(&self, problem: &Problem) -> Rect {
         let everywhere = wider(&problem.domain.bounds, problem.domain.bounds.size().length());
         match self {
             Patches::All | Patches::Listed(_) | Patches::Where(_) => everywhere,
-            Patches::Near(Shape::Point(p), radius) => wider(&around(&[*p]), *radius),
-            Patches::Near(Shape::Segment(ends), radius) => wider(&around(ends), *radius),
+            Patches::Near(ZoneCore::Point(p), radius) => wider(&around(&[*p]), *radius),
+            Patches::Near(ZoneCore::Segment(ends), radius) => wider(&around(ends), *radius),
             Patches::Behind(tip, _) => around(&problem.cracks[tip.crack as usize].points),
         }
     }
@@ -327,47 +327,52 @@ fn westergaard(mode: Enrichment) -> Option<LocalEnrichment> {
     }
 }
 
-fn places(problem: &Problem, site: Site) -> Vec<Place> {
-    let place =
-        |frame, shape, name| Place { frame, shape, radius: 0.0, degree: Degree::Fixed(0), name };
+fn zones(problem: &Problem, site: Site) -> Vec<EnrichmentZone> {
+    let zone = |frame, shape, name| EnrichmentZone {
+        frame,
+        shape,
+        radius: 0.0,
+        degree: Degree::Fixed(0),
+        name,
+    };
     match site {
-        Site::World => vec![place(Frame::World, None, String::new())],
+        Site::World => vec![zone(Frame::World, None, String::new())],
         Site::Point { at, angle } => {
             let name = format!(" at [{}, {}]", at.x, at.y);
             let frame = Frame::Fixed { origin: at, angle };
-            vec![place(frame, Some(Shape::Point(at)), name)]
+            vec![zone(frame, Some(ZoneCore::Point(at)), name)]
         }
         Site::Along([a, b]) => {
             let name = format!(" along [{}, {}] to [{}, {}]", a.x, a.y, b.x, b.y);
             let frame = Frame::Fixed { origin: a, angle: (b.y - a.y).atan2(b.x - a.x) };
-            vec![place(frame, Some(Shape::Segment([a, b])), name)]
+            vec![zone(frame, Some(ZoneCore::Segment([a, b])), name)]
         }
         Site::Tips => tips(&problem.cracks).map(|tip| at_tip(problem, tip)).collect(),
     }
 }
 
-fn at_tip(problem: &Problem, tip: TipId) -> Place {
+fn at_tip(problem: &Problem, tip: TipId) -> EnrichmentZone {
     let point = problem.cracks[tip.crack as usize].end_point(tip.end);
-    Place {
+    EnrichmentZone {
         frame: Frame::Tip(tip),
-        shape: Some(Shape::Point(point)),
+        shape: Some(ZoneCore::Point(point)),
         radius: problem.enrichment_radius(tip),
         degree: Degree::Holding(point, problem.discretization.tip_degree as u8),
         name: format!(" of crack {} {}", tip.crack, tip.end.name()),
     }
 }
 
-fn functions(new: &LocalEnrichment, place: &Place) -> Vec<Function> {
+fn functions(new: &LocalEnrichment, zone: &EnrichmentZone) -> Vec<Function> {
     let name = |k: usize, text: &str| match (new.name.as_str(), new.functions.len()) {
-        ("", _) => format!("{text}{}", place.name),
-        (name, 1) => format!("{name}{}", place.name),
-        (name, _) => format!("{name} {}{}", k + 1, place.name),
+        ("", _) => format!("{text}{}", zone.name),
+        (name, 1) => format!("{name}{}", zone.name),
+        (name, _) => format!("{name} {}{}", k + 1, zone.name),
     };
     let function = |(k, text): (usize, &String)| Function {
         name: name(k, text),
         kind: FunctionKind::Formula {
             text: text.clone(),
-            frame: place.frame,
+            frame: zone.frame,
             parameters: new.parameters.clone(),
             declared: new.declared.clone(),
         },
@@ -403,8 +408,10 @@ impl<'p> Patch<'p> {
     fn is_of(&self, patches: &Patches) -> bool {
         match patches {
             Patches::All => true,
-            Patches::Near(Shape::Point(p), radius) => self.holds(*p) || self.is_near(*p, *radius),
-            Patches::Near(Shape::Segment([a, b]), radius) => {
+            Patches::Near(ZoneCore::Point(p), radius) => {
+                self.holds(*p) || self.is_near(*p, *radius)
+            }
+            Patches::Near(ZoneCore::Segment([a, b]), radius) => {
                 segment_inside(*a, *b, &self.support) > self.shortest
                     || distance([*a, *b], &self.support) < *radius
             }
