@@ -11,7 +11,8 @@ use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{
-    BarPlace, Design, Grid, Labels, Panel, Theme, TickChoice, figure, panel_area, panels, plot_area,
+    BarPlace, Design, Labels, Panel, PanelGrid, Theme, TickChoice, figure, panel_area, panels,
+    plot_area,
 };
 use ppum_figure::overlay;
 use ppum_render::colormap::Colormap;
@@ -177,7 +178,7 @@ fn cases() -> Done<Vec<Case>> {
 
 /// Four quantities, with a bar each or one for all.
 fn four(shared_bar: bool, size: [u32; 2], bar: BarPlace) -> Done<Canvas> {
-    let grid = Grid { shared_bar, ..Grid::new([2, 2]) };
+    let grid = PanelGrid { shared_bar, ..PanelGrid::new([2, 2]) };
     let values: [fn(Vec2) -> f64; 4] =
         [tip, wave, |p| p.x, |p| if p.x > 0.9 { f64::NAN } else { p.y }];
     let captions = [

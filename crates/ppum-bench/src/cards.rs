@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum_gpu::{AdapterKind, Choice, Colors, Method, Program, Renderer, Shading, Values};
+use ppum_gpu::{AdapterChoice, AdapterKind, Colors, Method, Program, Renderer, Shading, Values};
 use ppum_render::picture::Style;
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
@@ -14,7 +14,7 @@ use serde::Serialize;
 pub(crate) struct Cards(Renderer);
 
 /// A field on a device.
-pub(crate) struct Card<'f> {
+pub(crate) struct CardPrograms<'f> {
     gather: Program<'f, Colors>,
     splat: Option<Program<'f, Colors>>,
 }
@@ -29,7 +29,7 @@ pub(crate) struct Adapter {
 impl Cards {
     /// Any device, or the reason why there is none.
     pub(crate) fn open() -> Result<Self, String> {
-        Renderer::open(Choice::Any).map(Self).map_err(|error| error.to_string())
+        Renderer::open(AdapterChoice::Any).map(Self).map_err(|error| error.to_string())
     }
 
     pub(crate) fn adapter(&self) -> Adapter {
@@ -49,7 +49,7 @@ impl Cards {
     }
 }
 
-impl<'f> Card<'f> {
+impl<'f> CardPrograms<'f> {
     /// Uploads a field and compiles images of a quantity; the range of the colours is fixed.
     pub(crate) fn new(
         Cards(renderer): &mut Cards,

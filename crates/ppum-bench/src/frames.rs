@@ -16,7 +16,7 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 use serde::Serialize;
 
-use crate::cards::{Card, Cards};
+use crate::cards::{CardPrograms, Cards};
 
 /// What draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,14 +71,14 @@ pub(crate) fn moved(View { center, width, pixels }: View, frame: u32) -> anyhow:
 }
 
 /// A quantity of a field with all that draws it.
-pub(crate) struct Subject<'d> {
+pub(crate) struct QuantityRenderer<'d> {
     pub(crate) field: &'d Field<'d>,
     pub(crate) quantity: Quantity,
     style: Style,
-    card: Option<Card<'d>>,
+    card: Option<CardPrograms<'d>>,
 }
 
-impl<'d> Subject<'d> {
+impl<'d> QuantityRenderer<'d> {
     /// On the devices too if they are given, and there by splatting if it may and patches are not
     /// too many.
     pub(crate) fn new(
@@ -88,7 +88,7 @@ impl<'d> Subject<'d> {
         may_splat: bool,
     ) -> anyhow::Result<Self> {
         let may_splat = may_splat && field.step.partition.len() <= MOST_SPLATTED;
-        let on_card = |cards| Card::new(cards, field, (&quantity, &style), may_splat);
+        let on_card = |cards| CardPrograms::new(cards, field, (&quantity, &style), may_splat);
         let card = cards.map(on_card).transpose()?;
         Ok(Self { field, quantity, style, card })
     }

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 use anyhow::ensure;
 use clap::{Parser, Subcommand};
-use ppum_bench::paper::{Group, Single};
-use ppum_bench::solver::{Kind, Study};
+use ppum_bench::paper::{SceneGroup, Single};
+use ppum_bench::solver::{SolverChoice, Study};
 use ppum_bench::{Report, guard, page, paper, window};
 
 /// The memory of the window's program, as its frames are measured.
@@ -19,7 +19,7 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 #[command(name = "ppum-bench", max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
-    what: What,
+    what: Measurement,
     /// Frames that are drawn of each kind
     #[arg(long, global = true, value_name = "N", default_value_t = 9)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -36,7 +36,7 @@ struct Cli {
 }
 
 #[derive(Debug, Subcommand)]
-enum What {
+enum Measurement {
     /// The gain of wide vectors, kernel by kernel; fails if a kernel has lost them
     Guard {
         /// Page in Markdown whose part of this name is written anew
@@ -47,7 +47,7 @@ enum What {
     Paper {
         /// Groups of scenes alone, separated by commas
         #[arg(long, value_enum, value_delimiter = ',')]
-        scenes: Vec<Group>,
+        scenes: Vec<SceneGroup>,
         /// Page in Markdown whose part of this name is written anew
         #[arg(long, conflicts_with = "scenes")]
         page: Option<PathBuf>,
@@ -77,7 +77,7 @@ enum What {
         order: Option<usize>,
         /// Linear solver
         #[arg(long, value_enum, default_value = "auto")]
-        solver: Kind,
+        solver: SolverChoice,
         /// Chart of the times against the unknowns: .svg, .pdf or .png
         #[arg(short, long)]
         output: Option<PathBuf>,
@@ -93,10 +93,10 @@ fn main() -> anyhow::Result<()> {
     }
     let (quick, frames) = (cli.quick, cli.frames);
     match &cli.what {
-        What::Guard { page } => {
+        Measurement::Guard { page } => {
             cli.on_page(page.as_ref(), "ppum-bench guard", || guard::Report::new(quick))
         }
-        What::Paper { scenes, page, output } => {
+        Measurement::Paper { scenes, page, output } => {
             check(output.as_ref())?;
             cli.on_page(page.as_ref(), "ppum-bench paper", || {
                 let report = paper::Report::new(quick, frames, scenes)?;
@@ -104,8 +104,8 @@ fn main() -> anyhow::Result<()> {
                 Ok(report)
             })
         }
-        What::Frames { file } => cli.tell(&Single::new(file, quick, frames)?),
-        What::Solver { problem, first, level, order, solver, output } => {
+        Measurement::Frames { file } => cli.tell(&Single::new(file, quick, frames)?),
+        Measurement::Solver { problem, first, level, order, solver, output } => {
             check(output.as_ref())?;
             let last = if quick { *first } else { *level };
             ensure!(output.is_none() || first < &last, "-o draws times over two levels or more");
@@ -114,7 +114,7 @@ fn main() -> anyhow::Result<()> {
             output.as_ref().map_or(Ok(()), |path| study.chart(path))?;
             cli.tell(&study)
         }
-        What::Window => cli.tell(&window::Report::new(quick, frames)?),
+        Measurement::Window => cli.tell(&window::Report::new(quick, frames)?),
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::Context as _;
 use clap::ValueEnum;
 use ppum::progress::{Phase, unwatched};
-use ppum_figure::plot::{Curve, Look, slope, with_slope};
+use ppum_figure::plot::{CurveStyle, PlotCurve, slope, with_slope};
 use ppum_solve::problem::{Cells, Order, Problem, SolverKind};
 use ppum_solve::report::{LinearKind, SolverReport};
 use ppum_solve::solve::solve;
@@ -20,7 +20,7 @@ const PROBLEM: &str = include_str!("../../../examples/centre-crack.toml");
 
 /// The linear solver of the problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Kind {
+pub enum SolverChoice {
     /// What is predicted to be faster
     Auto,
     /// Cholesky factorisation
@@ -34,14 +34,14 @@ pub enum Kind {
 pub struct Study {
     title: String,
     threads: usize,
-    runs: Vec<Run>,
+    runs: Vec<SolverRun>,
     /// The fits of all that a solution takes and of its phase `solution`, of three levels or more.
     fit: Option<[Fit; 2]>,
 }
 
 /// One solution.
 #[derive(Debug, Serialize)]
-struct Run {
+struct SolverRun {
     level: u32,
     unknowns: u64,
     /// The linear solver, its steps, the condition that it meets, and the bytes that it held.
@@ -60,7 +60,7 @@ struct Run {
     peak: Option<f64>,
 }
 
-impl Run {
+impl SolverRun {
     fn new(problem: &Problem, level: u32) -> anyhow::Result<Self> {
         let dataset = solve(problem, unwatched())?;
         let step = &dataset.steps[0];
@@ -116,16 +116,16 @@ impl Study {
     /// # Errors
     /// A problem that cannot be solved.
     pub fn new(
-        (file, order, solver): (Option<&Path>, Option<usize>, Kind),
+        (file, order, solver): (Option<&Path>, Option<usize>, SolverChoice),
         levels: RangeInclusive<u32>,
     ) -> anyhow::Result<Self> {
         let parse = || Problem::parse(PROBLEM, "centre-crack.toml", Path::new(""));
         let mut problem = file.map_or_else(parse, Problem::read)?;
         problem.adaptivity = None;
         problem.solver.kind = match solver {
-            Kind::Auto => SolverKind::Auto,
-            Kind::Direct => SolverKind::Direct,
-            Kind::Multilevel => SolverKind::Multilevel,
+            SolverChoice::Auto => SolverKind::Auto,
+            SolverChoice::Direct => SolverKind::Direct,
+            SolverChoice::Multilevel => SolverKind::Multilevel,
         };
         if let Some(order) = order {
             problem.discretization.order = Order::Uniform(order);
@@ -133,11 +133,12 @@ impl Study {
         let mut runs = Vec::new();
         for level in levels {
             problem.discretization.cells = Cells::Level(level);
-            runs.push(Run::new(&problem, level)?);
+            runs.push(SolverRun::new(&problem, level)?);
             eprintln!("level {level}: {:.2} s", runs[runs.len() - 1].seconds);
         }
-        let fits =
-            || Some([Fit::new(&points(&runs, all))?, Fit::new(&points(&runs, Run::solution))?]);
+        let fits = || {
+            Some([Fit::new(&points(&runs, all))?, Fit::new(&points(&runs, SolverRun::solution))?])
+        };
         let (title, fit) = (problem.title.clone(), fits());
         Ok(Self { title, threads: rayon::current_num_threads(), runs, fit })
     }
@@ -150,14 +151,15 @@ impl Study {
         let curve = |name: &str, seconds| {
             let points = points(&self.runs, seconds);
             let name = slope(&points).map_or_else(|| name.to_owned(), |p| with_slope(name, p, 2));
-            Curve::new(name, points).with_look(Look::Dotted)
+            PlotCurve::new(name, points).with_look(CurveStyle::Dotted)
         };
-        let mut curves = vec![curve("all phases", all), curve("linear solver", Run::solution)];
+        let mut curves =
+            vec![curve("all phases", all), curve("linear solver", SolverRun::solution)];
         if let Some([Fit { seconds, seconds_per_unknown, .. }, _]) = self.fit {
             let at = |[n, _]: [f64; 2]| [n, seconds + seconds_per_unknown * n];
             let line = points(&self.runs, all).into_iter().map(at).collect();
             let name = format!("{:.1} µs an unknown", 1e6 * seconds_per_unknown);
-            curves.push(Curve::new(name, line).with_look(Look::Dashed));
+            curves.push(PlotCurve::new(name, line).with_look(CurveStyle::Dashed));
         }
         chart::save(path, &self.title, [("unknowns", ""), ("time", "s")], curves)
     }
@@ -188,17 +190,17 @@ impl Report for Study {
             title: "Phases of the solver".into(),
             words: 1,
             head: head.chain(rest).map(str::to_owned).collect(),
-            rows: self.runs.iter().map(Run::cells).collect(),
+            rows: self.runs.iter().map(SolverRun::cells).collect(),
             note: note.unwrap_or_default(),
         }]
     }
 }
 
-fn all(run: &Run) -> f64 {
+fn all(run: &SolverRun) -> f64 {
     run.seconds
 }
 
-fn points(runs: &[Run], seconds: fn(&Run) -> f64) -> Vec<[f64; 2]> {
+fn points(runs: &[SolverRun], seconds: fn(&SolverRun) -> f64) -> Vec<[f64; 2]> {
     runs.iter().map(|run| [run.unknowns as f64, seconds(run)]).collect()
 }
 

@@ -72,9 +72,9 @@ impl Recipe {
     pub fn dataset(&self) -> anyhow::Result<Dataset> {
         let partition = self.cover()?.partition(1.3, self.weight()?)?;
         let data = FieldData::new("displacement", &["ux", "uy"]);
-        let mut maker = Maker { order: self.order, partition, data };
+        let mut maker = FieldMaker { order: self.order, partition, data };
         maker.fill(self.enriched);
-        let Maker { partition, data, .. } = maker;
+        let FieldMaker { partition, data, .. } = maker;
         let mut step = Step::new(partition).with_field(data);
         step.cracks = vec![Crack { points: TIPS.to_vec(), ends: [CrackEnd::Tip; 2] }];
         step.functions = functions();
@@ -187,13 +187,13 @@ fn nearest_tip(p: Vec2) -> usize {
     usize::from(p.x > 0.0)
 }
 
-struct Maker {
+struct FieldMaker {
     order: u8,
     partition: BoxPartition,
     data: FieldData,
 }
 
-impl Maker {
+impl FieldMaker {
     fn fill(&mut self, share: f64) {
         let enriched = self.enriched(share);
         for (patch, is_enriched) in enriched.into_iter().enumerate() {

@@ -5,13 +5,13 @@ use ppum::text::trimmed;
 use ppum::vec2::Rect;
 use ppum_render::deform::{Deformation, DeformedView};
 use ppum_scene::deformed::Factor;
-use ppum_scene::drawing::Seen;
+use ppum_scene::drawing::BodyView;
 use ppum_scene::engine::Engine;
-use ppum_scene::moving::Place;
+use ppum_scene::moving::FrameView;
 use ppum_scene::request::Request;
-use ppum_scene::shot::Source;
+use ppum_scene::shot::FieldSource;
 
-use crate::window::{Frame, Window};
+use crate::window::{ImageExtent, WindowArgs};
 
 /// How the plate is deformed.
 #[derive(Debug, clap::Args)]
@@ -27,25 +27,25 @@ pub(crate) struct Deformed {
 
 /// Where plates are seen, one or those of a series.
 pub(crate) struct Placing<'a> {
-    pub(crate) window: &'a Window,
-    pub(crate) frame: Frame,
+    pub(crate) window: &'a WindowArgs,
+    pub(crate) frame: ImageExtent,
     /// The factor of deformed plates, and what of the plane is seen of them without a window.
     pub(crate) deformed: Option<(f64, Rect)>,
 }
 
-impl Place<anyhow::Error> for Placing<'_> {
+impl FrameView<anyhow::Error> for Placing<'_> {
     fn seen<'f>(
         &self,
-        source: Source<'f>,
+        source: FieldSource<'f>,
         _: &Request,
         engine: &Engine<'_>,
-    ) -> anyhow::Result<Seen<'f>> {
+    ) -> anyhow::Result<BodyView<'f>> {
         let Some((factor, bounds)) = self.deformed else {
-            return Ok(Seen::Plate(self.window.seen(source.field, self.frame)?));
+            return Ok(BodyView::Plate(self.window.seen(source.field, self.frame)?));
         };
         engine.check_deformed()?;
         let view = self.moved(source, factor, bounds)?;
-        Ok(Seen::Moved(view.points(engine.watcher)?))
+        Ok(BodyView::Moved(view.points(engine.watcher)?))
     }
 }
 
@@ -54,7 +54,7 @@ impl Placing<'_> {
     /// follows it.
     fn moved<'f>(
         &self,
-        Source { field, .. }: Source<'f>,
+        FieldSource { field, .. }: FieldSource<'f>,
         factor: f64,
         bounds: Rect,
     ) -> anyhow::Result<DeformedView<'f>> {

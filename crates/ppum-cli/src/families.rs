@@ -33,7 +33,7 @@ pub(crate) fn blocks(functions: &[Function], field: &FieldData) -> Vec<usize> {
 
 /// The families of some functions, in the order of their first ones.
 pub(crate) fn families(functions: &[Function], blocks: &[usize]) -> Vec<Family> {
-    let mut groups: Vec<Vec<Group<'_>>> = Vec::new();
+    let mut groups: Vec<Vec<FunctionFamily<'_>>> = Vec::new();
     for group in groups_of(functions, blocks) {
         match groups.last_mut().filter(|family| group.continues(&family[family.len() - 1])) {
             Some(family) => family.push(group),
@@ -59,7 +59,7 @@ impl Family {
         runs.join(", ")
     }
 
-    fn new(groups: &[Group<'_>]) -> Self {
+    fn new(groups: &[FunctionFamily<'_>]) -> Self {
         let (first, last) = (&groups[0], &groups[groups.len() - 1]);
         let name = match (first.numbered(), last.numbered()) {
             (Some((base, [from, _])), Some((_, [_, to]))) if from < to => {
@@ -74,7 +74,7 @@ impl Family {
             numbers,
             name,
             place: first.place(),
-            formulas: groups.iter().filter_map(Group::formula).collect(),
+            formulas: groups.iter().filter_map(FunctionFamily::formula).collect(),
             blocks: groups.iter().map(|group| group.blocks).sum(),
         }
     }
@@ -92,7 +92,7 @@ fn range(run: &[usize]) -> String {
 
 /// Functions that differ in their places only, and components in their numbers, too: each patch has
 /// other ones.
-struct Group<'f> {
+struct FunctionFamily<'f> {
     stem: &'f str,
     names: Vec<&'f str>,
     kinds: Vec<&'f FunctionKind>,
@@ -100,9 +100,9 @@ struct Group<'f> {
     blocks: usize,
 }
 
-fn groups_of<'f>(functions: &'f [Function], blocks: &[usize]) -> Vec<Group<'f>> {
-    let mut groups: Vec<Group<'_>> = Vec::new();
-    let mut known: BTreeMap<Key<'_>, usize> = BTreeMap::new();
+fn groups_of<'f>(functions: &'f [Function], blocks: &[usize]) -> Vec<FunctionFamily<'f>> {
+    let mut groups: Vec<FunctionFamily<'_>> = Vec::new();
+    let mut known: BTreeMap<FamilyKey<'_>, usize> = BTreeMap::new();
     for (number, (function, &blocks)) in functions.iter().zip(blocks).enumerate() {
         let (stem, kind) = (stem(function), &function.kind);
         match known.entry(key(stem, kind)) {
@@ -116,7 +116,7 @@ fn groups_of<'f>(functions: &'f [Function], blocks: &[usize]) -> Vec<Group<'f>> 
             Entry::Vacant(entry) => {
                 entry.insert(groups.len());
                 let (names, kinds, numbers) = (vec![&*function.name], vec![kind], vec![number]);
-                groups.push(Group { stem, names, kinds, numbers, blocks });
+                groups.push(FunctionFamily { stem, names, kinds, numbers, blocks });
             }
         }
     }
@@ -139,9 +139,9 @@ fn numbered(name: &str) -> Option<(&str, usize)> {
 
 /// Name, kind, formula, names of parameters, and numbers: two functions that differ in their places
 /// only have the same.
-type Key<'f> = (&'f str, &'static str, &'f str, Vec<&'f str>, Vec<u64>);
+type FamilyKey<'f> = (&'f str, &'static str, &'f str, Vec<&'f str>, Vec<u64>);
 
-fn key<'f>(stem: &'f str, kind: &'f FunctionKind) -> Key<'f> {
+fn key<'f>(stem: &'f str, kind: &'f FunctionKind) -> FamilyKey<'f> {
     let Some((text, frame, parameters, declared)) = parts(kind) else {
         let word = match kind {
             FunctionKind::Side { .. } => "side",
@@ -167,9 +167,9 @@ fn key<'f>(stem: &'f str, kind: &'f FunctionKind) -> Key<'f> {
     (stem, frame, text, names, numbers.collect())
 }
 
-type Parts<'f> = (&'f str, &'f Frame, &'f [(String, f64)], &'f Declared);
+type FormulaParts<'f> = (&'f str, &'f Frame, &'f [(String, f64)], &'f Declared);
 
-fn parts(kind: &FunctionKind) -> Option<Parts<'_>> {
+fn parts(kind: &FunctionKind) -> Option<FormulaParts<'_>> {
     match kind {
         FunctionKind::Formula { text, frame, parameters, declared } => {
             Some((text, frame, parameters, declared))
@@ -178,7 +178,7 @@ fn parts(kind: &FunctionKind) -> Option<Parts<'_>> {
     }
 }
 
-impl<'f> Group<'f> {
+impl<'f> FunctionFamily<'f> {
     /// A name that ends in a number, and the least and the largest number that it ends in.
     fn numbered(&self) -> Option<(&str, [usize; 2])> {
         let FunctionKind::Component { .. } = self.kinds[0] else {
@@ -268,7 +268,7 @@ mod tests {
         all
     }
 
-    fn told(functions: &[Function]) -> Vec<String> {
+    fn family_lines(functions: &[Function]) -> Vec<String> {
         let families = families(functions, &vec![2; functions.len()]);
         families.iter().map(|f| format!("{} {} {}", f.numbers(), f.title(), f.blocks)).collect()
     }
@@ -277,7 +277,7 @@ mod tests {
     fn functions_of_tips_are_a_family() {
         let all = cracked();
         assert_eq!(
-            told(&all),
+            family_lines(&all),
             ["0 one 2", "1–2 side of 2 cracks 4", "3–14 westergaard 1–4 at 3 tips 24"]
         );
         assert_eq!(families(&all, &[0; 15])[2].formulas, WESTERGAARD);
@@ -294,18 +294,18 @@ mod tests {
         for patch in 0..1000 {
             all.extend((1..=1 + patch % 4).map(|k| component(k, 3 * patch)));
         }
-        assert_eq!(told(&all)[3..], ["15–2514 component 1–4 of 1000 patches 5000"]);
+        assert_eq!(family_lines(&all)[3..], ["15–2514 component 1–4 of 1000 patches 5000"]);
         let two = [component(2, 7), component(2, 9)];
-        assert_eq!(told(&two), ["0–1 component 2 of 2 patches 4"]);
-        assert_eq!(told(&two[..1]), ["0 component 2 of patch 7 2"]);
+        assert_eq!(family_lines(&two), ["0–1 component 2 of 2 patches 4"]);
+        assert_eq!(family_lines(&two[..1]), ["0 component 2 of patch 7 2"]);
         let beside = [0, 0, 3].map(|crack| {
             let name = format!("one side of crack {crack}");
             function(&name, FunctionKind::Component { cuts: Vec::new() })
         });
-        assert_eq!(told(&beside), ["0–2 one side of 2 cracks 6"]);
+        assert_eq!(family_lines(&beside), ["0–2 one side of 2 cracks 6"]);
         let nowhere = ["component 1", "component 2"]
             .map(|name| function(name, FunctionKind::Component { cuts: Vec::new() }));
-        assert_eq!(told(&nowhere), ["0–1 component 1–2 4"]);
+        assert_eq!(family_lines(&nowhere), ["0–1 component 1–2 4"]);
     }
 
     /// Functions that differ in more than their place are told apart.
@@ -314,7 +314,7 @@ mod tests {
         let mut all = cracked();
         all[8].kind = FunctionKind::formula("r", Frame::Tip(TipId { crack: 1, end: End::Last }));
         assert_eq!(
-            told(&all)[2..],
+            family_lines(&all)[2..],
             [
                 "3, 7, 11 westergaard 1 at 3 tips 6",
                 "4, 12 westergaard 2 at 2 tips 4",
@@ -337,7 +337,7 @@ mod tests {
             function("corner 2 at [1, 0.5]", corner("r", 1.0)),
             function("x*y", FunctionKind::formula("x*y", Frame::World)),
         ];
-        assert_eq!(told(&all), ["0–1 corner 1–2 at [1, 0.5] 4", "2 x*y 2"]);
+        assert_eq!(family_lines(&all), ["0–1 corner 1–2 at [1, 0.5] 4", "2 x*y 2"]);
         let families = families(&all, &[1; 3]);
         assert_eq!(families[0].formulas, ["r^lambda, lambda = 0.5", "r, lambda = 0.5"]);
         assert!(families[1].formulas.is_empty());

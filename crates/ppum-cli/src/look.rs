@@ -9,7 +9,7 @@ use crate::arguments::{inches, positive, size};
 
 /// The options of size and look.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Look {
+pub(crate) struct LookArgs {
     /// Size of the page in pixels [default: 1024x768, a bare picture of the whole domain takes its
     /// shape; of `compare` 660x600 for each panel]
     #[arg(long, value_name = "WxH", value_parser = size, conflicts_with = "inches")]
@@ -36,7 +36,7 @@ pub(crate) struct Look {
     /// Marks of a figure: auto, about how many, or at which values; of the colour bar, or with x=
     /// or y= in front of an axis
     #[arg(long, value_name = "[x=|y=]auto|N|A,B,…", allow_hyphen_values = true, value_parser = marks)]
-    ticks: Vec<(Axis, TickChoice)>,
+    ticks: Vec<(LabelledAxis, TickChoice)>,
     /// Words of a figure: title=, x=, y=, bar=, apart by commas; none are left out
     #[arg(long, value_name = "title=…,x=…,y=…,bar=…", value_parser = texts)]
     labels: Vec<Texts>,
@@ -60,7 +60,7 @@ enum BarName {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Axis {
+enum LabelledAxis {
     X,
     Y,
     Bar,
@@ -78,7 +78,7 @@ pub(crate) const LONG: f64 = 2.2;
 const PRINT_DPI: f64 = 300.0;
 const SCREEN_DPI: f64 = 96.0;
 
-impl Look {
+impl LookArgs {
     /// Refuses options of figures for pictures that are none.
     pub(crate) fn check(&self, is_figure: bool) -> anyhow::Result<()> {
         let given = [
@@ -142,9 +142,9 @@ impl Look {
         };
         for (axis, choice) in &self.ticks {
             let ticks = match axis {
-                Axis::X => &mut design.x_ticks,
-                Axis::Y => &mut design.y_ticks,
-                Axis::Bar => &mut design.bar_ticks,
+                LabelledAxis::X => &mut design.x_ticks,
+                LabelledAxis::Y => &mut design.y_ticks,
+                LabelledAxis::Bar => &mut design.bar_ticks,
             };
             ticks.clone_from(choice);
         }
@@ -172,12 +172,12 @@ pub(crate) fn letters(number: usize) -> String {
 }
 
 /// `[x=|y=|bar=]auto|N|A,B,…`.
-fn marks(text: &str) -> Result<(Axis, TickChoice), String> {
+fn marks(text: &str) -> Result<(LabelledAxis, TickChoice), String> {
     let (axis, choice) = match text.split_once('=') {
-        None => (Axis::Bar, text),
-        Some(("x", choice)) => (Axis::X, choice),
-        Some(("y", choice)) => (Axis::Y, choice),
-        Some(("bar", choice)) => (Axis::Bar, choice),
+        None => (LabelledAxis::Bar, text),
+        Some(("x", choice)) => (LabelledAxis::X, choice),
+        Some(("y", choice)) => (LabelledAxis::Y, choice),
+        Some(("bar", choice)) => (LabelledAxis::Bar, choice),
         Some((other, _)) => return Err(format!("there is no axis `{other}`; write x, y or bar")),
     };
     let choice = choice.trim();
@@ -222,11 +222,11 @@ mod tests {
 
     #[test]
     fn marks_of_axes_and_bar() {
-        assert_eq!(marks("auto"), Ok((Axis::Bar, TickChoice::Auto)));
-        assert_eq!(marks("x=5"), Ok((Axis::X, TickChoice::Count(5))));
-        assert_eq!(marks("y=-1,0.5"), Ok((Axis::Y, TickChoice::At(vec![-1.0, 0.5]))));
-        assert_eq!(marks("3,"), Ok((Axis::Bar, TickChoice::At(vec![3.0]))));
-        assert_eq!(marks("x="), Ok((Axis::X, TickChoice::At(vec![]))));
+        assert_eq!(marks("auto"), Ok((LabelledAxis::Bar, TickChoice::Auto)));
+        assert_eq!(marks("x=5"), Ok((LabelledAxis::X, TickChoice::Count(5))));
+        assert_eq!(marks("y=-1,0.5"), Ok((LabelledAxis::Y, TickChoice::At(vec![-1.0, 0.5]))));
+        assert_eq!(marks("3,"), Ok((LabelledAxis::Bar, TickChoice::At(vec![3.0]))));
+        assert_eq!(marks("x="), Ok((LabelledAxis::X, TickChoice::At(vec![]))));
         for wrong in ["z=3", "0", "101", "1,a", "inf,0", "some"] {
             assert!(marks(wrong).is_err(), "{wrong}");
         }

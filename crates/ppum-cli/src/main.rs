@@ -88,7 +88,7 @@ fn report(error: &anyhow::Error) {
 fn message(error: &anyhow::Error) -> String {
     error
         .chain()
-        .map(remedy::told)
+        .map(remedy::error_text)
         .reduce(|told, cause| if told.contains(&cause) { told } else { format!("{told}: {cause}") })
         .unwrap_or_default()
 }

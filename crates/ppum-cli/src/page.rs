@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::Context as _;
 use ppum_figure::canvas::Canvas;
-use ppum_figure::form::Form;
+use ppum_figure::form::PageFormat;
 use ppum_render::png::Text;
 use ppum_scene::notice::Notice;
 
@@ -40,7 +40,7 @@ pub(crate) fn put(
     texts: &[Text],
     out: &mut Output,
 ) -> anyhow::Result<()> {
-    let form = Form::of(path);
+    let form = PageFormat::of(path);
     warn(Notice::of_glyphs(page, form));
     if is_standard(path) {
         return Ok(out.exact().write_all(&bytes(form, page, dpi, texts)?)?);
@@ -55,11 +55,16 @@ pub(crate) fn write(
     dpi: Option<f64>,
     texts: &[Text],
 ) -> anyhow::Result<()> {
-    let bytes = bytes(Form::of(path), page, dpi, texts)?;
+    let bytes = bytes(PageFormat::of(path), page, dpi, texts)?;
     target::save(path, |out| out.write_all(&bytes))
 }
 
-fn bytes(form: Form, page: &Canvas, dpi: Option<f64>, texts: &[Text]) -> anyhow::Result<Vec<u8>> {
+fn bytes(
+    form: PageFormat,
+    page: &Canvas,
+    dpi: Option<f64>,
+    texts: &[Text],
+) -> anyhow::Result<Vec<u8>> {
     form.bytes(page, dpi, texts).context("cannot encode the picture")
 }
 

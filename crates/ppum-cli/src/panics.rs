@@ -26,7 +26,7 @@ pub(crate) fn guarded(work: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Resu
         Err(_) => bail!(
             "ppum stopped at a mistake of its own: {}\nfiles are as they were, and a series has the steps that were complete; please report it, \
              with the command and its files",
-            told().unwrap_or_else(|| "it does not say where".to_owned())
+            take_message().unwrap_or_else(|| "it does not say where".to_owned())
         ),
     }
 }
@@ -45,7 +45,7 @@ fn keep(info: &PanicHookInfo<'_>) {
         .get_or_insert_with(|| format!("{message}{place}"));
 }
 
-fn told() -> Option<String> {
+fn take_message() -> Option<String> {
     TOLD.lock().unwrap_or_else(PoisonError::into_inner).take()
 }
 

@@ -69,7 +69,7 @@ impl Profile {
         quantities: &profile::Named,
     ) -> anyhow::Result<Table> {
         let (along, count) = self.checked(field)?;
-        self.told(along.table(field, quantities, count, &Bar::new()))
+        self.reported_table(along.table(field, quantities, count, &Bar::new()))
     }
 
     /// The table of a curve that is drawn, see [`Along::drawn`].
@@ -79,7 +79,7 @@ impl Profile {
         quantities: &profile::Named,
     ) -> anyhow::Result<Table> {
         let (along, count) = self.checked(field)?;
-        self.told(along.drawn(field, quantities, count, &Bar::new()))
+        self.reported_table(along.drawn(field, quantities, count, &Bar::new()))
     }
 
     /// The curve.
@@ -109,8 +109,11 @@ impl Profile {
         Ok((along, self.count.unwrap_or(COUNT)))
     }
 
-    /// The table, once it is told which quantities have no value.
-    fn told(&self, found: Result<profile::Profile, ProfileError>) -> anyhow::Result<Table> {
+    /// The table, after a note on the quantities that have no value.
+    fn reported_table(
+        &self,
+        found: Result<profile::Profile, ProfileError>,
+    ) -> anyhow::Result<Table> {
         let found = found.map_err(|error| match (&error, self.count) {
             (ProfileError::Crack { index, .. }, _) => anyhow!("--crack {index}: {error}"),
             (ProfileError::Point, _) => anyhow!("--line: {error}"),

@@ -76,11 +76,11 @@ fn within() -> std::sync::MutexGuard<'static, String> {
 }
 
 /// Bars that begin from now on belong to the parts of something longer, until this is dropped.
-pub(crate) struct Series {
+pub(crate) struct NestedBars {
     total: usize,
 }
 
-impl Series {
+impl NestedBars {
     pub(crate) fn new(total: usize) -> Self {
         Self { total }
     }
@@ -91,7 +91,7 @@ impl Series {
     }
 }
 
-impl Drop for Series {
+impl Drop for NestedBars {
     fn drop(&mut self) {
         within().clear();
     }

@@ -10,7 +10,7 @@ use ppum_solve::solve::{LinearError, SolveError};
 use ppum_solve::space::{InspectError, SpaceError};
 
 /// The text of an error, with its remedy if there is one.
-pub(crate) fn told(error: &(dyn Error + 'static)) -> String {
+pub(crate) fn error_text(error: &(dyn Error + 'static)) -> String {
     let remedy = match error.downcast_ref() {
         Some(error) => of_solution(error),
         None => of_quantity(error).or_else(|| of_file(error)),
@@ -78,18 +78,21 @@ mod tests {
             ),
             (SpaceError::Nothing.into(), "the holes swallow the whole domain; make them smaller"),
         ] {
-            assert_eq!(told(&error), said);
+            assert_eq!(error_text(&error), said);
         }
         let error = QuantityError::NoExact("error".into());
         for error in [&error as &dyn Error, &RenderError::Quantity(error.clone())] {
             assert_eq!(
-                told(error),
+                error_text(error),
                 "`error` needs the exact solution, which this dataset does not hold; give it as [exact] in the \
                  problem file"
             );
         }
         assert_eq!(
-            told(&WriteError::TooLong { length: 5_000_000_000, most: ppum_format::MAX_LENGTH }),
+            error_text(&WriteError::TooLong {
+                length: 5_000_000_000,
+                most: ppum_format::MAX_LENGTH
+            }),
             "the file would have 5000000000 bytes, at most 4294967296 are read; choose fewer cells or a lower order"
         );
     }

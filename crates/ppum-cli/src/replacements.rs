@@ -19,7 +19,7 @@ pub(crate) struct Replacements {
     /// Only a part of the field: smooth, jump, tip, other (of corners, of one's own), or patch:N;
     /// `render` draws several, with commas between, in panels, of which `all` is the whole field
     #[arg(long, value_name = "PART", value_delimiter = ',')]
-    part: Vec<Choice>,
+    part: Vec<PartChoice>,
     /// Replace a function, by its number or name in `ppum info`; may be given more than once
     #[arg(long, value_name = "WHICH=FORMULA", value_parser = assignment)]
     function: Vec<(String, String)>,
@@ -33,9 +33,9 @@ pub(crate) struct Replacements {
 
 /// A part of the field, or all of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Choice(Option<Part>);
+struct PartChoice(Option<Part>);
 
-impl FromStr for Choice {
+impl FromStr for PartChoice {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -48,7 +48,7 @@ impl FromStr for Choice {
     }
 }
 
-impl fmt::Display for Choice {
+impl fmt::Display for PartChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             Some(part) => part.fmt(f),
@@ -57,7 +57,7 @@ impl fmt::Display for Choice {
     }
 }
 
-impl Choice {
+impl PartChoice {
     /// The part in words: `smooth part`.
     fn caption(self) -> String {
         match self.0 {
@@ -82,7 +82,7 @@ impl Replacements {
         dataset: Dataset,
         step: Option<usize>,
     ) -> anyhow::Result<Vec<Dataset>> {
-        let parts = if self.part.is_empty() { &[Choice(None)][..] } else { &self.part };
+        let parts = if self.part.is_empty() { &[PartChoice(None)][..] } else { &self.part };
         let copies = std::iter::repeat_n(dataset, parts.len());
         let changed = copies.zip(parts).map(|(mut dataset, choice)| {
             self.apply_part(&mut dataset, step, choice.0)?;
@@ -145,7 +145,7 @@ impl Replacements {
     /// A title that tells the part.
     pub(crate) fn title(&self, title: &str) -> String {
         match self.part[..] {
-            [Choice(Some(part))] => format!("{title} ({part} only)"),
+            [PartChoice(Some(part))] => format!("{title} ({part} only)"),
             _ => title.to_owned(),
         }
     }
@@ -153,7 +153,7 @@ impl Replacements {
     /// The part, if it is one.
     pub(crate) fn part(&self) -> Option<String> {
         match self.part[..] {
-            [Choice(Some(part))] => Some(part.to_string()),
+            [PartChoice(Some(part))] => Some(part.to_string()),
             _ => None,
         }
     }
@@ -173,7 +173,7 @@ impl Replacements {
         let defined = self.define.iter().map(|(name, text)| format!("{name} = {text}"));
         let replaced =
             functions.chain(weight).chain(defined).map(|note| ("ppum:replaced".to_owned(), note));
-        let parts: Vec<String> = self.part.iter().map(Choice::to_string).collect();
+        let parts: Vec<String> = self.part.iter().map(PartChoice::to_string).collect();
         let part = (!parts.is_empty()).then(|| ("ppum:part".to_owned(), parts.join(", ")));
         part.into_iter().chain(replaced)
     }

@@ -21,7 +21,7 @@ use crate::standard::{self, is_standard};
 
 /// The subject of a picture: a quantity of a dataset.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Subject {
+pub(crate) struct QuantityArgs {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     pub(crate) file: PathBuf,
@@ -37,7 +37,7 @@ pub(crate) struct Subject {
     pub(crate) step: Option<usize>,
 }
 
-impl Subject {
+impl QuantityArgs {
     /// The dataset with the step that is asked for, and what is replaced in it.
     pub(crate) fn open(&self) -> anyhow::Result<Dataset> {
         let mut dataset = open_step(&self.file, self.step)?;
@@ -100,7 +100,7 @@ impl Subject {
 
 /// The options of colours.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Colors {
+pub(crate) struct ColorArgs {
     #[arg(long, value_name = "NAME", help = colormaps())]
     colormap: Option<String>,
     /// Values that the colours span: auto for all, but robust against peaks that are infinite;
@@ -142,7 +142,7 @@ fn colormaps() -> String {
     )
 }
 
-impl Colors {
+impl ColorArgs {
     /// The way values become colours.
     pub(crate) fn chosen(&self) -> colors::Colors {
         colors::Colors {

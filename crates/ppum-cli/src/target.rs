@@ -9,7 +9,7 @@ use crate::standard::{self, is_standard};
 
 /// The content of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum FileKind {
     Dataset,
     Picture,
     /// Of several pictures.
@@ -17,7 +17,7 @@ pub(crate) enum Kind {
     Table,
 }
 
-impl Kind {
+impl FileKind {
     /// Its name in messages, and the extensions of its files.
     fn words(self) -> (&'static str, &'static [&'static str]) {
         match self {
@@ -56,7 +56,7 @@ impl Kind {
 /// are the files that the command reads.
 pub(crate) fn check<'i>(
     path: &Path,
-    kind: Kind,
+    kind: FileKind,
     inputs: impl IntoIterator<Item = &'i Path>,
 ) -> anyhow::Result<()> {
     if is_standard(path) {

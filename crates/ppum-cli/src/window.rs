@@ -10,7 +10,7 @@ use crate::tips;
 
 /// The window: one way of giving it, or none for the whole domain.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Window {
+pub(crate) struct WindowArgs {
     /// Window by two opposite corners
     #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = corners)]
     #[arg(conflicts_with_all = ["center", "tip"])]
@@ -30,9 +30,9 @@ pub(crate) struct Window {
     zoom: Option<f64>,
 }
 
-/// The room there is.
+/// The pixels of an image, and the margin around the domain.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
+pub(crate) struct ImageExtent {
     pub(crate) pixels: [u32; 2],
     /// A picture of the whole domain takes no more pixels than that has.
     pub(crate) may_shrink: bool,
@@ -42,7 +42,7 @@ pub(crate) struct Frame {
 
 const DEFAULT_ZOOM: f64 = 10.0;
 
-impl Window {
+impl WindowArgs {
     /// Width over height of what is to be seen; none if it is whatever the picture has room for.
     pub(crate) fn aspect(&self, field: &Field<'_>) -> Option<f64> {
         if self.center.is_some() || self.tip.is_some() {
@@ -57,9 +57,9 @@ impl Window {
         &self,
         whole: Rect,
         field: &Field<'_>,
-        frame: Frame,
+        frame: ImageExtent,
     ) -> anyhow::Result<View> {
-        let Frame { pixels, may_shrink, margin } = frame;
+        let ImageExtent { pixels, may_shrink, margin } = frame;
         if let Some(Rect { min, max }) = self.view {
             return Ok(View::window(min.x, min.y, max.x, max.y, pixels)?);
         }
@@ -88,7 +88,7 @@ impl Window {
     }
 
     /// The view, which must show some of the domain.
-    pub(crate) fn seen(&self, field: &Field<'_>, frame: Frame) -> anyhow::Result<View> {
+    pub(crate) fn seen(&self, field: &Field<'_>, frame: ImageExtent) -> anyhow::Result<View> {
         let view = self.over(field.domain.bounds, field, frame)?;
         ensure!(
             view.rect().overlaps(&field.domain.bounds),

@@ -7,9 +7,9 @@ use ppum_render::png::{self, Text};
 
 use crate::canvas::Canvas;
 
-/// The form of a page's file.
+/// The file format of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum PageFormat {
     /// Pixels.
     Png,
     /// Vectors, for the web and for drawing programs.
@@ -21,7 +21,7 @@ pub enum Form {
 /// Pixels per inch of screens, as the design of figures has it.
 const SCREEN: f64 = 96.0;
 
-impl Form {
+impl PageFormat {
     /// The form that a name ends in; PNG if it ends in nothing known.
     #[must_use]
     pub fn of(path: &Path) -> Self {

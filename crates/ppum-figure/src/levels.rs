@@ -2,7 +2,7 @@
 
 use ppum_render::scale::{Normalization, Scale};
 
-use crate::ticks::{Step, decades};
+use crate::ticks::{TickStep, decades};
 
 /// About `most` round values within the range of a colour bar, rising: multiples of 1, 2 or 5 ×
 /// 10^k on a linear scale; powers of ten, with 2 and 5 times them if there is room, on a
@@ -40,7 +40,7 @@ pub fn counted(norm: &Normalization, count: usize) -> Vec<f64> {
 fn linear(min: f64, max: f64, most: usize) -> Vec<f64> {
     let mut size = (max - min) / (most + 1) as f64;
     loop {
-        let step = Step::at_least(size);
+        let step = TickStep::at_least(size);
         let found = step.multiples(min, max);
         if found.len() <= most {
             return found;

@@ -29,7 +29,7 @@ const LOWERED: f64 = 0.17;
 
 /// A piece of a line in letters of one size.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Run {
+pub(crate) struct TextRun {
     pub(crate) text: String,
     /// Length of an em.
     pub(crate) size: f64,
@@ -39,7 +39,7 @@ pub(crate) struct Run {
 
 /// The pieces of a line, none of them empty. What is not printable is shown by its number, ends of
 /// lines and tabs are blanks.
-pub(crate) fn runs(text: &str, size: f64) -> Vec<Run> {
+pub(crate) fn runs(text: &str, size: f64) -> Vec<TextRun> {
     let text = printable(text).replace(['\n', '\t'], " ");
     let mut runs = Vec::new();
     for (index, piece) in text.split("_{").enumerate() {
@@ -49,8 +49,8 @@ pub(crate) fn runs(text: &str, size: f64) -> Vec<Run> {
             _ => ("", piece),
         };
         let (small, lowered) = (SUBSCRIPT * size, LOWERED * size);
-        runs.push(Run { text: subscript.to_owned(), size: small, lowered });
-        runs.push(Run { text: plain.to_owned(), size, lowered: 0.0 });
+        runs.push(TextRun { text: subscript.to_owned(), size: small, lowered });
+        runs.push(TextRun { text: plain.to_owned(), size, lowered: 0.0 });
     }
     runs.retain(|run| !run.text.is_empty());
     runs
@@ -108,13 +108,13 @@ pub(crate) fn width(text: &str, size: f64) -> f64 {
 
 /// A curve of an outline, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Curve {
+pub(crate) enum GlyphCurve {
     Line([Vec2; 2]),
     Quadratic([Vec2; 3]),
     Cubic([Vec2; 4]),
 }
 
-impl Curve {
+impl GlyphCurve {
     /// The points that span the curve.
     fn points(&self) -> &[Vec2] {
         match self {
@@ -142,15 +142,15 @@ impl Curve {
 }
 
 /// The box around curves.
-pub(crate) fn bounds(curves: &[Curve]) -> [Vec2; 2] {
+pub(crate) fn bounds(curves: &[GlyphCurve]) -> [Vec2; 2] {
     let start = [vec2(f64::INFINITY, f64::INFINITY), vec2(f64::NEG_INFINITY, f64::NEG_INFINITY)];
-    let points = curves.iter().flat_map(Curve::points);
+    let points = curves.iter().flat_map(GlyphCurve::points);
     points.fold(start, |[lo, hi], &p| [lo.min(p), hi.max(p)])
 }
 
 /// The outlines of a line of text whose base line starts at a point and runs at an angle, from the
 /// right towards the page's top.
-pub(crate) fn outlines(text: &str, size: f64, start: Vec2, angle: f64) -> Vec<Curve> {
+pub(crate) fn outlines(text: &str, size: f64, start: Vec2, angle: f64) -> Vec<GlyphCurve> {
     let (sin, cos) = angle.sin_cos();
     let turned = |x: f64, y: f64| start + vec2(cos * x + sin * y, cos * y - sin * x);
     let mut curves = Vec::new();
@@ -164,9 +164,9 @@ pub(crate) fn outlines(text: &str, size: f64, start: Vec2, angle: f64) -> Vec<Cu
         };
         let outline = FONT.outline(glyph.id).into_iter().flat_map(|outline| outline.curves);
         curves.extend(outline.map(|curve| match curve {
-            OutlineCurve::Line(a, b) => Curve::Line([a, b].map(to_page)),
-            OutlineCurve::Quad(a, b, c) => Curve::Quadratic([a, b, c].map(to_page)),
-            OutlineCurve::Cubic(a, b, c, d) => Curve::Cubic([a, b, c, d].map(to_page)),
+            OutlineCurve::Line(a, b) => GlyphCurve::Line([a, b].map(to_page)),
+            OutlineCurve::Quad(a, b, c) => GlyphCurve::Quadratic([a, b, c].map(to_page)),
+            OutlineCurve::Cubic(a, b, c, d) => GlyphCurve::Cubic([a, b, c, d].map(to_page)),
         }));
     }
     curves

@@ -128,12 +128,12 @@ pub(crate) fn with_power(number: f64) -> String {
 
 /// A step of 1, 2 or 5 × 10^exponent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Step {
+pub struct TickStep {
     digit: i64,
     exponent: i32,
 }
 
-impl Step {
+impl TickStep {
     /// The smallest step of at least `size` > 0.
     #[must_use]
     pub fn at_least(size: f64) -> Self {
@@ -192,7 +192,7 @@ const STEPS: f64 = 5.0;
 /// leading digits are all alike the labels are relative to `anchor`, or to a rounded centre without
 /// one.
 #[must_use]
-pub fn axis(center: f64, half: f64, step: Step, anchor: Option<f64>) -> Ticks {
+pub fn axis(center: f64, half: f64, step: TickStep, anchor: Option<f64>) -> Ticks {
     let far = (center.abs() + half) / step.size() > FAR;
     let reference = if far { anchor.unwrap_or_else(|| rounded(center, half)) } else { 0.0 };
     let multiples = multiples(center - reference, half, center, step);
@@ -205,7 +205,7 @@ pub fn axis(center: f64, half: f64, step: Step, anchor: Option<f64>) -> Ticks {
 /// The same with a finer step where there were fewer than two marks; of those at most two are
 /// labelled, the outermost ones.
 #[must_use]
-pub fn axis_with_two(center: f64, half: f64, step: Step, anchor: Option<f64>) -> Ticks {
+pub fn axis_with_two(center: f64, half: f64, step: TickStep, anchor: Option<f64>) -> Ticks {
     let coarse = axis(center, half, step, anchor);
     if coarse.major.len() > 1 {
         return coarse;
@@ -220,7 +220,7 @@ const STEPS_TO_TWO: usize = 12;
 
 /// The multiples of a step, in units of its power of ten, on `middle ± half`, which are
 /// `center ± half` without a reference.
-fn multiples(middle: f64, half: f64, center: f64, step: Step) -> Vec<i64> {
+fn multiples(middle: f64, half: f64, center: f64, step: TickStep) -> Vec<i64> {
     // A tick on the border stays in spite of rounding.
     let border = half * (1.0 + 1e-9) + f64::EPSILON * center.abs();
     let first = ((middle - border) / step.size()).ceil() as i64;
@@ -229,7 +229,7 @@ fn multiples(middle: f64, half: f64, center: f64, step: Step) -> Vec<i64> {
 }
 
 /// Ticks at multiples of a step; `at` is the offset from the centre.
-fn labelled_multiples(multiples: &[i64], center: f64, step: Step, notation: Notation) -> Ticks {
+fn labelled_multiples(multiples: &[i64], center: f64, step: TickStep, notation: Notation) -> Ticks {
     let middle = center - notation.reference;
     let tick = |&m: &i64| Tick {
         at: times_power(m as f64, step.exponent) - middle,
@@ -258,14 +258,14 @@ pub trait Positions {
 
 /// A part of an axis, `center ± half`; places are offsets from the centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Span {
+pub struct AxisSpan {
     /// The middle.
     pub center: f64,
     /// Half the length.
     pub half: f64,
 }
 
-impl Positions for Span {
+impl Positions for AxisSpan {
     fn place(&self, value: f64) -> Option<f64> {
         let offset = value - self.center;
         (offset.abs() <= self.half * (1.0 + 1e-9)).then_some(offset)
@@ -300,10 +300,10 @@ pub fn of_one_value(norm: &Normalization, value: f64) -> Ticks {
 fn evenly(norm: &Normalization, most: usize) -> Ticks {
     let (half, notation) = (0.5 * norm.max() - 0.5 * norm.min(), Notation::of(norm));
     let center = norm.min() + half;
-    let all = |step: Step| multiples(center - notation.reference, half, center, step);
-    let first = Step::at_least(2.0 * (half / most.max(1) as f64));
+    let all = |step: TickStep| multiples(center - notation.reference, half, center, step);
+    let first = TickStep::at_least(2.0 * (half / most.max(1) as f64));
     let steps = std::iter::successors(Some(first), |step| Some(step.finer()));
-    let has_enough = |step: &Step| all(*step).len() >= most.min(2);
+    let has_enough = |step: &TickStep| all(*step).len() >= most.min(2);
     let step = steps.take(STEPS_TO_TWO).find(has_enough).unwrap_or(first);
     let mut ticks = labelled_multiples(&all(step), center, step, notation);
     for tick in &mut ticks.major {
@@ -477,7 +477,7 @@ mod tests {
 
     #[test]
     fn steps_are_nice_and_large_enough() {
-        let step = |size| (Step::at_least(size).digit, Step::at_least(size).exponent);
+        let step = |size| (TickStep::at_least(size).digit, TickStep::at_least(size).exponent);
         assert_eq!(step(0.9), (1, 0));
         assert_eq!(step(1.0), (1, 0));
         assert_eq!(step(1.1), (2, 0));
@@ -486,27 +486,27 @@ mod tests {
         assert_eq!(step(1e6), (1, 6));
         for k in -300..300 {
             let size = 3.7 * 10f64.powi(k);
-            let found = Step::at_least(size).size();
+            let found = TickStep::at_least(size).size();
             assert!(found >= size && found < 2.6 * size, "{size:e} {found:e}");
         }
     }
 
     #[test]
     fn an_ordinary_axis_has_plain_labels() {
-        let ticks = axis(0.0, 1.0, Step::at_least(0.5), None);
+        let ticks = axis(0.0, 1.0, TickStep::at_least(0.5), None);
         assert_eq!(labels(&ticks), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
         assert_eq!((ticks.reference, ticks.exponent), (0.0, 0));
         assert_eq!(ticks.major[1].at, -0.5);
-        let ticks = axis(50.0, 30.0, Step::at_least(19.0), None);
+        let ticks = axis(50.0, 30.0, TickStep::at_least(19.0), None);
         assert_eq!(labels(&ticks), ["20", "40", "60", "80"]);
     }
 
     #[test]
     fn tiny_and_huge_numbers_have_a_power_of_ten() {
-        let ticks = axis(0.0, 2.5e-5, Step::at_least(1e-5), None);
+        let ticks = axis(0.0, 2.5e-5, TickStep::at_least(1e-5), None);
         assert_eq!(labels(&ticks), ["−2", "−1", "0", "1", "2"]);
         assert_eq!(ticks.exponent, -5);
-        let ticks = axis(2e9, 2e9, Step::at_least(1e9), None);
+        let ticks = axis(2e9, 2e9, TickStep::at_least(1e9), None);
         assert_eq!((labels(&ticks).join(" "), ticks.exponent), ("0 1 2 3 4".to_owned(), 9));
     }
 
@@ -514,7 +514,7 @@ mod tests {
     fn a_deep_axis_counts_from_the_tip() {
         let (tip, half) = (0.3, 5e-13);
         let center = tip + 2e-13;
-        let ticks = axis(center, half, Step::at_least(1.9e-13), Some(tip));
+        let ticks = axis(center, half, TickStep::at_least(1.9e-13), Some(tip));
         assert_eq!((ticks.reference, ticks.exponent), (tip, -13));
         assert_eq!(labels(&ticks), ["−2", "0", "2", "4", "6"]);
         // The tick at the tip is at the tip, to the last bit.
@@ -524,15 +524,15 @@ mod tests {
     #[test]
     fn a_deep_axis_without_a_tip_counts_from_a_short_number() {
         let center = 1.0 / 3.0;
-        let ticks = axis(center, 5e-9, Step::at_least(2e-9), None);
+        let ticks = axis(center, 5e-9, TickStep::at_least(2e-9), None);
         assert_eq!(ticks.reference, 0.33333333);
         assert_eq!((labels(&ticks), ticks.exponent), (vec!["0", "2", "4", "6", "8"], -9));
         for tick in &ticks.major {
             let value: f64 = tick.label.parse().unwrap();
             assert!((center + tick.at - 0.33333333 - value * 1e-9).abs() < 1e-16);
         }
-        assert_eq!(axis(7654321.0, 4.0, Step::at_least(2.0), None).reference, 7654320.0);
-        assert_eq!(axis(7654321.0, 40.0, Step::at_least(20.0), None).reference, 7654300.0);
+        assert_eq!(axis(7654321.0, 4.0, TickStep::at_least(2.0), None).reference, 7654320.0);
+        assert_eq!(axis(7654321.0, 40.0, TickStep::at_least(20.0), None).reference, 7654300.0);
     }
 
     #[test]
@@ -578,7 +578,7 @@ mod tests {
         let ticks = at(&[2.0, -0.5, 7.0, f64::NAN, -0.5, 1e-7], &norm, Notation::of(&norm));
         assert_eq!(labels(&ticks), ["−0.5", "10⁻⁷", "2"]);
         assert_eq!(ticks.major[2].at, 0.75);
-        let ticks = at(&[0.3, 5.0, 0.1], &Span { center: 0.2, half: 0.1 }, Notation::PLAIN);
+        let ticks = at(&[0.3, 5.0, 0.1], &AxisSpan { center: 0.2, half: 0.1 }, Notation::PLAIN);
         assert_eq!(labels(&ticks), ["0.1", "0.3"]);
     }
 
@@ -634,7 +634,7 @@ mod tests {
         for _ in 0..1000 {
             let half = 10f64.powf(random.between(-9.0, 6.0));
             let center = random.pick(&[0.0, 1.0, -7.3]) * half + random.between(-half, half);
-            let step = Step::at_least(half * random.between(0.3, 100.0));
+            let step = TickStep::at_least(half * random.between(0.3, 100.0));
             let ticks = axis_with_two(center, half, step, None);
             let [first, .., last] = &ticks.major[..] else { panic!("{center} {half}: {ticks:?}") };
             assert!(last.at - first.at > 0.39 * half, "{center} {half}: {ticks:?}");

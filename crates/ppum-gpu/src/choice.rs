@@ -40,14 +40,14 @@ impl fmt::Display for AdapterKind {
 /// The adapters that are good enough. Of several the best [kind](AdapterKind) is taken, and of one
 /// kind the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Choice {
+pub enum AdapterChoice {
     /// Graphics hardware that is known to be such: discrete, integrated or virtual.
     Real,
     /// Any adapter, a software one too.
     Any,
 }
 
-impl Choice {
+impl AdapterChoice {
     /// True if an adapter of this kind will do.
     #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a browser chooses by itself"))]
     pub(crate) fn accepts(self, kind: AdapterKind) -> bool {
@@ -72,10 +72,10 @@ mod tests {
         use AdapterKind::{Discrete, Integrated, Other, Software, Virtual};
         let real: Vec<_> = [Other, Software, Virtual, Integrated, Discrete]
             .into_iter()
-            .filter(|&kind| Choice::Real.accepts(kind))
+            .filter(|&kind| AdapterChoice::Real.accepts(kind))
             .collect();
         assert_eq!(real, [Virtual, Integrated, Discrete]);
-        assert!(Choice::Any.accepts(Software) && Choice::Any.accepts(Other));
+        assert!(AdapterChoice::Any.accepts(Software) && AdapterChoice::Any.accepts(Other));
         assert_eq!([Software, Virtual, Other, Discrete].into_iter().min(), Some(Discrete));
     }
 }

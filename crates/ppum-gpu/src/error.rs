@@ -4,7 +4,7 @@ use ppum::formula::WgslError;
 use ppum::progress::Cancelled;
 use ppum::quantity::QuantityError;
 
-use crate::choice::Choice;
+use crate::choice::AdapterChoice;
 
 /// The reason why a graphics device could not do what it was asked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -18,7 +18,7 @@ pub enum GpuError {
     )]
     NoAdapter {
         /// The adapters that would have done.
-        choice: Choice,
+        choice: AdapterChoice,
     },
     /// The driver refused to do something.
     #[error("{what}: the graphics driver says: {message}")]
@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn a_missing_adapter_says_what_to_install() {
-        let text = GpuError::NoAdapter { choice: Choice::Any }.to_string();
+        let text = GpuError::NoAdapter { choice: AdapterChoice::Any }.to_string();
         for word in ["Vulkan driver", "mesa-vulkan-drivers"] {
             assert!(text.contains(word), "{text}");
         }

@@ -81,7 +81,7 @@ pub mod testing;
 #[cfg(test)]
 mod tests;
 
-pub use choice::{AdapterKind, Choice};
+pub use choice::{AdapterChoice, AdapterKind};
 pub use device::Gpu;
 pub use device::adapter::AdapterInfo;
 #[cfg(not(target_arch = "wasm32"))]

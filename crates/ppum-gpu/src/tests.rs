@@ -8,7 +8,7 @@ mod texts;
 
 use ppum_testkit::skipped::skipped;
 
-use crate::{Choice, Gpu, GpuError};
+use crate::{AdapterChoice, Gpu, GpuError};
 
 /// The graphics device that tests run on, software too. Where there is none tests are
 /// [`skipped`].
@@ -16,7 +16,7 @@ use crate::{Choice, Gpu, GpuError};
 /// # Panics
 /// When a device is required and there is none, or when opening it fails.
 pub(crate) fn gpu_or_skip() -> Option<Gpu> {
-    match Gpu::open(Choice::Any) {
+    match Gpu::open(AdapterChoice::Any) {
         Ok(gpu) => Some(gpu),
         Err(GpuError::NoAdapter { .. }) => {
             skipped("no graphics adapter");

@@ -5,13 +5,13 @@ use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use ppum_render::RenderError as Undrawn;
 use ppum_render::raster::Raster;
-use ppum_render::resample::need::{Convergence, Subject, converge};
+use ppum_render::resample::need::{Convergence, ResamplingSetup, converge};
 use ppum_render::resample::norms::{Norms, difference};
 use ppum_render::resample::{Grid, Interpolation, representation_bytes};
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::compare::{NeededGrid, Resampled};
-use ppum_scene::drawing::{Shown, Values};
+use ppum_scene::drawing::{RasterValues, Shown};
 use ppum_scene::minus::{Minus, Side};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -39,10 +39,10 @@ impl NormsFacts {
     }
 }
 
-type Rows<'py> = Bound<'py, PyArray2<f64>>;
+type PyRows<'py> = Bound<'py, PyArray2<f64>>;
 
 /// The values of a raster, rows from the top.
-fn rows<'py>(py: Python<'py>, raster: Raster) -> PyResult<Rows<'py>> {
+fn rows<'py>(py: Python<'py>, raster: Raster) -> PyResult<PyRows<'py>> {
     let shape = raster.size.map(|n| n as usize);
     PyArray1::from_vec(py, raster.values).reshape([shape[1], shape[0]])
 }
@@ -58,14 +58,14 @@ pub(crate) fn compare<'py>(
     spot: Spot,
     size: [u32; 2],
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<(Rows<'py>, NormsFacts, Vec<String>)> {
+) -> PyResult<(PyRows<'py>, NormsFacts, Vec<String>)> {
     let both = |_: &dyn Watcher| PyResult::Ok((this.shown(name)?, other.shown(name)?));
     let ((own, its), view) = (long(py, None, None, both)??, view(spot, size)?);
     let right = Side { field: this.owned.field(), shown: &own };
     let minus = Minus { right, left: Side { field: other.owned.field(), shown: &its } };
     let drawn = |watcher: &dyn Watcher| minus.draw(&view, watcher);
     let apart = long(py, None, progress.as_ref(), drawn)?.map_err(rendering)?;
-    let Values::Double(raster) = apart.drawn.values else {
+    let RasterValues::Double(raster) = apart.drawn.values else {
         unreachable!("differences are of double precision")
     };
     Ok((rows(py, raster)?, NormsFacts::new(&apart.norms), minus.warnings()))
@@ -108,8 +108,8 @@ impl Way {
     }
 }
 
-/// What resampling gives.
-struct Found {
+/// A resampled picture beside the direct one, and how errors fall with finer grids.
+struct ResampledPicture {
     direct: Raster,
     resampled: Resampled,
     convergence: Option<Convergence>,
@@ -133,7 +133,7 @@ pub(crate) struct ResampledFacts {
 }
 
 impl ResampledFacts {
-    fn new(field: &Field, way: &Way, found: &Found) -> Self {
+    fn new(field: &Field, way: &Way, found: &ResampledPicture) -> Self {
         let one = |found: &Convergence, error: f64| {
             let needed = (0..3).map(|norm| NeededGrid::new(found.needed(norm, error)));
             needed
@@ -155,18 +155,18 @@ impl Field {
         grid: Option<(Grid, Interpolation)>,
         error: Option<f64>,
         watcher: &dyn Watcher,
-    ) -> Result<Found, Undrawn> {
+    ) -> Result<ResampledPicture, Undrawn> {
         let field = self.owned.field();
         let direct = render::<f64>(field, view, quantity, watcher)?;
         let Some((grid, interpolation)) = grid else {
             let resampled = Resampled::on_cells(field, quantity, view, &direct, watcher)?;
-            return Ok(Found { direct, resampled, convergence: None });
+            return Ok(ResampledPicture { direct, resampled, convergence: None });
         };
         let samples = grid.sample(field, quantity, watcher)?;
         let resampled = Resampled::on_grid(&samples, interpolation, view, &direct);
-        let subject = Subject { field, view, quantity, grid, interpolation };
+        let subject = ResamplingSetup { field, view, quantity, grid, interpolation };
         let convergence = error.map(|error| converge(&subject, error, watcher)).transpose()?;
-        Ok(Found { direct, resampled, convergence })
+        Ok(ResampledPicture { direct, resampled, convergence })
     }
 }
 
@@ -181,7 +181,7 @@ pub(crate) fn resample<'py>(
     spot: Spot,
     size: [u32; 2],
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<(Rows<'py>, Rows<'py>, NormsFacts, ResampledFacts)> {
+) -> PyResult<(PyRows<'py>, PyRows<'py>, NormsFacts, ResampledFacts)> {
     let (what, view) = (long(py, None, None, |_| this.shown(name))??, view(spot, size)?);
     let Shown::Quantity(quantity) = what else {
         return Err(RenderError::new_err(format!(

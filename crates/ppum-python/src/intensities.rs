@@ -16,7 +16,7 @@ use crate::field::Field;
 use crate::watch::long;
 
 /// The tips as JSON with the names of their ends, and the messages of the diagnostics.
-type Found = (String, Vec<&'static str>, Vec<String>);
+type TipResults = (String, Vec<&'static str>, Vec<String>);
 
 /// The factors of one tip by the discs inside a circle of a radius, or those of all tips by the
 /// discs that the solver chooses.
@@ -26,7 +26,7 @@ pub(crate) fn intensities(
     py: Python<'_>,
     on: Option<(usize, f64)>,
     progress: Option<Bound<'_, PyAny>>,
-) -> PyResult<Found> {
+) -> PyResult<TipResults> {
     let (dataset, step) = this.owned.place();
     let problem = loads(dataset, step)?;
     let problem = problem.as_ref();

@@ -4,7 +4,7 @@ use ppum::progress::Watcher;
 use ppum_figure::figure::Design;
 use ppum_render::view::View;
 use ppum_scene::engine::Engine;
-use ppum_scene::moving::{Film, Form, Frames as _, InMemory, Moving, MovingError};
+use ppum_scene::moving::{AnimationFormat, Film, Frames as _, InMemory, Moving, MovingError};
 use ppum_scene::scene::Subject;
 use ppum_scene::shot::{ShotError, reshaped};
 use pyo3::exceptions::PyValueError;
@@ -75,8 +75,8 @@ pub(crate) fn animation<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyBytes>, Vec<String>)> {
     let form = match form {
-        "gif" => Form::Gif,
-        "apng" => Form::Apng,
+        "gif" => AnimationFormat::Gif,
+        "apng" => AnimationFormat::Apng,
         other => {
             let known = "moving pictures are gif or apng";
             return Err(PyValueError::new_err(format!("`{other}` is no form: {known}")));

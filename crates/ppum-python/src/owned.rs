@@ -8,12 +8,12 @@ use ppum::sample::Seats;
 use self_cell::self_cell;
 
 /// A compiled field, and where its points are seen from.
-pub(crate) struct Seen<'d> {
+pub(crate) struct AnchoredField<'d> {
     pub(crate) field: Field<'d>,
     pub(crate) seats: Seats<'d>,
 }
 
-impl<'d> Seen<'d> {
+impl<'d> AnchoredField<'d> {
     fn new(dataset: &'d Dataset, step: usize) -> Result<Self, FieldError> {
         let field = Field::new(dataset, step)?;
         Ok(Self { seats: Seats::new(&field), field })
@@ -24,7 +24,7 @@ self_cell!(
     struct Both {
         owner: Arc<Dataset>,
         #[covariant]
-        dependent: Seen,
+        dependent: AnchoredField,
     }
 );
 
@@ -38,7 +38,7 @@ impl Owned {
     /// # Errors
     /// No such step; functions that cannot be compiled.
     pub(crate) fn new(dataset: Arc<Dataset>, step: usize) -> Result<Self, FieldError> {
-        let both = Both::try_new(dataset, |dataset| Seen::new(dataset, step))?;
+        let both = Both::try_new(dataset, |dataset| AnchoredField::new(dataset, step))?;
         Ok(Self { both, step })
     }
 
@@ -51,7 +51,7 @@ impl Owned {
         (self.dataset(), self.step)
     }
 
-    pub(crate) fn seen(&self) -> &Seen<'_> {
+    pub(crate) fn seen(&self) -> &AnchoredField<'_> {
         self.both.borrow_dependent()
     }
 

@@ -6,7 +6,7 @@ use ppum::progress::Watcher;
 use ppum::vec2::{Rect, Vec2};
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{BarPlace, Design, Labels, Theme, bare};
-use ppum_figure::form::Form;
+use ppum_figure::form::PageFormat;
 use ppum_figure::ticks;
 use ppum_render::colormap::{Colormap, NAMES};
 use ppum_render::extrema::{Extremum, On, extrema};
@@ -14,12 +14,12 @@ use ppum_render::png::encode_quickly;
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 use ppum_scene::deformed;
-use ppum_scene::drawing::{Drawn, Shown, Values};
+use ppum_scene::drawing::{Drawn, RasterValues, Shown};
 use ppum_scene::engine::Engine;
 use ppum_scene::notice::Notice;
 use ppum_scene::request::Request;
 use ppum_scene::scene::{Scene, shown};
-use ppum_scene::shot::{Shot, ShotError, Source, page, page_in, shot, view_in};
+use ppum_scene::shot::{FieldSource, Shot, ShotError, page, page_in, shot, view_in};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -139,8 +139,8 @@ impl Field {
         Ok(request)
     }
 
-    pub(crate) fn source(&self) -> Source<'_> {
-        Source::of(self.owned.dataset(), self.owned.field())
+    pub(crate) fn source(&self) -> FieldSource<'_> {
+        FieldSource::of(self.owned.dataset(), self.owned.field())
     }
 
     fn raster<T: Sample>(
@@ -149,9 +149,9 @@ impl Field {
         what: &Shown,
         view: &View,
         progress: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Values>
+    ) -> PyResult<RasterValues>
     where
-        Values: From<Raster<T>>,
+        RasterValues: From<Raster<T>>,
     {
         let field = self.owned.field();
         match what {
@@ -228,8 +228,8 @@ pub(crate) fn render<'py>(
     };
     let shape = [size[1] as usize, size[0] as usize];
     Ok(match values {
-        Values::Double(raster) => raster.values.into_pyarray(py).reshape(shape)?.into_any(),
-        Values::Single(raster) => raster.values.into_pyarray(py).reshape(shape)?.into_any(),
+        RasterValues::Double(raster) => raster.values.into_pyarray(py).reshape(shape)?.into_any(),
+        RasterValues::Single(raster) => raster.values.into_pyarray(py).reshape(shape)?.into_any(),
     })
 }
 
@@ -323,11 +323,11 @@ pub(crate) fn frame<'py>(
 }
 
 /// The form of figures that a name's end says.
-pub(crate) fn form(name: &str) -> PyResult<Form> {
+pub(crate) fn form(name: &str) -> PyResult<PageFormat> {
     match name {
-        "png" => Ok(Form::Png),
-        "svg" => Ok(Form::Svg),
-        "pdf" => Ok(Form::Pdf),
+        "png" => Ok(PageFormat::Png),
+        "svg" => Ok(PageFormat::Svg),
+        "pdf" => Ok(PageFormat::Pdf),
         other => {
             let known = "figures are png, svg or pdf";
             Err(PyValueError::new_err(format!("`{other}` is no form: {known}")))

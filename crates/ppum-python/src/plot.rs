@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ppum::dataset::Dataset as Data;
 use ppum::progress::Watcher;
 use ppum_figure::plot::{LEAST, Plot, plot};
-use ppum_scene::plots::{self, Named, Number, Over, PlotError, Profiles, Work};
+use ppum_scene::plots::{self, Named, Number, PlotError, Profiles, SeriesAxis, SolverWork};
 use ppum_scene::profile::Along;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
@@ -121,7 +121,7 @@ pub(crate) fn profiles(
 /// What is drawn of datasets.
 #[derive(serde::Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-enum Kind {
+enum PlotKind {
     Convergence { step: Option<usize> },
     History { what: String, step: Option<usize> },
     Series { numbers: Vec<String>, over: String },
@@ -136,19 +136,19 @@ fn word<T: Copy>(what: &str, name: &str, known: &[(&str, T)]) -> PyResult<T> {
     })
 }
 
-const WORK: [(&str, Work); 4] = [
-    ("seconds", Work::Seconds),
-    ("bytes", Work::Bytes),
-    ("residuals", Work::Residuals),
-    ("levels", Work::Levels),
+const WORK: [(&str, SolverWork); 4] = [
+    ("seconds", SolverWork::Seconds),
+    ("bytes", SolverWork::Bytes),
+    ("residuals", SolverWork::Residuals),
+    ("levels", SolverWork::Levels),
 ];
 
-const OVER: [(&str, Over); 5] = [
-    ("step", Over::Step),
-    ("load", Over::Load),
-    ("length", Over::Length),
-    ("extension", Over::Extension),
-    ("cycles", Over::Cycles),
+const OVER: [(&str, SeriesAxis); 5] = [
+    ("step", SeriesAxis::Step),
+    ("load", SeriesAxis::Load),
+    ("length", SeriesAxis::Length),
+    ("extension", SeriesAxis::Extension),
+    ("cycles", SeriesAxis::Cycles),
 ];
 
 /// What the solver and the steps of datasets tell.
@@ -163,10 +163,14 @@ pub(crate) fn told(
         named.into_iter().map(|(name, dataset)| (name, dataset.get().0.clone())).unzip();
     let pairs = names.iter().zip(&datasets);
     let named: Vec<_> = pairs.map(|(name, dataset)| Named { name, dataset }).collect();
-    let plot = match written::<Kind>(kind)? {
-        Kind::Convergence { step } => long(py, None, None, |_| plots::convergence(&named, step))?,
-        Kind::History { what, step } => plots::history(&named, word("what", &what, &WORK)?, step),
-        Kind::Series { numbers, over } => {
+    let plot = match written::<PlotKind>(kind)? {
+        PlotKind::Convergence { step } => {
+            long(py, None, None, |_| plots::convergence(&named, step))?
+        }
+        PlotKind::History { what, step } => {
+            plots::history(&named, word("what", &what, &WORK)?, step)
+        }
+        PlotKind::Series { numbers, over } => {
             let numbers: Result<Vec<Number>, _> = numbers.iter().map(|n| n.parse()).collect();
             let over = word("over", &over, &OVER)?;
             numbers.and_then(|numbers| plots::series(&named, &numbers, over))

@@ -7,7 +7,7 @@ use ppum::vec2::{Vec2, vec2};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::owned::Seen;
+use crate::owned::AnchoredField;
 
 /// Points that a thread takes at a time: enough that those of a patch come together, few enough
 /// that all threads have work.
@@ -24,13 +24,13 @@ pub(crate) struct Points<'a> {
 }
 
 impl Points<'_> {
-    fn places(&self, seen: &Seen<'_>, from: usize, count: usize) -> Vec<Place> {
+    fn places(&self, seen: &AnchoredField<'_>, from: usize, count: usize) -> Vec<Place> {
         let points = self.x[from..].iter().zip(&self.y[from..]).take(count);
         let place = |(&x, &y): (&f64, &f64)| self.place(seen, vec2(x, y));
         points.map(place).collect()
     }
 
-    fn place(&self, seen: &Seen<'_>, point: Vec2) -> Place {
+    fn place(&self, seen: &AnchoredField<'_>, point: Vec2) -> Place {
         match self.anchor {
             Some(anchor) => seen.seats.offset(anchor, point, self.side),
             None => seen.seats.at(point, self.side),
@@ -38,14 +38,14 @@ impl Points<'_> {
     }
 
     /// What is wanted at few points, here and now.
-    pub(crate) fn few(&self, seen: &Seen<'_>, wanted: Wanted<'_>) -> Vec<f64> {
+    pub(crate) fn few(&self, seen: &AnchoredField<'_>, wanted: Wanted<'_>) -> Vec<f64> {
         evaluate_each(&seen.field, wanted, &self.places(seen, 0, self.x.len()))
     }
 
     /// What is wanted at all points, in rows one after the other.
     pub(crate) fn fill(
         &self,
-        seen: &Seen<'_>,
+        seen: &AnchoredField<'_>,
         wanted: Wanted<'_>,
         rows: &mut [f64],
         watcher: &dyn Watcher,

@@ -52,14 +52,14 @@ pub struct Principal {
 #[derive(Clone, Debug)]
 pub struct Lattice<'f> {
     field: &'f Field<'f>,
-    /// The point of the plate that [`Place::point`] is counted from.
+    /// The point of the plate that [`LatticePoint::point`] is counted from.
     anchor: Vec2,
-    rows: Vec<Vec<Place>>,
+    rows: Vec<Vec<LatticePoint>>,
 }
 
-/// A point of a lattice.
+/// A position in the view, and the point of the body that is there.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct LatticePoint {
     /// Its offset from the view's centre.
     at: Vec2,
     /// The point of the plate that is there, as an offset from the anchor.
@@ -71,8 +71,9 @@ impl<'f> Lattice<'f> {
     #[must_use]
     pub fn new(field: &'f Field<'f>, view: &View, spacing: f64) -> Self {
         let [x, y] = lines(view, spacing);
-        let row =
-            |&y: &f64| x.iter().map(|&x| vec2(x, y)).map(|at| Place { at, point: at }).collect();
+        let row = |&y: &f64| {
+            x.iter().map(|&x| vec2(x, y)).map(|at| LatticePoint { at, point: at }).collect()
+        };
         Self { field, anchor: view.center, rows: y.iter().map(row).collect() }
     }
 
@@ -87,7 +88,7 @@ impl<'f> Lattice<'f> {
             let last = view.pixels.map(|n| n - 1);
             let [i, j] = [(i as u32).min(last[0]), (j as u32).min(last[1])];
             let point = points.at(i, j).first()?.offset;
-            Some(Place { at: view.offset(i, j), point })
+            Some(LatticePoint { at: view.offset(i, j), point })
         };
         let row = |&y: &f64| x.iter().filter_map(|&x| place(x, y)).collect();
         let rows = y.iter().map(row).collect();
@@ -127,7 +128,7 @@ impl<'f> Lattice<'f> {
         quantities.iter().try_for_each(|quantity| quantity.check(self.field))?;
         let parts = Parts::start(watcher, self.rows.len())?;
         let segments = Segments::new(&self.field.step.cracks);
-        let row = |row: &Vec<Place>| {
+        let row = |row: &Vec<LatticePoint>| {
             let mut local = self.field.at(self.anchor);
             let glyph = |place| self.glyph(&segments, &mut local, place, quantities, &value);
             let row: Vec<_> = row.iter().filter_map(glyph).collect();
@@ -142,7 +143,7 @@ impl<'f> Lattice<'f> {
         &self,
         segments: &Segments<'_>,
         local: &mut LocalField<'f>,
-        &Place { at, point }: &Place,
+        &LatticePoint { at, point }: &LatticePoint,
         quantities: &[Quantity; N],
         value: impl Fn([f64; N]) -> V,
     ) -> Option<Glyph<V>> {

@@ -9,7 +9,7 @@ use crate::colormap::{Colormap, ColormapError, HALF};
 use crate::extrema::Extrema;
 use crate::image::{Image, Rgba};
 use crate::png::Text;
-use crate::range::{Range, RangeError, Span};
+use crate::range::{Range, RangeError, ValueSpan};
 use crate::samples::Samples;
 use crate::scale::{Normalization, Scale};
 use crate::shades::Shades;
@@ -64,7 +64,7 @@ pub struct Picture {
     /// Position of a value among the colours, the range found.
     pub normalization: Normalization,
     /// The range, how it came about, and what is known of the values.
-    pub span: Span,
+    pub span: ValueSpan,
     /// The colours.
     pub colormap: Colormap,
     /// The one value that is seen, if there is no other but for rounding.
@@ -116,7 +116,7 @@ impl Picture {
         raster: &Raster<T>,
         view: &View,
         style: &Style,
-        span: Span,
+        span: ValueSpan,
     ) -> Result<Self, RangeError> {
         assert_eq!(raster.size, view.pixels, "a raster belongs to a view of its size");
         let Style { colormap, scale, undefined, .. } = style;

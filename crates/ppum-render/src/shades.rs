@@ -81,7 +81,7 @@ impl Shades {
         }
     }
 
-    fn paint_values<T: Entry>(&self, values: &[T], pixels: &mut [Rgba]) -> [bool; 2] {
+    fn paint_values<T: TableKey>(&self, values: &[T], pixels: &mut [Rgba]) -> [bool; 2] {
         let ramp = Some(&self.norm).filter(|_| self.jumping.is_none()).and_then(Ramp::new);
         if let Some(ramp) = ramp {
             return T::dispatch(Paint { ramp, table: &self.table, values, pixels });
@@ -98,7 +98,7 @@ impl Shades {
 }
 
 /// A number type whose bits tell an entry.
-pub trait Entry: Scalar {
+pub trait TableKey: Scalar {
     /// From this number to twice of it only whole numbers are numbers of the type: the last bits of
     /// a sum with it count.
     const WHOLE: f64;
@@ -110,7 +110,7 @@ pub trait Entry: Scalar {
 
 macro_rules! entry {
     ($t:ident) => {
-        impl Entry for $t {
+        impl TableKey for $t {
             const WHOLE: f64 = (1u64 << ($t::MANTISSA_DIGITS - 1)) as f64;
 
             fn around(value: f64) -> [Self; 2] {
@@ -142,7 +142,7 @@ struct Ramp<T> {
     slope: T,
 }
 
-impl<T: Entry> Ramp<T> {
+impl<T: TableKey> Ramp<T> {
     /// None of another scale, or of a range out of the type's reach.
     fn new(norm: &Normalization) -> Option<Self> {
         let (min, max) = (norm.min(), norm.max());
@@ -188,7 +188,7 @@ struct Paint<'a, T> {
     pixels: &'a mut [Rgba],
 }
 
-impl<T: Entry> Job<T> for Paint<'_, T> {
+impl<T: TableKey> Job<T> for Paint<'_, T> {
     type Output = [bool; 2];
 
     #[inline(always)]
@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     /// The colours of values in a type, and what lay beyond, by `paint_values` and one by one.
-    fn compared<T: Entry>(shades: &Shades, values: &[T]) -> usize {
+    fn compared<T: TableKey>(shades: &Shades, values: &[T]) -> usize {
         let mut pixels = vec![[0; 4]; values.len()];
         let beyond = shades.paint_values(values, &mut pixels);
         let wide: Vec<f64> = values.iter().map(|v| v.to_f64()).collect();

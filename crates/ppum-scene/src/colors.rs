@@ -11,7 +11,7 @@ use ppum_render::range::Range;
 use ppum_render::scale::Scale;
 use serde::{Deserialize, Serialize};
 
-use crate::drawing::{Shown, Values, classes};
+use crate::drawing::{RasterValues, Shown, classes};
 use crate::written;
 
 /// The way values become colours, but for the map itself.
@@ -75,7 +75,7 @@ impl Colors {
     /// The style of pictures of one range. Few whole numbers have a colour each.
     pub fn style_of<'a>(
         &self,
-        pictures: impl IntoIterator<Item = (&'a Shown, &'a Values)> + Clone,
+        pictures: impl IntoIterator<Item = (&'a Shown, &'a RasterValues)> + Clone,
         colormap: Colormap,
     ) -> Style {
         let first = pictures.clone().into_iter().next();

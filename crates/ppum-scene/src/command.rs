@@ -16,7 +16,7 @@ pub fn render(
     output: &str,
     page: Option<[u32; 2]>,
 ) -> Vec<String> {
-    let mut words = Words(vec!["ppum".into(), "render".into(), file_word(file)]);
+    let mut words = CommandLine(vec!["ppum".into(), "render".into(), file_word(file)]);
     words.option("-o", output);
     let View { center, width, .. } = view;
     let [columns, rows] = page.unwrap_or(view.pixels);
@@ -44,9 +44,9 @@ pub fn line(words: &[String]) -> String {
     words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
 }
 
-struct Words(Vec<String>);
+struct CommandLine(Vec<String>);
 
-impl Words {
+impl CommandLine {
     fn add(&mut self, word: impl Into<String>) {
         self.0.push(word.into());
     }
@@ -62,7 +62,7 @@ fn file_word(file: &str) -> String {
     if file.starts_with('-') { format!("./{file}") } else { file.to_owned() }
 }
 
-fn subject(scene: &Scene, words: &mut Words) {
+fn subject(scene: &Scene, words: &mut CommandLine) {
     let subject = &scene.subject;
     if let Some(step) = subject.step {
         words.add(format!("--step={step}"));
@@ -84,7 +84,7 @@ fn subject(scene: &Scene, words: &mut Words) {
     }
 }
 
-fn colors(scene: &Scene, words: &mut Words) {
+fn colors(scene: &Scene, words: &mut CommandLine) {
     let colors = &scene.colors;
     if let Some(name) = &colors.colormap {
         words.add(format!("--colormap={name}"));
@@ -106,7 +106,7 @@ fn colors(scene: &Scene, words: &mut Words) {
     }
 }
 
-fn overlays(scene: &Scene, words: &mut Words) {
+fn overlays(scene: &Scene, words: &mut CommandLine) {
     let overlays = &scene.overlays;
     if !overlays.shown.is_empty() {
         let names: Vec<_> = overlays.shown.iter().map(|overlay| overlay.name()).collect();

@@ -6,7 +6,7 @@ use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use ppum_render::RenderError;
 use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{Range, RangeError, Span};
+use ppum_render::range::{Range, RangeError, ValueSpan};
 use ppum_render::raster::Raster;
 use ppum_render::resample::need::{Needed, Obstacle};
 use ppum_render::resample::norms::{Norms, norms};
@@ -130,7 +130,7 @@ pub fn signed(apart: &Raster, view: &View) -> Result<Picture, RangeError> {
     let style = Style { scale: Scale::Linear, ..difference_style() };
     let found = Range::Auto.span(style.scale, true, apart, None);
     let size = found.max.max(-found.min);
-    let span = Span { min: -size, max: size, ..found };
+    let span = ValueSpan { min: -size, max: size, ..found };
     Picture::spanning(apart, view, &style, span)
 }
 

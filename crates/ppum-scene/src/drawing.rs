@@ -10,21 +10,21 @@ use ppum_render::deform::DeformedPoints;
 use ppum_render::extrema::Extrema;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{RangeError, Span};
+use ppum_render::range::{RangeError, ValueSpan};
 use ppum_render::raster::{Raster, Sample, Statistics};
 use ppum_render::samples::{Means, Samples};
 use ppum_render::view::View;
 use rayon::prelude::*;
 
-/// What is seen of a plate: as it was, or deformed.
-pub enum Seen<'f> {
+/// A view of the undeformed or the deformed body.
+pub enum BodyView<'f> {
     /// The plate as it was before it was loaded.
     Plate(View),
     /// The plate moved by its displacements.
     Moved(DeformedPoints<'f>),
 }
 
-impl<'f> Seen<'f> {
+impl<'f> BodyView<'f> {
     /// The view.
     pub fn view(&self) -> &View {
         match self {
@@ -101,9 +101,9 @@ const MOST_CLASSES: usize = 20;
 /// The values that have a colour each in pictures of one range, rising: none unless they are few
 /// whole numbers in all of them.
 pub fn classes<'a>(
-    pictures: impl IntoIterator<Item = (&'a Shown, &'a Values)>,
+    pictures: impl IntoIterator<Item = (&'a Shown, &'a RasterValues)>,
 ) -> Option<Vec<f64>> {
-    let values = |(shown, values): (&Shown, &Values)| {
+    let values = |(shown, values): (&Shown, &RasterValues)| {
         shown.is_whole().then(|| values.whole_numbers(MOST_CLASSES))?
     };
     let found: Option<Vec<Vec<f64>>> = pictures.into_iter().map(values).collect();
@@ -118,9 +118,9 @@ pub fn united(classes: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     (all.len() <= MOST_CLASSES).then_some(all)
 }
 
-/// The subject of a picture of a quantity.
+/// The field, view and quantity of a picture.
 #[derive(Clone, Copy, Debug)]
-pub struct Job<'a> {
+pub struct DrawingInput<'a> {
     /// The field.
     pub field: &'a Field<'a>,
     /// The view.
@@ -159,7 +159,7 @@ pub struct Drawn {
     /// The view.
     pub view: View,
     /// The values.
-    pub values: Values,
+    pub values: RasterValues,
     /// What drew them.
     pub by: String,
     /// The pixels of the plate without a value, by their place row by row.
@@ -172,26 +172,26 @@ pub struct Drawn {
 
 /// Values in the precision that they were computed in.
 #[derive(Clone, Debug)]
-pub enum Values {
+pub enum RasterValues {
     /// In double precision.
     Double(Raster<f64>),
     /// In single precision.
     Single(Raster<f32>),
 }
 
-impl From<Raster<f64>> for Values {
+impl From<Raster<f64>> for RasterValues {
     fn from(raster: Raster<f64>) -> Self {
         Self::Double(raster)
     }
 }
 
-impl From<Raster<f32>> for Values {
+impl From<Raster<f32>> for RasterValues {
     fn from(raster: Raster<f32>) -> Self {
         Self::Single(raster)
     }
 }
 
-impl Values {
+impl RasterValues {
     /// The different values, rising, if they are at most `most` whole numbers.
     fn whole_numbers(&self, most: usize) -> Option<Vec<f64>> {
         match self {
@@ -241,11 +241,11 @@ impl Values {
 
 impl Drawn {
     /// The values of an undeformed plate.
-    pub fn new(values: impl Into<Values>, field: &Field<'_>, view: &View, by: &str) -> Self {
+    pub fn new(values: impl Into<RasterValues>, field: &Field<'_>, view: &View, by: &str) -> Self {
         let values = values.into();
         let without = match &values {
-            Values::Double(raster) => undefined(raster, field, view),
-            Values::Single(raster) => undefined(raster, field, view),
+            RasterValues::Double(raster) => undefined(raster, field, view),
+            RasterValues::Single(raster) => undefined(raster, field, view),
         };
         let (by, overlap) = (by.to_owned(), Vec::new());
         Self { view: *view, values, by, without, overlap, opacity: None }
@@ -257,9 +257,9 @@ impl Drawn {
     }
 
     /// The means of samples of an undeformed plate.
-    pub fn averaged<T: Sample>(means: Means<T>, job: Job<'_>, by: &str) -> Self
+    pub fn averaged<T: Sample>(means: Means<T>, job: DrawingInput<'_>, by: &str) -> Self
     where
-        Values: From<Raster<T>>,
+        RasterValues: From<Raster<T>>,
     {
         let (without, opacity) = (means.undefined(), Some((means.samples, means.opacity())));
         let (values, by) = (means.raster.into(), by.to_owned());
@@ -267,19 +267,19 @@ impl Drawn {
     }
 
     /// The range of the values, with the extrema of the view if these are known.
-    pub fn span(&self, style: &Style, values: Option<Extrema>) -> Span {
+    pub fn span(&self, style: &Style, values: Option<Extrema>) -> ValueSpan {
         let Style { range, scale, colormap, .. } = style;
         match &self.values {
-            Values::Double(raster) => range.span(*scale, colormap.diverging, raster, values),
-            Values::Single(raster) => range.span(*scale, colormap.diverging, raster, values),
+            RasterValues::Double(raster) => range.span(*scale, colormap.diverging, raster, values),
+            RasterValues::Single(raster) => range.span(*scale, colormap.diverging, raster, values),
         }
     }
 
     /// Gives the values colours of a range.
-    pub fn picture(&self, style: &Style, span: Span) -> Result<Picture, RangeError> {
+    pub fn picture(&self, style: &Style, span: ValueSpan) -> Result<Picture, RangeError> {
         let mut picture = match &self.values {
-            Values::Double(raster) => Picture::spanning(raster, &self.view, style, span),
-            Values::Single(raster) => Picture::spanning(raster, &self.view, style, span),
+            RasterValues::Double(raster) => Picture::spanning(raster, &self.view, style, span),
+            RasterValues::Single(raster) => Picture::spanning(raster, &self.view, style, span),
         }?;
         picture.hatch(&self.without);
         hatch(&mut picture.image, &self.overlap);

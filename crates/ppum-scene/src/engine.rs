@@ -16,7 +16,7 @@ use ppum_render::samples::{Samples, means};
 use ppum_render::scatter::render;
 use serde::{Deserialize, Serialize};
 
-use crate::drawing::{Drawn, Job, PROCESSOR, Values, single_precision_warning};
+use crate::drawing::{DrawingInput, Drawn, PROCESSOR, RasterValues, single_precision_warning};
 use crate::notice::Notice;
 
 /// What computes the values.
@@ -99,11 +99,12 @@ pub struct CardError {
 }
 
 /// Draws the means of so many samples a pixel on a device.
-pub type Card = fn(Job<'_>, Samples, Device, Method, &dyn Watcher) -> Result<Drawn, CardError>;
+pub type DrawOnCard =
+    fn(DrawingInput<'_>, Samples, Device, Method, &dyn Watcher) -> Result<Drawn, CardError>;
 
 /// The card of a program that was built without.
 fn no_card(
-    _: Job<'_>,
+    _: DrawingInput<'_>,
     _: Samples,
     _: Device,
     _: Method,
@@ -139,7 +140,7 @@ pub enum EngineError {
 pub struct Engine<'a> {
     backend: Backend,
     precision: Option<Precision>,
-    card: Card,
+    card: DrawOnCard,
     /// Hears of the progress, and may stop it.
     pub watcher: &'a dyn Watcher,
     notices: Mutex<Vec<Notice>>,
@@ -159,7 +160,7 @@ impl<'a> Engine<'a> {
     pub fn new(
         backend: Backend,
         precision: Option<Precision>,
-        card: Option<Card>,
+        card: Option<DrawOnCard>,
         watcher: &'a dyn Watcher,
     ) -> Result<Self, EngineError> {
         let is_device = matches!(backend, Backend::Gpu | Backend::Splat);
@@ -182,9 +183,9 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// A quantity that the field does not have; a device that fails; a watcher that stops it.
-    pub fn draw(&self, job: Job<'_>, samples: Samples) -> Result<Drawn, EngineError> {
+    pub fn draw(&self, job: DrawingInput<'_>, samples: Samples) -> Result<Drawn, EngineError> {
         let drawn = self.drawn(job, samples)?;
-        if let (Values::Single(_), Some(text)) =
+        if let (RasterValues::Single(_), Some(text)) =
             (&drawn.values, single_precision_warning(job.field.step))
         {
             self.tell(Notice::SinglePrecision(text));
@@ -192,7 +193,7 @@ impl<'a> Engine<'a> {
         Ok(drawn)
     }
 
-    fn drawn(&self, job: Job<'_>, samples: Samples) -> Result<Drawn, EngineError> {
+    fn drawn(&self, job: DrawingInput<'_>, samples: Samples) -> Result<Drawn, EngineError> {
         let on = |device, method| (self.card)(job, samples, device, method, self.watcher);
         match self.backend {
             Backend::Cpu => Ok(self.on_processor(job, samples)?),
@@ -209,14 +210,14 @@ impl<'a> Engine<'a> {
     }
 
     /// True for what no graphics device can do, or not well.
-    fn needs_processor(&self, job: Job<'_>) -> bool {
+    fn needs_processor(&self, job: DrawingInput<'_>) -> bool {
         self.precision == Some(Precision::F64)
             || job.quantity.source() == Source::Exact
             || job.field.step.partition.mesh().is_some()
             || self.precision.is_none() && single_precision_warning(job.field.step).is_some()
     }
 
-    fn on_processor(&self, job: Job<'_>, samples: Samples) -> Result<Drawn, RenderError> {
+    fn on_processor(&self, job: DrawingInput<'_>, samples: Samples) -> Result<Drawn, RenderError> {
         match self.precision {
             Some(Precision::F32) => computed::<f32>(job, samples, "cpu f32", self.watcher),
             _ => computed::<f64>(job, samples, PROCESSOR, self.watcher),
@@ -258,15 +259,15 @@ impl<'a> Engine<'a> {
 }
 
 fn computed<T: Sample>(
-    job: Job<'_>,
+    job: DrawingInput<'_>,
     samples: Samples,
     by: &str,
     watcher: &dyn Watcher,
 ) -> Result<Drawn, RenderError>
 where
-    Values: From<Raster<T>>,
+    RasterValues: From<Raster<T>>,
 {
-    let Job { field, view, quantity } = job;
+    let DrawingInput { field, view, quantity } = job;
     if samples != Samples::CENTER {
         return Ok(Drawn::averaged(means::<T>(field, view, quantity, samples, watcher)?, job, by));
     }

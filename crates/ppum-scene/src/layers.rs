@@ -8,7 +8,7 @@ use ppum::quantity::{Axis, Quantity};
 use ppum_figure::canvas::Item;
 use ppum_figure::figure::Design;
 use ppum_figure::levels;
-use ppum_figure::overlay::{self, Entry, Room};
+use ppum_figure::overlay::{self, LegendEntry, Room};
 use ppum_figure::ticks::Notation;
 use ppum_render::RenderError;
 use ppum_render::deform::{DeformError, DeformedPoints};
@@ -18,7 +18,7 @@ use ppum_render::picture::Picture;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 
-use crate::drawing::{Seen, Values};
+use crate::drawing::{BodyView, RasterValues};
 use crate::notice::Notice;
 use crate::overlays::{Levels, Overlay, Overlays};
 use crate::stations::Stations;
@@ -35,7 +35,7 @@ pub struct Ground<'a> {
     /// The picture below.
     pub picture: &'a Picture,
     /// Values at the centres of its pixels.
-    pub values: &'a Values,
+    pub values: &'a RasterValues,
     /// The design of the figure around it, none of a bare picture: lines and letters have their
     /// width by it, and cracks are drawn whatever is asked for.
     pub design: Option<&'a Design>,
@@ -56,7 +56,7 @@ pub struct Layers {
     /// Items in pixels of the picture, the lowest first.
     pub items: Vec<Item>,
     /// The entries of a legend that has no room in the picture.
-    pub legend: Vec<Entry>,
+    pub legend: Vec<LegendEntry>,
     /// What was asked for and is not seen.
     pub notices: Vec<Notice>,
 }
@@ -107,7 +107,7 @@ impl Overlays {
     pub fn layers(
         &self,
         ground: Ground<'_>,
-        seen: &Seen<'_>,
+        seen: &BodyView<'_>,
         outline: bool,
         watcher: &dyn Watcher,
     ) -> Result<Layers, LayersError> {
@@ -118,8 +118,8 @@ impl Overlays {
         let layers = Layers::default();
         let mut drawing = Drawing { overlays: self, ground, scale, watcher, layers };
         match seen {
-            Seen::Plate(_) => drawing.plate()?,
-            Seen::Moved(points) => drawing.moved(points, outline)?,
+            BodyView::Plate(_) => drawing.plate()?,
+            BodyView::Moved(points) => drawing.moved(points, outline)?,
         }
         Ok(drawing.with_legend())
     }
@@ -226,10 +226,10 @@ impl<'a> Drawing<'a> {
         let Ground { field, picture, values, .. } = self.ground;
         let view = &picture.view;
         let lines = match values {
-            Values::Double(raster) => {
+            RasterValues::Double(raster) => {
                 isolines(field, view, quantity, &levels, raster, self.watcher)
             }
-            Values::Single(raster) => {
+            RasterValues::Single(raster) => {
                 isolines(field, view, quantity, &levels, raster, self.watcher)
             }
         }?;

@@ -1,12 +1,12 @@
 //! What a picture of a dataset shows, as data, and what is drawn of it.
 //!
 //! A picture comes about in four steps, each of which is a value of its own, so that a program can
-//! keep what has not changed: what is [`Seen`](drawing::Seen) of the plate; the values
+//! keep what has not changed: the [view](drawing::BodyView) of the body; the values
 //! [`Drawn`](drawing::Drawn) of what is [`Shown`](drawing::Shown); their colours, a range
-//! ([`range::found`]) and a style ([`Colors`](colors::Colors)); the [`Layers`](layers::Layers) of
-//! its [`Overlays`](overlays::Overlays). What people choose is plain data that can be compared,
-//! kept and written. The program's commands and its window draw by this crate alone, so both draw
-//! the same.
+//! ([`range::value_span`]) and a style ([`Colors`](colors::Colors)); the
+//! [`Layers`](layers::Layers) of its [`Overlays`](overlays::Overlays). What people choose is plain
+//! data that can be compared, kept and written. The program's commands and its window draw by this
+//! crate alone, so both draw the same.
 
 pub mod colors;
 pub mod command;

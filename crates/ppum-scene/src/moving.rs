@@ -12,7 +12,7 @@ use ppum::vec2::Rect;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{Design, plot_area};
 use ppum_figure::form;
-use ppum_render::animation::{AnimationError, Apng, Colors, Gif};
+use ppum_render::animation::{AnimationError, Apng, ColorCounts, Gif};
 use ppum_render::deform::AutomaticFactor;
 use ppum_render::image::Image;
 use ppum_render::picture::Style;
@@ -21,13 +21,13 @@ use ppum_render::view::View;
 
 use crate::colors;
 use crate::deformed::{self, Factor};
-use crate::drawing::{Drawn, Seen, classes, united};
+use crate::drawing::{BodyView, Drawn, classes, united};
 use crate::engine::Engine;
 use crate::notice::Notice;
 use crate::request::Request;
 use crate::scene::SubjectError;
-use crate::shared::{Coloring, Found};
-use crate::shot::{Asked, Input, Shot, ShotError, Source, title};
+use crate::shared::{Coloring, ValueStatistics};
+use crate::shot::{Asked, FieldSource, Input, Shot, ShotError, title};
 
 /// What moves.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +63,7 @@ impl From<ShotError> for MovingError {
 }
 
 /// Works on a frame: a field, and what is shown of it.
-pub type Work<'a, E> = dyn FnMut(Source<'_>, &Request) -> Result<(), E> + 'a;
+pub type Work<'a, E> = dyn FnMut(FieldSource<'_>, &Request) -> Result<(), E> + 'a;
 
 /// The frames of an animation, or the one of a still picture.
 pub trait Frames {
@@ -97,7 +97,7 @@ pub trait Frames {
             return Ok(factor);
         }
         let mut found = AutomaticFactor::default();
-        self.each(&mut |Source { field, .. }, _| {
+        self.each(&mut |FieldSource { field, .. }, _| {
             Ok(found.add(field, &field.domain.bounds).map_err(ShotError::from)?)
         })?;
         Ok(found.factor())
@@ -109,7 +109,7 @@ pub trait Frames {
     /// As [`deformed::bounds`].
     fn bounds(&self) -> Result<Option<Rect>, Self::Error> {
         let mut all: Option<Rect> = None;
-        self.each(&mut |Source { field, .. }, Request { scene, .. }| {
+        self.each(&mut |FieldSource { field, .. }, Request { scene, .. }| {
             let bounds = match scene.deformed {
                 None => field.domain.bounds,
                 Some(factor) => {
@@ -142,27 +142,27 @@ pub trait Frames {
     }
 }
 
-/// Where frames are seen.
-pub trait Place<E> {
+/// Chooses the view of each frame.
+pub trait FrameView<E> {
     /// What is seen of a frame.
     ///
     /// # Errors
     /// A place that the frame does not have.
     fn seen<'f>(
         &self,
-        source: Source<'f>,
+        source: FieldSource<'f>,
         request: &Request,
         engine: &Engine<'_>,
-    ) -> Result<Seen<'f>, E>;
+    ) -> Result<BodyView<'f>, E>;
 }
 
-impl<E: From<ShotError>> Place<E> for View {
+impl<E: From<ShotError>> FrameView<E> for View {
     fn seen<'f>(
         &self,
-        source: Source<'f>,
+        source: FieldSource<'f>,
         request: &Request,
         engine: &Engine<'_>,
-    ) -> Result<Seen<'f>, E> {
+    ) -> Result<BodyView<'f>, E> {
         Ok(source.seen(&request.scene, self, engine)?)
     }
 }
@@ -232,13 +232,13 @@ impl Frames for InMemory<'_> {
             }
         };
         let field = Field::new(dataset, subject.step_of(dataset))?;
-        work(Source::of(dataset, &field), &request)
+        work(FieldSource::of(dataset, &field), &request)
     }
 }
 
-/// The form of an animation.
+/// The file format of an animation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum AnimationFormat {
     /// In 256 colours, for programs that know no other.
     Gif,
     /// Without loss.
@@ -254,13 +254,13 @@ const IMAGES: usize = 1 << 29;
 /// Most pixels of a frame: a gigabyte.
 const MOST: u64 = 1 << 28;
 
-/// Things that may be kept as long as there is memory for them.
-struct Kept<T> {
+/// Values by number, of which those are kept that fit the memory.
+struct BoundedCache<T> {
     room: usize,
     all: Vec<Option<T>>,
 }
 
-impl<T> Kept<T> {
+impl<T> BoundedCache<T> {
     fn new(room: usize) -> Self {
         Self { room, all: Vec::new() }
     }
@@ -280,10 +280,10 @@ fn bytes(drawn: &Drawn) -> usize {
 /// Frames once their values and their range are known.
 pub struct Film<'a, F: Frames> {
     frames: &'a F,
-    place: &'a dyn Place<F::Error>,
+    place: &'a dyn FrameView<F::Error>,
     design: Option<&'a Design>,
     engine: &'a Engine<'a>,
-    drawn: Kept<Drawn>,
+    drawn: BoundedCache<Drawn>,
     /// The one way to colours of all frames.
     pub coloring: Coloring,
     /// The view of each frame.
@@ -297,7 +297,7 @@ pub struct Film<'a, F: Frames> {
 /// What the first pass finds.
 #[derive(Default)]
 struct First {
-    found: Found,
+    found: ValueStatistics,
     style: Option<Style>,
     classes: Vec<Option<Vec<f64>>>,
     views: Vec<View>,
@@ -346,11 +346,11 @@ impl<'a, F: Frames> Film<'a, F> {
     /// No frames; those of one picture; a watcher that stops it.
     pub fn new(
         frames: &'a F,
-        place: &'a dyn Place<F::Error>,
+        place: &'a dyn FrameView<F::Error>,
         design: Option<&'a Design>,
         engine: &'a Engine<'a>,
     ) -> Result<Self, F::Error> {
-        let (mut first, mut drawn) = (First::default(), Kept::new(VALUES));
+        let (mut first, mut drawn) = (First::default(), BoundedCache::new(VALUES));
         frames.each(&mut |source, request| {
             let seen = place.seen(source, request, engine)?;
             let size = design.map_or(seen.view().pixels, |design| design.size);
@@ -406,18 +406,20 @@ impl<'a, F: Frames> Film<'a, F> {
     /// As [`Self::page`]; what the file does not hold, or cannot be written.
     pub fn write(
         &self,
-        form: Form,
+        form: AnimationFormat,
         milliseconds: u16,
         texts: &dyn Fn(&Shot) -> Vec<Text>,
         out: &mut dyn Write,
     ) -> Result<[u32; 2], F::Error> {
         let (page, shot) = self.page(0)?;
-        Notice::of_glyphs(&page, form::Form::Png).into_iter().for_each(|n| self.engine.tell(n));
+        Notice::of_glyphs(&page, form::PageFormat::Png)
+            .into_iter()
+            .for_each(|n| self.engine.tell(n));
         let first = page.image();
         let size = first.size;
         match form {
-            Form::Gif => self.gif(first, milliseconds, out)?,
-            Form::Apng => self.apng(&first, milliseconds, &texts(&shot), out)?,
+            AnimationFormat::Gif => self.gif(first, milliseconds, out)?,
+            AnimationFormat::Apng => self.apng(&first, milliseconds, &texts(&shot), out)?,
         }
         Ok(size)
     }
@@ -442,7 +444,7 @@ impl<'a, F: Frames> Film<'a, F> {
     /// Counts the colours of all frames, then writes them.
     fn gif(&self, first: Image, milliseconds: u16, out: &mut dyn Write) -> Result<(), F::Error> {
         let (size, mut first) = (first.size, Some(first));
-        let (mut colors, mut images) = (Colors::new(), Kept::new(IMAGES));
+        let (mut colors, mut images) = (ColorCounts::new(), BoundedCache::new(IMAGES));
         for number in 0..self.frames.count() {
             let image = first.take().map_or_else(|| self.image(number), Ok)?;
             colors.add(&image);

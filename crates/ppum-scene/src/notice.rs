@@ -5,7 +5,7 @@ use std::fmt;
 
 use ppum::printable::printable;
 use ppum_figure::canvas::Canvas;
-use ppum_figure::form::Form;
+use ppum_figure::form::PageFormat;
 
 /// Something that whoever looks at an image should know.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,13 +43,13 @@ pub enum Notice {
     /// A legend of these entries has no room.
     NoLegend(Vec<String>),
     /// Characters that the font of figures lacks, in a file of some form.
-    NoGlyph(Vec<char>, Form),
+    NoGlyph(Vec<char>, PageFormat),
 }
 
 impl Notice {
     /// The characters of a page that the font of figures lacks, if there are some.
     #[must_use]
-    pub fn of_glyphs(page: &Canvas, form: Form) -> Option<Self> {
+    pub fn of_glyphs(page: &Canvas, form: PageFormat) -> Option<Self> {
         let missing = page.missing();
         (!missing.is_empty()).then_some(Self::NoGlyph(missing, form))
     }
@@ -102,10 +102,10 @@ impl fmt::Display for Notice {
     }
 }
 
-fn no_glyph(f: &mut fmt::Formatter<'_>, missing: &[char], form: Form) -> fmt::Result {
+fn no_glyph(f: &mut fmt::Formatter<'_>, missing: &[char], form: PageFormat) -> fmt::Result {
     let shown = match form {
-        Form::Svg => "programs with other fonts show them",
-        Form::Png | Form::Pdf => "boxes stand for them",
+        PageFormat::Svg => "programs with other fonts show them",
+        PageFormat::Png | PageFormat::Pdf => "boxes stand for them",
     };
     let list = missing.iter().map(|c| format!("`{c}`")).collect::<Vec<_>>().join(", ");
     write!(f, "the font of figures lacks {}; {shown}", printable(&list))

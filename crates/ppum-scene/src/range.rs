@@ -10,42 +10,42 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::RenderError;
 use ppum_render::extrema::{Extrema, Extremum, On, SingularKind, extrema};
 use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{Basis, Span};
+use ppum_render::range::{Basis, ValueSpan};
 use ppum_render::raster::{Raster, Sample};
 
-use crate::drawing::{Drawn, Seen, Values};
+use crate::drawing::{BodyView, Drawn, RasterValues};
 
 /// The range of what was drawn; one that has to be found with the extrema of the view, which are
 /// the true ones of the plate as it was, and those of the pixels of the deformed one.
-pub fn found(
+pub fn value_span(
     field: &Field<'_>,
-    seen: &Seen<'_>,
+    seen: &BodyView<'_>,
     quantity: &Quantity,
     drawn: &Drawn,
     style: &Style,
     watcher: &dyn Watcher,
-) -> Result<Span, RenderError> {
+) -> Result<ValueSpan, RenderError> {
     let extrema = match &drawn.values {
         _ if !style.range.is_found() => None,
-        Values::Double(raster) => extrema_of(field, seen, quantity, raster, watcher)?,
-        Values::Single(raster) => extrema_of(field, seen, quantity, raster, watcher)?,
+        RasterValues::Double(raster) => extrema_of(field, seen, quantity, raster, watcher)?,
+        RasterValues::Single(raster) => extrema_of(field, seen, quantity, raster, watcher)?,
     };
     Ok(drawn.span(style, extrema))
 }
 
 fn extrema_of<T: Sample>(
     field: &Field<'_>,
-    seen: &Seen<'_>,
+    seen: &BodyView<'_>,
     quantity: &Quantity,
     raster: &Raster<T>,
     watcher: &dyn Watcher,
 ) -> Result<Option<Extrema>, RenderError> {
     let search = |view| extrema(field, view, quantity, raster, watcher);
     match seen {
-        Seen::Plate(view) => search(view),
+        BodyView::Plate(view) => search(view),
         // nothing has moved
-        Seen::Moved(points) if points.view.factor() == 0.0 => search(&points.view.view),
-        Seen::Moved(points) => {
+        BodyView::Moved(points) if points.view.factor() == 0.0 => search(&points.view.view),
+        BodyView::Moved(points) => {
             let (field, view) = (points.view.field(), &points.view.view);
             let known = Extrema::of_constant(field, view, quantity, raster);
             Ok(known.or_else(|| Extrema::of_pixels(raster, view)))
@@ -244,8 +244,8 @@ mod tests {
                 Drawn::new(raster, &field, view, "test")
             };
             let (drawn, style) = (draw(&view), Style { range: Range::Auto, ..Style::default() });
-            let seen = Seen::Plate(view);
-            let span = found(&field, &seen, &quantity, &drawn, &style, unwatched()).unwrap();
+            let seen = BodyView::Plate(view);
+            let span = value_span(&field, &seen, &quantity, &drawn, &style, unwatched()).unwrap();
             let by = vec2(random.between(-0.2, 0.2), random.between(-0.2, 0.2)) * view.width;
             let moved = draw(&View { center: view.center + by, ..view });
             let telling = Telling::new(&dataset, &field);

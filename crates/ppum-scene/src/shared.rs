@@ -1,11 +1,11 @@
 //! One range for several pictures: those of the steps of a series.
 //!
-//! All are looked at first, which [`Found`] keeps in mind; then each has its colours by the
-//! [`Coloring`] of all.
+//! All are looked at first, which [`ValueStatistics`] keeps in mind; then each has its colours by
+//! the [`Coloring`] of all.
 
 use ppum_render::extrema::Extrema;
 use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{Basis, Range, RangeError, Span};
+use ppum_render::range::{Basis, Range, RangeError, ValueSpan};
 use ppum_render::scale::Scale;
 
 use crate::drawing::Drawn;
@@ -16,7 +16,7 @@ pub struct Coloring {
     /// Map and scale.
     pub style: Style,
     /// The range.
-    pub span: Span,
+    pub span: ValueSpan,
     /// Of a series: true if values of some step lie below the range, and above it, so that all bars
     /// are alike.
     pub ends: Option<[bool; 2]>,
@@ -37,22 +37,22 @@ impl Coloring {
     }
 }
 
-/// What is found of the pictures before they have colours.
+/// Ranges of values and undefined pixels of pictures, before colours are chosen.
 #[derive(Clone, Debug, Default)]
-pub struct Found {
-    spans: Vec<Span>,
+pub struct ValueStatistics {
+    spans: Vec<ValueSpan>,
     /// Those of steps that have one value everywhere.
-    even: Vec<Span>,
+    even: Vec<ValueSpan>,
     /// Smallest and largest value.
     values: Option<[f64; 2]>,
     /// Number of pixels of the plate without a value, and of all of them.
     pub undefined: [usize; 2],
 }
 
-impl Found {
+impl ValueStatistics {
     /// Adds a step. One without values says nothing of the range; one that has one value
     /// everywhere, as before any load, no more than this value.
-    pub fn add(&mut self, mut span: Span, drawn: &Drawn, scale: Scale) {
+    pub fn add(&mut self, mut span: ValueSpan, drawn: &Drawn, scale: Scale) {
         let [without, all] = drawn.undefined();
         self.undefined = [self.undefined[0] + without, self.undefined[1] + all];
         let found = drawn.values.statistics();
@@ -79,7 +79,7 @@ impl Found {
     pub fn coloring(self, classed: Style, style: Style) -> Coloring {
         match classed.range {
             Range::Fixed(min, max) if !classed.colormap.classes().is_empty() => {
-                let span = Span { min, max, basis: Basis::Given, values: None };
+                let span = ValueSpan { min, max, basis: Basis::Given, values: None };
                 Coloring { style: classed, span, ends: Some([false; 2]) }
             }
             _ => self.ranged(style),
@@ -88,10 +88,10 @@ impl Found {
 
     fn ranged(self, style: Style) -> Coloring {
         let symmetric = style.colormap.diverging;
-        let shared = Span::shared(&self.spans, symmetric);
-        let is_range = |span: &Span| span.normalization(style.scale).is_ok();
-        let span = shared.filter(is_range).or_else(|| Span::shared(&self.even, symmetric));
-        let nothing = Span { min: 0.1, max: 1.0, basis: Basis::All, values: None };
+        let shared = ValueSpan::shared(&self.spans, symmetric);
+        let is_range = |span: &ValueSpan| span.normalization(style.scale).is_ok();
+        let span = shared.filter(is_range).or_else(|| ValueSpan::shared(&self.even, symmetric));
+        let nothing = ValueSpan { min: 0.1, max: 1.0, basis: Basis::All, values: None };
         let span = span.or_else(|| self.spans.into_iter().next()).unwrap_or(nothing);
         let varies = self.values.filter(|[min, max]| min < max);
         let ends = varies.map(|[min, max]| [min < span.min, max > span.max]);

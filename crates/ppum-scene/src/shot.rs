@@ -11,19 +11,19 @@ use ppum::text::trimmed;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{BarPlace, Design, FigureError, Labels, Panel};
 use ppum_figure::figure::{bare, figure, lacks_legend, plot_area};
-use ppum_figure::overlay::Entry;
+use ppum_figure::overlay::LegendEntry;
 use ppum_render::RenderError;
 use ppum_render::deform::{DeformError, Deformation};
 use ppum_render::image::Image;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::png::Text;
-use ppum_render::range::{RangeError, Span};
+use ppum_render::range::{RangeError, ValueSpan};
 use ppum_render::samples::Samples;
 use ppum_render::view::{View, ViewError};
 
 use crate::colors::{Colors, MapError};
 use crate::deformed::{self, words};
-use crate::drawing::{Drawn, Job, Seen, Shown};
+use crate::drawing::{BodyView, DrawingInput, Drawn, Shown};
 use crate::engine::{Engine, EngineError};
 use crate::layers::{Ground, Layers, LayersError};
 use crate::minus::{self, Minus, Side};
@@ -116,7 +116,7 @@ pub struct Input<'a> {
     /// Its name in notices and in the file.
     pub name: &'a str,
     /// Where it is seen.
-    pub seen: &'a Seen<'a>,
+    pub seen: &'a BodyView<'a>,
     /// What is subtracted, in the plate as it was.
     pub left: Option<Side<'a>>,
 }
@@ -143,14 +143,14 @@ impl<'a> Input<'a> {
                 centers("differences are")?;
                 minus.draw(seen.view(), engine.watcher)?.drawn
             }
-            (None, Seen::Plate(view), Shown::Quantity(quantity)) => {
-                engine.draw(Job { field, view, quantity }, samples)?
+            (None, BodyView::Plate(view), Shown::Quantity(quantity)) => {
+                engine.draw(DrawingInput { field, view, quantity }, samples)?
             }
-            (None, Seen::Plate(view), Shown::Cells(_, values)) => {
+            (None, BodyView::Plate(view), Shown::Cells(_, values)) => {
                 centers("values of cells are")?;
                 Drawn::of_cells(values, field, view)
             }
-            (None, Seen::Moved(points), shown) => {
+            (None, BodyView::Moved(points), shown) => {
                 centers("the deformed plate is")?;
                 engine.check_deformed()?;
                 deformed::draw(points, shown, engine.watcher)?
@@ -195,12 +195,12 @@ impl<'a> Input<'a> {
         drawn: &Drawn,
         style: &Style,
         engine: &Engine<'_>,
-    ) -> Result<Span, RenderError> {
+    ) -> Result<ValueSpan, RenderError> {
         Ok(match (self.left, self.shown.quantity()) {
             (Some(_), _) => minus::span(drawn, style),
             (None, None) => drawn.span(style, None),
             (None, Some(quantity)) => {
-                range::found(self.field, self.seen, quantity, drawn, style, engine.watcher)?
+                range::value_span(self.field, self.seen, quantity, drawn, style, engine.watcher)?
             }
         })
     }
@@ -268,7 +268,7 @@ impl<'a> Input<'a> {
         let quantity = self.shown.quantity().filter(|_| self.left.is_none());
         let centers = match quantity {
             Some(quantity) if drawn.opacity.is_some() && scene.overlays.isolines.is_some() => {
-                let job = Job { field, view: &drawn.view, quantity };
+                let job = DrawingInput { field, view: &drawn.view, quantity };
                 Some(engine.draw(job, Samples::CENTER)?)
             }
             _ => None,
@@ -289,7 +289,7 @@ fn blank(image: &mut Image) {
 
 /// A field of a dataset, and what is subtracted from what is shown of it.
 #[derive(Clone, Copy)]
-pub struct Source<'a> {
+pub struct FieldSource<'a> {
     /// The dataset.
     pub dataset: &'a Dataset,
     /// Its field, which is that of the request's subject,
@@ -320,7 +320,7 @@ impl Asked {
     }
 }
 
-impl<'a> Source<'a> {
+impl<'a> FieldSource<'a> {
     /// A field without anything on the left.
     #[must_use]
     pub fn of(dataset: &'a Dataset, field: &'a Field<'a>) -> Self {
@@ -329,7 +329,7 @@ impl<'a> Source<'a> {
 
     /// What a picture of it is made of.
     #[must_use]
-    pub fn input<'b>(self, asked: &'b Asked, seen: &'b Seen<'b>) -> Input<'b>
+    pub fn input<'b>(self, asked: &'b Asked, seen: &'b BodyView<'b>) -> Input<'b>
     where
         'a: 'b,
     {
@@ -343,12 +343,14 @@ impl<'a> Source<'a> {
         scene: &Scene,
         view: &View,
         engine: &Engine<'_>,
-    ) -> Result<Seen<'a>, ShotError> {
+    ) -> Result<BodyView<'a>, ShotError> {
         let deformed = scene.deformed.filter(|_| self.left.is_none());
         let factor = deformed.map(|factor| factor.number(&[self.field])).transpose()?;
-        let Some(factor) = factor else { return Ok(Seen::Plate(*view)) };
+        let Some(factor) = factor else { return Ok(BodyView::Plate(*view)) };
         engine.check_deformed()?;
-        Ok(Seen::Moved(Deformation::new(self.field, factor)?.seen(view).points(engine.watcher)?))
+        Ok(BodyView::Moved(
+            Deformation::new(self.field, factor)?.seen(view).points(engine.watcher)?,
+        ))
     }
 
     /// The labels of a figure: those that are asked for, else the words for what is shown; with the
@@ -396,7 +398,7 @@ impl<'a> Source<'a> {
 /// # Errors
 /// What the field does not have; a range that does not fit; a watcher that stops it.
 pub fn shot(
-    source: Source<'_>,
+    source: FieldSource<'_>,
     request: &Request,
     view: &View,
     design: Option<&Design>,
@@ -421,7 +423,7 @@ pub fn reshaped(view: &View, pixels: [u32; 2]) -> Result<View, ViewError> {
 /// # Errors
 /// As [`page`].
 pub fn view_in(
-    source: Source<'_>,
+    source: FieldSource<'_>,
     request: &Request,
     view: &View,
     design: &Design,
@@ -435,7 +437,7 @@ pub fn view_in(
 /// # Errors
 /// As [`shot`]; a design without room.
 pub fn page(
-    source: Source<'_>,
+    source: FieldSource<'_>,
     request: &Request,
     view: &View,
     design: Option<&Design>,
@@ -452,7 +454,7 @@ pub fn page(
 /// # Errors
 /// As [`page`]; a picture that is larger than its room.
 pub fn page_in(
-    source: Source<'_>,
+    source: FieldSource<'_>,
     request: &Request,
     view: &View,
     design: Option<&Design>,
@@ -467,9 +469,9 @@ pub fn page_in(
 /// # Errors
 /// As [`page_in`].
 pub fn page_seen(
-    source: Source<'_>,
+    source: FieldSource<'_>,
     request: &Request,
-    seen: &Seen<'_>,
+    seen: &BodyView<'_>,
     design: Option<&Design>,
     engine: &Engine<'_>,
 ) -> Result<(Canvas, Shot), ShotError> {
@@ -483,11 +485,11 @@ pub fn page_seen(
 ///
 /// # Errors
 /// Fields that are no displacements.
-pub fn title(source: Source<'_>, request: &Request) -> Result<String, DeformError> {
+pub fn title(source: FieldSource<'_>, request: &Request) -> Result<String, DeformError> {
     if let Some(title) = &request.labels.title {
         return Ok(source.filled(title, &request.scene));
     }
-    let (Source { dataset, field, .. }, scene) = (source, &request.scene);
+    let (FieldSource { dataset, field, .. }, scene) = (source, &request.scene);
     let mut title = of_step(dataset, scene.subject.step_of(dataset));
     let mut add = |text: String| title = format!("{title} ({text})").trim_start().to_owned();
     if let Some(part) = &scene.subject.part {
@@ -570,7 +572,7 @@ impl Shot {
 }
 
 /// Tells what a legend says that is nowhere drawn.
-pub fn tell_legend(legend: &[Entry], engine: &Engine<'_>) {
+pub fn tell_legend(legend: &[LegendEntry], engine: &Engine<'_>) {
     if !legend.is_empty() {
         let entries = legend.iter().map(|entry| entry.label.clone()).collect();
         engine.tell(Notice::NoLegend(entries));
@@ -620,7 +622,7 @@ mod tests {
             let on_paper = |dpi: f64| {
                 let design = Design::inches([3.4, 2.6], dpi);
                 let view = View::fit(dataset.domain.bounds, [340, 260]).unwrap();
-                let (source, request) = (Source::of(&dataset, &field), scene.drawn().into());
+                let (source, request) = (FieldSource::of(&dataset, &field), scene.drawn().into());
                 let made = page(source, &request, &view, Some(&design), &Engine::default());
                 let mut all = widths(&made.unwrap().0);
                 all.iter_mut().for_each(|width| *width *= 72.0 / dpi);

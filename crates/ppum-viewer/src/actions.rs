@@ -3,9 +3,9 @@
 
 use egui::{Event, Key, KeyboardShortcut, Modifiers, RawInput};
 
-use crate::export::What;
+use crate::export::ExportChoice;
 use crate::reading::tool::Tool;
-use crate::session::Page;
+use crate::session::DrawerPage;
 
 /// Something a person can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,9 +57,9 @@ pub enum Action {
     /// Marks at the extrema of the view, on and off.
     Extrema,
     /// A page of the drawer, opened or closed.
-    Drawer(Page),
+    Drawer(DrawerPage),
     /// Save a picture of what is seen.
-    Save(What),
+    Save(ExportChoice),
     /// Copy the command that draws it.
     CopyCommand,
     /// Steps of a series on or back.
@@ -112,7 +112,7 @@ pub enum Action {
 
 /// An action with its name and key.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
+pub struct ActionEntry {
     /// What is done.
     pub action: Action,
     /// Its name in menus and the palette.
@@ -128,8 +128,8 @@ const fn entry(
     name: &'static str,
     key: Option<KeyboardShortcut>,
     group: &'static str,
-) -> Entry {
-    Entry { action, name, key, group }
+) -> ActionEntry {
+    ActionEntry { action, name, key, group }
 }
 
 const fn key(key: Key) -> Option<KeyboardShortcut> {
@@ -171,13 +171,17 @@ pub fn synonyms(action: Action) -> &'static str {
         Action::CircleForK => "sif stress intensity factor k1 k2 j integral energy release",
         Action::Draw(_) => "profile path section cut",
         Action::Extrema => "minimum maximum peak",
-        Action::Drawer(Page::Plot) => "profile line graph chart opening path csv curve",
-        Action::Drawer(Page::Tips) => "sif stress intensity factors k1 k2 t g energy release error",
-        Action::Drawer(Page::Series) => "history steps growth k over time",
-        Action::Drawer(Page::Solver) => "error estimate warnings convergence unknowns condition",
-        Action::Drawer(Page::Problem) => "toml input edit loads material mesh cover",
-        Action::Save(What::Picture) => "export image png screenshot",
-        Action::Save(What::Figure) => "export pdf svg png paper print image",
+        Action::Drawer(DrawerPage::Plot) => "profile line graph chart opening path csv curve",
+        Action::Drawer(DrawerPage::Tips) => {
+            "sif stress intensity factors k1 k2 t g energy release error"
+        }
+        Action::Drawer(DrawerPage::Series) => "history steps growth k over time",
+        Action::Drawer(DrawerPage::Solver) => {
+            "error estimate warnings convergence unknowns condition"
+        }
+        Action::Drawer(DrawerPage::Problem) => "toml input edit loads material mesh cover",
+        Action::Save(ExportChoice::Picture) => "export image png screenshot",
+        Action::Save(ExportChoice::Figure) => "export pdf svg png paper print image",
         Action::Save(_) => "export gif movie film video apng",
         Action::CopyCommand => "export script shell",
         Action::Step(_) | Action::Play => "time animation movie film",
@@ -200,7 +204,7 @@ pub const GROUPS: [&str; 6] =
     ["Moving", "Colours", "Over the picture", "Reading", "Files and problems", "Window"];
 
 /// All actions, in the order of the help sheet.
-pub const ALL: &[Entry] = &[
+pub const ALL: &[ActionEntry] = &[
     entry(Action::Fit, "Show the whole plate", key(Key::F), "Moving"),
     entry(Action::NextTip, "Fly to the next tip", key(Key::N), "Moving"),
     entry(Action::Tip(0), "Fly to tip 0", key(Key::Num1), "Moving"),
@@ -238,15 +242,20 @@ pub const ALL: &[Entry] = &[
     entry(Action::Draw(Tool::Ray), "Draw a ray from a tip", None, "Reading"),
     entry(Action::Draw(Tool::Crack), "Choose a crack by a click", None, "Reading"),
     entry(Action::Extrema, "Mark the extrema of the view", None, "Reading"),
-    entry(Action::Drawer(Page::Plot), "Plot along a curve", key(Key::X), "Reading"),
-    entry(Action::Drawer(Page::Tips), "Table of the tips", key(Key::T), "Reading"),
-    entry(Action::Drawer(Page::Series), "Values over the steps", None, "Reading"),
-    entry(Action::Drawer(Page::Solver), "The solver's report", None, "Reading"),
-    entry(Action::Drawer(Page::Problem), "The problem's text", None, "Reading"),
-    entry(Action::Save(What::Picture), "Save a picture", key(Key::S), "Reading"),
-    entry(Action::Save(What::Figure), "Save a figure", shift(Key::S), "Reading"),
-    entry(Action::Save(What::Steps), "Save an animation of the steps", None, "Reading"),
-    entry(Action::Save(What::Deformation), "Save an animation of the deformation", None, "Reading"),
+    entry(Action::Drawer(DrawerPage::Plot), "Plot along a curve", key(Key::X), "Reading"),
+    entry(Action::Drawer(DrawerPage::Tips), "Table of the tips", key(Key::T), "Reading"),
+    entry(Action::Drawer(DrawerPage::Series), "Values over the steps", None, "Reading"),
+    entry(Action::Drawer(DrawerPage::Solver), "The solver's report", None, "Reading"),
+    entry(Action::Drawer(DrawerPage::Problem), "The problem's text", None, "Reading"),
+    entry(Action::Save(ExportChoice::Picture), "Save a picture", key(Key::S), "Reading"),
+    entry(Action::Save(ExportChoice::Figure), "Save a figure", shift(Key::S), "Reading"),
+    entry(Action::Save(ExportChoice::Steps), "Save an animation of the steps", None, "Reading"),
+    entry(
+        Action::Save(ExportChoice::Deformation),
+        "Save an animation of the deformation",
+        None,
+        "Reading",
+    ),
     entry(
         Action::CopyCommand,
         "Copy the command that draws this",
@@ -350,14 +359,14 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
 
 fn by_shortcuts(ctx: &egui::Context) -> Vec<Action> {
     let is_writing = ctx.egui_wants_keyboard_input();
-    let mut all: Vec<&Entry> = ALL.iter().collect();
+    let mut all: Vec<&ActionEntry> = ALL.iter().collect();
     // the more keys of a shortcut, the sooner it is asked, so that Ctrl+Z does not
     // take Ctrl+Shift+Z
     all.sort_by_key(|entry| {
         entry.key.map_or(0, |k| -i32::from(k.modifiers.shift) - i32::from(k.modifiers.command))
     });
     ctx.input_mut(|input| {
-        let is_pressed = |entry: &&&Entry| {
+        let is_pressed = |entry: &&&ActionEntry| {
             let Some(key) = entry.key.filter(|_| entry.action != Action::Panels) else {
                 return false;
             };

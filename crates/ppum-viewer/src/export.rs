@@ -6,23 +6,23 @@ use std::sync::Arc;
 
 use ppum::progress::Watcher;
 use ppum_figure::figure::Design;
-use ppum_figure::form::Form;
+use ppum_figure::form::PageFormat;
 use ppum_render::view::View;
 use ppum_scene::command;
 use ppum_scene::drawing::Shown;
 use ppum_scene::engine::Engine;
 use ppum_scene::minus::Side;
-use ppum_scene::moving::{Film, Form as Animation, Frames as _, InMemory, Moving};
+use ppum_scene::moving::{AnimationFormat as Animation, Film, Frames as _, InMemory, Moving};
 use ppum_scene::notice::Notice;
 use ppum_scene::request::Request;
 use ppum_scene::scene::Scene;
-use ppum_scene::shot::{Source, page, reshaped, view_in};
+use ppum_scene::shot::{FieldSource, page, reshaped, view_in};
 
 use crate::field::OwnedField;
 
-/// What is written.
+/// An image, a figure or an animation to export.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Kind {
+pub enum ExportKind {
     /// The picture alone, as it is seen.
     Picture,
     /// With axes, colour bar and title.
@@ -33,7 +33,7 @@ pub enum Kind {
 
 /// The kinds of files that can be chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum What {
+pub enum ExportChoice {
     /// The picture alone.
     Picture,
     /// With axes, colour bar and title.
@@ -44,7 +44,7 @@ pub enum What {
     Deformation,
 }
 
-impl What {
+impl ExportChoice {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Picture, Self::Figure, Self::Steps, Self::Deformation];
 
@@ -85,7 +85,7 @@ pub struct Order {
     /// Columns and rows of the page.
     pub size: [u32; 2],
     /// What is written.
-    pub kind: Kind,
+    pub kind: ExportKind,
 }
 
 /// Why there is no animation of a difference.
@@ -96,7 +96,7 @@ pub const NO_COMMAND: &str = "no command draws the difference of two views; a se
 
 impl Order {
     fn design(&self) -> Option<Design> {
-        (self.kind != Kind::Picture).then(|| Design::pixels(self.size))
+        (self.kind != ExportKind::Picture).then(|| Design::pixels(self.size))
     }
 
     /// The file's bytes, in the form that its name ends in, and what is to be said of them.
@@ -110,17 +110,17 @@ impl Order {
     ) -> Result<(Vec<u8>, Vec<Notice>), String> {
         let engine = Engine::processor(watcher);
         let bytes = match &self.kind {
-            Kind::Moving(..) if self.left.is_some() => Err(NOT_MOVING.into()),
-            Kind::Moving(moving, rate) => self.moving(moving, *rate, path, &engine),
+            ExportKind::Moving(..) if self.left.is_some() => Err(NOT_MOVING.into()),
+            ExportKind::Moving(moving, rate) => self.moving(moving, *rate, path, &engine),
             _ => self.still(path, &engine),
         };
         Ok((bytes?, engine.into_notices()))
     }
 
-    fn source(&self) -> Source<'_> {
+    fn source(&self) -> FieldSource<'_> {
         let left = self.left.as_ref();
         let left = left.map(|(field, shown)| Side { field: field.field(), shown });
-        Source { dataset: self.field.dataset(), field: self.field.field(), left }
+        FieldSource { dataset: self.field.dataset(), field: self.field.field(), left }
     }
 
     fn still(&self, path: &Path, engine: &Engine<'_>) -> Result<Vec<u8>, String> {
@@ -135,7 +135,7 @@ impl Order {
         let mut texts = shot.texts(&name(self.file.as_deref()));
         texts.push(("ppum:command".to_owned(), command));
         texts.extend(shot.notes());
-        let form = Form::of(path);
+        let form = PageFormat::of(path);
         Notice::of_glyphs(&page, form).into_iter().for_each(|notice| engine.tell(notice));
         form.bytes(&page, None, &texts).map_err(|e| e.to_string())
     }
@@ -182,7 +182,7 @@ impl Order {
         let file = name(self.file.as_deref());
         let output = output.to_string_lossy();
         let mut words = command::render(&self.scene, &file, &view, &output, page);
-        if let Kind::Moving(Moving::Steps(_), rate) = self.kind {
+        if let ExportKind::Moving(Moving::Steps(_), rate) = self.kind {
             words.retain(|word| !word.starts_with("--step="));
             words.extend(["--steps=all".to_owned(), format!("--fps={rate:?}")]);
         }

@@ -12,14 +12,14 @@ use ppum::progress::{Progress, Verdict, Watcher};
 #[derive(Debug)]
 pub struct Job<T> {
     receiver: Receiver<Result<T, String>>,
-    stop: Stop,
+    stop: CancelToken,
 }
 
-/// Whether a job is still wanted.
+/// A token that is set when its job is cancelled.
 #[derive(Clone, Debug, Default)]
-pub struct Stop(Arc<AtomicBool>);
+pub struct CancelToken(Arc<AtomicBool>);
 
-impl Stop {
+impl CancelToken {
     /// True if nobody wants the work any more.
     #[must_use]
     pub fn is_set(&self) -> bool {
@@ -28,7 +28,7 @@ impl Stop {
 }
 
 /// Work without a report of its own ends where it is no longer wanted.
-impl Watcher for Stop {
+impl Watcher for CancelToken {
     fn hear(&self, _: Progress) -> Verdict {
         Verdict::go_on_unless(self.is_set())
     }
@@ -37,9 +37,12 @@ impl Watcher for Stop {
 impl<T: Send + 'static> Job<T> {
     /// Starts work, and wakes the window when it is done. A panic of the work becomes an error
     /// in words.
-    pub fn start(ctx: &egui::Context, work: impl FnOnce(&Stop) -> T + Send + 'static) -> Self {
+    pub fn start(
+        ctx: &egui::Context,
+        work: impl FnOnce(&CancelToken) -> T + Send + 'static,
+    ) -> Self {
         let (sender, receiver) = mpsc::channel();
-        let stop = Stop::default();
+        let stop = CancelToken::default();
         let (theirs, ctx) = (stop.clone(), ctx.clone());
         std::thread::spawn(move || {
             let outcome = catch_unwind(AssertUnwindSafe(|| work(&theirs)));

@@ -3,7 +3,7 @@
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::view::View;
 
-use crate::session::Place;
+use crate::session::VisibleRegion;
 
 /// Room around the whole plate, in parts of its size.
 const ROOM: f64 = 0.03;
@@ -16,7 +16,12 @@ const COARSEST: f64 = 2048.0;
 /// The view of a place, or of the whole plate beside the last `taken` columns; none of a plate
 /// without size.
 #[must_use]
-pub fn view(place: Option<Place>, whole: Rect, pixels: [u32; 2], taken: u32) -> Option<View> {
+pub fn view(
+    place: Option<VisibleRegion>,
+    whole: Rect,
+    pixels: [u32; 2],
+    taken: u32,
+) -> Option<View> {
     if let Some(place) = place {
         return place.view(pixels).ok();
     }
@@ -36,20 +41,20 @@ pub fn view(place: Option<Place>, whole: Rect, pixels: [u32; 2], taken: u32) -> 
 /// A place that can be shown: no wider than the plate many times, no narrower than doubles tell
 /// pixels apart, never beside the plate.
 #[must_use]
-pub fn bounded(place: Place, bounds: &Rect) -> Place {
+pub fn bounded(place: VisibleRegion, bounds: &Rect) -> VisibleRegion {
     let size = bounds.size().x.max(bounds.size().y);
     let ends = [bounds.min.x, bounds.max.x, bounds.min.y, bounds.max.y];
     let far = ends.into_iter().map(f64::abs).fold(0.0, f64::max);
     let narrowest = (NARROWEST * size).max(COARSEST * f64::EPSILON * far);
     let width = place.width.clamp(narrowest, (WIDEST * size).max(narrowest));
     let center = place.center().max(bounds.min).min(bounds.max);
-    Place { center: center.into(), width }
+    VisibleRegion { center: center.into(), width }
 }
 
 /// True if a place is one of this plate: something of it may be seen there, and pixels are
 /// told apart.
 #[must_use]
-pub fn is_of(place: Place, bounds: &Rect) -> bool {
+pub fn is_of(place: VisibleRegion, bounds: &Rect) -> bool {
     let nearest = bounded(place, bounds);
     let is_near = (place.center() - nearest.center()).length() <= WIDEST * bounds.size().length();
     let is_wide = (SLACK.recip()..=SLACK).contains(&(place.width / nearest.width));
@@ -63,11 +68,12 @@ const SLACK: f64 = 100.0;
 /// The place after a zoom at an offset from the view's centre, which stays where it is: by the
 /// factor, or by what the limits leave of it. True if they have left less of an enlargement.
 #[must_use]
-pub fn zoomed(view: &View, offset: Vec2, factor: f64, bounds: &Rect) -> (Place, bool) {
-    let at = |center: Vec2, width: f64| bounded(Place { center: center.into(), width }, bounds);
+pub fn zoomed(view: &View, offset: Vec2, factor: f64, bounds: &Rect) -> (VisibleRegion, bool) {
+    let at =
+        |center: Vec2, width: f64| bounded(VisibleRegion { center: center.into(), width }, bounds);
     let width = at(view.center, view.width / factor).width;
     if width == view.width {
-        return (Place { center: view.center.into(), width }, width > view.width / factor);
+        return (VisibleRegion { center: view.center.into(), width }, width > view.width / factor);
     }
     let shift = offset * (1.0 - width / view.width);
     (at(view.center + shift, width), width > view.width / factor)
@@ -125,7 +131,7 @@ mod tests {
             let width = 10f64.powf(random.between(-300.0, 300.0));
             let far = 10f64.powf(random.between(-10.0, 200.0));
             let center = [random.between(-far, far), random.between(-far, far)];
-            let place = bounded(Place { center, width }, &bounds);
+            let place = bounded(VisibleRegion { center, width }, &bounds);
             let view = view(Some(place), bounds, [1280, 800], 0);
             assert!(view.is_some_and(|view| view.rect().overlaps(&bounds)), "{bounds:?} {place:?}");
         }

@@ -29,11 +29,11 @@ pub struct Session {
     /// True if the panels on the right are open.
     pub panels: bool,
     /// The page of the drawer below, if it is open.
-    pub drawer: Option<Page>,
+    pub drawer: Option<DrawerPage>,
     /// Colours of the window.
     pub theme: Theme,
     /// The problem whose text is open.
-    pub draft: Option<Draft>,
+    pub draft: Option<ProblemDraft>,
 }
 
 /// The difference of two views, which the second one shows: its values minus those of the first.
@@ -50,7 +50,7 @@ pub struct Minus {
 /// The text of a problem while it is written.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Draft {
+pub struct ProblemDraft {
     /// Its file, if it came from one or was saved.
     pub path: Option<PathBuf>,
     /// The folder of the files that it names, if that is not its own.
@@ -68,7 +68,7 @@ pub struct Pane {
     /// What is shown of it.
     pub scene: Scene,
     /// Where; the whole plate if nothing is said.
-    pub place: Option<Place>,
+    pub place: Option<VisibleRegion>,
     /// What resampling gives beside it, if that is looked at.
     pub compare: Option<Compare>,
     /// How that is looked at.
@@ -140,7 +140,7 @@ impl Default for Plotting {
 
 /// A part of the plane, whatever the number of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Place {
+pub struct VisibleRegion {
     /// The middle.
     pub center: [f64; 2],
     /// The width of the picture.
@@ -150,7 +150,7 @@ pub struct Place {
 /// Pages of the drawer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Page {
+pub enum DrawerPage {
     /// Values along a curve.
     Plot,
     /// A table of the crack tips.
@@ -163,7 +163,7 @@ pub enum Page {
     Problem,
 }
 
-impl Page {
+impl DrawerPage {
     /// All of them, in their order.
     pub const ALL: [Self; 5] = [Self::Plot, Self::Tips, Self::Series, Self::Solver, Self::Problem];
 }
@@ -261,7 +261,7 @@ impl Session {
     }
 }
 
-impl Place {
+impl VisibleRegion {
     /// The place of a view.
     #[must_use]
     pub fn of(view: &View) -> Self {

@@ -122,7 +122,7 @@ impl Start {
 /// # Errors
 /// No display, no graphics device and no driver that computes in software.
 pub fn run(start: Start) -> Result<(), WindowError> {
-    let kept = start.folder.as_deref().map(kept::Kept::read).unwrap_or_default();
+    let kept = start.folder.as_deref().map(kept::WindowState::read).unwrap_or_default();
     let size = start.size.or(kept.size).unwrap_or(SIZE);
     let viewport = egui::ViewportBuilder::default()
         .with_title("ppum")

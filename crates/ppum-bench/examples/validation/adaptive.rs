@@ -8,8 +8,8 @@ use crate::studies::factors::{errors_of_factors, plates};
 use crate::studies::plates::Plate;
 use crate::studies::support::solved;
 use anyhow::Context as _;
-use ppum_figure::form::Form;
-use ppum_figure::plot::{Curve, Look, Plot, PlotAxis, plot};
+use ppum_figure::form::PageFormat;
+use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve, plot};
 use ppum_solve::problem::{AdaptKind, Adaptivity, Cells, Order, Problem};
 
 /// Errors of factors below this part are those of the references, which have six digits.
@@ -138,11 +138,11 @@ fn courses(page: &mut Page) -> anyhow::Result<()> {
             points.last().map(|[n, e, _]| format!("{} at {n}", error(*e))).unwrap_or_default();
         let hp = [format!("{:.2}", -slope), format!("{correlation:.3}"), last];
         page.row(&[vec![name.to_owned()], rates, hp.to_vec()].concat());
-        curves.push(curve(format!("{name}, hp"), &points, Look::Dotted));
+        curves.push(curve(format!("{name}, hp"), &points, CurveStyle::Dotted));
         curves.push(curve(
             format!("{name}, h, p = 2"),
             &run(AdaptKind::H, 2, 15_000),
-            Look::Dashed,
+            CurveStyle::Dashed,
         ));
     }
     draw(page, curves)
@@ -155,12 +155,12 @@ fn logarithms(points: &[[f64; 3]], of: fn(f64) -> f64, part: f64) -> Vec<[f64; 2
     late.map(|[n, error, _]| [of(*n), error.ln()]).collect()
 }
 
-fn curve(label: String, points: &[[f64; 3]], look: Look) -> Curve {
+fn curve(label: String, points: &[[f64; 3]], look: CurveStyle) -> PlotCurve {
     let points = points.iter().map(|[n, error, _]| [n.cbrt(), *error]).collect();
-    Curve::new(label, points).with_look(look)
+    PlotCurve::new(label, points).with_look(look)
 }
 
-fn draw(page: &mut Page, curves: Vec<Curve>) -> anyhow::Result<()> {
+fn draw(page: &mut Page, curves: Vec<PlotCurve>) -> anyhow::Result<()> {
     let picture = Plot {
         x: PlotAxis::new("cube root of the number of unknowns", ""),
         y: PlotAxis::new("error in the energy norm", "").logarithmic(),
@@ -168,7 +168,7 @@ fn draw(page: &mut Page, curves: Vec<Curve>) -> anyhow::Result<()> {
         ..Plot::default()
     };
     let path = page.image("adaptive.png");
-    let bytes = Form::of(&path).bytes(&plot(&picture, [900, 600]), None, &[])?;
+    let bytes = PageFormat::of(&path).bytes(&plot(&picture, [900, 600]), None, &[])?;
     std::fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
     page.add("![Errors of adaptive covers over the cube root of the unknowns](images/validation/adaptive.png)");
     Ok(())

@@ -24,7 +24,7 @@ use ppum_render::view::View;
 use serde::Serialize;
 
 use crate::cards::Cards;
-use crate::frames::{Subject, WAYS, Way};
+use crate::frames::{QuantityRenderer, WAYS, Way};
 
 /// A weight with a wrong derivative: value and slope of 1 − t, but for a ripple of size 1e-5.
 pub(super) const WRONG: &str = "(1 - t)*(1 + 1e-5*sin(1e5*t))";
@@ -79,7 +79,7 @@ impl Agreement {
 
 /// Compares all ways; `wrong` is the field with [`WRONG`] for its weight.
 pub(super) fn agreements(
-    subject: &Subject<'_>,
+    subject: &QuantityRenderer<'_>,
     wrong: Option<&Field<'_>>,
     view: &View,
     mut cards: Option<&mut Cards>,

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use ppum_figure::plot::{Curve, Look};
+use ppum_figure::plot::{CurveStyle, PlotCurve};
 
-use super::scenes::Group;
+use super::scenes::SceneGroup;
 use super::turns::Spent;
 use super::{Report, Row};
 use crate::chart;
@@ -16,15 +16,15 @@ pub(super) fn save(report: &Report, path: &Path) -> anyhow::Result<()> {
     chart::save(path, title, [("patches", ""), ("time", "ms")], curves(report))
 }
 
-fn curves(report: &Report) -> Vec<Curve> {
+fn curves(report: &Report) -> Vec<PlotCurve> {
     let curve = |name: &str, cover: &str, time: &dyn Fn(&Row) -> Option<f64>| {
-        let rows = report.rows.iter().filter(|row| row.group == Group::Patches);
+        let rows = report.rows.iter().filter(|row| row.group == SceneGroup::Patches);
         let mut points: Vec<[f64; 2]> = rows
             .filter(|row| row.cover == cover)
             .filter_map(|row| Some([row.patches as f64, time(row)?]))
             .collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        Curve::new(name, points)
+        PlotCurve::new(name, points)
     };
     let least = |spent: Option<Spent>| spent.map(|spent| spent.wall_ms.least);
     let one = |way| move |row: &Row| least(row.method(way)?.one);
@@ -38,8 +38,8 @@ fn curves(report: &Report) -> Vec<Curve> {
         curve("CPU f32, 1 thread, graded", "graded", &one(Way::CpuF32)),
         curve(&format!("CPU f32, {n} threads"), "uniform", &all(Way::CpuF32)),
     ];
-    let dotted = dotted.into_iter().map(|curve| curve.with_look(Look::Dotted));
+    let dotted = dotted.into_iter().map(|curve| curve.with_look(CurveStyle::Dotted));
     let paper = curve("the paper, GeForce GTX 470", "uniform", &|row| row.paper_ms);
-    let all = dotted.chain([paper.with_look(Look::Dashed)]);
+    let all = dotted.chain([paper.with_look(CurveStyle::Dashed)]);
     all.filter(|curve| !curve.points.is_empty()).collect()
 }

@@ -10,7 +10,7 @@ use ppum_render::view::View;
 use serde::Serialize;
 
 use crate::cards::Cards;
-use crate::frames::{Subject, Way, moved, style};
+use crate::frames::{QuantityRenderer, Way, moved, style};
 use crate::synthetic::{DOMAIN, Recipe};
 
 /// Times each is opened, of which the fastest counts; the file is in the system's memory.
@@ -61,7 +61,7 @@ impl Opening {
             let field = Field::new(&read, 0)?;
             let quantity = Quantity::VonMises;
             let view = moved(View::fit(DOMAIN, pixels)?, frame)?;
-            Subject::new(&field, (quantity, style(1.0)), None, false)?.draw(
+            QuantityRenderer::new(&field, (quantity, style(1.0)), None, false)?.draw(
                 Way::CpuF32,
                 &view,
                 None,

@@ -24,14 +24,14 @@ use ppum_render::view::View;
 use serde::Serialize;
 
 use crate::cards::Cards;
-use crate::frames::{Subject, Way, moved, style};
+use crate::frames::{QuantityRenderer, Way, moved, style};
 use crate::machine::Machine;
 use crate::synthetic::{DOMAIN, Recipe};
 use crate::table::Table;
 use agreement::{Agreement, WRONG, agreements};
 use files::Opening;
-pub use scenes::Group;
-use scenes::{Scene, scenes};
+pub use scenes::SceneGroup;
+use scenes::{PaperScene, scenes};
 pub use single::Single;
 use turns::{Pools, Timed, Turns};
 
@@ -59,7 +59,7 @@ pub struct Report {
 /// A scene.
 #[derive(Debug, Serialize)]
 struct Row {
-    group: Group,
+    group: SceneGroup,
     scene: String,
     cover: &'static str,
     patches: usize,
@@ -74,7 +74,7 @@ struct Row {
 
 /// A scene with all that draws it.
 struct Measured<'d> {
-    scene: Scene,
+    scene: PaperScene,
     turns: Turns<'d>,
     agreements: [Option<Agreement>; 4],
 }
@@ -85,7 +85,7 @@ impl Report {
     ///
     /// # Errors
     /// A device that fails, or files that cannot be written.
-    pub fn new(quick: bool, frames: u32, groups: &[Group]) -> anyhow::Result<Self> {
+    pub fn new(quick: bool, frames: u32, groups: &[SceneGroup]) -> anyhow::Result<Self> {
         let (threads, pixels) = (rayon::current_num_threads(), tables::pixels_of(quick));
         let mut cards = Cards::open();
         let machine = Machine::new(threads, cards.as_ref());
@@ -99,7 +99,7 @@ impl Report {
             let field = datasets.field(&scene.recipe, &fields)?;
             // shaders take their time to compile: a quick run has those of the first scenes
             let on_devices =
-                scene.group == Group::Patches || !quick && scene.group != Group::Colors;
+                scene.group == SceneGroup::Patches || !quick && scene.group != SceneGroup::Colors;
             let mut cards = cards.as_deref_mut().filter(|_| on_devices);
             let mut measured = Measured::new(scene, field, cards.as_deref_mut())?;
             measured.compare(pixels, &pools, cards)?;
@@ -146,9 +146,9 @@ impl crate::Report for Report {
 struct Datasets(Vec<(Recipe, Dataset)>);
 
 impl Datasets {
-    fn new(scenes: &[Scene]) -> anyhow::Result<Self> {
+    fn new(scenes: &[PaperScene]) -> anyhow::Result<Self> {
         let mut all: Vec<(Recipe, Dataset)> = Vec::new();
-        for Scene { recipe, .. } in scenes {
+        for PaperScene { recipe, .. } in scenes {
             if all.iter().all(|(known, _)| known != recipe) {
                 all.push((*recipe, recipe.dataset()?));
             }
@@ -186,10 +186,15 @@ fn measure(
 }
 
 impl<'d> Measured<'d> {
-    fn new(scene: Scene, field: &'d Field<'d>, cards: Option<&mut Cards>) -> anyhow::Result<Self> {
+    fn new(
+        scene: PaperScene,
+        field: &'d Field<'d>,
+        cards: Option<&mut Cards>,
+    ) -> anyhow::Result<Self> {
         let quantity = Quantity::parse(scene.subject.quantity(), field)?;
-        let may_splat = scene.group == Group::Patches;
-        let subject = Subject::new(field, (quantity, style(scene.zoom)), cards, may_splat)?;
+        let may_splat = scene.group == SceneGroup::Patches;
+        let subject =
+            QuantityRenderer::new(field, (quantity, style(scene.zoom)), cards, may_splat)?;
         Ok(Self { scene, turns: Turns::new(subject), agreements: [None; 4] })
     }
 
@@ -206,14 +211,15 @@ impl<'d> Measured<'d> {
         cards: Option<&mut Cards>,
     ) -> anyhow::Result<()> {
         let (view, subject) = (self.view(0, pixels)?, &self.turns.subject);
-        if self.scene.subject == scenes::Subject::Colors {
+        if self.scene.subject == scenes::DrawnQuantity::Colors {
             let (field, quantity) = (subject.field, &subject.quantity);
             let wide = render(field, &view, quantity, unwatched())?;
             self.turns.rasters = Some((wide, render(field, &view, quantity, unwatched())?));
             return Ok(());
         }
         let recipe = Recipe { weight: Some(WRONG), ..self.scene.recipe };
-        let wrong = (self.scene.group == Group::Patches).then(|| recipe.dataset()).transpose()?;
+        let wrong =
+            (self.scene.group == SceneGroup::Patches).then(|| recipe.dataset()).transpose()?;
         let wrong = wrong.as_ref().map(|dataset| Field::new(dataset, 0)).transpose()?;
         self.agreements =
             pools.most().install(|| agreements(subject, wrong.as_ref(), &view, cards))?;
@@ -221,9 +227,10 @@ impl<'d> Measured<'d> {
     }
 
     fn row(&self, has_core: bool, has_paper: bool) -> Row {
-        let Scene { group, recipe, zoom, subject } = self.scene;
+        let PaperScene { group, recipe, zoom, subject } = self.scene;
         let patches = self.turns.subject.field.step.partition.len();
-        let is_published = has_paper && group == Group::Patches && self.scene.cover() == "uniform";
+        let is_published =
+            has_paper && group == SceneGroup::Patches && self.scene.cover() == "uniform";
         Row {
             group,
             scene: self.scene.words(),

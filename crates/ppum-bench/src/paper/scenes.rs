@@ -7,10 +7,10 @@ use serde::Serialize;
 
 use crate::synthetic::{DOMAIN, Recipe, TIPS};
 
-/// What the scenes of a table have to tell.
+/// The subjects of the tables, each with its scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
-pub enum Group {
+pub enum SceneGroup {
     /// Table 1 of the paper, graded covers, a million patches
     Patches,
     /// Order of the polynomials
@@ -25,7 +25,7 @@ pub enum Group {
     Colors,
 }
 
-impl Group {
+impl SceneGroup {
     pub(super) const ALL: [Self; 6] =
         [Self::Patches, Self::Orders, Self::Enriched, Self::Zooms, Self::Formulas, Self::Colors];
 
@@ -43,7 +43,7 @@ impl Group {
 
 /// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Subject {
+pub(super) enum DrawnQuantity {
     /// The stress by its kernel.
     Stress,
     /// The stress by its formula in the library.
@@ -54,7 +54,7 @@ pub(super) enum Subject {
     Colors,
 }
 
-impl Subject {
+impl DrawnQuantity {
     /// The quantity, as `-q` takes it.
     pub(super) fn quantity(self) -> &'static str {
         match self {
@@ -79,19 +79,19 @@ impl Subject {
 
 /// A cover with what is drawn of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Scene {
-    pub(super) group: Group,
+pub(super) struct PaperScene {
+    pub(super) group: SceneGroup,
     pub(super) recipe: Recipe,
     pub(super) zoom: f64,
-    pub(super) subject: Subject,
+    pub(super) subject: DrawnQuantity,
 }
 
 /// A weight that a formula gives, and that a kernel has too.
 const LINEAR: &str = "1 - t";
 
-impl Scene {
-    fn new(group: Group, recipe: Recipe) -> Self {
-        Self { group, recipe, zoom: 1.0, subject: Subject::Stress }
+impl PaperScene {
+    fn new(group: SceneGroup, recipe: Recipe) -> Self {
+        Self { group, recipe, zoom: 1.0, subject: DrawnQuantity::Stress }
     }
 
     pub(super) fn cover(&self) -> &'static str {
@@ -109,35 +109,39 @@ impl Scene {
     pub(super) fn words(&self) -> String {
         let Recipe { order, enriched, weight, .. } = self.recipe;
         match self.group {
-            Group::Patches => String::new(),
-            Group::Orders => format!("order {order}"),
-            Group::Enriched => format!("{:.0} % enriched", 100.0 * enriched),
-            Group::Zooms if self.zoom == 1.0 => "zoom 1".to_owned(),
-            Group::Zooms => format!("zoom 1e{:.0}", self.zoom.log10()),
-            Group::Formulas if weight.is_some() => "weight by its formula".to_owned(),
-            Group::Formulas | Group::Colors => self.subject.words().to_owned(),
+            SceneGroup::Patches => String::new(),
+            SceneGroup::Orders => format!("order {order}"),
+            SceneGroup::Enriched => format!("{:.0} % enriched", 100.0 * enriched),
+            SceneGroup::Zooms if self.zoom == 1.0 => "zoom 1".to_owned(),
+            SceneGroup::Zooms => format!("zoom 1e{:.0}", self.zoom.log10()),
+            SceneGroup::Formulas if weight.is_some() => "weight by its formula".to_owned(),
+            SceneGroup::Formulas | SceneGroup::Colors => self.subject.words().to_owned(),
         }
     }
 }
 
 /// All scenes, or a few of each kind on few patches.
-pub(super) fn scenes(quick: bool) -> Vec<Scene> {
+pub(super) fn scenes(quick: bool) -> Vec<PaperScene> {
     let [coarse, fine, graded] = if quick {
         [Recipe::new(2, 2), Recipe::new(4, 4), Recipe::new(2, 5)]
     } else {
         [Recipe::new(2, 2), Recipe::new(6, 6), Recipe::new(6, 14)]
     };
-    let patches = covers(quick).into_iter().map(|recipe| Scene::new(Group::Patches, recipe));
+    let patches =
+        covers(quick).into_iter().map(|recipe| PaperScene::new(SceneGroup::Patches, recipe));
     let typical = [coarse, fine, graded];
     let orders = typical.into_iter().flat_map(|recipe| {
-        [1, 2, 4, 8].map(|order| Scene::new(Group::Orders, Recipe { order, ..recipe }))
+        [1, 2, 4, 8].map(|order| PaperScene::new(SceneGroup::Orders, Recipe { order, ..recipe }))
     });
-    let enriched =
-        typical.map(|recipe| Scene::new(Group::Enriched, Recipe { enriched: 1.0, ..recipe }));
-    let zooms =
-        [1.0, 1e3, 1e6, 1e9, 1e12].map(|zoom| Scene { zoom, ..Scene::new(Group::Zooms, graded) });
+    let enriched = typical
+        .map(|recipe| PaperScene::new(SceneGroup::Enriched, Recipe { enriched: 1.0, ..recipe }));
+    let zooms = [1.0, 1e3, 1e6, 1e9, 1e12]
+        .map(|zoom| PaperScene { zoom, ..PaperScene::new(SceneGroup::Zooms, graded) });
     let formulas = [coarse, fine].into_iter().flat_map(formulas);
-    let colors = Scene { subject: Subject::Colors, ..Scene::new(Group::Colors, coarse) };
+    let colors = PaperScene {
+        subject: DrawnQuantity::Colors,
+        ..PaperScene::new(SceneGroup::Colors, coarse)
+    };
     let all = patches.chain(orders).chain(enriched).chain(zooms).chain(formulas);
     all.chain([colors]).collect()
 }
@@ -153,12 +157,12 @@ fn covers(quick: bool) -> Vec<Recipe> {
     uniform.chain(graded.iter().map(|&[level, tip_level]| Recipe::new(level, tip_level))).collect()
 }
 
-fn formulas(recipe: Recipe) -> [Scene; 4] {
-    let scene = Scene::new(Group::Formulas, recipe);
+fn formulas(recipe: Recipe) -> [PaperScene; 4] {
+    let scene = PaperScene::new(SceneGroup::Formulas, recipe);
     [
         scene,
-        Scene { subject: Subject::StressByFormula, ..scene },
-        Scene { recipe: Recipe { weight: Some(LINEAR), ..recipe }, ..scene },
-        Scene { subject: Subject::Elementary, ..scene },
+        PaperScene { subject: DrawnQuantity::StressByFormula, ..scene },
+        PaperScene { recipe: Recipe { weight: Some(LINEAR), ..recipe }, ..scene },
+        PaperScene { subject: DrawnQuantity::Elementary, ..scene },
     ]
 }

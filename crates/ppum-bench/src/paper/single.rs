@@ -12,7 +12,7 @@ use super::tables::{methods, pixels_of};
 use super::turns::{Pools, Timed, Turns};
 use crate::Report;
 use crate::cards::Cards;
-use crate::frames::{Subject, moved, style};
+use crate::frames::{QuantityRenderer, moved, style};
 use crate::machine::Machine;
 use crate::table::Table;
 
@@ -43,7 +43,7 @@ impl Single {
         let is_elastic = field.equation.elastic().is_some();
         let name = if is_elastic { "von-mises" } else { field.data.components[0].as_str() };
         let look = (Quantity::parse(name, &field)?, style(1.0));
-        let subject = Subject::new(&field, look, cards.as_deref_mut(), true)?;
+        let subject = QuantityRenderer::new(&field, look, cards.as_deref_mut(), true)?;
         let (mut turns, pools) = (Turns::new(subject), Pools::new(threads)?);
         for frame in 0..=frames {
             let view = moved(View::fit(field.domain.bounds, pixels)?, frame)?;

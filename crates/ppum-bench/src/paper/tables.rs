@@ -2,7 +2,7 @@
 
 use super::agreement::{Agreement, Difference};
 use super::files::Opening;
-use super::scenes::Group;
+use super::scenes::SceneGroup;
 use super::turns::{Spent, Timed};
 use super::{Report, Row};
 use crate::frames::{Summary, WAYS, Way};
@@ -25,7 +25,7 @@ pub(super) fn words(report: &Report) -> String {
 }
 
 pub(super) fn tables(report: &Report) -> Vec<Table> {
-    let groups = Group::ALL.into_iter().map(|group| times(report, group));
+    let groups = SceneGroup::ALL.into_iter().map(|group| times(report, group));
     let all = groups.chain([threads(report), files(report), differences(report)]);
     all.filter(|table| !table.rows.is_empty()).collect()
 }
@@ -34,7 +34,7 @@ fn owned<const N: usize>(words: [&str; N]) -> Vec<String> {
     words.map(str::to_owned).into()
 }
 
-fn rows(report: &Report, group: Group) -> impl Iterator<Item = &Row> {
+fn rows(report: &Report, group: SceneGroup) -> impl Iterator<Item = &Row> {
     report.rows.iter().filter(move |row| row.group == group)
 }
 
@@ -44,7 +44,7 @@ fn start(row: &Row) -> Vec<String> {
 }
 
 /// Processor time of one thread, the whole of the devices', and the paper's.
-fn times(report: &Report, group: Group) -> Table {
+fn times(report: &Report, group: SceneGroup) -> Table {
     let head =
         owned(["scene", "cover", "patches", "paper", "cpu f32", "cpu f64", "gather", "splat"]);
     let line = |row: &Row| {
@@ -55,7 +55,7 @@ fn times(report: &Report, group: Group) -> Table {
         start(row).into_iter().chain(cells).collect()
     };
     let note = match group {
-        Group::Patches => {
+        SceneGroup::Patches => {
             "Paper: time that passes. CPU: processor time of one thread. Gather and splat: processor time of all threads \
              where the device is software, else time that passes."
         }
@@ -87,7 +87,7 @@ fn threads(report: &Report) -> Table {
         title: "Threads: time that passes".to_owned(),
         words: 2,
         head,
-        rows: rows(report, Group::Patches).map(line).collect(),
+        rows: rows(report, SceneGroup::Patches).map(line).collect(),
         note: "Gain: median of one thread over that of all.".to_owned(),
     }
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::agreement::Agreement;
 use crate::cards::Cards;
-use crate::frames::{Subject, Summary, Times, WAYS, Way};
+use crate::frames::{QuantityRenderer, Summary, Times, WAYS, Way};
 
 /// The frames of a scene by one way.
 #[derive(Debug, Serialize)]
@@ -62,7 +62,7 @@ impl Pools {
 
 /// A field with all that draws it, and what its frames take.
 pub(super) struct Turns<'d> {
-    pub(super) subject: Subject<'d>,
+    pub(super) subject: QuantityRenderer<'d>,
     /// What the colours alone are made of, where nothing else is drawn.
     pub(super) rasters: Option<(Raster<f64>, Raster<f32>)>,
     one: [Times; 4],
@@ -70,7 +70,7 @@ pub(super) struct Turns<'d> {
 }
 
 impl<'d> Turns<'d> {
-    pub(super) fn new(subject: Subject<'d>) -> Self {
+    pub(super) fn new(subject: QuantityRenderer<'d>) -> Self {
         Self { subject, rasters: None, one: Default::default(), all: Default::default() }
     }
 
@@ -116,7 +116,7 @@ impl<'d> Turns<'d> {
 
 /// Draws, or colours alone.
 fn on_cpu(
-    subject: &mut Subject<'_>,
+    subject: &mut QuantityRenderer<'_>,
     rasters: Option<&(Raster<f64>, Raster<f32>)>,
     way: Way,
     view: &View,

@@ -76,7 +76,7 @@ impl Args {
         let words = TOUR.iter().flat_map(|line| line.split(' '));
         for name in words.filter_map(|word| word.strip_prefix("@/")?.strip_suffix(".png")) {
             let picture = self.output.join(format!("{name}.png"));
-            target::check(&picture, target::Kind::Picture, [problem])?;
+            target::check(&picture, target::FileKind::Picture, [problem])?;
         }
         Ok(())
     }

@@ -73,16 +73,16 @@ struct Row {
     /// True on an interface of the material: the values are those of one side.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     interface: bool,
-    values: Values,
+    values: NamedValues,
     #[serde(skip)]
     is_inside: bool,
 }
 
 /// Names and values in the order asked for; an object in JSON.
 #[derive(Debug)]
-struct Values(Vec<(String, Number)>);
+struct NamedValues(Vec<(String, Number)>);
 
-impl Serialize for Values {
+impl Serialize for NamedValues {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
     }
@@ -112,7 +112,7 @@ impl Args {
         let value = |(name, quantity): &(String, Quantity)| {
             (name.clone(), Number(quantity.at(&mut local, place.offset, place.side)))
         };
-        let values = Values(quantities.iter().map(value).collect());
+        let values = NamedValues(quantities.iter().map(value).collect());
         Row {
             at: place.anchor.into(),
             offset: self.offset.map(Vec2::into),

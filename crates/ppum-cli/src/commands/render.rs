@@ -18,24 +18,24 @@ use crate::backend::Computing;
 use crate::dataset::check_shown;
 use crate::deformed::{Deformed, Placing};
 use crate::given::Given;
-use crate::look::{DEFAULT_SIZE, Look};
+use crate::look::{DEFAULT_SIZE, LookArgs};
 use crate::number::count;
 use crate::output::Output;
 use crate::overlays::Overlays;
 use crate::page;
 use crate::progress::Bar;
-use crate::subject::{Colors, Subject};
+use crate::subject::{ColorArgs, QuantityArgs};
 use crate::target;
-use crate::window::{Frame, Window};
+use crate::window::{ImageExtent, WindowArgs};
 use ppum_scene::deformed::{Factor, words};
 use ppum_scene::engine::Engine;
 use ppum_scene::layers::scale;
-use ppum_scene::moving::{Frames, Place as _, Work};
+use ppum_scene::moving::{FrameView as _, Frames, Work};
 use ppum_scene::range::Telling;
 use ppum_scene::request::Request;
 use ppum_scene::scene::{self, Scene};
-use ppum_scene::shot::{Shot, Source, page_seen};
-use series::Series;
+use ppum_scene::shot::{FieldSource, Shot, page_seen};
+use series::SeriesArgs;
 
 /// Draw a quantity, exactly at every pixel
 ///
@@ -45,14 +45,14 @@ use series::Series;
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(flatten)]
-    subject: Subject,
+    subject: QuantityArgs,
     /// Picture to write, - for standard output (PNG); with --steps moving pictures too
     #[arg(short, long, value_name = "OUT.png|svg|pdf|gif|apng")]
     output: PathBuf,
     #[command(flatten)]
-    series: Series,
+    series: SeriesArgs,
     #[command(flatten)]
-    look: Look,
+    look: LookArgs,
     /// Add axes, a colour bar, a title and the cracks
     #[arg(long)]
     figure: bool,
@@ -67,9 +67,9 @@ pub(crate) struct Args {
     #[arg(long)]
     shared_range: bool,
     #[command(flatten)]
-    window: Window,
+    window: WindowArgs,
     #[command(flatten)]
-    colours: Colors,
+    colours: ColorArgs,
     #[command(flatten)]
     overlays: Overlays,
     #[command(flatten)]
@@ -127,7 +127,7 @@ struct Common<'a> {
 
 /// One field, which is open: the frame of a still picture.
 struct Still<'a> {
-    source: Source<'a>,
+    source: FieldSource<'a>,
     request: Request,
 }
 
@@ -182,11 +182,11 @@ impl Args {
             return self.all_steps(engine).map(Made::Files);
         }
         series::refuse_moving(&self.output)?;
-        target::check(&self.output, target::Kind::Picture, self.inputs())?;
+        target::check(&self.output, target::FileKind::Picture, self.inputs())?;
         let datasets = self.subject.open_parts()?;
         let fields = datasets.iter().map(|dataset| self.subject.field(dataset));
         let fields = fields.collect::<anyhow::Result<Vec<_>>>()?;
-        let sources = datasets.iter().zip(&fields).map(|(d, f)| Source::of(d, f));
+        let sources = datasets.iter().zip(&fields).map(|(d, f)| FieldSource::of(d, f));
         match sources.collect::<Vec<_>>()[..] {
             [source] if !self.has_panels() => self.one(source, engine),
             ref sources => self.panels(sources, engine),
@@ -238,7 +238,7 @@ impl Args {
     }
 
     /// Draws one quantity.
-    fn one(&self, source: Source<'_>, engine: &Engine<'_>) -> anyhow::Result<Sheet> {
+    fn one(&self, source: FieldSource<'_>, engine: &Engine<'_>) -> anyhow::Result<Sheet> {
         let mut still = Still { source, request: self.request(self.subject.step) };
         let text = self.subject.texts()?.map(|mut texts| texts.swap_remove(0));
         still.request.scene.quantity = self.quantity(source.field, text.as_ref())?;
@@ -254,7 +254,7 @@ impl Args {
         let (page, shot) = page_seen(source, request, &seen, design, engine)?;
         let ([columns, rows], by) = (page.size, &shot.by);
         let colors = Telling::new(source.dataset, source.field).colors(&shot.picture);
-        let (name, moved) = (&shot.name, told(&shot));
+        let (name, moved) = (&shot.name, deformation_note(&shot));
         let told = format!("{name}{moved}, {columns}x{rows} pixels, {colors}, {by}");
         Ok(Sheet { texts: self.texts(&shot), page, told })
     }
@@ -275,7 +275,7 @@ impl Args {
     fn placing<F: Frames<Error = anyhow::Error>>(
         &self,
         frames: &F,
-        frame: Frame,
+        frame: ImageExtent,
     ) -> anyhow::Result<Placing<'_>> {
         let mut found = None;
         frames.with(0, &mut |_, request| {
@@ -303,16 +303,16 @@ impl Args {
     }
 
     /// The room of a picture of so many pixels.
-    fn frame(&self, pixels: [u32; 2], design: &Design) -> Frame {
+    fn frame(&self, pixels: [u32; 2], design: &Design) -> ImageExtent {
         // A figure centres what it is given; a bare picture has the size that was asked for.
         let may_shrink = self.is_figure() || self.look.given_size().is_none();
         let scale = scale(self.is_figure().then_some(design), pixels);
-        Frame { pixels, may_shrink, margin: self.overlays.chosen().margin(pixels, scale) }
+        ImageExtent { pixels, may_shrink, margin: self.overlays.chosen().margin(pixels, scale) }
     }
 }
 
 /// Of the deformed plate the factor, and at how many pixels it lies over itself.
-fn told(shot: &Shot) -> String {
+fn deformation_note(shot: &Shot) -> String {
     match (shot.factor.map(words), shot.overlaps) {
         (None, _) => String::new(),
         (Some(factor), 0) => format!(", {factor}"),

@@ -70,7 +70,7 @@ Examples:
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         if let Some(output) = &self.output {
-            target::check(output, target::Kind::Table, self.inputs())?;
+            target::check(output, target::FileKind::Table, self.inputs())?;
         }
         let mut dataset = open_step(&self.file, self.step)?;
         self.replacements.apply(&mut dataset, self.step)?;

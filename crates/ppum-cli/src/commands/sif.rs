@@ -76,7 +76,7 @@ impl Args {
     }
 
     /// The factors that the solver stored, of all steps.
-    fn stored(&self, name: &str) -> anyhow::Result<Found> {
+    fn stored(&self, name: &str) -> anyhow::Result<TipsAndWarnings> {
         let dataset = open_results(&self.file)?;
         refuse_poisson(name, &dataset)?;
         let (tips, warnings) = stored(name, &dataset)?;
@@ -84,7 +84,7 @@ impl Args {
     }
 
     /// The factors of the fields, one step after the other.
-    fn recomputed(&self, name: &str) -> anyhow::Result<Found> {
+    fn recomputed(&self, name: &str) -> anyhow::Result<TipsAndWarnings> {
         let series = series(&self.file)?;
         refuse_poisson(name, series.head())?;
         let (mut tips, mut warnings, mut all) = (Vec::new(), Vec::new(), series.head().clone());
@@ -101,7 +101,7 @@ impl Args {
 }
 
 /// The tips of all steps, the warnings, and the writer of places.
-type Found = (Vec<Tip>, Vec<facts::Warning>, Places);
+type TipsAndWarnings = (Vec<Tip>, Vec<facts::Warning>, Places);
 
 fn refuse_poisson(name: &str, dataset: &Dataset) -> anyhow::Result<()> {
     if dataset.equation.elastic().is_none() {

@@ -124,7 +124,7 @@ impl Args {
             "--json and `-o -` would both write to standard output; give a file with -o"
         );
         let inputs = [&self.problem].into_iter().chain(&problem.files).map(PathBuf::as_path);
-        target::check(target, target::Kind::Dataset, inputs)
+        target::check(target, target::FileKind::Dataset, inputs)
     }
 
     /// Does all but solving: what is refused is told now.

@@ -88,7 +88,7 @@ impl Args {
             "--screenshot {}: the picture of a window is a PNG file; end the name in .png",
             target.display()
         );
-        crate::target::check(target, crate::target::Kind::Picture, inputs)?;
+        crate::target::check(target, crate::target::FileKind::Picture, inputs)?;
         let start = self.start()?;
         let image = ppum_viewer::offscreen::screenshot(start)?;
         let png = ppum_render::png::encode(&image, &[])?;

@@ -1,10 +1,10 @@
 //! Drawing on devices, and what devices there are.
 
 use ppum::progress::Watcher;
-use ppum_gpu::{AdapterInfo, Choice, Gpu, GpuError, RenderError, Renderer};
+use ppum_gpu::{AdapterChoice, AdapterInfo, Gpu, GpuError, RenderError, Renderer};
 use ppum_render::raster::Raster;
 use ppum_render::samples::{Means, Samples};
-use ppum_scene::drawing::{Drawn, Job};
+use ppum_scene::drawing::{DrawingInput, Drawn};
 use ppum_scene::engine::{CardError, Device, Method};
 
 use super::Adapter;
@@ -17,18 +17,18 @@ fn failure(error: &RenderError) -> CardError {
 
 /// Draws the means of so many samples a pixel. After an error the CPU may try.
 pub(crate) fn draw(
-    job: Job<'_>,
+    job: DrawingInput<'_>,
     samples: Samples,
     device: Device,
     method: Method,
     watcher: &dyn Watcher,
 ) -> Result<Drawn, CardError> {
-    let Job { field, view, quantity } = job;
+    let DrawingInput { field, view, quantity } = job;
     // a device holds all samples at once
     let finer = view.finer(samples.side());
     let finer = finer.map_err(|e| CardError { message: e.to_string(), is_normal: true })?;
-    let of_samples = Job { field, view: &finer, quantity };
-    let choice = if device == Device::Hardware { Choice::Real } else { Choice::Any };
+    let of_samples = DrawingInput { field, view: &finer, quantity };
+    let choice = if device == Device::Hardware { AdapterChoice::Real } else { AdapterChoice::Any };
     let drawn = drawn(of_samples, choice, method, watcher);
     let (renderer, raster) = drawn.map_err(|error| failure(&error))?;
     let name = &renderer.gpu().info().name;
@@ -43,8 +43,8 @@ pub(crate) fn draw(
 }
 
 fn drawn(
-    job: Job<'_>,
-    choice: Choice,
+    job: DrawingInput<'_>,
+    choice: AdapterChoice,
     method: Method,
     watcher: &dyn Watcher,
 ) -> Result<(Renderer, Raster<f32>), RenderError> {
@@ -86,8 +86,9 @@ for trying out --backend gpu without a card a software driver does:
 
 /// The graphics adapters of this machine; opens what each backend would open.
 pub(crate) fn adapters() -> Vec<Adapter> {
-    let taken = [("auto", Choice::Real), ("gpu", Choice::Any), ("splat", Choice::Any)]
-        .map(|(backend, choice)| (backend, Gpu::open(choice).ok()));
+    let taken =
+        [("auto", AdapterChoice::Real), ("gpu", AdapterChoice::Any), ("splat", AdapterChoice::Any)]
+            .map(|(backend, choice)| (backend, Gpu::open(choice).ok()));
     let adapter = |info: AdapterInfo| {
         let by = |(backend, gpu): &(&'static str, Option<Gpu>)| {
             let takes = gpu.as_ref().is_some_and(|gpu| *gpu.info() == info);
@@ -133,7 +134,7 @@ mod tests {
 
     #[test]
     fn errors_of_devices_name_the_option_that_helps() {
-        let missing = message(&GpuError::NoAdapter { choice: Choice::Any }.into());
+        let missing = message(&GpuError::NoAdapter { choice: AdapterChoice::Any }.into());
         assert!(
             missing.ends_with("mesa-vulkan-drivers`); `--backend cpu` needs none"),
             "{missing}"
@@ -146,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_machine_without_a_graphics_card_is_no_failure() {
-        let missing = GpuError::NoAdapter { choice: Choice::Real };
+        let missing = GpuError::NoAdapter { choice: AdapterChoice::Real };
         assert!(failure(&missing.into()).is_normal);
     }
 }

@@ -2,7 +2,7 @@
 
 use ppum::progress::Watcher;
 use ppum_render::samples::Samples;
-use ppum_scene::drawing::{Drawn, Job};
+use ppum_scene::drawing::{DrawingInput, Drawn};
 use ppum_scene::engine::{CardError, Device, Method};
 
 use super::Adapter;
@@ -18,7 +18,7 @@ const REASON: &str =
     "no graphics adapter: this program was built without graphics cards (`--features gpu`)";
 
 pub(crate) fn draw(
-    _: Job<'_>,
+    _: DrawingInput<'_>,
     _: Samples,
     _: Device,
     _: Method,

@@ -15,7 +15,7 @@ use ppum_scene::deformed::Factor;
 use ppum_scene::engine::Engine;
 use ppum_scene::overlays::{Levels, Overlay, Overlays};
 use ppum_scene::scene::{Scene, Subject};
-use ppum_scene::shot::{self, Source};
+use ppum_scene::shot::{self, FieldSource};
 use ppum_testkit::random::Random;
 
 use super::{CRACKED, Lab, Png};
@@ -124,7 +124,7 @@ fn the_command_of_a_picture_draws_it_again() {
 #[cfg(feature = "window")]
 #[test]
 fn the_window_saves_what_its_command_draws() {
-    use ppum_viewer::export::{Kind, Order};
+    use ppum_viewer::export::{ExportKind, Order};
     use ppum_viewer::field::OwnedField;
 
     let lab = Lab::solved(CRACKED);
@@ -135,7 +135,7 @@ fn the_window_saves_what_its_command_draws() {
         overlays: Overlays { isolines, ..Overlays::default() },
         ..Scene::default()
     };
-    for (kind, size) in [(Kind::Figure, [500, 400]), (Kind::Picture, [80, 60])] {
+    for (kind, size) in [(ExportKind::Figure, [500, 400]), (ExportKind::Picture, [80, 60])] {
         let order = Order {
             field: Arc::new(OwnedField::new(Arc::clone(&dataset), 0).unwrap()),
             file: Some("plate.h5".into()),
@@ -171,7 +171,7 @@ fn page(
     scene.subject.apply(&mut dataset).map_err(|e| e.to_string())?;
     let field = Field::new(&dataset, scene.subject.step_of(&dataset)).map_err(|e| e.to_string())?;
     let design = size.map(Design::pixels);
-    let (source, request) = (Source::of(&dataset, &field), scene.clone().into());
+    let (source, request) = (FieldSource::of(&dataset, &field), scene.clone().into());
     let made = shot::page(source, &request, view, design.as_ref(), &Engine::default());
     made.map(|(page, shot)| (page.image().rgba, shot.picture.view)).map_err(|e| e.to_string())
 }

@@ -8,17 +8,17 @@ use ppum::segment;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::{Image, Rgba};
 
-use crate::text::{Curve, bounds};
+use crate::text::{GlyphCurve, bounds};
 
 /// A part of a page: columns from `min[0]` to `max[0]` and rows from `min[1]` to `max[1]`, the last
 /// ones not included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Window {
+pub(super) struct PixelWindow {
     pub(super) min: [u32; 2],
     pub(super) max: [u32; 2],
 }
 
-impl Window {
+impl PixelWindow {
     pub(super) fn intersection(self, other: Self) -> Self {
         let min = [self.min[0].max(other.min[0]), self.min[1].max(other.min[1])];
         let max = [self.max[0].min(other.max[0]), self.max[1].min(other.max[1])];
@@ -45,20 +45,20 @@ impl Window {
 /// Covered shares in a window.
 #[derive(Clone, Debug)]
 pub(super) struct Mask {
-    window: Window,
+    window: PixelWindow,
     coverage: Vec<f32>,
 }
 
 impl Mask {
     /// An empty mask.
-    pub(super) fn new(window: Window) -> Self {
+    pub(super) fn new(window: PixelWindow) -> Self {
         Self { window, coverage: vec![0.0; window.columns() * window.rows()] }
     }
 
     /// The covered share of a pixel, 0 outside.
     #[cfg(test)]
     pub(super) fn coverage(&self, column: u32, row: u32) -> f32 {
-        let Window { min, max } = self.window;
+        let PixelWindow { min, max } = self.window;
         let inside = (min[0]..max[0]).contains(&column) && (min[1]..max[1]).contains(&row);
         let at = || (row - min[1]) as usize * self.window.columns() + (column - min[0]) as usize;
         if inside { self.coverage[at()] } else { 0.0 }
@@ -66,7 +66,7 @@ impl Mask {
 
     /// Adds to a pixel by maximum; nothing happens outside.
     fn cover(&mut self, column: i64, row: i64, share: f32) {
-        let Window { min, max } = self.window;
+        let PixelWindow { min, max } = self.window;
         let (i, j) = (column - i64::from(min[0]), row - i64::from(min[1]));
         if i >= 0 && j >= 0 && column < i64::from(max[0]) && row < i64::from(max[1]) {
             let pixel = &mut self.coverage[j as usize * self.window.columns() + i as usize];
@@ -114,12 +114,13 @@ impl Mask {
     /// among them.
     pub(super) fn polygon(&mut self, corners: &[Vec2]) {
         let next = corners.iter().cycle().skip(1);
-        let sides: Vec<_> = corners.iter().zip(next).map(|(&a, &b)| Curve::Line([a, b])).collect();
+        let sides: Vec<_> =
+            corners.iter().zip(next).map(|(&a, &b)| GlyphCurve::Line([a, b])).collect();
         self.outline(&sides);
     }
 
     /// The inside of closed curves.
-    pub(super) fn outline(&mut self, curves: &[Curve]) {
+    pub(super) fn outline(&mut self, curves: &[GlyphCurve]) {
         let window = self.window.around(bounds(curves));
         let (columns, rows) = (window.columns(), window.rows());
         if columns == 0 || rows == 0 {
@@ -183,7 +184,7 @@ fn within(from: f64, to: f64, min: u32, max: u32) -> std::ops::Range<i64> {
 
 /// Draws a curve into a rasterizer whose upper left corner lies at `corner`. Curves are cut off by
 /// nobody: what leaves the rasterizer at its left counts there, elsewhere it covers nothing.
-fn draw(rasterizer: &mut Rasterizer, curve: Curve, corner: Vec2) {
+fn draw(rasterizer: &mut Rasterizer, curve: GlyphCurve, corner: Vec2) {
     let (columns, rows) = rasterizer.dimensions();
     let most = vec2(columns as f64, rows as f64);
     let at = |p: Vec2| -> Point {
@@ -191,13 +192,13 @@ fn draw(rasterizer: &mut Rasterizer, curve: Curve, corner: Vec2) {
         point(p.x as f32, p.y as f32)
     };
     match curve {
-        Curve::Line([a, b]) => {
+        GlyphCurve::Line([a, b]) => {
             for [a, b] in clipped(a - corner, b - corner, most) {
                 rasterizer.draw_line(point(a.x as f32, a.y as f32), point(b.x as f32, b.y as f32));
             }
         }
-        Curve::Quadratic([a, b, c]) => rasterizer.draw_quad(at(a), at(b), at(c)),
-        Curve::Cubic([a, b, c, d]) => rasterizer.draw_cubic(at(a), at(b), at(c), at(d)),
+        GlyphCurve::Quadratic([a, b, c]) => rasterizer.draw_quad(at(a), at(b), at(c)),
+        GlyphCurve::Cubic([a, b, c, d]) => rasterizer.draw_cubic(at(a), at(b), at(c), at(d)),
     }
 }
 
@@ -219,7 +220,7 @@ mod tests {
     use super::*;
 
     fn mask(columns: u32, rows: u32) -> Mask {
-        Mask::new(Window { min: [0, 0], max: [columns, rows] })
+        Mask::new(PixelWindow { min: [0, 0], max: [columns, rows] })
     }
 
     fn rect(mask: &mut Mask, a: Vec2, b: Vec2) {

@@ -4,14 +4,14 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::{Image, Rgba};
 
 use super::dashes::dashes;
-use super::mask::{Mask, Window, over};
+use super::mask::{Mask, PixelWindow, over};
 use super::{Canvas, Item, Lettering, Path, Pen};
-use crate::text::{self, Curve};
+use crate::text::{self, GlyphCurve};
 
 /// Draws a page.
 pub(super) fn image(canvas: &Canvas) -> Image {
     let mut image = Image::filled(canvas.size, canvas.paper);
-    let window = Window { min: [0, 0], max: canvas.size };
+    let window = PixelWindow { min: [0, 0], max: canvas.size };
     Painter { image: &mut image, window, origin: Vec2::ZERO }.draw(&canvas.items);
     image
 }
@@ -20,7 +20,7 @@ pub(super) fn image(canvas: &Canvas) -> Image {
 struct Painter<'a> {
     image: &'a mut Image,
     /// What is seen.
-    window: Window,
+    window: PixelWindow,
     /// The page's upper left corner.
     origin: Vec2,
 }
@@ -44,9 +44,9 @@ impl Painter<'_> {
     }
 
     /// The part of the window that a thing of some size at a corner takes.
-    fn part(&self, corner: [u32; 2], size: [u32; 2]) -> Window {
+    fn part(&self, corner: [u32; 2], size: [u32; 2]) -> PixelWindow {
         let end = [0, 1].map(|k| corner[k].saturating_add(size[k]));
-        self.window.intersection(Window { min: corner, max: end })
+        self.window.intersection(PixelWindow { min: corner, max: end })
     }
 
     fn inset(&mut self, canvas: &Canvas, corner: [u32; 2]) {
@@ -114,7 +114,7 @@ impl Painter<'_> {
         let around = text::bounds(&curves).map(|p| p - self.origin);
         if let Some(halo) = line.halo {
             let mut mask = self.mask(around, halo.width + 1.0);
-            for [a, b] in curves.iter().flat_map(Curve::chords) {
+            for [a, b] in curves.iter().flat_map(GlyphCurve::chords) {
                 mask.line(a, b, 2.0 * halo.width);
             }
             mask.outline(&curves);

@@ -6,14 +6,14 @@ use ppum::vec2::Vec2;
 use super::color_bar::widest;
 use super::design::{Design, Labels, TickChoice};
 use crate::text;
-use crate::ticks::{self, Notation, Span, Step, Ticks, power_of_ten};
+use crate::ticks::{self, AxisSpan, Notation, TickStep, Ticks, power_of_ten};
 use ppum_render::picture::Picture;
 
 /// Least distances of labelled ticks, across and along the direction of reading.
 const TICK_DISTANCE: [f64; 2] = [72.0, 44.0];
 
 /// An axis or the bar: its ticks, what is written along it, and how wide its tick labels are.
-pub(super) struct Axis {
+pub(super) struct FigureAxis {
     pub(super) ticks: Ticks,
     pub(super) label: String,
     /// Bytes of the label that are the name; the rest is a number and units, which stay whole.
@@ -21,7 +21,7 @@ pub(super) struct Axis {
     pub(super) widest: f64,
 }
 
-impl Axis {
+impl FigureAxis {
     pub(super) fn new(ticks: Ticks, label: &str, name: usize, scale: f64) -> Self {
         Self { label: label.to_owned(), name, widest: widest(&ticks, scale), ticks }
     }
@@ -54,28 +54,29 @@ pub(super) fn axes(
     labels: &Labels,
     cracks: &[Crack],
     design: &Design,
-) -> [Axis; 2] {
+) -> [FigureAxis; 2] {
     let (view, scale) = (&picture.view, design.scale());
     let half = view.half();
-    let step = |distance: f64| Step::at_least(distance * scale * view.pixel_size());
+    let step = |distance: f64| TickStep::at_least(distance * scale * view.pixel_size());
     let [across, along] = TICK_DISTANCE.map(step);
     let (x_step, y_step) = (across, if half.y > across.size() { across } else { along });
     let tip = nearest_tip(picture, cracks);
-    let axis = |span: Span, step: Step, choice: &TickChoice, tip: Option<f64>, name: &str| {
-        let ticks = match choice {
-            TickChoice::Auto => ticks::axis_with_two(span.center, span.half, step, tip),
-            TickChoice::Count(count) => {
-                let step = Step::at_least(2.0 * span.half / (*count).max(1) as f64);
-                let ticks = if *count > 1 { ticks::axis_with_two } else { ticks::axis };
-                ticks(span.center, span.half, step, tip)
-            }
-            TickChoice::At(values) => ticks::at(values, &span, Notation::PLAIN),
+    let axis =
+        |span: AxisSpan, step: TickStep, choice: &TickChoice, tip: Option<f64>, name: &str| {
+            let ticks = match choice {
+                TickChoice::Auto => ticks::axis_with_two(span.center, span.half, step, tip),
+                TickChoice::Count(count) => {
+                    let step = TickStep::at_least(2.0 * span.half / (*count).max(1) as f64);
+                    let ticks = if *count > 1 { ticks::axis_with_two } else { ticks::axis };
+                    ticks(span.center, span.half, step, tip)
+                }
+                TickChoice::At(values) => ticks::at(values, &span, Notation::PLAIN),
+            };
+            let label = axis_label(name, &ticks, &labels.length_unit);
+            FigureAxis::new(ticks, &label, name.len(), scale)
         };
-        let label = axis_label(name, &ticks, &labels.length_unit);
-        Axis::new(ticks, &label, name.len(), scale)
-    };
     let [x, y] = [(view.center.x, half.x), (view.center.y, half.y)]
-        .map(|(center, half)| Span { center, half });
+        .map(|(center, half)| AxisSpan { center, half });
     [
         axis(x, x_step, &design.x_ticks, tip.map(|t| t.x), &labels.x),
         axis(y, y_step, &design.y_ticks, tip.map(|t| t.y), &labels.y),
@@ -159,7 +160,7 @@ mod tests {
     fn shortened_labels_keep_their_units() {
         let (ticks, name) = (Ticks { exponent: -4, ..Ticks::default() }, "x + ".repeat(99));
         let label = axis_label(&name, &ticks, "mm");
-        let axis = Axis::new(ticks, &label, name.len(), 1.0);
+        let axis = FigureAxis::new(ticks, &label, name.len(), 1.0);
         let label = axis.fitted(12.0, 200.0);
         assert!(label.starts_with("x + ") && label.ends_with(" [×10⁻⁴ mm]"), "{label}");
         assert!(label.contains('…') && text::width(&label, 12.0) <= 200.0, "{label}");
@@ -176,7 +177,7 @@ mod tests {
             let (name, unit) = (word(&mut random, "n"), word(&mut random, "u"));
             let ticks = Ticks { exponent: -4, ..Ticks::default() };
             let label = axis_label(&name, &ticks, &unit);
-            let axis = Axis::new(ticks, &label, name.len(), 1.0);
+            let axis = FigureAxis::new(ticks, &label, name.len(), 1.0);
             let room = random.between(160.0, 600.0);
             let found = axis.fitted(14.0, room);
             assert!(text::width(&found, 14.0) <= room + 1e-3, "{found}");

@@ -1,6 +1,6 @@
 //! What a colour bar says of values beyond its ends: `to ∞`, `to 12.3`.
 
-use super::color_bar::Key;
+use super::color_bar::ColorKey;
 use super::ink::TICK_TEXT;
 use crate::text;
 use crate::ticks::{Ticks, power_of_ten};
@@ -15,7 +15,7 @@ const ROUNDING: f64 = 5e-4;
 
 /// The words at the lower and the upper end of a bar with these marks; none where nothing lies
 /// beyond, or nobody looked.
-pub(super) fn words(key: &Key, ticks: &Ticks, scale: f64) -> [Option<String>; 2] {
+pub(super) fn words(key: &ColorKey, ticks: &Ticks, scale: f64) -> [Option<String>; 2] {
     let ends = [key.normalization.min(), key.normalization.max()];
     let signs = [-1.0, 1.0];
     let word = |k: usize| {
@@ -36,7 +36,7 @@ pub(super) fn words(key: &Key, ticks: &Ticks, scale: f64) -> [Option<String>; 2]
     [word(0), word(1)]
 }
 
-fn is_linear(key: &Key) -> bool {
+fn is_linear(key: &ColorKey) -> bool {
     key.normalization.scale() == ppum_render::scale::Scale::Linear
 }
 

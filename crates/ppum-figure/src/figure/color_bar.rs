@@ -6,7 +6,7 @@
 
 use ppum::vec2::{Vec2, vec2};
 
-use super::axis::{Axis, axis_label, label_places};
+use super::axis::{FigureAxis, axis_label, label_places};
 use super::beyond::words;
 use super::design::{Design, LABEL_TEXT, Labels, TickChoice};
 use super::ink::{Ink, LINE, TICK_TEXT, snapped};
@@ -41,7 +41,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// What a colour bar explains: of a range of values, or of some values with a colour each.
 #[derive(Clone, Debug)]
-pub(super) struct Key {
+pub(super) struct ColorKey {
     pub(super) normalization: Normalization,
     colormap: Colormap,
     one_value: Option<f64>,
@@ -54,7 +54,7 @@ pub(super) struct Key {
     unit: String,
 }
 
-impl Key {
+impl ColorKey {
     pub(super) fn new(picture: &Picture, labels: &Labels) -> Self {
         let remark = match picture.one_value {
             _ if is_infinite(picture) => "no finite values",
@@ -147,7 +147,7 @@ impl Key {
     }
 
     /// The marks of a bar with room for `most` labels.
-    fn axis(&self, choice: &TickChoice, most: usize, scale: f64) -> Axis {
+    fn axis(&self, choice: &TickChoice, most: usize, scale: f64) -> FigureAxis {
         let norm = &self.normalization;
         let found = match (choice, self.one_value) {
             _ if !self.has_values => Ticks::default(),
@@ -160,7 +160,7 @@ impl Key {
             }
         };
         let label = axis_label(&self.name, &found, &self.unit);
-        Axis::new(found, &label, self.name.len(), scale)
+        FigureAxis::new(found, &label, self.name.len(), scale)
     }
 }
 
@@ -182,8 +182,8 @@ fn is_infinite(picture: &Picture) -> bool {
 
 /// A colour bar of some length.
 pub(super) struct ColorBar {
-    key: Key,
-    pub(super) axis: Axis,
+    key: ColorKey,
+    pub(super) axis: FigureAxis,
     /// What is said at the lower and the upper end.
     words: [Option<String>; 2],
     pub(super) is_upright: bool,
@@ -207,7 +207,7 @@ impl Bar {
     #[must_use]
     pub fn new(picture: &Picture, labels: &Labels, design: &Design, length: f64) -> Self {
         let mut ink = Ink::new(design);
-        let bar = ColorBar::upright(Key::new(picture, labels), design, length.round());
+        let bar = ColorBar::upright(ColorKey::new(picture, labels), design, length.round());
         let start = vec2(0.0, bar.length);
         bar.draw(&mut ink, start, bar.length);
         let ends = bar.ends(ink.scale).map(|along| bar.length - along);
@@ -229,7 +229,7 @@ struct Placed<'b> {
 }
 
 impl ColorBar {
-    pub(super) fn upright(key: Key, design: &Design, length: f64) -> Self {
+    pub(super) fn upright(key: ColorKey, design: &Design, length: f64) -> Self {
         let scale = design.scale();
         let (apart, least) =
             if key.has_classes() { (CLASS_DISTANCE, 1) } else { (UPRIGHT_DISTANCE, 2) };
@@ -239,7 +239,7 @@ impl ColorBar {
     }
 
     /// A lying bar; it has as many labels as do not touch.
-    pub(super) fn lying(key: Key, design: &Design, length: f64) -> Self {
+    pub(super) fn lying(key: ColorKey, design: &Design, length: f64) -> Self {
         let scale = design.scale();
         let of = |most| {
             let axis = key.axis(&design.bar_ticks, most, scale);
@@ -270,7 +270,7 @@ impl ColorBar {
     fn ends(&self, scale: f64) -> [f64; 2] {
         let arrow = |shown: bool| if shown { (ARROW * scale).round() } else { 0.0 };
         let [before, behind] = self.margins(scale);
-        let Key { has_below, has_above, .. } = self.key;
+        let ColorKey { has_below, has_above, .. } = self.key;
         [before + arrow(has_below), self.length - behind - arrow(has_above)]
     }
 

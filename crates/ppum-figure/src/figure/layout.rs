@@ -15,7 +15,7 @@
 
 use ppum::vec2::{Vec2, vec2};
 
-use super::color_bar::{ColorBar, Key};
+use super::color_bar::{ColorBar, ColorKey};
 use super::design::{BarPlace, Design, LABEL_TEXT};
 use super::ink::{Ink, LINE, TITLE_TEXT, bounds};
 use super::sheet::{self, Extents, Sheet, TITLE_GAP};
@@ -25,7 +25,7 @@ use crate::text;
 
 /// The arrangement of panels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Grid {
+pub struct PanelGrid {
     /// Number of columns.
     pub columns: u32,
     /// Number of rows.
@@ -37,7 +37,7 @@ pub struct Grid {
     pub barred: Option<[u32; 2]>,
 }
 
-impl Grid {
+impl PanelGrid {
     /// One panel.
     pub const ONE: Self = Self::new([1, 1]);
 
@@ -79,7 +79,7 @@ const CAPTION_LINES: usize = 2;
 /// # Errors
 /// If that is less than 48 pixels wide or high.
 pub fn plot_area(title: &str, design: &Design) -> Result<[u32; 2], FigureError> {
-    panel_area(title, &[""], Grid::ONE, design)
+    panel_area(title, &[""], PanelGrid::ONE, design)
 }
 
 /// The largest picture that each panel of a figure has room for, by the figure's title and the
@@ -90,7 +90,7 @@ pub fn plot_area(title: &str, design: &Design) -> Result<[u32; 2], FigureError> 
 pub fn panel_area(
     title: &str,
     captions: &[&str],
-    grid: Grid,
+    grid: PanelGrid,
     design: &Design,
 ) -> Result<[u32; 2], FigureError> {
     let [across, down] = [grid.columns.max(1), grid.rows.max(1)];
@@ -106,7 +106,7 @@ pub fn panel_area(
 }
 
 /// Pixels across and down that no picture has.
-fn kept(title: &str, captions: &[&str], grid: Grid, design: &Design) -> [f64; 2] {
+fn kept(title: &str, captions: &[&str], grid: PanelGrid, design: &Design) -> [f64; 2] {
     let scale = design.scale();
     let [across, down] = [grid.columns.max(1), grid.rows.max(1)].map(f64::from);
     let (bars_across, bars_down) = match grid.barred {
@@ -139,7 +139,7 @@ fn title_lines(title: &str, design: &Design) -> Vec<String> {
 }
 
 /// A caption as long as its cell right of where plots begin.
-fn caption_lines(caption: &str, grid: Grid, design: &Design) -> Vec<String> {
+fn caption_lines(caption: &str, grid: PanelGrid, design: &Design) -> Vec<String> {
     let scale = design.scale();
     let cell = f64::from(design.size[0]) / f64::from(grid.columns.max(1));
     let room = cell - (LEFT + MARGIN) * scale;
@@ -156,7 +156,7 @@ fn caption_lines(caption: &str, grid: Grid, design: &Design) -> Vec<String> {
 pub fn panels(
     title: &str,
     panels: &[Panel<'_>],
-    grid: Grid,
+    grid: PanelGrid,
     design: &Design,
 ) -> Result<Canvas, FigureError> {
     if panels.is_empty() || panels.len() > grid.cells() {
@@ -174,11 +174,11 @@ pub fn panels(
     let lines = title_lines(title, design);
     let [across, down] = [(room[0], grid.columns), (room[1], grid.rows)]
         .map(|(side, count)| f64::from(side) * f64::from(count));
-    Ok(Page::new(sheets.collect(), panels, lines, (grid, [across, down]), design)?.draw())
+    Ok(FigurePage::new(sheets.collect(), panels, lines, (grid, [across, down]), design)?.draw())
 }
 
 /// Sheets on a page.
-struct Page<'a> {
+struct FigurePage<'a> {
     design: &'a Design,
     sheets: Vec<Sheet<'a>>,
     columns: Vec<Track>,
@@ -204,13 +204,13 @@ fn plots(tracks: &[Track]) -> [f64; 2] {
     [before, length(tracks) - after]
 }
 
-impl<'a> Page<'a> {
+impl<'a> FigurePage<'a> {
     /// A page whose panels have room for pictures of so many pixels together.
     fn new(
         sheets: Vec<Sheet<'a>>,
         panels: &[Panel<'_>],
         lines: Vec<String>,
-        (grid, room): (Grid, [f64; 2]),
+        (grid, room): (PanelGrid, [f64; 2]),
         design: &'a Design,
     ) -> Result<Self, FigureError> {
         let [columns, rows] = tracks(&sheets, grid, design);
@@ -280,7 +280,7 @@ impl<'a> Page<'a> {
 }
 
 /// The rooms of columns and of rows, whole pixels.
-fn tracks(sheets: &[Sheet<'_>], grid: Grid, design: &Design) -> [Vec<Track>; 2] {
+fn tracks(sheets: &[Sheet<'_>], grid: PanelGrid, design: &Design) -> [Vec<Track>; 2] {
     let mut columns = vec![[0.0; 3]; grid.columns as usize];
     let mut rows = vec![[0.0; 3]; grid.rows as usize];
     for (k, sheet) in sheets.iter().enumerate() {
@@ -303,14 +303,14 @@ fn tracks(sheets: &[Sheet<'_>], grid: Grid, design: &Design) -> [Vec<Track>; 2] 
 }
 
 /// What one bar explains.
-fn shared_key<'a>(panels: impl Iterator<Item = &'a Panel<'a>>) -> Result<Key, FigureError> {
-    let mut keys = panels.map(|panel| Key::new(panel.picture, &panel.labels));
+fn shared_key<'a>(panels: impl Iterator<Item = &'a Panel<'a>>) -> Result<ColorKey, FigureError> {
+    let mut keys = panels.map(|panel| ColorKey::new(panel.picture, &panel.labels));
     let first = keys.next().ok_or(FigureError::Ranges)?;
     keys.try_fold(first, |key, other| key.shared(&other)).ok_or(FigureError::Ranges)
 }
 
 /// What the bar of each panel explains; none of those that another one's bar explains.
-fn own_keys(panels: &[Panel<'_>]) -> Result<Vec<Option<Key>>, FigureError> {
+fn own_keys(panels: &[Panel<'_>]) -> Result<Vec<Option<ColorKey>>, FigureError> {
     let has_own = |k: usize| panels.get(k).is_some_and(|panel| panel.bar_of.is_none());
     let owner = |k: usize| panels[k].bar_of.filter(|&other| has_own(other)).unwrap_or(k);
     let key = |k: usize| {

@@ -4,7 +4,7 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::ink::Ink;
 use super::sheet::GAP;
-use crate::overlay::{Entry, legend_at, legend_size};
+use crate::overlay::{LegendEntry, legend_at, legend_size};
 
 /// Between a plot and a legend beside it or above it.
 const AWAY: f64 = 12.0;
@@ -14,7 +14,7 @@ const SIZES: [f64; 3] = [1.0, 0.85, 0.7];
 /// A legend outside of its plot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Legend<'a> {
-    entries: &'a [Entry],
+    entries: &'a [LegendEntry],
     is_beside: bool,
     scale: f64,
 }
@@ -30,7 +30,7 @@ pub(super) struct Free {
 
 impl<'a> Legend<'a> {
     /// The place of a legend in the free room; none without entries, or without room.
-    pub(super) fn new(entries: &'a [Entry], free: Free, scale: f64) -> Option<Self> {
+    pub(super) fn new(entries: &'a [LegendEntry], free: Free, scale: f64) -> Option<Self> {
         let of = |scale: f64| {
             let (size, away) = (legend_size(entries, scale), AWAY * scale);
             let fits = |size: Vec2, room: [f64; 2]| size.x <= room[0] && size.y <= room[1];

@@ -25,12 +25,12 @@ mod sheet;
 use ppum::crack::Crack;
 
 use crate::canvas::{Canvas, Item};
-use crate::overlay::Entry;
+use crate::overlay::LegendEntry;
 use ppum_render::picture::Picture;
 
 pub use color_bar::Bar;
 pub use design::{BarPlace, Design, Labels, Theme, TickChoice};
-pub use layout::{Grid, panel_area, panels, plot_area};
+pub use layout::{PanelGrid, panel_area, panels, plot_area};
 pub use sheet::lacks_legend;
 
 /// The reason why there is no such figure.
@@ -79,7 +79,7 @@ pub struct Panel<'a> {
     pub layers: Vec<Item>,
     /// The entries of a legend that has no room in the picture; it stands beside the picture or
     /// above it.
-    pub legend: Vec<Entry>,
+    pub legend: Vec<LegendEntry>,
     /// Its words.
     pub labels: Labels,
     /// The cracks from whose tips the axes count at deep zoom.
@@ -95,7 +95,7 @@ pub struct Panel<'a> {
 /// A size without room for the picture.
 pub fn figure(mut panel: Panel<'_>, design: &Design) -> Result<Canvas, FigureError> {
     let title = std::mem::take(&mut panel.labels.title);
-    panels(&title, &[panel], Grid::ONE, design)
+    panels(&title, &[panel], PanelGrid::ONE, design)
 }
 
 /// A picture with layers over it, and nothing around it.

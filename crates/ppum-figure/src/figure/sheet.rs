@@ -3,9 +3,9 @@
 use ppum::vec2::{Vec2, vec2};
 
 use super::Panel;
-use super::axis::{Axis, axes, label_places};
+use super::axis::{FigureAxis, axes, label_places};
 use super::beyond::WORD;
-use super::color_bar::{ColorBar, Key, LEAST_BAR};
+use super::color_bar::{ColorBar, ColorKey, LEAST_BAR};
 use super::design::{BarPlace, Design, LABEL_TEXT};
 use super::ink::{Ink, TICK_TEXT, bounds, snapped};
 use super::layout::{MARGIN, RIGHT, RIGHT_BAR};
@@ -32,8 +32,8 @@ const BAR_BELOW_GAP: f64 = 16.0;
 pub(super) struct Sheet<'a> {
     panel: &'a Panel<'a>,
     design: &'a Design,
-    x: Axis,
-    y: Axis,
+    x: FigureAxis,
+    y: FigureAxis,
     bar: Option<ColorBar>,
     /// The legend, if it stands outside of the plot.
     legend: Option<Legend<'a>>,
@@ -57,7 +57,7 @@ impl<'a> Sheet<'a> {
         caption: Vec<String>,
         design: &'a Design,
         room: [u32; 2],
-        key: Option<Key>,
+        key: Option<ColorKey>,
     ) -> Self {
         let picture = panel.picture;
         let [x, y] = axes(picture, &panel.labels, panel.cracks, design);
@@ -179,13 +179,13 @@ fn free(bar: Option<&ColorBar>, sides: [f64; 2], room: [f64; 2], design: &Design
 /// the picture, and is left out.
 #[must_use]
 pub fn lacks_legend(panel: &Panel<'_>, room: [u32; 2], design: &Design) -> bool {
-    let key = Some(Key::new(panel.picture, &panel.labels));
+    let key = Some(ColorKey::new(panel.picture, &panel.labels));
     !panel.legend.is_empty() && Sheet::new(panel, vec![], design, room, key).legend.is_none()
 }
 
 /// The bar beside or below a plot: as long as that, and never shorter than its labels need.
 pub(super) fn bar(
-    key: Key,
+    key: ColorKey,
     place: BarPlace,
     design: &Design,
     sides: [f64; 2],

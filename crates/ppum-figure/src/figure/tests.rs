@@ -5,18 +5,18 @@ use ppum_render::colormap::Colormap;
 use ppum_render::extrema::{Extrema, Extremum, On};
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::Style;
-use ppum_render::range::{Basis, Range, Span};
+use ppum_render::range::{Basis, Range, ValueSpan};
 use ppum_render::raster::Raster;
 use ppum_render::scale::Scale;
 use ppum_render::view::View;
 use ppum_testkit::random::Random;
 
-use super::color_bar::{ARROW, BAR, Key};
+use super::color_bar::{ARROW, BAR, ColorKey};
 use super::design::HATCH_STEP;
 use super::sheet::BAR_GAP;
 use super::*;
 use crate::canvas::Lettering;
-use crate::overlay::{Entry, Symbol};
+use crate::overlay::{LegendEntry, Symbol};
 
 const SIZE: [u32; 2] = [640, 480];
 const PAGE: Rgba = [255, 255, 255, 255];
@@ -139,7 +139,7 @@ fn figures_without_room_are_refused() {
     let room = plot_area(LONG, &Design::pixels(least)).unwrap();
     assert_eq!(room.iter().min(), Some(&48));
     let design = Design::pixels(SIZE);
-    let grid = Grid::new([2, 1]);
+    let grid = PanelGrid::new([2, 1]);
     let error = panels("", &vec![panel(&picture, labels()); 3], grid, &design).unwrap_err();
     assert_eq!(error, FigureError::Panels { panels: 3, cells: 2 });
     assert!(matches!(panels("", &[], grid, &design), Err(FigureError::Panels { .. })));
@@ -148,7 +148,7 @@ fn figures_without_room_are_refused() {
 #[test]
 fn one_bar_explains_one_range() {
     let design = Design::pixels([1200, 900]);
-    let grid = Grid { shared_bar: true, ..Grid::new([2, 1]) };
+    let grid = PanelGrid { shared_bar: true, ..PanelGrid::new([2, 1]) };
     let room = panel_area("", &[""], grid, &design).unwrap();
     let of = |range: Range| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
     let [a, b, c] =
@@ -207,7 +207,7 @@ fn classes_are_marked_in_their_middle() {
         let style = Style::default().classed(&raster.whole_numbers(4).unwrap());
         let picture = Picture::bare(&raster, &view, &style).unwrap();
         let page = figure(panel(&picture, Labels::default()), &design).unwrap();
-        let key = Key::new(&picture, &Labels::default());
+        let key = ColorKey::new(&picture, &Labels::default());
         let image = page.items.iter().find_map(|item| match item {
             Item::Picture { image, corner } => Some((image.clone(), corner.map(f64::from))),
             _ => None,
@@ -234,7 +234,7 @@ fn classes_are_marked_in_their_middle() {
 #[test]
 fn panels_share_a_bar() {
     let design = Design::pixels([1500, 900]);
-    let grid = Grid::new([3, 1]);
+    let grid = PanelGrid::new([3, 1]);
     let room = panel_area("", &[""], grid, &design).unwrap();
     let of = |range: Range| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
     let [a, b] = [Range::Fixed(-2.0, 0.5), Range::Fixed(0.0, 2.0)].map(of);
@@ -282,7 +282,7 @@ fn a_bar_of_infinite_values_has_no_colours_but_its_ends() {
     for sign in [1.0, -1.0] {
         let raster = Raster::from_fn(view.pixels, |_, _| sign * f64::INFINITY);
         let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
-        let key = Key::new(&picture, &Labels::default());
+        let key = ColorKey::new(&picture, &Labels::default());
         assert!((0..=10).all(|k| key.color(f64::from(k) / 10.0) == [0; 4]), "nothing between");
         let page = figure(panel(&picture, Labels::default()), &Design::pixels(SIZE)).unwrap();
         let fills = page.items.iter().filter_map(|item| match item {
@@ -422,8 +422,9 @@ fn random_half(random: &mut Random) -> Vec2 {
 }
 
 /// A legend for which there is no room in the picture, or none.
-fn random_legend(random: &mut Random) -> Vec<Entry> {
-    let entry = |k: usize| Entry::new(Symbol::Square([k as u8; 4]), format!("longest arrow {k}"));
+fn random_legend(random: &mut Random) -> Vec<LegendEntry> {
+    let entry =
+        |k: usize| LegendEntry::new(Symbol::Square([k as u8; 4]), format!("longest arrow {k}"));
     (0..random.below(4)).map(entry).collect()
 }
 
@@ -440,7 +441,7 @@ fn peaked(half: f64, design: &Design, beyond: [f64; 2], scale: Scale) -> Picture
     let values =
         Extrema { center: Vec2::ZERO, min: at(beyond[0]), max: at(beyond[1]), singular: vec![] };
     let max = f64::from(view.pixels[0]);
-    let span = Span { min: 1.0, max, basis: Basis::Robust, values: Some(values) };
+    let span = ValueSpan { min: 1.0, max, basis: Basis::Robust, values: Some(values) };
     Picture::spanning(&raster, &view, &Style { scale, ..Style::default() }, span).unwrap()
 }
 
@@ -494,7 +495,8 @@ fn figures_keep_to_their_page() {
         let is_lacking = lacks_legend(&panel, room, &design);
         let page = figure(panel, &design).unwrap();
         check(&page, &format!("case {case}, {half:?}, {design:?}, {labels:?}"));
-        let is_there = |entry: &Entry| texts(&page).iter().any(|line| line.text == entry.label);
+        let is_there =
+            |entry: &LegendEntry| texts(&page).iter().any(|line| line.text == entry.label);
         assert!(legend.iter().all(|entry| is_there(entry) != is_lacking), "case {case}");
         legends[usize::from(is_lacking)] += legend.len();
         let shown: String = texts(&page).iter().map(|line| line.text.as_str()).collect();
@@ -513,7 +515,8 @@ fn panels_keep_to_their_page() {
     let mut count = 0;
     for case in 0..24 {
         let [columns, rows] = [1 + random.below(3) as u32, 1 + random.below(3) as u32];
-        let grid = Grid { shared_bar: random.below(2) == 0, ..Grid::new([columns, rows]) };
+        let grid =
+            PanelGrid { shared_bar: random.below(2) == 0, ..PanelGrid::new([columns, rows]) };
         let mut design = random_design(&mut random);
         design.size = design.size.map(|n| n + 900);
         let (half, title) = (random_half(&mut random), words(&mut random, 20));

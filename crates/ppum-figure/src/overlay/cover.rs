@@ -9,7 +9,7 @@ use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
 use super::edges::edges;
-use super::legend::{Entry, Symbol};
+use super::legend::{LegendEntry, Symbol};
 use crate::canvas::{Item, Path, Pen};
 
 /// Lines of cells, and their seam; both paler where cells are small.
@@ -142,7 +142,7 @@ pub fn patches(view: &View, scale: f64, partition: &BoxPartition) -> Vec<Item> {
 /// The centres of the cells as squares, coloured by the kind of enrichment, and what the colours
 /// mean. Üffinger et al. 2011, figure 2.
 #[must_use]
-pub fn centers(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
+pub fn centers(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<LegendEntry>) {
     let (cells, kinds) = (field.step.partition.cells(), enrichments(field));
     let (mut items, mut entries) = (Vec::new(), Vec::new());
     for kind in Enrichment::ALL {
@@ -155,7 +155,7 @@ pub fn centers(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<En
             outline.rect(at - vec2(half, half), at + vec2(half, half));
         }
         if !outline.is_empty() {
-            entries.push(Entry::new(Symbol::Square(kind.color()), kind.label()));
+            entries.push(LegendEntry::new(Symbol::Square(kind.color()), kind.label()));
             items.push(Item::Fill { outline, color: kind.color() });
         }
     }
@@ -171,7 +171,7 @@ const PLAIN: u8 = 110;
 /// The boxes of the cells in the colour of the kind of enrichment, and what the colours mean: two
 /// boxes that share a side both show theirs. Üffinger et al. 2011, figure 8.
 #[must_use]
-pub fn boxes(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Entry>) {
+pub fn boxes(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<LegendEntry>) {
     let (cells, kinds) = (field.step.partition.cells(), enrichments(field));
     let (mut items, mut entries) = (Vec::new(), Vec::new());
     for kind in Enrichment::ALL {
@@ -182,7 +182,7 @@ pub fn boxes(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Entr
         }
         let [r, g, b, opaque] = kind.color();
         let color = if kind == Enrichment::None { [r, g, b, PLAIN] } else { [r, g, b, opaque] };
-        entries.push(Entry::new(Symbol::Square(kind.color()), kind.label()));
+        entries.push(LegendEntry::new(Symbol::Square(kind.color()), kind.label()));
         if let Some(mesh) = field.step.partition.mesh() {
             let pen = Pen::new(color, 1.5 * WIDTH * scale);
             items.push(Item::Line { path: edges(view, mesh, seen.into_iter()), pen });

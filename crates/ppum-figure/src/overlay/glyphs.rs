@@ -5,7 +5,7 @@ use ppum_render::glyph::{Glyph, Principal};
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
-use super::legend::{Entry, Symbol};
+use super::legend::{LegendEntry, Symbol};
 use super::supports::arrow;
 use crate::canvas::{Item, Path, Pen};
 use crate::ticks::Notation;
@@ -31,7 +31,7 @@ pub fn arrows(
     scale: f64,
     glyphs: &[Glyph<Vec2>],
     spacing: f64,
-) -> (Vec<Item>, Vec<Entry>) {
+) -> (Vec<Item>, Vec<LegendEntry>) {
     let longest = typical(glyphs.iter().map(|glyph| glyph.value.length()));
     let (mut shafts, mut heads) = (Path::default(), Path::default());
     for glyph in glyphs {
@@ -45,7 +45,7 @@ pub fn arrows(
         arrow(&mut shafts, &mut heads, [at - half, at + half], HEAD * scale);
     }
     let pen = Pen::new(ARROW, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
-    let entry = Entry::new(Symbol::Line(pen), format!("longest arrow {}", number(longest)));
+    let entry = LegendEntry::new(Symbol::Line(pen), format!("longest arrow {}", number(longest)));
     let items = vec![Item::Line { path: shafts, pen }, Item::Fill { outline: heads, color: ARROW }];
     (items, if longest > 0.0 { vec![entry] } else { Vec::new() })
 }
@@ -58,7 +58,7 @@ pub fn crosses(
     scale: f64,
     glyphs: &[Glyph<Principal>],
     spacing: f64,
-) -> (Vec<Item>, Vec<Entry>) {
+) -> (Vec<Item>, Vec<LegendEntry>) {
     let longest = typical(glyphs.iter().map(|g| g.value.s1.abs().max(g.value.s2.abs())));
     let (mut tension, mut compression) = (Path::default(), Path::default());
     for Glyph { offset, value: Principal { s1, s2, angle }, .. } in glyphs {
@@ -79,7 +79,7 @@ pub fn crosses(
         [(&tension, TENSION, "tension"), (&compression, COMPRESSION, "compression")]
     {
         if !path.is_empty() {
-            entries.push(Entry::new(Symbol::Line(pen(color)), name));
+            entries.push(LegendEntry::new(Symbol::Line(pen(color)), name));
         }
     }
     if let Some(last) = entries.last_mut() {

@@ -9,7 +9,7 @@ use crate::text::{self, CAP_HEIGHT};
 
 /// A line of a legend.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct LegendEntry {
     /// The mark.
     pub symbol: Symbol,
     /// Its meaning.
@@ -26,7 +26,7 @@ pub enum Symbol {
     Line(Pen),
 }
 
-impl Entry {
+impl LegendEntry {
     /// A line of a legend.
     #[must_use]
     pub fn new(symbol: Symbol, label: impl Into<String>) -> Self {
@@ -49,7 +49,7 @@ const PART: [f64; 2] = [0.75, 0.4];
 /// corner of a view; none without entries, and none where it would hide most of the view or not fit
 /// into it.
 #[must_use]
-pub fn legend_box(view: &View, scale: f64, entries: &[Entry]) -> Option<[Vec2; 2]> {
+pub fn legend_box(view: &View, scale: f64, entries: &[LegendEntry]) -> Option<[Vec2; 2]> {
     let pixels = view.pixels.map(f64::from);
     let size = legend_size(entries, scale);
     let fits = size.x <= PART[0] * pixels[0] && size.y <= PART[1] * pixels[1];
@@ -59,7 +59,7 @@ pub fn legend_box(view: &View, scale: f64, entries: &[Entry]) -> Option<[Vec2; 2
 
 /// That box; nothing where there is none.
 #[must_use]
-pub fn legend(view: &View, scale: f64, entries: &[Entry]) -> Vec<Item> {
+pub fn legend(view: &View, scale: f64, entries: &[LegendEntry]) -> Vec<Item> {
     let place = legend_box(view, scale, entries);
     place.map_or_else(Vec::new, |[min, _]| legend_at(min, entries, scale))
 }
@@ -71,7 +71,7 @@ fn corner(pixels: [u32; 2], size: Vec2, scale: f64) -> Vec2 {
 }
 
 /// Width and height of a legend's box.
-pub(crate) fn legend_size(entries: &[Entry], scale: f64) -> Vec2 {
+pub(crate) fn legend_size(entries: &[LegendEntry], scale: f64) -> Vec2 {
     let widest = entries.iter().map(|entry| text::width(&entry.label, TEXT * scale));
     vec2(
         (3.0 * MARGIN + MARK) * scale + widest.fold(0.0, f64::max),
@@ -80,11 +80,12 @@ pub(crate) fn legend_size(entries: &[Entry], scale: f64) -> Vec2 {
 }
 
 /// A legend's box with its upper left corner at a place; nothing without entries.
-pub(crate) fn legend_at(corner: Vec2, entries: &[Entry], scale: f64) -> Vec<Item> {
+pub(crate) fn legend_at(corner: Vec2, entries: &[LegendEntry], scale: f64) -> Vec<Item> {
     if entries.is_empty() {
         return Vec::new();
     }
-    let letter = |entry: &Entry| Lettering::new(&entry.label, TEXT * scale, vec2(0.0, 0.0), INK);
+    let letter =
+        |entry: &LegendEntry| Lettering::new(&entry.label, TEXT * scale, vec2(0.0, 0.0), INK);
     let size = legend_size(entries, scale);
     let mut outline = Path::default();
     outline.rect(corner, corner + size);
@@ -131,8 +132,8 @@ mod tests {
             };
             let view = View::new(Vec2::ZERO, 1.0, [side(), side()]).unwrap();
             let label = "longest arrow 0.1".repeat(1 + random.below(2));
-            let entries: Vec<Entry> = (0..=random.below(5))
-                .map(|_| Entry::new(Symbol::Square(INK), label.clone()))
+            let entries: Vec<LegendEntry> = (0..=random.below(5))
+                .map(|_| LegendEntry::new(Symbol::Square(INK), label.clone()))
                 .collect();
             let items = legend(&view, 1.0, &entries);
             found[usize::from(items.is_empty())] += 1;

@@ -28,7 +28,7 @@ pub use cover::{Enrichment, boxes, cells, centers, elements, enrichments, patche
 pub use deformed::{carried, deformed_cells, deformed_outline, faces, undeformed_outline};
 pub use glyphs::{arrows, crosses};
 pub use isolines::{Room, isolines};
-pub use legend::{Entry, Symbol, legend, legend_box};
+pub use legend::{LegendEntry, Symbol, legend, legend_box};
 pub(crate) use legend::{legend_at, legend_size};
 pub use rings::rings;
 pub use supports::{Load, Support, loads, supports};

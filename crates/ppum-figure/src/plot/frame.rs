@@ -24,8 +24,8 @@ const MARGIN: f64 = 16.0;
 /// Least distances of labelled ticks, across and along the direction of reading.
 const DISTANCE: [f64; 2] = [90.0, 48.0];
 
-/// The place of everything.
-pub(super) struct Frame {
+/// The positions of a plot's axes, ticks and labels.
+pub(super) struct PlotFrame {
     pub(super) scale: f64,
     /// Upper left and lower right corner of the curves' page, whole pixels.
     min: [f64; 2],
@@ -36,7 +36,7 @@ pub(super) struct Frame {
     widest: f64,
 }
 
-impl Frame {
+impl PlotFrame {
     pub(super) fn new(plot: &Plot, norms: [Normalization; 2], size: [u32; 2]) -> Self {
         let scale = line_scale(size);
         let most = |k: usize| (f64::from(size[k]) / (DISTANCE[k] * scale)) as usize;

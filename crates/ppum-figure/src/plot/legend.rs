@@ -4,7 +4,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::image::Rgba;
 
 use crate::canvas::{Item, Lettering, Path, Pen};
-use crate::overlay::{Entry, Symbol};
+use crate::overlay::{LegendEntry, Symbol};
 use crate::text::{self, CAP_HEIGHT};
 
 // Lengths in pixels of a plot of 1024 × 768; others are scaled.
@@ -25,14 +25,15 @@ const INK: Rgba = [38, 38, 42, 255];
 /// A box with a line for each entry on a page of some size; nothing without entries.
 pub(super) fn legend(
     pixels: [u32; 2],
-    entries: &[Entry],
+    entries: &[LegendEntry],
     curves: &[Vec<Vec2>],
     scale: f64,
 ) -> Vec<Item> {
     if entries.is_empty() {
         return Vec::new();
     }
-    let entries: Vec<Entry> = entries.iter().map(|entry| short(entry, pixels[0], scale)).collect();
+    let entries: Vec<LegendEntry> =
+        entries.iter().map(|entry| short(entry, pixels[0], scale)).collect();
     let mark = if entries.iter().any(is_line) { SAMPLE } else { SQUARE };
     let widths = entries.iter().map(|entry| letter(entry, scale).width());
     let size = vec2(
@@ -55,21 +56,21 @@ pub(super) fn legend(
 
 /// The entry with a label that leaves room for the plot: what tells quantities apart is often
 /// their end.
-fn short(entry: &Entry, columns: u32, scale: f64) -> Entry {
+fn short(entry: &LegendEntry, columns: u32, scale: f64) -> LegendEntry {
     let room = LONGEST * f64::from(columns);
-    Entry { label: text::squeezed(&entry.label, TEXT * scale, room), ..entry.clone() }
+    LegendEntry { label: text::squeezed(&entry.label, TEXT * scale, room), ..entry.clone() }
 }
 
-fn is_line(entry: &Entry) -> bool {
+fn is_line(entry: &LegendEntry) -> bool {
     matches!(entry.symbol, Symbol::Line(_))
 }
 
-fn letter(entry: &Entry, scale: f64) -> Lettering {
+fn letter(entry: &LegendEntry, scale: f64) -> Lettering {
     Lettering::new(&entry.label, TEXT * scale, vec2(0.0, 0.0), INK)
 }
 
 /// The mark, `mark` long, and the label of an entry, from the middle of the mark's left end.
-fn line(entry: &Entry, start: Vec2, mark: f64, scale: f64) -> [Item; 2] {
+fn line(entry: &LegendEntry, start: Vec2, mark: f64, scale: f64) -> [Item; 2] {
     let (mut path, half) = (Path::default(), 0.5 * SQUARE * scale);
     let symbol = match entry.symbol {
         Symbol::Square(color) => {
@@ -129,7 +130,8 @@ mod tests {
     #[test]
     fn the_free_corner_is_taken() {
         let pen = Pen::new(INK, 1.0);
-        let entries = [Entry::new(Symbol::Line(pen), "a"), Entry::new(Symbol::Line(pen), "b")];
+        let entries =
+            [LegendEntry::new(Symbol::Line(pen), "a"), LegendEntry::new(Symbol::Line(pen), "b")];
         let box_of = |curves: &[Vec<Vec2>]| match &legend([600, 400], &entries, curves, 1.0)[0] {
             Item::Fill { outline, .. } => outline.pieces[0].clone(),
             _ => Vec::new(),
@@ -158,7 +160,7 @@ mod tests {
     fn long_labels_are_shortened_in_their_middle() {
         let pen = Pen::new(INK, 2.0);
         let entry =
-            |end: &str| Entry::new(Symbol::Line(pen), format!("{}{end}", "x + ".repeat(200)));
+            |end: &str| LegendEntry::new(Symbol::Line(pen), format!("{}{end}", "x + ".repeat(200)));
         let items = legend([700, 450], &[entry("_above"), entry("_below")], &[], 1.0);
         let texts: Vec<&Lettering> = items
             .iter()

@@ -1,8 +1,8 @@
 //! Plots: curves over axes.
 //!
-//! A [`Plot`] has an axis for each direction, linear or logarithmic, and [`Curve`]s in colours that
-//! people with any colour vision tell apart, with dashes where there are more of them. Curves break
-//! where a value is missing or has no place on its axis, and are cut off at the frame.
+//! A [`Plot`] has an axis for each direction, linear or logarithmic, and [`PlotCurve`]s in colours
+//! that people with any colour vision tell apart, with dashes where there are more of them. Curves
+//! break where a value is missing or has no place on its axis, and are cut off at the frame.
 
 mod frame;
 mod legend;
@@ -13,8 +13,8 @@ use ppum_render::image::Rgba;
 use ppum_render::scale::{Normalization, Scale};
 
 use crate::canvas::{Canvas, Item, Path, Pen};
-use crate::overlay::{Entry, Symbol};
-use frame::Frame;
+use crate::overlay::{LegendEntry, Symbol};
+use frame::PlotFrame;
 use legend::legend;
 use thin::thinned;
 
@@ -28,7 +28,7 @@ pub struct Plot {
     /// The vertical axis.
     pub y: PlotAxis,
     /// The curves, the lowest first.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<PlotCurve>,
 }
 
 /// An axis of a plot.
@@ -71,18 +71,18 @@ impl PlotAxis {
 
 /// A curve of a plot.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
+pub struct PlotCurve {
     /// Its name in the legend; none if empty.
     pub label: String,
     /// Its points; it breaks where one has a coordinate that is no number or is infinite.
     pub points: Vec<[f64; 2]>,
     /// The way it is drawn.
-    pub look: Look,
+    pub look: CurveStyle,
 }
 
 /// The way a curve is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Look {
+pub enum CurveStyle {
     /// A line.
     #[default]
     Line,
@@ -94,16 +94,16 @@ pub enum Look {
     Bars,
 }
 
-impl Curve {
+impl PlotCurve {
     /// A line.
     #[must_use]
     pub fn new(label: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
-        Self { label: label.into(), points, look: Look::Line }
+        Self { label: label.into(), points, look: CurveStyle::Line }
     }
 
     /// The curve drawn in another way.
     #[must_use]
-    pub fn with_look(self, look: Look) -> Self {
+    pub fn with_look(self, look: CurveStyle) -> Self {
         Self { look, ..self }
     }
 }
@@ -158,7 +158,7 @@ pub const LEAST: [u32; 2] = [240, 180];
 pub fn plot(plot: &Plot, size: [u32; 2]) -> Canvas {
     let size = [size[0].max(LEAST[0]), size[1].max(LEAST[1])];
     let [x, y] = [0, 1].map(|k| scale_of(plot, k));
-    let frame = Frame::new(plot, [x, y], size);
+    let frame = PlotFrame::new(plot, [x, y], size);
     let mut page = Canvas::new(size, frame::PAPER);
     page.items.extend(frame.grid());
     page.items.push(inside(plot, &frame));
@@ -183,7 +183,7 @@ impl Area {
     pub fn new(plot: &Plot, size: [u32; 2]) -> Self {
         let size = [size[0].max(LEAST[0]), size[1].max(LEAST[1])];
         let norms = [0, 1].map(|k| scale_of(plot, k));
-        let frame = Frame::new(plot, norms, size);
+        let frame = PlotFrame::new(plot, norms, size);
         let [corner, size] = [frame.corner(), frame.pixels()].map(|c| c.map(f64::from).into());
         Self { corner, size, norms }
     }
@@ -204,14 +204,14 @@ impl Area {
 }
 
 /// The curves with their legend, on a page of the frame's size.
-fn inside(plot: &Plot, frame: &Frame) -> Item {
+fn inside(plot: &Plot, frame: &PlotFrame) -> Item {
     let mut canvas = Canvas::new(frame.pixels(), [0; 4]);
     let (mut entries, mut paths) = (Vec::new(), Vec::new());
-    let bars = plot.curves.iter().filter(|curve| curve.look == Look::Bars).count();
+    let bars = plot.curves.iter().filter(|curve| curve.look == CurveStyle::Bars).count();
     for (k, curve) in plot.curves.iter().enumerate() {
         let color = COLORS[k % COLORS.len()];
         let pen = pen(curve.look, k, frame.scale);
-        let is_bar = curve.look == Look::Bars;
+        let is_bar = curve.look == CurveStyle::Bars;
         canvas.items.extend(if is_bar {
             let outline = bars_of(curve, [k, bars], frame);
             paths.extend(outline.pieces.clone());
@@ -223,7 +223,7 @@ fn inside(plot: &Plot, frame: &Frame) -> Item {
         });
         if !curve.label.is_empty() {
             let symbol = if is_bar { Symbol::Square(color) } else { Symbol::Line(pen) };
-            entries.push(Entry::new(symbol, &curve.label));
+            entries.push(LegendEntry::new(symbol, &curve.label));
         }
     }
     if plot.curves.len() > 1 || entries.len() > 1 {
@@ -233,9 +233,9 @@ fn inside(plot: &Plot, frame: &Frame) -> Item {
 }
 
 /// The pen of curve k: colours in turn, and dashes where they come again.
-fn pen(look: Look, k: usize, scale: f64) -> Pen {
+fn pen(look: CurveStyle, k: usize, scale: f64) -> Pen {
     let pen = Pen::new(COLORS[k % COLORS.len()], WIDTH * scale);
-    let again = k / COLORS.len() + usize::from(look == Look::Dashed);
+    let again = k / COLORS.len() + usize::from(look == CurveStyle::Dashed);
     match again.checked_sub(1) {
         Some(k) => {
             let [dash, gap] = DASHES[k % DASHES.len()].map(|length| length * scale);
@@ -246,7 +246,7 @@ fn pen(look: Look, k: usize, scale: f64) -> Pen {
 }
 
 /// The bars of curve k of `count`, side by side around their places.
-fn bars_of(curve: &Curve, [k, count]: [usize; 2], frame: &Frame) -> Path {
+fn bars_of(curve: &PlotCurve, [k, count]: [usize; 2], frame: &PlotFrame) -> Path {
     let width = 0.8 / count as f64;
     let mut path = Path::default();
     for &[x, y] in curve.points.iter().filter(|p| p.iter().all(|v| v.is_finite())) {
@@ -257,12 +257,12 @@ fn bars_of(curve: &Curve, [k, count]: [usize; 2], frame: &Frame) -> Path {
 }
 
 /// The unbroken pieces of a curve, and its dots.
-fn drawn(curve: &Curve, pen: Pen, frame: &Frame) -> (Vec<Item>, Path) {
+fn drawn(curve: &PlotCurve, pen: Pen, frame: &PlotFrame) -> (Vec<Item>, Path) {
     let pieces = curve.points.split(|p| !frame.has_place(*p)).filter(|piece| !piece.is_empty());
     let positions = |piece: &[[f64; 2]]| thinned(piece.iter().map(|&p| frame.position(p)));
     let path = Path { pieces: pieces.map(positions).collect() };
     let mut items = vec![Item::Line { path: path.clone(), pen }];
-    if curve.look == Look::Dotted {
+    if curve.look == CurveStyle::Dotted {
         let dots = path.pieces.iter().flatten().map(|&p| vec![p]).collect();
         let pen = Pen::new(pen.color, 2.0 * DOT * frame.scale);
         items.push(Item::Line { path: Path { pieces: dots }, pen });
@@ -278,7 +278,7 @@ fn scale_of(plot: &Plot, k: usize) -> Normalization {
     let fits = |(axis, v): (&PlotAxis, &f64)| has_place(axis.scale, *v);
     let is_seen = |p: &&[f64; 2]| axes.into_iter().zip(*p).all(fits);
     let points = curves.iter().flat_map(|curve| &curve.points).filter(is_seen);
-    let have_bars = !is_log && curves.iter().any(|curve| curve.look == Look::Bars);
+    let have_bars = !is_log && curves.iter().any(|curve| curve.look == CurveStyle::Bars);
     let [min, max] = axis.range.unwrap_or_else(|| {
         if !axis.names.is_empty() {
             return [-0.6, axis.names.len() as f64 - 0.4];
@@ -321,7 +321,7 @@ mod tests {
     use super::*;
 
     fn line(points: &[[f64; 2]]) -> Plot {
-        let curves = vec![Curve::new("a", points.to_vec())];
+        let curves = vec![PlotCurve::new("a", points.to_vec())];
         let (x, y) = (PlotAxis::new("x", "m"), PlotAxis::new("σ_{yy}", "MPa"));
         Plot { title: "A plot".into(), x, y, curves }
     }
@@ -418,7 +418,7 @@ mod tests {
     /// Pens of many curves differ in colour or dashes.
     #[test]
     fn curves_are_told_apart() {
-        let pens: Vec<_> = (0..30).map(|k| pen(Look::Line, k, 1.0)).collect();
+        let pens: Vec<_> = (0..30).map(|k| pen(CurveStyle::Line, k, 1.0)).collect();
         for (k, pen) in pens.iter().enumerate() {
             assert!(!pens[..k].contains(pen), "{k}");
         }

@@ -9,13 +9,15 @@ const PER_PIXEL: f64 = 4.0;
 /// and lie highest and lowest: what is drawn of them is the same, peaks included.
 pub(super) fn thinned(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut kept = Vec::new();
-    let mut run: Option<Run> = None;
+    let mut run: Option<ColumnRun> = None;
     for (index, point) in points.enumerate() {
         let column = (PER_PIXEL * point.x).floor();
         match &mut run {
             Some(run) if run.column == column => run.add(index, point),
             _ => {
-                run.replace(Run::new(index, point, column)).iter().for_each(|r| r.put(&mut kept));
+                run.replace(ColumnRun::new(index, point, column))
+                    .iter()
+                    .for_each(|r| r.put(&mut kept));
             }
         }
     }
@@ -24,7 +26,7 @@ pub(super) fn thinned(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
 }
 
 /// Consecutive points in one column, with their numbers.
-struct Run {
+struct ColumnRun {
     column: f64,
     first: (usize, Vec2),
     lowest: (usize, Vec2),
@@ -32,7 +34,7 @@ struct Run {
     last: (usize, Vec2),
 }
 
-impl Run {
+impl ColumnRun {
     fn new(index: usize, point: Vec2, column: f64) -> Self {
         let only = (index, point);
         Self { column, first: only, lowest: only, highest: only, last: only }

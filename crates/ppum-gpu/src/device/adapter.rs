@@ -2,7 +2,7 @@
 
 use wgpu::{Adapter, Backends, DeviceType, Features, InstanceDescriptor, InstanceFlags};
 
-use crate::choice::{AdapterKind, Choice};
+use crate::choice::{AdapterChoice, AdapterKind};
 use crate::error::GpuError;
 
 /// A graphics adapter and its limits.
@@ -51,8 +51,8 @@ async fn enumerate() -> Vec<Adapter> {
 
 /// The best adapter of a choice.
 #[cfg(not(target_arch = "wasm32"))]
-pub(crate) async fn choose(choice: Choice) -> Result<Adapter, GpuError> {
-    if choice == Choice::Real && !may_have_card() {
+pub(crate) async fn choose(choice: AdapterChoice) -> Result<Adapter, GpuError> {
+    if choice == AdapterChoice::Real && !may_have_card() {
         return Err(GpuError::NoAdapter { choice });
     }
     let mut adapters = enumerate().await;
@@ -82,7 +82,7 @@ fn is_node_of_card(name: &str) -> bool {
 
 /// The adapter the browser thinks the fastest: it tells nobody what there is.
 #[cfg(target_arch = "wasm32")]
-pub(crate) async fn choose(choice: Choice) -> Result<Adapter, GpuError> {
+pub(crate) async fn choose(choice: AdapterChoice) -> Result<Adapter, GpuError> {
     let options = wgpu::RequestAdapterOptions {
         power_preference: wgpu::PowerPreference::HighPerformance,
         ..Default::default()

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use wgpu::{Adapter, Device, DeviceDescriptor, Features, Limits, Queue};
 
 use super::adapter::{self, AdapterInfo};
-use crate::choice::Choice;
+use crate::choice::AdapterChoice;
 use crate::error::GpuError;
 
 /// An opened graphics device.
@@ -15,12 +15,12 @@ pub struct Gpu {
     device: Device,
     queue: Queue,
     info: AdapterInfo,
-    state: Arc<State>,
+    state: Arc<DriverState>,
 }
 
-/// News from the driver that nobody asked for.
+/// The driver's unsolicited events.
 #[derive(Debug, Default)]
-struct State {
+struct DriverState {
     lost: AtomicBool,
     /// The first error outside of [`Gpu::checked`] that nobody has asked for yet.
     complaint: Mutex<Option<String>>,
@@ -32,7 +32,7 @@ impl Gpu {
     /// # Errors
     /// [`GpuError::NoAdapter`], or [`GpuError::Device`] if the driver refuses.
     #[cfg(not(target_arch = "wasm32"))]
-    pub fn open(choice: Choice) -> Result<Self, GpuError> {
+    pub fn open(choice: AdapterChoice) -> Result<Self, GpuError> {
         pollster::block_on(Self::request(choice))
     }
 
@@ -40,7 +40,7 @@ impl Gpu {
     ///
     /// # Errors
     /// As [`Gpu::open`].
-    pub async fn request(choice: Choice) -> Result<Self, GpuError> {
+    pub async fn request(choice: AdapterChoice) -> Result<Self, GpuError> {
         Self::of(&adapter::choose(choice).await?).await
     }
 
@@ -53,7 +53,7 @@ impl Gpu {
         };
         let opened = adapter.request_device(&descriptor).await;
         let (device, queue) = opened.map_err(|error| device_error("open the device", &error))?;
-        let state = Arc::new(State::default());
+        let state = Arc::new(DriverState::default());
         watch(&device, &state);
         Ok(Self { device, queue, info: adapter::info(adapter), state })
     }
@@ -172,7 +172,7 @@ fn limits(most: &Limits) -> Limits {
 }
 
 /// Writes down what the driver tells by itself; without this wgpu would panic.
-fn watch(device: &Device, state: &Arc<State>) {
+fn watch(device: &Device, state: &Arc<DriverState>) {
     let (lost, complaints) = (Arc::clone(state), Arc::clone(state));
     device.set_device_lost_callback(move |_, _| lost.lost.store(true, Ordering::Relaxed));
     device.on_uncaptured_error(Arc::new(move |error| {

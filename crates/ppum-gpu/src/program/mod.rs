@@ -13,7 +13,7 @@ use crate::error::{GpuError, RenderError};
 use crate::frame::shading::Shading;
 use crate::scene::bodies::Others;
 use crate::scene::{Scene, SceneLayout};
-use crate::shader::compose::{Kind, ShaderText};
+use crate::shader::compose::{ShaderText, ShaderVariant};
 use crate::shader::passes::Method;
 use output::{Colors, Output};
 use pipelines::Pipelines;
@@ -72,7 +72,7 @@ impl<'f, O: Output> Program<'f, O> {
     }
 
     /// The kind of areas with these terms.
-    pub(crate) fn kind(&self, others: Others) -> Kind {
+    pub(crate) fn kind(&self, others: Others) -> ShaderVariant {
         self.shader.kind(others)
     }
 
@@ -96,7 +96,7 @@ impl<'f, O: Output> Program<'f, O> {
         &mut self,
         gpu: &Arc<Gpu>,
         layout: SceneLayout,
-        kinds: impl IntoIterator<Item = Kind>,
+        kinds: impl IntoIterator<Item = ShaderVariant>,
     ) -> Result<&Pipelines, GpuError> {
         let pipelines = match self.pipelines.take() {
             Some(pipelines) if pipelines.fit(gpu, layout) => pipelines,

@@ -9,7 +9,7 @@ use super::pipeline::{PipelineBuilder, data_layout, textures_layout};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::scene::SceneLayout;
-use crate::shader::compose::{Kind, ShaderText};
+use crate::shader::compose::{ShaderText, ShaderVariant};
 use crate::shader::passes::{FieldPass, Method, Slots};
 
 /// Sampled textures that WebGPU promises to a shader.
@@ -30,7 +30,7 @@ pub(crate) struct Pipelines {
     /// The passes of splatting.
     pub(crate) splat: Option<SplatPasses>,
     /// The last pass; of gathering one for each kind of area.
-    pub(crate) finish: BTreeMap<Kind, RenderPipeline>,
+    pub(crate) finish: BTreeMap<ShaderVariant, RenderPipeline>,
 }
 
 /// The first passes of splatting.
@@ -72,7 +72,7 @@ impl Pipelines {
     pub(crate) fn make_areas(
         &mut self,
         shader: &ShaderText,
-        kinds: impl IntoIterator<Item = Kind>,
+        kinds: impl IntoIterator<Item = ShaderVariant>,
     ) -> Result<(), GpuError> {
         for kind in kinds {
             if !self.finish.contains_key(&kind) {

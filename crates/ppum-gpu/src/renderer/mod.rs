@@ -17,7 +17,7 @@ use ppum::quantity::Quantity;
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
 
-use crate::choice::Choice;
+use crate::choice::AdapterChoice;
 use crate::device::Gpu;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::device::read;
@@ -48,7 +48,7 @@ use targets::Targets;
 #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page opens devices by itself"))]
 pub struct Renderer {
     card: Card,
-    choice: Choice,
+    choice: AdapterChoice,
     targets: Targets,
 }
 
@@ -58,13 +58,13 @@ impl Renderer {
     /// # Errors
     /// [`GpuError::NoAdapter`] if there is none of the choice; see [`Gpu::open`].
     #[cfg(not(target_arch = "wasm32"))]
-    pub fn open(choice: Choice) -> Result<Self, GpuError> {
+    pub fn open(choice: AdapterChoice) -> Result<Self, GpuError> {
         Ok(Self::new(Gpu::open(choice)?, choice))
     }
 
     /// A renderer on an open device; a choice for the one after its loss.
     #[must_use]
-    pub fn new(gpu: Gpu, choice: Choice) -> Self {
+    pub fn new(gpu: Gpu, choice: AdapterChoice) -> Self {
         Self { card: Card::new(gpu), choice, targets: Targets::default() }
     }
 

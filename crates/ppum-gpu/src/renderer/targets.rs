@@ -15,7 +15,7 @@ use crate::frame::view_data::ViewData;
 use crate::layout::bytes;
 use crate::program::pipelines::{Pipelines, SplatPasses};
 use crate::scene::OnCard;
-use crate::shader::compose::Kind;
+use crate::shader::compose::ShaderVariant;
 use crate::shader::passes::{Finish, SUMS};
 
 /// Textures that are used again from frame to frame.
@@ -132,7 +132,7 @@ impl Targets {
         gpu: &Gpu,
         encoder: &mut CommandEncoder,
         pipelines: &Pipelines,
-        (data, areas): (&BindGroup, &[(Area, Kind)]),
+        (data, areas): (&BindGroup, &[(Area, ShaderVariant)]),
         last_pass: &Finish,
     ) -> Vec<Texture> {
         let palette = self.palette.as_ref().map(|(_, view)| view);

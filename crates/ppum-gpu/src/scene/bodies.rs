@@ -58,14 +58,14 @@ pub(crate) struct Bodies {
     /// The address of each patch: its first texel.
     pub(crate) patches: Vec<u32>,
     /// The properties they have in common.
-    pub(crate) shape: Shape,
+    pub(crate) shape: BodyFacts,
     /// Boxes around the patches with other terms than the smooth one: one for each group and kind.
     pub(crate) enriched: Vec<(Rect, Others)>,
 }
 
 /// Facts that shaders need not find out at each pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Shape {
+pub(crate) struct BodyFacts {
     /// The degree of all smooth terms, if every patch has one and all are alike.
     pub(crate) degree: Option<u8>,
     /// The terms beside the smooth one.
@@ -113,15 +113,15 @@ impl Bodies {
         let count = field.step.partition.len();
         let parts = (0..count.div_ceil(AT_A_TIME)).into_par_iter().map(|part| {
             let first = part * AT_A_TIME;
-            Part::new(field, groups, first..count.min(first + AT_A_TIME))
+            BodyBatch::new(field, groups, first..count.min(first + AT_A_TIME))
         });
         Self::joined(parts.collect())
     }
 
     /// The bodies of all parts, one behind the other.
-    fn joined(parts: Vec<Part>) -> Self {
+    fn joined(parts: Vec<BodyBatch>) -> Self {
         let (mut bodies, mut summary, mut texels) = (Self::default(), Summary::default(), 0);
-        for Part { words, patches, summary: of_part } in parts {
+        for BodyBatch { words, patches, summary: of_part } in parts {
             bodies.patches.extend(patches.iter().map(|address| texels + address));
             texels += words.len() as u32 / 4;
             bodies.parts.push(words);
@@ -134,13 +134,13 @@ impl Bodies {
 }
 
 /// The bodies of some patches, in whole texels; addresses count from the first.
-struct Part {
+struct BodyBatch {
     words: Vec<u32>,
     patches: Vec<u32>,
     summary: Summary,
 }
 
-impl Part {
+impl BodyBatch {
     fn new(field: &Field<'_>, groups: &Groups, patches: Range<usize>) -> Self {
         let components = Components::new(field.components());
         let mut writer = Writer { data: field.data, groups, components, words: Vec::new() };
@@ -187,11 +187,11 @@ impl Summary {
         other.enriched.into_iter().for_each(|(key, bounds)| self.put(key, bounds));
     }
 
-    fn shape(&self) -> Shape {
+    fn shape(&self) -> BodyFacts {
         let single = self.degrees.len() == 1;
         let degree = self.degrees.first().copied().flatten().filter(|_| single);
         let kinds = self.enriched.keys().map(|&(_, others)| others);
-        Shape { degree, others: kinds.fold(Others::default(), Others::and) }
+        BodyFacts { degree, others: kinds.fold(Others::default(), Others::and) }
     }
 }
 
@@ -199,16 +199,16 @@ impl Summary {
 struct Terms {
     /// The block of the smooth term.
     smooth: Option<usize>,
-    others: Vec<Term>,
+    others: Vec<GroupTerm>,
 }
 
 /// The blocks of a patch that share a group, by entry.
-struct Term {
+struct GroupTerm {
     group: u32,
     blocks: [Option<usize>; 4],
 }
 
-impl Term {
+impl GroupTerm {
     fn blocks(&self) -> impl Iterator<Item = usize> + '_ {
         self.blocks.iter().copied().flatten()
     }
@@ -224,7 +224,7 @@ struct Writer<'f> {
 impl<'f> Writer<'f> {
     /// The terms of a patch. A function that comes twice makes two terms.
     fn terms(&self, patch: usize) -> Terms {
-        let (mut smooth, mut others) = (None, Vec::<Term>::new());
+        let (mut smooth, mut others) = (None, Vec::<GroupTerm>::new());
         for block in self.data.blocks(patch) {
             let [group, entry] = self.groups.slot(self.data.block_function[block]);
             let entry = entry as usize;
@@ -232,13 +232,14 @@ impl<'f> Writer<'f> {
                 smooth = Some(block);
                 continue;
             }
-            let has_room = |term: &&mut Term| term.group == group && term.blocks[entry].is_none();
+            let has_room =
+                |term: &&mut GroupTerm| term.group == group && term.blocks[entry].is_none();
             match others.iter_mut().find(has_room) {
                 Some(term) => term.blocks[entry] = Some(block),
                 None => {
                     let mut blocks = [None; 4];
                     blocks[entry] = Some(block);
-                    others.push(Term { group, blocks });
+                    others.push(GroupTerm { group, blocks });
                 }
             }
         }
@@ -288,7 +289,7 @@ impl<'f> Writer<'f> {
         }
     }
 
-    fn term(&mut self, term: &Term) {
+    fn term(&mut self, term: &GroupTerm) {
         let start = self.begin();
         let degree =
             |block: Option<usize>| block.map_or(ABSENT, |b| self.data.block_degree[b].into());

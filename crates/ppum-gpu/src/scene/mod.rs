@@ -23,7 +23,7 @@ use wgpu::TextureView;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use bodies::{Bodies, Components, GROUP_BITS, Others, Shape};
+use bodies::{Bodies, BodyFacts, Components, GROUP_BITS, Others};
 use card::Card;
 use groups::Groups;
 use lattice::Lattice;
@@ -64,7 +64,7 @@ pub(crate) struct OnCard {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SceneLayout {
     pub(crate) components: Components,
-    pub(crate) shape: Shape,
+    pub(crate) shape: BodyFacts,
     /// Patches lie on a lattice.
     pub(crate) is_lattice: bool,
     /// Polynomials have other coordinates than weights.
@@ -176,7 +176,10 @@ impl OnCard {
 
 impl SceneLayout {
     /// That of a field, with its lattice or its levels if it has some.
-    pub(crate) fn of(field: &Field<'_>, shape: Shape) -> (Self, Option<Lattice>, Option<Levels>) {
+    pub(crate) fn of(
+        field: &Field<'_>,
+        shape: BodyFacts,
+    ) -> (Self, Option<Lattice>, Option<Levels>) {
         let (own_frames, partition) = (has_own_frames(field), field.step.partition.boxes());
         let lattice = if own_frames { None } else { Lattice::of(partition) };
         let searched = !own_frames && lattice.is_none();

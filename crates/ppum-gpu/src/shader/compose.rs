@@ -48,7 +48,7 @@ pub(crate) struct ShaderText {
 
 /// The terms beside the smooth one that a shader is for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Kind {
+pub(crate) struct ShaderVariant {
     constants: bool,
     polynomials: bool,
     /// The kernel of the one group of functions that all terms are of.
@@ -111,7 +111,7 @@ impl ShaderText {
     }
 
     /// The shader of the last pass, in areas of a kind.
-    pub(crate) fn finish(&self, layout: SceneLayout, kind: Kind) -> String {
+    pub(crate) fn finish(&self, layout: SceneLayout, kind: ShaderVariant) -> String {
         self.text(layout, kind, FieldPass::NONE)
     }
 
@@ -121,14 +121,18 @@ impl ShaderText {
     }
 
     /// The kind of areas with these terms.
-    pub(crate) fn kind(&self, others: Others) -> Kind {
+    pub(crate) fn kind(&self, others: Others) -> ShaderVariant {
         let Others { constants, polynomials, group } = others;
         let group = group.filter(|_| self.method == Method::Gather);
-        Kind { constants, polynomials, kernel: group.map(|group| self.kernels[group as usize]) }
+        ShaderVariant {
+            constants,
+            polynomials,
+            kernel: group.map(|group| self.kernels[group as usize]),
+        }
     }
 
     /// The kinds of areas that may be told apart.
-    fn kinds(&self, layout: SceneLayout) -> BTreeSet<Kind> {
+    fn kinds(&self, layout: SceneLayout) -> BTreeSet<ShaderVariant> {
         let all = layout.shape.others;
         if self.method == Method::Splat {
             return [self.kind(all)].into();
@@ -136,9 +140,10 @@ impl ShaderText {
         let mut kinds = BTreeSet::new();
         for constants in [false, all.constants] {
             for polynomials in [false, all.polynomials] {
-                kinds.insert(Kind { constants, polynomials, kernel: None });
+                kinds.insert(ShaderVariant { constants, polynomials, kernel: None });
             }
-            let one = |&kernel| Kind { constants, polynomials: false, kernel: Some(kernel) };
+            let one =
+                |&kernel| ShaderVariant { constants, polynomials: false, kernel: Some(kernel) };
             kinds.extend(self.kernels.iter().filter(|_| constants).map(one));
         }
         kinds
@@ -152,7 +157,7 @@ impl ShaderText {
     }
 
     /// The whole text of a shader; `pass` is what it splats.
-    fn text(&self, layout: SceneLayout, kind: Kind, pass: FieldPass) -> String {
+    fn text(&self, layout: SceneLayout, kind: ShaderVariant, pass: FieldPass) -> String {
         let mut text = self.constants(layout, kind);
         text += &types(layout);
         text += &structure("View", ViewRecord::MEMBERS, |_| String::new());
@@ -184,7 +189,7 @@ impl ShaderText {
         smooth + &four_constants(lanes, groups)
     }
 
-    fn constants(&self, layout: SceneLayout, kind: Kind) -> String {
+    fn constants(&self, layout: SceneLayout, kind: ShaderVariant) -> String {
         let SceneLayout { components, own_frames, has_levels, has_holes, has_kinks, .. } = layout;
         let mut text = String::new();
         for (name, value) in [
@@ -293,7 +298,7 @@ fn gather_text(layout: SceneLayout) -> String {
 }
 
 /// The function that evaluates the one group of functions that an area has.
-fn kernel_wgsl(kind: Kind) -> String {
+fn kernel_wgsl(kind: ShaderVariant) -> String {
     let call = match kind.kernel {
         Some(kernel) => format!("functions_{kernel}(group, offset)"),
         None => "functions(group, offset)".to_owned(),

@@ -58,14 +58,14 @@ pub(crate) fn functions_wgsl(
             _ => runs.push((kernel, group..group + 1)),
         }
     }
-    let is_one = |kernel: &Kernel| keys[kernel.0].0 == Kind::One;
+    let is_one = |kernel: &Kernel| keys[kernel.0].0 == KernelKind::One;
     let ones = runs.iter().filter(|(kernel, _)| is_one(kernel)).map(|(_, range)| range);
     Ok((text + &chooser(&runs) + &is_one_wgsl(ones), kernels))
 }
 
 /// The kind of code that evaluates a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum KernelKind {
     One,
     Side,
     Indicator,
@@ -75,13 +75,13 @@ enum Kind {
     Tip,
 }
 
-fn kind(frame: &GroupFrame) -> Kind {
+fn kind(frame: &GroupFrame) -> KernelKind {
     match frame {
-        GroupFrame::One => Kind::One,
-        GroupFrame::Side(_) => Kind::Side,
-        GroupFrame::Indicator(_) => Kind::Indicator,
-        GroupFrame::Fixed { .. } | GroupFrame::World => Kind::Fixed,
-        GroupFrame::Tip(_) => Kind::Tip,
+        GroupFrame::One => KernelKind::One,
+        GroupFrame::Side(_) => KernelKind::Side,
+        GroupFrame::Indicator(_) => KernelKind::Indicator,
+        GroupFrame::Fixed { .. } | GroupFrame::World => KernelKind::Fixed,
+        GroupFrame::Tip(_) => KernelKind::Tip,
     }
 }
 
@@ -92,21 +92,21 @@ struct Kernel(usize);
 impl Kernel {
     fn text(
         self,
-        kind: &Kind,
+        kind: &KernelKind,
         functions: &[Function],
         members: &[u32],
         surroundings: Surroundings<'_>,
     ) -> Result<String, GpuError> {
         let body = match kind {
-            Kind::One => constant("1.0"),
-            Kind::Side => {
+            KernelKind::One => constant("1.0"),
+            KernelKind::Side => {
                 format!("    let side = crack_side(crack_of(group), offset);\n{}", constant("side"))
             }
-            Kind::Indicator => {
+            KernelKind::Indicator => {
                 let value = "    let value = indicator_value(indicator_of(group), offset);\n";
                 format!("{value}{}", constant("value"))
             }
-            Kind::Fixed | Kind::Tip => {
+            KernelKind::Fixed | KernelKind::Tip => {
                 let members = members.iter().map(|&member| &functions[member as usize]);
                 let formulas = Formulas::new(members, surroundings)?;
                 return self.of_formulas(*kind, &formulas, surroundings.order);
@@ -122,9 +122,16 @@ impl Kernel {
         )
     }
 
-    fn of_formulas(self, kind: Kind, all: &Formulas, order: usize) -> Result<String, GpuError> {
+    fn of_formulas(
+        self,
+        kind: KernelKind,
+        all: &Formulas,
+        order: usize,
+    ) -> Result<String, GpuError> {
         let mut body = match kind {
-            Kind::Tip => "    let frame = tip_at(group);\n    let p = tip_point(frame, offset);\n",
+            KernelKind::Tip => {
+                "    let frame = tip_at(group);\n    let p = tip_point(frame, offset);\n"
+            }
             _ => "    let frame = fixed_at(group);\n    let p = fixed_point(frame, offset);\n",
         }
         .to_owned();
@@ -156,14 +163,14 @@ struct Formulas {
     /// The first function, for messages.
     name: String,
     /// The code of each function.
-    sources: Vec<Source>,
+    sources: Vec<FunctionCode>,
     /// Those that are evaluated as formulas, together.
     jets: Option<FormulaJets>,
 }
 
 /// The code of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Source {
+enum FunctionCode {
     /// A function of Westergaard's by its index.
     Native(usize),
     /// A formula by its index among those that are compiled.
@@ -182,14 +189,14 @@ impl Formulas {
             };
             name = format!("the function `{}`", function.name);
             sources.push(match native(text, *frame) {
-                Some((_, entry)) => Source::Native(entry as usize),
+                Some((_, entry)) => FunctionCode::Native(entry as usize),
                 None => {
                     let wrong = |error: &dyn std::fmt::Display| GpuError::formula(&name, error);
                     let scope =
                         function_scope(parameters, surroundings.cracks, surroundings.tables)
                             .map_err(|error| wrong(&error))?;
                     formulas.push(Formula::parse(text, &scope).map_err(|error| wrong(&error))?);
-                    Source::Formula(formulas.len() - 1)
+                    FunctionCode::Formula(formulas.len() - 1)
                 }
             });
         }
@@ -206,8 +213,8 @@ impl Formulas {
     /// The functions of Westergaard's among them.
     fn natives(&self) -> impl Iterator<Item = usize> {
         self.sources.iter().filter_map(|source| match source {
-            Source::Native(entry) => Some(*entry),
-            Source::Formula(_) => None,
+            FunctionCode::Native(entry) => Some(*entry),
+            FunctionCode::Formula(_) => None,
         })
     }
 
@@ -228,8 +235,10 @@ impl Formulas {
         let mut lanes = ["0.0", "0.0", "0.0", "0.0"].map(str::to_owned);
         for (lane, source) in lanes.iter_mut().zip(&self.sources) {
             *lane = match source {
-                Source::Native(entry) => format!("native.{}.{}", MEMBERS[member], LANES[*entry]),
-                Source::Formula(index) => format!("jets[{}]", index * size + member),
+                FunctionCode::Native(entry) => {
+                    format!("native.{}.{}", MEMBERS[member], LANES[*entry])
+                }
+                FunctionCode::Formula(index) => format!("jets[{}]", index * size + member),
             };
         }
         format!("vec4<f32>({})", lanes.join(", "))

@@ -6,14 +6,14 @@ use ppum_render::view::View;
 use ppum_testkit::synthetic::Recipe;
 
 use super::gpu_or_skip;
-use crate::{Choice, Method, Renderer, Values};
+use crate::{AdapterChoice, Method, Renderer, Values};
 
 /// What is prepared draws all of the plate, and parts with tips, sides and neither, and nothing is
 /// compiled for them.
 #[test]
 fn a_prepared_program_has_all_its_pipelines() {
     let Some(gpu) = gpu_or_skip() else { return };
-    let mut renderer = Renderer::new(gpu, Choice::Any);
+    let mut renderer = Renderer::new(gpu, AdapterChoice::Any);
     let dataset = Recipe::default().dataset();
     let field = Field::new(&dataset, 0).expect("a field");
     let scene = renderer.upload(&field).expect("a scene");

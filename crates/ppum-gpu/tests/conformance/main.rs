@@ -22,7 +22,7 @@ use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::vec2;
-use ppum_gpu::{Choice, GpuError, Method, Program, Renderer, Values};
+use ppum_gpu::{AdapterChoice, GpuError, Method, Program, Renderer, Values};
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 use ppum_testkit::fields::{Differences, Truth, Window};
@@ -45,7 +45,7 @@ const METHODS: [Method; 2] = [Method::Gather, Method::Splat];
 /// # Panics
 /// If one is required and there is none, or if opening it fails.
 fn renderer_or_skip() -> Option<Renderer> {
-    match Renderer::open(Choice::Any) {
+    match Renderer::open(AdapterChoice::Any) {
         Ok(renderer) => Some(renderer),
         Err(GpuError::NoAdapter { .. }) => {
             skipped("no graphics adapter");

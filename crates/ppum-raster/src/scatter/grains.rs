@@ -21,7 +21,7 @@ use ppum::real::{Real, Scalar};
 use ppum::vec2::{Vec2, vec2};
 
 use super::collapse::{ROWS, numbers};
-use super::plan::{Affine, Block, COLUMNS, Patch, add_blocks};
+use super::plan::{Affine, COLUMNS, Patch, PatchBlock, add_blocks};
 use super::tile::{Scratch, Tile};
 use crate::pixels::Pixels;
 
@@ -42,7 +42,7 @@ const WIDTH: usize = COLUMNS + 16;
 pub(super) struct Grains<T> {
     found: Vec<u32>,
     /// The blocks of the patch; the first is of function 1.
-    blocks: Vec<Block>,
+    blocks: Vec<PatchBlock>,
     /// Of each component the coefficients of the first block, less the constant that the
     /// tile subtracts.
     smooth: Vec<T>,
@@ -52,7 +52,7 @@ pub(super) struct Grains<T> {
 
 /// Pixels of a row of a patch.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct RowSpan {
     /// Column and row of the first in the view, and its offset from the view's centre.
     pixel: [usize; 2],
     offset: Vec2,
@@ -109,17 +109,17 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             let y = view.row_offset((top + row) as u32);
             let mut column = columns.start;
             while column < columns.end {
-                let place = Place {
+                let span = RowSpan {
                     pixel: [left + column, top + row],
                     offset: vec2(view.column_offset((left + column) as u32), y),
                     columns: columns.end - column,
                     cell: row * self.numbers() * WIDTH + column,
                 };
                 if columns.len() <= NARROW {
-                    self.add_pixels(patch, place, &mut scratch.grains, T::default());
+                    self.add_pixels(patch, span, &mut scratch.grains, T::default());
                     column += 1;
                 } else {
-                    self.add_pixels(patch, place, &mut scratch.grains, zero);
+                    self.add_pixels(patch, span, &mut scratch.grains, zero);
                     column += R::LANES;
                 }
             }
@@ -149,21 +149,21 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     fn add_pixels<R: Real<Scalar = T>>(
         &self,
         patch: &Patch,
-        place: Place,
+        span: RowSpan,
         grains: &mut Grains<T>,
         zero: R,
     ) {
         let components = self.scene.plan.coefficients.len();
         let size = numbers::<D>() * WIDTH;
-        let weight = self.grain_weight(patch, place, zero);
-        add_jet::<R, D>(weight, &mut grains.sums[place.cell..], zero);
+        let weight = self.grain_weight(patch, span, zero);
+        add_jet::<R, D>(weight, &mut grains.sums[span.cell..], zero);
         let mut component = 0;
         while component < components {
             let count = TOGETHER.min(components - component);
-            let v = self.grain_field(patch, place, [component, count], grains, zero);
+            let v = self.grain_field(patch, span, [component, count], grains, zero);
             let mut c = 0;
             while c < count {
-                let cell = place.cell + (1 + component + c) * size;
+                let cell = span.cell + (1 + component + c) * size;
                 add_jet::<R, D>(weight.times::<D>(v[c]), &mut grains.sums[cell..], zero);
                 c += 1;
             }
@@ -173,9 +173,9 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
 
     /// W at a vector of pixels.
     #[inline(always)]
-    fn grain_weight<R: Real<Scalar = T>>(&self, patch: &Patch, place: Place, zero: R) -> Jet<R> {
+    fn grain_weight<R: Real<Scalar = T>>(&self, patch: &Patch, span: RowSpan, zero: R) -> Jet<R> {
         let [x, y] = &patch.support;
-        let xi = self.coordinates(&patch.support, place, zero);
+        let xi = self.coordinates(&patch.support, span, zero);
         if self.scene.plan.is_overlap {
             let (one, mut inside) = (zero.lit(1.0), zero.lit(1.0));
             let mut axis = 0;
@@ -194,12 +194,12 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     fn grain_field<R: Real<Scalar = T>>(
         &self,
         patch: &Patch,
-        place: Place,
+        span: RowSpan,
         [first, count]: [usize; 2],
         grains: &Grains<T>,
         zero: R,
     ) -> [Jet<R>; TOGETHER] {
-        let xi = self.coordinates(&patch.frame, place, zero);
+        let xi = self.coordinates(&patch.frame, span, zero);
         let mut v = [Jet::constant(zero); TOGETHER];
         let Some((smooth, others)) = grains.blocks.split_first() else { return v };
         let degree = smooth.degree.into();
@@ -210,7 +210,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             c += 1;
         }
         if !others.is_empty() {
-            self.add_functions(patch, (place, xi), (others, first), &mut v[..count]);
+            self.add_functions(patch, (span, xi), (others, first), &mut v[..count]);
         }
         v
     }
@@ -220,12 +220,12 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     fn add_functions<R: Real<Scalar = T>>(
         &self,
         patch: &Patch,
-        (place, xi): (Place, [R; 2]),
-        (blocks, first): (&[Block], usize),
+        (span, xi): (RowSpan, [R; 2]),
+        (blocks, first): (&[PatchBlock], usize),
         v: &mut [Jet<R>],
     ) {
         let plan = &self.scene.plan;
-        let is_patch = xi[0].lit(place.columns as f64).gt(ramp(xi[0]));
+        let is_patch = xi[0].lit(span.columns as f64).gt(ramp(xi[0]));
         let mut jets = [Jet::constant(xi[0].lit(0.0)); GROUP];
         let mut group = None;
         for block in blocks {
@@ -236,7 +236,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                 let mut p = grain_polynomial::<R, D>(all, degree, xi, patch);
                 if let Slot::Jet { group: of, entry } = block.function {
                     if group != Some(of) {
-                        self.functions_at(of, place, &mut jets);
+                        self.functions_at(of, span, &mut jets);
                         group = Some(of);
                     }
                     p = p.times::<D>(jets[entry as usize]).only::<D>(is_patch);
@@ -252,12 +252,12 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     fn functions_at<R: Real<Scalar = T>>(
         &self,
         group: u32,
-        place: Place,
+        span: RowSpan,
         jets: &mut [Jet<R>; GROUP],
     ) {
         let (zero, view) = (jets[0].v.lit(0.0), &self.scene.view);
-        let x = zero.with_lanes(|k| view.column_offset((place.pixel[0] + k) as u32));
-        let offset = [x, zero.lit(place.offset.y)];
+        let x = zero.with_lanes(|k| view.column_offset((span.pixel[0] + k) as u32));
+        let offset = [x, zero.lit(span.offset.y)];
         self.scene.functions.evaluate::<R, D>(group as usize, offset, Side::Above, jets);
     }
 
@@ -267,11 +267,11 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     fn coordinates<R: Real<Scalar = T>>(
         &self,
         [x, y]: &[Affine; 2],
-        place: Place,
+        span: RowSpan,
         zero: R,
     ) -> [R; 2] {
-        let xi = place.offset.x * x.scale + x.shift;
-        let eta = place.offset.y * y.scale + y.shift;
+        let xi = span.offset.x * x.scale + x.shift;
+        let eta = span.offset.y * y.scale + y.shift;
         let step = zero.lit(self.scene.plan.pixel * x.scale);
         [ramp(zero).mul_add(step, zero.lit(xi)), zero.lit(eta)]
     }

@@ -160,7 +160,7 @@ macro_rules! sample {
                         field, view, quantity, summation, rows, watcher, take,
                     );
                 }
-                let scene = Scene::<$t>::new(field, view, quantity, summation);
+                let scene = PreparedView::<$t>::new(field, view, quantity, summation);
                 let bands = (rows as usize).div_ceil(ROWS).max(1);
                 match quantity.source() {
                     Source::Gradient => scene.draw::<1>(bands, watcher, take)?,
@@ -183,7 +183,7 @@ fn resolves<T: Scalar>(length: f64) -> bool {
 }
 
 /// A view of a field, ready to be drawn.
-struct Scene<'f, T> {
+struct PreparedView<'f, T> {
     view: View,
     quantity: &'f Quantity,
     weight: &'f WeightFunction,
@@ -199,7 +199,7 @@ struct Scene<'f, T> {
     field: &'f Field<'f>,
 }
 
-impl<'f, T: Sample> Scene<'f, T> {
+impl<'f, T: Sample> PreparedView<'f, T> {
     fn new(
         field: &'f Field<'f>,
         view: &View,
@@ -311,7 +311,7 @@ impl<'f, T: Sample> Scene<'f, T> {
     }
 }
 
-impl<T: Scalar> Scene<'_, T> {
+impl<T: Scalar> PreparedView<'_, T> {
     /// Exact values minus `shift` at the pixels of a vector, component by component.
     fn load_exact<R: Real<Scalar = T>>(
         &self,

@@ -33,7 +33,7 @@ pub(super) struct Affine {
 
 /// A function × polynomial.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Block {
+pub(super) struct PatchBlock {
     pub(super) function: Slot,
     pub(super) degree: u8,
     /// The polynomial is 0; there are no coefficients.
@@ -42,7 +42,7 @@ pub(super) struct Block {
     offset: u64,
 }
 
-impl Block {
+impl PatchBlock {
     const NOTHING: Self = Self { function: Slot::One, degree: 0, zero: true, offset: 0 };
 
     /// Its function and degree.
@@ -95,7 +95,7 @@ pub(super) struct Plan<'f> {
     /// True if the patches are drawn as grains: then none is listed here.
     pub(super) has_grains: bool,
     pub(super) patches: Vec<Patch>,
-    pub(super) blocks: Vec<Block>,
+    pub(super) blocks: Vec<PatchBlock>,
     /// Coefficients of each component.
     pub(super) coefficients: Vec<&'f [f64]>,
     /// Pixels inside the domain.
@@ -187,7 +187,7 @@ impl<'f> Plan<'f> {
 
     /// Coefficients of a block for one component.
     #[inline(always)]
-    pub(super) fn block_coefficients(&self, block: &Block, component: usize) -> &'f [f64] {
+    pub(super) fn block_coefficients(&self, block: &PatchBlock, component: usize) -> &'f [f64] {
         if block.zero {
             return &[0.0];
         }
@@ -240,10 +240,10 @@ struct Kinds {
 }
 
 impl Kinds {
-    fn number(&mut self, blocks: &[Block]) -> u32 {
-        let is_last = self.last.iter().copied().eq(blocks.iter().map(Block::kind));
+    fn number(&mut self, blocks: &[PatchBlock]) -> u32 {
+        let is_last = self.last.iter().copied().eq(blocks.iter().map(PatchBlock::kind));
         if !is_last || self.known.is_empty() {
-            self.last = blocks.iter().map(Block::kind).collect();
+            self.last = blocks.iter().map(PatchBlock::kind).collect();
             let next = self.known.len() as u32;
             self.number = *self.known.entry(self.last.clone()).or_insert(next);
         }
@@ -279,23 +279,23 @@ pub(super) fn add_blocks(
     field: &Field,
     patch: usize,
     quantity: &Quantity,
-    blocks: &mut Vec<Block>,
+    blocks: &mut Vec<PatchBlock>,
 ) {
     let start = blocks.len();
     if let Quantity::PartitionFunction(of) = quantity {
-        blocks.push(Block { zero: *of as usize != patch, ..Block::NOTHING });
+        blocks.push(PatchBlock { zero: *of as usize != patch, ..PatchBlock::NOTHING });
     } else if !matches!(quantity, Quantity::WeightSum | Quantity::Overlap) {
         let data = field.data;
-        blocks.extend(data.blocks(patch).map(|block| Block {
+        blocks.extend(data.blocks(patch).map(|block| PatchBlock {
             function: field.functions.of(data.block_function[block]),
             degree: data.block_degree[block],
             zero: false,
             offset: data.block_offset[block],
         }));
-        let smooth = |block: &Block| block.function == Slot::One;
+        let smooth = |block: &PatchBlock| block.function == Slot::One;
         match blocks[start..].iter().position(smooth) {
             Some(at) => blocks.swap(start, start + at),
-            None => blocks.insert(start, Block::NOTHING),
+            None => blocks.insert(start, PatchBlock::NOTHING),
         }
     }
 }

@@ -3,7 +3,7 @@
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 
-use super::Scene;
+use super::PreparedView;
 use super::plan::COLUMNS;
 use super::tile::{Scratch, Tile};
 use crate::summation::Summation;
@@ -11,7 +11,7 @@ use crate::view::View;
 
 /// The work that [`render_with`](super::render_with) does for a view in f64.
 pub struct Schedule<'f> {
-    scene: Scene<'f, f64>,
+    scene: PreparedView<'f, f64>,
 }
 
 /// The patches of a tile.
@@ -34,7 +34,7 @@ impl<'f> Schedule<'f> {
         quantity: &'f Quantity,
         summation: Summation,
     ) -> Self {
-        Self { scene: Scene::new(field, view, quantity, summation) }
+        Self { scene: PreparedView::new(field, view, quantity, summation) }
     }
 
     /// True if the view is summed per patch, false if in row spans.

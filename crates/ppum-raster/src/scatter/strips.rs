@@ -33,7 +33,7 @@ const TRIES: usize = 4;
 #[derive(Debug, Default)]
 pub(super) struct Strips<T> {
     pub(super) all: Vec<Strip>,
-    pub(super) terms: Vec<Term>,
+    pub(super) terms: Vec<BlockTerm>,
     /// Of each strip the weight's factor and slope in x, then for each component the tables of
     /// its blocks.
     pub(super) tables: Vec<T>,
@@ -79,7 +79,7 @@ impl Strip {
 
 /// A block.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Term {
+pub(super) struct BlockTerm {
     pub(super) degree: usize,
     /// Length of its table.
     pub(super) len: usize,
@@ -233,7 +233,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                     Some(place * basis_len::<R, D>() + entry as usize * size::<R, D>())
                 }
             };
-            strips.terms.push(Term { degree, len: table_len::<R, D>(degree), function });
+            strips.terms.push(BlockTerm { degree, len: table_len::<R, D>(degree), function });
             len += table_len::<R, D>(degree);
         }
         let strip = Strip {

@@ -10,15 +10,15 @@ use ppum::function::GROUP;
 use ppum::real::{Real, Scalar};
 
 use super::collapse::{ANY, Factor, ROWS, Slopes, evaluate, known, numbers, splat, table_len};
-use super::strips::{DOWN, Strip, Term, weight_len};
+use super::strips::{BlockTerm, DOWN, Strip, weight_len};
 use super::tile::{Batch, load_slopes};
 
 /// Where the sums of some rows come from and go to.
-pub(super) struct Span<'a, T> {
+pub(super) struct RowSums<'a, T> {
     pub(super) rows: Range<usize>,
     pub(super) strips: &'a [Strip],
     pub(super) here: &'a [usize],
-    pub(super) terms: &'a [Term],
+    pub(super) terms: &'a [BlockTerm],
     pub(super) tables: &'a [T],
     pub(super) down: &'a [T],
     pub(super) basis: &'a [T],
@@ -50,11 +50,11 @@ struct Local<'a, T, const C: usize> {
     degree: usize,
     smooth: [&'a [T]; C],
     /// The other blocks, and where their tables begin.
-    others: &'a [Term],
+    others: &'a [BlockTerm],
     start: usize,
 }
 
-impl<'a, T: Scalar> Span<'a, T> {
+impl<'a, T: Scalar> RowSums<'a, T> {
     /// The degree of all smooth blocks, [`ANY`] if they differ.
     pub(super) fn common_degree(&self) -> usize {
         let degree =
@@ -223,7 +223,7 @@ impl<'a, T: Scalar> Span<'a, T> {
     ) -> Local<'a, T, C> {
         let all: &'a [Strip] = self.strips;
         let strip = &all[at];
-        let terms: &'a [Term] = &self.terms[strip.terms.clone()];
+        let terms: &'a [BlockTerm] = &self.terms[strip.terms.clone()];
         let degree = known(P, terms[0].degree);
         let start = strip.table + weight_len::<R, D>() + component * strip.len;
         let smooth = self.tables_of::<R, D, C>(strip, start, degree);
@@ -289,7 +289,7 @@ impl<'a, T: Scalar> Span<'a, T> {
     #[inline(always)]
     fn function<R: Real<Scalar = T>, const D: usize>(
         &self,
-        term: &Term,
+        term: &BlockTerm,
         row: usize,
         like: R,
     ) -> Slopes<R> {

@@ -10,7 +10,7 @@ use ppum::real::{Real, Scalar};
 
 use super::collapse::{ANY, ROWS};
 use super::strips::{DOWN, Strip};
-use super::sums::Span;
+use super::sums::RowSums;
 use super::tile::{Batch, Scratch, Tile};
 
 impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
@@ -73,7 +73,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     ) {
         let components = self.scene.plan.coefficients.len();
         let Scratch { strips, here, basis, sums, .. } = scratch;
-        let span = Span {
+        let span = RowSums {
             rows,
             strips: &strips.all,
             here,

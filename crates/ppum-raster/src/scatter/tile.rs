@@ -8,7 +8,7 @@ use ppum::function::{GROUP, at_tip};
 use ppum::jet::Jet;
 use ppum::real::{Job, Real, Scalar};
 
-use super::Scene;
+use super::PreparedView;
 use super::collapse::{ROWS, Slopes, splat};
 use super::grains::Grains;
 use super::plan::{COLUMNS, Patch, Tiles};
@@ -69,7 +69,7 @@ pub(super) struct Batch {
 
 /// Draws a band: the tiles of some rows, with `D` derivatives.
 pub(super) struct Band<'a, 'f, T, const D: usize> {
-    pub(super) scene: &'a Scene<'f, T>,
+    pub(super) scene: &'a PreparedView<'f, T>,
     pub(super) tiles: &'a Tiles,
     pub(super) band: usize,
     pub(super) scratch: &'a mut Scratch<T>,
@@ -93,14 +93,14 @@ impl<T: Scalar, const D: usize> Job<T> for Band<'_, '_, T, D> {
 
 /// One tile.
 pub(super) struct Tile<'a, 'f, T, const D: usize> {
-    pub(super) scene: &'a Scene<'f, T>,
+    pub(super) scene: &'a PreparedView<'f, T>,
     column: usize,
     band: usize,
 }
 
 impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
     #[inline(always)]
-    pub(super) fn new(scene: &'a Scene<'f, T>, column: usize, band: usize) -> Self {
+    pub(super) fn new(scene: &'a PreparedView<'f, T>, column: usize, band: usize) -> Self {
         Self { scene, column, band }
     }
 

@@ -21,8 +21,8 @@ pub(super) struct Weights<T> {
     slopes: Vec<T>,
 }
 
-/// What a factor depends on, and the pixels where it is needed.
-type Key = (u64, u64, u32, u32);
+/// The numbers that a factor depends on, and the pixels where it is needed.
+type FactorKey = (u64, u64, u32, u32);
 
 impl<T: Scalar> Weights<T> {
     /// The factors of patches that are formulas; of other kinds there are none. Supports learn
@@ -32,7 +32,7 @@ impl<T: Scalar> Weights<T> {
         if !matches!(weight, WeightFunction::Formula(_)) {
             return weights;
         }
-        let mut known: [HashMap<Key, Option<u32>>; 2] = Default::default();
+        let mut known: [HashMap<FactorKey, Option<u32>>; 2] = Default::default();
         for patch in patches {
             let pixels = [&patch.columns, &patch.rows].map(whole_vectors::<T>);
             for (axis, pixels) in pixels.into_iter().enumerate() {

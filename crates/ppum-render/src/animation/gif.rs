@@ -6,7 +6,7 @@ use std::io::Write;
 use ::gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
 use super::palette::{Palette, TRANSPARENT};
-use super::{AnimationError, Changed, Colors, check_size};
+use super::{AnimationError, Changed, ColorCounts, check_size};
 use crate::image::Image;
 
 /// A GIF file that is being written. Its palette of 256 colours is that of all images: all of their
@@ -33,7 +33,7 @@ impl<W: Write> Gif<W> {
     pub fn new(
         out: W,
         size: [u32; 2],
-        colors: &Colors,
+        colors: &ColorCounts,
         milliseconds: u16,
     ) -> Result<Self, AnimationError> {
         let side = |n: u32| u16::try_from(n).map_err(|_| AnimationError::TooLarge { size });

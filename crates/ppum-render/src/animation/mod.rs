@@ -3,7 +3,7 @@
 //! All images have one size and are shown for one time each, over and over. [`Apng`] and [`Gif`]
 //! take them one by one, so that no two have to be held at a time; what does not change from one to
 //! the next is left out of the file. A GIF has one palette, so that nothing flickers: the
-//! [`Colors`] of all its images are counted before the first one is written.
+//! [`ColorCounts`] of all its images are counted before the first one is written.
 
 mod apng;
 mod gif;
@@ -14,7 +14,7 @@ use crate::png::Text;
 
 pub use apng::Apng;
 pub use gif::Gif;
-pub use palette::Colors;
+pub use palette::ColorCounts;
 
 /// The reason why there is no such moving picture.
 #[derive(Debug, thiserror::Error)]
@@ -80,7 +80,7 @@ pub fn apng(
 /// No images, images of several sizes, a side of more than 65535 pixels.
 pub fn gif(images: &[Image], milliseconds: u16) -> Result<Vec<u8>, AnimationError> {
     let size = images.first().ok_or(AnimationError::Empty)?.size;
-    let mut colors = Colors::new();
+    let mut colors = ColorCounts::new();
     images.iter().for_each(|image| colors.add(image));
     let mut bytes = Vec::new();
     let mut file = Gif::new(&mut bytes, size, &colors, milliseconds)?;
@@ -285,7 +285,7 @@ mod tests {
     #[test]
     fn colours_that_were_not_counted_are_near_ones() {
         let images = wandering(false);
-        let mut colors = Colors::new();
+        let mut colors = ColorCounts::new();
         colors.add(&images[0]);
         let mut bytes = Vec::new();
         let mut file = Gif::new(&mut bytes, [40, 30], &colors, 20).unwrap();
@@ -308,7 +308,7 @@ mod tests {
         let mut file = Apng::new(Vec::new(), images[0].size, count, 40, &[]).unwrap();
         file.add(&images[0]).unwrap();
         assert!(matches!(file.finish(), Err(AnimationError::Count { announced: 2, found: 1 })));
-        let none = Gif::new(Vec::new(), [4, 4], &Colors::new(), 40).unwrap().finish();
+        let none = Gif::new(Vec::new(), [4, 4], &ColorCounts::new(), 40).unwrap().finish();
         assert!(matches!(none, Err(AnimationError::Empty)));
     }
 

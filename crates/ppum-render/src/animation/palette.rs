@@ -25,8 +25,8 @@ pub(super) struct Palette {
 
 impl Palette {
     /// The palette of colours that were counted.
-    pub(super) fn of(colors: &Colors) -> Self {
-        let mut boxes = vec![Group::new(colors.counted())];
+    pub(super) fn of(colors: &ColorCounts) -> Self {
+        let mut boxes = vec![ColorBox::new(colors.counted())];
         while boxes.len() < PLACES {
             let wide = boxes.iter().enumerate().filter(|(_, b)| b.spread > 0.0);
             let Some((widest, _)) = wide.max_by(|a, b| a.1.spread.total_cmp(&b.1.spread)) else {
@@ -35,7 +35,7 @@ impl Palette {
             let parts = boxes.swap_remove(widest).halves();
             boxes.extend(parts);
         }
-        let colors: Vec<_> = boxes.iter().map(Group::mean).collect();
+        let colors: Vec<_> = boxes.iter().map(ColorBox::mean).collect();
         let members = boxes.iter().zip(0..=u8::MAX);
         let members = members.flat_map(|(b, place)| b.colors.iter().map(move |c| (c.0, place)));
         Self { places: members.collect(), colors }
@@ -81,25 +81,25 @@ fn opaque([red, green, blue, opacity]: Rgba) -> Option<[u8; 3]> {
 
 /// The colours of images, counted one image after the other: 64 MiB, however many there are.
 #[derive(Clone)]
-pub struct Colors {
+pub struct ColorCounts {
     /// The number of pixels of each colour.
     counts: Vec<u32>,
     has_transparent: bool,
 }
 
-impl fmt::Debug for Colors {
+impl fmt::Debug for ColorCounts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Colors").finish_non_exhaustive()
     }
 }
 
-impl Default for Colors {
+impl Default for ColorCounts {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl Colors {
+impl ColorCounts {
     /// No colours.
     #[must_use]
     pub fn new() -> Self {
@@ -132,7 +132,7 @@ impl Colors {
 }
 
 /// Colours of one box.
-struct Group {
+struct ColorBox {
     colors: Vec<Counted>,
     /// The channel in which they differ most.
     channel: usize,
@@ -148,7 +148,7 @@ fn weight((_, count): &Counted) -> f64 {
     root * root.sqrt()
 }
 
-impl Group {
+impl ColorBox {
     fn new(colors: Vec<Counted>) -> Self {
         let spreads = [0, 1, 2].map(|channel| (channel, spread(&colors, channel)));
         let widest = spreads.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));

@@ -26,7 +26,7 @@ mod table;
 use crate::image::Rgba;
 use ppum::text::hint;
 use space::Space;
-use stops::{Mistake, Stops};
+use stops::{ColorFileError, Stops};
 
 /// Names of the built-in maps.
 pub const NAMES: [&str; 11] = [
@@ -142,9 +142,12 @@ impl Colormap {
     /// or a colour space that is not supported.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ColormapError> {
         let found = read(text).and_then(|stops| Ok((stops.entries()?, stops)));
-        let ((positions, entries), stops) = found.map_err(|Mistake { place, text: mistake }| {
-            ColormapError::File { name: name.to_owned(), place, mistake }
-        })?;
+        let ((positions, entries), stops) =
+            found.map_err(|ColorFileError { place, text: mistake }| ColormapError::File {
+                name: name.to_owned(),
+                place,
+                mistake,
+            })?;
         let mut map = Self {
             name: name.to_owned(),
             below: BLACK,
@@ -285,10 +288,10 @@ impl Colormap {
 }
 
 /// Reads a file of any form.
-fn read(text: &str) -> Result<Stops, Mistake> {
+fn read(text: &str) -> Result<Stops, ColorFileError> {
     let text = text.trim_start_matches('\u{feff}');
     if text.len() as u64 > LONGEST {
-        return Err(Mistake::new(
+        return Err(ColorFileError::new(
             "the whole file",
             "has more than 16 MiB; a colour map has some thousand colours",
         ));
@@ -297,7 +300,7 @@ fn read(text: &str) -> Result<Stops, Mistake> {
         Some('[' | '{') => json::read(text),
         Some('<') => {
             let mistake = "XML is not supported; ParaView reads it and exports it as JSON";
-            Err(Mistake::new("the whole file", mistake))
+            Err(ColorFileError::new("the whole file", mistake))
         }
         _ => table::read(text).map(Stops::from),
     }

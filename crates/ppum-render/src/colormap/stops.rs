@@ -13,12 +13,12 @@ const LEAST_SAMPLES: usize = 8;
 
 /// A mistake in a file, and its place.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Mistake {
+pub(super) struct ColorFileError {
     pub(super) place: String,
     pub(super) text: String,
 }
 
-impl Mistake {
+impl ColorFileError {
     pub(super) fn new(place: impl Into<String>, text: impl Into<String>) -> Self {
         Self { place: place.into(), text: text.into() }
     }
@@ -35,7 +35,7 @@ pub(super) enum Paint {
 
 /// A colour at a position, which is missing where the file gives none.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Stop {
+pub(super) struct ColorStop {
     pub(super) at: Option<f64>,
     pub(super) paint: Paint,
     pub(super) place: String,
@@ -44,14 +44,14 @@ pub(super) struct Stop {
 /// A file's content.
 #[derive(Clone, Debug)]
 pub(super) struct Stops {
-    pub(super) stops: Vec<Stop>,
+    pub(super) stops: Vec<ColorStop>,
     pub(super) space: Space,
     pub(super) below: Option<Rgba>,
     pub(super) above: Option<Rgba>,
 }
 
-impl From<Vec<Stop>> for Stops {
-    fn from(stops: Vec<Stop>) -> Self {
+impl From<Vec<ColorStop>> for Stops {
+    fn from(stops: Vec<ColorStop>) -> Self {
         Self { stops, space: Space::Rgb, below: None, above: None }
     }
 }
@@ -61,15 +61,15 @@ pub(super) type Entries = (Vec<f64>, Vec<[f64; 3]>);
 
 impl Stops {
     /// Colours and positions, checked and scaled.
-    pub(super) fn entries(&self) -> Result<Entries, Mistake> {
+    pub(super) fn entries(&self) -> Result<Entries, ColorFileError> {
         if self.stops.len() < 2 {
-            return Err(Mistake::new(
+            return Err(ColorFileError::new(
                 "the whole file",
                 "has fewer than two colours; give at least two",
             ));
         }
         if self.stops.len() > MOST {
-            return Err(Mistake::new(&self.stops[MOST].place, too_many()));
+            return Err(ColorFileError::new(&self.stops[MOST].place, too_many()));
         }
         let (positions, colors) = (self.positions()?, self.colors());
         Ok(match self.space {
@@ -82,7 +82,7 @@ impl Stops {
         let small =
             |paint: &Paint| !matches!(paint, Paint::Numbers(c) if c.iter().any(|&c| c > 1.0));
         let scale = if self.stops.iter().all(|stop| small(&stop.paint)) { 255.0 } else { 1.0 };
-        let color = |stop: &Stop| match stop.paint {
+        let color = |stop: &ColorStop| match stop.paint {
             Paint::Bytes(color) => color,
             Paint::Numbers(color) => color.map(|c| c * scale),
         };
@@ -90,13 +90,13 @@ impl Stops {
     }
 
     /// Positions scaled to 0 … 1; none if the file gives none.
-    fn positions(&self) -> Result<Vec<f64>, Mistake> {
+    fn positions(&self) -> Result<Vec<f64>, ColorFileError> {
         let given: Vec<f64> = self.stops.iter().filter_map(|stop| stop.at).collect();
         if given.is_empty() {
             return Ok(given);
         }
         if let Some(stop) = self.stops.iter().find(|stop| stop.at.is_none()) {
-            return Err(Mistake::new(
+            return Err(ColorFileError::new(
                 &stop.place,
                 "has no position, but others have; give all or none",
             ));
@@ -105,13 +105,13 @@ impl Stops {
             if pair[1] < pair[0] {
                 let mistake =
                     format!("position {:?} follows {:?}; positions must grow", pair[1], pair[0]);
-                return Err(Mistake::new(&stop.place, mistake));
+                return Err(ColorFileError::new(&stop.place, mistake));
             }
         }
         let (first, last) = (given[0], given[given.len() - 1]);
         if !(last - first).is_finite() || last == first {
             let mistake = format!("run from {first:?} to {last:?}; they must span a finite range");
-            return Err(Mistake::new("positions", mistake));
+            return Err(ColorFileError::new("positions", mistake));
         }
         Ok(given.iter().map(|at| (at - first) / (last - first)).collect())
     }

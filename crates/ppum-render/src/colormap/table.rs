@@ -1,7 +1,7 @@
 //! Colour maps as text tables and CSV: a colour on each line, with or without its position.
 
 use super::paint::{numbers, word};
-use super::stops::{MOST, Mistake, Stop, too_many};
+use super::stops::{ColorFileError, ColorStop, MOST, too_many};
 
 /// The columns of a line.
 #[derive(Clone, Debug)]
@@ -22,7 +22,7 @@ const FORMS: &str = "write red, green and blue, 0 to 255 or 0 to 1, or #rrggbb, 
     with or without a position in front";
 
 /// Reads the lines; the first one may name the columns.
-pub(super) fn read(text: &str) -> Result<Vec<Stop>, Mistake> {
+pub(super) fn read(text: &str) -> Result<Vec<ColorStop>, ColorFileError> {
     let (mut stops, mut columns) = (Vec::new(), None);
     for (index, line) in text.lines().enumerate() {
         let place = || format!("line {}", index + 1);
@@ -39,7 +39,7 @@ pub(super) fn read(text: &str) -> Result<Vec<Stop>, Mistake> {
             None => columns.insert(counted(&words).ok_or_else(|| no_color(line, place()))?),
         };
         if stops.len() >= MOST {
-            return Err(Mistake::new(place(), too_many()));
+            return Err(ColorFileError::new(place(), too_many()));
         }
         let stop = columns.stop(&words, place());
         stops.push(stop.ok_or_else(|| no_color(line, place()))?);
@@ -47,8 +47,8 @@ pub(super) fn read(text: &str) -> Result<Vec<Stop>, Mistake> {
     Ok(stops)
 }
 
-fn no_color(line: &str, place: String) -> Mistake {
-    Mistake::new(place, format!("`{}` is not a colour; {FORMS}", excerpt(line)))
+fn no_color(line: &str, place: String) -> ColorFileError {
+    ColorFileError::new(place, format!("`{}` is not a colour; {FORMS}", excerpt(line)))
 }
 
 /// So much of a line as a message can bear.
@@ -98,7 +98,7 @@ fn counted(words: &[&str]) -> Option<Columns> {
 }
 
 impl Columns {
-    fn stop(&self, words: &[&str], place: String) -> Option<Stop> {
+    fn stop(&self, words: &[&str], place: String) -> Option<ColorStop> {
         if self.count != 0 && words.len() != self.count {
             return None;
         }
@@ -111,6 +111,6 @@ impl Columns {
             Some(k) => Some(number(k)?),
             None => None,
         };
-        Some(Stop { at, paint, place })
+        Some(ColorStop { at, paint, place })
     }
 }

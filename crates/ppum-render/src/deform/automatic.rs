@@ -4,7 +4,7 @@ use ppum::crack::Side;
 use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::map::Map;
+use super::map::DeformationMap;
 use super::{DeformError, check};
 
 /// Largest displacement that is seen, in parts of the smaller side of what is shown.
@@ -67,7 +67,7 @@ fn largest(field: &Field<'_>, window: &Rect) -> f64 {
         .map(|k| shown.min + vec2(size.x * f64::from(k % POINTS), size.y * f64::from(k / POINTS)))
         .filter(|p| field.domain.contains(*p));
     let vertices = field.step.cracks.iter().flat_map(|crack| crack.points.iter().copied());
-    let mut map = Map::new(field, shown.center());
+    let mut map = DeformationMap::new(field, shown.center());
     let mut length = |p: Vec2| {
         let u = map.displacement(p - shown.center(), Side::Above).unwrap_or([0.0; 2]);
         Vec2::from(u).length()

@@ -4,7 +4,7 @@ use ppum::domain::LocalDomain;
 use ppum::vec2::{Rect, Vec2};
 
 use super::leaf::Leaf;
-use super::map::{Image, Map};
+use super::map::{DeformationMap, Image};
 use super::{DeformedView, TOLERANCE};
 
 /// Most steps of Newton's method, and most halvings of one.
@@ -19,7 +19,7 @@ const BEHIND: f64 = 0.3;
 
 /// A point of a leaf that moves to a given place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Found {
+pub(super) struct Preimage {
     /// Offset from the anchor.
     pub(super) offset: Vec2,
     pub(super) image: Image,
@@ -62,7 +62,7 @@ impl Inverse<'_, '_> {
 
     /// The point that moves to a place, if it lies in the leaf. Where the plate folds Newton's
     /// method is started at the corners too.
-    pub(super) fn find(&self, map: &mut Map<'_>, place: Vec2) -> Option<Found> {
+    pub(super) fn find(&self, map: &mut DeformationMap<'_>, place: Vec2) -> Option<Preimage> {
         let Leaf { corners, center, image, .. } = self.leaf;
         let start = image.pulled_back(place - image.at);
         let start = if start.is_finite() { *center + start } else { *center };
@@ -81,7 +81,7 @@ impl Inverse<'_, '_> {
         (part * self.view.view.pixel_size()).max(self.view.rounding())
     }
 
-    fn newton(&self, map: &mut Map<'_>, start: Vec2, place: Vec2) -> Option<Found> {
+    fn newton(&self, map: &mut DeformationMap<'_>, start: Vec2, place: Vec2) -> Option<Preimage> {
         let mut here = self.image(map, nearest(&self.leaf.corners, start))?;
         for _ in 0..STEPS {
             let miss = place - here.image.at;
@@ -90,7 +90,7 @@ impl Inverse<'_, '_> {
                 && holds(&self.leaf.corners, here.offset + step)
             {
                 // the step is known already, and far smaller than a pixel
-                return Some(Found { offset: here.offset + step, ..here });
+                return Some(Preimage { offset: here.offset + step, ..here });
             }
             if miss.length() <= self.within(GAP) {
                 return Some(here);
@@ -109,7 +109,13 @@ impl Inverse<'_, '_> {
 
     /// A step of Newton's method inside the leaf, shortened until it leads nearer to the place;
     /// none if it cannot.
-    fn step(&self, map: &mut Map<'_>, here: Found, step: Vec2, place: Vec2) -> Option<Found> {
+    fn step(
+        &self,
+        map: &mut DeformationMap<'_>,
+        here: Preimage,
+        step: Vec2,
+        place: Vec2,
+    ) -> Option<Preimage> {
         let target = nearest(&self.leaf.corners, here.offset + step);
         let way = target - here.offset;
         let miss = (place - here.image.at).length();
@@ -125,7 +131,12 @@ impl Inverse<'_, '_> {
     }
 
     /// A point of the plate between a piece's side and the round rim that it stands for.
-    fn behind_rim(&self, map: &mut Map<'_>, mut here: Found, place: Vec2) -> Option<Found> {
+    fn behind_rim(
+        &self,
+        map: &mut DeformationMap<'_>,
+        mut here: Preimage,
+        place: Vec2,
+    ) -> Option<Preimage> {
         let pixel = self.view.view.pixel_size();
         if !self.leaf.at_rim {
             return None;
@@ -143,8 +154,8 @@ impl Inverse<'_, '_> {
         None
     }
 
-    fn image(&self, map: &mut Map<'_>, offset: Vec2) -> Option<Found> {
-        Some(Found { offset, image: map.image(self.view, offset)? })
+    fn image(&self, map: &mut DeformationMap<'_>, offset: Vec2) -> Option<Preimage> {
+        Some(Preimage { offset, image: map.image(self.view, offset)? })
     }
 }
 

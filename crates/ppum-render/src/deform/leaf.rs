@@ -7,7 +7,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_raster::parts::Parts;
 use rayon::prelude::*;
 
-use super::map::{Image, Map};
+use super::map::{DeformationMap, Image};
 use super::{DeformError, DeformedView};
 use crate::pieces::{INSET, Piece, Pieces};
 
@@ -63,7 +63,7 @@ pub(super) fn leaves(
     while !squares.is_empty() {
         let parts = Parts::start(watcher, squares.len().div_ceil(BLOCK))?;
         let blocks = squares.par_chunks(BLOCK).map_init(
-            || Map::new(field, view.anchor),
+            || DeformationMap::new(field, view.anchor),
             |map, block| {
                 let seen: Vec<_> = block.iter().map(|square| cutter.look(map, square)).collect();
                 parts.finish_one().map(|()| seen)
@@ -106,7 +106,7 @@ impl<'a, 'f> Cutter<'a, 'f> {
         Self { view, pieces, domain: field.domain.at(view.anchor) }
     }
 
-    fn look(&self, map: &mut Map<'_>, square: &Rect) -> Looked {
+    fn look(&self, map: &mut DeformationMap<'_>, square: &Rect) -> Looked {
         let view = self.view;
         let leaves: Vec<Leaf> = match self.pieces.may_cut(square) {
             true => self
@@ -154,7 +154,7 @@ impl Leaf {
     /// Nothing where the field has no values.
     fn new(
         view: &DeformedView<'_>,
-        map: &mut Map<'_>,
+        map: &mut DeformationMap<'_>,
         piece: &Piece,
         is_cut: bool,
     ) -> Option<Self> {

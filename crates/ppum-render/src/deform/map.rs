@@ -35,13 +35,13 @@ impl Image {
 }
 
 /// A displacement seen from an anchor, on the rims of the domain and just beyond them too.
-pub(super) struct Map<'f> {
+pub(super) struct DeformationMap<'f> {
     local: LocalField<'f>,
     patches: Vec<u32>,
     jets: Vec<Jet<f64>>,
 }
 
-impl<'f> Map<'f> {
+impl<'f> DeformationMap<'f> {
     pub(super) fn new(field: &'f Field<'f>, anchor: Vec2) -> Self {
         let local = field.at(anchor);
         let jets = vec![Jet::constant(0.0); local.field.components()];

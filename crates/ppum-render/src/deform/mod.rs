@@ -45,7 +45,7 @@ use ppum::vec2::{Rect, Vec2};
 use ppum_raster::view::{View, ViewError};
 
 pub use automatic::{AutomaticFactor, automatic_factor};
-use map::Map;
+use map::DeformationMap;
 pub use path::Paths;
 pub use points::{DeformedPoints, DeformedRaster, MaterialPoint};
 
@@ -154,22 +154,23 @@ impl<'f> Deformation<'f> {
     /// The place to which a point of the plate moves, above if it lies on a crack.
     #[must_use]
     pub fn place(&self, point: Vec2) -> Vec2 {
-        self.place_by(&mut Map::new(self.field, point), point, point)
+        self.place_by(&mut DeformationMap::new(self.field, point), point, point)
     }
 
     /// The same by a map that is anchored elsewhere.
-    fn place_by(&self, map: &mut Map<'_>, anchor: Vec2, point: Vec2) -> Vec2 {
+    fn place_by(&self, map: &mut DeformationMap<'_>, anchor: Vec2, point: Vec2) -> Vec2 {
         point + Vec2::from(finite(map.displacement(point - anchor, Side::Above))) * self.factor
     }
 
     /// The displacement at a point; zero far outside the plate.
     fn displacement(&self, point: Vec2) -> [f64; 2] {
-        finite(Map::new(self.field, point).displacement(Vec2::ZERO, Side::Above))
+        finite(DeformationMap::new(self.field, point).displacement(Vec2::ZERO, Side::Above))
     }
 
     /// The tip that is seen nearest to the middle, if one is seen or lies just beside the picture.
     fn nearest_tip(&self, view: &View) -> Option<Vec2> {
-        let (cracks, mut map) = (&self.field.step.cracks, Map::new(self.field, view.center));
+        let (cracks, mut map) =
+            (&self.field.step.cracks, DeformationMap::new(self.field, view.center));
         let all = tips(cracks).map(|tip| cracks[tip.crack as usize].end_point(tip.end));
         let near = all
             .map(|tip| ((self.place_by(&mut map, view.center, tip) - view.center).length(), tip))
@@ -181,7 +182,7 @@ impl<'f> Deformation<'f> {
     fn material(&self, place: Vec2) -> Vec2 {
         let bounds = &self.field.domain.bounds;
         let within = |p: Vec2| p.max(bounds.min).min(bounds.max);
-        let mut map = Map::new(self.field, place);
+        let mut map = DeformationMap::new(self.field, place);
         let mut missed = |p: Vec2| place - self.place_by(&mut map, place, p);
         let mut point = within(place);
         let (mut miss, mut step) = (missed(point), 1.0);
@@ -263,7 +264,7 @@ impl<'f> DeformedView<'f> {
     #[must_use]
     pub fn moved_cracks(&self) -> Vec<Crack> {
         let mut cracks = self.field().step.cracks.clone();
-        let mut map = Map::new(self.field(), self.anchor);
+        let mut map = DeformationMap::new(self.field(), self.anchor);
         for point in cracks.iter_mut().flat_map(|crack| &mut crack.points) {
             *point = self.deformation.place_by(&mut map, self.anchor, *point);
         }

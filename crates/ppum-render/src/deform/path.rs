@@ -5,7 +5,7 @@ use ppum::domain::{Hole, LocalDomain};
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::DeformedView;
-use super::map::Map;
+use super::map::DeformationMap;
 
 /// Largest distance of a path from the curve that it stands for \[pixels\].
 const CHORD: f64 = 0.1;
@@ -40,7 +40,7 @@ impl DeformedView<'_> {
     #[must_use]
     pub fn paths(&self, polylines: &[impl AsRef<[Vec2]>]) -> Paths {
         let domain = self.field().domain.at(self.anchor);
-        let mut map = Map::new(self.field(), self.anchor);
+        let mut map = DeformationMap::new(self.field(), self.anchor);
         let mut all = Vec::new();
         for points in polylines {
             let mut paths = Joined::new(self);
@@ -71,7 +71,7 @@ impl DeformedView<'_> {
     #[must_use]
     pub fn faces_of(&self, cracks: &[usize]) -> Vec<[Paths; 2]> {
         let (mut map, domain) =
-            (Map::new(self.field(), self.anchor), self.field().domain.at(self.anchor));
+            (DeformationMap::new(self.field(), self.anchor), self.field().domain.at(self.anchor));
         let mut face = |crack: &Crack, side: Side| {
             let mut paths = Joined::new(self);
             for face in Face::all(crack, side, self.anchor) {
@@ -229,7 +229,7 @@ fn is_near(last: &[Vec2], next: &[Vec2], same: f64) -> bool {
 /// The border of the plate.
 struct Border<'a, 'f> {
     view: &'a DeformedView<'f>,
-    map: Map<'f>,
+    map: DeformationMap<'f>,
     domain: LocalDomain,
     /// Way into the plate.
     inward: f64,
@@ -238,7 +238,7 @@ struct Border<'a, 'f> {
 impl<'a, 'f> Border<'a, 'f> {
     fn new(view: &'a DeformedView<'f>) -> Self {
         let (field, size) = (view.field(), view.field().domain.bounds.size());
-        let (map, domain) = (Map::new(field, view.anchor), field.domain.at(view.anchor));
+        let (map, domain) = (DeformationMap::new(field, view.anchor), field.domain.at(view.anchor));
         Self { view, map, domain, inward: INWARD * size.x.min(size.y) }
     }
 

@@ -9,9 +9,9 @@ use ppum_raster::parts::Parts;
 use ppum_raster::raster::Raster;
 use rayon::prelude::*;
 
-use super::inverse::{Found, Inverse};
+use super::inverse::{Inverse, Preimage};
 use super::leaf::{Leaf, leaves};
-use super::map::Map;
+use super::map::DeformationMap;
 use super::{DeformError, DeformedView};
 
 /// Rows of pixels that are worked on at once: what is found there is kept until it is sorted.
@@ -89,10 +89,10 @@ impl<'f> DeformedView<'f> {
         leaves: &[Leaf],
         band: [u32; 2],
         parts: &Parts<'_>,
-    ) -> Result<Vec<(u32, Found)>, DeformError> {
+    ) -> Result<Vec<(u32, Preimage)>, DeformError> {
         let domain = self.field().domain.at(self.anchor);
         let blocks = leaves.par_chunks(BLOCK).map_init(
-            || Map::new(self.field(), self.anchor),
+            || DeformationMap::new(self.field(), self.anchor),
             |map, block| {
                 let mut found = Vec::new();
                 for leaf in block {
@@ -108,15 +108,17 @@ impl<'f> DeformedView<'f> {
     }
 
     /// Without displacements every pixel is its own point.
-    fn unmoved(&self, [from, to]: [u32; 2]) -> Vec<(u32, Found)> {
+    fn unmoved(&self, [from, to]: [u32; 2]) -> Vec<(u32, Preimage)> {
         let domain = self.field().domain.at(self.anchor);
         let columns = self.view.pixels[0];
         let unit = [Vec2 { x: 1.0, y: 0.0 }, Vec2 { x: 0.0, y: 1.0 }];
         let pixels = (from..to).flat_map(|j| (0..columns).map(move |i| (i, j)));
         let points = pixels.filter_map(|(i, j)| {
             let at = self.view.offset(i, j);
-            let found =
-                Found { offset: at - self.shift, image: super::map::Image { at, gradient: unit } };
+            let found = Preimage {
+                offset: at - self.shift,
+                image: super::map::Image { at, gradient: unit },
+            };
             domain.contains(found.offset).then_some((j * columns + i, found))
         });
         points.collect()
@@ -124,16 +126,21 @@ impl<'f> DeformedView<'f> {
 }
 
 /// The order of the points at a pixel.
-fn first(a: &Found, b: &Found) -> std::cmp::Ordering {
-    let is_folded = |found: &Found| found.image.determinant() < 0.0;
+fn first(a: &Preimage, b: &Preimage) -> std::cmp::Ordering {
+    let is_folded = |found: &Preimage| found.image.determinant() < 0.0;
     // the highest; of equally high ones the rightmost
-    let height = |found: &Found| found.offset.y + 0.29 * found.offset.x;
+    let height = |found: &Preimage| found.offset.y + 0.29 * found.offset.x;
     is_folded(a).cmp(&is_folded(b)).then(height(b).total_cmp(&height(a)))
 }
 
 impl Inverse<'_, '_> {
     /// Appends the points of the leaf at the pixels of some rows.
-    fn pixels(&self, map: &mut Map<'_>, [from, to]: [u32; 2], found: &mut Vec<(u32, Found)>) {
+    fn pixels(
+        &self,
+        map: &mut DeformationMap<'_>,
+        [from, to]: [u32; 2],
+        found: &mut Vec<(u32, Preimage)>,
+    ) {
         let (view, Rect { min, max }) = (&self.view.view, self.reach());
         let (low, high) = (view.pixel_of_offset(min), view.pixel_of_offset(max));
         let [columns, rows] =
@@ -161,23 +168,23 @@ impl<'f> DeformedPoints<'f> {
     /// Appends what was found in some rows, each point once.
     fn append(
         &mut self,
-        found: Vec<(u32, Found)>,
+        found: Vec<(u32, Preimage)>,
         [from, to]: [u32; 2],
     ) -> Result<(), DeformError> {
         let (columns, pixel) = (self.view.view.pixels[0], self.view.view.pixel_size());
         let mut rest = found.into_iter().peekable();
-        let mut here: Vec<Found> = Vec::new();
+        let mut here: Vec<Preimage> = Vec::new();
         for index in from * columns..to * columns {
             here.clear();
             while let Some((_, point)) = rest.next_if(|(at, _)| *at == index) {
-                let is_same = |known: &Found| {
+                let is_same = |known: &Preimage| {
                     known.image.carried(point.offset - known.offset).length() < SAME * pixel
                 };
                 if !here.iter().any(is_same) {
                     here.push(point);
                 }
             }
-            let point = |found: &Found| MaterialPoint {
+            let point = |found: &Preimage| MaterialPoint {
                 offset: found.offset,
                 folded: found.image.determinant() < 0.0,
             };

@@ -440,7 +440,7 @@ fn no_point_of_the_plate_is_lost() {
             let view = deformation.around(point, pixel, [1, 1]).unwrap();
             let points = view.points(unwatched()).unwrap();
             check(&points);
-            let mut map = Map::new(&field, view.anchor);
+            let mut map = DeformationMap::new(&field, view.anchor);
             let image = map.image(&view, Vec2::ZERO).unwrap();
             let is_it = |found: &MaterialPoint| {
                 image.carried(found.offset).length() < 0.1 * pixel

@@ -22,14 +22,14 @@ pub(super) const BESIDE: f64 = 1e-9;
 const SECTIONS: usize = 48;
 
 /// A boundary, or a part of it.
-pub(super) struct Curve {
-    shape: Shape,
+pub(super) struct BoundaryCurve {
+    shape: CurveShape,
     /// Unit vector to the side from which it is seen, of straight ones; zero if it is exact.
     toward: Vec2,
     pub(super) on: On,
 }
 
-enum Shape {
+enum CurveShape {
     Straight([Vec2; 2]),
     Arc(Arc),
     Bent(Bent),
@@ -46,21 +46,21 @@ struct Arc {
     angles: [f64; 2],
 }
 
-impl Curve {
+impl BoundaryCurve {
     fn straight(ends: [Vec2; 2], toward: Vec2, on: On) -> Self {
-        Self { shape: Shape::Straight(ends), toward, on }
+        Self { shape: CurveShape::Straight(ends), toward, on }
     }
 
     pub(super) fn bent(bent: Bent, on: On) -> Self {
-        Self { shape: Shape::Bent(bent), toward: Vec2::ZERO, on }
+        Self { shape: CurveShape::Bent(bent), toward: Vec2::ZERO, on }
     }
 
     /// The point at a part of the way, beside the curve by [`BESIDE`] pixels where it has to be.
     pub(super) fn at(&self, t: f64, pixel: f64) -> Vec2 {
         match &self.shape {
-            Shape::Straight([a, b]) => *a + (*b - *a) * t + self.toward * (BESIDE * pixel),
-            Shape::Arc(arc) => arc.at(t, BESIDE * pixel),
-            Shape::Bent(bent) => bent.at(t, BESIDE * pixel),
+            CurveShape::Straight([a, b]) => *a + (*b - *a) * t + self.toward * (BESIDE * pixel),
+            CurveShape::Arc(arc) => arc.at(t, BESIDE * pixel),
+            CurveShape::Bent(bent) => bent.at(t, BESIDE * pixel),
         }
     }
 
@@ -81,9 +81,9 @@ impl Curve {
     /// Number of samples that it should have: one a pixel.
     pub(super) fn samples(&self, pixel: f64) -> usize {
         let length = match &self.shape {
-            Shape::Straight([a, b]) => (*b - *a).length(),
-            Shape::Arc(arc) => arc.radius * (arc.angles[1] - arc.angles[0]),
-            Shape::Bent(bent) => bent.length(),
+            CurveShape::Straight([a, b]) => (*b - *a).length(),
+            CurveShape::Arc(arc) => arc.radius * (arc.angles[1] - arc.angles[0]),
+            CurveShape::Bent(bent) => bent.length(),
         };
         ((length / pixel).ceil() as usize).clamp(SAMPLES[0], SAMPLES[1])
     }
@@ -100,7 +100,7 @@ impl Arc {
 }
 
 /// All boundaries in a rectangle of offsets from an anchor.
-pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> Vec<Curve> {
+pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> Vec<BoundaryCurve> {
     let mut curves = borders(rect);
     for (index, crack) in (0..).zip(&field.step.cracks) {
         let local = LocalCrack::new(crack, anchor);
@@ -111,7 +111,7 @@ pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> Vec<Curve> {
             let id = SegmentId { crack: index, segment };
             let faces = |ends| {
                 [Side::Above, Side::Below]
-                    .map(|side| Curve::straight(ends, Vec2::ZERO, On::Face(id, side)))
+                    .map(|side| BoundaryCurve::straight(ends, Vec2::ZERO, On::Face(id, side)))
             };
             curves.extend(clipped(foot, s.tangent, range, rect).into_iter().flat_map(faces));
         }
@@ -123,20 +123,22 @@ pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> Vec<Curve> {
     curves
 }
 
-fn borders(rect: &Rect) -> Vec<Curve> {
+fn borders(rect: &Rect) -> Vec<BoundaryCurve> {
     let (min, max) = (rect.min, rect.max);
     let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
-    let side =
-        |k: usize| Curve::straight([corners[k], corners[(k + 1) % 4]], Vec2::ZERO, On::Border);
+    let side = |k: usize| {
+        BoundaryCurve::straight([corners[k], corners[(k + 1) % 4]], Vec2::ZERO, On::Border)
+    };
     (0..4).map(side).collect()
 }
 
-fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Vec<Curve>) {
+fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Vec<BoundaryCurve>) {
     let local = hole.at(anchor);
     match (hole, local.rim()) {
         (Hole::Circle { radius, .. }, LocalRim::Circle { d, excess }) => {
-            let (shape, toward) = (arc(*radius, *d, *excess, rect).map(Shape::Arc), Vec2::ZERO);
-            curves.extend(shape.map(|shape| Curve { shape, toward, on: On::Rim(index) }));
+            let (shape, toward) =
+                (arc(*radius, *d, *excess, rect).map(CurveShape::Arc), Vec2::ZERO);
+            curves.extend(shape.map(|shape| BoundaryCurve { shape, toward, on: On::Rim(index) }));
         }
         (_, LocalRim::Polygon(sides)) => {
             let orientation = hole.orientation();
@@ -146,7 +148,7 @@ fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Ve
                 let foot = tangent.left() * (-side.cross / length);
                 let range = [tangent.dot(side.a), tangent.dot(side.b)];
                 let outward = tangent.left() * -orientation;
-                let rim = |ends| Curve::straight(ends, outward, On::Rim(index));
+                let rim = |ends| BoundaryCurve::straight(ends, outward, On::Rim(index));
                 curves.extend(clipped(foot, tangent, range, rect).map(rim));
             }
         }
@@ -186,7 +188,7 @@ fn arc(radius: f64, d: Vec2, excess: f64, rect: &Rect) -> Option<Arc> {
 }
 
 /// Both sides of the straight lines on which the material's formulas are not smooth.
-fn add_interfaces(field: &Field<'_>, anchor: Vec2, rect: &Rect, curves: &mut Vec<Curve>) {
+fn add_interfaces(field: &Field<'_>, anchor: Vec2, rect: &Rect, curves: &mut Vec<BoundaryCurve>) {
     let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
     let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
     for [a, b, c] in kinks.filter_map(|kink| kink.line()) {
@@ -195,8 +197,9 @@ fn add_interfaces(field: &Field<'_>, anchor: Vec2, rect: &Rect, curves: &mut Vec
         let normal = normal.unit();
         let everywhere = [f64::NEG_INFINITY, f64::INFINITY];
         let ends = clipped(normal * -distance, normal.left(), everywhere, rect);
-        let both =
-            |ends| [normal, -normal].map(|toward| Curve::straight(ends, toward, On::Interface));
+        let both = |ends| {
+            [normal, -normal].map(|toward| BoundaryCurve::straight(ends, toward, On::Interface))
+        };
         curves.extend(ends.into_iter().flat_map(both));
     }
 }
@@ -223,11 +226,11 @@ fn clipped(
     (lo <= hi).then(|| [lo, hi].map(|t| foot + tangent * t))
 }
 
-impl Curve {
+impl BoundaryCurve {
     /// Parts of a straight face that begins or ends at a point, between distances from it that are
     /// multiplied by a factor each time.
     pub(super) fn parts_from(&self, point: Vec2, [first, factor, last]: [f64; 3]) -> Vec<Self> {
-        let (Shape::Straight([a, b]), On::Face(..)) = (&self.shape, self.on) else {
+        let (CurveShape::Straight([a, b]), On::Face(..)) = (&self.shape, self.on) else {
             return Vec::new();
         };
         let (near, far) =
@@ -240,7 +243,7 @@ impl Curve {
         let starts = std::iter::successors(Some(first), |r| Some(r * factor));
         let part = |r: f64| {
             let ends = [r, (r * factor).min(last)].map(|r| near + along * r);
-            Self { shape: Shape::Straight(ends), toward: self.toward, on: self.on }
+            Self { shape: CurveShape::Straight(ends), toward: self.toward, on: self.on }
         };
         starts.take_while(|r| *r < last).map(part).collect()
     }

@@ -49,7 +49,7 @@ use ppum_raster::view::View;
 use rayon::prelude::*;
 
 use climb::Climber;
-use curves::Curve;
+use curves::BoundaryCurve;
 pub use singular::{Singular, SingularKind};
 
 /// Pixels and samples of boundaries from which the search begins, at most, and how many of them
@@ -281,10 +281,15 @@ pub fn extrema<T: Sample>(
 
 /// The number of samples of each curve; `None` if all of them, and the looks at points that may be
 /// singular, are too many.
-fn samples(field: &Field<'_>, view: &View, curves: &[Curve], points: usize) -> Option<Vec<usize>> {
+fn samples(
+    field: &Field<'_>,
+    view: &View,
+    curves: &[BoundaryCurve],
+    points: usize,
+) -> Option<Vec<usize>> {
     let pixels = view.pixels[0] as usize * view.pixels[1] as usize;
     let segments: usize = field.step.cracks.iter().map(|crack| crack.points.len()).sum();
-    let is_face = |curve: &&Curve| matches!(curve.on, On::Face(..));
+    let is_face = |curve: &&BoundaryCurve| matches!(curve.on, On::Face(..));
     let apart = curves.iter().filter(is_face).count() * (segments / SEGMENTS);
     let least = affordable(field).checked_sub(points * singular::LOOK + apart)?;
     let room = (pixels / PIXELS).max(least);
@@ -318,7 +323,7 @@ struct Search<'a, 'f> {
     rect: Rect,
     /// Singular points where the quantity is infinite.
     hidden: Vec<Vec2>,
-    curves: Vec<Curve>,
+    curves: Vec<BoundaryCurve>,
     parts: Parts<'a>,
 }
 
@@ -356,7 +361,7 @@ impl Search<'_, '_> {
     /// The quantity along each curve.
     fn sampled(&self, samples: &[usize]) -> Result<Vec<Vec<f64>>, RenderError> {
         let anchor = self.view.center;
-        let along = |local: &mut LocalField<'_>, (curve, &samples): (&Curve, &usize)| {
+        let along = |local: &mut LocalField<'_>, (curve, &samples): (&BoundaryCurve, &usize)| {
             self.parts.finish_one()?;
             let at = |k: usize| curves::part(k, samples);
             let all = |local: &mut LocalField<'_>| {
@@ -410,7 +415,7 @@ impl Search<'_, '_> {
     }
 
     /// The extremum on a curve around a sample.
-    fn refined(&self, curve: &Curve, values: &[f64], sample: usize, sign: f64) -> Extremum {
+    fn refined(&self, curve: &BoundaryCurve, values: &[f64], sample: usize, sign: f64) -> Extremum {
         let mut local = curve.local(self.field, self.view.center);
         let mut value = |t: f64| self.on_curve(&mut local, curve, t);
         let (value, t) = curves::golden(&mut value, sign, values, sample);
@@ -419,7 +424,7 @@ impl Search<'_, '_> {
 
     /// The quantity at a part of the way along a curve; NaN where it is infinite, and next to such
     /// a point, and where the curve has left the view, as rims may.
-    fn on_curve(&self, local: &mut LocalField<'_>, curve: &Curve, t: f64) -> f64 {
+    fn on_curve(&self, local: &mut LocalField<'_>, curve: &BoundaryCurve, t: f64) -> f64 {
         let at = curve.at(t, self.view.pixel_size());
         if self.is_hidden(at) || !self.is_seen(curve.at(t, 0.0)) {
             return f64::NAN;

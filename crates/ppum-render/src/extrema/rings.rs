@@ -4,7 +4,7 @@ use ppum::crack::Side;
 use ppum::vec2::{Vec2, vec2};
 use rayon::prelude::*;
 
-use super::curves::{Curve, best_first};
+use super::curves::{BoundaryCurve, best_first};
 use super::{HIDDEN, Promise, ROUND, Search, climb};
 
 /// Rings around a point, the radius of the least in units of what is hidden there, and how much
@@ -25,7 +25,7 @@ const SCALE: f64 = 0.1;
 
 /// Faces of cracks next to points that they end at, in ever shorter parts; none if there are too
 /// many points.
-pub(super) fn faces(curves: &[Curve], hidden: &[Vec2], pixel: f64) -> Vec<Curve> {
+pub(super) fn faces(curves: &[BoundaryCurve], hidden: &[Vec2], pixel: f64) -> Vec<BoundaryCurve> {
     if hidden.len() * curves.len() > SAMPLES / RINGS {
         return Vec::new();
     }

@@ -12,7 +12,7 @@ use super::march::Segment;
 const NEAR: f64 = 0.02;
 
 /// A side by the bits of its ends.
-type Key = [u64; 4];
+type EdgeKey = [u64; 4];
 
 /// The lines of segments, level by level, each from its first segment on.
 pub(super) fn lines(segments: Vec<Segment>, levels: &[f64], pixel: f64) -> Vec<Isoline> {
@@ -55,7 +55,7 @@ fn of_one_level(segments: &[Segment], level: f64, near: f64) -> Vec<Isoline> {
 /// For each segment the one that goes on at its end.
 fn links(segments: &[Segment], near: f64) -> Vec<Option<usize>> {
     let mut next = vec![None; segments.len()];
-    let mut begins: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
+    let mut begins: BTreeMap<EdgeKey, Vec<usize>> = BTreeMap::new();
     for (k, segment) in segments.iter().enumerate().filter(|(_, s)| !s.ends[0].is_final) {
         begins.entry(key(segment.ends[0].side)).or_default().push(k);
     }
@@ -103,7 +103,7 @@ fn last(points: &[Vec2]) -> Vec2 {
     points[points.len() - 1]
 }
 
-fn key([a, b]: [Vec2; 2]) -> Key {
+fn key([a, b]: [Vec2; 2]) -> EdgeKey {
     // +0 and −0 are one place
     [a.x, a.y, b.x, b.y].map(|v| (v + 0.0).to_bits())
 }

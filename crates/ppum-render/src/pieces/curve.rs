@@ -1,6 +1,6 @@
 //! Curved interfaces: chords between the places where a level function changes its sign.
 
-use super::cut::{Cut, Polygon};
+use super::cut::{Polygon, PolygonCut};
 use super::{SAGITTA, centroid};
 use ppum::formula::Formula;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -17,12 +17,12 @@ const DEPTH: usize = 4;
 /// The zeros of a formula of x and y. What shows no change of sign on corners, middles of sides and
 /// centroid of a polygon is not seen.
 #[derive(Debug)]
-pub(super) struct Curve {
+pub(super) struct LevelCurve {
     pub(super) level: Formula,
     pub(super) anchor: Vec2,
 }
 
-impl Curve {
+impl LevelCurve {
     fn is_positive(&self, offset: Vec2) -> bool {
         let p = self.anchor + offset;
         self.level.evaluate(&[p.x, p.y]) > 0.0
@@ -63,7 +63,7 @@ impl Curve {
         if let [a, b] = crossings[..] {
             let sagitta = self.sagitta(a, b);
             if sagitta <= SAGITTA * size(&polygon) || depth == 0 {
-                let cut = Cut::chord(a, b, sagitta.max(f64::MIN_POSITIVE));
+                let cut = PolygonCut::chord(a, b, sagitta.max(f64::MIN_POSITIVE));
                 parts.extend(polygon.split(&cut, least).into_iter().flatten());
                 return;
             }
@@ -73,7 +73,7 @@ impl Curve {
             return;
         }
         let center = centroid(&polygon.corners);
-        let axes = [vec2(1.0, 0.0), vec2(0.0, 1.0)].map(|axis| Cut::through(center, axis));
+        let axes = [vec2(1.0, 0.0), vec2(0.0, 1.0)].map(|axis| PolygonCut::through(center, axis));
         let halves = polygon.split(&axes[0], least).into_iter().flatten();
         let quarters = halves.flat_map(|half| half.split(&axes[1], least)).flatten();
         quarters.for_each(|quarter| self.divide(quarter, least, depth - 1, parts));

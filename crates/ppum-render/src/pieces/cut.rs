@@ -13,7 +13,7 @@ const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// A line that cuts polygons, and the part of it that the field jumps on.
 #[derive(Clone, Debug)]
-pub(super) struct Cut {
+pub(super) struct PolygonCut {
     /// Unit vector along the line.
     tangent: Vec2,
     /// Distance of the anchor from the line, positive on its left.
@@ -32,10 +32,10 @@ pub(super) struct Polygon {
     /// Counter-clockwise.
     pub(super) corners: Vec<Vec2>,
     /// For the side from each corner to the next the line it was cut along.
-    pub(super) sides: Vec<Option<Cut>>,
+    pub(super) sides: Vec<Option<PolygonCut>>,
 }
 
-impl Cut {
+impl PolygonCut {
     /// Along a line whose left has positive distances.
     pub(super) fn along(tangent: Vec2, distance: f64, range: [f64; 2]) -> Self {
         Self { tangent, distance, range, is_interface: false, sagitta: 0.0 }
@@ -134,7 +134,7 @@ impl Polygon {
 
     /// The parts on the right and on the left of a line; a part is left out if it has no area, or
     /// is thinner than `least` while the other is not.
-    pub(super) fn split(self, cut: &Cut, least: f64) -> [Option<Self>; 2] {
+    pub(super) fn split(self, cut: &PolygonCut, least: f64) -> [Option<Self>; 2] {
         let distances: Vec<f64> = self.corners.iter().map(|&corner| cut.side(corner)).collect();
         let thickness = |sign: f64| distances.iter().fold(0.0, |a: f64, d| a.max(sign * d));
         let (right, left) = (thickness(-1.0), thickness(1.0));
@@ -145,7 +145,7 @@ impl Polygon {
     }
 
     /// The part where sign · distance ≥ 0.
-    fn part(&self, cut: &Cut, distances: &[f64], sign: f64) -> Self {
+    fn part(&self, cut: &PolygonCut, distances: &[f64], sign: f64) -> Self {
         let (mut corners, mut sides) = (Vec::new(), Vec::new());
         let n = self.corners.len();
         for k in 0..n {

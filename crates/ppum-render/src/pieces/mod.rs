@@ -27,8 +27,8 @@ use ppum::field::Field;
 use ppum::formula::Kink;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use curve::Curve;
-use cut::{Cut, Polygon};
+use curve::LevelCurve;
+use cut::{Polygon, PolygonCut};
 use round::Round;
 
 /// Part of the way from a corner to its piece's centroid at which the corner's values are taken.
@@ -75,13 +75,13 @@ pub struct Pieces<'f> {
     /// The box of the domain, relative to the anchor.
     bounds: Rect,
     /// Segments of cracks and sides of holes, found by their boxes.
-    lines: Vec<Cut>,
+    lines: Vec<PolygonCut>,
     tree: BoxTree,
     rounds: Vec<Round>,
     round_tree: BoxTree,
     /// Straight interfaces, and the others.
-    interfaces: Vec<Cut>,
-    curves: Vec<Curve>,
+    interfaces: Vec<PolygonCut>,
+    curves: Vec<LevelCurve>,
 }
 
 impl<'f> Pieces<'f> {
@@ -127,8 +127,8 @@ impl<'f> Pieces<'f> {
 
     fn add_interface(&mut self, kink: Kink) {
         match kink.line() {
-            Some(line) => self.interfaces.extend(Cut::interface(line, self.anchor)),
-            None => self.curves.push(Curve { level: kink.value, anchor: self.anchor }),
+            Some(line) => self.interfaces.extend(PolygonCut::interface(line, self.anchor)),
+            None => self.curves.push(LevelCurve { level: kink.value, anchor: self.anchor }),
         }
     }
 
@@ -167,7 +167,7 @@ impl<'f> Pieces<'f> {
         let size = size.x.min(size.y);
         let least = SLIVER * size;
         let mut all = vec![Polygon::rectangle(square)];
-        for border in Cut::borders(&self.bounds) {
+        for border in PolygonCut::borders(&self.bounds) {
             let inside = |polygon: Polygon| {
                 let [_, inside] = polygon.split(&border, least);
                 inside
@@ -210,7 +210,7 @@ impl<'f> Pieces<'f> {
 
     /// True if the material differs on the two sides of an interface, as seen from as far as chords
     /// of curves are from them.
-    fn material_jumps(&self, cut: &Cut, middle: Vec2, center: Vec2) -> bool {
+    fn material_jumps(&self, cut: &PolygonCut, middle: Vec2, center: Vec2) -> bool {
         let inward = (center - middle) * (2.0 * INSET).max(cut.inset(center));
         let [a, b] = [inward, -inward].map(|step| {
             let at = middle + step;
@@ -220,7 +220,7 @@ impl<'f> Pieces<'f> {
         a.into_iter().zip(b).any(|(a, b)| (a - b).abs() > JUMP * (a.abs() + b.abs()))
     }
 
-    fn lines_in(&self, square: &Rect) -> Vec<&Cut> {
+    fn lines_in(&self, square: &Rect) -> Vec<&PolygonCut> {
         let mut found = Vec::new();
         self.tree.query_box(&self.in_world(square), &mut found);
         found.iter().map(|&k| &self.lines[k as usize]).filter(|cut| cut.meets(square)).collect()
@@ -284,24 +284,28 @@ fn quarters(square: &Rect) -> [Rect; 4] {
     ]
 }
 
-fn add_crack(crack: &Crack, anchor: Vec2, lines: &mut Vec<Cut>, boxes: &mut Vec<Rect>) {
+fn add_crack(crack: &Crack, anchor: Vec2, lines: &mut Vec<PolygonCut>, boxes: &mut Vec<Rect>) {
     let local = LocalCrack::new(crack, anchor);
     for (ends, segment) in crack.points.windows(2).zip(local.segments()) {
         // those of the local crack are infinite at the crack's ends
         let range = [ends[0], ends[1]].map(|end| segment.tangent.dot(end - anchor));
-        lines.push(Cut::along(segment.tangent, segment.distance, range));
+        lines.push(PolygonCut::along(segment.tangent, segment.distance, range));
         boxes.push(Rect::new(ends[0].min(ends[1]), ends[0].max(ends[1])));
     }
 }
 
-fn add_sides(hole: &Hole, anchor: Vec2, lines: &mut Vec<Cut>, boxes: &mut Vec<Rect>) {
+fn add_sides(hole: &Hole, anchor: Vec2, lines: &mut Vec<PolygonCut>, boxes: &mut Vec<Rect>) {
     let local = hole.at(anchor);
     let LocalRim::Polygon(sides) = local.rim() else { return };
     for (ends, &LocalSide { a, b, direction, cross }) in hole.sides().zip(sides) {
         let length = direction.length();
         if length > 0.0 {
             let tangent = direction / length;
-            lines.push(Cut::along(tangent, cross / length, [tangent.dot(a), tangent.dot(b)]));
+            lines.push(PolygonCut::along(
+                tangent,
+                cross / length,
+                [tangent.dot(a), tangent.dot(b)],
+            ));
             boxes.push(Rect::new(ends[0].min(ends[1]), ends[0].max(ends[1])));
         }
     }

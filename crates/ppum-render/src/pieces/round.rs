@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::SAGITTA;
-use super::cut::{Cut, Polygon};
+use super::cut::{Polygon, PolygonCut};
 use ppum::domain::{Hole, LocalRim};
 use ppum::vec2::{Rect, Vec2, vec2};
 
@@ -104,7 +104,7 @@ impl Round {
     }
 
     /// The tangent at an angle from the direction to the anchor; the hole is on its left.
-    fn tangent(&self, angle: f64, step: f64) -> Cut {
+    fn tangent(&self, angle: f64, step: f64) -> PolygonCut {
         let (sin, cos) = angle.sin_cos();
         let normal = self.direction * cos + self.direction.left() * sin;
         let beyond = self.excess / (self.away + self.radius);
@@ -113,6 +113,6 @@ impl Round {
         let outward = beyond - fall;
         let tangent = normal.left();
         let (middle, half) = (self.away * sin, self.radius * (0.5 * step).tan());
-        Cut::along(tangent, -outward, [middle - half, middle + half])
+        PolygonCut::along(tangent, -outward, [middle - half, middle + half])
     }
 }

@@ -125,7 +125,7 @@ fn percentiles(p: f64, q: f64) -> Result<Range, RangeError> {
 
 /// A range that was found or given, and what is known of the values.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Span {
+pub struct ValueSpan {
     /// The value at the lower end of the colours.
     pub min: f64,
     /// The value at the upper end.
@@ -164,7 +164,7 @@ impl fmt::Display for Basis {
     }
 }
 
-impl Span {
+impl ValueSpan {
     /// The scale on it.
     ///
     /// # Errors
@@ -261,14 +261,14 @@ impl Range {
         symmetric: bool,
         raster: &Raster<T>,
         values: Option<Extrema>,
-    ) -> Span {
-        let seen = Seen { raster, is_log: scale == Scale::Log, values: values.as_ref() };
+    ) -> ValueSpan {
+        let seen = RangeInput { raster, is_log: scale == Scale::Log, values: values.as_ref() };
         let constant = values.as_ref().and_then(Extrema::constant).filter(|v| seen.is_usable(*v));
         let (basis, found) = match *self {
             _ if self.is_found() && constant.is_some() => (Basis::All, constant.map(|v| (v, v))),
             Self::Auto => seen.automatic(),
             Self::Full => seen.full(),
-            Self::Fixed(min, max) => return Span { min, max, basis: Basis::Given, values },
+            Self::Fixed(min, max) => return ValueSpan { min, max, basis: Basis::Given, values },
             Self::Percentiles(p, q) => (Basis::Percentiles(p, q), seen.percentiles([p, q])),
         };
         let (min, max) = match found {
@@ -282,7 +282,7 @@ impl Range {
                 None => (min, max),
             },
         };
-        Span { min, max, basis, values }
+        ValueSpan { min, max, basis, values }
     }
 }
 
@@ -300,8 +300,8 @@ const LARGEST: f64 = f64::MAX / 4.0;
 /// Half of it is still a normal number.
 const LEAST_POSITIVE: f64 = 4.0 * f64::MIN_POSITIVE;
 
-/// What a range is found from.
-struct Seen<'a, T> {
+/// The raster and the options that a range is computed from.
+struct RangeInput<'a, T> {
     raster: &'a Raster<T>,
     is_log: bool,
     values: Option<&'a Extrema>,
@@ -309,7 +309,7 @@ struct Seen<'a, T> {
 
 type Bounds = Option<(f64, f64)>;
 
-impl<T: Sample> Seen<'_, T> {
+impl<T: Sample> RangeInput<'_, T> {
     fn automatic(&self) -> (Basis, Bounds) {
         if let Some(value) = self.raster.one_value().filter(|v| self.is_usable(*v)) {
             return (Basis::All, Some((value, value)));

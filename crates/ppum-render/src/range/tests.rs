@@ -155,7 +155,7 @@ fn fixed_ranges_are_checked() {
 }
 
 /// The range of a field's picture of so many pixels, found with its extrema.
-fn spanned(dataset: &Dataset, view: &View, text: &str, range: Range, scale: Scale) -> Span {
+fn spanned(dataset: &Dataset, view: &View, text: &str, range: Range, scale: Scale) -> ValueSpan {
     let field = Field::new(dataset, 0).unwrap();
     let quantity = Quantity::parse(text, &field).unwrap();
     let raster = f64::render(&field, view, &quantity, unwatched()).unwrap();
@@ -163,7 +163,7 @@ fn spanned(dataset: &Dataset, view: &View, text: &str, range: Range, scale: Scal
     range.span(scale, false, &raster, values)
 }
 
-fn automatic(dataset: &Dataset, view: &View, text: &str) -> Span {
+fn automatic(dataset: &Dataset, view: &View, text: &str) -> ValueSpan {
     spanned(dataset, view, text, Range::Auto, Scale::Linear)
 }
 
@@ -369,16 +369,16 @@ fn shared_ranges_hold_all() {
         range.span(Scale::Linear, true, &raster, Extrema::of_pixels(&raster, &view))
     };
     let (a, b) = (span([2.0, 3.0, 4.0], Range::Full), span([-9.0, -6.0, -5.0], Range::Full));
-    let both = Span::shared(&[a.clone(), b.clone()], true).unwrap();
+    let both = ValueSpan::shared(&[a.clone(), b.clone()], true).unwrap();
     assert_eq!((both.min, both.max, both.basis), (-9.0, 9.0, Basis::Pixels));
     let values = both.values.unwrap();
     assert_eq!((values.min.value, values.max.value), (-9.0, 4.0));
-    let both = Span::shared(&[a.clone(), b], false).unwrap();
+    let both = ValueSpan::shared(&[a.clone(), b], false).unwrap();
     assert_eq!((both.min, both.max), (-9.0, 4.0));
     let given = span([0.0; 3], Range::Fixed(-1.0, 4.0));
-    assert_eq!(Span::shared(&[given.clone(), given.clone()], true), Some(given));
-    assert_eq!(Span::shared(&[], true), None);
-    assert_eq!(Span::shared(std::slice::from_ref(&a), true), Some(a));
+    assert_eq!(ValueSpan::shared(&[given.clone(), given.clone()], true), Some(given));
+    assert_eq!(ValueSpan::shared(&[], true), None);
+    assert_eq!(ValueSpan::shared(std::slice::from_ref(&a), true), Some(a));
 }
 
 /// A zero is a peak of the logarithm: what is near it does not take all colours; a smooth field has

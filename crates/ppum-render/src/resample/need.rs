@@ -32,9 +32,9 @@ pub const LARGEST: u32 = 8192;
 /// Points along the longer side of the first grid.
 const FIRST: u32 = 8;
 
-/// The subject of a measurement.
+/// The field, view, quantity and grids whose errors are measured.
 #[derive(Clone, Copy, Debug)]
-pub struct Subject<'a> {
+pub struct ResamplingSetup<'a> {
     /// The field.
     pub field: &'a Field<'a>,
     /// The part of the plane over which errors are measured.
@@ -86,13 +86,13 @@ pub enum Needed {
 /// # Errors
 /// As for [`render`](ppum_raster::scatter::render).
 pub fn converge(
-    subject: &Subject<'_>,
+    subject: &ResamplingSetup<'_>,
     target: f64,
     watcher: &dyn Watcher,
 ) -> Result<Convergence, RenderError> {
     subject.quantity.check(subject.field)?;
     let pixels = pixels(subject.view);
-    let Subject { field, view, quantity, .. } = *subject;
+    let ResamplingSetup { field, view, quantity, .. } = *subject;
     let direct = at_offsets(field, quantity, view.center, &pixels);
     let sizes = sizes(subject.grid.size);
     let (parts, mut steps) = (Parts::start(watcher, sizes.len())?, Vec::new());
@@ -159,7 +159,7 @@ fn pixels(view: &View) -> Vec<Vec2> {
 }
 
 /// What a grid gives at points `view.center + offset`: samples are taken only where they count.
-fn interpolated(subject: &Subject<'_>, grid: &Grid, offsets: &[Vec2]) -> Vec<f64> {
+fn interpolated(subject: &ResamplingSetup<'_>, grid: &Grid, offsets: &[Vec2]) -> Vec<f64> {
     let shift = subject.view.center - grid.anchor;
     let stencils: Vec<_> =
         offsets.iter().map(|&o| grid.stencils(subject.interpolation, shift + o)).collect();
@@ -185,8 +185,8 @@ fn points([x, y]: &[Stencil; 2]) -> Vec<(u32, u32)> {
 }
 
 /// What keeps the largest error of values up to `size` from falling, if the view shows it.
-fn obstacle(subject: &Subject<'_>, size: f64) -> Option<Obstacle> {
-    let Subject { field, view, quantity, .. } = *subject;
+fn obstacle(subject: &ResamplingSetup<'_>, size: f64) -> Option<Obstacle> {
+    let ResamplingSetup { field, view, quantity, .. } = *subject;
     let cracks = &field.step.cracks;
     let origins = field.step.functions.iter().filter_map(|function| match function.kind {
         FunctionKind::Formula { frame: Frame::Fixed { origin, .. }, .. } => Some(origin),
@@ -208,8 +208,8 @@ const STATIONS: u32 = 16;
 const SAME: f64 = 1e-9;
 
 /// True if the quantity differs by more than `least` between the sides of a crack in the view.
-fn jumps(subject: &Subject<'_>, least: f64) -> bool {
-    let Subject { field, view, quantity, .. } = *subject;
+fn jumps(subject: &ResamplingSetup<'_>, least: f64) -> bool {
+    let ResamplingSetup { field, view, quantity, .. } = *subject;
     if quantity.source() == Source::Partition {
         return false;
     }

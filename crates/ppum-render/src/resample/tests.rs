@@ -7,7 +7,7 @@ use ppum::weight::WeightFunction;
 use ppum_raster::reference::reference;
 use ppum_testkit::random::Random;
 
-use super::need::{Convergence, Needed, Obstacle, Subject, converge};
+use super::need::{Convergence, Needed, Obstacle, ResamplingSetup, converge};
 use super::norms::{Norms, difference, norms};
 use super::*;
 use ppum::function::Frame;
@@ -286,7 +286,7 @@ fn convergence(dataset: &Dataset, view: &View, name: &str, target: f64) -> Conve
     let quantity = Quantity::parse(name, &field).unwrap();
     let grid = Grid::over_domain(&field, [3, 2]).unwrap();
     let interpolation = Interpolation::Bilinear;
-    let subject = Subject { field: &field, view, quantity: &quantity, grid, interpolation };
+    let subject = ResamplingSetup { field: &field, view, quantity: &quantity, grid, interpolation };
     converge(&subject, target, unwatched()).unwrap()
 }
 

@@ -10,7 +10,7 @@ use ppum_render::RenderError;
 use ppum_render::cells;
 use ppum_render::extrema::Extrema;
 use ppum_render::picture::Style;
-use ppum_render::range::Span;
+use ppum_render::range::ValueSpan;
 use ppum_render::raster::Raster;
 use ppum_render::resample::norms::{Norms, difference, norms};
 use ppum_render::scale::Scale;
@@ -18,7 +18,7 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 
 use crate::colors::{Colors, MapError, map};
-use crate::drawing::{Drawn, PROCESSOR, Shown, Values, undefined};
+use crate::drawing::{Drawn, PROCESSOR, RasterValues, Shown, undefined};
 
 /// One of the two: a field and what is shown of it.
 #[derive(Clone, Copy)]
@@ -133,12 +133,12 @@ pub fn named(right: &str, left: &str) -> String {
 /// The range of differences, with their extrema at the pixels: robust against peaks. Zero is in the
 /// middle of the colours of maps that have one, also where all differences have one sign.
 #[must_use]
-pub fn span(drawn: &Drawn, style: &Style) -> Span {
+pub fn span(drawn: &Drawn, style: &Style) -> ValueSpan {
     let values = match &drawn.values {
-        Values::Double(raster) => Extrema::of_pixels(raster, &drawn.view),
-        Values::Single(raster) => Extrema::of_pixels(raster, &drawn.view),
+        RasterValues::Double(raster) => Extrema::of_pixels(raster, &drawn.view),
+        RasterValues::Single(raster) => Extrema::of_pixels(raster, &drawn.view),
     };
-    let mut span = Span { values, ..drawn.span(style, None) };
+    let mut span = ValueSpan { values, ..drawn.span(style, None) };
     if style.range.is_found() && style.colormap.diverging && style.scale != Scale::Log {
         let size = span.max.max(-span.min);
         (span.min, span.max) = (-size, size);

@@ -25,8 +25,8 @@ fn view(random: &mut Random, dataset: &Dataset) -> View {
 
 fn values(apart: &Apart) -> &[f64] {
     match &apart.drawn.values {
-        Values::Double(raster) => &raster.values,
-        Values::Single(_) => panic!("differences are of double precision"),
+        RasterValues::Double(raster) => &raster.values,
+        RasterValues::Single(_) => panic!("differences are of double precision"),
     }
 }
 

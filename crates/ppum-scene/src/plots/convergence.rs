@@ -5,7 +5,7 @@ use ppum::field::Field;
 use ppum::formula::{Formula, FormulaJets, Scope};
 use ppum::jet::Jet;
 use ppum::vec2::Vec2;
-use ppum_figure::plot::{Curve, Look, Plot, PlotAxis, slope, with_slope};
+use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve, slope, with_slope};
 
 use ppum_solve::norms::norms;
 use ppum_solve::space::Space;
@@ -110,7 +110,7 @@ struct Solution<'d> {
 }
 
 /// Relative errors in the energy norm and in L² where all exact solutions are known.
-fn exact(solutions: &[Solution<'_>]) -> Result<Vec<Curve>, PlotError> {
+fn exact(solutions: &[Solution<'_>]) -> Result<Vec<PlotCurve>, PlotError> {
     let mut points = [Vec::new(), Vec::new()];
     for solution in solutions {
         let Some(errors) = errors(solution)? else { return Ok(Vec::new()) };
@@ -151,7 +151,7 @@ fn errors(Solution { dataset, index, step }: &Solution<'_>) -> Result<Option<[f6
 }
 
 /// Distances from the last step's numbers.
-fn distances(steps: &[&Step]) -> Vec<Curve> {
+fn distances(steps: &[&Step]) -> Vec<PlotCurve> {
     let Some((last, others)) = steps.split_last() else { return Vec::new() };
     let mut curves = Vec::new();
     let mut add = |label: &str, value: &dyn Fn(&Step) -> Option<f64>| {
@@ -171,10 +171,10 @@ fn distances(steps: &[&Step]) -> Vec<Curve> {
 }
 
 /// A curve with dots, and the exponent of its power law.
-fn curve(label: &str, points: Vec<[f64; 2]>) -> Curve {
+fn curve(label: &str, points: Vec<[f64; 2]>) -> PlotCurve {
     let text = match slope(&points) {
         Some(slope) => with_slope(label, slope, 2),
         None => label.to_owned(),
     };
-    Curve::new(text, points).with_look(Look::Dotted)
+    PlotCurve::new(text, points).with_look(CurveStyle::Dotted)
 }

@@ -1,14 +1,14 @@
 //! The solver's work: what its phases take, and how its iteration goes.
 
 use ppum::dataset::{Record, Step};
-use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
+use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve};
 use ppum_solve::report::{SolverReport, is_of_phase};
 
 use super::{Named, PlotError, label};
 
-/// What of the solver's work is drawn.
+/// The measure of the solver's work that is plotted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Work {
+pub enum SolverWork {
     /// Seconds of the phases, of a series their sums
     #[default]
     Seconds,
@@ -25,12 +25,16 @@ pub enum Work {
 ///
 /// # Errors
 /// No such step; a history that does not tell it.
-pub fn history(datasets: &[Named<'_>], what: Work, step: Option<usize>) -> Result<Plot, PlotError> {
+pub fn history(
+    datasets: &[Named<'_>],
+    what: SolverWork,
+    step: Option<usize>,
+) -> Result<Plot, PlotError> {
     let mut plot = match what {
-        Work::Seconds => phases(datasets, step, ("s", PlotAxis::new("time", "s"), 1.0))?,
-        Work::Bytes => phases(datasets, step, ("B", PlotAxis::new("memory", "MB"), 1e-6))?,
-        Work::Residuals => residuals(datasets, step)?,
-        Work::Levels => levels(datasets, step)?,
+        SolverWork::Seconds => phases(datasets, step, ("s", PlotAxis::new("time", "s"), 1.0))?,
+        SolverWork::Bytes => phases(datasets, step, ("B", PlotAxis::new("memory", "MB"), 1e-6))?,
+        SolverWork::Residuals => residuals(datasets, step)?,
+        SolverWork::Levels => levels(datasets, step)?,
     };
     plot.title = datasets.first().map_or_else(String::new, |first| first.dataset.title.clone());
     Ok(plot)
@@ -71,7 +75,7 @@ fn phases(
         if points.is_empty() {
             return Err(PlotError::NoRecords { name: name.to_owned(), what: word });
         }
-        curves.push(Curve::new(name, points).with_look(Look::Bars));
+        curves.push(PlotCurve::new(name, points).with_look(CurveStyle::Bars));
     }
     let x = PlotAxis { names, ..PlotAxis::default() };
     Ok(Plot { x, y: axis, curves, ..Plot::default() })
@@ -99,7 +103,8 @@ fn residuals(datasets: &[Named<'_>], step: Option<usize>) -> Result<Plot, PlotEr
             return Err(not_iterated(named, "iterations"));
         }
         let name = label(datasets.len() > 1, named.name, "residual");
-        curves.push(Curve::new(name, numbered(&report.residuals)).with_look(Look::Dotted));
+        curves
+            .push(PlotCurve::new(name, numbered(&report.residuals)).with_look(CurveStyle::Dotted));
         if datasets.len() == 1 {
             curves.extend(on_levels(&report));
         }
@@ -108,7 +113,7 @@ fn residuals(datasets: &[Named<'_>], step: Option<usize>) -> Result<Plot, PlotEr
     Ok(Plot { x, y: y.logarithmic(), curves, ..Plot::default() })
 }
 
-fn on_levels(report: &SolverReport) -> impl Iterator<Item = Curve> + '_ {
+fn on_levels(report: &SolverReport) -> impl Iterator<Item = PlotCurve> + '_ {
     let count = report.level_residuals.iter().map(Vec::len).max().unwrap_or(0);
     let values = |level: usize| {
         let first = report.level_residuals.first().and_then(|of| of.get(level)).copied();
@@ -123,8 +128,9 @@ fn on_levels(report: &SolverReport) -> impl Iterator<Item = Curve> + '_ {
         level => format!("on level {level}"),
     };
     let levels = if count > 1 { 0..count } else { 0..0 };
-    levels
-        .map(move |level| Curve::new(name(level), numbered(&values(level))).with_look(Look::Dashed))
+    levels.map(move |level| {
+        PlotCurve::new(name(level), numbered(&values(level))).with_look(CurveStyle::Dashed)
+    })
 }
 
 fn numbered(values: &[f64]) -> Vec<[f64; 2]> {
@@ -145,7 +151,8 @@ fn levels(datasets: &[Named<'_>], step: Option<usize>) -> Result<Plot, PlotError
             numbered(&report.levels.iter().map(number).collect::<Vec<_>>())
         };
         let curve = |name: &str, points| {
-            Curve::new(label(datasets.len() > 1, named.name, name), points).with_look(Look::Dotted)
+            PlotCurve::new(label(datasets.len() > 1, named.name, name), points)
+                .with_look(CurveStyle::Dotted)
         };
         curves.push(curve("values of the matrix", values(|level| level.values)));
         curves.push(curve("unknowns", values(|level| level.unknowns)));

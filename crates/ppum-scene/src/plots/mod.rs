@@ -14,10 +14,10 @@ use ppum_figure::plot::Plot;
 use ppum_render::png::Text;
 
 pub use convergence::convergence;
-pub use history::{Work, history};
+pub use history::{SolverWork, history};
 pub use profiles::{Profiles, usual};
 pub use seen::check;
-pub use series::{Number, Over, series};
+pub use series::{Number, SeriesAxis, series};
 
 /// A dataset with the name that curves and messages have for it where there are several.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! Whether a plot shows what was asked for.
 
-use ppum_figure::plot::{Curve, Plot};
+use ppum_figure::plot::{Plot, PlotCurve};
 use ppum_render::scale::Scale;
 
 use super::{PlotError, plain};
@@ -18,7 +18,7 @@ pub fn check(plot: &Plot) -> Result<Vec<String>, PlotError> {
 }
 
 /// What a curve does not show.
-fn missed(curve: &Curve, logs: [bool; 2]) -> Option<String> {
+fn missed(curve: &PlotCurve, logs: [bool; 2]) -> Option<String> {
     let (name, Counts { seen, finite }) = (plain(&curve.label), counts(curve, logs));
     if seen == 0 {
         return Some(format!("`{name}` shows nothing: {}", why([curve], logs)));
@@ -35,14 +35,14 @@ struct Counts {
     finite: usize,
 }
 
-fn counts(curve: &Curve, logs: [bool; 2]) -> Counts {
+fn counts(curve: &PlotCurve, logs: [bool; 2]) -> Counts {
     let finite = || curve.points.iter().filter(|p| p.iter().all(|v| v.is_finite()));
     let has_place = |p: &&[f64; 2]| p.iter().zip(logs).all(|(v, is_log)| !is_log || *v > 0.0);
     Counts { seen: finite().filter(has_place).count(), finite: finite().count() }
 }
 
 /// Why curves show nothing.
-fn why<'c>(curves: impl IntoIterator<Item = &'c Curve>, logs: [bool; 2]) -> &'static str {
+fn why<'c>(curves: impl IntoIterator<Item = &'c PlotCurve>, logs: [bool; 2]) -> &'static str {
     let mut is_infinite = false;
     for curve in curves {
         if counts(curve, logs).finite > 0 {

@@ -4,13 +4,13 @@ use std::str::FromStr;
 
 use ppum::crack::{Crack, TipId};
 use ppum::dataset::{Dataset, Step};
-use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
+use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve};
 
 use super::{Named, PlotError, label, title};
 
-/// What steps are drawn over.
+/// The horizontal axis of a plot of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Over {
+pub enum SeriesAxis {
     /// Their numbers
     #[default]
     Step,
@@ -66,7 +66,11 @@ impl FromStr for Number {
 ///
 /// # Errors
 /// A dataset of one step, or one that does not know the number.
-pub fn series(datasets: &[Named<'_>], numbers: &[Number], over: Over) -> Result<Plot, PlotError> {
+pub fn series(
+    datasets: &[Named<'_>],
+    numbers: &[Number],
+    over: SeriesAxis,
+) -> Result<Plot, PlotError> {
     let mut plot = Plot { x: axis(over), y: value_axis(numbers), ..Plot::default() };
     for named in datasets {
         if named.dataset.steps.len() < 2 {
@@ -75,8 +79,8 @@ pub fn series(datasets: &[Named<'_>], numbers: &[Number], over: Over) -> Result<
         needs(named, numbers, over)?;
         for &number in numbers {
             for (name, points) in curves(named.dataset, number, over) {
-                let curve = Curve::new(label(datasets.len() > 1, named.name, &name), points);
-                plot.curves.push(curve.with_look(Look::Dotted));
+                let curve = PlotCurve::new(label(datasets.len() > 1, named.name, &name), points);
+                plot.curves.push(curve.with_look(CurveStyle::Dotted));
             }
         }
     }
@@ -87,13 +91,13 @@ pub fn series(datasets: &[Named<'_>], numbers: &[Number], over: Over) -> Result<
     Ok(plot)
 }
 
-fn axis(over: Over) -> PlotAxis {
+fn axis(over: SeriesAxis) -> PlotAxis {
     match over {
-        Over::Step => PlotAxis::new("step", ""),
-        Over::Load => PlotAxis::new("load", ""),
-        Over::Length => PlotAxis::new("crack length", ""),
-        Over::Extension => PlotAxis::new("crack extension", ""),
-        Over::Cycles => PlotAxis::new("load cycles", ""),
+        SeriesAxis::Step => PlotAxis::new("step", ""),
+        SeriesAxis::Load => PlotAxis::new("load", ""),
+        SeriesAxis::Length => PlotAxis::new("crack length", ""),
+        SeriesAxis::Extension => PlotAxis::new("crack extension", ""),
+        SeriesAxis::Cycles => PlotAxis::new("load cycles", ""),
     }
 }
 
@@ -115,30 +119,30 @@ fn length(step: &Step) -> f64 {
 }
 
 /// Refuses what a dataset does not know: extensions and cycles are those of cracks that grow.
-fn needs(named: &Named<'_>, numbers: &[Number], over: Over) -> Result<(), PlotError> {
+fn needs(named: &Named<'_>, numbers: &[Number], over: SeriesAxis) -> Result<(), PlotError> {
     let growth = || named.dataset.steps.iter().filter_map(|step| step.growth.as_ref());
-    let needs_growth = over == Over::Extension || numbers.contains(&Number::Extension);
+    let needs_growth = over == SeriesAxis::Extension || numbers.contains(&Number::Extension);
     if needs_growth && growth().next().is_none() {
         return Err(PlotError::NoGrowth(named.name.to_owned()));
     }
-    if over == Over::Cycles && !growth().any(|growth| growth.cycles.is_some()) {
+    if over == SeriesAxis::Cycles && !growth().any(|growth| growth.cycles.is_some()) {
         return Err(PlotError::NoCycles(named.name.to_owned()));
     }
     Ok(())
 }
 
 /// The curves of a number with their names.
-fn curves(dataset: &Dataset, number: Number, over: Over) -> Vec<(String, Vec<[f64; 2]>)> {
+fn curves(dataset: &Dataset, number: Number, over: SeriesAxis) -> Vec<(String, Vec<[f64; 2]>)> {
     let extensions = Extensions::new(dataset);
     let place = |k: usize, tip: Option<TipId>| {
         let step = &dataset.steps[k];
         match (over, tip) {
-            (Over::Step, _) => Some(k as f64),
-            (Over::Load, _) => Some(step.load),
-            (Over::Length, _) => Some(length(step)),
-            (Over::Extension, Some(tip)) => extensions.of(k, tip),
-            (Over::Extension, None) => Some(extensions.of_all(k)),
-            (Over::Cycles, _) => step.growth.as_ref()?.cycles,
+            (SeriesAxis::Step, _) => Some(k as f64),
+            (SeriesAxis::Load, _) => Some(step.load),
+            (SeriesAxis::Length, _) => Some(length(step)),
+            (SeriesAxis::Extension, Some(tip)) => extensions.of(k, tip),
+            (SeriesAxis::Extension, None) => Some(extensions.of_all(k)),
+            (SeriesAxis::Cycles, _) => step.growth.as_ref()?.cycles,
         }
     };
     let points = |tip: Option<TipId>, value: &dyn Fn(usize, &Step) -> Option<f64>| {
@@ -251,11 +255,11 @@ mod tests {
         assert_eq!(of(b), [0.0, 0.0, 0.25, 0.25].map(Some));
         assert_eq!([0, 1, 2, 3].map(|k| extensions.of_all(k)), [0.0, 0.5, 1.25, 1.25]);
         // what is drawn over them
-        let found = curves(&dataset, Number::K1, Over::Extension);
+        let found = curves(&dataset, Number::K1, SeriesAxis::Extension);
         assert_eq!(found[0].1, [[0.0, 1.0], [0.0, 2.0], [0.25, 3.0], [0.25, 4.0]]);
-        let found = curves(&dataset, Number::Extension, Over::Cycles);
+        let found = curves(&dataset, Number::Extension, SeriesAxis::Cycles);
         assert_eq!(found[0].1, [[0.0, 0.0], [10.0, 0.0], [20.0, 0.25], [30.0, 0.25]]);
-        let found = curves(&dataset, Number::Load, Over::Extension);
+        let found = curves(&dataset, Number::Load, SeriesAxis::Extension);
         assert!(
             (found[0].1[2][0] - 1.25).abs() < 1e-15 && found[0].1[2][1] == dataset.steps[2].load
         );

@@ -1,7 +1,7 @@
 //! Plots of values along curves.
 
 use ppum::field::Field;
-use ppum_figure::plot::{Curve, Look, PlotAxis, slope, with_slope};
+use ppum_figure::plot::{CurveStyle, PlotAxis, PlotCurve, slope, with_slope};
 
 use super::{Named, Variable};
 use crate::table::Table;
@@ -74,9 +74,9 @@ const NEAR: usize = 3;
 /// A curve; away from a tip with the exponent of its power law near it, and by its magnitude: on
 /// logarithmic axes a negative quantity has no other place.
 #[must_use]
-pub fn curve(name: String, points: Vec<[f64; 2]>, variable: Variable) -> Curve {
+pub fn curve(name: String, points: Vec<[f64; 2]>, variable: Variable) -> PlotCurve {
     if variable != Variable::Distance {
-        return Curve::new(name, points);
+        return PlotCurve::new(name, points);
     }
     let is_negative = points.iter().any(|p| p[1] < 0.0);
     let points: Vec<_> = points.into_iter().map(|[r, v]| [r, v.abs()]).collect();
@@ -85,7 +85,7 @@ pub fn curve(name: String, points: Vec<[f64; 2]>, variable: Variable) -> Curve {
         Some(slope) => with_slope(&shown, slope, 3),
         None => shown,
     };
-    Curve::new(text, points).with_look(Look::Line)
+    PlotCurve::new(text, points).with_look(CurveStyle::Line)
 }
 
 /// The symbol of a quantity that stands alone; several have their names in the legend.

@@ -69,7 +69,7 @@ const LEFT: &[(&str, &str, usize)] = &[
     ("ppum-viewer", "stage::pixels", 2),
 ];
 
-fn found() -> BTreeMap<String, BTreeSet<BTreeSet<String>>> {
+fn circles_by_crate() -> BTreeMap<String, BTreeSet<BTreeSet<String>>> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let folders = std::fs::read_dir(crates).expect("a folder of crates");
     let of = |folder: &Path| circles(&imports(&folder.join("src")));
@@ -83,7 +83,7 @@ fn found() -> BTreeMap<String, BTreeSet<BTreeSet<String>>> {
 
 #[test]
 fn modules_import_in_one_direction() {
-    let found = found();
+    let found = circles_by_crate();
     let lines =
         found.iter().flat_map(|(name, circles)| circles.iter().map(move |circle| (name, circle)));
     let found: BTreeSet<_> = lines

@@ -4,6 +4,7 @@ mod architecture;
 mod circles;
 mod formulas;
 mod hostile_formulas;
+mod names;
 mod pages;
 mod sources;
 mod wgsl;

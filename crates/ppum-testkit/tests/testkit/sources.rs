@@ -18,10 +18,16 @@ struct Crate {
 /// What the files below a folder of sources import from each other. A name that a module hands on
 /// counts as its origin's; comments and unit tests count for nothing.
 pub(crate) fn imports(sources: &Path) -> Imports {
-    let mut found = Crate { code: BTreeMap::new(), names: BTreeMap::new() };
-    read(sources, &mut Vec::new(), &mut found.code);
+    let mut found = Crate { code: code(sources), names: BTreeMap::new() };
     found.names = found.code.keys().map(|m| (m.clone(), found.names_of(m))).collect();
     found.code.keys().map(|module| (module.clone(), found.of(module))).collect()
+}
+
+/// The code of the modules below a folder of sources, without comments and unit tests.
+pub(crate) fn code(sources: &Path) -> BTreeMap<Module, String> {
+    let mut code = BTreeMap::new();
+    read(sources, &mut Vec::new(), &mut code);
+    code
 }
 
 /// The modules in circles: each with all that need it and that it needs.

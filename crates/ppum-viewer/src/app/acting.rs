@@ -14,12 +14,12 @@ use ppum_scene::overlays::Levels;
 use crate::actions::Action;
 use crate::app::Viewer;
 use crate::controls::swing::Swing;
-use crate::export::{Kind, Order, What};
+use crate::export::{ExportChoice, ExportKind, Order};
 use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::player;
 use crate::reading::tool::Tool;
-use crate::session::{Page, Pane};
+use crate::session::{DrawerPage, Pane};
 use crate::stage::Stage;
 
 impl Viewer {
@@ -44,9 +44,11 @@ impl Viewer {
             Action::NextTip | Action::CircleForK | Action::Draw(Tool::Ray) => tips > 0,
             Action::Step(_)
             | Action::Play
-            | Action::Save(What::Steps)
-            | Action::Drawer(Page::Series) => opened.is_some_and(|o| o.dataset.steps.len() > 1),
-            Action::Deform | Action::Swing | Action::Save(What::Deformation) => {
+            | Action::Save(ExportChoice::Steps)
+            | Action::Drawer(DrawerPage::Series) => {
+                opened.is_some_and(|o| o.dataset.steps.len() > 1)
+            }
+            Action::Deform | Action::Swing | Action::Save(ExportChoice::Deformation) => {
                 opened.is_some() && !stage.is_rigid()
             }
             Action::Solve | Action::SaveProblem | Action::SaveProblemAs | Action::CloseProblem => {
@@ -150,7 +152,7 @@ impl Viewer {
                 match copy_command(ctx, pane, stage) {
                     Ok(()) => stage.tell("Copied: the command that draws this"),
                     // it says why there is none
-                    Err(_) => self.exporter = Some(Exporter::new(What::Picture, stage)),
+                    Err(_) => self.exporter = Some(Exporter::new(ExportChoice::Picture, stage)),
                 }
             }
             Action::Probe => match stage.hovered() {
@@ -159,7 +161,7 @@ impl Viewer {
             },
             Action::CircleForK => {
                 if stage.circle_nearest_tip(pane) {
-                    self.session.drawer = Some(Page::Plot);
+                    self.session.drawer = Some(DrawerPage::Plot);
                 } else {
                     stage.tell("No circle for K: this step has no crack tip");
                 }
@@ -186,7 +188,7 @@ impl Viewer {
             Action::Drawer(page) if self.session.drawer == Some(page) => self.session.drawer = None,
             Action::Drawer(page) => {
                 let (pane, stage) = self.active();
-                if page == Page::Plot {
+                if page == DrawerPage::Plot {
                     stage.choose_curve(pane);
                 }
                 self.session.drawer = Some(page);
@@ -232,7 +234,7 @@ fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) -> Result<(), S
         scene: pane.scene.drawn(),
         view,
         size: view.pixels,
-        kind: Kind::Picture,
+        kind: ExportKind::Picture,
     };
     ctx.copy_text(order.command(Path::new("picture.png"))?);
     Ok(())

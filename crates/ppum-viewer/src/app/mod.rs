@@ -18,7 +18,7 @@ use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
 use crate::player::Player;
-use crate::session::{Page, Place, Session, Theme};
+use crate::session::{DrawerPage, Session, Theme, VisibleRegion};
 use crate::stage::difference::Pair;
 use crate::stage::{Opened, Stage};
 use crate::undo::{Rest, Undo};
@@ -325,7 +325,7 @@ fn show_pane(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
     }
     desk.stages[number].show(ui, &mut desk.session.panes[number]);
     if std::mem::take(&mut desk.stages[number].reading.wants_plot) {
-        desk.session.drawer = Some(Page::Plot);
+        desk.session.drawer = Some(DrawerPage::Plot);
     }
 }
 
@@ -340,7 +340,7 @@ fn part(room: Rect, number: usize, count: usize) -> Rect {
 const GAP: f32 = 2.0;
 
 /// Moves the other pane to where one has moved, if they are linked.
-fn link(session: &mut Session, before: &[Option<Place>]) {
+fn link(session: &mut Session, before: &[Option<VisibleRegion>]) {
     if !session.linked || session.panes.len() < 2 {
         return;
     }

@@ -14,11 +14,11 @@ use crate::files::dialog::Purpose;
 use crate::files::examples::{self, Example};
 use crate::files::read::{Arrived, Content, Why};
 use crate::files::watch::{Stamp, stamp};
-use crate::files::{What, Written, name, session_file};
+use crate::files::{SavedFile, Written, name, session_file};
 use crate::panels::drawer::problem::editor_id;
 use crate::plate;
 use crate::player;
-use crate::session::{Draft, Page, Pane, Session};
+use crate::session::{DrawerPage, Pane, ProblemDraft, Session};
 use crate::solving::Solved;
 use crate::stage::{Opened, Stage};
 use crate::undo::Undo;
@@ -193,9 +193,9 @@ impl Viewer {
             && let Some(text) = dataset.as_ref().and_then(|dataset| dataset.problem.clone())
         {
             self.solving.begin(Some(text.clone()), dataset);
-            self.session.draft = Some(Draft { text, ..Draft::default() });
+            self.session.draft = Some(ProblemDraft { text, ..ProblemDraft::default() });
         }
-        self.session.drawer = Some(Page::Problem);
+        self.session.drawer = Some(DrawerPage::Problem);
         if let Some(draft) = &self.session.draft {
             self.solving.solve(draft, self.session.active);
         }
@@ -210,7 +210,7 @@ impl Viewer {
                 self.shelve();
                 let text = example.text.to_owned();
                 self.solving.begin(Some(text.clone()), None);
-                self.session.draft = Some(Draft { path: None, folder, text });
+                self.session.draft = Some(ProblemDraft { path: None, folder, text });
                 true
             }
             Err(error) => {
@@ -241,7 +241,7 @@ impl Viewer {
     fn write_session(&mut self, path: PathBuf) {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         match session_file::text(&self.session, &folder) {
-            Ok(text) => self.files.write_text(path, What::Session, text),
+            Ok(text) => self.files.write_text(path, SavedFile::Session, text),
             Err(error) => self.files.tell(&path, error.to_string(), true),
         }
     }
@@ -249,7 +249,7 @@ impl Viewer {
     fn write_problem(&mut self, path: PathBuf) {
         if let Some(draft) = &self.session.draft {
             self.solving.saving = Some(draft.text.clone());
-            self.files.write_text(path, What::Problem, draft.text.clone());
+            self.files.write_text(path, SavedFile::Problem, draft.text.clone());
         }
     }
 
@@ -272,7 +272,7 @@ impl Viewer {
     /// Something was written: it has a file now.
     fn wrote(&mut self, Written { path, what }: Written) {
         match what {
-            What::Dataset(number, dataset) => {
+            SavedFile::Dataset(number, dataset) => {
                 let panes = self.session.panes.iter_mut().zip(&mut self.stages).enumerate();
                 for (other, (pane, stage)) in panes {
                     let Some(opened) = &mut stage.opened else { continue };
@@ -283,8 +283,8 @@ impl Viewer {
                     }
                 }
             }
-            What::Session => self.files.session = Some(path.clone()),
-            What::Problem => {
+            SavedFile::Session => self.files.session = Some(path.clone()),
+            SavedFile::Problem => {
                 self.solving.on_disk = self.solving.saving.take();
                 if let Some(draft) = &mut self.session.draft {
                     (draft.path, draft.folder) = (Some(path.clone()), None);
@@ -410,8 +410,8 @@ impl Viewer {
             Why::Opened => {
                 self.shelve();
                 self.solving.begin(Some(text.clone()), None);
-                self.session.draft = Some(Draft { path: Some(path), folder: None, text });
-                self.session.drawer = Some(Page::Problem);
+                self.session.draft = Some(ProblemDraft { path: Some(path), folder: None, text });
+                self.session.drawer = Some(DrawerPage::Problem);
             }
         }
     }

@@ -4,7 +4,7 @@ use ppum_scene::overlays::Levels;
 
 /// Levels while they are written.
 #[derive(Clone, Debug, Default)]
-pub struct Draft {
+pub struct LevelsDraft {
     pub(crate) text: String,
     pub(crate) base: Option<Levels>,
     pub(crate) mistake: Option<String>,

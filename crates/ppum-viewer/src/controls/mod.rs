@@ -21,11 +21,11 @@ use crate::frames::{Frame, Frames};
 use crate::session::Pane;
 use crate::widgets::chooser::Chooser;
 use crate::widgets::editor::Editor;
-use draft::Draft;
+use draft::LevelsDraft;
 use facts::Facts;
 use known::Known;
 use swing::Swing;
-use whole::{Outcome, Whole};
+use whole::{RangeSearch, Whole};
 
 /// Plots over the steps, with their names.
 type Courses = Vec<(&'static str, Plot)>;
@@ -48,7 +48,7 @@ pub struct Controls {
     /// The reason why a range was refused.
     pub refused: Option<String>,
     /// Levels of isolines that are written.
-    pub levels: Draft,
+    pub levels: LevelsDraft,
     /// The factor of the deformation, while it swings.
     pub swing: Option<Swing>,
     /// The overlays that were there before all were hidden.
@@ -76,9 +76,11 @@ impl Controls {
             }
         }
         match self.whole.as_mut().map(Whole::advance) {
-            None | Some(Outcome::Working) => {}
-            Some(Outcome::Found(range)) => (pane.scene.colors.range, self.whole) = (range, None),
-            Some(Outcome::Failed(reason)) => (self.refused, self.whole) = (Some(reason), None),
+            None | Some(RangeSearch::Working) => {}
+            Some(RangeSearch::Found(range)) => {
+                (pane.scene.colors.range, self.whole) = (range, None)
+            }
+            Some(RangeSearch::Failed(reason)) => (self.refused, self.whole) = (Some(reason), None),
         }
         // the next factor is for when this one has been seen
         let wanted = self.drawn(&pane.scene).deformed;

@@ -26,9 +26,9 @@ pub struct Whole {
 /// Pixels of the pictures that it is found from.
 const PIXELS: [u32; 2] = [512, 512];
 
-/// How far one is.
+/// The state of the search for a range.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
+pub enum RangeSearch {
     /// It is looked for.
     Working,
     /// The range.
@@ -61,17 +61,17 @@ impl Whole {
         }
     }
 
-    /// How far it is, in words.
+    /// The progress of the search as text.
     #[must_use]
-    pub fn told(&self) -> String {
+    pub fn progress_text(&self) -> String {
         format!("{} of {} steps are done", self.total - self.steps.len(), self.total)
     }
 
     /// Takes what has been found since.
-    pub fn advance(&mut self) -> Outcome {
+    pub fn advance(&mut self) -> RangeSearch {
         if self.frames.poll() {
             if let Some(failure) = self.frames.failure() {
-                return Outcome::Failed(failure.message.clone());
+                return RangeSearch::Failed(failure.message.clone());
             }
             self.take();
         }
@@ -79,12 +79,12 @@ impl Whole {
         let mut scene = self.scene.clone();
         scene.subject.step = Some(step);
         let Some(view) = plate::view(None, self.dataset.domain.bounds, PIXELS, 0) else {
-            return Outcome::Failed("the plate has no size".into());
+            return RangeSearch::Failed("the plate has no size".into());
         };
         let dataset = Arc::clone(&self.dataset);
         let minus = self.minus.clone();
         self.frames.want(Wanted { minus, ..Wanted::new(dataset, scene, view) });
-        Outcome::Working
+        RangeSearch::Working
     }
 
     /// Adds the range of a picture that is done.
@@ -104,10 +104,10 @@ impl Whole {
         self.found = Some([min.min(norm.min()), max.max(norm.max())]);
     }
 
-    fn end(&self) -> Outcome {
+    fn end(&self) -> RangeSearch {
         match self.found {
-            Some([min, max]) => Outcome::Found(Range::Fixed(min, max)),
-            None => Outcome::Failed("the quantity has no finite values on the plate".into()),
+            Some([min, max]) => RangeSearch::Found(Range::Fixed(min, max)),
+            None => RangeSearch::Failed("the quantity has no finite values on the plate".into()),
         }
     }
 }

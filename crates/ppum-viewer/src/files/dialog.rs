@@ -60,15 +60,15 @@ pub struct Dialog {
     purpose: Purpose,
     text: String,
     chosen: Option<usize>,
-    listed: Option<(PathBuf, Vec<Entry>)>,
-    listing: Option<(PathBuf, Job<Vec<Entry>>)>,
+    listed: Option<(PathBuf, Vec<FolderEntry>)>,
+    listing: Option<(PathBuf, Job<Vec<FolderEntry>>)>,
     system: Option<Job<Option<PathBuf>>>,
     error: Option<String>,
     replacing: Replacing,
 }
 
 /// Something in a folder: its name, and whether it is a folder too.
-type Entry = (String, bool);
+type FolderEntry = (String, bool);
 
 /// Entries that are shown; who looks for others writes more of the name.
 const MOST: usize = 200;
@@ -149,7 +149,7 @@ impl Dialog {
         };
     }
 
-    fn list(&self, ui: &mut Ui, fitting: &[Entry]) -> Option<Entry> {
+    fn list(&self, ui: &mut Ui, fitting: &[FolderEntry]) -> Option<FolderEntry> {
         let mut taken = None;
         ScrollArea::vertical().max_height(220.0).auto_shrink([false, true]).show(ui, |ui| {
             for (k, entry) in fitting.iter().enumerate() {
@@ -185,7 +185,7 @@ impl Dialog {
     }
 
     /// Goes into a folder, or completes a name; a file that was meant is done with.
-    fn take(&mut self, ui: &Ui, (name, is_folder): Entry, is_meant: bool) -> Option<PathBuf> {
+    fn take(&mut self, ui: &Ui, (name, is_folder): FolderEntry, is_meant: bool) -> Option<PathBuf> {
         let path = folder(&self.text).join(&name);
         self.text = path.display().to_string();
         self.chosen = None;
@@ -224,7 +224,7 @@ impl Dialog {
     }
 
     /// What is in the folder and goes on as the text does; files only if they fit.
-    fn fitting(&self) -> Vec<Entry> {
+    fn fitting(&self) -> Vec<FolderEntry> {
         let name =
             Path::new(&self.text).file_name().filter(|_| !self.text.ends_with(MAIN_SEPARATOR));
         let name = name.and_then(|name| name.to_str()).unwrap_or_default().to_lowercase();
@@ -232,7 +232,7 @@ impl Dialog {
         let Some((_, entries)) = self.listed.as_ref().filter(|(listed, _)| *listed == here) else {
             return Vec::new();
         };
-        let is_fit = |(entry, is_folder): &&Entry| {
+        let is_fit = |(entry, is_folder): &&FolderEntry| {
             let fits = *is_folder || has_extension(Path::new(entry), self.purpose.extensions());
             let is_shown = !entry.starts_with('.') || name.starts_with('.');
             fits && is_shown && entry.to_lowercase().starts_with(&name)
@@ -297,13 +297,13 @@ fn home(text: &str) -> PathBuf {
 }
 
 /// What is in a folder, folders first.
-fn entries(folder: &Path) -> Vec<Entry> {
+fn entries(folder: &Path) -> Vec<FolderEntry> {
     let entry = |entry: fs::DirEntry| {
         let name = entry.file_name().into_string().ok()?;
         Some((name, entry.path().is_dir()))
     };
     let read = fs::read_dir(folder).into_iter().flatten();
-    let mut entries: Vec<Entry> = read.filter_map(|e| entry(e.ok()?)).collect();
+    let mut entries: Vec<FolderEntry> = read.filter_map(|e| entry(e.ok()?)).collect();
     entries.sort_by_key(|(name, is_folder)| (!is_folder, name.to_lowercase()));
     entries
 }

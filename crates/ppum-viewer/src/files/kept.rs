@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use super::session_file;
 use crate::session::Session;
 
-/// What the window remembers.
+/// The window's state between two sessions.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Kept {
+pub struct WindowState {
     /// Width and height of the window \[points\].
     pub size: Option<[f32; 2]>,
     /// Files that were opened, the newest first.
@@ -25,7 +25,7 @@ const MAX_LENGTH: u64 = 64 << 20;
 const KEPT: &str = "window.json";
 const LAST: &str = "last.ppum-session";
 
-impl Kept {
+impl WindowState {
     /// What a folder holds; nothing if there is no such file, or one that means nothing.
     #[must_use]
     pub fn read(folder: &Path) -> Self {

@@ -17,7 +17,7 @@ use ppum::dataset::Dataset;
 use crate::job::Job;
 use crate::session::Session;
 use dialog::{Dialog, Purpose};
-use kept::Kept;
+use kept::WindowState;
 use read::{Arrived, Reading, Why};
 use watch::{Stamp, Watch};
 
@@ -40,7 +40,7 @@ pub struct Files {
     /// What is told of files, the newest last.
     pub notes: Vec<Note>,
     /// What is remembered.
-    pub kept: Kept,
+    pub kept: WindowState,
     /// The file of the session, once it has one.
     pub session: Option<PathBuf>,
     folder: Option<PathBuf>,
@@ -63,13 +63,13 @@ pub struct Files {
 #[derive(Debug)]
 struct Writing {
     path: PathBuf,
-    what: What,
+    what: SavedFile,
     job: Job<Result<Stamp, String>>,
 }
 
-/// What is written to a file.
+/// The contents of a file that is saved.
 #[derive(Clone, Debug)]
-pub enum What {
+pub enum SavedFile {
     /// The dataset of a pane.
     Dataset(usize, Arc<Dataset>),
     /// The session.
@@ -84,7 +84,7 @@ pub struct Written {
     /// The file.
     pub path: PathBuf,
     /// What is in it.
-    pub what: What,
+    pub what: SavedFile,
 }
 
 /// The least time between two writings of a session that changes.
@@ -94,7 +94,7 @@ impl Files {
     /// Files of a window that remembers in a folder, if it has one.
     #[must_use]
     pub fn new(ctx: &egui::Context, folder: Option<PathBuf>) -> Self {
-        let kept = folder.as_deref().map(Kept::read).unwrap_or_default();
+        let kept = folder.as_deref().map(WindowState::read).unwrap_or_default();
         Self {
             notes: Vec::new(),
             kept,
@@ -304,7 +304,7 @@ impl Files {
     pub fn write(
         &mut self,
         path: PathBuf,
-        what: What,
+        what: SavedFile,
         write: impl FnOnce(&Path) -> Result<(), String> + Send + 'static,
     ) {
         let target = path.clone();
@@ -316,13 +316,13 @@ impl Files {
     }
 
     /// Writes a text in the background.
-    pub fn write_text(&mut self, path: PathBuf, what: What, text: String) {
+    pub fn write_text(&mut self, path: PathBuf, what: SavedFile, text: String) {
         self.write(path, what, move |path| kept::replace(path, &text).map_err(|e| e.to_string()));
     }
 
     /// Writes a dataset in the background.
     pub fn write_dataset(&mut self, path: PathBuf, pane: usize, dataset: Arc<Dataset>) {
-        self.write(path, What::Dataset(pane, Arc::clone(&dataset)), move |path| {
+        self.write(path, SavedFile::Dataset(pane, Arc::clone(&dataset)), move |path| {
             ppum_format::write(&dataset, path).map_err(|error| error.to_string())
         });
     }

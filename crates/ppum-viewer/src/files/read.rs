@@ -12,7 +12,7 @@ use ppum_solve::problem::MAX_LENGTH as MAX_PROBLEM;
 
 use super::session_file;
 use super::watch::{Stamp, stamp};
-use crate::job::{Job, Stop};
+use crate::job::{CancelToken, Job};
 use crate::session::Session;
 
 /// What a file holds.
@@ -99,7 +99,7 @@ impl Reading {
 /// Signature at the start of an HDF5 file; a block of the user's may stand before it.
 const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
 
-fn read(path: &Path, counted: &AtomicU64, stop: &Stop) -> Result<Content, String> {
+fn read(path: &Path, counted: &AtomicU64, stop: &CancelToken) -> Result<Content, String> {
     match is_text(path) {
         Err(error) => Err(error.to_string()),
         Ok(true) => text(path),
@@ -144,7 +144,7 @@ fn text(path: &Path) -> Result<Content, String> {
 struct Counted<'a> {
     file: File,
     bytes: &'a AtomicU64,
-    stop: &'a Stop,
+    stop: &'a CancelToken,
 }
 
 impl Read for Counted<'_> {
@@ -158,7 +158,7 @@ impl Read for Counted<'_> {
     }
 }
 
-fn dataset(path: &Path, bytes: &AtomicU64, stop: &Stop) -> Result<Dataset, String> {
+fn dataset(path: &Path, bytes: &AtomicU64, stop: &CancelToken) -> Result<Dataset, String> {
     let whole = || {
         let file = ppum_file::open(path, ppum_format::MAX_LENGTH)?;
         ppum_file::within(Counted { file, bytes, stop }, ppum_format::MAX_LENGTH)

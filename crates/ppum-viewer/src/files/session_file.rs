@@ -7,7 +7,7 @@ use ppum_scene::scene::Scene;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use crate::session::{Pane, Place, Session};
+use crate::session::{Pane, Session, VisibleRegion};
 
 /// The end of the names of such files.
 pub const EXTENSION: &str = "ppum-session";
@@ -72,7 +72,7 @@ pub fn parse(text: &str, folder: &Path) -> Result<Session, SessionError> {
 /// is not lost with it.
 fn make_readable(pane: &mut Pane) {
     let is_finite =
-        |place: &Place| place.center.iter().chain([&place.width]).all(|v| v.is_finite());
+        |place: &VisibleRegion| place.center.iter().chain([&place.width]).all(|v| v.is_finite());
     pane.place = pane.place.filter(is_finite);
     if !is_readable(&pane.scene) {
         pane.scene.colors = Colors::default();

@@ -22,11 +22,11 @@ const INTERVAL: Duration = Duration::from_secs(1);
 /// A thread that looks at files and tells of those that have changed. It ends with this value.
 #[derive(Debug)]
 pub struct Watch {
-    shared: Arc<Mutex<State>>,
+    shared: Arc<Mutex<WatchState>>,
 }
 
 #[derive(Debug, Default)]
-struct State {
+struct WatchState {
     followed: Vec<Followed>,
     changed: Vec<PathBuf>,
 }
@@ -43,7 +43,7 @@ impl Watch {
     /// Starts to look; the window is woken when something has changed, and only then.
     #[must_use]
     pub fn new(ctx: &egui::Context) -> Self {
-        let shared = Arc::new(Mutex::new(State::default()));
+        let shared = Arc::new(Mutex::new(WatchState::default()));
         let (theirs, ctx) = (Arc::downgrade(&shared), ctx.clone());
         thread::spawn(move || look(&theirs, &ctx));
         Self { shared }
@@ -68,11 +68,11 @@ impl Watch {
     }
 }
 
-fn lock(state: &Mutex<State>) -> MutexGuard<'_, State> {
+fn lock(state: &Mutex<WatchState>) -> MutexGuard<'_, WatchState> {
     state.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn look(shared: &Weak<Mutex<State>>, ctx: &egui::Context) {
+fn look(shared: &Weak<Mutex<WatchState>>, ctx: &egui::Context) {
     loop {
         thread::sleep(INTERVAL);
         let Some(shared) = shared.upgrade() else { return };

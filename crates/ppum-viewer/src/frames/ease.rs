@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use ppum_render::range::Span;
+use ppum_render::range::ValueSpan;
 use ppum_render::scale::Scale;
 
 /// What a range glides for.
@@ -16,7 +16,7 @@ pub(super) type About<K> = (K, Scale);
 /// The range that is shown.
 #[derive(Debug)]
 pub(super) struct Eased<K> {
-    shown: Option<(About<K>, Span)>,
+    shown: Option<(About<K>, ValueSpan)>,
     glide: Option<Glide>,
 }
 
@@ -24,7 +24,7 @@ pub(super) struct Eased<K> {
 #[derive(Debug)]
 struct Glide {
     from: [f64; 2],
-    to: Span,
+    to: ValueSpan,
     began: Instant,
 }
 
@@ -36,17 +36,22 @@ impl<K> Default for Eased<K> {
 
 impl<K: PartialEq> Eased<K> {
     /// The range that is shown of this, if one is.
-    pub(super) fn shown(&self, about: &About<K>) -> Option<&Span> {
+    pub(super) fn shown(&self, about: &About<K>) -> Option<&ValueSpan> {
         self.shown.as_ref().filter(|(known, _)| known == about).map(|(_, span)| span)
     }
 
     /// Shows a range at once.
-    pub(super) fn set(&mut self, about: About<K>, span: Span) {
+    pub(super) fn set(&mut self, about: About<K>, span: ValueSpan) {
         (self.shown, self.glide) = (Some((about, span)), None);
     }
 
     /// The range on its way to another one; true once it is there.
-    pub(super) fn toward(&mut self, about: About<K>, to: Span, now: Instant) -> (Span, bool) {
+    pub(super) fn toward(
+        &mut self,
+        about: About<K>,
+        to: ValueSpan,
+        now: Instant,
+    ) -> (ValueSpan, bool) {
         let Some(shown) = self.shown(&about) else {
             self.set(about, to.clone());
             return (to, true);
@@ -73,7 +78,7 @@ impl<K: PartialEq> Eased<K> {
 
 impl Glide {
     /// The range after a part of the time, 0 to 1.
-    fn at(&self, part: f64, scale: Scale) -> Span {
+    fn at(&self, part: f64, scale: Scale) -> ValueSpan {
         // slow at both ends
         let t = part * part * (3.0 - 2.0 * part);
         let mix = |a: f64, b: f64| match scale {
@@ -81,11 +86,11 @@ impl Glide {
             _ => a + t * (b - a),
         };
         let ends = [mix(self.from[0], self.to.min), mix(self.from[1], self.to.max)];
-        Span { min: ends[0], max: ends[1], ..self.to.clone() }
+        ValueSpan { min: ends[0], max: ends[1], ..self.to.clone() }
     }
 }
 
-fn is_near(a: &Span, b: &Span) -> bool {
+fn is_near(a: &ValueSpan, b: &ValueSpan) -> bool {
     let size = UNSEEN * (b.max - b.min);
     (a.min - b.min).abs() <= size && (a.max - b.max).abs() <= size
 }

@@ -6,22 +6,22 @@ use std::time::{Duration, Instant};
 use ppum::dataset::Dataset;
 use ppum::progress::{Progress, Verdict, Watcher};
 use ppum_render::picture::Style;
-use ppum_render::range::Span;
+use ppum_render::range::ValueSpan;
 use ppum_render::scale::Scale;
-use ppum_scene::drawing::{Drawn, Shown, Values as Pixels, single_precision_warning};
+use ppum_scene::drawing::{Drawn, RasterValues as Pixels, Shown, single_precision_warning};
 use ppum_scene::minus;
 use ppum_scene::range;
 
 use super::ease::Eased;
 use super::laid::Laid;
 use super::memo::{Memo, Same};
-use super::over::Over;
+use super::over::LayerCache;
 use super::paint::Painted;
 use super::renderer::{Backend, Renderer};
 use super::resampled::{Other, Resampling};
-use super::stop::{Ask, Claim, Stop};
-use super::subject::{Left, Place, Subject, Subjects};
-use super::values::Values;
+use super::stop::{Ask, Claim, StageEnd};
+use super::subject::{FrameSubject, Left, SubjectView, Subjects};
+use super::values::ValueCache;
 use super::{Fault, Frame, Minus, Subtracted, Wanted};
 
 /// What is wanted, and when one who moves will be at rest.
@@ -41,7 +41,7 @@ impl Wish {
 }
 
 /// What a step has made, and when the next one is due.
-pub(super) struct Step {
+pub(super) struct StepResult {
     pub(super) frame: Option<Arc<Frame>>,
     pub(super) next: Next,
 }
@@ -69,30 +69,30 @@ type Ranged = (Same<Drawn>, Scale, String, bool);
 type Quantity = (Same<Dataset>, Option<String>, Option<Minus>);
 
 /// Makes the pictures of one pane.
-pub(super) struct Maker {
+pub(super) struct FrameMaker {
     pub(super) subjects: Subjects,
-    pub(super) values: Values,
-    pub(super) ranges: Memo<Ranged, Span>,
+    pub(super) values: ValueCache,
+    pub(super) ranges: Memo<Ranged, ValueSpan>,
     eased: Eased<Quantity>,
     styles: Memo<(Same<Drawn>, ppum_scene::colors::Colors), Style>,
-    pub(super) painted: Memo<(Same<Drawn>, Style, Span), Arc<Painted>>,
-    pub(super) over: Over,
+    pub(super) painted: Memo<(Same<Drawn>, Style, ValueSpan), Arc<Painted>>,
+    pub(super) over: LayerCache,
     pub(super) resampling: Resampling,
     newest: Option<Arc<Frame>>,
     pub(super) patience: Patience,
     seconds: f64,
 }
 
-impl Maker {
+impl FrameMaker {
     pub(super) fn new(backend: Backend) -> Self {
         Self {
             subjects: Subjects::default(),
-            values: Values::new(Renderer::new(backend)),
+            values: ValueCache::new(Renderer::new(backend)),
             ranges: Memo::default(),
             eased: Eased::default(),
             styles: Memo::default(),
             painted: Memo::default(),
-            over: Over::default(),
+            over: LayerCache::default(),
             resampling: Resampling::default(),
             newest: None,
             patience: Patience::default(),
@@ -101,80 +101,92 @@ impl Maker {
     }
 
     /// Does the first thing that is left to do. `claim` says whether it is still wanted.
-    pub(super) fn step(&mut self, wish: &Wish, now: Instant, claim: Ask<'_>) -> Result<Step, Stop> {
+    pub(super) fn step(
+        &mut self,
+        wish: &Wish,
+        now: Instant,
+        claim: Ask<'_>,
+    ) -> Result<StepResult, StageEnd> {
         let wanted = &wish.wanted;
         self.values.renderer.look();
-        let place = Place { subject: self.subjects.find(wanted)?, view: wanted.view };
+        let target = SubjectView { subject: self.subjects.find(wanted)?, view: wanted.view };
         let watcher = |_: Progress| Verdict::go_on_unless(claim() != Claim::Wanted);
-        let (drawn, is_whole) = self.drawn(wish, &place, claim)?;
-        let style = self.style(wanted, &place, &drawn)?;
-        let goal = self.goal(&place, (&drawn, is_whole), &style);
+        let (drawn, is_whole) = self.drawn(wish, &target, claim)?;
+        let style = self.style(wanted, &target, &drawn)?;
+        let goal = self.goal(&target, (&drawn, is_whole), &style);
         if let Some(goal) = &goal {
             // what cannot be used is refused before it is shown, or anything glides there
-            goal.normalization(style.scale).map_err(Stop::at(Fault::Colors))?;
+            goal.normalization(style.scale).map_err(StageEnd::at(Fault::Colors))?;
         }
         let (span, is_there) =
-            self.span(wanted, (&place.subject, &drawn), &style, goal.as_ref(), now);
+            self.span(wanted, (&target.subject, &drawn), &style, goal.as_ref(), now);
         let painted = self.paint(&drawn, &style, span)?;
-        let note = self.note(&place.subject, &drawn);
+        let note = self.note(&target.subject, &drawn);
         let is_shown = |frame: &Arc<Frame>| {
             Arc::ptr_eq(&frame.picture, &painted) && frame.wanted == *wanted && frame.note == note
         };
         if !self.newest.as_ref().is_some_and(is_shown) {
             let next = if is_there { Next::More } else { Next::After(GLIDE) };
-            return Ok(self.show(wanted, &place, (drawn, painted), next));
+            return Ok(self.show(wanted, &target, (drawn, painted), next));
         }
         if let Some(rest) = wish.moves_for(now) {
-            return Ok(Step { frame: None, next: Next::After(rest) });
+            return Ok(StepResult { frame: None, next: Next::After(rest) });
         }
         if !is_whole {
-            self.draw_whole(&place, &watcher)?;
+            self.draw_whole(&target, &watcher)?;
         } else if goal.is_none() {
-            self.find_range(&place, (&drawn, &style), &watcher)?;
+            self.find_range(&target, (&drawn, &style), &watcher)?;
         } else if is_there {
-            return self.finish(wanted, &place, (drawn, painted, &style), &watcher);
+            return self.finish(wanted, &target, (drawn, painted, &style), &watcher);
         }
-        Ok(Step { frame: None, next: Next::More })
+        Ok(StepResult { frame: None, next: Next::More })
     }
 
     /// The values: the whole ones if they are there or soon done, else rough ones.
     fn drawn(
         &mut self,
         wish: &Wish,
-        place: &Place,
+        target: &SubjectView,
         claim: Ask<'_>,
-    ) -> Result<(Arc<Drawn>, bool), Stop> {
-        if let Some(whole) = self.values.whole.get(place) {
+    ) -> Result<(Arc<Drawn>, bool), StageEnd> {
+        if let Some(whole) = self.values.whole.get(target) {
             return Ok((whole, true));
         }
-        if let Some(rough) = self.values.rough.get(place) {
+        if let Some(rough) = self.values.rough.get(target) {
             return Ok((rough, false));
         }
         let start = Instant::now();
-        let is_rough = self.values.needs_rough(place, wish.rests_at.is_some());
+        let is_rough = self.values.needs_rough(target, wish.rests_at.is_some());
         let drawn = match is_rough {
-            true => self.patience.with(claim, |watcher| self.values.draw_rough(place, watcher))?,
-            false => self.patience.with(claim, |watcher| self.values.draw_whole(place, watcher))?,
+            true => self.patience.with(claim, |watcher| self.values.draw_rough(target, watcher))?,
+            false => {
+                self.patience.with(claim, |watcher| self.values.draw_whole(target, watcher))?
+            }
         };
         self.seconds = start.elapsed().as_secs_f64();
         Ok((drawn, !is_rough))
     }
 
-    fn draw_whole(&mut self, place: &Place, watcher: &dyn Watcher) -> Result<(), Stop> {
+    fn draw_whole(&mut self, target: &SubjectView, watcher: &dyn Watcher) -> Result<(), StageEnd> {
         let start = Instant::now();
-        self.values.draw_whole(place, watcher)?;
+        self.values.draw_whole(target, watcher)?;
         self.seconds = start.elapsed().as_secs_f64();
         Ok(())
     }
 
     /// The way in which values become colours.
-    fn style(&mut self, wanted: &Wanted, place: &Place, drawn: &Arc<Drawn>) -> Result<Style, Stop> {
-        let (colors, shown): (_, &Shown) = (&wanted.scene.colors, &place.subject.shown.0);
+    fn style(
+        &mut self,
+        wanted: &Wanted,
+        target: &SubjectView,
+        drawn: &Arc<Drawn>,
+    ) -> Result<Style, StageEnd> {
+        let (colors, shown): (_, &Shown) = (&wanted.scene.colors, &target.subject.shown.0);
         self.styles.get_or((Same::of(drawn), colors.clone()), || {
-            if let Some(minus) = place.subject.minus() {
-                return minus.style(colors).map_err(Stop::at(Fault::Colors));
+            if let Some(minus) = target.subject.minus() {
+                return minus.style(colors).map_err(StageEnd::at(Fault::Colors));
             }
-            let map = colors.map(shown.quantity()).map_err(Stop::at(Fault::Colors))?;
+            let map = colors.map(shown.quantity()).map_err(StageEnd::at(Fault::Colors))?;
             Ok(colors.style_of([(shown, &drawn.values)], map))
         })
     }
@@ -183,11 +195,11 @@ impl Maker {
     /// for, at rest.
     fn goal(
         &self,
-        place: &Place,
+        target: &SubjectView,
         (drawn, is_whole): (&Arc<Drawn>, bool),
         style: &Style,
-    ) -> Option<Span> {
-        let subject = &place.subject;
+    ) -> Option<ValueSpan> {
+        let subject = &target.subject;
         // the pixels are all that is known of a difference
         let is_of_pixels = match subject.minus {
             Some(_) => is_whole,
@@ -203,11 +215,11 @@ impl Maker {
     fn span(
         &mut self,
         wanted: &Wanted,
-        (subject, drawn): (&Subject, &Drawn),
+        (subject, drawn): (&FrameSubject, &Drawn),
         style: &Style,
-        goal: Option<&Span>,
+        goal: Option<&ValueSpan>,
         now: Instant,
-    ) -> (Span, bool) {
+    ) -> (ValueSpan, bool) {
         let about = about(wanted, style);
         match goal {
             Some(goal) if style.range.is_found() => self.eased.toward(about, goal.clone(), now),
@@ -229,21 +241,21 @@ impl Maker {
 
     fn find_range(
         &mut self,
-        place: &Place,
+        target: &SubjectView,
         (drawn, style): (&Arc<Drawn>, &Style),
         watcher: &dyn Watcher,
-    ) -> Result<(), Stop> {
-        let seen = self.values.seen(place, watcher)?;
-        let Some(quantity) = place.subject.shown.0.quantity() else { return Ok(()) };
-        let field = place.subject.field.0.field();
-        let found = || range::found(field, seen.seen(), quantity, drawn, style, watcher);
-        let found = found().map_err(Stop::at(Fault::Colors))?;
+    ) -> Result<(), StageEnd> {
+        let seen = self.values.seen(target, watcher)?;
+        let Some(quantity) = target.subject.shown.0.quantity() else { return Ok(()) };
+        let field = target.subject.field.0.field();
+        let found = || range::value_span(field, seen.seen(), quantity, drawn, style, watcher);
+        let found = found().map_err(StageEnd::at(Fault::Colors))?;
         self.ranges.set(ranged(drawn, style), found);
         Ok(())
     }
 
     /// The reason why no card draws, or what is wrong with the pictures of the card.
-    fn note(&self, subject: &Subject, drawn: &Drawn) -> Option<String> {
+    fn note(&self, subject: &FrameSubject, drawn: &Drawn) -> Option<String> {
         let note = self.values.renderer.note().map(str::to_owned);
         let is_single = matches!(drawn.values, Pixels::Single(_));
         let warning = || single_precision_warning(subject.field.0.field().step);
@@ -254,29 +266,29 @@ impl Maker {
         &mut self,
         drawn: &Arc<Drawn>,
         style: &Style,
-        span: Span,
-    ) -> Result<Arc<Painted>, Stop> {
+        span: ValueSpan,
+    ) -> Result<Arc<Painted>, StageEnd> {
         let key = (Same::of(drawn), style.clone(), span.clone());
         let paint = || Painted::of(drawn, style, span).map(Arc::new);
-        self.painted.get_or(key, || paint().map_err(Stop::at(Fault::Colors)))
+        self.painted.get_or(key, || paint().map_err(StageEnd::at(Fault::Colors)))
     }
 
     /// What is left when the picture is there: layers, then the comparison.
     fn finish(
         &mut self,
         wanted: &Wanted,
-        place: &Place,
+        target: &SubjectView,
         (drawn, painted, style): (Arc<Drawn>, Arc<Painted>, &Style),
         watcher: &dyn Watcher,
-    ) -> Result<Step, Stop> {
+    ) -> Result<StepResult, StageEnd> {
         let Some(newest) = self.newest.clone() else {
-            return Ok(self.show(wanted, place, (drawn, painted), Next::More));
+            return Ok(self.show(wanted, target, (drawn, painted), Next::More));
         };
         let next = if self.values.renderer.is_away() { Next::After(LOOK) } else { Next::Rest };
         let mut frame = Frame::clone(&newest);
-        let seen = self.values.seen(place, watcher)?;
+        let seen = self.values.seen(target, watcher)?;
         let below = (&*drawn, &painted, seen.seen());
-        frame.layers = self.over.draw(wanted, place, below, watcher)?;
+        frame.layers = self.over.draw(wanted, target, below, watcher)?;
         frame.layers_view = wanted.view;
         let has_news =
             !Arc::ptr_eq(&frame.layers, &newest.layers) || newest.layers_view != wanted.view;
@@ -285,7 +297,7 @@ impl Maker {
         }
         if let Some(compare) = wanted.compare {
             let direct = (&drawn, &painted, style);
-            frame.other = Some(self.resampling.compare(compare, place, direct, watcher)?);
+            frame.other = Some(self.resampling.compare(compare, target, direct, watcher)?);
         }
         frame.is_final = true;
         Ok(self.publish(frame, next))
@@ -295,12 +307,12 @@ impl Maker {
     fn show(
         &mut self,
         wanted: &Wanted,
-        place: &Place,
+        target: &SubjectView,
         (drawn, picture): (Arc<Drawn>, Arc<Painted>),
         next: Next,
-    ) -> Step {
-        let (layers, layers_view, other) = self.carried(wanted, place);
-        let subject = &place.subject;
+    ) -> StepResult {
+        let (layers, layers_view, other) = self.carried(wanted, target);
+        let subject = &target.subject;
         let note = self.note(subject, &drawn);
         let frame = Frame {
             wanted: wanted.clone(),
@@ -320,7 +332,7 @@ impl Maker {
         self.publish(frame, next)
     }
 
-    fn subtracted(&self, subject: &Subject) -> Option<Subtracted> {
+    fn subtracted(&self, subject: &FrameSubject) -> Option<Subtracted> {
         let Left { field, shown } = subject.minus.as_ref()?;
         let (field, shown) = (Arc::clone(&field.0), Arc::clone(&shown.0));
         Some(Subtracted { field, shown, norms: self.values.norms(subject) })
@@ -330,9 +342,9 @@ impl Maker {
     fn carried(
         &self,
         wanted: &Wanted,
-        place: &Place,
+        target: &SubjectView,
     ) -> (Arc<Laid>, ppum_render::view::View, Option<Arc<Other>>) {
-        let subject = &place.subject;
+        let subject = &target.subject;
         let is_same = |frame: &&Arc<Frame>| {
             Arc::ptr_eq(&frame.field, &subject.field.0) && frame.factor == subject.factor
         };
@@ -344,10 +356,10 @@ impl Maker {
         (Arc::clone(&newest.layers), newest.layers_view, other)
     }
 
-    fn publish(&mut self, frame: Frame, next: Next) -> Step {
+    fn publish(&mut self, frame: Frame, next: Next) -> StepResult {
         let frame = Arc::new(frame);
         self.newest = Some(Arc::clone(&frame));
-        Step { frame: Some(frame), next }
+        StepResult { frame: Some(frame), next }
     }
 }
 
@@ -357,7 +369,7 @@ fn about(wanted: &Wanted, style: &Style) -> (Quantity, Scale) {
 }
 
 /// The range of values as far as the pixels tell.
-fn span_of(subject: &Subject, drawn: &Drawn, style: &Style) -> Span {
+fn span_of(subject: &FrameSubject, drawn: &Drawn, style: &Style) -> ValueSpan {
     match subject.minus {
         Some(_) => minus::span(drawn, style),
         None => drawn.span(style, None),
@@ -385,8 +397,8 @@ impl Patience {
     fn with<T>(
         &mut self,
         claim: Ask<'_>,
-        work: impl FnOnce(&dyn Watcher) -> Result<T, Stop>,
-    ) -> Result<T, Stop> {
+        work: impl FnOnce(&dyn Watcher) -> Result<T, StageEnd>,
+    ) -> Result<T, StageEnd> {
         let (start, most) = (Instant::now(), self.0);
         let is_over = || match claim() {
             Claim::Wanted => false,
@@ -395,7 +407,7 @@ impl Patience {
         };
         let done = work(&|_: Progress| Verdict::go_on_unless(is_over()));
         self.0 = match &done {
-            Err(Stop::Cancelled) => most.saturating_mul(2),
+            Err(StageEnd::Cancelled) => most.saturating_mul(2),
             _ => PATIENCE,
         };
         done

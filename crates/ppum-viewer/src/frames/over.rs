@@ -3,21 +3,21 @@
 use std::sync::Arc;
 
 use ppum::progress::Watcher;
-use ppum_scene::drawing::{Drawn, Seen};
+use ppum_scene::drawing::{BodyView, Drawn};
 use ppum_scene::layers::Ground;
 use ppum_scene::overlays::Overlays;
 
 use super::laid::Laid;
 use super::memo::{Memo, Same};
 use super::paint::Painted;
-use super::stop::Stop;
-use super::subject::Place;
+use super::stop::StageEnd;
+use super::subject::SubjectView;
 use super::{Fault, Wanted};
 
 /// What layers are made from: of the picture below no more than they see of it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Below {
-    place: Place,
+    target: SubjectView,
     overlays: Overlays,
     outline: bool,
     /// Isolines have levels of the picture's range, and labels that stand out from its colours.
@@ -25,45 +25,45 @@ pub(super) struct Below {
 }
 
 impl Below {
-    pub(super) fn new(wanted: &Wanted, place: &Place, picture: &Arc<Painted>) -> Self {
+    pub(super) fn new(wanted: &Wanted, target: &SubjectView, picture: &Arc<Painted>) -> Self {
         let scene = &wanted.scene;
         let picture = scene.overlays.isolines.is_some().then(|| Same::of(picture));
-        let (place, overlays) = (place.clone(), scene.overlays.clone());
-        Self { place, overlays, outline: scene.outline, picture }
+        let (target, overlays) = (target.clone(), scene.overlays.clone());
+        Self { target, overlays, outline: scene.outline, picture }
     }
 }
 
 /// Draws layers, and keeps the last ones.
 #[derive(Default)]
-pub(super) struct Over {
+pub(super) struct LayerCache {
     pub(super) layers: Memo<Below, Arc<Laid>>,
 }
 
-impl Over {
+impl LayerCache {
     /// The layers of what is wanted.
     pub(super) fn draw(
         &mut self,
         wanted: &Wanted,
-        place: &Place,
-        (drawn, picture, seen): (&Drawn, &Arc<Painted>, &Seen<'_>),
+        target: &SubjectView,
+        (drawn, picture, seen): (&Drawn, &Arc<Painted>, &BodyView<'_>),
         watcher: &dyn Watcher,
-    ) -> Result<Arc<Laid>, Stop> {
+    ) -> Result<Arc<Laid>, StageEnd> {
         let ground = Ground {
             dataset: &wanted.dataset,
-            field: place.subject.field.0.field(),
+            field: target.subject.field.0.field(),
             // isolines are found of one field
-            quantity: place.subject.shown.0.quantity().filter(|_| place.subject.minus.is_none()),
+            quantity: target.subject.shown.0.quantity().filter(|_| target.subject.minus.is_none()),
             picture,
             values: &drawn.values,
             design: None,
             has_bar: true,
         };
         let scene = &wanted.scene;
-        self.layers.get_or(Below::new(wanted, place, picture), || {
+        self.layers.get_or(Below::new(wanted, target, picture), || {
             let layers = scene.overlays.layers(ground, seen, scene.outline, watcher);
             let size = picture.view.pixels;
             let laid = layers.map(|layers| Arc::new(Laid::new(layers, size)));
-            laid.map_err(Stop::at(Fault::Overlays))
+            laid.map_err(StageEnd::at(Fault::Overlays))
         })
     }
 }

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use egui::{Color32, ColorImage};
 use ppum_render::image::Image;
 use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{RangeError, Span};
+use ppum_render::range::{RangeError, ValueSpan};
 use ppum_scene::drawing::Drawn;
 
 /// A picture, and its pixels as egui takes them.
@@ -30,7 +30,7 @@ impl Painted {
     }
 
     /// Values in the colours of a range.
-    pub(super) fn of(drawn: &Drawn, style: &Style, span: Span) -> Result<Self, RangeError> {
+    pub(super) fn of(drawn: &Drawn, style: &Style, span: ValueSpan) -> Result<Self, RangeError> {
         drawn.picture(style, span).map(Self::new)
     }
 }

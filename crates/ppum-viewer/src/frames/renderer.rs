@@ -8,7 +8,7 @@ use ppum_render::view::View;
 use ppum_scene::drawing::{Drawn, PROCESSOR};
 pub use ppum_scene::engine::Backend;
 
-use super::subject::Subject;
+use super::subject::FrameSubject;
 
 /// Draws values by a backend.
 pub(super) struct Renderer {
@@ -43,7 +43,7 @@ impl Renderer {
     /// Draws the values of a quantity; by the processor, in double precision, what no card can.
     pub(super) fn draw(
         &mut self,
-        subject: &Subject,
+        subject: &FrameSubject,
         view: &View,
         quantity: &Quantity,
         watcher: &dyn Watcher,
@@ -62,12 +62,12 @@ mod cards {
     use std::thread::{self, JoinHandle};
 
     use ppum::quantity::{Quantity, Source};
-    use ppum_gpu::{Choice, GpuError, Method, Program, RenderError, Renderer, Values};
+    use ppum_gpu::{AdapterChoice, GpuError, Method, Program, RenderError, Renderer, Values};
     use ppum_render::raster::Raster;
     use ppum_render::view::View;
     use self_cell::self_cell;
 
-    use super::super::subject::Subject;
+    use super::super::subject::FrameSubject;
     use super::Backend;
     use crate::field::OwnedField;
 
@@ -85,18 +85,18 @@ mod cards {
     /// their time: a thread sees to them, and until it is done the processor draws.
     pub(super) struct Cards {
         backend: Backend,
-        card: Card,
+        card: CardState,
         /// The last subject, compiled; none if it cannot be.
-        compiled: Option<(Subject, Option<Compiled>)>,
+        compiled: Option<(FrameSubject, Option<Compiled>)>,
         /// The reason why the processor draws in its place.
         pub(super) note: Option<String>,
     }
 
-    enum Card {
+    enum CardState {
         Unopened,
         Open(Box<Renderer>),
         /// Prepared for a subject by a thread.
-        Away(Subject, JoinHandle<Prepared>),
+        Away(FrameSubject, JoinHandle<Prepared>),
         None,
     }
 
@@ -114,23 +114,23 @@ mod cards {
                 Backend::Auto => HAS_NO_CARD.load(Ordering::Relaxed),
                 Backend::Gpu | Backend::Splat => false,
             };
-            let card = if none { Card::None } else { Card::Unopened };
+            let card = if none { CardState::None } else { CardState::Unopened };
             Self { backend, card, compiled: None, note: None }
         }
 
         pub(super) fn is_open(&self) -> bool {
-            matches!(self.card, Card::Open(_)) && !matches!(self.compiled, Some((_, None)))
+            matches!(self.card, CardState::Open(_)) && !matches!(self.compiled, Some((_, None)))
         }
 
         /// True while a thread has the card.
         pub(super) fn is_away(&self) -> bool {
-            matches!(self.card, Card::Away(..))
+            matches!(self.card, CardState::Away(..))
         }
 
         /// The values, and what drew them; nothing if the processor has to.
         pub(super) fn draw(
             &mut self,
-            subject: &Subject,
+            subject: &FrameSubject,
             view: &View,
             quantity: &Quantity,
         ) -> Option<(Raster<f32>, String)> {
@@ -152,15 +152,17 @@ mod cards {
 
         /// Takes the card back from a thread that is done.
         pub(super) fn take_back(&mut self) {
-            if !matches!(&self.card, Card::Away(_, thread) if thread.is_finished()) {
+            if !matches!(&self.card, CardState::Away(_, thread) if thread.is_finished()) {
                 return;
             }
-            let Card::Away(subject, thread) = std::mem::replace(&mut self.card, Card::None) else {
+            let CardState::Away(subject, thread) =
+                std::mem::replace(&mut self.card, CardState::None)
+            else {
                 return;
             };
             let lost = |_| (None, Err(GpuError::Lost.into()));
             let (renderer, compiled) = thread.join().unwrap_or_else(lost);
-            self.card = renderer.map_or(Card::None, Card::Open);
+            self.card = renderer.map_or(CardState::None, CardState::Open);
             match compiled {
                 Ok(compiled) => self.compiled = Some((subject, Some(compiled))),
                 Err(error) => self.give_up(subject, &error),
@@ -168,10 +170,10 @@ mod cards {
         }
 
         /// Has the card prepared for a subject, if there is one and it is here.
-        fn prepare(&mut self, subject: &Subject, view: &View, quantity: &Quantity) {
-            let renderer = match std::mem::replace(&mut self.card, Card::None) {
-                Card::Unopened => None,
-                Card::Open(renderer) => Some(renderer),
+        fn prepare(&mut self, subject: &FrameSubject, view: &View, quantity: &Quantity) {
+            let renderer = match std::mem::replace(&mut self.card, CardState::None) {
+                CardState::Unopened => None,
+                CardState::Open(renderer) => Some(renderer),
                 other => {
                     self.card = other;
                     return;
@@ -179,7 +181,7 @@ mod cards {
             };
             (self.compiled, self.note) = (None, None);
             let auto = self.backend == Backend::Auto;
-            let choice = if auto { Choice::Real } else { Choice::Any };
+            let choice = if auto { AdapterChoice::Real } else { AdapterChoice::Any };
             let (method, field) = (self.method(), Arc::clone(&subject.field.0));
             let (view, quantity) = (*view, quantity.clone());
             let thread = thread::spawn(move || {
@@ -192,7 +194,7 @@ mod cards {
                     }
                 }
             });
-            self.card = Card::Away(subject.clone(), thread);
+            self.card = CardState::Away(subject.clone(), thread);
         }
 
         fn method(&self) -> Method {
@@ -201,7 +203,7 @@ mod cards {
 
         fn try_draw(&mut self, view: &View) -> Result<Option<(Raster<f32>, String)>, RenderError> {
             let method = self.method();
-            let (Card::Open(renderer), Some((_, Some(compiled)))) =
+            let (CardState::Open(renderer), Some((_, Some(compiled)))) =
                 (&mut self.card, &mut self.compiled)
             else {
                 return Ok(None);
@@ -214,7 +216,7 @@ mod cards {
         }
 
         /// Leaves a subject to the processor, or everything if the device is of no use.
-        fn give_up(&mut self, subject: Subject, error: &RenderError) {
+        fn give_up(&mut self, subject: FrameSubject, error: &RenderError) {
             let is_missing = matches!(error, RenderError::Gpu(GpuError::NoAdapter { .. }));
             let is_normal = self.backend == Backend::Auto && is_missing;
             HAS_NO_CARD.fetch_or(is_normal, Ordering::Relaxed);
@@ -229,7 +231,7 @@ mod cards {
                     GpuError::Lost | GpuError::Device { .. } | GpuError::Memory { .. }
                 )
             ) {
-                self.card = Card::None;
+                self.card = CardState::None;
             }
             self.compiled = Some((subject, None));
         }

@@ -11,13 +11,13 @@ use ppum_render::resample::norms::{Norms, difference};
 use ppum_render::resample::{Samples, representation_bytes};
 use ppum_render::view::View;
 use ppum_scene::compare::{Compare, Resampled, signed};
-use ppum_scene::drawing::{Drawn, Values};
+use ppum_scene::drawing::{Drawn, RasterValues};
 
 use super::Fault;
 use super::memo::{Memo, Same};
 use super::paint::Painted;
-use super::stop::Stop;
-use super::subject::{Place, Subject};
+use super::stop::StageEnd;
+use super::subject::{FrameSubject, SubjectView};
 
 /// What resampling gives in a view, beside the direct picture.
 #[derive(Debug)]
@@ -41,30 +41,30 @@ pub struct Other {
 /// Resamples, and keeps what the last comparison was made of.
 #[derive(Default)]
 pub(super) struct Resampling {
-    pub(super) samples: Memo<(Subject, u32), Sampled>,
-    found: Memo<(Same<Drawn>, Compare), Found>,
+    pub(super) samples: Memo<(FrameSubject, u32), Sampled>,
+    found: Memo<(Same<Drawn>, Compare), ResampledFrame>,
     pub(super) others: Memo<(Same<Painted>, Compare), Arc<Other>>,
 }
 
 type Sampled = (Arc<Samples>, f64);
 
 /// The values, their difference from the direct ones, and the seconds that they took.
-type Found = (Arc<Resampled>, Arc<Painted>, f64);
+type ResampledFrame = (Arc<Resampled>, Arc<Painted>, f64);
 
 impl Resampling {
     /// What one way of resampling gives.
     pub(super) fn compare(
         &mut self,
         compare: Compare,
-        place: &Place,
+        target: &SubjectView,
         (drawn, picture, style): (&Arc<Drawn>, &Arc<Painted>, &Style),
         watcher: &dyn Watcher,
-    ) -> Result<Arc<Other>, Stop> {
+    ) -> Result<Arc<Other>, StageEnd> {
         let key = (Same::of(picture), compare);
         if let Some(known) = self.others.get(&key) {
             return Ok(known);
         }
-        let (samples, sampling) = self.sample(compare, &place.subject, watcher)?;
+        let (samples, sampling) = self.sample(compare, &target.subject, watcher)?;
         let found = || find(compare, &samples, drawn);
         let (resampled, apart, drawing) = self.found.get_or((Same::of(drawn), compare), found)?;
         let painted = in_colors_of(picture, style, &resampled.raster, &drawn.view)?;
@@ -74,7 +74,7 @@ impl Resampling {
             difference: apart,
             norms: resampled.norms,
             bytes: resampled.bytes,
-            direct_bytes: representation_bytes(place.subject.field.0.field()),
+            direct_bytes: representation_bytes(target.subject.field.0.field()),
             seconds: [sampling, drawing],
         });
         self.others.set(key, Arc::clone(&other));
@@ -85,9 +85,9 @@ impl Resampling {
     fn sample(
         &mut self,
         compare: Compare,
-        subject: &Subject,
+        subject: &FrameSubject,
         watcher: &dyn Watcher,
-    ) -> Result<Sampled, Stop> {
+    ) -> Result<Sampled, StageEnd> {
         let Some(quantity) = subject.shown.0.quantity() else { return Err(refused(OF_CELLS)) };
         if subject.factor.is_some() {
             return Err(refused(DEFORMED));
@@ -98,9 +98,9 @@ impl Resampling {
         let field = subject.field.0.field();
         self.samples.get_or((subject.clone(), compare.grid), || {
             let start = Instant::now();
-            let grid = compare.grid_over(field).map_err(Stop::at(Fault::Compare))?;
+            let grid = compare.grid_over(field).map_err(StageEnd::at(Fault::Compare))?;
             let samples =
-                grid.sample(field, quantity, watcher).map_err(Stop::at(Fault::Compare))?;
+                grid.sample(field, quantity, watcher).map_err(StageEnd::at(Fault::Compare))?;
             Ok((Arc::new(samples), start.elapsed().as_secs_f64()))
         })
     }
@@ -110,16 +110,16 @@ const OF_CELLS: &str = "values of cells are not resampled; choose a quantity to 
 const DEFORMED: &str = "the deformed plate is not resampled; compare without the deformation";
 const MINUS: &str = "the difference of two views is not resampled; compare each of them";
 
-fn refused(message: &str) -> Stop {
-    Stop::failed(Fault::Compare, message)
+fn refused(message: &str) -> StageEnd {
+    StageEnd::failed(Fault::Compare, message)
 }
 
-fn find(compare: Compare, samples: &Samples, drawn: &Drawn) -> Result<Found, Stop> {
+fn find(compare: Compare, samples: &Samples, drawn: &Drawn) -> Result<ResampledFrame, StageEnd> {
     let (start, view) = (Instant::now(), &drawn.view);
     let narrow;
     let direct = match &drawn.values {
-        Values::Double(raster) => raster,
-        Values::Single(raster) => {
+        RasterValues::Double(raster) => raster,
+        RasterValues::Single(raster) => {
             let wide = raster.values.iter().map(|&value| f64::from(value)).collect();
             narrow = Raster::new(raster.size, wide);
             &narrow
@@ -128,7 +128,7 @@ fn find(compare: Compare, samples: &Samples, drawn: &Drawn) -> Result<Found, Sto
     let resampled = Resampled::on_grid(samples, compare.method, view, direct);
     let seconds = start.elapsed().as_secs_f64();
     let apart = signed(&difference(direct, &resampled.raster), view);
-    let apart = apart.map_err(Stop::at(Fault::Compare))?;
+    let apart = apart.map_err(StageEnd::at(Fault::Compare))?;
     Ok((Arc::new(resampled), Arc::new(Painted::new(apart)), seconds))
 }
 
@@ -138,9 +138,9 @@ fn in_colors_of(
     style: &Style,
     raster: &Raster,
     view: &View,
-) -> Result<Painted, Stop> {
+) -> Result<Painted, StageEnd> {
     let norm = &picture.normalization;
     let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..style.clone() };
     let painted = Picture::bare(raster, view, &fixed).map(Painted::new);
-    painted.map_err(Stop::at(Fault::Compare))
+    painted.map_err(StageEnd::at(Fault::Compare))
 }

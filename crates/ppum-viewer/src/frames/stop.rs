@@ -14,7 +14,7 @@ use super::{Failure, Fault};
 
 /// The end of a stage without a result.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Stop {
+pub(super) enum StageEnd {
     /// Something else is wanted.
     Cancelled,
     /// There can be none.
@@ -34,7 +34,7 @@ pub(super) enum Claim {
 /// Asks for it, from any thread.
 pub(super) type Ask<'a> = &'a (dyn Fn() -> Claim + Sync);
 
-impl Stop {
+impl StageEnd {
     /// A mistake, in words.
     pub(super) fn failed(fault: Fault, message: impl Into<String>) -> Self {
         Self::Failed(Failure { fault, message: message.into() })

@@ -4,7 +4,7 @@
 use ppum::vec2::vec2;
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
-use ppum_scene::drawing::{Drawn, Values};
+use ppum_scene::drawing::{Drawn, RasterValues};
 
 /// A move of a picture's content, in whole pixels: pixel (i, j) was (i + columns, j + rows) before.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,8 +42,8 @@ impl Shift {
 
     /// The part of the pixels that both views share.
     pub(super) fn kept(self, pixels: [u32; 2]) -> f64 {
-        let part = |by: i64, n: u32| 1.0 - (by.unsigned_abs() as f64 / f64::from(n)).min(1.0);
-        part(self.columns, pixels[0]) * part(self.rows, pixels[1])
+        let rect = |by: i64, n: u32| 1.0 - (by.unsigned_abs() as f64 / f64::from(n)).min(1.0);
+        rect(self.columns, pixels[0]) * rect(self.rows, pixels[1])
     }
 
     /// The view that lies so many whole pixels beside another.
@@ -53,7 +53,7 @@ impl Shift {
     }
 
     /// The rectangles of pixels that were not in view before.
-    fn uncovered(self, [nx, ny]: [u32; 2]) -> [Part; 2] {
+    fn uncovered(self, [nx, ny]: [u32; 2]) -> [PixelRect; 2] {
         let edge = |by: i64, n: u32| match by {
             ..0 => [0, by.unsigned_abs() as u32],
             _ => [n - by as u32, n],
@@ -63,18 +63,21 @@ impl Shift {
             _ => [0, n - by as u32],
         };
         let (rows, rest) = (edge(self.rows, ny), rest(self.rows, ny));
-        [Part { columns: [0, nx], rows }, Part { columns: edge(self.columns, nx), rows: rest }]
+        [
+            PixelRect { columns: [0, nx], rows },
+            PixelRect { columns: edge(self.columns, nx), rows: rest },
+        ]
     }
 }
 
 /// A rectangle of pixels: first column and row, and those behind the last.
 #[derive(Clone, Copy, Debug)]
-struct Part {
+struct PixelRect {
     columns: [u32; 2],
     rows: [u32; 2],
 }
 
-impl Part {
+impl PixelRect {
     fn size(&self) -> [u32; 2] {
         [self.columns[1] - self.columns[0], self.rows[1] - self.rows[0]]
     }
@@ -99,10 +102,10 @@ pub(super) fn moved<E>(
 ) -> Result<Drawn, E> {
     let view = shift.of(&old.view);
     let mut new = Moved::new(old, view, shift);
-    for part in shift.uncovered(view.pixels).into_iter().filter(|part| !part.is_empty()) {
-        new.put(part, &draw(&part.view(&view))?);
+    for rect in shift.uncovered(view.pixels).into_iter().filter(|rect| !rect.is_empty()) {
+        new.put(rect, &draw(&rect.view(&view))?);
     }
-    let values = Values::from(Raster::new(view.pixels, new.values));
+    let values = RasterValues::from(Raster::new(view.pixels, new.values));
     let by = format!("{}, moved", old.by);
     Ok(Drawn { view, values, by, without: new.without, overlap: Vec::new(), opacity: None })
 }
@@ -136,22 +139,22 @@ impl Moved {
     }
 
     /// A strip.
-    fn put(&mut self, part: Part, strip: &Drawn) {
-        let [nx, ny] = part.size().map(|n| n as usize);
-        let [x, y] = [part.columns[0] as usize, part.rows[0] as usize];
+    fn put(&mut self, rect: PixelRect, strip: &Drawn) {
+        let [nx, ny] = rect.size().map(|n| n as usize);
+        let [x, y] = [rect.columns[0] as usize, rect.rows[0] as usize];
         for row in 0..ny {
             self.put_row((y + row) * self.columns + x, strip, row * nx..(row + 1) * nx);
         }
         let (nx, columns) = (nx as u32, self.columns as u32);
-        let place = |k: u32| (part.rows[0] + k / nx) * columns + part.columns[0] + k % nx;
+        let place = |k: u32| (rect.rows[0] + k / nx) * columns + rect.columns[0] + k % nx;
         self.without.extend(strip.without.iter().map(|&k| place(k)));
     }
 
     fn put_row(&mut self, to: usize, from: &Drawn, range: std::ops::Range<usize>) {
         let row = &mut self.values[to..to + range.len()];
         match &from.values {
-            Values::Single(raster) => row.copy_from_slice(&raster.values[range]),
-            Values::Double(raster) => {
+            RasterValues::Single(raster) => row.copy_from_slice(&raster.values[range]),
+            RasterValues::Double(raster) => {
                 row.iter_mut().zip(&raster.values[range]).for_each(|(to, &from)| *to = from as f32);
             }
         }

@@ -7,19 +7,19 @@ use ppum::progress::Watcher;
 use ppum_render::deform::{DeformError, Deformation};
 use ppum_render::view::View;
 use ppum_scene::deformed::Factor;
-use ppum_scene::drawing::{Seen, Shown, single_precision_error};
+use ppum_scene::drawing::{BodyView, Shown, single_precision_error};
 use ppum_scene::minus::{self, Side};
 use ppum_scene::scene::{self, default_quantity, shown};
 use self_cell::self_cell;
 
 use super::memo::{Memo, Same};
-use super::stop::Stop;
+use super::stop::StageEnd;
 use super::{Fault, Minus, Wanted};
 use crate::field::OwnedField;
 
-/// What is looked at, wherever that is.
+/// The field and the quantity that are shown, whatever the view.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Subject {
+pub(super) struct FrameSubject {
     pub(super) field: Same<OwnedField>,
     pub(super) shown: Same<Shown>,
     /// How many times its displacement the plate is drawn with.
@@ -35,7 +35,7 @@ pub(super) struct Left {
     pub(super) shown: Same<Shown>,
 }
 
-impl Subject {
+impl FrameSubject {
     /// True if single precision shows the field.
     pub(super) fn bears_single(&self) -> bool {
         single_precision_error(self.field.0.field().step).is_none()
@@ -50,10 +50,10 @@ impl Subject {
     }
 }
 
-/// A view of it.
+/// A subject in one view.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Place {
-    pub(super) subject: Subject,
+pub(super) struct SubjectView {
+    pub(super) subject: FrameSubject,
     pub(super) view: View,
 }
 
@@ -70,11 +70,11 @@ impl Fields {
         &mut self,
         field: &Arc<OwnedField>,
         quantity: Option<&String>,
-    ) -> Result<Arc<Shown>, Stop> {
+    ) -> Result<Arc<Shown>, StageEnd> {
         self.shown.get_or((Same::of(field), quantity.cloned()), || {
             let field = field.field();
             let text = quantity.map_or(default_quantity(field), String::as_str);
-            shown(text, field).map(Arc::new).map_err(Stop::at(Fault::Quantity))
+            shown(text, field).map(Arc::new).map_err(StageEnd::at(Fault::Quantity))
         })
     }
 }
@@ -92,30 +92,30 @@ const DEFORMED: &str = "of the deformed plate there is no difference; press d";
 
 impl Subjects {
     /// The subject of what is wanted.
-    pub(super) fn find(&mut self, wanted: &Wanted) -> Result<Subject, Stop> {
+    pub(super) fn find(&mut self, wanted: &Wanted) -> Result<FrameSubject, StageEnd> {
         let scene = &wanted.scene;
         let key = (Same::of(&wanted.dataset), scene.subject.clone());
         let field = self.own.fields.get_or(key, || field(&wanted.dataset, &scene.subject))?;
         let shown = self.own.shown(&field, scene.quantity.as_ref())?;
         if wanted.minus.is_some() && scene.deformed.is_some() {
-            return Err(Stop::failed(Fault::Minus, DEFORMED));
+            return Err(StageEnd::failed(Fault::Minus, DEFORMED));
         }
         let number = || scene.deformed.map(|factor| factor.number(&[field.field()])).transpose();
         let key = (Same::of(&field), scene.deformed);
         let factor = self
             .factors
-            .get_or(key, || number().map_err(Stop::at::<DeformError>(Fault::Deformed)))?;
+            .get_or(key, || number().map_err(StageEnd::at::<DeformError>(Fault::Deformed)))?;
         if wanted.minus.is_none() {
             // what was subtracted before may have been closed
             self.minus = Fields::default();
         }
         let other = wanted.minus.as_ref().map(|minus| self.other(minus)).transpose();
         let minus = other.map_err(|stop| stop.of(Fault::Minus, "on the left: "))?;
-        Ok(Subject { field: Same(field), shown: Same(shown), factor, minus })
+        Ok(FrameSubject { field: Same(field), shown: Same(shown), factor, minus })
     }
 
     /// What is subtracted; a field that is looked at anyway is not made twice.
-    fn other(&mut self, wanted: &Minus) -> Result<Left, Stop> {
+    fn other(&mut self, wanted: &Minus) -> Result<Left, StageEnd> {
         let key = (Same::of(&wanted.dataset), wanted.subject.clone());
         let field = match self.own.fields.get(&key) {
             Some(field) => field,
@@ -127,24 +127,24 @@ impl Subjects {
 }
 
 /// The field of a dataset with what is replaced in it.
-fn field(dataset: &Arc<Dataset>, subject: &scene::Subject) -> Result<Arc<OwnedField>, Stop> {
+fn field(dataset: &Arc<Dataset>, subject: &scene::Subject) -> Result<Arc<OwnedField>, StageEnd> {
     let dataset = match subject.is_whole() {
         true => Arc::clone(dataset),
         false => {
             let mut changed = Dataset::clone(dataset);
-            subject.apply(&mut changed).map_err(Stop::at(Fault::Subject))?;
+            subject.apply(&mut changed).map_err(StageEnd::at(Fault::Subject))?;
             Arc::new(changed)
         }
     };
     let step = subject.step_of(&dataset);
-    OwnedField::new(dataset, step).map(Arc::new).map_err(Stop::at(Fault::Subject))
+    OwnedField::new(dataset, step).map(Arc::new).map_err(StageEnd::at(Fault::Subject))
 }
 
 self_cell!(
     struct Both {
         owner: Arc<OwnedField>,
         #[covariant]
-        dependent: Seen,
+        dependent: BodyView,
     }
 );
 
@@ -153,20 +153,20 @@ pub(super) struct OwnedSeen(Both);
 
 impl OwnedSeen {
     /// What is seen of a subject in a view.
-    pub(super) fn new(place: &Place, watcher: &dyn Watcher) -> Result<Self, DeformError> {
-        let Place { subject, view } = place;
+    pub(super) fn new(target: &SubjectView, watcher: &dyn Watcher) -> Result<Self, DeformError> {
+        let SubjectView { subject, view } = target;
         Both::try_new(Arc::clone(&subject.field.0), |field| match subject.factor {
-            None => Ok(Seen::Plate(*view)),
+            None => Ok(BodyView::Plate(*view)),
             Some(factor) => {
                 let deformation = Deformation::new(field.field(), factor)?;
-                deformation.seen(view).points(watcher).map(Seen::Moved)
+                deformation.seen(view).points(watcher).map(BodyView::Moved)
             }
         })
         .map(Self)
     }
 
     /// What is seen.
-    pub(super) fn seen(&self) -> &Seen<'_> {
+    pub(super) fn seen(&self) -> &BodyView<'_> {
         self.0.borrow_dependent()
     }
 }

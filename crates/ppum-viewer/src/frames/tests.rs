@@ -12,14 +12,14 @@ use ppum_render::resample::norms::norms;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::compare::Compare;
-use ppum_scene::drawing::{Drawn, Seen, Values};
+use ppum_scene::drawing::{BodyView, Drawn, RasterValues};
 use ppum_scene::overlays::{Levels, Overlay};
 use ppum_scene::range;
 use ppum_scene::scene::Scene;
 use ppum_testkit::synthetic::Recipe;
 
-use super::maker::{Maker, Next, Patience, Wish};
-use super::stop::{Ask, Claim, Stop};
+use super::maker::{FrameMaker, Next, Patience, Wish};
+use super::stop::{Ask, Claim, StageEnd};
 use super::worker;
 use super::{Backend, Frame, Frames, Minus, Wanted};
 
@@ -40,12 +40,12 @@ fn beside(wanted: &Wanted, columns: f64, rows: f64) -> Wanted {
     Wanted { view: View { center: wanted.view.center + by, ..wanted.view }, ..wanted.clone() }
 }
 
-fn maker() -> Maker {
-    Maker::new(Backend::Cpu)
+fn maker() -> FrameMaker {
+    FrameMaker::new(Backend::Cpu)
 }
 
 /// All frames up to the final one; time passes from step to step.
-fn finished(maker: &mut Maker, wanted: &Wanted) -> Vec<Arc<Frame>> {
+fn finished(maker: &mut FrameMaker, wanted: &Wanted) -> Vec<Arc<Frame>> {
     let (wish, mut now) = (Wish { wanted: wanted.clone(), rests_at: None }, Instant::now());
     let mut frames = Vec::new();
     loop {
@@ -60,7 +60,7 @@ fn finished(maker: &mut Maker, wanted: &Wanted) -> Vec<Arc<Frame>> {
 }
 
 /// The first frame for one who moves on.
-fn moving(maker: &mut Maker, wanted: &Wanted) -> Arc<Frame> {
+fn moving(maker: &mut FrameMaker, wanted: &Wanted) -> Arc<Frame> {
     let now = Instant::now();
     let wish = Wish { wanted: wanted.clone(), rests_at: Some(now + Duration::from_secs(60)) };
     maker.step(&wish, now, &|| Claim::Wanted).unwrap().frame.expect("a frame comes at once")
@@ -68,8 +68,8 @@ fn moving(maker: &mut Maker, wanted: &Wanted) -> Arc<Frame> {
 
 fn values(drawn: &Drawn) -> Raster {
     match &drawn.values {
-        Values::Double(raster) => raster.clone(),
-        Values::Single(raster) => {
+        RasterValues::Double(raster) => raster.clone(),
+        RasterValues::Single(raster) => {
             Raster::new(raster.size, raster.values.iter().map(|&v| f64::from(v)).collect())
         }
     }
@@ -103,9 +103,9 @@ fn the_final_picture_is_that_of_ppum_render() {
     let drawn = Drawn::new(raster, field, view, "cpu f64");
     let style =
         wanted.scene.colors.style(Some(&Quantity::VonMises), Colormap::named("viridis").unwrap());
-    let seen = Seen::Plate(*view);
+    let seen = BodyView::Plate(*view);
     let span =
-        range::found(field, &seen, &Quantity::VonMises, &drawn, &style, unwatched()).unwrap();
+        range::value_span(field, &seen, &Quantity::VonMises, &drawn, &style, unwatched()).unwrap();
     let picture = drawn.picture(&style, span).unwrap();
     assert!(last.picture.picture == picture);
     assert_eq!(last.picture.texture().size, PIXELS.map(|n| n as usize));
@@ -117,8 +117,8 @@ fn only_what_has_changed_is_made_anew() {
     let (dataset, mut maker) = (dataset(), maker());
     let mut wanted = wanted(&dataset);
     finished(&mut maker, &wanted);
-    let made = |maker: &Maker| {
-        let Maker { subjects, values, ranges, painted, over, .. } = maker;
+    let made = |maker: &FrameMaker| {
+        let FrameMaker { subjects, values, ranges, painted, over, .. } = maker;
         [subjects.own.fields.made, values.whole.made, ranges.made, painted.made, over.layers.made]
     };
     let first = made(&maker);
@@ -281,7 +281,7 @@ fn what_is_nearly_there_is_finished_and_the_rest_is_stopped() {
     // a machine that is busy may take long even for a rough picture
     maker.patience = Patience(Duration::MAX);
     let gone = maker.step(&wish, Instant::now(), &|| Claim::Gone);
-    assert!(matches!(gone, Err(Stop::Cancelled)), "nobody waits for a rough picture either");
+    assert!(matches!(gone, Err(StageEnd::Cancelled)), "nobody waits for a rough picture either");
     let rough = maker
         .step(&wish, Instant::now(), &|| Claim::Replaced)
         .unwrap()
@@ -289,7 +289,7 @@ fn what_is_nearly_there_is_finished_and_the_rest_is_stopped() {
         .expect("a rough picture");
     assert!(rough.drawn.view.pixels[0] < PIXELS[0]);
     let stopped = maker.step(&wish, Instant::now(), &|| Claim::Replaced);
-    assert!(matches!(stopped, Err(Stop::Cancelled)));
+    assert!(matches!(stopped, Err(StageEnd::Cancelled)));
     assert_eq!(maker.values.whole.made, 0);
     assert!(finished(&mut maker, &wish.wanted).last().unwrap().is_final);
 }
@@ -298,7 +298,7 @@ fn what_is_nearly_there_is_finished_and_the_rest_is_stopped() {
 fn mistakes_are_told_where_they_are() {
     use super::Fault;
     let (dataset, mut maker) = (dataset(), maker());
-    let fault = |maker: &mut Maker, change: &dyn Fn(&mut Wanted)| {
+    let fault = |maker: &mut FrameMaker, change: &dyn Fn(&mut Wanted)| {
         let mut wanted = wanted(&dataset);
         change(&mut wanted);
         let (wish, mut now) = (Wish { wanted, rests_at: None }, Instant::now());
@@ -307,8 +307,8 @@ fn mistakes_are_told_where_they_are() {
             match maker.step(&wish, now, &|| Claim::Wanted) {
                 Ok(step) if step.next == Next::Rest => return None,
                 Ok(_) => {}
-                Err(Stop::Failed(failure)) => return Some(failure.fault),
-                Err(Stop::Cancelled) => panic!("nobody stopped it"),
+                Err(StageEnd::Failed(failure)) => return Some(failure.fault),
+                Err(StageEnd::Cancelled) => panic!("nobody stopped it"),
             }
         }
     };
@@ -369,7 +369,7 @@ fn a_comparison_has_the_numbers_of_resampling() {
 fn a_thread_makes_the_picture_of_its_maker() {
     let dataset = dataset();
     let wanted = wanted(&dataset);
-    let made = finished(&mut Maker::new(Backend::Cpu), &wanted);
+    let made = finished(&mut FrameMaker::new(Backend::Cpu), &wanted);
     let (wake, woken) = mpsc::channel();
     let wake = move || {
         // nobody listens once the picture is there
@@ -390,7 +390,7 @@ fn a_thread_makes_the_picture_of_its_maker() {
 
 #[test]
 fn a_graphics_device_draws_what_the_processor_draws() {
-    let (dataset, mut maker) = (dataset(), Maker::new(Backend::Gpu));
+    let (dataset, mut maker) = (dataset(), FrameMaker::new(Backend::Gpu));
     // while the device is prepared nobody waits for it
     let mut wanted = wanted(&dataset);
     let first = finished(&mut maker, &wanted);
@@ -426,7 +426,7 @@ fn a_graphics_device_draws_what_the_processor_draws() {
 fn a_panic_is_told_and_does_no_harm() {
     let (dataset, mut maker) = (dataset(), maker());
     let wish = Wish { wanted: wanted(&dataset), rests_at: None };
-    let run = |maker: &mut Maker, claim: Ask<'_>| loop {
+    let run = |maker: &mut FrameMaker, claim: Ask<'_>| loop {
         match worker::step(maker, Backend::Cpu, &wish, claim) {
             (Some(Err(failure)), next) => return (Some(failure.fault), next),
             (_, Next::Rest) => return (None, Next::Rest),

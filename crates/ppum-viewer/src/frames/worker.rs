@@ -5,9 +5,9 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Instant;
 
-use super::maker::{Maker, Next, Step, Wish};
+use super::maker::{FrameMaker, Next, StepResult, Wish};
 use super::renderer::Backend;
-use super::stop::{Ask, Claim, Stop};
+use super::stop::{Ask, Claim, StageEnd};
 use super::{Failure, Fault, Outcome};
 
 /// Calls whoever shows the pictures.
@@ -16,18 +16,18 @@ pub(super) type Wake = Box<dyn Fn() + Send>;
 /// One step: what is to be shown of it, and when the next is due. A panic is told as a failure, and
 /// forgets everything.
 pub(super) fn step(
-    maker: &mut Maker,
+    maker: &mut FrameMaker,
     backend: Backend,
     wish: &Wish,
     claim: Ask<'_>,
 ) -> (Option<Outcome>, Next) {
     let made = catch_unwind(AssertUnwindSafe(|| maker.step(wish, Instant::now(), claim)));
     match made {
-        Ok(Ok(Step { frame, next })) => (frame.map(Ok), next),
-        Ok(Err(Stop::Cancelled)) => (None, Next::More),
-        Ok(Err(Stop::Failed(failure))) => (Some(Err(failure)), Next::Rest),
+        Ok(Ok(StepResult { frame, next })) => (frame.map(Ok), next),
+        Ok(Err(StageEnd::Cancelled)) => (None, Next::More),
+        Ok(Err(StageEnd::Failed(failure))) => (Some(Err(failure)), Next::Rest),
         Err(_) => {
-            *maker = Maker::new(backend);
+            *maker = FrameMaker::new(backend);
             let message = PANIC.to_owned();
             (Some(Err(Failure { fault: Fault::Program, message })), Next::Rest)
         }
@@ -50,12 +50,12 @@ pub(super) struct Worker(Arc<Shared>);
 
 #[derive(Default)]
 struct Shared {
-    state: Mutex<State>,
+    state: Mutex<WorkerState>,
     changed: Condvar,
 }
 
 #[derive(Default)]
-struct State {
+struct WorkerState {
     wish: Option<Wish>,
     /// Wishes so far, and the last one that is fulfilled.
     wishes: usize,
@@ -65,14 +65,14 @@ struct State {
 }
 
 impl Shared {
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, WorkerState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The wish to work for, with its number, when something is to be done for it; none if nobody
     /// wants anything any more.
     fn next(&self, number: usize, next: Next) -> Option<(Wish, usize)> {
-        let is_waiting = |state: &mut State| state.wishes == number && !state.is_closed;
+        let is_waiting = |state: &mut WorkerState| state.wishes == number && !state.is_closed;
         let mut state = self.state();
         state = match next {
             Next::More => state,
@@ -136,7 +136,7 @@ impl Drop for Worker {
 
 /// Makes pictures until nobody wants any.
 fn serve(shared: &Shared, backend: Backend, wake: &Wake) {
-    let mut maker = Maker::new(backend);
+    let mut maker = FrameMaker::new(backend);
     let (mut number, mut next) = (0, Next::Rest);
     while let Some((wish, newest)) = shared.next(number, next) {
         number = newest;

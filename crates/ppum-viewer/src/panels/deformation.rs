@@ -26,7 +26,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     if !is_possible {
         ui.weak("A potential has no displacements");
     }
-    told(ui, stage);
+    factor_note(ui, stage);
     failure(ui, stage, Fault::Deformed);
 }
 
@@ -89,7 +89,7 @@ fn motion(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls) {
 }
 
 /// The factor of the picture.
-fn told(ui: &mut Ui, stage: &Stage) {
+fn factor_note(ui: &mut Ui, stage: &Stage) {
     let factor = stage.frames.newest().and_then(|frame| frame.factor);
     if let Some(factor) = factor {
         // a factor in motion has no digits that one could read

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use egui::{ComboBox, DragValue, Grid, Key, Modifiers, TextEdit, Ui, Window};
 use ppum_scene::moving::Moving;
 
-use crate::export::{Kind, Order, What};
+use crate::export::{ExportChoice, ExportKind, Order};
 use crate::field::OwnedField;
 use crate::frames::Frame;
 use crate::job::Job;
@@ -16,7 +16,7 @@ use crate::stage::Stage;
 
 /// What is to be written, while one chooses it and while it is made.
 pub struct Exporter {
-    what: What,
+    what: ExportChoice,
     path: String,
     size: [u32; 2],
     /// Pictures a second.
@@ -36,7 +36,7 @@ const MOST: u32 = 16_384;
 impl Exporter {
     /// Begins with a kind, and the size and name that suit what is seen.
     #[must_use]
-    pub fn new(what: What, stage: &Stage) -> Self {
+    pub fn new(what: ExportChoice, stage: &Stage) -> Self {
         let size = stage.view.map_or([1024, 768], |view| view.pixels);
         let path = match &stage.opened {
             Some(opened) => beside(opened.path.as_deref(), what.ends()[0]),
@@ -58,7 +58,7 @@ impl Exporter {
     /// Moves as fast as the player shows the steps \[images a second\].
     #[must_use]
     pub fn as_fast_as(mut self, player: f64) -> Self {
-        if self.what == What::Steps {
+        if self.what == ExportChoice::Steps {
             self.rate = player;
         }
         self
@@ -113,7 +113,7 @@ impl Exporter {
             }
             None => {}
         }
-        if self.what != What::Deformation {
+        if self.what != ExportChoice::Deformation {
             ui.separator();
             command(ui, &order.command(&path));
         }
@@ -124,10 +124,10 @@ impl Exporter {
         let before = self.what;
         ui.label("Kind");
         ComboBox::from_id_salt("kind").selected_text(self.what.name()).show_ui(ui, |ui| {
-            for what in What::ALL {
+            for what in ExportChoice::ALL {
                 let can = match what {
-                    What::Steps => frame.field.dataset().steps.len() > 1,
-                    What::Deformation => frame.field.field().equation.elastic().is_some(),
+                    ExportChoice::Steps => frame.field.dataset().steps.len() > 1,
+                    ExportChoice::Deformation => frame.field.field().equation.elastic().is_some(),
                     _ => true,
                 };
                 let choice = egui::Button::selectable(self.what == what, what.name());
@@ -160,12 +160,12 @@ impl Exporter {
             }
         });
         ui.end_row();
-        if matches!(self.what, What::Steps | What::Deformation) {
+        if matches!(self.what, ExportChoice::Steps | ExportChoice::Deformation) {
             ui.label("Pictures a second");
             ui.add(DragValue::new(&mut self.rate).range(0.1..=60.0).speed(0.1));
             ui.end_row();
         }
-        if self.what == What::Deformation {
+        if self.what == ExportChoice::Deformation {
             ui.label("Pictures");
             ui.add(DragValue::new(&mut self.count).range(2..=600));
             ui.end_row();
@@ -183,12 +183,13 @@ impl Exporter {
             view: stage.view.unwrap_or(frame.wanted.view),
             size: self.size,
             kind: match self.what {
-                What::Picture => Kind::Picture,
-                What::Figure => Kind::Figure,
-                What::Steps => Kind::Moving(Moving::Steps(steps), self.rate),
-                What::Deformation => {
-                    Kind::Moving(Moving::Factor(frame.factor.unwrap_or(1.0), self.count), self.rate)
-                }
+                ExportChoice::Picture => ExportKind::Picture,
+                ExportChoice::Figure => ExportKind::Figure,
+                ExportChoice::Steps => ExportKind::Moving(Moving::Steps(steps), self.rate),
+                ExportChoice::Deformation => ExportKind::Moving(
+                    Moving::Factor(frame.factor.unwrap_or(1.0), self.count),
+                    self.rate,
+                ),
             },
         }
     }
@@ -215,7 +216,9 @@ impl Exporter {
         }
         self.told = None;
         self.job = Some(Job::start(ui.ctx(), move |stop| {
-            if let (Kind::Moving(Moving::Factor(unknown, _), _), None) = (&mut order.kind, factor) {
+            if let (ExportKind::Moving(Moving::Factor(unknown, _), _), None) =
+                (&mut order.kind, factor)
+            {
                 *unknown = automatic(&order.field).unwrap_or(1.0);
             }
             let (bytes, notices) = order.bytes(&path, stop)?;

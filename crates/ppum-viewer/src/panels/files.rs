@@ -7,7 +7,7 @@ use egui::{Align2, Area, Frame, Id, Label, Order, ProgressBar, RichText, ScrollA
 
 use crate::actions::Action;
 use crate::desk::Desk;
-use crate::export::What;
+use crate::export::ExportChoice;
 use crate::files::examples;
 use crate::files::name;
 use crate::files::read::{Reading, Why};
@@ -49,10 +49,10 @@ pub fn exports(ui: &mut Ui, desk: &mut Desk<'_>) {
     let steps = stage.opened.as_ref().map_or(0, |opened| opened.dataset.steps.len());
     let (has_dataset, is_elastic) = (steps > 0, steps > 0 && !stage.is_rigid());
     for (name, action, is_possible) in [
-        ("Image…", Action::Save(What::Picture), has_dataset),
-        ("Figure for print…", Action::Save(What::Figure), has_dataset),
-        ("Animation of the steps…", Action::Save(What::Steps), steps > 1),
-        ("Animation of the deformation…", Action::Save(What::Deformation), is_elastic),
+        ("Image…", Action::Save(ExportChoice::Picture), has_dataset),
+        ("Figure for print…", Action::Save(ExportChoice::Figure), has_dataset),
+        ("Animation of the steps…", Action::Save(ExportChoice::Steps), steps > 1),
+        ("Animation of the deformation…", Action::Save(ExportChoice::Deformation), is_elastic),
         ("Copy the command", Action::CopyCommand, has_dataset),
     ] {
         if ui.add_enabled(is_possible, egui::Button::new(name)).clicked() {
@@ -95,7 +95,7 @@ pub fn notes(ui: &Ui, desk: &mut Desk<'_>) {
             let most = (0.5 * room.y).max(40.0);
             ScrollArea::vertical().max_height(most).show(ui, |ui| {
                 readings(ui, desk);
-                told(ui, desk);
+                notes_panel(ui, desk);
             });
         });
     });
@@ -132,7 +132,7 @@ fn readings(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
 }
 
-fn told(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn notes_panel(ui: &mut Ui, desk: &mut Desk<'_>) {
     let mut closed = None;
     for note in &desk.files.notes {
         ui.horizontal(|ui| {

@@ -15,7 +15,7 @@ use crate::controls::facts::Stem;
 use crate::desk::Desk;
 use crate::frames::Fault;
 use crate::session::Pane;
-use crate::widgets::editor::{Mistake, Subject};
+use crate::widgets::editor::{EditedText, TextDiagnostic};
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
@@ -67,11 +67,11 @@ fn weight(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, dataset: &Datas
     });
     let names = names(["t"].into_iter().chain(WEIGHTS.iter().map(|entry| entry.name)), &[]);
     let subject =
-        Subject { name: "Formula of the weight", current: &current, names: &names, version: 0 };
+        EditedText { name: "Formula of the weight", current: &current, names: &names, version: 0 };
     let check = |text: &str| match weight_of(text, &dataset.tables) {
         _ if text.trim().is_empty() => Ok(()),
         Ok(_) => Ok(()),
-        Err(error) => Err(Mistake::of_replacement(&error, text)),
+        Err(error) => Err(TextDiagnostic::of_replacement(&error, text)),
     };
     chosen = chosen.or(controls.editor("weight").show(ui, &subject, check));
     if let Some(text) = chosen {
@@ -100,14 +100,14 @@ fn function(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, dataset: &Dat
     let names = names(["x", "y", "r", "theta"].into_iter().chain(parameters), &dataset.tables);
     let current = replaced.unwrap_or_else(|| stem.text.clone());
     let title = format!("Formula of {}", stem.name);
-    let subject = Subject { name: &title, current: &current, names: &names, version: 0 };
+    let subject = EditedText { name: &title, current: &current, names: &names, version: 0 };
     let step = dataset.steps.get(pane.scene.subject.step_of(dataset));
     let check = |text: &str| match step {
         // the text of the file may be words for what is no formula
         Some(step) if text != stem.text => step
             .check_function(&stem.name, text, &dataset.tables)
             .map(|_| ())
-            .map_err(|error| Mistake::of_replacement(&error, text)),
+            .map_err(|error| TextDiagnostic::of_replacement(&error, text)),
         _ => Ok(()),
     };
     chosen = chosen.or(controls.editor(&name).show(ui, &subject, check));
@@ -141,13 +141,13 @@ fn quantity(
     let current = defined.unwrap_or_else(|| own.to_owned());
     let title = format!("Formula of {name}");
     let version = version(field.as_ref());
-    let subject = Subject { name: &title, current: &current, names: &names, version };
+    let subject = EditedText { name: &title, current: &current, names: &names, version };
     let check = |text: &str| {
         let Some(field) = &field else { return Ok(()) };
         let all = Vocabulary::of(field.field());
         let vocabulary = Vocabulary { named: &all.named[..number.min(all.named.len())], ..all };
         let found = QuantityFormula::new(text, &vocabulary).map(|_| ());
-        found.map_err(|error| Mistake::of_definition(&error, text))
+        found.map_err(|error| TextDiagnostic::of_definition(&error, text))
     };
     chosen = chosen.or(controls.editor(&key).show(ui, &subject, check));
     if let Some(text) = chosen {

@@ -2,7 +2,7 @@
 
 use egui::{Grid, Key, KeyboardShortcut, Modifiers, ScrollArea, Ui, Window};
 
-use crate::actions::{ALL, Action, Entry, GESTURES, GROUPS, spelled};
+use crate::actions::{ALL, Action, ActionEntry, GESTURES, GROUPS, spelled};
 
 /// Columns of the list, where the window has room for them.
 const COLUMNS: usize = 3;
@@ -58,8 +58,8 @@ fn columns_of(columns: usize) -> Vec<Vec<&'static str>> {
 }
 
 /// What keys of a heading do; the nine tips in one line.
-fn by_key(group: &str) -> impl Iterator<Item = (&'static Entry, &'static KeyboardShortcut)> {
-    let is_one = |entry: &&Entry| !matches!(entry.action, Action::Tip(1..));
+fn by_key(group: &str) -> impl Iterator<Item = (&'static ActionEntry, &'static KeyboardShortcut)> {
+    let is_one = |entry: &&ActionEntry| !matches!(entry.action, Action::Tip(1..));
     let of = ALL.iter().filter(move |entry| entry.group == group).filter(is_one);
     of.filter_map(|entry| Some((entry, entry.key.as_ref()?)))
 }

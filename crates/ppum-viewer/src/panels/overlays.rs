@@ -1,12 +1,12 @@
 //! What lies over the colours.
 
 use egui::{Checkbox, DragValue, RichText, Sense, TextEdit, Ui, vec2};
-use ppum_figure::overlay::{Entry, Symbol};
+use ppum_figure::overlay::{LegendEntry, Symbol};
 use ppum_scene::overlays::{Levels, Overlay, Overlays, SPACING};
 
 use super::{failure, note, wrong};
 use crate::controls::Controls;
-use crate::controls::draft::Draft;
+use crate::controls::draft::LevelsDraft;
 use crate::desk::Desk;
 use crate::frames::Fault;
 use crate::session::Pane;
@@ -89,7 +89,7 @@ fn levels(ui: &mut Ui, overlays: &mut Overlays, controls: &mut Controls) {
     let draft = &mut controls.levels;
     if draft.base != overlays.isolines {
         let text = overlays.isolines.as_ref().map(Levels::to_string).unwrap_or_default();
-        *draft = Draft { text, base: overlays.isolines.clone(), mistake: None };
+        *draft = LevelsDraft { text, base: overlays.isolines.clone(), mistake: None };
     }
     let edit = TextEdit::singleline(&mut draft.text).desired_width(90.0);
     let help = "auto, a number of levels, or their values with commas: 0.5, for one";
@@ -131,7 +131,7 @@ fn legend(ui: &mut Ui, stage: &Stage) {
     }
 }
 
-fn line(ui: &mut Ui, entry: &Entry) {
+fn line(ui: &mut Ui, entry: &LegendEntry) {
     ui.horizontal(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
         match entry.symbol {

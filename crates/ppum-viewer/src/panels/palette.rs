@@ -2,7 +2,7 @@
 
 use egui::{Align2, Key, ScrollArea, TextEdit, Ui, Window};
 
-use crate::actions::{ALL, Action, Entry, spelled, synonyms};
+use crate::actions::{ALL, Action, ActionEntry, spelled, synonyms};
 
 /// What is looked for.
 #[derive(Clone, Debug, Default)]
@@ -19,7 +19,7 @@ impl Palette {
         ui: &Ui,
         is_possible: impl Fn(Action) -> bool,
     ) -> (bool, Option<Action>) {
-        let mut found = found(&self.text);
+        let mut found = matching_actions(&self.text);
         found.retain(|entry| is_possible(entry.action));
         let keys = [Key::Escape, Key::Enter, Key::ArrowDown, Key::ArrowUp];
         let [escape, enter, down, up] =
@@ -54,11 +54,11 @@ impl Palette {
 
 /// The actions whose names, or other words for them, have all words of a text; those of that
 /// name first.
-fn found(text: &str) -> Vec<&'static Entry> {
+fn matching_actions(text: &str) -> Vec<&'static ActionEntry> {
     let text = text.to_lowercase();
     let has_all = |words: &str| text.split_whitespace().all(|word| words.contains(word));
-    let is_named = |entry: &&Entry| has_all(&entry.name.to_lowercase());
-    let is_meant = |entry: &&Entry| {
+    let is_named = |entry: &&ActionEntry| has_all(&entry.name.to_lowercase());
+    let is_meant = |entry: &&ActionEntry| {
         has_all(&format!("{} {}", entry.name.to_lowercase(), synonyms(entry.action)))
     };
     let (mut all, others): (Vec<_>, Vec<_>) = ALL.iter().filter(is_meant).partition(is_named);
@@ -69,32 +69,32 @@ fn found(text: &str) -> Vec<&'static Entry> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::What;
-    use crate::session::Page;
+    use crate::export::ExportChoice;
+    use crate::session::DrawerPage;
 
     /// What newcomers type leads to what they want.
     #[test]
     fn people_find_what_they_call_otherwise() {
         for (words, action) in [
             ("SIF", Action::CircleForK),
-            ("stress intensity", Action::Drawer(Page::Tips)),
-            ("K1", Action::Drawer(Page::Tips)),
-            ("pdf", Action::Save(What::Figure)),
-            ("export", Action::Save(What::Picture)),
-            ("gif", Action::Save(What::Steps)),
-            ("film", Action::Save(What::Deformation)),
-            ("opening", Action::Drawer(Page::Plot)),
-            ("profile", Action::Drawer(Page::Plot)),
+            ("stress intensity", Action::Drawer(DrawerPage::Tips)),
+            ("K1", Action::Drawer(DrawerPage::Tips)),
+            ("pdf", Action::Save(ExportChoice::Figure)),
+            ("export", Action::Save(ExportChoice::Picture)),
+            ("gif", Action::Save(ExportChoice::Steps)),
+            ("film", Action::Save(ExportChoice::Deformation)),
+            ("opening", Action::Drawer(DrawerPage::Plot)),
+            ("profile", Action::Drawer(DrawerPage::Plot)),
             ("mesh", Action::Overlays),
-            ("error", Action::Drawer(Page::Solver)),
+            ("error", Action::Drawer(DrawerPage::Solver)),
             ("theme", Action::Theme),
             ("font", Action::Help),
             ("contour", Action::Isolines),
         ] {
-            assert!(found(words).iter().any(|entry| entry.action == action), "{words}");
+            assert!(matching_actions(words).iter().any(|entry| entry.action == action), "{words}");
         }
-        assert!(found("gibberish").is_empty());
+        assert!(matching_actions("gibberish").is_empty());
         // what has the name itself is first
-        assert_eq!(found("tip")[0].action, Action::NextTip);
+        assert_eq!(matching_actions("tip")[0].action, Action::NextTip);
     }
 }

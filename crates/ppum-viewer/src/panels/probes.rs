@@ -8,7 +8,7 @@ use crate::desk::Desk;
 use crate::panels::drawer::plot::outputs;
 use crate::reading::probe::Probed;
 use crate::reading::words;
-use crate::session::Place;
+use crate::session::VisibleRegion;
 use crate::stage::Stage;
 use crate::widgets::button;
 use crate::widgets::entry::entry;
@@ -44,14 +44,14 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
                 if button(ui, "→", &format!("Fly to probe {}", k + 1)).clicked() {
                     let width = stage.view.map_or(1.0, |view| view.width);
                     let center = pane.probes[k].point().into();
-                    stage.fly_to(pane, Some(Place { center, width }));
+                    stage.fly_to(pane, Some(VisibleRegion { center, width }));
                 }
                 if button(ui, "×", &format!("Remove probe {}", k + 1)).clicked() {
                     removed = Some(k);
                 }
             });
             if let Some(probed) = stage.reading.probes.get(k) {
-                told(ui, probed, &names);
+                probe_lines(ui, probed, &names);
             }
         });
     }
@@ -81,7 +81,7 @@ fn names(stage: &mut Stage) -> Option<[String; 2]> {
     Some([reader.name.clone(), reader.unit.clone()])
 }
 
-fn told(ui: &mut Ui, probed: &Probed, [name, unit]: &[String; 2]) {
+fn probe_lines(ui: &mut Ui, probed: &Probed, [name, unit]: &[String; 2]) {
     let mut lines = vec![words::values(probed, name, unit)];
     lines.extend(words::terms(probed));
     lines.extend(words::gradients(probed));

@@ -11,7 +11,7 @@ use crate::field::OwnedField;
 use crate::frames::Fault;
 use crate::shapes::plain;
 use crate::widgets::chooser::named;
-use crate::widgets::editor::{Mistake, Subject};
+use crate::widgets::editor::{EditedText, TextDiagnostic};
 use std::sync::Arc;
 
 /// Shows it.
@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     let choices = &controls.known.choices;
     let mut chosen = controls.quantities.show(ui, "Search quantities", &current, choices, named);
     let names = controls.known.names.clone();
-    let subject = Subject {
+    let subject = EditedText {
         name: "Quantity or formula",
         current: &current,
         names: &names,
@@ -61,9 +61,11 @@ pub(super) fn version(field: Option<&Arc<OwnedField>>) -> usize {
     field.map_or(0, |field| Arc::as_ptr(field) as usize)
 }
 
-fn check(text: &str, field: Option<&OwnedField>) -> Result<(), Mistake> {
+fn check(text: &str, field: Option<&OwnedField>) -> Result<(), TextDiagnostic> {
     let Some(field) = field else { return Ok(()) };
-    shown(text, field.field()).map(|_| ()).map_err(|error| Mistake::of_quantity(&error, text))
+    shown(text, field.field())
+        .map(|_| ())
+        .map_err(|error| TextDiagnostic::of_quantity(&error, text))
 }
 
 /// The words for what a text shows; the text itself if it shows nothing.

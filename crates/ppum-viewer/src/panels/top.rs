@@ -5,7 +5,7 @@ use egui::{ProgressBar, RichText, Sense, Ui};
 use super::player;
 use crate::actions::Action;
 use crate::desk::Desk;
-use crate::session::Page;
+use crate::session::DrawerPage;
 use crate::widgets::{button, elided};
 
 /// Letters of a title that has room.
@@ -69,11 +69,12 @@ fn replaced(ui: &mut Ui, desk: &mut Desk<'_>) {
 /// How far a solution has come, whatever page is open; a click opens the page of the problem.
 fn solving(ui: &mut Ui, desk: &mut Desk<'_>) {
     let Some(running) = desk.solving.running() else { return };
-    let bar = ProgressBar::new(running.told().part()).desired_width(110.0).text("solving");
+    let bar =
+        ProgressBar::new(running.progress_report().part()).desired_width(110.0).text("solving");
     let response = ui.add(bar).interact(Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "A solution runs"));
     if response.on_hover_text("Show the problem, and cancel there").clicked() {
-        desk.session.drawer = Some(Page::Problem);
+        desk.session.drawer = Some(DrawerPage::Problem);
     }
 }
 

@@ -53,9 +53,9 @@ impl Integral {
         }
     }
 
-    /// What was found on the circle that is shown, or the reason why there is nothing; none while
+    /// The factors of the circle that is shown, or the reason why there are none; `None` while
     /// it is on its way.
-    pub fn found(&mut self) -> Option<Result<Arc<TipIntensity>, String>> {
+    pub fn newest_factors(&mut self) -> Option<Result<Arc<TipIntensity>, String>> {
         let asked = match self.asked.as_ref()? {
             Err(reason) => return Some(Err(reason.clone())),
             Ok(asked) => asked.clone(),
@@ -67,9 +67,11 @@ impl Integral {
     /// What is said of the circle. It is of the dataset and the step that were asked about, also
     /// where another one is shown since.
     pub fn words(&mut self) -> String {
-        let found = self.found();
+        let found = self.newest_factors();
         match (found, &self.asked) {
-            (Some(Ok(factors)), Some(Ok(asked))) => told(&asked.dataset, asked.step, &factors),
+            (Some(Ok(factors)), Some(Ok(asked))) => {
+                factors_text(&asked.dataset, asked.step, &factors)
+            }
             (Some(Err(reason)), _) => reason,
             _ => "K …".into(),
         }
@@ -157,7 +159,7 @@ const PREFERRED: f64 = 0.9;
 /// solver stored for the tip, with their estimated error. The field of the circle has that
 /// error too.
 #[must_use]
-pub fn told(dataset: &Dataset, index: usize, factors: &TipIntensity) -> String {
+pub fn factors_text(dataset: &Dataset, index: usize, factors: &TipIntensity) -> String {
     let Some(step) = dataset.steps.get(index) else { return String::new() };
     let line = |factors: &TipIntensity| {
         let words = Tip::new(dataset, index, factors).words();

@@ -18,7 +18,7 @@ use crate::frames::Frame;
 use crate::session::Pane;
 use crate::spot::Spot;
 use output::Output;
-use plotted::{Asked, Plotted, Values};
+use plotted::{Asked, CurveValues, Plotted};
 use ppum_scene::profile::Along;
 use probe::{Probed, Reader};
 use question::Question;
@@ -48,7 +48,7 @@ pub struct Reading {
     /// A place that was clicked, and when: a probe, unless it becomes a double click.
     pub(crate) clicked: Option<(f64, Spot)>,
     /// Values along the curve.
-    pub plot: Question<Asked, Values>,
+    pub plot: Question<Asked, CurveValues>,
     /// The last values along a curve that could be found.
     pub good: Option<(Along, Arc<Plotted>)>,
     /// K on the circle.

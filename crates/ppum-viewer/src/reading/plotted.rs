@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, QuantityError};
-use ppum_figure::plot::{Curve, Plot, PlotAxis, slope, with_slope};
+use ppum_figure::plot::{Plot, PlotAxis, PlotCurve, slope, with_slope};
 use ppum_render::scale::Scale;
 use ppum_scene::profile::{
     Along, Profile, ProfileError, Variable, axis, columns, curve, unit, value_label,
@@ -40,11 +40,11 @@ impl PartialEq for Asked {
 }
 
 /// What was found.
-pub type Plotted = Result<Values, String>;
+pub type Plotted = Result<CurveValues, String>;
 
 /// Values along a curve.
 #[derive(Debug)]
-pub struct Values {
+pub struct CurveValues {
     /// A row for each point, as `ppum sample` writes it.
     pub table: Table,
     /// The curve as it is drawn, both sides where it passes through a crack.
@@ -86,7 +86,7 @@ impl Asked {
         }
     }
 
-    fn values(&self, watcher: &dyn Watcher) -> Result<Values, Fault> {
+    fn values(&self, watcher: &dyn Watcher) -> Result<CurveValues, Fault> {
         let field = self.field.field();
         let named = named(field, &self.quantities)?;
         let table = self.along.table(field, &named, self.count, watcher)?.table;
@@ -95,7 +95,7 @@ impl Asked {
         let curves = columns(&drawn.table, variable, jumps);
         let label = if jumps { "displacement jump".into() } else { value_label(&named, field) };
         let unit = unit(&named, field);
-        Ok(Values { table, drawn, variable, curves, label, unit })
+        Ok(CurveValues { table, drawn, variable, curves, label, unit })
     }
 }
 
@@ -124,7 +124,7 @@ fn named(field: &Field<'_>, list: &str) -> Result<Vec<(String, Quantity)>, Fault
     texts.map(parsed).collect()
 }
 
-impl Values {
+impl CurveValues {
     /// The plot, its axes logarithmic or not; where both are, each curve with the exponent of its
     /// power law.
     #[must_use]
@@ -145,9 +145,9 @@ impl Values {
             }
             (_, [true, true]) => {
                 let label = slope(points).map(|slope| with_slope(name, slope, 3));
-                Curve::new(label.unwrap_or_else(|| name.clone()), points.clone())
+                PlotCurve::new(label.unwrap_or_else(|| name.clone()), points.clone())
             }
-            _ => Curve::new(name.clone(), points.clone()),
+            _ => PlotCurve::new(name.clone(), points.clone()),
         };
         Plot { title: String::new(), x, y, curves: self.curves.iter().map(drawn).collect() }
     }

@@ -6,9 +6,9 @@ use egui::{Color32, FontId, Stroke, Visuals};
 
 use super::Mark;
 
-/// The looks of the parts of a text.
+/// Font and colours of highlighted text.
 #[derive(Clone, Debug)]
-pub struct Look {
+pub struct HighlightStyle {
     /// The letters.
     pub font: FontId,
     plain: Color32,
@@ -18,16 +18,16 @@ pub struct Look {
     mistake: Color32,
 }
 
-/// Part of a line that is one thing.
+/// The role of a part of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum HighlightKind {
     Plain,
     Comment,
     Heading,
     String,
 }
 
-impl Look {
+impl HighlightStyle {
     /// The looks of a theme.
     #[must_use]
     pub fn new(visuals: &Visuals, font: FontId) -> Self {
@@ -46,12 +46,12 @@ impl Look {
         }
     }
 
-    fn format(&self, kind: Kind, is_wrong: bool) -> TextFormat {
+    fn format(&self, kind: HighlightKind, is_wrong: bool) -> TextFormat {
         let color = match kind {
-            Kind::Plain => self.plain,
-            Kind::Comment => self.comment,
-            Kind::Heading => self.heading,
-            Kind::String => self.string,
+            HighlightKind::Plain => self.plain,
+            HighlightKind::Comment => self.comment,
+            HighlightKind::Heading => self.heading,
+            HighlightKind::String => self.string,
         };
         let mut format = TextFormat::simple(self.font.clone(), color);
         if is_wrong {
@@ -76,7 +76,7 @@ impl Look {
             }
         }
         if text.is_empty() || text.ends_with('\n') {
-            job.append("", 0.0, self.format(Kind::Plain, false));
+            job.append("", 0.0, self.format(HighlightKind::Plain, false));
         }
         job
     }
@@ -107,31 +107,31 @@ fn is_word(letter: char) -> bool {
 
 /// The parts of a line of TOML, one behind the other. Strings of several lines are not told apart
 /// from others.
-fn parts(line: &str) -> Vec<([usize; 2], Kind)> {
+fn parts(line: &str) -> Vec<([usize; 2], HighlightKind)> {
     if line.trim_start().starts_with('[') && line.trim_end().ends_with(']') && !line.contains('=') {
-        return vec![([0, line.len()], Kind::Heading)];
+        return vec![([0, line.len()], HighlightKind::Heading)];
     }
     let mut parts = Vec::new();
     let (mut start, mut quote) = (0, None);
     for (at, letter) in line.char_indices() {
         match (quote, letter) {
             (None, '#') => {
-                parts.push(([start, at], Kind::Plain));
-                parts.push(([at, line.len()], Kind::Comment));
+                parts.push(([start, at], HighlightKind::Plain));
+                parts.push(([at, line.len()], HighlightKind::Comment));
                 return parts;
             }
             (None, '"' | '\'') => {
-                parts.push(([start, at], Kind::Plain));
+                parts.push(([start, at], HighlightKind::Plain));
                 (start, quote) = (at, Some(letter));
             }
             (Some(open), letter) if open == letter => {
-                parts.push(([start, at + 1], Kind::String));
+                parts.push(([start, at + 1], HighlightKind::String));
                 (start, quote) = (at + 1, None);
             }
             _ => {}
         }
     }
-    let kind = if quote.is_some() { Kind::String } else { Kind::Plain };
+    let kind = if quote.is_some() { HighlightKind::String } else { HighlightKind::Plain };
     parts.push(([start, line.len()], kind));
     parts
 }
@@ -152,7 +152,7 @@ mod tests {
     use super::*;
 
     fn underlined(text: &str, line: usize, column: usize) -> String {
-        let look = Look::new(&Visuals::light(), FontId::monospace(12.0));
+        let look = HighlightStyle::new(&Visuals::light(), FontId::monospace(12.0));
         let mark = Mark { at: Some([line, column]), message: String::new() };
         let job = look.layout(text, &[mark]);
         assert_eq!(job.text, text);

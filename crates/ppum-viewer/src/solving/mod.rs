@@ -14,8 +14,8 @@ use ppum_solve::problem::{Location, Problem, ProblemError};
 use ppum_solve::solve::{Plan, SolveError};
 
 use self::preview::Preview;
-use crate::job::{Job, Stop};
-use crate::session::Draft;
+use crate::job::{CancelToken, Job};
+use crate::session::ProblemDraft;
 
 /// A mistake in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub struct Mark {
 
 /// Where the files that a text names are looked for.
 #[derive(Clone, Debug)]
-enum Source {
+enum FileLookup {
     Folder(PathBuf),
     Dataset(Arc<Dataset>),
 }
@@ -46,7 +46,7 @@ pub struct Checked {
 
 /// The way the last solution has ended.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
+pub enum SolutionOutcome {
     /// With a dataset, after so many seconds, and with warnings.
     Solved(f64, Vec<String>),
     /// It was stopped, with so many steps of a series, which are shown.
@@ -72,11 +72,11 @@ pub struct Solving {
     /// The text that is being written to its file.
     pub saving: Option<String>,
     /// A changed text that has made place for another one.
-    pub before: Option<Draft>,
+    pub before: Option<ProblemDraft>,
     /// The dataset that the text came from: it holds the tables and points that the text names.
     pub origin: Option<Arc<Dataset>>,
     /// The way the last solution has ended.
-    pub outcome: Option<Outcome>,
+    pub outcome: Option<SolutionOutcome>,
     /// The place in the text to go to.
     pub wanted: Option<[usize; 2]>,
     /// Memory that is free \[bytes\], as far as the system tells.
@@ -92,13 +92,13 @@ pub struct Solving {
 pub struct Running {
     pane: usize,
     start: Instant,
-    told: Arc<Mutex<Told>>,
-    job: Job<Result<Work, Stopped>>,
+    told: Arc<Mutex<SolutionProgress>>,
+    job: Job<Result<SolvedDataset, Stopped>>,
 }
 
-/// What is told of a solution while it is computed.
+/// The estimate and the progress of a solution while it is computed.
 #[derive(Clone, Debug, Default)]
-pub struct Told {
+pub struct SolutionProgress {
     /// The phase, and how much of it is done.
     pub progress: Option<Progress>,
     /// What it takes, in words, once that is known.
@@ -109,7 +109,7 @@ pub struct Told {
 
 /// A dataset, and why it has no more steps than it has, if it should have.
 #[derive(Debug)]
-struct Work {
+struct SolvedDataset {
     dataset: Dataset,
     stopped: Option<Stopped>,
 }
@@ -168,12 +168,12 @@ impl Solving {
 
     /// True if the text is not as its file has it.
     #[must_use]
-    pub fn is_changed(&self, draft: &Draft) -> bool {
+    pub fn is_changed(&self, draft: &ProblemDraft) -> bool {
         self.on_disk.as_ref().is_none_or(|text| *text != draft.text)
     }
 
     /// Looks for mistakes in the background whenever the text is another one.
-    pub fn check(&mut self, draft: &Draft) {
+    pub fn check(&mut self, draft: &ProblemDraft) {
         if let Some(outcome) = self.checking.as_ref().and_then(Job::poll) {
             self.checking = None;
             let broken = |message| Checked {
@@ -205,18 +205,18 @@ impl Solving {
         self.checked.as_ref()
     }
 
-    fn source(&self, draft: &Draft) -> Source {
+    fn source(&self, draft: &ProblemDraft) -> FileLookup {
         let folder = draft.folder.as_deref().or(draft.path.as_deref().and_then(Path::parent));
         match (&self.origin, folder) {
-            (Some(dataset), None) => Source::Dataset(Arc::clone(dataset)),
-            (_, folder) => Source::Folder(folder.unwrap_or(Path::new("")).to_owned()),
+            (Some(dataset), None) => FileLookup::Dataset(Arc::clone(dataset)),
+            (_, folder) => FileLookup::Folder(folder.unwrap_or(Path::new("")).to_owned()),
         }
     }
 
     /// Begins to solve the problem for a pane. A solution that is being computed is stopped.
-    pub fn solve(&mut self, draft: &Draft, pane: usize) {
+    pub fn solve(&mut self, draft: &ProblemDraft, pane: usize) {
         let (text, source) = (draft.text.clone(), self.source(draft));
-        let told = Arc::new(Mutex::new(Told::default()));
+        let told = Arc::new(Mutex::new(SolutionProgress::default()));
         let (theirs, memory, ctx) = (Arc::clone(&told), (self.memory)(), self.ctx.clone());
         let job = Job::start(&self.ctx, move |stop| {
             let follower = Follower { told: &theirs, stop, ctx: &ctx };
@@ -260,11 +260,11 @@ impl Solving {
         let (seconds, pane) = (running.seconds(), running.pane);
         self.running = None;
         match outcome.map_err(Stopped::Failed).flatten() {
-            Ok(Work { dataset, stopped: None }) => {
-                self.outcome = Some(Outcome::Solved(seconds, warnings_of(&dataset)));
+            Ok(SolvedDataset { dataset, stopped: None }) => {
+                self.outcome = Some(SolutionOutcome::Solved(seconds, warnings_of(&dataset)));
                 Some(Solved { pane, dataset: Arc::new(dataset) })
             }
-            Ok(Work { dataset, stopped: Some(stopped) }) => {
+            Ok(SolvedDataset { dataset, stopped: Some(stopped) }) => {
                 self.outcome = Some(stopped.outcome(dataset.steps.len()));
                 Some(Solved { pane, dataset: Arc::new(dataset) })
             }
@@ -278,11 +278,13 @@ impl Solving {
 
 impl Stopped {
     /// The outcome with so many steps.
-    fn outcome(self, steps: usize) -> Outcome {
+    fn outcome(self, steps: usize) -> SolutionOutcome {
         match self {
-            Self::Cancelled => Outcome::Cancelled(steps),
-            Self::Failed(error) if steps > 0 => Outcome::Failed(format!("step {steps}: {error}")),
-            Self::Failed(error) => Outcome::Failed(error),
+            Self::Cancelled => SolutionOutcome::Cancelled(steps),
+            Self::Failed(error) if steps > 0 => {
+                SolutionOutcome::Failed(format!("step {steps}: {error}"))
+            }
+            Self::Failed(error) => SolutionOutcome::Failed(error),
         }
     }
 }
@@ -311,9 +313,9 @@ impl Running {
         self.start.elapsed().as_secs_f64()
     }
 
-    /// What is told of it now.
+    /// The progress of the solution.
     #[must_use]
-    pub fn told(&self) -> Told {
+    pub fn progress_report(&self) -> SolutionProgress {
         self.told.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
@@ -324,7 +326,7 @@ impl Running {
     }
 }
 
-impl Told {
+impl SolutionProgress {
     /// The part of the present phase that is done.
     #[must_use]
     pub fn part(&self) -> f32 {
@@ -334,8 +336,8 @@ impl Told {
 
 /// Hears of a solution's progress, and ends it.
 struct Follower<'a> {
-    told: &'a Mutex<Told>,
-    stop: &'a Stop,
+    told: &'a Mutex<SolutionProgress>,
+    stop: &'a CancelToken,
     ctx: &'a egui::Context,
 }
 
@@ -368,10 +370,10 @@ fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Stopped
 
 fn solve(
     text: &str,
-    source: &Source,
+    source: &FileLookup,
     memory: Option<u64>,
     follower: &Follower<'_>,
-) -> Result<Work, Stopped> {
+) -> Result<SolvedDataset, Stopped> {
     let problem = parse(text, source).map_err(|error| Stopped::Failed(summary(&error)))?;
     let plan = Plan::new(&problem, memory, follower)?;
     let steps = problem.growth.as_ref().map(|rule| rule.steps);
@@ -382,7 +384,7 @@ fn solve(
     }
     let dataset = plan.solve(follower)?;
     holds(&dataset)?;
-    Ok(Work { dataset, stopped: None })
+    Ok(SolvedDataset { dataset, stopped: None })
 }
 
 /// What no file can hold is no solution: a load that is too large leaves numbers that are
@@ -392,7 +394,11 @@ fn holds(dataset: &Dataset) -> Result<(), Stopped> {
 }
 
 /// All steps of a series, or those that are complete when it is stopped.
-fn grown(problem: &Problem, memory: Option<u64>, follower: &Follower<'_>) -> Result<Work, Stopped> {
+fn grown(
+    problem: &Problem,
+    memory: Option<u64>,
+    follower: &Follower<'_>,
+) -> Result<SolvedDataset, Stopped> {
     let mut all: Option<Dataset> = None;
     let keep = |step: Dataset| {
         holds(&step)?;
@@ -409,15 +415,15 @@ fn grown(problem: &Problem, memory: Option<u64>, follower: &Follower<'_>) -> Res
         Err(error) => Some(Stopped::Failed(error.to_string())),
     };
     match (all, stopped) {
-        (Some(dataset), stopped) => Ok(Work { dataset, stopped }),
+        (Some(dataset), stopped) => Ok(SolvedDataset { dataset, stopped }),
         (None, stopped) => Err(stopped.unwrap_or(Stopped::Cancelled)),
     }
 }
 
-fn parse(text: &str, source: &Source) -> Result<Problem, ProblemError> {
+fn parse(text: &str, source: &FileLookup) -> Result<Problem, ProblemError> {
     match source {
-        Source::Folder(folder) => Problem::parse(text, "problem", folder),
-        Source::Dataset(dataset) => Problem::parse_with(text, dataset),
+        FileLookup::Folder(folder) => Problem::parse(text, "problem", folder),
+        FileLookup::Dataset(dataset) => Problem::parse_with(text, dataset),
     }
 }
 

@@ -58,7 +58,7 @@ pub fn show(
         Pair::Alone => ("", Vec::new()),
         Pair::Left => ("left", Vec::new()),
         Pair::Right(None) => ("right", vec![("nothing is open on the left".to_owned(), true)]),
-        Pair::Right(Some(_)) => ("right − left", told(frames, space < NARROW)),
+        Pair::Right(Some(_)) => ("right − left", difference_lines(frames, space < NARROW)),
     };
     let corner = plate.right_top() + vec2(-MARGIN - ROOM, MARGIN + ROOM);
     let left = corner.x - space.clamp(1.0, WIDEST);
@@ -85,8 +85,8 @@ pub fn show(
     ui.painter_at(plate).set(ground, shape);
 }
 
-/// What is told of a difference, in short by one norm alone; true for what is wrong with it.
-fn told(frames: &Frames, is_short: bool) -> Vec<(String, bool)> {
+/// The lines about a difference, in short of one norm alone; true for those of errors.
+fn difference_lines(frames: &Frames, is_short: bool) -> Vec<(String, bool)> {
     let failure = frames.failure().filter(|failure| failure.fault == Fault::Minus);
     if let Some(failure) = failure {
         return vec![(failure.message.clone(), true)];

@@ -3,15 +3,15 @@
 
 use ppum::vec2::Vec2;
 
-use crate::session::Place;
+use crate::session::VisibleRegion;
 
 /// A flight that has begun.
 #[derive(Clone, Debug)]
 pub struct Flight {
-    from: Place,
-    to: Place,
+    from: VisibleRegion,
+    to: VisibleRegion,
     /// What the place is set to at the end: none for the whole plate.
-    pub end: Option<Place>,
+    pub end: Option<VisibleRegion>,
     /// When it began, and what it takes \[s\], by the window's clock.
     began: f64,
     takes: f64,
@@ -26,14 +26,19 @@ const LONGEST: f64 = 2.0;
 impl Flight {
     /// A flight that begins at a time.
     #[must_use]
-    pub fn new(from: Place, to: Place, end: Option<Place>, now: f64) -> Self {
+    pub fn new(
+        from: VisibleRegion,
+        to: VisibleRegion,
+        end: Option<VisibleRegion>,
+        now: f64,
+    ) -> Self {
         let takes = (PACE * Path::new(from, to).length).clamp(0.0, LONGEST);
         Self { from, to, end, began: now, takes }
     }
 
     /// Where it is; nothing once it has ended.
     #[must_use]
-    pub fn at(&self, now: f64) -> Option<Place> {
+    pub fn at(&self, now: f64) -> Option<VisibleRegion> {
         let part = (now - self.began) / self.takes;
         if part.is_nan() || part >= 1.0 {
             return None;
@@ -49,8 +54,8 @@ impl Flight {
 
 /// The way between two places.
 struct Path {
-    from: Place,
-    to: Place,
+    from: VisibleRegion,
+    to: VisibleRegion,
     /// Distance of the centres.
     distance: f64,
     /// Its length, in the metric that counts moves by the width and scales by their logarithm.
@@ -59,7 +64,7 @@ struct Path {
 }
 
 impl Path {
-    fn new(from: Place, to: Place) -> Self {
+    fn new(from: VisibleRegion, to: VisibleRegion) -> Self {
         let distance = (to.center() - from.center()).length();
         let (w0, w1) = (from.width, to.width);
         let (start, length) = if distance < 1e-9 * w0.min(w1) {
@@ -77,18 +82,18 @@ impl Path {
     }
 
     /// The place at a part of the way, 0 to 1.
-    fn at(&self, part: f64) -> Place {
+    fn at(&self, part: f64) -> VisibleRegion {
         let (from, to) = (self.from.center(), self.to.center());
         if self.distance < 1e-9 * self.from.width.min(self.to.width) {
             let width = self.from.width * (self.to.width / self.from.width).powf(part);
-            return Place { center: (from + (to - from) * part).into(), width };
+            return VisibleRegion { center: (from + (to - from) * part).into(), width };
         }
         let s = part * self.length;
         let (r0, w0) = (self.start, self.from.width);
         let way = w0 / (RHO * RHO) * (r0.cosh() * (RHO * s + r0).tanh() - r0.sinh());
         let width = w0 * r0.cosh() / (RHO * s + r0).cosh();
         let center: Vec2 = from + (to - from) * (way / self.distance).clamp(0.0, 1.0);
-        Place { center: center.into(), width }
+        VisibleRegion { center: center.into(), width }
     }
 }
 
@@ -96,8 +101,8 @@ impl Path {
 mod tests {
     use super::*;
 
-    fn place(x: f64, width: f64) -> Place {
-        Place { center: [x, 0.5], width }
+    fn place(x: f64, width: f64) -> VisibleRegion {
+        VisibleRegion { center: [x, 0.5], width }
     }
 
     #[test]

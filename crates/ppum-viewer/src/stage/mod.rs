@@ -36,7 +36,7 @@ use crate::frames::{Backend, Frame, Frames, Wanted};
 use crate::plate::{bounded, view, zoomed};
 use crate::reading::Reading;
 use crate::reading::question::Question;
-use crate::session::{Pane, Place};
+use crate::session::{Pane, VisibleRegion};
 use crate::undo::{Rest, Undo};
 use crate::widgets::elided;
 use against::Against;
@@ -67,7 +67,7 @@ pub struct Stage {
     /// Pictures, made in the background.
     pub frames: Frames,
     /// Views that were, to go back to.
-    pub trail: Undo<Option<Place>>,
+    pub trail: Undo<Option<VisibleRegion>>,
     /// The view on the window's pixels.
     pub view: Option<View>,
     /// The position of the mouse, as an offset from the view's centre.
@@ -85,7 +85,7 @@ pub struct Stage {
     texture: Texture,
     sheet: Sheet,
     flight: Option<Flight>,
-    rest: Rest<Option<Place>>,
+    rest: Rest<Option<VisibleRegion>>,
     /// The map of the plate, and the field that it was drawn of.
     locator: Option<(Arc<OwnedField>, Option<Locator>)>,
     moved: Question<Moved, ppum::vec2::Rect>,
@@ -258,12 +258,13 @@ impl Stage {
     }
 
     /// Flies to a place, or to the whole plate.
-    pub fn fly_to(&mut self, pane: &Pane, to: Option<Place>) {
+    pub fn fly_to(&mut self, pane: &Pane, to: Option<VisibleRegion>) {
         let (Some(view), Some(opened)) = (self.view, self.opened.clone()) else { return };
         let whole = self.known_whole(pane, &opened.dataset);
         let Some(end) = crate::plate::view(to, whole, view.pixels, self.taken) else { return };
         self.is_at_the_end = false;
-        self.flight = Some(Flight::new(Place::of(&view), Place::of(&end), to, self.now));
+        self.flight =
+            Some(Flight::new(VisibleRegion::of(&view), VisibleRegion::of(&end), to, self.now));
     }
 
     /// A box around the plate as it is drawn, where it is deformed too; that is looked for in
@@ -342,7 +343,7 @@ impl Stage {
         let center = step.cracks[tip.crack as usize].end_point(tip.end);
         let size = opened.dataset.domain.bounds.size();
         let width = TIP * size.x.max(size.y);
-        self.fly_to(pane, Some(Place { center: center.into(), width }));
+        self.fly_to(pane, Some(VisibleRegion { center: center.into(), width }));
     }
 
     /// The map, the scale bar, and a word where it goes no deeper.
@@ -358,7 +359,7 @@ impl Stage {
         }
         let Some((_, Some(locator))) = &self.locator else { return };
         if let Some(point) = locator.show(ui, rect, view) {
-            self.fly_to(pane, Some(Place { center: point.into(), width: view.width }));
+            self.fly_to(pane, Some(VisibleRegion { center: point.into(), width: view.width }));
         }
     }
 
@@ -366,7 +367,8 @@ impl Stage {
     pub fn nudge(&mut self, pane: &mut Pane, right: f64, up: f64, factor: f64) {
         let (Some(view), Some(opened)) = (self.view, &self.opened) else { return };
         let shift = ppum::vec2::vec2(right * view.width, up * view.height()) * PAN;
-        let moved = Place { center: (view.center + shift).into(), width: view.width / factor };
+        let moved =
+            VisibleRegion { center: (view.center + shift).into(), width: view.width / factor };
         let place = bounded(moved, &opened.dataset.domain.bounds);
         self.is_at_the_end = place.width > moved.width;
         pane.place = Some(place);
@@ -404,7 +406,7 @@ impl Stage {
             let delta = response.drag_delta();
             let by = ppum::vec2::vec2(-f64::from(delta.x), f64::from(delta.y));
             let center = view.center + by * (scale * view.pixel_size());
-            let place = Place { center: center.into(), width: view.width };
+            let place = VisibleRegion { center: center.into(), width: view.width };
             pane.place = Some(bounded(place, &dataset.domain.bounds));
             self.flight = None;
         }

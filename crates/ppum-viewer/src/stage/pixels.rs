@@ -36,15 +36,15 @@ fn id() -> Id {
     Id::unique("format of the window's pixels")
 }
 
-/// A place for a picture on the device, as long as it is held.
+/// A slot for a picture on the device, freed when its last clone is dropped.
 #[derive(Clone, Default)]
-pub(super) struct Place(Arc<()>);
+pub(super) struct TextureSlot(Arc<()>);
 
 /// Draws a picture with its corners at those of a rectangle, a coarse one smoothly; false if egui
 /// has to.
 pub(super) fn draw(
     painter: &Painter,
-    place: &Place,
+    slot: &TextureSlot,
     picture: &Arc<Painted>,
     (target, is_smooth): (Rect, bool),
 ) -> bool {
@@ -56,7 +56,7 @@ pub(super) fn draw(
     };
     let ([left, top], [right, bottom]) = (corner(target.min), corner(target.max));
     let shown = Shown {
-        place: place.clone(),
+        slot: slot.clone(),
         picture: Arc::clone(picture),
         corners: [left, top, right, bottom],
         is_smooth,
@@ -68,7 +68,7 @@ pub(super) fn draw(
 
 /// A picture that is to be drawn.
 struct Shown {
-    place: Place,
+    slot: TextureSlot,
     picture: Arc<Painted>,
     /// Left, top, right and bottom, from −1 to 1 across the rectangle that is drawn in.
     corners: [f32; 4],
@@ -76,8 +76,8 @@ struct Shown {
     format: wgpu::TextureFormat,
 }
 
-/// What the device keeps: pipelines, and pictures by their places.
-struct Kept {
+/// Pipelines and pictures on the device.
+struct PixelResources {
     pipelines: [wgpu::RenderPipeline; 2],
     sampler: wgpu::Sampler,
     pictures: Vec<Picture>,
@@ -85,7 +85,7 @@ struct Kept {
 
 /// A picture on the device.
 struct Picture {
-    place: Weak<()>,
+    slot: Weak<()>,
     picture: Arc<Painted>,
     texture: wgpu::Texture,
     corners: wgpu::Buffer,
@@ -101,9 +101,11 @@ impl CallbackTrait for Shown {
         _: &mut wgpu::CommandEncoder,
         resources: &mut CallbackResources,
     ) -> Vec<wgpu::CommandBuffer> {
-        let kept = resources.entry::<Kept>().or_insert_with(|| Kept::new(device, self.format));
-        kept.pictures.retain(|picture| picture.place.strong_count() > 0);
-        let mut known = kept.pictures.iter().position(|picture| picture.is_at(&self.place));
+        let kept = resources
+            .entry::<PixelResources>()
+            .or_insert_with(|| PixelResources::new(device, self.format));
+        kept.pictures.retain(|picture| picture.slot.strong_count() > 0);
+        let mut known = kept.pictures.iter().position(|picture| picture.is_at(&self.slot));
         if known.is_some_and(|k| kept.pictures[k].picture.image.size != self.picture.image.size) {
             known.take().map(|k| kept.pictures.remove(k));
         }
@@ -114,7 +116,7 @@ impl CallbackTrait for Shown {
                 kept.pictures.push(new);
             }
         }
-        if let Some(picture) = kept.pictures.iter().find(|picture| picture.is_at(&self.place)) {
+        if let Some(picture) = kept.pictures.iter().find(|picture| picture.is_at(&self.slot)) {
             let bytes: Vec<u8> = self.corners.iter().flat_map(|x| x.to_le_bytes()).collect();
             queue.write_buffer(&picture.corners, 0, &bytes);
         }
@@ -127,15 +129,15 @@ impl CallbackTrait for Shown {
         pass: &mut wgpu::RenderPass<'static>,
         resources: &CallbackResources,
     ) {
-        let Some(kept) = resources.get::<Kept>() else { return };
-        let Some(picture) = kept.pictures.iter().find(|p| p.is_at(&self.place)) else { return };
+        let Some(kept) = resources.get::<PixelResources>() else { return };
+        let Some(picture) = kept.pictures.iter().find(|p| p.is_at(&self.slot)) else { return };
         pass.set_pipeline(&kept.pipelines[usize::from(self.is_smooth)]);
         pass.set_bind_group(0, &picture.bindings, &[]);
         pass.draw(0..4, 0..1);
     }
 }
 
-impl Kept {
+impl PixelResources {
     fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("picture"),
@@ -183,9 +185,9 @@ impl Kept {
             layout: &self.pipelines[0].get_bind_group_layout(0),
             entries: &entries(resources),
         });
-        let (place, picture) = (Arc::downgrade(&shown.place.0), Arc::clone(&shown.picture));
+        let (slot, picture) = (Arc::downgrade(&shown.slot.0), Arc::clone(&shown.picture));
         send(queue, &texture, &picture.image);
-        Picture { place, picture, texture, corners, bindings }
+        Picture { slot, picture, texture, corners, bindings }
     }
 }
 
@@ -197,8 +199,8 @@ fn entries<const N: usize>(
 }
 
 impl Picture {
-    fn is_at(&self, place: &Place) -> bool {
-        self.place.as_ptr() == Arc::as_ptr(&place.0)
+    fn is_at(&self, slot: &TextureSlot) -> bool {
+        self.slot.as_ptr() == Arc::as_ptr(&slot.0)
     }
 
     /// Sends another picture of the same size, if it is another one.

@@ -135,7 +135,7 @@ fn drawn(
     }
     let mesh = Arc::new(mesh);
     let part = |(clip, range)| {
-        let part = Part { mesh: Arc::clone(&mesh), range, format };
+        let part = MeshRange { mesh: Arc::clone(&mesh), range, format };
         let shape = Shape::Callback(Callback::new_paint_callback(clip, part));
         let transform_after_tessellation = TSTransform::IDENTITY;
         ClippedShape { clip_rect: clip, shape, transform_after_tessellation }
@@ -144,21 +144,21 @@ fn drawn(
 }
 
 /// Triangles of the frame's mesh.
-struct Part {
+struct MeshRange {
     mesh: Arc<Mesh>,
     range: Range<u32>,
     format: wgpu::TextureFormat,
 }
 
-/// What the device keeps: the mesh of a frame.
-struct Kept {
+/// Pipeline and mesh of a frame on the device.
+struct MeshResources {
     pipeline: wgpu::RenderPipeline,
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     mesh: Arc<Mesh>,
 }
 
-impl CallbackTrait for Part {
+impl CallbackTrait for MeshRange {
     fn prepare(
         &self,
         device: &wgpu::Device,
@@ -167,7 +167,9 @@ impl CallbackTrait for Part {
         _: &mut wgpu::CommandEncoder,
         resources: &mut CallbackResources,
     ) -> Vec<wgpu::CommandBuffer> {
-        let kept = resources.entry::<Kept>().or_insert_with(|| Kept::new(device, self.format));
+        let kept = resources
+            .entry::<MeshResources>()
+            .or_insert_with(|| MeshResources::new(device, self.format));
         if !Arc::ptr_eq(&kept.mesh, &self.mesh) {
             kept.send(device, queue, &self.mesh, screen);
         }
@@ -180,7 +182,7 @@ impl CallbackTrait for Part {
         pass: &mut wgpu::RenderPass<'static>,
         resources: &CallbackResources,
     ) {
-        let Some(kept) = resources.get::<Kept>() else { return };
+        let Some(kept) = resources.get::<MeshResources>() else { return };
         let [width, height] = info.screen_size_px.map(|n| n as f32);
         pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
         pass.set_pipeline(&kept.pipeline);
@@ -193,7 +195,7 @@ impl CallbackTrait for Part {
 /// Bytes of a vertex: two floats and a colour.
 const VERTEX: u64 = 12;
 
-impl Kept {
+impl MeshResources {
     fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("solids"),

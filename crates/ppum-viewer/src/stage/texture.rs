@@ -8,12 +8,12 @@ use ppum_render::view::View;
 
 use crate::frames::{Frame, Painted};
 use crate::shapes::{self, Placed};
-use crate::stage::pixels::{self, Place};
+use crate::stage::pixels::{self, TextureSlot};
 
 /// A picture on its way to the screen; it is sent there once.
 #[derive(Default)]
 pub struct Texture {
-    place: Place,
+    place: TextureSlot,
     sent: Option<(Arc<ColorImage>, TextureHandle)>,
 }
 

@@ -67,7 +67,7 @@ impl Chooser {
         if !self.is_open {
             return None;
         }
-        let found = found(&self.text, choices);
+        let found = matching_choices(&self.text, choices);
         if self.is_new {
             self.at = found.iter().position(|choice| choice.value == current).unwrap_or(0);
         }
@@ -140,7 +140,7 @@ impl Chooser {
 
 /// The choices that have all words of a text; those whose own name begins with it come first in
 /// their group.
-fn found<'a>(text: &str, choices: &'a [Choice]) -> Vec<&'a Choice> {
+fn matching_choices<'a>(text: &str, choices: &'a [Choice]) -> Vec<&'a Choice> {
     let text = text.to_lowercase();
     let fits = |choice: &&Choice| {
         let all = format!("{} {} {}", choice.value, choice.about, choice.group).to_lowercase();
@@ -177,7 +177,7 @@ mod tests {
         let all =
             [choice("sxx", "σxx, stress"), choice("tresca", "Tresca stress"), choice("s1", "")];
         let values = |text: &str| -> Vec<String> {
-            found(text, &all).iter().map(|choice| choice.value.clone()).collect()
+            matching_choices(text, &all).iter().map(|choice| choice.value.clone()).collect()
         };
         assert_eq!(values(""), ["sxx", "tresca", "s1"]);
         assert_eq!(values("stress"), ["sxx", "tresca"]);

@@ -31,12 +31,12 @@ pub struct Editor {
 struct Checked {
     text: String,
     version: usize,
-    mistake: Option<Mistake>,
+    mistake: Option<TextDiagnostic>,
 }
 
-/// What is wrong with a text.
+/// An error in a text, with its position.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mistake {
+pub struct TextDiagnostic {
     /// The reason, with the remedy.
     pub message: String,
     /// The bytes that it lies at, if it lies somewhere; of a text that ends too early none after
@@ -44,8 +44,8 @@ pub struct Mistake {
     pub place: Option<Range<usize>>,
 }
 
-/// What a text is, and what it may say.
-pub struct Subject<'a> {
+/// The text of an editor, with its accessible name and completions.
+pub struct EditedText<'a> {
     /// The name for those who do not see it.
     pub name: &'a str,
     /// What the session has.
@@ -64,8 +64,8 @@ impl Editor {
     pub fn show(
         &mut self,
         ui: &mut Ui,
-        subject: &Subject<'_>,
-        check: impl FnOnce(&str) -> Result<(), Mistake>,
+        subject: &EditedText<'_>,
+        check: impl FnOnce(&str) -> Result<(), TextDiagnostic>,
     ) -> Option<String> {
         if self.base.as_deref() != Some(subject.current) {
             self.base = Some(subject.current.to_owned());
@@ -95,13 +95,13 @@ impl Editor {
         *self = Self::default();
     }
 
-    fn mistake(&self) -> Option<&Mistake> {
+    fn mistake(&self) -> Option<&TextDiagnostic> {
         let checked = self.checked.as_ref()?;
         checked.mistake.as_ref().filter(|_| checked.text == self.draft)
     }
 
     /// The text itself; true if it was changed.
-    fn edit(&mut self, ui: &mut Ui, subject: &Subject<'_>, mark: Option<Range<usize>>) -> bool {
+    fn edit(&mut self, ui: &mut Ui, subject: &EditedText<'_>, mark: Option<Range<usize>>) -> bool {
         let before = self.draft.clone();
         let mut layouter = |ui: &Ui, text: &dyn TextBuffer, width: f32| {
             laid_out(ui, text.as_str(), mark.clone(), width)
@@ -132,8 +132,8 @@ impl Editor {
     fn check(
         &mut self,
         version: usize,
-        check: impl FnOnce(&str) -> Result<(), Mistake>,
-    ) -> Option<&Mistake> {
+        check: impl FnOnce(&str) -> Result<(), TextDiagnostic>,
+    ) -> Option<&TextDiagnostic> {
         let is_checked =
             |checked: &Checked| checked.text == self.draft && checked.version == version;
         if !self.checked.as_ref().is_some_and(is_checked) {
@@ -174,7 +174,7 @@ fn laid_out(ui: &Ui, text: &str, mark: Option<Range<usize>>, width: f32) -> Arc<
     ui.fonts_mut(|fonts| fonts.layout_job(job))
 }
 
-impl Mistake {
+impl TextDiagnostic {
     fn of_formula(error: &FormulaError, text: &str) -> Self {
         Self { message: error.message(), place: Some(error.place(text)) }
     }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use ppum_viewer::files::kept::Kept;
-use ppum_viewer::session::Place;
+use ppum_viewer::files::kept::WindowState;
+use ppum_viewer::session::VisibleRegion;
 
 use crate::kit::plate;
 use crate::lab::{Lab, shot};
@@ -38,7 +38,7 @@ fn a_name_that_is_written_is_opened_and_remembered() {
     lab.settle();
     assert_eq!(lab.dataset(0).expect("it is open").title, "First");
     assert!(lab.window.query_by_label(field).is_none(), "{}", lab.notes());
-    let kept = Kept::read(&lab.path("config"));
+    let kept = WindowState::read(&lab.path("config"));
     assert_eq!(kept.recent, [path]);
     lab.window.get_by_label("Plate");
 }
@@ -127,7 +127,7 @@ fn an_open_file_is_watched() {
     let mut lab = Lab::new();
     let path = lab.write("plate.h5", &named("First"));
     lab.open(&path);
-    let place = Some(Place { center: [0.5, 0.0], width: 1e-3 });
+    let place = Some(VisibleRegion { center: [0.5, 0.0], width: 1e-3 });
     lab.state().session.panes[0].place = place;
     lab.state().session.panes[0].scene.quantity = Some("syy".into());
     lab.write("plate.h5", &named("Second"));
@@ -205,8 +205,8 @@ fn damaged_settings_harm_nothing() {
     for text in ["", "{", "null", "[]", "{\"recent\": 3}", "{\"size\": [1e300, -1.0]}", "\u{0}"] {
         fs::write(config.join("window.json"), text).expect("written");
         fs::write(config.join("last.ppum-session"), text).expect("written");
-        let kept = Kept::read(&config);
-        assert_eq!(kept, Kept::default(), "{text}");
+        let kept = WindowState::read(&config);
+        assert_eq!(kept, WindowState::default(), "{text}");
         let start = ppum_viewer::window::Start::default();
         let start = ppum_viewer::window::Start { folder: Some(config.clone()), ..start };
         let viewer = start.viewer(&egui::Context::default());
@@ -243,7 +243,7 @@ fn a_file_that_has_become_another_plate_is_shown_as_that() {
         let pane = &mut lab.state().session.panes[0];
         pane.scene.quantity = Some(quantity.into());
         pane.scene.deformed = Some(ppum_scene::deformed::Factor::Auto);
-        pane.place = Some(Place { center: [0.5, 0.0], width: 1e-3 });
+        pane.place = Some(VisibleRegion { center: [0.5, 0.0], width: 1e-3 });
         lab.settle();
         let slit = other();
         let name = slit.title.clone();
@@ -286,7 +286,7 @@ fn a_quantity_that_a_file_no_longer_has_is_left() {
     lab.state().session.panes[0].scene.colors.colormap = Some("cividis".into());
     lab.settle();
     assert_eq!(lab.viewer().stages[0].frames.failure(), None);
-    let place = Some(Place { center: [0.5, 0.0], width: 1e-3 });
+    let place = Some(VisibleRegion { center: [0.5, 0.0], width: 1e-3 });
     lab.state().session.panes[0].place = place;
     lab.write("plate.h5", &named("Second"));
     lab.until("the new file is read", |viewer| title(viewer) == "Second");

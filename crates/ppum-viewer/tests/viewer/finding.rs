@@ -7,7 +7,7 @@ use egui::{Event, Key, Modifiers, MouseWheelUnit, TouchPhase, vec2};
 use egui_kittest::kittest::Queryable as _;
 use ppum::vec2::vec2 as v;
 use ppum_scene::overlays::Overlay;
-use ppum_viewer::session::Page;
+use ppum_viewer::session::DrawerPage;
 
 use crate::kit::{at, plate};
 use crate::lab::{Lab, shot};
@@ -32,9 +32,11 @@ fn find(lab: &mut Lab, text: &str) {
 fn pages_images_and_two_views_have_words_on_the_screen() {
     let mut lab = lab();
     shot(&mut lab, "finding");
-    for (label, page) in
-        [("Tips and K", Page::Tips), ("Plot", Page::Plot), ("Solver", Page::Solver)]
-    {
+    for (label, page) in [
+        ("Tips and K", DrawerPage::Tips),
+        ("Plot", DrawerPage::Plot),
+        ("Solver", DrawerPage::Solver),
+    ] {
         lab.window.get_by_label(label).click();
         lab.settle();
         assert_eq!(lab.viewer().session.drawer, Some(page));
@@ -69,7 +71,7 @@ fn the_finder_knows_what_people_say_and_offers_what_can_be_done() {
     find(&mut lab, "SIF");
     lab.window.get_by_label_contains("Table of the tips").click();
     lab.settle();
-    assert_eq!(lab.viewer().session.drawer, Some(Page::Tips));
+    assert_eq!(lab.viewer().session.drawer, Some(DrawerPage::Tips));
     find(&mut lab, "tip");
     assert!(lab.window.query_all_by_label_contains("Fly to tip 1").next().is_some());
     // the plate has two tips, and one step

@@ -16,7 +16,7 @@ use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use ppum_viewer::Viewer;
 use ppum_viewer::reading::words;
-use ppum_viewer::session::{Page, Place};
+use ppum_viewer::session::{DrawerPage, VisibleRegion};
 
 use crate::kit::{at, hover, plate, settle, show_until, window};
 use crate::lab::{Lab, shot};
@@ -154,13 +154,13 @@ fn a_wheel_at_the_limits_moves_nothing() {
     let place_of = |window: &Window| window.state().session.panes[0].place.expect("it has moved");
     for (start, lines) in [(1e-11, 4.0), (30.0, -4.0)] {
         let center = [0.25, 0.1];
-        window.state_mut().session.panes[0].place = Some(Place { center, width: start });
+        window.state_mut().session.panes[0].place = Some(VisibleRegion { center, width: start });
         settle(&mut window);
         let mut last = None;
         for _ in 0..20 {
             turn(&mut window, place, lines);
             let now = place_of(&window);
-            if last.is_some_and(|last: Place| last.width == now.width) {
+            if last.is_some_and(|last: VisibleRegion| last.width == now.width) {
                 assert_eq!(last, Some(now));
             }
             last = Some(now);
@@ -249,7 +249,7 @@ fn a_line_drawn_with_shift_is_plotted() {
     window.event(button(to, false));
     window.step();
     settle(&mut window);
-    assert_eq!(window.state().session.drawer, Some(Page::Plot));
+    assert_eq!(window.state().session.drawer, Some(DrawerPage::Plot));
 }
 
 #[test]
@@ -257,7 +257,7 @@ fn radii_are_short_and_refused_with_a_reason() {
     let mut window = window(plate(), [1200.0, 700.0]);
     let curve = Along::Circle { center: [0.1 + 0.2, 0.5], radius: 0.2700000000000001 };
     window.state_mut().session.panes[0].curve = Some(curve);
-    window.state_mut().session.drawer = Some(Page::Plot);
+    window.state_mut().session.drawer = Some(DrawerPage::Plot);
     settle(&mut window);
     let write = |window: &mut Window, text: &str| {
         window.get_by_role_and_label(Role::TextInput, "Numbers of the curve").click();
@@ -312,7 +312,7 @@ fn the_room_of_what_is_told_of_the_colours_stays_as_it_is() {
     let first = below(&window);
     let places = [([0.0, 0.0], 4.0), ([0.5, 0.0], 0.1), ([0.5, 0.0], 1e-10), ([-0.7, 0.8], 1e-3)];
     for (center, width) in places {
-        window.state_mut().session.panes[0].place = Some(Place { center, width });
+        window.state_mut().session.panes[0].place = Some(VisibleRegion { center, width });
         settle(&mut window);
         settle(&mut window);
         assert!((below(&window) - first).abs() < 0.5, "{center:?}, {width}");

@@ -17,7 +17,7 @@ use ppum_render::resample::norms::Norms;
 use ppum_render::scatter::render;
 use ppum_scene::colors::Colors;
 use ppum_scene::deformed::Factor;
-use ppum_scene::drawing::Values;
+use ppum_scene::drawing::RasterValues;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use ppum_testkit::random::Random;
@@ -25,7 +25,7 @@ use ppum_testkit::synthetic::growing;
 use ppum_viewer::Viewer;
 use ppum_viewer::frames::{Backend, Fault, Frame};
 use ppum_viewer::reading::probe::Probed;
-use ppum_viewer::session::{Place, Session};
+use ppum_viewer::session::{Session, VisibleRegion};
 use ppum_viewer::spot::Spot;
 
 use crate::kit::{plate, settle, show_until};
@@ -74,8 +74,8 @@ fn frame(window: &Window) -> Arc<Frame> {
 
 fn values(window: &Window) -> Vec<f64> {
     match &frame(window).drawn.values {
-        Values::Double(raster) => raster.values.clone(),
-        Values::Single(_) => panic!("a difference is drawn in double precision"),
+        RasterValues::Double(raster) => raster.values.clone(),
+        RasterValues::Single(_) => panic!("a difference is drawn in double precision"),
     }
 }
 
@@ -177,7 +177,7 @@ fn any_two_views_are_subtracted_pixel_by_pixel() {
         }
         let width = 10f64.powf(random.between(-7.0, 0.3));
         let center = [random.between(-0.9, 0.9), random.between(-0.9, 0.9)];
-        let place = Some(Place { center, width });
+        let place = Some(VisibleRegion { center, width });
         window.state_mut().session.panes.iter_mut().for_each(|pane| pane.place = place);
         let size = [random.between(500.0, 700.0), random.between(300.0, 500.0)];
         window.set_size(vec2(size[0] as f32, size[1] as f32));
@@ -209,7 +209,7 @@ fn readings_are_differences_of_two_evaluations() {
     let tip = datasets[0].steps[0].cracks[0].points[1];
     let mut random = Random(8);
     for (center, width) in [(v(0.2, 0.1), 1.5), (tip, 1e-3), (tip, 1e-6), (tip, 2e-12)] {
-        let place = Some(Place { center: center.into(), width });
+        let place = Some(VisibleRegion { center: center.into(), width });
         window.state_mut().session.panes.iter_mut().for_each(|pane| pane.place = place);
         settle(&mut window);
         for _ in 0..4 {
@@ -360,7 +360,7 @@ fn who_moves_sees_differences_and_rests_with_exact_ones() {
     for _ in 0..12 {
         let view = window.state().stages[1].view.expect("it is shown");
         let center = view.center + v(5.0, -2.0) * pixel;
-        let place = Some(Place { center: center.into(), width: view.width });
+        let place = Some(VisibleRegion { center: center.into(), width: view.width });
         window.state_mut().session.panes.iter_mut().for_each(|pane| pane.place = place);
         show_until(&mut window, "the new place is drawn", |window| {
             let newest = frame(window);
@@ -427,13 +427,13 @@ fn pictures_of_differences_are_saved() {
         scene,
         view: frame.drawn.view,
         size: frame.drawn.view.pixels,
-        kind: ppum_viewer::export::Kind::Picture,
+        kind: ppum_viewer::export::ExportKind::Picture,
     };
     let (bytes, _) = order.bytes(Path::new("apart.png"), unwatched()).expect("it is drawn");
     let seen = ppum_render::png::encode(&frame.picture.image, &[]).expect("it is encoded");
     assert!(pixels(&bytes) == pixels(&seen), "what is seen is what is saved");
     let figure = ppum_viewer::export::Order {
-        kind: ppum_viewer::export::Kind::Figure,
+        kind: ppum_viewer::export::ExportKind::Figure,
         size: [500, 400],
         ..order
     };

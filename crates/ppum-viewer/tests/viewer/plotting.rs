@@ -9,9 +9,9 @@ use ppum::quantity::Quantity;
 use ppum::vec2::vec2 as v;
 use ppum_scene::profile::Along;
 use ppum_viewer::Viewer;
-use ppum_viewer::reading::plotted::Values;
+use ppum_viewer::reading::plotted::CurveValues;
 use ppum_viewer::reading::tool::Tool;
-use ppum_viewer::session::{Page, Place};
+use ppum_viewer::session::{DrawerPage, VisibleRegion};
 
 use crate::kit::{at, plate, settle, show_until, window};
 
@@ -44,7 +44,7 @@ fn draw(window: &mut Window, tool: Option<Tool>, from: Pos2, to: Pos2) {
     settle(window);
 }
 
-fn plotted(window: &mut Window) -> std::sync::Arc<Result<Values, String>> {
+fn plotted(window: &mut Window) -> std::sync::Arc<Result<CurveValues, String>> {
     settle(window);
     settle(window);
     let (_, found) = window.state_mut().stages[0].reading.plot.newest().expect("a plot").clone();
@@ -83,7 +83,7 @@ fn a_line_has_the_values_that_the_program_samples() {
     let state = window.state_mut();
     state.session.panes[0].curve = Some(along);
     state.session.panes[0].plot.quantities = Some("uy, max(sxx, syy)".into());
-    state.session.drawer = Some(Page::Plot);
+    state.session.drawer = Some(DrawerPage::Plot);
     let found = plotted(&mut window);
     let values = found.as_ref().as_ref().expect("values");
     let field = Field::new(&dataset, 0).expect("a field");
@@ -111,7 +111,7 @@ fn a_mistake_in_a_quantity_is_told_beside_the_plot() {
     let state = window.state_mut();
     state.session.panes[0].curve = Some(Along::Crack { index: 0 });
     state.session.panes[0].plot.quantities = Some("uy + ".into());
-    state.session.drawer = Some(Page::Plot);
+    state.session.drawer = Some(DrawerPage::Plot);
     assert!(plotted(&mut window).is_err());
     window.state_mut().session.panes[0].plot.quantities = None;
     let found = plotted(&mut window);
@@ -130,7 +130,7 @@ fn a_ray_has_the_exponent_of_the_singularity() {
     state.session.panes[0].curve = Some(Along::Ray { tip: 1, angle: 0.0, far: Some(1e-6) });
     state.session.panes[0].plot.quantities = Some("syy".into());
     state.session.panes[0].plot.log = [true; 2];
-    state.session.drawer = Some(Page::Plot);
+    state.session.drawer = Some(DrawerPage::Plot);
     let found = plotted(&mut window);
     let plot = found.as_ref().as_ref().expect("values").plot([true; 2]);
     assert_eq!(plot.curves[0].label, "syy, slope −0.500");
@@ -150,7 +150,7 @@ fn circles_around_a_tip_have_its_factors() {
         window.state_mut().session.panes[0].curve = Some(Along::Around { tip: 1, radius });
         settle(&mut window);
         settle(&mut window);
-        let found = window.state_mut().stages[0].reading.integral.found();
+        let found = window.state_mut().stages[0].reading.integral.newest_factors();
         let factors = found.expect("it is done").expect("it is possible");
         assert!((factors.k1 / stored.k1 - 1.0).abs() < tolerance, "{part}: {}", factors.k1);
         let miss = (factors.k2 - stored.k2).abs();
@@ -173,7 +173,7 @@ fn a_circle_without_factors_says_why() {
         window.state_mut().session.panes[0].curve = Some(along);
         settle(&mut window);
         settle(&mut window);
-        let found = window.state_mut().stages[0].reading.integral.found();
+        let found = window.state_mut().stages[0].reading.integral.newest_factors();
         let told = found.expect("it is done").expect_err("there are no factors");
         assert!(told.contains(reason), "{told}");
     }
@@ -193,7 +193,7 @@ fn k_draws_the_circle_that_the_solver_takes() {
         panic!("{:?}", curve(&window))
     };
     assert!((radius / own - 1.0).abs() < 1e-12 || radius < own, "{radius} {own}");
-    assert_eq!(window.state().session.drawer, Some(Page::Plot));
+    assert_eq!(window.state().session.drawer, Some(DrawerPage::Plot));
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn a_line_of_a_deep_view_keeps_its_digits() {
     let tip = dataset.steps[0].cracks[0].points[1];
     let mut window = window(dataset.clone(), SIZE);
     let state = window.state_mut();
-    state.session.panes[0].place = Some(Place { center: tip.into(), width: 1e-11 });
+    state.session.panes[0].place = Some(VisibleRegion { center: tip.into(), width: 1e-11 });
     state.session.panes[0].scene.quantity = Some("uy".into());
     settle(&mut window);
     let middle = window.get_by_label("Plate").rect().center();
@@ -233,7 +233,7 @@ fn a_line_of_a_deep_view_keeps_its_digits() {
     let Some(Along::Line { anchor, from, to }) = curve(&window) else { panic!("no line") };
     assert_eq!(anchor, [tip.x, tip.y]);
     assert!(from[1] < 0.0 && to[1] > 0.0 && from[1] > -1e-11);
-    window.state_mut().session.drawer = Some(Page::Plot);
+    window.state_mut().session.drawer = Some(DrawerPage::Plot);
     let found = plotted(&mut window);
     let values = found.as_ref().as_ref().expect("values");
     let field = Field::new(&dataset, 0).expect("a field");
@@ -274,7 +274,7 @@ fn files_are_written_but_never_over_the_dataset() {
     let state = window.state_mut();
     state.stages[0].opened.as_mut().expect("open").path = Some(own.clone());
     state.session.panes[0].curve = Some(Along::Crack { index: 0 });
-    state.session.drawer = Some(Page::Plot);
+    state.session.drawer = Some(DrawerPage::Plot);
     let found = plotted(&mut window);
     let values = found.as_ref().as_ref().expect("values");
     for (name, is_written) in [("plate", false), ("table", true), ("", false)] {

@@ -15,7 +15,7 @@ use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use ppum_viewer::Viewer;
 use ppum_viewer::reading::probe::Probed;
-use ppum_viewer::session::Place;
+use ppum_viewer::session::VisibleRegion;
 use ppum_viewer::spot::Spot;
 
 use crate::kit::{at, hover, plate, settle, window};
@@ -28,7 +28,7 @@ fn hovered(window: &Window) -> Probed {
     window.state().stages[0].reading.hover.clone().expect("the pointer is over the plate")
 }
 
-fn show(window: &mut Window, quantity: &str, place: Option<Place>) {
+fn show(window: &mut Window, quantity: &str, place: Option<VisibleRegion>) {
     let pane = &mut window.state_mut().session.panes[0];
     pane.scene.quantity = Some(quantity.to_owned());
     pane.place = place;
@@ -124,7 +124,7 @@ fn deep_inside_no_digit_is_lost() {
     let dataset = plate();
     let tip = dataset.steps[0].cracks[0].points[1];
     let mut window = window(dataset.clone(), SIZE);
-    show(&mut window, "syy", Some(Place { center: tip.into(), width: 2e-12 }));
+    show(&mut window, "syy", Some(VisibleRegion { center: tip.into(), width: 2e-12 }));
     let field = Field::new(&dataset, 0).expect("a field");
     let syy = Quantity::parse("syy", &field).expect("a quantity");
     let rect = window.get_by_label("Plate").rect();
@@ -265,7 +265,7 @@ fn the_deformed_plate_is_read_where_it_is_seen() {
         if window.state().stages[0].hover.is_none() {
             continue; // the bar lies over the plate there
         }
-        let ppum_scene::drawing::Values::Double(raster) = &frame.drawn.values else {
+        let ppum_scene::drawing::RasterValues::Double(raster) = &frame.drawn.values else {
             panic!("it is drawn in double precision")
         };
         let shown = raster.value(column, row);
@@ -342,7 +342,7 @@ fn go_anywhere(dataset: Dataset, quantities: &[&str], center: Vec2) {
             pane.scene.deformed = is_deformed.then_some(ppum_scene::deformed::Factor::Auto);
             let deep = 10f64.powf(-12.0 * number(k + 1000).abs());
             let width = if k >= 24 { deep } else { whole };
-            pane.place = Some(Place { center: center.into(), width });
+            pane.place = Some(VisibleRegion { center: center.into(), width });
             settle(&mut window);
         }
         let within = |size: f32, n: u32| (0.5 + 0.55 * number(n) as f32) * size;

@@ -9,7 +9,7 @@ use ppum::dataset::{Dataset, Record, TipIntensity, Warning};
 use ppum::vec2::vec2;
 use ppum_testkit::synthetic::growing;
 use ppum_viewer::panels::drawer::series::plots;
-use ppum_viewer::session::Page;
+use ppum_viewer::session::DrawerPage;
 
 use crate::kit::plate;
 use crate::lab::{Lab, shot};
@@ -134,7 +134,7 @@ fn curves_have_the_values_of_the_steps() {
 fn a_click_on_a_plot_goes_to_the_step() {
     let mut lab = Lab::new();
     lab.state().open(None, Arc::new(with_factors()));
-    lab.state().session.drawer = Some(Page::Series);
+    lab.state().session.drawer = Some(DrawerPage::Series);
     lab.settle();
     shot(&mut lab, "solving-series");
     let plot = lab.window.get_by_label("K_I against the steps").rect();
@@ -160,7 +160,7 @@ fn what_the_solver_tells_is_shown() {
     dataset.steps[0].warnings = vec![Warning { kind, at, value: 1.0, limit: 0.5, message }];
     dataset.steps[0].history.push(Record { name: "mood".into(), value: 7.25, unit: String::new() });
     lab.state().open(None, Arc::new(dataset));
-    lab.state().session.drawer = Some(Page::Solver);
+    lab.state().session.drawer = Some(DrawerPage::Solver);
     lab.settle();
     shot(&mut lab, "solving-solver");
     lab.window.get_by_label("7.25");
@@ -184,7 +184,7 @@ fn what_the_solver_tells_is_shown() {
 fn the_player_has_room_in_a_small_window() {
     let mut lab = series(12);
     lab.window.set_size(egui::vec2(700.0, 500.0));
-    lab.state().session.drawer = Some(Page::Series);
+    lab.state().session.drawer = Some(DrawerPage::Series);
     lab.settle();
     lab.settle();
     shot(&mut lab, "solving-small");

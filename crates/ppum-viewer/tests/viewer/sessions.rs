@@ -12,7 +12,7 @@ use ppum_testkit::random::Random;
 use ppum_testkit::skipped::skipped;
 use ppum_viewer::files::session_file::{parse, text};
 use ppum_viewer::offscreen::{ScreenshotError, screenshot};
-use ppum_viewer::session::{Draft, Minus, Page, Pane, Place, Session, Theme};
+use ppum_viewer::session::{DrawerPage, Minus, Pane, ProblemDraft, Session, Theme, VisibleRegion};
 use ppum_viewer::spot::Spot;
 use ppum_viewer::window::Start;
 
@@ -76,7 +76,8 @@ fn pane(random: &mut Random) -> Pane {
         if r.below(2) == 1 { Factor::Auto } else { Factor::Given(r.between(0.0, 1e6)) }
     });
     scene.outline = random.below(2) == 1;
-    pane.place = some(random, |r| Place { center: [number(r), number(r)], width: number(r) });
+    pane.place =
+        some(random, |r| VisibleRegion { center: [number(r), number(r)], width: number(r) });
     pane.extrema = random.below(2) == 1;
     let spot = |r: &mut Random| Spot {
         anchor: [number(r), number(r)],
@@ -91,7 +92,7 @@ fn pane(random: &mut Random) -> Pane {
 fn session(random: &mut Random) -> Session {
     let panes: Vec<Pane> = (0..=random.below(2)).map(|_| pane(random)).collect();
     let two = panes.len() == 2;
-    let draft = |r: &mut Random| Draft {
+    let draft = |r: &mut Random| ProblemDraft {
         path: some(r, |r| format!("/data/deep/{}.toml", r.below(9)).into()),
         folder: some(r, |_| "/elsewhere".into()),
         text: words(r),
@@ -102,7 +103,9 @@ fn session(random: &mut Random) -> Session {
         linked: random.below(2) == 1,
         minus: Minus { is_shown: two && random.below(2) == 1, colors: pane(random).scene.colors },
         panels: random.below(2) == 1,
-        drawer: some(random, |r| r.pick(&[Page::Plot, Page::Series, Page::Problem])),
+        drawer: some(random, |r| {
+            r.pick(&[DrawerPage::Plot, DrawerPage::Series, DrawerPage::Problem])
+        }),
         theme: random.pick(&[Theme::System, Theme::Light, Theme::Dark]),
         draft: some(random, draft),
     }
@@ -126,7 +129,7 @@ fn any_session_comes_back_from_its_text() {
 #[test]
 fn a_number_that_is_none_costs_no_session() {
     let mut session = Session::default();
-    session.panes[0].place = Some(Place { center: [0.0, f64::NAN], width: 1.0 });
+    session.panes[0].place = Some(VisibleRegion { center: [0.0, f64::NAN], width: 1.0 });
     session.panes[0].scene.quantity = Some("syy".into());
     session.panes[0].scene.colors.range = Range::Fixed(2.0, 1.0);
     session.panes[0].probes = vec![Spot { anchor: [f64::NAN; 2], ..Spot::default() }];
@@ -163,7 +166,7 @@ fn a_saved_session_opens_where_it_lies_with_its_files() {
     fs::create_dir(lab.path("here")).expect("a folder");
     let path = lab.write("here/plate.h5", &plate());
     lab.open(&path);
-    let place = Some(Place { center: [0.5, 1e-13], width: 1.234_567_890_123_456_7e-12 });
+    let place = Some(VisibleRegion { center: [0.5, 1e-13], width: 1.234_567_890_123_456_7e-12 });
     lab.state().session.panes[0].place = place;
     lab.state().session.panes[0].scene.quantity = Some("sxx".into());
     lab.window.key_press_modifiers(Modifiers::COMMAND, Key::S);
@@ -206,7 +209,8 @@ fn the_window_reopens_as_it_was() {
     lab.open(&path);
     lab.state().session.panes[0].scene.quantity = Some("sxy".into());
     lab.state().session.theme = Theme::Dark;
-    lab.state().session.draft = Some(Draft { text: "title = \"σ\"".into(), ..Draft::default() });
+    lab.state().session.draft =
+        Some(ProblemDraft { text: "title = \"σ\"".into(), ..ProblemDraft::default() });
     lab.settle();
     let before = lab.state().session.clone();
     lab.reopen(Start::default());
@@ -249,7 +253,7 @@ fn a_session_names_datasets_alone() {
         assert!(lab.dataset(0).is_none() && lab.viewer().session.draft.is_none());
         refused(Start { files: vec![path], ..Start::default() }, &told);
     }
-    let draft = Some(Draft { path: Some("plate.h5".into()), ..Draft::default() });
+    let draft = Some(ProblemDraft { path: Some("plate.h5".into()), ..ProblemDraft::default() });
     let session = Session { draft, ..Session::default() };
     let path = lab.path("draft.ppum-session");
     fs::write(&path, text(&session, lab.folder.path()).expect("a text")).expect("written");
@@ -297,7 +301,7 @@ fn places_that_nothing_can_show_are_the_whole_plate() {
         ([f64::INFINITY, 0.0], 1.0),
         ([1e300; 2], 1e-3),
     ] {
-        lab.state().session.panes[0].place = Some(Place { center, width });
+        lab.state().session.panes[0].place = Some(VisibleRegion { center, width });
         lab.settle();
         lab.window.key_press(Key::F);
         lab.window.step();

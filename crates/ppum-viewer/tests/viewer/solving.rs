@@ -14,8 +14,8 @@ use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use ppum_viewer::Viewer;
 use ppum_viewer::actions::{ALL, Action};
-use ppum_viewer::session::Place;
-use ppum_viewer::solving::Outcome;
+use ppum_viewer::session::VisibleRegion;
+use ppum_viewer::solving::SolutionOutcome;
 use ppum_viewer::window::Start;
 
 use crate::kit::{plate, show_until};
@@ -88,9 +88,9 @@ fn a_problem_is_solved_where_one_looks() {
         |dataset: &ppum::dataset::Dataset| dataset.steps[0].fields[0].coefficients.clone();
     let first = lab.dataset(0).expect("it is solved");
     assert_eq!(coefficients(&first), coefficients(&solved(&text(2), &lab)));
-    assert!(matches!(lab.state().solving.outcome, Some(Outcome::Solved(..))));
+    assert!(matches!(lab.state().solving.outcome, Some(SolutionOutcome::Solved(..))));
     // change a number, solve again
-    let place = Some(Place { center: [0.5, 0.0], width: 1e-6 });
+    let place = Some(VisibleRegion { center: [0.5, 0.0], width: 1e-6 });
     lab.state().session.panes[0].place = place;
     let changed = text(2).replace("traction = [0.0, 1.0]", "traction = [0.0, 3.0]");
     draft(&mut lab).clone_from(&changed);
@@ -123,14 +123,14 @@ fn a_solution_is_stopped_and_what_was_there_stays() {
     *draft(&mut lab) = text(8).replace("order = 2", "order = 4");
     lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
     lab.until("its cost is told", |viewer| {
-        viewer.solving.running().is_some_and(|running| running.told().estimate.is_some())
+        viewer.solving.running().is_some_and(|running| running.progress_report().estimate.is_some())
     });
     shot(&mut lab, "solving-running");
     lab.window.get_by_label("Cancel").click();
     lab.window.step();
     lab.settle();
     // tests of ppum-solve count how little of the work is still done
-    assert_eq!(lab.state().solving.outcome, Some(Outcome::Cancelled(0)));
+    assert_eq!(lab.state().solving.outcome, Some(SolutionOutcome::Cancelled(0)));
     lab.window.get_by_label("Cancelled. What was there before is still shown.");
     assert!(Arc::ptr_eq(&before, &lab.dataset(0).expect("it stays")));
 }
@@ -153,7 +153,7 @@ fn a_series_is_solved() {
         dataset.steps.iter().map(|step| step.cracks[0].end_point(End::Last).x).collect();
     assert_eq!(tips.len(), 3);
     assert!(tips.windows(2).all(|t| (t[1] - t[0] - 0.05).abs() < 1e-3), "{tips:?}");
-    assert!(matches!(lab.state().solving.outcome, Some(Outcome::Solved(..))));
+    assert!(matches!(lab.state().solving.outcome, Some(SolutionOutcome::Solved(..))));
 }
 
 /// What is complete of a series stays when it is stopped.
@@ -163,14 +163,15 @@ fn a_series_is_stopped() {
     let mut lab = lab(&growing(1e-5, 8000));
     lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
     lab.until("its third step is solved", |viewer| {
-        let progress = viewer.solving.running().and_then(|running| running.told().progress);
+        let progress =
+            viewer.solving.running().and_then(|running| running.progress_report().progress);
         progress.is_some_and(|progress| progress.step >= 3)
     });
     lab.window.get_by_label("Cancel").click();
     lab.window.step();
     lab.settle();
     let steps = lab.dataset(0).expect("some of it is solved").steps.len();
-    assert_eq!(lab.state().solving.outcome, Some(Outcome::Cancelled(steps)));
+    assert_eq!(lab.state().solving.outcome, Some(SolutionOutcome::Cancelled(steps)));
     assert!(steps >= 3, "{steps}");
     lab.window.get_by_label(&format!("Cancelled. The {steps} steps before are shown."));
 }
@@ -184,7 +185,7 @@ fn what_cannot_be_solved_is_refused_with_the_reason() {
         lab.window.step();
         lab.settle();
         match &lab.state().solving.outcome {
-            Some(Outcome::Failed(error)) => error.clone(),
+            Some(SolutionOutcome::Failed(error)) => error.clone(),
             other => panic!("{other:?}"),
         }
     };
@@ -243,7 +244,7 @@ fn the_problem_of_a_dataset_is_solved_again() {
     lab.window.step();
     lab.settle();
     assert!(
-        matches!(lab.state().solving.outcome, Some(Outcome::Solved(..))),
+        matches!(lab.state().solving.outcome, Some(SolutionOutcome::Solved(..))),
         "{:?}",
         lab.state().solving.outcome
     );
@@ -315,7 +316,7 @@ fn a_solution_that_is_not_finite_is_none() {
     *draft(&mut lab) = text(2).replace("traction = [0.0, 1.0]", "traction = [0.0, 1e308]");
     solve(&mut lab);
     match &lab.viewer().solving.outcome {
-        Some(Outcome::Failed(error)) => {
+        Some(SolutionOutcome::Failed(error)) => {
             assert!(error.contains("is not a finite number"), "{error}")
         }
         other => panic!("{other:?}"),

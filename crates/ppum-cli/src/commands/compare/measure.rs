@@ -6,18 +6,18 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum_render::RenderError;
 use ppum_render::raster::Raster;
-use ppum_render::resample::need::{Convergence, Subject, converge};
+use ppum_render::resample::need::{Convergence, ResamplingSetup, converge};
 use ppum_render::resample::{Grid, GridError, Interpolation, representation_bytes};
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::compare::Resampled;
 
-use super::{Args, Over};
+use super::{Args, ComparisonRegion};
 use crate::progress::Bar;
 
-/// The subject of a comparison.
+/// The field, view and quantity that are compared.
 #[derive(Clone, Copy)]
-pub(super) struct Job<'a> {
+pub(super) struct ComparisonInput<'a> {
     pub(super) field: &'a Field<'a>,
     pub(super) view: View,
     pub(super) quantity: &'a Quantity,
@@ -29,11 +29,11 @@ pub(super) struct Measurements {
     pub(super) direct: Raster,
     pub(super) direct_seconds: f64,
     pub(super) direct_bytes: u64,
-    pub(super) methods: Vec<Method>,
+    pub(super) methods: Vec<MethodResult>,
 }
 
-/// What one method gave.
-pub(super) struct Method {
+/// The picture, times and errors of one method.
+pub(super) struct MethodResult {
     pub(super) resampled: Resampled,
     /// Seconds for the samples, and for the picture made of them; those of cells are together.
     pub(super) seconds: [f64; 2],
@@ -41,7 +41,7 @@ pub(super) struct Method {
     pub(super) convergence: Option<(Convergence, f64)>,
 }
 
-impl Method {
+impl MethodResult {
     /// `bilinear, 64×64`.
     pub(super) fn name(&self) -> String {
         name(self.resampled.interpolation, self.resampled.grid.unwrap_or_default())
@@ -58,10 +58,10 @@ pub(super) fn name(interpolation: Option<Interpolation>, [nx, ny]: [u32; 2]) -> 
 
 /// Draws and measures, in double precision.
 pub(super) fn measure(
-    job: Job<'_>,
+    job: ComparisonInput<'_>,
     methods: &[Option<Interpolation>],
 ) -> anyhow::Result<Measurements> {
-    let Job { field, view, quantity, .. } = job;
+    let ComparisonInput { field, view, quantity, .. } = job;
     let grid = job.grid()?;
     let (direct, direct_seconds) = timed(|| render::<f64>(field, &view, quantity, &Bar::new()))?;
     let measured = methods.iter().map(|method| match method {
@@ -73,11 +73,11 @@ pub(super) fn measure(
     Ok(Measurements { methods, direct, direct_seconds, direct_bytes })
 }
 
-impl Job<'_> {
+impl ComparisonInput<'_> {
     fn grid(&self) -> Result<Grid, GridError> {
         match self.args.over {
-            Over::Domain => Grid::over_domain(self.field, self.args.grid),
-            Over::View => Grid::over_view(&self.view, self.args.grid),
+            ComparisonRegion::Domain => Grid::over_domain(self.field, self.args.grid),
+            ComparisonRegion::View => Grid::over_view(&self.view, self.args.grid),
         }
     }
 
@@ -86,22 +86,22 @@ impl Job<'_> {
         direct: &Raster,
         grid: Grid,
         interpolation: Interpolation,
-    ) -> anyhow::Result<Method> {
+    ) -> anyhow::Result<MethodResult> {
         let Self { field, view, quantity, args } = *self;
         let (samples, sampling) = timed(|| grid.sample(field, quantity, &Bar::new()))?;
         let draw = || Ok(Resampled::on_grid(&samples, interpolation, &view, direct));
         let (resampled, drawing) = timed(draw)?;
-        let subject = Subject { field, view: &view, quantity, grid, interpolation };
+        let subject = ResamplingSetup { field, view: &view, quantity, grid, interpolation };
         let found = |error| anyhow::Ok((converge(&subject, error, &Bar::new())?, error));
         let convergence = args.error.map(found).transpose()?;
-        Ok(Method { resampled, seconds: [sampling, drawing], convergence })
+        Ok(MethodResult { resampled, seconds: [sampling, drawing], convergence })
     }
 
-    fn on_cells(&self, direct: &Raster) -> anyhow::Result<Method> {
+    fn on_cells(&self, direct: &Raster) -> anyhow::Result<MethodResult> {
         let Self { field, view, quantity, .. } = *self;
         let draw = || Resampled::on_cells(field, quantity, &view, direct, &Bar::new());
         let (resampled, seconds) = timed(draw)?;
-        Ok(Method { resampled, seconds: [seconds, 0.0], convergence: None })
+        Ok(MethodResult { resampled, seconds: [seconds, 0.0], convergence: None })
     }
 }
 

@@ -16,12 +16,12 @@ use ppum_render::png::Text;
 use ppum_render::resample::Interpolation;
 
 use crate::arguments::{MOST_OF_PAGE, positive, size};
-use crate::look::Look;
+use crate::look::LookArgs;
 use crate::number::json;
 use crate::output::{Output, tell};
 use crate::standard::is_standard;
-use crate::subject::{Colors, Subject};
-use crate::window::{Frame, Window};
+use crate::subject::{ColorArgs, QuantityArgs};
+use crate::window::{ImageExtent, WindowArgs};
 use crate::{page, target, threads};
 use measure::{Measurements, measure};
 use ppum_scene::range::Telling;
@@ -37,7 +37,7 @@ use sheet::Layout;
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(flatten)]
-    subject: Subject,
+    subject: QuantityArgs,
     /// Picture to write, - for standard output; without it numbers only
     #[arg(short, long, value_name = "OUT.png|svg|pdf")]
     output: Option<PathBuf>,
@@ -46,19 +46,19 @@ pub(crate) struct Args {
     grid: [u32; 2],
     /// The rectangle of the grid
     #[arg(long, value_enum, default_value = "domain")]
-    over: Over,
+    over: ComparisonRegion,
     /// How values between the points are found
     #[arg(long, value_enum, value_delimiter = ',', default_value = "bilinear")]
-    method: Vec<Method>,
+    method: Vec<MethodArg>,
     /// Find the grids that have no larger relative error
     #[arg(long, value_name = "E", value_parser = positive)]
     error: Option<f64>,
     #[command(flatten)]
-    look: Look,
+    look: LookArgs,
     #[command(flatten)]
-    window: Window,
+    window: WindowArgs,
     #[command(flatten)]
-    colours: Colors,
+    colours: ColorArgs,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -76,7 +76,7 @@ Examples:
   ppum compare plate.h5 -o cells.png --method cells --over view --view 0,-0.2,0.4,0.2";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Over {
+enum ComparisonRegion {
     /// The box of the domain
     Domain,
     /// What the picture shows
@@ -84,7 +84,7 @@ enum Over {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Method {
+enum MethodArg {
     /// The value of the nearest point
     Nearest,
     /// Linear in each direction, of four points
@@ -97,7 +97,7 @@ enum Method {
     All,
 }
 
-impl Method {
+impl MethodArg {
     /// The interpolations that are meant; none for the cells of the cover.
     fn meant(self) -> Vec<Option<Interpolation>> {
         use Interpolation::{Bicubic, Bilinear, Nearest};
@@ -129,7 +129,7 @@ fn check_page([columns, rows]: [u32; 2]) -> anyhow::Result<()> {
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         if let Some(path) = &self.output {
-            target::check(path, target::Kind::Picture, self.inputs())?;
+            target::check(path, target::FileKind::Picture, self.inputs())?;
         }
         ensure!(
             !self.json || !self.output.as_deref().is_some_and(is_standard),
@@ -145,9 +145,9 @@ impl Args {
         let labels = self.look.texts().applied(labels);
         let layout = Layout::new(self, &field, &labels, &methods);
         check_page(layout.size())?;
-        let frame = Frame { pixels: layout.room()?, may_shrink: true, margin: 0.0 };
+        let frame = ImageExtent { pixels: layout.room()?, may_shrink: true, margin: 0.0 };
         let view = self.window.seen(&field, frame)?;
-        let job = measure::Job { field: &field, view, quantity: &quantity, args: self };
+        let job = measure::ComparisonInput { field: &field, view, quantity: &quantity, args: self };
         let found = threads::with(self.threads, || measure(job, &methods))??;
         let report = Report::new(&self.subject.file_name(), &asked.name, &view, &found);
         let mut told = String::new();

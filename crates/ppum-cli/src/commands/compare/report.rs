@@ -8,7 +8,7 @@ use ppum_render::resample::norms::{NAMES, Norms};
 use ppum_render::view::View;
 use serde::Serialize;
 
-use super::measure::{Measurements, Method};
+use super::measure::{Measurements, MethodResult};
 use crate::number::Number;
 
 /// All numbers, as JSON shows them.
@@ -98,7 +98,7 @@ impl Report {
 }
 
 impl Row {
-    fn new(one: &Method) -> Self {
+    fn new(one: &MethodResult) -> Self {
         let [sampling, drawing] = one.seconds;
         Self {
             method: one

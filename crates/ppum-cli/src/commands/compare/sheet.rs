@@ -6,7 +6,7 @@
 
 use ppum::field::Field;
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::{Design, FigureError, Grid, Labels, Panel, panel_area, panels};
+use ppum_figure::figure::{Design, FigureError, Labels, Panel, PanelGrid, panel_area, panels};
 use ppum_figure::overlay;
 use ppum_render::extrema::extrema;
 use ppum_render::picture::{Picture, Style};
@@ -17,8 +17,8 @@ use ppum_render::resample::norms::difference;
 use ppum_scene::compare::signed;
 
 use super::Args;
-use super::measure::{Job, Measurements, name};
-use crate::look::{LONG, Look, letters};
+use super::measure::{ComparisonInput, Measurements, name};
+use crate::look::{LONG, LookArgs, letters};
 use crate::progress::Bar;
 
 /// The page: what stands where.
@@ -27,7 +27,7 @@ pub(super) struct Layout {
     panels: Vec<Shows>,
     /// Words of the panels, their captions as titles.
     labels: Vec<Labels>,
-    grid: Grid,
+    grid: PanelGrid,
     design: Design,
 }
 
@@ -57,7 +57,8 @@ impl Layout {
             (count, false) => [count as u32 + 1, 2],
             (count, true) => [2, count as u32 + 1],
         };
-        let design = args.look.design(aspect, Look::page(aspect, [across, down]), [across, down]);
+        let design =
+            args.look.design(aspect, LookArgs::page(aspect, [across, down]), [across, down]);
         let names: Vec<String> = methods.iter().map(|method| name(*method, args.grid)).collect();
         let words = |(number, shows): (usize, &Shows)| {
             let (caption, quantity) = match *shows {
@@ -77,7 +78,7 @@ impl Layout {
             (1, true) => [1, 2],
             _ => [across, down],
         };
-        let grid = Grid { barred: Some(barred), ..Grid::new([across, down]) };
+        let grid = PanelGrid { barred: Some(barred), ..PanelGrid::new([across, down]) };
         Self { title: labels.title.clone(), panels, labels: words, grid, design }
     }
 
@@ -96,10 +97,10 @@ impl Layout {
     pub(super) fn draw(
         &self,
         found: &Measurements,
-        job: Job<'_>,
+        job: ComparisonInput<'_>,
         style: &Style,
     ) -> anyhow::Result<(Canvas, Picture)> {
-        let Job { field, view, .. } = job;
+        let ComparisonInput { field, view, .. } = job;
         let view = &view;
         let direct = direct(&found.direct, job, style)?;
         let norm = &direct.normalization;
@@ -147,8 +148,8 @@ impl Shows {
 }
 
 /// The direct picture; its range knows the true extrema.
-fn direct(raster: &Raster, job: Job<'_>, style: &Style) -> anyhow::Result<Picture> {
-    let Job { field, view, quantity, .. } = job;
+fn direct(raster: &Raster, job: ComparisonInput<'_>, style: &Style) -> anyhow::Result<Picture> {
+    let ComparisonInput { field, view, quantity, .. } = job;
     let values = match style.range.is_found() {
         true => extrema(field, &view, quantity, raster, &Bar::new())?,
         false => None,

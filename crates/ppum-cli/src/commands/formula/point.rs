@@ -5,7 +5,7 @@ use ppum::crack::TipPoint;
 use serde::Serialize;
 use serde::ser::Serializer;
 
-use super::subject::{Of, Subject};
+use super::subject::{DisplayedFormula, Of};
 use crate::number::Number;
 
 /// A value for every input of a formula.
@@ -25,7 +25,7 @@ impl Serialize for Point {
 
 impl Point {
     /// The point with the values that were given, of the plane with polar coordinates.
-    pub(super) fn new(subject: &Subject, given: &[(String, f64)]) -> anyhow::Result<Self> {
+    pub(super) fn new(subject: &DisplayedFormula, given: &[(String, f64)]) -> anyhow::Result<Self> {
         let formula = &subject.formula;
         let is_plane = subject.of == Of::Plane;
         let names: Vec<_> = formula.scope().inputs().collect();

@@ -5,7 +5,7 @@ use ppum::weight::WeightFunction;
 use serde::Serialize;
 
 use super::point::Point;
-use super::subject::{Of, Subject};
+use super::subject::{DisplayedFormula, Of};
 use crate::number::Number;
 
 /// All formulas.
@@ -84,11 +84,11 @@ impl Report {
     /// Everything about some formulas, with values if a point is given, and with WGSL if that
     /// is wanted.
     pub(super) fn new(
-        subjects: &[Subject],
+        subjects: &[DisplayedFormula],
         at: &[(String, f64)],
         wgsl: bool,
     ) -> anyhow::Result<Self> {
-        let row = |subject: &Subject| {
+        let row = |subject: &DisplayedFormula| {
             let wgsl = wgsl.then(|| self::wgsl(subject)).transpose()?;
             Ok(Row { wgsl, ..Row::new(subject, at)? })
         };
@@ -98,7 +98,7 @@ impl Report {
 }
 
 /// The function with all derivatives that are shown.
-fn wgsl(subject: &Subject) -> Result<String, DerivativeError> {
+fn wgsl(subject: &DisplayedFormula) -> Result<String, DerivativeError> {
     let name = subject.name.as_deref().map_or(String::new(), |name| format!("_{name}"));
     let name: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
     let jets = FormulaJets::new(&[&subject.formula], subject.order())?;
@@ -106,8 +106,8 @@ fn wgsl(subject: &Subject) -> Result<String, DerivativeError> {
 }
 
 impl Row {
-    fn new(subject: &Subject, at: &[(String, f64)]) -> anyhow::Result<Self> {
-        let Subject { of, name, formula, variables, .. } = subject;
+    fn new(subject: &DisplayedFormula, at: &[(String, f64)]) -> anyhow::Result<Self> {
+        let DisplayedFormula { of, name, formula, variables, .. } = subject;
         let derivatives = derivatives(formula, variables)?;
         let at = (!at.is_empty()).then(|| Point::new(subject, at)).transpose()?;
         let shown = |(by, derivative): &(Vec<String>, Formula)| Derivative {

@@ -65,7 +65,7 @@ impl Of {
 
 /// A formula to be shown.
 #[derive(Debug)]
-pub(super) struct Subject {
+pub(super) struct DisplayedFormula {
     /// The kind of formula.
     pub(super) of: Of,
     /// Its name, if it has one.
@@ -76,7 +76,7 @@ pub(super) struct Subject {
     pub(super) variables: Vec<String>,
 }
 
-impl Subject {
+impl DisplayedFormula {
     fn new(of: &Of, name: Option<String>, formula: Formula, parameters: &[(String, f64)]) -> Self {
         let variables: Vec<&str> = match of {
             Of::Plane => vec!["x", "y"],
@@ -104,7 +104,7 @@ pub(super) struct Question<'a> {
 
 impl Question<'_> {
     /// The formulas that are meant: one, or those of a name of the library.
-    pub(super) fn subjects(&self, of: Option<&Of>) -> anyhow::Result<Vec<Subject>> {
+    pub(super) fn subjects(&self, of: Option<&Of>) -> anyhow::Result<Vec<DisplayedFormula>> {
         let of = of.cloned().unwrap_or_else(|| self.kind());
         match &of {
             Of::Plane => self.functions(&of, library::enrichment),
@@ -146,14 +146,14 @@ impl Question<'_> {
         &self,
         of: &Of,
         known: impl Fn(&str) -> Option<&'static Entry>,
-    ) -> anyhow::Result<Vec<Subject>> {
+    ) -> anyhow::Result<Vec<DisplayedFormula>> {
         let Some(entry) = self.given.name().and_then(known) else {
             let scope = self.scope(of, self.parameters)?;
             let formula = self
                 .given
                 .explain(Formula::parse(&self.given.text, &scope))
                 .map_err(|error| self.or_entry(error))?;
-            return Ok(vec![Subject::new(of, None, formula, self.parameters)]);
+            return Ok(vec![DisplayedFormula::new(of, None, formula, self.parameters)]);
         };
         let parameters = self.parameters_of(entry)?;
         let scope = self.scope(of, &parameters)?;
@@ -162,7 +162,7 @@ impl Question<'_> {
                 1 => entry.name.to_owned(),
                 _ => format!("{} {}", entry.name, k + 1),
             };
-            Ok(Subject::new(of, Some(name), Formula::parse(text, &scope)?, &parameters))
+            Ok(DisplayedFormula::new(of, Some(name), Formula::parse(text, &scope)?, &parameters))
         };
         entry.texts.iter().enumerate().map(subject).collect()
     }
@@ -204,14 +204,18 @@ impl Question<'_> {
         of: &Of,
         equation: &Equation,
         components: &[&str],
-    ) -> anyhow::Result<Vec<Subject>> {
+    ) -> anyhow::Result<Vec<DisplayedFormula>> {
         let components: Vec<_> = components.iter().map(|&name| name.to_owned()).collect();
         let (tables, named) = (&[], &[]);
         self.quantity(of, &Vocabulary { equation, components: &components, tables, named })
     }
 
     /// A formula of quantities, or that of one.
-    fn quantity(&self, of: &Of, vocabulary: &Vocabulary<'_>) -> anyhow::Result<Vec<Subject>> {
+    fn quantity(
+        &self,
+        of: &Of,
+        vocabulary: &Vocabulary<'_>,
+    ) -> anyhow::Result<Vec<DisplayedFormula>> {
         ensure!(
             self.parameters.is_empty(),
             "--parameter: formulas of quantities have none; write `let NAME = VALUE;` in the formula"
@@ -233,7 +237,7 @@ impl Question<'_> {
             result => self.given.explain(result)?,
         };
         let name = definition.map(|_| name.to_owned());
-        Ok(vec![Subject::new(of, name, quantity.formula().clone(), &[])])
+        Ok(vec![DisplayedFormula::new(of, name, quantity.formula().clone(), &[])])
     }
 }
 

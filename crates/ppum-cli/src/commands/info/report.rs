@@ -50,7 +50,7 @@ pub(super) struct StepReport {
     pub(super) weight: &'static str,
     pub(super) weight_formula: String,
     pub(super) weight_breakpoints: Vec<f64>,
-    pub(super) levels: Vec<Level>,
+    pub(super) levels: Vec<LevelCount>,
     /// The elements, if the patches are those of a mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) mesh: Option<MeshRow>,
@@ -102,7 +102,7 @@ impl MeshRow {
 
 /// Cells of a level of the tree.
 #[derive(Debug, Serialize)]
-pub(super) struct Level {
+pub(super) struct LevelCount {
     pub(super) level: u8,
     pub(super) cells: usize,
 }
@@ -196,9 +196,9 @@ fn tally(values: impl Iterator<Item = u8>) -> BTreeMap<u8, usize> {
     counts
 }
 
-fn levels(partition: &BoxPartition) -> Vec<Level> {
+fn levels(partition: &BoxPartition) -> Vec<LevelCount> {
     let counts = tally(partition.level.iter().copied());
-    counts.into_iter().map(|(level, cells)| Level { level, cells }).collect()
+    counts.into_iter().map(|(level, cells)| LevelCount { level, cells }).collect()
 }
 
 /// The order of a patch is the largest degree of its blocks.

@@ -37,13 +37,13 @@ pub(crate) struct Args {
     /// The solver's work: seconds of its phases, or --history=residuals and others
     #[arg(long, group = "where", value_enum, value_name = "WHAT", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "seconds")]
-    history: Option<What>,
+    history: Option<SolverWorkArg>,
     /// Stress intensity factors of all tips in the steps of a series
     #[arg(long, group = "where", conflicts_with = "step")]
     series: bool,
     /// What --series is drawn over
     #[arg(long, value_enum, requires = "series", default_value = "step")]
-    over: Over,
+    over: SeriesAxisArg,
     /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: those that suit]; with
     /// --series of k1, k2, load, length and extension [default: k1,k2]
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
@@ -54,7 +54,7 @@ pub(crate) struct Args {
     step: Option<usize>,
     /// Logarithmic axes: x, y or x,y
     #[arg(long, value_name = "AXES", value_delimiter = ',')]
-    log: Vec<Axis>,
+    log: Vec<LogAxisArg>,
     /// Size in pixels
     #[arg(long, value_name = "WxH", value_parser = page_size, default_value = "900x600")]
     size: [u32; 2],
@@ -76,16 +76,16 @@ Examples:
   ppum plot growth.h5 --series --over extension -o k.svg";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Axis {
+enum LogAxisArg {
     /// The horizontal axis
     X,
     /// The vertical axis
     Y,
 }
 
-/// What of the solver's work is drawn.
+/// The measure of the solver's work that is plotted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum What {
+enum SolverWorkArg {
     /// Seconds of the phases, of a series their sums
     #[default]
     Seconds,
@@ -98,20 +98,20 @@ enum What {
     Levels,
 }
 
-impl From<What> for plots::Work {
-    fn from(what: What) -> Self {
+impl From<SolverWorkArg> for plots::SolverWork {
+    fn from(what: SolverWorkArg) -> Self {
         match what {
-            What::Seconds => Self::Seconds,
-            What::Bytes => Self::Bytes,
-            What::Residuals => Self::Residuals,
-            What::Levels => Self::Levels,
+            SolverWorkArg::Seconds => Self::Seconds,
+            SolverWorkArg::Bytes => Self::Bytes,
+            SolverWorkArg::Residuals => Self::Residuals,
+            SolverWorkArg::Levels => Self::Levels,
         }
     }
 }
 
-/// What steps are drawn over.
+/// The horizontal axis of a plot of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum Over {
+enum SeriesAxisArg {
     /// Their numbers
     #[default]
     Step,
@@ -125,14 +125,14 @@ enum Over {
     Cycles,
 }
 
-impl From<Over> for plots::Over {
-    fn from(over: Over) -> Self {
+impl From<SeriesAxisArg> for plots::SeriesAxis {
+    fn from(over: SeriesAxisArg) -> Self {
         match over {
-            Over::Step => Self::Step,
-            Over::Load => Self::Load,
-            Over::Length => Self::Length,
-            Over::Extension => Self::Extension,
-            Over::Cycles => Self::Cycles,
+            SeriesAxisArg::Step => Self::Step,
+            SeriesAxisArg::Load => Self::Load,
+            SeriesAxisArg::Length => Self::Length,
+            SeriesAxisArg::Extension => Self::Extension,
+            SeriesAxisArg::Cycles => Self::Cycles,
         }
     }
 }
@@ -154,7 +154,7 @@ impl Named {
 
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
-        target::check(&self.output, target::Kind::Picture, self.inputs())?;
+        target::check(&self.output, target::FileKind::Picture, self.inputs())?;
         let [[width, height], [least_width, least_height]] = [self.size, LEAST];
         ensure!(
             width >= least_width && height >= least_height,
@@ -163,7 +163,7 @@ impl Args {
         let datasets = self.datasets()?;
         let mut drawn = self.plot(&datasets)?;
         for axis in &self.log {
-            let axis = if *axis == Axis::X { &mut drawn.x } else { &mut drawn.y };
+            let axis = if *axis == LogAxisArg::X { &mut drawn.x } else { &mut drawn.y };
             *axis = std::mem::take(axis).logarithmic();
         }
         for warning in plots::check(&drawn)? {
@@ -183,7 +183,7 @@ impl Args {
             _ if self.series => plots::series(&named, &self.numbers()?, self.over.into()),
             _ => return self.profiles(&named),
         };
-        plot.map_err(told)
+        plot.map_err(plot_error)
     }
 
     /// The numbers of --series, by default K_I and K_II.
@@ -192,7 +192,7 @@ impl Args {
         if words.is_empty() {
             return Ok(vec![plots::Number::K1, plots::Number::K2]);
         }
-        words.iter().map(|word| word.parse().map_err(told)).collect()
+        words.iter().map(|word| word.parse().map_err(plot_error)).collect()
     }
 
     /// A curve for each quantity of each dataset.
@@ -240,8 +240,8 @@ impl Args {
     }
 }
 
-/// A reason in the program's words.
-fn told(error: PlotError) -> anyhow::Error {
+/// An error in terms of the program's options.
+fn plot_error(error: PlotError) -> anyhow::Error {
     match error {
         PlotError::FewDatasets => anyhow!(
             "--convergence compares three datasets or more, or the steps of one that has three or more"

@@ -1,21 +1,23 @@
 //! Several quantities, or parts of a field, in one figure.
 
 use anyhow::{Context as _, ensure};
-use ppum_figure::figure::{Design, FigureError, Grid, Labels, lacks_legend, panel_area, panels};
-use ppum_render::range::Span;
+use ppum_figure::figure::{
+    Design, FigureError, Labels, PanelGrid, lacks_legend, panel_area, panels,
+};
+use ppum_render::range::ValueSpan;
 
-use super::{Args, Sheet, Still, told};
+use super::{Args, Sheet, Still, deformation_note};
 use crate::given::Given;
-use crate::look::{DEFAULT_SIZE, Look, letters};
-use ppum_scene::drawing::{Drawn, Seen};
+use crate::look::{DEFAULT_SIZE, LookArgs, letters};
+use ppum_scene::drawing::{BodyView, Drawn};
 use ppum_scene::engine::Engine;
-use ppum_scene::moving::Place as _;
+use ppum_scene::moving::FrameView as _;
 use ppum_scene::range::Telling;
 use ppum_scene::shared::Coloring;
-use ppum_scene::shot::{Asked, Input, Shot, Source, tell_legend, title};
+use ppum_scene::shot::{Asked, FieldSource, Input, Shot, tell_legend, title};
 
 /// What a panel shows, and of which plate; several parts of a field are several plates.
-struct Part<'a> {
+struct PanelContent<'a> {
     still: Still<'a>,
     asked: Asked,
 }
@@ -24,7 +26,7 @@ impl Args {
     /// Draws each quantity of each plate in a panel.
     pub(super) fn panels(
         &self,
-        sources: &[Source<'_>],
+        sources: &[FieldSource<'_>],
         engine: &Engine<'_>,
     ) -> anyhow::Result<Sheet> {
         let source = sources[0];
@@ -36,7 +38,7 @@ impl Args {
         let titled = title(source, &still.request)?;
         let grid = self.grid(&titled, &captions, sources)?;
         let size = [grid.columns, grid.rows];
-        let design = self.design(field, Look::page(self.window.aspect(field), size), size);
+        let design = self.design(field, LookArgs::page(self.window.aspect(field), size), size);
         let room = panel_area(&titled, &captions, grid, &design)?;
         let seen = self.placing(still, self.frame(room, &design))?;
         let seen = seen.seen(source, &still.request, engine)?;
@@ -59,24 +61,24 @@ impl Args {
         texts.extend(self.subject.replacements.notes().chain(shots[0].notes()));
         let ([columns, rows], captions) = (page.size, self.subject.replacements.captions());
         let names = [names].into_iter().chain(captions).collect::<Vec<_>>().join(", ");
-        let (moved, by) = (told(&shots[0]), &shots[0].by);
+        let (moved, by) = (deformation_note(&shots[0]), &shots[0].by);
         let colors = self.colors(&Telling::new(dataset, field), &labels, &shots);
         let told = format!("{names}{moved}, {columns}x{rows} pixels, {by}{colors}");
         Ok(Sheet { page, texts, told })
     }
 
     /// What the panels show: all parts of a quantity, then those of the next one.
-    fn parts<'a>(&self, sources: &[Source<'a>]) -> anyhow::Result<Vec<Part<'a>>> {
+    fn parts<'a>(&self, sources: &[FieldSource<'a>]) -> anyhow::Result<Vec<PanelContent<'a>>> {
         let texts = match self.subject.texts()? {
             Some(texts) => texts.into_iter().map(Some).collect(),
             None => vec![None],
         };
-        let part = |text: &Option<Given>, source: Source<'a>| {
+        let part = |text: &Option<Given>, source: FieldSource<'a>| {
             let mut still = Still { source, request: self.request(self.subject.step) };
             still.request.scene.quantity = self.quantity(source.field, text.as_ref())?;
             still.settle()?;
             let asked = Asked::new(&still.request.scene, source.field)?;
-            Ok(Part { still, asked })
+            Ok(PanelContent { still, asked })
         };
         let of = |text| sources.iter().map(move |&source| part(text, source));
         texts.iter().flat_map(of).collect()
@@ -85,8 +87,8 @@ impl Args {
     /// The pictures of all panels, of one range if that is asked for.
     fn shots(
         &self,
-        parts: &[Part<'_>],
-        seen: &Seen<'_>,
+        parts: &[PanelContent<'_>],
+        seen: &BodyView<'_>,
         design: &Design,
         engine: &Engine<'_>,
     ) -> anyhow::Result<Vec<Shot>> {
@@ -100,7 +102,7 @@ impl Args {
         let drawn = drawn.collect::<anyhow::Result<Vec<_>>>()?;
         let colorings = self.colorings(&inputs, &drawn, engine)?;
         let shots = parts.iter().zip(&inputs).zip(drawn.iter().zip(&colorings));
-        let shot = |((part, input), (drawn, coloring)): ((&Part<'_>, &Input<'_>), _)| {
+        let shot = |((part, input), (drawn, coloring)): ((&PanelContent<'_>, &Input<'_>), _)| {
             Ok(input.shot(&part.still.request, drawn, coloring, Some(design), engine)?)
         };
         shots.map(shot).collect()
@@ -108,15 +110,20 @@ impl Args {
 
     /// The arrangement: as given; else a row for each of several quantities of several parts, or
     /// that with the largest pictures.
-    fn grid(&self, title: &str, captions: &[&str], sources: &[Source<'_>]) -> anyhow::Result<Grid> {
+    fn grid(
+        &self,
+        title: &str,
+        captions: &[&str],
+        sources: &[FieldSource<'_>],
+    ) -> anyhow::Result<PanelGrid> {
         let (count, parts, shared_bar) = (captions.len(), sources.len(), self.shared_range);
         let of = |columns: usize| {
             let size = [columns as u32, count.div_ceil(columns) as u32];
-            Grid { shared_bar, ..Grid::new(size) }
+            PanelGrid { shared_bar, ..PanelGrid::new(size) }
         };
         if let Some([columns, rows]) = self.layout {
             ensure!(columns.min(rows) > 0, "--layout: give at least 1x1 panels");
-            let grid = Grid { shared_bar, ..Grid::new([columns, rows]) };
+            let grid = PanelGrid { shared_bar, ..PanelGrid::new([columns, rows]) };
             ensure!(
                 count <= grid.cells(),
                 "--layout {columns}x{rows} has fewer panels than there are pictures, {count}"
@@ -128,7 +135,7 @@ impl Args {
         }
         let field = sources[0].field;
         let aspect = self.window.aspect(field);
-        let width = |grid: Grid| {
+        let width = |grid: PanelGrid| {
             let design = self.design(field, DEFAULT_SIZE, [grid.columns, grid.rows]);
             let [width, height] = panel_area(title, captions, grid, &design)?.map(f64::from);
             Ok::<_, FigureError>(width.min(height * aspect.unwrap_or(SHAPE)))
@@ -140,10 +147,10 @@ impl Args {
 
     /// The words of the panels, `(a) σ_yy` above the first; where one bar is for all it names what
     /// they share.
-    fn labels(&self, all: &[Part<'_>], parts: usize) -> anyhow::Result<Vec<Labels>> {
+    fn labels(&self, all: &[PanelContent<'_>], parts: usize) -> anyhow::Result<Vec<Labels>> {
         let captions = self.subject.replacements.captions();
         let is_one = all.len() == parts;
-        let of = |(number, part): (usize, &Part<'_>)| {
+        let of = |(number, part): (usize, &PanelContent<'_>)| {
             let [name, _] = part.asked.shown.words(part.still.source.field);
             let mut labels = part.still.source.labels(&part.asked.shown, &part.still.request)?;
             if self.shared_range && !is_one && self.look.texts().bar.is_none() {
@@ -190,7 +197,8 @@ impl Args {
         let style = colors.style_of(all.clone().map(|(i, drawn)| (i.shown, &drawn.values)), map);
         let spans = all.map(|(input, drawn)| input.span(drawn, &style, engine));
         let spans = spans.collect::<Result<Vec<_>, _>>()?;
-        let span = Span::shared(&spans, style.colormap.diverging).context("there is a range")?;
+        let span =
+            ValueSpan::shared(&spans, style.colormap.diverging).context("there is a range")?;
         Ok(vec![Coloring { style, span, ends: None }; inputs.len()])
     }
 }

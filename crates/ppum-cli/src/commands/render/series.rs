@@ -20,13 +20,13 @@ use crate::standard::is_standard;
 use crate::target;
 use ppum_scene::deformed::{Factor, words};
 use ppum_scene::engine::Engine;
-use ppum_scene::moving::{Film, Form, Frames, Work};
+use ppum_scene::moving::{AnimationFormat, Film, Frames, Work};
 use ppum_scene::notice::Notice;
-use ppum_scene::shot::{Shot, Source};
+use ppum_scene::shot::{FieldSource, Shot};
 
 /// The options of series.
 #[derive(Debug, clap::Args)]
-pub(super) struct Series {
+pub(super) struct SeriesArgs {
     /// Steps to draw, with one range for all: all, A..B with both ends, A..B:STRIDE, or a list of
     /// these; as numbered pictures, or as GIF or APNG
     #[arg(long, value_name = "all|A..B|A,B,…", conflicts_with = "step")]
@@ -36,7 +36,7 @@ pub(super) struct Series {
     fps: Option<f64>,
 }
 
-impl Series {
+impl SeriesArgs {
     pub(super) fn is_given(&self) -> bool {
         self.steps.is_some()
     }
@@ -66,11 +66,11 @@ fn rate(text: &str) -> Result<f64, String> {
 
 /// Steps as they are asked for.
 #[derive(Clone, Debug, PartialEq)]
-struct Steps(Vec<Part>);
+struct Steps(Vec<StepRange>);
 
 /// `all`, `A`, `A..B`, `A..`, `..B`, `A..B:STRIDE`.
 #[derive(Clone, Debug, PartialEq)]
-struct Part {
+struct StepRange {
     from: usize,
     /// The last one if there is none.
     to: Option<usize>,
@@ -85,7 +85,7 @@ impl FromStr for Steps {
     }
 }
 
-impl FromStr for Part {
+impl FromStr for StepRange {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -118,7 +118,7 @@ impl Steps {
     fn of(&self, all: usize) -> anyhow::Result<Vec<usize>> {
         let last = all.saturating_sub(1);
         let mut found = Vec::new();
-        for Part { from, to, stride } in &self.0 {
+        for StepRange { from, to, stride } in &self.0 {
             let wanted: RangeInclusive<usize> = *from..=to.unwrap_or(last.max(*from));
             ensure!(
                 *wanted.end() < all,
@@ -145,11 +145,11 @@ pub(super) fn refuse_moving(path: &Path) -> anyhow::Result<()> {
 }
 
 /// The form of an animation that a name ends in; none for pictures.
-fn form(path: &Path) -> Option<Form> {
+fn form(path: &Path) -> Option<AnimationFormat> {
     let ends_in = |wanted: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
     match () {
-        () if ends_in("gif") => Some(Form::Gif),
-        () if ends_in("apng") => Some(Form::Apng),
+        () if ends_in("gif") => Some(AnimationFormat::Gif),
+        () if ends_in("apng") => Some(AnimationFormat::Apng),
         () => None,
     }
 }
@@ -176,7 +176,7 @@ impl Args {
         let steps =
             self.series.steps.as_ref().map_or(Ok(Vec::new()), |steps| steps.of(all.len()))?;
         self.check_files(&steps, all.len())?;
-        let bars = progress::Series::new(steps.len());
+        let bars = progress::NestedBars::new(steps.len());
         let quantity = self.subject.texts()?.map(|mut texts| texts.swap_remove(0));
         let mut reel = Reel { args: self, all, steps, quantity, factor: None, bars };
         reel.factor = self.deformed.factor.map(|factor| reel.factor(factor)).transpose()?;
@@ -189,10 +189,11 @@ impl Args {
     fn check_files(&self, steps: &[usize], all: usize) -> anyhow::Result<()> {
         let path = &self.output;
         if form(path).is_some() {
-            return target::check(path, target::Kind::Animation, self.inputs());
+            return target::check(path, target::FileKind::Animation, self.inputs());
         }
-        let check =
-            |&step| target::check(&numbered(path, step, all), target::Kind::Picture, self.inputs());
+        let check = |&step| {
+            target::check(&numbered(path, step, all), target::FileKind::Picture, self.inputs())
+        };
         steps.iter().try_for_each(check)
     }
 
@@ -206,7 +207,7 @@ impl Args {
         let path = &self.output;
         let Some(form) = form(path) else {
             let (files, size) = self.pictures(reel, film, engine)?;
-            return Ok(format!("{files}{}", reel.told(film, size)));
+            return Ok(format!("{files}{}", reel.summary(film, size)));
         };
         let texts = |first: &Shot| self.texts_of_all(reel, film, first);
         let time = self.series.time();
@@ -216,7 +217,7 @@ impl Args {
             Ok(())
         })?;
         let rate = trimmed(self.series.rate());
-        Ok(format!("{}: {rate} a second, {}", path.display(), reel.told(film, size)))
+        Ok(format!("{}: {rate} a second, {}", path.display(), reel.summary(film, size)))
     }
 
     /// Writes a picture of each step, and returns their names and their size.
@@ -227,7 +228,7 @@ impl Args {
         engine: &Engine<'_>,
     ) -> anyhow::Result<(String, [u32; 2])> {
         let path = |part: usize| numbered(&self.output, reel.steps[part], reel.all.len());
-        let form = ppum_figure::form::Form::of(&self.output);
+        let form = ppum_figure::form::PageFormat::of(&self.output);
         let mut size = [0; 2];
         for part in 0..reel.steps.len() {
             let (page, shot) = film.page(part)?;
@@ -265,7 +266,7 @@ struct Reel<'a> {
     quantity: Option<Given>,
     /// The factor of deformed plates, once it is known.
     factor: Option<f64>,
-    bars: progress::Series,
+    bars: progress::NestedBars,
 }
 
 impl Frames for Reel<'_> {
@@ -285,13 +286,13 @@ impl Frames for Reel<'_> {
         let mut request = args.request(Some(step));
         request.scene.quantity = args.quantity(&field, self.quantity.as_ref())?;
         request.scene.deformed = self.factor.map(Factor::Given).or(request.scene.deformed);
-        work(Source::of(&dataset, &field), &request)
+        work(FieldSource::of(&dataset, &field), &request)
     }
 }
 
 impl Reel<'_> {
-    /// What is told of all steps.
-    fn told(&self, film: &Film<'_, Reel<'_>>, [columns, rows]: [u32; 2]) -> String {
+    /// The summary of all steps that is printed.
+    fn summary(&self, film: &Film<'_, Reel<'_>>, [columns, rows]: [u32; 2]) -> String {
         let moved = self.factor.map_or_else(String::new, |factor| format!(", {}", words(factor)));
         let (name, by) = (&film.name, &film.by);
         let steps = count(self.steps.len(), "step", "steps");

@@ -111,9 +111,9 @@ pub(super) fn run(
     let first = last.map_or(0, |last| last.number + 1);
     let writer = last.is_some().then(|| SeriesWriter::resume(target)).transpose()?;
     let (lines, told) = channel();
-    let run = Run { rule, target, start: Instant::now(), bar: Bar::new(), first, lines };
+    let run = GrowthRun { rule, target, start: Instant::now(), bar: Bar::new(), first, lines };
     let grown = Grown { first, steps: Vec::new(), stop: None };
-    let mut state = State { writer, grown, last: None, warnings: Vec::new() };
+    let mut state = GrowthState { writer, grown, last: None, warnings: Vec::new() };
     thread::scope(|scope| {
         let state = &mut state;
         let solved = scope.spawn(move || {
@@ -157,7 +157,7 @@ fn ends(rule: &GrowthRule, number: usize, step: &Step) -> Option<String> {
 }
 
 /// One run of the program.
-struct Run<'a> {
+struct GrowthRun<'a> {
     rule: &'a GrowthRule,
     target: &'a Path,
     start: Instant,
@@ -168,8 +168,8 @@ struct Run<'a> {
     lines: Sender<String>,
 }
 
-/// What it has so far.
-struct State {
+/// The results of a run so far.
+struct GrowthState {
     writer: Option<SeriesWriter>,
     grown: Grown,
     last: Option<Dataset>,
@@ -177,9 +177,9 @@ struct State {
     warnings: Vec<facts::Warning>,
 }
 
-impl Run<'_> {
+impl GrowthRun<'_> {
     /// Writes a step, and tells of it.
-    fn keep(&self, state: &mut State, dataset: Dataset) -> anyhow::Result<()> {
+    fn keep(&self, state: &mut GrowthState, dataset: Dataset) -> anyhow::Result<()> {
         match &mut state.writer {
             None => state.writer = Some(SeriesWriter::begin(self.target, &dataset)?),
             Some(writer) => writer.append(&dataset.steps[0])?,
@@ -256,7 +256,7 @@ fn line(step: &Step, row: &Advance) -> String {
 fn report(
     args: &Args,
     target: &Path,
-    State { grown, last, warnings, .. }: State,
+    GrowthState { grown, last, warnings, .. }: GrowthState,
     out: &mut Output,
 ) -> anyhow::Result<()> {
     let last = last.context("a series without a step")?;

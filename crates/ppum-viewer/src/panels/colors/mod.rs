@@ -29,7 +29,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     scale(ui, colors);
     range::show(ui, pane, stage);
     beyond(ui, &mut pane.scene.colors);
-    told(ui, stage);
+    colors_note(ui, stage);
     failure(ui, stage, Fault::Colors);
 }
 
@@ -89,7 +89,7 @@ fn beyond(ui: &mut Ui, colors: &mut Colors) {
 }
 
 /// What the colours mean, and between which values all others lie.
-fn told(ui: &mut Ui, stage: &mut Stage) {
+fn colors_note(ui: &mut Ui, stage: &mut Stage) {
     let Some(frame) = stage.frames.newest() else { return };
     let Controls { colors_told, facts, .. } = &mut stage.controls;
     let is_told = |(of, _): &(Weak<Frame>, _)| of.as_ptr() == Arc::as_ptr(frame);

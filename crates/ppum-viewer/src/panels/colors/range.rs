@@ -116,7 +116,7 @@ fn whole(ui: &mut Ui, pane: &Pane, stage: &mut Stage) {
     let controls = &mut stage.controls;
     if let Some(whole) = &controls.whole {
         ui.spinner();
-        if ui.button("stop").on_hover_text(whole.told()).clicked() {
+        if ui.button("stop").on_hover_text(whole.progress_text()).clicked() {
             controls.whole = None;
         }
         return;

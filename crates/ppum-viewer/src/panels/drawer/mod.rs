@@ -10,7 +10,7 @@ use egui::{Panel, Ui};
 
 use crate::actions::Action;
 use crate::desk::Desk;
-use crate::session::Page;
+use crate::session::DrawerPage;
 use crate::widgets::button;
 
 /// Shows the names of all pages, and the open one below them.
@@ -35,11 +35,11 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         ui.allocate_ui(room, |ui| {
             ui.set_min_size(room);
             match page {
-                Page::Plot => plot::show(ui, desk),
-                Page::Tips => tips::show(ui, desk),
-                Page::Series => series::show(ui, desk),
-                Page::Solver => solver::show(ui, desk),
-                Page::Problem => problem::show(ui, desk),
+                DrawerPage::Plot => plot::show(ui, desk),
+                DrawerPage::Tips => tips::show(ui, desk),
+                DrawerPage::Series => series::show(ui, desk),
+                DrawerPage::Solver => solver::show(ui, desk),
+                DrawerPage::Problem => problem::show(ui, desk),
             }
         });
     });
@@ -47,7 +47,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
 
 /// The names of the pages; a click opens one, or closes it.
 fn tabs(ui: &mut Ui, desk: &mut Desk<'_>) {
-    for page in Page::ALL {
+    for page in DrawerPage::ALL {
         let is_open = desk.session.drawer == Some(page);
         if ui.selectable_label(is_open, name(page)).clicked() {
             desk.actions.push(Action::Drawer(page));
@@ -57,12 +57,12 @@ fn tabs(ui: &mut Ui, desk: &mut Desk<'_>) {
 
 /// The name of a page.
 #[must_use]
-pub fn name(page: Page) -> &'static str {
+pub fn name(page: DrawerPage) -> &'static str {
     match page {
-        Page::Plot => "Plot",
-        Page::Tips => "Tips and K",
-        Page::Series => "Series",
-        Page::Solver => "Solver",
-        Page::Problem => "Problem",
+        DrawerPage::Plot => "Plot",
+        DrawerPage::Tips => "Tips and K",
+        DrawerPage::Series => "Series",
+        DrawerPage::Solver => "Solver",
+        DrawerPage::Problem => "Problem",
     }
 }

@@ -9,7 +9,7 @@ use ppum_figure::plot::{Area, LEAST, Plot, plot};
 use ppum_scene::profile::Along;
 
 use crate::desk::Desk;
-use crate::reading::plotted::{Asked, Values};
+use crate::reading::plotted::{Asked, CurveValues};
 use crate::reading::tool::Tool;
 use crate::session::Pane;
 use crate::shapes::{self, Placed};
@@ -64,7 +64,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
 }
 
 /// Buttons for the files of a plot.
-fn save(ui: &mut Ui, stage: &mut Stage, values: &Values, drawn: &Plot) {
+fn save(ui: &mut Ui, stage: &mut Stage, values: &CurveValues, drawn: &Plot) {
     let page = || plot(drawn, PAGE);
     let files: [(&str, &dyn Fn() -> Vec<u8>); 4] = [
         ("csv", &|| values.table.csv().into_bytes()),
@@ -154,7 +154,7 @@ fn numbers(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
         }
         Along::Crack { .. } => return,
     };
-    let texts: Vec<String> = values.iter().map(|v| told(*v)).collect();
+    let texts: Vec<String> = values.iter().map(|v| number_text(*v)).collect();
     if let Along::Line { anchor, .. } = along
         && anchor != [0.0; 2]
     {
@@ -176,7 +176,7 @@ fn numbers(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
 /// Digits of numbers that are edited: with one more 0.1 + 0.2 would not be 0.3.
 const DIGITS: usize = 15;
 
-fn told(value: f64) -> String {
+fn number_text(value: f64) -> String {
     ppum::text::trimmed_to(value, DIGITS)
 }
 
@@ -185,7 +185,7 @@ fn told(value: f64) -> String {
 fn with_numbers(along: Along, text: &str, before: &[f64]) -> Option<Along> {
     let read = |(k, part): (usize, &str)| {
         let part = part.trim().replace('−', "-");
-        let same = before.get(k).filter(|value| told(**value) == part);
+        let same = before.get(k).filter(|value| number_text(**value) == part);
         same.map_or_else(|| part.parse(), |value| Ok(*value))
     };
     let parsed: Result<Vec<f64>, _> = text.split(',').enumerate().map(read).collect();
@@ -255,7 +255,7 @@ fn write(ui: &mut Ui, stage: &mut Stage, files: &[(&str, &dyn Fn() -> Vec<u8>)])
 }
 
 /// The plot; the pointer in it marks the point on the plate and reads the values there.
-fn graph(ui: &mut Ui, pane: &Pane, stage: &mut Stage, values: &Values, drawn: &Plot) {
+fn graph(ui: &mut Ui, pane: &Pane, stage: &mut Stage, values: &CurveValues, drawn: &Plot) {
     let room = ui.available_size().max(vec2(LEAST[0] as f32, LEAST[1] as f32) * SMALLER);
     let (rect, response) = ui.allocate_exact_size(room, Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Plotted curves"));

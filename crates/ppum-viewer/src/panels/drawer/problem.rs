@@ -8,11 +8,11 @@ use ppum::text::trimmed;
 
 use crate::actions::Action;
 use crate::desk::Desk;
-use crate::session::Draft;
+use crate::session::ProblemDraft;
 use crate::shapes;
-use crate::solving::marks::Look;
+use crate::solving::marks::HighlightStyle;
 use crate::solving::preview::Preview;
-use crate::solving::{Mark, Outcome, PHASES, Running, Solving};
+use crate::solving::{Mark, PHASES, Running, SolutionOutcome, Solving};
 use crate::widgets::button;
 
 /// Longest text that is written in a window: every picture lays all of it out.
@@ -41,7 +41,9 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         ui.allocate_ui(vec2(width, height), |ui| editor(ui, &mut draft, desk.solving));
         ui.vertical(|ui| {
             ui.set_width(beside);
-            ScrollArea::vertical().id_salt("told").show(ui, |ui| told(ui, &mut draft, desk));
+            ScrollArea::vertical()
+                .id_salt("told")
+                .show(ui, |ui| solution_panel(ui, &mut draft, desk));
         });
     };
     if is_wide {
@@ -60,18 +62,18 @@ fn take_from_dataset(desk: &mut Desk<'_>) {
         && let Some(text) = dataset.problem.clone()
     {
         desk.solving.begin(Some(text.clone()), Some(dataset));
-        desk.session.draft = Some(Draft { text, ..Draft::default() });
+        desk.session.draft = Some(ProblemDraft { text, ..ProblemDraft::default() });
     }
 }
 
 /// The text with the numbers of its lines.
-fn editor(ui: &mut Ui, draft: &mut Draft, solving: &mut Solving) {
+fn editor(ui: &mut Ui, draft: &mut ProblemDraft, solving: &mut Solving) {
     if draft.text.len() > MAX_LENGTH {
         ui.label("This text is too long to be written here. Its file is watched: save it elsewhere, and it is read again.");
         return;
     }
     let font = TextStyle::Monospace.resolve(ui.style());
-    let look = Look::new(ui.visuals(), font.clone());
+    let look = HighlightStyle::new(ui.visuals(), font.clone());
     let checked = solving.checked().cloned();
     // marks of another text would stand in wrong places, unless their lines are still the same
     let marks: Vec<Mark> = match &checked {
@@ -148,8 +150,8 @@ fn still_there(before: &str, now: &str, marks: &[Mark]) -> Vec<Mark> {
     marks.iter().filter(is_same).cloned().collect()
 }
 
-/// What can be done with the text, and what is known of it and its solution.
-fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
+/// Buttons for the text, and the state of its solution.
+fn solution_panel(ui: &mut Ui, draft: &mut ProblemDraft, desk: &mut Desk<'_>) {
     buttons(ui, draft, desk);
     if desk.solving.before.is_some() && ui.button("Back to the text before").clicked() {
         let before = desk.solving.before.take();
@@ -163,26 +165,26 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
     if let Some(checked) = &checked {
         mistakes(ui, &checked.marks, desk.solving);
     }
-    let is_solved = matches!(desk.solving.outcome, Some(Outcome::Solved(..)));
+    let is_solved = matches!(desk.solving.outcome, Some(SolutionOutcome::Solved(..)));
     let opened = &desk.active().1.opened;
     let (can_save, opened) = (opened.is_some(), opened.as_ref());
     let is_unsaved = opened.is_some_and(|opened| opened.path.is_none());
     let opened_text = opened.and_then(|opened| opened.dataset.problem.clone());
     match &desk.solving.outcome {
         None => {}
-        Some(Outcome::Cancelled(0)) => {
+        Some(SolutionOutcome::Cancelled(0)) => {
             ui.label("Cancelled. What was there before is still shown.");
         }
-        Some(Outcome::Cancelled(steps)) => {
+        Some(SolutionOutcome::Cancelled(steps)) => {
             ui.horizontal_wrapped(|ui| {
                 ui.label(format!("Cancelled. The {steps} steps before are shown."));
                 save(ui, can_save, desk.actions);
             });
         }
-        Some(Outcome::Failed(error)) => {
+        Some(SolutionOutcome::Failed(error)) => {
             ui.colored_label(ui.visuals().error_fg_color, error);
         }
-        Some(Outcome::Solved(seconds, warnings)) => {
+        Some(SolutionOutcome::Solved(seconds, warnings)) => {
             ui.horizontal_wrapped(|ui| {
                 ui.label(format!("Solved in {} s.", trimmed((10.0 * seconds).round() / 10.0)));
                 save(ui, can_save, desk.actions);
@@ -207,7 +209,7 @@ fn told(ui: &mut Ui, draft: &mut Draft, desk: &mut Desk<'_>) {
 }
 
 /// True if a dataset holds the text of a problem that is not the one that is written.
-fn is_of_another_text(draft: &Draft, solved: Option<String>) -> bool {
+fn is_of_another_text(draft: &ProblemDraft, solved: Option<String>) -> bool {
     solved.is_some_and(|text| text != draft.text)
 }
 
@@ -229,7 +231,7 @@ fn save(ui: &mut Ui, can_save: bool, actions: &mut Vec<Action>) {
     }
 }
 
-fn buttons(ui: &mut Ui, draft: &Draft, desk: &mut Desk<'_>) {
+fn buttons(ui: &mut Ui, draft: &ProblemDraft, desk: &mut Desk<'_>) {
     ui.horizontal_wrapped(|ui| {
         let is_running = desk.solving.running().is_some();
         let solve = ui.add_enabled(!is_running, egui::Button::new("Solve"));
@@ -262,7 +264,7 @@ fn buttons(ui: &mut Ui, draft: &Draft, desk: &mut Desk<'_>) {
 
 /// How far the solution has come.
 fn progress(ui: &mut Ui, running: &Running) {
-    let told = running.told();
+    let told = running.progress_report();
     if let Some(estimate) = &told.estimate {
         ui.weak(estimate);
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::{ScrollArea, Ui, vec2};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, TipIntensity};
-use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
+use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve};
 
 use crate::desk::Desk;
 use crate::widgets::chart::chart;
@@ -82,7 +82,7 @@ fn plot(label: &str, values: Values) -> Plot {
     let is_one = values.len() == 1;
     let curve = |(name, points): (String, Vec<[f64; 2]>)| {
         let name = if is_one { String::new() } else { name };
-        Curve::new(name, points).with_look(Look::Dotted)
+        PlotCurve::new(name, points).with_look(CurveStyle::Dotted)
     };
     let curves = values.into_iter().map(curve).collect();
     let (x, y) = (PlotAxis::new("step", ""), PlotAxis::new(label, ""));

@@ -5,13 +5,13 @@ use egui::{Grid, ScrollArea, Ui, vec2};
 use ppum::dataset::{Dataset, Record, Step, Warning};
 use ppum::quantity::Quantity;
 use ppum::text::trimmed;
-use ppum_figure::plot::{Curve, Look, Plot, PlotAxis};
+use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve};
 use ppum_render::cells;
 use ppum_scene::scene::OF_PATCHES;
 use ppum_solve::report::LinearKind;
 
 use crate::desk::Desk;
-use crate::session::Place;
+use crate::session::VisibleRegion;
 use crate::widgets::chart::chart;
 use crate::widgets::{elided, note};
 
@@ -112,7 +112,7 @@ pub fn plots(dataset: &Dataset, step: &Step) -> Vec<(&'static str, Plot)> {
         let names = times.iter().map(|record| record.name.clone()).collect();
         let bars = times.iter().enumerate().map(|(k, record)| [k as f64, record.value]).collect();
         let x = PlotAxis { names, ..PlotAxis::new("phase", "") };
-        let curves = vec![Curve::new("", bars).with_look(Look::Bars)];
+        let curves = vec![PlotCurve::new("", bars).with_look(CurveStyle::Bars)];
         let y = PlotAxis::new("time", "s");
         plots.push(("Seconds of the phases", Plot { title: String::new(), x, y, curves }));
     }
@@ -123,7 +123,7 @@ pub fn plots(dataset: &Dataset, step: &Step) -> Vec<(&'static str, Plot)> {
         if points.len() > 1 {
             let y = PlotAxis::new(name, "");
             let y = if name == "residual" { y.logarithmic() } else { y };
-            let curves = vec![Curve::new("", points).with_look(Look::Dotted)];
+            let curves = vec![PlotCurve::new("", points).with_look(CurveStyle::Dotted)];
             plots.push((
                 title,
                 Plot { title: String::new(), x: PlotAxis::new("step", ""), y, curves },
@@ -164,5 +164,5 @@ fn fly(desk: &mut Desk<'_>, dataset: &Dataset, warning: &Warning) {
     let Some(at) = warning.at else { return };
     let size = dataset.domain.bounds.size();
     let (pane, stage) = desk.active();
-    stage.fly_to(pane, Some(Place { center: at.into(), width: 0.2 * size.x.max(size.y) }));
+    stage.fly_to(pane, Some(VisibleRegion { center: at.into(), width: 0.2 * size.x.max(size.y) }));
 }

@@ -83,7 +83,8 @@ fn percentiles_and_full_ranges_are_those_of_the_view() {
     click(&mut window, "percentiles");
     assert_eq!(scene(&window).colors.range, Range::Percentiles(2.0, 98.0));
     let [min, max] = bounds(&window);
-    let ppum_scene::drawing::Values::Double(raster) = frame(&window).drawn.values.clone() else {
+    let ppum_scene::drawing::RasterValues::Double(raster) = frame(&window).drawn.values.clone()
+    else {
         panic!("pictures are of double precision")
     };
     let mut values: Vec<f64> = raster.values.into_iter().filter(|v| v.is_finite()).collect();

@@ -5,7 +5,7 @@ use egui_kittest::kittest::Queryable;
 use ppum_render::resample::norms::norms;
 use ppum_render::resample::{Grid, Interpolation};
 use ppum_scene::compare::Compare;
-use ppum_scene::drawing::Values;
+use ppum_scene::drawing::RasterValues;
 
 use super::{click, frame, plate_window};
 use crate::kit::settle;
@@ -32,7 +32,7 @@ fn c_compares_and_the_panel_says_how_far_it_is() {
     let grid = Grid::over_domain(field, [32, 32]).expect("a grid");
     let quantity = frame.shown.quantity().expect("a quantity");
     let samples = grid.sample(field, quantity, ppum::progress::unwatched()).expect("samples");
-    let Values::Double(direct) = &frame.drawn.values else { panic!("of double precision") };
+    let RasterValues::Double(direct) = &frame.drawn.values else { panic!("of double precision") };
     let found = norms(direct, &samples.raster(Interpolation::Bicubic, &frame.drawn.view));
     assert_eq!(found, other.norms);
     let text = format!("{} %", ppum::text::trimmed_to(100.0 * found.relative()[1], 3));

@@ -2,15 +2,15 @@
 
 use egui_kittest::kittest::{NodeT, Queryable};
 use ppum::vec2::vec2;
-use ppum_scene::drawing::Values;
+use ppum_scene::drawing::RasterValues;
 
 use super::{Window, click, frame, open, plate_window, scene, write};
 use crate::kit::settle;
 
 fn values(window: &Window) -> Vec<f64> {
     match &frame(window).drawn.values {
-        Values::Double(raster) => raster.values.clone(),
-        Values::Single(raster) => raster.values.iter().map(|v| f64::from(*v)).collect(),
+        RasterValues::Double(raster) => raster.values.clone(),
+        RasterValues::Single(raster) => raster.values.iter().map(|v| f64::from(*v)).collect(),
     }
 }
 

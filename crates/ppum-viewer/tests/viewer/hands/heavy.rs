@@ -10,7 +10,7 @@ use ppum_scene::overlays::{Levels, Overlay};
 use ppum_testkit::costly;
 use ppum_testkit::synthetic::Recipe;
 use ppum_viewer::actions::Action;
-use ppum_viewer::session::Page;
+use ppum_viewer::session::DrawerPage;
 
 use super::eyes::{Eyes, Watch};
 use crate::lab::Lab;
@@ -69,14 +69,14 @@ impl Looked {
 fn tour(looked: &mut Looked) {
     looked.settle();
     looked.send("hover", (0..12).map(|k| Event::PointerMoved(pos2(60.0 + 70.0 * k as f32, 420.0))));
-    for page in Page::ALL {
+    for page in DrawerPage::ALL {
         looked.act(Action::Drawer(page));
     }
     looked.send(
         "hover a page",
         (0..4).map(|k| Event::PointerMoved(pos2(100.0 + 200.0 * k as f32, 700.0))),
     );
-    looked.act(Action::Drawer(Page::Problem));
+    looked.act(Action::Drawer(DrawerPage::Problem));
     looked.act(Action::Quantity);
     looked.send("search", [Event::Text("s".into()), Event::Text("x".into())]);
     let key = |key, pressed| Event::Key {
@@ -113,7 +113,7 @@ fn tour(looked: &mut Looked) {
         (0..4).map(|k| Event::PointerMoved(pos2(60.0 + 200.0 * k as f32, 300.0))),
     );
     looked.act(Action::Split);
-    looked.act(Action::Save(ppum_viewer::export::What::Figure));
+    looked.act(Action::Save(ppum_viewer::export::ExportChoice::Figure));
 }
 
 /// Processor time of the window's own thread for one picture of it, at most, whatever is in a file.
