@@ -8,6 +8,7 @@ use ppum::real::Scalar;
 use rayon::prelude::*;
 
 use crate::error::RenderError;
+use crate::scatter::Strips;
 use crate::summation::Summation;
 use crate::view::View;
 
@@ -42,7 +43,7 @@ pub trait Sample: Scalar + Into<f64> {
         view: &View,
         quantity: &Quantity,
         summation: Summation,
-        rows: u32,
+        strips: Strips,
         watcher: &dyn Watcher,
         take: &mut dyn FnMut(Vec<Self>),
     ) -> Result<(), RenderError>;

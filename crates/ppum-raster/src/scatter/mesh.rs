@@ -7,6 +7,7 @@ use ppum::quantity::Quantity;
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
+use super::Strips;
 use super::collapse::ROWS;
 use crate::error::RenderError;
 use crate::parts::Parts;
@@ -21,21 +22,20 @@ pub(super) fn render_strips(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
-    rows: u32,
+    strips: &Strips,
     watcher: &dyn Watcher,
     take: &mut dyn FnMut(Vec<f64>),
 ) -> Result<(), RenderError> {
-    let [columns, all] = view.pixels.map(|n| n as usize);
-    let count = (rows as usize).div_ceil(ROWS).max(1) * ROWS;
-    let parts = Parts::start(watcher, all.div_ceil(ROWS))?;
+    let columns = view.pixels[0] as usize;
+    let parts = Parts::start(watcher, strips.bands())?;
     let seen = field.at(view.center);
-    for first in (0..all).step_by(count) {
-        let mut values = vec![f64::NAN; columns * count.min(all - first)];
+    for rows in strips.each() {
+        let mut values = vec![f64::NAN; columns * rows.len()];
         let bands = values.par_chunks_mut(columns * ROWS).enumerate();
         bands.try_for_each_init(
             || seen.clone(),
             |local, (band, pixels)| {
-                draw_band(local, (view, quantity), first + band * ROWS, pixels);
+                draw_band(local, (view, quantity), rows.start + band * ROWS, pixels);
                 parts.finish_one()
             },
         )?;

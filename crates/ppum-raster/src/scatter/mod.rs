@@ -96,9 +96,32 @@ pub fn render_with<T: Sample>(
     watcher: &dyn Watcher,
 ) -> Result<Raster<T>, RenderError> {
     let mut values = Vec::new();
-    let all = view.pixels[1].max(1);
-    T::render_strips(field, view, quantity, summation, all, watcher, &mut |v| values = v)?;
+    let strips = Strips::whole(view, view.pixels[1]);
+    T::render_strips(field, view, quantity, summation, strips, watcher, &mut |v| values = v)?;
     Ok(Raster::new(view.pixels, values))
+}
+
+/// The values of [`render`] at some rows, to the last bit, for callers that share the rows of a
+/// view among processes.
+///
+/// # Errors
+/// Those of [`render`].
+///
+/// # Panics
+/// If the first row is no multiple of [`BAND`], or the view does not have the last one.
+pub fn render_rows<T: Sample>(
+    field: &Field<'_>,
+    view: &View,
+    quantity: &Quantity,
+    rows: Range<u32>,
+    watcher: &dyn Watcher,
+) -> Result<Vec<T>, RenderError> {
+    let is_whole = rows.start.is_multiple_of(BAND) && rows.end <= view.pixels[1];
+    assert!(is_whole, "rows {rows:?} do not begin at a band, or are not in the view");
+    let (mut values, height) = (Vec::new(), rows.len() as u32);
+    let (strips, summation) = (Strips { rows, height }, Summation::Automatic);
+    T::render_strips(field, view, quantity, summation, strips, watcher, &mut |v| values = v)?;
+    Ok(values)
 }
 
 /// The values of [`render`], to the last bit, a strip at a time, for views of more pixels than are
@@ -115,7 +138,39 @@ pub fn render_strips<T: Sample>(
     watcher: &dyn Watcher,
     take: &mut dyn FnMut(Vec<T>),
 ) -> Result<(), RenderError> {
-    T::render_strips(field, view, quantity, Summation::Automatic, rows, watcher, take)
+    let strips = Strips::whole(view, rows);
+    T::render_strips(field, view, quantity, Summation::Automatic, strips, watcher, take)
+}
+
+/// Rows of a band: what one thread evaluates at a time.
+pub const BAND: u32 = ROWS as u32;
+
+/// The rows that are evaluated, and how many of them at a time.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Strips {
+    /// The rows; the first is a multiple of [`BAND`].
+    rows: Range<u32>,
+    /// Rows of a strip, rounded up to whole bands.
+    height: u32,
+}
+
+impl Strips {
+    /// All rows of a view.
+    fn whole(view: &View, height: u32) -> Self {
+        Self { rows: 0..view.pixels[1], height }
+    }
+
+    /// The strips, each a range of rows.
+    fn each(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let (first, end) = (self.rows.start as usize, self.rows.end as usize);
+        let height = (self.height as usize).div_ceil(ROWS).max(1) * ROWS;
+        (first..end).step_by(height).map(move |row| row..end.min(row + height))
+    }
+
+    /// The number of bands.
+    fn bands(&self) -> usize {
+        self.rows.len().div_ceil(ROWS)
+    }
 }
 
 macro_rules! sample {
@@ -141,7 +196,7 @@ macro_rules! sample {
                 view: &View,
                 quantity: &Quantity,
                 summation: Summation,
-                rows: u32,
+                strips: Strips,
                 watcher: &dyn Watcher,
                 take: &mut dyn FnMut(Vec<Self>),
             ) -> Result<(), RenderError> {
@@ -150,21 +205,20 @@ macro_rules! sample {
                     let take = &mut |wide: Vec<f64>| {
                         take(wide.into_iter().map(<$t>::from_f64).collect());
                     };
-                    return mesh::render_strips(field, view, quantity, rows, watcher, take);
+                    return mesh::render_strips(field, view, quantity, &strips, watcher, take);
                 }
                 if !resolves::<$t>(view.pixel_size()) {
                     let mut narrowed =
                         |wide: Vec<f64>| take(wide.into_iter().map(<$t>::from_f64).collect());
                     let take = &mut narrowed;
                     return f64::render_strips(
-                        field, view, quantity, summation, rows, watcher, take,
+                        field, view, quantity, summation, strips, watcher, take,
                     );
                 }
                 let scene = PreparedView::<$t>::new(field, view, quantity, summation);
-                let bands = (rows as usize).div_ceil(ROWS).max(1);
                 match quantity.source() {
-                    Source::Gradient => scene.draw::<1>(bands, watcher, take)?,
-                    _ => scene.draw::<0>(bands, watcher, take)?,
+                    Source::Gradient => scene.draw::<1>(&strips, watcher, take)?,
+                    _ => scene.draw::<0>(&strips, watcher, take)?,
                 }
                 Ok(())
             }
@@ -235,22 +289,21 @@ impl<'f, T: Sample> PreparedView<'f, T> {
         }
     }
 
-    /// Draws with `D` derivatives, some bands at a time, whose rows `take` is given in order; bands
-    /// of rows in parallel.
+    /// Draws with `D` derivatives, a strip at a time, whose rows `take` is given in order; bands of
+    /// rows in parallel.
     fn draw<const D: usize>(
         &self,
-        bands: usize,
+        rows: &Strips,
         watcher: &dyn Watcher,
         take: &mut dyn FnMut(Vec<T>),
     ) -> Result<(), Cancelled> {
-        let [columns, rows] = self.view.pixels.map(|n| n as usize);
-        let parts = Parts::start(watcher, rows.div_ceil(ROWS))?;
+        let columns = self.view.pixels[0] as usize;
+        let parts = Parts::start(watcher, rows.bands())?;
         let entries = self.plan.entries_of_bands();
-        for first in (0..rows).step_by(bands * ROWS) {
-            let count = (rows - first).min(bands * ROWS);
-            let mut values = zeros(columns * count);
+        for rows in rows.each() {
+            let mut values = zeros(columns * rows.len());
             let mut rest = values.as_mut_slice();
-            for bands in strips(first / ROWS..(first + count).div_ceil(ROWS), &entries) {
+            for bands in strips(rows.start / ROWS..rows.end.div_ceil(ROWS), &entries) {
                 let pixels = rest.len().min(bands.len() * columns * ROWS);
                 let (strip, later) = rest.split_at_mut(pixels);
                 self.draw_strip::<D>(bands, strip, &parts)?;

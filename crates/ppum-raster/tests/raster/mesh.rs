@@ -9,7 +9,7 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Vec2, vec2};
 use ppum_raster::reference::reference;
-use ppum_raster::scatter::{render, render_strips};
+use ppum_raster::scatter::{BAND, render, render_rows, render_strips};
 use ppum_raster::view::View;
 use ppum_testkit::meshes::{Elements, Polynomial, field, random_polynomial};
 use ppum_testkit::random::Random;
@@ -99,6 +99,12 @@ fn threads_and_strips_change_nothing() {
         let take = &mut |part: Vec<f64>| strips.extend(part);
         render_strips(&compiled, &view, &quantity, 5, unwatched(), take).expect("drawn");
         assert_eq!(one, bits(&strips));
+        let all = view.pixels[1];
+        let border = BAND * (all / (2 * BAND));
+        let parts = [0..border, border..all].map(|rows| {
+            render_rows::<f64>(&compiled, &view, &quantity, rows, unwatched()).expect("drawn")
+        });
+        assert_eq!(one, bits(&parts.concat()));
     }
 }
 

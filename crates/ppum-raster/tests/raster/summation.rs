@@ -7,7 +7,7 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum_raster::raster::Sample;
 use ppum_raster::reference::reference;
-use ppum_raster::scatter::{Schedule, render_strips, render_with};
+use ppum_raster::scatter::{BAND, Schedule, render_rows, render_strips, render_with};
 use ppum_raster::summation::{Savings, Summation};
 use ppum_raster::view::View;
 use ppum_testkit::random::Random;
@@ -165,7 +165,7 @@ fn cells_of_a_pixel_and_less() {
 }
 
 /// Views of many patches are summed per patch. Whichever the summation, the strips of a raster are
-/// the raster.
+/// the raster, and so are its rows.
 #[test]
 fn many_patches_are_summed_one_by_one() {
     let dataset = Recipe { level: 5, tip_level: 5, ..Recipe::default() }.dataset();
@@ -179,8 +179,15 @@ fn many_patches_are_summed_one_by_one() {
         let mut strips = Vec::new();
         let mut take = |some: Vec<f64>| strips.extend(some);
         render_strips(&field, &view, &quantity, 20, unwatched(), &mut take).expect("not stopped");
+        let (border, end) = (BAND * (view.pixels[1] / BAND), view.pixels[1]);
+        let rows = |rows| {
+            render_rows::<f64>(&field, &view, &quantity, rows, unwatched()).expect("not stopped")
+        };
+        let parts = [rows(0..border), rows(border..end)].concat();
         let is_same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
-        assert!(whole.len() == strips.len() && whole.iter().zip(&strips).all(is_same));
+        for found in [strips, parts] {
+            assert!(whole.len() == found.len() && whole.iter().zip(&found).all(is_same));
+        }
     }
 }
 
