@@ -29,6 +29,7 @@ pub mod request;
 pub mod scene;
 pub mod shared;
 pub mod shot;
+pub mod spot;
 mod stations;
 pub mod table;
 mod written;

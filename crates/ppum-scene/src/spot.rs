@@ -1,7 +1,9 @@
-//! Places that keep their digits.
+//! Places that keep their digits, and how they are written.
 
-use ppum::crack::SegmentId;
+use ppum::crack::{Crack, SegmentId, TipId, tips};
+use ppum::text::trimmed_to;
 use ppum::vec2::Vec2;
+use ppum_render::view::View;
 use serde::{Deserialize, Serialize};
 
 /// A point of the plate, `anchor + offset`; the two are never added up where digits count.
@@ -54,6 +56,54 @@ impl Spot {
         (self.anchor() - origin) + self.offset()
     }
 
+    /// The spot itself, or the tip or the point of a crack that lies within reach of it.
+    #[must_use]
+    pub fn snapped(self, cracks: &[Crack], reach: f64) -> Self {
+        let ends = tips(cracks).map(|tip| cracks[tip.crack as usize].end_point(tip.end));
+        let distance = |end: Vec2| self.from(end).length();
+        let nearest = ends.min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+        if let Some(tip) = nearest.filter(|tip| distance(*tip) <= reach) {
+            return Self::new(tip, Vec2::ZERO);
+        }
+        match self.nearest_on_crack(cracks) {
+            Some((distance, on)) if distance <= reach => on,
+            _ => self,
+        }
+    }
+
+    /// The nearest point of a crack, with its distance.
+    fn nearest_on_crack(&self, cracks: &[Crack]) -> Option<(f64, Self)> {
+        let mut nearest: Option<(f64, Self)> = None;
+        for (crack, c) in (0..).zip(cracks) {
+            for (segment, ends) in (0..).zip(c.points.windows(2)) {
+                let (distance, spot) = self.projected([ends[0], ends[1]]);
+                if nearest.is_none_or(|(least, _)| distance < least) {
+                    nearest = Some((distance, spot.on(SegmentId { crack, segment })));
+                }
+            }
+        }
+        nearest
+    }
+
+    /// The nearest point of a segment, seen from its nearer end, with its distance.
+    #[must_use]
+    pub fn projected(&self, [a, b]: [Vec2; 2]) -> (f64, Self) {
+        let [from_a, from_b] = [self.from(a), self.from(b)];
+        let (end, way, sign) =
+            if from_a.length() < from_b.length() { (a, from_a, 1.0) } else { (b, from_b, -1.0) };
+        let (tangent, length) = ((b - a).unit(), (b - a).length());
+        let inner = (sign * tangent.dot(way)).clamp(0.0, length);
+        let offset = tangent * (sign * inner);
+        ((way - offset).length(), Self::new(end, offset))
+    }
+
+    /// The number of the tip that it is exactly, if it is one.
+    #[must_use]
+    pub fn tip(&self, cracks: &[Crack]) -> Option<usize> {
+        let end = |tip: TipId| cracks[tip.crack as usize].end_point(tip.end);
+        tips(cracks).position(|tip| self.from(end(tip)) == Vec2::ZERO)
+    }
+
     /// True for the same point, whatever it is counted from.
     #[must_use]
     pub fn is_at(&self, other: &Self) -> bool {
@@ -92,6 +142,81 @@ fn sum(text: &str) -> Option<(f64, f64)> {
         }
     }
     Some((number(text)?, 0.0))
+}
+
+/// Views narrower than this part of the plate have their places told from a point near by.
+const DEEP: f64 = 1e-3;
+
+/// How places of a view are written.
+pub struct Places<'a> {
+    /// The view.
+    pub view: &'a View,
+    /// Size of the plate.
+    pub size: f64,
+    /// The cracks of the step.
+    pub cracks: &'a [Crack],
+}
+
+impl Places<'_> {
+    /// True if places are told from a point near by.
+    #[must_use]
+    pub fn is_deep(&self) -> bool {
+        self.view.width < DEEP * self.size
+    }
+
+    /// A number with the digits that tell neighbouring pixels apart.
+    #[must_use]
+    pub fn rounded(&self, v: f64) -> f64 {
+        let step = self.view.pixel_size().log10().floor();
+        let power = 10f64.powi(-step as i32);
+        let rounded = (v * power).round() / power;
+        if rounded.is_finite() { rounded } else { v }
+    }
+
+    /// Where places near the middle of the view are counted from, with its name: a tip that is
+    /// seen, or the middle.
+    #[must_use]
+    pub fn origin(&self) -> (Vec2, String) {
+        let at = |tip: TipId| self.cracks[tip.crack as usize].end_point(tip.end);
+        let all = tips(self.cracks).map(at).enumerate();
+        let distance = |p: Vec2| (p - self.view.center).length();
+        let nearest = all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+        match nearest.filter(|(_, tip)| distance(*tip) < 2.0 * self.view.width) {
+            Some((number, tip)) => (tip, format!("tip {number}")),
+            None => {
+                let center = self.view.center;
+                (center, format!("({}, {})", number(center.x, 15), number(center.y, 15)))
+            }
+        }
+    }
+
+    /// A place: `(0.512, -0.3)`, deep inside `tip 1 + (2.5e-11, 1e-12)`.
+    #[must_use]
+    pub fn show(&self, spot: &Spot) -> String {
+        let pair = |p: Vec2| {
+            let [x, y] = [p.x, p.y].map(|v| number(self.rounded(v), 15));
+            format!("({x}, {y})")
+        };
+        if !self.is_deep() {
+            return pair(spot.point());
+        }
+        let (origin, name) = self.origin();
+        match spot.from(origin) {
+            Vec2::ZERO => name,
+            offset => format!("{name} + {}", pair(offset)),
+        }
+    }
+}
+
+/// A number with at most so many digits: `∞`, `not defined`.
+#[must_use]
+pub fn number(value: f64, digits: usize) -> String {
+    match value {
+        f64::INFINITY => "∞".into(),
+        f64::NEG_INFINITY => "−∞".into(),
+        value if value.is_nan() => "not defined".into(),
+        value => trimmed_to(value, digits).replace('-', "−"),
+    }
 }
 
 #[cfg(test)]

@@ -26,7 +26,6 @@ pub mod replacing;
 pub mod session;
 pub mod shapes;
 pub mod solving;
-pub mod spot;
 pub mod stage;
 pub mod surface;
 pub mod undo;
@@ -34,6 +33,7 @@ pub mod widgets;
 pub mod window;
 
 pub use app::Viewer;
+pub use ppum_scene::spot;
 
 #[cfg(test)]
 mod tests {

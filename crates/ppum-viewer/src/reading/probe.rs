@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use ppum::crack::{SegmentId, Side, TipId, tips};
+use ppum::crack::{SegmentId, Side};
 use ppum::field::LocalField;
 use ppum::quantity::QuantityGradient;
 use ppum::sides::Segments;
@@ -177,7 +177,7 @@ impl Reader {
 
     fn read_own(&self, spot: &Spot) -> Probed {
         let field = self.field.field();
-        let tip = self.tip_at(spot);
+        let tip = spot.tip(&field.step.cracks);
         let on = if tip.is_some() { None } else { self.segment_of(spot) };
         let mut local = match on {
             Some(segment) => field.on(segment, spot.anchor()),
@@ -238,48 +238,7 @@ impl Reader {
     }
 
     fn snapped_own(&self, spot: Spot, reach: f64) -> Spot {
-        if let Some((_, tip)) = self.nearest_tip(&spot).filter(|(distance, _)| *distance <= reach) {
-            let cracks = &self.field.field().step.cracks;
-            return Spot::new(cracks[tip.crack as usize].end_point(tip.end), Vec2::ZERO);
-        }
-        match self.nearest_on_crack(&spot) {
-            Some((distance, on)) if distance <= reach => on,
-            _ => spot,
-        }
-    }
-
-    /// The tip nearest to a point, with its distance.
-    #[must_use]
-    pub fn nearest_tip(&self, spot: &Spot) -> Option<(f64, TipId)> {
-        let cracks = &self.field.field().step.cracks;
-        let distance = |tip: TipId| spot.from(cracks[tip.crack as usize].end_point(tip.end));
-        let all = tips(cracks).map(|tip| (distance(tip).length(), tip));
-        all.min_by(|a, b| a.0.total_cmp(&b.0))
-    }
-
-    /// The point of a crack nearest to a point, seen from the nearer end of its segment, with
-    /// its distance.
-    #[must_use]
-    pub fn nearest_on_crack(&self, spot: &Spot) -> Option<(f64, Spot)> {
-        let mut nearest: Option<(f64, Spot)> = None;
-        for (crack, c) in (0..).zip(&self.field.field().step.cracks) {
-            for (segment, ends) in (0..).zip(c.points.windows(2)) {
-                let (distance, anchor, offset) = projected([ends[0], ends[1]], spot);
-                if nearest.is_none_or(|(least, _)| distance < least) {
-                    let on = SegmentId { crack, segment };
-                    nearest = Some((distance, Spot::new(anchor, offset).on(on)));
-                }
-            }
-        }
-        nearest
-    }
-
-    /// The number of the tip that a point is exactly.
-    fn tip_at(&self, spot: &Spot) -> Option<usize> {
-        let cracks = &self.field.field().step.cracks;
-        let is_here =
-            |tip: TipId| spot.from(cracks[tip.crack as usize].end_point(tip.end)) == Vec2::ZERO;
-        tips(cracks).position(is_here)
+        spot.snapped(&self.field.field().step.cracks, reach)
     }
 
     /// The segment that a point lies on: the one that it was put on if the step still has it, or
@@ -290,7 +249,7 @@ impl Reader {
             let points = cracks.get(crack as usize).map(|c| &c.points[..]).unwrap_or_default();
             let ends = points.get(segment as usize..segment as usize + 2).unwrap_or_default();
             if let [a, b] = *ends {
-                let (distance, _, _) = projected([a, b], spot);
+                let (distance, _) = spot.projected([a, b]);
                 let is_on = distance <= 1e-14 * (b - a).length().max(a.length());
                 return is_on.then_some(SegmentId { crack, segment });
             }
@@ -353,15 +312,4 @@ fn left_text(frame: &Frame) -> Option<&str> {
 
 fn text_of<'a>(given: Option<&'a str>, field: &'a OwnedField) -> &'a str {
     given.map_or_else(|| default_quantity(field.field()), str::trim)
-}
-
-/// The point of a segment nearest to a spot: its distance, the nearer end and the way from there.
-fn projected([a, b]: [Vec2; 2], spot: &Spot) -> (f64, Vec2, Vec2) {
-    let [from_a, from_b] = [spot.from(a), spot.from(b)];
-    let (end, way, sign) =
-        if from_a.length() < from_b.length() { (a, from_a, 1.0) } else { (b, from_b, -1.0) };
-    let (tangent, length) = ((b - a).unit(), (b - a).length());
-    let inner = (sign * tangent.dot(way)).clamp(0.0, length);
-    let offset = tangent * (sign * inner);
-    ((way - offset).length(), end, offset)
 }

@@ -1,91 +1,12 @@
 //! What is read, in words.
 
-use ppum::crack::{Crack, TipId, tips};
-use ppum::text::trimmed_to;
-use ppum::vec2::Vec2;
-use ppum_render::view::View;
+pub use ppum_scene::spot::{Places, number};
 
 use super::probe::{Probed, Sided};
-use crate::spot::Spot;
-
-/// Views narrower than this part of the plate have their places told from a point near by.
-const DEEP: f64 = 1e-3;
 
 /// Digits of values, and of those that stand beside them.
 pub const DIGITS: usize = 7;
 const FEWER: usize = 5;
-
-/// How places of a view are told.
-pub struct Places<'a> {
-    /// The view.
-    pub view: &'a View,
-    /// Size of the plate.
-    pub size: f64,
-    /// The cracks of the step.
-    pub cracks: &'a [Crack],
-}
-
-impl Places<'_> {
-    /// True if places are told from a point near by.
-    #[must_use]
-    pub fn is_deep(&self) -> bool {
-        self.view.width < DEEP * self.size
-    }
-
-    /// A number with the digits that tell neighbouring pixels apart.
-    #[must_use]
-    pub fn rounded(&self, v: f64) -> f64 {
-        let step = self.view.pixel_size().log10().floor();
-        let power = 10f64.powi(-step as i32);
-        let rounded = (v * power).round() / power;
-        if rounded.is_finite() { rounded } else { v }
-    }
-
-    /// Where places near the middle of the view are counted from, with its name: a tip that is
-    /// seen, or the middle.
-    #[must_use]
-    pub fn origin(&self) -> (Vec2, String) {
-        let at = |tip: TipId| self.cracks[tip.crack as usize].end_point(tip.end);
-        let all = tips(self.cracks).map(at).enumerate();
-        let distance = |p: Vec2| (p - self.view.center).length();
-        let nearest = all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
-        match nearest.filter(|(_, tip)| distance(*tip) < 2.0 * self.view.width) {
-            Some((number, tip)) => (tip, format!("tip {number}")),
-            None => {
-                let center = self.view.center;
-                (center, format!("({}, {})", number(center.x, 15), number(center.y, 15)))
-            }
-        }
-    }
-
-    /// A place: `(0.512, -0.3)`, deep inside `tip 1 + (2.5e-11, 1e-12)`.
-    #[must_use]
-    pub fn show(&self, spot: &Spot) -> String {
-        let pair = |p: Vec2| {
-            let [x, y] = [p.x, p.y].map(|v| number(self.rounded(v), 15));
-            format!("({x}, {y})")
-        };
-        if !self.is_deep() {
-            return pair(spot.point());
-        }
-        let (origin, name) = self.origin();
-        match spot.from(origin) {
-            Vec2::ZERO => name,
-            offset => format!("{name} + {}", pair(offset)),
-        }
-    }
-}
-
-/// A number with at most so many digits: `∞`, `not defined`.
-#[must_use]
-pub fn number(value: f64, digits: usize) -> String {
-    match value {
-        f64::INFINITY => "∞".into(),
-        f64::NEG_INFINITY => "−∞".into(),
-        value if value.is_nan() => "not defined".into(),
-        value => trimmed_to(value, digits).replace('-', "−"),
-    }
-}
 
 /// A value with its unit.
 #[must_use]
