@@ -5,8 +5,8 @@ use std::ffi::OsString;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::commands::{
-    check, compare, completions, demo, formula, info, man, plot, probe, render, sample, sif, solve,
-    view,
+    check, compare, completions, demo, export, formula, info, man, plot, probe, render, sample,
+    sif, solve, view,
 };
 use crate::output::Output;
 
@@ -28,6 +28,7 @@ Examples:
   ppum sample plate.h5 --crack 0 -o crack.csv    numbers for plots, here along a crack
   ppum render plate.h5 -o plate.png --figure
   ppum plot plate.h5 --crack 0 -o opening.svg
+  ppum export plate.h5 -o plate.html         a page to explore in a browser
   ppum formula 'sqrt(r)*sin(theta/2)'        what a formula means, and its derivatives
 
 `ppum COMMAND --help` tells more, with examples.";
@@ -44,6 +45,7 @@ pub(crate) enum Command {
     Render(Box<render::Args>),
     Compare(compare::Args),
     Plot(plot::Args),
+    Export(export::Args),
     View(view::Args),
     Formula(formula::Args),
     Completions(completions::Args),
@@ -86,6 +88,7 @@ impl Command {
             Self::Render(args) => args.run(out),
             Self::Compare(args) => args.run(out),
             Self::Plot(args) => args.run(out),
+            Self::Export(args) => args.run(out),
             Self::View(args) => args.run(out),
             Self::Formula(args) => args.run(out),
             Self::Completions(args) => args.run(out, Cli::whole()),

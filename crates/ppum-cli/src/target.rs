@@ -15,6 +15,7 @@ pub(crate) enum FileKind {
     /// Of several pictures.
     Animation,
     Table,
+    Page,
 }
 
 impl FileKind {
@@ -24,6 +25,7 @@ impl FileKind {
             Self::Dataset => ("datasets are HDF5 files", &["h5", "hdf5"]),
             Self::Picture => ("pictures are PNG, SVG or PDF files", &["png", "svg", "pdf"]),
             Self::Animation => ("moving pictures are GIF or APNG files", &["gif", "apng"]),
+            Self::Page => ("pages are HTML files", &["html", "htm"]),
             Self::Table => ("tables are CSV or NPY files", &["csv", "npy"]),
         }
     }
@@ -47,6 +49,7 @@ impl FileKind {
         match self {
             Self::Dataset => standard::check_output("a dataset"),
             Self::Picture | Self::Animation => standard::check_output("a picture"),
+            Self::Page => standard::check_output("a page"),
             Self::Table => Ok(()),
         }
     }

@@ -43,6 +43,11 @@ pub(crate) struct ImageExtent {
 const DEFAULT_ZOOM: f64 = 10.0;
 
 impl WindowArgs {
+    /// True if one is asked for.
+    pub(crate) fn is_given(&self) -> bool {
+        self.view.is_some() || self.center.is_some() || self.tip.is_some()
+    }
+
     /// Width over height of what is to be seen; none if it is whatever the picture has room for.
     pub(crate) fn aspect(&self, field: &Field<'_>) -> Option<f64> {
         if self.center.is_some() || self.tip.is_some() {

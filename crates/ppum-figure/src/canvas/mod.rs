@@ -4,7 +4,7 @@
 //! ([`Canvas::image`]) or a vector file. Positions and lengths are pixels: the origin is the upper
 //! left corner, y runs down, and pixel (i, j) covers [i, i + 1] × [j, j + 1].
 
-mod base64;
+pub mod base64;
 mod dashes;
 mod mask;
 mod pdf;

@@ -97,7 +97,8 @@ fn nearest_tip(picture: &Picture, cracks: &[Crack]) -> Option<Vec2> {
 
 /// "name − reference [×10ᵏ unit]", each part where it is needed; nothing along an axis without a
 /// name and units.
-pub(super) fn axis_label(name: &str, ticks: &Ticks, unit: &str) -> String {
+#[must_use]
+pub fn axis_label(name: &str, ticks: &Ticks, unit: &str) -> String {
     let mut label = name.to_owned();
     if ticks.reference != 0.0 {
         let sign = if ticks.reference > 0.0 { '−' } else { '+' };

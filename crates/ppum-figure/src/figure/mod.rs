@@ -28,6 +28,7 @@ use crate::canvas::{Canvas, Item};
 use crate::overlay::LegendEntry;
 use ppum_render::picture::Picture;
 
+pub use axis::axis_label;
 pub use color_bar::Bar;
 pub use design::{BarPlace, Design, Labels, Theme, TickChoice};
 pub use layout::{PanelGrid, panel_area, panels, plot_area};

@@ -7,7 +7,7 @@ use std::process::Command;
 use serde_json::Value;
 
 /// The crates that each crate may depend on, and does.
-const ARROWS: [(&str, &[&str]); 15] = [
+const ARROWS: [(&str, &[&str]); 16] = [
     ("ppum-formula", &[]),
     ("ppum", &["ppum-formula"]),
     ("ppum-file", &[]),
@@ -17,6 +17,7 @@ const ARROWS: [(&str, &[&str]); 15] = [
     ("ppum-render", &["ppum", "ppum-raster"]),
     ("ppum-figure", &["ppum", "ppum-render"]),
     ("ppum-scene", &["ppum", "ppum-figure", "ppum-file", "ppum-render", "ppum-solve"]),
+    ("ppum-page", &["ppum", "ppum-figure", "ppum-format", "ppum-render", "ppum-scene"]),
     ("ppum-gpu", &["ppum", "ppum-render"]),
     (
         "ppum-viewer",
@@ -39,6 +40,7 @@ const ARROWS: [(&str, &[&str]); 15] = [
             "ppum-figure",
             "ppum-format",
             "ppum-gpu",
+            "ppum-page",
             "ppum-render",
             "ppum-scene",
             "ppum-solve",

@@ -1,0 +1,139 @@
+//! `ppum export`: a page to explore a dataset in a browser.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, ensure};
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum_page::{LARGEST, Start, View, html};
+use ppum_render::colormap::Colormap;
+use ppum_scene::overlays::Overlay;
+use ppum_scene::scene::{Scene, Subject, default_quantity};
+
+use crate::dataset::{check_shown, field, named};
+use crate::given::{self, Given};
+use crate::output::{Output, tell};
+use crate::overlays::Overlays;
+use crate::standard::{self, is_standard};
+use crate::subject::Colors;
+use crate::target;
+use crate::window::{Frame, Window};
+
+/// Write a page to explore a dataset in a browser: one file, for people without this program
+///
+/// The page holds the dataset and what evaluates it. A browser opens it from disk, without a server
+/// and without a network, and computes each pixel as exactly as `ppum render`. Zoom, colours and
+/// overlays are chosen in the page; the options say what it shows first.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Dataset, - for standard input
+    #[arg(value_name = "FILE.h5")]
+    file: PathBuf,
+    /// Page to write, - for standard output
+    #[arg(short, long, value_name = "OUT.html")]
+    output: PathBuf,
+    /// Quantity or value of cells, see `ppum info`, or a formula of quantities, or @FILE with one
+    /// [default: von-mises; for Poisson problems u]
+    #[arg(short, long, value_name = "Q", allow_hyphen_values = true)]
+    quantity: Option<String>,
+    /// Step of the series, from 0 [default: the last]
+    #[arg(long, value_name = "K")]
+    step: Option<usize>,
+    #[command(flatten)]
+    window: Window,
+    #[command(flatten)]
+    colours: Colors,
+    #[command(flatten)]
+    overlays: Overlays,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ppum export plate.h5 -o plate.html
+  ppum export plate.h5 -o tip.html --tip 1 --zoom 1e6 --scale log
+  ppum export plate.h5 -o uy.html -q uy --colormap coolwarm --isolines auto
+  ppum export growth.h5 -o growth.html --step 0
+  ppum solve plate.toml -o - | ppum export - -o plate.html";
+
+/// The shape of the first view; a window of another shape shows more.
+const SHAPE: [u32; 2] = [1024, 768];
+
+impl Args {
+    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+        target::check(&self.output, target::Kind::Page, self.inputs())?;
+        let bytes = self.bytes()?;
+        let dataset = named(&self.file, ppum_format::from_bytes(bytes.clone()))?;
+        let start = self.start(&dataset)?;
+        let title = if dataset.title.is_empty() { &start.file } else { &dataset.title };
+        let page = html(&bytes, title, &start)?;
+        if is_standard(&self.output) {
+            out.exact().write_all(page.as_bytes())?;
+            tell(&format!("wrote standard output: {}", told(&page)));
+            return Ok(());
+        }
+        target::save(&self.output, |out| out.write_all(page.as_bytes()))?;
+        Ok(writeln!(out, "wrote {}: {}", self.output.display(), told(&page))?)
+    }
+
+    /// The files that are read.
+    fn inputs(&self) -> impl Iterator<Item = &Path> {
+        let formula = self.quantity.as_deref().and_then(given::file);
+        [self.file.as_path()].into_iter().chain(formula)
+    }
+
+    fn bytes(&self) -> anyhow::Result<Vec<u8>> {
+        if is_standard(&self.file) {
+            return standard::bytes("the dataset", LARGEST);
+        }
+        let read = ppum_file::read(&self.file, LARGEST);
+        read.with_context(|| format!("cannot read {}", self.file.display()))
+    }
+
+    /// What the page shows first, if the dataset has it.
+    fn start(&self, dataset: &Dataset) -> anyhow::Result<Start> {
+        let field = field(dataset, self.step)?;
+        let file = match self.file.file_name() {
+            Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),
+            _ => "dataset.h5".to_owned(),
+        };
+        Ok(Start { scene: self.scene(&field)?, view: self.view(&field)?, file })
+    }
+
+    fn scene(&self, field: &Field<'_>) -> anyhow::Result<Scene> {
+        let quantity = self.quantity.as_deref().map(Given::read).transpose()?;
+        quantity.iter().try_for_each(|given| check_shown(field, given))?;
+        let (colors, mut overlays) = (self.colours.chosen(), self.overlays.chosen());
+        if let Some(name) = &colors.colormap {
+            Colormap::named(name)
+                .context("--colormap: pages have the maps of the program alone")?;
+        }
+        ensure!(
+            !overlays.have_stations(),
+            "--overlay: pages show no supports and loads, which are those of a problem file"
+        );
+        if !overlays.shown.contains(&Overlay::Cracks) {
+            overlays.shown.push(Overlay::Cracks);
+        }
+        let quantity = quantity.map(|given| given.text.trim().to_owned());
+        let quantity = quantity.filter(|text| text != default_quantity(field));
+        let subject = Subject { step: self.step, ..Subject::default() };
+        Ok(Scene { subject, quantity, colors, overlays, ..Scene::default() })
+    }
+
+    /// The view, if one is asked for.
+    fn view(&self, field: &Field<'_>) -> anyhow::Result<Option<View>> {
+        if !self.window.is_given() {
+            return Ok(None);
+        }
+        let frame = Frame { pixels: SHAPE, may_shrink: false, margin: 0.0 };
+        let ppum_render::view::View { center, width, pixels } = self.window.seen(field, frame)?;
+        Ok(Some(View { center: center.into(), width, pixels }))
+    }
+}
+
+/// The size of the page, and what it is for.
+fn told(page: &str) -> String {
+    format!("{:.1} MB; a browser opens it from disk", page.len() as f64 / 1e6)
+}

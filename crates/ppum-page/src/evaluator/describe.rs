@@ -1,0 +1,60 @@
+//! What a page offers of a dataset.
+
+use ppum::crack::tips;
+use ppum::field::Field;
+use ppum::quantity::available;
+use ppum::vec2::Rect;
+use ppum_render::cells;
+use ppum_render::colormap::NAMES;
+use ppum_scene::scene::{OF_PATCHES, default_quantity, shown};
+
+use super::Evaluator;
+use crate::error::PageError;
+use crate::messages::{Choice, Description};
+
+/// The name in lists that stands for the partition functions of all patches.
+const ANY_PATCH: &str = "phi:N";
+
+impl Evaluator<'_> {
+    /// What is in the dataset, and in one of its steps.
+    ///
+    /// # Errors
+    /// No such step.
+    pub fn describe(&self, step: usize) -> Result<Description, PageError> {
+        let dataset = self.dataset;
+        let field = Field::new(dataset, step)?;
+        let Rect { min, max } = dataset.domain.bounds;
+        let cracks = &field.step.cracks;
+        let end = |tip: ppum::crack::TipId| cracks[tip.crack as usize].end_point(tip.end).into();
+        Ok(Description {
+            title: dataset.title.clone(),
+            bounds: [min.into(), max.into()],
+            loads: dataset.steps.iter().map(|step| step.load).collect(),
+            patches: field.step.partition.len(),
+            quantities: quantities(&field),
+            cells: cells_of(&field),
+            quantity: default_quantity(&field).to_owned(),
+            colormaps: NAMES.map(str::to_owned).to_vec(),
+            tips: tips(cracks).map(end).collect(),
+        })
+    }
+}
+
+fn quantities(field: &Field<'_>) -> Vec<Choice> {
+    let names = available(field).into_iter().filter(|name| name != ANY_PATCH);
+    names
+        .filter_map(|text| {
+            let [label, unit] = shown(&text, field).ok()?.words(field);
+            let label = if unit.is_empty() { label } else { format!("{label} [{unit}]") };
+            Some(Choice { text, label })
+        })
+        .collect()
+}
+
+fn cells_of(field: &Field<'_>) -> Vec<Choice> {
+    let choice = |name: String| Choice {
+        label: cells::label(&name).to_owned(),
+        text: format!("{OF_PATCHES}{name}"),
+    };
+    cells::names(field).into_iter().map(choice).collect()
+}

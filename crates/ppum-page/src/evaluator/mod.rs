@@ -1,0 +1,99 @@
+//! What evaluates a dataset for a page: values of rows, images, values at points.
+
+mod describe;
+mod paint;
+mod probe;
+
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::progress::unwatched;
+use ppum::quantity::QuantityGradient;
+use ppum_render::range::Span;
+use ppum_render::scatter::{BAND, render_rows};
+use ppum_scene::colors::Colors;
+use ppum_scene::scene::Scene;
+use ppum_scene::shot::Asked;
+
+use crate::error::PageError;
+use crate::messages::Rows;
+pub use paint::Painted;
+
+/// Evaluates a dataset. What was asked for the last time is kept ready: the field of the step, the
+/// quantity with its gradient, the range of the colours.
+pub struct Evaluator<'d> {
+    dataset: &'d Dataset,
+    subject: Option<Subject<'d>>,
+    last: Option<Found>,
+}
+
+/// A quantity of a step, ready to be evaluated.
+struct Subject<'d> {
+    step: usize,
+    text: Option<String>,
+    field: Field<'d>,
+    asked: Asked,
+    /// Found at the first question for values at a point.
+    gradient: Option<Option<QuantityGradient>>,
+}
+
+/// The range of an image, and what it was found for.
+struct Found {
+    step: usize,
+    text: Option<String>,
+    colors: Colors,
+    span: Span,
+}
+
+impl<'d> Subject<'d> {
+    fn new(dataset: &'d Dataset, scene: &Scene) -> Result<Self, PageError> {
+        let step = scene.subject.step_of(dataset);
+        let field = Field::new(dataset, step)?;
+        let asked = Asked::new(scene, &field)?;
+        Ok(Self { step, text: scene.quantity.clone(), field, asked, gradient: None })
+    }
+
+    fn is_of(&self, dataset: &Dataset, scene: &Scene) -> bool {
+        self.step == scene.subject.step_of(dataset) && self.text == scene.quantity
+    }
+}
+
+impl<'d> Evaluator<'d> {
+    /// An evaluator of a dataset, which was checked when it was read.
+    #[must_use]
+    pub fn new(dataset: &'d Dataset) -> Self {
+        Self { dataset, subject: None, last: None }
+    }
+
+    /// Values of some rows, from the top, with the bits that they have in the whole image; none of
+    /// values of cells, which [`paint`](Self::paint) finds by itself.
+    ///
+    /// # Errors
+    /// What the dataset does not have; rows that are not in the image.
+    pub fn rows(&mut self, rows: &Rows) -> Result<Vec<f64>, PageError> {
+        let Rows { frame, rows: [first, end] } = rows;
+        let view = frame.view.checked()?;
+        if !first.is_multiple_of(BAND) || first > end || *end > view.pixels[1] {
+            return Err(PageError::Rows(*first, *end, view.pixels[1]));
+        }
+        let subject = prepared(&mut self.subject, self.dataset, &frame.scene)?;
+        let Subject { field, asked, .. } = subject;
+        let Some(quantity) = asked.shown.quantity() else { return Ok(Vec::new()) };
+        Ok(render_rows(field, &view, quantity, *first..*end, unwatched())?)
+    }
+}
+
+/// The subject of a scene: the one that is known, or a new one in its place.
+fn prepared<'s, 'd>(
+    known: &'s mut Option<Subject<'d>>,
+    dataset: &'d Dataset,
+    scene: &Scene,
+) -> Result<&'s mut Subject<'d>, PageError> {
+    let subject = match known.take().filter(|subject| subject.is_of(dataset, scene)) {
+        Some(subject) => subject,
+        None => Subject::new(dataset, scene)?,
+    };
+    Ok(known.insert(subject))
+}
+
+#[cfg(test)]
+mod tests;

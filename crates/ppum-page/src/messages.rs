@@ -1,0 +1,161 @@
+//! What a page asks its evaluator, and what it is answered.
+
+use ppum_render::view::{self, ViewError};
+use ppum_scene::scene::Scene;
+use serde::{Deserialize, Serialize};
+
+/// A part of the plane on a grid of pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct View {
+    /// The middle, in world coordinates.
+    pub center: [f64; 2],
+    /// Width \[length\].
+    pub width: f64,
+    /// Columns and rows.
+    pub pixels: [u32; 2],
+}
+
+impl View {
+    /// The view of the renderer.
+    ///
+    /// # Errors
+    /// As [`view::View::new`].
+    pub fn checked(&self) -> Result<view::View, ViewError> {
+        view::View::new(self.center.into(), self.width, self.pixels)
+    }
+}
+
+/// An image: what it shows, and where.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Frame {
+    /// What is shown.
+    pub scene: Scene,
+    /// Where it is seen.
+    pub view: View,
+    /// The name of the dataset's file, for the command that draws the image.
+    #[serde(default)]
+    pub file: String,
+    /// True while the view moves: the range of the image before is kept, if that showed the same.
+    #[serde(default)]
+    pub keeps_range: bool,
+}
+
+/// Some rows of an image.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rows {
+    /// The image.
+    pub frame: Frame,
+    /// The first row, a multiple of 32, and the row behind the last.
+    pub rows: [u32; 2],
+}
+
+/// A question for the values at a point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// The image that the point is in.
+    pub frame: Frame,
+    /// Its continuous pixel coordinates; the centre of pixel (i, j) is (i + 1/2, j + 1/2).
+    pub pixel: [f64; 2],
+    /// Distance in pixels within which a tip or a crack takes the point's place.
+    pub reach: f64,
+}
+
+/// What is in a dataset, as a page offers it, with what depends on the step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Description {
+    /// The title; may be empty.
+    pub title: String,
+    /// Lower left and upper right corner of the domain.
+    pub bounds: [[f64; 2]; 2],
+    /// The load of each step.
+    pub loads: Vec<f64>,
+    /// The number of patches of the step.
+    pub patches: usize,
+    /// Quantities of points.
+    pub quantities: Vec<Choice>,
+    /// Values of cells.
+    pub cells: Vec<Choice>,
+    /// The name of the quantity that is shown where none is asked for.
+    pub quantity: String,
+    /// Names of colour maps.
+    pub colormaps: Vec<String>,
+    /// Crack tips of the step, in their order.
+    pub tips: Vec<[f64; 2]>,
+}
+
+/// Something that can be shown.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Choice {
+    /// The text that asks for it.
+    pub text: String,
+    /// Its words, with subscripts as `_{…}`.
+    pub label: String,
+}
+
+/// The colour bar of an image, and what is to be said beside it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Legend {
+    /// Quantity, reference of the labels and unit: `σ_{yy} [×10³ MPa]`.
+    pub label: String,
+    /// The values at the ends of the bar.
+    pub range: [f64; 2],
+    /// Colours at even positions from the lower to the upper end, `#rrggbb`.
+    pub colors: Vec<String>,
+    /// Marks from the lower to the upper end.
+    pub ticks: Vec<Tick>,
+    /// The colour of values below the range, and above it, if there are some.
+    pub beyond: [Option<String>; 2],
+    /// The smallest value if it lies below the range, and the largest one if it lies above.
+    pub extremes: [Option<String>; 2],
+    /// The range and the extrema, in a sentence.
+    pub sentence: String,
+    /// The command line that draws the image.
+    pub command: String,
+    /// What should be known of the image.
+    pub notices: Vec<String>,
+}
+
+/// A mark of a colour bar.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tick {
+    /// Its place, from 0 to 1.
+    pub at: f64,
+    /// The label.
+    pub label: String,
+}
+
+/// The values at a point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reading {
+    /// The point is `anchor + offset`.
+    pub anchor: [f64; 2],
+    /// The way from the anchor.
+    pub offset: [f64; 2],
+    /// Where it is in the image, in continuous pixel coordinates.
+    pub pixel: [f64; 2],
+    /// The point, with the digits that tell neighbouring pixels apart.
+    pub place: String,
+    /// True inside the domain.
+    pub is_inside: bool,
+    /// The number of the tip that it is, if it is one.
+    pub tip: Option<usize>,
+    /// One value, or those above and below a crack.
+    pub sides: Vec<Side>,
+    /// The jump across the crack, if the point lies on one.
+    pub jump: Option<String>,
+    /// All that is known, with all digits, to be copied.
+    pub text: String,
+}
+
+/// A value and its gradient, on one side of a crack.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Side {
+    /// `above` or `below` on a crack.
+    pub name: Option<String>,
+    /// The value for people: `2.718282`, `∞`, `not defined`.
+    pub value: String,
+    /// The value with all digits, as `ppum probe` prints it.
+    pub exact: String,
+    /// Size and direction of the gradient: `3.2 at 45°`; none where there is no gradient.
+    pub gradient: Option<String>,
+}

@@ -1,0 +1,117 @@
+//! The page as a text.
+
+use ppum_figure::canvas::base64::base64;
+use ppum_scene::scene::Scene;
+use serde::Serialize;
+use sha2::{Digest as _, Sha256};
+
+use crate::messages::View;
+
+const PAGE: &str = include_str!("../web/page.html");
+const STYLE: &str = include_str!("../web/page.css");
+/// One text: the page gives its workers the function in the first file.
+const SCRIPT: &str = concat!(include_str!("../web/worker.js"), include_str!("../web/page.js"));
+/// The evaluator, as `tools/page.sh` compiles it.
+const EVALUATOR: &[u8] = include_bytes!("../evaluator.wasm.gz");
+
+/// Longest dataset of a page, in bytes: browsers hold no text of more than half a gigabyte.
+pub const LARGEST: u64 = 256 << 20;
+
+/// What a page shows first.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Start {
+    /// What is shown.
+    pub scene: Scene,
+    /// Where it is seen; the whole domain if nothing is said. Pixels tell the shape alone.
+    pub view: Option<View>,
+    /// The name of the dataset's file.
+    pub file: String,
+}
+
+/// The page of a dataset, which is given by the bytes of its file.
+///
+/// # Errors
+/// None that is known: a scene is always JSON.
+pub fn html(dataset: &[u8], title: &str, start: &Start) -> Result<String, serde_json::Error> {
+    // in a script nothing but `<` could end it
+    let start = serde_json::to_string(start)?.replace('<', "\\u003c");
+    let part = |name: &str| match name {
+        "title" => escaped(title),
+        "policy" => policy(),
+        "style" => STYLE.to_owned(),
+        "start" => start.clone(),
+        "dataset" => base64(dataset),
+        "evaluator" => base64(EVALUATOR),
+        "script" => SCRIPT.to_owned(),
+        other => unreachable!("the page has no part {other}"),
+    };
+    let mut pieces = PAGE.split("{{");
+    let mut page = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let (name, rest) = piece.split_once("}}").expect("the page closes its braces");
+        page += &part(name);
+        page += rest;
+    }
+    Ok(page)
+}
+
+/// The content security policy: this script and this style alone, workers that they make, and
+/// nothing from elsewhere.
+fn policy() -> String {
+    let hash = |text: &str| format!("'sha256-{}'", base64(&Sha256::digest(text)));
+    format!(
+        "default-src 'none'; script-src {} 'wasm-unsafe-eval'; style-src {}; worker-src blob:",
+        hash(SCRIPT),
+        hash(STYLE)
+    )
+}
+
+/// A text as HTML shows it.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '"' => escaped += "&quot;",
+            c if c.is_control() => escaped.push(' '),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// No title and no text of a scene ends the element that it stands in.
+    #[test]
+    fn texts_stay_texts() {
+        let hostile = "</script></title><img src=x onerror=\"alert(1)\">{{script}}&amp;";
+        let scene = Scene { quantity: Some(hostile.to_owned()), ..Scene::default() };
+        let start = Start { scene, view: None, file: hostile.to_owned() };
+        let page = html(b"not read here", hostile, &start).expect("a page");
+        assert!(!page.contains("<img") && !page.contains("</script></title>"));
+        for tag in ["<script", "</script>", "<title>", "</title>", "<style>", "</style>"] {
+            assert_eq!(page.matches(tag).count(), PAGE.matches(tag).count(), "{tag}");
+        }
+        let json =
+            page.split("id=\"start\">").nth(1).and_then(|rest| rest.split("</script>").next());
+        let read: serde_json::Value = serde_json::from_str(json.expect("it")).expect("JSON");
+        assert_eq!(read["file"], hostile);
+    }
+
+    /// A browser compares the hash of the script with its text between the tags.
+    #[test]
+    fn the_policy_is_that_of_the_script() {
+        let start = Start { scene: Scene::default(), view: None, file: String::new() };
+        let page = html(b"", "", &start).expect("a page");
+        for (from, to) in [("<script>", "</script>"), ("<style>", "</style>")] {
+            let text = page.split(from).nth(1).and_then(|rest| rest.split(to).next());
+            let hash = base64(&Sha256::digest(text.expect("an element")));
+            assert!(page.contains(&format!("'sha256-{hash}'")), "{from}");
+        }
+    }
+}

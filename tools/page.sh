@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Compiles the evaluator of pages into crates/ppum-page/evaluator.wasm.gz, which `ppum export` puts into them. Needs the
+# target wasm32-unknown-unknown of rustup. Run it when a crate that ppum-page depends on has changed what it computes or
+# draws; tests/page finds out if that was forgotten.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+readonly TARGET=wasm32-unknown-unknown OUT=crates/ppum-page/evaluator.wasm.gz
+RUSTFLAGS='-C target-feature=+simd128' cargo rustc --locked --profile page --target "$TARGET" \
+    -p ppum-page --lib --crate-type cdylib
+gzip -9nc "${CARGO_TARGET_DIR:-target}/$TARGET/page/ppum_page.wasm" >"$OUT"
+ls -l "${CARGO_TARGET_DIR:-target}/$TARGET/page/ppum_page.wasm" "$OUT"
