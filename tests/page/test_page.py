@@ -370,7 +370,9 @@ def main(names):
         PAGES.clear()
         test()
         for page in PAGES:
-            assert page.errors() == [], page.errors()
+            errors = page.errors()
+            assert not errors, errors
+            assert not page.text("message"), page.text("message")
         print(f"ok  {test.__name__}  {time.monotonic() - begin:.1f} s", flush=True)
 
 

@@ -166,7 +166,10 @@
     const width = view.width * ((pixels[0] * coarseness) / canvas.width);
     const isMoving = performance.now() - lastMove < REST;
     const seen = { center: [...view.center], width: coarseness === 1 ? view.width : width, pixels };
-    return { scene: copy(scene), view: seen, file: start.file, keeps_range: isMoving };
+    const drawn = copy(scene);
+    // lines would be as coarse as the pixels
+    if (coarseness > 1) Object.assign(drawn.overlays, { shown: [], isolines: null, arrows: null, crosses: null });
+    return { scene: drawn, view: seen, file: start.file, keeps_range: isMoving };
   }
 
   function redraw() {
@@ -368,7 +371,7 @@
 
   function tell({ place, sides, tip, jump, is_inside: isInside }) {
     const name = plain(label());
-    const lines = [place + (tip === null ? "" : `, tip ${tip}`)];
+    const lines = [tip === null || place.startsWith("tip") ? place : `${place}, tip ${tip}`];
     if (!isInside) {
       lines.push("outside the domain");
     } else {

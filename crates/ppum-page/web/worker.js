@@ -29,7 +29,9 @@ function work(port) {
     paint({ frame, strips }) {
       if (strips) {
         const count = strips.reduce((sum, strip) => sum + strip.length, 0);
-        const values = new Float64Array(wasm.memory.buffer, wasm.reserve(count), count);
+        // first, since the memory may grow, which makes another buffer of it
+        const start = wasm.reserve(count);
+        const values = new Float64Array(wasm.memory.buffer, start, count);
         let at = 0;
         for (const strip of strips) {
           values.set(strip, at);
