@@ -1,12 +1,6 @@
 //! The reasons why a page has no answer.
 
 use ppum::field::FieldError;
-use ppum_render::RenderError;
-use ppum_render::range::RangeError;
-use ppum_render::view::ViewError;
-use ppum_scene::colors::MapError;
-use ppum_scene::layers::LayersError;
-use ppum_scene::scene::ShownError;
 use ppum_scene::shot::ShotError;
 
 /// The reason why there is no image, or no value.
@@ -16,31 +10,20 @@ pub enum PageError {
     /// The dataset has no such step, or no field there.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// A text that means nothing that could be shown.
+    /// What is shown, the view, the colours or the overlays.
     #[error(transparent)]
-    Shown(#[from] ShownError),
-    /// The view.
-    #[error(transparent)]
-    View(#[from] ViewError),
-    /// The values.
-    #[error(transparent)]
-    Render(#[from] RenderError),
-    /// The colours.
-    #[error(transparent)]
-    Shot(#[from] ShotError),
-    /// The colour map.
-    #[error(transparent)]
-    Colormap(#[from] MapError),
-    /// The range of the colours.
-    #[error(transparent)]
-    Range(#[from] RangeError),
-    /// The overlays.
-    #[error(transparent)]
-    Layers(#[from] LayersError),
+    Shot(Box<ShotError>),
     /// Not one value for each pixel.
     #[error("{0} values for {1} pixels")]
     Values(usize, usize),
     /// Rows that the view does not have, or that do not begin at a band.
     #[error("rows {0} to {1} of an image of {2}")]
     Rows(u32, u32, u32),
+}
+
+impl PageError {
+    /// An error of an image.
+    pub(crate) fn shot(error: impl Into<ShotError>) -> Self {
+        Self::Shot(Box::new(error.into()))
+    }
 }

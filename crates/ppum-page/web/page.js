@@ -153,7 +153,7 @@
 
   const BAND = 32;
   const PATIENCE = 40; // milliseconds for an image that follows a movement
-  let speed = 4e3; // pixels per millisecond of a worker, as measured by the last image
+  let pace = 2e-4; // milliseconds per pixel of an image of a view that moves, as measured
   let isDirty = false;
   let isBusy = false;
   let known = null; // key of the values that the painter holds
@@ -167,8 +167,9 @@
     const isMoving = performance.now() - lastMove < REST;
     const seen = { center: [...view.center], width: coarseness === 1 ? view.width : width, pixels };
     const drawn = copy(scene);
-    // lines would be as coarse as the pixels
-    if (coarseness > 1) Object.assign(drawn.overlays, { shown: [], isolines: null, arrows: null, crosses: null });
+    // lines of coarse images would be as coarse; those that have to be found wait for a view at rest
+    if (coarseness > 1) drawn.overlays.shown = [];
+    if (coarseness > 1 || isMoving) Object.assign(drawn.overlays, { isolines: null, arrows: null, crosses: null });
     return { scene: drawn, view: seen, file: start.file, keeps_range: isMoving };
   }
 
@@ -182,8 +183,7 @@
     while (isDirty) {
       isDirty = false;
       try {
-        const budget = speed * PATIENCE * workers.length;
-        const coarseness = Math.ceil(Math.sqrt((canvas.width * canvas.height) / budget));
+        const coarseness = Math.ceil(Math.sqrt((canvas.width * canvas.height * pace) / PATIENCE));
         const key = key_of(frame(1));
         if (coarseness > 1 && key !== known) await image(frame(coarseness), () => false);
         if (!isDirty) await image(frame(1), () => isDirty);
@@ -200,6 +200,7 @@
   // Evaluates, paints and shows an image, unless it is not wanted any more.
   async function image(frame, isOff) {
     const key = key_of(frame);
+    const begin = performance.now();
     let strips;
     if (key !== known) {
       strips = await values(frame, isOff);
@@ -209,18 +210,18 @@
     const transfer = strips ? strips.map(strip => strip.buffer) : [];
     const { legend, pixels } = await workers[0].ask("paint", { frame, strips }, transfer);
     known = key;
+    if (strips && frame.keeps_range) pace = (performance.now() - begin) / (pixels.length / 4);
     show(frame, new ImageData(pixels, ...frame.view.pixels));
     describe(legend);
   }
 
   // The values of all rows; each worker takes the next strip when it has finished one.
   async function values(frame, isOff) {
-    const [columns, rows] = frame.view.pixels;
+    const rows = frame.view.pixels[1];
     const team = [...workers];
     const height = BAND * Math.max(1, Math.ceil(rows / (BAND * 3 * team.length)));
     const strips = [];
     let next = 0;
-    const begin = performance.now();
     const member = async worker => {
       while (next < rows && !isOff()) {
         const first = next;
@@ -229,14 +230,13 @@
       }
     };
     await Promise.all(team.map(member));
-    if (next < rows) return null;
-    speed = (columns * rows) / (performance.now() - begin) / team.length;
-    return strips;
+    return next < rows ? null : strips;
   }
 
   function show({ view: seen }, data) {
     const layer = new OffscreenCanvas(data.width, data.height);
     layer.getContext("2d").putImageData(data, 0, 0);
+    if (!shown) performance.mark("first image");
     shown = { view: seen, layer, data };
     present();
   }
@@ -713,7 +713,7 @@
       get scene() { return scene; },
       get hover() { return hover; },
       get isAtRest() { return !isBusy && !isDirty && !isReading && performance.now() - lastMove > 2 * REST; },
-      get speed() { return speed * workers.length; },
+      get pace() { return pace; },
       get workers() { return workers.length; },
       move,
     };

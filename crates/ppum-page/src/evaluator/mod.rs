@@ -48,7 +48,7 @@ impl<'d> Subject<'d> {
     fn new(dataset: &'d Dataset, scene: &Scene) -> Result<Self, PageError> {
         let step = scene.subject.step_of(dataset);
         let field = Field::new(dataset, step)?;
-        let asked = Asked::new(scene, &field)?;
+        let asked = Asked::new(scene, &field).map_err(PageError::shot)?;
         Ok(Self { step, text: scene.quantity.clone(), field, asked, gradient: None })
     }
 
@@ -71,14 +71,14 @@ impl<'d> Evaluator<'d> {
     /// What the dataset does not have; rows that are not in the image.
     pub fn rows(&mut self, rows: &Rows) -> Result<Vec<f64>, PageError> {
         let Rows { frame, rows: [first, end] } = rows;
-        let view = frame.view.checked()?;
+        let view = frame.view.checked().map_err(PageError::shot)?;
         if !first.is_multiple_of(BAND) || first > end || *end > view.pixels[1] {
             return Err(PageError::Rows(*first, *end, view.pixels[1]));
         }
         let subject = prepared(&mut self.subject, self.dataset, &frame.scene)?;
         let Subject { field, asked, .. } = subject;
         let Some(quantity) = asked.shown.quantity() else { return Ok(Vec::new()) };
-        Ok(render_rows(field, &view, quantity, *first..*end, unwatched())?)
+        render_rows(field, &view, quantity, *first..*end, unwatched()).map_err(PageError::shot)
     }
 }
 
@@ -94,6 +94,3 @@ fn prepared<'s, 'd>(
     };
     Ok(known.insert(subject))
 }
-
-#[cfg(test)]
-mod tests;

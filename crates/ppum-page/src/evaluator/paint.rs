@@ -49,14 +49,14 @@ impl Evaluator<'_> {
     /// What the dataset does not have; values that are not one for each pixel; a range that does
     /// not fit the scale.
     pub fn paint(&mut self, frame: &Frame, values: Vec<f64>) -> Result<Painted, PageError> {
-        let seen = &Seen::Plate(frame.view.checked()?);
+        let seen = &Seen::Plate(frame.view.checked().map_err(PageError::shot)?);
         let subject = &*prepared(&mut self.subject, self.dataset, &frame.scene)?;
         let engine = Engine::processor(unwatched());
         let painting = Painting { dataset: self.dataset, subject, frame, seen, engine: &engine };
         let drawn = painting.drawn(values)?;
         let known = self.last.take().filter(|found| found.is_kept(subject, frame));
         let coloring = painting.coloring(&drawn, known)?;
-        let picture = coloring.picture(&drawn)?;
+        let picture = coloring.picture(&drawn).map_err(PageError::shot)?;
         let layers = painting.layers(&picture, &drawn.values)?;
         let mut legend = painting.legend(&picture);
         legend.notices = engine.into_notices().iter().map(ToString::to_string).collect();
@@ -119,9 +119,10 @@ impl Painting<'_> {
     fn coloring(&self, drawn: &Drawn, known: Option<Found>) -> Result<Coloring, PageError> {
         let (colors, shown) = (&self.frame.scene.colors, &self.subject.asked.shown);
         let Some(Found { span, .. }) = known else {
-            return Ok(self.input().coloring(colors, drawn, self.engine)?);
+            let found = self.input().coloring(colors, drawn, self.engine);
+            return found.map_err(PageError::shot);
         };
-        let map = colors.map(shown.quantity())?;
+        let map = colors.map(shown.quantity()).map_err(PageError::shot)?;
         let style = colors.style_of([(shown, &drawn.values)], map);
         Ok(Coloring { style, span, ends: None })
     }
@@ -138,7 +139,8 @@ impl Painting<'_> {
             has_bar: true,
         };
         let overlays = &self.frame.scene.overlays;
-        let layers = overlays.layers(ground, self.seen, false, unwatched())?;
+        let layers = overlays.layers(ground, self.seen, false, unwatched());
+        let layers = layers.map_err(|error| PageError::shot(Box::new(error)))?;
         layers.notices.iter().for_each(|notice| self.engine.tell(notice.clone()));
         Ok(layers)
     }

@@ -27,7 +27,8 @@ impl Evaluator<'_> {
     /// # Errors
     /// What the dataset does not have.
     pub fn probe(&mut self, question: &Question) -> Result<Reading, PageError> {
-        let (dataset, view) = (self.dataset, question.frame.view.checked()?);
+        let (dataset, view) =
+            (self.dataset, question.frame.view.checked().map_err(PageError::shot)?);
         let subject = prepared(&mut self.subject, dataset, &question.frame.scene)?;
         subject.prepare_gradient();
         let cracks = &subject.field.step.cracks;

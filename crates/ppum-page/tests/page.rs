@@ -1,4 +1,5 @@
-//! The evaluator against what the program draws and prints.
+//! The evaluator of pages against what the program draws and prints.
+#![allow(clippy::unwrap_used, reason = "a test may fail anywhere")]
 
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
@@ -14,8 +15,7 @@ use ppum_scene::shot::{self, Source};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
 
-use super::Evaluator;
-use crate::messages::{Frame, Question, Rows, View};
+use ppum_page::{Evaluator, Frame, Question, Rows, View};
 
 fn dataset(seed: u64) -> Dataset {
     let recipe = Recipe { components: 2, ..Recipe::random(seed) };
