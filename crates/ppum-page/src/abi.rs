@@ -13,7 +13,8 @@ use ppum::dataset::Dataset;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::evaluator::{Evaluator, Painted};
+use crate::evaluator::Evaluator;
+use crate::evaluator::paint::Painted;
 
 /// The evaluator of a worker, with what is handed over.
 struct Exchange {

@@ -416,6 +416,7 @@
   const spread = ([a, b]) => (b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0);
 
   canvas.addEventListener("pointerdown", event => {
+    if (event.button !== 0) return;
     canvas.setPointerCapture(event.pointerId);
     pressed.set(event.pointerId, place(event));
     point(event);

@@ -50,6 +50,7 @@ pub mod parts;
 pub mod pixels;
 pub mod raster;
 pub mod reference;
+pub mod rows;
 pub mod scatter;
 pub mod summation;
 pub mod view;

@@ -8,7 +8,7 @@ use ppum::real::Scalar;
 use rayon::prelude::*;
 
 use crate::error::RenderError;
-use crate::scatter::Strips;
+use crate::rows::Strips;
 use crate::summation::Summation;
 use crate::view::View;
 

@@ -33,7 +33,6 @@ pub mod widgets;
 pub mod window;
 
 pub use app::Viewer;
-pub use ppum_scene::spot;
 
 #[cfg(test)]
 mod tests {

@@ -12,7 +12,7 @@ use ppum_scene::profile::{Along, COUNT};
 use ppum_scene::scene::Scene;
 use serde::{Deserialize, Serialize};
 
-use crate::spot::Spot;
+use ppum_scene::spot::Spot;
 
 /// The state of the window.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

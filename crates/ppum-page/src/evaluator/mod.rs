@@ -1,7 +1,7 @@
 //! What evaluates a dataset for a page: values of rows, images, values at points.
 
 mod describe;
-mod paint;
+pub mod paint;
 mod probe;
 
 use ppum::dataset::Dataset;
@@ -16,7 +16,6 @@ use ppum_scene::shot::Asked;
 
 use crate::error::PageError;
 use crate::messages::Rows;
-pub use paint::Painted;
 
 /// Evaluates a dataset. What was asked for the last time is kept ready: the field of the step, the
 /// quantity with its gradient, the range of the colours.

@@ -12,8 +12,10 @@ use ppum::dataset::monomials;
 use ppum::jet::Jet;
 use ppum::real::{Real, Scalar};
 
+use crate::rows::BAND;
+
 /// Rows of a tile: whole vectors of lanes.
-pub(super) const ROWS: usize = 32;
+pub(super) const ROWS: usize = BAND as usize;
 
 /// Numbers of a jet.
 #[inline(always)]

@@ -7,10 +7,10 @@ use ppum::quantity::Quantity;
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
-use super::Strips;
 use super::collapse::ROWS;
 use crate::error::RenderError;
 use crate::parts::Parts;
+use crate::rows::Strips;
 use crate::view::View;
 
 /// Columns and rows of a tile: its pixels share the elements that are looked at.

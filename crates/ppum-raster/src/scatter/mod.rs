@@ -50,6 +50,7 @@ use rayon::prelude::*;
 use crate::error::RenderError;
 use crate::parts::Parts;
 use crate::raster::{Raster, Sample, SampleSlice, zeros};
+use crate::rows::Strips;
 use crate::summation::{Savings, Summation};
 use crate::view::View;
 use collapse::ROWS;
@@ -58,6 +59,7 @@ use plan::{COLUMNS, Plan, strips};
 use tile::{Band, Scratch};
 use weights::Weights;
 
+pub use crate::rows::BAND;
 pub use schedule::{Schedule, TileLoad};
 
 /// The values of a quantity at the pixel centres of a view, computed in `T` = f64 or f32 on the
@@ -119,7 +121,7 @@ pub fn render_rows<T: Sample>(
     let is_whole = rows.start.is_multiple_of(BAND) && rows.end <= view.pixels[1];
     assert!(is_whole, "rows {rows:?} do not begin at a band, or are not in the view");
     let (mut values, height) = (Vec::new(), rows.len() as u32);
-    let (strips, summation) = (Strips { rows, height }, Summation::Automatic);
+    let (strips, summation) = (Strips::new(rows, height), Summation::Automatic);
     T::render_strips(field, view, quantity, summation, strips, watcher, &mut |v| values = v)?;
     Ok(values)
 }
@@ -140,37 +142,6 @@ pub fn render_strips<T: Sample>(
 ) -> Result<(), RenderError> {
     let strips = Strips::whole(view, rows);
     T::render_strips(field, view, quantity, Summation::Automatic, strips, watcher, take)
-}
-
-/// Rows of a band: what one thread evaluates at a time.
-pub const BAND: u32 = ROWS as u32;
-
-/// The rows that are evaluated, and how many of them at a time.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Strips {
-    /// The rows; the first is a multiple of [`BAND`].
-    rows: Range<u32>,
-    /// Rows of a strip, rounded up to whole bands.
-    height: u32,
-}
-
-impl Strips {
-    /// All rows of a view.
-    fn whole(view: &View, height: u32) -> Self {
-        Self { rows: 0..view.pixels[1], height }
-    }
-
-    /// The strips, each a range of rows.
-    fn each(&self) -> impl Iterator<Item = Range<usize>> + use<> {
-        let (first, end) = (self.rows.start as usize, self.rows.end as usize);
-        let height = (self.height as usize).div_ceil(ROWS).max(1) * ROWS;
-        (first..end).step_by(height).map(move |row| row..end.min(row + height))
-    }
-
-    /// The number of bands.
-    fn bands(&self) -> usize {
-        self.rows.len().div_ceil(ROWS)
-    }
 }
 
 macro_rules! sample {

@@ -16,10 +16,10 @@ use std::sync::Arc;
 
 use crate::frames::Frame;
 use crate::session::Pane;
-use crate::spot::Spot;
 use output::Output;
 use plotted::{Asked, CurveValues, Plotted};
 use ppum_scene::profile::Along;
+use ppum_scene::spot::Spot;
 use probe::{Probed, Reader};
 use question::Question;
 use tool::{Grip, Tool};

@@ -15,7 +15,7 @@ use ppum_scene::table::Table;
 
 use crate::field::OwnedField;
 use crate::session::Pane;
-use crate::spot::Spot;
+use ppum_scene::spot::Spot;
 
 /// What is asked for.
 #[derive(Clone, Debug)]

@@ -13,7 +13,7 @@ use ppum_scene::scene::default_quantity;
 
 use crate::field::OwnedField;
 use crate::frames::Frame;
-use crate::spot::Spot;
+use ppum_scene::spot::Spot;
 
 /// What is read at a point.
 #[derive(Clone, Debug, PartialEq)]

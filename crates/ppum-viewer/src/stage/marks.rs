@@ -16,7 +16,7 @@ use crate::frames::Frame;
 use crate::reading::probe::Probed;
 use crate::reading::words;
 use crate::session::Pane;
-use crate::spot::Spot;
+use ppum_scene::spot::Spot;
 
 const INK: Color32 = Color32::from_rgb(214, 88, 0);
 const HALO: Color32 = Color32::from_rgba_premultiplied(225, 225, 225, 225);

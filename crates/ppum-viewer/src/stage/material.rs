@@ -9,7 +9,7 @@ use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 
-use crate::spot::Spot;
+use ppum_scene::spot::Spot;
 
 /// Steps from one start, and halvings of a step.
 const STEPS: usize = 25;

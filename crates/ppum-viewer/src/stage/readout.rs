@@ -8,7 +8,7 @@ use super::sight::Sight;
 use crate::controls::range::digits;
 use crate::reading::words::{self, Places};
 use crate::session::Pane;
-use crate::spot::Spot;
+use ppum_scene::spot::Spot;
 
 /// Seconds for which it is told why a key did nothing.
 const TOLD: f64 = 4.0;

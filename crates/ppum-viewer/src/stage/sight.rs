@@ -10,8 +10,8 @@ use ppum_render::view::View;
 
 use crate::field::OwnedField;
 use crate::frames::Frame;
-use crate::spot::Spot;
 use crate::stage::material::material;
+use ppum_scene::spot::Spot;
 
 /// A view in a rectangle of the window, of the plate as it was or deformed.
 pub struct Sight {

@@ -14,7 +14,7 @@ use super::sight::Sight;
 use crate::reading::tool::{Grip, Tool};
 use crate::reading::words::Places;
 use crate::session::Pane;
-use crate::spot::Spot;
+use ppum_scene::spot::Spot;
 
 /// Part of the view that the radius of a circle around a tip has.
 const SEEN: f64 = 0.3;

@@ -18,6 +18,7 @@ use ppum_render::scatter::render;
 use ppum_scene::colors::Colors;
 use ppum_scene::deformed::Factor;
 use ppum_scene::drawing::RasterValues;
+use ppum_scene::spot::Spot;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use ppum_testkit::random::Random;
@@ -26,7 +27,6 @@ use ppum_viewer::Viewer;
 use ppum_viewer::frames::{Backend, Fault, Frame};
 use ppum_viewer::reading::probe::Probed;
 use ppum_viewer::session::{Session, VisibleRegion};
-use ppum_viewer::spot::Spot;
 
 use crate::kit::{plate, settle, show_until};
 

@@ -11,12 +11,12 @@ use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::{Quantity, QuantityGradient};
 use ppum::vec2::{Vec2, vec2 as v};
+use ppum_scene::spot::Spot;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use ppum_viewer::Viewer;
 use ppum_viewer::reading::probe::Probed;
 use ppum_viewer::session::VisibleRegion;
-use ppum_viewer::spot::Spot;
 
 use crate::kit::{at, hover, plate, settle, window};
 

@@ -8,12 +8,12 @@ use ppum_render::range::Range;
 use ppum_render::scale::Scale;
 use ppum_scene::deformed::Factor;
 use ppum_scene::overlays::{Levels, Overlay};
+use ppum_scene::spot::Spot;
 use ppum_testkit::random::Random;
 use ppum_testkit::skipped::skipped;
 use ppum_viewer::files::session_file::{parse, text};
 use ppum_viewer::offscreen::{ScreenshotError, screenshot};
 use ppum_viewer::session::{DrawerPage, Minus, Pane, ProblemDraft, Session, Theme, VisibleRegion};
-use ppum_viewer::spot::Spot;
 use ppum_viewer::window::Start;
 
 use crate::kit::plate;
