@@ -10,6 +10,7 @@ mod damage;
 mod demo;
 mod determinism;
 mod errors;
+mod export;
 mod figures;
 mod files;
 mod formula;

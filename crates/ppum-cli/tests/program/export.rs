@@ -1,0 +1,76 @@
+//! `ppum export`: what is in a page, and what is refused. `tests/page` opens pages in a browser.
+
+use ppum_figure::canvas::base64::base64;
+use serde_json::Value;
+
+use crate::{CRACKED, Lab};
+
+/// The text of an element with an identifier.
+fn element<'p>(page: &'p str, identifier: &str) -> &'p str {
+    let start = format!("id=\"{identifier}\">");
+    let (_, rest) = page.split_once(&start).expect("an element");
+    rest.split('<').next().expect("its text")
+}
+
+/// What a page shows first, of an export with options.
+fn start(lab: &Lab, options: &str) -> Value {
+    lab.run(&format!("export plate.h5 -o plate.html {options}"));
+    let page = std::fs::read_to_string(lab.path("plate.html")).unwrap();
+    let dataset = std::fs::read(lab.path("plate.h5")).unwrap();
+    assert!(element(&page, "dataset") == base64(&dataset), "the bytes of the file");
+    assert!(!page.contains("://"), "a page names no other");
+    serde_json::from_str(element(&page, "start")).expect("JSON")
+}
+
+#[test]
+fn options_say_what_is_shown_first() {
+    let lab = Lab::solved(CRACKED);
+    let plain = start(&lab, "");
+    assert_eq!((&plain["view"], &plain["file"]), (&Value::Null, &"plate.h5".into()));
+    assert_eq!(plain["scene"]["overlays"]["shown"], serde_json::json!(["cracks"]));
+    assert_eq!(start(&lab, "-q von-mises"), plain, "that is the default");
+    let options = "-q uy+0*ux --colormap vik_r --range 0,2 --scale symlog --isolines 7 \
+                   --overlay cells --center 0.25,0.5 --width 1e-9";
+    let given = start(&lab, options);
+    let scene = &given["scene"];
+    assert_eq!(scene["quantity"], "uy+0*ux");
+    assert_eq!(scene["colors"]["colormap"], "vik_r");
+    assert_eq!(
+        (&scene["colors"]["range"], &scene["colors"]["scale"]),
+        (&"0,2".into(), &"symlog".into())
+    );
+    assert_eq!(scene["overlays"]["isolines"], "7");
+    assert_eq!(scene["overlays"]["shown"], serde_json::json!(["cells", "cracks"]));
+    assert_eq!(given["view"]["center"], serde_json::json!([0.25, 0.5]));
+    assert_eq!(given["view"]["width"], 1e-9);
+}
+
+#[test]
+fn pages_go_to_other_programs_too() {
+    let lab = Lab::solved(CRACKED);
+    lab.run("export plate.h5 -o plate.html");
+    let output = lab.command("export plate.h5 -o -").output().unwrap();
+    assert!(output.status.success());
+    assert_eq!(output.stdout, std::fs::read(lab.path("plate.html")).unwrap());
+}
+
+#[test]
+fn what_pages_do_not_have_is_refused() {
+    let lab = Lab::solved(CRACKED);
+    lab.write("map.json", "[]");
+    for (arguments, reason) in [
+        ("plate.h5 -o page.png", "end the name in .html"),
+        ("plate.h5 -o plate.h5", "would replace plate.h5"),
+        ("plate.toml -o page.html", "not a readable HDF5 file"),
+        ("plate.h5 -o page.html -q nothing", "no quantity `nothing`"),
+        ("plate.h5 -o page.html --step 1", "no step 1"),
+        ("plate.h5 -o page.html --colormap map.json", "maps of the program alone"),
+        ("plate.h5 -o page.html --overlay supports", "no supports and loads"),
+        ("plate.h5 -o page.html --tip 9", "--tip 9"),
+        ("plate.h5 -o page.html --center 90,90 --width 1", "shows nothing of the domain"),
+    ] {
+        let complaint = lab.fail(&format!("export {arguments}"));
+        assert!(complaint.contains(reason), "{arguments}: {complaint}");
+    }
+    assert!(!lab.files().iter().any(|name| name.ends_with(".html")));
+}
