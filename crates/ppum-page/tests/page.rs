@@ -11,7 +11,7 @@ use ppum_scene::colors::Colors;
 use ppum_scene::engine::Engine;
 use ppum_scene::overlays::{Levels, Overlay, Overlays};
 use ppum_scene::scene::Scene;
-use ppum_scene::shot::{self, Source};
+use ppum_scene::shot::{self, FieldSource};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
 
@@ -66,7 +66,7 @@ fn images_are_those_of_the_program() {
             let frame = frame(&mut random, &dataset);
             let values = values(&mut evaluator, &frame);
             let painted = evaluator.paint(&frame, values).unwrap();
-            let (source, request) = (Source::of(&dataset, &field), frame.scene.clone().into());
+            let (source, request) = (FieldSource::of(&dataset, &field), frame.scene.clone().into());
             let engine = Engine::processor(unwatched());
             let view = frame.view.checked().unwrap();
             let (page, _) = shot::page(source, &request, &view, None, &engine).unwrap();

@@ -16,9 +16,9 @@ use crate::given::{self, Given};
 use crate::output::{Output, tell};
 use crate::overlays::Overlays;
 use crate::standard::{self, is_standard};
-use crate::subject::Colors;
+use crate::subject::ColorArgs;
 use crate::target;
-use crate::window::{Frame, Window};
+use crate::window::{ImageExtent, WindowArgs};
 
 /// Write a page to explore a dataset in a browser: one file, for people without this program
 ///
@@ -42,9 +42,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "K")]
     step: Option<usize>,
     #[command(flatten)]
-    window: Window,
+    window: WindowArgs,
     #[command(flatten)]
-    colours: Colors,
+    colours: ColorArgs,
     #[command(flatten)]
     overlays: Overlays,
 }
@@ -62,7 +62,7 @@ const SHAPE: [u32; 2] = [1024, 768];
 
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
-        target::check(&self.output, target::Kind::Page, self.inputs())?;
+        target::check(&self.output, target::FileKind::Page, self.inputs())?;
         let bytes = self.bytes()?;
         let dataset = named(&self.file, ppum_format::from_bytes(bytes.clone()))?;
         let start = self.start(&dataset)?;
@@ -127,7 +127,7 @@ impl Args {
         if !self.window.is_given() {
             return Ok(None);
         }
-        let frame = Frame { pixels: SHAPE, may_shrink: false, margin: 0.0 };
+        let frame = ImageExtent { pixels: SHAPE, may_shrink: false, margin: 0.0 };
         let ppum_render::view::View { center, width, pixels } = self.window.seen(field, frame)?;
         Ok(Some(View { center: center.into(), width, pixels }))
     }

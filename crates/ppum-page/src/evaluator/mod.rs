@@ -8,7 +8,7 @@ use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::QuantityGradient;
-use ppum_render::range::Span;
+use ppum_render::range::ValueSpan;
 use ppum_render::scatter::{BAND, render_rows};
 use ppum_scene::colors::Colors;
 use ppum_scene::scene::Scene;
@@ -22,7 +22,7 @@ use crate::messages::Rows;
 pub struct Evaluator<'d> {
     dataset: &'d Dataset,
     subject: Option<Subject<'d>>,
-    last: Option<Found>,
+    last: Option<KnownRange>,
 }
 
 /// A quantity of a step, ready to be evaluated.
@@ -36,11 +36,11 @@ struct Subject<'d> {
 }
 
 /// The range of an image, and what it was found for.
-struct Found {
+struct KnownRange {
     step: usize,
     text: Option<String>,
     colors: Colors,
-    span: Span,
+    span: ValueSpan,
 }
 
 impl<'d> Subject<'d> {

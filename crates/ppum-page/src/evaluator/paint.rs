@@ -8,10 +8,10 @@ use ppum_figure::ticks;
 use ppum_render::colormap::Colormap;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::Picture;
-use ppum_render::range::Span;
+use ppum_render::range::ValueSpan;
 use ppum_render::raster::Raster;
 use ppum_scene::command;
-use ppum_scene::drawing::{Drawn, PROCESSOR, Seen, Shown, Values};
+use ppum_scene::drawing::{BodyView, Drawn, PROCESSOR, RasterValues, Shown};
 use ppum_scene::engine::Engine;
 use ppum_scene::layers::{Ground, Layers};
 use ppum_scene::range::Telling;
@@ -19,7 +19,7 @@ use ppum_scene::shared::Coloring;
 use ppum_scene::shot::Input;
 use ppum_scene::spot::number;
 
-use super::{Evaluator, Found, Subject, prepared};
+use super::{Evaluator, KnownRange, Subject, prepared};
 use crate::error::PageError;
 use crate::messages::{Frame, Legend, Tick};
 
@@ -49,7 +49,7 @@ impl Evaluator<'_> {
     /// What the dataset does not have; values that are not one for each pixel; a range that does
     /// not fit the scale.
     pub fn paint(&mut self, frame: &Frame, values: Vec<f64>) -> Result<Painted, PageError> {
-        let seen = &Seen::Plate(frame.view.checked().map_err(PageError::shot)?);
+        let seen = &BodyView::Plate(frame.view.checked().map_err(PageError::shot)?);
         let subject = &*prepared(&mut self.subject, self.dataset, &frame.scene)?;
         let engine = Engine::processor(unwatched());
         let painting = Painting { dataset: self.dataset, subject, frame, seen, engine: &engine };
@@ -60,18 +60,18 @@ impl Evaluator<'_> {
         let layers = painting.layers(&picture, &drawn.values)?;
         let mut legend = painting.legend(&picture);
         legend.notices = engine.into_notices().iter().map(ToString::to_string).collect();
-        self.last = Some(Found::new(subject, frame, coloring.span));
+        self.last = Some(KnownRange::new(subject, frame, coloring.span));
         let image = bare(&picture, layers.items).image();
         let values = match drawn.values {
-            Values::Double(raster) => raster.values,
-            Values::Single(_) => Vec::new(),
+            RasterValues::Double(raster) => raster.values,
+            RasterValues::Single(_) => Vec::new(),
         };
         Ok(Painted { image, legend, values })
     }
 }
 
-impl Found {
-    fn new(subject: &Subject<'_>, frame: &Frame, span: Span) -> Self {
+impl KnownRange {
+    fn new(subject: &Subject<'_>, frame: &Frame, span: ValueSpan) -> Self {
         let (step, text) = (subject.step, subject.text.clone());
         Self { step, text, colors: frame.scene.colors.clone(), span }
     }
@@ -89,7 +89,7 @@ struct Painting<'a> {
     dataset: &'a Dataset,
     subject: &'a Subject<'a>,
     frame: &'a Frame,
-    seen: &'a Seen<'a>,
+    seen: &'a BodyView<'a>,
     engine: &'a Engine<'a>,
 }
 
@@ -116,9 +116,9 @@ impl Painting<'_> {
     }
 
     /// The colours, of the range that is known, or of one that is found.
-    fn coloring(&self, drawn: &Drawn, known: Option<Found>) -> Result<Coloring, PageError> {
+    fn coloring(&self, drawn: &Drawn, known: Option<KnownRange>) -> Result<Coloring, PageError> {
         let (colors, shown) = (&self.frame.scene.colors, &self.subject.asked.shown);
-        let Some(Found { span, .. }) = known else {
+        let Some(KnownRange { span, .. }) = known else {
             let found = self.input().coloring(colors, drawn, self.engine);
             return found.map_err(PageError::shot);
         };
@@ -127,7 +127,7 @@ impl Painting<'_> {
         Ok(Coloring { style, span, ends: None })
     }
 
-    fn layers(&self, picture: &Picture, values: &Values) -> Result<Layers, PageError> {
+    fn layers(&self, picture: &Picture, values: &RasterValues) -> Result<Layers, PageError> {
         let Subject { field, asked, .. } = self.subject;
         let ground = Ground {
             dataset: self.dataset,
