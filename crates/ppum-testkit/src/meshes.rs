@@ -92,6 +92,49 @@ impl Polynomial {
     }
 }
 
+/// A square or a triangle of the plane: (s, t) = origin + scale ξ, component by component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    /// The reference shape.
+    pub shape: Shape,
+    /// The point of ξ = 0.
+    pub origin: Vec2,
+    /// Negative of a triangle that is turned.
+    pub scale: Vec2,
+}
+
+impl Part {
+    /// A cell as a whole, or cut into two triangles.
+    fn of_cell(cell: &Rect, is_cut: bool) -> Vec<Self> {
+        let (middle, half) = (cell.center(), cell.size() * 0.5);
+        if !is_cut {
+            return vec![Self { shape: Shape::Square, origin: middle, scale: half }];
+        }
+        // corners (−½, −½), (1, −½), (−½, 1) at three corners of the cell
+        let turned = |turn: f64| Self {
+            shape: Shape::Triangle,
+            origin: middle - half * (turn / 3.0),
+            scale: half * (turn * 4.0 / 3.0),
+        };
+        vec![turned(1.0), turned(-1.0)]
+    }
+
+    /// ξ of a point (s, t), with 31 digits.
+    #[must_use]
+    pub fn xi(&self, [s, t]: [Double; 2]) -> [Double; 2] {
+        [(s - self.origin.x) / self.scale.x, (t - self.origin.y) / self.scale.y]
+    }
+
+    /// The monomials of polynomials of ξ: a tensor product on a square.
+    #[must_use]
+    pub fn space(&self) -> PolynomialSpace {
+        match self.shape {
+            Shape::Square => PolynomialSpace::Tensor,
+            Shape::Triangle => PolynomialSpace::Total,
+        }
+    }
+}
+
 /// A mesh in the making, with a field of polynomials.
 #[derive(Clone, Debug, Default)]
 pub struct Elements {
@@ -121,30 +164,59 @@ impl Elements {
     /// A grid of squares over the unit square, every other one cut into two triangles, under a
     /// polynomial map of the plane.
     #[must_use]
-    pub fn grid([nx, ny]: [i32; 2], degree: u8, plane: &[Polynomial; 2]) -> Self {
+    pub fn grid(cells: [i32; 2], degree: u8, plane: &[Polynomial; 2]) -> Self {
+        Self::tiles(cells, degree, plane, |i, j| (i + j) % 2 != 0)
+    }
+
+    /// The same, of which some squares are cut into two triangles.
+    #[must_use]
+    pub fn tiles(
+        [nx, ny]: [i32; 2],
+        degree: u8,
+        plane: &[Polynomial; 2],
+        is_cut: impl Fn(i32, i32) -> bool,
+    ) -> Self {
         let mut all = Self::default();
         let (hx, hy) = (0.5 / f64::from(nx), 0.5 / f64::from(ny));
         for (i, j) in (0..ny).flat_map(|j| (0..nx).map(move |i| (i, j))) {
             let (x, y) = (f64::from(2 * i + 1) * hx, f64::from(2 * j + 1) * hy);
-            let mut push = |shape, space, s: Polynomial, t: Polynomial| {
-                all.push(shape, space, degree, plane.each_ref().map(|p| p.of(&s, &t)));
-            };
-            if (i + j) % 2 == 0 {
-                let square = [Polynomial::linear(x, hx, 0.0), Polynomial::linear(y, 0.0, hy)];
-                let [s, t] = square;
-                push(Shape::Square, PolynomialSpace::Tensor, s, t);
-                continue;
-            }
-            for turn in [1.0, -1.0] {
-                // corners (−½, −½), (1, −½), (−½, 1) at three corners of the square
-                let along = |middle: f64, h: f64, a: f64, b: f64| {
-                    Polynomial::linear(middle - turn * h / 3.0, turn * a, turn * b)
-                };
-                let (s, t) = (along(x, hx, 4.0 * hx / 3.0, 0.0), along(y, hy, 0.0, 4.0 * hy / 3.0));
-                push(Shape::Triangle, PolynomialSpace::Total, s, t);
+            let half = vec2(hx, hy);
+            for part in Part::of_cell(&Rect::around(vec2(x, y), half), is_cut(i, j)) {
+                all.push_part(&part, degree, plane);
             }
         }
         all
+    }
+
+    /// The leaves of a random quadtree over the unit square, with hanging nodes: each a square or
+    /// two triangles, under a polynomial map of the plane; and what they are of the unit square.
+    #[must_use]
+    pub fn quadtree(
+        random: &mut Random,
+        levels: u32,
+        degree: u8,
+        plane: &[Polynomial; 2],
+    ) -> (Self, Vec<Part>) {
+        let (mut all, mut parts) = (Self::default(), Vec::new());
+        let mut work = vec![(Rect::new(Vec2::ZERO, vec2(1.0, 1.0)), 0)];
+        while let Some((cell, level)) = work.pop() {
+            if level < 2 || (level < levels && random.unit() < 0.5) {
+                let (center, quarter) = (cell.center(), cell.size() * 0.25);
+                let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]];
+                let child = |[i, j]: [f64; 2]| center + vec2(i * quarter.x, j * quarter.y);
+                work.extend(corners.map(|at| (Rect::around(child(at), quarter), level + 1)));
+                continue;
+            }
+            parts.extend(Part::of_cell(&cell, random.unit() < 0.5));
+        }
+        parts.iter().for_each(|part| all.push_part(part, degree, plane));
+        (all, parts)
+    }
+
+    fn push_part(&mut self, part: &Part, degree: u8, plane: &[Polynomial; 2]) {
+        let s = Polynomial::linear(part.origin.x, part.scale.x, 0.0);
+        let t = Polynomial::linear(part.origin.y, 0.0, part.scale.y);
+        self.push(part.shape, part.space(), degree, plane.each_ref().map(|p| p.of(&s, &t)));
     }
 
     /// The box of all elements.

@@ -11,7 +11,8 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_raster::reference::reference;
 use ppum_raster::scatter::{BAND, render, render_rows, render_strips};
 use ppum_raster::view::View;
-use ppum_testkit::meshes::{Elements, Polynomial, field, random_polynomial};
+use ppum_testkit::extended::Double;
+use ppum_testkit::meshes::{Elements, Part, Polynomial, field, random_polynomial};
 use ppum_testkit::random::Random;
 
 /// A curved mesh, all elements cut in two by a curve, with a polynomial on each part, and a
@@ -138,4 +139,62 @@ fn no_pixel_is_lost() {
         }
     }
     assert!(inside > 20_000, "{inside}");
+}
+
+/// Hanging nodes, neighbours of other shapes and degrees, edges that rounding parts: each pixel has
+/// the value of the leaf that its centre comes from, found in the unit square by the inverse of an
+/// affine map of the plane.
+#[test]
+fn no_pixel_of_a_quadtree_is_lost() {
+    let mut random = Random(6);
+    for _ in 0..4 {
+        let angle = random.between(-3.0, 3.0);
+        let (c, s) = (angle.cos(), angle.sin());
+        let plane = [Polynomial::linear(0.1, c, -s), Polynomial::linear(-0.7, s, c)];
+        let (elements, leaves) = Elements::quadtree(&mut random, 5, 1, &plane);
+        let parts: Vec<_> = leaves
+            .iter()
+            .map(|leaf| {
+                let degree = random.below(9) as u8;
+                let p = random_polynomial(&mut random, leaf.space(), degree.into());
+                (leaf.space(), degree, p)
+            })
+            .collect();
+        let dataset = elements.dataset(vec![field("v", &parts)]);
+        let compiled = Field::new(&dataset, 0).expect("a field");
+        let middle = vec2(0.1 + 0.5 * (c - s), 0.5 * (c + s) - 0.7);
+        let view = View::new(middle, 1.5, [120, 120]).expect("a view");
+        let found =
+            render::<f64>(&compiled, &view, &Quantity::Component(0), unwatched()).expect("drawn");
+        let det = Double::product(c, c) + Double::product(s, s);
+        let mut inside = 0;
+        for (i, j) in (0..120).flat_map(|i| (0..120).map(move |j| (i, j))) {
+            let offset = view.offset(i, j);
+            let [x, y] = [
+                Double::sum(view.center.x, offset.x) - 0.1,
+                Double::sum(view.center.y, offset.y) + 0.7,
+            ];
+            let st = [(x * c + y * s) / det, (y * c - x * s) / det];
+            let (xi, near) = (|k: usize| leaves[k].xi(st), st.map(Double::to_f64));
+            let margin = |k: usize| {
+                let Part { shape, origin, scale } = leaves[k];
+                shape.margin(
+                    [0.0; 2],
+                    [(near[0] - origin.x) / scale.x, (near[1] - origin.y) / scale.y],
+                )
+            };
+            let value = found.value(i, j);
+            match (0..leaves.len()).max_by(|&a, &b| margin(a).total_cmp(&margin(b))) {
+                Some(leaf) if margin(leaf) > 1e-9 => {
+                    let (p, size) = (parts[leaf].2.at(xi(leaf)).to_f64(), xi(leaf));
+                    let size = parts[leaf].2.magnitude(size.map(Double::to_f64)).max(1e-3);
+                    assert!((value - p).abs() <= 2e-12 * size, "{value} {p} at {i}, {j}");
+                    inside += 1;
+                }
+                Some(leaf) if margin(leaf) < -1e-9 => assert!(value.is_nan(), "{i}, {j}"),
+                _ => {}
+            }
+        }
+        assert!(inside > 5000, "{inside}");
+    }
 }

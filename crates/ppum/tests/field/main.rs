@@ -9,6 +9,7 @@ mod each;
 mod errors;
 mod formulas;
 mod gradients;
+mod hp_mesh;
 mod indicators;
 mod jumps;
 mod lanes;

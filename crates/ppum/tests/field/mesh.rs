@@ -15,13 +15,13 @@ use ppum_testkit::meshes::{
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::Recipe;
 
-fn compiled(dataset: &Dataset) -> Field<'_> {
+pub(crate) fn compiled(dataset: &Dataset) -> Field<'_> {
     dataset.check().expect("a mesh");
     Field::new(dataset, 0).expect("a field")
 }
 
 /// The field at `anchor + offset`, seen from the anchor.
-fn jet(field: &Field<'_>, anchor: Vec2, offset: Vec2, side: Side) -> Option<Jet<f64>> {
+pub(crate) fn jet(field: &Field<'_>, anchor: Vec2, offset: Vec2, side: Side) -> Option<Jet<f64>> {
     let mut jets = [Jet::constant(0.0)];
     field.at(anchor).evaluate::<2>(offset, side, &mut jets).then_some(jets[0])
 }
