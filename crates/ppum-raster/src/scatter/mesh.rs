@@ -2,9 +2,9 @@
 
 use ppum::crack::Side;
 use ppum::field::{Field, LocalField};
+use ppum::mesh::PointGrid;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
-use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
 use super::collapse::ROWS;
@@ -13,8 +13,8 @@ use crate::parts::Parts;
 use crate::rows::Strips;
 use crate::view::View;
 
-/// Columns and rows of a tile: its pixels share the elements that are looked at.
-const TILE: usize = 16;
+/// Columns of a tile, whose elements are looked at one after the other.
+const TILE: usize = 128;
 
 /// Evaluates some bands of rows at a time, seen from the view's centre, and gives `take` their
 /// values in order.
@@ -52,16 +52,14 @@ fn draw_band(
     pixels: &mut [f64],
 ) {
     let columns = view.pixels[0] as usize;
-    let rows = pixels.len() / columns;
-    let corners =
-        (0..rows).step_by(TILE).flat_map(|j| (0..columns).step_by(TILE).map(move |i| (i, j)));
-    for (left, top) in corners {
-        let (right, bottom) = ((left + TILE).min(columns), (top + TILE).min(rows));
-        let places = (top..bottom).flat_map(|j| (left..right).map(move |i| (i, j)));
-        let offset = |(i, j): (usize, usize)| view.offset(i as u32, (first + j) as u32);
-        let offsets: Vec<Vec2> = places.clone().map(offset).collect();
-        let quantities = std::slice::from_ref(quantity);
-        let found = Quantity::at_many(quantities, local, &offsets, Side::Above);
-        places.zip(found).for_each(|((i, j), value)| pixels[j * columns + i] = value);
+    let y: Vec<f64> =
+        (0..pixels.len() / columns).map(|j| view.offset(0, (first + j) as u32).y).collect();
+    let x: Vec<f64> = (0..columns).map(|i| view.offset(i as u32, 0).x).collect();
+    for left in (0..columns).step_by(TILE) {
+        let right = (left + TILE).min(columns);
+        let grid = PointGrid { x: &x[left..right], y: &y };
+        let values = quantity.on_grid(local, &grid, Side::Above);
+        let rows = pixels.chunks_mut(columns).zip(values.chunks(right - left));
+        rows.for_each(|(pixels, values)| pixels[left..right].copy_from_slice(values));
     }
 }

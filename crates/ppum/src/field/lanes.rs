@@ -3,6 +3,7 @@
 use super::LocalField;
 use crate::crack::Side;
 use crate::jet::Jet;
+use crate::mesh::PointGrid;
 use crate::vec2::Vec2;
 use ppum_formula::real::{Job, Lanes, Real, Scalar};
 
@@ -107,6 +108,22 @@ impl LocalField<'_> {
             return mesh.evaluate_many::<D>(&self.functions, (offsets, side), out);
         }
         f64::dispatch(Many::<D> { local: self, offsets, side, out });
+    }
+
+    /// Evaluates a field on a mesh at the points of a grid, row by row: as
+    /// [`evaluate_into`](Self::evaluate_into), element by element. Leaves `out` alone for a cover.
+    ///
+    /// # Panics
+    /// If `out` is shorter than points × components.
+    pub(crate) fn evaluate_grid<const D: usize>(
+        &self,
+        grid: &PointGrid<'_>,
+        side: Side,
+        out: &mut [Jet<f64>],
+    ) {
+        if let Some(mesh) = &self.mesh {
+            mesh.evaluate_grid::<D>(&self.functions, (grid, side), out);
+        }
     }
 
     /// Evaluates at many points over a given list of patches, which must hold all that cover one of

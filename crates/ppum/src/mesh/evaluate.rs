@@ -1,7 +1,10 @@
 //! The field on one element: polynomials of ξ, functions of the world and of level fields, the
 //! chain rule.
 
+use std::borrow::Cow;
+
 use super::local::{LocalMesh, Location, Near};
+use super::map::Map;
 use crate::crack::{Side, TipPoint};
 use crate::function::{GROUP, LevelUse, LocalFunctions, Slot};
 use crate::jet::Jet;
@@ -10,7 +13,7 @@ use crate::vec2::Vec2;
 use ppum_formula::real::Real;
 
 /// A patch as it is, or as seen from a ξ beside the anchor.
-type Seen<'m> = (usize, Option<&'m Near>);
+pub(super) type Seen<'m> = (usize, Option<&'m Near>);
 
 impl LocalMesh<'_> {
     /// All components of the field at a place, with derivatives in the world.
@@ -22,23 +25,28 @@ impl LocalMesh<'_> {
         out: &mut [Jet<f64>],
     ) {
         let at = At { delta: place.delta, offset: offset.into(), side };
-        self.evaluate_at::<f64, D>((place.patch, place.near), functions, &at, out);
+        let seen = (place.patch, place.near);
+        self.evaluate_at::<f64, D>((seen, &self.map_of(seen)), functions, &at, out);
     }
 
-    /// The same at a vector of places in one patch.
+    /// The map of a patch in δ.
+    pub(super) fn map_of<'m>(&self, (patch, near): Seen<'m>) -> Cow<'m, Map> {
+        match near {
+            Some(near) => Cow::Borrowed(&near.inverse.map),
+            None => Cow::Owned(self.mesh.map(patch)),
+        }
+    }
+
+    /// The same at a vector of places in one patch, with its map in δ.
     #[inline(always)]
     pub(super) fn evaluate_at<R: Real, const D: usize>(
         &self,
-        seen: Seen<'_>,
+        (seen, map): (Seen<'_>, &Map),
         functions: &LocalFunctions<'_>,
         at: &At<R>,
         out: &mut [Jet<R>],
     ) {
-        let image = match seen.1 {
-            Some(near) => near.inverse.map.at::<R, D>(at.delta),
-            None => self.mesh.map(seen.0).at::<R, D>(at.delta),
-        };
-        let world = World::new(image);
+        let world = World::new(map.at::<R, D>(at.delta));
         let (own, data) = (self.field.index, self.field.data);
         let zero = Jet::constant(at.delta[0].lit(0.0));
         let mut known: Vec<(u32, [Jet<R>; GROUP])> = Vec::new();
@@ -135,6 +143,14 @@ impl LocalMesh<'_> {
         }
         jets
     }
+}
+
+/// A point by its number, with its place in a patch.
+#[derive(Clone, Copy)]
+pub(super) struct LanePoint {
+    pub(super) index: usize,
+    pub(super) offset: Vec2,
+    pub(super) delta: [f64; 2],
 }
 
 /// Places in a patch, as δ and as offsets from the anchor.

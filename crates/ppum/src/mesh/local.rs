@@ -7,7 +7,8 @@
 use std::collections::BTreeMap;
 
 use super::Mesh;
-use super::map::{Inverse, TOLERANCE};
+use super::map::{Inverse, Map, TOLERANCE};
+use super::shape::Edge;
 use super::taylor::Dense;
 use crate::compensated::{Pair, difference, minus, plus};
 use crate::crack::Side;
@@ -148,32 +149,86 @@ impl<'f> LocalMesh<'f> {
         if !candidate.reach.contains(offset) {
             return None;
         }
-        let shifted = |by: &[Pair; 2]| [plus(by[0], (offset.x, 0.0)), plus(by[1], (offset.y, 0.0))];
         if let Some(near) = candidate.near
-            && let Some(delta) = near.inverse.near(shifted(&near.rest))
+            && let Some(delta) = near.inverse.near(moved(&near.rest, offset))
         {
             return Some(Location { patch, delta, near: Some(near) });
         }
-        let t = shifted(&candidate.from_origin);
+        let t = moved(&candidate.from_origin, offset);
         let delta = candidate.inverse.as_ref()?.at(self.mesh.shape[patch], t, start)?;
         Some(Location { patch, delta, near: None })
     }
 
     #[inline]
-    fn margin(&self, place: &Location<'_>) -> f64 {
+    pub(super) fn margin(&self, place: &Location<'_>) -> f64 {
         let at = place.near.map_or([0.0; 2], |near| near.at);
         self.mesh.shape[place.patch].margin(at, place.delta)
     }
 
     /// True if the patch's clips hold at a place.
     #[inline]
-    fn is_kept(&self, place: &Location<'_>, side: Side) -> bool {
+    pub(super) fn is_kept(&self, place: &Location<'_>, side: Side) -> bool {
         self.mesh.clips(place.patch).iter().all(|clip| {
             let (patch, near) = (place.patch, place.near);
             let level = self.level::<f64, 0>((patch, near), clip.field as usize, place.delta).v;
             let is_above = level > 0.0 || (level == 0.0 && side == Side::Above);
             is_above == clip.is_above
         })
+    }
+}
+
+/// A point that is moved by an offset.
+#[inline]
+fn moved(from: &[Pair; 2], offset: Vec2) -> [Pair; 2] {
+    [plus(from[0], (offset.x, 0.0)), plus(from[1], (offset.y, 0.0))]
+}
+
+impl Candidate<'_> {
+    /// A box around the patch and what lies beside it, from the anchor.
+    pub(super) fn reach(&self) -> Rect {
+        self.reach
+    }
+
+    /// The map of the element as it is.
+    pub(super) fn map(&self) -> Option<&Map> {
+        self.inverse.as_ref().map(|inverse| &inverse.map)
+    }
+
+    /// The inverse of a map that is solved by Newton's method, if the patch is not near.
+    pub(super) fn bent(&self) -> Option<&Inverse> {
+        self.inverse.as_ref().filter(|inverse| self.near.is_none() && !inverse.map.is_affine())
+    }
+
+    /// M(ξ) of an offset.
+    #[inline]
+    pub(super) fn target(&self, offset: Vec2) -> [f64; 2] {
+        moved(&self.from_origin, offset).map(|t| t.0 + t.1)
+    }
+
+    /// True if Newton's method has arrived with a step at a ξ that is the only one or lies in the
+    /// shape.
+    #[inline]
+    pub(super) fn decided(&self, mesh: &Mesh, xi: [f64; 2], step: f64) -> bool {
+        let inverse = self.inverse.as_ref();
+        inverse.is_some_and(|inverse| {
+            inverse.has_arrived(xi, step) && inverse.decides(mesh.shape[self.patch], xi)
+        })
+    }
+
+    /// Half-planes a + b x + c y ≥ 0 of offsets that hold all of the patch, and what lies just
+    /// beside it: those of the edges for the linear part of the map, farther out by κ. `far` is the
+    /// farthest that offsets are looked at.
+    #[inline]
+    pub(super) fn half_planes(&self, mesh: &Mesh, far: Vec2) -> [Option<Edge>; 4] {
+        let mut planes = [None; 4];
+        let Some(inverse) = &self.inverse else { return planes };
+        let [u, v] = self.from_origin.map(|t| t.0 + t.1);
+        for (plane, &[a, x, y]) in planes.iter_mut().zip(mesh.shape[self.patch].edges()) {
+            let [b, c] = inverse.slopes([x, y]);
+            let rounding = 1e-14 * (b.abs() * (u.abs() + far.x) + c.abs() * (v.abs() + far.y));
+            *plane = Some([a + b * u + c * v + inverse.beyond() + rounding, b, c]);
+        }
+        planes
     }
 }
 

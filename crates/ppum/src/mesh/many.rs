@@ -1,8 +1,9 @@
 //! Many points: each one's owner first, beginning with the place of its neighbour, then those of
 //! one patch on lanes.
 
-use super::evaluate::At;
+use super::evaluate::{At, LanePoint, Seen};
 use super::local::{Candidate, LocalMesh, Location};
+use super::map::Map;
 use crate::crack::Side;
 use crate::function::LocalFunctions;
 use crate::jet::Jet;
@@ -14,7 +15,7 @@ const POINTS: usize = 256;
 const CANDIDATES: usize = 64;
 
 /// Outside.
-const NOWHERE: Jet<f64> =
+pub(super) const NOWHERE: Jet<f64> =
     Jet { v: f64::NAN, x: f64::NAN, y: f64::NAN, xx: f64::NAN, xy: f64::NAN, yy: f64::NAN };
 
 impl LocalMesh<'_> {
@@ -87,27 +88,58 @@ impl<const D: usize> Job<f64> for Many<'_, '_, '_, '_, D> {
         order.sort_by_key(|&k| key(k));
         let mut lanes = vec![Jet::constant(zero); components];
         for run in order.chunk_by(|&a, &b| key(a) == key(b)) {
+            let Some(first) = self.owners[run[0]] else { continue };
+            let (mesh, functions, seen) = (self.mesh, self.functions, (first.patch, first.near));
+            let one = OnePatch { mesh, functions, side: self.side, seen, map: &mesh.map_of(seen) };
             for points in run.chunks(R::LANES) {
-                let Some(first) = self.owners[points[0]] else { continue };
-                // the last point stands in for those that are missing
-                let (mut delta, mut offset) = ([Lanes::default(); 2], [Lanes::default(); 2]);
-                for lane in 0..R::LANES {
-                    let k = points[lane.min(points.len() - 1)];
-                    let place = self.owners[k].map_or([0.0; 2], |place| place.delta);
-                    (delta[0][lane], delta[1][lane]) = (place[0], place[1]);
-                    (offset[0][lane], offset[1][lane]) = (self.offsets[k].x, self.offsets[k].y);
-                }
-                let at = At {
-                    delta: [zero.load(&delta[0]), zero.load(&delta[1])],
-                    offset: [zero.load(&offset[0]), zero.load(&offset[1])],
-                    side: self.side,
+                let place = |k: usize| {
+                    let (index, owner) = (points[k], self.owners[points[k]]);
+                    let delta = owner.map_or([0.0; 2], |place| place.delta);
+                    LanePoint { index, offset: self.offsets[index], delta }
                 };
-                let seen = (first.patch, first.near);
-                self.mesh.evaluate_at::<R, D>(seen, self.functions, &at, &mut lanes);
-                for (c, jet) in lanes.iter().enumerate() {
-                    store::<R, D>(jet, points.iter().map(|k| k * components + c), self.out);
-                }
+                one.evaluate::<R, D>((points.len(), place), &mut lanes, self.out);
             }
+        }
+    }
+}
+
+/// What evaluates the field in one patch.
+pub(super) struct OnePatch<'a, 'f, 't, 'm> {
+    pub(super) mesh: &'a LocalMesh<'f>,
+    pub(super) functions: &'a LocalFunctions<'t>,
+    pub(super) side: Side,
+    pub(super) seen: Seen<'m>,
+    pub(super) map: &'a Map,
+}
+
+impl OnePatch<'_, '_, '_, '_> {
+    /// Evaluates some places, no more than there are lanes, and writes the components of each to
+    /// the rows of its number; `lanes` is for as many components.
+    #[inline(always)]
+    pub(super) fn evaluate<R: Real<Scalar = f64>, const D: usize>(
+        &self,
+        (count, place): (usize, impl Fn(usize) -> LanePoint),
+        lanes: &mut [Jet<R>],
+        out: &mut [Jet<f64>],
+    ) {
+        // the last point stands in for those that are missing
+        let (mut delta, mut offset) = ([Lanes::default(); 2], [Lanes::default(); 2]);
+        let mut rows = Lanes::default().map(|_| 0);
+        for lane in 0..R::LANES {
+            let place = place(lane.min(count - 1));
+            (delta[0][lane], delta[1][lane]) = (place.delta[0], place.delta[1]);
+            (offset[0][lane], offset[1][lane]) = (place.offset.x, place.offset.y);
+            rows[lane] = place.index * lanes.len();
+        }
+        let zero = lanes[0].v.lit(0.0);
+        let at = At {
+            delta: [zero.load(&delta[0]), zero.load(&delta[1])],
+            offset: [zero.load(&offset[0]), zero.load(&offset[1])],
+            side: self.side,
+        };
+        self.mesh.evaluate_at::<R, D>((self.seen, self.map), self.functions, &at, lanes);
+        for (c, jet) in lanes.iter().enumerate() {
+            store::<R, D>(jet, rows[..count].iter().map(|row| row + c), out);
         }
     }
 }

@@ -57,8 +57,14 @@ impl Map {
     }
 
     /// True of a linear map: that of a straight triangle, or of a parallelogram.
-    fn is_affine(&self) -> bool {
+    pub(super) fn is_affine(&self) -> bool {
         self.degree == 1 && self.x[3] == 0.0 && self.y[3] == 0.0
+    }
+
+    /// The highest total degree of the monomials.
+    fn highest(&self) -> i32 {
+        let factor = if self.space == PolynomialSpace::Tensor { 2 } else { 1 };
+        factor * self.degree as i32
     }
 
     /// The columns of ∂M/∂ξ and ∂M/∂η at ξ = 0.
@@ -234,21 +240,76 @@ impl Inverse {
     ) -> Option<[f64; 2]> {
         let target = t.map(|t| t.0 + t.1);
         let guess = self.matrix.times(target);
-        // margins change by no more than twice as much as ξ
-        if shape.margin([0.0; 2], guess) < -2.0 * self.kappa - 1e-6 {
+        if shape.margin([0.0; 2], guess) < -self.beyond() {
             return None;
         }
         if self.map.is_affine() {
             return Some(self.map.refined(&self.matrix, guess, t));
         }
         let start = start.unwrap_or_else(|| guess.map(|g| g.clamp(-1.0, 1.0)));
-        if let Some(xi) = self.map.newton(start, target) {
-            let is_only = self.lipschitz < 1.0 && largest(xi) <= 1.0;
-            if is_only || shape.margin([0.0; 2], xi) >= -TOLERANCE {
-                return Some(xi);
-            }
+        match self.map.newton(start, target) {
+            Some(xi) if self.decides(shape, xi) => Some(xi),
+            _ => self.map.search(shape, target),
         }
-        self.map.search(shape, target)
+    }
+
+    /// How far the linear part's ξ may lie outside the shape for a solution in it: margins change
+    /// by no more than twice as much as ξ.
+    #[inline]
+    pub(super) fn beyond(&self) -> f64 {
+        2.0 * self.kappa + 1e-6
+    }
+
+    /// The slopes in x and y of a function of ξ with slopes in ξ and η, for the linear part.
+    #[inline]
+    pub(super) fn slopes(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let Matrix([[a, b], [c, d]]) = self.matrix;
+        [x * a + y * c, x * b + y * d]
+    }
+
+    /// True if a solution lies in the shape, or no other does: in the square of the half-width r ≥ 1
+    /// that holds both, u ← u − J⁻¹ (M(u) − t) changes distances by a factor of at most L r^(k − 1),
+    /// k the highest degree, and there is one solution where that is below 1.
+    #[inline]
+    pub(super) fn decides(&self, shape: Shape, xi: [f64; 2]) -> bool {
+        shape.margin([0.0; 2], xi) >= -TOLERANCE
+            || self.lipschitz * largest(xi).max(1.0).powi(self.map.highest() - 1) < 1.0
+    }
+
+    /// True if the error that a step of Newton's method leaves, about its square, is rounding.
+    #[inline]
+    pub(super) fn has_arrived(&self, xi: [f64; 2], step: f64) -> bool {
+        step <= 1e-9 * largest(xi) || step <= 1e-15
+    }
+
+    /// Newton's method on lanes, from J⁻¹ t put into the square: ξ, η, and the size of the last
+    /// step, by which [`has_arrived`](Self::has_arrived) knows.
+    #[inline(always)]
+    pub(super) fn newton_on<R: Real>(&self, t: [R; 2]) -> [R; 3] {
+        let (one, Matrix([[a, b], [c, d]])) = (t[0].lit(1.0), self.matrix);
+        let guess = [t[0] * one.lit(a) + t[1] * one.lit(b), t[0] * one.lit(c) + t[1] * one.lit(d)];
+        let mut xi = [guess[0].min(one).max(-one), guess[1].min(one).max(-one)];
+        let (mut size, mut left) = (one, self.lane_steps());
+        while left > 0 {
+            left -= 1;
+            let [x, y] = self.map.at::<R, 1>(xi);
+            let inverse = one / (x.x * y.y - x.y * y.x);
+            let (dx, dy) = (x.v - t[0], y.v - t[1]);
+            let step = [(y.y * dx - x.y * dy) * inverse, (x.x * dy - y.x * dx) * inverse];
+            xi = [xi[0] - step[0], xi[1] - step[1]];
+            size = step[0].abs().max(step[1].abs());
+        }
+        [xi[0], xi[1], size]
+    }
+
+    /// Steps of Newton's method on lanes: errors are at most κ at first, and each step leaves less
+    /// than the square. Points that need more are looked at one by one.
+    fn lane_steps(&self) -> u32 {
+        match self.kappa {
+            k if k < 0.003 => 3,
+            k if k < 0.1 => 4,
+            _ => 6,
+        }
     }
 
     /// The ξ with M(ξ) = t if it lies within a quarter of 0.

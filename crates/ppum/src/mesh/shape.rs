@@ -10,7 +10,7 @@ pub enum Shape {
 }
 
 /// An edge as the half-plane a + b ξ + c η ≥ 0 that holds the shape.
-type Edge = [f64; 3];
+pub(super) type Edge = [f64; 3];
 
 const TRIANGLE: &[Edge] = &[[0.5, 1.0, 0.0], [0.5, 0.0, 1.0], [0.5, -1.0, -1.0]];
 const SQUARE: &[Edge] = &[[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0]];

@@ -4,6 +4,7 @@ use super::{Quantity, Sample, Source};
 use crate::crack::Side;
 use crate::field::LocalField;
 use crate::jet::Jet;
+use crate::mesh::PointGrid;
 use crate::vec2::Vec2;
 
 impl Quantity {
@@ -31,6 +32,26 @@ impl Quantity {
             rows.extend(quantities.iter().map(|quantity| quantity.of_jets(local, offset, jets)));
         }
         rows
+    }
+
+    /// A quantity of a field on a mesh at the points of a grid, row by row; NaN outside, and of a
+    /// cover everywhere.
+    #[must_use]
+    pub fn on_grid(
+        &self,
+        local: &mut LocalField<'_>,
+        grid: &PointGrid<'_>,
+        side: Side,
+    ) -> Vec<f64> {
+        let components = local.field.components();
+        let mut jets = vec![Jet::constant(f64::NAN); grid.x.len() * grid.y.len() * components];
+        match self.source() {
+            Source::Partition => {}
+            Source::Gradient => local.evaluate_grid::<1>(grid, side, &mut jets),
+            _ => local.evaluate_grid::<0>(grid, side, &mut jets),
+        }
+        let points = grid.offsets().zip(jets.chunks(components));
+        points.map(|(offset, jets)| self.of_jets(local, offset, jets)).collect()
     }
 
     /// The quantity where the field is known; NaN outside the domain.
