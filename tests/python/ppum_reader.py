@@ -210,19 +210,26 @@ class Field:
             self.weight = self.formula(text(group.attrs["weight_formula"]), ("t",))
 
     def covers_cells(self):
-        """True if each point of each cell has |s| <= 0.991 in a support: rule 12 of section 7.
+        """True if each point of each cell, without cells of the domain, has |s| <= 0.991 in a support: rule 12 of
+        section 7.
 
         Cells that their own supports do not cover are cut by the borders of all others.
         """
-        center, half, cells = (self.partition[k] for k in ("center", "half", "cell"))
+        center, half = self.partition["center"], self.partition["half"]
         low, high = center - 0.991 * half, center + 0.991 * half
-        for k in np.flatnonzero((low > cells[:, :2]).any(axis=1) | (high < cells[:, 2:]).any(axis=1)):
-            min, max = cells[k, :2], cells[k, 2:]
+        if "cell" in self.partition:
+            cells = self.partition["cell"]
+            cells = cells[(low > cells[:, :2]).any(axis=1) | (high < cells[:, 2:]).any(axis=1)]
+        else:
+            cells = np.array([[*self.min, *self.max]])
+        for min, max in zip(cells[:, :2], cells[:, 2:]):
             near = np.flatnonzero((low < max).all(axis=1) & (high > min).all(axis=1))
             cuts = [np.unique(np.clip([*low[near, d], *high[near, d], min[d], max[d]], min[d], max[d])) for d in (0, 1)]
             for p in np.stack(np.meshgrid(*((c[1:] + c[:-1]) / 2 for c in cuts)), -1).reshape(-1, 2):
                 if not ((low[near] <= p) & (p <= high[near])).all(axis=1).any():
-                    return False
+                    in_hole = "cell" not in self.partition and any(self.in_hole([self.real(c) for c in p], *h) for h in self.holes)
+                    if not in_hole:
+                        return False
         return True
 
     def read_functions(self, group):

@@ -261,21 +261,29 @@ fn partition(group: &GroupReader, scopes: &Option<Scopes>) -> Partition {
     }
 }
 
+/// The optional arrays of cells.
+const CELLS: [&str; 2] = ["cell", "level"];
+
 fn boxes(group: &GroupReader, scopes: &Option<Scopes>) -> BoxPartition {
     let n = group.rows_of(&["center", "half", "origin", "scale", "cell", "level", "point"]);
+    let has_cells = CELLS.iter().any(|name| group.holds(name, ObjectKind::Dataset));
     let point = group.column::<i64>("point", n);
-    let cell = |[x0, y0, x1, y1]: [f64; 4]| Rect::new(vec2(x0, y0), vec2(x1, y1));
     BoxPartition {
         weight: weight(group, scopes).unwrap_or(WeightFunction::Linear),
         center: group.point_rows("center", n),
         half: group.point_rows("half", n),
         origin: group.point_rows("origin", n),
         scale: group.point_rows("scale", n),
-        cell: group.rows("cell", n).into_iter().map(cell).collect(),
-        level: group.column("level", n),
+        cell: if has_cells { cells(group, n) } else { Vec::new() },
+        level: if has_cells { group.column("level", n) } else { Vec::new() },
         point: point.into_iter().map(|p| point_index(group, p)).collect(),
         points: group.points("points"),
     }
+}
+
+fn cells(group: &GroupReader, rows: usize) -> Vec<Rect> {
+    let cell = |[x0, y0, x1, y1]: [f64; 4]| Rect::new(vec2(x0, y0), vec2(x1, y1));
+    group.rows("cell", rows).into_iter().map(cell).collect()
 }
 
 fn weight(group: &GroupReader, scopes: &Option<Scopes>) -> Option<WeightFunction> {

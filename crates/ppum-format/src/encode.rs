@@ -222,8 +222,10 @@ fn partition(group: &mut GroupWriter, partition: &BoxPartition) {
         group.array(name, Array::rows(points.iter().map(|&p| <[f64; 2]>::from(p))));
     }
     let corners = |c: &Rect| [c.min.x, c.min.y, c.max.x, c.max.y];
-    group.array("cell", Array::rows(partition.cell.iter().map(corners)));
-    group.vector("level", partition.level.iter().copied());
+    if partition.has_cells() {
+        group.array("cell", Array::rows(partition.cell.iter().map(corners)));
+        group.vector("level", partition.level.iter().copied());
+    }
     group.vector("point", partition.point.iter().map(|p| p.map_or(-1, i64::from)));
 }
 

@@ -3,6 +3,7 @@
 import itertools
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -51,17 +52,30 @@ def random_cover(rng):
     low, size = domain[0], domain[1] - domain[0]
     name = rng.choice(["linear", "quadratic", "cubic", "(1 - t)^2*(1 + 2*t)"])
     overlap = rng.uniform(1.1, 1.9)
-    kind = rng.integers(3)
+    kind = rng.integers(4)
     if kind == 0:
         return ppum.Cover.uniform(domain, tuple(rng.integers(2, 6, 2).tolist()), overlap, name)
     if kind == 1:
         return ppum.Cover.from_points(domain, low + size * rng.random((9, 2)), overlap, name)
+    if kind == 2:
+        return ppum.Cover(domain, *scattered_boxes(rng, low, size), name)
     grid = ppum.Cover.uniform(domain, (4, 3))
     center = grid.center + 0.2 * grid.half * rng.uniform(-1, 1, (12, 2))
     half = grid.half * rng.uniform(1.2, 1.6, (12, 2))
     origin, scale = center + 0.3 * half * rng.uniform(-1, 1, (12, 2)), half * rng.uniform(0.6, 1.5, (12, 2))
     order = rng.permutation(12)
     return ppum.Cover(domain, center[order], half[order], name, origin=origin[order], scale=scale[order])
+
+
+def scattered_boxes(rng, low, size):
+    """Centres and half-extents of boxes anywhere that tile nothing: added until each point lies well inside one."""
+    step, boxes = 1 / 40, []
+    for p in rng.permutation(np.stack(np.meshgrid(*[np.arange(step / 2, 1, step)] * 2), -1).reshape(-1, 2)):
+        if not any((abs(p - c) <= 0.95 * h - step).all() for c, h in boxes):
+            half = rng.uniform(0.08, 0.35, 2)
+            boxes.append((p + 0.4 * half * rng.uniform(-1, 1, 2), half))
+    center, half = np.array(boxes).transpose(1, 0, 2)
+    return low + size * center, size * half
 
 
 def random_functions(rng, cover):
@@ -176,6 +190,44 @@ def test_the_program_reads_them(tmp_path, program):
     program("render", tmp_path / "made.h5", "-o", tmp_path / "made.png")
 
 
+def test_boxes_that_do_not_tile(tmp_path, program, capsys):
+    """Without cells there are values, pictures and all facts; what needs cells says so."""
+    rng = np.random.default_rng(3)
+    cover = ppum.Cover(domain(), *scattered_boxes(rng, np.zeros(2), np.array([2, 1])), "quadratic")
+    assert cover.cell is None and len(cover) > 20
+    blocks = {"one": {k: rng.normal(size=(6, 1)) for k in range(len(cover))}}
+    evaluate = lambda x, y: evaluated(cover, blocks, {"one": lambda x, y: np.ones_like(x)}, x, y)[0][:, 0]
+    ds = ppum.build(ppum.State(cover, ppum.Coefficients("u", blocks, verify=evaluate)), tolerance=1e-12)
+    raster = ds.field.render(size=(80, 40))
+    x, y = np.meshgrid((np.arange(80) + 0.5) / 40, 1 - (np.arange(40) + 0.5) / 40)
+    wanted = evaluate(x.ravel(), y.ravel()).reshape(x.shape)
+    assert np.abs(raster - wanted).max() <= 1e-12 * np.abs(wanted).max()
+    path = tmp_path / "boxes.h5"
+    ds.save(path)
+    program("check", path)
+    assert "cells" not in program("info", path)
+    assert f"{evaluate(np.array([0.7]), np.array([0.4]))[0]:.6f}"[:8] in program("probe", path, "--at", "0.7,0.4")
+    capsys.readouterr()
+    ds.field.figure(overlays=["patches", "centers", "cells"]).save(tmp_path / "boxes.png")
+    with pytest.raises(ppum.PpumError, match="`order` is a value of cells, and this cover has none"):
+        ds.field.render("order")
+    with pytest.raises(ppum.PpumError, match="no cells"):
+        ds.field.resampled("u", method="cells")
+
+
+def test_gaps_between_boxes_are_named():
+    """A box that is left out leaves a place uncovered, in a hole or not."""
+    grid = ppum.Cover.uniform(domain(), (8, 4))
+    kept = np.arange(32) != 18
+    cover = ppum.Cover(domain(), grid.center[kept], grid.half[kept])
+    make = lambda radius: ppum.build(
+        ppum.State(cover, field({"one": np.ones((31, 1))})), holes=[ppum.Hole(tuple(grid.center[18]), radius, None)]
+    )
+    assert np.isnan(float(make(0.2).field.at(*grid.center[18]).u))
+    with pytest.raises(ppum.BuildError, match=r"half.*no support holds"):
+        make(0.05)
+
+
 def domain():
     return [(0, 0), (2, 1)]
 
@@ -284,9 +336,10 @@ MISTAKES = {
     "halves": (lambda: ppum.Cover(domain(), GIVEN["center"], [(0.7, 0.7)]), r"half: has the shape \(1, 2\), expected \(2, 2\)"),
     "outside": (lambda: ppum.Cover(domain(), [(0.5, 0.5), (4, 4)], GIVEN["half"]), r"center\[1\]: the support around \(4.0, 4.0\) lies outside"),
     "nan": (lambda: ppum.Cover(domain(), [(0.5, np.nan), (1, 1)], GIVEN["half"]), r"center\[0\]\[1\]: is nan"),
-    "same": (lambda: ppum.Cover(domain(), [(0.5, 0.5)] * 2, GIVEN["half"]), r"patches 0 and 1 have one centre"),
     "overlap": (lambda: ppum.Cover.uniform(domain(), (4, 2), 2.5), r"overlap: 2.5 is not in 1.01 to 1.99"),
     "cells": (lambda: ppum.Cover.uniform(domain(), (0, 2)), r"cells: \(0, 2\) has no cells"),
+    "huge": (lambda: ppum.Cover.uniform(domain(), (200_000, 200_000)), r"cells: .* are 40,000,000,000 patches, of at most"),
+    "level": (lambda: ppum.Cover(domain(), **GIVEN, level=1), r"level: is that of cells; give the cells too"),
     "flipped": (lambda: ppum.Cover.uniform([(1, 1), (0, 2)], (1, 1)), r"domain: .*give the lower left corner first"),
     "legendre": (lambda: ppum.basis.legendre(500), r"degree: is 500, expected 0 to 8"),
     "bernstein": (lambda: ppum.basis.bernstein(500), r"degree: is 500, expected 0 to 8"),
@@ -396,3 +449,31 @@ def test_the_page_runs(tmp_path):
     above, below = written.field.at(0.3, 0.5, side="both").temperature
     assert above - below == pytest.approx(0.4, abs=1e-14)
     assert (tmp_path / "opened.png").stat().st_size > 10000
+
+
+def c_compiler():
+    """A compiler with HDF5's library: the command and what follows the source."""
+    if shutil.which("h5cc"):
+        return ["h5cc"], []
+    if shutil.which("cc") and shutil.which("pkg-config"):
+        for name in ("hdf5", "hdf5-serial"):
+            done = subprocess.run(["pkg-config", "--cflags", "--libs", name], capture_output=True, text=True)
+            if done.returncode == 0:
+                return ["cc"], done.stdout.split()
+    pytest.skip("HDF5's library for C is not here: apt-get install libhdf5-dev")
+
+
+def test_the_program_in_c_writes_a_dataset(tmp_path, program):
+    """The page's program compiles without a warning, and its file has the field that it says."""
+    (source,) = re.findall(r"```c\n(.*?)```", PAGE.read_text(), re.DOTALL)
+    command, libraries = c_compiler()
+    (tmp_path / "write.c").write_text(source)
+    run = [*command, "-Wall", "-Wextra", "-Werror", "-o", "write", "write.c", *libraries]
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert subprocess.run(["./write"], cwd=tmp_path).returncode == 0
+    program("check", tmp_path / "from_c.h5")
+    written = ppum.open(tmp_path / "from_c.h5")
+    assert float(written.field.at(1.7, 0.2).T) == pytest.approx(1.7, abs=1e-14)
+    above, below = written.field.at(0.3, 0.5, side="both").T
+    assert above - below == pytest.approx(0.4, abs=1e-14)

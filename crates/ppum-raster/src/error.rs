@@ -12,6 +12,9 @@ pub enum RenderError {
     /// The quantity has no meaning for the field.
     #[error(transparent)]
     Quantity(#[from] QuantityError),
+    /// One value for each cell, of a cover without cells.
+    #[error("the cover has no cells that could have one value each; sample on a grid instead")]
+    NoCells,
     /// The watcher stopped the call.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

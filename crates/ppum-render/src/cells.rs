@@ -28,7 +28,7 @@ pub fn values(field: &Field<'_>, name: &str) -> Option<Vec<f64>> {
     let functions =
         |patch: usize| data.blocks(patch).map(|b| data.block_size(b)).sum::<usize>() as f64;
     Some(match name {
-        "level" if partition.mesh().is_none() => {
+        "level" if partition.boxes().has_cells() => {
             partition.boxes().level.iter().map(|&level| level.into()).collect()
         }
         "element" if partition.mesh().is_some() => {
@@ -45,9 +45,20 @@ pub fn values(field: &Field<'_>, name: &str) -> Option<Vec<f64>> {
     })
 }
 
-/// The names that [`values`] knows for a field.
+/// True if patches have cells, or are elements: else no picture shows their values, since patches
+/// overlap.
+#[must_use]
+pub fn exist(field: &Field<'_>) -> bool {
+    let partition = &field.step.partition;
+    partition.mesh().is_some() || partition.boxes().has_cells()
+}
+
+/// The names that [`values`] knows for a field; none without [cells](exist).
 #[must_use]
 pub fn names(field: &Field<'_>) -> Vec<String> {
+    if !exist(field) {
+        return Vec::new();
+    }
     let attributes = field.step.attributes.iter().map(|attribute| attribute.name.as_str());
     let is_own = |name: &str| OWN.iter().any(|(own, _)| *own == name);
     let other = attributes.filter(|name| !is_own(name));

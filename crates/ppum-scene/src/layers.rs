@@ -11,6 +11,7 @@ use ppum_figure::levels;
 use ppum_figure::overlay::{self, LegendEntry, Room};
 use ppum_figure::ticks::Notation;
 use ppum_render::RenderError;
+use ppum_render::cells;
 use ppum_render::deform::{DeformError, DeformedPoints};
 use ppum_render::glyph::Lattice;
 use ppum_render::isoline::{Isoline, isolines};
@@ -165,8 +166,8 @@ impl<'a> Drawing<'a> {
         Ok(())
     }
 
-    /// The overlays in their order, each once.
-    fn wanted(&self) -> Vec<Overlay> {
+    /// The overlays in their order, each once; a notice says which need cells that there are not.
+    fn wanted(&mut self) -> Vec<Overlay> {
         let mut wanted = self.overlays.shown.clone();
         wanted.extend(self.ground.design.map(|_| Overlay::Cracks));
         wanted.sort_unstable();
@@ -174,6 +175,10 @@ impl<'a> Drawing<'a> {
         wanted
     }
 
+        if !cells::exist(self.ground.field) {
+            let missing = wanted.extract_if(.., |overlay| overlay.is_of_cells());
+            self.layers.notices.extend(missing.map(Notice::NoCells));
+        }
     fn overlay(&self, wanted: Overlay, stations: &Stations) -> Vec<Item> {
         let Ground { field, picture, .. } = self.ground;
         let (view, scale, step) = (&picture.view, self.scale, field.step);

@@ -7,6 +7,8 @@ use ppum::printable::printable;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::form::PageFormat;
 
+use crate::overlays::Overlay;
+
 /// Something that whoever looks at an image should know.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Notice {
@@ -32,6 +34,8 @@ pub enum Notice {
     NoIsoline,
     /// Isolines of values of cells, or of a difference.
     NoIsolines,
+    /// Cells, of a cover that has none.
+    NoCells(Overlay),
     /// No cross has room.
     NoCross,
     /// No arrow has room.
@@ -85,6 +89,13 @@ impl fmt::Display for Notice {
             }
             Self::NoGlyph(missing, form) => return no_glyph(f, missing, *form),
             Self::OffPlate => "no pixel has its centre on the plate",
+            Self::NoCells(overlay) => {
+                let name = overlay.name();
+                return write!(
+                    f,
+                    "the cover has no cells, so `{name}` draws nothing; `patches` draws the supports"
+                );
+            }
             Self::NoIsoline => "no isoline lies in the picture: its values pass none of the levels",
             Self::NoIsolines => {
                 "values that are constant in each cell, and differences, have no isolines; the overlay `cells` draws \

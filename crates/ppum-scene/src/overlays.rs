@@ -103,6 +103,12 @@ impl Overlay {
     pub fn is_deformable(self) -> bool {
         matches!(self, Self::Cells | Self::Cracks)
     }
+
+    /// True if it draws the borders of cells.
+    #[must_use]
+    pub fn is_of_cells(self) -> bool {
+        matches!(self, Self::Cells | Self::Boxes)
+    }
 }
 
 impl Overlays {

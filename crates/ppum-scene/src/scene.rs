@@ -206,6 +206,11 @@ pub enum ShownError {
         /// The names there are.
         known: String,
     },
+    /// A value of cells, of a cover without.
+    #[error(
+        "`{0}` is a value of cells, and this cover has none: its patches overlap and have no cells"
+    )]
+    NoCells(String),
     /// Neither a quantity nor a value of cells.
     #[error("{error}; of cells {cells}")]
     Unknown {
@@ -227,25 +232,39 @@ pub enum ShownError {
 /// A text that means nothing for the field, with the place of a formula's mistake.
 pub fn shown(text: &str, field: &Field<'_>) -> Result<Shown, ShownError> {
     let text = text.trim();
-    let of_cells = |name: &str| Some(Shown::Cells(name.into(), cells::values(field, name)?));
-    let known = || cells::names(field).join(", ");
     if let Some(name) = text.strip_prefix(OF_PATCHES) {
-        return of_cells(name)
-            .ok_or_else(|| ShownError::Cells { name: name.into(), known: known() });
+        let known = || cells::names(field).join(", ");
+        return of_cells(name, field)
+            .unwrap_or_else(|| Err(ShownError::Cells { name: name.into(), known: known() }));
     }
     match Quantity::parse(text, field) {
         Ok(quantity) => {
             quantity.check(field)?;
             Ok(Shown::Quantity(quantity))
         }
-        Err(error) => of_cells(text).ok_or_else(|| with_cells(error, field)),
+        Err(error) => of_cells(text, field).unwrap_or_else(|| Err(with_cells(error, field))),
     }
+}
+
+/// The values of cells with a name; none if there is nothing of the name.
+fn of_cells(name: &str, field: &Field<'_>) -> Option<Result<Shown, ShownError>> {
+    if name == "level" && !cells::exist(field) {
+        return Some(Err(ShownError::NoCells(name.into())));
+    }
+    let values = cells::values(field, name)?;
+    Some(match cells::exist(field) {
+        true => Ok(Shown::Cells(name.into(), values)),
+        false => Err(ShownError::NoCells(name.into())),
+    })
 }
 
 /// The error for an unknown quantity, with the names of values of cells.
 fn with_cells(error: QuantityError, field: &Field<'_>) -> ShownError {
     let QuantityError::Unknown { name, known, .. } = &error else { return error.into() };
     let cells = cells::names(field);
+    if cells.is_empty() {
+        return error.into();
+    }
     let hint = hint(name, known.split(", ").chain(cells.iter().map(String::as_str)));
     let error = QuantityError::Unknown { name: name.clone(), hint, known: known.clone() };
     let error = Box::new(error);

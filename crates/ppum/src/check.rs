@@ -104,7 +104,8 @@ impl Dataset {
             }
             (Partition::Boxes(boxes), before) => {
                 let has_same_cells = before.is_some_and(|before| before.boxes().cell == boxes.cell);
-                if has_same_cells || errors.add(tiling::check(boxes, &self.domain)) {
+                let is_fine = has_same_cells || !boxes.has_cells();
+                if is_fine || errors.add(tiling::check(boxes, &self.domain)) {
                     errors.add(coverage::check(boxes, &self.domain));
                 }
             }

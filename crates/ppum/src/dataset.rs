@@ -262,11 +262,13 @@ impl Partition {
         }
     }
 
-    /// The cells that boxes come from, or boxes that hold the elements.
+    /// A box of each patch: the cell that it comes from, if it comes from none its support, or a
+    /// box that holds the element.
     #[must_use]
     pub fn cells(&self) -> Cow<'_, [Rect]> {
         match self {
-            Self::Boxes(boxes) => Cow::Borrowed(&boxes.cell),
+            Self::Boxes(boxes) if boxes.has_cells() => Cow::Borrowed(&boxes.cell),
+            Self::Boxes(boxes) => (0..boxes.len()).map(|patch| boxes.support(patch)).collect(),
             Self::Mesh(mesh) => (0..mesh.len()).map(|patch| mesh.bounds(patch)).collect(),
         }
     }
@@ -302,9 +304,9 @@ pub struct BoxPartition {
     /// Scale of the polynomial coordinates ξ, positive.
     pub scale: Vec<Vec2>,
     /// The leaf cell C_i that generated the patch; the cells tile the domain's box, but
-    /// for cells in holes, which may be missing.
+    /// for cells in holes, which may be missing. Empty if the boxes come from no cells.
     pub cell: Vec<Rect>,
-    /// Level of the cell in its tree, 0 at the root.
+    /// Level of the cell in its tree, 0 at the root; empty without cells.
     pub level: Vec<u8>,
     /// Index into `points` of the point that generated the patch, if one did.
     pub point: Vec<Option<u32>>,
@@ -336,6 +338,19 @@ impl BoxPartition {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.center.is_empty()
+    }
+
+    /// True if the patches come from cells, which tile the domain.
+    #[must_use]
+    pub fn has_cells(&self) -> bool {
+        !self.cell.is_empty()
+    }
+
+    /// How far apart patches stand: the size of the patch's cell, without cells half that of its
+    /// support.
+    #[must_use]
+    pub fn spacing(&self, patch: usize) -> Vec2 {
+        self.cell.get(patch).map_or(self.half[patch], Rect::size)
     }
 
     /// The support ω_i as a box.

@@ -45,6 +45,22 @@ fn a_missing_item_is_named() {
     }
 }
 
+/// Cells and their levels may be missing together: that changes nothing else.
+#[test]
+fn covers_may_have_no_cells() {
+    let mut data = everything::dataset(1);
+    for step in &mut data.steps {
+        let boxes = step.partition.boxes_mut().expect("boxes");
+        (boxes.cell, boxes.level) = (Vec::new(), Vec::new());
+    }
+    let without = encode::content(&data).expect("valid");
+    let mut removed = content();
+    removed.retain(|key, _| !(key.ends_with("partition/cell") || key.ends_with("partition/level")));
+    assert_eq!(without.keys().collect::<Vec<_>>(), removed.keys().collect::<Vec<_>>());
+    let file = crate::bytes::to_bytes(&data).expect("valid");
+    assert_eq!(crate::bytes::from_bytes(file).expect("a dataset"), data);
+}
+
 /// What is missing is the only error, also among those about the meaning of the rest.
 #[test]
 fn nothing_follows_from_a_missing_item() {

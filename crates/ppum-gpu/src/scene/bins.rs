@@ -206,7 +206,7 @@ mod tests {
     const UNIT: Rect = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
 
     fn covered(partition: &BoxPartition) -> Vec<Covered> {
-        let one = |i| Covered { support: partition.support(i), cell: partition.cell[i].size() };
+        let one = |i| Covered { support: partition.support(i), cell: partition.spacing(i) };
         (0..partition.len()).map(one).collect()
     }
 

@@ -133,10 +133,8 @@ mod tests {
     /// The bins of a whole domain, seen from a point in it.
     fn bins(partition: &BoxPartition, domain: Rect, anchor: Vec2) -> Bins {
         let seen = |rect: Rect| Rect::new(rect.min - anchor, rect.max - anchor);
-        let covered = |k: usize| Covered {
-            support: seen(partition.support(k)),
-            cell: partition.cell[k].size(),
-        };
+        let covered =
+            |k: usize| Covered { support: seen(partition.support(k)), cell: partition.spacing(k) };
         let patches: Vec<_> = (0..partition.len()).map(covered).collect();
         Bins::new(seen(domain), &patches, 1e-7)
     }

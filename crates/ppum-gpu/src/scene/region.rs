@@ -61,7 +61,7 @@ impl Region {
         let partition = field.step.partition.boxes();
         let seen = |&index: &u32| {
             let support = partition.support(index as usize);
-            let cell = partition.cell[index as usize].size();
+            let cell = partition.spacing(index as usize);
             Covered { support: Rect::new(support.min - anchor, support.max - anchor), cell }
         };
         let seen: Vec<_> = patches.iter().map(seen).collect();

@@ -19,11 +19,15 @@ Floats = NDArray[np.float64]
 BREAKPOINTS = {"linear": (0.0,), "quadratic": (1 / 3,), "cubic": (0.0, 0.5)}
 
 
+#: Most patches of a uniform cover: a file of 4 GiB, the most that is read as a whole, holds no more.
+MOST_PATCHES = 1 << 25
+
+
 class Cover:
     """The supports of the patches and their weight: φ_i = W_i / Σ W with W_i(p) = w(|s_x|) w(|s_y|) and
     s = (p − center_i) / half_i.
 
-    Supports are any boxes that overlap and cover the domain. `uniform`, `from_points` and `from_cells` make them
+    Supports are any boxes that overlap and cover the domain but for its holes. `uniform`, `from_points` and `from_cells` make them
     of cells. Arrays have a row for each patch, in the order of the arrays that are built on the cover.
 
     Attributes:
@@ -32,17 +36,17 @@ class Cover:
         weight: ``linear``, ``quadratic``, ``cubic``, or a formula of t = |s|, positive for 0 ≤ t < 1 and 0 at 1.
         breakpoints: The t in [0, 1) where a derivative of such a formula jumps; values do not depend on them.
         origin, scale: Of the coordinates ξ = (p − origin) / scale of polynomials; by default `center` and `half`.
-        cell: Boxes x_min, y_min, x_max, y_max that tile the domain, one in each support, shape (n, 4). They are drawn
-            and integrated over; values do not depend on them. By default the centres are separated by halving.
-        level: Level of each cell in its tree, for reports.
+        cell: Boxes x_min, y_min, x_max, y_max that tile the domain, one in each support, shape (n, 4), or None. Values do
+            not depend on them; without, cells and values of cells are not drawn, and nothing is integrated over them.
+        level: Level of each cell in its tree, for reports; None without cells.
         points, point: Scattered points that the cover was made from, and the index of each patch's, -1 for none.
 
     Example:
         >>> cover = ppum.Cover([(0, 0), (2, 1)], center=[(0.5, 0.5), (1.5, 0.5)], half=[(0.7, 0.7), (0.7, 0.7)])
         >>> cover
         <ppum.Cover, 2 patches, linear>
-        >>> cover.cell[1].tolist()
-        [1.0, 0.0, 2.0, 1.0]
+        >>> cover.cell is None
+        True
     """
 
     def __init__(
@@ -56,7 +60,7 @@ class Cover:
         origin: ArrayLike | None = None,
         scale: ArrayLike | None = None,
         cell: ArrayLike | None = None,
-        level: ArrayLike = 0,
+        level: ArrayLike | None = None,
         points: ArrayLike = (),
         point: ArrayLike = -1,
     ) -> None:
@@ -75,8 +79,10 @@ class Cover:
         self.breakpoints = numbers("breakpoints", known if breakpoints is None else breakpoints)
         self.origin = self.center if origin is None else rows("origin", origin, 2, n)
         self.scale = self.half if scale is None else positive("scale", rows("scale", scale, 2, n))
-        self.cell = _cells(self.center, self.domain) if cell is None else rows("cell", cell, 4, n)
-        self.level = _column("level", level, n, np.uint8)
+        if cell is None and level is not None:
+            raise BuildError("level: is that of cells; give the cells too, or leave it out")
+        self.cell = None if cell is None else rows("cell", cell, 4, n)
+        self.level = None if cell is None else _column("level", 0 if level is None else level, n, np.uint8)
         self.points, self.point = rows("points", points, 2), _column("point", point, n, np.int64)
         for array in vars(self).values():
             if isinstance(array, np.ndarray):
@@ -99,6 +105,8 @@ class Cover:
         nx, ny = cells
         if min(nx, ny) < 1:
             raise BuildError(f"cells: {cells} has no cells; give the numbers of columns and rows")
+        if nx * ny > MOST_PATCHES:
+            raise BuildError(f"cells: {nx} × {ny} cells are {nx * ny:,} patches, of at most {MOST_PATCHES:,}; give fewer")
         x, y = np.linspace(x0, x1, nx + 1), np.linspace(y0, y1, ny + 1)
         low = [np.tile(x[:-1], ny), np.repeat(y[:-1], nx)]
         high = [np.tile(x[1:], ny), np.repeat(y[1:], nx)]
@@ -158,7 +166,8 @@ class Cover:
     def arrays(self, fields: Sequence[str] = ()) -> dict[str, Any]:
         """The group `partition` of the file format."""
         names = ("center", "half", "origin", "scale", "cell", "level", "points", "point")
-        return {"weight_breakpoints": self.breakpoints} | {name: getattr(self, name) for name in names}
+        given = {name: getattr(self, name) for name in names}
+        return {"weight_breakpoints": self.breakpoints} | {k: v for k, v in given.items() if v is not None}
 
     def spread(self, random: np.random.Generator, count: int) -> Floats:
         """Random points of the supports, which are taken in turn."""
@@ -229,33 +238,6 @@ def _look(center: Floats, half: Floats, domain: Floats) -> None:
             f"center[{k}]: the support around {tuple(center[k].tolist())} lies outside of the domain; "
             "leave the patch out, or give the domain that it belongs to"
         )
-
-
-def _cells(center: Floats, domain: Floats) -> Floats:
-    """Cells that tile the domain, one around each centre: halved, across the longer side of what the centres span,
-    until each has one."""
-    inside = np.clip(center, domain[0], domain[1])
-    cell = np.empty((len(center), 4))
-    work = [(np.arange(len(center)), domain[0], domain[1])]
-    while work:
-        of, low, high = work.pop()
-        if len(of) == 1:
-            cell[of[0]] = [*low, *high]
-            continue
-        axis = int(np.argmax(np.ptp(inside[of], axis=0)))
-        of = of[np.argsort(inside[of, axis], kind="stable")]
-        at = np.append(low[axis], inside[of, axis])
-        gaps = np.diff(at)[1:]
-        # at the widest gap in the middle third, so that the tree stays shallow, unless there is none
-        third = len(gaps) // 3
-        k = third + int(np.argmax(gaps[third : len(gaps) - third]))
-        k = k if gaps[k] > 0 else int(np.argmax(gaps))
-        if gaps[k] <= 0:
-            raise BuildError(f"cell: patches {of[k]} and {of[k + 1]} have one centre; give their cells, or join them")
-        middle_high, middle_low = high.copy(), low.copy()
-        middle_high[axis] = middle_low[axis] = (at[k + 1] + at[k + 2]) / 2
-        work += [(of[: k + 1], low, middle_high), (of[k + 1 :], middle_low, high)]
-    return cell
 
 
 Cover.__module__ = "ppum"

@@ -34,7 +34,7 @@ use ppum_raster::raster::Raster;
 use ppum_raster::view::View;
 use rayon::prelude::*;
 
-use crate::cells::of_elements;
+use crate::cells::{exist, of_elements};
 use stencil::Stencil;
 
 /// The way values between the points of a grid are found.
@@ -262,7 +262,7 @@ impl Samples {
 /// cells, and in cells with their centre in a hole. It is made of 8 bytes per cell.
 ///
 /// # Errors
-/// As for [`render`](ppum_raster::scatter::render).
+/// A cover without cells; else as for [`render`](ppum_raster::scatter::render).
 pub fn cells(
     field: &Field<'_>,
     view: &View,
@@ -270,6 +270,9 @@ pub fn cells(
     watcher: &dyn Watcher,
 ) -> Result<Raster, RenderError> {
     quantity.check(field)?;
+    if !exist(field) {
+        return Err(RenderError::NoCells);
+    }
     let (partition, cells) = (&field.step.partition, &field.step.partition.boxes().cell);
     let parts = Parts::start(watcher, partition.len())?;
     let center = |patch: usize| match partition.mesh() {

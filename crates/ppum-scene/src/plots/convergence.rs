@@ -142,7 +142,7 @@ fn errors(Solution { dataset, index, step }: &Solution<'_>) -> Result<Option<[f6
         both.iter_mut().zip(out.chunks(3)).for_each(|(jet_of, d)| *jet_of = jet(d));
         both
     };
-    field.on_boxes("norms of errors").map_err(PlotError::of)?;
+    field.on_cells("norms of errors").map_err(PlotError::of)?;
     let space = Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables);
     let space = space.map_err(PlotError::of)?;
     let [_, reference, difference] = norms(&field, &space, &exact);

@@ -58,14 +58,15 @@ pub fn rounding(dataset: &Dataset, step: usize) -> Result<Rounding, FieldError> 
     let mut noise = dataset.clone();
     noise.steps = vec![with_noise(&dataset.steps[step])];
     let (field, noise) = (Field::new(dataset, step)?, Field::new(&noise, 0)?);
-    let cells = &dataset.steps[step].partition.boxes().cell;
+    let cells = &dataset.steps[step].partition.cells();
     let gradients: Vec<[f64; 2]> =
         cells.par_iter().map(|cell| [&field, &noise].map(|f| gradient(f, cell))).collect();
     let [mean, of_noise] =
         [0, 1].map(|k| gradients.iter().map(|g| g[k]).sum::<f64>() / gradients.len() as f64);
     let relative =
         |&[own, noise]: &[f64; 2]| ROUNDINGS * f64::EPSILON * noise / own.max(NOTHING * mean);
-    let errors = gradients.iter().map(relative).zip(cells).filter(|(error, _)| error.is_finite());
+    let errors =
+        gradients.iter().map(relative).zip(cells.iter()).filter(|(error, _)| error.is_finite());
     let largest = errors.reduce(|a, b| if b.0 > a.0 { b } else { a });
     let (largest, at) = largest.map_or((0.0, Vec2::ZERO), |(e, cell)| (e, cell.center()));
     let all = if mean > 0.0 { ROUNDINGS * f64::EPSILON * of_noise / mean } else { 0.0 };

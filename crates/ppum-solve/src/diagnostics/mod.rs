@@ -161,7 +161,7 @@ pub fn recompute(
     watcher: &dyn Watcher,
 ) -> Result<(Vec<TipOutcome>, Vec<Warning>), RecomputeError> {
     let field = Field::new(dataset, step)?;
-    field.on_boxes(FACTORS_OF)?;
+    field.on_cells(FACTORS_OF)?;
     let Dataset { domain, equation, tables, .. } = dataset;
     let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
     let tips = intensities_under(problem, dataset, &field, &space, watcher)?;

@@ -206,7 +206,7 @@ pub enum CircleError {
 /// such tip.
 #[must_use]
 pub fn clearance(dataset: &Dataset, step: usize, tip: TipId) -> Option<TipClearance> {
-    let step = dataset.steps.get(step).filter(|step| step.partition.mesh().is_none())?;
+    let step = dataset.steps.get(step).filter(|step| step.partition.boxes().has_cells())?;
     let crack = step.cracks.get(tip.crack as usize)?;
     let cell = cell_at(&step.partition.boxes().cell, crack.end_point(tip.end));
     Some(TipClearance::new(dataset, &step.cracks, tip, cell))
@@ -226,7 +226,7 @@ pub fn on_circle(
     problem: Option<&Problem>,
     watcher: &dyn Watcher,
 ) -> Result<TipIntensity, CircleError> {
-    Field::new(dataset, step)?.on_boxes(FACTORS_OF)?;
+    Field::new(dataset, step)?.on_cells(FACTORS_OF)?;
     let clear = clearance(dataset, step, tip).ok_or(CircleError::NoTip)?;
     if !(radius > 0.0 && radius.is_finite()) {
         return Err(CircleError::Radius);

@@ -85,8 +85,8 @@ fn probe_lines(ui: &mut Ui, probed: &Probed, [name, unit]: &[String; 2]) {
     let mut lines = vec![words::values(probed, name, unit)];
     lines.extend(words::terms(probed));
     lines.extend(words::gradients(probed));
-    let cell = [words::cell(probed), words::patches(probed)];
-    lines.push(cell.into_iter().flatten().collect::<Vec<_>>().join("; "));
+    let owner = [words::owner(probed), words::patches(probed)];
+    lines.push(owner.into_iter().flatten().collect::<Vec<_>>().join("; "));
     for (k, line) in lines.iter().enumerate().filter(|(_, line)| !line.is_empty()) {
         let text = RichText::new(line).size(11.5);
         ui.add(egui::Label::new(if k == 0 { text.strong() } else { text }).wrap());

@@ -6,6 +6,7 @@
 
 pub mod integral;
 pub mod output;
+pub mod owner;
 pub mod plotted;
 pub mod probe;
 pub mod question;

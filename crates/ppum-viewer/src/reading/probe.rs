@@ -11,6 +11,7 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_scene::drawing::Shown;
 use ppum_scene::scene::default_quantity;
 
+use super::owner::Owner;
 use crate::field::OwnedField;
 use crate::frames::Frame;
 use ppum_scene::spot::Spot;
@@ -26,9 +27,9 @@ pub struct Probed {
     pub crack: Option<u32>,
     /// The values: one, or above and below a crack.
     pub sides: Vec<Sided>,
-    /// The patch of the cell that it lies in, and its level; none outside the plate.
-    pub cell: Option<(u32, u8)>,
-    /// The patches that cover it, with their φ.
+    /// The patch that it belongs to; none outside the plate.
+    pub owner: Option<Owner>,
+    /// The patches of a cover that cover it, with their φ.
     pub patches: Vec<(u32, f64)>,
 }
 
@@ -61,7 +62,7 @@ impl Probed {
     /// True outside the plate.
     #[must_use]
     pub fn is_outside(&self) -> bool {
-        self.cell.is_none()
+        self.owner.is_none()
     }
 
     /// The difference from what is read on the left. Where a crack runs on one side alone, the
@@ -188,14 +189,14 @@ impl Reader {
             field.tree.query_point(spot.point(), &mut patches);
             patches.sort_unstable();
         }
-        let cell = self.cell_of(spot.point(), &patches);
+        let owner = Owner::of(field, &mut local, spot.offset(), &patches);
         let sides: &[Option<Side>] = match on {
             Some(_) => &[Some(Side::Above), Some(Side::Below)],
             None => &[None],
         };
         let sides = sides.iter().map(|&side| {
             let at = (spot.offset(), side.unwrap_or_default());
-            let (value, gradient) = self.value(&mut local, at, cell);
+            let (value, gradient) = self.value(&mut local, at, owner);
             Sided { side, value, gradient, terms: None }
         });
         let sides = sides.collect();
@@ -203,8 +204,9 @@ impl Reader {
             let phi = local.partition_function::<0>(*patch as usize, spot.offset());
             (*patch, phi.map_or(f64::NAN, |jet| jet.v))
         };
-        let patches = patches.iter().map(phi).collect();
-        Probed { spot: *spot, tip, crack: on.map(|segment| segment.crack), sides, cell, patches }
+        let is_cover = field.step.partition.mesh().is_none();
+        let patches = patches.iter().filter(|_| is_cover).map(phi).collect();
+        Probed { spot: *spot, tip, crack: on.map(|segment| segment.crack), sides, owner, patches }
     }
 
     /// Value and gradient on a side; of a value of cells that of the point's own.
@@ -212,7 +214,7 @@ impl Reader {
         &self,
         local: &mut LocalField<'_>,
         (offset, side): (Vec2, Side),
-        cell: Option<(u32, u8)>,
+        owner: Option<Owner>,
     ) -> (f64, Vec2) {
         match (&self.shown, &self.gradient) {
             (Shown::Quantity(_), Some(both)) => {
@@ -221,7 +223,7 @@ impl Reader {
             }
             (Shown::Quantity(quantity), None) => (quantity.at(local, offset, side), NOWHERE),
             (Shown::Cells(_, values), _) => {
-                let of_cell = cell.and_then(|(patch, _)| values.get(patch as usize));
+                let of_cell = owner.and_then(|owner| values.get(owner.patch() as usize));
                 (of_cell.copied().unwrap_or(f64::NAN), NOWHERE)
             }
         }
@@ -260,28 +262,6 @@ impl Reader {
             return None;
         }
         Segments::new(cracks).at(spot.anchor(), spot.offset())
-    }
-
-    /// The patch whose cell a point lies in, of those that cover it, with its level: borders belong
-    /// to the cell on their right and above.
-    fn cell_of(&self, point: Vec2, patches: &[u32]) -> Option<(u32, u8)> {
-        let partition = self.field.field().step.partition.boxes();
-        if partition.is_empty() {
-            return None;
-        }
-        let cell = |patch: &u32| partition.cell[*patch as usize];
-        let own = patches.iter().filter(|patch| cell(patch).contains(point));
-        let last = own.max_by(|a, b| {
-            let [a, b] = [cell(a).min, cell(b).min];
-            a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
-        });
-        // in a sliver beside a hole whose own cell is gone, the patch that lies nearest
-        let nearest = || {
-            let distance = |patch: &&u32| cell(patch).distance(point);
-            patches.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        };
-        let patch = *last.or_else(nearest)?;
-        Some((patch, partition.level[patch as usize]))
     }
 }
 

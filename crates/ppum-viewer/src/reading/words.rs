@@ -2,6 +2,9 @@
 
 pub use ppum_scene::spot::{Places, number};
 
+use ppum::mesh::Shape;
+
+use super::owner::{Element, Owner};
 use super::probe::{Probed, Sided};
 
 /// Digits of values, and of those that stand beside them.
@@ -85,10 +88,26 @@ pub fn gradients(probed: &Probed) -> Option<String> {
     (is_known && !probed.is_outside()).then(|| format!("gradient {}", all.join(", ")))
 }
 
-/// The cell: `cell 312, level 6`.
+/// The owner: `cell 312, level 6`; `patch 12` without cells; `element 7, curved triangle, order 4,
+/// part 12` of a mesh.
 #[must_use]
-pub fn cell(probed: &Probed) -> Option<String> {
-    probed.cell.map(|(patch, level)| format!("cell {patch}, level {level}"))
+pub fn owner(probed: &Probed) -> Option<String> {
+    probed.owner.map(|owner| match owner {
+        Owner::Cell { patch, level } => format!("cell {patch}, level {level}"),
+        Owner::Box { patch } => format!("patch {patch}"),
+        Owner::Element(element) => element_text(element),
+    })
+}
+
+fn element_text(element: Element) -> String {
+    let Element { patch, number, map_degree, order, is_cut, .. } = element;
+    let shape = match element.shape {
+        Shape::Triangle => "triangle",
+        Shape::Square => "square",
+    };
+    let curved = if map_degree > 1 { "curved " } else { "" };
+    let part = if is_cut { format!(", part {patch}") } else { String::new() };
+    format!("element {number}, {curved}{shape}, order {order}{part}")
 }
 
 /// The patches with their φ, the largest first: `φ 0.61 of 12, 0.39 of 13`.
@@ -145,7 +164,7 @@ pub fn all(probed: &Probed, name: &str, unit: &str) -> String {
     if let Some(jump) = probed.jump() {
         lines.push(format!("  jump = {jump:?}"));
     }
-    lines.extend(cell(probed).map(|text| format!("  {text}")));
+    lines.extend(owner(probed).map(|text| format!("  {text}")));
     lines.extend(patches(probed).map(|text| format!("  {text}")));
     lines.join("\n") + "\n"
 }

@@ -35,6 +35,7 @@ use crate::field::OwnedField;
 use crate::frames::{Backend, Frame, Frames, Wanted};
 use crate::plate::{bounded, view, zoomed};
 use crate::reading::Reading;
+use crate::reading::owner::Owner;
 use crate::reading::question::Question;
 use crate::session::{Pane, VisibleRegion};
 use crate::undo::{Rest, Undo};
@@ -216,7 +217,7 @@ impl Stage {
         difference::show(ui, (rect, taken), (&self.pair, caption), &self.frames);
         let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
         self.read(ui, &response, &sight, pane);
-        self.pick(&response, pane, &opened.dataset);
+        self.pick(&response, pane);
         self.marks(ui, &sight, pane);
         self.line(ui, pane);
     }
@@ -228,17 +229,15 @@ impl Stage {
     }
 
     /// Chooses the patch that is clicked on, if one is to be chosen.
-    fn pick(&mut self, response: &egui::Response, pane: &mut Pane, dataset: &Dataset) {
-        let (Some(view), Some(offset)) = (&self.view, self.hover) else { return };
+    fn pick(&mut self, response: &egui::Response, pane: &mut Pane) {
+        let (Some(View { center, .. }), Some(offset)) = (self.view, self.hover) else { return };
         if !self.controls.is_picking || !response.clicked() {
             return;
         }
         self.controls.is_picking = false;
-        let step = dataset.steps.get(pane.scene.subject.step_of(dataset));
-        let cells = step.map_or(&[][..], |step| &step.partition.boxes().cell);
-        let at = view.center + offset;
-        if let Some(patch) = (0u32..).zip(cells).find(|(_, cell)| cell.contains(at)) {
-            pane.scene.subject.part = Some(Part::Patch(patch.0).to_string());
+        let owner = self.frame().and_then(|frame| Owner::at(frame.field.field(), center, offset));
+        if let Some(owner) = owner {
+            pane.scene.subject.part = Some(Part::Patch(owner.patch()).to_string());
         }
     }
 

@@ -13,6 +13,7 @@ mod hands;
 mod kit;
 mod lab;
 mod manners;
+mod meshes;
 mod minus;
 mod moving;
 mod plotting;

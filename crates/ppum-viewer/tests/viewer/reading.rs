@@ -15,6 +15,7 @@ use ppum_scene::spot::Spot;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use ppum_viewer::Viewer;
+use ppum_viewer::reading::owner::Owner;
 use ppum_viewer::reading::probe::Probed;
 use ppum_viewer::session::VisibleRegion;
 
@@ -68,7 +69,7 @@ fn the_pointer_reads_what_the_field_has_there() {
         let miss = (read.sides[0].gradient - expected).length();
         assert!(miss < 1e-5 * (1.0 + expected.length()), "{miss} {expected:?}");
         assert!((read.patches.iter().map(|(_, phi)| phi).sum::<f64>() - 1.0).abs() < 1e-13);
-        let (cell, level) = read.cell.expect("inside");
+        let Some(Owner::Cell { patch: cell, level }) = read.owner else { panic!("outside") };
         let partition = field.step.partition.boxes();
         assert!(partition.cell[cell as usize].contains(read.spot.point()));
         assert_eq!(level, partition.level[cell as usize]);

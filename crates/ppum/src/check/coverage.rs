@@ -10,23 +10,27 @@ use super::line::IntervalSums;
 use super::ranks::{Ranks, in_order};
 use super::{Checked, fail, tiling};
 use crate::dataset::BoxPartition;
-use crate::domain::Domain;
+use crate::domain::{Domain, Hole};
 use crate::vec2::{Rect, Vec2, vec2};
 
 /// The part of a support, in each direction, that counts as covered by it. Just more than 1/1.01,
 /// the cell of the least [`OVERLAP`](crate::cover::OVERLAP) of covers.
 const CORE: f64 = 0.991;
 
-/// Checks that supports cover cells that tile the domain.
+/// Checks that supports cover cells that tile the domain, or without cells the domain itself.
 pub(super) fn check(partition: &BoxPartition, domain: &Domain) -> Checked {
     let patches = 0..partition.len();
     let core = |patch| Rect::around(partition.center[patch], partition.half[patch] * CORE);
-    let holds = |patch: usize, cell: &Rect| core(patch).intersection(cell) == *cell;
-    if patches.clone().all(|patch| holds(patch, &partition.cell[patch])) {
+    let holds = |(patch, cell): (usize, &Rect)| core(patch).intersection(cell) == *cell;
+    if partition.has_cells() && patches.clone().zip(&partition.cell).all(holds) {
         return Ok(());
     }
-    let boxes = patches.map(core).chain(tiling::gaps(partition, domain));
-    let Some(p) = uncovered(boxes, &domain.bounds) else { return Ok(()) };
+    let (gaps, holes) = match partition.has_cells() {
+        true => (tiling::gaps(partition, domain), &[][..]),
+        false => (Vec::new(), &domain.holes[..]),
+    };
+    let boxes = patches.map(core).chain(gaps);
+    let Some(p) = uncovered(boxes, &domain.bounds, holes) else { return Ok(()) };
     let mistake = format!(
         "no support holds ({}, {}) well inside, at most {CORE} of its half-extents from its centre: the \
          patches there do not overlap, or by a thin strip alone; make them larger",
@@ -35,8 +39,9 @@ pub(super) fn check(partition: &BoxPartition, domain: &Domain) -> Checked {
     fail("half", mistake)
 }
 
-/// A point of the bounds that none of the closed boxes covers. O(n log n).
-fn uncovered(boxes: impl Iterator<Item = Rect>, bounds: &Rect) -> Option<Vec2> {
+/// A point of the bounds that none of the closed boxes covers and no hole holds. O(n log n), and
+/// O(log n) for each gap in holes.
+fn uncovered(boxes: impl Iterator<Item = Rect>, bounds: &Rect, holes: &[Hole]) -> Option<Vec2> {
     let clipped = boxes.filter(|b| b.overlaps(bounds)).map(|b| b.intersection(bounds));
     let boxes: Vec<Rect> = clipped.chain([Rect::new(bounds.max, bounds.max)]).collect();
     let corners = || boxes.iter().chain([bounds]).flat_map(|b| [b.min, b.max]);
@@ -48,16 +53,24 @@ fn uncovered(boxes: impl Iterator<Item = Rect>, bounds: &Rect) -> Option<Vec2> {
     // last is of no concern
     let mut line = IntervalSums::new(y.len());
     line.add(row(bounds.max.y), y.len().next_power_of_two(), -1);
-    let mut at = 0;
+    let (mut at, mut looks) = (0, tiling::most_gaps(holes));
     for event in in_order(boxes.iter().flat_map(|b| [column(b.min.x), column(b.max.x)]), x.len()) {
         let b = &boxes[event as usize / 2];
         let [place, work] = if event % 2 == 0 { [b.min.x, -1.0] } else { [b.max.x, 1.0] };
         let next = column(place);
-        if next > at && line.most() == 0 {
-            let below = line.place() as u32;
-            let middle = |ranks: &Ranks, k: u32| 0.5 * (ranks.at(k) + ranks.at(k + 1));
-            return Some(vec2(middle(&x, at), middle(&y, below)));
+        let mut in_holes = Vec::new();
+        while next > at && line.most() == 0 && looks > 0 {
+            let below = line.place();
+            let corner = |column, row: usize| vec2(x.at(column), y.at(row as u32));
+            let gap = Rect::new(corner(at, below), corner(next, below + 1));
+            if let Some(p) = tiling::place_beside(&gap, holes) {
+                return Some(p);
+            }
+            line.add(below, below + 1, -1);
+            in_holes.push(below);
+            looks -= 1;
         }
+        in_holes.into_iter().for_each(|below| line.add(below, below + 1, 1));
         at = next;
         line.add(row(b.min.y), row(b.max.y), work as i64);
     }
@@ -67,7 +80,6 @@ fn uncovered(boxes: impl Iterator<Item = Rect>, bounds: &Rect) -> Option<Vec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::weight::WeightFunction;
     use ppum_testkit::random::Random;
 
     const BOX: Rect = Rect::new(vec2(-1.0, 0.1), vec2(2.0, 1.6));
@@ -90,7 +102,7 @@ mod tests {
                 let is_covered = |p: Vec2| boxes.iter().any(|b| b.contains(p));
                 let middles = (0..12).map(|k| vec2(1.5 + f64::from(k % 4), 1.5 + f64::from(k / 4)));
                 let expected = middles.into_iter().all(is_covered);
-                let found = uncovered(boxes.iter().copied(), &bounds);
+                let found = uncovered(boxes.iter().copied(), &bounds, &[]);
                 assert_eq!(found.is_none(), expected, "{boxes:?}");
                 assert!(
                     found.is_none_or(|p| bounds.contains(p) && !is_covered(p)),
@@ -100,6 +112,42 @@ mod tests {
             }
         }
         assert!((60..240).contains(&covered), "{covered}");
+    }
+
+    /// What is uncovered may lie in a hole, and nowhere else, if there are no cells.
+    #[test]
+    fn holes_need_no_cover() {
+        let mut random = Random(5);
+        for _ in 0..40 {
+            let (center, half) = (vec2(0.2 + 0.6 * random.unit(), 0.8), 0.1 + 0.2 * random.unit());
+            // a grid of squares without those whose centres lie near the hole's
+            let place = |k: u32| BOX.min + vec2(f64::from(k % 31), f64::from(k / 31)) * 0.1;
+            let is_far = |p: &Vec2| (p.x - center.x).abs().max((p.y - center.y).abs()) > half;
+            let centers: Vec<Vec2> = (0..31 * 16).map(place).filter(is_far).collect();
+            let mut partition = boxes(centers, 0.08);
+            let check_with = |partition: &BoxPartition, radius: f64| {
+                let holes = vec![Hole::Circle { center, radius }];
+                check(partition, &Domain { bounds: BOX, holes })
+            };
+            assert_eq!(check_with(&partition, 1.5 * half), Ok(()), "{center:?} {half}");
+            let error = check_with(&partition, 0.4 * half).expect_err("a gap beside the hole");
+            assert!(error.mistake.contains("no support holds"), "{error}");
+            partition.half.fill(vec2(0.03, 0.03));
+            assert!(check_with(&partition, 1.5 * half).is_err(), "gaps everywhere");
+        }
+    }
+
+    /// Squares without cells.
+    fn boxes(center: Vec<Vec2>, half: f64) -> BoxPartition {
+        let (half, n) = (vec![vec2(half, half); center.len()], center.len());
+        BoxPartition {
+            origin: center.clone(),
+            scale: half.clone(),
+            center,
+            half,
+            point: vec![None; n],
+            ..BoxPartition::EMPTY
+        }
     }
 
     /// Squares around random centres, and cells by halving these: no tree has made the cover.
@@ -127,18 +175,7 @@ mod tests {
             }
             parts.extend([(part, low), (right, high)]);
         }
-        let half = vec![vec2(half, half); n];
-        BoxPartition {
-            weight: WeightFunction::Linear,
-            origin: center.clone(),
-            scale: half.clone(),
-            center,
-            half,
-            cell,
-            level: vec![0; n],
-            point: vec![None; n],
-            points: Vec::new(),
-        }
+        BoxPartition { cell, level: vec![0; n], ..boxes(center, half) }
     }
 
     /// Covers without a tree pass if at each place some weight is not small, and only then.
@@ -159,6 +196,8 @@ mod tests {
             let worst = (0..4000)
                 .map(|_| reach(BOX.min + vec2(random.unit() * size.x, random.unit() * size.y)))
                 .fold(0.0, f64::max);
+            let without = BoxPartition { cell: vec![], level: vec![], ..partition.clone() };
+            assert_eq!(check(&without, &domain).is_ok(), check(&partition, &domain).is_ok());
             match check(&partition, &domain) {
                 Ok(()) => {
                     passed += 1;

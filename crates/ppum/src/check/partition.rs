@@ -24,14 +24,14 @@ fn check_boxes(partition: &BoxPartition, errors: &mut Errors) {
     let n = partition.len();
     errors.add(check_count("center", n));
     let mut is_fine = true;
-    for (name, length) in [
+    let cells = [("cell", partition.cell.len()), ("level", partition.level.len())];
+    let cells = cells.into_iter().filter(|_| partition.has_cells() || !partition.level.is_empty());
+    for (name, length) in cells.chain([
         ("half", partition.half.len()),
         ("origin", partition.origin.len()),
         ("scale", partition.scale.len()),
-        ("cell", partition.cell.len()),
-        ("level", partition.level.len()),
         ("point", partition.point.len()),
-    ] {
+    ]) {
         is_fine &= errors.add(check_length(name, length, n, "one per patch"));
     }
     is_fine &= errors.add(check_points("center", &partition.center));
@@ -42,7 +42,7 @@ fn check_boxes(partition: &BoxPartition, errors: &mut Errors) {
     is_fine &= errors.add(check_all("cell", &partition.cell, is_box, |c| {
         format!("({}, {}) to ({}, {}) is not a box", c.min.x, c.min.y, c.max.x, c.max.y)
     }));
-    if is_fine {
+    if is_fine && partition.has_cells() {
         let meets = |patch: usize| partition.support(patch).overlaps(&partition.cell[patch]);
         errors.add(check_each("center", n, meets, |_| "puts the support beside its cell".into()));
     }

@@ -265,12 +265,16 @@ impl Sweep {
     }
 }
 
+/// Most gaps that are looked at.
+pub(super) fn most_gaps(holes: &[Hole]) -> usize {
+    let rims = holes.iter().map(|hole| hole.sides().count().max(1)).sum::<usize>();
+    LOOKS / (rims * PLACES.len() * PLACES.len()).max(1)
+}
+
 fn check_gaps(mut gaps: Vec<Rect>, holes: &[Hole]) -> Checked {
     let area = |gap: &Rect| gap.size().x * gap.size().y;
     gaps.sort_by(|a, b| area(b).total_cmp(&area(a)));
-    let rims = holes.iter().map(|hole| hole.sides().count().max(1)).sum::<usize>();
-    let looks = rims * PLACES.len() * PLACES.len();
-    for gap in gaps.iter().take(LOOKS / looks.max(1)) {
+    for gap in gaps.iter().take(most_gaps(holes)) {
         if let Some(p) = place_beside(gap, holes) {
             let mistake = format!(
                 "none covers {}, where ({}, {}) is in no hole; cells tile the domain's box, but for \
@@ -286,7 +290,7 @@ fn check_gaps(mut gaps: Vec<Rect>, holes: &[Hole]) -> Checked {
 }
 
 /// A place of a gap that lies in no hole and on no rim.
-fn place_beside(gap: &Rect, holes: &[Hole]) -> Option<Vec2> {
+pub(super) fn place_beside(gap: &Rect, holes: &[Hole]) -> Option<Vec2> {
     let (corner, size) = (gap.min, gap.size());
     let near = BESIDE * size.x.max(size.y);
     let extents = PLACES.iter().flat_map(|j| PLACES.map(|i| corner + vec2(i * size.x, j * size.y)));

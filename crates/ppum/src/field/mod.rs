@@ -82,6 +82,9 @@ pub enum FieldError {
     /// Something that boxes have and elements have not.
     #[error("the patches are the elements of a mesh, for which there are no {0}")]
     Mesh(&'static str),
+    /// Something that is integrated over cells, of boxes that come from none.
+    #[error("the cover has no cells, over which {0} are integrated")]
+    Cells(&'static str),
     /// A function of the step is wrong.
     #[error(transparent)]
     Function(#[from] FunctionError),
@@ -157,14 +160,15 @@ impl<'d> Field<'d> {
         !self.exact.is_empty()
     }
 
-    /// Refuses a field on a mesh.
+    /// Refuses a field on a mesh, and on boxes without cells.
     ///
     /// # Errors
-    /// [`FieldError::Mesh`], with what it is that meshes have not.
-    pub fn on_boxes(&self, what: &'static str) -> Result<(), FieldError> {
-        match self.step.partition.mesh() {
-            Some(_) => Err(FieldError::Mesh(what)),
-            None => Ok(()),
+    /// [`FieldError::Mesh`] or [`FieldError::Cells`], with what it is that needs cells.
+    pub fn on_cells(&self, what: &'static str) -> Result<(), FieldError> {
+        match &self.step.partition {
+            Partition::Mesh(_) => Err(FieldError::Mesh(what)),
+            Partition::Boxes(boxes) if !boxes.has_cells() => Err(FieldError::Cells(what)),
+            Partition::Boxes(_) => Ok(()),
         }
     }
 

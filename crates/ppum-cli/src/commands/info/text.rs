@@ -58,7 +58,7 @@ impl Page<'_> {
         self.line("patches", &cover(step))?;
         self.lines("weight", weight(step).into_iter())?;
         let levels = step.levels.iter().map(|l| format!("level {}: {}", l.level, l.cells));
-        if step.mesh.is_none() {
+        if step.cells > 0 {
             self.line("cells", &format!("{} ({})", step.cells, joined(levels)))?;
         }
         let orders = step.orders.iter().map(|o| format!("order {}: {}", o.order, o.patches));
