@@ -195,7 +195,12 @@ impl<'a> Engine<'a> {
 
     fn drawn(&self, job: DrawingInput<'_>, samples: Samples) -> Result<Drawn, EngineError> {
         let on = |device, method| (self.card)(job, samples, device, method, self.watcher);
+        let is_mesh = job.field.step.partition.mesh().is_some();
         match self.backend {
+            Backend::Gpu | Backend::Splat if is_mesh => {
+                self.tell(Notice::Mesh);
+                Ok(self.on_processor(job, samples)?)
+            }
             Backend::Cpu => Ok(self.on_processor(job, samples)?),
             Backend::Gpu => Ok(on(Device::Any, Method::Gather)?),
             Backend::Splat => Ok(on(Device::Any, Method::Splat)?),

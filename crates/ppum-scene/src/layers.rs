@@ -66,8 +66,11 @@ pub struct Layers {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LayersError {
-    /// Crosses of a potential.
-    #[error("crosses show principal stresses, and a potential has none; arrows show its gradient")]
+    /// Crosses of something else than elasticity.
+    #[error(
+        "crosses show principal stresses, which only elasticity has; arrows show vectors, or the gradient of one \
+         component"
+    )]
     Crosses,
     /// An overlay that belongs to the plate as it was.
     #[error("{}: of these overlays the deformed plate has cells and cracks alone", .0.name())]
@@ -172,13 +175,13 @@ impl<'a> Drawing<'a> {
         wanted.extend(self.ground.design.map(|_| Overlay::Cracks));
         wanted.sort_unstable();
         wanted.dedup();
-        wanted
-    }
-
         if !cells::exist(self.ground.field) {
             let missing = wanted.extract_if(.., |overlay| overlay.is_of_cells());
             self.layers.notices.extend(missing.map(Notice::NoCells));
         }
+        wanted
+    }
+
     fn overlay(&self, wanted: Overlay, stations: &Stations) -> Vec<Item> {
         let Ground { field, picture, .. } = self.ground;
         let (view, scale, step) = (&picture.view, self.scale, field.step);
@@ -195,7 +198,8 @@ impl<'a> Drawing<'a> {
             Overlay::Rings => overlay::rings(view, scale, &step.cracks, &step.intensities),
             Overlay::Cracks => {
                 let rims = overlay::rims(view, scale, &field.domain.holes);
-                [rims, overlay::cracks(view, scale, &step.cracks)].concat()
+                let cuts = overlay::cuts(view, scale, field);
+                [rims, cuts, overlay::cracks(view, scale, &step.cracks)].concat()
             }
             Overlay::Supports => overlay::supports(view, scale, &stations.supports),
             Overlay::Loads => overlay::loads(view, scale, &stations.loads),

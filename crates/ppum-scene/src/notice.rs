@@ -14,6 +14,8 @@ use crate::overlays::Overlay;
 pub enum Notice {
     /// The processor draws in place of a graphics card, for this reason.
     NoCard(String),
+    /// The processor draws the elements of a mesh in place of a graphics card.
+    Mesh,
     /// Single precision shows fewer than three digits, see
     /// [`single_precision_warning`](crate::drawing::single_precision_warning).
     SinglePrecision(String),
@@ -32,10 +34,10 @@ pub enum Notice {
     Infinite(String),
     /// None of the levels that were listed occurs.
     NoIsoline,
-    /// Isolines of values of cells, or of a difference.
-    NoIsolines,
     /// Cells, of a cover that has none.
     NoCells(Overlay),
+    /// Isolines of values of cells, or of a difference.
+    NoIsolines,
     /// No cross has room.
     NoCross,
     /// No arrow has room.
@@ -62,7 +64,7 @@ impl Notice {
     /// image.
     #[must_use]
     pub fn line(&self) -> String {
-        let kind = if matches!(self, Self::NoCard(_)) { "note" } else { "warning" };
+        let kind = if matches!(self, Self::NoCard(_) | Self::Mesh) { "note" } else { "warning" };
         format!("{kind}: {self}")
     }
 }
@@ -87,8 +89,6 @@ impl fmt::Display for Notice {
                 let list = entries.join(", ");
                 return write!(f, "the picture is too small for its legend: {list}");
             }
-            Self::NoGlyph(missing, form) => return no_glyph(f, missing, *form),
-            Self::OffPlate => "no pixel has its centre on the plate",
             Self::NoCells(overlay) => {
                 let name = overlay.name();
                 return write!(
@@ -96,6 +96,9 @@ impl fmt::Display for Notice {
                     "the cover has no cells, so `{name}` draws nothing; `patches` draws the supports"
                 );
             }
+            Self::NoGlyph(missing, form) => return no_glyph(f, missing, *form),
+            Self::Mesh => "drawn on the CPU, since graphics cards do not draw meshes",
+            Self::OffPlate => "no pixel has its centre on the plate",
             Self::NoIsoline => "no isoline lies in the picture: its values pass none of the levels",
             Self::NoIsolines => {
                 "values that are constant in each cell, and differences, have no isolines; the overlay `cells` draws \

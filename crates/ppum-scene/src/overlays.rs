@@ -44,7 +44,7 @@ pub enum Overlay {
     Centers,
     /// Rings that the stress intensity factors are integrated over.
     Rings,
-    /// Cracks with their tips, and rims of holes.
+    /// Cracks with their tips, rims of holes, and lines along which elements are cut.
     Cracks,
     /// Supports of the plate, as its problem file has them.
     Supports,
@@ -92,7 +92,7 @@ impl Overlay {
             Self::Points => "Points the cover was made from",
             Self::Centers => "Centres of the cells, coloured by the kind of enrichment",
             Self::Rings => "Rings that the stress intensity factors are integrated over",
-            Self::Cracks => "Cracks with their tips, and rims of holes",
+            Self::Cracks => "Cracks with their tips, rims of holes, cuts of elements",
             Self::Supports => "Supports of the plate, as its problem file has them",
             Self::Loads => "Loads on the plate, as its problem file has them",
         }

@@ -17,6 +17,7 @@ mod formula;
 mod gallery;
 mod growing;
 mod info;
+mod meshes;
 mod messages;
 mod method;
 mod parts;

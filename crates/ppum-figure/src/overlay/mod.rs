@@ -9,6 +9,7 @@
 //! away. A line has one colour throughout, and a seam that parts it from its own colour.
 
 mod cover;
+mod cuts;
 mod deformed;
 mod edges;
 mod glyphs;
@@ -25,6 +26,7 @@ use ppum_render::view::View;
 
 use crate::canvas::{Item, Path, Pen};
 pub use cover::{Enrichment, boxes, cells, centers, elements, enrichments, patches, points};
+pub use cuts::cuts;
 pub use deformed::{carried, deformed_cells, deformed_outline, faces, undeformed_outline};
 pub use glyphs::{arrows, crosses};
 pub use isolines::{Room, isolines};

@@ -154,7 +154,9 @@ fn without(dataset: &Dataset, step: &Step) -> Vec<(Overlay, &'static str)> {
         (Overlay::Rings, step.intensities.is_empty(), "The file has no stress intensity factors"),
         (
             Overlay::Cracks,
-            step.cracks.is_empty() && dataset.domain.holes.is_empty(),
+            step.cracks.is_empty()
+                && dataset.domain.holes.is_empty()
+                && step.level_fields().is_empty(),
             "The plate has neither cracks nor holes",
         ),
         (Overlay::Supports, !has_problem, "The file holds no problem with supports"),
