@@ -267,9 +267,9 @@ impl Inverse {
         [x * a + y * c, x * b + y * d]
     }
 
-    /// True if a solution lies in the shape, or no other does: in the square of the half-width r ≥ 1
-    /// that holds both, u ← u − J⁻¹ (M(u) − t) changes distances by a factor of at most L r^(k − 1),
-    /// k the highest degree, and there is one solution where that is below 1.
+    /// True if a solution lies in the shape, or no other does: in the square of the half-width r ≥
+    /// 1 that holds both, u ← u − J⁻¹ (M(u) − t) changes distances by a factor of at most
+    /// L r^(k − 1), k the highest degree, and there is one solution where that is below 1.
     #[inline]
     pub(super) fn decides(&self, shape: Shape, xi: [f64; 2]) -> bool {
         shape.margin([0.0; 2], xi) >= -TOLERANCE
