@@ -302,6 +302,7 @@ HOLED = ONE.copy()
 HOLED[5, 2] = np.nan
 LINE = [(0, 0.5), (1, 0.5)]
 GIVEN = dict(center=[(0.5, 0.5), (1.5, 0.5)], half=[(0.7, 0.7), (0.7, 0.7)])
+CELLS = [(0, 0, 1, 1), (1, 0, 2, 1)]
 MISTAKES = {
     "length": (lambda: state({"one": ONE[:7]}), r"fields\['u'\].blocks\['one'\]: has the shape \(7, 3\), expected \(8, m\)"),
     "number": (lambda: state({"one": ONE[:, :2]}), r"\['one'\]: has 2 coefficients.* here 1 or 3: fill up with zeros"),
@@ -346,7 +347,8 @@ MISTAKES = {
     "lagrange": (lambda: ppum.basis.lagrange(np.arange(200.0)), r"degree: is 199, expected 0 to 8"),
     "monomials": (lambda: ppum.basis.monomials(-1), r"degree: is -1, expected 0 to 8"),
     "points": (lambda: ppum.Cover.from_points(domain(), [(3, 3)]), r"points: .*outside"),
-    "level": (lambda: ppum.Cover(domain(), level=[0.5, 1], **GIVEN), r"level\[0\]: is 0.5; give whole numbers"),
+    "level": (lambda: ppum.Cover(domain(), level=[0.5, 1], cell=CELLS, **GIVEN), r"level\[0\]: is 0.5; give whole numbers"),
+    "level alone": (lambda: ppum.Cover(domain(), level=[0, 1], **GIVEN), r"level: is that of cells; give the cells too"),
     "gap": (lambda: ppum.State(ppum.Cover(domain(), GIVEN["center"], [(0.4, 0.7)] * 2), field({"one": ONE[:2]})), r"steps/0000/partition.*"),
     "weight": (lambda: ppum.State(ppum.Cover(domain(), weight="1 - t/2", **GIVEN), field({"one": ONE[:2]})), r"partition@weight_formula.*vanish"),
     "text": (lambda: state(attributes={"a\0b": np.zeros(8)}), r"attributes/name\[0\]: .* NUL"),

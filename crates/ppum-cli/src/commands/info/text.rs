@@ -136,9 +136,9 @@ fn joined(parts: impl Iterator<Item = String>) -> String {
 
 /// Lines of names, as long as they fit the screen.
 fn wrapped(names: &[String]) -> Vec<String> {
-    let mut lines = vec![String::new()];
+    let mut lines: Vec<String> = Vec::new();
     for name in names {
-        if lines.last().is_some_and(|line| line.len() + name.len() > 78 - NAME) {
+        if lines.last().is_none_or(|line| line.len() + name.len() > 78 - NAME) {
             lines.push(String::new());
         }
         if let Some(line) = lines.last_mut() {
