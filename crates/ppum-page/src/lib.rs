@@ -26,6 +26,8 @@ mod page;
 
 pub use error::PageError;
 pub use evaluator::Evaluator;
-pub use messages::{Choice, Description, Frame, Legend, Question, Reading, Rows, Side, Tick, View};
+pub use messages::{
+    Choice, Description, Frame, Legend, PointQuestion, Reading, Rows, Side, Tick, View,
+};
 #[cfg(not(target_arch = "wasm32"))]
 pub use page::{LARGEST, Start, html};

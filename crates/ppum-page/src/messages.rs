@@ -51,7 +51,7 @@ pub struct Rows {
 
 /// A question for the values at a point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Question {
+pub struct PointQuestion {
     /// The image that the point is in.
     pub frame: Frame,
     /// Its continuous pixel coordinates; the centre of pixel (i, j) is (i + 1/2, j + 1/2).

@@ -15,7 +15,7 @@ use ppum_scene::shot::{self, FieldSource};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
 
-use ppum_page::{Evaluator, Frame, Question, Rows, View};
+use ppum_page::{Evaluator, Frame, PointQuestion, Rows, View};
 
 fn dataset(seed: u64) -> Dataset {
     let recipe = Recipe { components: 2, ..Recipe::random(seed) };
@@ -127,7 +127,7 @@ fn values_at_points_are_those_of_the_field() {
         let quantity = Quantity::parse("duy_dx + ux^2", &field).unwrap();
         for _ in 0..20 {
             let pixel = [random.between(0.0, 90.0), random.between(0.0, 70.0)];
-            let question = Question { frame: frame.clone(), pixel, reach: 0.0 };
+            let question = PointQuestion { frame: frame.clone(), pixel, reach: 0.0 };
             let reading = evaluator.probe(&question).unwrap();
             let mut local = field.at(reading.anchor.into());
             let offset = Vec2::from(reading.offset);
@@ -154,7 +154,7 @@ fn cracks_and_tips_take_the_place_of_points_beside_them() {
     let frame = Frame { scene, view, file: String::new(), keeps_range: false };
     let checked = view.checked().unwrap();
     let at = checked.pixel(middle + across * (3.0 * checked.pixel_size()));
-    let question = |reach| Question { frame: frame.clone(), pixel: at.into(), reach };
+    let question = |reach| PointQuestion { frame: frame.clone(), pixel: at.into(), reach };
     let near = evaluator.probe(&question(4.0)).unwrap();
     let names: Vec<_> = near.sides.iter().filter_map(|side| side.name.as_deref()).collect();
     assert_eq!(names, ["above", "below"]);
@@ -163,7 +163,7 @@ fn cracks_and_tips_take_the_place_of_points_beside_them() {
     assert_eq!(evaluator.probe(&question(2.0)).unwrap().sides.len(), 1);
     let tip = View { center: a.into(), ..view };
     let frame = Frame { view: tip, ..frame.clone() };
-    let question = Question { frame, pixel: [101.0, 76.0], reach: 3.0 };
+    let question = PointQuestion { frame, pixel: [101.0, 76.0], reach: 3.0 };
     let reading = evaluator.probe(&question).unwrap();
     assert_eq!((reading.tip, reading.anchor, reading.offset), (Some(0), a.into(), [0.0; 2]));
 }

@@ -94,7 +94,7 @@ impl Polynomial {
 
 /// A square or a triangle of the plane: (s, t) = origin + scale ξ, component by component.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
+pub struct ElementPart {
     /// The reference shape.
     pub shape: Shape,
     /// The point of ξ = 0.
@@ -103,7 +103,7 @@ pub struct Part {
     pub scale: Vec2,
 }
 
-impl Part {
+impl ElementPart {
     /// A cell as a whole, or cut into two triangles.
     fn of_cell(cell: &Rect, is_cut: bool) -> Vec<Self> {
         let (middle, half) = (cell.center(), cell.size() * 0.5);
@@ -181,7 +181,7 @@ impl Elements {
         for (i, j) in (0..ny).flat_map(|j| (0..nx).map(move |i| (i, j))) {
             let (x, y) = (f64::from(2 * i + 1) * hx, f64::from(2 * j + 1) * hy);
             let half = vec2(hx, hy);
-            for part in Part::of_cell(&Rect::around(vec2(x, y), half), is_cut(i, j)) {
+            for part in ElementPart::of_cell(&Rect::around(vec2(x, y), half), is_cut(i, j)) {
                 all.push_part(&part, degree, plane);
             }
         }
@@ -196,7 +196,7 @@ impl Elements {
         levels: u32,
         degree: u8,
         plane: &[Polynomial; 2],
-    ) -> (Self, Vec<Part>) {
+    ) -> (Self, Vec<ElementPart>) {
         let (mut all, mut parts) = (Self::default(), Vec::new());
         let mut work = vec![(Rect::new(Vec2::ZERO, vec2(1.0, 1.0)), 0)];
         while let Some((cell, level)) = work.pop() {
@@ -207,13 +207,13 @@ impl Elements {
                 work.extend(corners.map(|at| (Rect::around(child(at), quarter), level + 1)));
                 continue;
             }
-            parts.extend(Part::of_cell(&cell, random.unit() < 0.5));
+            parts.extend(ElementPart::of_cell(&cell, random.unit() < 0.5));
         }
         parts.iter().for_each(|part| all.push_part(part, degree, plane));
         (all, parts)
     }
 
-    fn push_part(&mut self, part: &Part, degree: u8, plane: &[Polynomial; 2]) {
+    fn push_part(&mut self, part: &ElementPart, degree: u8, plane: &[Polynomial; 2]) {
         let s = Polynomial::linear(part.origin.x, part.scale.x, 0.0);
         let t = Polynomial::linear(part.origin.y, 0.0, part.scale.y);
         self.push(part.shape, part.space(), degree, plane.each_ref().map(|p| p.of(&s, &t)));

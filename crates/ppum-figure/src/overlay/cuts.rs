@@ -16,7 +16,7 @@ use ppum::vec2::Vec2;
 use ppum_render::view::View;
 
 use super::cover::is_near;
-use super::{CRACK, CRACK_WIDTH, SEAM, SEAM_WIDTH};
+use super::strokes::{CRACK, CRACK_WIDTH, SEAM, SEAM_WIDTH};
 use crate::canvas::{Item, Path, Pen};
 
 /// Half the diagonal of squares that are small enough, in pixels, and the least halvings.

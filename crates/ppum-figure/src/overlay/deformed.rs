@@ -7,7 +7,7 @@ use ppum_render::image::Rgba;
 use ppum_render::isoline::Isoline;
 use ppum_render::view::View;
 
-use super::{CRACK, CRACK_WIDTH, RIM_WIDTH, SEAM, SEAM_WIDTH};
+use super::strokes::{CRACK, CRACK_WIDTH, RIM_WIDTH, SEAM, SEAM_WIDTH};
 use crate::canvas::{Item, Path, Pen};
 
 /// Colour of the cells' borders, and of the undeformed plate.

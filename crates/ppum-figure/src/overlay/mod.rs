@@ -16,6 +16,7 @@ mod glyphs;
 mod isolines;
 mod legend;
 mod rings;
+mod strokes;
 mod supports;
 
 use ppum::crack::{Crack, tips};
@@ -33,16 +34,8 @@ pub use isolines::{Room, isolines};
 pub use legend::{LegendEntry, Symbol, legend, legend_box};
 pub(crate) use legend::{legend_at, legend_size};
 pub use rings::rings;
+use strokes::{CRACK, CRACK_WIDTH, RIM_WIDTH, SEAM, SEAM_WIDTH, TIP_RADIUS, arc};
 pub use supports::{Load, Support, loads, supports};
-
-/// Dark line of a crack, and the light seam that parts it from dark colours.
-const CRACK: Rgba = [16, 16, 20, 255];
-const SEAM: Rgba = [255, 255, 255, 150];
-/// Widths and radii in pixels of a bare picture of at most 1024 × 768.
-const CRACK_WIDTH: f64 = 1.8;
-const TIP_RADIUS: f64 = 3.0;
-const RIM_WIDTH: f64 = 1.0;
-const SEAM_WIDTH: f64 = 1.0;
 
 /// Scale of a bare picture's lines and letters: 1 up to 1024 × 768 pixels, lest they be unreadable,
 /// and growing with larger ones. In a figure it is [`Design::scale`](crate::figure::Design::scale).
@@ -82,28 +75,6 @@ pub fn rims(view: &View, scale: f64, holes: &[Hole]) -> Vec<Item> {
         path.pieces.extend(sides.filter_map(|[a, b]| visible_part(view, a, b)).map(Vec::from));
     }
     vec![Item::Line { path, pen: Pen::new(CRACK, RIM_WIDTH * scale) }]
-}
-
-/// Points of the part of a circle in or near the view, in continuous pixel coordinates.
-fn arc(view: &View, center: Vec2, radius: f64) -> Vec<Vec2> {
-    let from = view.center - center;
-    let far = from.length();
-    let toward = if far > 0.0 { from / far } else { vec2(1.0, 0.0) };
-    let reach = 2.0 * view.half().length();
-    if (far - radius).abs() > reach {
-        return Vec::new();
-    }
-    // Chords that leave the arc by less than a tenth of a pixel.
-    let half_angle = 2.0 * (reach / radius).min(1.0).asin();
-    let step = (0.8 * view.pixel_size() / radius).sqrt();
-    let count = (half_angle / step).ceil().max(4.0) as i32;
-    let at = |k: i32| {
-        let angle = half_angle * f64::from(k) / f64::from(count);
-        // The point minus the nearest one of the circle, without cancellation.
-        let beside = toward.left() * angle.sin() - toward * (2.0 * (0.5 * angle).sin().powi(2));
-        view.pixel_of_offset(toward * (radius - far) + beside * radius)
-    };
-    (-count..=count).map(at).collect()
 }
 
 /// The part of a segment in or near the view, in continuous pixel coordinates.

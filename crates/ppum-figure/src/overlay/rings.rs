@@ -5,7 +5,7 @@ use ppum::dataset::TipIntensity;
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
-use super::arc;
+use super::strokes::arc;
 use crate::canvas::{Item, Path, Pen};
 
 const RING: Rgba = [225, 95, 20, 255];

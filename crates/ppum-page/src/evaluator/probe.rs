@@ -12,7 +12,7 @@ use ppum_scene::spot::{Places, Spot, number};
 
 use super::{Evaluator, Subject, prepared};
 use crate::error::PageError;
-use crate::messages::{self, Question, Reading};
+use crate::messages::{self, PointQuestion, Reading};
 
 /// Digits of values, and of gradients.
 const DIGITS: usize = 7;
@@ -26,7 +26,7 @@ impl Evaluator<'_> {
     ///
     /// # Errors
     /// What the dataset does not have.
-    pub fn probe(&mut self, question: &Question) -> Result<Reading, PageError> {
+    pub fn probe(&mut self, question: &PointQuestion) -> Result<Reading, PageError> {
         let (dataset, view) =
             (self.dataset, question.frame.view.checked().map_err(PageError::shot)?);
         let subject = prepared(&mut self.subject, dataset, &question.frame.scene)?;

@@ -2,7 +2,7 @@
 
 use ppum::crack::Side;
 use ppum::field::{Field, LocalField};
-use ppum::mesh::PointGrid;
+use ppum::mesh::grid::PointGrid;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use rayon::prelude::*;

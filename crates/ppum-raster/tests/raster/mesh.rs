@@ -12,7 +12,7 @@ use ppum_raster::reference::reference;
 use ppum_raster::scatter::{BAND, render, render_rows, render_strips};
 use ppum_raster::view::View;
 use ppum_testkit::extended::Double;
-use ppum_testkit::meshes::{Elements, Part, Polynomial, field, random_polynomial};
+use ppum_testkit::meshes::{ElementPart, Elements, Polynomial, field, random_polynomial};
 use ppum_testkit::random::Random;
 
 /// A curved mesh, all elements cut in two by a curve, with a polynomial on each part, and a
@@ -177,7 +177,7 @@ fn no_pixel_of_a_quadtree_is_lost() {
             let st = [(x * c + y * s) / det, (y * c - x * s) / det];
             let (xi, near) = (|k: usize| leaves[k].xi(st), st.map(Double::to_f64));
             let margin = |k: usize| {
-                let Part { shape, origin, scale } = leaves[k];
+                let ElementPart { shape, origin, scale } = leaves[k];
                 shape.margin(
                     [0.0; 2],
                     [(near[0] - origin.x) / scale.x, (near[1] - origin.y) / scale.y],

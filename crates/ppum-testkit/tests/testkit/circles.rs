@@ -10,7 +10,7 @@ use std::path::Path;
 const LEFT: &[(&str, &str, usize)] = &[
     ("ppum", "check", 7),
     ("ppum", "crack", 2),
-    ("ppum", "dataset", 9),
+    ("ppum", "dataset", 12),
     ("ppum", "function", 3),
     ("ppum", "quantity", 4),
     ("ppum", "sample", 4),
@@ -20,7 +20,6 @@ const LEFT: &[(&str, &str, usize)] = &[
     ("ppum-cli", "graphics", 3),
     ("ppum-figure", "canvas::pdf", 4),
     ("ppum-figure", "figure", 7),
-    ("ppum-figure", "overlay", 3),
     ("ppum-figure", "overlay::cover", 2),
     ("ppum-figure", "plot", 2),
     ("ppum-format", "damage", 2),

@@ -3,7 +3,7 @@
 use super::LocalField;
 use crate::crack::Side;
 use crate::jet::Jet;
-use crate::mesh::PointGrid;
+use crate::mesh::grid::PointGrid;
 use crate::vec2::Vec2;
 use ppum_formula::real::{Job, Lanes, Real, Scalar};
 

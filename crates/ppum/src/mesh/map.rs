@@ -97,9 +97,9 @@ impl Map {
         self
     }
 
-    /// Operations that halving may take, on a shape where the linear part does not decide alone: one
-    /// for each column of a part. Expanding a part about its centre takes more, but most parts are
-    /// left at once.
+    /// Operations that halving may take, on a shape where the linear part does not decide alone:
+    /// one for each column of a part. Expanding a part about its centre takes more, but most parts
+    /// are left at once.
     pub(super) fn search_work(&self, columns: usize) -> usize {
         let is_bent = self.bounds().is_some_and(|(_, _, lipschitz)| lipschitz > CONTRACTION);
         if is_bent { MOST_PARTS * columns } else { 0 }

@@ -11,7 +11,7 @@
 //! 0, one where it is < 0.
 
 mod evaluate;
-mod grid;
+pub mod grid;
 mod local;
 mod many;
 mod map;
@@ -22,7 +22,6 @@ use std::ops::Range;
 
 use crate::polynomial::PolynomialSpace;
 use crate::vec2::{Rect, Vec2, vec2};
-pub use grid::PointGrid;
 pub(crate) use local::{LocalMesh, reach};
 use map::Map;
 pub use shape::Shape;

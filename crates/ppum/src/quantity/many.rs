@@ -4,7 +4,7 @@ use super::{Quantity, Sample, Source};
 use crate::crack::Side;
 use crate::field::LocalField;
 use crate::jet::Jet;
-use crate::mesh::PointGrid;
+use crate::mesh::grid::PointGrid;
 use crate::vec2::Vec2;
 
 impl Quantity {

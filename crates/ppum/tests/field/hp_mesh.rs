@@ -5,7 +5,7 @@ use ppum::crack::Side;
 use ppum::polynomial::PolynomialSpace::{self, Total};
 use ppum::vec2::Vec2;
 use ppum_testkit::extended::Double;
-use ppum_testkit::meshes::{Elements, Part, Polynomial, field, random_polynomial};
+use ppum_testkit::meshes::{ElementPart, Elements, Polynomial, field, random_polynomial};
 use ppum_testkit::random::Random;
 
 use crate::mesh::{compiled, jet};
@@ -26,8 +26,11 @@ fn plane(random: &mut Random, is_bent: bool) -> (u8, [Polynomial; 2]) {
 }
 
 /// Random polynomials of random degrees.
-fn polynomials(random: &mut Random, parts: &[Part]) -> Vec<(PolynomialSpace, u8, Polynomial)> {
-    let one = |part: &Part| {
+fn polynomials(
+    random: &mut Random,
+    parts: &[ElementPart],
+) -> Vec<(PolynomialSpace, u8, Polynomial)> {
+    let one = |part: &ElementPart| {
         let degree = random.below(9) as u8;
         (part.space(), degree, random_polynomial(random, part.space(), degree.into()))
     };
@@ -40,7 +43,7 @@ fn coordinate(random: &mut Random) -> f64 {
 }
 
 /// How far a point of the unit square lies inside a part.
-fn margin(part: &Part, st: [Double; 2]) -> f64 {
+fn margin(part: &ElementPart, st: [Double; 2]) -> f64 {
     part.shape.margin([0.0; 2], part.xi(st).map(Double::to_f64))
 }
 
