@@ -82,8 +82,8 @@ fn a_click_on_an_element_shows_its_data() {
         assert_eq!(u32::from(element.order), expected as u32 % 4);
         let shape = if element.shape == Shape::Square { "square" } else { "triangle" };
         click(&mut window, point);
-        window.run_steps(20);
         assert!(!window.state().session.pane().probes.is_empty(), "a probe is pinned");
+        hover(&mut window, point);
         let text = format!("element {}, {shape}, order {}", element.number, element.order);
         assert!(window.query_all_by_label_contains(&text).next().is_some(), "{text}");
     }
