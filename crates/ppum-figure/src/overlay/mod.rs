@@ -21,8 +21,7 @@ mod supports;
 
 use ppum::crack::{Crack, tips};
 use ppum::domain::Hole;
-use ppum::vec2::{Vec2, vec2};
-use ppum_render::image::Rgba;
+use ppum::vec2::Vec2;
 use ppum_render::view::View;
 
 use crate::canvas::{Item, Path, Pen};
@@ -102,7 +101,8 @@ mod tests {
     use super::*;
     use crate::canvas::Canvas;
     use ppum::crack::CrackEnd;
-    use ppum_render::image::Image;
+    use ppum::vec2::vec2;
+    use ppum_render::image::{Image, Rgba};
 
     const GREY: Rgba = [128, 128, 128, 255];
 
