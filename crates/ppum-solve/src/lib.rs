@@ -68,7 +68,7 @@
 //! basis           intensity       norms            stable basis; K_I, K_II; energies, errors
 //! space                                            local spaces of a cover, enriched
 //! refine                                           covers
-//! corner                                           singular points of the border
+//! corner          triangulation                    singular points of the border; triangles between segments
 //! equilibrium     problem         smoothness       watched
 //! geometry        law             linear           quadrature      report
 //! ```
@@ -93,4 +93,5 @@ pub mod report;
 mod smoothness;
 pub mod solve;
 pub mod space;
+pub mod triangulation;
 mod watched;

@@ -15,7 +15,7 @@ const DEEPEST: usize = 16;
 ///
 /// # Errors
 /// A crossing that is not finite.
-pub(super) fn connect(
+pub(crate) fn connect(
     mesh: &mut Mesh,
     from: FixedVertexHandle,
     to: FixedVertexHandle,

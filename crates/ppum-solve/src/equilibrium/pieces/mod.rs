@@ -24,7 +24,8 @@ const LEAST_AREA: f64 = 1e-12;
 /// Distance by which points of the border are moved to be inside, in sizes of the box.
 const INWARD: f64 = 1e-9;
 
-type Mesh = ConstrainedDelaunayTriangulation<Point2<f64>>;
+/// Points in units of a size that is about 1.
+pub(crate) type Mesh = ConstrainedDelaunayTriangulation<Point2<f64>>;
 type Triangle<'m> = FaceHandle<'m, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
 
 /// The connected components of the domain without its cracks.
@@ -329,7 +330,7 @@ fn from_unit(bounds: &Rect, p: Point2<f64>) -> Vec2 {
     bounds.min + vec2(p.x * bounds.size().x, p.y * bounds.size().y)
 }
 
-mod crossing;
+pub(crate) mod crossing;
 mod rims;
 #[cfg(test)]
 mod tests;
