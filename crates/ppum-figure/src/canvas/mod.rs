@@ -10,6 +10,8 @@ mod mask;
 mod pdf;
 mod raster;
 mod svg;
+pub mod xml;
+pub mod zlib;
 
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::{Image, Rgba};

@@ -16,6 +16,7 @@ use ppum::printable::printable;
 use ppum_render::png::Text;
 
 use super::Canvas;
+use super::zlib::zlib;
 use content::Writer;
 
 /// Writes a page.
@@ -93,14 +94,7 @@ impl File {
 
     /// An object that is bytes, compressed.
     fn stream(&mut self, place: Ref, bytes: &[u8]) {
-        let bytes = compressed(bytes);
+        let bytes = zlib(bytes);
         self.pdf.stream(place, &bytes).filter(pdf_writer::Filter::FlateDecode);
     }
-}
-
-/// Level of compression: the library's own choice between time and size.
-const LEVEL: u8 = 6;
-
-fn compressed(bytes: &[u8]) -> Vec<u8> {
-    miniz_oxide::deflate::compress_to_vec_zlib(bytes, LEVEL)
 }

@@ -8,6 +8,7 @@ use ppum_render::image::{Image, Rgba};
 use ppum_render::png::{self, Text};
 
 use super::base64::base64;
+use super::xml::escaped;
 use super::{Align, Canvas, Item, Lettering, Path, Pen};
 use crate::text::{self, FONT_FILE};
 
@@ -207,21 +208,4 @@ fn paint(what: &str, [red, green, blue, opacity]: Rgba) -> String {
 fn number(value: f64) -> String {
     // + 0 makes −0 a plain zero
     format!("{}", (value * 1000.0).round() / 1000.0 + 0.0)
-}
-
-/// A text for XML, in which some characters have a meaning and some may not be.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\n' | '\t' => out.push(c),
-            '\0'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => out.push(char::REPLACEMENT_CHARACTER),
-            c => out.push(c),
-        }
-    }
-    out
 }

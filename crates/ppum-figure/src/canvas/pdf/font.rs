@@ -6,7 +6,8 @@
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Finish as _, Name, Rect, Ref, Str};
 
-use super::{File, compressed};
+use super::File;
+use crate::canvas::zlib::zlib;
 use crate::text::{self, FONT_FILE};
 
 /// The font's name in resources.
@@ -51,7 +52,7 @@ impl Font {
         record.finish();
         self.letters(file, [letters, about, glyphs]);
         describe(file, about, program);
-        let bytes = compressed(FONT_FILE);
+        let bytes = zlib(FONT_FILE);
         let mut stream = file.pdf.stream(program, &bytes);
         stream
             .filter(pdf_writer::Filter::FlateDecode)

@@ -4,7 +4,8 @@ use pdf_writer::types::Predictor;
 use pdf_writer::{Filter, Finish as _, Ref};
 use ppum_render::image::Image;
 
-use super::{File, compressed};
+use super::File;
+use crate::canvas::zlib::zlib;
 
 /// Adds a picture without loss; its opacity, where it is not opaque, is a grey picture beside it.
 pub(super) fn picture(file: &mut File, image: &Image) -> Ref {
@@ -26,7 +27,7 @@ pub(super) fn picture(file: &mut File, image: &Image) -> Ref {
 fn channels(file: &mut File, place: Ref, size: [u32; 2], values: &[u8], opacity: Option<Ref>) {
     let [columns, rows] = size.map(|n| n as i32);
     let count = values.len() / (size[0] as usize * size[1] as usize).max(1);
-    let bytes = compressed(&differences(values, size[0] as usize * count));
+    let bytes = zlib(&differences(values, size[0] as usize * count));
     let mut record = file.pdf.image_xobject(place, &bytes);
     record.width(columns).height(rows).bits_per_component(8).filter(Filter::FlateDecode);
     match count {
