@@ -29,6 +29,7 @@ Examples:
   ppum render plate.h5 -o plate.png --figure
   ppum plot plate.h5 --crack 0 -o opening.svg
   ppum export plate.h5 -o plate.html         a page to explore in a browser
+  ppum export plate.h5 -o plate.vtu          a mesh for ParaView and other programs
   ppum formula 'sqrt(r)*sin(theta/2)'        what a formula means, and its derivatives
 
 `ppum COMMAND --help` tells more, with examples.";

@@ -16,6 +16,7 @@ pub(crate) enum FileKind {
     Animation,
     Table,
     Page,
+    Mesh,
 }
 
 impl FileKind {
@@ -25,6 +26,7 @@ impl FileKind {
             Self::Dataset => ("datasets are HDF5 files", &["h5", "hdf5"]),
             Self::Picture => ("pictures are PNG, SVG or PDF files", &["png", "svg", "pdf"]),
             Self::Animation => ("moving pictures are GIF or APNG files", &["gif", "apng"]),
+            Self::Mesh => ("meshes are VTU files, or PVD files of series", &["vtu", "pvd"]),
             Self::Page => ("pages are HTML files", &["html", "htm"]),
             Self::Table => ("tables are CSV or NPY files", &["csv", "npy"]),
         }
@@ -50,6 +52,7 @@ impl FileKind {
             Self::Dataset => standard::check_output("a dataset"),
             Self::Picture | Self::Animation => standard::check_output("a picture"),
             Self::Page => standard::check_output("a page"),
+            Self::Mesh => standard::check_output("a mesh"),
             Self::Table => Ok(()),
         }
     }

@@ -15,6 +15,8 @@ pub mod deformed;
 pub mod drawing;
 pub mod engine;
 #[cfg(feature = "problem")]
+pub mod export;
+#[cfg(feature = "problem")]
 pub mod facts;
 pub mod layers;
 pub mod minus;

@@ -1,4 +1,6 @@
-//! `ppum export`: a page to explore a dataset in a browser.
+//! `ppum export`: a page to explore a dataset in a browser, a mesh for other programs.
+
+mod mesh;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -12,7 +14,7 @@ use ppum_scene::overlays::Overlay;
 use ppum_scene::scene::{Scene, Subject, default_quantity};
 
 use crate::dataset::{check_shown, field, named};
-use crate::given::{self, Given};
+use crate::given::{self, Given, parts};
 use crate::output::{Output, tell};
 use crate::overlays::Overlays;
 use crate::standard::{self, is_standard};
@@ -20,22 +22,27 @@ use crate::subject::ColorArgs;
 use crate::target;
 use crate::window::{ImageExtent, WindowArgs};
 
-/// Write a page to explore a dataset in a browser: one file, for people without this program
+/// Write a page to explore a dataset in a browser, or a mesh for ParaView and other programs
 ///
-/// The page holds the dataset and what evaluates it. A browser opens it from disk, without a server
-/// and without a network, and computes each pixel as exactly as `ppum render`. Zoom, colours and
-/// overlays are chosen in the page; the options say what it shows first.
+/// A page, .html, holds the dataset and what evaluates it. A browser opens it from disk, without a
+/// server and without a network, and computes each pixel as exactly as `ppum render`. Zoom, colours
+/// and overlays are chosen in the page; the options say what it shows first.
+///
+/// A mesh, .vtu, has triangles that resolve the quantities to a tolerance, and points with the
+/// values of both sides on cracks. The file and the command tell the largest difference from the
+/// field, measured at random points. A .pvd file lists one .vtu file for each step of a series.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
-    /// Page to write, - for standard output
-    #[arg(short, long, value_name = "OUT.html")]
+    /// File to write: page, .html, or mesh, .vtu, of a series .pvd; - for a page to standard output
+    #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     /// Quantity or value of cells, see `ppum info`, or a formula of quantities, or @FILE with one
-    /// [default: von-mises; for Poisson problems u]
+    /// [default: von-mises; for Poisson problems u]; of meshes several quantities with commas
+    /// between [default: displacement, stress, von-mises; for Poisson problems u, gradient]
     #[arg(short, long, value_name = "Q", allow_hyphen_values = true)]
     quantity: Option<String>,
     /// Step of the series, from 0 [default: the last]
@@ -47,6 +54,8 @@ pub(crate) struct Args {
     colours: ColorArgs,
     #[command(flatten)]
     overlays: Overlays,
+    #[command(flatten)]
+    accuracy: mesh::Options,
 }
 
 const EXAMPLES: &str = "\
@@ -55,15 +64,21 @@ Examples:
   ppum export plate.h5 -o tip.html --tip 1 --zoom 1e6 --scale log
   ppum export plate.h5 -o uy.html -q uy --colormap coolwarm --isolines auto
   ppum export growth.h5 -o growth.html --step 0
-  ppum solve plate.toml -o - | ppum export - -o plate.html";
+  ppum solve plate.toml -o - | ppum export - -o plate.html
+  ppum export plate.h5 -o plate.vtu --tolerance 1e-4
+  ppum export growth.h5 -o growth.pvd -q 'displacement,s1'";
 
 /// The shape of the first view; a window of another shape shows more.
 const SHAPE: [u32; 2] = [1024, 768];
 
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+        if mesh::is_meant(&self.output) {
+            return self.write_mesh(out);
+        }
+        self.accuracy.check_none()?;
         target::check(&self.output, target::FileKind::Page, self.inputs())?;
-        let bytes = self.bytes()?;
+        let bytes = self.bytes(LARGEST)?;
         let dataset = named(&self.file, ppum_format::from_bytes(bytes.clone()))?;
         let start = self.start(&dataset)?;
         let title = if dataset.title.is_empty() { &start.file } else { &dataset.title };
@@ -77,17 +92,47 @@ impl Args {
         Ok(writeln!(out, "wrote {}: {}", self.output.display(), told(&page))?)
     }
 
-    /// The files that are read.
-    fn inputs(&self) -> impl Iterator<Item = &Path> {
-        let formula = self.quantity.as_deref().and_then(given::file);
-        [self.file.as_path()].into_iter().chain(formula)
+    fn write_mesh(&self, out: &mut Output) -> anyhow::Result<()> {
+        target::check(&self.output, target::Kind::Mesh, self.inputs())?;
+        self.check_no_look()?;
+        let bytes = self.bytes(standard::DATASET)?;
+        let hash = mesh::hash(&bytes);
+        let dataset = named(&self.file, ppum_format::from_bytes(bytes))?;
+        let job = mesh::Job {
+            dataset: &dataset,
+            hash: &hash,
+            output: &self.output,
+            quantities: self.quantity.as_deref(),
+        };
+        if !mesh::is_collection(&self.output) {
+            return self.accuracy.write(&job, self.step, out);
+        }
+        ensure!(self.step.is_none(), "--step: a .pvd file lists all steps; end -o in .vtu for one");
+        self.accuracy.write_all(&job, self.inputs(), out)
     }
 
-    fn bytes(&self) -> anyhow::Result<Vec<u8>> {
+    /// Refuses options that only pages have.
+    fn check_no_look(&self) -> anyhow::Result<()> {
+        ensure!(
+            !self.window.is_given()
+                && self.colours.chosen() == ppum_scene::colors::Colors::default()
+                && self.overlays.chosen() == ppum_scene::overlays::Overlays::default(),
+            "a mesh has no view, colours and overlays: these options are for pages; end -o in .html"
+        );
+        Ok(())
+    }
+
+    /// The files that are read.
+    fn inputs(&self) -> impl Iterator<Item = &Path> + Clone {
+        let formulas = self.quantity.iter().flat_map(|list| parts(list)).filter_map(given::file);
+        [self.file.as_path()].into_iter().chain(formulas)
+    }
+
+    fn bytes(&self, largest: u64) -> anyhow::Result<Vec<u8>> {
         if is_standard(&self.file) {
-            return standard::bytes("the dataset", LARGEST);
+            return standard::bytes("the dataset", largest);
         }
-        let read = ppum_file::read(&self.file, LARGEST);
+        let read = ppum_file::read(&self.file, largest);
         read.with_context(|| format!("cannot read {}", self.file.display()))
     }
 

@@ -1,0 +1,229 @@
+//! Meshes for programs that interpolate: `.vtu`, and `.pvd` for series.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::text::short;
+use ppum_scene::export::vtu::{self, About, Numbers};
+use ppum_scene::export::{Accuracy, Array, ExportError, Measured, Mesh, RANDOM_POINTS, resolve};
+use sha2::{Digest as _, Sha256};
+
+use crate::arguments::positive;
+use crate::dataset::{field, quantity};
+use crate::given::parts;
+use crate::number::count;
+use crate::output::{Output, tell};
+use crate::progress::Bar;
+use crate::target;
+
+/// What a mesh has to resolve.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Options {
+    /// Largest difference of a mesh from the field, in parts of the range of each quantity
+    /// [default: 1e-3]
+    #[arg(long, value_name = "T", value_parser = positive)]
+    tolerance: Option<f64>,
+    /// Radius about tips outside of which a mesh resolves quantities that are infinite there
+    /// [default: 1/200 of the longer side of the domain]
+    #[arg(long, value_name = "R", value_parser = positive)]
+    tip_radius: Option<f64>,
+    /// Most triangles of a mesh [default: 1000000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    max_cells: Option<u32>,
+}
+
+impl Options {
+    /// Refuses options that pages do not have.
+    pub(super) fn check_none(&self) -> anyhow::Result<()> {
+        let given = [
+            ("--tolerance", self.tolerance.is_some()),
+            ("--tip-radius", self.tip_radius.is_some()),
+            ("--max-cells", self.max_cells.is_some()),
+        ];
+        match given.into_iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => {
+                Err(anyhow!("{option} is for meshes; a page is exact, end -o in .vtu for a mesh"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn accuracy(&self) -> Accuracy {
+        let default = Accuracy::default();
+        Accuracy {
+            tolerance: self.tolerance.unwrap_or(default.tolerance),
+            radius: self.tip_radius,
+            cells: self.max_cells.map_or(default.cells, |cells| cells as usize),
+        }
+    }
+}
+
+/// True if the name of a file says that it is a mesh.
+pub(super) fn is_meant(path: &Path) -> bool {
+    is_collection(path) || has_extension(path, "vtu")
+}
+
+/// True if the name of a file says that it lists the meshes of a series.
+pub(super) fn is_collection(path: &Path) -> bool {
+    has_extension(path, "pvd")
+}
+
+fn has_extension(path: &Path, wanted: &str) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
+}
+
+/// A dataset, and where its mesh goes.
+pub(super) struct Job<'a> {
+    pub(super) dataset: &'a Dataset,
+    /// SHA-256 of the dataset's file.
+    pub(super) hash: &'a str,
+    pub(super) output: &'a Path,
+    /// Quantities with commas between.
+    pub(super) quantities: Option<&'a str>,
+}
+
+impl Options {
+    /// Writes the mesh of a step, by default the last one.
+    pub(super) fn write(
+        &self,
+        job: &Job<'_>,
+        step: Option<usize>,
+        out: &mut Output,
+    ) -> anyhow::Result<()> {
+        let step = step.unwrap_or(job.dataset.steps.len().saturating_sub(1));
+        self.write_step(job, step, job.output, out)
+    }
+
+    /// Writes the meshes of all steps and their list; `inputs` are not replaced.
+    pub(super) fn write_all<'i>(
+        &self,
+        job: &Job<'_>,
+        inputs: impl Iterator<Item = &'i Path> + Clone,
+        out: &mut Output,
+    ) -> anyhow::Result<()> {
+        let files: Vec<_> = (0..job.dataset.steps.len()).map(|step| file_of(job, step)).collect();
+        files.iter().try_for_each(|f| target::check(f, target::FileKind::Mesh, inputs.clone()))?;
+        for (step, file) in files.iter().enumerate() {
+            self.write_step(job, step, file, out)?;
+        }
+        let name = |file: &PathBuf| file.file_name().unwrap_or_default().to_string_lossy().into();
+        let listed: Vec<_> = times(job.dataset).into_iter().zip(files.iter().map(name)).collect();
+        target::save(job.output, |out| vtu::write_collection(out, &listed))?;
+        let steps = count(files.len(), "step", "steps");
+        Ok(writeln!(out, "wrote {}: {steps}", job.output.display())?)
+    }
+
+    fn write_step(
+        &self,
+        job: &Job<'_>,
+        step: usize,
+        file: &Path,
+        out: &mut Output,
+    ) -> anyhow::Result<()> {
+        let field = field(job.dataset, Some(step))?;
+        let arrays = arrays(&field, job.quantities)?;
+        let accuracy = self.accuracy();
+        let mesh = resolve(&field, &arrays, &accuracy, &Bar::new()).map_err(explained)?;
+        let about = about(job.dataset, &field, job.hash);
+        target::save(file, |out| vtu::write(out, &mesh, &about))?;
+        let size = file.metadata().map_or(0, |found| found.len()) as f64 / 1e6;
+        let (triangles, points) = (mesh.triangles.len(), mesh.points.len());
+        let file = file.display();
+        writeln!(out, "wrote {file}: {triangles} triangles, {points} points, {size:.1} MB")?;
+        for measured in &mesh.arrays {
+            writeln!(out, "  {}", summary(&mesh, measured))?;
+        }
+        if !mesh.is_complete {
+            tell(&format!(
+                "the limit of {} triangles is reached and the tolerance is not: what is measured \
+                 is above; raise --max-cells or --tolerance",
+                accuracy.cells
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// `growth.pvd` has `growth-0000.vtu` and so on beside it.
+fn file_of(job: &Job<'_>, step: usize) -> PathBuf {
+    let stem = job.output.file_stem().unwrap_or_default().to_string_lossy();
+    job.output.with_file_name(format!("{stem}-{step:04}.vtu"))
+}
+
+fn arrays(field: &Field<'_>, quantities: Option<&str>) -> anyhow::Result<Vec<Array>> {
+    let defaults = Array::defaults(field)?;
+    let Some(list) = quantities else { return Ok(defaults) };
+    let array = |text: &str| match defaults.iter().find(|array| array.name == text) {
+        Some(known) => Ok(known.clone()),
+        None => Ok(Array::scalar(text, quantity(field, text)?)),
+    };
+    parts(list).into_iter().map(array).collect()
+}
+
+/// The loads of the steps where they increase, else the numbers of the steps.
+fn times(dataset: &Dataset) -> Vec<f64> {
+    let loads: Vec<f64> = dataset.steps.iter().map(|step| step.load).collect();
+    let increase = loads.windows(2).all(|pair| pair[0] < pair[1]);
+    if increase { loads } else { (0..loads.len()).map(|step| step as f64).collect() }
+}
+
+/// The error with the option that mends it.
+fn explained(error: ExportError) -> anyhow::Error {
+    let is_limit = matches!(error, ExportError::Cells { .. });
+    let error = anyhow::Error::from(error);
+    if is_limit { error.context("--max-cells") } else { error }
+}
+
+/// SHA-256 in hexadecimal digits.
+pub(super) fn hash(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
+        // writing to a String does not fail
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+/// What the file tells of the dataset.
+fn about(dataset: &Dataset, field: &Field<'_>, hash: &str) -> About {
+    let program = concat!("ppum ", env!("CARGO_PKG_VERSION"));
+    let tips = &field.step.intensities;
+    let position = |tip: ppum::crack::TipId| {
+        let p = field.step.cracks[tip.crack as usize].end_point(tip.end);
+        [p.x, p.y, 0.0]
+    };
+    let mut numbers = vec![Numbers::new("TimeValue", 1, vec![field.step.load])];
+    if !tips.is_empty() {
+        let k = tips.iter().flat_map(|tip| [tip.k1, tip.k2]).collect();
+        numbers.push(Numbers::new("tips", 3, tips.iter().flat_map(|t| position(t.tip)).collect()));
+        numbers.push(Numbers::new("stress_intensity_factors", 2, k));
+    }
+    let texts = vec![
+        ("title", dataset.title.clone()),
+        ("program", program.to_owned()),
+        ("dataset_sha256", hash.to_owned()),
+    ];
+    About { texts, numbers }
+}
+
+/// How well an array is resolved.
+fn summary(mesh: &Mesh, measured: &Measured) -> String {
+    let Measured { array, allowed, largest, share, is_singular, .. } = measured;
+    let mut text = format!(
+        "{}: allowed {}, largest difference at {RANDOM_POINTS} random points {}",
+        array.name,
+        short(*allowed),
+        short(*largest)
+    );
+    if *share < 1.0 {
+        text += &format!(", {} % within", short(100.0 * share));
+    }
+    if *is_singular {
+        let points = count(mesh.singular.len(), "point", "points");
+        text += &format!(", outside of {} about {points} where it is infinite", short(mesh.radius));
+    }
+    text
+}

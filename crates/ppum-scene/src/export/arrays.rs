@@ -1,0 +1,99 @@
+//! The arrays of an exported mesh: scalars, vectors and tensors, made of quantities.
+
+use ppum::field::Field;
+use ppum::quantity::{Quantity, QuantityError, Source};
+
+/// Components of a vector, and of a symmetric tensor in the order of VTK.
+const VECTOR: [&str; 3] = ["X", "Y", "Z"];
+const TENSOR: [&str; 6] = ["XX", "YY", "ZZ", "XY", "YZ", "XZ"];
+
+/// An array of numbers at points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Array {
+    /// Its name in the file.
+    pub name: String,
+    /// For each component its name, empty of a scalar, and its quantity; zero if it has none.
+    pub components: Vec<(&'static str, Option<Quantity>)>,
+}
+
+impl Array {
+    /// A scalar.
+    #[must_use]
+    pub fn scalar(name: &str, quantity: Quantity) -> Self {
+        Self { name: name.to_owned(), components: vec![("", Some(quantity))] }
+    }
+
+    /// What is written if nothing is asked for: of elasticity the displacement, the stress tensor
+    /// and von Mises' stress, of Poisson's equation the field and its gradient, else the field.
+    ///
+    /// # Errors
+    /// None of a field that passed its check.
+    pub fn defaults(field: &Field<'_>) -> Result<Vec<Self>, QuantityError> {
+        let names: Vec<&str> = field.data.components.iter().map(String::as_str).collect();
+        let name = field.data.name.as_str();
+        let mut all = match names[..] {
+            [x, y] => vec![Self::of(field, name, &VECTOR, &[x, y, ""])?],
+            _ => names
+                .iter()
+                .map(|name| Self::of(field, name, &[""], &[name]))
+                .collect::<Result<_, _>>()?,
+        };
+        if field.equation.elastic().is_some() && names.len() == 2 {
+            all.push(Self::of(field, "stress", &TENSOR, &["sxx", "syy", "szz", "sxy", "", ""])?);
+            all.push(Self::of(field, "von-mises", &[""], &["von-mises"])?);
+        } else if let [only] = names[..] {
+            let slopes = [format!("d{only}_dx"), format!("d{only}_dy")];
+            all.push(Self::of(field, "gradient", &VECTOR, &[&slopes[0], &slopes[1], ""])?);
+        }
+        Ok(all)
+    }
+
+    /// Components by the names of their quantities, none for zero.
+    fn of(
+        field: &Field<'_>,
+        name: &str,
+        labels: &[&'static str],
+        quantities: &[&str],
+    ) -> Result<Self, QuantityError> {
+        let parsed = |text: &&str| match *text {
+            "" => Ok(None),
+            text => Quantity::parse(text, field).map(Some),
+        };
+        let quantities: Result<Vec<_>, _> = quantities.iter().map(parsed).collect();
+        let components = labels.iter().copied().zip(quantities?).collect();
+        Ok(Self { name: name.to_owned(), components })
+    }
+}
+
+/// Arrays as a row of numbers, one for each quantity.
+#[derive(Clone, Debug)]
+pub(super) struct Columns {
+    pub(super) quantities: Vec<Quantity>,
+    /// For each quantity the number of its array.
+    pub(super) array: Vec<usize>,
+    /// For each quantity whether it may jump across borders of patches.
+    pub(super) jumps: Vec<bool>,
+}
+
+impl Columns {
+    pub(super) fn new(arrays: &[Array]) -> Self {
+        let (mut quantities, mut array) = (Vec::new(), Vec::new());
+        for (number, components) in arrays.iter().map(|array| &array.components).enumerate() {
+            for quantity in components.iter().filter_map(|(_, quantity)| quantity.clone()) {
+                quantities.push(quantity);
+                array.push(number);
+            }
+        }
+        let may_jump = |q: &Quantity| matches!(q.source(), Source::Gradient | Source::Partition);
+        Self { jumps: quantities.iter().map(may_jump).collect(), quantities, array }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.quantities.len()
+    }
+
+    /// True if any quantity may jump across borders of patches.
+    pub(super) fn any_jumps(&self) -> bool {
+        self.jumps.contains(&true)
+    }
+}

@@ -1,0 +1,324 @@
+//! The segments that no triangle of an exported mesh crosses: outline, rims, cracks, and lines on
+//! which a derivative of the field jumps.
+//!
+//! A round hole becomes the polygon of [`SIDES`] sides around it: all of its points belong to the
+//! domain, and its sides leave the rim by r (1/cos(π/n) − 1) < 10⁻⁴ r. Where a weight is continuous
+//! and its derivative is not, as for the linear one, stresses jump at the places of a patch where
+//! |ξ| or |η| is one of the breakpoints or 1. These lines, and straight interfaces of the
+//! material, are segments too.
+
+use std::f64::consts::TAU;
+
+use ppum::crack::{End, SegmentId};
+use ppum::dataset::BoxPartition;
+use ppum::domain::{Domain, Hole};
+use ppum::field::Field;
+use ppum::segment;
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::weight::WeightFunction;
+
+/// Sides of the polygon around a round hole.
+const SIDES: u32 = 256;
+
+/// Lines nearer to each other than this part of the domain are one: their difference is rounding.
+pub(super) const SAME: f64 = 1e-9;
+
+/// Distance on both sides of a breakpoint at which slopes of a weight are compared, and the part of
+/// the largest slope that is a jump.
+const BESIDE: f64 = 1e-9;
+const JUMP: f64 = 1e-6;
+
+/// A segment, and what is on it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Border {
+    pub(super) ends: [Vec2; 2],
+    pub(super) kind: Kind,
+}
+
+/// What is on an edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Kind {
+    /// The segment of a crack.
+    pub(super) crack: Option<SegmentId>,
+    /// True if derivatives of the field may jump.
+    pub(super) kink: bool,
+}
+
+impl Kind {
+    /// True if values of the two sides are kept apart.
+    pub(super) fn is_torn(self) -> bool {
+        self.crack.is_some() || self.kink
+    }
+
+    pub(super) fn and(self, other: Self) -> Self {
+        Self { crack: self.crack.or(other.crack), kink: self.kink || other.kink }
+    }
+}
+
+/// All segments; `kinks` says whether lines are wanted on which derivatives jump.
+pub(super) fn borders(field: &Field<'_>, domain: &Domain, kinks: bool) -> Vec<Border> {
+    let plain = |ends| Border { ends, kind: Kind::default() };
+    let rims = domain.holes.iter().flat_map(Hole::sides);
+    let mut all: Vec<_> = outline(&domain.bounds).into_iter().chain(rims).map(plain).collect();
+    for (crack, points) in (0..).zip(field.step.cracks.iter().map(|crack| &crack.points)) {
+        for (segment, ends) in (0..).zip(points.windows(2)) {
+            let kind = Kind { crack: Some(SegmentId { crack, segment }), kink: false };
+            all.push(Border { ends: [ends[0], ends[1]], kind });
+        }
+    }
+    all = divided(all, field, SAME * longest(&domain.bounds));
+    if kinks {
+        let kind = Kind { crack: None, kink: true };
+        let lines = patch_lines(field, &domain.bounds).into_iter().chain(interfaces(field));
+        all.extend(lines.map(|ends| Border { ends, kind }));
+    }
+    all
+}
+
+pub(super) fn longest(bounds: &Rect) -> f64 {
+    let size = bounds.size();
+    size.x.max(size.y)
+}
+
+/// Divides segments at the ends of cracks that lie on them, but for rounding: so nothing passes
+/// between.
+fn divided(all: Vec<Border>, field: &Field<'_>, reach: f64) -> Vec<Border> {
+    let ends = field
+        .step
+        .cracks
+        .iter()
+        .flat_map(|crack| [End::Start, End::Last].map(|e| crack.end_point(e)));
+    let ends: Vec<Vec2> = ends.collect();
+    let parts = |Border { ends: [a, b], kind }: Border| {
+        let is_inner = |p: &Vec2| {
+            let beside = segment::distance([a, b], *p) <= reach;
+            beside && (*p - a).length() > reach && (*p - b).length() > reach
+        };
+        let mut points: Vec<Vec2> = ends.iter().copied().filter(is_inner).collect();
+        points.sort_by(|p, q| (*p - a).length().total_cmp(&(*q - a).length()));
+        let chain: Vec<Vec2> = [a].into_iter().chain(points).chain([b]).collect();
+        let part = |pair: &[Vec2]| Border { ends: [pair[0], pair[1]], kind };
+        chain.windows(2).map(part).collect::<Vec<_>>()
+    };
+    all.into_iter().flat_map(parts).collect()
+}
+
+/// The points in which upright and level segments cross, with the coordinates of both: computed as
+/// crossings of oblique lines they would be beside them by their rounding, and triangles between
+/// as thin.
+pub(super) fn crossings(borders: &[Border]) -> Vec<Vec2> {
+    let of = |is: fn(&[Vec2; 2]) -> bool| borders.iter().map(|b| b.ends).filter(is);
+    let level: Vec<_> = of(|[a, b]| a.y == b.y).collect();
+    let mut found = Vec::new();
+    for [a, b] in of(|[a, b]| a.x == b.x) {
+        let (low, high) = (a.min(b), a.max(b));
+        let crosses = |[c, d]: &&[Vec2; 2]| {
+            let within = c.min(*d).x <= a.x && a.x <= c.max(*d).x;
+            within && low.y <= c.y && c.y <= high.y
+        };
+        found.extend(level.iter().filter(crosses).map(|[c, _]| vec2(a.x, c.y)));
+    }
+    found
+}
+
+/// The domain with polygons in the place of round holes.
+pub(super) fn with_polygons(domain: &Domain) -> Domain {
+    let polygon = |hole: &Hole| match hole {
+        Hole::Circle { center, radius } => Hole::Polygon { points: around(*center, *radius) },
+        Hole::Polygon { .. } => hole.clone(),
+    };
+    Domain { bounds: domain.bounds, holes: domain.holes.iter().map(polygon).collect() }
+}
+
+fn around(center: Vec2, radius: f64) -> Vec<Vec2> {
+    let step = TAU / f64::from(SIDES);
+    let far = radius / (0.5 * step).cos();
+    let corner = |k: u32| {
+        let (sin, cos) = (step * f64::from(k)).sin_cos();
+        center + vec2(cos, sin) * far
+    };
+    (0..SIDES).map(corner).collect()
+}
+
+fn outline(bounds: &Rect) -> [[Vec2; 2]; 4] {
+    let (lo, hi) = (bounds.min, bounds.max);
+    let corners = [lo, vec2(hi.x, lo.y), hi, vec2(lo.x, hi.y)];
+    [0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]])
+}
+
+/// Coordinates along an axis that are apart from each other by more than rounding; others are moved
+/// to them.
+struct Snap(Vec<f64>);
+
+impl Snap {
+    /// Known coordinates stay, those of the box, of corners of holes and of points of cracks; of
+    /// others that are nearly equal the first stays.
+    fn new(mut known: Vec<f64>, mut others: Vec<f64>, reach: f64) -> Self {
+        known.sort_by(f64::total_cmp);
+        known.dedup();
+        let near = Self(known.clone());
+        others.retain(|&value| (near.nearest(value) - value).abs() > reach);
+        others.sort_by(f64::total_cmp);
+        others.dedup_by(|value, kept| *value - *kept <= reach);
+        known.extend(others);
+        known.sort_by(f64::total_cmp);
+        Self(known)
+    }
+
+    fn nearest(&self, value: f64) -> f64 {
+        let at = self.0.partition_point(|&known| known < value);
+        let beside = [at.checked_sub(1), Some(at)].into_iter().flatten();
+        let beside = beside.filter_map(|k| self.0.get(k).copied());
+        let away = |known: &f64| (known - value).abs();
+        beside.min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(value)
+    }
+}
+
+/// Points of the box, of holes and cracks.
+fn known_points(field: &Field<'_>) -> Vec<Vec2> {
+    let Rect { min, max } = field.domain.bounds;
+    let cracks = field.step.cracks.iter().flat_map(|crack| crack.points.iter().copied());
+    let corners = field.domain.holes.iter().flat_map(Hole::sides).map(|[a, _]| a);
+    [min, max].into_iter().chain(cracks).chain(corners).collect()
+}
+
+/// A part of a line x = `at` (or y = `at`).
+#[derive(Clone, Copy)]
+struct Stretch {
+    at: f64,
+    from: f64,
+    to: f64,
+}
+
+/// Lines in patches on which derivatives of the field jump, each once.
+fn patch_lines(field: &Field<'_>, bounds: &Rect) -> Vec<[Vec2; 2]> {
+    let (partition, reach) = (field.step.partition.boxes(), SAME * longest(bounds));
+    let places = jumps(&partition.weight);
+    let known = known_points(field);
+    let lines = [0, 1].map(|axis| stretches(partition, &places, bounds, axis));
+    let snaps = [0, 1].map(|axis| {
+        let at = lines[axis].iter().map(|line| line.at);
+        let ends = lines[1 - axis].iter().flat_map(|line| [line.from, line.to]);
+        Snap::new(known.iter().map(|p| along(*p, axis)).collect(), at.chain(ends).collect(), reach)
+    });
+    let [upright, level] = [0, 1].map(|axis| {
+        let snapped = lines[axis].iter().map(|line| Stretch {
+            at: snaps[axis].nearest(line.at),
+            from: snaps[1 - axis].nearest(line.from),
+            to: snaps[1 - axis].nearest(line.to),
+        });
+        joined(snapped.collect())
+    });
+    let upright = upright.into_iter().map(|s| [vec2(s.at, s.from), vec2(s.at, s.to)]);
+    let level = level.into_iter().map(|s| [vec2(s.from, s.at), vec2(s.to, s.at)]);
+    upright.chain(level).collect()
+}
+
+fn along(p: Vec2, axis: usize) -> f64 {
+    if axis == 0 { p.x } else { p.y }
+}
+
+/// The lines across an axis of all patches, within the box.
+fn stretches(partition: &BoxPartition, places: &[f64], bounds: &Rect, axis: usize) -> Vec<Stretch> {
+    let of = along;
+    let clip = |value: f64, axis| value.clamp(of(bounds.min, axis), of(bounds.max, axis));
+    let mut all = Vec::new();
+    for (&center, &half) in partition.center.iter().zip(&partition.half) {
+        let [low, high] =
+            [-1.0, 1.0].map(|end| clip(of(center, 1 - axis) + end * of(half, 1 - axis), 1 - axis));
+        for &t in places {
+            let at = of(center, axis) + t * of(half, axis);
+            if at == clip(at, axis) && low < high {
+                all.push(Stretch { at, from: low, to: high });
+            }
+        }
+    }
+    all
+}
+
+/// Stretches of one line that overlap or touch become one.
+fn joined(mut all: Vec<Stretch>) -> Vec<Stretch> {
+    all.retain(|stretch| stretch.from < stretch.to);
+    all.sort_by(|a, b| a.at.total_cmp(&b.at).then(a.from.total_cmp(&b.from)));
+    let mut found: Vec<Stretch> = Vec::new();
+    for stretch in all {
+        match found.last_mut() {
+            Some(last) if last.at == stretch.at && stretch.from <= last.to => {
+                last.to = last.to.max(stretch.to);
+            }
+            _ => found.push(stretch),
+        }
+    }
+    found
+}
+
+/// The places ξ in \[−1, 1\] at which the slope of a weight jumps.
+fn jumps(weight: &WeightFunction) -> Vec<f64> {
+    let slope = |t: f64| weight.spline(t)[1];
+    let places: Vec<f64> = weight.breakpoints().iter().copied().chain([0.0, 1.0]).collect();
+    let sides = |t: f64| [slope(t - BESIDE), if t < 1.0 { slope(t + BESIDE) } else { 0.0 }];
+    let largest = places.iter().flat_map(|&t| sides(t)).fold(0.0, |a: f64, b| a.max(b.abs()));
+    let jumps = |t: &f64| {
+        let [a, b] = sides(*t);
+        (a - b).abs() > JUMP * largest
+    };
+    let mut found: Vec<f64> = places.into_iter().filter(jumps).flat_map(|t| [-t, t]).collect();
+    found.sort_by(f64::total_cmp);
+    found.dedup();
+    found
+}
+
+/// Straight interfaces of the material, within the box.
+fn interfaces(field: &Field<'_>) -> Vec<[Vec2; 2]> {
+    let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
+    let lines = formulas.flat_map(|(_, e)| e.formula().kinks()).filter_map(|kink| kink.line());
+    lines.filter_map(|line| clipped(line, &field.domain.bounds)).collect()
+}
+
+/// The part of the line a x + b y + c = 0 in a box.
+fn clipped([a, b, c]: [f64; 3], bounds: &Rect) -> Option<[Vec2; 2]> {
+    let (center, normal) = (bounds.center(), vec2(a, b));
+    let unit = normal.unit();
+    let away = (a.mul_add(center.x, b.mul_add(center.y, c))) / normal.length();
+    let (foot, along) = (center - unit * away, unit.left());
+    let mut range = [f64::NEG_INFINITY, f64::INFINITY];
+    for (p, d, low, high) in [
+        (foot.x, along.x, bounds.min.x, bounds.max.x),
+        (foot.y, along.y, bounds.min.y, bounds.max.y),
+    ] {
+        let ends = [(low - p) / d, (high - p) / d];
+        if d != 0.0 {
+            range = [range[0].max(ends[0].min(ends[1])), range[1].min(ends[0].max(ends[1]))];
+        } else if p < low || p > high {
+            return None;
+        }
+    }
+    let ends = range.map(|s| foot + along * s);
+    (range[0] < range[1] && ends.iter().all(|p| p.is_finite())).then_some(ends)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slopes_jump_where_weights_have_kinks() {
+        assert_eq!(jumps(&WeightFunction::Linear), [-1.0, -0.0, 1.0]);
+        assert_eq!(jumps(&WeightFunction::Quadratic), []);
+        assert_eq!(jumps(&WeightFunction::Cubic), []);
+        let scope = ppum::formula::Scope::new(&["t"]).unwrap();
+        let bent = WeightFunction::formula("max(1 - 2*t, (1 - t)/4)", &scope).unwrap();
+        let found = jumps(&bent);
+        assert_eq!(found.len(), 5, "{found:?}");
+        assert!((found[3] - 3.0 / 7.0).abs() < 1e-12, "{found:?}");
+    }
+
+    #[test]
+    fn lines_end_at_the_box() {
+        let bounds = Rect::new(vec2(-1.0, 2.0), vec2(3.0, 4.0));
+        assert_eq!(clipped([1.0, 0.0, -2.0], &bounds), Some([vec2(2.0, 2.0), vec2(2.0, 4.0)]));
+        assert_eq!(clipped([1.0, 0.0, -5.0], &bounds), None);
+        let [a, b] = clipped([1.0, -1.0, 0.0], &bounds).unwrap();
+        assert!((a - vec2(2.0, 2.0)).length() + (b - vec2(3.0, 3.0)).length() < 1e-14);
+    }
+}

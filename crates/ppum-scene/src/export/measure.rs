@@ -1,0 +1,101 @@
+//! The difference of interpolation and field, measured at random points.
+
+use ppum::vec2::Vec2;
+use rayon::prelude::*;
+
+use super::refine::{Refined, or_infinite};
+
+/// Random points of a measurement: half of them uniform in the domain, half of them uniform among
+/// the triangles, so that small ones are seen too.
+pub const RANDOM_POINTS: usize = 20_000;
+
+/// A measurement.
+#[derive(Clone, Debug)]
+pub(super) struct Measurement {
+    /// Largest difference of each column, outside of singular points.
+    pub(super) largest: Vec<f64>,
+    /// For each column the share of points that are within the tolerance, of those outside of
+    /// singular points.
+    pub(super) share: Vec<f64>,
+    /// Triangles in which one is not.
+    pub(super) failed: Vec<u32>,
+}
+
+impl Refined<'_, '_> {
+    /// Measures at points that follow from a seed.
+    pub(super) fn measure(&self, seed: u64) -> Measurement {
+        let (width, allowed) = (self.columns.len(), self.allowed());
+        let at = self.random_points(seed);
+        let exact = self.exact(&at);
+        let rows = exact.par_chunks(width);
+        let differences: Vec<Vec<f64>> =
+            at.par_iter().zip(rows).map(|(&(t, b), row)| self.differences(t, b, row)).collect();
+        let mut found =
+            Measurement { largest: vec![0.0; width], share: vec![1.0; width], failed: Vec::new() };
+        for c in 0..width {
+            let all = differences.iter().map(|row| row[c]).filter(|difference| *difference >= 0.0);
+            let all: Vec<f64> = all.collect();
+            found.largest[c] = all.iter().copied().fold(0.0, f64::max);
+            let within = all.iter().filter(|difference| **difference <= allowed[c]).count();
+            found.share[c] = within as f64 / all.len().max(1) as f64;
+        }
+        let fails = |row: &Vec<f64>| row.iter().zip(&allowed).any(|(d, allowed)| d > allowed);
+        let failed =
+            at.iter().zip(&differences).filter(|(_, row)| fails(row)).map(|((t, _), _)| *t);
+        found.failed = failed.collect();
+        found.failed.sort_unstable();
+        found.failed.dedup();
+        found
+    }
+
+    /// Differences at a place; −1 where nothing is claimed of a column.
+    fn differences(&self, triangle: u32, weights: [f64; 3], exact: &[f64]) -> Vec<f64> {
+        let is_far = self.singular.loosened(self.position(triangle, weights)) == 1.0;
+        let interpolated = self.interpolated(triangle, weights);
+        let difference = |c: usize| match is_far || !self.singular.columns[c] {
+            true if exact[c].is_nan() && interpolated[c].is_nan() => -1.0,
+            true => or_infinite((exact[c] - interpolated[c]).abs()),
+            false => -1.0,
+        };
+        (0..exact.len()).map(difference).collect()
+    }
+
+    fn random_points(&self, seed: u64) -> Vec<(u32, [f64; 3])> {
+        let count = self.mesh.triangles.len() as u32;
+        let mut sum = 0.0;
+        let mut areas = Vec::with_capacity(count as usize);
+        for triangle in 0..count {
+            sum += double_area(self.mesh.corners(triangle));
+            areas.push(sum);
+        }
+        let mut random = Random(seed);
+        let mut point = |k: usize| {
+            let [chosen, p, q] = [(); 3].map(|()| random.unit());
+            let triangle = match k % 2 {
+                0 => areas.partition_point(|&area| area <= chosen * sum) as u32,
+                _ => (chosen * f64::from(count)) as u32,
+            };
+            let [p, q] = if p + q > 1.0 { [1.0 - p, 1.0 - q] } else { [p, q] };
+            (triangle.min(count - 1), [1.0 - p - q, p, q])
+        };
+        (0..RANDOM_POINTS).map(&mut point).collect()
+    }
+}
+
+fn double_area([a, b, c]: [Vec2; 3]) -> f64 {
+    (b - a).cross(c - a)
+}
+
+/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every machine.
+struct Random(u64);
+
+impl Random {
+    /// Uniform in \[0, 1).
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}

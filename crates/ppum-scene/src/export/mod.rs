@@ -1,0 +1,230 @@
+//! A field as triangles for programs that interpolate, such as ParaView, to a tolerance.
+//!
+//! [`resolve`] makes a mesh on which linear interpolation differs from the field by no more than a
+//! given part of the range of each [`Array`]; [`vtu::write`] writes it. No triangle crosses a
+//! crack, a rim or a line on which stresses jump, and a vertex there has a point on each side
+//! (`torn`). What has been reached is [`Measured`] at random points that had no part in refinement.
+//!
+//! Near a tip stresses grow without bound, and no mesh resolves them: there the tolerance holds
+//! outside of a radius, R, in which it is loosened as R/r down to R/100.
+
+mod arrays;
+mod borders;
+mod measure;
+mod refine;
+mod singular;
+mod torn;
+pub mod vtu;
+
+use ppum::field::{Field, FieldError};
+use ppum::progress::{Cancelled, Watcher};
+use ppum::sample::Place;
+use ppum::segment;
+use ppum::vec2::Vec2;
+use ppum_solve::triangulation::NotFinite;
+
+pub use arrays::Array;
+use arrays::Columns;
+use borders::{Border, SAME, borders, crossings, longest, with_polygons};
+pub use measure::RANDOM_POINTS;
+use refine::{Limits, Refined};
+use singular::Singular;
+use torn::Torn;
+
+/// What a mesh has to resolve, and what it may cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// Largest difference in parts of the range of an array, outside of singular points; positive.
+    pub tolerance: f64,
+    /// The radius about singular points within which infinite quantities are not resolved; by
+    /// default [`RADIUS`] of the longer side of the domain.
+    pub radius: Option<f64>,
+    /// Most triangles.
+    pub cells: usize,
+}
+
+impl Default for Accuracy {
+    fn default() -> Self {
+        Self { tolerance: 1e-3, radius: None, cells: 1_000_000 }
+    }
+}
+
+/// The default radius about singular points, in parts of the longer side of the domain: the values
+/// there make the range, which grows as R^−½ and loosens the tolerance elsewhere.
+pub const RADIUS: f64 = 0.005;
+
+/// Measurements that may each be followed by more refinement, where they find a difference that
+/// refinement has not seen.
+const ROUNDS: u64 = 6;
+
+/// A mesh that resolves a field.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    /// Points: of a vertex on a crack one for each side.
+    pub points: Vec<Vec2>,
+    /// Where the field's values at the points were taken.
+    pub places: Vec<Place>,
+    /// Three points each, counter-clockwise.
+    pub triangles: Vec<[u32; 3]>,
+    /// A row for each point, of the quantities of all arrays.
+    pub values: Vec<f64>,
+    /// The arrays, and how well they are resolved.
+    pub arrays: Vec<Measured>,
+    /// Points at which quantities are infinite.
+    pub singular: Vec<Vec2>,
+    /// The tolerance of infinite quantities holds outside of this radius about them.
+    pub radius: f64,
+    /// What was asked for.
+    pub accuracy: Accuracy,
+    /// False if the limit of triangles ended the refinement.
+    pub is_complete: bool,
+}
+
+/// How well an array is resolved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// The array.
+    pub array: Array,
+    /// Largest minus smallest value, of components the widest; of infinite quantities outside of
+    /// the radius.
+    pub range: f64,
+    /// The tolerance in units of the array.
+    pub allowed: f64,
+    /// Largest difference of interpolation and field at [`RANDOM_POINTS`] random points.
+    pub largest: f64,
+    /// Share of these points that are within the tolerance.
+    pub share: f64,
+    /// True if the array is infinite at a singular point.
+    pub is_singular: bool,
+}
+
+/// A field that cannot be exported.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// The patches are no boxes.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// A coordinate is not finite.
+    #[error(transparent)]
+    NotFinite(#[from] NotFinite),
+    /// Stopped.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The borders alone take more triangles.
+    #[error("{needed} triangles are needed along borders alone, more than the {limit} allowed")]
+    Cells {
+        /// Triangles between the borders.
+        needed: usize,
+        /// The limit.
+        limit: usize,
+    },
+}
+
+/// Refines triangles of the domain until interpolation resolves all arrays.
+///
+/// # Errors
+/// See [`ExportError`]; a limit that is met later is told by [`Mesh::is_complete`].
+pub fn resolve(
+    field: &Field<'_>,
+    arrays: &[Array],
+    accuracy: &Accuracy,
+    watcher: &dyn Watcher,
+) -> Result<Mesh, ExportError> {
+    field.on_boxes("the export of triangles")?;
+    let columns = Columns::new(arrays);
+    let mut refined = Refined {
+        field,
+        mesh: begin(field, &columns)?,
+        values: Vec::new(),
+        singular: Singular::new(field, &columns, radius(field, accuracy)),
+        ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; columns.len()],
+        limits: Limits { tolerance: accuracy.tolerance, cells: accuracy.cells },
+        columns: &columns,
+    };
+    let needed = refined.mesh.triangles.len();
+    if needed > accuracy.cells {
+        return Err(ExportError::Cells { needed, limit: accuracy.cells });
+    }
+    let is_complete = refined.run(watcher)?;
+    Ok(refined.finished(arrays, accuracy, is_complete))
+}
+
+fn radius(field: &Field<'_>, accuracy: &Accuracy) -> f64 {
+    accuracy.radius.unwrap_or(RADIUS * longest(&field.domain.bounds))
+}
+
+/// The triangles between all borders. Without lines on which stresses jump, cells have points too:
+/// the field varies on their scale.
+fn begin<'d>(field: &Field<'d>, columns: &Columns) -> Result<Torn<'d>, NotFinite> {
+    let domain = with_polygons(field.domain);
+    let all = borders(field, &domain, columns.any_jumps());
+    let has_kinks = all.iter().any(|border| border.kind.kink);
+    let points = if has_kinks { crossings(&all) } else { points_of_cells(field, &all) };
+    Torn::new(field, &domain, &all, &points)
+}
+
+/// Corners and middles of cells, but for those on borders and nearly there.
+fn points_of_cells(field: &Field<'_>, borders: &[Border]) -> Vec<Vec2> {
+    let near = SAME * longest(&field.domain.bounds);
+    let is_apart = |p: &Vec2| borders.iter().all(|b| segment::distance(b.ends, *p) > near);
+    let cells = field.step.partition.cells();
+    let points = cells.iter().flat_map(|cell| [cell.min, cell.center(), cell.max]);
+    points.filter(is_apart).collect()
+}
+
+impl Refined<'_, '_> {
+    /// Refines, measures, and refines where the measurement has found more. False if the limit of
+    /// triangles is met.
+    fn run(&mut self, watcher: &dyn Watcher) -> Result<bool, Cancelled> {
+        self.evaluate_new();
+        let mut fresh = (0..self.mesh.triangles.len() as u32).collect();
+        for round in 0..ROUNDS {
+            if !self.refine(fresh, watcher)? {
+                return Ok(false);
+            }
+            let failed = self.measure(round).failed;
+            match self.bisect(&failed) {
+                Some(changed) if !changed.is_empty() => fresh = changed,
+                Some(_) => break,
+                None => return Ok(false),
+            }
+        }
+        Ok(true)
+    }
+
+    /// The mesh, measured at points that have not been used before.
+    fn finished(mut self, arrays: &[Array], accuracy: &Accuracy, is_complete: bool) -> Mesh {
+        self.fill();
+        let found = self.measure(ROUNDS);
+        let allowed = self.allowed();
+        let measured = |(number, array): (usize, &Array)| {
+            let of: Vec<usize> =
+                (0..allowed.len()).filter(|&c| self.columns.array[c] == number).collect();
+            let most =
+                |value: &dyn Fn(usize) -> f64| of.iter().map(|&c| value(c)).fold(0.0, f64::max);
+            Measured {
+                array: array.clone(),
+                range: most(&|c| (self.ranges[c][1] - self.ranges[c][0]).max(0.0)),
+                allowed: most(&|c| allowed[c]),
+                largest: most(&|c| found.largest[c]),
+                share: 1.0 - most(&|c| 1.0 - found.share[c]),
+                is_singular: of.iter().any(|&c| self.singular.columns[c]),
+            }
+        };
+        Mesh {
+            arrays: arrays.iter().enumerate().map(measured).collect(),
+            points: self.mesh.points.iter().map(|point| point.position).collect(),
+            places: self.mesh.points.iter().map(|point| point.place).collect(),
+            triangles: self.mesh.triangles.iter().map(|triangle| triangle.corners).collect(),
+            values: self.values,
+            singular: self.singular.points,
+            radius: self.singular.radius,
+            accuracy: *accuracy,
+            is_complete,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,266 @@
+//! Refinement of a mesh until interpolation between its points resolves the field.
+
+use ppum::field::Field;
+use ppum::progress::{Cancelled, Phase, Progress, Watcher};
+use ppum::sample::{Place, Wanted, evaluate_each};
+use ppum::vec2::Vec2;
+use rayon::prelude::*;
+
+use super::arrays::Columns;
+use super::borders;
+use super::singular::Singular;
+use super::torn::Torn;
+
+/// Barycentric coordinates at which a triangle is looked at: the middle, near the middles of the
+/// edges, where quadratic functions differ most, and between.
+const TESTS: [[f64; 3]; 7] = [
+    [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
+    [0.48, 0.48, 0.04],
+    [0.04, 0.48, 0.48],
+    [0.48, 0.04, 0.48],
+    [0.7, 0.15, 0.15],
+    [0.15, 0.7, 0.15],
+    [0.15, 0.15, 0.7],
+];
+
+/// Part of the tolerance that is allowed at these: elsewhere it may be a little more.
+const MARGIN: f64 = 0.75;
+
+/// Triangles with edges shorter than this part of the domain, or thinner than the other, are not
+/// divided: rounding would decide what lies in them.
+const SHORTEST: f64 = 1e-12;
+const THINNEST: f64 = 1e-13;
+
+/// Tolerances are no finer than this part of the largest value: rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// Places, or triangles, that a thread takes at a time.
+const CHUNK: usize = 1024;
+
+/// The limits of a refinement.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// In parts of the range of an array.
+    pub(super) tolerance: f64,
+    pub(super) cells: usize,
+}
+
+/// A mesh with its values, and what is known of them so far.
+pub(super) struct Refined<'a, 'd> {
+    pub(super) field: &'a Field<'d>,
+    pub(super) columns: &'a Columns,
+    pub(super) mesh: Torn<'d>,
+    /// A row for each point.
+    pub(super) values: Vec<f64>,
+    pub(super) singular: Singular,
+    /// Smallest and largest value of each column that was seen outside of singular points.
+    pub(super) ranges: Vec<[f64; 2]>,
+    pub(super) limits: Limits,
+}
+
+impl Refined<'_, '_> {
+    /// Refines the given triangles and all that come of them. False if the limit of cells is met.
+    pub(super) fn refine(
+        &mut self,
+        mut fresh: Vec<u32>,
+        watcher: &dyn Watcher,
+    ) -> Result<bool, Cancelled> {
+        while !fresh.is_empty() {
+            watcher.report(Progress::new(
+                Phase::Evaluation,
+                self.mesh.triangles.len(),
+                self.limits.cells,
+            ))?;
+            let coarse = self.coarse(&fresh);
+            let Some(changed) = self.bisect(&coarse) else { return Ok(false) };
+            fresh = changed;
+        }
+        Ok(true)
+    }
+
+    /// Divides triangles; those that have changed, in order. None if the limit of cells is met.
+    pub(super) fn bisect(&mut self, coarse: &[u32]) -> Option<Vec<u32>> {
+        let before = self.mesh.triangles.len();
+        let mut changed = Vec::new();
+        let mut is_changed = vec![false; before];
+        for &triangle in coarse {
+            if self.mesh.triangles.len() >= self.limits.cells {
+                self.evaluate_new();
+                return None;
+            }
+            if !is_changed[triangle as usize] {
+                let from = changed.len();
+                self.mesh.bisect(triangle, &mut changed);
+                is_changed.resize(self.mesh.triangles.len(), true);
+                changed[from..].iter().for_each(|&t| is_changed[t as usize] = true);
+            }
+        }
+        self.evaluate_new();
+        changed.sort_unstable();
+        changed.dedup();
+        Some(changed)
+    }
+
+    /// Evaluates the points that have no values yet.
+    pub(super) fn evaluate_new(&mut self) {
+        let width = self.columns.len();
+        let new = &self.mesh.points[self.values.len() / width..];
+        let inside: Vec<Place> = new.iter().map(|point| point.inside).collect();
+        let mut rows = evaluate(self.field, self.columns, &inside);
+        let is_apart = |k: &usize| new[*k].place != new[*k].inside;
+        let apart: Vec<usize> = (0..new.len()).filter(is_apart).collect();
+        let places: Vec<Place> = apart.iter().map(|&k| new[k].place).collect();
+        let exact = evaluate(self.field, self.columns, &places);
+        for (&k, exact) in apart.iter().zip(exact.chunks(width)) {
+            let row = &mut rows[k * width..][..width];
+            let steady = (0..width).filter(|&c| !self.columns.jumps[c]);
+            steady.for_each(|c| row[c] = exact[c]);
+        }
+        let new: Vec<Vec2> = new.iter().map(|point| point.position).collect();
+        new.iter().zip(rows.chunks(width)).for_each(|(at, row)| self.widen(*at, row));
+        self.values.extend(rows);
+    }
+
+    /// The triangles among the given ones in which interpolation is not good enough.
+    fn coarse(&mut self, fresh: &[u32]) -> Vec<u32> {
+        let width = self.columns.len();
+        let mut coarse = Vec::new();
+        for part in fresh.chunks(64 * CHUNK) {
+            let at: Vec<_> = part.iter().flat_map(|&t| TESTS.map(|b| (t, b))).collect();
+            let exact = self.exact(&at);
+            for (&(t, b), row) in at.iter().zip(exact.chunks(width)) {
+                self.widen(self.position(t, b), row);
+            }
+            let allowed = self.allowed();
+            let rows = exact.par_chunks(TESTS.len() * width);
+            let is_coarse: Vec<bool> = part
+                .par_iter()
+                .zip(rows)
+                .map(|(&t, rows)| self.is_coarse(t, rows, &allowed))
+                .collect();
+            coarse.extend(part.iter().zip(is_coarse).filter_map(|(&t, is)| is.then_some(t)));
+        }
+        coarse
+    }
+
+    /// True if exact rows at the tests of a triangle differ from interpolation.
+    fn is_coarse(&self, triangle: u32, rows: &[f64], allowed: &[f64]) -> bool {
+        let tests = || TESTS.iter().zip(rows.chunks(self.columns.len()));
+        let differs = |(weights, exact): (&[f64; 3], &[f64])| {
+            let at = self.position(triangle, *weights);
+            let excess = self.excess(at, exact, &self.interpolated(triangle, *weights), allowed);
+            excess > MARGIN
+        };
+        self.may_divide(triangle) && tests().any(differs)
+    }
+
+    /// Exact rows at places inside triangles, given by barycentric coordinates.
+    pub(super) fn exact(&self, at: &[(u32, [f64; 3])]) -> Vec<f64> {
+        let place = |(t, b): &(u32, [f64; 3])| self.mesh.place(self.position(*t, *b));
+        let places: Vec<Place> = at.par_iter().map(place).collect();
+        evaluate(self.field, self.columns, &places)
+    }
+
+    pub(super) fn position(&self, triangle: u32, [_, q, r]: [f64; 3]) -> Vec2 {
+        let [a, b, c] = self.mesh.corners(triangle);
+        a + ((b - a) * q + (c - a) * r)
+    }
+
+    pub(super) fn interpolated(&self, triangle: u32, weights: [f64; 3]) -> Vec<f64> {
+        let width = self.columns.len();
+        let corners = self.mesh.triangles[triangle as usize].corners;
+        let row = |corner: u32| &self.values[corner as usize * width..][..width];
+        let rows = corners.map(row);
+        (0..width).map(|c| (0..3).map(|k| weights[k] * rows[k][c]).sum()).collect()
+    }
+
+    /// Largest difference of two rows in parts of what is allowed.
+    fn excess(&self, at: Vec2, exact: &[f64], interpolated: &[f64], allowed: &[f64]) -> f64 {
+        let loosened = self.singular.loosened(at);
+        let excess = |c: usize| {
+            let factor = if self.singular.columns[c] { loosened } else { 1.0 };
+            let difference = (exact[c] - interpolated[c]).abs();
+            match factor.is_infinite() || (exact[c].is_nan() && interpolated[c].is_nan()) {
+                true => 0.0,
+                false => or_infinite(difference / (allowed[c] * factor)),
+            }
+        };
+        (0..allowed.len()).map(excess).fold(0.0, f64::max)
+    }
+
+    /// The tolerance of each column.
+    pub(super) fn allowed(&self) -> Vec<f64> {
+        let range = |[low, high]: [f64; 2]| if low <= high { high - low } else { 0.0 };
+        let size =
+            |[low, high]: [f64; 2]| if low <= high { low.abs().max(high.abs()) } else { 0.0 };
+        let of_array = |number: usize, of: &dyn Fn([f64; 2]) -> f64| {
+            let same = self.columns.array.iter().zip(&self.ranges).filter(|(a, _)| **a == number);
+            same.map(|(_, r)| of(*r)).fold(0.0, f64::max)
+        };
+        let allowed = |&array: &usize| {
+            let rounding = (ROUNDING * of_array(array, &size)).max(f64::MIN_POSITIVE);
+            (self.limits.tolerance * of_array(array, &range)).max(rounding)
+        };
+        self.columns.array.iter().map(allowed).collect()
+    }
+
+    fn widen(&mut self, at: Vec2, row: &[f64]) {
+        let is_far = self.singular.loosened(at) == 1.0;
+        for (c, &value) in row.iter().enumerate() {
+            if value.is_finite() && (is_far || !self.singular.columns[c]) {
+                let range = &mut self.ranges[c];
+                *range = [range[0].min(value), range[1].max(value)];
+            }
+        }
+    }
+
+    fn may_divide(&self, triangle: u32) -> bool {
+        let [a, b, c] = self.mesh.corners(triangle);
+        let longest = [b - a, c - b, a - c].map(Vec2::length).into_iter().fold(0.0, f64::max);
+        let size = borders::longest(&self.field.domain.bounds);
+        longest > SHORTEST * size && (b - a).cross(c - a) > THINNEST * size * longest
+    }
+
+    /// Replaces values that are not finite, those of tips, by the mean of those in the middles of
+    /// the triangles that meet there.
+    pub(super) fn fill(&mut self) {
+        let width = self.columns.len();
+        let is_finite = |corner: u32| {
+            self.values[corner as usize * width..][..width].iter().all(|v| v.is_finite())
+        };
+        let touches = |t: &u32| {
+            let corners = self.mesh.triangles[*t as usize].corners;
+            !corners.into_iter().all(is_finite)
+        };
+        let around: Vec<u32> = (0..self.mesh.triangles.len() as u32).filter(touches).collect();
+        let at: Vec<_> = around.iter().map(|&t| (t, [1.0 / 3.0; 3])).collect();
+        let middles = self.exact(&at);
+        let mut sums = vec![(0.0, 0u32); self.values.len()];
+        for (&t, row) in around.iter().zip(middles.chunks(width)) {
+            for corner in self.mesh.triangles[t as usize].corners {
+                for (c, &value) in row.iter().enumerate().filter(|(_, value)| value.is_finite()) {
+                    let sum = &mut sums[corner as usize * width + c];
+                    *sum = (sum.0 + value, sum.1 + 1);
+                }
+            }
+        }
+        for (value, (sum, count)) in self.values.iter_mut().zip(sums) {
+            if !value.is_finite() && count > 0 {
+                *value = sum / f64::from(count);
+            }
+        }
+    }
+}
+
+/// Differences that are no numbers are as large as any.
+pub(super) fn or_infinite(value: f64) -> f64 {
+    if value.is_nan() { f64::INFINITY } else { value }
+}
+
+/// Rows of quantities at places, on all threads.
+pub(super) fn evaluate(field: &Field<'_>, columns: &Columns, places: &[Place]) -> Vec<f64> {
+    let wanted = Wanted::Values(&columns.quantities);
+    let rows: Vec<Vec<f64>> =
+        places.par_chunks(8 * CHUNK).map(|part| evaluate_each(field, wanted, part)).collect();
+    rows.concat()
+}

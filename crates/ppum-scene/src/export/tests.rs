@@ -1,0 +1,299 @@
+//! Meshes of random plates with cracks: geometry, values, accuracy.
+
+use std::collections::BTreeMap;
+
+use ppum::crack::{Crack, CrackEnd, Side, tips};
+use ppum::dataset::Dataset;
+use ppum::domain::{Domain, Hole};
+use ppum::field::Field;
+use ppum::progress::unwatched;
+use ppum::quantity::Quantity;
+use ppum::sample::{Place, Seats, Wanted, evaluate_each};
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::weight::WeightFunction;
+use ppum_testkit::random::Random;
+use ppum_testkit::synthetic::{Recipe, crack, kinked};
+
+use super::*;
+
+/// Radius about tips, and tolerance.
+const RADIUS: f64 = 0.03;
+const TOLERANCE: f64 = 0.02;
+
+/// A plate with a kinked crack and one from the border, in some a round hole, all weights in turn.
+fn plate(seed: u64) -> Dataset {
+    let mut random = Random(seed);
+    let domain = Recipe::default().domain;
+    let mouth = vec2(domain.min.x, random.between(0.3, 0.6));
+    let tip = vec2(random.between(0.4, 0.55), random.between(0.3, 0.6));
+    let edge = crack(&[mouth.into(), tip.into()], [CrackEnd::Mouth, CrackEnd::Tip]);
+    let recipe = Recipe {
+        weight: WeightFunction::ALL[seed as usize % 3].clone(),
+        overlap: random.between(1.1, 1.6),
+        random_rounds: 1,
+        level: 1,
+        tip_level: 3,
+        cracks: vec![kinked(), edge],
+        seed,
+        ..Recipe::default()
+    };
+    let mut dataset = recipe.dataset();
+    if seed % 2 == 0 {
+        let center = vec2(random.between(1.25, 1.35), random.between(-0.1, 0.0));
+        dataset.domain.holes.push(Hole::Circle { center, radius: random.between(0.05, 0.12) });
+    }
+    dataset
+}
+
+fn resolved(field: &Field<'_>) -> Mesh {
+    let arrays = Array::defaults(field).unwrap();
+    let accuracy = Accuracy { tolerance: TOLERANCE, radius: Some(RADIUS), cells: 400_000 };
+    let mesh = resolve(field, &arrays, &accuracy, unwatched()).unwrap();
+    assert!(mesh.is_complete);
+    mesh
+}
+
+impl Mesh {
+    fn corners(&self, triangle: &[u32; 3]) -> [Vec2; 3] {
+        triangle.map(|corner| self.points[corner as usize])
+    }
+}
+
+fn area([a, b, c]: [Vec2; 3]) -> f64 {
+    0.5 * (b - a).cross(c - a)
+}
+
+/// That of the box without the polygon of 256 sides around each circle.
+fn area_of(domain: &Domain) -> f64 {
+    let holes = domain.holes.iter().map(|hole| match hole {
+        Hole::Circle { radius, .. } => {
+            let half = std::f64::consts::PI / 256.0;
+            256.0 * radius * radius * half.tan()
+        }
+        Hole::Polygon { .. } => 0.0,
+    });
+    let size = domain.bounds.size();
+    size.x * size.y - holes.sum::<f64>()
+}
+
+/// True if a point lies on the outline, up to rounding and the sides of round holes.
+fn is_on_outline(domain: &Domain, p: Vec2) -> bool {
+    let Rect { min, max } = domain.bounds;
+    let away = [p.x - min.x, max.x - p.x, p.y - min.y, max.y - p.y];
+    let is_on_rim = |hole: &Hole| match hole {
+        Hole::Circle { radius, .. } => hole.rim_distance(p) < 1e-4 * radius,
+        Hole::Polygon { .. } => hole.rim_distance(p) < 1e-12,
+    };
+    away.into_iter().any(|d| d.abs() < 1e-12) || domain.holes.iter().any(is_on_rim)
+}
+
+/// Each inner edge, by the coordinates of its ends, has two triangles, each other one belongs to
+/// the outline: so no vertex lies inside an edge.
+fn check_edges(mesh: &Mesh, domain: &Domain) {
+    let mut owners: BTreeMap<[[u64; 2]; 2], usize> = BTreeMap::new();
+    let bits = |p: Vec2| [p.x.to_bits(), p.y.to_bits()];
+    for corners in mesh.triangles.iter().map(|t| mesh.corners(t)) {
+        for k in 0..3 {
+            let mut ends = [bits(corners[k]), bits(corners[(k + 1) % 3])];
+            ends.sort_unstable();
+            *owners.entry(ends).or_default() += 1;
+        }
+    }
+    for ([a, b], count) in owners {
+        let [a, b] = [a, b].map(|p| vec2(f64::from_bits(p[0]), f64::from_bits(p[1])));
+        let is_outer = is_on_outline(domain, (a + b) * 0.5);
+        assert!(count == 2 || (count == 1 && is_outer), "{count} triangles at {a:?} {b:?}");
+    }
+}
+
+/// No segment of a crack passes through a triangle that is shrunk by a little.
+fn check_cracks(mesh: &Mesh, cracks: &[Crack]) {
+    let segments: Vec<_> = cracks.iter().flat_map(|c| c.points.windows(2)).collect();
+    for corners in mesh.triangles.iter().map(|t| mesh.corners(t)) {
+        let center = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let inner = corners.map(|corner| corner + (center - corner) * 1e-3);
+        for segment in &segments {
+            let crosses = |k: usize| crossing([inner[k], inner[(k + 1) % 3]], segment);
+            assert!(!(0..3).any(crosses), "{segment:?} crosses {corners:?}");
+        }
+    }
+}
+
+fn crossing([a, b]: [Vec2; 2], segment: &[Vec2]) -> bool {
+    let (c, d) = (segment[0], segment[1]);
+    let parts =
+        |p: Vec2, q: Vec2, r: Vec2, s: Vec2| (q - p).cross(r - p) * (q - p).cross(s - p) < 0.0;
+    parts(a, b, c, d) && parts(c, d, a, b)
+}
+
+/// Displacements at points are those of `sample`, to the last bit, and on cracks those of the side
+/// that the triangle is on.
+fn check_values(mesh: &Mesh, field: &Field<'_>) -> usize {
+    let (seats, width) = (Seats::new(field), mesh.values.len() / mesh.places.len());
+    let places: Vec<Place> = mesh.places.iter().map(|p| seats.at(p.point, p.side)).collect();
+    let quantities = [Quantity::Component(0), Quantity::Component(1)];
+    let exact = evaluate_each(field, Wanted::Values(&quantities), &places);
+    for ((place, row), exact) in
+        mesh.places.iter().zip(mesh.values.chunks(width)).zip(exact.chunks(2))
+    {
+        assert_eq!(row[..2], *exact, "{place:?}");
+    }
+    let cracks = &field.step.cracks;
+    let mut sided = 0;
+    for triangle in &mesh.triangles {
+        let corners = mesh.corners(triangle);
+        let center = (corners[0] + corners[1] + corners[2]) / 3.0;
+        for place in triangle.map(|corner| mesh.places[corner as usize]) {
+            let Some(on) = place.on else { continue };
+            let points = &cracks[on.crack as usize].points[on.segment as usize..];
+            let [a, b] = [points[0], points[1]];
+            if (place.point - a).length().min((place.point - b).length()) > 1e-9 {
+                let is_left = (b - a).cross(center - place.point) > 0.0;
+                assert_eq!(place.side, if is_left { Side::Above } else { Side::Below });
+                sided += 1;
+            }
+        }
+    }
+    sided
+}
+
+/// Interpolation at fresh random points, the triangle found by looking at all.
+fn check_accuracy(mesh: &Mesh, field: &Field<'_>, seed: u64) {
+    let mut random = Random(seed);
+    let cracks = &field.step.cracks;
+    let tips: Vec<Vec2> =
+        tips(cracks).map(|tip| cracks[tip.crack as usize].end_point(tip.end)).collect();
+    let width = mesh.values.len() / mesh.places.len();
+    let names = ["ux", "uy", "sxx", "syy", "szz", "sxy", "von-mises"];
+    let quantities = names.map(|name| Quantity::parse(name, field).unwrap());
+    let array = [0, 0, 1, 1, 1, 1, 2];
+    let mut looked = 0;
+    for _ in 0..300 {
+        let p = random.point(&field.domain.bounds);
+        let is_far = tips.iter().all(|tip| (p - *tip).length() > RADIUS);
+        let found = mesh.triangles.iter().find_map(|t| Some((t, weights(mesh.corners(t), p)?)));
+        let Some((triangle, weights)) = found else {
+            assert!(is_on_outline(field.domain, p) || !field.domain.contains(p), "{p:?}");
+            continue;
+        };
+        for (c, quantity) in quantities.iter().enumerate().filter(|(c, _)| is_far || *c < 2) {
+            let exact = quantity.at(&mut field.at(p), Vec2::ZERO, Side::Above);
+            let value = |k: usize| mesh.values[triangle[k] as usize * width + c];
+            let interpolated: f64 = (0..3).map(|k| weights[k] * value(k)).sum();
+            let allowed = mesh.arrays[array[c]].allowed;
+            let off = (exact - interpolated).abs();
+            assert!(off <= allowed, "{} at {p:?}: {off} > {allowed}", names[c]);
+            looked += 1;
+        }
+    }
+    assert!(looked > 1000);
+}
+
+/// Barycentric coordinates of a point of a triangle.
+fn weights([a, b, c]: [Vec2; 3], p: Vec2) -> Option<[f64; 3]> {
+    let whole = area([a, b, c]);
+    let all = [area([p, b, c]), area([a, p, c]), area([a, b, p])].map(|part| part / whole);
+    all.iter().all(|w| *w >= 0.0).then_some(all)
+}
+
+/// Points of both faces at one position, and their largest jump of displacement, which is that of
+/// the field.
+fn check_jumps(mesh: &Mesh, field: &Field<'_>) {
+    let width = mesh.values.len() / mesh.places.len();
+    let mut faces: BTreeMap<[u64; 2], [Option<usize>; 2]> = BTreeMap::new();
+    for (k, place) in mesh.places.iter().enumerate().filter(|(_, place)| place.on.is_some()) {
+        let at = [place.point.x.to_bits(), place.point.y.to_bits()];
+        faces.entry(at).or_default()[usize::from(place.side == Side::Below)] = Some(k);
+    }
+    let mut largest: f64 = 0.0;
+    for sides in faces.values() {
+        let [Some(above), Some(below)] = *sides else { panic!("one face alone: {sides:?}") };
+        let on = mesh.places[above].on.unwrap();
+        let mut local = field.on(on, mesh.places[above].point);
+        for c in 0..2 {
+            let mut value = |side| Quantity::Component(c).at(&mut local, Vec2::ZERO, side);
+            let jump = value(Side::Above) - value(Side::Below);
+            let of_mesh = |k: usize| mesh.values[k * width + c as usize];
+            let off = (of_mesh(above) - of_mesh(below) - jump).abs();
+            assert!(off < 1e-12, "{off} {jump}");
+            largest = largest.max(jump.abs());
+        }
+    }
+    assert!(faces.len() > 20 && largest > 0.01, "{} {largest}", faces.len());
+}
+
+fn check(seed: u64) {
+    let dataset = plate(seed);
+    let field = Field::new(&dataset, 0).unwrap();
+    let mesh = resolved(&field);
+    let areas: Vec<f64> = mesh.triangles.iter().map(|t| area(mesh.corners(t))).collect();
+    assert!(areas.iter().all(|area| *area > 0.0));
+    let total: f64 = areas.iter().sum();
+    assert!((total - area_of(&dataset.domain)).abs() < 1e-11, "{total}");
+    check_edges(&mesh, &dataset.domain);
+    check_cracks(&mesh, &field.step.cracks);
+    assert!(check_values(&mesh, &field) > 50);
+    check_jumps(&mesh, &field);
+    check_accuracy(&mesh, &field, seed + 1000);
+    for measured in &mesh.arrays {
+        assert!(measured.largest <= measured.allowed, "{measured:?}");
+        assert_eq!(measured.share, 1.0);
+    }
+    let singular: Vec<bool> = mesh.arrays.iter().map(|array| array.is_singular).collect();
+    assert_eq!((singular, mesh.singular.len()), (vec![false, true, true], 3));
+    assert!(mesh.values.iter().all(|value| value.is_finite()));
+}
+
+#[test]
+fn random_plates_are_resolved() {
+    (0..4).for_each(check);
+}
+
+#[test]
+#[ignore = "slow: ten times as many plates"]
+fn many_random_plates_are_resolved() {
+    (4..44).for_each(check);
+}
+
+/// Cracks that cross, branch and end on each other: no triangle crosses one, and values beside a
+/// place where they meet are those of the sector.
+#[test]
+fn cracks_that_meet_part_triangles() {
+    let dataset = Recipe { level: 1, ..Recipe::meeting() }.dataset();
+    let field = Field::new(&dataset, 0).unwrap();
+    let arrays = [Array::scalar("ux", Quantity::Component(0))];
+    let accuracy = Accuracy { tolerance: 0.01, radius: None, cells: 400_000 };
+    let mesh = resolve(&field, &arrays, &accuracy, unwatched()).unwrap();
+    assert!(mesh.is_complete && mesh.singular.is_empty());
+    check_edges(&mesh, &dataset.domain);
+    check_cracks(&mesh, &field.step.cracks);
+    let [ux] = &mesh.arrays[..] else { panic!("one array") };
+    assert!(ux.largest <= ux.allowed && ux.share == 1.0, "{ux:?}");
+    for triangle in &mesh.triangles {
+        let corners = mesh.corners(triangle);
+        let center = (corners[0] + corners[1] + corners[2]) / 3.0;
+        for &k in triangle {
+            let p = mesh.points[k as usize];
+            let near = p + (center - p) * 1e-4;
+            let seen = Quantity::Component(0).at(&mut field.at(near), Vec2::ZERO, Side::Above);
+            // a ten-thousandth of the way to the centre of a triangle that is resolved
+            let off = (mesh.values[k as usize] - seen).abs();
+            assert!(off < ux.allowed, "{off} at {p:?}");
+        }
+    }
+}
+
+/// A limit that is too low ends the refinement, and the mesh says what it has reached.
+#[test]
+fn limits_are_kept_and_told() {
+    let dataset = plate(1);
+    let field = Field::new(&dataset, 0).unwrap();
+    let arrays = Array::defaults(&field).unwrap();
+    let mut accuracy = Accuracy { tolerance: 1e-4, radius: None, cells: 10 };
+    let refused = resolve(&field, &arrays, &accuracy, unwatched());
+    assert!(matches!(refused, Err(ExportError::Cells { limit: 10, .. })), "{refused:?}");
+    accuracy.cells = 8000;
+    let mesh = resolve(&field, &arrays, &accuracy, unwatched()).unwrap();
+    assert!(!mesh.is_complete && mesh.triangles.len() < 8200);
+    assert!(mesh.arrays.iter().any(|measured| measured.largest > measured.allowed));
+}

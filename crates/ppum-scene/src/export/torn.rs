@@ -1,0 +1,211 @@
+//! A mesh of triangles torn along cracks and kinks, refined by bisection.
+//!
+//! A vertex on a border has a point for each sector of triangles between borders, so a value on
+//! one side of a crack and one on the other. A triangle is divided at the middle of its longest
+//! edge, together with the neighbour across it, which is divided at its own longest edge first if
+//! that is another one (Rivara, 1984): no vertex ever lies inside an edge, and angles stay above
+//! half of the smallest one that the beginning has.
+
+mod begin;
+
+use ppum::crack::{SegmentId, Side};
+use ppum::sample::{Place, Seats};
+use ppum::vec2::Vec2;
+
+use super::borders::Kind;
+
+/// Part of the way to the centroid of a triangle at which its corner is seen from inside.
+pub(super) use ppum_render::pieces::INSET;
+
+/// No neighbour.
+const NONE: u32 = u32::MAX;
+
+/// A point of the mesh: a vertex as one sector sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point {
+    /// The vertex.
+    pub(super) position: Vec2,
+    /// Where values of the field are taken.
+    pub(super) place: Place,
+    /// Where quantities are taken that jump across kinks: in the sector if a kink ends it.
+    pub(super) inside: Place,
+}
+
+impl Point {
+    fn new(position: Vec2, place: Place) -> Self {
+        Self { position, place, inside: place }
+    }
+}
+
+/// A triangle; edge k leads from corner k to the next.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triangle {
+    /// Points, counter-clockwise.
+    pub(super) corners: [u32; 3],
+    /// The triangle across each edge.
+    neighbours: [u32; 3],
+    kinds: [Kind; 3],
+}
+
+impl Triangle {
+    /// The same triangle with another edge as the first.
+    fn from_edge(self, edge: usize) -> Self {
+        let turned = |k: usize| (k + edge) % 3;
+        Self {
+            corners: [0, 1, 2].map(|k| self.corners[turned(k)]),
+            neighbours: [0, 1, 2].map(|k| self.neighbours[turned(k)]),
+            kinds: [0, 1, 2].map(|k| self.kinds[turned(k)]),
+        }
+    }
+}
+
+/// The mesh.
+#[derive(Debug)]
+pub(super) struct Torn<'d> {
+    seats: Seats<'d>,
+    cracks: &'d [ppum::crack::Crack],
+    pub(super) points: Vec<Point>,
+    pub(super) triangles: Vec<Triangle>,
+}
+
+impl Torn<'_> {
+    /// The place of a point that lies on no border.
+    pub(super) fn place(&self, point: Vec2) -> Place {
+        self.seats.at(point, Side::Above)
+    }
+
+    pub(super) fn corners(&self, triangle: u32) -> [Vec2; 3] {
+        let corners = self.triangles[triangle as usize].corners;
+        corners.map(|corner| self.points[corner as usize].position)
+    }
+
+    /// A place inside a triangle, a part of the way from a corner to the centroid.
+    fn seen_from_inside(&self, corner: Vec2, triangle: [Vec2; 3], part: f64) -> Place {
+        self.place(corner + (centroid(triangle) - corner) * part)
+    }
+
+    /// Longest edge of a triangle; of several the one that is first by its coordinates, so that
+    /// neighbours agree.
+    fn longest(&self, triangle: u32) -> usize {
+        let p = self.corners(triangle);
+        let key = |k: usize| key(p[k], p[(k + 1) % 3]);
+        let longer = |a: usize, b: usize| if key(b) > key(a) { b } else { a };
+        longer(longer(0, 1), 2)
+    }
+
+    /// Divides a triangle at the middle of its longest edge, others before it where they have to
+    /// be. The triangles that have changed, and those that are new, are added to a list.
+    pub(super) fn bisect(&mut self, triangle: u32, changed: &mut Vec<u32>) {
+        let mut path = vec![(triangle, self.triangles[triangle as usize].corners)];
+        while let Some(&(last, corners)) = path.last() {
+            if self.triangles[last as usize].corners != corners {
+                path.pop();
+                continue;
+            }
+            let edge = self.longest(last);
+            let next = self.triangles[last as usize].neighbours[edge];
+            if next == NONE {
+                self.divide(last, edge, changed);
+            } else if self.triangles[next as usize].neighbours[self.longest(next)] == last {
+                self.divide(last, edge, changed);
+            } else {
+                path.push((next, self.triangles[next as usize].corners));
+            }
+        }
+    }
+
+    /// Divides the triangles on both sides of an edge at its middle.
+    fn divide(&mut self, triangle: u32, edge: usize, changed: &mut Vec<u32>) {
+        let other = self.triangles[triangle as usize].neighbours[edge];
+        let [a, b] = [edge, (edge + 1) % 3].map(|k| self.corners(triangle)[k]);
+        let middle = (a + b) * 0.5;
+        let kind = self.triangles[triangle as usize].kinds[edge];
+        let point = self.add_middle(middle, triangle, edge);
+        if other == NONE {
+            self.split(triangle, edge, point, changed);
+            return;
+        }
+        let across = self.edge_to(other, triangle);
+        let beyond = if kind.is_torn() { self.add_middle(middle, other, across) } else { point };
+        let new = self.split(triangle, edge, point, changed);
+        let new_other = self.split(other, across, beyond, changed);
+        self.join((triangle, new_other), (new, other));
+    }
+
+    fn edge_to(&self, triangle: u32, neighbour: u32) -> usize {
+        let neighbours = &self.triangles[triangle as usize].neighbours;
+        neighbours.iter().position(|&n| n == neighbour).expect("neighbours know each other")
+    }
+
+    /// The point in the middle of an edge as a triangle sees it.
+    fn add_middle(&mut self, middle: Vec2, triangle: u32, edge: usize) -> u32 {
+        let corners = self.corners(triangle);
+        let kind = self.triangles[triangle as usize].kinds[edge];
+        let along = corners[(edge + 1) % 3] - corners[edge];
+        let place = match kind.crack {
+            Some(segment) => on_crack(segment, middle, self.side(segment, along)),
+            None => self.place(middle),
+        };
+        let mut point = Point::new(middle, place);
+        if kind.kink {
+            point.inside = self.seen_from_inside(middle, corners, INSET);
+        }
+        self.points.push(point);
+        self.points.len() as u32 - 1
+    }
+
+    /// The side of a crack that a triangle is on, from the direction of its edge.
+    fn side(&self, SegmentId { crack, segment }: SegmentId, along: Vec2) -> Side {
+        let points = &self.cracks[crack as usize].points[segment as usize..];
+        if (points[1] - points[0]).dot(along) > 0.0 { Side::Above } else { Side::Below }
+    }
+
+    /// Splits one triangle; its half with the first end of the edge keeps its number. The number of
+    /// the other half.
+    fn split(&mut self, triangle: u32, edge: usize, point: u32, changed: &mut Vec<u32>) -> u32 {
+        let new = self.triangles.len() as u32;
+        let turned = self.triangles[triangle as usize].from_edge(edge);
+        let ([a, b, c], [_, after, before]) = (turned.corners, turned.neighbours);
+        let [kind, kind_after, kind_before] = turned.kinds;
+        let inner = Kind::default();
+        self.triangles[triangle as usize] = Triangle {
+            corners: [a, point, c],
+            neighbours: [NONE, new, before],
+            kinds: [kind, inner, kind_before],
+        };
+        self.triangles.push(Triangle {
+            corners: [point, b, c],
+            neighbours: [NONE, after, triangle],
+            kinds: [kind, kind_after, inner],
+        });
+        if after != NONE {
+            let edge = self.edge_to(after, triangle);
+            self.triangles[after as usize].neighbours[edge] = new;
+        }
+        changed.extend([triangle, new]);
+        new
+    }
+
+    /// Joins pairs of halves at their first edges.
+    fn join(&mut self, first: (u32, u32), second: (u32, u32)) {
+        for (a, b) in [first, second] {
+            self.triangles[a as usize].neighbours[0] = b;
+            self.triangles[b as usize].neighbours[0] = a;
+        }
+    }
+}
+
+/// Orders edges by their length and then by their ends, alike from both sides.
+fn key(a: Vec2, b: Vec2) -> [f64; 5] {
+    let [a, b] = if (a.x, a.y) < (b.x, b.y) { [a, b] } else { [b, a] };
+    [(b - a).dot(b - a), a.x, a.y, b.x, b.y]
+}
+
+pub(super) fn centroid([a, b, c]: [Vec2; 3]) -> Vec2 {
+    a + ((b - a) + (c - a)) / 3.0
+}
+
+/// A point that lies on a segment of a crack, wherever rounding has put it.
+fn on_crack(segment: SegmentId, point: Vec2, side: Side) -> Place {
+    Place { point, anchor: point, offset: Vec2::ZERO, on: Some(segment), side }
+}

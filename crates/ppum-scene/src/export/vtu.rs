@@ -1,0 +1,171 @@
+//! The files of VTK: an unstructured grid as XML (`.vtu`), and a collection of them (`.pvd`).
+//!
+//! Numbers are f64 in base 64, in blocks of zlib streams. Texts are arrays of bytes in UTF-8: VTK
+//! has an array of strings, which other readers refuse.
+
+use std::io::{self, Write};
+
+use ppum::vec2::Vec2;
+use ppum_figure::canvas::base64::base64;
+use ppum_figure::canvas::xml::escaped;
+use ppum_figure::canvas::zlib::zlib;
+use rayon::prelude::*;
+
+use super::{Mesh, RANDOM_POINTS};
+
+/// Bytes that are compressed at a time.
+const BLOCK: usize = 1 << 18;
+
+/// The number of triangles among the kinds of cells of VTK.
+const TRIANGLE: u8 = 5;
+
+/// What a file tells beside the mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct About {
+    /// Names with texts: the title, the program, the hash of the dataset.
+    pub texts: Vec<(&'static str, String)>,
+    /// Names with rows of numbers: the time, stress intensity factors.
+    pub numbers: Vec<Numbers>,
+}
+
+/// Rows of numbers with a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numbers {
+    /// The name.
+    pub name: String,
+    /// Numbers in a row.
+    pub width: usize,
+    /// The rows, one after the other.
+    pub values: Vec<f64>,
+}
+
+impl Numbers {
+    /// Rows of numbers.
+    #[must_use]
+    pub fn new(name: &str, width: usize, values: Vec<f64>) -> Self {
+        Self { name: name.to_owned(), width, values }
+    }
+}
+
+/// Writes a mesh.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> {
+    let (points, cells) = (mesh.points.len(), mesh.triangles.len());
+    writeln!(out, "<?xml version=\"1.0\"?>")?;
+    writeln!(
+        out,
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
+         header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>"
+    )?;
+    write_about(out, mesh, about)?;
+    writeln!(out, "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">")?;
+    writeln!(out, "<Points>")?;
+    let flat = |p: Vec2| [p.x, p.y, 0.0];
+    let positions: Vec<f64> = mesh.points.iter().copied().flat_map(flat).collect();
+    numbers(out, "Points", "NumberOfComponents=\"3\"", &positions)?;
+    writeln!(out, "</Points>\n<Cells>")?;
+    let corners: Vec<u8> = mesh.triangles.iter().flatten().flat_map(|k| k.to_le_bytes()).collect();
+    array(out, "Int32", "connectivity", "", &corners)?;
+    let ends: Vec<u8> = (1..=cells as u32).flat_map(|k| (3 * k).to_le_bytes()).collect();
+    array(out, "Int32", "offsets", "", &ends)?;
+    array(out, "UInt8", "types", "", &vec![TRIANGLE; cells])?;
+    writeln!(out, "</Cells>\n<PointData>")?;
+    write_arrays(out, mesh)?;
+    writeln!(out, "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
+}
+
+/// Writes the list of the files of a series, with their times.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_collection(out: &mut dyn Write, files: &[(f64, String)]) -> io::Result<()> {
+    writeln!(out, "<?xml version=\"1.0\"?>")?;
+    writeln!(out, "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">")?;
+    writeln!(out, "<Collection>")?;
+    for (time, file) in files {
+        writeln!(out, "<DataSet timestep=\"{time}\" file=\"{}\"/>", escaped(file))?;
+    }
+    writeln!(out, "</Collection>\n</VTKFile>")
+}
+
+fn write_arrays(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> {
+    let width: usize = mesh.arrays.iter().map(|a| quantities(&a.array.components)).sum();
+    let mut from = 0;
+    for measured in &mesh.arrays {
+        let components = &measured.array.components;
+        let mut columns = Vec::new();
+        for (_, quantity) in components {
+            columns.push(quantity.as_ref().map(|_| from));
+            from += usize::from(quantity.is_some());
+        }
+        let value =
+            |row: &[f64]| columns.iter().map(|c| c.map_or(0.0, |c| row[c])).collect::<Vec<_>>();
+        let values: Vec<f64> = mesh.values.chunks(width).flat_map(value).collect();
+        numbers(out, &measured.array.name, &attributes(components), &values)?;
+    }
+    Ok(())
+}
+
+fn quantities<Q>(components: &[(&str, Option<Q>)]) -> usize {
+    components.iter().filter(|(_, quantity)| quantity.is_some()).count()
+}
+
+/// The number of components, and their names.
+fn attributes<Q>(components: &[(&str, Option<Q>)]) -> String {
+    let mut text = format!("NumberOfComponents=\"{}\"", components.len());
+    for (k, (name, _)) in components.iter().enumerate().filter(|(_, (name, _))| !name.is_empty()) {
+        text += &format!(" ComponentName{k}=\"{name}\"");
+    }
+    text
+}
+
+/// The field data: what the mesh is accurate to, and what else is told.
+fn write_about(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> {
+    let names: Vec<&str> = mesh.arrays.iter().map(|a| a.array.name.as_str()).collect();
+    let of = |value: fn(&super::Measured) -> f64| mesh.arrays.iter().map(value).collect();
+    let singular = mesh.singular.iter().flat_map(|p| [p.x, p.y, 0.0]).collect();
+    let accuracy = [
+        Numbers::new("tolerance", 1, vec![mesh.accuracy.tolerance]),
+        Numbers::new("range", 1, of(|a| a.range)),
+        Numbers::new("allowed_difference", 1, of(|a| a.allowed)),
+        Numbers::new("largest_difference", 1, of(|a| a.largest)),
+        Numbers::new("share_within", 1, of(|a| a.share)),
+        Numbers::new("random_points", 1, vec![RANDOM_POINTS as f64]),
+        Numbers::new("singular_radius", 1, vec![mesh.radius]),
+        Numbers::new("singular_points", 3, singular),
+    ];
+    writeln!(out, "<FieldData>")?;
+    let quantities = [("quantities", names.join("\n"))];
+    for (name, text) in about.texts.iter().chain(&quantities) {
+        let size = format!("NumberOfTuples=\"{}\"", text.len());
+        array(out, "UInt8", name, &size, text.as_bytes())?;
+    }
+    for Numbers { name, width, values } in accuracy.iter().chain(&about.numbers) {
+        let rows = values.len() / width;
+        let size = format!("NumberOfComponents=\"{width}\" NumberOfTuples=\"{rows}\"");
+        numbers(out, name, &size, values)?;
+    }
+    writeln!(out, "</FieldData>")
+}
+
+fn numbers(out: &mut dyn Write, name: &str, size: &str, values: &[f64]) -> io::Result<()> {
+    let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+    array(out, "Float64", name, size, &bytes)
+}
+
+/// An array: number of blocks, their size, that of the last one if it is smaller, their sizes once
+/// compressed; then the blocks.
+fn array(out: &mut dyn Write, kind: &str, name: &str, size: &str, bytes: &[u8]) -> io::Result<()> {
+    let blocks: Vec<Vec<u8>> = bytes.par_chunks(BLOCK).map(zlib).collect();
+    let head = [blocks.len(), BLOCK, bytes.len() % BLOCK];
+    let head = head.into_iter().chain(blocks.iter().map(Vec::len));
+    let head: Vec<u8> = head.flat_map(|number| (number as u64).to_le_bytes()).collect();
+    writeln!(
+        out,
+        "<DataArray type=\"{kind}\" Name=\"{}\" {size} format=\"binary\">",
+        escaped(name)
+    )?;
+    writeln!(out, "{}{}\n</DataArray>", base64(&head), base64(&blocks.concat()))
+}
