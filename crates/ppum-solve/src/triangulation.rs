@@ -8,7 +8,7 @@ use ppum::vec2::{Vec2, vec2};
 use spade::handles::FixedVertexHandle;
 use spade::{InsertionError, Point2, Triangulation as _, mitigate_underflow};
 
-use crate::equilibrium::{Mesh, crossing};
+use crate::equilibrium::{SegmentMesh, crossing};
 
 /// Triangles, and the edges that segments have become.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,7 +32,7 @@ pub struct NotFinite;
 /// [`NotFinite`].
 pub fn triangulate(segments: &[[Vec2; 2]], points: &[Vec2]) -> Result<Triangulation, NotFinite> {
     let scale = Scale::new(segments.iter().flatten().chain(points));
-    let mut mesh = Mesh::new();
+    let mut mesh = SegmentMesh::new();
     insert(&mut mesh, scale, segments, points).map_err(|_| NotFinite)
 }
 
@@ -57,7 +57,7 @@ impl Scale {
 
 /// Edges are asked for last: nothing divides them any more.
 fn insert(
-    mesh: &mut Mesh,
+    mesh: &mut SegmentMesh,
     scale: Scale,
     segments: &[[Vec2; 2]],
     points: &[Vec2],
@@ -81,7 +81,11 @@ fn insert(
     })
 }
 
-fn chain(mesh: &mut Mesh, scale: Scale, ends: [Vec2; 2]) -> Result<Vec<[u32; 2]>, InsertionError> {
+fn chain(
+    mesh: &mut SegmentMesh,
+    scale: Scale,
+    ends: [Vec2; 2],
+) -> Result<Vec<[u32; 2]>, InsertionError> {
     let [from, to] = ends.map(|p| mesh.insert(scale.unit(p)));
     let edges = crossing::connect(mesh, from?, to?)?;
     let index = |vertex: FixedVertexHandle| vertex.index() as u32;

@@ -93,7 +93,7 @@ impl Args {
     }
 
     fn write_mesh(&self, out: &mut Output) -> anyhow::Result<()> {
-        target::check(&self.output, target::Kind::Mesh, self.inputs())?;
+        target::check(&self.output, target::FileKind::Mesh, self.inputs())?;
         self.check_no_look()?;
         let bytes = self.bytes(standard::DATASET)?;
         let hash = mesh::hash(&bytes);

@@ -32,19 +32,19 @@ const JUMP: f64 = 1e-6;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Border {
     pub(super) ends: [Vec2; 2],
-    pub(super) kind: Kind,
+    pub(super) kind: BorderKind,
 }
 
 /// What is on an edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Kind {
+pub(super) struct BorderKind {
     /// The segment of a crack.
     pub(super) crack: Option<SegmentId>,
     /// True if derivatives of the field may jump.
     pub(super) kink: bool,
 }
 
-impl Kind {
+impl BorderKind {
     /// True if values of the two sides are kept apart.
     pub(super) fn is_torn(self) -> bool {
         self.crack.is_some() || self.kink
@@ -57,18 +57,18 @@ impl Kind {
 
 /// All segments; `kinks` says whether lines are wanted on which derivatives jump.
 pub(super) fn borders(field: &Field<'_>, domain: &Domain, kinks: bool) -> Vec<Border> {
-    let plain = |ends| Border { ends, kind: Kind::default() };
+    let plain = |ends| Border { ends, kind: BorderKind::default() };
     let rims = domain.holes.iter().flat_map(Hole::sides);
     let mut all: Vec<_> = outline(&domain.bounds).into_iter().chain(rims).map(plain).collect();
     for (crack, points) in (0..).zip(field.step.cracks.iter().map(|crack| &crack.points)) {
         for (segment, ends) in (0..).zip(points.windows(2)) {
-            let kind = Kind { crack: Some(SegmentId { crack, segment }), kink: false };
+            let kind = BorderKind { crack: Some(SegmentId { crack, segment }), kink: false };
             all.push(Border { ends: [ends[0], ends[1]], kind });
         }
     }
     all = divided(all, field, SAME * longest(&domain.bounds));
     if kinks {
-        let kind = Kind { crack: None, kink: true };
+        let kind = BorderKind { crack: None, kink: true };
         let lines = patch_lines(field, &domain.bounds).into_iter().chain(interfaces(field));
         all.extend(lines.map(|ends| Border { ends, kind }));
     }
@@ -304,8 +304,8 @@ mod tests {
     #[test]
     fn slopes_jump_where_weights_have_kinks() {
         assert_eq!(jumps(&WeightFunction::Linear), [-1.0, -0.0, 1.0]);
-        assert_eq!(jumps(&WeightFunction::Quadratic), []);
-        assert_eq!(jumps(&WeightFunction::Cubic), []);
+        assert!(jumps(&WeightFunction::Quadratic).is_empty());
+        assert!(jumps(&WeightFunction::Cubic).is_empty());
         let scope = ppum::formula::Scope::new(&["t"]).unwrap();
         let bent = WeightFunction::formula("max(1 - 2*t, (1 - t)/4)", &scope).unwrap();
         let found = jumps(&bent);

@@ -3,7 +3,8 @@
 //! [`resolve`] makes a mesh on which linear interpolation differs from the field by no more than a
 //! given part of the range of each [`Array`]; [`vtu::write`] writes it. No triangle crosses a
 //! crack, a rim or a line on which stresses jump, and a vertex there has a point on each side
-//! (`torn`). What has been reached is [`Measured`] at random points that had no part in refinement.
+//! (`torn`). What has been reached is [`MeasuredAccuracy`] at random points that had no part in
+//! refinement.
 //!
 //! Near a tip stresses grow without bound, and no mesh resolves them: there the tolerance holds
 //! outside of a radius, R, in which it is loosened as R/r down to R/100.
@@ -69,7 +70,7 @@ pub struct Mesh {
     /// A row for each point, of the quantities of all arrays.
     pub values: Vec<f64>,
     /// The arrays, and how well they are resolved.
-    pub arrays: Vec<Measured>,
+    pub arrays: Vec<MeasuredAccuracy>,
     /// Points at which quantities are infinite.
     pub singular: Vec<Vec2>,
     /// The tolerance of infinite quantities holds outside of this radius about them.
@@ -82,7 +83,7 @@ pub struct Mesh {
 
 /// How well an array is resolved.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub struct MeasuredAccuracy {
     /// The array.
     pub array: Array,
     /// Largest minus smallest value, of components the widest; of infinite quantities outside of
@@ -131,7 +132,7 @@ pub fn resolve(
     accuracy: &Accuracy,
     watcher: &dyn Watcher,
 ) -> Result<Mesh, ExportError> {
-    field.on_boxes("the export of triangles")?;
+    field.on_cells("the export of triangles")?;
     let columns = Columns::new(arrays);
     let mut refined = Refined {
         field,
@@ -203,7 +204,7 @@ impl Refined<'_, '_> {
                 (0..allowed.len()).filter(|&c| self.columns.array[c] == number).collect();
             let most =
                 |value: &dyn Fn(usize) -> f64| of.iter().map(|&c| value(c)).fold(0.0, f64::max);
-            Measured {
+            MeasuredAccuracy {
                 array: array.clone(),
                 range: most(&|c| (self.ranges[c][1] - self.ranges[c][0]).max(0.0)),
                 allowed: most(&|c| allowed[c]),

@@ -38,7 +38,7 @@ fn plate(seed: u64) -> Dataset {
         ..Recipe::default()
     };
     let mut dataset = recipe.dataset();
-    if seed % 2 == 0 {
+    if seed.is_multiple_of(2) {
         let center = vec2(random.between(1.25, 1.35), random.between(-0.1, 0.0));
         dataset.domain.holes.push(Hole::Circle { center, radius: random.between(0.05, 0.12) });
     }

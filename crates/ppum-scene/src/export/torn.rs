@@ -12,7 +12,7 @@ use ppum::crack::{SegmentId, Side};
 use ppum::sample::{Place, Seats};
 use ppum::vec2::Vec2;
 
-use super::borders::Kind;
+use super::borders::BorderKind;
 
 /// Part of the way to the centroid of a triangle at which its corner is seen from inside.
 pub(super) use ppum_render::pieces::INSET;
@@ -22,7 +22,7 @@ const NONE: u32 = u32::MAX;
 
 /// A point of the mesh: a vertex as one sector sees it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Point {
+pub(super) struct TornPoint {
     /// The vertex.
     pub(super) position: Vec2,
     /// Where values of the field are taken.
@@ -31,7 +31,7 @@ pub(super) struct Point {
     pub(super) inside: Place,
 }
 
-impl Point {
+impl TornPoint {
     fn new(position: Vec2, place: Place) -> Self {
         Self { position, place, inside: place }
     }
@@ -44,12 +44,12 @@ pub(super) struct Triangle {
     pub(super) corners: [u32; 3],
     /// The triangle across each edge.
     neighbours: [u32; 3],
-    kinds: [Kind; 3],
+    kinds: [BorderKind; 3],
 }
 
 impl Triangle {
     /// The same triangle with another edge as the first.
-    fn from_edge(self, edge: usize) -> Self {
+    fn turned_to(self, edge: usize) -> Self {
         let turned = |k: usize| (k + edge) % 3;
         Self {
             corners: [0, 1, 2].map(|k| self.corners[turned(k)]),
@@ -64,7 +64,7 @@ impl Triangle {
 pub(super) struct Torn<'d> {
     seats: Seats<'d>,
     cracks: &'d [ppum::crack::Crack],
-    pub(super) points: Vec<Point>,
+    pub(super) points: Vec<TornPoint>,
     pub(super) triangles: Vec<Triangle>,
 }
 
@@ -104,9 +104,9 @@ impl Torn<'_> {
             }
             let edge = self.longest(last);
             let next = self.triangles[last as usize].neighbours[edge];
-            if next == NONE {
-                self.divide(last, edge, changed);
-            } else if self.triangles[next as usize].neighbours[self.longest(next)] == last {
+            let is_shared =
+                |next: u32| self.triangles[next as usize].neighbours[self.longest(next)] == last;
+            if next == NONE || is_shared(next) {
                 self.divide(last, edge, changed);
             } else {
                 path.push((next, self.triangles[next as usize].corners));
@@ -146,7 +146,7 @@ impl Torn<'_> {
             Some(segment) => on_crack(segment, middle, self.side(segment, along)),
             None => self.place(middle),
         };
-        let mut point = Point::new(middle, place);
+        let mut point = TornPoint::new(middle, place);
         if kind.kink {
             point.inside = self.seen_from_inside(middle, corners, INSET);
         }
@@ -164,10 +164,10 @@ impl Torn<'_> {
     /// the other half.
     fn split(&mut self, triangle: u32, edge: usize, point: u32, changed: &mut Vec<u32>) -> u32 {
         let new = self.triangles.len() as u32;
-        let turned = self.triangles[triangle as usize].from_edge(edge);
+        let turned = self.triangles[triangle as usize].turned_to(edge);
         let ([a, b, c], [_, after, before]) = (turned.corners, turned.neighbours);
         let [kind, kind_after, kind_before] = turned.kinds;
-        let inner = Kind::default();
+        let inner = BorderKind::default();
         self.triangles[triangle as usize] = Triangle {
             corners: [a, point, c],
             neighbours: [NONE, new, before],

@@ -124,7 +124,7 @@ fn attributes<Q>(components: &[(&str, Option<Q>)]) -> String {
 /// The field data: what the mesh is accurate to, and what else is told.
 fn write_about(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> {
     let names: Vec<&str> = mesh.arrays.iter().map(|a| a.array.name.as_str()).collect();
-    let of = |value: fn(&super::Measured) -> f64| mesh.arrays.iter().map(value).collect();
+    let of = |value: fn(&super::MeasuredAccuracy) -> f64| mesh.arrays.iter().map(value).collect();
     let singular = mesh.singular.iter().flat_map(|p| [p.x, p.y, 0.0]).collect();
     let accuracy = [
         Numbers::new("tolerance", 1, vec![mesh.accuracy.tolerance]),

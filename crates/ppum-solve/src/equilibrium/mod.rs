@@ -8,6 +8,6 @@ mod rigid;
 
 pub(crate) use balance::Balance;
 pub use balance::UnbalancedError;
-pub(crate) use pieces::{BodyPieces, Mesh, crossing};
+pub(crate) use pieces::{BodyPieces, SegmentMesh, crossing};
 pub(crate) use plate::{Plate, PlateError};
 pub(crate) use rigid::{MODES, PerMode, RigidModes};

@@ -9,7 +9,9 @@ use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::text::short;
 use ppum_scene::export::vtu::{self, About, Numbers};
-use ppum_scene::export::{Accuracy, Array, ExportError, Measured, Mesh, RANDOM_POINTS, resolve};
+use ppum_scene::export::{
+    Accuracy, Array, ExportError, MeasuredAccuracy, Mesh, RANDOM_POINTS, resolve,
+};
 use sha2::{Digest as _, Sha256};
 
 use crate::arguments::positive;
@@ -210,8 +212,8 @@ fn about(dataset: &Dataset, field: &Field<'_>, hash: &str) -> About {
 }
 
 /// How well an array is resolved.
-fn summary(mesh: &Mesh, measured: &Measured) -> String {
-    let Measured { array, allowed, largest, share, is_singular, .. } = measured;
+fn summary(mesh: &Mesh, measured: &MeasuredAccuracy) -> String {
+    let MeasuredAccuracy { array, allowed, largest, share, is_singular, .. } = measured;
     let mut text = format!(
         "{}: allowed {}, largest difference at {RANDOM_POINTS} random points {}",
         array.name,

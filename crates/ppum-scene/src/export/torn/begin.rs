@@ -9,11 +9,11 @@ use ppum::sample::{Place, Seats};
 use ppum::vec2::Vec2;
 use ppum_solve::triangulation::{NotFinite, Triangulation, triangulate};
 
-use super::super::borders::{Border, Kind};
-use super::{INSET, NONE, Point, Torn, Triangle, centroid, on_crack};
+use super::super::borders::{Border, BorderKind};
+use super::{INSET, NONE, Torn, TornPoint, Triangle, centroid, on_crack};
 
 /// The kinds of edges, by their ends in ascending order.
-type Kinds = HashMap<[u32; 2], Kind>;
+type Kinds = HashMap<[u32; 2], BorderKind>;
 
 impl<'d> Torn<'d> {
     /// Triangles between borders, with more points inside; what lies outside of the domain is
@@ -44,7 +44,7 @@ impl<'d> Torn<'d> {
     /// Gives each vertex a point for each of its sectors.
     fn tear(&mut self, vertices: &[Vec2]) {
         let by_cracks = Sectors::new(&self.triangles, |kind| kind.crack.is_some());
-        let all = Sectors::new(&self.triangles, Kind::is_torn);
+        let all = Sectors::new(&self.triangles, BorderKind::is_torn);
         let at = self.incidence(vertices.len());
         let sides = self.sides(&by_cracks, vertices);
         let mut points = Vec::new();
@@ -70,7 +70,13 @@ impl<'d> Torn<'d> {
     }
 
     /// The point of a sector of a vertex, one of whose triangles is given.
-    fn sector(&self, vertex: Vec2, shape: [Vec2; 3], at: &Incident, side: Option<Side>) -> Point {
+    fn sector(
+        &self,
+        vertex: Vec2,
+        shape: [Vec2; 3],
+        at: &Incident,
+        side: Option<Side>,
+    ) -> TornPoint {
         let inside = || self.seen_from_inside(vertex, shape, INSET);
         let place = match (&at.segments[..], side) {
             ([], _) => self.place(vertex),
@@ -78,7 +84,7 @@ impl<'d> Torn<'d> {
             ([a, b], Some(side)) if a.crack == b.crack => on_crack((*a).min(*b), vertex, side),
             _ => inside(),
         };
-        let mut point = Point::new(vertex, place);
+        let mut point = TornPoint::new(vertex, place);
         if at.kink {
             point.inside = inside();
         }
@@ -131,7 +137,7 @@ struct Incident {
 }
 
 impl Incident {
-    fn add(&mut self, kind: Kind) {
+    fn add(&mut self, kind: BorderKind) {
         self.kink |= kind.kink;
         if let Some(segment) = kind.crack.filter(|segment| !self.segments.contains(segment)) {
             self.segments.push(segment);
@@ -144,7 +150,7 @@ struct Sectors(Vec<u32>);
 
 impl Sectors {
     /// Joins the corners at both ends of all edges that are not torn.
-    fn new(triangles: &[Triangle], is_torn: impl Fn(Kind) -> bool) -> Self {
+    fn new(triangles: &[Triangle], is_torn: impl Fn(BorderKind) -> bool) -> Self {
         let mut all = Self((0..3 * triangles.len() as u32).collect());
         for (t, triangle) in triangles.iter().enumerate() {
             for k in 0..3 {

@@ -1,6 +1,6 @@
 //! Edges of a triangulation that cross: both are divided at the crossing.
 
-use super::{Mesh, distance};
+use super::{SegmentMesh, distance};
 use ppum::vec2::vec2;
 use spade::handles::{FixedDirectedEdgeHandle, FixedVertexHandle};
 use spade::{InsertionError, Point2, Triangulation as _, mitigate_underflow};
@@ -16,7 +16,7 @@ const DEEPEST: usize = 16;
 /// # Errors
 /// A crossing that is not finite.
 pub(crate) fn connect(
-    mesh: &mut Mesh,
+    mesh: &mut SegmentMesh,
     from: FixedVertexHandle,
     to: FixedVertexHandle,
 ) -> Result<Vec<[FixedVertexHandle; 2]>, InsertionError> {
@@ -24,7 +24,7 @@ pub(crate) fn connect(
 }
 
 fn joined(
-    mesh: &mut Mesh,
+    mesh: &mut SegmentMesh,
     from: FixedVertexHandle,
     to: FixedVertexHandle,
     depth: usize,
@@ -46,7 +46,7 @@ fn joined(
 
 /// Divides an edge where another one crosses it; the vertex there.
 fn divide(
-    mesh: &mut Mesh,
+    mesh: &mut SegmentMesh,
     edge: FixedDirectedEdgeHandle,
     other: [FixedVertexHandle; 2],
     depth: usize,
@@ -61,13 +61,13 @@ fn divide(
     Ok(middle)
 }
 
-fn ends(mesh: &Mesh, edge: FixedDirectedEdgeHandle) -> [FixedVertexHandle; 2] {
+fn ends(mesh: &SegmentMesh, edge: FixedDirectedEdgeHandle) -> [FixedVertexHandle; 2] {
     mesh.directed_edge(edge).vertices().map(|vertex| vertex.fix())
 }
 
 /// The first edge that stays between two vertices.
 fn first_in_the_way(
-    mesh: &Mesh,
+    mesh: &SegmentMesh,
     from: FixedVertexHandle,
     to: FixedVertexHandle,
 ) -> Option<FixedDirectedEdgeHandle> {
@@ -77,7 +77,7 @@ fn first_in_the_way(
 
 /// The vertex at which two edges cross: one of their ends if it lies there, else a new one.
 fn crossing(
-    mesh: &mut Mesh,
+    mesh: &mut SegmentMesh,
     [from, to]: [FixedVertexHandle; 2],
     [a, b]: [FixedVertexHandle; 2],
 ) -> Result<FixedVertexHandle, InsertionError> {

@@ -25,7 +25,7 @@ const LEAST_AREA: f64 = 1e-12;
 const INWARD: f64 = 1e-9;
 
 /// Points in units of a size that is about 1.
-pub(crate) type Mesh = ConstrainedDelaunayTriangulation<Point2<f64>>;
+pub(crate) type SegmentMesh = ConstrainedDelaunayTriangulation<Point2<f64>>;
 type Triangle<'m> = FaceHandle<'m, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
 
 /// The connected components of the domain without its cracks.
@@ -40,7 +40,7 @@ pub(crate) struct BodyPieces {
 /// The places of the pieces.
 #[derive(Debug)]
 struct PieceMap {
-    mesh: Mesh,
+    mesh: SegmentMesh,
     /// Of each triangle, its piece; none in a hole.
     piece_of: Vec<Option<usize>>,
     /// Of each segment of each crack, the ends of the edges along it, in the direction of
@@ -95,7 +95,7 @@ impl BodyPieces {
         }
     }
 
-    fn of_mesh(domain: &Domain, mesh: Mesh, along: Along) -> Self {
+    fn of_mesh(domain: &Domain, mesh: SegmentMesh, along: Along) -> Self {
         let bounds = domain.bounds;
         let inside = |face: Triangle<'_>| domain.contains(from_unit(&bounds, face.center()));
         let material: Vec<bool> = mesh.inner_faces().map(inside).collect();
@@ -179,7 +179,7 @@ impl BodyPiece {
         Self { area: bounds.size().x * bounds.size().y, centroid: center, inside: center }
     }
 
-    fn of_faces(bounds: &Rect, mesh: &Mesh, faces: &[usize]) -> Self {
+    fn of_faces(bounds: &Rect, mesh: &SegmentMesh, faces: &[usize]) -> Self {
         let (mut area, mut moment) = (0.0, Vec2::ZERO);
         let mut largest = (0.0, Vec2::ZERO);
         for face in mesh.inner_faces().filter(|face| faces.binary_search(&index(face)).is_ok()) {
@@ -248,8 +248,8 @@ fn triangulate(
     domain: &Domain,
     cracks: &[Vec<Vec2>],
     stitches: &[[Vec2; 2]],
-) -> Result<(Mesh, Along), InsertionError> {
-    let (mut mesh, bounds) = (Mesh::new(), &domain.bounds);
+) -> Result<(SegmentMesh, Along), InsertionError> {
+    let (mut mesh, bounds) = (SegmentMesh::new(), &domain.bounds);
     let rims = domain.holes.iter().flat_map(Hole::sides);
     let of_cracks = cracks.iter().flat_map(|crack| crack.windows(2)).map(|s| [s[0], s[1]]);
     let all = rims::border(bounds).into_iter().chain(rims).chain(of_cracks);
@@ -266,7 +266,7 @@ fn triangulate(
 
 /// Adds a segment; the ends of the edges along it, in its direction.
 fn add_edges(
-    mesh: &mut Mesh,
+    mesh: &mut SegmentMesh,
     bounds: &Rect,
     ends: [Vec2; 2],
 ) -> Result<Vec<[FixedVertexHandle; 2]>, InsertionError> {
@@ -280,7 +280,7 @@ fn distance([a, b]: [Point2<f64>; 2], p: Point2<f64>) -> f64 {
 }
 
 /// The faces that are connected with one, ascending.
-fn flood(mesh: &Mesh, start: Triangle<'_>, material: &[bool]) -> Vec<usize> {
+fn flood(mesh: &SegmentMesh, start: Triangle<'_>, material: &[bool]) -> Vec<usize> {
     let mut seen = vec![false; material.len()];
     let mut waiting = vec![start.fix()];
     seen[index(&start)] = true;
@@ -297,7 +297,7 @@ fn flood(mesh: &Mesh, start: Triangle<'_>, material: &[bool]) -> Vec<usize> {
 }
 
 /// The piece of a face, or of the one nearest to it across edges.
-fn nearest(mesh: &Mesh, start: Triangle<'_>, piece_of: &[Option<usize>]) -> Option<usize> {
+fn nearest(mesh: &SegmentMesh, start: Triangle<'_>, piece_of: &[Option<usize>]) -> Option<usize> {
     let mut seen = vec![start.fix()];
     let mut next = 0;
     while let Some(&face) = seen.get(next) {
