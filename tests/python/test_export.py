@@ -79,8 +79,19 @@ def text(field_data, name):
     return bytes(np.ravel(field_data[name]).astype(np.uint8)).decode()
 
 
-def check_differences(exact, interpolated, points, tolerances):
+def is_beside(points):
+    """True where a point lies farther from the crack's line than rounding: `sample` has two rows on a crack."""
+    along = (TIPS[1] - TIPS[0]) / np.linalg.norm(TIPS[1] - TIPS[0])
+    from_tip = points - TIPS[0]
+    return np.abs(along[0] * from_tip[:, 1] - along[1] * from_tip[:, 0]) > 1e-14
+
+
+def check_differences(dataset, interpolated, points, tolerances, folder):
     """Displacements everywhere, stresses outside of the radius about tips."""
+    beside = is_beside(points)
+    assert beside.mean() > 0.95
+    points, interpolated = points[beside], interpolated[beside]
+    exact = sampled(dataset, points, folder)
     away = np.linalg.norm(points[:, None] - TIPS[None], axis=2).min(axis=1)
     off = np.abs(exact - interpolated)
     assert (off[:, :2] <= tolerances[:2]).all(), off.max(axis=0)
@@ -108,7 +119,7 @@ def test_meshio_reads_the_mesh():
         assert u.shape[1] == 3 and stress.shape[1] == 6
         columns = np.column_stack([u[:, :2], stress[:, 1], mises])
         interpolated = np.einsum("nk,nkc->nc", weights, columns[chosen])
-        check_differences(sampled(dataset, points, folder), interpolated, points, allowed(mesh.field_data))
+        check_differences(dataset, interpolated, points, allowed(mesh.field_data), folder)
         assert text(mesh.field_data, "title") == "Slanted crack & <tags>"
         assert text(mesh.field_data, "quantities").split("\n") == ["displacement", "stress", "von-mises"]
 
@@ -143,7 +154,7 @@ def test_vtk_probes_the_mesh():
         interpolated = np.column_stack([array("displacement")[:, :2], array("stress")[:, 1], array("von-mises")])
         fields = grid.GetFieldData()
         data = {fields.GetArrayName(k): vtk_to_numpy(fields.GetArray(k)) for k in range(fields.GetNumberOfArrays())}
-        check_differences(sampled(dataset, points, folder), interpolated, points, allowed(data))
+        check_differences(dataset, interpolated, points, allowed(data), folder)
         assert [grid.GetPointData().GetArray("stress").GetComponentName(k) for k in range(6)] == [
             "XX", "YY", "ZZ", "XY", "YZ", "XZ",
         ]

@@ -9,7 +9,7 @@
 
 use std::f64::consts::TAU;
 
-use ppum::crack::{End, SegmentId};
+use ppum::crack::SegmentId;
 use ppum::dataset::BoxPartition;
 use ppum::domain::{Domain, Hole};
 use ppum::field::Field;
@@ -66,13 +66,12 @@ pub(super) fn borders(field: &Field<'_>, domain: &Domain, kinks: bool) -> Vec<Bo
             all.push(Border { ends: [ends[0], ends[1]], kind });
         }
     }
-    all = divided(all, field, SAME * longest(&domain.bounds));
     if kinks {
         let kind = BorderKind { crack: None, kink: true };
         let lines = patch_lines(field, &domain.bounds).into_iter().chain(interfaces(field));
         all.extend(lines.map(|ends| Border { ends, kind }));
     }
-    all
+    divided(&all, SAME * longest(&domain.bounds))
 }
 
 pub(super) fn longest(bounds: &Rect) -> f64 {
@@ -80,27 +79,53 @@ pub(super) fn longest(bounds: &Rect) -> f64 {
     size.x.max(size.y)
 }
 
-/// Divides segments at the ends of cracks that lie on them, but for rounding: so nothing passes
-/// between.
-fn divided(all: Vec<Border>, field: &Field<'_>, reach: f64) -> Vec<Border> {
-    let ends = field
-        .step
-        .cracks
-        .iter()
-        .flat_map(|crack| [End::Start, End::Last].map(|e| crack.end_point(e)));
-    let ends: Vec<Vec2> = ends.collect();
-    let parts = |Border { ends: [a, b], kind }: Border| {
-        let is_inner = |p: &Vec2| {
-            let beside = segment::distance([a, b], *p) <= reach;
-            beside && (*p - a).length() > reach && (*p - b).length() > reach
-        };
-        let mut points: Vec<Vec2> = ends.iter().copied().filter(is_inner).collect();
-        points.sort_by(|p, q| (*p - a).length().total_cmp(&(*q - a).length()));
-        let chain: Vec<Vec2> = [a].into_iter().chain(points).chain([b]).collect();
-        let part = |pair: &[Vec2]| Border { ends: [pair[0], pair[1]], kind };
-        chain.windows(2).map(part).collect::<Vec<_>>()
-    };
-    all.into_iter().flat_map(parts).collect()
+/// Divides segments where they meet, but for those along axes among themselves: both get one point,
+/// and nothing passes between.
+fn divided(all: &[Border], reach: f64) -> Vec<Border> {
+    let mut known = crossings(all);
+    let mut inner: Vec<Vec<Vec2>> = vec![Vec::new(); all.len()];
+    for i in (0..all.len()).filter(|&i| !all[i].kind.kink) {
+        for j in (0..all.len()).filter(|&j| j > i || all[j].kind.kink) {
+            for p in meetings(all[i].ends, all[j].ends, reach) {
+                let near = known.iter().find(|q| (**q - p).length() <= reach).copied();
+                let point = near.unwrap_or(p);
+                known.extend(near.is_none().then_some(point));
+                inner[i].push(point);
+                inner[j].push(point);
+            }
+        }
+    }
+    all.iter().zip(inner).flat_map(|(border, points)| parts(*border, points, reach)).collect()
+}
+
+/// The parts of a segment between points on it.
+fn parts(Border { ends: [a, b], kind }: Border, mut inner: Vec<Vec2>, reach: f64) -> Vec<Border> {
+    inner.retain(|p| (*p - a).length() > reach && (*p - b).length() > reach);
+    inner.sort_by(|p, q| (*p - a).length().total_cmp(&(*q - a).length()));
+    inner.dedup();
+    let chain: Vec<Vec2> = [a].into_iter().chain(inner).chain([b]).collect();
+    chain.windows(2).map(|pair| Border { ends: [pair[0], pair[1]], kind }).collect()
+}
+
+/// Where two segments meet: ends of one on the other, else their crossing, with the coordinate of
+/// one that is along an axis.
+fn meetings([a, b]: [Vec2; 2], [c, d]: [Vec2; 2], reach: f64) -> Vec<Vec2> {
+    let on = |segment: [Vec2; 2], p: &Vec2| segment::distance(segment, *p) <= reach;
+    let ends: Vec<Vec2> = [a, b].into_iter().filter(|p| on([c, d], p)).collect();
+    let ends: Vec<Vec2> =
+        ends.into_iter().chain([c, d].into_iter().filter(|p| on([a, b], p))).collect();
+    let (along, across) = (b - a, d - c);
+    let turn = along.cross(across);
+    let [s, t] = [(c - a).cross(across) / turn, (c - a).cross(along) / turn];
+    if !ends.is_empty() || !(0.0..=1.0).contains(&s) || !(0.0..=1.0).contains(&t) {
+        return ends;
+    }
+    let mut p = a + along * s;
+    for [from, to] in [[a, b], [c, d]] {
+        p.x = if from.x == to.x { from.x } else { p.x };
+        p.y = if from.y == to.y { from.y } else { p.y };
+    }
+    vec![p]
 }
 
 /// The points in which upright and level segments cross, with the coordinates of both: computed as
