@@ -146,6 +146,8 @@ def test_vtk_probes_the_mesh():
         probe = vtk.vtkProbeFilter()
         probe.SetInputData(cloud)
         probe.SetSourceData(grid)
+        # the default search misses points of cells that are there
+        probe.SetCellLocatorPrototype(vtk.vtkStaticCellLocator())
         probe.Update()
         found = probe.GetOutput().GetPointData()
         valid = vtk_to_numpy(found.GetArray("vtkValidPointMask")) == 1
