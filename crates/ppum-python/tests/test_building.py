@@ -206,6 +206,7 @@ def test_boxes_that_do_not_tile(tmp_path, program, capsys):
     ds.save(path)
     program("check", path)
     assert "cells" not in program("info", path)
+    assert "within" not in program("export", path, "-o", tmp_path / "boxes.vtu"), "all points are within the tolerance"
     assert f"{evaluate(np.array([0.7]), np.array([0.4]))[0]:.6f}"[:8] in program("probe", path, "--at", "0.7,0.4")
     capsys.readouterr()
     ds.field.figure(overlays=["patches", "centers", "cells"]).save(tmp_path / "boxes.png")

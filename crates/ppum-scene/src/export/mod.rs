@@ -17,7 +17,7 @@ mod singular;
 mod torn;
 pub mod vtu;
 
-use ppum::field::{Field, FieldError};
+use ppum::field::Field;
 use ppum::progress::{Cancelled, Watcher};
 use ppum::sample::Place;
 use ppum::segment;
@@ -103,9 +103,11 @@ pub struct MeasuredAccuracy {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// The patches are no boxes.
-    #[error(transparent)]
-    Field(#[from] FieldError),
+    /// The patches are elements of a mesh.
+    #[error(
+        "the patches are the elements of a mesh, and triangles are made for covers alone; export them from the program that made them"
+    )]
+    Elements,
     /// A coordinate is not finite.
     #[error(transparent)]
     NotFinite(#[from] NotFinite),
@@ -132,7 +134,9 @@ pub fn resolve(
     accuracy: &Accuracy,
     watcher: &dyn Watcher,
 ) -> Result<Mesh, ExportError> {
-    field.on_cells("the export of triangles")?;
+    if field.step.partition.mesh().is_some() {
+        return Err(ExportError::Elements);
+    }
     let columns = Columns::new(arrays);
     let mut refined = Refined {
         field,
@@ -165,10 +169,13 @@ fn begin<'d>(field: &Field<'d>, columns: &Columns) -> Result<Torn<'d>, NotFinite
     Torn::new(field, &domain, &all, &points)
 }
 
-/// Corners and middles of cells, but for those on borders and nearly there.
+/// Corners and middles of cells, or of supports where there are none, but for those on borders and
+/// nearly there.
 fn points_of_cells(field: &Field<'_>, borders: &[Border]) -> Vec<Vec2> {
     let near = SAME * longest(&field.domain.bounds);
-    let is_apart = |p: &Vec2| borders.iter().all(|b| segment::distance(b.ends, *p) > near);
+    let is_apart = |p: &Vec2| {
+        field.domain.contains(*p) && borders.iter().all(|b| segment::distance(b.ends, *p) > near)
+    };
     let cells = field.step.partition.cells();
     let points = cells.iter().flat_map(|cell| [cell.min, cell.center(), cell.max]);
     points.filter(is_apart).collect()
