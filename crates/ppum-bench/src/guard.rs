@@ -227,8 +227,8 @@ impl Bench {
         Ok(())
     }
 
-    /// A job as it should be, and the control, which gains less than half of that: with AVX-512 even
-    /// numbers one by one are faster than scalars.
+    /// A job as it should be, and the control, which gains less than half of that: with AVX-512
+    /// even numbers one by one are faster than scalars.
     fn jobs(&mut self) {
         let mut numbers: Vec<f64> = (0..4096).map(|k| f64::from(k) / 4096.0).collect();
         self.add("a job that is inlined".to_owned(), FLOOR_OF_PARTS, || {
