@@ -13,7 +13,7 @@
 //!
 //! ```
 //! use ppum::prelude::*;
-//! use ppum_gpu::{Choice, Colors, GpuError, Method, Renderer, Shading, Values};
+//! use ppum_gpu::{AdapterChoice, Colors, GpuError, Method, Renderer, Shading, Values};
 //! use ppum_render::picture::Style;
 //! use ppum_render::range::Range;
 //! use ppum_render::view::View;
@@ -28,7 +28,7 @@
 //! let dataset = Dataset::new(domain, Equation::poisson(1.0)).with_step(step);
 //! let field = Field::new(&dataset, 0)?;
 //!
-//! let mut renderer = match Renderer::open(Choice::Any) {
+//! let mut renderer = match Renderer::open(AdapterChoice::Any) {
 //!     Err(GpuError::NoAdapter { .. }) => return Ok(()),
 //!     opened => opened?,
 //! };
