@@ -5,7 +5,8 @@
 //! processor of the architecture has. No value changes, but what runs there takes some 27 times as
 //! long. The narrowest vectors need none of the wider instructions and stay as fast as they are, so
 //! the ratio of both falls from above 1 to far below it. It is the least processor time of some
-//! repetitions that counts, of both in turns: a busy machine lengthens both.
+//! repetitions that counts, of both in turns: a busy machine lengthens both. What kernels call is
+//! counted in the object code besides, where nothing depends on the machine.
 
 use std::hint::black_box;
 
@@ -26,6 +27,7 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 use serde::Serialize;
 
+use crate::calls::{Calls, table};
 use crate::frames::{moved, style};
 use crate::synthetic::{DOMAIN, Recipe};
 use crate::table::Table;
@@ -52,6 +54,7 @@ pub struct Report {
     wide: &'static str,
     narrow: &'static str,
     rows: Vec<Row>,
+    calls: Vec<Calls>,
     holds: bool,
 }
 
@@ -81,8 +84,9 @@ impl Report {
             let repetitions = if quick { 2 } else { REPETITIONS };
             rows = pool.install(|| Bench { repetitions, rows: Vec::new() }.all())?;
         }
-        let holds = rows.iter().all(|row| row.holds);
-        Ok(Self { wide, narrow, rows, holds })
+        let calls = Calls::of_this_program()?;
+        let holds = rows.iter().all(|row| row.holds) && mistakes(&calls).is_empty();
+        Ok(Self { wide, narrow, rows, calls, holds })
     }
 }
 
@@ -110,14 +114,15 @@ impl crate::Report for Report {
             let [ratio, floor] = [row.ratio, row.floor].map(|ratio| format!("{ratio:.2}"));
             vec![row.kernels.clone(), wide, narrow, ratio, floor, verdict.to_owned()]
         };
-        vec![Table {
+        let gains = Table {
             title: "What wide vectors gain".to_owned(),
             words: 1,
             head: head.map(str::to_owned).into(),
             rows: self.rows.iter().map(line).collect(),
             note: "A kernel that leaves its instruction set falls below its floor. The control is a job that does so on purpose."
                 .to_owned(),
-        }]
+        };
+        vec![gains, table(&self.calls)]
     }
 
     /// An error if a kernel has lost its vectors, or if that would not be noticed.
@@ -130,8 +135,15 @@ impl crate::Report for Report {
             bad.join(", "),
             self.wide
         );
+        let mistakes = mistakes(&self.calls);
+        ensure!(mistakes.is_empty(), "{}", mistakes.join("; "));
         Ok(())
     }
+}
+
+/// What is wrong with the calls of kernels.
+fn mistakes(calls: &[Calls]) -> Vec<String> {
+    calls.iter().flat_map(|calls| calls.mistakes(CONTROL)).collect()
 }
 
 struct Bench {
@@ -279,6 +291,9 @@ fn arithmetic<R: Real>(mut x: R) -> R {
     }
     x
 }
+
+/// The symbol of [`called`].
+const CONTROL: &str = "guard6called";
 
 /// What must not be in a kernel.
 #[inline(never)]

@@ -26,6 +26,7 @@
 //!
 //! `cargo bench -p ppum-bench --bench evaluate` measures the reference evaluator at points.
 
+mod calls;
 mod cards;
 mod chart;
 mod frames;

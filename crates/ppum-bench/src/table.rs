@@ -57,7 +57,7 @@ impl Table {
         let mut text = format!("### {}\n\n{}|{rule}\n", self.title, line(&self.head));
         self.rows.iter().for_each(|row| text += &line(row));
         if !self.note.is_empty() {
-            let _ = write!(text, "\n{}\n", self.note);
+            let _ = write!(text, "\n{}\n", filled(&self.note));
         }
         text
     }
@@ -65,4 +65,22 @@ impl Table {
     fn has(&self, column: usize) -> bool {
         self.rows.iter().any(|row| !row[column].is_empty())
     }
+}
+
+/// Columns of a line of a page.
+const COLUMNS: usize = 120;
+
+/// The words in lines of at most as many columns as pages have.
+fn filled(words: &str) -> String {
+    let (mut text, mut columns) = (String::new(), 0);
+    for word in words.split(' ') {
+        let width = word.chars().count();
+        let fits = columns + 1 + width <= COLUMNS;
+        if columns > 0 {
+            text.push(if fits { ' ' } else { '\n' });
+        }
+        columns = if fits && columns > 0 { columns + 1 + width } else { width };
+        text += word;
+    }
+    text
 }

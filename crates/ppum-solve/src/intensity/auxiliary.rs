@@ -95,7 +95,7 @@ impl Body {
         ];
         let mut along = [[one.lit(0.0); 2]; 2];
         if D >= 2 {
-            along = [
+            let [first, second] = [
                 [
                     a * (cc - ss) + two * b * (ss - four * sc * sc),
                     two * sc * (a + two * b * (cc - ss)),
@@ -104,8 +104,11 @@ impl Body {
                     -(two * sc * (c + b + two * b * (ss - cc))),
                     c * (cc - ss) + b * (one.lit(3.0) * ss - cc - four * ss * (ss - cc)),
                 ],
-            ]
-            .map(|row| [row[0] * inverse, row[1] * inverse]);
+            ];
+            along = [
+                [first[0] * inverse, first[1] * inverse],
+                [second[0] * inverse, second[1] * inverse],
+            ];
         }
         Auxiliary { gradient, along }
     }

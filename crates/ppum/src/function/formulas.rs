@@ -176,12 +176,28 @@ struct Workspace {
     results: Vec<Lanes>,
 }
 
+impl Workspace {
+    /// The results of the rows, one lane after the other.
+    fn run(&mut self, jets: &FormulaJets, lanes: usize) {
+        let Self { rows, inputs, scratch, numbers, results } = self;
+        inputs.resize(rows.len(), 0.0);
+        results.resize(jets.n_outputs(), Lanes::default());
+        numbers.resize(jets.n_outputs(), 0.0);
+        for lane in 0..lanes {
+            inputs.iter_mut().zip(&*rows).for_each(|(input, row)| *input = row[lane]);
+            jets.evaluate(inputs, scratch, numbers);
+            results.iter_mut().zip(&*numbers).for_each(|(row, &number)| row[lane] = number);
+        }
+    }
+}
+
 impl LocalFormulas<'_> {
     fn len(&self) -> usize {
         self.compiled.formulas.len()
     }
 
     /// The functions at one point or at one vector of points, one lane after the other.
+    #[inline(always)]
     pub(super) fn evaluate<R: Real, const D: usize>(
         &self,
         offset: [R; 2],
@@ -192,7 +208,9 @@ impl LocalFormulas<'_> {
         self.evaluate_at::<R, D>(&point, offset, side, out);
     }
 
-    /// The functions at a point that is known in their frame too.
+    /// The functions at a point that is known in their frame too. In kernels all of it is inlined,
+    /// so the memory is taken out, not lent to a closure.
+    #[inline(always)]
     pub(super) fn evaluate_at<R: Real, const D: usize>(
         &self,
         point: &TipPoint<R>,
@@ -201,11 +219,12 @@ impl LocalFormulas<'_> {
         out: &mut [Jet<R>],
     ) {
         let polar = self.polar(point);
-        WORKSPACE.with_borrow_mut(|workspace| {
-            self.evaluate_in::<R, D>(workspace, &polar, (offset, side), out);
-        });
+        let mut workspace = WORKSPACE.take();
+        self.evaluate_in::<R, D>(&mut workspace, &polar, (offset, side), out);
+        WORKSPACE.set(workspace);
     }
 
+    #[inline(always)]
     fn evaluate_in<R: Real, const D: usize>(
         &self,
         workspace: &mut Workspace,
@@ -213,29 +232,24 @@ impl LocalFormulas<'_> {
         (offset, side): ([R; 2], Side),
         out: &mut [Jet<R>],
     ) {
-        let like = offset[0];
-        let jets = &self.compiled.jets[D];
-        let Workspace { rows, inputs, scratch, numbers, results } = workspace;
-        rows.resize(self.compiled.uses.len(), Lanes::default());
-        inputs.resize(self.compiled.uses.len(), 0.0);
-        results.resize(jets.n_outputs(), Lanes::default());
-        numbers.resize(jets.n_outputs(), 0.0);
-        for (index, row) in rows.iter_mut().enumerate() {
-            *row = self.input(index, polar, offset, side).lanes();
+        workspace.rows.resize(self.compiled.uses.len(), Lanes::default());
+        let mut index = 0;
+        while index < workspace.rows.len() {
+            workspace.rows[index] = self.input(index, polar, offset, side).lanes();
+            index += 1;
         }
-        for lane in 0..R::LANES {
-            inputs.iter_mut().zip(&*rows).for_each(|(input, row)| *input = row[lane]);
-            jets.evaluate(inputs, scratch, numbers);
-            results.iter_mut().zip(&*numbers).for_each(|(row, &number)| row[lane] = number);
-        }
-        let axis = self.frame.axis();
-        for (entry, out) in out.iter_mut().enumerate().take(self.len()) {
-            let rows = &results[entry * SIZE[D]..];
-            let mut values = [like.lit(0.0); 6];
-            values.iter_mut().zip(rows).take(SIZE[D]).for_each(|(value, row)| {
-                *value = like.with_lanes(|lane| row[lane]);
-            });
-            *out = jet(values).turned::<D>(like.lit(axis.x), like.lit(axis.y));
+        workspace.run(&self.compiled.jets[D], R::LANES);
+        let (like, axis) = (offset[0], self.frame.axis());
+        let mut entry = 0;
+        while entry < self.len().min(out.len()) {
+            let (mut values, mut j) = ([like.lit(0.0); 6], 0);
+            while j < SIZE[D] {
+                let row = &workspace.results[entry * SIZE[D] + j];
+                values[j] = like.with_lanes(|lane| row[lane]);
+                j += 1;
+            }
+            out[entry] = jet(values).turned::<D>(like.lit(axis.x), like.lit(axis.y));
+            entry += 1;
         }
     }
 

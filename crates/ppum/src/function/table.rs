@@ -479,6 +479,7 @@ impl<'t> LocalFunctions<'t> {
 
     /// Fills the jets of a group of formulas at a point that is known in their frame too, with
     /// derivatives by x and y of the frame [of level fields](Frame::Levels).
+    #[inline(always)]
     pub(crate) fn evaluate_in_frame<R: Real, const D: usize>(
         &self,
         group: usize,

@@ -252,7 +252,10 @@ impl QuantityFormula {
     /// The value; +∞ where the field has no gradient but the formula needs it.
     #[inline(always)]
     pub(super) fn evaluate<R: Real>(&self, at: &Sample<'_, R>) -> R {
-        let lanes: Vec<_> = self.inputs.iter().map(|(_, input)| input.value(at).lanes()).collect();
+        let mut lanes = Vec::with_capacity(self.inputs.len());
+        for (_, input) in &self.inputs {
+            lanes.push(input.value(at).lanes());
+        }
         let (mut values, mut scratch) = (vec![0.0; self.n_inputs], Vec::new());
         let value = at.offset[0].with_lanes(|lane| {
             for ((index, _), lanes) in self.inputs.iter().zip(&lanes) {

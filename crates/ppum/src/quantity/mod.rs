@@ -294,7 +294,7 @@ impl Quantity {
         let value = match self {
             Q::Component(c) => return u[*c as usize].v,
             Q::Magnitude => return norm(u.iter().map(|jet| jet.v), u[0].v),
-            Q::Error => return norm(u.iter().zip(at.exact).map(|(jet, &e)| jet.v - e), u[0].v),
+            Q::Error => return distance(u, at.exact),
             Q::Formula(formula) => return formula.evaluate(at),
             Q::Derivative(c, Axis::X) => u[*c as usize].x,
             Q::Derivative(c, Axis::Y) => u[*c as usize].y,
@@ -438,6 +438,18 @@ fn norm<R: Real>(values: impl Iterator<Item = R>, like: R) -> R {
     let mut square = like.lit(0.0);
     for v in values {
         square = v.mul_add(v, square);
+    }
+    square.sqrt()
+}
+
+/// √Σ (u − e)²
+#[inline(always)]
+fn distance<R: Real>(u: &[Jet<R>], exact: &[R]) -> R {
+    let (mut square, mut c) = (u[0].v.lit(0.0), 0);
+    while c < u.len() {
+        let difference = u[c].v - exact[c];
+        square = difference.mul_add(difference, square);
+        c += 1;
     }
     square.sqrt()
 }
