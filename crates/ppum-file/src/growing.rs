@@ -1,9 +1,9 @@
-//! Files that grow: bytes are appended, and published by a small change of what was there before.
+//! Files that grow: bytes are appended, then published by a small change of existing bytes.
 //!
-//! A file of this kind says itself how long it is, in a few bytes at its start (of HDF5 the
-//! superblock). What stands beyond that end is nobody's: a program was killed there. So an addition
-//! is written beyond the end and reaches the disk before the few bytes change, and a reader sees
-//! all of it or nothing.
+//! A file of this kind records its length in a few bytes at its start (in HDF5 the superblock).
+//! Bytes beyond that length have no meaning; a killed program may leave some. An addition is
+//! written beyond the recorded end and reaches the disk before the record changes, so a reader
+//! sees all of it or nothing.
 
 use std::fs::OpenOptions;
 use std::io::{self, ErrorKind, Seek as _, SeekFrom, Write};
@@ -14,8 +14,7 @@ use crate::part::{is_at, live};
 use crate::ranged::Ranged;
 use crate::write::{replace_locked, replaceable, resolve};
 
-/// A file that this program alone may write, for as long as this lives. Others may read it at
-/// any time.
+/// A file that only this program may write while this value exists. Others may read it at any time.
 #[derive(Debug)]
 pub struct Growing {
     file: Ranged,
@@ -41,7 +40,8 @@ impl Growing {
     /// Opens a file that was begun before.
     ///
     /// # Errors
-    /// There is none; no regular file, or one without write permission; another run is writing it.
+    /// The file does not exist, is not a regular file or has no write permission; another run is
+    /// writing it.
     pub fn open(path: &Path) -> io::Result<Self> {
         let target = resolve(path)?;
         if replaceable(&target)?.is_none() {
@@ -62,13 +62,13 @@ impl Growing {
         &self.file
     }
 
-    /// Makes the file `end` bytes long, writes `addition` behind them and sees both to the disk.
+    /// Truncates the file to `end` bytes, appends `addition` and flushes both to the disk.
     ///
     /// # Errors
-    /// The disk is full, or whatever else the system refuses, and then the file ends at `end`, if
-    /// the system lets it; the file is shorter than `end`, or another one has taken its place.
+    /// The disk is full, or another error of the system; the file is then truncated to `end` if the
+    /// system allows. The file is shorter than `end`, or another file has replaced it.
     pub fn append(&mut self, end: u64, addition: &[u8]) -> io::Result<()> {
-        // a program that is about to end gives up its lock, and must not write from then on
+        // a terminating program releases its lock and must not write after that
         let _live = live();
         if !is_at(self.file.file(), &self.target) || self.file.length(u64::MAX)? < end {
             let message =
@@ -77,7 +77,7 @@ impl Growing {
         }
         let written = self.try_append(end, addition);
         if written.is_err() {
-            // what is beyond the end means nothing, it only takes room
+            // bytes beyond the end have no meaning, they only take space
             let _ = self.file.file().set_len(end);
         }
         written
@@ -91,11 +91,11 @@ impl Growing {
         file.sync_all()
     }
 
-    /// Overwrites the few bytes at `at` that publish what was appended, and sees them to the disk.
-    /// They must not cross a border of 512 bytes: a disk writes such a block as a whole.
+    /// Overwrites the few bytes at `at` that publish an addition, and flushes them to the disk.
+    /// They must not cross a multiple of 512 bytes: a disk writes such a block atomically.
     ///
     /// # Errors
-    /// Whatever the system refuses. Old or new, the bytes say what is true.
+    /// Errors of the system. Both the old and the new bytes describe a valid file.
     pub fn publish(&mut self, at: u64, bytes: &[u8]) -> io::Result<()> {
         let _live = live();
         let mut file = self.file.file();

@@ -1,8 +1,7 @@
-//! Files that one program at a time may write: `.NAME.lock` beside a target of that name.
+//! Locks that let one program at a time write a file: `.NAME.lock` beside the target NAME.
 //!
-//! The writer holds the lock of that file, not of the target: other programs, h5py for one, lock
-//! what they read and could not read a file that is being written. A lock file whose lock can be
-//! had is nobody's.
+//! The writer locks that file, not the target: other programs, such as h5py, lock the files that
+//! they read, and could not read a locked target. A lock file that can be locked has no owner.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -11,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use crate::part::{folder, is_at, live};
 
-/// The right to write a target, until it is dropped or the program ends, in whatever way.
+/// The exclusive right to write a target, until this is dropped or the program ends or is killed.
 #[derive(Debug)]
 pub(crate) struct Lock {
     path: PathBuf,
@@ -22,10 +21,10 @@ pub(crate) struct Lock {
 const MOST_ATTEMPTS: u32 = 1000;
 
 impl Lock {
-    /// Takes the lock of `target`, which is no link.
+    /// Acquires the lock of `target`, which must not be a link.
     ///
     /// # Errors
-    /// Another program, or another part of this one, has it; the folder takes no files.
+    /// Another program, or another part of this one, holds it; the folder takes no files.
     pub(crate) fn acquire(target: &Path) -> io::Result<Self> {
         let path = lock_path(target)?;
         if !folder(target).is_dir() {
@@ -38,7 +37,7 @@ impl Lock {
             if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
                 return Err(taken());
             }
-            // where the system has no locks nobody can have this one
+            // without file locks on this system nobody else can hold this one
             if is_at(&file, &path) {
                 live.insert(path.clone());
                 return Ok(Self { path, file });
@@ -51,14 +50,13 @@ impl Lock {
 impl Drop for Lock {
     fn drop(&mut self) {
         if live().remove(&self.path) && is_at(&self.file, &self.path) {
-            // nothing better can be done about a file that cannot be removed; without its owner it
-            // means nothing
+            // a file that cannot be removed may stay: without an owner it has no effect
             let _ = fs::remove_file(&self.path);
         }
     }
 }
 
-/// Refuses a target that somebody has the lock of, and removes a lock that is nobody's.
+/// Refuses a target whose lock is held, and removes a lock file without an owner.
 pub(crate) fn refuse_taken(target: &Path) -> io::Result<()> {
     let path = lock_path(target)?;
     let is_file = fs::symlink_metadata(&path).is_ok_and(|data| data.is_file());

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::read::{open, too_long};
 
-/// A file that is read in parts. It stays the same file if another one takes its place.
+/// A file that is read in parts. It remains the opened file even if another file replaces it.
 #[derive(Debug)]
 pub struct Ranged {
     file: File,
@@ -29,10 +29,10 @@ impl Ranged {
         &self.file
     }
 
-    /// Bytes of the file now: it may grow.
+    /// The present length of the file in bytes; it may grow.
     ///
     /// # Errors
-    /// More than `limit`; whatever the system refuses.
+    /// The file is longer than `limit`; errors of the system.
     pub fn length(&self, limit: u64) -> io::Result<u64> {
         let length = self.file.metadata()?.len();
         if length > limit { Err(too_long(limit)) } else { Ok(length) }
@@ -41,7 +41,7 @@ impl Ranged {
     /// Fills `buffer` with the bytes from `at` on.
     ///
     /// # Errors
-    /// The file ends before; whatever the system refuses.
+    /// The file ends before the buffer is full; errors of the system.
     pub fn read(&self, at: u64, buffer: &mut [u8]) -> io::Result<()> {
         read_at(&self.file, at, buffer)
     }
@@ -67,7 +67,7 @@ fn read_at(file: &File, mut at: u64, mut buffer: &mut [u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// Where there are no reads at a place, there are no threads either.
+/// Systems without positioned reads have no threads either, so seeking is safe.
 #[cfg(not(any(unix, windows)))]
 fn read_at(mut file: &File, at: u64, buffer: &mut [u8]) -> io::Result<()> {
     use std::io::{Read as _, Seek as _};

@@ -3,8 +3,8 @@
 /// Declares a record of numbers: a Rust structure, its words in the order of its fields, and the
 /// same structure in WGSL.
 ///
-/// Fields go from the strictest alignment to the loosest, vectors first, so that neither side has
-/// gaps; a test holds every record to WGSL's rules.
+/// Fields are ordered from the strictest alignment to the loosest, vectors first, so that neither
+/// side has gaps; a test checks every record against WGSL's rules.
 macro_rules! record {
     (
         $(#[$about:meta])*
@@ -35,7 +35,7 @@ macro_rules! record {
 
 pub(crate) use record;
 
-/// A structure of WGSL of these members; `before` is what stands before each, by its index.
+/// A WGSL structure with these members; `before` returns the text in front of each, by its index.
 pub(crate) fn structure(
     name: &str,
     members: &[(&str, &str)],
@@ -94,8 +94,8 @@ pub(crate) fn halves(value: f64) -> [f32; 2] {
     [high, (value - f64::from(high)) as f32]
 }
 
-/// Halves of which the first is a multiple of `quantum`: differences of such multiples below 2²⁴
-/// quanta are exact.
+/// The halves of a number, the first of them a multiple of `quantum`. Differences of such multiples
+/// are exact below 2²⁴ quanta.
 pub(crate) fn halves_by(quantum: f64, value: f64) -> [f32; 2] {
     let high = ((value / quantum).round() * quantum) as f32;
     [high, (value - f64::from(high)) as f32]

@@ -2,15 +2,15 @@
 //!
 //! [`ppum_raster`], whose modules are re-exported here, evaluates a quantity at the centre of each
 //! pixel of a [`View`](view::View) into a [`Raster`](raster::Raster), and
-//! [`Picture`](picture::Picture) gives its values colours. [`png`] encodes a picture together with
-//! what it shows, [`animation`] encodes several pictures; [`samples`] takes means over pixels;
-//! `ppum-figure` draws on pictures and around them. Nothing is resampled, interpolated or
-//! triangulated on the way. [`deform`] shows the plate as its displacements move it; [`resample`]
-//! does what other programs do, to compare.
+//! [`Picture`](picture::Picture) maps its values to colours. [`png`] encodes an image with its
+//! metadata, [`animation`] encodes several images; [`samples`] takes means over pixels;
+//! `ppum-figure` draws over images and around them. Nothing is resampled, interpolated or
+//! triangulated. [`deform`] draws the deformed plate; [`resample`] resamples on a grid as other
+//! programs do, for comparison.
 //!
-//! What is drawn on pictures comes from the exact field too: [`isolines`](isoline::isolines),
-//! arrows and crosses ([`glyph`]), and the true [`extrema`](extrema::extrema) of a view. [`pieces`]
-//! cuts squares where fields jump.
+//! Overlays use the exact field too: [`isolines`](isoline::isolines), arrows and crosses
+//! ([`glyph`]), and the true [`extrema`](extrema::extrema) of a view. [`pieces`] splits squares
+//! along the lines where fields jump.
 //!
 //! ```
 //! use ppum::prelude::*;

@@ -42,7 +42,7 @@ impl Expression {
         Ok(Self { constant: formula.constant(), formula })
     }
 
-    /// A number. Formulas have no word for what is not finite: infinities are quotients by 0.
+    /// A number. Formulas have no literals for infinities, which are written as quotients by 0.
     #[must_use]
     pub fn number(value: f64) -> Self {
         let text = match value {
@@ -73,8 +73,8 @@ impl Expression {
         self.constant.unwrap_or_else(|| self.formula.evaluate(&[p.x, p.y]))
     }
 
-    /// The values at the points `anchor + offset` of some lanes. Those of a formula are found in
-    /// f64, lane by lane.
+    /// The values at the points `anchor + offset` of some lanes. A formula is evaluated in f64,
+    /// lane by lane.
     #[inline(always)]
     pub fn values<R: Real>(&self, anchor: Vec2, offset: [R; 2]) -> R {
         match self.constant {

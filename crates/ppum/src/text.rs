@@ -1,8 +1,8 @@
-//! Numbers, places and words as people read them.
+//! Numbers, locations and words as people read them.
 //!
-//! Results have all their digits in files and in JSON. In messages and tables numbers are short,
-//! zero where they are nothing but rounding of what stands beside them, and places have the digits
-//! that tell them apart.
+//! Files and JSON have all digits of results. In messages and tables numbers are short, a number
+//! that is only a rounding error of its neighbours is zero, and locations have as many digits as
+//! distinguish them.
 
 use std::collections::BTreeSet;
 
@@ -14,14 +14,14 @@ use crate::vec2::{Rect, Vec2, vec2};
 /// Significant digits of a number.
 const DIGITS: usize = 6;
 
-/// Most digits of a place: with one more 0.1 + 0.2 would not be 0.3.
+/// Most digits of a coordinate: decimals of up to 15 digits survive the conversion to f64.
 const MOST_DIGITS: usize = 15;
 
-/// Part of the size of what stands beside it below which a number is rounding: results of a linear
-/// system are seldom better.
+/// A number below this part of its neighbours' size is a rounding error: solutions of linear
+/// systems are seldom more accurate.
 const ROUNDING: f64 = 2e-10;
 
-/// The same of coordinates, which nothing has been computed with but sums and products.
+/// As [`ROUNDING`], for coordinates, which are results of a few sums and products.
 const ROUNDING_OF_PLACES: f64 = 8.0 * f64::EPSILON;
 
 /// All digits that tell a number from its neighbours, with an exponent where there would be
@@ -32,7 +32,7 @@ pub fn exact(value: f64) -> String {
     text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
-/// Six significant digits, without an exponent where that is no longer.
+/// Six significant digits, with an exponent only if that is shorter.
 #[must_use]
 pub fn short(value: f64) -> String {
     with_digits(value, DIGITS)
@@ -55,7 +55,7 @@ pub fn trimmed(value: f64) -> String {
     trimmed_to(value, DIGITS)
 }
 
-/// The same with other digits.
+/// As [`trimmed`], with another number of significant digits.
 #[must_use]
 pub fn trimmed_to(value: f64, digits: usize) -> String {
     if is_counted(value, digits) {
@@ -69,15 +69,15 @@ pub fn trimmed_to(value: f64, digits: usize) -> String {
     format!("{kept}{exponent}")
 }
 
-/// True for whole numbers that are whole on purpose; a large measured value is whole because f64
-/// has no more digits.
+/// True for integers such as counts; a large measured value is an integer only because f64 has no
+/// more digits.
 fn is_counted(value: f64, digits: usize) -> bool {
     let is_whole = value.fract() == 0.0 && value.abs() < 9e15; // f64 holds every whole number up to 2^53
     let has_few = || format!("{value:.*e}", digits.saturating_sub(1)).parse() == Ok(value);
     is_whole && (value.abs() < 1e9 || has_few())
 }
 
-/// The value, or zero where it is rounding beside numbers of some size.
+/// The value, or zero if it is a rounding error beside numbers of the given size.
 #[must_use]
 pub fn beside(value: f64, size: f64) -> f64 {
     if value.abs() < ROUNDING * size { 0.0 } else { value }
@@ -91,8 +91,8 @@ pub fn apart(a: f64, b: f64) -> [String; 2] {
     (DIGITS..=17).map(shown).find(differ).unwrap_or_else(|| shown(DIGITS))
 }
 
-/// Writes places of a plate: with the digits that tell the vertices of its cracks apart, and
-/// coordinates as zero that are rounding of the plate's.
+/// Writes locations in a plate, with enough digits to distinguish the vertices of its cracks.
+/// Coordinates that are rounding errors of the plate's are written as zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Places {
     /// Size of coordinates.
@@ -128,7 +128,7 @@ impl Places {
     }
 }
 
-/// Leading digits that all places of a box share, which lies so far from the origin.
+/// The number of leading digits that all points of a box share because it lies far from the origin.
 fn far(size: Vec2, extent: Vec2) -> usize {
     let digits = |size: f64, extent: f64| (size / extent).log10().ceil().max(0.0) as usize;
     digits(size.x, extent.x).max(digits(size.y, extent.y))

@@ -7,8 +7,8 @@ use crate::library;
 use ppum_formula::real::Real;
 use ppum_formula::{Block, DerivativeError, Formula, FormulaError, FormulaJets, Scope, Scratch};
 
-/// A one-dimensional even function with support \[−1, 1\]. Its scale does not matter: φ_i = W_i / Σ
-/// W does not see it. The B-splines have w(0) = 1.
+/// A one-dimensional even function with support \[−1, 1\]. Its scale cancels in φ_i = W_i / Σ W.
+/// The B-splines have w(0) = 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum WeightFunction {
@@ -27,7 +27,7 @@ impl WeightFunction {
     /// The B-splines.
     pub const ALL: [Self; 3] = [Self::Linear, Self::Quadratic, Self::Cubic];
 
-    /// Name in problems and datasets; `formula` of a formula.
+    /// The name in problem files and datasets; `formula` for a formula.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -61,7 +61,7 @@ impl WeightFunction {
         Self::formula_with_breakpoints(text, scope, &[])
     }
 
-    /// Like [`formula`](Self::formula), with breakpoints beside those that are found by themselves.
+    /// Like [`formula`](Self::formula), with breakpoints in addition to those found automatically.
     ///
     /// # Errors
     /// See [`WeightError`].
@@ -87,7 +87,7 @@ impl WeightFunction {
 
     /// w, dw/dξ, d²w/dξ² at ξ, zero outside \[−1, 1).
     ///
-    /// At a jump of a derivative the one from the right is taken, so that a border belongs to the
+    /// Where a derivative jumps, this is the one from the right, so that a border belongs to the
     /// patch on its right or upper side.
     #[inline(always)]
     pub fn spline<R: Real>(&self, xi: R) -> [R; 3] {
@@ -160,10 +160,10 @@ impl PartialEq for WeightFormula {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WeightError {
-    /// The text.
+    /// The text is not a formula of t.
     #[error(transparent)]
     Formula(#[from] FormulaError),
-    /// Its derivatives.
+    /// The formula cannot be differentiated.
     #[error(transparent)]
     Derivative(#[from] DerivativeError),
     /// A breakpoint outside the support.
@@ -180,7 +180,7 @@ pub enum WeightError {
         /// Its value at 1.
         value: f64,
     },
-    /// A value that no weight has.
+    /// The value or slope at some t is not that of a weight.
     #[error(
         "a weight must be positive for 0 <= t < 1 and finite, with a finite slope, \
          but `{text}` is {value} with slope {slope} at t = {t}"
@@ -188,7 +188,7 @@ pub enum WeightError {
     Sign {
         /// The formula.
         text: String,
-        /// The place.
+        /// The argument t.
         t: f64,
         /// The value there.
         value: f64,
@@ -197,10 +197,10 @@ pub enum WeightError {
     },
 }
 
-/// Places at which a weight is looked at, between its breakpoints and near the ends.
+/// Number of t at which a weight is checked, between its breakpoints and near the ends.
 const LOOKS: u32 = 4096;
 
-/// Breakpoints nearer to each other than this are one, found twice.
+/// Breakpoints nearer to each other than this are the same one, found twice.
 const ROUNDING: f64 = 1e-12;
 
 /// Largest w(1) in parts of the largest value that counts as rounding.
@@ -208,7 +208,7 @@ const VANISHING: f64 = 1e-12;
 
 impl WeightFormula {
     /// Parses a formula of `t` and checks that it can be a weight: positive where t < 1, zero at
-    /// t = 1, with finite slopes. Positivity is looked for at some thousand places.
+    /// t = 1, with finite slopes. Positivity is checked at some thousand t.
     fn parse(text: &str, scope: &Scope, declared: &[f64]) -> Result<Self, WeightError> {
         let w = Formula::parse(text, scope)?;
         let slope = w.derivative("t")?;
@@ -238,7 +238,7 @@ impl WeightFormula {
         for k in 0..LOOKS {
             let t = f64::from(k) / f64::from(LOOKS);
             let [value, slope, _] = self.evaluate(t);
-            // Far out a smooth weight underflows.
+            // A smooth weight may underflow near t = 1.
             let possible = value > 0.0 || (value == 0.0 && t > 0.9);
             if !(possible && value.is_finite() && slope.is_finite()) {
                 return Err(WeightError::Sign { text: text(), t, value, slope });
@@ -246,7 +246,7 @@ impl WeightFormula {
             largest = largest.max(value);
         }
         let value = self.formula.evaluate(&[1.0]);
-        // A bump has no value at 1, but a limit.
+        // A bump has a limit at 1, but no value.
         let before = self.formula.evaluate(&[1.0 - f64::EPSILON]);
         let end = if value.is_nan() { before } else { value };
         if end.abs() <= VANISHING * largest {
@@ -294,8 +294,7 @@ impl WeightFormula {
     }
 }
 
-/// Values and derivatives at t ≤ 1: a formula need not have any at the end of the support, but
-/// perhaps a limit.
+/// Values and derivatives at t ≤ 1: at the end of the support a formula may have only a limit.
 fn limited(t: f64, jet: [f64; 3]) -> [f64; 3] {
     jet.map(|value| if t < 1.0 || value.is_finite() { value } else { 0.0 })
 }

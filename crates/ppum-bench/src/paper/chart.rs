@@ -10,7 +10,7 @@ use super::{Report, Row};
 use crate::chart;
 use crate::frames::Way;
 
-/// Least time that passes, so that the paper's and those of devices stand beside the CPU's.
+/// Draws the least wall times, so that those of the paper and of devices compare with the CPU's.
 pub(super) fn save(report: &Report, path: &Path) -> anyhow::Result<()> {
     let title = "Table 1 of Üffinger et al. 2011: a frame of 1024 × 768 pixels";
     chart::save(path, title, [("patches", ""), ("time", "ms")], curves(report))

@@ -1,8 +1,9 @@
-//! Table 1 of Üffinger et al. 2011 beside what draws here, and what else drawing depends on.
+//! Frame times of the renderers beside table 1 of Üffinger et al. 2011, and their dependence on
+//! order, enrichment, zoom and formulas.
 //!
 //! Before anything is measured, every frame is compared with the reference (`agreement`). Then
-//! scenes and ways take turns, each frame with a view of its own: a machine that grows busy slows
-//! all of them down.
+//! scenes and renderers alternate frame by frame, each frame with a different view, so that other
+//! load on the machine slows all of them down alike.
 
 mod agreement;
 mod chart;
@@ -97,7 +98,7 @@ impl Report {
         let mut all = Vec::new();
         for &scene in &scenes {
             let field = datasets.field(&scene.recipe, &fields)?;
-            // shaders take their time to compile: a quick run has those of the first scenes
+            // shaders are slow to compile: a quick run compiles those of the first scenes only
             let on_devices =
                 scene.group == SceneGroup::Patches || !quick && scene.group != SceneGroup::Colors;
             let mut cards = cards.as_deref_mut().filter(|_| on_devices);
@@ -167,7 +168,7 @@ impl Datasets {
     }
 }
 
-/// Draws all scenes in turn, first without counting: the first frames find nothing prepared.
+/// Draws all scenes in turn. The first frame of each warms up and is not counted.
 fn measure(
     all: &mut [Measured<'_>],
     frames: u32,
@@ -203,7 +204,7 @@ impl<'d> Measured<'d> {
         moved(View::new(center, width, pixels)?, frame)
     }
 
-    /// Compares with the reference, or makes what is coloured.
+    /// Compares the frames with the reference; for scenes of colours alone, makes their rasters.
     fn compare(
         &mut self,
         pixels: [u32; 2],

@@ -1,12 +1,12 @@
-//! Curves with no more points than pixels can tell apart.
+//! Reduces curves to the points that pixels can distinguish.
 
 use ppum::vec2::Vec2;
 
-/// Columns of a pixel that points are told apart in: pages of lines may be enlarged.
+/// Columns per pixel in which points are distinguished, since vector pages may be enlarged.
 const PER_PIXEL: f64 = 4.0;
 
-/// The points of a line, of each run of them within one column those alone that come first and last
-/// and lie highest and lowest: what is drawn of them is the same, peaks included.
+/// The points of a line. Of each run of points within one column only the first, last, highest and
+/// lowest are kept: the line looks the same, peaks included.
 pub(super) fn thinned(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut kept = Vec::new();
     let mut run: Option<ColumnRun> = None;
@@ -50,7 +50,7 @@ impl ColumnRun {
         }
     }
 
-    /// Its points in their order, each once.
+    /// Appends the points to keep, in order and each once.
     fn put(&self, kept: &mut Vec<Vec2>) {
         let mut all = [self.first, self.lowest, self.highest, self.last];
         all.sort_by_key(|(index, _)| *index);

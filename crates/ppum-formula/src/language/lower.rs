@@ -9,7 +9,7 @@ use crate::language::scope::Scope;
 use crate::library::Function;
 use crate::operation::{Binary, Comparison};
 
-/// Parses a formula and makes sure that it is a number.
+/// Parses a formula and checks that its type is a number.
 pub(crate) fn checked(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
     let ast = parse(source, scope)?;
     match lower(&ast, scope, &mut Graph::new(scope.tables())) {

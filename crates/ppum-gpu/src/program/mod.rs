@@ -18,14 +18,14 @@ use crate::shader::passes::Method;
 use output::{Colors, Output};
 use pipelines::Pipelines;
 
-/// A quantity of a scene compiled for the card: what
-/// [`Renderer::compile`](crate::Renderer::compile) makes. It yields `O`: [`Values`](crate::Values),
+/// A quantity of a scene compiled for the card, returned by
+/// [`Renderer::compile`](crate::Renderer::compile). It yields `O`: [`Values`](crate::Values),
 /// [`Colors`] or [`Derivatives`](crate::Derivatives).
 ///
 /// When functions of the dataset are replaced, compile another program for the scene
 /// [with these functions](Scene::with_functions_of); this one keeps drawing the old ones.
 ///
-/// A picture is read as what its program yields and as nothing else:
+/// The type of an image is that of its program's output; reading another type does not compile:
 ///
 /// ```compile_fail
 /// use ppum_gpu::{Colors, Drawn};
@@ -65,13 +65,13 @@ impl<'f, O: Output> Program<'f, O> {
         &self.output
     }
 
-    /// The way patches come together.
+    /// The method by which the patches of a pixel are combined.
     #[must_use]
     pub fn method(&self) -> Method {
         self.shader.method()
     }
 
-    /// The kind of areas with these terms.
+    /// The shader variant for areas whose patches have these terms.
     pub(crate) fn kind(&self, others: Others) -> ShaderVariant {
         self.shader.kind(others)
     }
@@ -84,14 +84,14 @@ impl<'f, O: Output> Program<'f, O> {
         }
     }
 
-    /// Pipelines of areas that are made.
+    /// The number of pipelines that are compiled.
     #[cfg(test)]
     pub(crate) fn made(&self) -> usize {
         self.pipelines.as_ref().map_or(0, |pipelines| pipelines.finish.len())
     }
 
-    /// The pipelines for the scene as it is, those of some kinds of areas among them: each is made
-    /// when it is needed first.
+    /// The pipelines for the scene's present layout, including those of some kinds of areas. Each
+    /// is compiled on first use.
     pub(crate) fn pipelines(
         &mut self,
         gpu: &Arc<Gpu>,
@@ -102,7 +102,7 @@ impl<'f, O: Output> Program<'f, O> {
             Some(pipelines) if pipelines.fit(gpu, layout) => pipelines,
             _ => Pipelines::new(gpu, &self.shader, layout)?,
         };
-        // what is made stays, also if something else cannot be
+        // compiled pipelines are kept even if another one fails to compile
         let pipelines = self.pipelines.insert(pipelines);
         pipelines.make_areas(&self.shader, kinds)?;
         Ok(pipelines)

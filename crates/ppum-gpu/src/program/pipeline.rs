@@ -1,4 +1,4 @@
-//! Pipelines and the bindings they have.
+//! Pipelines and the layouts of their bindings.
 
 use wgpu::{
     BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType, BlendComponent,
@@ -12,7 +12,7 @@ use crate::error::GpuError;
 use crate::frame::quads::{QUAD_BYTES, QuadRecord};
 use crate::shader::passes::{Finish, SUMS};
 
-/// Group 0: the view, its data, the dataset's and the region's.
+/// The layout of group 0: the view, its data, the data of the dataset and those of the region.
 pub(crate) fn data_layout(gpu: &Gpu) -> BindGroupLayout {
     let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
     let texture = texture_type(TextureSampleType::Uint);
@@ -32,7 +32,7 @@ fn texture_type(sample_type: TextureSampleType) -> BindingType {
     BindingType::Texture { sample_type, view_dimension, multisampled: false }
 }
 
-/// A binding of fragments; the first, the view, of vertices too.
+/// A binding for fragment shaders; the view, which is the uniform, also for vertex shaders.
 fn layout_entry(binding: u32, ty: BindingType) -> BindGroupLayoutEntry {
     let is_uniform = matches!(ty, BindingType::Buffer { ty: BufferBindingType::Uniform, .. });
     let both = ShaderStages::VERTEX_FRAGMENT;
@@ -40,7 +40,7 @@ fn layout_entry(binding: u32, ty: BindingType) -> BindGroupLayoutEntry {
     BindGroupLayoutEntry { binding, visibility, ty, count: None }
 }
 
-/// A number of textures.
+/// The layout of a group of `count` textures.
 pub(crate) fn textures_layout(gpu: &Gpu, count: u32) -> BindGroupLayout {
     let ty = texture_type(TextureSampleType::Float { filterable: false });
     let entries: Vec<_> = (0..count).map(|binding| layout_entry(binding, ty)).collect();

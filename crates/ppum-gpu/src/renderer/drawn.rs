@@ -1,4 +1,4 @@
-//! Pictures on the card, and reading them back.
+//! Images on the card, and reading them back.
 
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -12,8 +12,8 @@ use crate::device::read;
 use crate::error::GpuError;
 use crate::program::output::Output;
 
-/// A picture on the card. Reading it waits until it is drawn; drawing goes on meanwhile, so the
-/// next one, of the next step say, can be begun before.
+/// An image on the card, perhaps still being drawn. `read` waits for it. The next
+/// image, for example of the next step, can be started before this one is read.
 #[derive(Debug)]
 #[cfg_attr(
     target_arch = "wasm32",
@@ -38,13 +38,14 @@ impl<O: Output> Drawn<O> {
         self.size
     }
 
-    /// The picture: of [`Values`](crate::Values) a [`Raster`](ppum_render::raster::Raster), of
-    /// [`Colors`](crate::Colors) an [`Image`](ppum_render::image::Image), of
-    /// [`Derivatives`](crate::Derivatives) six rasters, v, x, y, xx, xy, yy.
+    /// Waits for the image and returns it: a [`Raster`](ppum_render::raster::Raster) for
+    /// [`Values`](crate::Values), an [`Image`](ppum_render::image::Image) for
+    /// [`Colors`](crate::Colors), six rasters (v, x, y, xx, xy, yy) for
+    /// [`Derivatives`](crate::Derivatives).
     ///
     /// # Errors
-    /// [`GpuError::Lost`]: the device is lost, with the picture. [`GpuError::Device`]: what went
-    /// wrong while it was drawn.
+    /// [`GpuError::Lost`]: the device is lost, with the image. [`GpuError::Device`]: an error that
+    /// occurred while it was drawn.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn read(&self) -> Result<O::Picture, GpuError> {
         let bytes = |texture| read::texture(&self.gpu, texture);

@@ -1,22 +1,21 @@
-//! Isolines: where a quantity has given values, followed through the picture on the exact field.
+//! Isolines: curves on which a quantity has given values, followed on the exact field.
 //!
-//! The squares between the pixel centres, and a rim of half squares that reaches the picture's
-//! border, are marched through (marching squares; Lorensen, Cline 1987). The raster of any renderer
-//! says which squares to look at; all that a line consists of is then evaluated exactly, in
-//! double precision:
+//! Marching squares (Lorensen, Cline 1987) covers the squares between the pixel centres, and a rim
+//! of half squares up to the border of the image. The raster of any renderer selects the squares
+//! that a line crosses; the line itself is then evaluated exactly, in double precision:
 //!
 //! - crossings of the sides of squares by Newton's method inside a bracket, with the
 //!   quantity's [gradient](QuantityGradient);
-//! - of four crossings of a square those belong together that the value in its middle says;
-//! - between two crossings points are pulled onto the curve until chords are within [`CHORD`]
+//! - if a square has four crossings, the value at its centre decides which are connected;
+//! - between two crossings, points are pulled onto the curve until chords are within [`CHORD`]
 //!   pixels of it.
 //!
 //! So lines do not depend on the precision of the raster. Squares that a crack, a rim or an
-//! interface cuts are marched [piece](crate::pieces) by piece: no line runs along these jumps, and
-//! lines end on faces. Where derivatives jump at a border of patches, as with the linear weight, a
-//! line goes along the border to where its value is met again. Values at tips may be infinite:
-//! lines pass between what is finite around. A loop inside one square, and a line that enters and
-//! leaves a square by one side, are not seen.
+//! interface cuts are processed [piece](crate::pieces) by piece: no line runs along these jumps,
+//! and lines end on faces. Where a quantity jumps at a border of patches, as stresses do with the
+//! linear weight, a line follows the border until its value occurs again. Values at tips may be
+//! infinite: lines pass between the finite values around. A loop inside one square, and a line that
+//! enters and leaves a square through one side, are not found.
 
 mod join;
 mod lattice;
@@ -54,15 +53,15 @@ const TASK: usize = 64;
 pub struct Isoline {
     /// The value.
     pub level: f64,
-    /// Offsets from the view's centre; larger values are on the left. The first is not repeated at
-    /// the end of a closed line.
+    /// Offsets from the view's centre; larger values lie on the left. A closed line does not repeat
+    /// its first point.
     pub points: Vec<Vec2>,
-    /// True of loops. Other lines end at the picture's border, at cracks, rims and interfaces.
+    /// True for loops. Other lines end at the border of the image, at cracks, rims and interfaces.
     pub closed: bool,
 }
 
 impl Isoline {
-    /// Its points, of a closed line the first again at the end.
+    /// The points; a closed line repeats the first one at the end.
     #[must_use]
     pub fn polyline(&self) -> Vec<Vec2> {
         let first = self.points.first().filter(|_| self.closed);
@@ -70,8 +69,8 @@ impl Isoline {
     }
 }
 
-/// The lines on which a quantity has one of some values in a view, level by level; in an order that
-/// depends on nothing but the field.
+/// The lines in a view on which a quantity has one of the given values, level by level, in an order
+/// that depends only on the field.
 ///
 /// `raster` holds the quantity at the view's pixel centres, by any renderer, in f64 or f32. Each
 /// point of a line is within a tenth of a pixel of the exact curve. Levels that are not finite have
@@ -81,11 +80,11 @@ impl Isoline {
 /// line passes.
 ///
 /// # Errors
-/// The quantity has no meaning for the field; more than [`MOST_POINTS`] points; the watcher stops
-/// the call.
+/// The field does not have the quantity; there are more than [`MOST_POINTS`] points; the watcher
+/// stops the call.
 ///
 /// # Panics
-/// If the raster has not the view's pixels.
+/// If the raster and the view differ in size.
 pub fn isolines<T: Sample>(
     field: &Field<'_>,
     view: &View,
@@ -107,7 +106,7 @@ pub fn isolines<T: Sample>(
     Ok(join::lines(segments, levels, view.pixel_size()))
 }
 
-/// What squares are marched with.
+/// The data of marching squares.
 struct Search<'a, 'f> {
     field: &'a Field<'f>,
     view: &'a View,
@@ -115,7 +114,7 @@ struct Search<'a, 'f> {
     levels: &'a [f64],
     pieces: Pieces<'f>,
     lattice: Lattice,
-    /// How many there are so far.
+    /// The number of points so far.
     points: AtomicUsize,
 }
 
@@ -134,7 +133,7 @@ impl Search<'_, '_> {
             let marched: Result<Vec<_>, RenderError> =
                 new.par_chunks(TASK).map(|cells| self.march(cells, &parts)).collect();
             all.extend(new.iter().copied().zip(marched?.into_iter().flatten()));
-            // lines lead on to squares that the raster did not show
+            // lines continue into squares that the raster did not select
             let ends = new.iter().flat_map(|cell| &all[cell]).flat_map(|segment| &segment.ends);
             let next: BTreeSet<Cell> = ends.filter_map(|end| end.neighbour).collect();
             new = next.into_iter().filter(|&cell| known.insert(cell)).collect();

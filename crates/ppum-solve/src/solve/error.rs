@@ -17,31 +17,31 @@ use ppum::progress::Cancelled;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolveError {
-    /// A problem that its cracks have grown to, and that breaks a rule.
+    /// The growth of its cracks leads to a problem that breaks a rule.
     #[error(transparent)]
     Problem(ProblemError),
-    /// Its cover or local spaces.
+    /// Its cover or its local spaces cannot be built.
     #[error(transparent)]
     Space(SpaceError),
-    /// Data that are not finite.
+    /// Its data are not finite near a known location.
     #[error(
         "the data of the problem are not finite, or too large to compute with, {0}: look at the formulas and tables \
          of the material, the loads and what is given on the border"
     )]
     Data(Around),
-    /// The same, nobody knows where.
+    /// Its data are not finite at an unknown location: an eigenvalue problem did not converge.
     #[error(
         "the data of the problem are not finite, or too large to compute with: look at the formulas and tables of \
          the material, the loads and what is given on the border"
     )]
     Eigen(#[from] EigenError),
-    /// Functions of the local spaces that are not finite.
+    /// A function of the local spaces is not finite.
     #[error("a function of the local spaces is not finite, or too large to compute with, {0}")]
     Basis(Around),
-    /// Loads without restraint.
+    /// Loads on a piece without restraint are not in equilibrium.
     #[error(transparent)]
     Unbalanced(UnbalancedError),
-    /// The factorisation, at a place.
+    /// The factorisation failed at a patch.
     #[error("{around}: {error}")]
     Singular {
         /// The neighbourhood of the patch.
@@ -49,37 +49,38 @@ pub enum SolveError {
         /// The reason.
         error: LinearError,
     },
-    /// The factorisation.
+    /// The factorisation failed, at no particular patch.
     #[error(transparent)]
     Factor(LinearError),
-    /// A function of the space.
+    /// A function of the space does not compile.
     #[error(transparent)]
     Function(#[from] FunctionError),
-    /// The field that was found.
+    /// The solution is not a valid field.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// A dataset that nothing could read again.
+    /// The solution breaks a rule of datasets, so that it could not be read again.
     #[error("the solution could not be stored: {0}")]
     Dataset(#[from] CheckError),
-    /// More than the memory holds.
+    /// The solution needs more memory than it may use.
     #[error(
         "the solution needs more memory than the {} that may be used: {needs}; use fewer cells, a lower \
          order, or a machine with more memory",
         gibibytes(*memory as f64)
     )]
     TooLarge {
-        /// Its least needs.
+        /// The estimated needs.
         needs: Estimate,
         /// The memory \[bytes\].
         memory: u64,
     },
-    /// The watcher wanted the work to stop.
+    /// The watcher cancelled the work.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
 impl SolveError {
-    /// Work with the data of the problem that was halted.
+    /// The error of a stage that uses the problem's data: integrands that are not finite are those
+    /// data.
     pub(super) fn of_data(halt: Halt) -> Self {
         match halt {
             Halt::Cancelled(cancelled) => cancelled.into(),
@@ -87,7 +88,7 @@ impl SolveError {
         }
     }
 
-    /// Work with functions of the local spaces alone that was halted.
+    /// The error of a stage that uses only functions of the local spaces.
     pub(super) fn of_basis(halt: Halt) -> Self {
         match halt {
             Halt::Cancelled(cancelled) => cancelled.into(),

@@ -8,11 +8,10 @@ use crate::actions::{ALL, Action, ActionEntry, GESTURES, GROUPS, spelled};
 const COLUMNS: usize = 3;
 /// Width of a column \[points\].
 const WIDTH: f32 = 380.0;
-/// Around the columns \[points\].
+/// Margin around the columns \[points\].
 const MARGIN: f32 = 60.0;
 
-/// What is pressed while the sheet is open is not done behind it; its own key closes it, and so
-/// does Escape.
+/// Discards other keys while the list is open; Escape and the list's own key close it.
 pub fn take(ctx: &egui::Context, is_open: &mut bool, actions: &mut Vec<Action>) {
     if *is_open {
         actions.retain(|action| *action == Action::Help);
@@ -21,7 +20,7 @@ pub fn take(ctx: &egui::Context, is_open: &mut bool, actions: &mut Vec<Action>) 
     }
 }
 
-/// Shows the keys while it is open, as many headings side by side as there is room for.
+/// Shows the list if it is open, with as many columns as the window has room for.
 pub fn show(ui: &Ui, is_open: &mut bool) {
     let room = ui.ctx().content_rect().size();
     let columns = (((room.x - MARGIN) / WIDTH) as usize).clamp(1, COLUMNS);
@@ -39,7 +38,7 @@ pub fn show(ui: &Ui, is_open: &mut bool) {
     });
 }
 
-/// The headings by columns, about as many keys in each.
+/// Distributes the headings over the columns, with about the same number of keys in each.
 fn columns_of(columns: usize) -> Vec<Vec<&'static str>> {
     let keys = |group: &str| {
         let by_hand = GESTURES.iter().filter(|(.., of)| *of == group);
@@ -49,7 +48,7 @@ fn columns_of(columns: usize) -> Vec<Vec<&'static str>> {
     let mut found = vec![Vec::new(); columns];
     let mut before = 0;
     for group in GROUPS {
-        // a heading belongs where its middle lies
+        // the middle of a heading's keys determines its column
         let middle = before + keys(group) / 2;
         found[(middle * columns / all).min(columns - 1)].push(group);
         before += keys(group);
@@ -57,7 +56,7 @@ fn columns_of(columns: usize) -> Vec<Vec<&'static str>> {
     found
 }
 
-/// What keys of a heading do; the nine tips in one line.
+/// The actions under a heading that have keys; the nine tips share one line.
 fn by_key(group: &str) -> impl Iterator<Item = (&'static ActionEntry, &'static KeyboardShortcut)> {
     let is_one = |entry: &&ActionEntry| !matches!(entry.action, Action::Tip(1..));
     let of = ALL.iter().filter(move |entry| entry.group == group).filter(is_one);

@@ -1,4 +1,4 @@
-//! The steps of a series in the bar above the plate.
+//! The player of a series in the bar at the top of the window.
 
 use egui::{DragValue, Slider, Ui};
 use ppum::text::trimmed;
@@ -8,7 +8,7 @@ use crate::desk::Desk;
 use crate::player::SPEEDS;
 use crate::widgets::button;
 
-/// Shows it, of a series.
+/// Shows the player if the dataset is a series.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     let active = desk.session.active;
     let Some(opened) = &desk.stages[active].opened else { return };
@@ -53,5 +53,5 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
 }
 
-/// The room of all but the slider \[points\].
+/// Width of the controls other than the slider \[points\].
 const REST: f32 = 330.0;

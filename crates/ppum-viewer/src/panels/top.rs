@@ -1,4 +1,4 @@
-//! The bar above the plate.
+//! The bar at the top of the window.
 
 use egui::{ProgressBar, RichText, Sense, Ui};
 
@@ -8,7 +8,7 @@ use crate::desk::Desk;
 use crate::session::DrawerPage;
 use crate::widgets::{button, elided};
 
-/// Letters of a title that has room.
+/// Most characters of a title that are shown.
 const MOST: usize = 60;
 
 /// A text on one line.
@@ -16,7 +16,7 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Title, and what one does all the time.
+/// Shows the title and buttons for the most frequent actions.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     ui.horizontal_wrapped(|ui| {
         super::files::menu(ui, desk);
@@ -66,7 +66,7 @@ fn replaced(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
 }
 
-/// How far a solution has come, whatever page is open; a click opens the page of the problem.
+/// Shows the progress of a running solution on every page; a click opens the page *Problem*.
 fn solving(ui: &mut Ui, desk: &mut Desk<'_>) {
     let Some(running) = desk.solving.running() else { return };
     let bar =
@@ -78,7 +78,7 @@ fn solving(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
 }
 
-/// What one would not guess that the window can: K, plots, two views, images.
+/// Shows buttons for features that are easily overlooked: saving images, K at a tip, two views.
 fn reading(ui: &mut Ui, desk: &mut Desk<'_>) {
     let (pane, stage) = desk.active();
     let has_tips = stage.tips(pane) > 0;

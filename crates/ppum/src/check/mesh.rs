@@ -10,10 +10,10 @@ use crate::function::{Frame, FunctionKind};
 use crate::mesh::Mesh;
 use crate::vec2::Vec2;
 
-/// Intervals of the lattice on which the determinants of maps are looked at.
+/// Intervals of the lattice on which the determinants of maps are checked.
 const SAMPLES: u8 = 4;
 
-/// Part of the domain's size by which corners may lie outside its box: they are rounded.
+/// Corners may lie outside the domain's box by this part of its size, because they are rounded.
 const OUTSIDE: f64 = 1e-9;
 
 pub(super) fn check_mesh(mesh: &Mesh, errors: &mut Errors) {
@@ -64,7 +64,7 @@ fn check_maps(mesh: &Mesh) -> Checked {
     };
     check_each("map_offset", mesh.len(), is_finite, |_| "the element is not finite".into())?;
     for k in 0..mesh.len() {
-        // sides of a cut follow each other
+        // the parts of a cut element are consecutive patches
         let is_known = k > 0
             && mesh.shape[k] == mesh.shape[k - 1]
             && mesh.map_range(k) == mesh.map_range(k - 1)
@@ -127,7 +127,8 @@ pub(super) fn check_domain(mesh: &Mesh, domain: &Domain) -> Checked {
     Ok(())
 }
 
-/// Checks what a step's functions and clips say about level fields, and that only meshes have them.
+/// Checks the level fields that a step's functions and clips refer to, and that only meshes have
+/// them.
 pub(super) fn check_levels(step: &Step, errors: &mut Errors) {
     if let Partition::Mesh(mesh) = &step.partition {
         let wrong = (0..mesh.clips.len()).find_map(|k| {

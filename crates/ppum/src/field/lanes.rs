@@ -92,9 +92,10 @@ impl LocalField<'_> {
     /// Evaluates at many points, vectorised over lanes: `out` holds the components of the first
     /// point, then those of the second, and so on; points outside the domain give NaN.
     ///
-    /// Points that follow each other should be near each other: lanes share the patches of all. So
-    /// the last digit of a value may depend on the points beside it: where a single patch covers a
-    /// point, its weight is left out, or, for the sake of its neighbours, multiplied and divided.
+    /// Consecutive points should be close to each other, because the lanes of a vector evaluate the
+    /// patches of all its points. The last digit of a value may therefore depend on its neighbours:
+    /// the weight of a single patch at a point is left out, or, if a neighbour has more patches,
+    /// multiplied and divided.
     ///
     /// # Panics
     /// If `out` is shorter than points × components.
@@ -126,8 +127,9 @@ impl LocalField<'_> {
         }
     }
 
-    /// Evaluates at many points over a given list of patches, which must hold all that cover one of
-    /// them: like [`evaluate_into`](Self::evaluate_into), without looking for patches and borders.
+    /// Evaluates at many points over a given list of patches, which must contain all that cover any
+    /// of the points: like [`evaluate_into`](Self::evaluate_into), without searching for patches or
+    /// checking the border.
     ///
     /// # Panics
     /// If `out` is shorter than points × components.
@@ -152,7 +154,7 @@ impl LocalField<'_> {
         out: &mut [Jet<f64>],
     ) {
         let components = lanes.len();
-        // the last point stands in for those that are missing
+        // unused lanes repeat the last point
         let at = |k: usize| points[k.min(points.len() - 1)];
         let like = lanes[0].v;
         let offset = [like.with_lanes(|k| at(k).x), like.with_lanes(|k| at(k).y)];

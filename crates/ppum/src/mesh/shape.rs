@@ -71,8 +71,7 @@ fn sum(a: f64, b: f64, c: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Corners lie on two edges, the centroid inside, and nothing of the shape is left out
-    /// by |ξ|, |η| ≤ 1.
+    /// Each corner lies on two edges, the centroid inside, and the shape in |ξ|, |η| ≤ 1.
     #[test]
     fn corners_and_margins() {
         for (shape, inner, count) in [(Shape::Triangle, 0.5, 16), (Shape::Square, 1.0, 26)] {

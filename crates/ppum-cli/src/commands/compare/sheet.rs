@@ -1,8 +1,8 @@
 //! The figure of a comparison.
 //!
-//! Of one method its panels stand in a row, resampled, direct, difference, and below each other for
-//! long plates; of several the differences are a second row, or column. One bar explains the field
-//! and what was resampled.
+//! For one method, its panels (resampled, direct, difference) form a row, or a column for long
+//! plates. For several methods, the differences form a second row or column. The field and its
+//! resampled images share one colour bar.
 
 use ppum::field::Field;
 use ppum_figure::canvas::Canvas;
@@ -21,17 +21,17 @@ use super::measure::{ComparisonInput, Measurements, name};
 use crate::look::{LONG, LookArgs, letters};
 use crate::progress::Bar;
 
-/// The page: what stands where.
+/// The panels of the page and their arrangement.
 pub(super) struct Layout {
     title: String,
     panels: Vec<Shows>,
-    /// Words of the panels, their captions as titles.
+    /// Labels of the panels; their titles are the captions.
     labels: Vec<Labels>,
     grid: PanelGrid,
     design: Design,
 }
 
-/// What a panel shows.
+/// The content of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Shows {
     Direct,
@@ -41,7 +41,7 @@ enum Shows {
 }
 
 impl Layout {
-    /// The page for some methods; `labels` are the words of the field.
+    /// The page for some methods; `labels` are the labels of the field.
     pub(super) fn new(
         args: &Args,
         field: &Field<'_>,
@@ -72,7 +72,7 @@ impl Layout {
             Labels { title, quantity, ..labels.clone() }
         };
         let words = panels.iter().enumerate().map(words).collect();
-        // a column of pictures has the one bar below its last one
+        // a column of images has its colour bar below the last one
         let barred = match (methods.len(), is_long) {
             (1, false) => [2, 1],
             (1, true) => [1, 2],
@@ -87,13 +87,13 @@ impl Layout {
         self.design.size
     }
 
-    /// Columns and rows that each picture has room for.
+    /// The columns and rows of pixels that each image has room for.
     pub(super) fn room(&self) -> Result<[u32; 2], FigureError> {
         let captions: Vec<&str> = self.labels.iter().map(|labels| labels.title.as_str()).collect();
         panel_area(&self.title, &captions, self.grid, &self.design)
     }
 
-    /// The page, and the picture of the field drawn directly.
+    /// Draws the page; also returns the direct image of the field.
     pub(super) fn draw(
         &self,
         found: &Measurements,
@@ -135,7 +135,7 @@ impl Layout {
 }
 
 impl Shows {
-    /// All panels in the order of a page of rows, or of one of columns.
+    /// All panels, ordered by rows or by columns of the page.
     fn all(methods: usize, in_columns: bool) -> Vec<Self> {
         let resampled = (0..methods).map(Self::Resampled);
         let differences = (0..methods).map(Self::Difference);
@@ -147,7 +147,7 @@ impl Shows {
     }
 }
 
-/// The direct picture; its range knows the true extrema.
+/// The direct image; its automatic range is found from the true extrema.
 fn direct(raster: &Raster, job: ComparisonInput<'_>, style: &Style) -> anyhow::Result<Picture> {
     let ComparisonInput { field, view, quantity, .. } = job;
     let values = match style.range.is_found() {

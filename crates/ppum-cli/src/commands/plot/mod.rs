@@ -211,7 +211,7 @@ impl Args {
         Ok(all.plot())
     }
 
-    /// What of a dataset is drawn: all of it, what its solver tells of all steps, or one step.
+    /// Reads what is needed of a dataset: all of it, the results of all steps, or one step.
     fn open(&self, file: &Path) -> anyhow::Result<Dataset> {
         match () {
             () if self.convergence => open(file),

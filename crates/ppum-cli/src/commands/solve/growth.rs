@@ -1,4 +1,4 @@
-//! Series of cracks that grow: each step is written when it is complete, and told of.
+//! Series of growing cracks: each step is written and reported when it is complete.
 
 use std::io::Write as _;
 use std::panic::resume_unwind;
@@ -25,13 +25,13 @@ use crate::standard::is_standard;
 use crate::threads;
 use crate::warnings::warn_of_steps;
 
-/// What has become of the cracks, in JSON.
+/// The growth of the cracks, in JSON.
 #[derive(Debug, Serialize)]
 pub(super) struct Grown {
-    /// The first step that this run has made; more than 0 if it went on with another one.
+    /// The first step of this run; more than 0 if it resumed another run.
     first: usize,
     steps: Vec<StepRow>,
-    /// What has ended it; null if it has all increments that it should have.
+    /// Why the series ended; null if all increments were made.
     stop: Option<&'static str>,
 }
 
@@ -55,7 +55,7 @@ struct TipRow {
     direction: f64,
     /// Its length.
     length: f64,
-    /// What the tip does, in words.
+    /// The fate of the tip, in words.
     fate: String,
     /// Length grown since the first step.
     extension: f64,
@@ -90,7 +90,8 @@ fn factors<'s>(step: &'s Step, row: &Advance) -> Option<&'s TipIntensity> {
     step.intensities.iter().find(|factors| factors.tip == row.tip)
 }
 
-/// Solves a problem whose cracks grow into a file, or goes on with the one that is there.
+/// Solves a problem with growing cracks and writes the series to a file, or resumes the series in
+/// the file.
 pub(super) fn run(
     args: &Args,
     problem: &Problem,
@@ -141,7 +142,7 @@ fn there(problem: &Problem, target: &Path) -> anyhow::Result<(usize, Step)> {
         target.display()
     );
     let number = series.len() - 1;
-    // as a whole: the next one follows from it, and its checksum holds all of it together
+    // the step is read as a whole: the next one follows from it, and its checksum covers all of it
     let step = named(target, series.dataset(number))?.steps.remove(0);
     if step.growth.is_none() {
         bail!("{}: its last step does not say how it goes on", target.display());
@@ -164,7 +165,7 @@ struct GrowthRun<'a> {
     bar: Bar,
     /// Number of its first step.
     first: usize,
-    /// Where lines for people go.
+    /// Receives lines of text for the terminal.
     lines: Sender<String>,
 }
 
@@ -178,7 +179,7 @@ struct GrowthState {
 }
 
 impl GrowthRun<'_> {
-    /// Writes a step, and tells of it.
+    /// Writes a step to the file and reports it.
     fn keep(&self, state: &mut GrowthState, dataset: Dataset) -> anyhow::Result<()> {
         match &mut state.writer {
             None => state.writer = Some(SeriesWriter::begin(self.target, &dataset)?),
@@ -191,7 +192,7 @@ impl GrowthRun<'_> {
         state.grown.stop = growth.stop.map(|stop| stop.words());
         self.bar.clear();
         state.warnings.extend(facts::warnings(number, &step.warnings));
-        // nobody may listen any more
+        // the receiver may be gone
         let _ = self.lines.send(self.lines_of(number, step, growth));
         self.bar.in_series(self.rule.steps, self.left(number));
         state.last = Some(dataset);
@@ -212,14 +213,14 @@ impl GrowthRun<'_> {
         lines
     }
 
-    /// The seconds that the rest takes, if steps go on to take what they took.
+    /// The remaining seconds, if the next steps take as long as the previous ones.
     fn left(&self, number: usize) -> f64 {
         let done = (number + 1 - self.first) as f64;
         let rest = self.rule.steps.saturating_sub(number) as f64;
         self.start.elapsed().as_secs_f64() / done * rest
     }
 
-    /// The error, and what there is in spite of it.
+    /// The error, with the steps that the file contains in spite of it.
     fn failed(&self, error: GrowthError<anyhow::Error>, steps: usize) -> anyhow::Error {
         let error = match error {
             GrowthError::Solve(error) => anyhow::Error::from(error),
@@ -244,7 +245,7 @@ fn line(step: &Step, row: &Advance) -> String {
     let unknown = || ["–", "–"].map(String::from);
     let [k1, k2] = factors(step, row).map_or_else(unknown, |k| [short(k.k1), short(k.k2)]);
     let at = step.cracks[row.tip.crack as usize].end_point(row.tip.end);
-    // so many that one sees the tip move
+    // enough digits to see the tip move
     let digits = (2.0 - row.length.log10().floor()).clamp(5.0, 16.0) as usize;
     let digits = if row.length > 0.0 { digits } else { 5 };
     let at = format!("({:.digits$}, {:.digits$})", at.x + 0.0, at.y + 0.0);
