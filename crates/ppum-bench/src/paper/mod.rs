@@ -8,6 +8,7 @@
 mod agreement;
 mod chart;
 mod files;
+mod report;
 mod scenes;
 mod single;
 mod tables;
@@ -22,7 +23,6 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
-use serde::Serialize;
 
 use crate::cards::Cards;
 use crate::frames::{QuantityRenderer, Way, moved, style};
@@ -31,6 +31,8 @@ use crate::synthetic::{DOMAIN, Recipe};
 use crate::table::Table;
 use agreement::{Agreement, WRONG, agreements};
 use files::Opening;
+pub use report::Report;
+use report::{Row, pixels_of};
 pub use scenes::SceneGroup;
 use scenes::{PaperScene, scenes};
 pub use single::Single;
@@ -43,34 +45,6 @@ const PAPER: [(usize, f64); 6] =
 /// The paper's milliseconds for a uniform cover.
 fn published(patches: usize) -> Option<f64> {
     PAPER.iter().find(|row| row.0 == patches).map(|row| row.1)
-}
-
-/// The report of `ppum-bench paper`.
-#[derive(Debug, Serialize)]
-pub struct Report {
-    machine: Machine,
-    pixels: [u32; 2],
-    frames: u32,
-    rows: Vec<Row>,
-    files: Vec<Opening>,
-    /// True if all frames are right, and all controls caught.
-    holds: bool,
-}
-
-/// A scene.
-#[derive(Debug, Serialize)]
-struct Row {
-    group: SceneGroup,
-    scene: String,
-    cover: &'static str,
-    patches: usize,
-    order: u8,
-    enriched: f64,
-    zoom: f64,
-    quantity: &'static str,
-    /// The paper's time, milliseconds on a GeForce GTX 470.
-    paper_ms: Option<f64>,
-    methods: Vec<Timed>,
 }
 
 /// A scene with all that draws it.
@@ -87,7 +61,7 @@ impl Report {
     /// # Errors
     /// A device that fails, or files that cannot be written.
     pub fn new(quick: bool, frames: u32, groups: &[SceneGroup]) -> anyhow::Result<Self> {
-        let (threads, pixels) = (rayon::current_num_threads(), tables::pixels_of(quick));
+        let (threads, pixels) = (rayon::current_num_threads(), pixels_of(quick));
         let mut cards = Cards::open();
         let machine = Machine::new(threads, cards.as_ref());
         let (pools, mut scenes) = (Pools::new(threads)?, scenes(quick));

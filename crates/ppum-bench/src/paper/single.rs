@@ -8,7 +8,8 @@ use ppum_format::Series;
 use ppum_render::view::View;
 use serde::Serialize;
 
-use super::tables::{methods, pixels_of};
+use super::report::pixels_of;
+use super::tables::methods;
 use super::turns::{Pools, Timed, Turns};
 use crate::Report;
 use crate::cards::Cards;

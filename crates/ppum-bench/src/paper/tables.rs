@@ -172,11 +172,6 @@ fn core(spent: Spent) -> String {
     pair(spent.core())
 }
 
-/// Columns and rows of the images.
-pub(super) fn pixels_of(quick: bool) -> [u32; 2] {
-    if quick { [256, 192] } else { [1024, 768] }
-}
-
 /// The ways of a single dataset.
 pub(super) fn methods(all: &[Timed]) -> Table {
     let head = owned(["method", "1 thread", "all threads", "processor of all"]);

@@ -8,21 +8,22 @@
 //! ```
 
 mod content;
+mod file;
 mod font;
 mod picture;
 
-use pdf_writer::{Content, Finish as _, Name, Pdf, Rect, Ref, TextStr};
+use pdf_writer::{Content, Finish as _, Name, Rect, TextStr};
 use ppum::printable::printable;
 use ppum_render::png::Text;
 
 use super::Canvas;
-use super::zlib::zlib;
 use content::Writer;
+use file::File;
 
 /// Writes a page.
 pub(super) fn file(canvas: &Canvas, dpi: f64, texts: &[Text]) -> Vec<u8> {
     let [width, height] = canvas.size.map(|n| (f64::from(n) * 72.0 / dpi) as f32);
-    let mut file = File { pdf: Pdf::new(), last: 0 };
+    let mut file = File::new();
     let [catalogue, pages, page, content] = [(); 4].map(|()| file.place());
     // pixels from the upper left corner
     let scale = (72.0 / dpi) as f32;
@@ -76,25 +77,5 @@ fn describe(file: &mut File, texts: &[Text]) {
                 &mut about
             }
         };
-    }
-}
-
-/// A file that is being written.
-struct File {
-    pdf: Pdf,
-    last: i32,
-}
-
-impl File {
-    /// The number of the next object.
-    fn place(&mut self) -> Ref {
-        self.last += 1;
-        Ref::new(self.last)
-    }
-
-    /// An object that is bytes, compressed.
-    fn stream(&mut self, place: Ref, bytes: &[u8]) {
-        let bytes = zlib(bytes);
-        self.pdf.stream(place, &bytes).filter(pdf_writer::Filter::FlateDecode);
     }
 }

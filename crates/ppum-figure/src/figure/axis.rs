@@ -3,8 +3,8 @@
 use ppum::crack::{Crack, tips};
 use ppum::vec2::Vec2;
 
-use super::color_bar::widest;
 use super::design::{Design, Labels, TickChoice};
+use super::ink::TICK_TEXT;
 use crate::text;
 use crate::ticks::{self, AxisSpan, Notation, TickStep, Ticks, power_of_ten};
 use ppum_render::picture::Picture;
@@ -36,6 +36,12 @@ impl FigureAxis {
         let rest = text::fitted(rest, size, room - text::width(&name, size));
         format!("{name}{rest}")
     }
+}
+
+/// Width of the widest label.
+fn widest(ticks: &Ticks, scale: f64) -> f64 {
+    let widths = ticks.major.iter().map(|tick| text::width(&tick.label, TICK_TEXT * scale));
+    widths.fold(0.0, f64::max)
 }
 
 /// Where labels stand along an axis whose marks lie at `at`, rising or falling: there, but two that

@@ -1,12 +1,11 @@
 //! What a colour bar says of values beyond its ends: `to ∞`, `to 12.3`.
 
-use super::color_bar::ColorKey;
+use super::color_key::ColorKey;
 use super::ink::TICK_TEXT;
+use super::metrics::WORD;
 use crate::text;
 use crate::ticks::{Ticks, power_of_ten};
 
-/// Most of a bar's room for its labels that a word takes; it has fewer digits before it takes more.
-pub(super) const WORD: f64 = 62.0;
 /// Digits of a number, and most of them, where fewer do not lie beyond the end.
 const DIGITS: usize = 3;
 const MOST_DIGITS: usize = 5;

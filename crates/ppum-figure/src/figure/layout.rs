@@ -15,10 +15,12 @@
 
 use ppum::vec2::{Vec2, vec2};
 
-use super::color_bar::{ColorBar, ColorKey};
+use super::color_bar::ColorBar;
+use super::color_key::ColorKey;
 use super::design::{BarPlace, Design, LABEL_TEXT};
 use super::ink::{Ink, LINE, TITLE_TEXT, bounds};
-use super::sheet::{self, Extents, Sheet, TITLE_GAP};
+use super::metrics::{MARGIN, RIGHT, RIGHT_BAR, TITLE_GAP};
+use super::sheet::{self, Extents, Sheet};
 use super::{FigureError, Panel};
 use crate::canvas::{Canvas, Item};
 use crate::text;
@@ -55,19 +57,15 @@ impl PanelGrid {
 }
 
 // Room kept around a picture, in pixels of a figure of 1024 × 768.
-/// Left of it, for y and its labels, and right of it.
+/// Left of it, for y and its labels.
 const LEFT: f64 = 96.0;
-pub(super) const RIGHT: f64 = 36.0;
-/// Right of it with a bar, and what is more below it with one there.
-pub(super) const RIGHT_BAR: f64 = 150.0;
+/// What is more below it with a bar there.
 const BELOW_BAR: f64 = 88.0;
 /// Above it and below it, the first line of a title included.
 const ABOVE: f64 = 52.0;
 const BELOW: f64 = 68.0;
 /// Between a title and what stands below it.
 const TITLE_OVER: f64 = 12.0;
-/// Around everything.
-pub(super) const MARGIN: f64 = 12.0;
 /// Least side of a picture.
 const LEAST: u32 = 48;
 /// Lines of a title, and of a caption, at most.

@@ -3,7 +3,7 @@
 use ppum::vec2::{Vec2, vec2};
 
 use super::ink::Ink;
-use super::sheet::GAP;
+use super::metrics::GAP;
 use crate::overlay::{LegendEntry, legend_at, legend_size};
 
 /// Between a plot and a legend beside it or above it.

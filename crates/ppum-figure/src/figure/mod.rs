@@ -16,79 +16,23 @@
 mod axis;
 mod beyond;
 mod color_bar;
+mod color_key;
 mod design;
 mod ink;
 mod layout;
 mod legend;
+mod metrics;
+mod panel;
 mod sheet;
 
-use ppum::crack::Crack;
-
-use crate::canvas::{Canvas, Item};
-use crate::overlay::LegendEntry;
-use ppum_render::picture::Picture;
+use crate::canvas::Canvas;
 
 pub use axis::axis_label;
 pub use color_bar::Bar;
 pub use design::{BarPlace, Design, Labels, Theme, TickChoice};
 pub use layout::{PanelGrid, panel_area, panels, plot_area};
+pub use panel::{FigureError, Panel, bare};
 pub use sheet::lacks_legend;
-
-/// The reason why there is no such figure.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum FigureError {
-    /// No room for the pictures between the labels.
-    #[error("a figure of {}x{} pixels leaves no room; give at least {}x{}, {}x{} inches, or smaller letters",
-        size[0], size[1], least[0], least[1], inches(least[0], *dpi), inches(least[1], *dpi))]
-    TooSmall {
-        /// The size asked for.
-        size: [u32; 2],
-        /// A size that leaves room, no smaller on any side.
-        least: [u32; 2],
-        /// Pixels per inch.
-        dpi: f64,
-    },
-    /// The picture is larger than the room between the labels.
-    #[error("a picture of {}x{} pixels does not fit a figure with room for {}x{}; \
-        draw it with the size that plot_area gives", plot[0], plot[1], room[0], room[1])]
-    TooLarge {
-        /// The picture's size.
-        plot: [u32; 2],
-        /// The room.
-        room: [u32; 2],
-    },
-    /// A number of panels that the grid has no cells for, or none.
-    #[error("{panels} panels do not fit a grid of {cells} cells")]
-    Panels {
-        /// Number of panels.
-        panels: usize,
-        /// Number of cells.
-        cells: usize,
-    },
-    /// One bar for pictures with several ranges, scales or colour maps.
-    #[error("one colour bar cannot explain pictures with different ranges or colours")]
-    Ranges,
-}
-
-/// A picture and what belongs to it.
-#[derive(Clone, Debug)]
-pub struct Panel<'a> {
-    /// The picture.
-    pub picture: &'a Picture,
-    /// What is drawn over it; positions are pixels of the picture.
-    pub layers: Vec<Item>,
-    /// The entries of a legend that has no room in the picture; it stands beside the picture or
-    /// above it.
-    pub legend: Vec<LegendEntry>,
-    /// Its words.
-    pub labels: Labels,
-    /// The cracks from whose tips the axes count at deep zoom.
-    pub cracks: &'a [Crack],
-    /// The panel, by its place in the figure, whose bar explains this one too; none, or one without
-    /// a bar of its own, if this one has its own.
-    pub bar_of: Option<usize>,
-}
 
 /// A figure around a picture of at most [`plot_area`], in the middle, its title above it.
 ///
@@ -97,20 +41,6 @@ pub struct Panel<'a> {
 pub fn figure(mut panel: Panel<'_>, design: &Design) -> Result<Canvas, FigureError> {
     let title = std::mem::take(&mut panel.labels.title);
     panels(&title, &[panel], PanelGrid::ONE, design)
-}
-
-/// A picture with layers over it, and nothing around it.
-#[must_use]
-pub fn bare(picture: &Picture, layers: Vec<Item>) -> Canvas {
-    let mut page = Canvas::new(picture.image.size, [0; 4]);
-    page.items.push(Item::Picture { image: picture.image.clone(), corner: [0, 0] });
-    page.items.extend(layers);
-    page
-}
-
-/// A length in inches, with a digit behind the point and not below.
-fn inches(pixels: u32, dpi: f64) -> f64 {
-    (f64::from(pixels) / dpi * 10.0).ceil() / 10.0
 }
 
 #[cfg(test)]

@@ -4,27 +4,17 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::Panel;
 use super::axis::{FigureAxis, axes, label_places};
-use super::beyond::WORD;
-use super::color_bar::{ColorBar, ColorKey, LEAST_BAR};
+use super::color_bar::{ColorBar, LEAST_BAR};
+use super::color_key::ColorKey;
 use super::design::{BarPlace, Design, LABEL_TEXT};
 use super::ink::{Ink, TICK_TEXT, bounds, snapped};
-use super::layout::{MARGIN, RIGHT, RIGHT_BAR};
 use super::legend::{Free, Legend};
+use super::metrics::{
+    BAR_GAP, BETWEEN, BETWEEN_ROWS, GAP, LABEL_GAP, MARGIN, RIGHT, RIGHT_BAR, TICK, TITLE_GAP, WORD,
+};
 use crate::canvas::{Align, Item};
 use crate::text::{self, CAP_HEIGHT};
 
-// Lengths in pixels of a figure of 1024 × 768; others are scaled.
-pub(super) const TICK: f64 = 5.0;
-/// Between a tick and its label.
-pub(super) const GAP: f64 = 5.0;
-/// Between tick labels and the label of the axis.
-pub(super) const LABEL_GAP: f64 = 10.0;
-/// Between a plot and the lines above it.
-pub(super) const TITLE_GAP: f64 = 14.0;
-/// Between labels of an axis that is short, beside each other and above each other.
-const BETWEEN: f64 = 8.0;
-pub(super) const BETWEEN_ROWS: f64 = 4.0;
-pub(super) const BAR_GAP: f64 = 24.0;
 /// Between what stands below a plot and a bar below that.
 const BAR_BELOW_GAP: f64 = 16.0;
 

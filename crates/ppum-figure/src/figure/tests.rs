@@ -4,18 +4,19 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::colormap::Colormap;
 use ppum_render::extrema::{Extrema, Extremum, On};
 use ppum_render::image::{Image, Rgba};
-use ppum_render::picture::Style;
+use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{Basis, Range, ValueSpan};
 use ppum_render::raster::Raster;
 use ppum_render::scale::Scale;
 use ppum_render::view::View;
 use ppum_testkit::random::Random;
 
-use super::color_bar::{ARROW, BAR, ColorKey};
+use super::color_bar::{ARROW, BAR};
+use super::color_key::ColorKey;
 use super::design::HATCH_STEP;
-use super::sheet::BAR_GAP;
+use super::metrics::BAR_GAP;
 use super::*;
-use crate::canvas::Lettering;
+use crate::canvas::{Item, Lettering};
 use crate::overlay::{LegendEntry, Symbol};
 
 const SIZE: [u32; 2] = [640, 480];

@@ -8,7 +8,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
-use super::edges::edges;
+use super::edges::{edges, is_near, reach};
 use super::legend::{LegendEntry, Symbol};
 use crate::canvas::{Item, Path, Pen};
 
@@ -208,16 +208,6 @@ fn frame(path: &mut Path, view: &View, rect: Rect) {
     let around = reach(view);
     let corner = |p: Vec2| view.pixel_of_offset((p - view.center).max(-around).min(around));
     path.rect(corner(rect.min), corner(rect.max));
-}
-
-/// Half a view, and some more for lines at its border.
-pub(super) fn reach(view: &View) -> Vec2 {
-    view.half() * 1.25
-}
-
-pub(super) fn is_near(view: &View, rect: Rect) -> bool {
-    let (min, max, around) = (rect.min - view.center, rect.max - view.center, reach(view));
-    max.x >= -around.x && min.x <= around.x && max.y >= -around.y && min.y <= around.y
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use ppum::polynomial::{PolynomialSpace, polynomial_in};
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 
-use super::cover::is_near;
+use super::edges::is_near;
 use super::strokes::{CRACK, CRACK_WIDTH, SEAM, SEAM_WIDTH};
 use crate::canvas::{Item, Path, Pen};
 

@@ -7,7 +7,6 @@ use ppum::mesh::Mesh;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::view::View;
 
-use super::cover::is_near;
 use crate::canvas::Path;
 
 /// Distance of a chord from its arc, in pixels.
@@ -16,6 +15,16 @@ const SMOOTH: f64 = 0.05;
 /// Parts of a curved edge, at least, and most halvings of it.
 const PARTS: u32 = 2;
 const HALVINGS: u32 = 48;
+
+/// Half a view, and some more for lines at its border.
+pub(super) fn reach(view: &View) -> Vec2 {
+    view.half() * 1.25
+}
+
+pub(super) fn is_near(view: &View, rect: Rect) -> bool {
+    let (min, max, around) = (rect.min - view.center, rect.max - view.center, reach(view));
+    max.x >= -around.x && min.x <= around.x && max.y >= -around.y && min.y <= around.y
+}
 
 /// The outlines of some patches, as far as they are in sight.
 pub(super) fn edges(view: &View, mesh: &Mesh, patches: impl Iterator<Item = usize>) -> Path {

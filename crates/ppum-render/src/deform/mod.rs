@@ -28,6 +28,7 @@
 //! domain wide, where the plate that is seen lies within 10⁻¹⁶ of the tip.
 
 mod automatic;
+mod error;
 mod inverse;
 mod leaf;
 mod map;
@@ -36,72 +37,20 @@ mod path;
 mod points;
 #[cfg(test)]
 mod tests;
+mod view;
 
 use ppum::crack::{Crack, Side, tips};
 use ppum::field::Field;
-use ppum::progress::Cancelled;
-use ppum::quantity::QuantityError;
-use ppum::vec2::{Rect, Vec2};
+use ppum::vec2::Vec2;
 use ppum_raster::view::{View, ViewError};
 
 pub use automatic::{AutomaticFactor, automatic_factor};
+use error::check;
+pub use error::{DeformError, LARGEST_FACTOR};
 use map::DeformationMap;
 pub use path::Paths;
 pub use points::{DeformedPoints, DeformedRaster, MaterialPoint};
-
-/// Largest distance of a found point's image from the pixel's centre, in pixels; what displacements
-/// are rounded by where that is more, as in views 10⁻¹² of the domain wide.
-pub const TOLERANCE: f64 = 0.005;
-
-/// Largest factor: squares of what it magnifies must stay finite. From 10⁶ on pictures hardly
-/// change with it.
-pub const LARGEST_FACTOR: f64 = 1e100;
-
-/// The reason why a plate is not drawn deformed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum DeformError {
-    /// The field is no displacement.
-    #[error("the field `{0}` is no displacement of the plane: nothing deforms")]
-    NoDisplacement(String),
-    /// The patches are the elements of a mesh.
-    #[error(
-        "fields on meshes are drawn where their points are, not where they move to; leave the deformation out"
-    )]
-    Mesh,
-    /// The factor is not finite, or larger than [`LARGEST_FACTOR`].
-    #[error(
-        "the displacement's factor is {0:?}; give a number of at most {LARGEST_FACTOR:?} in size"
-    )]
-    Factor(f64),
-    /// The plate folds too often for the picture.
-    #[error(
-        "magnified {0} times the plate lies over itself too often to be drawn; choose a smaller factor"
-    )]
-    TooFolded(f64),
-    /// Pixels are smaller than the rounding of the places to which points move.
-    #[error(
-        "a view {0:?} wide is finer than double precision knows places of the deformed plate; widen it, or choose one \
-         around a crack tip"
-    )]
-    TooFine(f64),
-    /// There is no such view.
-    #[error(transparent)]
-    View(#[from] ViewError),
-    /// The quantity has no meaning for the field.
-    #[error(transparent)]
-    Quantity(#[from] QuantityError),
-    /// The watcher stopped the call.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
-
-/// A displacement with the factor by which it is magnified.
-#[derive(Clone, Copy, Debug)]
-pub struct Deformation<'f> {
-    field: &'f Field<'f>,
-    factor: f64,
-}
+pub use view::{Deformation, DeformedView, TOLERANCE};
 
 impl<'f> Deformation<'f> {
     /// The plate with `factor` times its displacement; a negative one turns it round.
@@ -199,17 +148,6 @@ impl<'f> Deformation<'f> {
     }
 }
 
-/// Refuses fields that are no displacements of the plane.
-fn check(field: &Field<'_>) -> Result<(), DeformError> {
-    if field.step.partition.mesh().is_some() {
-        return Err(DeformError::Mesh);
-    }
-    if field.equation.elastic().is_none() || field.components() != 2 {
-        return Err(DeformError::NoDisplacement(field.data.name.clone()));
-    }
-    Ok(())
-}
-
 /// A displacement, or none where it is not known.
 fn finite(displacement: Option<[f64; 2]>) -> [f64; 2] {
     displacement.filter(|u| u.iter().all(|c| c.is_finite())).unwrap_or([0.0; 2])
@@ -218,48 +156,7 @@ fn finite(displacement: Option<[f64; 2]>) -> [f64; 2] {
 /// Most steps to the anchor, which need not be near.
 const STEPS: usize = 60;
 
-/// A view of the deformed plane.
-#[derive(Clone, Copy, Debug)]
-pub struct DeformedView<'f> {
-    deformation: Deformation<'f>,
-    /// The part of the deformed plane that is shown.
-    pub view: View,
-    /// The material anchor A.
-    pub anchor: Vec2,
-    /// A + s u(A) minus the view's centre.
-    shift: Vec2,
-    /// u(A)
-    reference: [f64; 2],
-    /// True if the view is made around A + s u(A), whatever that is rounded to.
-    is_exact: bool,
-}
-
-impl<'f> DeformedView<'f> {
-    /// The field.
-    #[must_use]
-    pub fn field(&self) -> &'f Field<'f> {
-        self.deformation.field
-    }
-
-    /// The factor s.
-    #[must_use]
-    pub fn factor(&self) -> f64 {
-        self.deformation.factor
-    }
-
-    /// True if pixels are larger than what places are rounded by.
-    fn is_known(&self) -> bool {
-        self.view.pixel_size() > 4.0 * self.rounding()
-    }
-
-    /// What a place may be off by rounding: of s u, and of A + s u(A) unless the view is made
-    /// around that, whatever it is rounded to.
-    fn rounding(&self) -> f64 {
-        let anchor = if self.is_exact { 0.0 } else { self.anchor.length() };
-        let moved = Vec2::from(self.reference).length() * self.factor().abs();
-        2.0 * f64::EPSILON * (anchor + moved)
-    }
-
+impl DeformedView<'_> {
     /// The cracks with their vertices where they have moved to, those of the side above.
     #[must_use]
     pub fn moved_cracks(&self) -> Vec<Crack> {
@@ -269,19 +166,5 @@ impl<'f> DeformedView<'f> {
             *point = self.deformation.place_by(&mut map, self.anchor, *point);
         }
         cracks
-    }
-
-    /// A rectangle of offsets from the anchor that holds the plate, symmetric about the anchor.
-    fn root(&self) -> Rect {
-        let Rect { min, max } = self.field().domain.bounds;
-        let reach = [
-            self.anchor.x - min.x,
-            max.x - self.anchor.x,
-            self.anchor.y - min.y,
-            max.y - self.anchor.y,
-        ];
-        let reach = reach.into_iter().fold(0.0, f64::max);
-        let half = Vec2 { x: reach, y: reach };
-        Rect::new(-half, half)
     }
 }

@@ -7,7 +7,7 @@ use ppum::function::{Frame, FunctionKind};
 use ppum::jet::Jet;
 use ppum::progress::{Progress, Verdict, unwatched};
 use ppum::quantity::Quantity;
-use ppum::vec2::vec2;
+use ppum::vec2::{Rect, vec2};
 use ppum::weight::WeightFunction;
 use ppum_raster::reference::reference;
 use ppum_testkit::exact::{CrackInPlane, ExactField};

@@ -6,9 +6,6 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-use super::On;
-use super::curves::BoundaryCurve;
-
 /// Nodes of the grids on which the courses are looked for, at most.
 const NODES: usize = 1 << 18;
 
@@ -40,7 +37,7 @@ impl Bent {
 }
 
 /// Both sides of the parts of curved interfaces in a rectangle of offsets from an anchor.
-pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect, pixel: f64) -> Vec<BoundaryCurve> {
+pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect, pixel: f64) -> Vec<Bent> {
     let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
     let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
     let kinks: Vec<_> = kinks.filter(|kink| kink.line().is_none()).collect();
@@ -50,11 +47,8 @@ pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect, pixel: f64) -> V
         let level = Arc::new(kink.value);
         for chord in chords(&level, anchor, rect, pixel, steps) {
             let normal = (chord[1] - chord[0]).unit().left();
-            let seen = [normal, -normal].map(|toward| {
-                let level = Arc::clone(&level);
-                BoundaryCurve::bent(Bent { level, anchor, chord, toward }, On::Interface)
-            });
-            found.extend(seen);
+            let seen = |toward| Bent { level: Arc::clone(&level), anchor, chord, toward };
+            found.extend([normal, -normal].map(seen));
         }
     }
     found

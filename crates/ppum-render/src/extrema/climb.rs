@@ -7,8 +7,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_raster::raster::{Raster, Sample};
 use rayon::prelude::*;
 
-use super::Promise;
-use super::curves::best_first;
+use super::curves::{Promise, best_first};
 
 /// Most steps of Newton's method.
 const NEWTON: usize = 12;

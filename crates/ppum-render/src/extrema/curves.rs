@@ -7,7 +7,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::{PI, TAU};
 
 use super::bent::Bent;
-use super::{On, Promise};
+use super::on::On;
 
 /// Fewest and most samples that a curve should have.
 const SAMPLES: [usize; 2] = [32, 1 << 14];
@@ -20,6 +20,9 @@ pub(super) const BESIDE: f64 = 1e-9;
 
 /// Steps of the golden section: the value is then exact to rounding where it is smooth.
 const SECTIONS: usize = 48;
+
+/// A place that may hold an extremum, with the height that it may have.
+pub(super) type Promise<P> = (f64, P);
 
 /// A boundary, or a part of it.
 pub(super) struct BoundaryCurve {

@@ -31,12 +31,13 @@ mod bent;
 mod climb;
 mod curves;
 mod even;
+mod on;
 mod rings;
 mod singular;
 
 use std::fmt;
 
-use ppum::crack::{SegmentId, Side};
+use ppum::crack::Side;
 use ppum::field::{Field, LocalField};
 use ppum::function::Slot;
 use ppum::progress::Watcher;
@@ -49,7 +50,8 @@ use ppum_raster::view::View;
 use rayon::prelude::*;
 
 use climb::Climber;
-use curves::BoundaryCurve;
+use curves::{BoundaryCurve, Promise};
+pub use on::On;
 pub use singular::{Singular, SingularKind};
 
 /// Pixels and samples of boundaries from which the search begins, at most, and how many of them
@@ -95,27 +97,6 @@ pub struct Extremum {
     pub on: On,
 }
 
-/// What the place of an extremum lies on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum On {
-    /// Nothing.
-    Inside,
-    /// The border of the view or of the domain.
-    Border,
-    /// A face of a crack: the value is that of this side.
-    Face(SegmentId, Side),
-    /// The rim of the hole of this index.
-    Rim(usize),
-    /// An interface of the material.
-    Interface,
-    /// A singular point.
-    Singular(SingularKind),
-    /// The centre of a pixel; between pixels nothing was looked at.
-    Pixel,
-    /// Any place: the quantity has one value all over the plate, but for rounding.
-    Everywhere,
-}
-
 /// Minimum and maximum of a quantity over a view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extrema {
@@ -129,24 +110,6 @@ pub struct Extrema {
     /// The singular points in the view, re-entrant corners of holes also where the represented
     /// field is finite.
     pub singular: Vec<Singular>,
-}
-
-impl On {
-    /// One word for it: `inside`, `border`, `face`, `rim`, `interface`, `singular`, `pixel`,
-    /// `everywhere`.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Inside => "inside",
-            Self::Border => "border",
-            Self::Face(..) => "face",
-            Self::Rim(_) => "rim",
-            Self::Interface => "interface",
-            Self::Singular(_) => "singular",
-            Self::Pixel => "pixel",
-            Self::Everywhere => "everywhere",
-        }
-    }
 }
 
 impl fmt::Display for Extrema {
@@ -254,7 +217,8 @@ pub fn extrema<T: Sample>(
     let Some(rect) = seen(field, view) else { return Ok(None) };
     let points = singular::candidates(field, view.center, &rect);
     let mut curves = curves::all(field, view.center, &rect);
-    curves.extend(bent::all(field, view.center, &rect, view.pixel_size()));
+    let bent = bent::all(field, view.center, &rect, view.pixel_size());
+    curves.extend(bent.into_iter().map(|bent| BoundaryCurve::bent(bent, On::Interface)));
     let Some(mut samples) = samples(field, view, &curves, points.len()) else {
         return Ok(Extrema::of_pixels(raster, view));
     };
@@ -326,9 +290,6 @@ struct Search<'a, 'f> {
     curves: Vec<BoundaryCurve>,
     parts: Parts<'a>,
 }
-
-/// A place that may hold an extremum, with the height that it may have.
-type Promise<P> = (f64, P);
 
 impl Search<'_, '_> {
     /// The extremum, infinite if a pixel is or if it has run away from all of them to a pole.

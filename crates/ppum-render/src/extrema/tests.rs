@@ -2,7 +2,7 @@
 
 use super::*;
 use ppum::cover::Cover;
-use ppum::crack::{Crack, CrackEnd, End, TipId};
+use ppum::crack::{Crack, CrackEnd, End, SegmentId, TipId};
 use ppum::dataset::{Dataset, FieldData, Step};
 use ppum::domain::Hole;
 use ppum::equation::{Elasticity, Equation, Material, StressState};

@@ -6,10 +6,12 @@ use ppum::jet::Jet;
 use ppum::quantity::{QuantityGradient, Slope, Source};
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::CHORD;
 use super::lattice::{Cell, Lattice};
 use super::root::root;
 use crate::pieces::{INSET, Piece, Pieces};
+
+/// Distance of chords from the curve up to which no point is put between, pixels.
+pub const CHORD: f64 = 0.02;
 
 /// Part of a gradient's size by which it changes between two points that are this near only by
 /// a jump.

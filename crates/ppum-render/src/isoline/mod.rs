@@ -36,10 +36,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::pieces::Pieces;
 use lattice::{Cell, Lattice};
+pub use march::CHORD;
 use march::{Marcher, Segment};
-
-/// Distance of chords from the curve up to which no point is put between, pixels.
-pub const CHORD: f64 = 0.02;
 
 /// Most points of all lines of a picture. A picture of 8000 × 6000 pixels with thirty lines across
 /// has a third as many.

@@ -11,6 +11,10 @@ const SAME: f64 = 1e-7;
 /// The range of a face that is a whole line.
 const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
+/// Largest distance of a piece's straight side from the curve it stands for, in parts of the
+/// square's side.
+pub const SAGITTA: f64 = 0.01;
+
 /// A line that cuts polygons, and the part of it that the field jumps on.
 #[derive(Clone, Debug)]
 pub(super) struct PolygonCut {
@@ -217,4 +221,11 @@ fn crossing(a: Vec2, b: Vec2, [at_a, at_b]: [f64; 2]) -> Vec2 {
         return crossing(b, a, [at_b, at_a]);
     }
     a + (b - a) * (at_a / (at_a - at_b))
+}
+
+/// The mean of the corners of a convex polygon.
+pub(super) fn centroid(corners: &[Vec2]) -> Vec2 {
+    let origin = corners[0];
+    let sum = corners.iter().fold(Vec2::ZERO, |sum, &corner| sum + (corner - origin));
+    origin + sum / corners.len() as f64
 }

@@ -28,15 +28,12 @@ use ppum::formula::Kink;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use curve::LevelCurve;
-use cut::{Polygon, PolygonCut};
+pub use cut::SAGITTA;
+use cut::{Polygon, PolygonCut, centroid};
 use round::Round;
 
 /// Part of the way from a corner to its piece's centroid at which the corner's values are taken.
 pub const INSET: f64 = 1e-6;
-
-/// Largest distance of a piece's straight side from the curve it stands for, in parts of the
-/// square's side.
-pub const SAGITTA: f64 = 0.01;
 
 /// Squares with more lines in them than this are divided into four, again and again, up to
 /// [`DEPTH`] times: the lines of a corner with many sides do not all cut all pieces then.
@@ -265,13 +262,6 @@ impl Piece {
         let origin = self.corners[0];
         self.corners.iter().zip(next).map(|(a, b)| (*a - origin).cross(*b - origin)).sum()
     }
-}
-
-/// The mean of the corners of a convex polygon.
-fn centroid(corners: &[Vec2]) -> Vec2 {
-    let origin = corners[0];
-    let sum = corners.iter().fold(Vec2::ZERO, |sum, &corner| sum + (corner - origin));
-    origin + sum / corners.len() as f64
 }
 
 fn quarters(square: &Rect) -> [Rect; 4] {

@@ -11,14 +11,12 @@
 //! u_h(x, y) = Σ_i Σ_j w_i(x) w_j(y) u(x_i, y_j)
 //! ```
 
+mod interpolation;
 pub mod need;
 pub mod norms;
 mod stencil;
 #[cfg(test)]
 mod tests;
-
-use std::fmt;
-use std::str::FromStr;
 
 use ppum::box_tree::BoxTree;
 use ppum::crack::Side;
@@ -26,7 +24,6 @@ use ppum::field::Field;
 use ppum::function::FunctionKind;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
-use ppum::text::hint;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_raster::RenderError;
 use ppum_raster::parts::Parts;
@@ -35,65 +32,8 @@ use ppum_raster::view::View;
 use rayon::prelude::*;
 
 use crate::cells::{exist, of_elements};
+pub use interpolation::{Interpolation, UnknownInterpolation};
 use stencil::Stencil;
-
-/// The way values between the points of a grid are found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interpolation {
-    /// The value of the nearest point: first order.
-    Nearest,
-    /// Linear in x and in y between four points: second order, exact for 1, x, y, xy.
-    Bilinear,
-    /// Cubic convolution of sixteen points with Keys' parameter −1/2, which is Catmull–Rom's
-    /// spline: third order, exact for quadratic polynomials, at the grid's border too (Keys 1981).
-    Bicubic,
-}
-
-/// A word that names no interpolation.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("'{0}' is no interpolation{hint}; write nearest, bilinear or bicubic",
-    hint = hint(.0, ["nearest", "bilinear", "bicubic"]))]
-pub struct UnknownInterpolation(String);
-
-impl Interpolation {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Nearest, Self::Bilinear, Self::Bicubic];
-
-    /// Its word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Nearest => "nearest",
-            Self::Bilinear => "bilinear",
-            Self::Bicubic => "bicubic",
-        }
-    }
-
-    /// The power of the spacing that the error of a smooth field falls with.
-    #[must_use]
-    pub fn order(self) -> u32 {
-        match self {
-            Self::Nearest => 1,
-            Self::Bilinear => 2,
-            Self::Bicubic => 3,
-        }
-    }
-}
-
-impl fmt::Display for Interpolation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl FromStr for Interpolation {
-    type Err = UnknownInterpolation;
-
-    fn from_str(text: &str) -> Result<Self, UnknownInterpolation> {
-        let known = Self::ALL.into_iter().find(|known| known.name() == text);
-        known.ok_or_else(|| UnknownInterpolation(text.to_owned()))
-    }
-}
 
 /// Most points of a grid: their values then take 2 GiB.
 pub const MAX_POINTS: u64 = 1 << 28;

@@ -2,134 +2,24 @@
 //! unknowns, the solver's work.
 
 mod convergence;
+mod error;
 mod history;
+mod named;
 mod profiles;
 mod seen;
 mod series;
 
-use std::error::Error;
-
-use ppum::dataset::Dataset;
 use ppum_figure::plot::Plot;
 use ppum_render::png::Text;
 
 pub use convergence::convergence;
+pub use error::PlotError;
 pub use history::{SolverWork, history};
+pub use named::{Named, plain};
+use named::{label, title};
 pub use profiles::{Profiles, usual};
 pub use seen::check;
 pub use series::{Number, SeriesAxis, series};
-
-/// A dataset with the name that curves and messages have for it where there are several.
-#[derive(Clone, Copy, Debug)]
-pub struct Named<'d> {
-    /// The name, say that of its file.
-    pub name: &'d str,
-    /// The dataset.
-    pub dataset: &'d Dataset,
-}
-
-/// The reason why there is no such plot.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum PlotError {
-    /// A convergence of too few datasets.
-    #[error(
-        "a convergence is that of three datasets or more, or of the steps of one that has three or more"
-    )]
-    FewDatasets,
-    /// Solutions of one size or two; these are their unknowns.
-    #[error("a convergence is that of solutions of three different numbers of unknowns or more; these have {}",
-        listed(.0))]
-    FewSizes(Vec<f64>),
-    /// A step that is not there.
-    #[error("{name}: there is no step {step}")]
-    Step {
-        /// The dataset.
-        name: String,
-        /// The step.
-        step: usize,
-    },
-    /// Steps of cracks that grow do not come near one solution.
-    #[error(
-        "a convergence is that of solutions of one problem, but the cracks of {0} grow from step to step; a plot of the series \
-        shows what becomes of them"
-    )]
-    Grown(String),
-    /// Two problems.
-    #[error("a convergence is that of solutions of one problem, but {first} and {other} are of two: {what} differ{}",
-        if what.ends_with("cracks") { "" } else { "s" })]
-    OtherProblem {
-        /// One dataset.
-        first: String,
-        /// The other.
-        other: String,
-        /// What of them is not the same.
-        what: &'static str,
-    },
-    /// Nothing that could be compared.
-    #[error("the datasets have no numbers to compare")]
-    Incomparable,
-    /// A series of one step.
-    #[error("{0}: a series is drawn over steps, but there is one alone")]
-    OneStep(String),
-    /// No number of steps.
-    #[error("series are drawn of {known}, not of `{name}`")]
-    UnknownNumber {
-        /// The word.
-        name: String,
-        /// Those there are.
-        known: String,
-    },
-    /// Steps without growth.
-    #[error(
-        "{0}: extensions are known of cracks that grow ([growth] in the problem file), and the steps of this dataset \
-        hold no growth; over the length they can be drawn of all cracks"
-    )]
-    NoGrowth(String),
-    /// Growth without cycles.
-    #[error(
-        "{0}: load cycles are known of growth by Paris' law (`paris` of [growth] in the problem file), and the steps \
-        of this dataset hold none"
-    )]
-    NoCycles(String),
-    /// Steps without stress intensity factors.
-    #[error("the steps hold no stress intensity factors")]
-    NoIntensities,
-    /// A history without what was asked for.
-    #[error("{name}: its history has no {what}")]
-    NoRecords {
-        /// The dataset.
-        name: String,
-        /// What is missing.
-        what: &'static str,
-    },
-    /// A solution that took no iterations, or no levels.
-    #[error(
-        "{name}: no {what} are told in its history; the multilevel solver has them (`kind = \"multilevel\"` in [solver])"
-    )]
-    NotIterated {
-        /// The dataset.
-        name: String,
-        /// What is missing.
-        what: &'static str,
-    },
-    /// A plot without anything in it.
-    #[error("the plot would show nothing: {0}")]
-    Nothing(&'static str),
-    /// A field or an exact solution that cannot be evaluated.
-    #[error(transparent)]
-    Unevaluated(Box<dyn Error + Send + Sync>),
-}
-
-impl PlotError {
-    fn of(error: impl Error + Send + Sync + 'static) -> Self {
-        Self::Unevaluated(Box::new(error))
-    }
-}
-
-fn listed(sizes: &[f64]) -> String {
-    sizes.iter().map(f64::to_string).collect::<Vec<_>>().join(" and ")
-}
 
 /// What a plot's file says of itself; `names` are those of the datasets.
 #[must_use]
@@ -148,27 +38,4 @@ pub fn texts(names: &[&str], plot: &Plot) -> Vec<Text> {
 #[must_use]
 pub fn curves(plot: &Plot) -> String {
     plot.curves.iter().map(|curve| plain(&curve.label)).collect::<Vec<_>>().join(", ")
-}
-
-/// A label of a plot as it is told in messages: `K_I` for `K_{I}`.
-#[must_use]
-pub fn plain(label: &str) -> String {
-    let mut parts = label.split("_{");
-    let mut text = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let (subscript, rest) = part.split_once('}').unwrap_or((part, ""));
-        text.extend(["_", subscript, rest]);
-    }
-    text
-}
-
-/// The title that all datasets have; none if they have several.
-fn title<'d>(mut titles: impl Iterator<Item = &'d str>) -> String {
-    let first = titles.next().unwrap_or_default();
-    if titles.all(|title| title == first) { first.to_owned() } else { String::new() }
-}
-
-/// A label of several curves: with the dataset's name where there are several datasets.
-fn label(several: bool, dataset: &str, name: &str) -> String {
-    if several { format!("{dataset}: {name}") } else { name.to_owned() }
 }

@@ -2,6 +2,7 @@
 
 mod faces;
 mod plot;
+mod variable;
 
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::table::{Column, Table};
 pub use plot::{axis, columns, curve, unit, value_label};
+pub use variable::{Named, Variable};
 
 /// A curve that values are looked at along.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,33 +63,6 @@ pub enum Along {
         /// Its length; a tenth of the crack's if nothing is said.
         far: Option<f64>,
     },
-}
-
-/// The variable that values along a curve belong to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Variable {
-    /// Arc length.
-    Length,
-    /// Angle, degrees.
-    Angle,
-    /// Distance from a tip, in steps of its logarithm.
-    Distance,
-}
-
-impl Variable {
-    /// Name of its column.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Length => "s",
-            Self::Angle => "theta",
-            Self::Distance => "r",
-        }
-    }
-
-    fn unit(self) -> &'static str {
-        if self == Self::Angle { "deg" } else { "" }
-    }
 }
 
 /// Values along a curve.
@@ -162,9 +137,6 @@ const NEAREST: f64 = 1e-6;
 /// Radius of a circle around a tip, and length of a ray, in parts of the crack's length.
 const RADIUS: f64 = 0.01;
 const FAR: f64 = 0.1;
-
-/// Quantities under their names.
-pub type Named = [(String, Quantity)];
 
 impl Along {
     /// The variable.

@@ -9,6 +9,8 @@
 //! one rests the picture is that of `ppum render`, to the last bit.
 
 mod ease;
+mod fault;
+mod frame;
 mod laid;
 mod maker;
 mod memo;
@@ -23,149 +25,23 @@ mod subject;
 #[cfg(test)]
 mod tests;
 mod values;
+mod wanted;
 mod worker;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use ppum::dataset::Dataset;
-use ppum_render::view::View;
-use ppum_scene::compare::Compare;
-use ppum_scene::drawing::{Drawn, Shown};
-use ppum_scene::scene::Scene;
-
-use crate::field::OwnedField;
+pub use fault::{Failure, Fault};
+pub use frame::Frame;
+use frame::Outcome;
 pub use laid::Laid;
 use maker::Wish;
 pub use minus::{Minus, Subtracted};
 pub use paint::Painted;
 pub use renderer::Backend;
 pub use resampled::Other;
+pub use wanted::Wanted;
 use worker::Worker;
-
-/// What is wanted: a view of a scene of a dataset.
-#[derive(Clone, Debug)]
-pub struct Wanted {
-    /// The dataset.
-    pub dataset: Arc<Dataset>,
-    /// What is shown of it, and how.
-    pub scene: Scene,
-    /// Where, on how many pixels.
-    pub view: View,
-    /// What resampling gives beside it, if that is asked for.
-    pub compare: Option<Compare>,
-    /// What is subtracted from it.
-    pub minus: Option<Minus>,
-}
-
-impl Wanted {
-    /// A view of a scene, and nothing beside it.
-    #[must_use]
-    pub fn new(dataset: Arc<Dataset>, scene: Scene, view: View) -> Self {
-        Self { dataset, scene, view, compare: None, minus: None }
-    }
-
-    /// True if another one is of the same datasets.
-    fn is_of_same(&self, other: &Self) -> bool {
-        let is_same_left = match (&self.minus, &other.minus) {
-            (Some(minus), Some(other)) => Arc::ptr_eq(&minus.dataset, &other.dataset),
-            _ => true,
-        };
-        Arc::ptr_eq(&self.dataset, &other.dataset) && is_same_left
-    }
-
-    /// True if another one is of a plate of the same shape and kind: of a file that was written
-    /// again, for instance.
-    fn is_alike(&self, other: &Self) -> bool {
-        let (dataset, other) = (&self.dataset, &other.dataset);
-        dataset.domain == other.domain && dataset.equation == other.equation
-    }
-
-    /// True if another one differs in nothing but the place.
-    fn differs_in_place(&self, other: &Self) -> bool {
-        *self != *other && *self == Self { view: self.view, ..other.clone() }
-    }
-}
-
-impl PartialEq for Wanted {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.dataset, &other.dataset)
-            && self.scene == other.scene
-            && self.view == other.view
-            && self.compare == other.compare
-            && self.minus == other.minus
-    }
-}
-
-/// A picture with all that it was made of.
-#[derive(Clone, Debug)]
-pub struct Frame {
-    /// What was wanted.
-    pub wanted: Wanted,
-    /// The field, with what is replaced in it.
-    pub field: Arc<OwnedField>,
-    /// What is shown.
-    pub shown: Arc<Shown>,
-    /// What was subtracted from it.
-    pub subtracted: Option<Subtracted>,
-    /// Its values; of a rough picture those of its own view.
-    pub drawn: Arc<Drawn>,
-    /// Their colours, and the view that they are of.
-    pub picture: Arc<Painted>,
-    /// What lies over them; of an older view until it is drawn anew.
-    pub layers: Arc<Laid>,
-    /// The view in whose pixels the layers are.
-    pub layers_view: View,
-    /// How many times its displacement the plate is drawn with, if it is deformed.
-    pub factor: Option<f64>,
-    /// What resampling gives, if that was asked for; of an older view until it is there.
-    pub other: Option<Arc<Other>>,
-    /// True if nothing better will come.
-    pub is_final: bool,
-    /// The reason why the processor draws in place of the graphics card that was to.
-    pub note: Option<String>,
-    /// What its values took \[s\].
-    pub seconds: f64,
-}
-
-/// Where a mistake lies that keeps a picture from being made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
-    /// The step, the part, the functions or the weight.
-    Subject,
-    /// The quantity.
-    Quantity,
-    /// The deformation.
-    Deformed,
-    /// Range, scale or map of the colours.
-    Colors,
-    /// Isolines, arrows, crosses.
-    Overlays,
-    /// The comparison with resampling.
-    Compare,
-    /// What is subtracted.
-    Minus,
-    /// The program itself.
-    Program,
-}
-
-impl Fault {
-    /// True if there is a picture all the same.
-    fn leaves_picture(self) -> bool {
-        matches!(self, Self::Overlays | Self::Compare)
-    }
-}
-
-/// The reason why there is no picture of what is wanted.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
-    /// Where it arose.
-    pub fault: Fault,
-    /// The reason, with the remedy.
-    pub message: String,
-}
-
-type Outcome = Result<Arc<Frame>, Failure>;
 
 /// The pictures of one pane.
 pub struct Frames {

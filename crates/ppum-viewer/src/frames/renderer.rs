@@ -67,9 +67,9 @@ mod cards {
     use ppum_render::view::View;
     use self_cell::self_cell;
 
-    use super::super::subject::FrameSubject;
     use super::Backend;
     use crate::field::OwnedField;
+    use crate::frames::subject::FrameSubject;
 
     type Pictures<'f> = Program<'f, Values>;
 

@@ -4,7 +4,6 @@
 use egui::{Align2, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2};
 use ppum_render::view::View;
 
-use super::around;
 use super::texture::{Sheet, Texture};
 use crate::frames::{Frame, Other};
 use crate::session::Pane;
@@ -37,7 +36,7 @@ impl Against {
         let is_difference = pane.against.difference;
         let picture = if is_difference { &other.difference } else { &other.picture };
         let right = Rect::from_min_max(pos2(at, rect.top()), rect.max);
-        ui.painter().rect_filled(right, 0.0, around(ui));
+        ui.painter().rect_filled(right, 0.0, ui.visuals().extreme_bg_color);
         let painter = ui.painter_at(right);
         self.texture.show(&painter, picture, view, rect);
         sheet.show(&painter, frame, view, rect);

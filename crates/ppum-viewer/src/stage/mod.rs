@@ -8,6 +8,7 @@ pub mod flight;
 pub mod locator;
 mod marks;
 pub mod material;
+mod pipeline;
 pub mod pixels;
 pub mod readout;
 pub mod scale_bar;
@@ -54,11 +55,6 @@ pub struct Opened {
     pub path: Option<PathBuf>,
     /// The dataset.
     pub dataset: Arc<Dataset>,
-}
-
-/// The colour around the plate.
-fn around(ui: &Ui) -> Color32 {
-    ui.visuals().extreme_bg_color
 }
 
 /// One view: its dataset, its pictures, and what the mouse does in it.

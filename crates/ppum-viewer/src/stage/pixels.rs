@@ -7,9 +7,10 @@
 use std::sync::{Arc, Weak};
 
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, ScreenDescriptor, wgpu};
-use egui::{Context, Id, PaintCallbackInfo, Painter, Rect};
+use egui::{Context, PaintCallbackInfo, Painter, Rect};
 use ppum_render::image::Image;
 
+use super::pipeline::{format, id, pipeline};
 use super::solids::Solids;
 use crate::frames::Painted;
 
@@ -25,15 +26,6 @@ pub fn use_device(ctx: &Context, target: wgpu::TextureFormat) {
 #[cfg(test)]
 pub(crate) fn use_none(ctx: &Context) {
     ctx.data_mut(|data| data.remove::<wgpu::TextureFormat>(id()));
-}
-
-/// The format of what is drawn on, if our shaders can.
-pub(super) fn format(ctx: &Context) -> Option<wgpu::TextureFormat> {
-    ctx.data(|data| data.get_temp(id()))
-}
-
-fn id() -> Id {
-    Id::unique("format of the window's pixels")
 }
 
 /// A slot for a picture on the device, freed when its last clone is dropped.
@@ -254,46 +246,5 @@ fn layout(device: &wgpu::Device) -> wgpu::PipelineLayout {
         label: Some("picture"),
         bind_group_layouts: &[Some(&bindings)],
         immediate_size: 0,
-    })
-}
-
-/// Draws triangles of vertices on a format, or the four corners of a rectangle.
-pub(super) fn pipeline(
-    device: &wgpu::Device,
-    shader: &wgpu::ShaderModule,
-    layout: &wgpu::PipelineLayout,
-    [corner, pixel]: [&str; 2],
-    (format, blend): (wgpu::TextureFormat, wgpu::BlendState),
-    vertex: Option<wgpu::VertexBufferLayout<'_>>,
-) -> wgpu::RenderPipeline {
-    let buffers: Vec<_> = vertex.iter().cloned().map(Some).collect();
-    let topology = match vertex {
-        Some(_) => wgpu::PrimitiveTopology::TriangleList,
-        None => wgpu::PrimitiveTopology::TriangleStrip,
-    };
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(pixel),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module: shader,
-            entry_point: Some(corner),
-            buffers: &buffers,
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-        },
-        primitive: wgpu::PrimitiveState { topology, ..Default::default() },
-        depth_stencil: None,
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: shader,
-            entry_point: Some(pixel),
-            targets: &[Some(wgpu::ColorTargetState {
-                format,
-                blend: Some(blend),
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-        }),
-        multiview_mask: None,
-        cache: None,
     })
 }

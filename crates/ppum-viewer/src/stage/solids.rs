@@ -10,7 +10,7 @@ use egui::emath::TSTransform;
 use egui::epaint::{ClippedShape, Mesh, Tessellator, TextureId, WHITE_UV};
 use egui::{Context, FullOutput, PaintCallbackInfo, Plugin, Rect, Shape};
 
-use super::pixels;
+use super::pipeline::{format as format_of, pipeline};
 
 /// Sees to it, at the end of each frame.
 pub(super) struct Solids;
@@ -21,7 +21,7 @@ impl Plugin for Solids {
     }
 
     fn output_hook(&mut self, ctx: &Context, output: &mut FullOutput) {
-        let Some(format) = pixels::format(ctx) else { return };
+        let Some(format) = format_of(ctx) else { return };
         let options = ctx.tessellation_options_mut(|options| *options);
         let tessellator = Tessellator::new(output.pixels_per_point, options, [1, 1], Vec::new());
         let layers = layers(std::mem::take(&mut output.shapes));
@@ -211,8 +211,7 @@ impl MeshResources {
             attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Unorm8x4],
         };
         let kind = (format, wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-        let pipeline =
-            pixels::pipeline(device, &shader, &layout, ["corner", "plain"], kind, Some(vertex));
+        let pipeline = pipeline(device, &shader, &layout, ["corner", "plain"], kind, Some(vertex));
         let [vertices, indices] = [wgpu::BufferUsages::VERTEX, wgpu::BufferUsages::INDEX]
             .map(|usage| buffer(device, usage, 1 << 16));
         Self { pipeline, vertices, indices, mesh: Arc::default() }
