@@ -5,12 +5,9 @@
 // what is shown goes through `output`, which escapes it
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
-mod arguments;
-mod backend;
 mod cli;
 mod commands;
 mod dataset;
-mod deformed;
 mod families;
 mod given;
 mod graphics;
@@ -18,7 +15,6 @@ mod look;
 mod memory;
 mod number;
 mod output;
-mod overlays;
 mod page;
 mod panics;
 mod profile;
@@ -32,7 +28,6 @@ mod target;
 mod threads;
 mod tips;
 mod warnings;
-mod window;
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;

@@ -7,15 +7,15 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::sample::Place;
 use ppum::vec2::Vec2;
+use ppum_scene::arguments::{circle, degrees, ends, positive};
 use ppum_scene::notice::undefined;
+use ppum_scene::place::numbered_tip;
 use ppum_scene::profile::{self, Along, COUNT, MOST, ProfileError, Variable};
 use ppum_scene::table::Table;
 
-use crate::arguments::{circle, degrees, ends, positive};
 use crate::output::tell;
 use crate::progress::Bar;
 use crate::target;
-use crate::tips;
 
 /// Options of places along a curve.
 #[derive(Debug, clap::Args)]
@@ -103,7 +103,7 @@ impl Profile {
         let is_at_tip = self.tip.is_some() || (self.radius.is_none() && self.angle.is_none());
         ensure!(is_at_tip, "--radius and --angle belong to --tip");
         if let Some(number) = self.tip {
-            tips::numbered(field, number)?;
+            numbered_tip(field, number)?;
         }
         let along = self.along().context("give --line, --crack, --circle or --tip")?;
         Ok((along, self.count.unwrap_or(COUNT)))

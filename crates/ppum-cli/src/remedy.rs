@@ -6,6 +6,8 @@ use std::error::Error;
 use ppum::quantity::QuantityError;
 use ppum_format::WriteError;
 use ppum_render::RenderError;
+use ppum_scene::place::PlaceError;
+use ppum_scene::shot::ShotError;
 use ppum_solve::solve::{LinearError, SolveError};
 use ppum_solve::space::{InspectError, SpaceError};
 
@@ -13,7 +15,7 @@ use ppum_solve::space::{InspectError, SpaceError};
 pub(crate) fn error_text(error: &(dyn Error + 'static)) -> String {
     let remedy = match error.downcast_ref() {
         Some(error) => of_solution(error),
-        None => of_quantity(error).or_else(|| of_file(error)),
+        None => of_quantity(error).or_else(|| of_file(error)).or_else(|| of_place(error)),
     };
     remedy.map_or_else(|| error.to_string(), |remedy| format!("{error}; {remedy}"))
 }
@@ -25,6 +27,14 @@ fn of_quantity(error: &(dyn Error + 'static)) -> Option<&'static str> {
     };
     matches!(quantity, QuantityError::NoExact(_))
         .then_some("give it as [exact] in the problem file")
+}
+
+fn of_place(error: &(dyn Error + 'static)) -> Option<&'static str> {
+    let place = match error.downcast_ref() {
+        Some(ShotError::Place(place)) => place,
+        _ => error.downcast_ref()?,
+    };
+    matches!(place, PlaceError::Outside).then_some("`ppum info` says where that is")
 }
 
 fn of_file(error: &(dyn Error + 'static)) -> Option<&'static str> {
@@ -86,6 +96,12 @@ mod tests {
                 error_text(error),
                 "`error` needs the exact solution, which this dataset does not hold; give it as [exact] in the \
                  problem file"
+            );
+        }
+        for error in [&PlaceError::Outside as &dyn Error, &ShotError::from(PlaceError::Outside)] {
+            assert_eq!(
+                error_text(error),
+                "the view shows nothing of the domain; `ppum info` says where that is"
             );
         }
         assert_eq!(

@@ -8,9 +8,10 @@ use anyhow::{Context as _, ensure};
 use ppum::dataset::Dataset;
 use ppum::decompose::Part;
 use ppum::replace::{self, ReplacementsError};
-use ppum_scene::scene::{SubjectError, define};
+use ppum_scene::arguments::assignment;
+use ppum_scene::panels::{WHOLE, caption};
+use ppum_scene::scene::{Subject, SubjectError, define};
 
-use crate::arguments::assignment;
 use crate::given::{Given, file};
 
 /// The part that is taken, and what takes the place of what.
@@ -40,7 +41,7 @@ impl FromStr for PartChoice {
 
     fn from_str(text: &str) -> Result<Self, String> {
         match text.trim() {
-            "all" => Ok(Self(None)),
+            WHOLE => Ok(Self(None)),
             part => {
                 Ok(Self(Some(part.parse().map_err(|error| format!("{error}; all is the whole"))?)))
             }
@@ -52,18 +53,7 @@ impl fmt::Display for PartChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             Some(part) => part.fmt(f),
-            None => f.write_str("all"),
-        }
-    }
-}
-
-impl PartChoice {
-    /// The part in words: `smooth part`.
-    fn caption(self) -> String {
-        match self.0 {
-            Some(Part::Patch(patch)) => format!("part of patch {patch}"),
-            Some(part) => format!("{part} part"),
-            None => "whole field".into(),
+            None => f.write_str(WHOLE),
         }
     }
 }
@@ -150,20 +140,25 @@ impl Replacements {
         }
     }
 
-    /// The part, if it is one.
-    pub(crate) fn part(&self) -> Option<String> {
-        match self.part[..] {
+    /// What of a dataset is looked at; formulas are as they were given.
+    pub(crate) fn subject(&self, step: Option<usize>) -> Subject {
+        let part = match self.part[..] {
             [PartChoice(Some(part))] => Some(part.to_string()),
             _ => None,
-        }
+        };
+        let (functions, quantities) = (self.function.clone(), self.define.clone());
+        Subject { step, part, functions, weight: self.weight.clone(), quantities }
+    }
+
+    /// The parts, where there are several.
+    pub(crate) fn parts(&self) -> Vec<String> {
+        let parts = self.part.iter().map(PartChoice::to_string);
+        if self.part.len() > 1 { parts.collect() } else { Vec::new() }
     }
 
     /// The parts in words, where there are several: `smooth part`.
     pub(crate) fn captions(&self) -> Vec<String> {
-        match self.part[..] {
-            [] | [_] => Vec::new(),
-            _ => self.part.iter().map(|choice| choice.caption()).collect(),
-        }
+        self.parts().iter().map(|part| caption(part)).collect()
     }
 
     /// The choices and replacements, as notes in a picture.

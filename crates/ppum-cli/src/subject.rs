@@ -1,15 +1,10 @@
-//! What commands that draw have in common: the quantities that are drawn, and their colours.
+//! What commands that draw have in common: the quantities that are drawn.
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum_render::colormap::NAMES;
-use ppum_render::range::Range;
-use ppum_render::scale::Scale;
-use ppum_scene::colors;
 use ppum_scene::drawing::Shown;
 use ppum_scene::scene::default_quantity;
 use ppum_scene::shot::Asked;
@@ -61,22 +56,20 @@ impl QuantityArgs {
         Ok((quantity, Asked { name: shown.name(self.given(field)), shown }))
     }
 
-    /// What is shown: quantities and values of cells, of a list with commas between; nothing if
-    /// that is left to the program.
-    pub(crate) fn texts(&self) -> anyhow::Result<Option<Vec<Given>>> {
-        let read = |list| parts(list).into_iter().map(Given::read).collect();
-        self.quantity.as_deref().map(read).transpose()
+    /// What is shown, as it is given: quantities and values of cells, of a list with commas
+    /// between; nothing if that is left to the program.
+    pub(crate) fn listed(&self) -> Vec<String> {
+        self.quantity.iter().flat_map(|list| parts(list)).map(str::to_owned).collect()
+    }
+
+    /// What is shown, with the content of files.
+    pub(crate) fn texts(&self) -> anyhow::Result<Vec<Given>> {
+        self.listed().iter().map(|text| Given::read(text)).collect()
     }
 
     /// True if several parts are asked for.
     pub(crate) fn has_parts(&self) -> bool {
         !self.replacements.captions().is_empty()
-    }
-
-    /// The number of pictures that are asked for: one for each quantity and part.
-    pub(crate) fn count(&self) -> usize {
-        let quantities = self.quantity.as_deref().map_or(1, |list| parts(list).len());
-        quantities * self.replacements.captions().len().max(1)
     }
 
     fn given<'a>(&'a self, field: &'a Field<'_>) -> &'a str {
@@ -95,68 +88,5 @@ impl QuantityArgs {
             Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),
             _ => standard::name(&self.file),
         }
-    }
-}
-
-/// The options of colours.
-#[derive(Debug, clap::Args)]
-pub(crate) struct ColorArgs {
-    #[arg(long, value_name = "NAME", help = colormaps())]
-    colormap: Option<String>,
-    /// Values that the colours span: auto for all, but robust against peaks that are infinite;
-    /// full; two values; two percentiles, or one for both ends
-    #[arg(
-        long,
-        value_name = "auto|full|A,B|P%,Q%|P%",
-        default_value = "auto",
-        allow_hyphen_values = true
-    )]
-    range: Range,
-    /// How values spread over the colours: linear, log or symlog
-    #[arg(long, default_value = "linear")]
-    scale: Scale,
-    /// Colours of values below and above the range
-    #[arg(long, value_enum, default_value = "end")]
-    extremes: Extremes,
-    /// Show values in so many bands of one colour each
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
-    bands: Option<u16>,
-    /// Put zero in the middle of a range that is found and holds it, as diverging maps always do
-    #[arg(long)]
-    symmetric: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Extremes {
-    /// Those of the map's ends
-    End,
-    /// Colours that do not occur in the map
-    Contrast,
-}
-
-fn colormaps() -> String {
-    format!(
-        "Colour map: {}; reversed with _r; or a file, CSV or JSON, as ParaView, Plotly and others write it \
-         [default: viridis; of directions twilight]",
-        NAMES.join(", ")
-    )
-}
-
-impl ColorArgs {
-    /// The way values become colours.
-    pub(crate) fn chosen(&self) -> colors::Colors {
-        colors::Colors {
-            colormap: self.colormap.clone(),
-            range: self.range,
-            scale: self.scale,
-            contrast: self.extremes == Extremes::Contrast,
-            bands: self.bands,
-            symmetric: self.symmetric,
-        }
-    }
-
-    /// The file of the colour map, if it is one.
-    pub(crate) fn input(&self) -> Option<&Path> {
-        self.colormap.as_deref().map(Path::new)
     }
 }

@@ -2,23 +2,10 @@
 
 use std::io::{self, Write};
 
-use anyhow::{Context as _, ensure};
-use ppum::crack::{TipId, tips as tips_of};
-use ppum::field::Field;
 use ppum::text::Places;
 use ppum_scene::facts::{HEADS, MEANING, Tip};
 
-use crate::number::{columns, count};
-
-/// The tip of a number that was given as `--tip`.
-pub(crate) fn numbered(field: &Field<'_>, number: usize) -> anyhow::Result<TipId> {
-    let cracks = &field.step.cracks;
-    let n_tips = tips_of(cracks).count();
-    ensure!(n_tips > 0, "--tip {number}: the dataset has no crack tips");
-    tips_of(cracks).nth(number).with_context(|| {
-        format!("--tip {number}: the dataset has {}, numbered from 0", count(n_tips, "tip", "tips"))
-    })
-}
+use crate::number::columns;
 
 /// A table, one line per tip; tips are numbered in each step. The one of K_I and K_II that is
 /// rounding of the other is shown as zero.

@@ -16,23 +16,61 @@ use crate::written;
 
 /// The way values become colours, but for the map itself.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default)]
 pub struct Colors {
     /// Name of the map, or of a file with one; by default that of the quantity.
+    #[cfg_attr(feature = "clap", arg(long, value_name = "NAME", help = maps()))]
     pub colormap: Option<String>,
-    /// The values that the colours span.
+    /// Values that the colours span: auto for all, but robust against peaks that are infinite;
+    /// full; two values; two percentiles, or one for both ends
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "auto|full|A,B|P%,Q%|P%", allow_hyphen_values = true),
+        arg(default_value = "auto")
+    )]
     #[serde(with = "written")]
     pub range: Range,
-    /// How values spread over the colours.
+    /// How values spread over the colours: linear, log or symlog
+    #[cfg_attr(feature = "clap", arg(long, default_value = "linear"))]
     #[serde(with = "written")]
     pub scale: Scale,
-    /// True if values beyond the range have colours that do not occur in the map.
+    /// Colours of values below and above the range
+    #[cfg_attr(
+        feature = "clap",
+        arg(long = "extremes", value_parser = extremes(), default_value = "end"),
+        arg(action = clap::ArgAction::Set)
+    )]
     pub contrast: bool,
-    /// So many bands of one colour each.
+    /// Show values in so many bands of one colour each
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "N"),
+        arg(value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_BANDS)))
+    )]
     pub bands: Option<u16>,
-    /// True if a range that is found lies evenly around zero, where it holds zero, as it always
-    /// does with diverging maps.
+    /// Put zero in the middle of a range that is found and holds it, as diverging maps always do
+    #[cfg_attr(feature = "clap", arg(long))]
     pub symmetric: bool,
+}
+
+#[cfg(feature = "clap")]
+fn maps() -> String {
+    format!(
+        "Colour map: {}; reversed with _r; or a file, CSV or JSON, as ParaView, Plotly and others write it \
+         [default: viridis; of directions twilight]",
+        ppum_render::colormap::NAMES.join(", ")
+    )
+}
+
+/// True for colours that do not occur in the map.
+#[cfg(feature = "clap")]
+fn extremes() -> impl clap::builder::TypedValueParser<Value = bool> {
+    use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _};
+
+    let end = PossibleValue::new("end").help("Those of the map's ends");
+    let contrast = PossibleValue::new("contrast").help("Colours that do not occur in the map");
+    PossibleValuesParser::new([end, contrast]).map(|word| word == "contrast")
 }
 
 /// Most bands: more than eyes, and pictures, can tell apart.

@@ -1,129 +1,88 @@
 //! The command line that draws what is seen: `ppum render` with all that was chosen.
+//!
+//! A request is written as JSON, and whatever is not as in a request that asks for nothing becomes
+//! an option with the name of its field. The program tests the way back.
 
-use ppum_render::range::Range;
-use ppum_render::scale::Scale;
-use ppum_render::view::View;
+use serde_json::Value;
 
-use crate::scene::Scene;
+use crate::request::Request;
 
-/// The words of `ppum render` that draws a scene of a file from a view: the same picture, but for
-/// what computes it. Of a figure `page` is its size, and the view that of its plot.
+/// Fields of a request whose options have another name.
+const NAMES: [(&str, &str); 6] = [
+    ("overlays.shown", "overlay"),
+    ("panels.parts", "part"),
+    ("panels.quantities", "quantity"),
+    ("subject.functions", "function"),
+    ("subject.quantities", "define"),
+    ("colors.contrast", "extremes=contrast"),
+];
+
+/// The words of `ppum render` that draws a request of a file.
 #[must_use]
-pub fn render(
-    scene: &Scene,
-    file: &str,
-    view: &View,
-    output: &str,
-    page: Option<[u32; 2]>,
-) -> Vec<String> {
-    let mut words = CommandLine(vec!["ppum".into(), "render".into(), file_word(file)]);
-    words.option("-o", output);
-    let View { center, width, .. } = view;
-    let [columns, rows] = page.unwrap_or(view.pixels);
-    words.add(format!("--size={columns}x{rows}"));
-    words.add(format!("--center={:?},{:?}", center.x, center.y));
-    words.add(format!("--width={width:?}"));
-    if page.is_some() {
-        words.add("--figure");
-    }
-    subject(scene, &mut words);
-    colors(scene, &mut words);
-    overlays(scene, &mut words);
-    if let Some(factor) = scene.deformed {
-        words.add(format!("--deformed={factor}"));
-        if scene.outline {
-            words.add("--outline");
+pub fn render(request: &Request, file: &str, output: &str) -> Vec<String> {
+    // a name that begins with a dash is no option
+    let file = if file.starts_with('-') { format!("./{file}") } else { file.to_owned() };
+    let mut words = ["ppum", "render", &file, "-o", output].map(str::to_owned).to_vec();
+    let asked = Request { scene: request.scene.settled(), ..request.clone() };
+    let [asked, nothing] = [asked, Request::default()].map(|request| json(&request));
+    options("", &asked, &nothing, &mut words);
+    words
+}
+
+/// A request as JSON; numbers that JSON lacks are nowhere in it.
+fn json(request: &Request) -> Value {
+    serde_json::to_value(request).unwrap_or_default()
+}
+
+/// Adds an option for what is asked for at a path: a field of the request, or of an object in it.
+fn options(path: &str, asked: &Value, nothing: &Value, words: &mut Vec<String>) {
+    let Value::Object(fields) = asked else { return option(path, asked, words) };
+    for (name, value) in fields {
+        let nothing = &nothing[name];
+        if value != nothing {
+            let path = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
+            options(&path, value, nothing, words);
         }
     }
-    words.0
+}
+
+fn option(path: &str, value: &Value, words: &mut Vec<String>) {
+    let known = NAMES.iter().find(|(field, _)| *field == path).map(|(_, option)| *option);
+    let name = known.or(path.rsplit('.').next()).unwrap_or(path).replace('_', "-");
+    let mut add = |value: &str| words.push(format!("--{name}={value}"));
+    match (path.split('.').next(), value) {
+        (_, Value::Bool(_)) => words.push(format!("--{name}")),
+        (Some("labels"), Value::String(text)) => {
+            let key = path.trim_start_matches("labels.");
+            words.push(format!("--labels={key}={text}"));
+        }
+        (_, Value::Array(all)) => {
+            let is_repeated = all.iter().any(Value::is_array) || name == "ticks";
+            let joint = if ["size", "inches", "layout"].contains(&&*name) { "x" } else { "," };
+            let texts = all.iter().map(text);
+            if is_repeated {
+                texts.for_each(|text| add(&text));
+            } else {
+                add(&texts.collect::<Vec<_>>().join(joint));
+            }
+        }
+        _ => add(&text(value)),
+    }
+}
+
+/// A value as an option has it; a pair is a name and what it stands for.
+fn text(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Array(pair) => pair.iter().map(text).collect::<Vec<_>>().join("="),
+        other => other.to_string(),
+    }
 }
 
 /// Words as a shell reads them: those with signs of its own in single quotes.
 #[must_use]
 pub fn line(words: &[String]) -> String {
     words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
-}
-
-struct CommandLine(Vec<String>);
-
-impl CommandLine {
-    fn add(&mut self, word: impl Into<String>) {
-        self.0.push(word.into());
-    }
-
-    fn option(&mut self, name: &str, value: &str) {
-        self.add(name);
-        self.add(value);
-    }
-}
-
-/// A name that begins with a dash is no option.
-fn file_word(file: &str) -> String {
-    if file.starts_with('-') { format!("./{file}") } else { file.to_owned() }
-}
-
-fn subject(scene: &Scene, words: &mut CommandLine) {
-    let subject = &scene.subject;
-    if let Some(step) = subject.step {
-        words.add(format!("--step={step}"));
-    }
-    if let Some(quantity) = &scene.quantity {
-        words.add(format!("--quantity={quantity}"));
-    }
-    if let Some(part) = &subject.part {
-        words.add(format!("--part={part}"));
-    }
-    for (which, formula) in &subject.functions {
-        words.add(format!("--function={which}={formula}"));
-    }
-    if let Some(weight) = &subject.weight {
-        words.add(format!("--weight={weight}"));
-    }
-    for (name, formula) in &subject.quantities {
-        words.add(format!("--define={name}={formula}"));
-    }
-}
-
-fn colors(scene: &Scene, words: &mut CommandLine) {
-    let colors = &scene.colors;
-    if let Some(name) = &colors.colormap {
-        words.add(format!("--colormap={name}"));
-    }
-    if colors.range != Range::Auto {
-        words.add(format!("--range={}", colors.range));
-    }
-    if colors.scale != Scale::Linear {
-        words.add(format!("--scale={}", colors.scale));
-    }
-    if colors.symmetric {
-        words.add("--symmetric");
-    }
-    if colors.contrast {
-        words.add("--extremes=contrast");
-    }
-    if let Some(bands) = colors.bands {
-        words.add(format!("--bands={bands}"));
-    }
-}
-
-fn overlays(scene: &Scene, words: &mut CommandLine) {
-    let overlays = &scene.overlays;
-    if !overlays.shown.is_empty() {
-        let names: Vec<_> = overlays.shown.iter().map(|overlay| overlay.name()).collect();
-        words.add(format!("--overlay={}", names.join(",")));
-    }
-    if let Some(levels) = &overlays.isolines {
-        words.add(format!("--isolines={levels}"));
-        if overlays.level_labels {
-            words.add("--level-labels");
-        }
-    }
-    if let Some(spacing) = overlays.arrows {
-        words.add(format!("--arrows={spacing:?}"));
-    }
-    if let Some(spacing) = overlays.crosses {
-        words.add(format!("--crosses={spacing:?}"));
-    }
 }
 
 /// A word with quotes around it if a shell would take it for something else.
@@ -138,6 +97,8 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::look::Look;
+    use crate::place::Place;
 
     #[test]
     fn words_that_a_shell_would_change_are_quoted() {
@@ -148,11 +109,11 @@ mod tests {
 
     #[test]
     fn what_is_not_chosen_is_not_said() {
-        let view = View::new(ppum::vec2::vec2(-0.5, 1e-13), 1e-12, [80, 60]).expect("a view");
-        let words = render(&Scene::default(), "-x.h5", &view, "x.png", None);
-        let line = line(&words);
+        let place = Place { center: Some([-0.5, 1e-13]), width: Some(1e-12), ..Place::default() };
+        let look = Look { size: Some([80, 60]), ..Look::default() };
+        let request = Request { look, place, ..Request::default() };
         assert_eq!(
-            line,
+            line(&render(&request, "-x.h5", "x.png")),
             "ppum render ./-x.h5 -o x.png --size=80x60 --center=-0.5,1e-13 --width=1e-12"
         );
     }

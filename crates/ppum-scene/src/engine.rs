@@ -110,8 +110,8 @@ fn no_card(
     _: Method,
     _: &dyn Watcher,
 ) -> Result<Drawn, CardError> {
-    let message = "no graphics adapter: this program was built without graphics cards".to_owned();
-    Err(CardError { message, is_normal: true })
+    let reason = "no graphics adapter: this program was built without graphics cards; the backend cpu needs none";
+    Err(CardError { message: reason.to_owned(), is_normal: true })
 }
 
 /// The reason why there are no values.

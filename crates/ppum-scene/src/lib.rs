@@ -8,6 +8,8 @@
 //! data that can be compared, kept and written. The program's commands and its window draw by this
 //! crate alone, so both draw the same.
 
+#[cfg(feature = "clap")]
+pub mod arguments;
 pub mod colors;
 pub mod command;
 pub mod compare;
@@ -19,10 +21,14 @@ pub mod export;
 #[cfg(feature = "problem")]
 pub mod facts;
 pub mod layers;
+pub mod look;
 pub mod minus;
 pub mod moving;
 pub mod notice;
 pub mod overlays;
+pub mod panels;
+pub mod place;
+pub mod placing;
 #[cfg(feature = "problem")]
 pub mod plots;
 pub mod profile;
@@ -33,6 +39,7 @@ pub mod shared;
 pub mod shot;
 pub mod spot;
 mod stations;
+pub mod still;
 pub mod table;
 mod written;
 

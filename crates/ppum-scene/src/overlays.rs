@@ -4,27 +4,58 @@ use std::fmt;
 use std::str::FromStr;
 
 use ppum::text::exact;
+#[cfg(feature = "clap")]
+use ppum_render::glyph::LEAST_SPACING;
 use serde::{Deserialize, Serialize};
 
 /// Distance of arrows and crosses if none is given, see [`Overlays::arrows`].
 pub const SPACING: f64 = 36.0;
 
-/// What is drawn over the colours.
+/// What is drawn over the colours. Distances of arrows and crosses are pixels of a bare picture of
+/// at most 1024 × 768; in larger ones and in figures they have the scale of lines and letters.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default)]
 pub struct Overlays {
-    /// In any order; each is drawn once.
+    /// What is drawn over the colours, in any number and order; a figure always shows the cracks
+    #[cfg_attr(feature = "clap", arg(long = "overlay", value_enum, value_delimiter = ','))]
     pub shown: Vec<Overlay>,
-    /// Isolines of the quantity.
+    /// Isolines of the quantity: auto for round levels, N for about so many, or the levels
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "auto|N|A,B,…", allow_hyphen_values = true)
+    )]
     pub isolines: Option<Levels>,
-    /// True if the isolines bear their levels.
+    /// Write their levels along the isolines
+    #[cfg_attr(feature = "clap", arg(long, requires = "isolines"))]
     pub level_labels: bool,
-    /// Arrows of the displacement, of a potential its gradient: their distance, in pixels of a bare
-    /// picture of at most 1024 × 768; in larger ones and in figures it has the scale of lines
-    /// and letters.
+    /// Arrows of the displacement (of a potential its gradient), so many pixels of a bare picture
+    /// apart [default: 36]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true),
+        arg(default_missing_value = SPACING_TEXT, value_parser = spacing)
+    )]
     pub arrows: Option<f64>,
-    /// Crosses of the principal stresses: their distance, as that of arrows.
+    /// Crosses of the principal stresses, so many pixels of a bare picture apart [default: 36]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true),
+        arg(default_missing_value = SPACING_TEXT, value_parser = spacing)
+    )]
     pub crosses: Option<f64>,
+}
+
+/// [`SPACING`] as an option has it.
+#[cfg(feature = "clap")]
+const SPACING_TEXT: &str = "36";
+
+/// Distance of arrows and crosses.
+#[cfg(feature = "clap")]
+fn spacing(text: &str) -> Result<f64, String> {
+    let value = crate::arguments::positive(text)?;
+    let is_apart = value >= LEAST_SPACING;
+    is_apart.then_some(value).ok_or_else(|| format!("write at least {LEAST_SPACING} pixels"))
 }
 
 /// In the order in which they are drawn, the lowest first.
@@ -186,14 +217,16 @@ impl fmt::Display for Levels {
         match self {
             Self::Auto => f.write_str("auto"),
             Self::Count(count) => write!(f, "{count}"),
-            Self::At(values) => {
-                let values: Vec<_> = values.iter().map(|value| exact(*value)).collect();
-                // one value has a comma too, to tell it from a number of levels
-                let end = if values.len() == 1 { "," } else { "" };
-                write!(f, "{}{end}", values.join(","))
-            }
+            Self::At(values) => f.write_str(&listed(values)),
         }
     }
+}
+
+/// Values with commas between; one value has a comma too, to tell it from a number of them.
+pub(crate) fn listed(values: &[f64]) -> String {
+    let texts: Vec<_> = values.iter().map(|value| exact(*value)).collect();
+    let end = if values.len() == 1 { "," } else { "" };
+    texts.join(",") + end
 }
 
 impl TryFrom<String> for Levels {
@@ -228,6 +261,12 @@ mod tests {
         for wrong in ["", ",", "0", "1001", "a", "1,a", "inf,1", "nan,"] {
             assert!(wrong.parse::<Levels>().is_err(), "{wrong}");
         }
+    }
+
+    #[cfg(feature = "clap")]
+    #[test]
+    fn the_distance_in_texts_is_that_of_programs() {
+        assert_eq!(spacing(SPACING_TEXT), Ok(SPACING));
     }
 
     #[test]

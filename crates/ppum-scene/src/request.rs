@@ -1,31 +1,120 @@
-//! All that is asked of an image, but for its place and its page: what it shows, and how that
-//! is drawn.
+//! All that is asked of an image: what it shows, where, and how that is drawn. An option of
+//! `ppum render` is a field of [`Request`] or of what it holds, once for the command line, for
+//! JSON and for [`command`](crate::command).
 
-use ppum_figure::figure::Labels;
+use ppum::field::Field;
+use ppum_figure::figure::{BarPlace, Design, Labels};
 use ppum_render::samples::Samples;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
+#[cfg(feature = "clap")]
+use crate::arguments::layout;
 use crate::engine::{Backend, Precision};
+use crate::look::Look;
+use crate::place::Place;
 use crate::scene::Scene;
 
-/// What an image shows, and how it is drawn.
+/// What an image shows, where, and how it is drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default)]
 pub struct Request {
+    /// Add axes, a colour bar, a title and the cracks
+    #[cfg_attr(feature = "clap", arg(long))]
+    pub figure: bool,
+    /// Leave out the colours and their bar: the overlays alone
+    #[cfg_attr(feature = "clap", arg(long))]
+    pub blank: bool,
+    /// Size and look of the page.
+    #[cfg_attr(feature = "clap", command(flatten))]
+    pub look: Look,
+    /// The texts of a figure that take the place of those of the program.
+    #[cfg_attr(feature = "clap", arg(skip))]
+    pub labels: Texts,
+    /// Several quantities or parts in one figure.
+    #[cfg_attr(feature = "clap", command(flatten))]
+    pub panels: Panels,
+    /// The part of the plane that is seen.
+    #[cfg_attr(feature = "clap", command(flatten))]
+    pub place: Place,
     /// What it shows.
+    #[cfg_attr(feature = "clap", command(flatten))]
     #[serde(flatten)]
     pub scene: Scene,
-    /// Each pixel shows the mean of so many samples across and down.
+    /// Show the mean of N x N values in each pixel, against jagged edges, in place of that at
+    /// its centre
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N", default_value = "1"))]
     #[serde(serialize_with = "side", deserialize_with = "samples")]
     pub samples: Samples,
-    /// True if the plate is white: overlays alone.
-    pub blank: bool,
-    /// The texts of a figure that take the place of those of the program.
-    pub labels: Texts,
-    /// What computes the values.
+    /// What computes the values
+    #[cfg_attr(feature = "clap", arg(long, value_enum, default_value = "auto"))]
     pub backend: Backend,
-    /// The precision that they are computed in, by default that of the backend.
+    /// Precision of the computation [default: that of the backend, f64 on the CPU, f32 on the GPU]
+    #[cfg_attr(feature = "clap", arg(long, value_enum))]
     pub precision: Option<Precision>,
+}
+
+/// Several quantities, or parts of a field, each in a panel of one figure.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+#[serde(default, deny_unknown_fields)]
+pub struct Panels {
+    /// The quantities, which take the place of that of the scene.
+    #[cfg_attr(feature = "clap", arg(skip))]
+    pub quantities: Vec<String>,
+    /// The parts, of which `all` is the whole field; they take the place of that of the scene.
+    #[cfg_attr(feature = "clap", arg(skip))]
+    pub parts: Vec<String>,
+    /// Panels of a figure with several quantities or parts: columns and rows [default: as large
+    /// as fits]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "CxR", value_parser = layout))]
+    pub layout: Option<[u32; 2]>,
+    /// Give all panels one range and one colour bar
+    #[cfg_attr(feature = "clap", arg(long))]
+    pub shared_range: bool,
+}
+
+/// The reason why there are no such panels.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PanelsError {
+    /// Several parts of a deformed plate.
+    #[error("several parts and the deformed plate do not go together; draw them one by one")]
+    Deformed,
+    /// A layout of no panels.
+    #[error("layout: give at least 1x1 panels")]
+    Empty,
+    /// A layout of too few panels.
+    #[error("layout: {0}x{1} has fewer panels than there are pictures, {2}", layout[0], layout[1], count)]
+    Few {
+        /// Columns and rows.
+        layout: [u32; 2],
+        /// The number of pictures.
+        count: usize,
+    },
+    /// One range for one picture.
+    #[error("a shared range is for panels; give several quantities or parts")]
+    Shared,
+}
+
+impl Panels {
+    /// Refuses what panels do not have of a scene, and what only they have of a single image.
+    ///
+    /// # Errors
+    /// Several parts of a deformed plate; one range for one image.
+    pub fn check(&self, scene: &Scene) -> Result<(), PanelsError> {
+        match () {
+            () if scene.deformed.is_some() && self.parts.len() > 1 => Err(PanelsError::Deformed),
+            () if self.shared_range && !self.are_given() => Err(PanelsError::Shared),
+            () => Ok(()),
+        }
+    }
+
+    /// True for a figure of several panels, or of one that is called so.
+    #[must_use]
+    pub fn are_given(&self) -> bool {
+        self.layout.is_some() || self.quantities.len() > 1 || self.parts.len() > 1
+    }
 }
 
 impl Default for Request {
@@ -37,13 +126,33 @@ impl Default for Request {
 impl From<Scene> for Request {
     fn from(scene: Scene) -> Self {
         Self {
+            figure: false,
+            blank: false,
+            look: Look::default(),
+            labels: Texts::default(),
+            panels: Panels::default(),
+            place: Place::default(),
             scene,
             samples: Samples::CENTER,
-            blank: false,
-            labels: Texts::default(),
             backend: Backend::default(),
             precision: None,
         }
+    }
+}
+
+impl Request {
+    /// True for a figure, of one panel or of several.
+    #[must_use]
+    pub fn is_figure(&self) -> bool {
+        self.figure || self.panels.are_given()
+    }
+
+    /// The look of a figure, of a size unless another is given, with so many panels across
+    /// and down.
+    #[must_use]
+    pub fn design(&self, field: &Field<'_>, size: [u32; 2], panels: [u32; 2]) -> Design {
+        let design = self.look.design(self.place.aspect(field), size, panels);
+        if self.blank { Design { bar: BarPlace::None, ..design } } else { design }
     }
 }
 
@@ -62,6 +171,17 @@ pub struct Texts {
 }
 
 impl Texts {
+    /// These texts, and others where they have none.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            title: self.title.or(other.title),
+            x: self.x.or(other.x),
+            y: self.y.or(other.y),
+            bar: self.bar.or(other.bar),
+        }
+    }
+
     /// The labels with those texts that are given.
     #[must_use]
     pub fn applied(&self, labels: Labels) -> Labels {

@@ -18,23 +18,44 @@ use crate::overlays::Overlays;
 /// What a picture shows. What is left out is chosen by the program: the last step, the whole field,
 /// its own functions and weight, von Mises' stress or the potential.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default)]
 pub struct Scene {
-    /// What of the dataset is looked at.
+    /// What of the dataset is looked at; programs read the formulas of its options.
+    #[cfg_attr(feature = "clap", arg(skip))]
     pub subject: Subject,
     /// A quantity, a formula of quantities, or a value of cells.
+    #[cfg_attr(feature = "clap", arg(skip))]
     pub quantity: Option<String>,
     /// The way values become colours.
+    #[cfg_attr(feature = "clap", command(flatten))]
     pub colors: Colors,
     /// What is drawn over the colours.
+    #[cfg_attr(feature = "clap", command(flatten))]
     pub overlays: Overlays,
-    /// How many times its displacement the plate is drawn with.
+    /// Draw the plate with so many times its displacement; `auto` shows the largest as some 5 % of
+    /// the plate
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "FACTOR|auto", allow_hyphen_values = true)
+    )]
     pub deformed: Option<Factor>,
-    /// True if the border of the undeformed plate is drawn with the deformed one.
+    /// Draw the border of the undeformed plate too, dashed
+    #[cfg_attr(feature = "clap", arg(long, requires = "deformed"))]
     pub outline: bool,
 }
 
 impl Scene {
+    /// The same scene without what has no meaning for it: the outline of a plate that is not
+    /// deformed, labels without isolines.
+    #[must_use]
+    pub fn settled(&self) -> Self {
+        let mut settled = self.clone();
+        settled.outline &= self.deformed.is_some();
+        settled.overlays.level_labels &= self.overlays.isolines.is_some();
+        settled
+    }
+
     /// What can be drawn of it: on the deformed plate the overlays that this has.
     #[must_use]
     pub fn drawn(&self) -> Self {

@@ -14,6 +14,7 @@ use ppum_scene::engine::Engine;
 use ppum_scene::minus::Side;
 use ppum_scene::moving::{AnimationFormat as Animation, Film, Frames as _, InMemory, Moving};
 use ppum_scene::notice::Notice;
+use ppum_scene::place::Place;
 use ppum_scene::request::Request;
 use ppum_scene::scene::Scene;
 use ppum_scene::shot::{FieldSource, page, reshaped, view_in};
@@ -170,18 +171,17 @@ impl Order {
         if self.left.is_some() {
             return Err(NO_COMMAND.into());
         }
-        let (source, request) = (self.source(), Request::from(self.scene.clone()));
-        let view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
-        let (view, page) = match self.design() {
-            None => (view, None),
-            Some(design) => {
-                let view = view_in(source, &request, &view, &design);
-                (view.map_err(|e| e.to_string())?, Some(self.size))
-            }
-        };
+        let mut request = Request::from(self.scene.clone());
+        let mut view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
+        if let Some(design) = self.design() {
+            let room = view_in(self.source(), &request, &view, &design);
+            view = room.map_err(|e| e.to_string())?;
+            request.figure = true;
+        }
+        (request.place, request.look.size) = (Place::of(&view), Some(self.size));
         let file = name(self.file.as_deref());
         let output = output.to_string_lossy();
-        let mut words = command::render(&self.scene, &file, &view, &output, page);
+        let mut words = command::render(&request, &file, &output);
         if let ExportKind::Moving(Moving::Steps(_), rate) = self.kind {
             words.retain(|word| !word.starts_with("--step="));
             words.extend(["--steps=all".to_owned(), format!("--fps={rate:?}")]);

@@ -10,17 +10,16 @@ use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum_page::{LARGEST, Start, View, html};
 use ppum_render::colormap::Colormap;
-use ppum_scene::overlays::Overlay;
+use ppum_scene::colors::Colors;
+use ppum_scene::overlays::{Overlay, Overlays};
+use ppum_scene::place::{ImageExtent, Place};
 use ppum_scene::scene::{Scene, Subject, default_quantity};
 
 use crate::dataset::{check_shown, field, named};
 use crate::given::{self, Given, parts};
 use crate::output::{Output, tell};
-use crate::overlays::Overlays;
 use crate::standard::{self, is_standard};
-use crate::subject::ColorArgs;
 use crate::target;
-use crate::window::{ImageExtent, WindowArgs};
 
 /// Write a page to explore a dataset in a browser, or a mesh for ParaView and other programs
 ///
@@ -49,9 +48,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "K")]
     step: Option<usize>,
     #[command(flatten)]
-    window: WindowArgs,
+    place: Place,
     #[command(flatten)]
-    colours: ColorArgs,
+    colors: Colors,
     #[command(flatten)]
     overlays: Overlays,
     #[command(flatten)]
@@ -114,9 +113,9 @@ impl Args {
     /// Refuses options that only pages have.
     fn check_no_look(&self) -> anyhow::Result<()> {
         ensure!(
-            !self.window.is_given()
-                && self.colours.chosen() == ppum_scene::colors::Colors::default()
-                && self.overlays.chosen() == ppum_scene::overlays::Overlays::default(),
+            !self.place.is_given()
+                && self.colors == Colors::default()
+                && self.overlays == Overlays::default(),
             "a mesh has no view, colours and overlays: these options are for pages; end -o in .html"
         );
         Ok(())
@@ -149,7 +148,7 @@ impl Args {
     fn scene(&self, field: &Field<'_>) -> anyhow::Result<Scene> {
         let quantity = self.quantity.as_deref().map(Given::read).transpose()?;
         quantity.iter().try_for_each(|given| check_shown(field, given))?;
-        let (colors, mut overlays) = (self.colours.chosen(), self.overlays.chosen());
+        let (colors, mut overlays) = (self.colors.clone(), self.overlays.clone());
         if let Some(name) = &colors.colormap {
             Colormap::named(name)
                 .context("--colormap: pages have the maps of the program alone")?;
@@ -169,11 +168,11 @@ impl Args {
 
     /// The view, if one is asked for.
     fn view(&self, field: &Field<'_>) -> anyhow::Result<Option<View>> {
-        if !self.window.is_given() {
+        if !self.place.is_given() {
             return Ok(None);
         }
         let frame = ImageExtent { pixels: SHAPE, may_shrink: false, margin: 0.0 };
-        let ppum_render::view::View { center, width, pixels } = self.window.seen(field, frame)?;
+        let ppum_render::view::View { center, width, pixels } = self.place.seen(field, frame)?;
         Ok(Some(View { center: center.into(), width, pixels }))
     }
 }

@@ -14,9 +14,9 @@ use anyhow::Context as _;
 use ppum::formula::Table;
 use ppum_solve::problem::read_table;
 
-use crate::arguments::{assignment, value};
 use crate::given::Given;
 use crate::number::json;
+use ppum_scene::arguments::{assignment, value};
 use report::Report;
 use subject::{Of, Question};
 

@@ -11,10 +11,10 @@ use ppum::vec2::Vec2;
 use serde::Serialize;
 use serde::ser::Serializer;
 
-use crate::arguments::point;
 use crate::dataset::{field, open_step, quantities};
 use crate::number::{Number, json};
 use crate::replacements::Replacements;
+use ppum_scene::arguments::point;
 
 /// Print exact values at points
 ///

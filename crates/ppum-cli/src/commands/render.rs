@@ -1,40 +1,33 @@
 //! `ppum render`: a picture of a quantity.
 
-mod panels;
+mod film;
 mod series;
 
 use std::io::Write as _;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, ensure};
 use ppum::field::Field;
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::{BarPlace, Design};
+use ppum_figure::figure::Labels;
 use ppum_render::png::Text;
-use ppum_render::samples::Samples;
+use ppum_scene::deformed::words;
+use ppum_scene::engine::Engine;
+use ppum_scene::panels::{DrawnPanels, draw};
+use ppum_scene::range::Telling;
+use ppum_scene::request::{Panels, Request};
+use ppum_scene::scene::Scene;
+use ppum_scene::shot::{FieldSource, Shot};
+use ppum_scene::still::Still;
 
-use crate::arguments::layout;
-use crate::backend::Computing;
 use crate::dataset::check_shown;
-use crate::deformed::{Deformed, Placing};
 use crate::given::Given;
-use crate::look::{DEFAULT_SIZE, LookArgs};
+use crate::look::LabelArgs;
 use crate::number::count;
 use crate::output::Output;
-use crate::overlays::Overlays;
-use crate::page;
 use crate::progress::Bar;
-use crate::subject::{ColorArgs, QuantityArgs};
-use crate::target;
-use crate::window::{ImageExtent, WindowArgs};
-use ppum_scene::deformed::{Factor, words};
-use ppum_scene::engine::Engine;
-use ppum_scene::layers::scale;
-use ppum_scene::moving::{FrameView as _, Frames, Work};
-use ppum_scene::range::Telling;
-use ppum_scene::request::Request;
-use ppum_scene::scene::{self, Scene};
-use ppum_scene::shot::{FieldSource, Shot, page_seen};
+use crate::subject::QuantityArgs;
+use crate::{graphics, page, target, threads};
 use series::SeriesArgs;
 
 /// Draw a quantity, exactly at every pixel
@@ -52,34 +45,12 @@ pub(crate) struct Args {
     #[command(flatten)]
     series: SeriesArgs,
     #[command(flatten)]
-    look: LookArgs,
-    /// Add axes, a colour bar, a title and the cracks
-    #[arg(long)]
-    figure: bool,
-    /// Leave out the colours and their bar: the overlays alone
-    #[arg(long)]
-    blank: bool,
-    /// Panels of a figure with several quantities or parts: columns and rows [default: as large
-    /// as fits]
-    #[arg(long, value_name = "CxR", value_parser = layout)]
-    layout: Option<[u32; 2]>,
-    /// Give all panels one range and one colour bar
-    #[arg(long)]
-    shared_range: bool,
+    labels: LabelArgs,
     #[command(flatten)]
-    window: WindowArgs,
-    #[command(flatten)]
-    colours: ColorArgs,
-    #[command(flatten)]
-    overlays: Overlays,
-    #[command(flatten)]
-    deformed: Deformed,
-    /// Show the mean of N x N values in each pixel, against jagged edges, in place of that at
-    /// its centre
-    #[arg(long, value_name = "N", default_value = "1")]
-    samples: Samples,
-    #[command(flatten)]
-    computing: Computing,
+    request: Request,
+    /// Number of threads of the CPU [default: all cores]; the picture does not depend on it
+    #[arg(long, value_name = "N", value_parser = threads::number)]
+    threads: Option<NonZeroUsize>,
 }
 
 const EXAMPLES: &str = "\
@@ -119,139 +90,67 @@ struct Sheet {
     told: String,
 }
 
-/// What pictures have in common, one or those of a series.
-struct Common<'a> {
-    placing: Placing<'a>,
-    design: Design,
-}
-
-/// One field, which is open: the frame of a still picture.
-struct Still<'a> {
-    source: FieldSource<'a>,
-    request: Request,
-}
-
-impl Frames for Still<'_> {
-    type Error = anyhow::Error;
-
-    fn count(&self) -> usize {
-        1
-    }
-
-    fn with(&self, _: usize, work: &mut Work<'_, anyhow::Error>) -> anyhow::Result<()> {
-        work(self.source, &self.request)
-    }
-}
-
-impl Still<'_> {
-    /// Gives the deformed plate the number of its factor.
-    fn settle(&mut self) -> anyhow::Result<()> {
-        if let Some(factor) = self.request.scene.deformed {
-            self.request.scene.deformed = Some(Factor::Given(self.factor(factor)?));
-        }
-        Ok(())
-    }
-}
-
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
         let bar = Bar::new();
-        let engine = self.computing.engine(&bar)?;
-        let made = self.computing.with_threads(|| self.made(&engine));
+        let Request { backend, precision, .. } = self.request;
+        let engine = Engine::new(backend, precision, graphics::DRAW, &bar)?;
+        let made = threads::with(self.threads, || self.made(&engine));
         page::warn(engine.into_notices());
         drop(bar);
         match made?? {
             Made::Files(told) => Ok(writeln!(out, "wrote {told}")?),
             Made::Page(Sheet { page, texts, told }) => {
-                page::save(&self.output, &page, self.look.given_dpi(), &texts, &told, out)
+                page::save(&self.output, &page, self.request.look.given_dpi(), &texts, &told, out)
             }
         }
     }
 
     fn made(&self, engine: &Engine<'_>) -> anyhow::Result<Made> {
-        self.look.check(self.is_figure())?;
-        ensure!(
-            !(self.deformed.factor.is_some() && self.subject.has_parts()),
-            "several parts and --deformed do not go together; draw them one by one"
-        );
-        ensure!(
-            self.has_panels() || !self.shared_range,
-            "--shared-range is for panels; give several quantities or parts"
-        );
+        let request = self.request(self.subject.listed());
+        self.labels.check(&request)?;
+        request.panels.check(&request.scene)?;
         if self.series.is_given() {
-            return self.all_steps(engine).map(Made::Files);
+            return self.all_steps(&request, engine).map(Made::Files);
         }
         series::refuse_moving(&self.output)?;
         target::check(&self.output, target::FileKind::Picture, self.inputs())?;
         let datasets = self.subject.open_parts()?;
         let fields = datasets.iter().map(|dataset| self.subject.field(dataset));
         let fields = fields.collect::<anyhow::Result<Vec<_>>>()?;
+        let texts = self.subject.texts()?;
+        fields.iter().try_for_each(|field| check_all(field, &texts))?;
+        let request = self.request(texts.into_iter().map(|given| given.text).collect());
         let sources = datasets.iter().zip(&fields).map(|(d, f)| FieldSource::of(d, f));
         match sources.collect::<Vec<_>>()[..] {
-            [source] if !self.has_panels() => self.one(source, engine),
-            ref sources => self.panels(sources, engine),
+            [source] if !request.panels.are_given() => self.one(source, request, engine),
+            ref sources => self.panels(sources, &request, engine),
         }
         .map(Made::Page)
     }
 
-    /// True for a figure of several panels, or of one that is called so.
-    fn has_panels(&self) -> bool {
-        self.layout.is_some() || self.subject.count() > 1
-    }
-
-    fn is_figure(&self) -> bool {
-        self.figure || self.has_panels()
-    }
-
-    /// What is asked of the picture of a step, but for the quantity and the factor of the
-    /// deformed plate.
-    fn request(&self, step: Option<usize>) -> Request {
-        let part = self.subject.replacements.part();
-        let subject = scene::Subject { step, part, ..scene::Subject::default() };
+    /// What is asked of the picture, of some quantities.
+    fn request(&self, mut quantities: Vec<String>) -> Request {
+        let quantity = (quantities.len() == 1).then(|| quantities.swap_remove(0));
+        let replacements = &self.subject.replacements;
+        let subject = replacements.subject(self.subject.step);
+        let (request, parts) = (self.request.clone(), replacements.parts());
         Request {
-            samples: self.samples,
-            blank: self.blank,
-            labels: self.look.texts(),
-            ..Request::from(Scene {
-                subject,
-                colors: self.colours.chosen(),
-                overlays: self.overlays.chosen(),
-                deformed: self.deformed.factor,
-                outline: self.deformed.outline,
-                ..Scene::default()
-            })
+            labels: self.labels.texts(),
+            panels: Panels { quantities, parts, ..request.panels },
+            scene: Scene { subject, quantity, ..request.scene },
+            ..request
         }
     }
 
-    /// The text of a quantity that the field has.
-    fn quantity(&self, field: &Field<'_>, given: Option<&Given>) -> anyhow::Result<Option<String>> {
-        // for what is wrong with it, in the words of the command line
-        given.iter().try_for_each(|given| check_shown(field, given))?;
-        Ok(given.map(|given| given.text.clone()))
-    }
-
-    /// The look of a figure, of a size unless another is given, with so many panels across
-    /// and down.
-    fn design(&self, field: &Field<'_>, size: [u32; 2], panels: [u32; 2]) -> Design {
-        let design = self.look.design(self.window.aspect(field), size, panels);
-        if self.blank { Design { bar: BarPlace::None, ..design } } else { design }
-    }
-
     /// Draws one quantity.
-    fn one(&self, source: FieldSource<'_>, engine: &Engine<'_>) -> anyhow::Result<Sheet> {
-        let mut still = Still { source, request: self.request(self.subject.step) };
-        let text = self.subject.texts()?.map(|mut texts| texts.swap_remove(0));
-        still.request.scene.quantity = self.quantity(source.field, text.as_ref())?;
-        self.one_of(&mut still, engine)
-    }
-
-    fn one_of(&self, still: &mut Still<'_>, engine: &Engine<'_>) -> anyhow::Result<Sheet> {
-        still.settle()?;
-        let Common { placing, design } = self.common(still)?;
-        let (source, request, design) =
-            (still.source, &still.request, self.figure.then_some(&design));
-        let seen = placing.seen(source, request, engine)?;
-        let (page, shot) = page_seen(source, request, &seen, design, engine)?;
+    fn one(
+        &self,
+        source: FieldSource<'_>,
+        request: Request,
+        engine: &Engine<'_>,
+    ) -> anyhow::Result<Sheet> {
+        let (page, shot) = Still::new(source, request)?.page(engine)?;
         let ([columns, rows], by) = (page.size, &shot.by);
         let colors = Telling::new(source.dataset, source.field).colors(&shot.picture);
         let (name, moved) = (&shot.name, deformation_note(&shot));
@@ -259,34 +158,38 @@ impl Args {
         Ok(Sheet { texts: self.texts(&shot), page, told })
     }
 
-    /// What pictures of all frames have in common.
-    fn common<F: Frames<Error = anyhow::Error>>(&self, frames: &F) -> anyhow::Result<Common<'_>> {
-        let mut design = None;
-        frames.each(&mut |source, _| {
-            design.get_or_insert_with(|| self.design(source.field, DEFAULT_SIZE, [1, 1]));
-            Ok(())
-        })?;
-        let design = design.context("--steps: there is no step")?;
-        let room = if self.figure { frames.room(&design)? } else { design.size };
-        Ok(Common { placing: self.placing(frames, self.frame(room, &design))?, design })
+    /// Draws each quantity of each plate in a panel.
+    fn panels(
+        &self,
+        sources: &[FieldSource<'_>],
+        request: &Request,
+        engine: &Engine<'_>,
+    ) -> anyhow::Result<Sheet> {
+        let drawn = draw(sources, request, engine)?;
+        let (replacements, shot) = (&self.subject.replacements, &drawn.shots[0]);
+        let mut texts = drawn.texts(&self.subject.file_name());
+        texts.extend(replacements.notes().chain(shot.notes()));
+        let names = [drawn.names.clone()].into_iter().chain(replacements.captions());
+        let names = names.collect::<Vec<_>>().join(", ");
+        let ([columns, rows], by) = (drawn.page.size, &shot.by);
+        let moved = deformation_note(shot);
+        let colors = self.colors(&Telling::new(sources[0].dataset, sources[0].field), &drawn);
+        let told = format!("{names}{moved}, {columns}x{rows} pixels, {by}{colors}");
+        Ok(Sheet { page: drawn.page, texts, told })
     }
 
-    /// Where all frames are seen, whose factor is a number if they are deformed.
-    fn placing<F: Frames<Error = anyhow::Error>>(
-        &self,
-        frames: &F,
-        frame: ImageExtent,
-    ) -> anyhow::Result<Placing<'_>> {
-        let mut found = None;
-        frames.with(0, &mut |_, request| {
-            found = request.scene.deformed;
-            Ok(())
-        })?;
-        let deformed = match found {
-            Some(Factor::Given(factor)) => frames.bounds()?.map(|bounds| (factor, bounds)),
-            _ => None,
+    /// What the colours of each panel mean, in lines of their own; those of one range once.
+    fn colors(&self, telling: &Telling<'_>, drawn: &DrawnPanels) -> String {
+        let has_parts = self.subject.has_parts();
+        let line = |(shot, labels): (&Shot, &Labels)| {
+            let letter = labels.title.split(' ').next().filter(|_| has_parts).unwrap_or_default();
+            let name = format!("{letter} {}", shot.name);
+            format!("\n  {}: {}", name.trim_start(), telling.colors(&shot.picture))
         };
-        Ok(Placing { window: &self.window, frame, deformed })
+        if drawn.is_shared {
+            return format!("\n  {}", telling.colors(&drawn.shots[0].picture));
+        }
+        drawn.shots.iter().zip(&drawn.labels).map(line).collect()
     }
 
     /// The texts of a picture's file: what it shows, and what was done to the dataset and
@@ -299,16 +202,14 @@ impl Args {
 
     /// The files that are read.
     fn inputs(&self) -> impl Iterator<Item = &Path> {
-        self.subject.inputs().chain(self.colours.input())
+        let map = self.request.scene.colors.colormap.as_deref().map(Path::new);
+        self.subject.inputs().chain(map)
     }
+}
 
-    /// The room of a picture of so many pixels.
-    fn frame(&self, pixels: [u32; 2], design: &Design) -> ImageExtent {
-        // A figure centres what it is given; a bare picture has the size that was asked for.
-        let may_shrink = self.is_figure() || self.look.given_size().is_none();
-        let scale = scale(self.is_figure().then_some(design), pixels);
-        ImageExtent { pixels, may_shrink, margin: self.overlays.chosen().margin(pixels, scale) }
-    }
+/// Refuses quantities that a field does not have, in the words of the command line.
+fn check_all(field: &Field<'_>, texts: &[Given]) -> anyhow::Result<()> {
+    texts.iter().try_for_each(|given| check_shown(field, given))
 }
 
 /// Of the deformed plate the factor, and at how many pixels it lies over itself.
@@ -320,5 +221,181 @@ fn deformation_note(shot: &Shot) -> String {
             let pixels = count(n, "pixel", "pixels");
             format!(", {factor}, over itself at {pixels} (hatched)")
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ffi::OsString;
+
+    use ppum_render::range::Range;
+    use ppum_render::samples::Samples;
+    use ppum_render::scale::Scale;
+    use ppum_scene::colors::Colors;
+    use ppum_scene::command;
+    use ppum_scene::deformed::Factor;
+    use ppum_scene::engine::{Backend, Precision};
+    use ppum_scene::look::{BarName, Look, ThemeName};
+    use ppum_scene::overlays::{Levels, Overlay, Overlays};
+    use ppum_scene::place::Place;
+    use ppum_scene::request::Texts;
+    use ppum_scene::scene::Subject;
+    use ppum_testkit::random::Random;
+
+    use super::*;
+    use crate::cli::{Cli, Command};
+
+    fn maybe<T>(random: &mut Random, make: impl FnOnce(&mut Random) -> T) -> Option<T> {
+        (random.below(2) == 0).then(|| make(random))
+    }
+
+    fn is(random: &mut Random) -> bool {
+        random.below(2) == 0
+    }
+
+    fn text(random: &mut Random, texts: &[&str]) -> String {
+        random.pick(texts).to_owned()
+    }
+
+    fn pairs(random: &mut Random, name: &str) -> Vec<(String, String)> {
+        let formulas = ["r*(1 + y)", "-x == 2", "max(x, 'y')"];
+        let pair = |k| (format!("{name} {k}"), text(random, &formulas));
+        (0..2).map(pair).filter(|(_, formula)| formula != formulas[0]).collect()
+    }
+
+    fn place(random: &mut Random) -> Place {
+        let [a, b, c, d] = [(); 4].map(|()| random.between(-2.0, 2.0));
+        let width = 10f64.powf(random.between(-12.0, 1.0));
+        match random.below(4) {
+            0 => Place::default(),
+            1 => Place { view: Some([a, b, c, d]), ..Place::default() },
+            2 => Place { center: Some([a, b]), width: Some(width), ..Place::default() },
+            _ => {
+                let zoom = maybe(random, |_| 1.0 / width);
+                Place { tip: Some(random.below(9)), zoom, ..Place::default() }
+            }
+        }
+    }
+
+    fn look(random: &mut Random) -> Look {
+        let size = maybe(random, |r| [r.below(4000) as u32 + 1, 7]);
+        let inches = maybe(random, |r| [r.between(0.1, 9.0), 2.0]);
+        let ticks = ["x=5", "y=auto", "bar=-1.0,0.25", "bar=3.0,"];
+        let ticks = ticks.iter().filter(|_| is(random)).map(|text| text.parse().unwrap()).collect();
+        Look {
+            size: size.filter(|_| inches.is_none()),
+            inches,
+            dpi: maybe(random, |r| r.between(50.0, 600.0)),
+            font_size: maybe(random, |r| r.between(5.0, 20.0)),
+            theme: maybe(random, |r| r.pick(&[ThemeName::Light, ThemeName::Dark])),
+            transparent: is(random),
+            bar: maybe(random, |r| r.pick(&[BarName::Auto, BarName::Bottom, BarName::None])),
+            ticks,
+        }
+    }
+
+    fn colors(random: &mut Random) -> Colors {
+        let ranges = [Range::Full, Range::Fixed(-0.125, 3.0), Range::Percentiles(2.0, 97.5)];
+        Colors {
+            colormap: maybe(random, |r| text(r, &["vik_r", "a file.json"])),
+            range: maybe(random, |r| r.pick(&ranges)).unwrap_or_default(),
+            scale: random.pick(&[Scale::Linear, Scale::Log, Scale::SymLog]),
+            contrast: is(random),
+            bands: maybe(random, |r| r.below(1000) as u16 + 1),
+            symmetric: is(random),
+        }
+    }
+
+    fn overlays(random: &mut Random) -> Overlays {
+        let levels = [Levels::Auto, Levels::Count(5), Levels::At(vec![-0.75])];
+        let isolines = maybe(random, |r| levels[r.below(3)].clone());
+        Overlays {
+            shown: (0..random.below(4)).map(|_| random.pick(&Overlay::ALL)).collect(),
+            level_labels: isolines.is_some() && is(random),
+            isolines,
+            arrows: maybe(random, |r| r.between(20.0, 50.0)),
+            crosses: maybe(random, |_| 36.0),
+        }
+    }
+
+    fn scene(random: &mut Random) -> Scene {
+        let factors = [Factor::Auto, Factor::Given(-0.013)];
+        let deformed = maybe(random, |r| r.pick(&factors));
+        let subject = Subject {
+            step: maybe(random, |r| r.below(99)),
+            part: maybe(random, |r| text(r, &["smooth", "patch:7"])),
+            functions: pairs(random, "westergaard"),
+            weight: maybe(random, |r| text(r, &["bump", "-t + 1"])),
+            quantities: pairs(random, "stretch"),
+        };
+        Scene {
+            subject,
+            quantity: maybe(random, |r| text(r, &["-uy", "max(ux, hypot(uy, 1))", "patch:level"])),
+            colors: colors(random),
+            overlays: overlays(random),
+            outline: deformed.is_some() && is(random),
+            deformed,
+        }
+    }
+
+    fn panels(random: &mut Random, scene: &mut Scene) -> Panels {
+        let list = |texts: &[&str]| texts.iter().map(|&text| text.to_owned()).collect::<Vec<_>>();
+        let quantities = maybe(random, |_| list(&["ux", "max(ux, uy)", "-s1"])).unwrap_or_default();
+        let parts = maybe(random, |_| list(&["all", "jump", "patch:3"])).unwrap_or_default();
+        scene.quantity = scene.quantity.take().filter(|_| quantities.is_empty());
+        scene.subject.part = scene.subject.part.take().filter(|_| parts.is_empty());
+        let layout = maybe(random, |r| [r.below(5) as u32, 2]);
+        Panels { quantities, parts, layout, shared_range: is(random) }
+    }
+
+    fn request(random: &mut Random) -> Request {
+        let mut scene = scene(random);
+        let label =
+            |random: &mut Random| maybe(random, |r| text(r, &["", "a, b = 'c'", "σ [GPa]"]));
+        Request {
+            figure: is(random),
+            blank: is(random),
+            look: look(random),
+            labels: Texts {
+                title: label(random),
+                x: label(random),
+                y: label(random),
+                bar: label(random),
+            },
+            panels: panels(random, &mut scene),
+            place: place(random),
+            scene,
+            samples: Samples::new(random.below(16) as u8 + 1).unwrap(),
+            backend: random.pick(&Backend::ALL),
+            precision: maybe(random, |r| r.pick(&[Precision::F32, Precision::F64])),
+        }
+    }
+
+    /// A request as the words of a command line ask for it.
+    fn asked(words: &[String]) -> Request {
+        let words = words.iter().map(OsString::from);
+        let cli = Cli::understood(words).unwrap_or_else(|error| panic!("{error}"));
+        let Command::Render(args) = cli.command else { panic!("another command") };
+        args.request(args.subject.listed())
+    }
+
+    /// Every option of an image is in the words of its command, and means there what it meant.
+    #[test]
+    fn requests_come_back_from_their_commands() {
+        let mut random = Random(37);
+        let mut said = std::collections::BTreeSet::new();
+        for _ in 0..300 {
+            let request = request(&mut random);
+            let words = command::render(&request, "-plate.h5", "out.png");
+            assert_eq!(asked(&words), request, "{}", command::line(&words));
+            let names = words.iter().filter_map(|word| word.strip_prefix("--"));
+            said.extend(names.map(|word| word.split('=').next().unwrap().to_owned()));
+        }
+        let known = Cli::whole();
+        let known = known.find_subcommand("render").unwrap().get_arguments();
+        let not_of_images = ["output", "steps", "fps", "threads", "help"];
+        let known: Vec<_> = known.filter_map(clap::Arg::get_long).collect();
+        let known = known.iter().filter(|name| !not_of_images.contains(name));
+        assert_eq!(said, known.map(|&name| name.to_owned()).collect());
     }
 }

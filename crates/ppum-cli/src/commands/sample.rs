@@ -12,7 +12,6 @@ use ppum::sample;
 use ppum::vec2::Rect;
 use ppum_scene::table::Table;
 
-use crate::arguments::{corners, size};
 use crate::dataset::{field, open_step, quantities};
 use crate::given::{self, parts};
 use crate::output::Output;
@@ -20,6 +19,7 @@ use crate::profile::{Profile, check_grid, listed, save};
 use crate::replacements::Replacements;
 use crate::standard::is_standard;
 use crate::target;
+use ppum_scene::arguments::{corners, size};
 
 /// Write exact values along a line, a crack or a circle, at points or on a grid
 ///

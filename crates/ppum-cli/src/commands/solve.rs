@@ -15,7 +15,6 @@ use ppum_solve::report::{LinearKind, SolverReport, StopReason};
 use ppum_solve::solve::Plan;
 use serde::Serialize;
 
-use crate::arguments::positive;
 use crate::memory;
 use crate::number::{Number, count, json};
 use crate::output::Output;
@@ -25,6 +24,7 @@ use crate::target;
 use crate::threads;
 use crate::tips::table;
 use crate::warnings::warn;
+use ppum_scene::arguments::positive;
 
 /// Solve a problem and write the dataset
 #[derive(Debug, clap::Args)]

@@ -5,7 +5,7 @@ use ppum_gpu::{AdapterChoice, AdapterInfo, Gpu, GpuError, RenderError, Renderer}
 use ppum_render::raster::Raster;
 use ppum_render::samples::{Means, Samples};
 use ppum_scene::drawing::{DrawingInput, Drawn};
-use ppum_scene::engine::{CardError, Device, Method};
+use ppum_scene::engine::{CardError, Device, DrawOnCard, Method};
 
 use super::Adapter;
 
@@ -15,8 +15,11 @@ fn failure(error: &RenderError) -> CardError {
     CardError { message: message(error), is_normal }
 }
 
+/// What draws.
+pub(crate) const DRAW: Option<DrawOnCard> = Some(draw);
+
 /// Draws the means of so many samples a pixel. After an error the CPU may try.
-pub(crate) fn draw(
+fn draw(
     job: DrawingInput<'_>,
     samples: Samples,
     device: Device,

@@ -66,7 +66,7 @@ fn what_pages_do_not_have_is_refused() {
         ("plate.h5 -o page.html --step 1", "no step 1"),
         ("plate.h5 -o page.html --colormap map.json", "maps of the program alone"),
         ("plate.h5 -o page.html --overlay supports", "no supports and loads"),
-        ("plate.h5 -o page.html --tip 9", "--tip 9"),
+        ("plate.h5 -o page.html --tip 9", "no tip 9: the dataset has 2 tips"),
         ("plate.h5 -o page.html --center 90,90 --width 1", "shows nothing of the domain"),
     ] {
         let complaint = lab.fail(&format!("export {arguments}"));

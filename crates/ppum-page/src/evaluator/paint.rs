@@ -14,7 +14,9 @@ use ppum_scene::command;
 use ppum_scene::drawing::{BodyView, Drawn, PROCESSOR, RasterValues, Shown};
 use ppum_scene::engine::Engine;
 use ppum_scene::layers::{Ground, Layers};
+use ppum_scene::place::Place;
 use ppum_scene::range::Telling;
+use ppum_scene::request::Request;
 use ppum_scene::shared::Coloring;
 use ppum_scene::shot::Input;
 use ppum_scene::spot::number;
@@ -146,8 +148,10 @@ impl Painting<'_> {
     }
 
     fn command(&self) -> String {
-        let Frame { scene, file, .. } = self.frame;
-        command::line(&command::render(scene, file, self.seen.view(), "image.png", None))
+        let (Frame { scene, file, .. }, view) = (self.frame, self.seen.view());
+        let mut request = Request::from(scene.clone());
+        (request.place, request.look.size) = (Place::of(view), Some(view.pixels));
+        command::line(&command::render(&request, file, "image.png"))
     }
 
     /// The colour bar, without notices.

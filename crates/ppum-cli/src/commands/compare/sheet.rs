@@ -15,10 +15,11 @@ use ppum_render::raster::Raster;
 use ppum_render::resample::Interpolation;
 use ppum_render::resample::norms::difference;
 use ppum_scene::compare::signed;
+use ppum_scene::look::{LONG, Look};
+use ppum_scene::panels::letters;
 
 use super::Args;
 use super::measure::{ComparisonInput, Measurements, name};
-use crate::look::{LONG, LookArgs, letters};
 use crate::progress::Bar;
 
 /// The panels of the page and their arrangement.
@@ -48,7 +49,7 @@ impl Layout {
         labels: &Labels,
         methods: &[Option<Interpolation>],
     ) -> Self {
-        let aspect = args.window.aspect(field);
+        let aspect = args.place.aspect(field);
         let is_long = aspect.is_some_and(|aspect| aspect > LONG);
         let panels = Shows::all(methods.len(), is_long);
         let [across, down] = match (methods.len(), is_long) {
@@ -57,8 +58,7 @@ impl Layout {
             (count, false) => [count as u32 + 1, 2],
             (count, true) => [2, count as u32 + 1],
         };
-        let design =
-            args.look.design(aspect, LookArgs::page(aspect, [across, down]), [across, down]);
+        let design = args.look.design(aspect, Look::page(aspect, [across, down]), [across, down]);
         let names: Vec<String> = methods.iter().map(|method| name(*method, args.grid)).collect();
         let words = |(number, shows): (usize, &Shows)| {
             let (caption, quantity) = match *shows {

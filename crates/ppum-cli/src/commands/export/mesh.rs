@@ -14,13 +14,13 @@ use ppum_scene::export::{
 };
 use sha2::{Digest as _, Sha256};
 
-use crate::arguments::positive;
 use crate::dataset::{field, quantity};
 use crate::given::parts;
 use crate::number::count;
 use crate::output::{Output, tell};
 use crate::progress::Bar;
 use crate::target;
+use ppum_scene::arguments::positive;
 
 /// What a mesh has to resolve.
 #[derive(Debug, clap::Args)]

@@ -7,7 +7,6 @@ use ppum::dataset::Dataset;
 use ppum_figure::plot::{LEAST, Plot, plot};
 use ppum_scene::plots::{self, PlotError, Profiles};
 
-use crate::arguments::page as page_size;
 use crate::dataset::{field, open, open_results, open_step, quantities};
 use crate::given::{self, parts};
 use crate::output::{Output, tell};
@@ -15,6 +14,7 @@ use crate::page;
 use crate::profile::Profile;
 use crate::standard::{self, is_standard};
 use crate::target;
+use ppum_scene::arguments::page as page_size;
 
 /// Plot exact values along a line, a crack or a circle, around a tip, or how a solution came about
 ///

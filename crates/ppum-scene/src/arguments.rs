@@ -1,4 +1,4 @@
-//! Arguments that are more than a word or a number.
+//! Arguments of options that are more than a word or a number, as people write them.
 
 use ppum::vec2::{Rect, Vec2};
 
@@ -10,57 +10,84 @@ fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
 }
 
 /// `X,Y`.
-pub(crate) fn point(text: &str) -> Result<Vec2, String> {
+///
+/// # Errors
+/// Anything else.
+pub fn point(text: &str) -> Result<Vec2, String> {
     numbers(text).map(Vec2::from).ok_or_else(|| "write two finite numbers: X,Y".into())
 }
 
 /// `X0,Y0,X1,Y1`: two opposite corners.
-pub(crate) fn corners(text: &str) -> Result<Rect, String> {
+///
+/// # Errors
+/// Anything else.
+pub fn corners(text: &str) -> Result<Rect, String> {
     let [a, b] = ends(text)?;
     Ok(Rect::new(a.min(b), a.max(b)))
 }
 
 /// `X0,Y0,X1,Y1`: two points.
-pub(crate) fn ends(text: &str) -> Result<[Vec2; 2], String> {
+///
+/// # Errors
+/// Anything else.
+pub fn ends(text: &str) -> Result<[Vec2; 2], String> {
     let [x0, y0, x1, y1] = numbers(text).ok_or("write four finite numbers: X0,Y0,X1,Y1")?;
     Ok([Vec2::from([x0, y0]), Vec2::from([x1, y1])])
 }
 
 /// `X,Y,R`: centre and radius of a circle.
-pub(crate) fn circle(text: &str) -> Result<(Vec2, f64), String> {
+///
+/// # Errors
+/// Anything else; a radius that is not above zero.
+pub fn circle(text: &str) -> Result<(Vec2, f64), String> {
     let [x, y, r] = numbers(text).ok_or("write three finite numbers: X,Y,R")?;
     if r > 0.0 { Ok((Vec2::from([x, y]), r)) } else { Err("the radius is not above zero".into()) }
 }
 
 /// An angle in degrees, from −180 to 180.
-pub(crate) fn degrees(text: &str) -> Result<f64, String> {
+///
+/// # Errors
+/// Anything else.
+pub fn degrees(text: &str) -> Result<f64, String> {
     let value = numbers(text).map(|[v]| v).filter(|v| (-180.0..=180.0).contains(v));
     value.ok_or_else(|| "write an angle from -180 to 180 degrees".into())
 }
 
 /// `WxH`: columns and rows.
-pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
+///
+/// # Errors
+/// Anything else.
+pub fn size(text: &str) -> Result<[u32; 2], String> {
     let parts = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     parts.ok_or_else(|| "write two whole numbers: WIDTHxHEIGHT, e.g. 1024x768".into())
 }
 
 /// `CxR`: columns and rows of panels.
-pub(crate) fn layout(text: &str) -> Result<[u32; 2], String> {
+///
+/// # Errors
+/// Anything else.
+pub fn layout(text: &str) -> Result<[u32; 2], String> {
     size(text).map_err(|_| "write the numbers of columns and rows: CxR, e.g. 2x2".into())
 }
 
 /// `WxH`: width and height, in inches.
-pub(crate) fn inches(text: &str) -> Result<[f64; 2], String> {
+///
+/// # Errors
+/// Anything else.
+pub fn inches(text: &str) -> Result<[f64; 2], String> {
     let parts =
         text.split_once('x').and_then(|(w, h)| Some([positive(w).ok()?, positive(h).ok()?]));
     parts.ok_or_else(|| "write two numbers above zero: WIDTHxHEIGHT, e.g. 3.4x2.6".into())
 }
 
 /// Most pixels of a page of plots and panels: a quarter of a gigabyte.
-pub(crate) const MOST_OF_PAGE: u64 = 1 << 26;
+pub const MOST_OF_PAGE: u64 = 1 << 26;
 
 /// `WxH` of a page, which is drawn whatever is on it.
-pub(crate) fn page(text: &str) -> Result<[u32; 2], String> {
+///
+/// # Errors
+/// Anything else; more pixels than [`MOST_OF_PAGE`].
+pub fn page(text: &str) -> Result<[u32; 2], String> {
     let [columns, rows] = size(text)?;
     if u64::from(columns) * u64::from(rows) > MOST_OF_PAGE {
         return Err(format!("at most {MOST_OF_PAGE} pixels, such as 8192x8192"));
@@ -69,13 +96,19 @@ pub(crate) fn page(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// A finite number above zero.
-pub(crate) fn positive(text: &str) -> Result<f64, String> {
+///
+/// # Errors
+/// Anything else.
+pub fn positive(text: &str) -> Result<f64, String> {
     let value = numbers(text).map(|[v]| v).filter(|&v| v > 0.0);
     value.ok_or_else(|| "write a finite number above zero".into())
 }
 
 /// `NAME=TEXT`.
-pub(crate) fn assignment(text: &str) -> Result<(String, String), String> {
+///
+/// # Errors
+/// Anything else; an empty name or text.
+pub fn assignment(text: &str) -> Result<(String, String), String> {
     let parts = text.split_once('=').map(|(name, value)| (name.trim(), value.trim()));
     let [name, value] = parts
         .filter(|(name, value)| !name.is_empty() && !value.is_empty())
@@ -85,7 +118,10 @@ pub(crate) fn assignment(text: &str) -> Result<(String, String), String> {
 }
 
 /// `NAME=VALUE`; the value may be infinite.
-pub(crate) fn value(text: &str) -> Result<(String, f64), String> {
+///
+/// # Errors
+/// Anything else.
+pub fn value(text: &str) -> Result<(String, f64), String> {
     let (name, value) = assignment(text).map_err(|_| "write NAME=VALUE".to_owned())?;
     value.parse().map(|value| (name, value)).map_err(|_| format!("`{value}` is not a number"))
 }

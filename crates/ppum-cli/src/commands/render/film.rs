@@ -1,0 +1,181 @@
+//! Several steps: numbered pictures or a moving one, with one range, one size, one factor
+//! of deformation.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, ensure};
+use ppum::text::{apart, trimmed};
+use ppum_render::png::Text;
+use ppum_scene::deformed::{Factor, words};
+use ppum_scene::engine::Engine;
+use ppum_scene::moving::{Film, Frames, Work};
+use ppum_scene::notice::Notice;
+use ppum_scene::request::Request;
+use ppum_scene::shot::{FieldSource, Shot};
+use ppum_scene::still::Common;
+
+use super::series::form;
+use super::{Args, check_all};
+use crate::dataset::{field, named, series};
+use crate::given::Given;
+use crate::number::count;
+use crate::standard::is_standard;
+use crate::{page, progress, target};
+
+/// The file of a step's picture: `name-007.png`, with as many digits as the last step of the
+/// dataset has, three at least.
+fn numbered(path: &Path, step: usize, all: usize) -> PathBuf {
+    let width = all.saturating_sub(1).to_string().len().max(3);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-{step:0width$}.{extension}"))
+}
+
+impl Args {
+    /// Draws the steps that are asked for, and returns what is told of them.
+    pub(super) fn all_steps(
+        &self,
+        request: &Request,
+        engine: &Engine<'_>,
+    ) -> anyhow::Result<String> {
+        let path = &self.output;
+        ensure!(!is_standard(path), "-o -: pictures of steps go to files; give a name with -o");
+        ensure!(
+            !request.panels.are_given(),
+            "several panels and --steps do not go together yet; draw those of each step with --step"
+        );
+        let all = series(&self.subject.file)?;
+        let steps = self.series.of(all.len())?;
+        self.check_files(&steps, all.len())?;
+        let bars = progress::NestedBars::new(steps.len());
+        let texts = self.subject.texts()?;
+        let request = self.request(texts.iter().map(|given| given.text.clone()).collect());
+        let mut reel = Reel { args: self, all, steps, texts, request: request.clone(), bars };
+        if let Some(factor) = request.scene.deformed {
+            reel.request.scene.deformed = Some(Factor::Given(reel.factor(factor)?));
+        }
+        let Common { placing, design } = Common::new(&reel, &request)?;
+        let film = Film::new(&reel, &placing, design.as_ref(), engine)?;
+        self.write(&reel, &film, engine)
+    }
+
+    /// Refuses files that could not be written.
+    fn check_files(&self, steps: &[usize], all: usize) -> anyhow::Result<()> {
+        let path = &self.output;
+        if form(path).is_some() {
+            return target::check(path, target::FileKind::Animation, self.inputs());
+        }
+        let check = |&step| {
+            target::check(&numbered(path, step, all), target::FileKind::Picture, self.inputs())
+        };
+        steps.iter().try_for_each(check)
+    }
+
+    /// Writes the files, and returns what is told of them.
+    fn write(
+        &self,
+        reel: &Reel<'_>,
+        film: &Film<'_, Reel<'_>>,
+        engine: &Engine<'_>,
+    ) -> anyhow::Result<String> {
+        let path = &self.output;
+        let Some(form) = form(path) else {
+            let (files, size) = self.pictures(reel, film, engine)?;
+            return Ok(format!("{files}{}", reel.summary(film, size)));
+        };
+        let texts = |first: &Shot| self.texts_of_all(reel, film, first);
+        let time = self.series.time();
+        let mut size = [0; 2];
+        target::stream(path, |out| {
+            size = film.write(form, time, &texts, out)?;
+            Ok(())
+        })?;
+        let rate = trimmed(self.series.rate());
+        Ok(format!("{}: {rate} a second, {}", path.display(), reel.summary(film, size)))
+    }
+
+    /// Writes a picture of each step, and returns their names and their size.
+    fn pictures(
+        &self,
+        reel: &Reel<'_>,
+        film: &Film<'_, Reel<'_>>,
+        engine: &Engine<'_>,
+    ) -> anyhow::Result<(String, [u32; 2])> {
+        let path = |part: usize| numbered(&self.output, reel.steps[part], reel.all.len());
+        let form = ppum_figure::form::PageFormat::of(&self.output);
+        let mut size = [0; 2];
+        for part in 0..reel.steps.len() {
+            let (page, shot) = film.page(part)?;
+            Notice::of_glyphs(&page, form).into_iter().for_each(|notice| engine.tell(notice));
+            size = page.size;
+            page::write(&path(part), &page, self.request.look.given_dpi(), &self.texts(&shot))?;
+        }
+        let names = match reel.steps.len() {
+            1 => format!("{}: ", path(0).display()),
+            n => format!("{} to {}: ", path(0).display(), path(n - 1).display()),
+        };
+        Ok((names, size))
+    }
+
+    /// What the texts of the first picture say of all.
+    fn texts_of_all(&self, reel: &Reel<'_>, film: &Film<'_, Reel<'_>>, first: &Shot) -> Vec<Text> {
+        let is_own = |key: &str| match key {
+            "ppum:step" | "ppum:load" => true,
+            "ppum:view" => film.views.iter().any(|view| *view != film.views[0]),
+            _ => false,
+        };
+        let mut texts = self.texts(first);
+        texts.retain(|(key, _)| !is_own(key));
+        let list: Vec<String> = reel.steps.iter().map(usize::to_string).collect();
+        texts.push(("ppum:step".to_owned(), list.join(",")));
+        texts
+    }
+}
+
+/// The steps that are drawn, each read when it is needed: none but one is in memory.
+struct Reel<'a> {
+    args: &'a Args,
+    all: ppum_format::Series,
+    steps: Vec<usize>,
+    texts: Vec<Given>,
+    /// What is asked of each; the factor of deformed plates is a number once it is known.
+    request: Request,
+    bars: progress::NestedBars,
+}
+
+impl Frames for Reel<'_> {
+    type Error = anyhow::Error;
+
+    fn count(&self) -> usize {
+        self.steps.len()
+    }
+
+    fn with(&self, part: usize, work: &mut Work<'_, anyhow::Error>) -> anyhow::Result<()> {
+        self.bars.begin(part);
+        let (args, step) = (self.args, self.steps[part]);
+        let at = || format!("step {step}");
+        let mut dataset = named(&args.subject.file, self.all.at(step))?;
+        args.subject.replacements.apply(&mut dataset, Some(step)).with_context(at)?;
+        let field = field(&dataset, Some(step)).with_context(at)?;
+        check_all(&field, &self.texts)?;
+        let mut request = self.request.clone();
+        request.scene.subject.step = Some(step);
+        work(FieldSource::of(&dataset, &field), &request)
+    }
+}
+
+impl Reel<'_> {
+    /// The summary of all steps that is printed.
+    fn summary(&self, film: &Film<'_, Reel<'_>>, [columns, rows]: [u32; 2]) -> String {
+        let moved = match self.request.scene.deformed {
+            Some(Factor::Given(factor)) => format!(", {}", words(factor)),
+            _ => String::new(),
+        };
+        let (name, by) = (&film.name, &film.by);
+        let steps = count(self.steps.len(), "step", "steps");
+        let [from, to] = apart(film.coloring.span.min, film.coloring.span.max);
+        format!(
+            "{name}{moved}, {steps}, {columns}x{rows} pixels, colours from {from} to {to}, {by}"
+        )
+    }
+}

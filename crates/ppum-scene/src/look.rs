@@ -1,0 +1,265 @@
+//! Size and look of images and figures, as data.
+
+use std::fmt;
+use std::str::FromStr;
+
+use ppum_figure::figure::{BarPlace, Design, Theme, TickChoice};
+use serde::{Deserialize, Serialize};
+
+#[cfg(feature = "clap")]
+use crate::arguments::{inches, positive, size};
+use crate::overlays::listed;
+
+/// Size and look of an image; what only figures have is refused of others by
+/// [`Look::of_figures`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+#[serde(default, deny_unknown_fields)]
+pub struct Look {
+    /// Size of the page in pixels [default: 1024x768, a bare picture of the whole domain takes its
+    /// shape; of `compare` and of panels 660x600 for each panel]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "WxH", value_parser = size, conflicts_with = "inches")
+    )]
+    pub size: Option<[u32; 2]>,
+    /// Size of the picture on paper, in inches
+    #[cfg_attr(feature = "clap", arg(long, value_name = "WxH", value_parser = inches))]
+    pub inches: Option<[f64; 2]>,
+    /// Pixels per inch [default: 300 with --inches, else 96]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = positive))]
+    pub dpi: Option<f64>,
+    /// Size of the letters of a figure in points [default: 9 with --inches, else with the size
+    /// in pixels]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "PT", value_parser = positive))]
+    pub font_size: Option<f64>,
+    /// Colours around the picture of a figure [default: light]
+    #[cfg_attr(feature = "clap", arg(long, value_enum))]
+    pub theme: Option<ThemeName>,
+    /// Leave out the colour of a figure's page
+    #[cfg_attr(feature = "clap", arg(long))]
+    pub transparent: bool,
+    /// Place of a figure's colour bar [default: auto, below long plates]
+    #[cfg_attr(feature = "clap", arg(long, value_enum))]
+    pub bar: Option<BarName>,
+    /// Marks of a figure: auto, about how many, or at which values; of the colour bar, or with x=
+    /// or y= in front of an axis
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "[x=|y=]auto|N|A,B,…", allow_hyphen_values = true)
+    )]
+    pub ticks: Vec<AxisTicks>,
+}
+
+/// The colours around the picture of a figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[serde(rename_all = "lowercase")]
+pub enum ThemeName {
+    /// Dark on white
+    Light,
+    /// Light on black
+    Dark,
+}
+
+/// The place of a figure's colour bar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[serde(rename_all = "lowercase")]
+#[expect(missing_docs, reason = "the names say all, and clap would show more")]
+pub enum BarName {
+    /// Below long plates, else right
+    Auto,
+    Right,
+    Bottom,
+    None,
+}
+
+/// Marks of an axis or of the colour bar, written `x=5`, `y=auto` or `bar=0,1`; those of the bar
+/// may be written without its name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct AxisTicks {
+    axis: LabelledAxis,
+    choice: TickChoice,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum LabelledAxis {
+    X,
+    Y,
+    Bar,
+}
+
+/// Size of pictures if nothing is said.
+pub const DEFAULT_SIZE: [u32; 2] = [1024, 768];
+/// Size of a panel if no size is given, also of long plates.
+const PANEL: [u32; 2] = [660, 600];
+const LONG_PANEL: [u32; 2] = [900, 330];
+/// Panels side by side that pages grow with.
+const MOST_PANELS: u32 = 12;
+/// Length over height of what counts as long.
+pub const LONG: f64 = 2.2;
+const PRINT_DPI: f64 = 300.0;
+const SCREEN_DPI: f64 = 96.0;
+
+impl Look {
+    /// The names of options that are for figures alone, and true for those that are given.
+    #[must_use]
+    pub fn of_figures(&self) -> [(&'static str, bool); 5] {
+        [
+            ("font-size", self.font_size.is_some()),
+            ("theme", self.theme.is_some()),
+            ("transparent", self.transparent),
+            ("bar", self.bar.is_some()),
+            ("ticks", !self.ticks.is_empty()),
+        ]
+    }
+
+    /// The size that was asked for \[pixels\].
+    #[must_use]
+    pub fn given_size(&self) -> Option<[u32; 2]> {
+        self.size.or_else(|| Some(Design::inches(self.inches?, self.dpi()).size))
+    }
+
+    /// Size of a page of so many panels across and down if no size is given, of things of a shape.
+    #[must_use]
+    pub fn page(aspect: Option<f64>, [across, down]: [u32; 2]) -> [u32; 2] {
+        let panel = if aspect.is_some_and(|aspect| aspect > LONG) { LONG_PANEL } else { PANEL };
+        // a page of more panels than anyone can see stays small enough to be refused for want
+        // of room
+        [across.min(MOST_PANELS) * panel[0], down.min(MOST_PANELS) * panel[1]]
+    }
+
+    /// Pixels per inch.
+    fn dpi(&self) -> f64 {
+        self.dpi.unwrap_or(if self.inches.is_some() { PRINT_DPI } else { SCREEN_DPI })
+    }
+
+    /// Pixels per inch if someone cares.
+    #[must_use]
+    pub fn given_dpi(&self) -> Option<f64> {
+        (self.dpi.is_some() || self.inches.is_some()).then(|| self.dpi())
+    }
+
+    /// The look of a figure of something of a shape, width over height, none if it has any shape;
+    /// of `size` pixels unless another size is given, with letters as for one of so many parts of
+    /// it across and down.
+    #[must_use]
+    pub fn design(&self, aspect: Option<f64>, size: [u32; 2], parts: [u32; 2]) -> Design {
+        let mut design = match (self.inches, self.size.unwrap_or(size)) {
+            (Some(inches), _) => Design::inches(inches, self.dpi()),
+            (None, size) => {
+                let part = [size[0] / parts[0], size[1] / parts[1]];
+                Design { size, ..Design::pixels(part).at(self.dpi()) }
+            }
+        };
+        design.font_size = self.font_size.unwrap_or(design.font_size);
+        design.transparent = self.transparent;
+        if self.theme == Some(ThemeName::Dark) {
+            design.theme = Theme::Dark;
+        }
+        design.bar = match self.bar.unwrap_or(BarName::Auto) {
+            BarName::Auto => aspect.map_or(BarPlace::Right, BarPlace::fitting),
+            BarName::Right => BarPlace::Right,
+            BarName::Bottom => BarPlace::Bottom,
+            BarName::None => BarPlace::None,
+        };
+        for AxisTicks { axis, choice } in &self.ticks {
+            let ticks = match axis {
+                LabelledAxis::X => &mut design.x_ticks,
+                LabelledAxis::Y => &mut design.y_ticks,
+                LabelledAxis::Bar => &mut design.bar_ticks,
+            };
+            ticks.clone_from(choice);
+        }
+        design
+    }
+}
+
+impl FromStr for AxisTicks {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (axis, choice) = match text.split_once('=') {
+            None => (LabelledAxis::Bar, text),
+            Some(("x", choice)) => (LabelledAxis::X, choice),
+            Some(("y", choice)) => (LabelledAxis::Y, choice),
+            Some(("bar", choice)) => (LabelledAxis::Bar, choice),
+            Some((other, _)) => {
+                return Err(format!("there is no axis `{other}`; write x, y or bar"));
+            }
+        };
+        Ok(Self { axis, choice: choice_of(choice.trim())? })
+    }
+}
+
+fn choice_of(choice: &str) -> Result<TickChoice, String> {
+    if choice == "auto" {
+        return Ok(TickChoice::Auto);
+    }
+    if let Ok(count) = choice.parse::<usize>() {
+        return match count {
+            1..=100 => Ok(TickChoice::Count(count)),
+            _ => Err("write 1 to 100 marks, or their values with a comma".into()),
+        };
+    }
+    let number = |part: &str| part.trim().parse().ok().filter(|v: &f64| v.is_finite());
+    let values: Option<Vec<f64>> =
+        choice.split(',').filter(|p| !p.trim().is_empty()).map(number).collect();
+    let values = values.ok_or("write auto, a number of marks, or values with commas between")?;
+    Ok(TickChoice::At(values))
+}
+
+impl fmt::Display for AxisTicks {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self.axis {
+            LabelledAxis::X => "x=",
+            LabelledAxis::Y => "y=",
+            LabelledAxis::Bar => "bar=",
+        })?;
+        match &self.choice {
+            TickChoice::Auto => f.write_str("auto"),
+            TickChoice::Count(count) => write!(f, "{count}"),
+            TickChoice::At(values) => f.write_str(&listed(values)),
+        }
+    }
+}
+
+impl TryFrom<String> for AxisTicks {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse()
+    }
+}
+
+impl From<AxisTicks> for String {
+    fn from(ticks: AxisTicks) -> Self {
+        ticks.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_of_axes_and_bar() {
+        let ticks = |axis, choice| Ok(AxisTicks { axis, choice });
+        for (text, wanted) in [
+            ("auto", ticks(LabelledAxis::Bar, TickChoice::Auto)),
+            ("x=5", ticks(LabelledAxis::X, TickChoice::Count(5))),
+            ("y=-1,0.5", ticks(LabelledAxis::Y, TickChoice::At(vec![-1.0, 0.5]))),
+            ("3,", ticks(LabelledAxis::Bar, TickChoice::At(vec![3.0]))),
+            ("x=", ticks(LabelledAxis::X, TickChoice::At(vec![]))),
+        ] {
+            assert_eq!(text.parse(), wanted);
+            let written = wanted.as_ref().map(ToString::to_string).unwrap_or_default();
+            assert_eq!(written.parse(), wanted, "{written}");
+        }
+        for wrong in ["z=3", "0", "101", "1,a", "inf,0", "some"] {
+            assert!(wrong.parse::<AxisTicks>().is_err(), "{wrong}");
+        }
+    }
+}

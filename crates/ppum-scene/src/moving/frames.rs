@@ -1,0 +1,223 @@
+//! Fields one after the other, and where they are seen.
+
+use ppum::dataset::Dataset;
+use ppum::field::{Field, FieldError};
+use ppum::vec2::Rect;
+use ppum_figure::figure::{Design, plot_area};
+use ppum_render::animation::AnimationError;
+use ppum_render::deform::AutomaticFactor;
+use ppum_render::view::View;
+
+use crate::deformed::{self, Factor};
+use crate::drawing::BodyView;
+use crate::engine::Engine;
+use crate::request::Request;
+use crate::scene::SubjectError;
+use crate::shot::{FieldSource, ShotError, title};
+
+/// What moves.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Moving {
+    /// The frames are these steps.
+    Steps(Vec<usize>),
+    /// The plate deforms up to so many times its displacement and back, in so many frames.
+    Factor(f64, usize),
+}
+
+/// The reason why there are no such pictures.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MovingError {
+    /// A step that is not there.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// A part or a replacement.
+    #[error(transparent)]
+    Subject(#[from] SubjectError),
+    /// A picture.
+    #[error(transparent)]
+    Shot(Box<ShotError>),
+    /// The file.
+    #[error(transparent)]
+    Animation(#[from] AnimationError),
+}
+
+impl From<ShotError> for MovingError {
+    fn from(error: ShotError) -> Self {
+        Self::Shot(Box::new(error))
+    }
+}
+
+/// Works on a frame: a field, and what is shown of it.
+pub type Work<'a, E> = dyn FnMut(FieldSource<'_>, &Request) -> Result<(), E> + 'a;
+
+/// The frames of an animation, or the one of a still picture.
+pub trait Frames {
+    /// The reason why there is no such frame.
+    type Error: From<ShotError>;
+
+    /// The number of frames.
+    fn count(&self) -> usize;
+
+    /// Works on the frame of a number; fields may be read for it, and forgotten after it.
+    ///
+    /// # Errors
+    /// A frame that there is not; those of the work.
+    fn with(&self, number: usize, work: &mut Work<'_, Self::Error>) -> Result<(), Self::Error>;
+
+    /// Works on all frames in their order.
+    ///
+    /// # Errors
+    /// As [`Self::with`].
+    fn each(&self, work: &mut Work<'_, Self::Error>) -> Result<(), Self::Error> {
+        (0..self.count()).try_for_each(|number| self.with(number, work))
+    }
+
+    /// The factor of the deformed plate as a number, the same for all frames that do not
+    /// have theirs.
+    ///
+    /// # Errors
+    /// Fields that are no displacements.
+    fn factor(&self, factor: Factor) -> Result<f64, Self::Error> {
+        if let Factor::Given(factor) = factor {
+            return Ok(factor);
+        }
+        let mut found = AutomaticFactor::default();
+        self.each(&mut |FieldSource { field, .. }, _| {
+            Ok(found.add(field, &field.domain.bounds).map_err(ShotError::from)?)
+        })?;
+        Ok(found.factor())
+    }
+
+    /// The box that shows the plate in all frames.
+    ///
+    /// # Errors
+    /// As [`deformed::bounds`].
+    fn bounds(&self) -> Result<Option<Rect>, Self::Error> {
+        let mut all: Option<Rect> = None;
+        self.each(&mut |FieldSource { field, .. }, Request { scene, .. }| {
+            let bounds = match scene.deformed {
+                None => field.domain.bounds,
+                Some(factor) => {
+                    let factor = factor.number(&[field]);
+                    factor
+                        .and_then(|factor| deformed::bounds(field, factor, scene.outline))
+                        .map_err(ShotError::from)?
+                }
+            };
+            all = Some(all.map_or(bounds, |all| all.union(&bounds)));
+            Ok(())
+        })?;
+        Ok(all)
+    }
+
+    /// Columns and rows that a design has room for under all titles; all of its size without one
+    /// of figures.
+    ///
+    /// # Errors
+    /// A design without room.
+    fn room(&self, design: &Design) -> Result<[u32; 2], Self::Error> {
+        let mut room = design.size;
+        self.each(&mut |source, request| {
+            let title = title(source, request).map_err(ShotError::from)?;
+            let [columns, rows] = plot_area(&title, design).map_err(ShotError::from)?;
+            room = [room[0].min(columns), room[1].min(rows)];
+            Ok(())
+        })?;
+        Ok(room)
+    }
+}
+
+/// Chooses the view of each frame.
+pub trait FrameView<E> {
+    /// What is seen of a frame.
+    ///
+    /// # Errors
+    /// A place that the frame does not have.
+    fn seen<'f>(
+        &self,
+        source: FieldSource<'f>,
+        request: &Request,
+        engine: &Engine<'_>,
+    ) -> Result<BodyView<'f>, E>;
+}
+
+impl<E: From<ShotError>> FrameView<E> for View {
+    fn seen<'f>(
+        &self,
+        source: FieldSource<'f>,
+        request: &Request,
+        engine: &Engine<'_>,
+    ) -> Result<BodyView<'f>, E> {
+        Ok(source.seen(&request.scene, self, engine)?)
+    }
+}
+
+/// Frames of a dataset that is in memory.
+pub struct InMemory<'a> {
+    /// The dataset.
+    pub dataset: &'a Dataset,
+    /// What is shown.
+    pub request: Request,
+    /// What moves.
+    pub moving: &'a Moving,
+}
+
+impl<'a> InMemory<'a> {
+    /// The frames, deformed by one factor if they are.
+    ///
+    /// # Errors
+    /// Fields that are no displacements.
+    pub fn new(
+        dataset: &'a Dataset,
+        request: &Request,
+        moving: &'a Moving,
+    ) -> Result<Self, MovingError> {
+        let mut all = Self { dataset, request: request.clone(), moving };
+        if let Some(factor) = request.scene.deformed {
+            all.request.scene.deformed = Some(Factor::Given(all.factor(factor)?));
+        }
+        Ok(all)
+    }
+
+    /// What a frame shows.
+    fn of(&self, number: usize) -> Request {
+        let mut request = self.request.clone();
+        match self.moving {
+            Moving::Steps(steps) => request.scene.subject.step = Some(steps[number]),
+            Moving::Factor(largest, count) => {
+                let part = number as f64 / *count as f64;
+                let share = 0.5 - 0.5 * (std::f64::consts::TAU * part).cos();
+                request.scene.deformed = Some(Factor::Given(largest * share));
+            }
+        }
+        request
+    }
+}
+
+impl Frames for InMemory<'_> {
+    type Error = MovingError;
+
+    fn count(&self) -> usize {
+        match self.moving {
+            Moving::Steps(steps) => steps.len(),
+            Moving::Factor(_, count) => *count,
+        }
+    }
+
+    fn with(&self, number: usize, work: &mut Work<'_, MovingError>) -> Result<(), MovingError> {
+        let request = self.of(number);
+        let subject = &request.scene.subject;
+        let mut changed = None;
+        let dataset = match subject.is_whole() {
+            true => self.dataset,
+            false => {
+                let changed = changed.insert(self.dataset.clone());
+                subject.apply(changed)?;
+                changed
+            }
+        };
+        let field = Field::new(dataset, subject.step_of(dataset))?;
+        work(FieldSource::of(dataset, &field), &request)
+    }
+}

@@ -1,0 +1,101 @@
+//! Where the frames of an image or an animation are seen, deformed or not.
+
+use ppum::vec2::Rect;
+use ppum_figure::figure::Design;
+use ppum_render::deform::{Deformation, DeformedView};
+
+use crate::deformed::Factor;
+use crate::drawing::BodyView;
+use crate::engine::Engine;
+use crate::layers::scale;
+use crate::moving::{FrameView, Frames};
+use crate::place::{ImageExtent, Place, PlaceError};
+use crate::request::Request;
+use crate::shot::{FieldSource, ShotError};
+
+/// Where plates are seen, one or those of a series.
+pub struct Placing<'a> {
+    place: &'a Place,
+    extent: ImageExtent,
+    /// The factor of deformed plates, and what of the plane is seen of them without a window.
+    deformed: Option<(f64, Rect)>,
+}
+
+/// The extent of an image of so many pixels: a figure of a design, or bare without one. A figure
+/// centres what it is given; a bare image has the size that was asked for, if one was.
+#[must_use]
+pub fn extent(request: &Request, design: Option<&Design>, pixels: [u32; 2]) -> ImageExtent {
+    let may_shrink = design.is_some() || request.look.given_size().is_none();
+    let margin = request.scene.overlays.margin(pixels, scale(design, pixels));
+    ImageExtent { pixels, may_shrink, margin }
+}
+
+impl<'a> Placing<'a> {
+    /// Where all frames are seen, whose factor is a number if they are deformed.
+    ///
+    /// # Errors
+    /// Those of the frames.
+    pub fn new<F: Frames>(
+        place: &'a Place,
+        extent: ImageExtent,
+        frames: &F,
+    ) -> Result<Self, F::Error> {
+        let mut factor = None;
+        frames.with(0, &mut |_, request| {
+            factor = request.scene.deformed;
+            Ok(())
+        })?;
+        let deformed = match factor {
+            Some(Factor::Given(factor)) => frames.bounds()?.map(|bounds| (factor, bounds)),
+            _ => None,
+        };
+        Ok(Self { place, extent, deformed })
+    }
+
+    /// What is seen of a field.
+    ///
+    /// # Errors
+    /// A place that the field does not have; a watcher that stops it.
+    pub fn body<'f>(
+        &self,
+        source: FieldSource<'f>,
+        engine: &Engine<'_>,
+    ) -> Result<BodyView<'f>, ShotError> {
+        let Some((factor, bounds)) = self.deformed else {
+            return Ok(BodyView::Plate(self.place.seen(source.field, self.extent)?));
+        };
+        engine.check_deformed()?;
+        let view = self.moved(source, factor, bounds)?;
+        Ok(BodyView::Moved(view.points(engine.watcher)?))
+    }
+
+    /// The view of a deformed plate. Windows are places of the deformed plane; that around a tip
+    /// follows it.
+    fn moved<'f>(
+        &self,
+        FieldSource { field, .. }: FieldSource<'f>,
+        factor: f64,
+        bounds: Rect,
+    ) -> Result<DeformedView<'f>, ShotError> {
+        let deformation = Deformation::new(field, factor)?;
+        let view = self.place.over(bounds, field, self.extent)?;
+        if let Some(tip) = self.place.tip(field)? {
+            return Ok(deformation.around(tip, view.width, view.pixels)?);
+        }
+        if !view.rect().overlaps(&bounds) {
+            return Err(PlaceError::OutsideDeformed(bounds).into());
+        }
+        Ok(deformation.seen(&view))
+    }
+}
+
+impl<E: From<ShotError>> FrameView<E> for Placing<'_> {
+    fn seen<'f>(
+        &self,
+        source: FieldSource<'f>,
+        _: &Request,
+        engine: &Engine<'_>,
+    ) -> Result<BodyView<'f>, E> {
+        Ok(self.body(source, engine)?)
+    }
+}

@@ -1,0 +1,108 @@
+//! A picture that was drawn, its page and the texts of its file.
+
+use ppum::crack::Crack;
+use ppum::formula::one_line;
+use ppum::quantity::Quantity;
+use ppum_figure::canvas::Canvas;
+use ppum_figure::figure::{Design, FigureError, Labels, Panel};
+use ppum_figure::figure::{bare, figure, lacks_legend, plot_area};
+use ppum_figure::overlay::LegendEntry;
+use ppum_render::picture::Picture;
+use ppum_render::png::Text;
+
+use crate::drawing::Shown;
+use crate::engine::Engine;
+use crate::layers::Layers;
+use crate::notice::Notice;
+
+/// A picture with what lies over it.
+#[derive(Debug)]
+pub struct Shot {
+    /// What is shown.
+    pub shown: Shown,
+    /// Its name.
+    pub name: String,
+    /// The colours.
+    pub picture: Picture,
+    /// What lies over them.
+    pub layers: Layers,
+    /// The cracks where they are seen.
+    pub cracks: Vec<Crack>,
+    /// What computed the values.
+    pub by: String,
+    /// The number of pixels where the deformed plate lies over itself.
+    pub overlaps: usize,
+    /// How many times its displacement the plate is drawn with, if it is deformed.
+    pub factor: Option<f64>,
+    /// The title of the dataset, and of a series the number of the step and its load.
+    pub(super) dataset: (String, Option<(usize, f64)>),
+}
+
+impl Shot {
+    /// The panel of a figure with it.
+    #[must_use]
+    pub fn panel(&self, labels: Labels) -> Panel<'_> {
+        let (layers, legend) = (self.layers.items.clone(), self.layers.legend.clone());
+        let (picture, cracks) = (&self.picture, &self.cracks);
+        Panel { picture, layers, legend, labels, cracks, bar_of: None }
+    }
+
+    /// Its page: a figure of a design, or bare without one.
+    ///
+    /// # Errors
+    /// A design without room.
+    pub fn page(
+        &self,
+        labels: Labels,
+        design: Option<&Design>,
+        engine: &Engine<'_>,
+    ) -> Result<Canvas, FigureError> {
+        let panel = self.panel(labels);
+        let Some(design) = design else {
+            tell_legend(&panel.legend, engine);
+            return Ok(bare(panel.picture, panel.layers));
+        };
+        if lacks_legend(&panel, plot_area(&panel.labels.title, design)?, design) {
+            tell_legend(&panel.legend, engine);
+        }
+        figure(panel, design)
+    }
+
+    /// The texts of a file with it, which shows something of some name.
+    pub(crate) fn description(&self, file: &str, name: &str) -> Vec<Text> {
+        let mut texts = self.picture.description(&self.dataset.0, file, name);
+        texts.push(("ppum:backend".to_owned(), self.by.clone()));
+        texts
+    }
+
+    /// The texts of its file: what it shows, of which dataset, and what drew it.
+    #[must_use]
+    pub fn texts(&self, file: &str) -> Vec<Text> {
+        let mut texts = self.description(file, &self.name);
+        if let Shown::Quantity(Quantity::Formula(formula)) = &self.shown {
+            texts.push(("ppum:formula".to_owned(), one_line(formula.formula().text())));
+        }
+        texts
+    }
+
+    /// What was done to the plate, and the step of a series, as more texts of its file.
+    #[must_use]
+    pub fn notes(&self) -> Vec<Text> {
+        let factor = self.factor.map(|factor| ("ppum:deformed".to_owned(), format!("{factor:?}")));
+        let step = self.dataset.1.map(|(step, load)| {
+            [
+                ("ppum:step".to_owned(), step.to_string()),
+                ("ppum:load".to_owned(), format!("{load:?}")),
+            ]
+        });
+        factor.into_iter().chain(step.into_iter().flatten()).collect()
+    }
+}
+
+/// Tells what a legend says that is nowhere drawn.
+pub fn tell_legend(legend: &[LegendEntry], engine: &Engine<'_>) {
+    if !legend.is_empty() {
+        let entries = legend.iter().map(|entry| entry.label.clone()).collect();
+        engine.tell(Notice::NoLegend(entries));
+    }
+}

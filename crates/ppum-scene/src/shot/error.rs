@@ -1,0 +1,68 @@
+//! The reasons why there is no picture.
+
+use ppum_figure::figure::FigureError;
+use ppum_render::RenderError;
+use ppum_render::deform::DeformError;
+use ppum_render::range::RangeError;
+use ppum_render::view::ViewError;
+
+use crate::colors::MapError;
+use crate::engine::EngineError;
+use crate::layers::LayersError;
+use crate::place::PlaceError;
+use crate::request::PanelsError;
+use crate::scene::ShownError;
+
+/// The reason why there is no such picture.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ShotError {
+    /// Nothing that could be shown.
+    #[error(transparent)]
+    Shown(#[from] ShownError),
+    /// The quantity, isolines, or a watcher that stopped it.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The backend.
+    #[error(transparent)]
+    Engine(EngineError),
+    /// Means of samples where there are none.
+    #[error("samples: {0} drawn at the centres of pixels; leave samples out")]
+    Samples(&'static str),
+    /// A frame of an animation with more pixels than memory is meant for.
+    #[error("frames of {}x{} pixels do not fit into memory; choose a smaller size", .0[0], .0[1])]
+    TooLarge([u32; 2]),
+    /// The deformed plate.
+    #[error(transparent)]
+    Deform(#[from] DeformError),
+    /// The colour map.
+    #[error(transparent)]
+    Colormap(#[from] MapError),
+    /// The range of the colours.
+    #[error(transparent)]
+    Range(#[from] RangeError),
+    /// The overlays.
+    #[error(transparent)]
+    Layers(#[from] Box<LayersError>),
+    /// The page.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// The view.
+    #[error(transparent)]
+    View(#[from] ViewError),
+    /// The place.
+    #[error(transparent)]
+    Place(#[from] PlaceError),
+    /// The panels.
+    #[error(transparent)]
+    Panels(#[from] PanelsError),
+}
+
+impl From<EngineError> for ShotError {
+    fn from(error: EngineError) -> Self {
+        match error {
+            EngineError::Render(error) => Self::Render(error),
+            other => Self::Engine(other),
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Fields that pictures are made of, and what is said of them.
+
+use std::fmt::Write as _;
+
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::text::trimmed;
+use ppum_figure::canvas::Canvas;
+use ppum_figure::figure::{Design, Labels};
+use ppum_render::deform::{DeformError, Deformation};
+use ppum_render::view::View;
+
+use super::{Input, Shot, ShotError};
+use crate::deformed::words;
+use crate::drawing::{BodyView, Shown};
+use crate::engine::Engine;
+use crate::minus::{Minus, Side};
+use crate::request::Request;
+use crate::scene::{Scene, ShownError, default_quantity, shown};
+
+/// A field of a dataset, and what is subtracted from what is shown of it.
+#[derive(Clone, Copy)]
+pub struct FieldSource<'a> {
+    /// The dataset.
+    pub dataset: &'a Dataset,
+    /// Its field, which is that of the request's subject,
+    /// see [`Subject::apply`](crate::scene::Subject::apply).
+    pub field: &'a Field<'a>,
+    /// What is subtracted; the plate is as it was then.
+    pub left: Option<Side<'a>>,
+}
+
+/// What is shown, by the text that asked for it.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// What is shown.
+    pub shown: Shown,
+    /// Its name in messages and files.
+    pub name: String,
+}
+
+impl Asked {
+    /// What a scene shows of a field.
+    ///
+    /// # Errors
+    /// A text that means nothing for the field.
+    pub fn new(scene: &Scene, field: &Field<'_>) -> Result<Self, ShownError> {
+        let text = scene.quantity.as_deref().unwrap_or(default_quantity(field));
+        let shown = shown(text, field)?;
+        Ok(Self { name: shown.name(text), shown })
+    }
+}
+
+impl<'a> FieldSource<'a> {
+    /// A field without anything on the left.
+    #[must_use]
+    pub fn of(dataset: &'a Dataset, field: &'a Field<'a>) -> Self {
+        Self { dataset, field, left: None }
+    }
+
+    /// What a picture of it is made of.
+    #[must_use]
+    pub fn input<'b>(self, asked: &'b Asked, seen: &'b BodyView<'b>) -> Input<'b>
+    where
+        'a: 'b,
+    {
+        let Self { dataset, field, left } = self;
+        Input { dataset, field, shown: &asked.shown, name: &asked.name, seen, left }
+    }
+
+    /// What is seen of it in a view.
+    pub(crate) fn seen(
+        self,
+        scene: &Scene,
+        view: &View,
+        engine: &Engine<'_>,
+    ) -> Result<BodyView<'a>, ShotError> {
+        let deformed = scene.deformed.filter(|_| self.left.is_none());
+        let factor = deformed.map(|factor| factor.number(&[self.field])).transpose()?;
+        let Some(factor) = factor else { return Ok(BodyView::Plate(*view)) };
+        engine.check_deformed()?;
+        Ok(BodyView::Moved(
+            Deformation::new(self.field, factor)?.seen(view).points(engine.watcher)?,
+        ))
+    }
+
+    /// The labels of a figure: those that are asked for, else the words for what is shown; with the
+    /// step and its load in the place of `{step}` and `{load}`.
+    ///
+    /// # Errors
+    /// Fields that are no displacements.
+    pub fn labels(self, shown: &Shown, request: &Request) -> Result<Labels, DeformError> {
+        let title = title(self, request)?;
+        let [quantity, unit] = match self.left {
+            None => shown.words(self.field),
+            Some(left) => Minus { right: Side { field: self.field, shown }, left }.words(),
+        };
+        let labels = Labels { title, quantity, unit, ..Labels::default() };
+        let labels = request.labels.applied(labels);
+        let filled = |text: &str| self.filled(text, &request.scene);
+        let (title, quantity) = (filled(&labels.title), filled(&labels.quantity));
+        Ok(Labels { title, quantity, ..labels })
+    }
+
+    /// A text with the step of a series and its load in the place of `{step}` and `{load}`.
+    fn filled(self, text: &str, scene: &Scene) -> String {
+        if self.dataset.steps.len() < 2 {
+            return text.to_owned();
+        }
+        let step = scene.subject.step_of(self.dataset).to_string();
+        text.replace("{step}", &step).replace("{load}", &trimmed(self.field.step.load))
+    }
+
+    /// The page of a shot.
+    pub(crate) fn page(
+        self,
+        shot: Shot,
+        request: &Request,
+        design: Option<&Design>,
+        engine: &Engine<'_>,
+    ) -> Result<(Canvas, Shot), ShotError> {
+        let labels = design.map(|_| self.labels(&shot.shown, request)).transpose()?;
+        Ok((shot.page(labels.unwrap_or_default(), design, engine)?, shot))
+    }
+}
+
+/// The title of a figure: as it is asked for, else that of the dataset, with the step of a series,
+/// the part, and the factor of the deformed plate.
+///
+/// # Errors
+/// Fields that are no displacements.
+pub fn title(source: FieldSource<'_>, request: &Request) -> Result<String, DeformError> {
+    if let Some(title) = &request.labels.title {
+        return Ok(source.filled(title, &request.scene));
+    }
+    let (FieldSource { dataset, field, .. }, scene) = (source, &request.scene);
+    let mut title = of_step(dataset, scene.subject.step_of(dataset));
+    let mut add = |text: String| title = format!("{title} ({text})").trim_start().to_owned();
+    if let Some(part) = &scene.subject.part {
+        add(format!("{part} only"));
+    }
+    if let Some(factor) = scene.deformed {
+        add(words(factor.number(&[field])?));
+    }
+    Ok(source.filled(&title, scene))
+}
+
+/// A dataset's title with the step, if there are several, and its load, if loads differ.
+#[must_use]
+pub fn of_step(dataset: &Dataset, step: usize) -> String {
+    let mut title = dataset.title.clone();
+    let Some(shown) = dataset.steps.get(step).filter(|_| dataset.steps.len() > 1) else {
+        return title;
+    };
+    let gap = if title.is_empty() { "" } else { ", " };
+    let _ = write!(title, "{gap}step {step}");
+    if dataset.steps.iter().any(|other| other.load != shown.load) {
+        let _ = write!(title, ", load {}", trimmed(shown.load));
+    }
+    title
+}
