@@ -9,6 +9,7 @@ use ppum::progress::Cancelled;
 use ppum::quantity::QuantityError as BadQuantity;
 use ppum_format::{ReadError, WriteError};
 use ppum_scene::layers::LayersError;
+use ppum_scene::place::PlaceError;
 use ppum_scene::profile::ProfileError;
 use ppum_scene::scene::{ShownError, SubjectError};
 use ppum_scene::shot::ShotError;
@@ -144,6 +145,9 @@ pub(crate) fn picture(error: ShotError) -> PyErr {
             error => RenderError::new_err(error.to_string()),
         },
         ShotError::Shown(error) => not_shown(&error),
+        ShotError::Place(error @ PlaceError::Tip { .. }) => {
+            PyIndexError::new_err(error.to_string())
+        }
         error => RenderError::new_err(error.to_string()),
     }
 }

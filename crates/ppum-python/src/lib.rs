@@ -44,7 +44,8 @@ mod _core {
     use crate::moving::animation;
     #[pymodule_export]
     use crate::picture::{
-        check_request, colormap, colormaps, extrema_in, figure, frame, render, rgba,
+        check_request, colormap, colormaps, default_request, extrema_in, figure, frame, render,
+        rgba,
     };
     #[pymodule_export]
     use crate::plot::{Curves, profiles, told};

@@ -3,28 +3,29 @@
 use numpy::{IntoPyArray as _, PyArray1, PyArray3, PyArrayMethods as _};
 use ppum::crack::Side;
 use ppum::progress::Watcher;
-use ppum::vec2::{Rect, Vec2};
+use ppum::vec2::Vec2;
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::{BarPlace, Design, Labels, Theme, bare};
+use ppum_figure::figure::{Labels, bare};
 use ppum_figure::form::PageFormat;
 use ppum_figure::ticks;
 use ppum_render::colormap::{Colormap, NAMES};
 use ppum_render::extrema::{Extremum, On, extrema};
-use ppum_render::png::encode_quickly;
+use ppum_render::png::{Text, encode_quickly};
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
-use ppum_scene::deformed;
 use ppum_scene::drawing::{Drawn, RasterValues, Shown};
 use ppum_scene::engine::Engine;
 use ppum_scene::notice::Notice;
+use ppum_scene::panels::{DrawnPanels, datasets, draw};
 use ppum_scene::request::Request;
-use ppum_scene::scene::{Scene, shown};
-use ppum_scene::shot::{FieldSource, Shot, ShotError, page, page_in, shot, view_in};
+use ppum_scene::scene::{Subject, shown};
+use ppum_scene::shot::{FieldSource, Shot, shot};
+use ppum_scene::still::Still;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::errors::{RenderError, not_shown, picture, rendering};
+use crate::errors::{RenderError, no_field, not_shown, picture, rendering, subject};
 use crate::field::{Field, written};
 use crate::watch::{guard, long};
 
@@ -44,58 +45,23 @@ pub(crate) fn colormap(name: &str) -> PyResult<Vec<(u8, u8, u8)>> {
     Ok(map.palette(BAR).into_iter().map(|[r, g, b, _]| (r, g, b)).collect())
 }
 
+/// A request that asks for nothing, with all that could be asked for.
+#[pyfunction]
+pub(crate) fn default_request() -> PyResult<String> {
+    let request = serde_json::to_string(&Request::default());
+    request.map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
 /// Raises what `figure` and `rgba` would raise of a request before they draw.
 #[pyfunction]
 pub(crate) fn check_request(this: &Field, request: &str) -> PyResult<()> {
-    let scene = this.request(request)?.scene;
-    if let Some(name) = &scene.quantity {
+    let Request { scene, panels, .. } = this.request(request)?;
+    for name in scene.quantity.iter().chain(&panels.quantities) {
         guard(|| this.shown(name).map(drop))?;
     }
+    panels.check(&scene).map_err(|error| RenderError::new_err(error.to_string()))?;
     let map = scene.colors.map(None);
     map.map(drop).map_err(|error| RenderError::new_err(error.to_string()))
-}
-
-/// The look of a figure.
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Look {
-    /// Columns and rows; with `inches` they follow from the resolution.
-    size: [u32; 2],
-    inches: Option<[f64; 2]>,
-    dpi: Option<f64>,
-    font_size: Option<f64>,
-    dark: bool,
-    transparent: bool,
-    /// `right`, `bottom`, `none`, or what fits the plate.
-    bar: Option<String>,
-}
-
-/// Pixels per inch of figures for paper, as the program has it.
-const PAPER_DPI: f64 = 300.0;
-
-impl Look {
-    pub(crate) fn design(&self, plate: Rect) -> PyResult<Design> {
-        let mut design = match (self.inches, self.dpi) {
-            (Some(inches), dpi) => Design::inches(inches, dpi.unwrap_or(PAPER_DPI)),
-            (None, None) => Design::pixels(self.size),
-            (None, Some(dpi)) => Design::pixels(self.size).at(dpi),
-        };
-        design.font_size = self.font_size.unwrap_or(design.font_size);
-        design.theme = if self.dark { Theme::Dark } else { Theme::Light };
-        design.transparent = self.transparent;
-        let size = plate.size();
-        design.bar = match self.bar.as_deref() {
-            None => BarPlace::fitting(size.x / size.y),
-            Some("right") => BarPlace::Right,
-            Some("bottom") => BarPlace::Bottom,
-            Some("none") => BarPlace::None,
-            Some(other) => {
-                let known = "there are right, bottom, none";
-                return Err(PyValueError::new_err(format!("bar: `{other}` is no place; {known}")));
-            }
-        };
-        Ok(design)
-    }
 }
 
 pub(crate) fn view(((x, y), width): Spot, size: [u32; 2]) -> PyResult<View> {
@@ -133,8 +99,9 @@ impl Field {
     /// A request of Python's layer, its quantity spelled as the libraries do.
     pub(crate) fn request(&self, text: &str) -> PyResult<Request> {
         let mut request = written::<Request>(text)?;
-        let scene = &mut request.scene;
-        scene.quantity = scene.quantity.take().map(|name| self.spelled(&name));
+        let Request { scene, panels, .. } = &mut request;
+        let names = scene.quantity.iter_mut().chain(&mut panels.quantities);
+        names.for_each(|name| *name = self.spelled(name));
         scene.subject = self.told.clone();
         Ok(request)
     }
@@ -165,36 +132,31 @@ impl Field {
         }
     }
 
-    /// The box that shows all of the plate, deformed or not.
-    fn whole(&self, scene: &Scene) -> PyResult<Rect> {
-        let field = self.owned.field();
-        let Some(factor) = scene.deformed else { return Ok(field.domain.bounds) };
-        let factor = factor.number(&[field]);
-        let bounds = factor.and_then(|factor| deformed::bounds(field, factor, scene.outline));
-        bounds.map_err(|error| picture(error.into()))
+    /// The page of a figure, and the texts of its file.
+    fn page(&self, request: &Request, engine: &Engine<'_>) -> PyResult<(Canvas, Vec<Text>)> {
+        let title = &self.owned.dataset().title;
+        if request.panels.are_given() {
+            let drawn = self.panels(request, engine)?;
+            let texts = [drawn.texts(title), drawn.shots[0].notes()].concat();
+            return Ok((drawn.page, texts));
+        }
+        let still = Still::new(self.source(), request.clone()).map_err(picture)?;
+        let (page, shot) = still.page(engine).map_err(picture)?;
+        Ok((page, [shot.texts(title), shot.notes()].concat()))
     }
 
-    fn page(
-        &self,
-        request: &Request,
-        spot: Option<View>,
-        design: &Design,
-        engine: &Engine<'_>,
-    ) -> PyResult<(Canvas, Shot)> {
-        let source = self.source();
-        let made = match spot {
-            Some(view) => page(source, request, &view, Some(design), engine),
-            None => {
-                let bad = |error| picture(ShotError::View(error));
-                let whole = self.whole(&request.scene)?;
-                let any = View::hug(whole, design.size).map_err(bad)?;
-                let room = view_in(source, request, &any, design).map_err(picture)?.pixels;
-                // as tight about the plate as the program's
-                let view = View::hug(whole, room).map_err(bad)?;
-                page_in(source, request, &view, Some(design), engine)
-            }
-        };
-        made.map_err(picture)
+    /// The panels of a request, of the field or of its parts.
+    fn panels(&self, request: &Request, engine: &Engine<'_>) -> PyResult<DrawnPanels> {
+        if request.panels.parts.is_empty() {
+            return draw(&[self.source()], request, engine).map_err(picture);
+        }
+        let (dataset, step) = self.owned.place();
+        let of = Subject { step: Some(step), ..Subject::default() };
+        let datasets = datasets(dataset, &of, &request.panels.parts).map_err(|e| subject(&e))?;
+        let fields = datasets.iter().map(|dataset| ppum::field::Field::new(dataset, step));
+        let fields = fields.collect::<Result<Vec<_>, _>>().map_err(no_field)?;
+        let sources = datasets.iter().zip(&fields).map(|(d, f)| FieldSource::of(d, f));
+        draw(&sources.collect::<Vec<_>>(), request, engine).map_err(picture)
     }
 }
 
@@ -342,28 +304,17 @@ pub(crate) fn figure<'py>(
     this: &Field,
     py: Python<'py>,
     request: &str,
-    spot: Option<Spot>,
-    look: &str,
     form: &str,
 ) -> PyResult<(Bound<'py, PyBytes>, Vec<String>)> {
-    let (request, look) = (this.request(request)?, written::<Look>(look)?);
-    let mut design = look.design(this.owned.field().domain.bounds)?;
-    if request.blank {
-        design.bar = BarPlace::None;
-    }
-    // as flat as can be: figures show more above and below, not beside
-    let spot = spot.map(|spot| view(spot, [design.size[0].max(1), 1])).transpose()?;
-    let form = self::form(form)?;
+    let (request, form) = (this.request(request)?, self::form(form)?);
     let drawn = |engine: &Engine<'_>| {
-        let made = this.page(&request, spot, &design, engine)?;
+        let made = this.page(&request, engine)?;
         Notice::of_glyphs(&made.0, form).into_iter().for_each(|notice| engine.tell(notice));
         Ok(made)
     };
-    let ((page, shot), told) = long(py, None, None, |watcher| made(&request, watcher, drawn))??;
-    let mut texts = shot.texts(&this.owned.dataset().title);
-    texts.extend(shot.notes());
-    let dpi = (look.inches.is_some() || look.dpi.is_some()).then_some(design.dpi);
-    let bytes = long(py, None, None, |_| form.bytes(&page, dpi, &texts))?;
+    let all = |watcher: &dyn Watcher| made(&request, watcher, drawn);
+    let ((page, texts), told) = long(py, None, None, all)??;
+    let bytes = long(py, None, None, |_| form.bytes(&page, request.look.given_dpi(), &texts))?;
     Ok((PyBytes::new(py, &bytes?), told))
 }
 

@@ -40,8 +40,9 @@ def test_docstrings(name, ds, f, problem, tmp_path, monkeypatch):
 
 
 def test_examples_of_methods_are_run():
-    names = {test.name for test in examples(importlib.import_module("ppum.field"))}
-    assert {"Field", "Field.at", "Field.figure", "Field.intensities"} <= names
+    modules = [importlib.import_module(f"ppum.{name}") for name in ("field", "drawing", "sampling")]
+    names = {test.name for module in modules for test in examples(module)}
+    assert {"Field", "Field.at", "Drawing.figure", "Sampling.line", "Field.intensities"} <= names
 
 
 def test_everything_is_documented():
@@ -49,7 +50,8 @@ def test_everything_is_documented():
         thing = getattr(ppum, name)
         if not isinstance(thing, type):
             continue
-        for key, member in vars(thing).items():
+        ours = [kind for kind in thing.__mro__ if kind.__module__.split(".")[0] == "ppum"]
+        for key, member in {key: value for kind in ours for key, value in vars(kind).items()}.items():
             if not key.startswith("_") and (callable(member) or isinstance(member, property)):
                 assert member.__doc__, f"{name}.{key}"
 

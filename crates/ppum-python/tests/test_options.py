@@ -21,7 +21,7 @@ pytest.importorskip("matplotlib").use("agg")
 FUNCTIONS = [
     (ppum.Field.figure, styles.FigureOptions),
     (ppum.Field.rgba, styles.RgbaOptions),
-    (ppum.Field.animate, styles.FigureOptions),
+    (ppum.Field.animate, styles.AnimationOptions),
     (ppum.Field.plot, styles.PlotOptions),
     (ppum.Field.view, styles.ViewerOptions),
     (ppum.Dataset.view, styles.ViewerOptions),
@@ -174,6 +174,23 @@ def test_options_are_the_keys_of_problem_files(head, kind):
     of_methods = {"points"} if kind is sections.CrackOptions else {"on"} if "boundary" in head else {"steps"} if "growth" in head else set()
     assert known - of_methods == set(options_of(kind)) and known
     assert all(option.default is UNSET for _, option in options_of(kind).values())
+
+
+def paths(asked, at=""):
+    """The fields of a request, by their ways through its objects."""
+    if not isinstance(asked, dict) or at == "labels":
+        return {at}
+    return set().union(*(paths(value, f"{at}.{name}".strip(".")) for name, value in asked.items()))
+
+
+def test_figures_have_all_options_of_requests(f):
+    """What the command line, which is a request too, can ask of an image, and a figure asks for nothing else."""
+    request = json.loads(f.figure("ux", center=(0, 0), width=1.0)._made_of[1])
+    request["place"] |= json.loads(f.figure("ux", tip=0)._made_of[1])["place"]
+    every = paths(json.loads(_core.default_request()))
+    elsewhere = {path for path in every if path.startswith("subject.")} | {"place.view", "backend"}
+    assert every - paths(request) == elsewhere
+    assert paths(request) <= every
 
 
 def test_overlays_are_those_of_the_libraries(f):

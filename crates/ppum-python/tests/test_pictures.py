@@ -68,6 +68,47 @@ def test_what_is_said_of_a_figure_is_what_the_program_says(ds, f, program, tmp_p
     assert list(figure.warnings) == [str(warning.message) for warning in caught] == program.warnings
 
 
+@pytest.mark.parametrize(
+    "options, wanted",
+    [
+        ("-q ux,uy,s1 --layout 3x1", {"quantity": ["ux", "uy", "s1"], "layout": (3, 1)}),
+        ("-q von-mises,level --shared-range --size 700x500", {"quantity": ["von_mises", "level"], "shared_range": True, "size": (700, 500)}),
+        ("-q uy --part all,smooth,jump,tip --shared-range", {"quantity": "uy", "parts": ["all", "smooth", "jump", "tip"], "shared_range": True}),
+        ("-q ux,s1 --part all,jump --ticks x=3 --ticks y=-1,0.5", {"quantity": ["ux", "s1"], "parts": ["all", "jump"], "ticks": {"x": 3, "y": [-1, 0.5]}}),
+        ("--layout 1x1 --tip 1 --zoom 40 --overlay cracks,rings", {"layout": (1, 1), "tip": 1, "zoom": 40, "overlays": ["cracks", "rings"]}),
+        ("--figure -q uy --ticks 3 --overlay supports,loads", {"quantity": "uy", "ticks": {"colorbar": 3}, "overlays": ["supports", "loads"]}),
+        ("--figure -q s1 --tip 0 --zoom 3 --deformed 0.1 --outline", {"quantity": "s1", "tip": 0, "zoom": 3, "deformed": 0.1, "outline": True}),
+    ],
+)
+def test_panels_marks_and_places_are_those_of_the_program(ds, f, program, tmp_path, options, wanted):
+    ds.save(tmp_path / "plate.h5")
+    program("render", tmp_path / "plate.h5", "-o", tmp_path / "theirs.png", *options.split())
+    figure = f.figure(**wanted)
+    figure.save(tmp_path / "ours.png")
+    ours, theirs = (matplotlib.image.imread(tmp_path / f"{name}.png") for name in ("ours", "theirs"))
+    assert np.array_equal(ours, theirs)
+    assert list(figure.warnings) == program.warnings
+
+
+def test_panels_that_there_are_not(f):
+    for wrong, error, message in [
+        ({"quantity": ["ux", "uy"], "layout": (1, 1)}, ppum.RenderError, "1x1 has fewer panels than there are pictures, 2"),
+        ({"quantity": ["ux", "uy"], "layout": (0, 1)}, ppum.RenderError, "at least 1x1"),
+        ({"quantity": "ux", "shared_range": True}, ppum.RenderError, "is for panels"),
+        ({"quantity": "ux", "parts": ["all", "jump"], "deformed": 1.0}, ppum.RenderError, "do not go together"),
+        ({"quantity": "ux", "parts": ["all", "nothing"]}, ppum.QuantityError, "nothing"),
+        ({"quantity": ["ux", "nonsense"]}, ppum.QuantityError, "nonsense"),
+        ({"quantity": "ux", "parts": ["jump"]}, ValueError, "Field.part"),
+        ({"quantity": ["ux", "uy"], "vmin": 0.0}, ValueError, "both vmin and vmax"),
+        ({"quantity": "ux", "ticks": {"z": 3}}, TypeError, "ticks has no option `z`"),
+        ({"quantity": "ux", "ticks": {"x": 0}}, ValueError, "1 to 100"),
+    ]:
+        with pytest.raises(error, match=message):
+            f.figure(**wrong).png()
+    assert repr(f.figure(["ux", "uy"])) == "<ppum.Figure ux, uy, panels>"
+    assert repr(f.figure("ux", parts=["all", "tip"], size=(700, 500))) == "<ppum.Figure ux, all, tip, 700x500>"
+
+
 def test_figures(f, tmp_path):
     figure = f.figure("uy", cmap="coolwarm", isolines=7, overlays=["cells"], deformed="auto", outline=True, size=(400, 500))
     assert figure._repr_png_() == figure.png() and figure.png()[:4] == b"\x89PNG"

@@ -23,6 +23,7 @@ __all__ = [
     "check_request",
     "colormap",
     "colormaps",
+    "default_request",
     "compare",
     "extrema",
     "figure",
@@ -123,7 +124,7 @@ def frame(
     this: Field, request: str, spot: _Spot, size: tuple[int, int]
 ) -> tuple[bytes, dict[str, Any]]: ...
 def figure(
-    this: Field, request: str, spot: _Spot | None, look: str, form: str
+    this: Field, request: str, form: str
 ) -> tuple[bytes, list[str]]: ...
 def compare(
     this: Field,
@@ -148,9 +149,6 @@ def animation(
     changes: str,
     request: str,
     steps: list[int],
-    spot: _Spot | None,
-    size: tuple[int, int],
-    look: str | None,
     milliseconds: int,
     form: str,
     progress: _Progress | None,
@@ -162,6 +160,7 @@ def intensities(
     this: Field, on: tuple[int, float] | None, progress: _Progress | None
 ) -> tuple[str, list[str], list[str]]: ...
 def check_request(this: Field, request: str) -> None: ...
+def default_request() -> str: ...
 def colormap(name: str) -> list[tuple[int, int, int]]: ...
 def colormaps() -> list[str]: ...
 def _panic(on_pool: bool) -> None: ...

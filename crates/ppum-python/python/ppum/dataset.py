@@ -4,24 +4,36 @@ from __future__ import annotations
 
 import html
 import json
-import math
 import os
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, TypeVar, Unpack
+from typing import IO, TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
+from .facts import (
+    Advance,
+    Crack,
+    Growth,
+    Hole,
+    Point,
+    Reaction,
+    Tip,
+    Warning,
+    number,
+    points,
+    row,
+    tips_of,
+)
+from .field import Field
 from .options import passes
 from .styles import ViewerOptions
 from .tables import History, Numbered, Table
 
 if TYPE_CHECKING:
-    from .field import Field
     from .problem import Problem
     from .widget import Viewer
 
@@ -40,159 +52,6 @@ __all__ = [
     "from_bytes",
     "open",
 ]
-
-Point = tuple[float, float]
-_Row = TypeVar("_Row")
-
-
-@dataclass(frozen=True)
-class Crack:
-    """A crack: a polyline with a direction, whose left side is above.
-
-    Attributes:
-        index: Its number, from 0.
-        points: The vertices, shape (n, 2), lengths.
-        ends: The kinds of its ends: ``tip``, ``mouth`` or ``junction``.
-    """
-
-    index: int
-    points: NDArray[np.float64]
-    ends: tuple[str, str]
-
-    @property
-    def length(self) -> float:
-        """Arc length from end to end."""
-        return float(np.hypot(*np.diff(self.points, axis=0).T).sum())
-
-    def __repr__(self) -> str:
-        return f"<ppum.Crack {self.index}, {len(self.points)} points, {self.ends[0]} to {self.ends[1]}>"
-
-
-@dataclass(frozen=True)
-class Hole:
-    """A hole: a circle (`center`, `radius`) or a polygon (`points`, shape (n, 2)); the others are None."""
-
-    center: Point | None
-    radius: float | None
-    points: NDArray[np.float64] | None
-
-
-@dataclass(frozen=True)
-class Tip:
-    """A crack tip with its stress intensity factors; what is not known is NaN.
-
-    Attributes:
-        crack: Number of its crack.
-        end: ``start`` or ``end``, the crack's first or last vertex.
-        xy: Its place.
-        angle: Direction of growth, the angle to the x axis, radians.
-        k1, k2: K_I and K_II, stress · length^½.
-        t_stress: T, a stress.
-        j: The J-integral, stress · length.
-        g: Energy released per length of growth, (K_I² + K_II²)/E′, stress · length.
-        growth_angle: Direction of the largest hoop stress, radians from `angle`.
-        error: Estimated error of (K_I, K_II), stress · length^½.
-        spread: Largest relative difference of two rings, a check and no estimate of the error.
-        rings: Of each ring inner and outer radius, K_I and K_II; shape (n, 4).
-    """
-
-    crack: int
-    end: str
-    xy: Point
-    angle: float
-    k1: float
-    k2: float
-    t_stress: float
-    j: float
-    g: float
-    growth_angle: float
-    error: float
-    spread: float
-    rings: NDArray[np.float64] = field(repr=False, compare=False)
-
-    def __repr__(self) -> str:
-        x, y = self.xy
-        return f"<ppum.Tip at ({x:.6g}, {y:.6g}), K_I = {self.k1:.6g}, K_II = {self.k2:.6g}>"
-
-
-@dataclass(frozen=True)
-class Warning:
-    """A finding that does not make a solution wrong to have, but wrong to trust unread.
-
-    Attributes:
-        kind: A word, e.g. ``faces-overlap``.
-        at: The place, if it is about one.
-        value: The number that gave rise to it.
-        limit: The bound that the number passes.
-        message: What is wrong, and the remedy.
-    """
-
-    kind: str
-    at: Point | None
-    value: float
-    limit: float
-    message: str
-
-    def __repr__(self) -> str:
-        return f"<ppum.Warning {self.kind}: {self.message}>"
-
-
-@dataclass(frozen=True)
-class Reaction:
-    """The resultant of what a support exerts on the plate.
-
-    Attributes:
-        on: The support in words, e.g. ``bottom``.
-        held: Of each component, whether the support holds it.
-        force: Force per thickness of each component, stress · length; zero where not held.
-        moment: About the centre of the domain's box, counter-clockwise, stress · length².
-    """
-
-    on: str
-    held: tuple[bool, ...]
-    force: tuple[float, ...]
-    moment: float
-
-
-@dataclass(frozen=True)
-class Advance:
-    """What one tip of a growing crack does next.
-
-    Attributes:
-        crack, end: The tip.
-        fate: In words, e.g. ``grows``, ``held``, ``meets crack 3``.
-        strength: What is compared with the toughness, stress · length^½.
-        direction: Of the path at the tip, angle to the x axis, radians.
-        curvature: Of the path, 1 / length.
-        path: The vertices that the crack gets, shape (n, 2).
-        length: Length of the path.
-        extension: Length of all growth at this end since the first step.
-    """
-
-    crack: int
-    end: str
-    fate: str
-    strength: float
-    direction: float
-    curvature: float
-    path: NDArray[np.float64] = field(repr=False, compare=False)
-    length: float
-    extension: float
-
-
-@dataclass(frozen=True)
-class Growth:
-    """How the cracks of a step grow on from there.
-
-    Attributes:
-        cycles: Load cycles up to the step; None where growth has no time.
-        stop: What ends the series with this step; None if it goes on.
-        tips: What each tip does.
-    """
-
-    cycles: float | None
-    stop: str | None
-    tips: Table[Advance]
 
 
 class Step:
@@ -240,7 +99,7 @@ class Step:
     def cracks(self) -> tuple[Crack, ...]:
         """The cracks."""
         cracks = enumerate(self._facts["cracks"])
-        made = (Crack(k, _points(c["points"]), tuple(c["ends"])) for k, c in cracks)
+        made = (Crack(k, points(c["points"]), tuple(c["ends"])) for k, c in cracks)
         return Numbered(made, "crack")
 
     @cached_property
@@ -252,19 +111,19 @@ class Step:
     def history(self) -> History:
         """The solver's report."""
         records = self._facts["history"]
-        return History([(r["name"], _number(r["value"]), r["unit"]) for r in records])
+        return History([(r["name"], number(r["value"]), r["unit"]) for r in records])
 
     @cached_property
     def warnings(self) -> Table[Warning]:
         """What the diagnostics found."""
-        return Table((_row(Warning, w) for w in self._facts["warnings"]), "warning")
+        return Table((row(Warning, w) for w in self._facts["warnings"]), "warning")
 
     @cached_property
     def reactions(self) -> Table[Reaction]:
         """What the supports exert on the plate."""
         names = self._facts["components"]
         rows = (
-            _row(Reaction, r, held=[n in r["held"] for n in names], moment=r["moment"] or 0.0)
+            row(Reaction, r, held=[n in r["held"] for n in names], moment=r["moment"] or 0.0)
             for r in self._facts["reactions"]
         )
         return Table(rows, "reaction")
@@ -276,7 +135,7 @@ class Step:
         if facts is None:
             return None
         tips = (
-            _row(Advance, t, curvature=curvature, path=_points(path))
+            row(Advance, t, curvature=curvature, path=points(path))
             for t, (curvature, path) in zip(facts["tips"], self._facts["arcs"])
         )
         return Growth(facts["cycles"], facts["stop"], Table(tips, "tip"))
@@ -293,54 +152,10 @@ class Step:
         Raises:
             FormatError: The step has none, or a function that cannot be compiled.
         """
-        from .field import Field
-
         return Field(self.dataset, self.number)
 
     def __repr__(self) -> str:
         return f"<ppum.Step {self.number}, {_count(self.patches, 'patch', 'patches')}, {_count(len(self.tips), 'tip')}>"
-
-
-def tips_of(facts: list[dict[str, Any]], ends: Sequence[str]) -> Table[Tip]:
-    """The tips of facts, and of the names of their ends."""
-    both = zip(facts, ends, strict=True)
-    tips = (_row(Tip, t, end=end, xy=t["tip"], rings=_rings(t["rings"])) for t, end in both)
-    return Table(tips, "tip")
-
-
-def _points(points: Sequence[Point]) -> NDArray[np.float64]:
-    array = np.array(points, float).reshape(-1, 2)
-    array.flags.writeable = False
-    return array
-
-
-def _rings(rings: list[dict[str, Any]]) -> NDArray[np.float64]:
-    return np.array([[_number(v) for v in r.values()] for r in rings], float).reshape(-1, 4)
-
-
-def _number(value: Any) -> float:
-    """A number of the facts: undefined ones are null there, infinite ones texts."""
-    return math.nan if value is None else float(value)
-
-
-def _numbers(values: Sequence[Any]) -> tuple[float, ...]:
-    return tuple(_number(v) for v in values)
-
-
-_READERS: dict[Any, Callable[[Any], Any]] = {
-    "float": _number,
-    "Point": tuple,
-    "Point | None": lambda point: None if point is None else tuple(point),
-    "tuple[bool, ...]": tuple,
-    "tuple[float, ...]": _numbers,
-}
-
-
-def _row(kind: Callable[..., _Row], facts: dict[str, Any], **others: Any) -> _Row:
-    """A row of the facts of a dataset, some of whose attributes are given."""
-    values = {**facts, **others}
-    attributes = fields(kind)  # type: ignore[arg-type]
-    return kind(**{f.name: _READERS.get(f.type, lambda v: v)(values[f.name]) for f in attributes})
 
 
 def _count(count: int, one: str, more: str | None = None) -> str:
@@ -397,7 +212,7 @@ class Dataset:
         holes = (
             Hole(tuple(h["center"]), h["radius"], None)
             if h["kind"] == "circle"
-            else Hole(None, None, _points(h["points"]))
+            else Hole(None, None, points(h["points"]))
             for h in self._facts["domain"]["holes"]
         )
         return Numbered(holes, "hole")
@@ -558,5 +373,5 @@ def from_bytes(data: bytes) -> Dataset:
     return Dataset(_core.from_bytes(data))
 
 
-for _class in (Advance, Crack, Dataset, Growth, Hole, Reaction, Step, Tip, Warning):
+for _class in (Dataset, Step):
     _class.__module__ = "ppum"

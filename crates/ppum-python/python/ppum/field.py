@@ -1,4 +1,4 @@
-"""Fields: values at points, along curves and on grids, and pictures."""
+"""Fields: values at points, parts, comparisons, stress intensity factors."""
 
 from __future__ import annotations
 
@@ -12,43 +12,25 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from .extras import needed
-from .options import one_of, passes, takes
-from .pictures import Animation, Extremum, Figure, milliseconds
-from .styles import (
-    ColorOptions,
-    FigureOptions,
-    PlotOptions,
-    RgbaOptions,
-    ViewerOptions,
-    page,
-    scene,
-    span,
-)
-from .views import SIZE, PixelOptions, PlaceOptions, Spot, View, pixels, place, spot, view_of
-from .values import Quantities, Quantity, Values, degrees, pair
+from .drawing import Drawing
+from .facts import Tip, tips_of
+from .options import one_of, takes
+from .sampling import Sampling
+from .tables import Table
+from .values import Quantities, Quantity, SideName, Values
+from .views import PixelOptions
 
 if TYPE_CHECKING:
     from .comparing import Comparison, Resampling
-    from .dataset import Dataset, Step, Table, Tip
-    from .widget import Viewer
+    from .dataset import Dataset
 
 __all__ = ["Field"]
 
 Floats = NDArray[np.float64]
-SideName = Literal["above", "below", "both"]
 ResamplingMethod = Literal["nearest", "bilinear", "bicubic", "cells"]
 
 
-def _widget() -> Any:
-    """The module of views, whose needs are extra ones."""
-    needed("anywidget", "anywidget", "views in notebooks")
-    from . import widget
-
-    return widget
-
-
-class Field:
+class Field(Sampling, Drawing):
     """A field of one step, to be evaluated exactly wherever one likes. Made by `Step.field` and `Dataset.field`.
 
     It never changes: `part`, `with_function`, `with_weight` and `with_quantity` give others. It can be pickled.
@@ -69,16 +51,6 @@ class Field:
         self._subject = dict(_subject or {})
         self._tips: Table[Tip] | None = None
         self._core = _core.Field(dataset._core, self._number, json.dumps(self._subject))
-
-    @property
-    def step(self) -> Step:
-        """The step that the field belongs to."""
-        return self.dataset.steps[self._number]
-
-    @cached_property
-    def components(self) -> tuple[str, ...]:
-        """Names of the components: ``ux``, ``uy``, or ``u``."""
-        return tuple(self._core.components())
 
     @cached_property
     def quantities(self) -> Mapping[str, Quantity]:
@@ -209,294 +181,6 @@ class Field:
     def _changed(self, **what: Any) -> Field:
         return Field(self.dataset, self._number, {**self._subject, **what})
 
-    def line(
-        self, start: ArrayLike, end: ArrayLike, *, num: int = 201, quantities: Sequence[str] | None = None
-    ) -> Any:
-        """Values along a line, as an `xarray.Dataset` over the distance `s` from its start.
-
-        Coordinates are `x`, `y` and `side`: where the line meets a crack there are two rows, above (1) and below (-1).
-
-        Example:
-            >>> line = f.line((-1, 0), (1, 0), num=5, quantities=["uy"])
-            >>> line.side.values
-            array([ 0.,  0.,  1., -1.,  0.,  0.])
-        """
-        along = {"line": {"from": pair(start), "to": pair(end)}}
-        return self._curve(along, num, quantities)
-
-    def circle(
-        self, center: ArrayLike, radius: float, *, num: int = 201, quantities: Sequence[str] | None = None
-    ) -> Any:
-        """Values on a circle, as an `xarray.Dataset` over the angle `theta` from the x axis, radians.
-
-        Example:
-            >>> f.circle((0, 0), 0.6, num=5, quantities=["uy"]).theta.values
-            array([-3.14159265, -1.57079633,  0.        ,  1.57079633,  3.14159265])
-        """
-        along = {"circle": {"center": pair(center), "radius": radius}}
-        return self._curve(along, num, quantities)
-
-    def along(self, crack: Any, *, num: int = 201, quantities: Sequence[str] | None = None) -> Any:
-        """Values on both sides of a crack, as an `xarray.Dataset` over the arc length `s`: of each quantity
-        `…_above` and `…_below`, and of a displacement the jumps `jump_ux` and `jump_uy`, `opening` and `sliding`.
-
-        Args:
-            crack: A `Crack` or its number.
-
-        Example:
-            >>> sorted(f.along(0, quantities=["ux", "uy"]))
-            ['jump_ux', 'jump_uy', 'opening', 'sliding', 'ux_above', 'ux_below', 'uy_above', 'uy_below']
-        """
-        return self._curve({"crack": {"index": getattr(crack, "index", crack)}}, num, quantities)
-
-    def around(
-        self, tip: int, radius: float | None = None, *, num: int = 201, quantities: Sequence[str] | None = None
-    ) -> Any:
-        """Values on a circle around a tip, as an `xarray.Dataset` over the angle `theta` from the crack's extension,
-        radians; by default a hundredth of the crack's length away.
-
-        Example:
-            >>> f.around(1, num=5, quantities=["syy"]).sizes["theta"]
-            5
-        """
-        return self._curve({"around": {"tip": tip, "radius": radius}}, num, quantities)
-
-    def ray(
-        self,
-        tip: int,
-        angle: float = 0.0,
-        length: float | None = None,
-        *,
-        num: int = 201,
-        quantities: Sequence[str] | None = None,
-    ) -> Any:
-        """Values on a ray from a tip, as an `xarray.Dataset` over the distance `r` in steps of its logarithm.
-
-        Args:
-            tip: The number of a tip.
-            angle: That from the crack's extension, radians, as `Tip.growth_angle`.
-            length: The largest distance; by default a tenth of the crack's length.
-
-        Example:
-            >>> ahead = f.ray(1, angle=ds.tips[1].growth_angle, quantities=["syy"])
-            >>> bool(ahead.syy[0] > ahead.syy[-1] > 0)
-            True
-        """
-        along = {"ray": {"tip": tip, "angle": degrees(angle), "far": length}}
-        return self._curve(along, num, quantities)
-
-    def _curve(self, along: Any, num: int, quantities: Sequence[str] | None) -> Any:
-        from .xarrays import curve
-
-        return curve(self, json.dumps(along), num, self._names(quantities))
-
-    def grid(
-        self,
-        nx: int | None = None,
-        ny: int | None = None,
-        *,
-        x: ArrayLike | None = None,
-        y: ArrayLike | None = None,
-        quantities: Sequence[str] | None = None,
-        side: SideName = "above",
-    ) -> Any:
-        """Values on a grid, as an `xarray.Dataset` over y and x, both rising.
-
-        Args:
-            nx, ny: Numbers of columns and rows, from border to border of the domain's box.
-            x, y: Or the coordinates themselves.
-            quantities: By default the components, for elasticity also the stresses.
-            side: As in `at`; ``both`` adds a dimension `side`.
-
-        Example:
-            >>> f.grid(3, 5, quantities=["s1"]).s1.dims
-            ('y', 'x')
-        """
-        from .xarrays import grid
-
-        return grid(self, (nx, x), (ny, y), self._names(quantities), side)
-
-    def _names(self, quantities: Sequence[str] | None) -> list[str]:
-        if isinstance(quantities, str):
-            raise TypeError("quantities: give a list of names")
-        if quantities is not None:
-            return list(quantities)
-        stresses = ["sxx", "syy", "sxy", "von-mises"]
-        return [*self.components, *(stresses if self.dataset.equation == "elasticity" else [])]
-
-    @takes
-    def render(
-        self,
-        quantity: str | None = None,
-        *,
-        dtype: Any = np.float64,
-        progress: Any = None,
-        **options: Unpack[PixelOptions],
-    ) -> NDArray[Any]:
-        """Values at the centres of the pixels of a view: shape (rows, columns), rows from the top; NaN outside.
-
-        Args:
-            quantity: A quantity, a formula or a value of cells; by default von Mises' stress, of a potential itself.
-            dtype: float64 or float32, in which the values are computed too; warns where float32 has no three digits.
-            progress: Is called with phase, parts done, all parts, step.
-
-        Raises:
-            QuantityError: No quantity of the field.
-            RenderError: A view or a size that cannot be drawn.
-
-        Example:
-            >>> f.render("uy", size=(40, 80)).shape
-            (80, 40)
-        """
-        kind = np.dtype(dtype)
-        if kind not in (np.dtype(np.float64), np.dtype(np.float32)):
-            raise ValueError(f"dtype: values are float64 or float32, not {kind}")
-        seen = self._seen(options)
-        name = quantity or self._core.default_quantity()
-        is_single = kind == np.float32
-        if is_single and (text := self._core.single_precision_warning()):
-            warnings.warn(text, stacklevel=3)
-        return _core.render(self._core, name, seen._spot, seen.size, is_single, progress)
-
-    @takes
-    def rgba(self, quantity: str | None = None, **options: Unpack[RgbaOptions]) -> NDArray[np.uint8]:
-        """The colours of a picture: shape (rows, columns, 4), rows from the top; transparent outside.
-
-        Args:
-            quantity: As in `render`.
-
-        Raises:
-            TypeError: No such option.
-            ValueError: No such value of an option; `QuantityError` and `RenderError` are of this kind.
-
-        Example:
-            >>> f.rgba("ux", size=(40, 80), cmap="magma", vmin=0).shape
-            (80, 40, 4)
-        """
-        seen = self._seen(options)
-        rgba, told = _core.rgba(
-            self._core, self._scene(quantity, options, seen._spot), seen._spot, seen.size
-        )
-        for text in told:
-            warnings.warn(text, stacklevel=3)
-        return rgba
-
-    @takes
-    def figure(self, quantity: str | None = None, **options: Unpack[FigureOptions]) -> Figure:
-        """A figure with axes and a colour bar, as the program draws it; notebooks show it.
-
-        Options are checked here; the figure is drawn when its bytes are asked for. What is to be known of it, such as pixels
-        without a value, is warned of then, and kept as `Figure.warnings`.
-
-        Args:
-            quantity: As in `render`.
-
-        Raises:
-            TypeError: No such option.
-            ValueError: No such value of an option; `QuantityError` and `RenderError` are of this kind.
-
-        Example:
-            >>> figure = f.figure("von_mises", tip=0, zoom=1e6, norm="log")
-            >>> figure.save("tip.png")
-            >>> figure.png()[1:4]
-            b'PNG'
-        """
-        look = page(options)
-        at = self._place(options, look["size"])
-        return Figure(self, self._scene(quantity, options, at), at, look)
-
-    def _scene(
-        self, quantity: str | None, options: ColorOptions, at: Spot | None, *, may_find: bool = True
-    ) -> str:
-        """What a picture shows, checked. An end of the range that is not given is that of an automatic one."""
-        found = span(options)
-        if not isinstance(found, str) and None in found:
-            if not may_find:
-                raise ValueError("give both vmin and vmax: one range is that of all steps")
-            auto = scene(quantity, options, "auto")
-            ends = _core.frame(self._core, auto, at or spot(self.dataset.domain, SIZE), SIZE)[1]["range"]
-            both = zip(found, ends, strict=True)
-            clim: Any = [end if given is None else given for given, end in both]
-            found = span({"clim": clim})
-        made = scene(quantity, options, found)
-        _core.check_request(self._core, made)
-        return made
-
-    @takes
-    def animate(
-        self,
-        quantity: str | None = None,
-        *,
-        steps: Sequence[int] | slice | None = None,
-        fps: float = 5.0,
-        bare: bool = False,
-        progress: Any = None,
-        **options: Unpack[FigureOptions],
-    ) -> Animation:
-        """A moving picture of the steps of a series, as the program's: one range of colours, one factor of deformation, one place.
-
-        Args:
-            quantity: As in `render`.
-            steps: Numbers of steps, or a slice of them; by default all.
-            fps: Steps shown in a second, up to 50.
-            bare: Whether axes and colour bar are left out: the picture has the size in pixels.
-            progress: As in `render`.
-
-        Raises:
-            IndexError: There is no such step.
-            ValueError: No steps; a rate that programs do not show; no such value of an option.
-            TypeError: No such option.
-
-        Example:
-            >>> moving = f.animate("uy", deformed="auto", size=(320, 400))
-            >>> moving.save("moving.gif")
-            >>> moving.gif()[:6]
-            b'GIF89a'
-        """
-        look = page(options)
-        size = look["size"]
-        at = self._place(options, size)
-        made = self._scene(quantity, options, at, may_find=False)
-        what = (made, self._numbers(steps), at, size, None if bare else json.dumps(look))
-        return Animation(self, what, milliseconds(fps), progress)
-
-    def _numbers(self, steps: Sequence[int] | slice | None) -> list[int]:
-        count = len(self.dataset.steps)
-        if steps is None or isinstance(steps, slice):
-            numbers = list(range(count)[steps or slice(None)])
-        else:
-            numbers = [self.dataset.steps[step].number for step in steps]
-        if not numbers:
-            raise ValueError("steps: a moving picture needs one step at least")
-        return numbers
-
-    @takes
-    def extrema(
-        self, quantity: str | None = None, **options: Unpack[PixelOptions]
-    ) -> tuple[Extremum, Extremum]:
-        """The smallest and the largest value in a view, also between its pixels, at tips infinite.
-
-        Args:
-            quantity: A quantity or a formula.
-
-        Raises:
-            RenderError: There is no value in the view.
-
-        Example:
-            >>> low, high = f.extrema("uy")
-            >>> low.value < 0 < high.value
-            True
-        """
-        from .errors import RenderError
-
-        seen = self._seen(options)
-        name = quantity or self._core.default_quantity()
-        found = _core.extrema(self._core, name, seen._spot, seen.size)
-        if found is None:
-            raise RenderError(f"`{name}` has no value in the view; show some of the plate")
-        low, high = (Extremum(**one) for one in found)
-        return low, high
-
     @takes
     def compare(
         self,
@@ -576,101 +260,6 @@ class Field:
         name = quantity or self._core.default_quantity()
         return resample(self, name, self._seen(options), way, progress)
 
-    @passes
-    def view(self, quantity: str | None = None, **options: Unpack[ViewerOptions]) -> Viewer:
-        """Shows the field in a notebook: pan, zoom, read values, exact in every frame.
-
-        Args:
-            quantity: As in `render`.
-
-        Raises:
-            ImportError: The package anywidget is not installed.
-            TypeError: No such option.
-            traitlets.TraitError: No such value.
-
-        Example:
-            >>> view = f.view("uy", width=0.5, center=(0, 0), clim=(0, 1))
-            >>> view.width *= 0.5
-            >>> view.width
-            0.25
-        """
-        made: Viewer = _widget().Viewer(self, quantity, **options)
-        return made
-
-    def view_at(
-        self,
-        view: View | None = None,
-        *,
-        center: Sequence[float] | NDArray[Any] | None = None,
-        width: float | None = None,
-        tip: int | None = None,
-        zoom: float | None = None,
-        size: tuple[int, int] | None = None,
-    ) -> View:
-        """What a picture shows: all of the plate, or a width around a center, or a tip enlarged `zoom` times (10).
-
-        Example:
-            >>> f.view_at(tip=1, zoom=4, size=(100, 100)).width
-            1.0
-        """
-        if view is not None:
-            given: PixelOptions = {"center": center, "width": width, "tip": tip, "zoom": zoom, "size": size}
-            return view_of(view, given)
-        size = pixels(SIZE if size is None else size)
-        at, width = self._spot(size, center, width, tip, zoom)
-        return View(at, width, size)
-
-    def _seen(self, options: PixelOptions) -> View:
-        """What a picture in pixels shows."""
-        names = PixelOptions.__annotations__
-        return self.view_at(**{name: options.get(name) for name in names})  # type: ignore[arg-type]
-
-    def _place(self, options: PlaceOptions, size: tuple[int, int]) -> Spot | None:
-        """Center and width of what a page of this size shows; None where nothing is said."""
-        seen = {name: value for name, value in place(options).items() if value is not None}
-        if not seen:
-            return None
-        return self.view_at(**seen, **({} if "view" in seen else {"size": size}))._spot  # type: ignore[arg-type]
-
-    def _spot(
-        self,
-        size: tuple[int, int],
-        center: ArrayLike | None = None,
-        width: float | None = None,
-        tip: int | None = None,
-        zoom: float | None = None,
-    ) -> Spot:
-        if tip is not None and center is not None:
-            raise TypeError("give a tip or a center, not both")
-        at = None if center is None else pair(center)
-        if tip is not None:
-            at = self.step.tips[tip].xy
-        return spot(self.dataset.domain, size, at, width, zoom)
-
-    @passes
-    def plot(self, quantity: str | None = None, **options: Unpack[PlotOptions]) -> Any:
-        """Draws the field into matplotlib axes: exact at every pixel of the device, on screen, in PNG and PDF, zoomed or not.
-
-        Args:
-            quantity: A quantity or a formula, as in `render`.
-
-        Returns:
-            The artist, a `matplotlib.image.AxesImage`.
-
-        Raises:
-            ImportError: The package matplotlib is not installed.
-            TypeError: No such option.
-
-        Example:
-            >>> image = f.plot("uy", vmin=0, cmap="vik", tip=1, zoom=4)
-            >>> bool(image.axes.get_xlim()[1] > 0.35)
-            True
-        """
-        needed("matplotlib", "matplotlib xarray", "pictures in matplotlib")
-        from .plotting import plot
-
-        return plot(self, quantity, **options)
-
     @overload
     def intensities(self, tip: None = None, *, progress: Any = None) -> Table[Tip]: ...
 
@@ -704,8 +293,6 @@ class Field:
             >>> abs(f.intensities(1, radius=0.1).k1 / found.k1 - 1) < 1e-2
             True
         """
-        from .dataset import tips_of
-
         if tip is None:
             if radius is not None:
                 raise TypeError("radius: give the tip that it is of")
@@ -718,8 +305,6 @@ class Field:
 
     def _found_tips(self, progress: Any) -> Table[Tip]:
         """The factors of all tips, found once."""
-        from .dataset import tips_of
-
         if self._tips is None:
             found, ends, told = _core.intensities(self._core, None, progress)
             for text in told:

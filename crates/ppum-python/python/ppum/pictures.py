@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from .drawn import Drawn, Page
-from .views import Spot
+from .views import SIZE
 
 if TYPE_CHECKING:
-    from .field import Field
+    from .fieldcore import FieldCore
 
 __all__ = ["Animation", "Extremum", "Figure", "milliseconds"]
 
@@ -39,29 +39,34 @@ class Extremum:
 class Figure(Page):
     """A figure; drawn when its bytes are asked for. Made by `Field.figure`. Notebooks show it; it can be pickled."""
 
-    def __init__(self, field: Field, scene: str, spot: Spot | None, page: dict[str, Any]) -> None:
+    def __init__(self, field: FieldCore, request: str) -> None:
         super().__init__()
-        self._made_of = field, scene, spot, page
+        self._made_of = field, request
 
     def _draw(self, form: str) -> bytes:
-        field, scene, spot, page = self._made_of
-        return self._told(_core.figure(field._core, scene, spot, json.dumps(page), form))
+        field, request = self._made_of
+        return self._told(_core.figure(field._core, request, form))
 
     def __repr__(self) -> str:
-        _, scene, _, page = self._made_of
-        columns, rows = _pixels(page)
-        return f"<ppum.Figure {json.loads(scene)['quantity'] or 'of a field'}, {columns}x{rows}>"
+        asked = json.loads(self._made_of[1])
+        panels, look = asked["panels"], asked["look"]
+        several = panels["quantities"] + panels["parts"]
+        names = [*(panels["quantities"] or [asked["quantity"] or "of a field"]), *panels["parts"]]
+        size = "panels" if several and not (look["size"] or look["inches"]) else _size(look)
+        return f"<ppum.Figure {', '.join(names)}, {size}>"
 
 
 #: Pixels in an inch of figures for paper where none are given, as the program has it.
 PAPER_DPI = 300.0
 
 
-def _pixels(page: dict[str, Any]) -> tuple[int, int]:
-    if page["inches"] is None:
-        return tuple(page["size"])
-    width, height = (round(side * (page["dpi"] or PAPER_DPI)) for side in page["inches"])
-    return width, height
+def _size(look: dict[str, Any]) -> str:
+    """Columns and rows of a page, in words."""
+    if look["inches"] is None:
+        width, height = look["size"] or SIZE
+    else:
+        width, height = (round(side * (look["dpi"] or PAPER_DPI)) for side in look["inches"])
+    return f"{width}x{height}"
 
 
 class Animation(Drawn):
@@ -75,8 +80,8 @@ class Animation(Drawn):
 
     def __init__(
         self,
-        field: Field,
-        what: tuple[str, list[int], Spot | None, tuple[int, int], str | None],
+        field: FieldCore,
+        what: tuple[str, list[int]],
         milliseconds: int,
         progress: Any,
     ) -> None:
@@ -104,10 +109,10 @@ class Animation(Drawn):
         return {**self.__dict__, "_made_of": (field, what, time, None)}
 
     def __repr__(self) -> str:
-        scene, numbers, _, (columns, rows), _ = self._made_of[1]
-        name = json.loads(scene)["quantity"] or "a field"
+        request, numbers = self._made_of[1]
+        asked = json.loads(request)
         steps = f"{len(numbers)} step{'' if len(numbers) == 1 else 's'}"
-        return f"<ppum.Animation of {name}, {steps}, {columns}x{rows}>"
+        return f"<ppum.Animation of {asked['quantity'] or 'a field'}, {steps}, {_size(asked['look'])}>"
 
 
 def milliseconds(fps: float) -> int:

@@ -9,9 +9,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Annotated, Any, Literal, TypedDict
 
 from .options import Option, refuse_unknown
-from .views import SIZE, PixelOptions, PlaceOptions, pixels
+from .views import PixelOptions, PlaceOptions, pixels
 
 __all__ = [
+    "AnimationOptions",
     "ColorOptions",
     "FigureOptions",
     "Labels",
@@ -20,8 +21,11 @@ __all__ = [
     "RangeOptions",
     "RgbaOptions",
     "SceneOptions",
+    "Ticks",
     "ViewerOptions",
     "page",
+    "plain",
+    "quantities",
     "scene",
     "span",
 ]
@@ -92,10 +96,21 @@ class Labels(TypedDict, total=False):
     colorbar: str
 
 
+class Ticks(TypedDict, total=False):
+    """Marks in place of those of a figure: `auto`, about how many, or at these values."""
+
+    x: Literal["auto"] | float | Sequence[float]
+    y: Literal["auto"] | float | Sequence[float]
+    colorbar: Literal["auto"] | float | Sequence[float]
+
+
 class PageOptions(TypedDict, total=False):
     """The page of a figure."""
 
-    size: Annotated[tuple[int, int], Option(SIZE, "columns and rows of pixels")]
+    size: Annotated[
+        tuple[int, int] | None,
+        Option(None, "columns and rows of pixels; by default 1024 and 768, of each of several panels 660 and 600"),
+    ]
     inches: Annotated[tuple[float, float] | None, Option(None, "in place of `size`: width and height")]
     dpi: Annotated[float | None, Option(None, "pixels in an inch; with `inches` 300")]
     font_size: Annotated[float | None, Option(None, "size of letters, points")]
@@ -105,13 +120,29 @@ class PageOptions(TypedDict, total=False):
         bool | Literal["right", "bottom"],
         Option(True, "whether there is a colour bar, and where; by default where there is room"),
     ]
+    ticks: Annotated[
+        Ticks, Option({}, "marks in place of those of the figure: a dictionary of x, y, colorbar")
+    ]
     labels: Annotated[
         Labels, Option({}, "texts in place of those of the figure: a dictionary of title, x, y, colorbar")
     ]
 
 
-class FigureOptions(PlaceOptions, SceneOptions, PageOptions, total=False):
+class AnimationOptions(PlaceOptions, SceneOptions, PageOptions, total=False):
+    """All options of an animation."""
+
+
+class FigureOptions(AnimationOptions, total=False):
     """All options of a figure."""
+
+    parts: Annotated[
+        Sequence[str] | None,
+        Option(None, "parts of the field, each in a panel: those of `Field.part`, and `all`, the whole field"),
+    ]
+    layout: Annotated[
+        tuple[int, int] | None, Option(None, "columns and rows of panels; by default as large as fits")
+    ]
+    shared_range: Annotated[bool, Option(False, "whether all panels have one range and one colour bar")]
 
 
 class RgbaOptions(PixelOptions, SceneOptions, total=False):
@@ -183,14 +214,29 @@ def _ends(low: Any, high: Any) -> Ends:
     return low, high
 
 
-def scene(quantity: str | None, options: ColorOptions, found: str | Ends) -> str:
+def quantities(asked: str | Sequence[str] | None) -> tuple[str | None, list[str]]:
+    """The quantity of a picture, and those of panels where there are several."""
+    if asked is None or isinstance(asked, str):
+        return asked, []
+    several = list(asked)
+    return (several[0], []) if len(several) == 1 else (None, several)
+
+
+def scene(asked: str | Sequence[str] | None, options: ColorOptions, found: str | Ends) -> str:
     """What a picture shows in the range that was found for it, as the libraries read it."""
     o: Any = options
+    quantity, several = quantities(asked)
     cmap, deformed = o.get("cmap"), o.get("deformed")
     overlays, isolines = o.get("overlays", ()), o.get("isolines")
     return json.dumps(
         {
             "quantity": quantity,
+            "panels": {
+                "quantities": several,
+                "parts": list(o.get("parts") or ()),
+                "layout": o.get("layout"),
+                "shared_range": bool(o.get("shared_range", False)),
+            },
             "colors": {
                 "colormap": None if cmap is None else os.fspath(cmap),
                 "range": found if isinstance(found, str) else ",".join(map(_written, found)),
@@ -213,25 +259,27 @@ def scene(quantity: str | None, options: ColorOptions, found: str | Ends) -> str
             "labels": _labels(o.get("labels", {})),
             "precision": o.get("precision"),
         },
-        default=_plain,
+        default=plain,
     )
 
 
 def page(options: PageOptions) -> dict[str, Any]:
     """The page of a figure, as the libraries read it."""
     bar: Any = options["colorbar"]
+    size = options["size"]
     return {
-        "size": pixels(options["size"]),
+        "size": None if size is None else pixels(size),
         "inches": options["inches"],
         "dpi": options["dpi"],
         "font_size": options["font_size"],
-        "dark": options["theme"] == "dark",
+        "theme": options["theme"],
         "transparent": bool(options["transparent"]),
         "bar": bar if isinstance(bar, str) else None if bar else "none",
+        "ticks": _ticks(options["ticks"]),
     }
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     """What JSON has in place of a number of numpy."""
     return value.item()
 
@@ -244,6 +292,11 @@ def _levels(isolines: Any) -> str:
     if isinstance(isolines, Iterable) and not isinstance(isolines, str):
         return ",".join(repr(float(level)) for level in isolines) + ","
     return str(isolines)
+
+
+def _ticks(ticks: Mapping[str, Any]) -> list[str]:
+    refuse_unknown("ticks", ticks, Ticks.__annotations__)
+    return [f"{'bar' if name == 'colorbar' else name}={_levels(marks)}" for name, marks in ticks.items()]
 
 
 def _labels(labels: Mapping[str, str]) -> dict[str, str]:

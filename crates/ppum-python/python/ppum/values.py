@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,9 +16,10 @@ from .options import nearest
 if TYPE_CHECKING:
     from .field import Field
 
-__all__ = ["Quantities", "Quantity", "Values", "check_out", "degrees", "floats", "math_text", "pair"]
+__all__ = ["Quantities", "Quantity", "SideName", "Values", "check_out", "degrees", "floats", "math_text", "pair"]
 
 Floats = NDArray[np.float64]
+SideName = Literal["above", "below", "both"]
 SIDES = ("above", "below", "both")
 
 

@@ -12,6 +12,7 @@ from .values import math_text
 
 if TYPE_CHECKING:
     from .field import Field
+    from .fieldcore import FieldCore
 
 Floats = NDArray[np.float64]
 
@@ -25,13 +26,13 @@ def _named(name: str) -> str:
     return dashed if dashed.isidentifier() else name
 
 
-def _words(field: Field, name: str) -> dict[str, str]:
+def _words(field: FieldCore, name: str) -> dict[str, str]:
     symbol, unit = field._core.words(name)
     words = {"long_name": math_text(symbol), "units": unit}
     return {key: value for key, value in words.items() if value}
 
 
-def curve(field: Field, along: str, num: int, names: list[str]) -> Any:
+def curve(field: FieldCore, along: str, num: int, names: list[str]) -> Any:
     """The table of a curve: the first column is the dimension, x, y and side are coordinates."""
     xarray = needed("xarray", *EXTRA)
     heads, rows = field._core.table(along, num, names)
