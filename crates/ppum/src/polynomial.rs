@@ -1,8 +1,16 @@
 //! Bivariate polynomials in the order of the dataset: by total degree, then descending power of ξ.
 
-use crate::dataset::monomials;
 use crate::jet::Jet;
 use ppum_formula::real::{Real, Scalar};
+
+/// Highest polynomial degree of a block.
+pub const MAX_DEGREE: usize = 8;
+
+/// Number of monomials of total degree at most `degree`: (d + 1)(d + 2)/2.
+#[must_use]
+pub const fn monomials(degree: usize) -> usize {
+    (degree + 1) * (degree + 2) / 2
+}
 
 /// The monomials of a polynomial.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

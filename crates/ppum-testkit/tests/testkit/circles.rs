@@ -10,7 +10,7 @@ use std::path::Path;
 const LEFT: &[(&str, &str, usize)] = &[
     ("ppum", "check", 7),
     ("ppum", "crack", 2),
-    ("ppum", "dataset", 12),
+    ("ppum", "dataset", 10),
     ("ppum", "function", 3),
     ("ppum", "quantity", 4),
     ("ppum", "sample", 4),
