@@ -47,6 +47,30 @@ pub fn convergence(datasets: &[Named<'_>], step: Option<usize>) -> Result<Plot, 
     Ok(plot)
 }
 
+/// The history of an adaptation: the estimated error of each step that the dataset keeps, in the
+/// energy norm and of K, relative, against its unknowns. None of a dataset with fewer than two such
+/// steps, or whose cracks grow.
+#[must_use]
+pub fn adaptation(dataset: &Dataset) -> Option<Plot> {
+    let steps = &dataset.steps;
+    if steps.windows(2).any(|pair| pair[0].cracks != pair[1].cracks) {
+        return None;
+    }
+    let of = |label: &str, record: &str| {
+        let point = |step: &Step| Some([unknowns(step), step.record(record).filter(|v| *v > 0.0)?]);
+        let points: Vec<_> = steps.iter().filter_map(point).collect();
+        (points.len() > 1).then(|| curve(label, points))
+    };
+    let kinds = [("energy norm", "estimated error"), ("K", "estimated error of factors")];
+    let curves: Vec<_> = kinds.into_iter().filter_map(|(label, name)| of(label, name)).collect();
+    (!curves.is_empty()).then(|| Plot {
+        title: String::new(),
+        x: PlotAxis::new("unknowns", "").logarithmic(),
+        y: PlotAxis::new("estimated relative error", "").logarithmic(),
+        curves,
+    })
+}
+
 /// The steps of an adaptation.
 fn all_steps(dataset: &Dataset) -> Vec<Solution<'_>> {
     let steps = dataset.steps.iter().enumerate();

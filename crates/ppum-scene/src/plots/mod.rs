@@ -12,7 +12,7 @@ mod series;
 use ppum_figure::plot::Plot;
 use ppum_render::png::Text;
 
-pub use convergence::convergence;
+pub use convergence::{adaptation, convergence};
 pub use error::PlotError;
 pub use history::{SolverWork, history};
 pub use named::{Named, plain};

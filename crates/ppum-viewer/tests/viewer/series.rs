@@ -1,14 +1,19 @@
 //! Series: the steps one after the other, their plots, and what the solver has told of them.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use egui::Key;
 use egui_kittest::kittest::Queryable as _;
 use ppum::crack::{End, TipId};
 use ppum::dataset::{Dataset, Record, TipIntensity, Warning};
+use ppum::progress::unwatched;
 use ppum::vec2::vec2;
+use ppum_solve::problem::Problem;
+use ppum_solve::solve::solve;
 use ppum_testkit::synthetic::growing;
 use ppum_viewer::panels::drawer::series::plots;
+use ppum_viewer::panels::drawer::solver;
 use ppum_viewer::session::DrawerPage;
 
 use crate::kit::plate;
@@ -177,6 +182,32 @@ fn what_the_solver_tells_is_shown() {
         viewer.session.panes[0].place.is_some_and(|place| place.center == [0.5, 0.0])
     };
     lab.until("it flies there", is_there);
+}
+
+/// The page of an adaptation plots the estimated error of each step against its unknowns.
+#[test]
+fn the_history_of_an_adaptation_is_plotted() {
+    let text = include_str!("../../../../examples/paper-adaptive-1.toml");
+    let text = text.replace("[adaptivity]", "[adaptivity]\nkeep = \"all\"\nsteps = 2");
+    let problem = Problem::parse(&text, "adaptive", Path::new(".")).expect("a problem");
+    let dataset = solve(&problem, unwatched()).expect("solved");
+    assert_eq!(dataset.steps.len(), 3);
+    let all = solver::plots(&dataset, &dataset.steps[2]);
+    let (name, plot) = &all[0];
+    let points = &plot.curves[0].points;
+    for (step, point) in dataset.steps.iter().zip(points) {
+        assert_eq!(*point, [step.unknowns() as f64, step.record("estimated error").expect("told")]);
+    }
+    assert!(points.windows(2).all(|p| p[0][0] < p[1][0] && p[0][1] > p[1][1]), "{points:?}");
+    let mut lab = Lab::new();
+    lab.state().open(None, Arc::new(dataset));
+    lab.state().session.drawer = Some(DrawerPage::Solver);
+    lab.settle();
+    lab.window.get_by_label(name);
+    shot(&mut lab, "solving-adaptation");
+    // growing cracks have none
+    let dataset = growing(3);
+    assert!(solver::plots(&dataset, &dataset.steps[0]).iter().all(|(other, _)| other != name));
 }
 
 /// In the smallest window that is promised every button of the player lies inside.

@@ -7,8 +7,9 @@ use ppum::quantity::Quantity;
 use ppum::text::trimmed;
 use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve};
 use ppum_render::cells;
+use ppum_scene::plots::adaptation;
 use ppum_scene::scene::OF_PATCHES;
-use ppum_solve::report::LinearKind;
+use ppum_solve::report;
 
 use crate::desk::Desk;
 use crate::session::VisibleRegion;
@@ -29,12 +30,20 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         ui.horizontal_top(|ui| {
             numbers(ui, step, room);
             warnings(ui, desk, &dataset, step, room);
+            if step.record(STOP).is_some() && dataset.steps.len() == 1 {
+                ui.allocate_ui(vec2(180.0, room), |ui| ui.label(ONE_STEP));
+            }
             for (name, plot) in plots(&dataset, step) {
                 chart(ui, name, &plot, vec2(440.0, (room - 14.0).max(120.0)));
             }
         });
     });
 }
+
+/// The record of what ended an adaptation.
+const STOP: &str = "adaptation stop";
+const ONE_STEP: &str = "The dataset holds the last step of its adaptation alone. With keep = \"all\" under [adaptivity] the error of \
+     each step is plotted here.";
 
 /// Values of patches that have a button of their own, and letters of their names.
 const MOST: usize = 30;
@@ -78,7 +87,8 @@ fn numbers(ui: &mut Ui, step: &Step, height: f32) {
             // for programs
             let many = ["iteration ", "level "];
             let is_told = |r: &&Record| !many.iter().any(|word| r.name.starts_with(word));
-            let told = numbers.into_iter().filter(is_told);
+            let mut told: Vec<_> = numbers.into_iter().filter(is_told).collect();
+            told.sort_by_key(|record| !FIRST.contains(&record.name.as_str()));
             for Record { name, value, unit } in told {
                 row(name, worded(name, *value, unit));
             }
@@ -92,22 +102,27 @@ fn numbers(ui: &mut Ui, step: &Step, height: f32) {
     });
 }
 
-/// A number of the solver as one reads it: bytes in MiB, the linear solver by its name.
+/// What one looks for first.
+const FIRST: [&str; 4] = ["unknowns", "estimated error", "estimated error of factors", STOP];
+
+/// A number of the solver as one reads it: bytes in MiB, codes as words.
 fn worded(name: &str, value: f64, unit: &str) -> String {
-    match (name, unit) {
-        ("linear solver", _) => {
-            LinearKind::of_code(value).map_or_else(|| trimmed(value), |kind| kind.word().to_owned())
-        }
-        (_, "B") => format!("{:.1} MiB", value / f64::from(1u32 << 20)),
+    match (report::word(name, value), unit) {
+        (Some(word), _) => word.to_owned(),
+        (None, "B") => format!("{:.1} MiB", value / f64::from(1u32 << 20)),
         _ => format!("{} {unit}", trimmed(value)).trim_end().to_owned(),
     }
 }
 
-/// Seconds of the phases; of a series residuals and unknowns.
+/// The name of the plot of an adaptation.
+const ADAPTATION: &str = "Estimated error against unknowns";
+
+/// The history of an adaptation; seconds of the phases; of a series residuals and unknowns.
 #[must_use]
 pub fn plots(dataset: &Dataset, step: &Step) -> Vec<(&'static str, Plot)> {
     let times: Vec<&Record> = step.history.iter().filter(|r| r.unit == "s").collect();
-    let mut plots = Vec::new();
+    let history = adaptation(dataset).map(|plot| (ADAPTATION, plot));
+    let mut plots: Vec<_> = history.into_iter().collect();
     if !times.is_empty() {
         let names = times.iter().map(|record| record.name.clone()).collect();
         let bars = times.iter().enumerate().map(|(k, record)| [k as f64, record.value]).collect();
