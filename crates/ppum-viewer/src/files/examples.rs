@@ -3,11 +3,18 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use ppum_solve::problem::Problem;
+
+use crate::job::Job;
+use crate::solving::preview::Preview;
+
 /// An example.
 #[derive(Clone, Copy, Debug)]
 pub struct Example {
     /// The name of its file.
     pub name: &'static str,
+    /// What it shows, on one line.
+    pub about: &'static str,
     /// The problem.
     pub text: &'static str,
     /// A file of numbers that it reads, with its name.
@@ -15,56 +22,57 @@ pub struct Example {
 }
 
 macro_rules! example {
-    ($name:literal) => {
+    ($name:literal, $about:literal) => {
         Example {
             name: $name,
+            about: $about,
             text: include_str!(concat!("../../../../examples/", $name, ".toml")),
             numbers: None,
         }
     };
-    ($name:literal, numbers) => {
+    ($name:literal, $about:literal, numbers) => {
         Example {
             numbers: Some((
                 concat!($name, ".csv"),
                 include_str!(concat!("../../../../examples/", $name, ".csv")),
             )),
-            ..example!($name)
+            ..example!($name, $about)
         }
     };
 }
 
 /// All examples, those for a first look first.
 pub const ALL: [Example; 30] = [
-    example!("centre-crack"),
-    example!("edge-crack"),
-    example!("slanted-crack"),
-    example!("kinked-crack"),
-    example!("many-cracks"),
-    example!("meeting-cracks"),
-    example!("edge-shear-growth"),
-    example!("two-holes-growth"),
-    example!("beam-three-holes"),
-    example!("network-growth"),
-    example!("cracked-hole"),
-    example!("square-hole"),
-    example!("plate-with-hole"),
-    example!("arc-crack"),
-    example!("elliptic-hole"),
-    example!("bimaterial-plate"),
-    example!("edge-shear"),
-    example!("kinked-in-plane"),
-    example!("centre-crack-tension"),
-    example!("paper-centre-crack"),
-    example!("paper-adaptive-1"),
-    example!("paper-adaptive-2"),
-    example!("paper-enrichment"),
-    example!("paper-tip-functions"),
-    example!("poisson-slit"),
-    example!("interface-corner"),
-    example!("boundary-layer"),
-    example!("smooth-field"),
-    example!("scattered-points", numbers),
-    example!("tabulated-profile", numbers),
+    example!("centre-crack", "Held at the bottom, pulled at the top"),
+    example!("edge-crack", "A strip in tension, K_I known"),
+    example!("slanted-crack", "Both modes at 45°, K known"),
+    example!("kinked-crack", "A polyline with two kinks"),
+    example!("many-cracks", "Ten cracks that shield each other"),
+    example!("meeting-cracks", "Cracks that cross, branch and meet"),
+    example!("edge-shear-growth", "A growing crack, step by step"),
+    example!("two-holes-growth", "Cracks that bend towards holes"),
+    example!("beam-three-holes", "Bent until the crack meets a hole"),
+    example!("network-growth", "Ten cracks grow into a network"),
+    example!("cracked-hole", "Pressure in a hole and a crack"),
+    example!("square-hole", "Singular corners of 270°"),
+    example!("plate-with-hole", "Kirsch's stress concentration of 3"),
+    example!("arc-crack", "A curved crack, K known"),
+    example!("elliptic-hole", "Inglis' stress concentration of 5"),
+    example!("bimaterial-plate", "A stiff and a soft half, exact"),
+    example!("edge-shear", "K_I and K_II in shear, known"),
+    example!("kinked-in-plane", "One kink in a very large plate"),
+    example!("centre-crack-tension", "The reference case for K_I"),
+    example!("paper-centre-crack", "Figure 5 of the paper"),
+    example!("paper-adaptive-1", "Figure 8: cells where the error is"),
+    example!("paper-adaptive-2", "Figure 8 with quadratic functions"),
+    example!("paper-enrichment", "Figure 2: which patch has what"),
+    example!("paper-tip-functions", "Four functions around a tip"),
+    example!("poisson-slit", "A potential with √r at its end"),
+    example!("interface-corner", "Heat at a corner of two materials"),
+    example!("boundary-layer", "An exponential as enrichment"),
+    example!("smooth-field", "The error is known at every point"),
+    example!("scattered-points", "Patches around given points", numbers),
+    example!("tabulated-profile", "A function that a table defines", numbers),
 ];
 
 impl Example {
@@ -73,6 +81,17 @@ impl Example {
     pub fn title(&self) -> &'static str {
         let line = self.text.lines().find_map(|line| line.strip_prefix("title = \""));
         line.map_or(self.name, |title| title.trim_end_matches('"'))
+    }
+
+    /// What its problem describes: plate, holes, cracks, supports and loads. A file of numbers is
+    /// put into `own`, the window's folder; none where it cannot be.
+    #[must_use]
+    pub fn preview(&self, own: Option<&Path>) -> Option<Preview> {
+        let folder = match own {
+            Some(own) => self.folder(own).ok()?.unwrap_or_default(),
+            None => PathBuf::new(),
+        };
+        Problem::parse(self.text, self.name, &folder).ok().map(|problem| Preview::new(&problem))
     }
 
     /// The folder of the file of numbers that it reads, where that file is put now; none if it
@@ -86,6 +105,32 @@ impl Example {
         std::fs::create_dir_all(&folder)?;
         super::kept::replace(&folder.join(name), text)?;
         Ok(Some(folder))
+    }
+}
+
+/// What the problems of all examples describe, found in the background.
+#[derive(Debug, Default)]
+pub struct Previews {
+    job: Option<Job<Vec<Option<Preview>>>>,
+    known: Vec<Option<Preview>>,
+}
+
+impl Previews {
+    /// Begins to find them, if they are not known yet, with the window's folder.
+    pub fn find(&mut self, ctx: &egui::Context, own: Option<&Path>) {
+        if let Some(found) = self.job.as_ref().and_then(Job::poll) {
+            self.known = found.unwrap_or_default();
+        } else if self.job.is_none() {
+            let own = own.map(Path::to_owned);
+            let all = move |_: &_| ALL.iter().map(|one| one.preview(own.as_deref())).collect();
+            self.job = Some(Job::start(ctx, all));
+        }
+    }
+
+    /// That of an example, by its number, once it is known.
+    #[must_use]
+    pub fn of(&self, number: usize) -> Option<&Preview> {
+        self.known.get(number)?.as_ref()
     }
 }
 
@@ -107,9 +152,11 @@ mod tests {
         assert_eq!(there, ALL.iter().map(|example| example.name.to_owned()).collect());
         let own = tempfile::tempdir().expect("a folder");
         for example in ALL {
+            assert!(example.about.chars().count() < 40 && !example.about.ends_with('.'));
             let folder = example.folder(own.path()).expect("written").unwrap_or_default();
-            let read = ppum_solve::problem::Problem::parse(example.text, example.name, &folder);
+            let read = Problem::parse(example.text, example.name, &folder);
             assert_eq!(read.expect("a problem").title, example.title());
+            assert!(example.preview(Some(own.path())).is_some(), "{}", example.name);
         }
     }
 }

@@ -41,6 +41,8 @@ pub struct Files {
     pub notes: Vec<Note>,
     /// What is remembered.
     pub kept: WindowState,
+    /// What the examples are problems of.
+    pub previews: examples::Previews,
     /// The file of the session, once it has one.
     pub session: Option<PathBuf>,
     folder: Option<PathBuf>,
@@ -98,6 +100,7 @@ impl Files {
         Self {
             notes: Vec::new(),
             kept,
+            previews: examples::Previews::default(),
             session: None,
             folder,
             readings: Vec::new(),
@@ -224,6 +227,11 @@ impl Files {
             std::thread::sleep(Duration::from_millis(5));
         }
         self.keeping = None;
+    }
+
+    /// Begins to find what the examples are problems of.
+    pub fn find_previews(&mut self) {
+        self.previews.find(&self.ctx, self.folder.as_deref());
     }
 
     /// The folder of what is remembered.

@@ -1,10 +1,15 @@
 //! What is shown while no dataset is open: files of before, and examples.
 
-use egui::{RichText, ScrollArea, Ui};
+use egui::{
+    Label, Rect, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo,
+    pos2, vec2,
+};
 
 use crate::actions::Action;
 use crate::desk::Desk;
 use crate::files::examples;
+use crate::shapes::{self, Placed};
+use crate::widgets::note;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
@@ -40,18 +45,49 @@ fn page(ui: &mut Ui, desk: &mut Desk<'_>) {
     ui.strong("Examples");
     ui.weak("A click solves the problem, within seconds mostly, and shows it with its text.");
     ui.add_space(4.0);
-    let columns = ((ui.available_width() / 240.0) as usize).clamp(1, 3);
-    egui::Grid::new("examples").num_columns(columns).spacing([16.0, 6.0]).show(ui, |ui| {
-        for (k, example) in examples::ALL.iter().enumerate() {
-            if ui.button(example.title()).clicked() {
-                desk.actions.push(Action::Example(k));
-            }
-            if (k + 1) % columns == 0 {
-                ui.end_row();
-            }
-        }
-    });
+    desk.files.find_previews();
+    let gap = ui.spacing().item_spacing.x;
+    let columns = (((ui.available_width() + gap) / (TILE.x + gap)) as usize).max(1);
+    for row in 0..examples::ALL.len().div_ceil(columns) {
+        ui.horizontal(|ui| {
+            let last = examples::ALL.len().min((row + 1) * columns);
+            (row * columns..last).for_each(|number| tile(ui, desk, number));
+        });
+    }
 }
+
+/// Size of a tile, and of the picture in it.
+const TILE: Vec2 = vec2(240.0, 64.0);
+const PICTURE: Vec2 = vec2(76.0, 56.0);
+
+/// An example: its plate, its title, and a line about it.
+fn tile(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
+    let example = &examples::ALL[number];
+    let (rect, response) = ui.allocate_exact_size(TILE, Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, example.title()));
+    if !ui.is_rect_visible(rect) {
+        return;
+    }
+    let visuals = ui.style().interact(&response);
+    ui.painter().rect(rect, 4.0, visuals.weak_bg_fill, visuals.bg_stroke, StrokeKind::Inside);
+    let picture = Rect::from_min_size(rect.min + vec2(4.0, 4.0), PICTURE);
+    if let Some(preview) = desk.files.previews.of(number) {
+        let items =
+            preview.items([2.0 * PICTURE.x, 2.0 * PICTURE.y].map(|n| n as u32), 2.0 * LINES);
+        shapes::draw(&ui.painter_at(picture), Placed::new(picture.min, 0.5), &items);
+    }
+    let text = Rect::from_min_max(pos2(picture.right() + 8.0, rect.top()), rect.max);
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(text.shrink2(vec2(0.0, 8.0))));
+    ui.add(Label::new(RichText::new(example.title()).strong()).truncate().selectable(false));
+    let about = note(&ui, example.about);
+    ui.add(Label::new(about).selectable(false));
+    if response.clicked() {
+        desk.actions.push(Action::Example(number));
+    }
+}
+
+/// Widths of lines and signs in parts of those of pictures.
+const LINES: f64 = 0.45;
 
 /// Files with their folders.
 fn recent(ui: &mut Ui, desk: &mut Desk<'_>) {
