@@ -23,6 +23,7 @@ from .errors import (
 from .building import Coefficients, State, arrays, build, from_arrays
 from .comparing import Comparison, Needed, Norms, Resampling
 from .cover import Cover
+from .curves import arc, ellipse
 from .dataset import (
     Advance,
     Crack,
@@ -108,9 +109,11 @@ __all__ = [
     "Tip",
     "Values",
     "View",
+    "arc",
     "arrays",
     "basis",
     "build",
+    "ellipse",
     "from_arrays",
     "from_bytes",
     "from_dolfinx",

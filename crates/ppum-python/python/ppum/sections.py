@@ -35,7 +35,7 @@ class HoleOptions(TypedDict, total=False):
     center: Annotated[ArrayLike, _key("the centre of a circle")]
     radius: Annotated[float, _key("its radius")]
     points: Annotated[ArrayLike, _key("the corners of a polygon, shape (n, 2)")]
-    ellipse: Annotated[Table, _key("an ellipse: a dictionary of center, axes, angle (degrees)")]
+    ellipse: Annotated[Table, _key("an ellipse: `ppum.ellipse`, or a table of problem files")]
     spline: Annotated[ArrayLike, _key("points of a smooth closed curve, shape (n, 2)")]
     segments: Annotated[int, _key("the number of segments of an ellipse or a spline")]
 
@@ -43,8 +43,8 @@ class HoleOptions(TypedDict, total=False):
 class CrackOptions(TypedDict, total=False):
     """A curve in place of points."""
 
-    arc: Annotated[Table, _key("an arc of a circle: a dictionary of center, radius, from, to (degrees)")]
-    ellipse: Annotated[Table, _key("a part of an ellipse: center, axes, angle, from, to (degrees)")]
+    arc: Annotated[Table, _key("an arc of a circle: `ppum.arc`, or a table of problem files")]
+    ellipse: Annotated[Table, _key("a part of an ellipse: `ppum.ellipse`, or a table of problem files")]
     spline: Annotated[ArrayLike, _key("points of a smooth curve, shape (n, 2)")]
     path: Annotated[Sequence[Table], _key("several curves, each from where the one before ends")]
     segments: Annotated[int, _key("the number of segments of each curve")]

@@ -359,7 +359,11 @@ class Viewer(anywidget.AnyWidget):
         return False
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
-        """The widget, and a picture for where there is no kernel: pages with the widget's state show `_still`."""
+        """The widget, and a picture for where there is no kernel: pages with the widget's state show `_still`.
+
+        Where nobody is there the picture alone: nobody could touch the widget, and a page with it would load code from the
+        network, and be empty without that.
+        """
         try:
             self._still = self.figure(size=(640, 480)).png()
         except (PpumError, ValueError) as error:
@@ -368,10 +372,20 @@ class Viewer(anywidget.AnyWidget):
         data, metadata = bundle if isinstance(bundle, tuple) else (dict(bundle or {}), {})
         if self._still:
             data["image/png"] = base64.b64encode(self._still).decode()
+            if _is_unattended():
+                data = {name: data[name] for name in ("image/png", "text/plain") if name in data}
         return data, metadata
 
     def __repr__(self) -> str:
         return f"<ppum view of {self.quantity} around {self.center}, {self.width:g} wide>"
+
+
+def _is_unattended() -> bool:
+    """Whether a program runs the notebook, such as `jupyter nbconvert --execute`: it answers no questions. Voilà does
+    neither, but shows the widgets of its notebooks."""
+    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
+    answers = getattr(getattr(shell, "kernel", None), "_allow_stdin", True)
+    return not answers and "voila" not in os.environ.get("SERVER_SOFTWARE", "").lower()
 
 
 def _offers(field: Field) -> dict[str, Any]:
