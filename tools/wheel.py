@@ -2,13 +2,15 @@
 """What a wheel and a source distribution of the Python package must be: small, licensed, for Python 3.11 and later.
 
     tools/wheel.py FOLDER MODULE      a wheel and a source distribution that were built, and the module that is measured
-    tools/wheel.py --release FOLDER   builds there what is published, with zig, and checks it; skipped where zig is not
+    tools/wheel.py --release FOLDER [TARGET]      builds there what is published, with zig, and checks it; skipped where zig
+                                      is not. TARGET is another processor, such as aarch64-unknown-linux-gnu.
 
 With zig (`pip install ziglang`) wheels are linked against an old C library, so that they run on clusters of 2012 and later.
 """
 
 import importlib.util
 import pathlib
+import platform
 import re
 import subprocess
 import sys
@@ -46,10 +48,10 @@ def check(folder):
     return wheel
 
 
-def check_platform(folder):
+def check_platform(folder, processor):
     """The name of the wheel says an old C library, and its code asks for nothing newer."""
     (wheel,) = folder.glob("*.whl")
-    tag = "manylinux_{}_{}_".format(*OLDEST)
+    tag = "manylinux_{}_{}_".format(*OLDEST) + processor
     assert tag in wheel.name, f"{wheel.name} is not for {tag}"
     archive = zipfile.ZipFile(wheel)
     (library,) = (name for name in archive.namelist() if name.endswith(".so"))
@@ -59,21 +61,21 @@ def check_platform(folder):
     print(f"ok  {wheel.name}: needs glibc {newest[0]}.{newest[1]}")
 
 
-def release(folder):
+def release(folder, target=f"{platform.machine()}-unknown-linux-gnu"):
     if importlib.util.find_spec("ziglang") is None:
         print("skipped  the wheel that is published: no zig (pip install ziglang)")
         return
     compatible = "manylinux_{}_{}".format(*OLDEST)
-    subprocess.run([*RELEASE, "--compatibility", compatible, "--out", folder], check=True)
+    subprocess.run([*RELEASE, "--target", target, "--compatibility", compatible, "--out", folder], check=True)
     subprocess.run(["maturin", "sdist", "--out", folder], check=True)
     wheel = check(folder)
     check_size(wheel.name, wheel.stat().st_size, LONGEST_RELEASE)
-    check_platform(folder)
+    check_platform(folder, target.split("-")[0])
 
 
 if __name__ == "__main__":
     if sys.argv[1] == "--release":
-        release(pathlib.Path(sys.argv[2]))
+        release(pathlib.Path(sys.argv[2]), *sys.argv[3:])
     else:
         folder, module = map(pathlib.Path, sys.argv[1:])
         check(folder)
