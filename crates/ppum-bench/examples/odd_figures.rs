@@ -87,7 +87,7 @@ impl Case {
             if domain.contains(view.center + p) { (self.value)(p) } else { f64::NAN }
         });
         let mut picture = Picture::bare(&raster, &view, &self.style)?;
-        picture.hatch(&raster.undefined(&domain, &view));
+        picture.mark_undefined(&raster.undefined(&domain, &view), None);
         Ok(picture)
     }
 

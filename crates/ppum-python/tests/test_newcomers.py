@@ -88,6 +88,33 @@ def test_angles_are_radians(ds, f):
             wrong()
 
 
+def test_curves_take_radians():
+    """And tables of problem files their degrees, as before."""
+    empty = ppum.Problem(((0, 0), (1, 1)), ppum.Elastic(1.0, 0.3))
+    for start, end in np.random.default_rng(3).uniform(-np.pi, np.pi, (20, 2)):
+        arc = ppum.arc((0.5, 0.4), 0.2, start, end)
+        table = {"center": (0.5, 0.4), "radius": 0.2, "from": np.degrees(start), "to": np.degrees(end)}
+        assert empty.crack(arc=arc) == empty.crack(arc=table)
+        part = ppum.ellipse((0.5, 0.4), (0.3, 0.1), start, start=end, end=start)
+        assert part["angle"] == part["to"] == np.degrees(start) and part["from"] == np.degrees(end)
+    assert set(ppum.ellipse((0.5, 0.4), (0.3, 0.1))) == {"center", "axes", "angle"}
+    for wrong in (lambda: ppum.arc((0, 0), 1, 20, 110), lambda: ppum.ellipse((0, 0), (2, 1), 45)):
+        with pytest.raises(ValueError, match="angles are in radians"):
+            wrong()
+
+
+def test_points_without_a_value_have_a_colour_in_figures(f):
+    look = {"center": (0, 0), "width": 2, "size": (80, 40), "cmap": "magma"}
+    plain, red = f.rgba("sqrt(x)", **look), f.rgba("sqrt(x)", nan_color="#f01020", **look)
+    without = (red[..., :3] == (0xF0, 0x10, 0x20)).all(axis=-1)
+    assert without[:, :40].mean() > 0.98 and not without[:, 41:].any()
+    assert np.array_equal(plain[~without], red[~without]) and not np.array_equal(plain, red)
+    named = f.rgba("sqrt(x)", nan_color="white", **look)
+    assert (named[without] == 255).all() and np.array_equal(red, f.rgba("sqrt(x)", nan_color=(0xF0 / 255, 0x10 / 255, 0x20 / 255), **look))
+    with pytest.raises(ValueError, match="nan_color: 'gray17x'"):
+        f.figure("sqrt(x)", nan_color="gray17x")
+
+
 def test_labels_are_mathtext(f):
     line = f.line((-1, 0.1), (1, 0.1), num=5, quantities=["syy"])
     assert line.syy.attrs["long_name"] == "σ$_{yy}$"

@@ -1,6 +1,7 @@
 """Options: known to editors and type checkers, refused with a remedy where they are not known, and those of the libraries."""
 
 import inspect
+import io
 import json
 import os
 import pathlib
@@ -56,6 +57,20 @@ def test_consoles_complete_options(f, problem):
         shell.use_jedi = False
         _, found = shell.complete(line_buffer=line, cursor_pos=len(line))
         assert option in found, line
+
+
+def test_jedi_completes_options(f, problem):
+    """What IPython asks by itself, and editors that see the objects."""
+    jedi = pytest.importorskip("jedi")
+    for line, option in {
+        "f.figure('ux', cli": "clim=",
+        "f.plot('ux', vmi": "vmin=",
+        "f.render('ux', zo": "zoom=",
+        "plate.boundary('top', trac": "traction=",
+        "plate.discretization(overl": "overlap=",
+    }.items():
+        found = jedi.Interpreter(line, [{"f": f, "plate": problem}]).complete()
+        assert option in [completion.name for completion in found], line
 
 
 @pytest.mark.parametrize(
@@ -136,6 +151,17 @@ def test_one_end_of_a_range(f):
             f.figure("ux", **options)
     with pytest.raises(ValueError, match="give both vmin and vmax"):
         f.animate("ux", vmin=0)
+
+
+def test_a_width_on_paper_has_the_height_of_the_picture(f):
+    """A plate of 2 by 4 in a column of a journal, and what is beside it."""
+    plt = pytest.importorskip("matplotlib.pyplot")
+    image = plt.imread(io.BytesIO(f.figure("ux", inches=3.4, dpi=100, cmap="magma").png()))
+    dark = np.abs(image[..., :3] - image[..., :1]).max(axis=-1) > 0.1
+    rows, columns = (np.flatnonzero(dark.mean(axis=axis) > 0.3) for axis in (1, 0))
+    assert image.shape[1] == 340 and len(columns) >= 0.6 * 340 and len(rows) >= 1.9 * len(columns)
+    beside = f.figure("ux", inches=3.4, dpi=100, colorbar="right")
+    assert "340 pixels wide" in repr(beside) and plt.imread(io.BytesIO(beside.png())).shape[0] < image.shape[0]
 
 
 def test_a_view_is_taken_by_all_that_draw(f):

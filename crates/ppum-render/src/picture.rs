@@ -5,7 +5,7 @@ use ppum_raster::raster::{Raster, Sample};
 use ppum_raster::view::View;
 use rayon::prelude::*;
 
-use crate::colormap::{Colormap, ColormapError, HALF};
+use crate::colormap::{Colormap, ColormapError, HALF, Rgb};
 use crate::extrema::Extrema;
 use crate::image::{Image, Rgba};
 use crate::png::Text;
@@ -25,6 +25,8 @@ pub struct Style {
     pub range: Range,
     /// The colour of pixels without a value; transparent unless set.
     pub undefined: Rgba,
+    /// The colour of those that lie on the plate; crosshatched if there is none.
+    pub nan_color: Option<Rgb>,
 }
 
 impl Style {
@@ -34,7 +36,13 @@ impl Style {
     /// An unknown name.
     pub fn named(colormap: &str) -> Result<Self, ColormapError> {
         let colormap = Colormap::named(colormap)?;
-        Ok(Self { colormap, scale: Scale::Linear, range: Range::Auto, undefined: [0; 4] })
+        Ok(Self {
+            colormap,
+            scale: Scale::Linear,
+            range: Range::Auto,
+            undefined: [0; 4],
+            nan_color: None,
+        })
     }
 
     /// The style with one colour for each of some rising whole numbers ([`Raster::whole_numbers`]),
@@ -158,16 +166,17 @@ impl Picture {
         self.samples = samples;
     }
 
-    /// Crosshatches pixels of the plate that have no value ([`Raster::undefined`]), to tell them
-    /// from those outside.
-    pub fn hatch(&mut self, pixels: &[u32]) {
+    /// Gives pixels of the plate that have no value ([`Raster::undefined`]) a colour, or crosshatches
+    /// them, to tell them from those outside.
+    pub fn mark_undefined(&mut self, pixels: &[u32], color: Option<Rgb>) {
         let columns = self.image.size[0];
         let rgba = self.image.rgba.as_chunks_mut::<4>().0;
         for &pixel in pixels {
             let (column, row) = (pixel % columns, pixel / columns);
             let is_line =
                 (column + row) % HATCH_STEP == 0 || column % HATCH_STEP == row % HATCH_STEP;
-            rgba[pixel as usize] = if is_line { HATCH } else { HATCHED };
+            let hatched = if is_line { HATCH } else { HATCHED };
+            rgba[pixel as usize] = color.map_or(hatched, |Rgb([r, g, b])| [r, g, b, 255]);
         }
     }
 
@@ -278,13 +287,17 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_value_is_hatched() {
+    fn what_has_no_value_is_hatched_or_has_a_colour() {
         let values: Vec<f64> = (0..240).map(|k| if k % 3 == 0 { f64::NAN } else { 1.0 }).collect();
         let raster = Raster::new([20, 12], values);
         let mut picture = Picture::bare(&raster, &view(20, 12), &Style::default()).unwrap();
         let plain = picture.clone();
         let undefined: Vec<u32> = (0..120).filter(|k| k % 3 == 0).collect();
-        picture.hatch(&undefined);
+        let mut colored = picture.clone();
+        colored.mark_undefined(&undefined, Some(Rgb([1, 2, 3])));
+        let is_colored = |k: u32| colored.image.pixel(k % 20, k / 20) == [1, 2, 3, 255];
+        assert!((0..240).all(|k| is_colored(k) == undefined.contains(&k)));
+        picture.mark_undefined(&undefined, None);
         let found = [HATCH, HATCHED].map(|color| {
             undefined.iter().filter(|&&k| picture.image.pixel(k % 20, k / 20) == color).count()
         });

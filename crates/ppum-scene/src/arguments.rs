@@ -70,16 +70,6 @@ pub fn layout(text: &str) -> Result<[u32; 2], String> {
     size(text).map_err(|_| "write the numbers of columns and rows: CxR, e.g. 2x2".into())
 }
 
-/// `WxH`: width and height, in inches.
-///
-/// # Errors
-/// Anything else.
-pub fn inches(text: &str) -> Result<[f64; 2], String> {
-    let parts =
-        text.split_once('x').and_then(|(w, h)| Some([positive(w).ok()?, positive(h).ok()?]));
-    parts.ok_or_else(|| "write two numbers above zero: WIDTHxHEIGHT, e.g. 3.4x2.6".into())
-}
-
 /// Most pixels of a page of plots and panels: a quarter of a gigabyte.
 pub const MOST_OF_PAGE: u64 = 1 << 26;
 
@@ -160,8 +150,6 @@ mod tests {
         for wrong in ["1024", "1024x", "x768", "-1x5", "1.5x2", "1024*768"] {
             assert!(size(wrong).is_err(), "{wrong}");
         }
-        assert_eq!(inches("3.4x2.6"), Ok([3.4, 2.6]));
-        assert!(inches("3.4").is_err() && inches("3x0").is_err());
         assert_eq!(positive("1e-12"), Ok(1e-12));
         assert!(positive("0").is_err() && positive("-1").is_err() && positive("inf").is_err());
     }

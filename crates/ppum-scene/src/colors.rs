@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use ppum::quantity::Quantity;
-use ppum_render::colormap::{Colormap, ColormapError, LONGEST};
+use ppum_render::colormap::{Colormap, ColormapError, LONGEST, Rgb};
 use ppum_render::picture::Style;
 use ppum_render::range::Range;
 use ppum_render::scale::Scale;
@@ -52,6 +52,10 @@ pub struct Colors {
     /// Put zero in the middle of a range that is found and holds it, as diverging maps always do
     #[cfg_attr(feature = "clap", arg(long))]
     pub symmetric: bool,
+    /// Colour of points of the plate without a value, as #rrggbb [default: crosshatched]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "#RRGGBB"))]
+    #[serde(with = "written::optional", skip_serializing_if = "Option::is_none")]
+    pub nan_color: Option<Rgb>,
 }
 
 #[cfg(feature = "clap")]
@@ -107,7 +111,8 @@ impl Colors {
             colormap = colormap.banded(count);
         }
         colormap.diverging |= self.symmetric;
-        Style { colormap, range, scale: self.scale, ..Style::default() }
+        let (scale, nan_color) = (self.scale, self.nan_color);
+        Style { colormap, range, scale, nan_color, ..Style::default() }
     }
 
     /// The style of pictures of one range. Few whole numbers have a colour each.

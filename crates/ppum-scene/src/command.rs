@@ -58,7 +58,7 @@ fn option(path: &str, value: &Value, words: &mut Vec<String>) {
         }
         (_, Value::Array(all)) => {
             let is_repeated = all.iter().any(Value::is_array) || name == "ticks";
-            let joint = if ["size", "inches", "layout"].contains(&&*name) { "x" } else { "," };
+            let joint = if ["size", "layout"].contains(&&*name) { "x" } else { "," };
             let texts = all.iter().map(text);
             if is_repeated {
                 texts.for_each(|text| add(&text));

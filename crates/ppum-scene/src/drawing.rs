@@ -281,7 +281,7 @@ impl Drawn {
             RasterValues::Double(raster) => Picture::spanning(raster, &self.view, style, span),
             RasterValues::Single(raster) => Picture::spanning(raster, &self.view, style, span),
         }?;
-        picture.hatch(&self.without);
+        picture.mark_undefined(&self.without, style.nan_color);
         hatch(&mut picture.image, &self.overlap);
         if let Some((samples, opacity)) = &self.opacity {
             picture.fade(*samples, opacity);

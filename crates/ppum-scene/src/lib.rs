@@ -27,6 +27,7 @@ pub mod moving;
 pub mod notice;
 pub mod overlays;
 pub mod panels;
+pub mod paper;
 pub mod place;
 pub mod placing;
 #[cfg(feature = "problem")]

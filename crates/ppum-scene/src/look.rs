@@ -3,12 +3,13 @@
 use std::fmt;
 use std::str::FromStr;
 
-use ppum_figure::figure::{BarPlace, Design, Theme, TickChoice};
+use ppum_figure::figure::{BarPlace, Design, Theme, TickChoice, hugging};
 use serde::{Deserialize, Serialize};
 
 #[cfg(feature = "clap")]
-use crate::arguments::{inches, positive, size};
+use crate::arguments::{positive, size};
 use crate::overlays::listed;
+use crate::paper::PaperSize;
 
 /// Size and look of an image; what only figures have is refused of others by
 /// [`Look::of_figures`].
@@ -20,17 +21,21 @@ pub struct Look {
     /// shape; of `compare` and of panels 660x600 for each panel]
     #[cfg_attr(
         feature = "clap",
-        arg(long, value_name = "WxH", value_parser = size, conflicts_with = "inches")
+        arg(long, value_name = "WxH", value_parser = size),
+        arg(conflicts_with_all = ["inches", "cm"])
     )]
     pub size: Option<[u32; 2]>,
-    /// Size of the picture on paper, in inches
-    #[cfg_attr(feature = "clap", arg(long, value_name = "WxH", value_parser = inches))]
-    pub inches: Option<[f64; 2]>,
-    /// Pixels per inch [default: 300 with --inches, else 96]
+    /// Size on paper, in inches; with a width alone the height is that of what is drawn
+    #[cfg_attr(feature = "clap", arg(long, value_name = "W[xH]", conflicts_with = "cm"))]
+    pub inches: Option<PaperSize>,
+    /// The same in centimetres
+    #[cfg_attr(feature = "clap", arg(long, value_name = "W[xH]"))]
+    pub cm: Option<PaperSize>,
+    /// Pixels per inch [default: 300 with --inches or --cm, else 96]
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = positive))]
     pub dpi: Option<f64>,
-    /// Size of the letters of a figure in points [default: 9 with --inches, else with the size
-    /// in pixels]
+    /// Size of the letters of a figure in points [default: 9 with --inches or --cm, else with the
+    /// size in pixels]
     #[cfg_attr(feature = "clap", arg(long, value_name = "PT", value_parser = positive))]
     pub font_size: Option<f64>,
     /// Colours around the picture of a figure [default: light]
@@ -100,6 +105,10 @@ const LONG_PANEL: [u32; 2] = [900, 330];
 const MOST_PANELS: u32 = 12;
 /// Length over height of what counts as long.
 pub const LONG: f64 = 2.2;
+/// Width over height of what has any shape.
+pub(crate) const SHAPE: f64 = 4.0 / 3.0;
+/// Centimetres in an inch.
+const INCH: f64 = 2.54;
 const PRINT_DPI: f64 = 300.0;
 const SCREEN_DPI: f64 = 96.0;
 
@@ -119,7 +128,16 @@ impl Look {
     /// The size that was asked for \[pixels\].
     #[must_use]
     pub fn given_size(&self) -> Option<[u32; 2]> {
-        self.size.or_else(|| Some(Design::inches(self.inches?, self.dpi()).size))
+        let on_paper = || {
+            let PaperSize { width, height } = self.paper()?;
+            Some(Design::inches([width, height?], self.dpi()).size)
+        };
+        self.size.or_else(on_paper)
+    }
+
+    /// The size on paper \[inches\].
+    fn paper(&self) -> Option<PaperSize> {
+        self.inches.or_else(|| self.cm.map(|size| size.over(INCH)))
     }
 
     /// Size of a page of so many panels across and down if no size is given, of things of a shape.
@@ -133,13 +151,13 @@ impl Look {
 
     /// Pixels per inch.
     fn dpi(&self) -> f64 {
-        self.dpi.unwrap_or(if self.inches.is_some() { PRINT_DPI } else { SCREEN_DPI })
+        self.dpi.unwrap_or(if self.paper().is_some() { PRINT_DPI } else { SCREEN_DPI })
     }
 
     /// Pixels per inch if someone cares.
     #[must_use]
     pub fn given_dpi(&self) -> Option<f64> {
-        (self.dpi.is_some() || self.inches.is_some()).then(|| self.dpi())
+        (self.dpi.is_some() || self.paper().is_some()).then(|| self.dpi())
     }
 
     /// The look of a figure of something of a shape, width over height, none if it has any shape;
@@ -147,8 +165,11 @@ impl Look {
     /// it across and down.
     #[must_use]
     pub fn design(&self, aspect: Option<f64>, size: [u32; 2], parts: [u32; 2]) -> Design {
-        let mut design = match (self.inches, self.size.unwrap_or(size)) {
-            (Some(inches), _) => Design::inches(inches, self.dpi()),
+        let mut design = match (self.paper(), self.size.unwrap_or(size)) {
+            (Some(PaperSize { width, height }), _) => {
+                let panel = width / f64::from(parts[0]) / aspect.unwrap_or(SHAPE);
+                Design::inches([width, height.unwrap_or(panel * f64::from(parts[1]))], self.dpi())
+            }
             (None, size) => {
                 let part = [size[0] / parts[0], size[1] / parts[1]];
                 Design { size, ..Design::pixels(part).at(self.dpi()) }
@@ -174,6 +195,45 @@ impl Look {
             ticks.clone_from(choice);
         }
         design
+    }
+
+    /// The design with the height of a picture of a shape, if the page is to have that.
+    ///
+    /// # Errors
+    /// Those of `room`, see [`hugging`].
+    pub fn fitted<E>(
+        &self,
+        design: Design,
+        aspect: Option<f64>,
+        room: impl Fn(&Design) -> Result<[u32; 2], E>,
+    ) -> Result<Design, E> {
+        if self.paper().is_none_or(|paper| paper.height.is_some()) {
+            return Ok(design);
+        }
+        let is_free = matches!(self.bar, None | Some(BarName::Auto));
+        let places = if is_free && design.bar != BarPlace::None {
+            &BarPlace::ANYWHERE[..]
+        } else {
+            &[design.bar]
+        };
+        hugging(&design, aspect.unwrap_or(SHAPE), places, room)
+    }
+
+    /// The look of a design that was made of a size and a place of the bar alone.
+    #[must_use]
+    pub fn of(design: &Design) -> Self {
+        let bar = (design.bar == BarPlace::Bottom).then_some(BarName::Bottom);
+        if design.font_size == Design::pixels(design.size).font_size {
+            return Self { size: Some(design.size), bar, ..Self::default() };
+        }
+        let [width, height] = design.size.map(|side| f64::from(side) / design.dpi);
+        Self {
+            inches: Some(PaperSize { width, height: Some(height) }),
+            dpi: Some(design.dpi),
+            font_size: Some(design.font_size),
+            bar,
+            ..Self::default()
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use ppum_render::range::ValueSpan;
 
 use crate::drawing::{BodyView, Drawn};
 use crate::engine::Engine;
-use crate::look::{DEFAULT_SIZE, Look};
+use crate::look::{DEFAULT_SIZE, Look, SHAPE};
 use crate::placing::{Placing, extent};
 use crate::request::{PanelsError, Request};
 use crate::scene::{Subject, SubjectError};
@@ -261,9 +261,6 @@ pub fn letters(number: usize) -> String {
         before => letters(before - 1) + &last.to_string(),
     }
 }
-
-/// Width over height of pictures that have any shape.
-const SHAPE: f64 = 4.0 / 3.0;
 
 #[cfg(test)]
 mod tests {

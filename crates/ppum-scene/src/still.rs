@@ -69,11 +69,15 @@ impl<'a> Common<'a> {
     /// # Errors
     /// Those of the frames; a size without room.
     pub fn new<F: Frames>(frames: &F, request: &'a Request) -> Result<Self, F::Error> {
-        let mut design = Design::pixels(DEFAULT_SIZE);
+        let (mut design, mut aspect) = (Design::pixels(DEFAULT_SIZE), None);
         frames.with(0, &mut |source, request| {
             design = request.design(source.field, DEFAULT_SIZE, [1, 1]);
+            aspect = request.place.aspect(source.field);
             Ok(())
         })?;
+        if request.figure {
+            design = request.look.fitted(design, aspect, |design| frames.room(design))?;
+        }
         let room = if request.figure { frames.room(&design)? } else { design.size };
         let design = request.figure.then_some(design);
         let extent = extent(request, design.as_ref(), room);

@@ -349,7 +349,7 @@ impl egui::Plugin for Tab {
     }
 }
 
-/// The actions whose keys were pressed, unless someone writes.
+/// The actions whose keys were pressed, unless someone writes or chooses from a list.
 pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
     let mut all = by_shortcuts(ctx);
     let tab = ctx.with_plugin(|tab: &mut Tab| std::mem::take(&mut tab.is_pressed));
@@ -358,7 +358,7 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
 }
 
 fn by_shortcuts(ctx: &egui::Context) -> Vec<Action> {
-    let is_writing = ctx.egui_wants_keyboard_input();
+    let is_writing = ctx.egui_wants_keyboard_input() || egui::Popup::is_any_open(ctx);
     let mut all: Vec<&ActionEntry> = ALL.iter().collect();
     // the more keys of a shortcut, the sooner it is asked, so that Ctrl+Z does not
     // take Ctrl+Shift+Z

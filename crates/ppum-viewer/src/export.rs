@@ -3,21 +3,23 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ppum::progress::Watcher;
-use ppum_figure::figure::Design;
+use ppum_figure::figure::{BarPlace, Design, hugging, plot_area};
 use ppum_figure::form::PageFormat;
 use ppum_render::view::View;
 use ppum_scene::command;
 use ppum_scene::drawing::Shown;
 use ppum_scene::engine::Engine;
 use ppum_scene::minus::Side;
-use ppum_scene::moving::{AnimationFormat as Animation, Film, Frames as _, InMemory, Moving};
+use ppum_scene::look::Look;
+use ppum_scene::moving::{AnimationFormat as Animation, Film, Frames, InMemory, Moving, Work};
 use ppum_scene::notice::Notice;
 use ppum_scene::place::Place;
 use ppum_scene::request::Request;
 use ppum_scene::scene::Scene;
-use ppum_scene::shot::{FieldSource, page, reshaped, view_in};
+use ppum_scene::shot::{FieldSource, ShotError, page, reshaped, title, view_in};
 
 use crate::field::OwnedField;
 
@@ -70,6 +72,85 @@ impl ExportChoice {
     }
 }
 
+/// A unit of sizes of pages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LengthUnit {
+    /// Centimetres on paper.
+    Centimetre,
+    /// Inches on paper.
+    Inch,
+    /// Pixels, with letters that grow with the page.
+    Pixel,
+}
+
+impl LengthUnit {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Centimetre, Self::Inch, Self::Pixel];
+
+    /// Its sign, and how many of it are an inch.
+    #[must_use]
+    pub fn words(self) -> (&'static str, f64) {
+        match self {
+            Self::Centimetre => ("cm", 2.54),
+            Self::Inch => ("in", 1.0),
+            Self::Pixel => ("pixels", SCREEN_DPI),
+        }
+    }
+}
+
+/// The size of a page.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PageSize {
+    /// The unit of its sides.
+    pub unit: LengthUnit,
+    /// Its width.
+    pub width: f64,
+    /// Its height; on paper without one that of what is shown.
+    pub height: Option<f64>,
+    /// Pixels per inch of paper.
+    pub dpi: f64,
+    /// Size of letters on paper \[points\].
+    pub font_size: f64,
+}
+
+/// Pixels per inch of screens, as CSS has it.
+const SCREEN_DPI: f64 = 96.0;
+
+impl PageSize {
+    /// A column of a journal, as high as what is shown.
+    pub const COLUMN: Self =
+        Self { unit: LengthUnit::Centimetre, width: 8.6, height: None, dpi: 300.0, font_size: 9.0 };
+
+    /// So many columns and rows.
+    #[must_use]
+    pub fn pixels(size: [u32; 2]) -> Self {
+        let [width, height] = size.map(f64::from);
+        Self { unit: LengthUnit::Pixel, width, height: Some(height), ..Self::COLUMN }
+    }
+
+    /// The same page in another unit.
+    #[must_use]
+    pub fn in_unit(self, unit: LengthUnit) -> Self {
+        let factor = unit.words().1 / self.unit.words().1;
+        let round = |length: f64| match unit {
+            LengthUnit::Pixel => length.round(),
+            _ => (100.0 * length).round() / 100.0,
+        };
+        let height = self.height.map(|height| round(factor * height));
+        Self { unit, width: round(factor * self.width), height, ..self }
+    }
+
+    /// The look of a figure; where no height is given with any.
+    fn design(&self) -> Design {
+        let sides = [self.width, self.height.unwrap_or(self.width)];
+        if self.unit == LengthUnit::Pixel {
+            return Design::pixels(sides.map(|side| side.round() as u32));
+        }
+        let inches = sides.map(|side| side / self.unit.words().1);
+        Design { font_size: self.font_size, ..Design::inches(inches, self.dpi) }
+    }
+}
+
 /// A picture that is to be written.
 #[derive(Clone, Debug)]
 pub struct Order {
@@ -83,8 +164,8 @@ pub struct Order {
     pub scene: Scene,
     /// Where.
     pub view: View,
-    /// Columns and rows of the page.
-    pub size: [u32; 2],
+    /// The page.
+    pub page: PageSize,
     /// What is written.
     pub kind: ExportKind,
 }
@@ -96,11 +177,24 @@ const NOT_MOVING: &str =
 pub const NO_COMMAND: &str = "no command draws the difference of two views; a session does: ppum view --session … --screenshot …";
 
 impl Order {
-    fn design(&self) -> Option<Design> {
-        (self.kind != ExportKind::Picture).then(|| Design::pixels(self.size))
+    /// The look of a figure, none of a bare picture.
+    fn design(&self, request: &Request) -> Result<Option<Design>, ShotError> {
+        if self.kind == ExportKind::Picture {
+            return Ok(None);
+        }
+        let design = self.page.design();
+        if self.page.height.is_some() || self.page.unit == LengthUnit::Pixel {
+            return Ok(Some(design));
+        }
+        let (title, aspect) =
+            (title(self.source(), request)?, self.view.width / self.view.height());
+        let room = |design: &Design| plot_area(&title, design);
+        Ok(Some(hugging(&design, aspect, &BarPlace::ANYWHERE, room)?))
     }
 
-    /// The file's bytes, in the form that its name ends in, and what is to be said of them.
+    /// The file's bytes, in the form that its name ends in, and what is to be said of them. Of an
+    /// animation `done` counts the pictures, those of the search for the range and those that are
+    /// drawn.
     ///
     /// # Errors
     /// What keeps the picture from being drawn, or from being encoded, in words.
@@ -108,14 +202,21 @@ impl Order {
         &self,
         path: &Path,
         watcher: &dyn Watcher,
+        done: &AtomicUsize,
     ) -> Result<(Vec<u8>, Vec<Notice>), String> {
         let engine = Engine::processor(watcher);
         let bytes = match &self.kind {
             ExportKind::Moving(..) if self.left.is_some() => Err(NOT_MOVING.into()),
-            ExportKind::Moving(moving, rate) => self.moving(moving, *rate, path, &engine),
+            ExportKind::Moving(moving, rate) => self.moving((moving, *rate), path, &engine, done),
             _ => self.still(path, &engine),
         };
         Ok((bytes?, engine.into_notices()))
+    }
+
+    /// The view on the pixels of a design, or of the page.
+    fn shaped(&self, design: Option<&Design>) -> Result<View, String> {
+        let size = design.map_or_else(|| self.page.design().size, |design| design.size);
+        reshaped(&self.view, size).map_err(|e| e.to_string())
     }
 
     fn source(&self) -> FieldSource<'_> {
@@ -126,35 +227,43 @@ impl Order {
 
     fn still(&self, path: &Path, engine: &Engine<'_>) -> Result<Vec<u8>, String> {
         let (source, request) = (self.source(), Request::from(self.scene.clone()));
-        let view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
-        let made = page(source, &request, &view, self.design().as_ref(), engine);
+        let design = self.design(&request).map_err(|e| e.to_string())?;
+        let view = self.shaped(design.as_ref())?;
+        let made = page(source, &request, &view, design.as_ref(), engine);
         let (page, shot) = made.map_err(|e| e.to_string())?;
+        // files that are passed on do not say in which folder they were made
+        let names = [self.file.as_deref(), Some(path)].map(|path| path.and_then(Path::file_name));
+        let [file, output] =
+            names.map(|name| name.map_or(NAMELESS.into(), |n| n.to_string_lossy()));
         let command = match self.left {
-            None => self.command(path)?,
+            None => self.command_of(&file, &output)?,
             Some(_) => NO_COMMAND.into(),
         };
-        let mut texts = shot.texts(&name(self.file.as_deref()));
+        let mut texts = shot.texts(&file);
         texts.push(("ppum:command".to_owned(), command));
         texts.extend(shot.notes());
         let form = PageFormat::of(path);
         Notice::of_glyphs(&page, form).into_iter().for_each(|notice| engine.tell(notice));
-        form.bytes(&page, None, &texts).map_err(|e| e.to_string())
+        let dpi = design.filter(|_| self.page.unit != LengthUnit::Pixel).map(|design| design.dpi);
+        form.bytes(&page, dpi, &texts).map_err(|e| e.to_string())
     }
 
     fn moving(
         &self,
-        moving: &Moving,
-        rate: f64,
+        (moving, rate): (&Moving, f64),
         path: &Path,
         engine: &Engine<'_>,
+        done: &AtomicUsize,
     ) -> Result<Vec<u8>, String> {
         let (source, request) = (self.source(), Request::from(self.scene.clone()));
         let frames = InMemory::new(source.dataset, &request, moving).map_err(|e| e.to_string())?;
-        let design = self.design();
-        let room = |design| frames.room(design).map_err(|e| e.to_string());
-        let room = design.as_ref().map_or(Ok(self.size), room)?;
-        let view = reshaped(&self.view, self.size).and_then(|view| reshaped(&view, room));
-        let view = view.map_err(|e| e.to_string())?;
+        let frames = Counted { frames, done };
+        let design = self.design(&request).map_err(|e| e.to_string())?;
+        let view = self.shaped(design.as_ref())?;
+        let room = design.as_ref().map_or(Ok(view.pixels), |design| frames.room(design));
+        let room = room.map_err(|e| e.to_string())?;
+        let view = reshaped(&view, room).map_err(|e| e.to_string())?;
+        done.store(0, Ordering::Relaxed);
         let film = Film::new(&frames, &view, design.as_ref(), engine).map_err(|e| e.to_string())?;
         let milliseconds = (1000.0 / rate).round().clamp(10.0, 60_000.0) as u16;
         let is_gif = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("gif"));
@@ -168,20 +277,24 @@ impl Order {
     /// # Errors
     /// A size without room for a figure, a difference, which no command draws; in words.
     pub fn command(&self, output: &Path) -> Result<String, String> {
+        let file = self.file.as_deref().map_or(NAMELESS.into(), Path::to_string_lossy);
+        self.command_of(&file, &output.to_string_lossy())
+    }
+
+    fn command_of(&self, file: &str, output: &str) -> Result<String, String> {
         if self.left.is_some() {
             return Err(NO_COMMAND.into());
         }
-        let mut request = Request::from(self.scene.clone());
-        let mut view = reshaped(&self.view, self.size).map_err(|e| e.to_string())?;
-        if let Some(design) = self.design() {
-            let room = view_in(self.source(), &request, &view, &design);
-            view = room.map_err(|e| e.to_string())?;
-            request.figure = true;
+        let (source, mut request) = (self.source(), Request::from(self.scene.clone()));
+        let design = self.design(&request).map_err(|e| e.to_string())?;
+        let mut view = self.shaped(design.as_ref())?;
+        request.look.size = Some(view.pixels);
+        if let Some(design) = &design {
+            view = view_in(source, &request, &view, design).map_err(|e| e.to_string())?;
+            (request.figure, request.look) = (true, Look::of(design));
         }
-        (request.place, request.look.size) = (Place::of(&view), Some(self.size));
-        let file = name(self.file.as_deref());
-        let output = output.to_string_lossy();
-        let mut words = command::render(&request, &file, &output);
+        request.place = Place::of(&view);
+        let mut words = command::render(&request, file, output);
         if let ExportKind::Moving(Moving::Steps(_), rate) = self.kind {
             words.retain(|word| !word.starts_with("--step="));
             words.extend(["--steps=all".to_owned(), format!("--fps={rate:?}")]);
@@ -190,7 +303,25 @@ impl Order {
     }
 }
 
-/// The name of a file, as a command would say it.
-fn name(path: Option<&Path>) -> String {
-    path.map_or_else(|| "FILE.h5".into(), |path| path.to_string_lossy().into_owned())
+/// A dataset without a file, as a command would name it.
+const NAMELESS: &str = "FILE.h5";
+
+/// Frames that are counted when they were worked on.
+struct Counted<'a, F> {
+    frames: F,
+    done: &'a AtomicUsize,
+}
+
+impl<F: Frames> Frames for Counted<'_, F> {
+    type Error = F::Error;
+
+    fn count(&self) -> usize {
+        self.frames.count()
+    }
+
+    fn with(&self, number: usize, work: &mut Work<'_, F::Error>) -> Result<(), F::Error> {
+        self.frames.with(number, work)?;
+        self.done.fetch_add(1, Ordering::Relaxed);
+        Ok(())
+    }
 }

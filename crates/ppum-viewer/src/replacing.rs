@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 pub struct Replacing(Option<PathBuf>);
 
 /// What is said of a file that is there already.
-pub const ASK: &str = "this file is there already: once more replaces it";
+pub const ASK: &str = "this file exists; save again to replace it";
 
 impl Replacing {
     /// True if a file may be written: it is not there yet, was written before, or is asked for the

@@ -66,7 +66,7 @@ Examples:
   ppum render plate.h5 -o lines.svg --figure --isolines auto --level-labels
   ppum render plate.h5 -o cross.png --figure --crosses -q hydrostatic --colormap vik
   ppum render plate.h5 -o moved.png --deformed auto --outline --figure
-  ppum render plate.h5 -o paper.pdf --figure --inches 3.4x2.6 --font-size 8
+  ppum render plate.h5 -o paper.pdf --figure --inches 3.4
   ppum render plate.h5 -o four.svg -q von-mises,ux,uy,syy --layout 2x2
   ppum render plate.h5 -o parts.png -q uy --part all,smooth,jump,tip --shared-range
   ppum render plate.h5 -o method.png -q level,order,functions,overlap
@@ -279,7 +279,10 @@ mod tests {
 
     fn look(random: &mut Random) -> Look {
         let size = maybe(random, |r| [r.below(4000) as u32 + 1, 7]);
-        let inches = maybe(random, |r| [r.between(0.1, 9.0), 2.0]);
+        let inches = maybe(random, |r| PaperSize {
+            width: r.between(0.1, 9.0),
+            height: (r.below(2) == 0).then_some(2.0),
+        });
         let ticks = ["x=5", "y=auto", "bar=-1.0,0.25", "bar=3.0,"];
         let ticks = ticks.iter().filter(|_| is(random)).map(|text| text.parse().unwrap()).collect();
         Look {

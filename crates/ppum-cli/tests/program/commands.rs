@@ -5,7 +5,8 @@ use std::sync::Arc;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::vec2::vec2;
-use ppum_figure::figure::Design;
+use ppum_figure::figure::{BarPlace, Design};
+use ppum_render::colormap::Rgb;
 use ppum_render::range::Range;
 use ppum_render::scale::Scale;
 use ppum_render::view::View;
@@ -13,6 +14,7 @@ use ppum_scene::colors::Colors;
 use ppum_scene::command;
 use ppum_scene::deformed::Factor;
 use ppum_scene::engine::Engine;
+use ppum_scene::look::Look;
 use ppum_scene::overlays::{Levels, Overlay, Overlays};
 use ppum_scene::place::Place;
 use ppum_scene::request::Request;
@@ -36,6 +38,7 @@ fn colors(random: &mut Random) -> Colors {
         contrast: random.below(2) == 0,
         bands: maybe(random, |r| r.below(20) as u16 + 1),
         symmetric: random.below(2) == 0,
+        nan_color: maybe(random, |r| Rgb([r.below(256) as u8, 0, 255])),
     }
 }
 
@@ -94,12 +97,17 @@ fn the_command_of_a_picture_draws_it_again() {
     let mut drawn = [0; 2];
     for number in 0..24 {
         let (scene, view) = (scene(&mut random), view(&mut random));
-        let size = (number % 4 == 0).then_some([400, 300]);
-        let own = page(&dataset, &scene, &view, size);
+        let design = match number % 8 {
+            0 => Some(Design::pixels([400, 300])),
+            4 => Some(Design { bar: BarPlace::Bottom, ..Design::inches([3.0, 4.0], 100.0) }),
+            _ => None,
+        };
+        let own = page(&dataset, &scene, &view, design.as_ref());
         let seen = own.as_ref().map_or(view, |(_, seen)| *seen);
         let mut request = Request::from(scene.clone());
-        (request.place, request.figure) = (Place::of(&seen), size.is_some());
-        request.look.size = Some(size.unwrap_or(seen.pixels));
+        (request.place, request.figure) = (Place::of(&seen), design.is_some());
+        let bare = || Look { size: Some(seen.pixels), ..Look::default() };
+        request.look = design.as_ref().map_or_else(bare, Look::of);
         let words = command::render(&request, "plate.h5", "again.png");
         let _ = std::fs::remove_file(lab.path("again.png"));
         let mut again = lab.command("");
@@ -111,7 +119,7 @@ fn the_command_of_a_picture_draws_it_again() {
                     "{}",
                     command::line(&words)
                 );
-                drawn[usize::from(size.is_some())] += 1;
+                drawn[usize::from(design.is_some())] += 1;
             }
             (Err(_), false) => {}
             (own, _) => panic!(
@@ -129,7 +137,9 @@ fn the_command_of_a_picture_draws_it_again() {
 #[cfg(feature = "window")]
 #[test]
 fn the_window_saves_what_its_command_draws() {
-    use ppum_viewer::export::{ExportKind, Order};
+    use std::sync::atomic::AtomicUsize;
+
+    use ppum_viewer::export::{ExportKind, Order, PageSize};
     use ppum_viewer::field::OwnedField;
 
     let lab = Lab::solved(CRACKED);
@@ -140,17 +150,22 @@ fn the_window_saves_what_its_command_draws() {
         overlays: Overlays { isolines, ..Overlays::default() },
         ..Scene::default()
     };
-    for (kind, size) in [(ExportKind::Figure, [500, 400]), (ExportKind::Picture, [80, 60])] {
+    for (kind, page) in [
+        (ExportKind::Figure, PageSize::pixels([500, 400])),
+        (ExportKind::Figure, PageSize { dpi: 150.0, ..PageSize::COLUMN }),
+        (ExportKind::Picture, PageSize::pixels([80, 60])),
+    ] {
         let order = Order {
             field: Arc::new(OwnedField::new(Arc::clone(&dataset), 0).unwrap()),
             file: Some("plate.h5".into()),
             left: None,
             scene: scene.clone(),
             view: View::new(vec2(0.0, 0.0), 3.0, [80, 60]).unwrap(),
-            size,
+            page,
             kind,
         };
-        let own = order.bytes("own.png".as_ref(), ppum::progress::unwatched());
+        let own =
+            order.bytes("own.png".as_ref(), ppum::progress::unwatched(), &AtomicUsize::new(0));
         let (bytes, notices) = own.unwrap();
         std::fs::write(lab.path("own.png"), bytes).unwrap();
         let line = order.command("again.png".as_ref()).unwrap();
@@ -170,13 +185,12 @@ fn page(
     dataset: &Dataset,
     scene: &Scene,
     view: &View,
-    size: Option<[u32; 2]>,
+    design: Option<&Design>,
 ) -> Result<(Vec<u8>, View), String> {
     let mut dataset = dataset.clone();
     scene.subject.apply(&mut dataset).map_err(|e| e.to_string())?;
     let field = Field::new(&dataset, scene.subject.step_of(&dataset)).map_err(|e| e.to_string())?;
-    let design = size.map(Design::pixels);
     let (source, request) = (FieldSource::of(&dataset, &field), scene.clone().into());
-    let made = shot::page(source, &request, view, design.as_ref(), &Engine::default());
+    let made = shot::page(source, &request, view, design, &Engine::default());
     made.map(|(page, shot)| (page.image().rgba, shot.picture.view)).map_err(|e| e.to_string())
 }

@@ -178,6 +178,9 @@ impl Design {
 pub(super) const HATCH_STEP: u32 = 8;
 
 impl BarPlace {
+    /// The places of a bar that may stand anywhere, the usual one first.
+    pub const ANYWHERE: [Self; 2] = [Self::Right, Self::Bottom];
+
     /// The place for pictures of a shape, width over height: below those that are long.
     #[must_use]
     pub fn fitting(aspect: f64) -> Self {

@@ -103,6 +103,40 @@ pub fn panel_area(
     Ok([(design.size[0] - taken[0]) / across, (design.size[1] - taken[1]) / down])
 }
 
+/// A design whose height is that of a picture of a shape, width over height, as wide as the page
+/// has room for, with all around it. Its bar is at the first of some places that leaves the picture
+/// 60 % of the width, else at the last. `room` is the largest picture of a design, as
+/// [`plot_area`].
+///
+/// # Errors
+/// Those of `room`.
+pub fn hugging<E>(
+    design: &Design,
+    aspect: f64,
+    places: &[BarPlace],
+    room: impl Fn(&Design) -> Result<[u32; 2], E>,
+) -> Result<Design, E> {
+    let [width, tallest] = [design.size[0], design.size[0].saturating_mul(TALLEST)];
+    let tall = |bar| Design { bar, size: [width, tallest], ..design.clone() };
+    let is_wide = |place: &&BarPlace| {
+        let columns = room(&tall(**place)).map_or(0, |[columns, _]| columns);
+        f64::from(columns) >= LEAST_PART * f64::from(width)
+    };
+    let place = places.iter().find(is_wide).or(places.last()).copied();
+    let mut found = tall(place.unwrap_or(design.bar));
+    let [columns, rows] = room(&found)?;
+    let height = f64::from(columns) / aspect.max(NARROWEST);
+    found.size[1] = (tallest - rows).saturating_add(height.round() as u32).min(tallest);
+    Ok(found)
+}
+
+/// Height of the page in widths while it is looked for: more than it will have.
+const TALLEST: u32 = 8;
+/// Width over height of pictures that are not drawn any higher.
+const NARROWEST: f64 = 0.25;
+/// Least part of a page's width that a picture takes.
+const LEAST_PART: f64 = 0.6;
+
 /// Pixels across and down that no picture has.
 fn kept(title: &str, captions: &[&str], grid: PanelGrid, design: &Design) -> [f64; 2] {
     let scale = design.scale();

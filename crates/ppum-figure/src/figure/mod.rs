@@ -30,7 +30,7 @@ use crate::canvas::Canvas;
 pub use axis::axis_label;
 pub use color_bar::Bar;
 pub use design::{BarPlace, Design, Labels, Theme, TickChoice};
-pub use layout::{PanelGrid, panel_area, panels, plot_area};
+pub use layout::{PanelGrid, hugging, panel_area, panels, plot_area};
 pub use panel::{FigureError, Panel, bare};
 pub use sheet::lacks_legend;
 

@@ -63,10 +63,9 @@ PAPER_DPI = 300.0
 def _size(look: dict[str, Any]) -> str:
     """Columns and rows of a page, in words."""
     if look["inches"] is None:
-        width, height = look["size"] or SIZE
-    else:
-        width, height = (round(side * (look["dpi"] or PAPER_DPI)) for side in look["inches"])
-    return f"{width}x{height}"
+        return "{}x{}".format(*(look["size"] or SIZE))
+    sides = [round(float(side) * (look["dpi"] or PAPER_DPI)) for side in look["inches"].split("x")]
+    return "x".join(map(str, sides)) if len(sides) == 2 else f"{sides[0]} pixels wide"
 
 
 class Animation(Drawn):

@@ -5,8 +5,11 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Annotated, Any, Literal, TypedDict
+
+import numpy as np
 
 from .options import Option, refuse_unknown
 from .views import PixelOptions, PlaceOptions, pixels
@@ -70,6 +73,9 @@ class SceneOptions(ColorOptions, total=False):
 
     bands: Annotated[int | None, Option(None, "the number of bands of one colour each")]
     symmetric: Annotated[bool, Option(False, "whether a range that is found lies evenly around zero")]
+    nan_color: Annotated[
+        Any, Option(None, "the colour of points of the plate that have no value, crosshatched without one")
+    ]
     contrast: Annotated[bool, Option(False, "whether values beyond the range have colours of their own")]
     overlays: Annotated[Overlay | Sequence[Overlay], Option((), "what is drawn over it, one or a list")]
     isolines: Annotated[
@@ -111,7 +117,10 @@ class PageOptions(TypedDict, total=False):
         tuple[int, int] | None,
         Option(None, "columns and rows of pixels; by default 1024 and 768, of each of several panels 660 and 600"),
     ]
-    inches: Annotated[tuple[float, float] | None, Option(None, "in place of `size`: width and height")]
+    inches: Annotated[
+        float | tuple[float, float] | None,
+        Option(None, "in place of `size`: width and height, or a width, with the height that the picture needs"),
+    ]
     dpi: Annotated[float | None, Option(None, "pixels in an inch; with `inches` 300")]
     font_size: Annotated[float | None, Option(None, "size of letters, points")]
     theme: Annotated[Literal["light", "dark"], Option("light", "the colours of page and letters")]
@@ -244,6 +253,7 @@ def scene(asked: str | Sequence[str] | None, options: ColorOptions, found: str |
                 "contrast": bool(o.get("contrast", False)),
                 "bands": o.get("bands"),
                 "symmetric": bool(o.get("symmetric", False)),
+                "nan_color": _color(o.get("nan_color")),
             },
             "overlays": {
                 "shown": [overlays] if isinstance(overlays, str) else list(overlays),
@@ -269,7 +279,7 @@ def page(options: PageOptions) -> dict[str, Any]:
     size = options["size"]
     return {
         "size": None if size is None else pixels(size),
-        "inches": options["inches"],
+        "inches": _inches(options["inches"]),
         "dpi": options["dpi"],
         "font_size": options["font_size"],
         "theme": options["theme"],
@@ -277,6 +287,25 @@ def page(options: PageOptions) -> dict[str, Any]:
         "bar": bar if isinstance(bar, str) else None if bar else "none",
         "ticks": _ticks(options["ticks"]),
     }
+
+
+def _inches(inches: Any) -> str | None:
+    """A size on paper as the libraries read it."""
+    return None if inches is None else "x".join(repr(float(side)) for side in np.atleast_1d(inches))
+
+
+def _color(color: Any) -> str | None:
+    """A colour as `#rrggbb`; names and numbers are those of matplotlib."""
+    if color is None or isinstance(color, str) and re.fullmatch("#[0-9a-fA-F]{6}", color):
+        return color
+    try:
+        from matplotlib.colors import to_hex
+    except ImportError:
+        raise ValueError(f"nan_color: {color!r} is not '#rrggbb'; other colours need matplotlib") from None
+    try:
+        return str(to_hex(color))
+    except ValueError as error:
+        raise ValueError(f"nan_color: {error}") from None
 
 
 def plain(value: Any) -> Any:

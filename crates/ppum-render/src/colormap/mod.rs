@@ -24,6 +24,7 @@ mod stops;
 mod table;
 
 use crate::image::Rgba;
+pub use paint::Rgb;
 use ppum::text::hint;
 use space::Space;
 use stops::{ColorFileError, Stops};

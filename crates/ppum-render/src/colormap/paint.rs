@@ -1,6 +1,32 @@
 //! Single colours: `#rrggbb`, `#rgb`, `rgb(r, g, b)`, three numbers.
 
+use std::fmt::{self, Display, Formatter};
+use std::str::FromStr;
+
 use super::stops::Paint;
+
+/// An opaque colour: red, green and blue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rgb(pub [u8; 3]);
+
+impl FromStr for Rgb {
+    type Err = String;
+
+    /// `#rrggbb`, `#rgb` or `rgb(r, g, b)`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let text = text.trim();
+        let known = hex(text).filter(|_| text.starts_with('#')).or_else(|| function(text));
+        let color = known.map(|color| Self(color.map(|channel| channel.round() as u8)));
+        color.ok_or_else(|| format!("`{text}` is no colour; write #rrggbb, e.g. #c0c0c0"))
+    }
+}
+
+impl Display for Rgb {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self([r, g, b]) = self;
+        write!(f, "#{r:02x}{g:02x}{b:02x}")
+    }
+}
 
 /// `#rrggbb`, `#rgb`, `rrggbb` or `rgb(r, g, b)`; an opacity behind it, `#rrggbbaa` or `rgba(…)`,
 /// is left out.
@@ -39,4 +65,22 @@ pub(super) fn numbers(color: [f64; 3]) -> Option<Paint> {
 
 fn in_range(value: &f64) -> bool {
     (0.0..=255.0).contains(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_read_as_they_are_written() {
+        for k in 0..=255_u8 {
+            let color = Rgb([k, k.wrapping_mul(7), 255 - k]);
+            assert_eq!(color.to_string().parse(), Ok(color));
+        }
+        assert_eq!("#f80".parse(), Ok(Rgb([255, 136, 0])));
+        assert_eq!(" rgb(1, 2, 3) ".parse(), Ok(Rgb([1, 2, 3])));
+        for wrong in ["", "grey", "#12", "123456", "#12345g", "rgb(1,2)"] {
+            assert!(wrong.parse::<Rgb>().is_err(), "{wrong}");
+        }
+    }
 }

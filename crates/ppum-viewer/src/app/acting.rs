@@ -14,7 +14,7 @@ use ppum_scene::overlays::Levels;
 use crate::actions::Action;
 use crate::app::Viewer;
 use crate::controls::swing::Swing;
-use crate::export::{ExportChoice, ExportKind, Order};
+use crate::export::{ExportChoice, ExportKind, Order, PageSize};
 use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::player;
@@ -233,7 +233,7 @@ fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) -> Result<(), S
         left: frame.left(),
         scene: pane.scene.drawn(),
         view,
-        size: view.pixels,
+        page: PageSize::pixels(view.pixels),
         kind: ExportKind::Picture,
     };
     ctx.copy_text(order.command(Path::new("picture.png"))?);

@@ -133,11 +133,12 @@ impl Viewer {
         }
         let active = self.session.active;
         if let Some(exporter) = &mut self.exporter
-            && !exporter.show(ui, &self.session.panes[active], &self.stages[active])
+            && !exporter.show(ui, &self.session.panes[active], &mut self.stages[active])
         {
             self.exporter = None;
         }
         self.ask_before_parting(ui);
+        focus_ring(ui.ctx());
         self.copy(ui.ctx());
         for action in actions {
             self.act(ui.ctx(), action);
@@ -265,6 +266,16 @@ impl Viewer {
             Theme::Dark => egui::ThemePreference::Dark,
         });
     }
+}
+
+/// Frames what has the focus of the keyboard.
+fn focus_ring(ctx: &egui::Context) {
+    let Some(focused) = ctx.memory(egui::Memory::focused) else { return };
+    let Some(response) = ctx.read_response(focused) else { return };
+    let layer = egui::LayerId::new(egui::Order::Tooltip, egui::Id::unique("focus"));
+    let stroke = egui::Stroke::new(2.0, ctx.global_style().visuals.selection.stroke.color);
+    let rect = response.rect.expand(1.0).intersect(ctx.content_rect().shrink(1.0));
+    ctx.layer_painter(layer).rect_stroke(rect, 3.0, stroke, egui::StrokeKind::Outside);
 }
 
 /// Windows that are narrower have no room for panels \[points\].

@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
 use egui::{ComboBox, DragValue, Grid, Key, Modifiers, TextEdit, Ui, Window};
 use ppum_scene::moving::Moving;
 
-use crate::export::{ExportChoice, ExportKind, Order};
+use crate::export::{ExportChoice, ExportKind, LengthUnit, Order, PageSize};
 use crate::field::OwnedField;
 use crate::frames::Frame;
 use crate::job::Job;
@@ -18,26 +20,34 @@ use crate::stage::Stage;
 pub struct Exporter {
     what: ExportChoice,
     path: String,
-    size: [u32; 2],
+    page: PageSize,
+    /// The page of the other kinds.
+    other: PageSize,
     /// Pictures a second.
     rate: f64,
     /// Pictures of the deformation's coming and going.
     count: usize,
     job: Option<Job<Result<String, String>>>,
+    /// Pictures of an animation that were worked on, in both passes.
+    done: Arc<AtomicUsize>,
     told: Option<Result<String, String>>,
     replacing: Replacing,
     /// The name is written next.
     is_new: bool,
 }
 
-/// Largest side of a page.
-const MOST: u32 = 16_384;
+/// Largest side of a page \[pixels\].
+const MOST: f64 = 16_384.0;
 
 impl Exporter {
     /// Begins with a kind, and the size and name that suit what is seen.
     #[must_use]
     pub fn new(what: ExportChoice, stage: &Stage) -> Self {
-        let size = stage.view.map_or([1024, 768], |view| view.pixels);
+        let pixels = PageSize::pixels(stage.view.map_or([1024, 768], |view| view.pixels));
+        let (page, other) = match what {
+            ExportChoice::Figure => (PageSize::COLUMN, pixels),
+            _ => (pixels, PageSize::COLUMN),
+        };
         let path = match &stage.opened {
             Some(opened) => beside(opened.path.as_deref(), what.ends()[0]),
             None => String::new(),
@@ -45,10 +55,12 @@ impl Exporter {
         Self {
             what,
             path,
-            size,
+            page,
+            other,
             rate: 12.0,
             count: 36,
             job: None,
+            done: Arc::default(),
             told: None,
             replacing: Replacing::default(),
             is_new: true,
@@ -65,13 +77,13 @@ impl Exporter {
     }
 
     /// Shows the choice; false once it is closed.
-    pub fn show(&mut self, ui: &Ui, pane: &Pane, stage: &Stage) -> bool {
+    pub fn show(&mut self, ui: &Ui, pane: &Pane, stage: &mut Stage) -> bool {
         self.finish();
         let mut is_open = true;
         let has_list = egui::Popup::is_any_open(ui.ctx());
         let window = Window::new("Save").open(&mut is_open).collapsible(false).resizable(false);
-        window.show(ui.ctx(), |ui| match stage.frame() {
-            Some(frame) => self.choose(ui, pane, stage, frame),
+        window.show(ui.ctx(), |ui| match stage.frame().cloned() {
+            Some(frame) => self.choose(ui, pane, stage, &frame),
             None => {
                 ui.label("There is no picture yet.");
             }
@@ -82,7 +94,7 @@ impl Exporter {
         is_open && !is_closed
     }
 
-    fn choose(&mut self, ui: &mut Ui, pane: &Pane, stage: &Stage, frame: &Arc<Frame>) {
+    fn choose(&mut self, ui: &mut Ui, pane: &Pane, stage: &mut Stage, frame: &Arc<Frame>) {
         let grid = Grid::new("save").num_columns(2);
         let is_entered = grid.show(ui, |ui| self.fields(ui, frame)).inner;
         let order = self.order(pane, stage, frame);
@@ -98,6 +110,10 @@ impl Exporter {
                 ui.spinner();
                 if ui.button("Stop").clicked() {
                     job.cancel();
+                }
+                if let ExportKind::Moving(moving, _) = &order.kind {
+                    ui.label(progress(self.done.load(Ordering::Relaxed), count(moving)));
+                    ui.ctx().request_repaint_after(Duration::from_millis(200));
                 }
             }
         });
@@ -138,50 +154,77 @@ impl Exporter {
         });
         ui.end_row();
         if self.what != before {
-            let ends = self.what.ends();
-            let path = Path::new(&self.path);
-            let fits = ends.iter().any(|end| path.extension().is_some_and(|e| e == *end));
-            if !fits {
-                self.path = path.with_extension(ends[0]).to_string_lossy().into_owned();
-            }
+            self.change_from(before);
         }
+        ui.label("Format");
+        self.format(ui);
+        ui.end_row();
         let label = ui.label("File");
-        let name = ui.add(TextEdit::singleline(&mut self.path).desired_width(340.0));
+        let width = (ui.ctx().content_rect().width() - 180.0).clamp(120.0, 340.0);
+        let name = ui.add(TextEdit::singleline(&mut self.path).desired_width(width));
         let name = name.labelled_by(label.id);
         if std::mem::take(&mut self.is_new) {
             name.request_focus();
         }
         let is_entered = name.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         ui.end_row();
-        ui.label("Pixels");
-        ui.horizontal(|ui| {
-            for side in &mut self.size {
-                ui.add(DragValue::new(side).range(1..=MOST).speed(4.0));
-            }
-        });
-        ui.end_row();
+        size(ui, &mut self.page, self.what == ExportChoice::Figure);
         if matches!(self.what, ExportChoice::Steps | ExportChoice::Deformation) {
-            ui.label("Pictures a second");
+            ui.label("Images a second");
             ui.add(DragValue::new(&mut self.rate).range(0.1..=60.0).speed(0.1));
             ui.end_row();
         }
         if self.what == ExportChoice::Deformation {
-            ui.label("Pictures");
+            ui.label("Images");
             ui.add(DragValue::new(&mut self.count).range(2..=600));
             ui.end_row();
         }
         is_entered
     }
 
-    fn order(&self, pane: &Pane, stage: &Stage, frame: &Arc<Frame>) -> Order {
+    /// Another kind has other forms, and a figure a size on paper.
+    fn change_from(&mut self, before: ExportChoice) {
+        if !self.what.ends().contains(&self.end().as_str()) {
+            self.set_end(self.what.ends()[0]);
+        }
+        if (self.what == ExportChoice::Figure) != (before == ExportChoice::Figure) {
+            std::mem::swap(&mut self.page, &mut self.other);
+        }
+    }
+
+    /// The list of the forms of the file, which its name ends in.
+    fn format(&mut self, ui: &mut Ui) {
+        let end = self.end();
+        ComboBox::from_id_salt("format").selected_text(end.to_uppercase()).show_ui(ui, |ui| {
+            for one in self.what.ends() {
+                if ui.selectable_label(end == *one, one.to_uppercase()).clicked() {
+                    self.set_end(one);
+                }
+            }
+        });
+    }
+
+    fn end(&self) -> String {
+        let end = Path::new(self.path.trim()).extension().unwrap_or_default();
+        end.to_string_lossy().to_lowercase()
+    }
+
+    fn set_end(&mut self, end: &str) {
+        self.path = Path::new(self.path.trim()).with_extension(end).to_string_lossy().into_owned();
+    }
+
+    fn order(&self, pane: &Pane, stage: &mut Stage, frame: &Arc<Frame>) -> Order {
         let steps = (0..frame.field.dataset().steps.len()).collect();
         Order {
             field: Arc::clone(&frame.field),
             file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
             left: frame.left(),
             scene: pane.scene.drawn(),
-            view: stage.view.unwrap_or(frame.wanted.view),
-            size: self.size,
+            view: match self.what {
+                ExportChoice::Picture => stage.view.unwrap_or(frame.wanted.view),
+                _ => stage.cropped(pane).unwrap_or(frame.wanted.view),
+            },
+            page: self.page,
             kind: match self.what {
                 ExportChoice::Picture => ExportKind::Picture,
                 ExportChoice::Figure => ExportKind::Figure,
@@ -215,16 +258,18 @@ impl Exporter {
             return;
         }
         self.told = None;
+        let done = Arc::clone(&self.done);
+        done.store(0, Ordering::Relaxed);
         self.job = Some(Job::start(ui.ctx(), move |stop| {
             if let (ExportKind::Moving(Moving::Factor(unknown, _), _), None) =
                 (&mut order.kind, factor)
             {
                 *unknown = automatic(&order.field).unwrap_or(1.0);
             }
-            let (bytes, notices) = order.bytes(&path, stop)?;
+            let (bytes, notices) = order.bytes(&path, stop, &done)?;
             write(&path, &bytes)?;
             let notices = notices.iter().map(|notice| format!("\n{}", notice.line()));
-            Ok(format!("wrote {}{}", path.display(), notices.collect::<String>()))
+            Ok(format!("Saved {}{}", path.display(), notices.collect::<String>()))
         }));
     }
 
@@ -235,14 +280,94 @@ impl Exporter {
     }
 }
 
+/// The rows of a size. A figure has one on paper, whose height is that of what is shown unless
+/// another is given; other pages have pixels.
+fn size(ui: &mut Ui, page: &mut PageSize, is_figure: bool) {
+    let is_paper = page.unit != LengthUnit::Pixel;
+    ui.label("Width");
+    ui.horizontal(|ui| {
+        side(ui, "Width of the page", &mut page.width, is_paper);
+        if is_figure {
+            unit(ui, page);
+        } else {
+            ui.label("pixels");
+        }
+    });
+    ui.end_row();
+    ui.label("Height");
+    ui.horizontal(|ui| {
+        if is_figure && is_paper {
+            let mut is_found = page.height.is_none();
+            let text = "As high as what is shown needs at this width";
+            if ui.checkbox(&mut is_found, "as shown").on_hover_text(text).changed() {
+                page.height = (!is_found).then_some(0.75 * page.width);
+            }
+        }
+        if let Some(height) = &mut page.height {
+            side(ui, "Height of the page", height, is_paper);
+        }
+    });
+    ui.end_row();
+    if is_figure && is_paper {
+        ui.label("Letters");
+        let letters = DragValue::new(&mut page.font_size).range(4.0..=40.0).speed(0.1);
+        ui.add(letters.suffix(" pt")).accessible_name("Size of the letters");
+        ui.end_row();
+        ui.label("Resolution");
+        let dpi = DragValue::new(&mut page.dpi).range(50.0..=1200.0).max_decimals(0);
+        ui.add(dpi.suffix(" pixels per inch")).accessible_name("Resolution");
+        ui.end_row();
+    }
+}
+
+fn unit(ui: &mut Ui, page: &mut PageSize) {
+    let (name, _) = page.unit.words();
+    ComboBox::from_id_salt("unit").selected_text(name).width(60.0).show_ui(ui, |ui| {
+        for one in LengthUnit::ALL {
+            if ui.selectable_label(page.unit == one, one.words().0).clicked() {
+                *page = page.in_unit(one);
+                if one == LengthUnit::Pixel {
+                    page.height.get_or_insert((0.75 * page.width).round());
+                }
+            }
+        }
+    });
+}
+
+fn side(ui: &mut Ui, name: &str, value: &mut f64, is_paper: bool) {
+    let (most, speed, decimals) = if is_paper { (200.0, 0.05, 2) } else { (MOST, 4.0, 0) };
+    let least = if is_paper { 0.5 } else { 1.0 };
+    let field = DragValue::new(value).range(least..=most).speed(speed).max_decimals(decimals);
+    ui.add(field).accessible_name(name);
+}
+
+/// The number of images of an animation.
+fn count(moving: &Moving) -> usize {
+    match moving {
+        Moving::Steps(steps) => steps.len(),
+        Moving::Factor(_, count) => *count,
+    }
+}
+
+/// How far an animation has come: its range is found in a first pass over all images.
+fn progress(done: usize, count: usize) -> String {
+    match done.checked_sub(count) {
+        None => format!("range of image {} of {count}", done + 1),
+        Some(drawn) => format!("image {} of {count}", (drawn + 1).min(count)),
+    }
+}
+
 /// The command that draws the picture, to be copied.
 pub fn command(ui: &mut Ui, command: &Result<String, String>) {
     match command {
         Ok(command) => {
             ui.horizontal(|ui| {
                 ui.strong("The same on the command line");
-                if ui.button("Copy").clicked() {
+                let id = ui.scope_id().with("copied");
+                let is_copied = ui.data(|data| data.get_temp(id)) == Some(command.clone());
+                if ui.button(if is_copied { "Copied" } else { "Copy" }).clicked() {
                     ui.ctx().copy_text(command.clone());
+                    ui.data_mut(|data| data.insert_temp(id, command.clone()));
                 }
             });
             let mut shown = command.as_str();

@@ -19,11 +19,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     let subject = &mut desk.session.panes[active].scene.subject;
     let last = steps.len() - 1;
     let mut step = subject.step_of(&opened.dataset).min(last);
-    ui.separator();
     if button(ui, "◀", "Step before").clicked() {
         desk.actions.push(Action::Step(-1));
     }
-    ui.spacing_mut().slider_width = (ui.available_size_before_wrap().x - REST).clamp(80.0, 300.0);
+    ui.spacing_mut().slider_width = (ui.available_width() - REST).clamp(60.0, 600.0);
     let slider = ui.add(Slider::new(&mut step, 0..=last).show_value(false));
     slider.widget_info(|| {
         let text = format!("Step {step} of {last}");

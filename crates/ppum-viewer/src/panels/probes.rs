@@ -70,7 +70,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
             ui.ctx().copy_text(texts.collect());
         }
         let csv = || table.csv().into_bytes();
-        outputs(ui, stage, &[("csv", &csv)], &|| table.csv());
+        outputs(ui, stage, ("probes", &[("csv", &csv)]), &|| table.csv());
     });
 }
 

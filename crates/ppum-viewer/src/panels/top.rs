@@ -45,8 +45,9 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         }
         replaced(ui, desk);
         solving(ui, desk);
-        player::show(ui, desk);
     });
+    // in a row of its own, so that it is never broken
+    ui.horizontal(|ui| player::show(ui, desk));
 }
 
 /// Says that functions, the weight or quantities are not those of the file.

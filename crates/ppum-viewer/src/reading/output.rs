@@ -8,8 +8,13 @@ use crate::replacing::{ASK, Replacing};
 /// The name of the next file, and what became of the last one.
 #[derive(Debug, Default)]
 pub struct Output {
-    /// The name without its end.
+    /// The name without its end; that of the proposal where it is empty, and beside it where it
+    /// names no folder.
     pub path: String,
+    /// Where the file goes if nothing else is said.
+    proposal: PathBuf,
+    /// The proposal for the last file.
+    told_of: PathBuf,
     /// What became of the last file: its name, or the reason why there is none.
     pub told: Option<Result<String, String>>,
     /// The file that was asked for last.
@@ -19,8 +24,6 @@ pub struct Output {
 /// A file that is not written.
 #[derive(Debug, thiserror::Error)]
 enum OutputError {
-    #[error("write the file's name first")]
-    NoName,
     #[error("{}: this is the dataset that is shown; choose another name", .0.display())]
     Input(PathBuf),
     #[error("{}: {}", .0.display(), ASK)]
@@ -30,12 +33,25 @@ enum OutputError {
 }
 
 impl Output {
+    /// Proposes a file.
+    pub fn propose(&mut self, proposal: PathBuf) {
+        self.proposal = proposal;
+    }
+
+    /// What became of the last file, if this one was proposed for it: there are several lists that
+    /// are written.
+    #[must_use]
+    pub fn told(&self) -> Option<&Result<String, String>> {
+        self.told.as_ref().filter(|_| self.told_of == self.proposal)
+    }
+
     /// Writes bytes to the file of the name with an end of its own, in one step, and tells it;
     /// never over an input, over another file if that is asked for twice.
     pub fn save(&mut self, end: &str, bytes: &[u8], inputs: &[&Path]) {
         let saved = self.try_save(end, bytes, inputs);
         let told = saved.map(|path| path.display().to_string());
         self.told = Some(told.map_err(|error| error.to_string()));
+        self.told_of.clone_from(&self.proposal);
     }
 
     fn try_save(
@@ -44,13 +60,16 @@ impl Output {
         bytes: &[u8],
         inputs: &[&Path],
     ) -> Result<PathBuf, OutputError> {
-        let name = self.path.trim();
-        if name.is_empty() {
-            return Err(OutputError::NoName);
+        let name = match self.path.trim() {
+            "" => self.proposal.clone(),
+            name => self.proposal.with_file_name(name),
+        };
+        let has_end = name.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
+        let mut path = name.into_os_string();
+        if !has_end {
+            path.push(format!(".{end}"));
         }
-        let has_end = Path::new(name).extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
-        let name = if has_end { name.to_owned() } else { format!("{name}.{end}") };
-        let path = PathBuf::from(name);
+        let path = PathBuf::from(path);
         if inputs.iter().any(|input| ppum_file::is_same(input, &path)) {
             return Err(OutputError::Input(path));
         }

@@ -279,6 +279,16 @@ impl Stage {
         self.known_whole(pane, dataset)
     }
 
+    /// What a figure shows: the plate without what lies beside it, or what is seen of it.
+    #[must_use]
+    pub fn cropped(&mut self, pane: &Pane) -> Option<View> {
+        let (view, dataset) = (self.view?, Arc::clone(&self.opened.as_ref()?.dataset));
+        if pane.place.is_some() {
+            return Some(view);
+        }
+        View::hug(self.known_whole(pane, &dataset), view.pixels).ok()
+    }
+
     /// The same as far as it is known: while a factor is dragged that of the last one.
     fn known_whole(&mut self, pane: &Pane, dataset: &Dataset) -> ppum::vec2::Rect {
         let known = pane.scene.deformed.and(self.moved.newest());

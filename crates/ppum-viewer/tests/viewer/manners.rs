@@ -300,7 +300,7 @@ fn enter_in_the_name_saves() {
     lab.window.step();
     lab.window.key_press(Key::Enter);
     show_until(&mut lab.window, "the picture is written", |window| {
-        window.query_by_label_contains("wrote ").is_some()
+        window.query_by_label_contains("Saved ").is_some()
     });
     assert!(path.with_extension("png").exists());
 }

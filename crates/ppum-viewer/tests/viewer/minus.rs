@@ -1,6 +1,7 @@
 //! The difference of two views, held against the fields of both, evaluated here by themselves.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicUsize;
 use std::sync::{Arc, LazyLock};
 
 use egui::{Key, Modifiers, vec2};
@@ -24,6 +25,7 @@ use ppum_solve::solve::solve;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::growing;
 use ppum_viewer::Viewer;
+use ppum_viewer::export::PageSize;
 use ppum_viewer::frames::{Backend, Fault, Frame};
 use ppum_viewer::reading::probe::Probed;
 use ppum_viewer::session::{Session, VisibleRegion};
@@ -426,18 +428,22 @@ fn pictures_of_differences_are_saved() {
         left: frame.left(),
         scene,
         view: frame.drawn.view,
-        size: frame.drawn.view.pixels,
+        page: PageSize::pixels(frame.drawn.view.pixels),
         kind: ppum_viewer::export::ExportKind::Picture,
     };
-    let (bytes, _) = order.bytes(Path::new("apart.png"), unwatched()).expect("it is drawn");
+    let (bytes, _) = order
+        .bytes(Path::new("apart.png"), unwatched(), &AtomicUsize::new(0))
+        .expect("it is drawn");
     let seen = ppum_render::png::encode(&frame.picture.image, &[]).expect("it is encoded");
     assert!(pixels(&bytes) == pixels(&seen), "what is seen is what is saved");
     let figure = ppum_viewer::export::Order {
         kind: ppum_viewer::export::ExportKind::Figure,
-        size: [500, 400],
+        page: PageSize::pixels([500, 400]),
         ..order
     };
-    let (bytes, _) = figure.bytes(Path::new("apart.svg"), unwatched()).expect("it is drawn");
+    let (bytes, _) = figure
+        .bytes(Path::new("apart.svg"), unwatched(), &AtomicUsize::new(0))
+        .expect("it is drawn");
     let text = String::from_utf8_lossy(&bytes);
     assert!(text.contains("right − left"), "{}", &text[..text.len().min(3000)]);
     assert!(figure.command(Path::new("apart.png")).is_err_and(|why| why.contains("no command")));

@@ -299,7 +299,7 @@ fn files_are_written_but_never_over_the_dataset() {
     std::fs::write(&mine, "mine").expect("written");
     window.get_by_label("Save SVG").click();
     settle(&mut window);
-    window.get_by_label_contains("once more replaces it");
+    window.get_by_label_contains("save again to replace it");
     assert_eq!(std::fs::read_to_string(&mine).expect("there"), "mine");
     for end in ["SVG", "PDF", "PNG"] {
         window.get_by_label(&format!("Save {end}")).click();

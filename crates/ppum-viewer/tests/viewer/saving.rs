@@ -60,7 +60,7 @@ fn saved(lab: &mut Lab) -> bool {
     show_until(&mut lab.window, "the writing ends", |window| {
         window.query_by_label("Stop").is_none()
     });
-    lab.window.query_by_label_contains("wrote ").is_some()
+    lab.window.query_by_label_contains("Saved ").is_some()
 }
 
 fn pixels(path: &Path) -> ([u32; 2], Vec<u8>) {
@@ -116,7 +116,7 @@ fn another_file_is_replaced_when_it_is_asked_for_twice_and_the_dataset_never() {
     std::fs::write(&path, "a picture of mine").expect("written");
     named(&mut lab, &path);
     assert!(!saved(&mut lab));
-    lab.window.get_by_label_contains("once more replaces it");
+    lab.window.get_by_label_contains("save again to replace it");
     assert_eq!(std::fs::read(&path).expect("there"), b"a picture of mine");
     assert!(saved(&mut lab));
     let first = std::fs::read(&path).expect("there");

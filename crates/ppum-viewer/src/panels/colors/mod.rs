@@ -6,7 +6,7 @@ pub(crate) mod range;
 use std::sync::{Arc, Weak};
 
 use egui::{DragValue, Ui};
-use ppum_render::colormap::Colormap;
+use ppum_render::colormap::{Colormap, Rgb};
 use ppum_render::scale::Scale;
 use ppum_scene::colors::{Colors, MOST_BANDS};
 use ppum_scene::range::Telling;
@@ -29,6 +29,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     scale(ui, colors);
     range::show(ui, pane, stage);
     beyond(ui, &mut pane.scene.colors);
+    without_value(ui, &mut pane.scene.colors);
     colors_note(ui, stage);
     failure(ui, stage, Fault::Colors);
 }
@@ -88,6 +89,20 @@ fn beyond(ui: &mut Ui, colors: &mut Colors) {
     ui.checkbox(&mut colors.contrast, "contrast beyond the range").on_hover_text(text);
 }
 
+/// The colour of points without a value.
+fn without_value(ui: &mut Ui, colors: &mut Colors) {
+    ui.horizontal(|ui| {
+        let mut has_color = colors.nan_color.is_some();
+        let text = "Points of the plate where the quantity is not defined; crosshatched without";
+        if ui.checkbox(&mut has_color, "colour for no value").on_hover_text(text).changed() {
+            colors.nan_color = has_color.then_some(Rgb([160, 160, 160]));
+        }
+        if let Some(Rgb(color)) = &mut colors.nan_color {
+            ui.color_edit_button_srgb(color);
+        }
+    });
+}
+
 /// What the colours mean, and between which values all others lie.
 fn colors_note(ui: &mut Ui, stage: &mut Stage) {
     let Some(frame) = stage.frames.newest() else { return };
@@ -114,6 +129,6 @@ fn words(frame: &Frame, facts: &Facts) -> String {
     let text = telling.colors(&frame.picture);
     match frame.drawn.undefined() {
         [0, _] => text,
-        [without, all] => format!("{text}; hatched: no value at {without} of {all} pixels"),
+        [without, all] => format!("{text}; no value at {without} of {all} pixels"),
     }
 }

@@ -1,6 +1,6 @@
 //! Values along a curve: which one, of what, and the plot, whose points are found on the plate.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::{Align2, Color32, ComboBox, DragValue, FontId, Rect, Sense, Stroke, Ui, vec2};
@@ -72,7 +72,7 @@ fn save(ui: &mut Ui, stage: &mut Stage, values: &CurveValues, drawn: &Plot) {
         ("pdf", &|| page().pdf(96.0, &[])),
         ("png", &|| ppum_render::png::encode_at(&page().image(), None, &[]).unwrap_or_default()),
     ];
-    outputs(ui, stage, &files, &|| values.table.csv());
+    outputs(ui, stage, ("plot", &files), &|| values.table.csv());
 }
 
 /// Size of the page of a plot that is written to a file, as `ppum plot` has it.
@@ -217,25 +217,34 @@ fn settings(ui: &mut Ui, pane: &mut Pane) {
     });
 }
 
-/// Buttons that copy and write files, with what became of the last one.
+/// Ends of names of files, and what is written into them.
+type Files<'a> = [(&'a str, &'a dyn Fn() -> Vec<u8>)];
+
+/// Buttons that copy and write files, with what became of the last one; they go beside the dataset
+/// and are named after it and what they hold unless another name is given.
 pub(crate) fn outputs(
     ui: &mut Ui,
     stage: &mut Stage,
-    files: &[(&str, &dyn Fn() -> Vec<u8>)],
+    (what, files): (&str, &Files<'_>),
     text: &dyn Fn() -> String,
 ) {
     if ui.button("Copy CSV").clicked() {
         ui.ctx().copy_text(text());
+        stage.tell("Copied: the table, with all digits");
     }
-    write(ui, stage, files);
+    write(ui, stage, what, files);
 }
 
-fn write(ui: &mut Ui, stage: &mut Stage, files: &[(&str, &dyn Fn() -> Vec<u8>)]) {
+fn write(ui: &mut Ui, stage: &mut Stage, what: &str, files: &Files<'_>) {
     let input = stage.opened.as_ref().and_then(|opened| opened.path.clone());
     let inputs: Vec<&Path> = input.as_deref().into_iter().collect();
+    let dataset = input.clone().unwrap_or_else(|| PathBuf::from("solution"));
+    let stem = dataset.file_stem().unwrap_or_default().to_string_lossy();
+    let name = format!("{stem}-{what}");
     let output = &mut stage.reading.output;
+    output.propose(dataset.with_file_name(&name));
     let label = ui.label("File");
-    let field = egui::TextEdit::singleline(&mut output.path).hint_text("name").desired_width(110.0);
+    let field = egui::TextEdit::singleline(&mut output.path).hint_text(&name).desired_width(150.0);
     ui.add(field).labelled_by(label.id);
     for (end, bytes) in files {
         let end_shown = end.to_uppercase();
@@ -243,9 +252,9 @@ fn write(ui: &mut Ui, stage: &mut Stage, files: &[(&str, &dyn Fn() -> Vec<u8>)])
             output.save(end, &bytes(), &inputs);
         }
     }
-    match &output.told {
+    match output.told() {
         Some(Ok(path)) => {
-            ui.label(format!("wrote {path}"));
+            ui.add(egui::Label::new(format!("Saved {path}")).truncate()).on_hover_text(path);
         }
         Some(Err(reason)) => {
             ui.colored_label(ui.visuals().error_fg_color, reason);

@@ -32,7 +32,7 @@ fn rows(ui: &mut Ui, desk: &mut Desk<'_>, places: &Places, tips: &[Tip]) {
     let csv = || table(tips).csv();
     let bytes = || csv().into_bytes();
     let (_, stage) = desk.active();
-    ui.horizontal_wrapped(|ui| outputs(ui, stage, &[("csv", &bytes)], &csv));
+    ui.horizontal_wrapped(|ui| outputs(ui, stage, ("tips", &[("csv", &bytes)]), &csv));
     let area = ScrollArea::both().auto_shrink([false, false]);
     // the heads go along
     let (height, all) = (ui.spacing().interact_size.y, tips.len() + 1);
