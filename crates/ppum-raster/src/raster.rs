@@ -73,10 +73,17 @@ const LARGEST_WHOLE: f64 = (1 << 22) as f64;
 /// Values that are cleared at a time.
 const BLOCK: usize = 1024;
 
+/// So many values are not cleared but taken from the system, whose new pages are zero: clearing
+/// them takes seconds, in which nobody could stop the work.
+const LAZY: usize = 1 << 24;
+
 /// Returns `count` zeros, written by all threads of the pool: one thread would take a tenth of the
 /// time of a picture.
 #[must_use]
 pub fn zeros<T: Copy + Default + Send>(count: usize) -> Vec<T> {
+    if count > LAZY {
+        return vec![T::default(); count];
+    }
     let blocks = (0..count.div_ceil(BLOCK)).into_par_iter().map(|_| [T::default(); BLOCK]);
     let mut all = blocks.collect::<Vec<_>>().into_flattened();
     all.truncate(count);

@@ -222,16 +222,12 @@ impl Look {
     /// The look of a design that was made of a size and a place of the bar alone.
     #[must_use]
     pub fn of(design: &Design) -> Self {
-        let bar = (design.bar == BarPlace::Bottom).then_some(BarName::Bottom);
-        if design.font_size == Design::pixels(design.size).font_size {
-            return Self { size: Some(design.size), bar, ..Self::default() };
-        }
-        let [width, height] = design.size.map(|side| f64::from(side) / design.dpi);
+        let on_paper = design.font_size != Design::pixels(design.size).font_size;
         Self {
-            inches: Some(PaperSize { width, height: Some(height) }),
-            dpi: Some(design.dpi),
-            font_size: Some(design.font_size),
-            bar,
+            size: Some(design.size),
+            dpi: on_paper.then_some(design.dpi),
+            font_size: on_paper.then_some(design.font_size),
+            bar: (design.bar == BarPlace::Bottom).then_some(BarName::Bottom),
             ..Self::default()
         }
     }

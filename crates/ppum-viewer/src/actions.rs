@@ -247,7 +247,7 @@ pub const ALL: &[ActionEntry] = &[
     entry(Action::Drawer(DrawerPage::Series), "Values over the steps", None, "Reading"),
     entry(Action::Drawer(DrawerPage::Solver), "The solver's report", None, "Reading"),
     entry(Action::Drawer(DrawerPage::Problem), "The problem's text", None, "Reading"),
-    entry(Action::Save(ExportChoice::Picture), "Save a picture", key(Key::S), "Reading"),
+    entry(Action::Save(ExportChoice::Picture), "Save an image", key(Key::S), "Reading"),
     entry(Action::Save(ExportChoice::Figure), "Save a figure", shift(Key::S), "Reading"),
     entry(Action::Save(ExportChoice::Steps), "Save an animation of the steps", None, "Reading"),
     entry(
@@ -301,7 +301,7 @@ pub const ALL: &[ActionEntry] = &[
 /// the heading that it stands below on the help sheet.
 pub const GESTURES: &[(&str, &str, &str)] = &[
     ("Drag", "Move the plate", "Moving"),
-    ("Wheel", "Enlarge at the pointer, or reduce", "Moving"),
+    ("Wheel", "Zoom at the pointer", "Moving"),
     ("Double click", "Show the whole plate", "Moving"),
     ("Drag the bar", "Move the range, or an end of it", "Colours"),
     ("Wheel on it", "Widen or narrow the range", "Colours"),
@@ -313,7 +313,7 @@ pub const GESTURES: &[(&str, &str, &str)] = &[
     ("Shift", "Read exactly at the pointer", "Reading"),
     ("Ctrl+C", "Copy what is read, with all digits", "Reading"),
     ("Escape", "Close what is open, leave a tool", "Window"),
-    ("Shift+Tab", "Walk through buttons and fields", "Window"),
+    ("Shift+Tab", "Move between buttons and fields", "Window"),
 ];
 
 /// A shortcut as people write it: with the signs of keys that have one.

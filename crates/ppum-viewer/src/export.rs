@@ -55,7 +55,7 @@ impl ExportChoice {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::Picture => "Picture",
+            Self::Picture => "Image",
             Self::Figure => "Figure",
             Self::Steps => "Animation of the steps",
             Self::Deformation => "Animation of the deformation",

@@ -237,6 +237,7 @@ mod tests {
     use ppum_scene::engine::{Backend, Precision};
     use ppum_scene::look::{BarName, Look, ThemeName};
     use ppum_scene::overlays::{Levels, Overlay, Overlays};
+    use ppum_scene::paper::PaperSize;
     use ppum_scene::place::Place;
     use ppum_scene::request::Texts;
     use ppum_scene::scene::Subject;
@@ -285,8 +286,11 @@ mod tests {
         });
         let ticks = ["x=5", "y=auto", "bar=-1.0,0.25", "bar=3.0,"];
         let ticks = ticks.iter().filter(|_| is(random)).map(|text| text.parse().unwrap()).collect();
+        let is_free = inches.is_none();
+        let cm = maybe(random, |_| PaperSize { width: 8.6, height: None }).filter(|_| is_free);
         Look {
-            size: size.filter(|_| inches.is_none()),
+            size: size.filter(|_| is_free && cm.is_none()),
+            cm,
             inches,
             dpi: maybe(random, |r| r.between(50.0, 600.0)),
             font_size: maybe(random, |r| r.between(5.0, 20.0)),
@@ -306,6 +310,7 @@ mod tests {
             contrast: is(random),
             bands: maybe(random, |r| r.below(1000) as u16 + 1),
             symmetric: is(random),
+            nan_color: maybe(random, |_| "#12aB3f".parse().unwrap()),
         }
     }
 

@@ -304,8 +304,8 @@ def _color(color: Any) -> str | None:
         raise ValueError(f"nan_color: {color!r} is not '#rrggbb'; other colours need matplotlib") from None
     try:
         return str(to_hex(color))
-    except ValueError as error:
-        raise ValueError(f"nan_color: {error}") from None
+    except ValueError:
+        raise ValueError(f"nan_color: {color!r} is no colour; give '#rrggbb' or one of matplotlib") from None
 
 
 def plain(value: Any) -> Any:

@@ -61,12 +61,12 @@ pub fn adaptation(dataset: &Dataset) -> Option<Plot> {
         let points: Vec<_> = steps.iter().filter_map(point).collect();
         (points.len() > 1).then(|| curve(label, points))
     };
-    let kinds = [("energy norm", "estimated error"), ("K", "estimated error of factors")];
+    let kinds = [("energy", "estimated error"), ("K", "estimated error of factors")];
     let curves: Vec<_> = kinds.into_iter().filter_map(|(label, name)| of(label, name)).collect();
     (!curves.is_empty()).then(|| Plot {
         title: String::new(),
         x: PlotAxis::new("unknowns", "").logarithmic(),
-        y: PlotAxis::new("estimated relative error", "").logarithmic(),
+        y: PlotAxis::new("estimated error", "").logarithmic(),
         curves,
     })
 }

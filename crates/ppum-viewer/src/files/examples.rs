@@ -119,8 +119,9 @@ impl Previews {
     /// Begins to find them, if they are not known yet, with the window's folder.
     pub fn find(&mut self, ctx: &egui::Context, own: Option<&Path>) {
         if let Some(found) = self.job.as_ref().and_then(Job::poll) {
-            self.known = found.unwrap_or_default();
-        } else if self.job.is_none() {
+            self.job = None;
+            self.known = found.unwrap_or_else(|_| vec![None; ALL.len()]);
+        } else if self.job.is_none() && self.known.is_empty() {
             let own = own.map(Path::to_owned);
             let all = move |_: &_| ALL.iter().map(|one| one.preview(own.as_deref())).collect();
             self.job = Some(Job::start(ctx, all));

@@ -82,6 +82,9 @@ impl Exporter {
         let mut is_open = true;
         let has_list = egui::Popup::is_any_open(ui.ctx());
         let window = Window::new("Save").open(&mut is_open).collapsible(false).resizable(false);
+        let window = window.pivot(egui::Align2::CENTER_TOP);
+        let window =
+            window.default_pos(ui.ctx().content_rect().center_top() + egui::vec2(0.0, 60.0));
         window.show(ui.ctx(), |ui| match stage.frame().cloned() {
             Some(frame) => self.choose(ui, pane, stage, &frame),
             None => {

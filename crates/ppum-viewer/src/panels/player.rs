@@ -8,14 +8,18 @@ use crate::desk::Desk;
 use crate::player::SPEEDS;
 use crate::widgets::button;
 
-/// Shows the player if the dataset is a series.
+/// Shows the player if the dataset is a series, in a row of its own, which is never broken.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let opened = desk.active().1.opened.as_ref();
+    if opened.is_some_and(|opened| opened.dataset.steps.len() > 1) {
+        ui.horizontal(|ui| row(ui, desk));
+    }
+}
+
+fn row(ui: &mut Ui, desk: &mut Desk<'_>) {
     let active = desk.session.active;
     let Some(opened) = &desk.stages[active].opened else { return };
     let steps = &opened.dataset.steps;
-    if steps.len() < 2 {
-        return;
-    }
     let subject = &mut desk.session.panes[active].scene.subject;
     let last = steps.len() - 1;
     let mut step = subject.step_of(&opened.dataset).min(last);

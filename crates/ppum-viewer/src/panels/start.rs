@@ -77,10 +77,12 @@ fn tile(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
         shapes::draw(&ui.painter_at(picture), Placed::new(picture.min, 0.5), &items);
     }
     let text = Rect::from_min_max(pos2(picture.right() + 8.0, rect.top()), rect.max);
-    let mut ui = ui.new_child(UiBuilder::new().max_rect(text.shrink2(vec2(0.0, 8.0))));
+    let layout = egui::Layout::top_down(egui::Align::Min);
+    let mut ui =
+        ui.new_child(UiBuilder::new().max_rect(text.shrink2(vec2(0.0, 8.0))).layout(layout));
     ui.add(Label::new(RichText::new(example.title()).strong()).truncate().selectable(false));
     let about = note(&ui, example.about);
-    ui.add(Label::new(about).selectable(false));
+    ui.add(Label::new(about).selectable(false).wrap());
     if response.clicked() {
         desk.actions.push(Action::Example(number));
     }

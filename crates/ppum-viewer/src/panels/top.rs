@@ -8,8 +8,11 @@ use crate::desk::Desk;
 use crate::session::DrawerPage;
 use crate::widgets::{button, elided};
 
-/// Most characters of a title that are shown.
+/// Most characters of a title that are shown; the width of what stands beside it, and of a
+/// character \[points\].
 const MOST: usize = 60;
+const BESIDE: f32 = 600.0;
+const LETTER: f32 = 8.0;
 
 /// A text on one line.
 fn one_line(text: &str) -> String {
@@ -23,8 +26,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         let (_, stage) = desk.active();
         let title = stage.opened.as_ref().map_or("ppum", |opened| &opened.dataset.title);
         let title = one_line(title);
-        let response = ui.strong(elided(&title, MOST));
-        if title.chars().count() > MOST {
+        let room = ((ui.ctx().content_rect().width() - BESIDE) / LETTER) as usize;
+        let most = room.clamp(12, MOST);
+        let response = ui.strong(elided(&title, most));
+        if title.chars().count() > most {
             response.on_hover_text(title);
         }
         for (sign, name, action) in [
@@ -46,8 +51,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         replaced(ui, desk);
         solving(ui, desk);
     });
-    // in a row of its own, so that it is never broken
-    ui.horizontal(|ui| player::show(ui, desk));
+    player::show(ui, desk);
 }
 
 /// Says that functions, the weight or quantities are not those of the file.

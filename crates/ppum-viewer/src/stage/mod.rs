@@ -159,7 +159,8 @@ impl Stage {
 
     /// Shows the pane in all the room there is.
     pub fn show(&mut self, ui: &mut Ui, pane: &mut Pane) {
-        let room = (ui.available_size() - vec2(0.0, readout::HEIGHT)).max(vec2(1.0, 1.0));
+        let room = (ui.available_size() - vec2(0.0, readout::height(ui.available_width())))
+            .max(vec2(1.0, 1.0));
         ui.spacing_mut().item_spacing.y = 0.0;
         let (rect, response) = ui.allocate_exact_size(room, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Plate"));

@@ -12,12 +12,25 @@ use ppum_scene::spot::Spot;
 
 /// Seconds for which it is told why a key did nothing.
 const TOLD: f64 = 4.0;
-/// Height of the line below the plate.
-pub(super) const HEIGHT: f32 = 24.0;
+/// Height of a line below the plate.
+const HEIGHT: f32 = 22.0;
+/// Views that are narrower have two lines.
+const NARROW: f32 = 760.0;
 /// Distance in points of the window within which a tip or a crack is meant.
 pub(super) const SNAP: f64 = 4.0;
 /// The same of the mark of a probe that is clicked.
 const MARK: f32 = 9.0;
+
+/// Lines below a plate of some width.
+fn lines(width: f32) -> usize {
+    if width < NARROW { 2 } else { 1 }
+}
+
+/// The height of what is below a plate of some width.
+pub(super) fn height(width: f32) -> f32 {
+    HEIGHT * lines(width) as f32 + 2.0
+}
+
 impl Stage {
     /// Reads the values at the pointer and at the probes.
     pub(super) fn read(&mut self, ui: &Ui, response: &Response, sight: &Sight, pane: &mut Pane) {
@@ -111,30 +124,29 @@ impl Stage {
         Some(words::all(&probed, &reader.name, &reader.unit))
     }
 
-    /// The line below the plate: what has no room is left out, the least important first.
+    /// The lines below the plate: what has no room is left out, the least important first.
     pub(super) fn line(&mut self, ui: &mut Ui, pane: &Pane) {
         let (parts, patches) = self.words(pane);
-        let (rect, _) =
-            ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), egui::Sense::hover());
+        let width = ui.available_width();
+        let (rect, _) = ui.allocate_exact_size(vec2(width, height(width)), egui::Sense::hover());
         ui.painter().rect_filled(rect, 0.0, ui.visuals().panel_fill);
-        let builder = egui::UiBuilder::new()
-            .max_rect(rect.shrink2(vec2(8.0, 0.0)))
-            .layout(egui::Layout::left_to_right(egui::Align::Center));
-        ui.scope_builder(builder, |ui| {
-            ui.set_clip_rect(rect);
-            if let Some(text) = self.unheeded(ui) {
-                let text = RichText::new(text).color(ui.visuals().warn_fg_color);
-                ui.add(egui::Label::new(text).truncate().selectable(false));
-                return;
-            }
-            for (k, text) in fitting(ui, parts, &patches).into_iter().enumerate() {
-                if k > 0 {
-                    ui.separator();
-                }
-                let text = RichText::new(text).color(ui.visuals().strong_text_color());
-                ui.add(egui::Label::new(text).truncate().selectable(false));
-            }
-        });
+        let inner = rect.shrink2(vec2(8.0, 1.0));
+        let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(inner));
+        ui.set_clip_rect(rect);
+        if let Some(text) = self.unheeded(ui) {
+            let text = RichText::new(text).color(ui.visuals().warn_fg_color);
+            let label = egui::Label::new(text).selectable(false);
+            ui.add(if lines(width) > 1 { label.wrap() } else { label.truncate() });
+            return;
+        }
+        let all = rows(ui, parts, &patches, lines(width));
+        for (number, row) in all.into_iter().enumerate() {
+            let top = vec2(0.0, HEIGHT * number as f32);
+            let rect = egui::Rect::from_min_size(inner.min + top, vec2(inner.width(), HEIGHT));
+            let layout = egui::Layout::left_to_right(egui::Align::Center);
+            let builder = egui::UiBuilder::new().max_rect(rect).layout(layout);
+            ui.scope_builder(builder, |ui| row_of(ui, row));
+        }
     }
 
     /// Why a key did nothing, while that is told.
@@ -173,15 +185,45 @@ impl Stage {
     }
 }
 
+/// Texts beside each other.
+fn row_of(ui: &mut Ui, texts: Vec<String>) {
+    for (k, text) in texts.into_iter().enumerate() {
+        if k > 0 {
+            ui.separator();
+        }
+        let text = RichText::new(text).color(ui.visuals().strong_text_color());
+        ui.add(egui::Label::new(text).truncate().selectable(false));
+    }
+}
+
+/// The parts in so many rows, the first ones as full as can be.
+fn rows(ui: &Ui, mut parts: Vec<String>, patches: &[String], count: usize) -> Vec<Vec<String>> {
+    let mut all = Vec::new();
+    for _ in 1..count {
+        let mut rest = ui.available_width();
+        let has_room = |text: &&String| {
+            rest -= width(ui, text);
+            rest >= 0.0
+        };
+        let shown = parts.iter().take_while(has_room).count().max(1).min(parts.len());
+        all.push(parts.drain(..shown).collect());
+    }
+    all.push(fitting(ui, parts, patches));
+    all
+}
+
+/// The width of a text with what is between two of them.
+fn width(ui: &Ui, text: &str) -> f32 {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, Color32::WHITE);
+    galley.size().x + 2.0 * ui.spacing().item_spacing.x + 8.0
+}
+
 /// The parts that have room beside each other, and as many of the patches as there is room for
 /// then; `…` where something was left out.
 fn fitting(ui: &Ui, parts: Vec<String>, patches: &[String]) -> Vec<String> {
-    let font = egui::TextStyle::Body.resolve(ui.style());
-    let width = |text: &String| {
-        let galley = ui.painter().layout_no_wrap(text.clone(), font.clone(), Color32::WHITE);
-        galley.size().x + 2.0 * ui.spacing().item_spacing.x + 8.0
-    };
-    let end = width(&"…".into());
+    let width = |text: &str| width(ui, text);
+    let end = width("…");
     let mut rest = ui.available_width();
     let has_room = |(k, part): &(usize, String)| {
         rest -= width(part);

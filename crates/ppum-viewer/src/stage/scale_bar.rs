@@ -1,6 +1,6 @@
 //! A bar that shows how long things are.
 
-use egui::{Align2, Color32, FontId, Rect, Stroke, Ui, pos2, vec2};
+use egui::{Align2, FontId, Rect, Stroke, Ui, pos2, vec2};
 use ppum_figure::ticks::power_of_ten;
 use ppum_render::view::View;
 
@@ -30,7 +30,8 @@ pub fn show(ui: &Ui, rect: Rect, view: &View) {
     let start = pos2(rect.left() + 14.0, rect.bottom() - 14.0);
     let painter = ui.painter_at(rect);
     let font = FontId::proportional(13.0);
-    let (ink, paper) = (Color32::WHITE, Color32::from_black_alpha(150));
+    let ink = ui.visuals().strong_text_color();
+    let paper = ui.visuals().panel_fill.gamma_multiply(0.8);
     let galley = painter.layout_no_wrap(words, font, ink);
     let size = vec2(width.max(galley.size().x), galley.size().y + 6.0);
     let ground = Rect::from_min_size(start - vec2(0.0, size.y), size).expand(6.0);

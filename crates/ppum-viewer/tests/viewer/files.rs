@@ -4,18 +4,37 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
+use ppum_viewer::files::examples;
 use ppum_viewer::files::kept::WindowState;
 use ppum_viewer::session::VisibleRegion;
 
-use crate::kit::plate;
+use crate::kit::{plate, show_until};
 use crate::lab::{Lab, shot};
 
 fn named(title: &str) -> ppum::dataset::Dataset {
     let mut dataset = plate();
     dataset.title = title.into();
     dataset
+}
+
+/// Each example has a drawing, a title and a line, and a click solves it.
+#[test]
+fn the_start_page_shows_the_examples() {
+    let mut lab = Lab::new();
+    lab.window.set_size(egui::vec2(800.0, 600.0));
+    lab.settle();
+    show_until(&mut lab.window, "the examples are drawn", |window| {
+        (0..examples::ALL.len()).all(|number| window.state().files.previews.of(number).is_some())
+    });
+    shot(&mut lab, "files-start");
+    for example in &examples::ALL[..4] {
+        let tile = lab.window.get_by_role_and_label(Role::Button, example.title()).rect();
+        assert!(tile.left() >= 0.0 && tile.right() <= 800.0, "{tile:?}");
+        lab.window.get_by_label(example.about);
+    }
 }
 
 #[test]

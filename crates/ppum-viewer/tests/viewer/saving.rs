@@ -18,8 +18,8 @@ fn asked(kind: &str) -> Lab {
     lab.settle();
     lab.window.key_press(Key::S);
     lab.window.run_steps(3);
-    if kind != "Picture" {
-        lab.window.get_by_value("Picture").click();
+    if kind != "Image" {
+        lab.window.get_by_value("Image").click();
         lab.window.run_steps(3);
         lab.window.get_by_label(kind).click();
         lab.window.run_steps(3);
@@ -40,7 +40,7 @@ fn named(lab: &mut Lab, path: &Path) {
 
 #[test]
 fn the_name_is_written_next() {
-    let mut lab = asked("Picture");
+    let mut lab = asked("Image");
     let before = lab.viewer().session.clone();
     // each of these letters would do something
     lab.window.event(egui::Event::Text("ifn".into()));
@@ -74,7 +74,7 @@ fn pixels(path: &Path) -> ([u32; 2], Vec<u8>) {
 
 #[test]
 fn a_picture_has_the_pixels_that_are_seen() {
-    let mut lab = asked("Picture");
+    let mut lab = asked("Image");
     let path = lab.path("seen.png");
     named(&mut lab, &path);
     shot(&mut lab, "saving-picture");
@@ -109,9 +109,54 @@ fn figures_and_animations_are_what_their_names_say() {
     }
 }
 
+/// A figure is a column of a journal wide and as high as its plate needs, its plot takes most of it,
+/// and its file names no folder.
+#[test]
+fn a_figure_has_a_size_on_paper() {
+    let mut lab = asked("Figure");
+    let path = lab.path("column.png");
+    named(&mut lab, &path);
+    shot(&mut lab, "saving-figure");
+    assert!(saved(&mut lab), "{:?}", lab.notes());
+    let ([columns, rows], bytes) = pixels(&path);
+    assert_eq!(columns, (8.6_f64 / 2.54 * 300.0).round() as u32);
+    let depth = bytes.len() / (columns * rows) as usize;
+    let row: Vec<_> =
+        bytes.chunks(columns as usize * depth).nth(rows as usize / 3).expect("a row").to_vec();
+    let is_colored =
+        |pixel: &[u8]| pixel[..3].iter().max() > pixel[..3].iter().min().map(|v| v + 20).as_ref();
+    let colored = row.chunks(depth).filter(|pixel| is_colored(pixel)).count();
+    // the plate is a square: what is above and below its plot takes the rest
+    assert!(
+        colored as f64 > 0.6 * f64::from(columns) && f64::from(rows) > 1.2 * colored as f64,
+        "{colored}"
+    );
+    let folder = lab.path("").display().to_string();
+    let has = |bytes: &[u8], text: &str| bytes.windows(text.len()).any(|w| w == text.as_bytes());
+    let file = std::fs::read(&path).expect("there");
+    assert!(has(&file, "plate.h5") && !has(&file, folder.trim_end_matches('/')));
+    // another form from the list, another unit
+    lab.window.get_by_value("PNG").click();
+    lab.window.run_steps(3);
+    lab.window.get_by_label("PDF").click();
+    lab.window.run_steps(3);
+    lab.window.get_by_value("cm").click();
+    lab.window.run_steps(3);
+    lab.window.get_by_label("in").click();
+    lab.window.run_steps(3);
+    assert!(saved(&mut lab));
+    let file = std::fs::read(path.with_extension("pdf")).expect("there");
+    assert!(
+        file.starts_with(b"%PDF")
+            && has(&file, "von-mises")
+            && !has(&file, folder.trim_end_matches('/'))
+    );
+    lab.window.get_by_label_contains("--dpi=300 --font-size=9");
+}
+
 #[test]
 fn another_file_is_replaced_when_it_is_asked_for_twice_and_the_dataset_never() {
-    let mut lab = asked("Picture");
+    let mut lab = asked("Image");
     let path = lab.path("mine.png");
     std::fs::write(&path, "a picture of mine").expect("written");
     named(&mut lab, &path);

@@ -34,12 +34,14 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
                 ui.allocate_ui(vec2(180.0, room), |ui| ui.label(ONE_STEP));
             }
             for (name, plot) in plots(&dataset, step) {
-                chart(ui, name, &plot, vec2(440.0, (room - 14.0).max(120.0)));
+                chart(ui, name, &plot, vec2(WIDTH, (room - 14.0).max(120.0)));
             }
         });
     });
 }
 
+/// Width of a plot: names of phases have room beside each other \[points\].
+const WIDTH: f32 = 540.0;
 /// The record of what ended an adaptation.
 const STOP: &str = "adaptation stop";
 const ONE_STEP: &str = "The dataset holds the last step of its adaptation alone. With keep = \"all\" under [adaptivity] the error of \
