@@ -166,8 +166,8 @@ impl Picture {
         self.samples = samples;
     }
 
-    /// Gives pixels of the plate that have no value ([`Raster::undefined`]) a colour, or crosshatches
-    /// them, to tell them from those outside.
+    /// Gives pixels of the plate that have no value ([`Raster::undefined`]) a colour, or
+    /// crosshatches them, to tell them from those outside.
     pub fn mark_undefined(&mut self, pixels: &[u32], color: Option<Rgb>) {
         let columns = self.image.size[0];
         let rgba = self.image.rgba.as_chunks_mut::<4>().0;

@@ -28,7 +28,8 @@ impl FromStr for PaperSize {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let length = |text: &str| text.trim().parse().ok().filter(|l: &f64| *l > 0.0 && l.is_finite());
+        let length =
+            |text: &str| text.trim().parse().ok().filter(|l: &f64| *l > 0.0 && l.is_finite());
         let (width, height) = text.split_once('x').map_or((text, None), |(w, h)| (w, Some(h)));
         let size = match height {
             None => length(width).map(|width| Self { width, height: None }),

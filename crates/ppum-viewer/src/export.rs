@@ -257,7 +257,7 @@ impl Order {
     ) -> Result<Vec<u8>, String> {
         let (source, request) = (self.source(), Request::from(self.scene.clone()));
         let frames = InMemory::new(source.dataset, &request, moving).map_err(|e| e.to_string())?;
-        let frames = Counted { frames, done };
+        let frames = CountedFrames { frames, done };
         let design = self.design(&request).map_err(|e| e.to_string())?;
         let view = self.shaped(design.as_ref())?;
         let room = design.as_ref().map_or(Ok(view.pixels), |design| frames.room(design));
@@ -307,12 +307,12 @@ impl Order {
 const NAMELESS: &str = "FILE.h5";
 
 /// Frames that are counted when they were worked on.
-struct Counted<'a, F> {
+struct CountedFrames<'a, F> {
     frames: F,
     done: &'a AtomicUsize,
 }
 
-impl<F: Frames> Frames for Counted<'_, F> {
+impl<F: Frames> Frames for CountedFrames<'_, F> {
     type Error = F::Error;
 
     fn count(&self) -> usize {

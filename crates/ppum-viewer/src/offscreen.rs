@@ -105,7 +105,7 @@ const SETTLED: u32 = 20;
 
 /// The colour around the plate, as the window has it.
 fn ground(ctx: &Context) -> wgpu::Color {
-    let color = ctx.style_of(ctx.theme()).visuals.extreme_bg_color;
+    let color = crate::widgets::ground(&ctx.style_of(ctx.theme()).visuals);
     let [r, g, b, a] = color.to_normalized_gamma_f32().map(f64::from);
     wgpu::Color { r, g, b, a }
 }

@@ -7,11 +7,9 @@ use ppum::crack::{Crack, End, tips};
 use ppum::quantity::Quantity;
 use ppum::vec2::Vec2;
 
-use super::Named;
-
 /// True for quantities that tips leave finite. Those that are infinite there have no points that
 /// crowd: the nearer a point is, the larger would be the range of the plot.
-pub(super) fn is_finite_at_tips(quantities: &Named) -> bool {
+pub(super) fn is_finite_at_tips(quantities: &[(String, Quantity)]) -> bool {
     let is_finite =
         |quantity: &Quantity| matches!(quantity, Quantity::Component(_) | Quantity::Magnitude);
     quantities.iter().all(|(_, quantity)| is_finite(quantity))

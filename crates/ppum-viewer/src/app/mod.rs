@@ -370,7 +370,7 @@ impl eframe::App for Viewer {
     /// The ground around the plate. Nothing is drawn there: a software driver takes longer for that
     /// than for all the rest.
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
-        visuals.extreme_bg_color.to_normalized_gamma_f32()
+        crate::widgets::ground(visuals).to_normalized_gamma_f32()
     }
 
     fn on_exit(&mut self) {

@@ -83,7 +83,8 @@ fn tile(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
     ui.add(Label::new(RichText::new(example.title()).strong()).truncate().selectable(false));
     let about = note(&ui, example.about);
     ui.add(Label::new(about).selectable(false).wrap());
-    if response.clicked() {
+    let text = format!("{}: {}", example.title(), example.about);
+    if response.on_hover_text(text).clicked() {
         desk.actions.push(Action::Example(number));
     }
 }

@@ -7,6 +7,7 @@ use ppum_render::view::View;
 use super::texture::{Sheet, Texture};
 use crate::frames::{Frame, Other};
 use crate::session::Pane;
+use crate::widgets::ground;
 
 /// The resampled picture on its way to the screen.
 #[derive(Default)]
@@ -36,7 +37,7 @@ impl Against {
         let is_difference = pane.against.difference;
         let picture = if is_difference { &other.difference } else { &other.picture };
         let right = Rect::from_min_max(pos2(at, rect.top()), rect.max);
-        ui.painter().rect_filled(right, 0.0, ui.visuals().extreme_bg_color);
+        ui.painter().rect_filled(right, 0.0, ground(ui.visuals()));
         let painter = ui.painter_at(right);
         self.texture.show(&painter, picture, view, rect);
         sheet.show(&painter, frame, view, rect);

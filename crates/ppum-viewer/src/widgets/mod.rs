@@ -38,6 +38,14 @@ pub(crate) fn make_readable(visuals: &mut Visuals) {
     visuals.weak_text_alpha = PALE;
 }
 
+/// The colour around the plate: dark windows have a grey there, in which black ends of colour maps
+/// and black cracks are seen to end.
+pub(crate) fn ground(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_gray(GROUND) } else { visuals.extreme_bg_color }
+}
+
+const GROUND: u8 = 46;
+
 /// Opacity of words that stand beside others.
 const PALE: f32 = 0.75;
 
@@ -94,6 +102,14 @@ mod tests {
         let text = ground.blend(text);
         let [a, b] = [luminance(text), luminance(ground)];
         (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    /// Black, at which maps begin and in which cracks are drawn, ends where the ground begins.
+    #[test]
+    fn black_is_seen_on_the_ground() {
+        for visuals in [Visuals::dark(), Visuals::light()] {
+            assert!(contrast(Color32::BLACK, ground(&visuals)) >= 1.5);
+        }
     }
 
     #[test]

@@ -277,13 +277,10 @@ fn files_are_written_but_never_over_the_dataset() {
     state.session.drawer = Some(DrawerPage::Plot);
     let found = plotted(&mut window);
     let values = found.as_ref().as_ref().expect("values");
-    for (name, is_written) in [("plate", false), ("table", true), ("", false)] {
-        let path = if name.is_empty() {
-            String::new()
-        } else {
-            folder.path().join(name).display().to_string()
-        };
-        window.state_mut().stages[0].reading.output.path = path;
+    // a name without a folder goes beside the dataset, and so does the one that is proposed
+    let whole = folder.path().join("plate").display().to_string();
+    for (name, is_written) in [(&*whole, false), ("plate", false), ("table", true), ("", true)] {
+        window.state_mut().stages[0].reading.output.path = name.to_owned();
         settle(&mut window);
         window.get_by_label("Save CSV").click();
         settle(&mut window);
@@ -293,6 +290,8 @@ fn files_are_written_but_never_over_the_dataset() {
     assert_eq!(std::fs::read_to_string(&own).expect("there"), "the dataset");
     let written = std::fs::read_to_string(folder.path().join("table.csv")).expect("there");
     assert_eq!(written, values.table.csv());
+    let proposed = std::fs::read_to_string(folder.path().join("plate-plot.csv"));
+    assert_eq!(proposed.expect("there"), written);
     window.state_mut().stages[0].reading.output.path =
         folder.path().join("table").display().to_string();
     let mine = folder.path().join("table.svg");

@@ -109,8 +109,8 @@ fn figures_and_animations_are_what_their_names_say() {
     }
 }
 
-/// A figure is a column of a journal wide and as high as its plate needs, its plot takes most of it,
-/// and its file names no folder.
+/// A figure is a column of a journal wide and as high as its plate needs, its plot takes most of
+/// it, and its file names no folder.
 #[test]
 fn a_figure_has_a_size_on_paper() {
     let mut lab = asked("Figure");
@@ -123,8 +123,9 @@ fn a_figure_has_a_size_on_paper() {
     let depth = bytes.len() / (columns * rows) as usize;
     let row: Vec<_> =
         bytes.chunks(columns as usize * depth).nth(rows as usize / 3).expect("a row").to_vec();
-    let is_colored =
-        |pixel: &[u8]| pixel[..3].iter().max() > pixel[..3].iter().min().map(|v| v + 20).as_ref();
+    let is_colored = |pixel: &[u8]| {
+        pixel[..3].iter().max() > pixel[..3].iter().min().map(|v| v.saturating_add(20)).as_ref()
+    };
     let colored = row.chunks(depth).filter(|pixel| is_colored(pixel)).count();
     // the plate is a square: what is above and below its plot takes the rest
     assert!(
