@@ -125,6 +125,12 @@ impl LawAt {
         self.tensor[i][k][j][l]
     }
 
+    /// The indices [i, k, j, l] of entries other than zero.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = [usize; 4]> {
+        let all = (0..16).map(|n| [n / 8, n / 4 % 2, n / 2 % 2, n % 2]);
+        all.filter(|&[i, k, j, l]| self.tensor[i][k][j][l] != 0.0)
+    }
+
     fn rigidity(&self) -> Rigidity {
         let pairs: &[[usize; 2]] =
             if self.components == 1 { &[[0, 0], [0, 1]] } else { &[[0, 0], [1, 1], [0, 1]] };

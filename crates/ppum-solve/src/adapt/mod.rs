@@ -27,16 +27,17 @@ pub(crate) use advice::Adviser;
 pub(crate) use mark::mark;
 
 use crate::problem::Problem;
-use crate::space::Space;
 use crate::watched::{Halt, Stage};
 use data::unseen_data;
 use faer::Mat;
+pub(crate) use overlap::LocalFields;
 use overlap::disagreements;
-use ppum::dataset::FieldData;
 use ppum::field::Field;
 
 /// The estimated error in the energy norm, cell by cell.
 pub(crate) struct Estimated {
+    /// ½ ∫ σ:ε of the field.
+    pub(crate) energy: f64,
     /// The squares η_j².
     pub(crate) squares: Vec<f64>,
     /// The parts of the squares that stand for what cells do not see of the data.
@@ -46,23 +47,19 @@ pub(crate) struct Estimated {
     pub(crate) products: Vec<Mat<f64>>,
 }
 
-/// The estimated error of a field, and what it has in common with those of dual fields. Local
-/// fields do not count where one of the patch's lonely functions is other than zero. Advances the
-/// stage by twice the number of cells.
+/// The energy of a field, its estimated error, and what that has in common with those of dual
+/// fields; `local` are all of them. Advances the stage by twice the number of cells.
 ///
 /// # Errors
 /// Cancelled.
 pub(crate) fn estimated(
     problem: &Problem,
     field: &Field<'_>,
-    duals: &[FieldData],
-    lonely: &[Vec<usize>],
-    space: &Space<'_>,
+    local: LocalFields<'_>,
     stage: &Stage<'_>,
 ) -> Result<Estimated, Halt> {
-    let all: Vec<&FieldData> = std::iter::once(field.data).chain(duals).collect();
-    let products = disagreements(&all, lonely, space, stage)?;
-    let unseen = unseen_data(problem, field, space, stage)?;
+    let (energy, products) = disagreements(local, stage)?;
+    let unseen = unseen_data(problem, field, local.space, stage)?;
     let squares = products.iter().zip(&unseen).map(|(own, unseen)| own[(0, 0)] + unseen).collect();
-    Ok(Estimated { squares, unseen, products })
+    Ok(Estimated { energy, squares, unseen, products })
 }

@@ -9,51 +9,59 @@
 //! is seen at the rim of its flat top. Of two fields the same integral has the product (σ(u_i) −
 //! σ(u)) : (ε(v_i) − ε(v)) in place of the square.
 
-use crate::assembly::Strains;
 use crate::basis::{ShapeEvaluator, Shapes};
 use crate::law::Law;
 use crate::quadrature::Rule;
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, Par};
-use ppum::dataset::FieldData;
+use faer::{Accum, Mat, MatMut, MatRef, Par};
+use ppum::vec2::Vec2;
 use std::ops::Range;
 
 /// φ below which a local field is not made out of φ times it: its share is rounding.
 const LEAST: f64 = 1e-10;
 
-/// The products of the disagreements of some fields of a space in each cell: a row for each of
-/// them, symmetric. The local field of a patch does not count where one of its lonely functions is
-/// other than zero. Advances the stage by the number of cells.
+/// Local fields of some fields of a space.
+#[derive(Clone, Copy)]
+pub(crate) struct LocalFields<'a> {
+    pub(crate) space: &'a Space<'a>,
+    /// Of each patch, the coefficients of the functions that the solver evaluates: a row for each
+    /// component of each field.
+    pub(crate) coefficients: &'a [Mat<f64>],
+    /// Of each patch, first functions of components: of these it has nearly nothing for itself, and
+    /// many combinations of those of several patches make one field. Its local field is no
+    /// approximation where one of them is other than zero, and does not count there.
+    pub(crate) lonely: &'a [Vec<usize>],
+}
+
+/// The energy of the first field, and the products of the disagreements of all of them in each cell:
+/// a row for each field, symmetric. Advances the stage by the number of cells.
 ///
 /// # Errors
 /// Cancelled.
 pub(super) fn disagreements(
-    fields: &[&FieldData],
-    lonely: &[Vec<usize>],
-    space: &Space<'_>,
+    fields: LocalFields<'_>,
     stage: &Stage<'_>,
-) -> Result<Vec<Mat<f64>>, Halt> {
+) -> Result<(f64, Vec<Mat<f64>>), Halt> {
+    let LocalFields { space, coefficients, .. } = fields;
     let (law, quadrature) = (Law::new(space.equation()), space.quadrature(0));
-    let coefficients: Vec<Mat<f64>> =
-        (0..space.partition().len()).map(|patch| of_patch(fields, space, patch)).collect();
-    let n = coefficients.len();
-    let mut all = Vec::with_capacity(n);
-    let start = || (ShapeEvaluator::new(space), Shapes::default(), Strains::default());
-    let work = |seen: &mut (ShapeEvaluator<'_>, Shapes, Strains), cell: usize| {
-        let (evaluator, shapes, strains) = seen;
-        let mut sum = Mat::zeros(fields.len(), fields.len());
-        let rules = space.rules(&quadrature, cell);
-        for rule in rules.iter().filter(|rule| rule.patches.len() > 1) {
+    let n = coefficients.first().map_or(0, Mat::nrows) / law.components;
+    let (mut energy, mut all) = (0.0, Vec::with_capacity(coefficients.len()));
+    let start = || (ShapeEvaluator::of_series(space), Shapes::default());
+    let work = |(evaluator, shapes): &mut (ShapeEvaluator<'_>, Shapes), cell: usize| {
+        let (mut energy, mut sum) = (0.0, Mat::zeros(n, n));
+        for rule in space.rules(&quadrature, cell).iter() {
             evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
-            let seen = SampledSolution { space, rule, shapes, coefficients: &coefficients, lonely };
-            seen.add(&law, strains, &mut sum);
+            energy += SampledFields { fields, law: &law, rule, shapes }.add(&mut sum);
         }
-        Ok(sum)
+        Ok((energy, sum))
     };
-    in_batches(stage, n, start, work, |_, of_cell| all.push(of_cell))?;
-    Ok(all)
+    in_batches(stage, coefficients.len(), start, work, |_, (part, of_cell)| {
+        energy += part;
+        all.push(of_cell);
+    })?;
+    Ok((energy, all))
 }
 
 /// Part of the disagreement that is the error: of smooth fields of the orders 1 to 8 the
@@ -63,24 +71,12 @@ fn share_of_error(order: usize) -> f64 {
     (2.0 / order.max(1) as f64).min(1.0)
 }
 
-/// The coefficients of all components of all fields on a patch, a row each, of functions as the
-/// solver has them.
-fn of_patch(fields: &[&FieldData], space: &Space<'_>, patch: usize) -> Mat<f64> {
-    let rows = fields.iter().flat_map(|field| field.coefficients_of(patch));
-    let rows: Vec<Vec<f64>> = rows.map(|row| space.shifted(patch, row)).collect();
-    Mat::from_fn(rows.len(), space.sizes[patch], |i, k| rows[i][k])
-}
-
-/// Shapes at the points of a rule, and the coefficients of all patches.
-struct SampledSolution<'a> {
-    space: &'a Space<'a>,
+/// Shapes at the points of a rule, and the fields that they make.
+struct SampledFields<'a> {
+    fields: LocalFields<'a>,
+    law: &'a Law<'a>,
     rule: &'a Rule,
     shapes: &'a Shapes,
-    coefficients: &'a [Mat<f64>],
-    /// Of each patch, first functions of components: of these it has nearly nothing for itself, and
-    /// many combinations of those of several patches make one field. Its local field is no
-    /// approximation there.
-    lonely: &'a [Vec<usize>],
 }
 
 /// φ u and its gradient of all components of all fields of a patch: a row of points for each.
@@ -91,32 +87,66 @@ struct Products {
     /// s_i
     share: f64,
     value: Vec<f64>,
-    dx: Vec<f64>,
-    dy: Vec<f64>,
+    slopes: [Vec<f64>; 2],
 }
 
-impl SampledSolution<'_> {
-    fn add(&self, law: &Law<'_>, strains: &mut Strains, sum: &mut Mat<f64>) {
+impl SampledFields<'_> {
+    /// Adds the disagreements at the points to the products; returns the energy of the first field
+    /// there.
+    fn add(&self, sum: &mut Mat<f64>) -> f64 {
         let mut products = self.products();
-        let whole = [total(&products, |part| &part.dx), total(&products, |part| &part.dy)];
-        for part in &mut products {
-            let weights = self.weights(part);
-            self.make_differences(part, &whole, &weights);
-            let slopes = [part.dx.as_slice(), part.dy.as_slice()];
-            strains.add_products(law, (self.rule, &weights), slopes, sum);
+        let whole = [0, 1].map(|axis| total(&products, axis));
+        let mut energy = Mat::zeros(1, 1);
+        let first = self.law.components * self.shapes.points;
+        let own = whole.each_ref().map(|slopes| &slopes[..first]);
+        self.add_products(&self.rule.weights, own, &mut energy);
+        if products.len() > 1 {
+            for part in &mut products {
+                let weights = self.weights(part);
+                self.make_differences(part, &whole, &weights);
+                let slopes = part.slopes.each_ref().map(Vec::as_slice);
+                self.add_products(&weights, slopes, sum);
+            }
+        }
+        0.5 * energy[(0, 0)]
+    }
+
+    /// Adds ∫ σ:∇v of all pairs of fields. Slopes have a row for each component of each field.
+    fn add_products(&self, weights: &[f64], slopes: [&[f64]; 2], sum: &mut Mat<f64>) {
+        let (law, n, fields) = (self.law, weights.len(), sum.nrows());
+        let mut stresses = slopes.map(|slopes| vec![0.0; slopes.len()]);
+        for (m, term) in law.terms.iter().enumerate() {
+            let coefficient = |&offset: &Vec2| law.coefficients(self.rule.anchor + offset)[m];
+            let factors = self.rule.offsets.iter().map(coefficient).zip(weights);
+            let factors: Vec<f64> = factors.map(|(coefficient, w)| coefficient * w).collect();
+            for first in (0..slopes[0].len()).step_by(law.components * n) {
+                let row = |i: usize| first + i * n..first + (i + 1) * n;
+                for [i, k, j, l] in term.entries() {
+                    let entry = term.entry([i, k], [j, l]);
+                    let sums = stresses[k][row(i)].iter_mut().zip(&slopes[l][row(j)]);
+                    sums.zip(&factors).for_each(|((sum, slope), w)| *sum += entry * w * slope);
+                }
+            }
+        }
+        let rows = |array| MatRef::from_row_major_slice(array, fields, law.components * n);
+        for (stresses, slopes) in stresses.iter().zip(slopes) {
+            let (stresses, slopes) = (rows(stresses.as_slice()), rows(slopes));
+            matmul(sum.as_mut(), Accum::Add, stresses, slopes.transpose(), 1.0, Par::Seq);
         }
     }
 
     fn products(&self) -> Vec<Products> {
+        let LocalFields { space, coefficients, .. } = self.fields;
         let mut first = 0;
         let of_patch = |&patch: &u32| {
             let patch = patch as usize;
-            let range = first..first + self.space.sizes[patch];
+            let range = first..first + coefficients[patch].ncols();
             first = range.end;
-            let [value, dx, dy] = [&self.shapes.value, &self.shapes.dx, &self.shapes.dy]
-                .map(|array| self.combined(patch, array, range.clone()));
-            let share = share_of_error(self.space.order(patch)).powi(2);
-            Products { patch, phi: range.start, share, value, dx, dy }
+            let combined = |array: &Vec<f64>| self.combined(patch, array, range.clone());
+            let [value, dx, dy] =
+                [&self.shapes.value, &self.shapes.dx, &self.shapes.dy].map(combined);
+            let share = share_of_error(space.order(patch)).powi(2);
+            Products { patch, phi: range.start, share, value, slopes: [dx, dy] }
         };
         self.rule.patches.iter().map(of_patch).collect()
     }
@@ -133,11 +163,12 @@ impl SampledSolution<'_> {
 
     fn is_lonely(&self, part: &Products, q: usize) -> bool {
         let of = |function: &usize| self.row(&self.shapes.value, part.phi + function)[q];
-        self.lonely[part.patch].iter().any(|function| of(function) != 0.0)
+        self.fields.lonely[part.patch].iter().any(|function| of(function) != 0.0)
     }
 
     fn combined(&self, patch: usize, array: &[f64], range: Range<usize>) -> Vec<f64> {
-        let (rows, coefficients) = (self.shapes.rows(array, range), &self.coefficients[patch]);
+        let rows = self.shapes.rows(array, range);
+        let coefficients = &self.fields.coefficients[patch];
         let (n, points) = (coefficients.nrows(), rows.ncols());
         let mut out = vec![0.0; n * points];
         let target = MatMut::from_row_major_slice_mut(&mut out, n, points);
@@ -155,11 +186,9 @@ impl SampledSolution<'_> {
         let phi = self.row(&self.shapes.value, part.phi).iter().zip(weights);
         let inverse: Vec<f64> =
             phi.map(|(phi, weight)| if *weight > 0.0 { 1.0 / phi } else { 0.0 }).collect();
+        let of_phi = [&self.shapes.dx, &self.shapes.dy].map(|array| self.row(array, part.phi));
         let points = self.shapes.points;
-        for (slopes, of_phi, whole) in [
-            (&mut part.dx, self.row(&self.shapes.dx, part.phi), &whole[0]),
-            (&mut part.dy, self.row(&self.shapes.dy, part.phi), &whole[1]),
-        ] {
+        for ((slopes, of_phi), whole) in part.slopes.iter_mut().zip(of_phi).zip(whole) {
             let rows = slopes.chunks_exact_mut(points).zip(part.value.chunks_exact(points));
             for ((slopes, values), whole) in rows.zip(whole.chunks_exact(points)) {
                 for q in 0..points {
@@ -171,11 +200,11 @@ impl SampledSolution<'_> {
     }
 }
 
-/// The sum over the patches.
-fn total(products: &[Products], of: fn(&Products) -> &Vec<f64>) -> Vec<f64> {
-    let mut sum = of(&products[0]).clone();
+/// The sum over the patches of the slopes along an axis.
+fn total(products: &[Products], axis: usize) -> Vec<f64> {
+    let mut sum = products[0].slopes[axis].clone();
     for part in &products[1..] {
-        sum.iter_mut().zip(of(part)).for_each(|(sum, part)| *sum += part);
+        sum.iter_mut().zip(&part.slopes[axis]).for_each(|(sum, part)| *sum += part);
     }
     sum
 }

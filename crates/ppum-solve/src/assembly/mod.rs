@@ -27,7 +27,6 @@ pub(crate) use dual::Duals;
 pub(crate) use gauge::{FreeModes, Gauge};
 pub(crate) use given::Given;
 pub(crate) use loads::border_rules;
-pub(crate) use stiffness::Strains;
 pub(crate) use system::{System, pattern, slivers};
 
 use crate::basis::StableBasis;

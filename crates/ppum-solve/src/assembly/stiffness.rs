@@ -16,7 +16,7 @@ use crate::law::{Law, LawAt, Rigidity};
 use crate::quadrature::Rule;
 use faer::linalg::matmul::matmul;
 use faer::prelude::ReborrowMut;
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Accum, MatMut, MatRef, Par};
 use ppum::real::{Job, Real, Scalar};
 use ppum::vec2::Vec2;
 use std::ops::Range;
@@ -26,7 +26,7 @@ const SECTIONS: usize = 3;
 
 /// Slopes, strains and weighted stresses at the points of a rule.
 #[derive(Debug, Default)]
-pub(crate) struct Strains {
+pub(super) struct Strains {
     /// Of the functions that each component has for itself ∂₁ψ and ∂₂ψ, of each patch [2,
     /// functions, points].
     slopes: Vec<f64>,
@@ -141,39 +141,6 @@ impl Strains {
         }
         let to = block.submatrix_mut(below, beside, p.vectors, q.vectors);
         matmul(to, Accum::Add, of(&self.strain, p), other.transpose(), 1.0, Par::Seq);
-    }
-
-    /// Adds ∫ ε_a·σ_b of all pairs of fields to a matrix, with weights of their own at the points
-    /// of a rule. The slopes by x and y have a row for each component of each field.
-    pub(crate) fn add_products(
-        &mut self,
-        law: &Law<'_>,
-        (rule, weights): (&Rule, &[f64]),
-        [dx, dy]: [&[f64]; 2],
-        sum: &mut Mat<f64>,
-    ) {
-        let (fields, n) = (sum.nrows(), weights.len());
-        self.clear(law, rule, weights, fields);
-        let row = |array: &[f64], k: usize| array[k * n..(k + 1) * n].to_vec();
-        for field in 0..fields {
-            let sections = if law.components == 1 {
-                vec![row(dx, field), row(dy, field)]
-            } else {
-                let [first, second] = [2 * field, 2 * field + 1];
-                let mut shear = row(dy, first);
-                shear.iter_mut().zip(row(dx, second)).for_each(|(sum, slope)| *sum += slope);
-                vec![row(dx, first), row(dy, second), shear]
-            };
-            for (k, section) in sections.iter().enumerate() {
-                let first = (field * self.sections + k) * self.stride;
-                self.strain[first..first + n].copy_from_slice(section);
-            }
-        }
-        f64::dispatch(Stresses(self));
-        let length = self.sections * self.stride;
-        let [strains, stresses] =
-            [&self.strain, &self.stress].map(|array| part(array, 0, fields, length, length));
-        matmul(sum.as_mut(), Accum::Add, strains, stresses.transpose(), 1.0, Par::Seq);
     }
 
     /// Room for the rows of unknowns, all zero, and the rigidity at the points.

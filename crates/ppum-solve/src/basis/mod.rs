@@ -220,6 +220,24 @@ impl StableBasis {
         }
     }
 
+    /// Of each patch, the coefficients of the functions that the solver evaluates from those of the
+    /// basis: a row for each component of each of some solutions.
+    pub(crate) fn local_coefficients(
+        &self,
+        solutions: &[&[f64]],
+        components: usize,
+    ) -> Vec<Mat<f64>> {
+        let mut first = 0;
+        let of_patch = |basis: &Arc<LocalBasis>| {
+            let own = first..first + basis.unknowns(components);
+            first = own.end;
+            let rows: Vec<_> =
+                solutions.iter().flat_map(|u| basis.plain(&u[own.clone()], components)).collect();
+            Mat::from_fn(rows.len(), basis.matrix.ncols(), |i, k| rows[i][k])
+        };
+        self.patches.iter().map(of_patch).collect()
+    }
+
     /// Plain coefficients from those of the basis, patch by patch and component by component.
     pub(crate) fn plain(&self, space: &Space<'_>, solution: &[f64], components: usize) -> Vec<f64> {
         let mut rest = solution;

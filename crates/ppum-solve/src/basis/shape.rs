@@ -595,7 +595,7 @@ mod tests {
         let (mut sum, mut size, mut at) = ([0.0; 3], [0.0; 3], q);
         for &patch in patches {
             let plain = space.data().coefficients_of(patch as usize).nth(component);
-            for c in space.shifted(patch as usize, plain.expect("a component")) {
+            for c in shifted(space, patch as usize, plain.expect("a component")) {
                 for (k, array) in [&shapes.value, &shapes.dx, &shapes.dy].into_iter().enumerate() {
                     sum[k] += c * array[at];
                     size[k] += (c * array[at]).abs();
@@ -604,5 +604,18 @@ mod tests {
             }
         }
         (sum, size)
+    }
+    /// The coefficients of a patch's functions as they are evaluated, from those of the dataset:
+    /// Σ c f = Σ c (f − σ) + σ c.
+    fn shifted(space: &Space<'_>, patch: usize, plain: &[f64]) -> Vec<f64> {
+        let (mut coefficients, mut first) = (plain.to_vec(), 0);
+        for block in space.data().blocks(patch) {
+            let size = monomials_of(space.data().block_degree[block].into());
+            for k in 0..size {
+                coefficients[k] += space.shifts[block] * plain[first + k];
+            }
+            first += size;
+        }
+        coefficients
     }
 }

@@ -18,14 +18,12 @@
 //! A cell far from all tips, as at a corner that pollutes all factors, counts fully for each.
 
 use super::SolveError;
-use super::solution::{Solving, write_coefficients};
+use super::solution::Solving;
 use crate::adapt::Estimated;
-use crate::basis::StableBasis;
 use crate::intensity::{FACTORS, Sensitivity};
 use crate::linear::LinearSolver;
 use crate::space::Space;
 use faer::Mat;
-use ppum::dataset::FieldData;
 use ppum::vec2::{Rect, Vec2};
 
 /// Exponent by which the strain of a dual solution falls from its tip.
@@ -35,8 +33,8 @@ const FALL: f64 = 1.5;
 pub(super) struct DualSolutions {
     /// The places of the tips.
     tips: Vec<Vec2>,
-    /// Plain coefficients.
-    coefficients: Vec<Vec<f64>>,
+    /// Their unknowns in the order of the system.
+    pub(super) unknowns: Vec<Vec<f64>>,
 }
 
 impl Solving<'_> {
@@ -44,18 +42,15 @@ impl Solving<'_> {
     pub(super) fn duals(
         &self,
         tips: &[Sensitivity<'_>],
-        (basis, loads): (&StableBasis, &[Vec<f64>]),
+        loads: &[Vec<f64>],
         solver: &dyn LinearSolver,
     ) -> Result<Option<DualSolutions>, SolveError> {
         if loads.is_empty() {
             return Ok(None);
         }
-        let found = solver.solve_roughly(loads).map_err(|error| self.located(error))?;
-        let components = self.problem.components();
-        let plain = |unknowns: &Vec<f64>| basis.plain(self.space, unknowns, components);
-        let coefficients = found.iter().map(plain).collect();
+        let unknowns = solver.solve_roughly(loads).map_err(|error| self.located(error))?;
         let tips = tips.iter().map(Sensitivity::tip).collect();
-        Ok(Some(DualSolutions { tips, coefficients }))
+        Ok(Some(DualSolutions { tips, unknowns }))
     }
 }
 
@@ -69,16 +64,6 @@ pub(super) struct Goal {
 }
 
 impl DualSolutions {
-    /// The dual fields, on the step of the field.
-    pub(super) fn fields(&self, data: &FieldData) -> Vec<FieldData> {
-        let field = |coefficients: &Vec<f64>| {
-            let mut dual = data.clone();
-            write_coefficients(&mut dual, coefficients);
-            dual
-        };
-        self.coefficients.iter().map(field).collect()
-    }
-
     /// The estimated errors of factors, from those of the solution and of the dual fields.
     pub(super) fn goal(&self, space: &Space<'_>, estimated: &Estimated) -> Goal {
         let part = |(products, unseen): (&Mat<f64>, &f64)| {

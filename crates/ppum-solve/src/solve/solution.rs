@@ -16,6 +16,7 @@ use crate::problem::Problem;
 use crate::report::{ASSEMBLY_SECONDS, LinearKind, SolverReport, Unresolved};
 use crate::space::{Mesh, Prints, Space, SpaceError};
 use crate::watched::Stage;
+use faer::Mat;
 use ppum::dataset::{Attribute, Dataset, FieldData, Reaction, Step};
 use ppum::field::Field;
 use ppum::progress::{Cancelled, Phase, Watcher};
@@ -24,6 +25,9 @@ use ppum::progress::{Cancelled, Phase, Watcher};
 pub(super) struct Solution {
     /// Plain coefficients in the order of the system.
     coefficients: Vec<f64>,
+    /// Of each patch, the coefficients of the functions that the solver evaluates: a row for each
+    /// component of the solution and of the dual solutions.
+    pub(super) local: Vec<Mat<f64>>,
     /// Values for each patch.
     attributes: Vec<Attribute>,
     reactions: Vec<Reaction>,
@@ -167,8 +171,11 @@ impl Solving<'_> {
             quadrature_points: Some(points.iter().sum()),
             ..report
         };
+        let dual_unknowns = duals.iter().flat_map(|duals| &duals.unknowns).map(Vec::as_slice);
+        let all: Vec<&[f64]> = std::iter::once(solution.as_slice()).chain(dual_unknowns).collect();
         let solution = Solution {
             coefficients: basis.plain(self.space, &solution, components),
+            local: basis.local_coefficients(&all, components),
             attributes: vec![
                 attribute("cut-off", cut_off),
                 attribute("least-eigenvalue", basis.least()),
@@ -218,7 +225,7 @@ impl Solving<'_> {
         stage.advance(1)?;
         gauge.center(solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
         stage.advance(1)?;
-        let duals = self.duals(tips, (basis, &system.duals), solver)?;
+        let duals = self.duals(tips, &system.duals, solver)?;
         let report = chosen.report(solution.relative_residual, solution.course);
         Ok(SystemSolution { unknowns: solution.unknowns, duals, report })
     }
@@ -272,7 +279,7 @@ fn attribute(name: &str, values: Vec<f64>) -> Attribute {
 }
 
 /// Writes coefficients that stand patch by patch and in each patch component by component.
-pub(super) fn write_coefficients(data: &mut FieldData, coefficients: &[f64]) {
+fn write_coefficients(data: &mut FieldData, coefficients: &[f64]) {
     let mut rest = coefficients;
     for patch in 0..data.patch_blocks.len() - 1 {
         for component in data.coefficients_mut(patch) {

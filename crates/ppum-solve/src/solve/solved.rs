@@ -3,11 +3,10 @@
 use super::goal::Goal;
 use super::solution::Solution;
 use super::{Plan, SolveError};
-use crate::adapt::estimated;
+use crate::adapt::{LocalFields, estimated};
 use crate::diagnostics::DiagnosedSolution;
 use crate::intensity::{TipOutcome, intensities_under};
 use crate::law::Law;
-use crate::norms::energy;
 use crate::report::{SolverReport, StopReason, Unresolved};
 use crate::watched::Stage;
 use ppum::dataset::{Attribute, Dataset, TipIntensity};
@@ -64,14 +63,13 @@ impl<'p> PlanSolution<'p> {
     /// Finds the energy and the estimated errors of all.
     pub(super) fn estimated(self, watcher: &dyn Watcher) -> Result<Solved<'p>, SolveError> {
         let Self { mut plan, solution, mut tips } = self;
-        let Solution { mut report, unresolved, lonely, duals, .. } = solution;
+        let Solution { mut report, local, unresolved, lonely, duals, .. } = solution;
         let Plan { problem, dataset, space, clock, .. } = &mut plan;
         let stage = Stage::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
         let field = Field::new(dataset, 0)?;
-        let energy = energy(&field, space);
-        let dual_fields = duals.as_ref().map_or_else(Vec::new, |duals| duals.fields(field.data));
-        let found = estimated(problem, &field, &dual_fields, &lonely, space, &stage);
-        let found = found.map_err(SolveError::of_data)?;
+        let fields = LocalFields { space, coefficients: &local, lonely: &lonely };
+        let found = estimated(problem, &field, fields, &stage).map_err(SolveError::of_data)?;
+        let energy = found.energy;
         let goal = duals.map_or_else(Goal::default, |duals| duals.goal(space, &found));
         let factors = tips.iter_mut().filter_map(|outcome| outcome.factors.as_mut());
         factors.zip(&goal.errors).for_each(|(factors, error)| factors.error = Some(*error));

@@ -217,20 +217,6 @@ impl<'d> Space<'d> {
         self.data().block_degree[self.data().blocks(patch).start].into()
     }
 
-    /// The coefficients of a patch's functions as they are while solving, from those of the
-    /// dataset: Σ c f = Σ c (f − σ) + σ c.
-    pub(crate) fn shifted(&self, patch: usize, plain: &[f64]) -> Vec<f64> {
-        let (mut coefficients, mut first) = (plain.to_vec(), 0);
-        for block in self.data().blocks(patch) {
-            let size = block_size(self.data(), block);
-            for k in 0..size {
-                coefficients[k] += self.shifts[block] * plain[first + k];
-            }
-            first += size;
-        }
-        coefficients
-    }
-
     /// Number of polynomials of a patch: the functions of its first block.
     pub(crate) fn n_polynomials(&self, patch: usize) -> usize {
         block_size(self.data(), self.data().blocks(patch).start)
