@@ -11,7 +11,7 @@ use super::cell_system::CellSystem;
 use super::dual::Duals;
 use super::functions::CellFunctions;
 use super::gauge::FreeModes;
-use super::stiffness::Strains;
+use super::stiffness::Gradients;
 use crate::basis::{BasisEvaluator, Shapes};
 use crate::linear::EigenError;
 use crate::quadrature::Rule;
@@ -41,14 +41,14 @@ pub(crate) struct CellAssembler<'s> {
     functionals: Option<Functionals<'s>>,
     evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
-    strains: Strains,
+    gradients: Gradients,
 }
 
 impl<'s> CellAssembler<'s> {
     pub(crate) fn new(assembly: Assembly<'s>, functionals: Option<Functionals<'s>>) -> Self {
         let evaluator = BasisEvaluator::new(assembly.space, assembly.basis);
-        let (shapes, strains) = (Shapes::default(), Strains::default());
-        Self { assembly, functionals, evaluator, shapes, strains }
+        let (shapes, gradients) = (Shapes::default(), Gradients::default());
+        Self { assembly, functionals, evaluator, shapes, gradients }
     }
 
     /// The system of one cell, given its quadrature, body forces and the pieces of its border. A
@@ -168,7 +168,7 @@ impl<'s> CellAssembler<'s> {
         let Some(matrix) = matrix else { return };
         let fields = self.assembly.fields(&rule.patches, tied);
         let (places, plain) = (functions.positions(&rule.patches), self.evaluator.plain());
-        self.strains.integrate(self.assembly.law, (rule, plain), (&fields, &places), matrix);
+        self.gradients.integrate(self.assembly.law, (rule, plain), (&fields, &places), matrix);
     }
 
     /// Adds these points to the functionals of the plain functions.

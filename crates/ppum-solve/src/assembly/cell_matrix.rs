@@ -48,20 +48,10 @@ impl CellMatrix {
         MatMut::from_row_major_slice_mut(values, self.sizes[k], self.sizes[l])
     }
 
-    /// Adds a factor times a row-major matrix to a part of the block of two patches.
-    pub(super) fn add(
-        &mut self,
-        [k, l]: [usize; 2],
-        [row, column]: [usize; 2],
-        (values, columns): (&[f64], usize),
-        factor: f64,
-    ) {
-        let (range, width) = (self.range(k, l), self.sizes[l]);
-        let rows = self.values[range].chunks_exact_mut(width.max(1)).skip(row);
-        for (sums, values) in rows.zip(values.chunks_exact(columns.max(1))) {
-            let sums = sums[column..column + columns].iter_mut();
-            sums.zip(values).for_each(|(sum, value)| *sum += factor * value);
-        }
+    /// A row of the block of patches k ≤ l.
+    pub(super) fn row_mut(&mut self, [k, l]: [usize; 2], row: usize) -> &mut [f64] {
+        let (first, columns) = (self.range(k, l).start, self.sizes[l]);
+        &mut self.values[first + row * columns..first + (row + 1) * columns]
     }
 }
 

@@ -1,13 +1,13 @@
-//! The stiffness of a cell: K = ∫ Bᵀ D B.
+//! The stiffness of a cell: K = ∫ ∇N·C·∇N.
 //!
 //! ```text
-//! ε = (∂₁u₁, ∂₂u₂, ∂₂u₁ + ∂₁u₂)   or   ∇u of a potential        σ = D ε        K_ab = ∫ ε_a · σ_b
-//! K_(i,a)(j,b) = Σ_kl C_ikjl ∫ ∂_k ψ_a ∂_l ψ_b        of functions ψ that each component has for itself
+//! K_(i,a)(j,b) = Σ_kl C_ikjl ∫ ∂_k ψ_a ∂_l ψ_b     of functions ψ that each component has for itself
+//! K_(i,a)b = Σ_k ∫ ∂_k ψ_a σ_ik(v_b)     K_ab = Σ_ik ∫ ∂_k v_ia σ_ik(v_b)     of vector fields v
 //! ```
 //!
-//! A row of strains is that of one vector field at all points of a rule, section by section;
-//! products of rows of strains with rows of weighted stresses are integrals. All components share
-//! the products of the slopes of ψ: a third of the operations.
+//! All components share the products of the slopes of ψ: a third of the operations. At each point
+//! the numbers of all functions follow each other, so that integrals are sums of outer products,
+//! for which nothing has to be transposed.
 
 use super::Assembly;
 use super::cell_matrix::CellMatrix;
@@ -21,41 +21,33 @@ use ppum::real::{Job, Real, Scalar};
 use ppum::vec2::Vec2;
 use std::ops::Range;
 
-/// Most components of a strain.
-const SECTIONS: usize = 3;
-
-/// Slopes, strains and weighted stresses at the points of a rule.
+/// Gradients and stresses of unknowns at the points of a rule.
 #[derive(Debug, Default)]
-pub(super) struct Strains {
-    /// Of the functions that each component has for itself ∂₁ψ and ∂₂ψ, of each patch [2,
-    /// functions, points].
+pub(super) struct Gradients {
+    /// ∂_k ψ, of each patch \[points, axes, functions\].
     slopes: Vec<f64>,
     /// The same times weights and a coefficient of the law.
     weighted: Vec<f64>,
-    /// ∫ a ∂_k ψ_a ∂_l ψ_b of two patches.
+    /// ∫ a ∂_k ψ_a ∂_l ψ_b of two patches, \[axes, functions, axes, functions\].
     products: Vec<f64>,
-    /// Length of a section of the strains and stresses: points, and zeros up to whole vectors.
-    stride: usize,
-    sections: usize,
-    strain: Vec<f64>,
-    stress: Vec<f64>,
-    /// D times the weights, [sections · sections, stride].
-    rigidity: Vec<f64>,
+    /// ∂_k v_i, of each patch \[components, points, axes, fields\].
+    gradients: Vec<f64>,
+    /// σ_ik(v) times weights, in the same order.
+    stresses: Vec<f64>,
 }
 
-/// The unknowns of a patch: the first of its slopes and of its strains, and their numbers.
+/// The unknowns of a patch at the points of a rule: functions that each component has for itself,
+/// vector fields, and the numbers of those of the patches before.
 #[derive(Clone, Copy, Debug)]
-struct Rows {
-    slope: usize,
+struct PatchUnknowns {
+    points: usize,
     scalars: usize,
-    strain: usize,
+    scalars_before: usize,
     vectors: usize,
+    vectors_before: usize,
 }
 
-/// Of σ_ik, its section of a row of stresses.
-const SECTION: [[usize; 2]; 2] = [[0, 2], [2, 1]];
-
-impl Strains {
+impl Gradients {
     /// Adds the points of a rule to the stiffness of a cell. `shapes` are the plain functions
     /// there; `fields` are the unknowns of the rule's patches, and `numbers` the places of these
     /// patches in the matrix, ascending.
@@ -66,32 +58,76 @@ impl Strains {
         (fields, numbers): (&[Fields<'_>], &[usize]),
         matrix: &mut CellMatrix,
     ) {
-        let vectors = fields.iter().map(Fields::vectors).sum();
-        self.clear(law, rule, &rule.weights, vectors);
-        let rows = self.see_all(fields, shapes);
-        let n = rows.len();
+        let all = self.evaluate_all(fields, shapes);
+        let n = all.len();
         let pairs = || (0..n).flat_map(|k| (k..n).map(move |l| (k, l)));
         for (m, term) in law.terms.iter().enumerate() {
-            self.weigh(rule, |x| law.coefficients(x)[m]);
+            self.weigh(rule, &all, |x| law.coefficients(x)[m]);
             for (k, l) in pairs() {
-                let places = [numbers[k], numbers[l]];
-                self.add_scalars(term, [rows[k], rows[l]], shapes.points, (matrix, places));
+                self.add_scalars(term, [all[k], all[l]], (matrix, [numbers[k], numbers[l]]));
             }
         }
-        f64::dispatch(Stresses(self));
-        for (k, l) in pairs().filter(|&(k, l)| rows[k].vectors + rows[l].vectors > 0) {
-            let block = matrix.block_mut(numbers[k], numbers[l]);
-            self.add_vectors([rows[k], rows[l]], shapes.points, block);
+        if all.iter().all(|unknowns| unknowns.vectors == 0) {
+            return;
+        }
+        self.find_stresses(law, rule, &all);
+        for (k, l) in pairs().filter(|&(k, l)| all[k].vectors + all[l].vectors > 0) {
+            self.add_vectors([all[k], all[l]], matrix.block_mut(numbers[k], numbers[l]));
+        }
+    }
+
+    /// The gradients of the unknowns of all patches, whose functions stand one after the other.
+    fn evaluate_all(&mut self, fields: &[Fields<'_>], shapes: &Shapes) -> Vec<PatchUnknowns> {
+        let scalars: usize = fields.iter().map(|fields| fields.scalar.nrows()).sum();
+        let vectors: usize = fields.iter().map(Fields::vectors).sum();
+        self.slopes.resize(2 * scalars * shapes.points, 0.0);
+        self.gradients.resize(4 * vectors * shapes.points, 0.0);
+        let (mut first, mut scalars_before, mut vectors_before) = (0, 0, 0);
+        let of_patch = |fields: &Fields<'_>| {
+            let (points, scalars) = (shapes.points, fields.scalar.nrows());
+            let vectors = fields.vectors();
+            let unknowns =
+                PatchUnknowns { points, scalars, scalars_before, vectors, vectors_before };
+            self.evaluate(fields, shapes, first, &unknowns);
+            first += fields.plain();
+            (scalars_before, vectors_before) = (scalars_before + scalars, vectors_before + vectors);
+            unknowns
+        };
+        fields.iter().map(of_patch).collect()
+    }
+
+    /// The gradients of the unknowns of a patch, whose functions stand from `first` on.
+    fn evaluate(
+        &mut self,
+        fields: &Fields<'_>,
+        shapes: &Shapes,
+        first: usize,
+        unknowns: &PatchUnknowns,
+    ) {
+        for (axis, array) in [&shapes.dx, &shapes.dy].into_iter().enumerate() {
+            let combine = |factors: MatRef<'_, f64>, to: &mut [f64]| {
+                let (rows, slopes) =
+                    (factors.nrows(), shapes.rows(array, first..first + factors.ncols()));
+                let to = MatMut::from_column_major_slice_mut(to, 2 * rows, shapes.points);
+                let to = to.subrows_mut(axis * rows, rows);
+                matmul(to, Accum::Replace, factors, slopes, 1.0, Par::Seq);
+            };
+            combine(fields.scalar, &mut self.slopes[unknowns.scalar_range()]);
+            for (component, part) in fields.vector.iter().flatten().enumerate() {
+                combine(*part, &mut self.gradients[unknowns.vector_range(component)]);
+            }
         }
     }
 
     /// Multiplies the slopes by the weights of a rule and a coefficient.
-    fn weigh(&mut self, rule: &Rule, coefficient: impl Fn(Vec2) -> f64) {
+    fn weigh(&mut self, rule: &Rule, all: &[PatchUnknowns], coefficient: impl Fn(Vec2) -> f64) {
         let points = rule.offsets.iter().zip(&rule.weights);
         let factors: Vec<f64> = points.map(|(&o, w)| w * coefficient(rule.anchor + o)).collect();
-        self.weighted.clear();
-        for row in self.slopes.chunks_exact(factors.len().max(1)) {
-            self.weighted.extend(row.iter().zip(&factors).map(|(slope, factor)| slope * factor));
+        self.weighted.resize(self.slopes.len(), 0.0);
+        for unknowns in all {
+            let range = unknowns.scalar_range();
+            let (from, to) = (&self.slopes[range.clone()], &mut self.weighted[range]);
+            f64::dispatch(Weighing { from, factors: &factors, to });
         }
     }
 
@@ -100,196 +136,175 @@ impl Strains {
     fn add_scalars(
         &mut self,
         law: &LawAt,
-        [p, q]: [Rows; 2],
-        n: usize,
+        [p, q]: [PatchUnknowns; 2],
         (matrix, places): (&mut CellMatrix, [usize; 2]),
     ) {
-        let components = law.components();
-        let pairs = || (0..components * components).map(|n| (n / components, n % components));
-        for (k, l) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let factors =
-                pairs().map(|(i, j)| ([i * p.scalars, j * q.scalars], law.entry([i, k], [j, l])));
-            let factors: Vec<_> = factors.filter(|(_, factor)| *factor != 0.0).collect();
-            if factors.is_empty() {
-                continue;
-            }
-            self.products.resize(p.scalars * q.scalars, 0.0);
-            let to = MatMut::from_row_major_slice_mut(&mut self.products, p.scalars, q.scalars);
-            let [left, right] = [p.slopes(&self.slopes, k, n), q.slopes(&self.weighted, l, n)];
-            matmul(to, Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
-            for (at, factor) in factors {
-                matrix.add(places, at, (&self.products, q.scalars), factor);
-            }
+        let (left, right) = (p.slopes(&self.slopes), q.slopes(&self.weighted));
+        if law.components() == 1 {
+            // C is a multiple of the unit tensor
+            let block = matrix.block_mut(places[0], places[1]);
+            let factor = law.modulus(0);
+            matmul(block, Accum::Add, left, right.transpose(), factor, Par::Seq);
+            return;
         }
+        let (rows, columns) = (2 * p.scalars, 2 * q.scalars);
+        self.products.resize(rows * columns, 0.0);
+        let to = MatMut::from_row_major_slice_mut(&mut self.products, rows, columns);
+        let (left, right) = (p.both_slopes(&self.slopes), q.both_slopes(&self.weighted));
+        matmul(to, Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
+        let sizes = [p.scalars, q.scalars];
+        f64::dispatch(Contraction { law, products: &self.products, sizes, matrix, places });
     }
 
-    /// ∫ ε_a · σ_b where one or both of the unknowns are vector fields.
-    fn add_vectors(&self, [p, q]: [Rows; 2], n: usize, mut block: MatMut<'_, f64>) {
-        let length = self.sections * self.stride;
-        let of =
-            |array, rows: Rows| part(array, rows.strain * length, rows.vectors, length, length);
-        let [own, other] = [p, q].map(|rows| of(&self.stress, rows));
+    /// ∫ ∇u·σ(v) where one or both of the unknowns are vector fields.
+    fn add_vectors(&self, [p, q]: [PatchUnknowns; 2], mut block: MatMut<'_, f64>) {
+        let n = 2 * p.points;
+        let [own, other] = [p, q].map(|unknowns| unknowns.fields(&self.stresses));
         let (below, beside) = (2 * p.scalars, 2 * q.scalars);
-        for (i, k) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let first = SECTION[i][k] * self.stride;
-            let (left, right) = (p.slopes(&self.slopes, k, n), other.subcols(first, n).transpose());
+        for i in 0..2 {
             let to = block.rb_mut().submatrix_mut(i * p.scalars, beside, p.scalars, q.vectors);
-            matmul(to, Accum::Add, left, right, 1.0, Par::Seq);
-            let (left, right) = (own.subcols(first, n), q.slopes(&self.slopes, k, n).transpose());
+            let right = other.subcols(i * n, n).transpose();
+            matmul(to, Accum::Add, p.slopes(&self.slopes), right, 1.0, Par::Seq);
             let to = block.rb_mut().submatrix_mut(below, i * q.scalars, p.vectors, q.scalars);
-            matmul(to, Accum::Add, left, right, 1.0, Par::Seq);
+            let right = q.slopes(&self.slopes).transpose();
+            matmul(to, Accum::Add, own.subcols(i * n, n), right, 1.0, Par::Seq);
         }
         let to = block.submatrix_mut(below, beside, p.vectors, q.vectors);
-        matmul(to, Accum::Add, of(&self.strain, p), other.transpose(), 1.0, Par::Seq);
+        matmul(to, Accum::Add, p.fields(&self.gradients), other.transpose(), 1.0, Par::Seq);
     }
 
-    /// Room for the rows of unknowns, all zero, and the rigidity at the points.
-    fn clear(&mut self, law: &Law<'_>, rule: &Rule, weights: &[f64], rows: usize) {
-        let points = weights.len();
-        self.sections = if law.components == 1 { 2 } else { SECTIONS };
-        self.stride = points.next_multiple_of(<f64 as Scalar>::VECTOR);
-        for (array, rows) in [
-            (&mut self.strain, self.sections * rows),
-            (&mut self.stress, self.sections * rows),
-            (&mut self.rigidity, self.sections * self.sections),
-        ] {
-            array.clear();
-            array.resize(rows * self.stride, 0.0);
-        }
+    /// σ = C ∇v times weights.
+    fn find_stresses(&mut self, law: &Law<'_>, rule: &Rule, all: &[PatchUnknowns]) {
         let uniform = law.is_uniform().then(|| law.rigidity(rule.anchor));
-        for (q, (&offset, weight)) in rule.offsets.iter().zip(weights).enumerate() {
-            let Rigidity(rigidity) = uniform.unwrap_or_else(|| law.rigidity(rule.anchor + offset));
-            for (k, row) in rigidity.iter().enumerate().take(self.sections) {
-                for (l, entry) in row.iter().enumerate().take(self.sections) {
-                    self.rigidity[(k * self.sections + l) * self.stride + q] = weight * entry;
+        let points = rule.offsets.iter().zip(&rule.weights);
+        let weighted = |(&offset, weight): (&Vec2, &f64)| {
+            let Rigidity(d) = uniform.unwrap_or_else(|| law.rigidity(rule.anchor + offset));
+            d.map(|row| row.map(|entry| weight * entry))
+        };
+        let rigidity: Vec<_> = points.map(weighted).collect();
+        self.stresses.resize(self.gradients.len(), 0.0);
+        for unknowns in all.iter().filter(|unknowns| unknowns.vectors > 0) {
+            let range = unknowns.vector_range(0).start..unknowns.vector_range(1).end;
+            let (gradients, to) = (&self.gradients[range.clone()], &mut self.stresses[range]);
+            let fields = unknowns.vectors;
+            f64::dispatch(Stresses { fields, rigidity: &rigidity, gradients, to });
+        }
+    }
+}
+
+impl PatchUnknowns {
+    /// The place of the slopes.
+    fn scalar_range(&self) -> Range<usize> {
+        let first = 2 * self.points * self.scalars_before;
+        first..first + 2 * self.points * self.scalars
+    }
+
+    /// The place of a component of the vector fields.
+    fn vector_range(&self, component: usize) -> Range<usize> {
+        let length = 2 * self.points * self.vectors;
+        let first = 4 * self.points * self.vectors_before + component * length;
+        first..first + length
+    }
+
+    /// The slopes: [functions, points · axes].
+    fn slopes<'a>(&self, array: &'a [f64]) -> MatRef<'a, f64> {
+        let values = &array[self.scalar_range()];
+        MatRef::from_column_major_slice(values, self.scalars, 2 * self.points)
+    }
+
+    /// The slopes: [axes · functions, points].
+    fn both_slopes<'a>(&self, array: &'a [f64]) -> MatRef<'a, f64> {
+        let values = &array[self.scalar_range()];
+        MatRef::from_column_major_slice(values, 2 * self.scalars, self.points)
+    }
+
+    /// Gradients or stresses of the vector fields: [fields, components · points · axes].
+    fn fields<'a>(&self, array: &'a [f64]) -> MatRef<'a, f64> {
+        let values = &array[self.vector_range(0).start..self.vector_range(1).end];
+        MatRef::from_column_major_slice(values, self.vectors, 4 * self.points)
+    }
+}
+
+/// Numbers of all functions at each point times the factor of the point.
+struct Weighing<'a> {
+    from: &'a [f64],
+    factors: &'a [f64],
+    to: &'a mut [f64],
+}
+
+impl Job<f64> for Weighing<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = f64>>(self, _: R) {
+        let length = (self.from.len() / self.factors.len().max(1)).max(1);
+        let points = self.from.chunks_exact(length).zip(self.to.chunks_exact_mut(length));
+        for ((from, to), factor) in points.zip(self.factors) {
+            for (from, to) in from.iter().zip(to) {
+                *to = from * factor;
+            }
+        }
+    }
+}
+
+/// K_(i,a)(j,b) += Σ_kl C_ikjl G_(k,a)(l,b), row-major, for two patches with so many functions.
+struct Contraction<'a> {
+    law: &'a LawAt,
+    products: &'a [f64],
+    sizes: [usize; 2],
+    matrix: &'a mut CellMatrix,
+    places: [usize; 2],
+}
+
+impl Job<f64> for Contraction<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = f64>>(self, _: R) {
+        let [rows, columns] = self.sizes;
+        for [i, k, j, l] in self.law.entries() {
+            let factor = self.law.entry([i, k], [j, l]);
+            for a in 0..rows {
+                let sums = self.matrix.row_mut(self.places, i * rows + a);
+                let first = ((k * rows + a) * 2 + l) * columns;
+                let sums = sums[j * columns..(j + 1) * columns].iter_mut();
+                for (sum, g) in sums.zip(&self.products[first..first + columns]) {
+                    *sum += factor * g;
                 }
             }
         }
     }
-
-    /// The slopes and strains of the unknowns of all patches, whose functions stand one after
-    /// the other.
-    fn see_all(&mut self, fields: &[Fields<'_>], shapes: &Shapes) -> Vec<Rows> {
-        let length = fields.iter().map(|fields| 2 * fields.scalar.nrows() * shapes.points).sum();
-        self.slopes.resize(length, 0.0);
-        let (mut function, mut slope, mut strain) = (0, 0, 0);
-        let of_patch = |fields: &Fields<'_>| {
-            let (scalars, vectors) = (fields.scalar.nrows(), fields.vectors());
-            let rows = Rows { slope, scalars, strain, vectors };
-            self.see(fields, shapes, function, rows);
-            function += fields.plain();
-            slope += 2 * scalars * shapes.points;
-            strain += vectors;
-            rows
-        };
-        fields.iter().map(of_patch).collect()
-    }
-
-    /// The slopes and strains of the unknowns of a patch, whose functions stand from `function` on.
-    fn see(&mut self, fields: &Fields<'_>, shapes: &Shapes, function: usize, rows: Rows) {
-        let slopes = |n: usize| {
-            [&shapes.dx, &shapes.dy].map(|array| shapes.rows(array, function..function + n))
-        };
-        let (n, Fields { scalar, vector }) = (shapes.points, *fields);
-        for (k, slope) in slopes(scalar.ncols()).into_iter().enumerate() {
-            let to = &mut self.slopes[rows.section(k, n)];
-            let to = MatMut::from_row_major_slice_mut(to, rows.scalars, n);
-            matmul(to, Accum::Replace, scalar, slope, 1.0, Par::Seq);
-        }
-        let Some([x, y]) = vector else { return };
-        let ([dx, dy], (row, fields)) = (slopes(x.ncols()), (rows.strain, rows.vectors));
-        matmul(self.section(row, fields, 0, n), Accum::Replace, x, dx, 1.0, Par::Seq);
-        matmul(self.section(row, fields, 1, n), Accum::Replace, y, dy, 1.0, Par::Seq);
-        matmul(self.section(row, fields, 2, n), Accum::Replace, x, dy, 1.0, Par::Seq);
-        matmul(self.section(row, fields, 2, n), Accum::Add, y, dx, 1.0, Par::Seq);
-    }
-
-    /// A section of some rows.
-    fn section(&mut self, row: usize, rows: usize, section: usize, n: usize) -> MatMut<'_, f64> {
-        let length = self.sections * self.stride;
-        let first = row * length + section * self.stride;
-        let values = match rows {
-            0 => &mut [],
-            _ => &mut self.strain[first..first + (rows - 1) * length + n],
-        };
-        // not `from_row_major_slice_with_stride_mut`: that of faer 0.24.4 swaps the strides and
-        // lets products write beyond the slice
-        MatMut::from_column_major_slice_with_stride_mut(values, n, rows, length).transpose_mut()
-    }
 }
 
-impl Rows {
-    /// The place of the slopes along an axis.
-    fn section(&self, axis: usize, n: usize) -> Range<usize> {
-        let first = self.slope + axis * self.scalars * n;
-        first..first + self.scalars * n
-    }
-
-    /// The slopes along an axis: [functions, points].
-    fn slopes<'a>(&self, array: &'a [f64], axis: usize, n: usize) -> MatRef<'a, f64> {
-        MatRef::from_row_major_slice(&array[self.section(axis, n)], self.scalars, n)
-    }
+/// The stresses of the vector fields of a patch.
+struct Stresses<'a> {
+    fields: usize,
+    /// The law on (ε_11, ε_22, 2ε_12) at each point, times the weight.
+    rigidity: &'a [[[f64; 3]; 3]],
+    gradients: &'a [f64],
+    to: &'a mut [f64],
 }
-
-/// Some rows of an array.
-fn part(
-    array: &[f64],
-    first: usize,
-    rows: usize,
-    columns: usize,
-    stride: usize,
-) -> MatRef<'_, f64> {
-    MatRef::from_row_major_slice(&array[first..first + rows * stride], rows, columns)
-}
-
-/// The work σ = D ε.
-struct Stresses<'a>(&'a mut Strains);
 
 impl Job<f64> for Stresses<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Real<Scalar = f64>>(self, zero: R) {
-        match self.0.sections {
-            2 => self.0.stresses::<R, 2>(zero),
-            _ => self.0.stresses::<R, SECTIONS>(zero),
-        }
-    }
-}
-
-impl Strains {
-    #[inline(always)]
-    fn stresses<R: Real<Scalar = f64>, const S: usize>(&mut self, zero: R) {
-        let (stride, length) = (self.stride, S * self.stride);
-        let mut q = 0;
-        while q < stride {
-            let mut rigidity = [[zero; S]; S];
-            let mut k = 0;
-            while k < S * S {
-                rigidity[k / S][k % S] = zero.load(&self.rigidity[k * stride + q..]);
-                k += 1;
+    fn run<R: Real<Scalar = f64>>(self, _: R) {
+        let (half, n) = (self.gradients.len() / 2, self.fields);
+        let ([first, second], (to, below)) =
+            ([&self.gradients[..half], &self.gradients[half..]], self.to.split_at_mut(half));
+        let gradients = first.chunks_exact(2 * n).zip(second.chunks_exact(2 * n));
+        let stresses = to.chunks_exact_mut(2 * n).zip(below.chunks_exact_mut(2 * n));
+        for (((u, v), (s, t)), d) in gradients.zip(stresses).zip(self.rigidity) {
+            let ((ux, uy), (vx, vy)) = (u.split_at(n), v.split_at(n));
+            let ((sx, sy), (tx, ty)) = (s.split_at_mut(n), t.split_at_mut(n));
+            for a in 0..n {
+                let (x, y, z) = (ux[a], vy[a], uy[a] + vx[a]);
+                sx[a] = d[0][0] * x + d[0][1] * y + d[0][2] * z;
+                ty[a] = d[1][0] * x + d[1][1] * y + d[1][2] * z;
+                sy[a] = d[2][0] * x + d[2][1] * y + d[2][2] * z;
+                tx[a] = sy[a];
             }
-            let mut first = q;
-            while first < self.strain.len() {
-                let mut strain = [zero; S];
-                let mut k = 0;
-                while k < S {
-                    strain[k] = zero.load(&self.strain[first + k * stride..]);
-                    k += 1;
-                }
-                k = 0;
-                while k < S {
-                    let (mut stress, mut l) = (rigidity[k][0] * strain[0], 1);
-                    while l < S {
-                        stress = rigidity[k][l].mul_add(strain[l], stress);
-                        l += 1;
-                    }
-                    stress.store(&mut self.stress[first + k * stride..]);
-                    k += 1;
-                }
-                first += length;
-            }
-            q += R::LANES;
         }
     }
 }
