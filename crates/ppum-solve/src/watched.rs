@@ -10,8 +10,10 @@ use ppum::vec2::Rect;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 
-/// Items worked on between additions: enough for the cores, little enough for the memory.
-const BATCH: usize = 128;
+/// Items worked on between additions, at least and for each thread: enough for the cores, little
+/// enough for the memory.
+const LEAST_BATCH: usize = 32;
+const BATCH_OF_THREAD: usize = 8;
 
 /// Work in one phase, as a watcher sees it.
 pub(crate) struct Stage<'w> {
@@ -130,11 +132,12 @@ pub(crate) fn in_batches<S, T: Send>(
         stage.advance(1)?;
         part
     };
+    let size = LEAST_BATCH.max(BATCH_OF_THREAD * rayon::current_num_threads());
     let batch = |first: usize| -> Vec<Result<T, Halt>> {
-        (first..n.min(first + BATCH)).into_par_iter().map_init(&state, watched).collect()
+        (first..n.min(first + size)).into_par_iter().map_init(&state, watched).collect()
     };
     let mut parts = batch(0);
-    for first in (0..n).step_by(BATCH) {
+    for first in (0..n).step_by(size) {
         let add = &mut add;
         let added = move || -> Result<(), Halt> {
             (first..).zip(parts).try_for_each(|(item, part)| {
@@ -142,7 +145,7 @@ pub(crate) fn in_batches<S, T: Send>(
                 Ok(())
             })
         };
-        let (added, next) = rayon::join(added, || batch(first + BATCH));
+        let (added, next) = rayon::join(added, || batch(first + size));
         added?;
         parts = next;
     }

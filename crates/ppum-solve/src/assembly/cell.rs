@@ -42,13 +42,16 @@ pub(crate) struct CellAssembler<'s> {
     evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
     gradients: Gradients,
+    /// Memory for the next matrix.
+    pub(super) memory: Vec<f64>,
 }
 
 impl<'s> CellAssembler<'s> {
     pub(crate) fn new(assembly: Assembly<'s>, functionals: Option<Functionals<'s>>) -> Self {
         let evaluator = BasisEvaluator::new(assembly.space, assembly.basis);
         let (shapes, gradients) = (Shapes::default(), Gradients::default());
-        Self { assembly, functionals, evaluator, shapes, gradients }
+        let memory = Vec::new();
+        Self { assembly, functionals, evaluator, shapes, gradients, memory }
     }
 
     /// The system of one cell, given its quadrature, body forces and the pieces of its border. A
@@ -67,7 +70,9 @@ impl<'s> CellAssembler<'s> {
     ) -> Result<(CellSystem, Option<CellMatrix>), EigenError> {
         let is_held = border.iter().any(|piece| piece.held.contains(&true));
         let mut system = self.zero(CellFunctions::new(&self.assembly, cell));
-        let mut matrix = known.is_none().then(|| system.functions.zero(&self.assembly, !is_held));
+        let memory = std::mem::take(&mut self.memory);
+        let zero = || system.functions.zero(&self.assembly, !is_held, memory);
+        let mut matrix = known.is_none().then(zero);
         let shared = source.filter(|source| source.rules.is_none()).map(|source| source.values);
         let mut plain = self.zero(CellFunctions::plain(&self.assembly, cell));
         for rule in rules {
@@ -93,12 +98,11 @@ impl<'s> CellAssembler<'s> {
         if !is_held {
             return Ok((system, matrix));
         }
-        let components = self.assembly.components();
         let block = |k: usize, l: usize| match (&matrix, known) {
             (Some(own), _) => own.block(k, l),
             (None, known) => known.expect("it is made unless it is known").block(k, l),
         };
-        let mut free = system.functions.free_matrix(components, &block);
+        let mut free = system.functions.free_matrix(&self.assembly, &block);
         let size = self.assembly.space.partition().cell[cell].size();
         on_border.finish(size.x.max(size.y), &mut free, &mut system)?;
         let tied = system.functions.tied_matrix(&self.assembly, &free);
@@ -108,7 +112,7 @@ impl<'s> CellAssembler<'s> {
     /// The stiffness of a cell of which nothing on the border is held.
     pub(super) fn stiffness(&mut self, cell: usize, rules: &[Rule]) -> CellMatrix {
         let functions = CellFunctions::new(&self.assembly, cell);
-        let mut matrix = functions.zero(&self.assembly, true);
+        let mut matrix = functions.zero(&self.assembly, true, Vec::new());
         for rule in rules {
             self.evaluator.see(rule);
             self.stiffen(rule, true, Some(&mut matrix), &functions);

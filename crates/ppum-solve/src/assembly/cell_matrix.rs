@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// A symmetric matrix over the unknowns of some patches: the blocks of patches k ≤ l, each
-/// row-major, in the order (0, 0), (0, 1), (1, 1), (0, 2), …
+/// row-major, in the order (0, 0), (0, 1), (1, 1), (0, 2), …; those of patches that do not overlap
+/// are left out.
 #[derive(Clone, Debug)]
 pub(super) struct CellMatrix {
     /// Unknowns of each patch.
@@ -16,13 +17,27 @@ pub(super) struct CellMatrix {
 }
 
 impl CellMatrix {
-    /// Zero, for patches with so many unknowns.
-    pub(super) fn new(sizes: impl Iterator<Item = usize>) -> Self {
+    /// Zero, for patches with so many unknowns, in the memory of an earlier one.
+    pub(super) fn new(
+        sizes: impl Iterator<Item = usize>,
+        overlap: impl Fn(usize, usize) -> bool,
+        mut values: Vec<f64>,
+    ) -> Self {
         let (sizes, mut starts): (Vec<usize>, _) = (sizes.collect(), vec![0]);
         for l in 0..sizes.len() {
-            (0..=l).for_each(|k| starts.push(starts[starts.len() - 1] + sizes[k] * sizes[l]));
+            for k in 0..=l {
+                let length = if overlap(k, l) { sizes[k] * sizes[l] } else { 0 };
+                starts.push(starts[starts.len() - 1] + length);
+            }
         }
-        Self { values: vec![0.0; starts[starts.len() - 1]], sizes, starts }
+        values.clear();
+        values.resize(starts[starts.len() - 1], 0.0);
+        Self { values, sizes, starts }
+    }
+
+    /// Its memory, for the next one.
+    pub(super) fn into_values(self) -> Vec<f64> {
+        self.values
     }
 
     /// The values of the block of patches k ≤ l.

@@ -52,22 +52,30 @@ impl CellFunctions {
     }
 
     /// A matrix of zeros over all unknowns, or over all functions in each component where these are
-    /// not tied.
-    pub(super) fn zero(&self, assembly: &Assembly<'_>, tied: bool) -> CellMatrix {
+    /// not tied, in the memory of an earlier one.
+    pub(super) fn zero(&self, assembly: &Assembly<'_>, tied: bool, memory: Vec<f64>) -> CellMatrix {
         let fields = assembly.fields(&self.patches, tied);
-        CellMatrix::new(fields.iter().map(|fields| fields.len(assembly.components())))
+        let sizes = fields.iter().map(|fields| fields.len(assembly.components()));
+        CellMatrix::new(sizes, |k, l| self.overlap(assembly, k, l), memory)
+    }
+
+    /// True if patches `k` and `l` overlap, in the cell or elsewhere.
+    fn overlap(&self, assembly: &Assembly<'_>, k: usize, l: usize) -> bool {
+        let [a, b] = [k, l].map(|k| assembly.space.partition().support(self.patches[k] as usize));
+        a.overlaps(&b)
     }
 
     /// The whole matrix over all functions in each component, component i of function a at a ·
     /// components + i, of its blocks of pairs of patches.
     pub(super) fn free_matrix<'m>(
         &self,
-        components: usize,
+        assembly: &Assembly<'_>,
         block: &dyn Fn(usize, usize) -> MatRef<'m, f64>,
     ) -> Mat<f64> {
+        let components = assembly.components();
         let n = self.len() * components;
         let mut matrix = Mat::zeros(n, n);
-        for (k, l) in self.pairs() {
+        for (k, l) in self.pairs(assembly) {
             let [rows, columns] = [k, l].map(|k| self.free(k, components));
             let block = block(k, l);
             add_at(&mut matrix, &rows, &columns, &block.to_owned());
@@ -80,8 +88,8 @@ impl CellFunctions {
 
     /// The matrix over the unknowns from the one over all functions.
     pub(super) fn tied_matrix(&self, assembly: &Assembly<'_>, free: &Mat<f64>) -> CellMatrix {
-        let mut matrix = self.zero(assembly, true);
-        for (k, l) in self.pairs() {
+        let mut matrix = self.zero(assembly, true, Vec::new());
+        for (k, l) in self.pairs(assembly) {
             let [rows, columns] = [k, l].map(|k| self.free(k, assembly.components()));
             let block = taken(free, &rows, &columns);
             let [left, right] = [k, l].map(|k| assembly.basis.tie(self.patches[k]));
@@ -92,11 +100,12 @@ impl CellFunctions {
         matrix
     }
 
-    /// All pairs of patches, in the order of the system: of patch 0 and all from 0 on, of patch 1
-    /// and all from 1 on, …
-    pub(super) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+    /// The pairs of patches that overlap, in the order of the system: of patch 0 and those from 0
+    /// on, of patch 1 and those from 1 on, …
+    pub(super) fn pairs(&self, assembly: &Assembly<'_>) -> impl Iterator<Item = (usize, usize)> {
         let n = self.patches.len();
-        (0..n).flat_map(move |k| (k..n).map(move |l| (k, l)))
+        let all = (0..n).flat_map(move |k| (k..n).map(move |l| (k, l)));
+        all.filter(|&(k, l)| self.overlap(assembly, k, l))
     }
 
     /// The cell's unknowns of patch `k` in the order of the system, component-major; ties are still

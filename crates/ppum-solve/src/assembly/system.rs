@@ -16,6 +16,7 @@ use crate::space::{Space, Unchanged};
 use crate::watched::{Halt, Stage, in_batches};
 use ppum::vec2::Rect;
 use std::borrow::Cow;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// The assembled system.
@@ -75,8 +76,10 @@ pub(crate) fn slivers(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Vec<P
         if given.is_empty() { 0 } else { assembly.n_cells() },
         || CellAssembler::new(assembly, None),
         |assembler, cell| {
+            // cells that are alike are whole
+            let is_whole = space.alike().cell(cell).is_some();
             let on_border = given.border(space, &quadrature, cell);
-            if on_border.is_empty() {
+            if is_whole || on_border.is_empty() {
                 return Ok(None);
             }
             let rect = space.partition().cell[cell];
@@ -134,6 +137,9 @@ impl System {
         let quadrature = space.quadrature(0);
         let (mut system, templates) =
             (Self::zero(&assembly, functionals), Templates::new(assembly));
+        // to ask the system for memory and to return it takes longer than to write there
+        let memory = Mutex::new(Vec::new());
+        let spare = || memory.lock().unwrap_or_else(PoisonError::into_inner);
         let known = |cell: usize, pieces: &[BorderPiece<'_>]| {
             let (unchanged, earlier) = earlier?;
             let is_known = pieces.is_empty() && unchanged.all(&space.coverers[cell]);
@@ -165,6 +171,7 @@ impl System {
                 let own = source.and_then(|source| source.rules).map_or(0, n_cell_points);
                 let inside = templates.points(cell).unwrap_or_else(|| n_cell_points(&rules));
                 let points = inside + n_border_points(&pieces) + own;
+                assembler.memory = spare().pop().unwrap_or_default();
                 let (part, matrix) = assembler
                     .assemble(cell, &rules, source, &pieces, template.as_ref())
                     .map_err(|_| Halt::at(space.partition().cell[cell]))?;
@@ -186,6 +193,9 @@ impl System {
                         let penalty = part.penalty * width(&space.partition().cell[cell]);
                         system.nitsche = system.nitsche.max(penalty);
                         system.add(part, &stiffness, &assembly);
+                        if let Cow::Owned(matrix) = stiffness.matrix {
+                            spare().push(matrix.into_values());
+                        }
                     }
                 }
             },
@@ -266,12 +276,9 @@ impl System {
         part.functions.add_to(basis, &self.matrix, components, &part.load, &mut self.load);
         self.add_functionals(&part, assembly);
         let patches = &part.functions.patches;
-        for (k, l) in part.functions.pairs() {
+        for (k, l) in part.functions.pairs(assembly) {
             let [p, q] = [k, l].map(|k| patches[k] as usize);
-            // patches may meet the cell, but not each other
-            if self.matrix.couples(p, q) {
-                self.matrix.add_block(p, q, stiffness.block(k, l));
-            }
+            self.matrix.add_block(p, q, stiffness.block(k, l));
         }
         self.reactions.push(part);
     }

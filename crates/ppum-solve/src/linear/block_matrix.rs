@@ -119,12 +119,6 @@ impl BlockMatrix {
         self.offsets.partition_point(|&start| start <= u) - 1
     }
 
-    /// True if there is a block (i, j), i ≤ j.
-    #[must_use]
-    pub(crate) fn couples(&self, i: usize, j: usize) -> bool {
-        self.pattern.position(i, j).is_some()
-    }
-
     /// Block (i, j) with i ≤ j, or nothing if the patches are not coupled.
     #[must_use]
     pub(crate) fn block(&self, i: usize, j: usize) -> Option<MatRef<'_, f64>> {
