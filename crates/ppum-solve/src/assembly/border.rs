@@ -89,8 +89,9 @@ pub(crate) struct Border<'a> {
     assembly: Assembly<'a>,
     /// C = ∫ N_a t_i(N_b e_j)
     consistency: Mat<f64>,
-    /// B = ∫ t_i(N_a e_j) t_i(N_b e_k)
-    traction: Mat<f64>,
+    /// t_i(N_a e_j) times the roots of the weights, a column of all unknowns for each point and
+    /// component that is held: B is its product with its transpose.
+    tractions: Vec<f64>,
     /// M = ∫ N_a N_b
     mass: Mat<f64>,
     /// p = ∫ N_a g_i
@@ -125,7 +126,7 @@ impl<'a> Border<'a> {
         Self {
             assembly,
             consistency: zero(),
-            traction: zero(),
+            tractions: Vec::new(),
             mass: zero(),
             value_load: vec![0.0; unknowns],
             traction_load: vec![0.0; unknowns],
@@ -217,7 +218,12 @@ impl<'a> Border<'a> {
         let tractions = tractions.as_ref();
         add_at(&mut self.mass, value_rows, value_rows, &product(*values, *values));
         add_at(&mut self.consistency, value_rows, traction_rows, &product(*values, tractions));
-        add_at(&mut self.traction, traction_rows, traction_rows, &product(tractions, tractions));
+        for column in tractions.col_iter() {
+            let first = self.tractions.len();
+            self.tractions.resize(first + self.value_load.len(), 0.0);
+            let rows = traction_rows.iter().zip(column.iter());
+            rows.for_each(|(&row, t)| self.tractions[first + row] = *t);
+        }
         let restraint = self.restraint(piece.condition);
         for k in 0..piece.modes.count() {
             let mode = mode(piece, rule, k, trace.component);
@@ -265,7 +271,9 @@ impl<'a> Border<'a> {
 
     /// β = max(2 λ_max, C h/ℓ²) for a cell of size h with the stiffness A.
     fn penalty(&self, stiffness: &Mat<f64>, size: f64) -> Result<f64, EigenError> {
-        let needed = FACTOR * largest_eigenvalue(stiffness.as_ref(), self.traction.as_ref())?;
+        let (n, points) = (stiffness.nrows(), self.tractions.len() / stiffness.nrows());
+        let tractions = MatRef::from_column_major_slice(&self.tractions, n, points);
+        let needed = FACTOR * largest_eigenvalue(stiffness.as_ref(), tractions)?;
         let ratio = (size / self.length).min(STIFFEST);
         Ok(needed.max(self.modulus * ratio / self.length))
     }

@@ -3,47 +3,54 @@
 //! Nitsche's method is stable with β = f λ_max, f > 1, where A is the energy of a boundary cell
 //! and B = ∫ |σ(u) n|² ds over the part of its boundary with prescribed displacement: λ_max is the
 //! sharp constant of the inverse estimate ∫ |σ(u) n|² ds ≤ λ_max a(u, u). Both forms vanish for
-//! Rigid-body modes, which are therefore taken out of A first:
+//! rigid-body modes, so that A is shifted by a little. B = R Rᵀ has a column of R for each point:
 //!
 //! ```text
-//! D = diag(A)^−½,   D A D = U Λ Uᵀ,   keep λ > 1e−10 λ_max,   R = Λ^−½ Uᵀ,   λ_max(R D B D Rᵀ)
+//! D = diag(A)^−½,   D A D + δ I = L Lᵀ,   X = L⁻¹ D R,   λ_max = λ_max(Xᵀ X)
 //! ```
 
-use faer::MatRef;
-
+use super::dense::product;
 use super::eigen::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Mat, MatRef, Par};
 
-/// Eigenvalues of the scaled A up to this fraction of the largest belong to its null space.
-/// Rounding leaves about 1e−15 there; deformations of enriched cells lie above 1e−8.
-const NULL_SPACE: f64 = 1e-10;
+/// δ: rounding leaves eigenvalues of about 1e−15 in the null space of the scaled A; deformations of
+/// enriched cells lie above 1e−8, so that λ is right to 1e−4 at least.
+const SHIFT: f64 = 1e-12;
 
 /// Diagonal entries of A up to this fraction of the largest belong to functions without energy.
 const VANISHING: f64 = 1e-40;
 
-/// The largest λ of B x = λ A x over the complement of the null space of A.
+/// The largest λ of R Rᵀ x = λ A x over the complement of the null space of A.
 ///
-/// `a` and `b` are symmetric and positive semi-definite [n × n]; the null space of A must lie in
-/// that of B. Zero if A is zero or empty.
+/// `a` is symmetric and positive semi-definite [n × n]; its null space must lie in that of
+/// `r` ᵀ [n × points]. Zero if A is zero or empty.
 ///
 /// # Errors
 /// An entry that is not finite.
 pub(crate) fn largest_eigenvalue(
     a: MatRef<'_, f64>,
-    b: MatRef<'_, f64>,
+    r: MatRef<'_, f64>,
 ) -> Result<f64, EigenError> {
-    let d = inverse_root_diagonal(a, VANISHING);
-    let eigen = SymmetricEigen::new(scaled(a, &d).as_ref())?;
-    let largest = eigen.values.first().copied().unwrap_or(0.0);
-    let root = eigen.inverse_root(NULL_SPACE * largest.max(0.0));
-    let reduced = &root * scaled(b, &d) * root.transpose();
-    let eigen = SymmetricEigen::new(reduced.as_ref())?;
+    let (n, d) = (a.nrows(), inverse_root_diagonal(a, VANISHING));
+    let mut factor = scaled(a, &d);
+    (0..n).for_each(|k| factor[(k, k)] += SHIFT);
+    let scratch = cholesky_in_place_scratch::<f64>(n, Par::Seq, Default::default());
+    let mut buffer = MemBuffer::new(scratch);
+    let (stack, how) = (MemStack::new(&mut buffer), Default::default());
+    cholesky_in_place(factor.as_mut(), Default::default(), Par::Seq, stack, how)
+        .map_err(|_| EigenError { size: n })?;
+    let mut x = Mat::from_fn(n, r.ncols(), |k, q| d[k] * r[(k, q)]);
+    solve_lower_triangular_in_place(factor.as_ref(), x.as_mut(), Par::Seq);
+    let eigen = SymmetricEigen::new(product(x.transpose(), x.as_ref()).as_ref())?;
     Ok(eigen.values.first().copied().unwrap_or(0.0))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use faer::Mat;
     use ppum_testkit::random::Random;
 
     #[test]
@@ -59,8 +66,8 @@ mod tests {
             };
             let n = degree as usize + 1;
             let a = Mat::from_fn(n, n, entry);
-            let b = Mat::from_fn(n, n, |i, j| (i * j) as f64);
-            let lambda = largest_eigenvalue(a.as_ref(), b.as_ref()).unwrap();
+            let r = Mat::from_fn(n, 1, |i, _| i as f64);
+            let lambda = largest_eigenvalue(a.as_ref(), r.as_ref()).unwrap();
             let exact = f64::from(degree * degree) / 2.0;
             assert!((lambda / exact - 1.0).abs() < 1e-8, "degree {degree}: {lambda}, not {exact}");
         }
@@ -71,9 +78,10 @@ mod tests {
         // A = Gᵀ diag(1, 2, 4, 0) G and B = Gᵀ diag(3, 5, 4, 0) G: eigenvalues 3, 5/2, 1.
         let mut random = Random(7);
         let g = Mat::from_fn(4, 4, |_, _| random.between(-1.0, 1.0));
-        let with = |d: [f64; 4]| g.transpose() * Mat::from_fn(4, 4, |i, j| d[i] * g[(i, j)]);
-        let (a, b) = (with([1.0, 2.0, 4.0, 0.0]), with([3.0, 5.0, 4.0, 0.0]));
-        let lambda = largest_eigenvalue(a.as_ref(), b.as_ref()).unwrap();
+        let times = |d: [f64; 4]| Mat::from_fn(4, 4, |i, j| g[(j, i)] * d[j]);
+        let a = times([1.0, 2.0, 4.0, 0.0]) * &g;
+        let r = times([3.0, 5.0, 4.0, 0.0].map(f64::sqrt));
+        let lambda = largest_eigenvalue(a.as_ref(), r.as_ref()).unwrap();
         assert!((lambda - 3.0).abs() < 1e-9, "{lambda}");
     }
 
