@@ -67,6 +67,10 @@ const STEPS_TO_GOAL: usize = 30;
 /// Accuracy of K that polynomials of order 2 have after few steps.
 const EASY: f64 = 1e-3;
 
+/// Orders that steps to accuracies below these bounds begin with: those that plates with cracks end
+/// up at (docs/decisions/0018-errors-of-factors.md).
+const FIRST_ORDERS: [(f64, usize); 4] = [(1e-7, 7), (1e-6, 6), (1e-4, 4), (EASY, 3)];
+
 impl Adaptivity {
     /// The steps to a relative error of the factors, or without tips of the energy: orders are
     /// raised and cells divided.
@@ -84,7 +88,8 @@ impl Adaptivity {
 
     /// Order of the polynomials that the steps to an accuracy begin with.
     pub(super) fn first_order(accuracy: f64) -> usize {
-        2 + usize::from(accuracy < EASY) + usize::from(accuracy < 0.1 * EASY)
+        let reached = FIRST_ORDERS.iter().find(|(bound, _)| accuracy < *bound);
+        reached.map_or(2, |(_, order)| *order)
     }
 
     /// The defaults for one kind.
