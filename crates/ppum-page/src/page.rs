@@ -1,7 +1,11 @@
 //! The page as a text.
 
+use ppum::dataset::Dataset;
+use ppum::field::Field;
 use ppum_figure::canvas::base64::base64;
-use ppum_scene::scene::Scene;
+use ppum_render::colormap::{Colormap, ColormapError};
+use ppum_scene::overlays::Overlay;
+use ppum_scene::scene::{Scene, default_quantity};
 use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 
@@ -26,6 +30,56 @@ pub struct Start {
     pub view: Option<View>,
     /// The name of the dataset's file.
     pub file: String,
+}
+
+/// What pages do not have.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StartError {
+    /// A colour map from a file.
+    #[error("pages have the colour maps of the program alone")]
+    Colormap(#[source] ColormapError),
+    /// Supports and loads.
+    #[error("pages show no supports and loads, which are those of a problem file")]
+    Stations,
+    /// The deformed plate.
+    #[error("pages show the plate as it was before it was loaded")]
+    Deformed,
+}
+
+impl Start {
+    /// What a page shows first of a scene of a field: its cracks are always drawn, and a quantity
+    /// that would be shown anyway is left out, so that other steps show it too.
+    ///
+    /// # Errors
+    /// What pages do not have.
+    pub fn new(
+        mut scene: Scene,
+        field: &Field<'_>,
+        view: Option<View>,
+        file: String,
+    ) -> Result<Self, StartError> {
+        if let Some(name) = &scene.colors.colormap {
+            Colormap::named(name).map_err(StartError::Colormap)?;
+        }
+        if scene.overlays.have_stations() {
+            return Err(StartError::Stations);
+        }
+        if scene.deformed.is_some() {
+            return Err(StartError::Deformed);
+        }
+        if !scene.overlays.shown.contains(&Overlay::Cracks) {
+            scene.overlays.shown.push(Overlay::Cracks);
+        }
+        scene.quantity = scene.quantity.filter(|text| text != default_quantity(field));
+        Ok(Self { scene, view, file })
+    }
+
+    /// The title of the page: that of the dataset, or the name of its file.
+    #[must_use]
+    pub fn title<'s>(&'s self, dataset: &'s Dataset) -> &'s str {
+        if dataset.title.is_empty() { &self.file } else { &dataset.title }
+    }
 }
 
 /// The page of a dataset, which is given by the bytes of its file.

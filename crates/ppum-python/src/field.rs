@@ -40,7 +40,7 @@ pub(crate) struct Field {
 
 impl Field {
     /// The quantity of a name, with `_` or `-`, or of a formula.
-    fn quantity(&self, name: &str) -> PyResult<Quantity> {
+    pub(crate) fn quantity(&self, name: &str) -> PyResult<Quantity> {
         let mut known = self.quantities.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(quantity) = known.get(name) {
             return Ok(quantity.clone());

@@ -12,6 +12,7 @@ mod building;
 mod compare;
 mod dataset;
 mod errors;
+mod exporting;
 mod facts;
 mod field;
 mod intensities;
@@ -34,6 +35,8 @@ mod _core {
     use crate::compare::{compare, resample};
     #[pymodule_export]
     use crate::dataset::{Dataset, from_bytes, read};
+    #[pymodule_export]
+    use crate::exporting::{Triangles, page, triangles};
     #[pymodule_export]
     use crate::field::Field;
     #[pymodule_export]

@@ -8,12 +8,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum_page::{LARGEST, Start, View, html};
-use ppum_render::colormap::Colormap;
+use ppum_page::{LARGEST, Start, StartError, View, html};
 use ppum_scene::colors::Colors;
-use ppum_scene::overlays::{Overlay, Overlays};
+use ppum_scene::overlays::Overlays;
 use ppum_scene::place::{ImageExtent, Place};
-use ppum_scene::scene::{Scene, Subject, default_quantity};
+use ppum_scene::scene::{Scene, Subject};
 
 use crate::dataset::{check_shown, field, named};
 use crate::given::{self, Given, parts};
@@ -80,8 +79,7 @@ impl Args {
         let bytes = self.bytes(LARGEST)?;
         let dataset = named(&self.file, ppum_format::from_bytes(bytes.clone()))?;
         let start = self.start(&dataset)?;
-        let title = if dataset.title.is_empty() { &start.file } else { &dataset.title };
-        let page = html(&bytes, title, &start)?;
+        let page = html(&bytes, start.title(&dataset), &start)?;
         if is_standard(&self.output) {
             out.exact().write_all(page.as_bytes())?;
             tell(&format!("wrote standard output: {}", told(&page)));
@@ -142,26 +140,15 @@ impl Args {
             Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),
             _ => "dataset.h5".to_owned(),
         };
-        Ok(Start { scene: self.scene(&field)?, view: self.view(&field)?, file })
+        let (scene, view) = (self.scene(&field)?, self.view(&field)?);
+        Start::new(scene, &field, view, file).map_err(explained)
     }
 
     fn scene(&self, field: &Field<'_>) -> anyhow::Result<Scene> {
         let quantity = self.quantity.as_deref().map(Given::read).transpose()?;
         quantity.iter().try_for_each(|given| check_shown(field, given))?;
-        let (colors, mut overlays) = (self.colors.clone(), self.overlays.clone());
-        if let Some(name) = &colors.colormap {
-            Colormap::named(name)
-                .context("--colormap: pages have the maps of the program alone")?;
-        }
-        ensure!(
-            !overlays.have_stations(),
-            "--overlay: pages show no supports and loads, which are those of a problem file"
-        );
-        if !overlays.shown.contains(&Overlay::Cracks) {
-            overlays.shown.push(Overlay::Cracks);
-        }
+        let (colors, overlays) = (self.colors.clone(), self.overlays.clone());
         let quantity = quantity.map(|given| given.text.trim().to_owned());
-        let quantity = quantity.filter(|text| text != default_quantity(field));
         let subject = Subject { step: self.step, ..Subject::default() };
         Ok(Scene { subject, quantity, colors, overlays, ..Scene::default() })
     }
@@ -175,6 +162,16 @@ impl Args {
         let ppum_render::view::View { center, width, pixels } = self.place.seen(field, frame)?;
         Ok(Some(View { center: center.into(), width, pixels }))
     }
+}
+
+/// The error with the option that mends it.
+fn explained(error: StartError) -> anyhow::Error {
+    let option = match error {
+        StartError::Colormap(_) => "--colormap",
+        StartError::Stations => "--overlay",
+        _ => "-o",
+    };
+    anyhow::Error::from(error).context(option)
 }
 
 /// The size of the page, and what it is for.

@@ -40,6 +40,7 @@ from .dataset import (
 from .dataset import Warning as Warning
 from .dataset import open as open
 from .enriching import Component, Formula, Jump, Level, tip_functions
+from .exporting import ArrayAccuracy, Triangles
 from .field import Field
 from .linking import link
 from .mesh import Mesh
@@ -69,6 +70,7 @@ __all__ = [
     "COLORMAPS",
     "Advance",
     "Animation",
+    "ArrayAccuracy",
     "BuildError",
     "Coefficients",
     "Comparison",
@@ -107,6 +109,7 @@ __all__ = [
     "Sweep",
     "Table",
     "Tip",
+    "Triangles",
     "Values",
     "View",
     "arc",

@@ -16,6 +16,7 @@ __all__ = [
     "Curves",
     "Dataset",
     "Field",
+    "Triangles",
     "_panic",
     "animation",
     "build",
@@ -31,6 +32,7 @@ __all__ = [
     "from_bytes",
     "intensities",
     "material",
+    "page",
     "profiles",
     "read",
     "render",
@@ -39,6 +41,7 @@ __all__ = [
     "scattered",
     "solve",
     "told",
+    "triangles",
 ]
 
 VERSION: Final[str]
@@ -53,6 +56,17 @@ class Dataset:
     def __len__(self) -> int: ...
     def __eq__(self, other: object, /) -> bool: ...
     __hash__ = None  # type: ignore[assignment]
+
+@final
+class Triangles:
+    def points(self) -> _Floats: ...
+    def singular(self) -> _Floats: ...
+    def cells(self) -> NDArray[np.uint32]: ...
+    def values(self, number: int) -> _Floats: ...
+    def accuracy(self) -> list[dict[str, Any]]: ...
+    def radius(self) -> float: ...
+    def is_complete(self) -> bool: ...
+    def vtu(self) -> bytes: ...
 
 @final
 class Field:
@@ -159,6 +173,16 @@ def extrema(
 def intensities(
     this: Field, on: tuple[int, float] | None, progress: _Progress | None
 ) -> tuple[str, list[str], list[str]]: ...
+def triangles(
+    this: Field,
+    names: list[str] | None,
+    tolerance: float,
+    radius: float | None,
+    most: int,
+    hash: str,
+    progress: _Progress | None,
+) -> Triangles: ...
+def page(this: Field, request: str, at: _Spot | None, file: str) -> str: ...
 def check_request(this: Field, request: str) -> None: ...
 def default_request() -> str: ...
 def colormap(name: str) -> list[tuple[int, int, int]]: ...

@@ -278,8 +278,13 @@ class Dataset:
 
         Raises:
             OSError: The system refuses; `FileNotFoundError` where there is no such folder.
+            ValueError: A name of another kind of file, such as ``.vtu``.
         """
-        self._core.save(Path(path))
+        path = Path(path)
+        if path.suffix.lower() in (".html", ".pvd", ".vtkhdf", ".vtu"):
+            others = "`Field.triangles` makes .vtu files, `Field.to_html` pages"
+            raise ValueError(f"{path.name}: a dataset is an HDF5 file; {others}")
+        self._core.save(path)
 
     def to_bytes(self) -> bytes:
         """The bytes of a file."""

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from .drawing import Drawing
+from .exporting import Exporting
 from .facts import Tip, tips_of
 from .options import one_of, takes
 from .sampling import Sampling
@@ -30,7 +30,7 @@ Floats = NDArray[np.float64]
 ResamplingMethod = Literal["nearest", "bilinear", "bicubic", "cells"]
 
 
-class Field(Sampling, Drawing):
+class Field(Sampling, Exporting):
     """A field of one step, to be evaluated exactly wherever one likes. Made by `Step.field` and `Dataset.field`.
 
     It never changes: `part`, `with_function`, `with_weight` and `with_quantity` give others. It can be pickled.

@@ -86,6 +86,15 @@ class SceneOptions(ColorOptions, total=False):
     arrows: Annotated[float | None, Option(None, "arrows of the displacement, so many pixels apart")]
     crosses: Annotated[float | None, Option(None, "crosses of principal stresses, so many pixels apart")]
     outline: Annotated[bool, Option(False, "whether the outline of the undeformed plate is drawn")]
+
+
+class HtmlOptions(PlaceOptions, SceneOptions, total=False):
+    """What a page shows first."""
+
+
+class ImageOptions(SceneOptions, total=False):
+    """What an image shows, and how it is computed."""
+
     samples: Annotated[int, Option(1, "each pixel is the mean of so many samples across and down")]
     precision: Annotated[
         Literal["f64", "f32"] | None, Option(None, "the precision in which values are computed")
@@ -137,7 +146,7 @@ class PageOptions(TypedDict, total=False):
     ]
 
 
-class AnimationOptions(PlaceOptions, SceneOptions, PageOptions, total=False):
+class AnimationOptions(PlaceOptions, ImageOptions, PageOptions, total=False):
     """All options of an animation."""
 
 
@@ -154,7 +163,7 @@ class FigureOptions(AnimationOptions, total=False):
     shared_range: Annotated[bool, Option(False, "whether all panels have one range and one colour bar")]
 
 
-class RgbaOptions(PixelOptions, SceneOptions, total=False):
+class RgbaOptions(PixelOptions, ImageOptions, total=False):
     """All options of a picture without a page."""
 
 

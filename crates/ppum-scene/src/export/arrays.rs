@@ -48,6 +48,11 @@ impl Array {
         Ok(all)
     }
 
+    /// The quantities of its components.
+    pub(super) fn quantities(&self) -> impl Iterator<Item = &Quantity> {
+        self.components.iter().filter_map(|(_, quantity)| quantity.as_ref())
+    }
+
     /// Components by the names of their quantities, none for zero.
     fn of(
         field: &Field<'_>,
@@ -78,9 +83,9 @@ pub(super) struct Columns {
 impl Columns {
     pub(super) fn new(arrays: &[Array]) -> Self {
         let (mut quantities, mut array) = (Vec::new(), Vec::new());
-        for (number, components) in arrays.iter().map(|array| &array.components).enumerate() {
-            for quantity in components.iter().filter_map(|(_, quantity)| quantity.clone()) {
-                quantities.push(quantity);
+        for (number, one) in arrays.iter().enumerate() {
+            for quantity in one.quantities() {
+                quantities.push(quantity.clone());
                 array.push(number);
             }
         }

@@ -81,6 +81,26 @@ pub struct Mesh {
     pub is_complete: bool,
 }
 
+impl Mesh {
+    /// The values of an array by its number: a row of its components for each point, zero where
+    /// one has no quantity.
+    #[must_use]
+    pub fn values_of(&self, number: usize) -> Vec<f64> {
+        let quantities = |a: &MeasuredAccuracy| a.array.quantities().count();
+        let width: usize = self.arrays.iter().map(quantities).sum();
+        let mut column = self.arrays[..number].iter().map(quantities).sum();
+        let columns: Vec<Option<usize>> = (self.arrays[number].array.components.iter())
+            .map(|(_, quantity)| {
+                let own = quantity.as_ref().map(|_| column);
+                column += usize::from(own.is_some());
+                own
+            })
+            .collect();
+        let rows = self.values.chunks(width.max(1));
+        rows.flat_map(|row| columns.iter().map(|c| c.map_or(0.0, |c| row[c]))).collect()
+    }
+}
+
 /// How well an array is resolved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredAccuracy {

@@ -5,6 +5,9 @@
 
 use std::io::{self, Write};
 
+use ppum::crack::TipId;
+use ppum::dataset::Dataset;
+use ppum::field::Field;
 use ppum::vec2::Vec2;
 use ppum_figure::canvas::base64::base64;
 use ppum_figure::canvas::xml::escaped;
@@ -37,6 +40,29 @@ pub struct Numbers {
     pub width: usize,
     /// The rows, one after the other.
     pub values: Vec<f64>,
+}
+
+impl About {
+    /// What is told of a dataset whose file has this SHA-256, and of a field of it.
+    #[must_use]
+    pub fn of(dataset: &Dataset, field: &Field<'_>, hash: String) -> Self {
+        let program = concat!("ppum ", env!("CARGO_PKG_VERSION")).to_owned();
+        let texts =
+            vec![("title", dataset.title.clone()), ("program", program), ("dataset_sha256", hash)];
+        let mut numbers = vec![Numbers::new("TimeValue", 1, vec![field.step.load])];
+        let tips = &field.step.intensities;
+        if !tips.is_empty() {
+            let position = |tip: TipId| {
+                let p = field.step.cracks[tip.crack as usize].end_point(tip.end);
+                [p.x, p.y, 0.0]
+            };
+            let places = tips.iter().flat_map(|t| position(t.tip)).collect();
+            let factors = tips.iter().flat_map(|tip| [tip.k1, tip.k2]).collect();
+            numbers.push(Numbers::new("tips", 3, places));
+            numbers.push(Numbers::new("stress_intensity_factors", 2, factors));
+        }
+        Self { texts, numbers }
+    }
 }
 
 impl Numbers {
@@ -91,25 +117,11 @@ pub fn write_collection(out: &mut dyn Write, files: &[(f64, String)]) -> io::Res
 }
 
 fn write_arrays(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> {
-    let width: usize = mesh.arrays.iter().map(|a| quantities(&a.array.components)).sum();
-    let mut from = 0;
-    for measured in &mesh.arrays {
-        let components = &measured.array.components;
-        let mut columns = Vec::new();
-        for (_, quantity) in components {
-            columns.push(quantity.as_ref().map(|_| from));
-            from += usize::from(quantity.is_some());
-        }
-        let value =
-            |row: &[f64]| columns.iter().map(|c| c.map_or(0.0, |c| row[c])).collect::<Vec<_>>();
-        let values: Vec<f64> = mesh.values.chunks(width).flat_map(value).collect();
-        numbers(out, &measured.array.name, &attributes(components), &values)?;
+    for (number, measured) in mesh.arrays.iter().enumerate() {
+        let size = attributes(&measured.array.components);
+        numbers(out, &measured.array.name, &size, &mesh.values_of(number))?;
     }
     Ok(())
-}
-
-fn quantities<Q>(components: &[(&str, Option<Q>)]) -> usize {
-    components.iter().filter(|(_, quantity)| quantity.is_some()).count()
 }
 
 /// The number of components, and their names.

@@ -49,7 +49,15 @@ const ARROWS: [(&str, &[&str]); 16] = [
     ),
     (
         "ppum-python",
-        &["ppum", "ppum-figure", "ppum-format", "ppum-render", "ppum-scene", "ppum-solve"],
+        &[
+            "ppum",
+            "ppum-figure",
+            "ppum-format",
+            "ppum-page",
+            "ppum-render",
+            "ppum-scene",
+            "ppum-solve",
+        ],
     ),
     ("ppum-testkit", &["ppum"]),
     (

@@ -8,7 +8,7 @@ use anyhow::anyhow;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::text::short;
-use ppum_scene::export::vtu::{self, About, Numbers};
+use ppum_scene::export::vtu::{self, About};
 use ppum_scene::export::{
     Accuracy, Array, ExportError, MeasuredAccuracy, Mesh, RANDOM_POINTS, resolve,
 };
@@ -130,7 +130,7 @@ impl Options {
         let arrays = arrays(&field, job.quantities)?;
         let accuracy = self.accuracy();
         let mesh = resolve(&field, &arrays, &accuracy, &Bar::new()).map_err(explained)?;
-        let about = about(job.dataset, &field, job.hash);
+        let about = About::of(job.dataset, &field, job.hash.to_owned());
         target::save(file, |out| vtu::write(out, &mesh, &about))?;
         let size = file.metadata().map_or(0, |found| found.len()) as f64 / 1e6;
         let (triangles, points) = (mesh.triangles.len(), mesh.points.len());
@@ -187,28 +187,6 @@ pub(super) fn hash(bytes: &[u8]) -> String {
         let _ = write!(text, "{byte:02x}");
         text
     })
-}
-
-/// What the file tells of the dataset.
-fn about(dataset: &Dataset, field: &Field<'_>, hash: &str) -> About {
-    let program = concat!("ppum ", env!("CARGO_PKG_VERSION"));
-    let tips = &field.step.intensities;
-    let position = |tip: ppum::crack::TipId| {
-        let p = field.step.cracks[tip.crack as usize].end_point(tip.end);
-        [p.x, p.y, 0.0]
-    };
-    let mut numbers = vec![Numbers::new("TimeValue", 1, vec![field.step.load])];
-    if !tips.is_empty() {
-        let k = tips.iter().flat_map(|tip| [tip.k1, tip.k2]).collect();
-        numbers.push(Numbers::new("tips", 3, tips.iter().flat_map(|t| position(t.tip)).collect()));
-        numbers.push(Numbers::new("stress_intensity_factors", 2, k));
-    }
-    let texts = vec![
-        ("title", dataset.title.clone()),
-        ("program", program.to_owned()),
-        ("dataset_sha256", hash.to_owned()),
-    ];
-    About { texts, numbers }
 }
 
 /// How well an array is resolved.

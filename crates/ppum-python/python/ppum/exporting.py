@@ -1,0 +1,229 @@
+"""Triangles and pages of a field, for programs and people that have no ppum."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import os
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, Unpack
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from .drawn import Drawn, folder_of, replace
+from .drawing import Drawing
+from .extras import needed
+from .options import takes
+from .styles import HtmlOptions
+from .views import SIZE
+
+__all__ = ["ArrayAccuracy", "Exporting", "Triangles"]
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ArrayAccuracy:
+    """How well an array is resolved by triangles.
+
+    Attributes:
+        range: Largest minus smallest value, where the array is infinite outside of the radius about such points.
+        allowed: The tolerance times the range.
+        largest: Largest difference from the field at 20,000 random points that had no part in making the triangles.
+        share: The share of these points that are within what is allowed.
+        is_singular: Whether the array is infinite somewhere.
+    """
+
+    range: float
+    allowed: float
+    largest: float
+    share: float
+    is_singular: bool
+
+
+class Triangles(Drawn):
+    """Triangles that resolve a field to a tolerance: between points values are linear. Made by `Field.triangles`.
+
+    No triangle crosses a crack; a point on one is there twice, with the values of both sides. They are saved as ``vtu``.
+
+    Attributes:
+        points: Shape (n, 2).
+        cells: Numbers of three points each, counter-clockwise: shape (m, 3).
+        values: Arrays at the points by their names: shape (n,); vectors (n, 3); symmetric tensors (n, 6), as VTK has them:
+            XX, YY, ZZ, XY, YZ, XZ.
+        accuracy: How well each of them is resolved.
+        singular: Points where arrays are infinite: shape (k, 2).
+        tip_radius: The tolerance of such arrays holds outside of this radius about them.
+        is_complete: Whether the work was not ended by the limit of triangles.
+
+    Example:
+        >>> mesh = f.triangles(["displacement", "uy"], tolerance=0.01)
+        >>> mesh.values["uy"].shape == (len(mesh.points),)
+        True
+        >>> mesh.save("plate.vtu")
+    """
+
+    _forms = ("vtu",)
+
+    def __init__(self, core: _core.Triangles) -> None:
+        super().__init__()
+        self._core = core
+        self.points = core.points()
+        self.cells = core.cells()
+        self.singular = core.singular()
+        self.tip_radius = core.radius()
+        self.is_complete = core.is_complete()
+
+    @cached_property
+    def accuracy(self) -> Mapping[str, ArrayAccuracy]:
+        """How well each array is resolved."""
+        told = {one.pop("name"): ArrayAccuracy(**one) for one in self._core.accuracy()}
+        return MappingProxyType(told)
+
+    @cached_property
+    def values(self) -> Mapping[str, Floats]:
+        """The arrays by their names."""
+        arrays = {name: self._core.values(k) for k, name in enumerate(self.accuracy)}
+        flat = {name: rows[:, 0] if rows.shape[1] == 1 else rows for name, rows in arrays.items()}
+        return MappingProxyType(flat)
+
+    def to_pyvista(self) -> Any:
+        """The same as a `pyvista.UnstructuredGrid`.
+
+        Raises:
+            ImportError: The package pyvista is not installed.
+        """
+        pyvista = needed("pyvista", "pyvista", "grids of PyVista")
+        points = np.column_stack([self.points, np.zeros(len(self.points))])
+        grid = pyvista.UnstructuredGrid({pyvista.CellType.TRIANGLE: self.cells}, points)
+        for name, rows in self.values.items():
+            grid.point_data[name] = rows
+        for name, told in self.accuracy.items():
+            grid.field_data[f"{name} largest difference"] = np.array([told.largest])
+        return grid
+
+    def _draw(self, form: str) -> bytes:
+        return self._core.vtu()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("triangles cannot be pickled; pickle the field, or save them")
+
+    def __repr__(self) -> str:
+        arrays = ", ".join(self.accuracy)
+        return f"<ppum.Triangles {len(self.cells)} on {len(self.points)} points, {arrays}>"
+
+
+class Exporting(Drawing):
+    """What is made of a `Field` for others."""
+
+    def triangles(
+        self,
+        quantities: Sequence[str] | None = None,
+        *,
+        tolerance: float = 1e-3,
+        tip_radius: float | None = None,
+        max_cells: int = 1_000_000,
+        progress: Any = None,
+    ) -> Triangles:
+        """Triangles for programs that interpolate, fine enough for a tolerance. Warns where the limit of triangles ends the work.
+
+        Args:
+            quantities: Quantities and formulas, ``displacement`` and ``stress`` among them; by default the displacement, the
+                stress tensor and von Mises' stress, of a potential itself and its gradient.
+            tolerance: Largest difference from the field, in parts of the range of each array.
+            tip_radius: The radius about tips outside of which stresses are resolved; by default 1/200 of the longer side of
+                the domain. A smaller one means a larger range.
+            max_cells: Most triangles.
+            progress: As in `render`.
+
+        Raises:
+            QuantityError: No quantity of the field.
+            RenderError: More triangles are needed along cracks and borders alone; a dataset of elements.
+
+        Example:
+            >>> f.triangles(["uy"], tolerance=0.01).accuracy["uy"].largest < 0.05
+            True
+        """
+        positive("tolerance", tolerance)
+        positive("tip_radius", tip_radius)
+        if isinstance(quantities, str):
+            raise TypeError(f"quantities: give a list, [{quantities!r}]")
+        names = None if quantities is None else list(quantities)
+        hashed = hashlib.sha256(self.dataset.to_bytes()).hexdigest()
+        made = _core.triangles(
+            self._core, names, float(tolerance), tip_radius, int(max_cells), hashed, progress
+        )
+        if not made.is_complete():
+            text = f"the limit of {max_cells} triangles is reached and the tolerance is not"
+            warnings.warn(f"{text}; raise max_cells or tolerance", stacklevel=2)
+        return Triangles(made)
+
+    def to_pyvista(
+        self,
+        quantities: Sequence[str] | None = None,
+        *,
+        tolerance: float = 1e-3,
+        tip_radius: float | None = None,
+        max_cells: int = 1_000_000,
+    ) -> Any:
+        """The field as a `pyvista.UnstructuredGrid`, to a tolerance: `triangles`, whose arguments these are.
+
+        Raises:
+            ImportError: The package pyvista is not installed.
+        """
+        needed("pyvista", "pyvista", "grids of PyVista")
+        made = self.triangles(quantities, tolerance=tolerance, tip_radius=tip_radius, max_cells=max_cells)
+        return made.to_pyvista()
+
+    @takes
+    def to_html(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        quantity: str | None = None,
+        **options: Unpack[HtmlOptions],
+    ) -> str | None:
+        """A page that shows and explores the field exactly in any browser: one file, without network and server.
+
+        Options say what is seen first; people change it in the page.
+
+        Args:
+            path: The file to write; without one the page is returned.
+            quantity: As in `render`.
+
+        Raises:
+            TypeError: No such option.
+            ValueError: No such value of an option, or one that pages do not have; `RenderError` is of this kind.
+            OSError: The system refuses.
+
+        Example:
+            >>> f.to_html("plate.html", "uy", tip=0, zoom=100)
+            >>> f.to_html()[:15]
+            '<!DOCTYPE html>'
+        """
+        target = None if path is None else Path(path)
+        if target is not None:
+            folder_of(target)
+        at = self._place(options, SIZE)
+        name = f"{target.stem}.h5" if target is not None else "dataset.h5"
+        page = _core.page(self._core, self._scene(quantity, options, at), at, name)
+        if target is None:
+            return page
+        replace(target, page.encode())
+        return None
+
+
+def positive(name: str, value: float | None) -> None:
+    """Raises a `ValueError` if a number is given that is not positive."""
+    if value is not None and not (math.isfinite(value) and value > 0):
+        raise ValueError(f"{name}: {value} is not a positive number")
+
+
+for _class in (ArrayAccuracy, Triangles):
+    _class.__module__ = "ppum"
