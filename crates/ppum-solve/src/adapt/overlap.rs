@@ -35,8 +35,8 @@ pub(crate) struct LocalFields<'a> {
     pub(crate) lonely: &'a [Vec<usize>],
 }
 
-/// The energy of the first field, and the products of the disagreements of all of them in each cell:
-/// a row for each field, symmetric. Advances the stage by the number of cells.
+/// The energy of the first field, and the products of the disagreements of all of them in each
+/// cell: a row for each field, symmetric. Advances the stage by the number of cells.
 ///
 /// # Errors
 /// Cancelled.

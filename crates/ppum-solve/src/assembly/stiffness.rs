@@ -1,13 +1,14 @@
 //! The stiffness of a cell: K = ∫ ∇N·C·∇N.
 //!
 //! ```text
-//! K_(i,a)(j,b) = Σ_kl C_ikjl ∫ ∂_k ψ_a ∂_l ψ_b     of functions ψ that each component has for itself
-//! K_(i,a)b = Σ_k ∫ ∂_k ψ_a σ_ik(v_b)     K_ab = Σ_ik ∫ ∂_k v_ia σ_ik(v_b)     of vector fields v
+//! K_(i,a)(j,b) = Σ_kl C_ikjl ∫ ∂_k ψ_a ∂_l ψ_b
+//! K_(i,a)b = Σ_k ∫ ∂_k ψ_a σ_ik(v_b)        K_ab = Σ_ik ∫ ∂_k v_ia σ_ik(v_b)
 //! ```
 //!
-//! All components share the products of the slopes of ψ: a third of the operations. At each point
-//! the numbers of all functions follow each other, so that integrals are sums of outer products,
-//! for which nothing has to be transposed.
+//! with functions ψ that each component has for itself, and vector fields v. All components share
+//! the products of the slopes of ψ: a third of the operations. At each point the numbers of all
+//! functions follow each other, so that integrals are sums of outer products, for which nothing has
+//! to be transposed.
 
 use super::Assembly;
 use super::cell_matrix::CellMatrix;
