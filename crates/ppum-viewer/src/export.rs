@@ -19,7 +19,7 @@ use ppum_scene::notice::Notice;
 use ppum_scene::place::Place;
 use ppum_scene::request::Request;
 use ppum_scene::scene::Scene;
-use ppum_scene::shot::{FieldSource, ShotError, page, reshaped, title, view_in};
+use ppum_scene::shot::{FieldSource, page, reshaped, title, view_in};
 
 use crate::field::OwnedField;
 
@@ -177,8 +177,8 @@ const NOT_MOVING: &str =
 pub const NO_COMMAND: &str = "no command draws the difference of two views; a session does: ppum view --session … --screenshot …";
 
 impl Order {
-    /// The look of a figure, none of a bare picture.
-    fn design(&self, request: &Request) -> Result<Option<Design>, ShotError> {
+    /// The look of a figure, none of a bare picture; in words why there is none.
+    fn design(&self, request: &Request) -> Result<Option<Design>, String> {
         if self.kind == ExportKind::Picture {
             return Ok(None);
         }
@@ -186,10 +186,10 @@ impl Order {
         if self.page.height.is_some() || self.page.unit == LengthUnit::Pixel {
             return Ok(Some(design));
         }
-        let (title, aspect) =
-            (title(self.source(), request)?, self.view.width / self.view.height());
-        let room = |design: &Design| plot_area(&title, design);
-        Ok(Some(hugging(&design, aspect, &BarPlace::ANYWHERE, room)?))
+        let title = title(self.source(), request).map_err(|e| e.to_string())?;
+        let room = |design: &Design| plot_area(&title, design).map_err(|e| e.to_string());
+        let aspect = self.view.width / self.view.height();
+        hugging(&design, aspect, &BarPlace::ANYWHERE, room).map(Some)
     }
 
     /// The file's bytes, in the form that its name ends in, and what is to be said of them. Of an
@@ -213,10 +213,12 @@ impl Order {
         Ok((bytes?, engine.into_notices()))
     }
 
-    /// The view on the pixels of a design, or of the page.
+    /// The view on the pixels of the page; that of a figure gets the shape of its plot later.
     fn shaped(&self, design: Option<&Design>) -> Result<View, String> {
-        let size = design.map_or_else(|| self.page.design().size, |design| design.size);
-        reshaped(&self.view, size).map_err(|e| e.to_string())
+        match design {
+            Some(_) => Ok(self.view),
+            None => reshaped(&self.view, self.page.design().size).map_err(|e| e.to_string()),
+        }
     }
 
     fn source(&self) -> FieldSource<'_> {
@@ -227,7 +229,7 @@ impl Order {
 
     fn still(&self, path: &Path, engine: &Engine<'_>) -> Result<Vec<u8>, String> {
         let (source, request) = (self.source(), Request::from(self.scene.clone()));
-        let design = self.design(&request).map_err(|e| e.to_string())?;
+        let design = self.design(&request)?;
         let view = self.shaped(design.as_ref())?;
         let made = page(source, &request, &view, design.as_ref(), engine);
         let (page, shot) = made.map_err(|e| e.to_string())?;
@@ -258,10 +260,10 @@ impl Order {
         let (source, request) = (self.source(), Request::from(self.scene.clone()));
         let frames = InMemory::new(source.dataset, &request, moving).map_err(|e| e.to_string())?;
         let frames = CountedFrames { frames, done };
-        let design = self.design(&request).map_err(|e| e.to_string())?;
+        let design = self.design(&request)?;
         let view = self.shaped(design.as_ref())?;
-        let room = design.as_ref().map_or(Ok(view.pixels), |design| frames.room(design));
-        let room = room.map_err(|e| e.to_string())?;
+        let room = |design| frames.room(design).map_err(|e| e.to_string());
+        let room = design.as_ref().map_or(Ok(view.pixels), room)?;
         let view = reshaped(&view, room).map_err(|e| e.to_string())?;
         done.store(0, Ordering::Relaxed);
         let film = Film::new(&frames, &view, design.as_ref(), engine).map_err(|e| e.to_string())?;
@@ -286,7 +288,7 @@ impl Order {
             return Err(NO_COMMAND.into());
         }
         let (source, mut request) = (self.source(), Request::from(self.scene.clone()));
-        let design = self.design(&request).map_err(|e| e.to_string())?;
+        let design = self.design(&request)?;
         let mut view = self.shaped(design.as_ref())?;
         request.look.size = Some(view.pixels);
         if let Some(design) = &design {

@@ -152,7 +152,7 @@ fn a_figure_has_a_size_on_paper() {
             && has(&file, "von-mises")
             && !has(&file, folder.trim_end_matches('/'))
     );
-    lab.window.get_by_label_contains("--dpi=300 --font-size=9");
+    lab.window.get_by_value("in");
 }
 
 #[test]
