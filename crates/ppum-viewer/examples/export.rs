@@ -4,12 +4,13 @@
 use std::error::Error;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::AtomicUsize;
 
 use ppum::progress::unwatched;
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 use ppum_scene::request::Request;
-use ppum_viewer::export::{ExportKind, Order};
+use ppum_viewer::export::{ExportKind, Order, PageSize};
 use ppum_viewer::field::OwnedField;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -29,10 +30,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         left: None,
         scene: request.scene,
         view: View::new(center, width, size)?,
-        size,
+        page: PageSize::pixels(size),
         kind: if request.figure { ExportKind::Figure } else { ExportKind::Picture },
     };
-    let (bytes, notices) = order.bytes(&output, unwatched())?;
+    let (bytes, notices) = order.bytes(&output, unwatched(), &AtomicUsize::new(0))?;
     std::fs::write(&output, bytes)?;
     notices.iter().for_each(|notice| eprintln!("{}", notice.line()));
     println!("{}", order.command(&output)?);
