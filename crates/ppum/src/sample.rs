@@ -180,15 +180,9 @@ pub fn line(cracks: &[Crack], a: Vec2, b: Vec2, count: usize) -> Vec<Place> {
 /// mean what they say.
 #[must_use]
 pub fn line_from(cracks: &[Crack], anchor: Vec2, a: Vec2, b: Vec2, count: usize) -> Vec<Place> {
-    let offsets: Vec<Vec2> = (0..count).map(|k| between(a, b, k, count)).collect();
-    points_from(cracks, anchor, &offsets)
-}
-
-/// Places at points `anchor + offset`, on both sides where one lies on a crack; see [`line_from`].
-#[must_use]
-pub fn points_from(cracks: &[Crack], anchor: Vec2, offsets: &[Vec2]) -> Vec<Place> {
     let segments = Segments::new(cracks);
-    offsets.iter().flat_map(|&offset| Place::sides(&segments, anchor, offset)).collect()
+    let offsets = (0..count).map(|k| between(a, b, k, count));
+    offsets.flat_map(|offset| Place::sides(&segments, anchor, offset)).collect()
 }
 
 /// Places at the points of a grid of nx columns and ny rows that includes the borders of the
@@ -332,7 +326,7 @@ fn between(a: Vec2, b: Vec2, k: usize, count: usize) -> Vec2 {
     }
 }
 
-/// Points along a crack, to be seen from both of its sides.
+/// Points at equal distances along a crack, to be seen from both of its sides.
 ///
 /// Each is seen from the nearer end of its segment, so that what is near a tip keeps its digits.
 #[derive(Clone, Debug)]
@@ -355,21 +349,16 @@ impl Stations {
     /// one if there is one alone. None if there is no such crack.
     #[must_use]
     pub fn along(cracks: &[Crack], index: u32, count: usize) -> Option<Self> {
-        let part = |k: usize| if k + 1 == count { 1.0 } else { k as f64 / (count - 1) as f64 };
-        Self::at(cracks, index, &(0..count).map(part).collect::<Vec<_>>())
-    }
-
-    /// Points at rising parts of the crack's length, from 0 to 1. None if there is no such crack.
-    #[must_use]
-    pub fn at(cracks: &[Crack], index: u32, parts: &[f64]) -> Option<Self> {
         let crack = cracks.get(index as usize)?;
         let mut starts = vec![0.0];
         for p in crack.points.windows(2) {
             starts.push(starts[starts.len() - 1] + (p[1] - p[0]).length());
         }
         let total = starts[starts.len() - 1];
-        let station = |part: &f64| Station::new(crack, index, &starts, total * part);
-        Some(Self(parts.iter().map(station).collect()))
+        let s = |k: usize| {
+            if k + 1 == count { total } else { total * (k as f64 / (count - 1) as f64) }
+        };
+        Some(Self((0..count).map(|k| Station::new(crack, index, &starts, s(k))).collect()))
     }
 
     /// The points, from the crack's start.

@@ -1,6 +1,5 @@
 //! Exact values along lines, cracks and circles, and near tips: as tables and as plots.
 
-mod crowd;
 mod faces;
 mod plot;
 mod variable;
@@ -18,7 +17,6 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::table::{Column, Table};
-use crowd::{crowded, is_finite_at_tips, on_crack, on_line};
 pub use plot::{axis, columns, curve, unit, value_label};
 pub use variable::{Named, Variable};
 
@@ -171,15 +169,13 @@ impl Along {
     ) -> Result<Profile, ProfileError> {
         check(count)?;
         if let Self::Crack { index } = self {
-            return faces::table(field, quantities, *index, &crowded(&[], count), watcher);
+            return faces::table(field, quantities, *index, count, watcher);
         }
         self.listed(field, quantities, self.places(field, count)?, watcher)
     }
 
     /// The table of a curve that is drawn: a line or a circle has both sides of the cracks that it
-    /// passes through, first that from which it comes; at its ends that alone which it runs on. On
-    /// cracks, and on lines that meet tips, points crowd at these for quantities that are finite
-    /// there.
+    /// passes through, first that from which it comes; at its ends that alone which it runs on.
     ///
     /// # Errors
     /// See [`ProfileError`].
@@ -192,19 +188,10 @@ impl Along {
     ) -> Result<Profile, ProfileError> {
         check(count)?;
         let is_circle = matches!(self, Self::Circle { .. });
-        let tips = if is_finite_at_tips(quantities) { self.tips(field) } else { Vec::new() };
-        if let Self::Crack { index } = self {
-            return faces::table(field, quantities, *index, &crowded(&tips, count), watcher);
-        }
         let Some(passages) = self.passages(field) else {
             return self.table(field, quantities, count, watcher);
         };
-        let mut places = match *self {
-            Self::Line { anchor, from, to } if !tips.is_empty() => {
-                line(field, [anchor, from, to], &crowded(&tips, count))?
-            }
-            _ => self.places(field, count)?,
-        };
+        let mut places = self.places(field, count)?;
         let [Some((start, _)), Some((end, _))] =
             [places.first(), places.last()].map(|p| p.copied())
         else {
@@ -229,16 +216,6 @@ impl Along {
             }
         }
         self.listed(field, quantities, places, watcher)
-    }
-
-    /// The tips that a crack or a line meets, as parts of its length; none of other curves.
-    fn tips(&self, field: &Field<'_>) -> Vec<f64> {
-        let cracks = &field.step.cracks;
-        match *self {
-            Self::Crack { index } => on_crack(cracks, index),
-            Self::Line { anchor, from, to } => on_line(cracks, [anchor, from, to].map(Vec2::from)),
-            _ => Vec::new(),
-        }
     }
 
     /// Where a line or a circle passes through cracks; nothing of other curves.
@@ -277,9 +254,7 @@ impl Along {
             false => Err(ProfileError::Radius),
         };
         let places = match *self {
-            Self::Line { anchor, from, to } => {
-                line(field, [anchor, from, to], &crowded(&[], count))?
-            }
+            Self::Line { anchor, from, to } => line(field, [anchor, from, to], count)?,
             Self::Circle { center, radius } => {
                 in_degrees(sample::circle(cracks, center.into(), positive(radius)?, count))
             }
@@ -325,25 +300,22 @@ fn in_degrees(places: Vec<(f64, Place)>) -> Vec<(f64, Place)> {
     places.into_iter().map(|(t, place)| (t.to_degrees(), place)).collect()
 }
 
-/// The places of a line at parts of its length, with their distances from its start.
+/// The places of a line with their distances from its start.
 fn line(
     field: &Field<'_>,
     ends: [[f64; 2]; 3],
-    parts: &[f64],
+    count: usize,
 ) -> Result<Vec<(f64, Place)>, ProfileError> {
     let ([anchor, a, b], cracks) = (ends.map(Vec2::from), &field.step.cracks);
     if a == b {
         return Err(ProfileError::Point);
     }
-    let at = |&part: &f64| if part == 1.0 { b } else { a + (b - a) * part };
-    let points: Vec<Vec2> = parts.iter().map(at).collect();
-    let is_plain = anchor == Vec2::ZERO;
-    let places = match is_plain {
-        true => sample::points(cracks, &points),
-        false => sample::points_from(cracks, anchor, &points),
-    };
-    let from = |place: &Place| if is_plain { place.point - a } else { place.offset - a };
-    Ok(places.into_iter().map(|place| (from(&place).length(), place)).collect())
+    if anchor == Vec2::ZERO {
+        let places = sample::line(cracks, a, b, count).into_iter();
+        return Ok(places.map(|place| ((place.point - a).length(), place)).collect());
+    }
+    let places = sample::line_from(cracks, anchor, a, b, count).into_iter();
+    Ok(places.map(|place| ((place.offset - a).length(), place)).collect())
 }
 
 /// The quantities at all places, one row for each, on all cores.
