@@ -214,7 +214,7 @@ def test_figures_have_all_options_of_requests(f):
     request = json.loads(f.figure("ux", center=(0, 0), width=1.0)._made_of[1])
     request["place"] |= json.loads(f.figure("ux", tip=0)._made_of[1])["place"]
     every = paths(json.loads(_core.default_request()))
-    elsewhere = {path for path in every if path.startswith("subject.")} | {"place.view", "backend"}
+    elsewhere = {path for path in every if path.startswith("subject.")} | {"place.view", "backend", "look.cm"}
     assert every - paths(request) == elsewhere
     assert paths(request) <= every
 

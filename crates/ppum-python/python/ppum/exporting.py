@@ -205,7 +205,7 @@ class Exporting(Drawing):
         Example:
             >>> f.to_html("plate.html", "uy", tip=0, zoom=100)
             >>> f.to_html()[:15]
-            '<!DOCTYPE html>'
+            '<!doctype html>'
         """
         target = None if path is None else Path(path)
         if target is not None:

@@ -65,6 +65,11 @@ fn tile(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
     let example = &examples::ALL[number];
     let (rect, response) = ui.allocate_exact_size(TILE, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, example.title()));
+    let text = format!("{}: {}", example.title(), example.about);
+    let response = response.on_hover_text(text);
+    if response.clicked() {
+        desk.actions.push(Action::Example(number));
+    }
     if !ui.is_rect_visible(rect) {
         return;
     }
@@ -83,10 +88,6 @@ fn tile(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
     ui.add(Label::new(RichText::new(example.title()).strong()).truncate().selectable(false));
     let about = note(&ui, example.about);
     ui.add(Label::new(about).selectable(false).wrap());
-    let text = format!("{}: {}", example.title(), example.about);
-    if response.on_hover_text(text).clicked() {
-        desk.actions.push(Action::Example(number));
-    }
 }
 
 /// Widths of lines and signs in parts of those of pictures.

@@ -273,7 +273,7 @@ fn no_text_is_lost() {
 fn an_example_is_a_click_away() {
     let mut lab = Lab::new();
     shot(&mut lab, "solving-start");
-    lab.window.get_by_label("Smooth manufactured field").click();
+    lab.window.get_by_label("Smooth manufactured field").click_accesskit();
     lab.window.step();
     lab.settle();
     assert_eq!(lab.dataset(0).expect("it is solved").title, "Smooth manufactured field");
@@ -485,7 +485,7 @@ fn who_wants_to_lose_a_solution_may() {
     lab.window.run_steps(2);
     lab.state().session.drawer = None;
     lab.window.run_steps(2);
-    lab.window.get_by_label("Smooth manufactured field").click();
+    lab.window.get_by_label("Smooth manufactured field").click_accesskit();
     lab.window.step();
     lab.settle();
     assert!(lab.dataset(0).is_some() && closes(&mut lab));
