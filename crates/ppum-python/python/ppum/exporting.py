@@ -155,6 +155,8 @@ class Exporting(Drawing):
         positive("tip_radius", tip_radius)
         if isinstance(quantities, str):
             raise TypeError(f"quantities: give a list, [{quantities!r}]")
+        if quantities is not None and not quantities:
+            raise ValueError("quantities: give one at least, or none for those that suit")
         names = None if quantities is None else list(quantities)
         hashed = hashlib.sha256(self.dataset.to_bytes()).hexdigest()
         made = _core.triangles(
