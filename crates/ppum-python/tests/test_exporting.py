@@ -67,6 +67,8 @@ def test_what_triangles_cannot_be_is_said(f):
         ({"tip_radius": float("nan")}, ValueError, "tip_radius: nan"),
         ({"max_cells": 10}, ppum.RenderError, "along borders alone"),
         ({"quantities": "uy"}, TypeError, "give a list"),
+        ({"quantities": []}, ValueError, "give one at least"),
+        ({"tip_radius": 5.0}, ppum.RenderError, "leaves nothing to resolve"),
         ({"quantities": ["uz"]}, ppum.QuantityError, "uz"),
     ]:
         with pytest.raises(error, match=words):

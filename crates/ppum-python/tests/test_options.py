@@ -282,3 +282,25 @@ def test_mypy_finds_wrong_options(tmp_path):
     first = RIGHT.count("\n") + 1
     expected = {str(first + k): code for k, code in enumerate(WRONG.values())}
     assert dict(found) == expected, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("inches", [0, -1, float("nan"), float("inf"), (3, 0), (1, 2, 3), "wide", ()])
+def test_sizes_on_paper_are_checked_at_the_call(f, inches):
+    with pytest.raises(ValueError, match="inches: .* give a width"):
+        f.figure("ux", inches=inches)
+
+
+def test_what_figures_cannot_be_is_said_at_the_call(f):
+    with pytest.raises(TypeError, match="not both"):
+        f.figure("ux", inches=2.2, size=(300, 300))
+    with pytest.raises(ValueError, match="give one at least"):
+        f.figure([])
+
+
+def test_panels_are_as_high_as_they_need(f):
+    """Two plates twice as high as wide beside each other: no more above and below than labels need."""
+    plt = pytest.importorskip("matplotlib.pyplot")
+    image = plt.imread(io.BytesIO(f.figure(["ux", "uy"], inches=7, layout=(2, 1), dpi=100).png()))
+    high, wide = image.shape[:2]
+    drawn = np.flatnonzero((image[:, :, :3] < 0.9).any(axis=(1, 2)))
+    assert wide == 700 and drawn[0] < 0.1 * high and drawn[-1] > 0.9 * high

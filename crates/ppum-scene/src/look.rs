@@ -197,7 +197,13 @@ impl Look {
         design
     }
 
-    /// The design with the height of a picture of a shape, if the page is to have that.
+    /// True if the height of the page is that of what is drawn.
+    pub(crate) fn has_free_height(&self) -> bool {
+        self.paper().is_some_and(|paper| paper.height.is_none())
+    }
+
+    /// The design with the height of so many pictures of a shape across and down, if the page is to
+    /// have that.
     ///
     /// # Errors
     /// Those of `room`, see [`hugging`].
@@ -205,9 +211,10 @@ impl Look {
         &self,
         design: Design,
         aspect: Option<f64>,
+        parts: [u32; 2],
         room: impl Fn(&Design) -> Result<[u32; 2], E>,
     ) -> Result<Design, E> {
-        if self.paper().is_none_or(|paper| paper.height.is_some()) {
+        if !self.has_free_height() {
             return Ok(design);
         }
         let is_free = matches!(self.bar, None | Some(BarName::Auto));
@@ -216,7 +223,7 @@ impl Look {
         } else {
             &[design.bar]
         };
-        hugging(&design, aspect.unwrap_or(SHAPE), places, room)
+        hugging(&design, aspect.unwrap_or(SHAPE), parts, places, room)
     }
 
     /// The look of a design that was made of a size and a place of the bar alone.

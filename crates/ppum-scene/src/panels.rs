@@ -121,7 +121,9 @@ impl<'a> PanelFigure<'a> {
         let size = [grid.columns, grid.rows];
         let aspect = request.place.aspect(source.field);
         let design = request.design(source.field, Look::page(aspect, size), size);
-        let room = panel_area(&titled, &captions, grid, &design)?;
+        let room = |design: &Design| panel_area(&titled, &captions, grid, design);
+        let design = request.look.fitted(design, aspect, size, room)?;
+        let room = room(&design)?;
         let placing = Placing::new(&request.place, extent(request, Some(&design), room), still)?;
         let seen = placing.body(source, engine)?;
         let shots = self.shots(&seen, &design, engine)?;
@@ -182,7 +184,11 @@ impl<'a> PanelFigure<'a> {
         let field = self.sources[0].field;
         let aspect = self.request.place.aspect(field);
         let width = |grid: PanelGrid| {
-            let design = self.request.design(field, DEFAULT_SIZE, [grid.columns, grid.rows]);
+            let parts = [grid.columns, grid.rows];
+            let mut design = self.request.design(field, DEFAULT_SIZE, parts);
+            if self.request.look.has_free_height() {
+                design.size[1] = (f64::from(design.size[0]) / SHAPE) as u32;
+            }
             let [width, height] = panel_area(title, captions, grid, &design)?.map(f64::from);
             Ok::<_, FigureError>(width.min(height * aspect.unwrap_or(SHAPE)))
         };

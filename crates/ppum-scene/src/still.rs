@@ -76,7 +76,7 @@ impl<'a> Common<'a> {
             Ok(())
         })?;
         if request.figure {
-            design = request.look.fitted(design, aspect, |design| frames.room(design))?;
+            design = request.look.fitted(design, aspect, [1, 1], |design| frames.room(design))?;
         }
         let room = if request.figure { frames.room(&design)? } else { design.size };
         let design = request.figure.then_some(design);

@@ -189,7 +189,7 @@ impl Order {
         let title = title(self.source(), request).map_err(|e| e.to_string())?;
         let room = |design: &Design| plot_area(&title, design).map_err(|e| e.to_string());
         let aspect = self.view.width / self.view.height();
-        hugging(&design, aspect, &BarPlace::ANYWHERE, room).map(Some)
+        hugging(&design, aspect, [1, 1], &BarPlace::ANYWHERE, room).map(Some)
     }
 
     /// The file's bytes, in the form that its name ends in, and what is to be said of them. Of an

@@ -103,34 +103,36 @@ pub fn panel_area(
     Ok([(design.size[0] - taken[0]) / across, (design.size[1] - taken[1]) / down])
 }
 
-/// A design whose height is that of a picture of a shape, width over height, as wide as the page
-/// has room for, with all around it. Its bar is at the first of some places that leaves the picture
-/// 60 % of the width, else at the last. `room` is the largest picture of a design, as
-/// [`plot_area`].
+/// A design whose height is that of panels across and down with pictures of a shape, width over
+/// height, as wide as the page has room for, with all around them. Its bars are at the first of
+/// some places that leaves the pictures 60 % of the width, else at the last. `room` is the largest
+/// picture of a panel of a design, as [`plot_area`] and [`panel_area`].
 ///
 /// # Errors
 /// Those of `room`.
 pub fn hugging<E>(
     design: &Design,
     aspect: f64,
+    [across, down]: [u32; 2],
     places: &[BarPlace],
     room: impl Fn(&Design) -> Result<[u32; 2], E>,
 ) -> Result<Design, E> {
-    let [width, tallest] = [design.size[0], design.size[0].saturating_mul(TALLEST)];
+    let width = design.size[0];
+    let tallest = width.saturating_mul(TALLEST).saturating_mul(down);
     let tall = |bar| Design { bar, size: [width, tallest], ..design.clone() };
     let is_wide = |place: &&BarPlace| {
         let columns = room(&tall(**place)).map_or(0, |[columns, _]| columns);
-        f64::from(columns) >= LEAST_PART * f64::from(width)
+        f64::from(columns) * f64::from(across) >= LEAST_PART * f64::from(width)
     };
     let place = places.iter().find(is_wide).or(places.last()).copied();
     let mut found = tall(place.unwrap_or(design.bar));
     let [columns, rows] = room(&found)?;
-    let height = f64::from(columns) / aspect.max(NARROWEST);
-    found.size[1] = (tallest - rows).saturating_add(height.round() as u32).min(tallest);
+    let height = (f64::from(columns) / aspect.max(NARROWEST)).round().max(f64::from(LEAST)) as u32;
+    found.size[1] = tallest - rows.saturating_sub(height) * down;
     Ok(found)
 }
 
-/// Height of the page in widths while it is looked for: more than it will have.
+/// Height of a row of the page in widths while it is looked for: more than it will have.
 const TALLEST: u32 = 8;
 /// Width over height of pictures that are not drawn any higher.
 const NARROWEST: f64 = 0.25;

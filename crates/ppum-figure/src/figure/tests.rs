@@ -538,3 +538,22 @@ fn panels_keep_to_their_page() {
     }
     assert!(count > 12, "{count}");
 }
+
+/// A page whose height is free leaves its pictures, of any shape and number, no more than they need.
+#[test]
+fn heights_are_those_of_what_is_drawn() {
+    let mut random = Random(7);
+    for _ in 0..200 {
+        let aspect = 10f64.powf(random.between(-0.5, 2.0));
+        let parts = [1 + random.below(3) as u32, 1 + random.below(4) as u32];
+        let captions = vec!["(a) a caption"; (parts[0] * parts[1]) as usize];
+        let room =
+            |design: &Design| panel_area("A title", &captions, PanelGrid::new(parts), design);
+        let design = Design::inches([random.between(7.0, 12.0), 1.0], 150.0);
+        let found = hugging(&design, aspect, parts, &BarPlace::ANYWHERE, room).unwrap();
+        let [columns, rows] = room(&found).unwrap().map(f64::from);
+        let wanted = (columns / aspect).max(48.0);
+        assert!((rows - wanted).abs() <= 1.0, "{rows} for {wanted}, {parts:?}");
+        assert_eq!(found.size[0], design.size[0]);
+    }
+}

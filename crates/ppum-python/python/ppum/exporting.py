@@ -209,6 +209,8 @@ class Exporting(Drawing):
             >>> f.to_html()[:15]
             '<!doctype html>'
         """
+        if quantity is not None and not isinstance(quantity, str):
+            raise TypeError("quantity: a page shows one first; give its name")
         target = None if path is None else Path(path)
         if target is not None:
             folder_of(target)

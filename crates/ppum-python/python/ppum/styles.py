@@ -237,6 +237,8 @@ def quantities(asked: str | Sequence[str] | None) -> tuple[str | None, list[str]
     if asked is None or isinstance(asked, str):
         return asked, []
     several = list(asked)
+    if not several:
+        raise ValueError("quantity: give one at least, or None for the one that suits")
     return (several[0], []) if len(several) == 1 else (None, several)
 
 
@@ -286,6 +288,8 @@ def page(options: PageOptions) -> dict[str, Any]:
     """The page of a figure, as the libraries read it."""
     bar: Any = options["colorbar"]
     size = options["size"]
+    if size is not None and options["inches"] is not None:
+        raise TypeError("give `size` or `inches`, not both")
     return {
         "size": None if size is None else pixels(size),
         "inches": _inches(options["inches"]),
@@ -299,8 +303,20 @@ def page(options: PageOptions) -> dict[str, Any]:
 
 
 def _inches(inches: Any) -> str | None:
-    """A size on paper as the libraries read it."""
-    return None if inches is None else "x".join(repr(float(side)) for side in np.atleast_1d(inches))
+    """A size on paper as the libraries read it.
+
+    Raises:
+        ValueError: It is no size.
+    """
+    if inches is None:
+        return None
+    try:
+        sides = [float(side) for side in np.atleast_1d(inches)]
+    except (TypeError, ValueError):
+        sides = []
+    if len(sides) not in (1, 2) or not all(0 < side < math.inf for side in sides):
+        raise ValueError(f"inches: {inches!r} is not a size; give a width, or a width and a height")
+    return "x".join(map(repr, sides))
 
 
 def _color(color: Any) -> str | None:

@@ -17,7 +17,7 @@ pub(super) struct Measurement {
     /// For each column the share of points that are within the tolerance, of those outside of
     /// singular points.
     pub(super) share: Vec<f64>,
-    /// Triangles in which one is not.
+    /// Triangles in which one is not and which can be divided.
     pub(super) failed: Vec<u32>,
 }
 
@@ -42,7 +42,7 @@ impl Refined<'_, '_> {
         let fails = |row: &Vec<f64>| row.iter().zip(&allowed).any(|(d, allowed)| d > allowed);
         let failed =
             at.iter().zip(&differences).filter(|(_, row)| fails(row)).map(|((t, _), _)| *t);
-        found.failed = failed.collect();
+        found.failed = failed.filter(|&triangle| self.may_divide(triangle)).collect();
         found.failed.sort_unstable();
         found.failed.dedup();
         found

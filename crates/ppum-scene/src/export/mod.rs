@@ -134,6 +134,16 @@ pub enum ExportError {
     /// Stopped.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+    /// A radius about singular points that holds all of the domain.
+    #[error(
+        "the radius {radius} about singular points is not smaller than the domain, {longest}, and leaves nothing to resolve"
+    )]
+    Radius {
+        /// The radius.
+        radius: f64,
+        /// The longer side of the domain.
+        longest: f64,
+    },
     /// The borders alone take more triangles.
     #[error("{needed} triangles are needed along borders alone, more than the {limit} allowed")]
     Cells {
@@ -157,12 +167,16 @@ pub fn resolve(
     if field.step.partition.mesh().is_some() {
         return Err(ExportError::Elements);
     }
+    let (radius, longest) = (radius(field, accuracy), longest(&field.domain.bounds));
+    if radius >= longest {
+        return Err(ExportError::Radius { radius, longest });
+    }
     let columns = Columns::new(arrays);
     let mut refined = Refined {
         field,
         mesh: begin(field, &columns)?,
         values: Vec::new(),
-        singular: Singular::new(field, &columns, radius(field, accuracy)),
+        singular: Singular::new(field, &columns, radius),
         ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; columns.len()],
         limits: Limits { tolerance: accuracy.tolerance, cells: accuracy.cells },
         columns: &columns,

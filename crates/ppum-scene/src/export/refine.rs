@@ -31,6 +31,10 @@ const MARGIN: f64 = 0.75;
 const SHORTEST: f64 = 1e-12;
 const THINNEST: f64 = 1e-13;
 
+/// Both are at least this part of the largest coordinate: middles of shorter edges are rounded onto
+/// their ends, and dividing such triangles makes others like them without end.
+const FINEST: f64 = 64.0 * f64::EPSILON;
+
 /// Tolerances are no finer than this part of the largest value: rounding.
 const ROUNDING: f64 = 1e-13;
 
@@ -214,11 +218,14 @@ impl Refined<'_, '_> {
         }
     }
 
-    fn may_divide(&self, triangle: u32) -> bool {
+    pub(super) fn may_divide(&self, triangle: u32) -> bool {
         let [a, b, c] = self.mesh.corners(triangle);
         let longest = [b - a, c - b, a - c].map(Vec2::length).into_iter().fold(0.0, f64::max);
         let size = borders::longest(&self.field.domain.bounds);
-        longest > SHORTEST * size && (b - a).cross(c - a) > THINNEST * size * longest
+        let finest =
+            FINEST * [a, b, c].iter().fold(0.0, |most, p| p.x.abs().max(p.y.abs()).max(most));
+        longest > finest.max(SHORTEST * size)
+            && (b - a).cross(c - a) > finest.max(THINNEST * size) * longest
     }
 
     /// Replaces values that are not finite, those of tips, by the mean of those in the middles of

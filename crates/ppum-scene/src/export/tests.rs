@@ -299,3 +299,23 @@ fn limits_are_kept_and_told() {
     assert!(!mesh.is_complete && mesh.triangles.len() < 8200);
     assert!(mesh.arrays.iter().any(|measured| measured.largest > measured.allowed));
 }
+
+/// A plate that has few numbers across: what rounding decides is not divided, and it ends.
+#[test]
+fn plates_of_few_numbers_end() {
+    let far = |x: f64, y: f64| vec2(1.0 + 1e-9 * x, 1.0 + 1e-9 * y);
+    let ends = [far(0.3, 0.5), far(0.7, 0.5)].map(Into::into);
+    let dataset = Recipe {
+        domain: Rect::new(far(0.0, 0.0), far(1.0, 1.0)),
+        cracks: vec![crack(&ends, [CrackEnd::Tip; 2])],
+        level: 2,
+        ..Recipe::default()
+    }
+    .dataset();
+    let field = Field::new(&dataset, 0).unwrap();
+    let arrays = Array::defaults(&field).unwrap();
+    let accuracy = Accuracy { tolerance: 0.02, radius: None, cells: 50_000 };
+    let mesh = resolve(&field, &arrays, &accuracy, unwatched()).unwrap();
+    assert!(mesh.triangles.len() < 51_000, "{}", mesh.triangles.len());
+    assert!(mesh.triangles.iter().all(|t| area(mesh.corners(t)) > 0.0));
+}

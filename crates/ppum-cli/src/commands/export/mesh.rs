@@ -175,9 +175,16 @@ fn times(dataset: &Dataset) -> Vec<f64> {
 
 /// The error with the option that mends it.
 fn explained(error: ExportError) -> anyhow::Error {
-    let is_limit = matches!(error, ExportError::Cells { .. });
+    let option = match error {
+        ExportError::Cells { .. } => Some("--max-cells"),
+        ExportError::Radius { .. } => Some("--tip-radius"),
+        _ => None,
+    };
     let error = anyhow::Error::from(error);
-    if is_limit { error.context("--max-cells") } else { error }
+    match option {
+        Some(option) => error.context(option),
+        None => error,
+    }
 }
 
 /// SHA-256 in hexadecimal digits.

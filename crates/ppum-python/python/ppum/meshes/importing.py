@@ -138,6 +138,8 @@ def compared(
         return None
     random = np.random.default_rng(SEED)
     elements = sum(len(group.elements) for group in sampler({k: random_places(random, k, 1) for k in (0, 1)}))
+    if not elements:
+        raise BuildError("mesh: there are no triangles and quadrilaterals, of VTK the kinds 5, 9, 22, 23, 28, 69 and 70")
     each = -(-count // elements)
     groups = sampler({shape: random_places(random, shape, each) for shape in (TRIANGLE, SQUARE)})
     points = np.concatenate([group.points.reshape(-1, 2) for group in groups])
