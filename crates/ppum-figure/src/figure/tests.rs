@@ -539,7 +539,8 @@ fn panels_keep_to_their_page() {
     assert!(count > 12, "{count}");
 }
 
-/// A page whose height is free leaves its pictures, of any shape and number, no more than they need.
+/// A page whose height is free leaves its pictures, of any shape and number, no more than they
+/// need.
 #[test]
 fn heights_are_those_of_what_is_drawn() {
     let mut random = Random(7);
