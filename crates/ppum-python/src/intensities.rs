@@ -81,16 +81,12 @@ fn loads(dataset: &Dataset, step: usize) -> PyResult<Option<Problem>> {
         let why = "only displacements of elasticity have stress intensity factors";
         return Err(SolveError::new_err(why));
     }
-    let problem = Problem::of_dataset(dataset).map_err(|mistakes| {
-        SolveError::new_err(format!("the loads near the tips are not known: {mistakes}"))
-    })?;
-    match problem {
-        Some(problem) if problem.cracks != dataset.steps[step].cracks => Err(SolveError::new_err(
-            "the loads near the tips are not known: the stored problem has other cracks than this step; \
-             the step's `tips` have the factors that the solver found",
-        )),
-        problem => Ok(problem),
-    }
+    Problem::of_step(dataset, step).map_err(|mistakes| {
+        SolveError::new_err(format!(
+            "the loads near the tips are not known: {mistakes}; the step's `tips` have the factors that the solver \
+             found"
+        ))
+    })
 }
 
 fn no_tip(tip: usize, count: usize) -> PyErr {

@@ -58,10 +58,9 @@ def test_a_field_from_elsewhere_has_factors(ds, tmp_path):
 
 
 def test_steps_of_a_series(grown):
-    first = grown.steps[0].field.intensities(0)
-    assert np.allclose(numbers(first), numbers(grown.steps[0].tips[0]), rtol=1e-9)
-    with pytest.raises(ppum.SolveError, match="loads near the tips are not known.*other cracks"):
-        grown.field.intensities(0)
+    for step in grown.steps:
+        for found, stored in zip(step.field.intensities(), step.tips, strict=True):
+            assert np.allclose(numbers(found), numbers(stored), rtol=1e-9)
 
 
 def test_a_potential_has_none(potential):

@@ -129,14 +129,10 @@ fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<facts:
 /// The factors of the field of the only step at hand; those that the solver stored where the loads
 /// near the tips are not known, or it takes too much.
 fn recomputed(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
-    let problem = Problem::of_dataset(dataset);
-    let of_step = |problem: &&Option<Problem>| {
-        problem.as_ref().is_none_or(|problem| problem.cracks == dataset.steps[0].cracks)
-    };
-    match problem.as_ref().ok().filter(of_step) {
+    match Problem::of_step(dataset, 0) {
         // What the solver found while it knew the loads.
-        None => known(name, dataset, 0, UNKNOWN),
-        Some(problem) => match check_effort(dataset, 0, problem.as_ref()) {
+        Err(_) => known(name, dataset, 0, UNKNOWN),
+        Ok(problem) => match check_effort(dataset, 0, problem.as_ref()) {
             Err(error @ EffortError::TooMuch { .. }) => {
                 known(name, dataset, 0, ("too-costly", &error.to_string()))
             }

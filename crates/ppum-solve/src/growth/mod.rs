@@ -20,7 +20,7 @@ mod settle;
 pub use criterion::{Kink, kink};
 pub use decision::Undecided;
 
-use crate::problem::{GrowthRule, Problem, ProblemError};
+use crate::problem::{GrowthRule, Location, Mistake, Problem, ProblemError};
 use crate::solve::{Plan, Shelf, SolveError};
 use decision::{Decision, decide, grown};
 use ppum::dataset::{Dataset, Growth, GrowthStop, Step, Warning};
@@ -163,6 +163,29 @@ pub fn series(
     };
     grow(problem, None, memory, watcher, keep)?;
     Ok(all.expect("a series has a first step"))
+}
+
+impl Problem {
+    /// The problem of a step of a dataset: the one that the dataset holds, with the cracks of the
+    /// step where cracks grow; none if it holds none. Its loads are those that act in the step.
+    ///
+    /// # Errors
+    /// Everything that is wrong in the text; a step that the dataset has not; other cracks in a
+    /// problem without growth, since nothing is known of the loads on them.
+    pub fn of_step(dataset: &Dataset, step: usize) -> Result<Option<Self>, ProblemError> {
+        let cracks = dataset.steps.get(step).map(|step| &step.cracks);
+        match (Self::of_dataset(dataset)?, cracks) {
+            (Some(problem), Some(cracks)) if problem.growth.is_some() => {
+                Ok(Some(Self { cracks: cracks.clone(), ..problem }))
+            }
+            (Some(problem), cracks) if cracks != Some(&problem.cracks) => Err(Mistake {
+                location: Location::File("problem".into()),
+                message: format!("it has other cracks than step {step}"),
+            }
+            .into()),
+            (problem, _) => Ok(problem),
+        }
+    }
 }
 
 /// Number and problem of the next step, and what was decided in the one before; none if the series

@@ -160,10 +160,11 @@ impl Viewer {
                 None => stage.tell("No probe is pinned: the pointer is not over the plate"),
             },
             Action::CircleForK => {
-                if stage.circle_nearest_tip(pane) {
-                    self.session.drawer = Some(DrawerPage::Plot);
-                } else {
-                    stage.tell("No circle for K: this step has no crack tip");
+                let before = pane.curve;
+                match stage.circle_nearest_tip(pane) {
+                    true if pane.curve == before => pane.curve = None,
+                    true => self.session.drawer = Some(DrawerPage::Plot),
+                    false => stage.tell("No circle for K: this step has no crack tip"),
                 }
             }
             Action::Draw(tool) => stage.reading.tool = Some(tool),

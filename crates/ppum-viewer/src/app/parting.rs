@@ -154,7 +154,8 @@ impl Viewer {
         self.parting != Question::None
     }
 
-    /// True if a dataset of a view has no file and cannot be had again at once, as examples can.
+    /// True if a dataset of a view has no file and cannot be had again at once, as examples of one
+    /// step can.
     #[must_use]
     pub fn is_unsaved(&self, pane: usize) -> bool {
         self.stages.get(pane).and_then(|stage| stage.opened.as_ref()).is_some_and(is_unsaved)
@@ -265,11 +266,12 @@ impl Viewer {
     }
 }
 
-/// True if no file has a dataset, and it is none of the examples either, which can be had again.
+/// True if no file has a dataset, and it is none of the examples either, which can be had again
+/// at once unless they are solved in many steps.
 fn is_unsaved(opened: &Opened) -> bool {
-    let text = opened.dataset.problem.as_deref();
+    let (text, steps) = (opened.dataset.problem.as_deref(), opened.dataset.steps.len());
     let is_example = examples::ALL.iter().any(|example| Some(example.text) == text);
-    opened.path.is_none() && !is_example
+    opened.path.is_none() && (steps > 1 || !is_example)
 }
 
 const UNSAVED: &str = "The solution is not saved.";

@@ -67,6 +67,9 @@ fn tile(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, example.title()));
     let text = format!("{}: {}", example.title(), example.about);
     let response = response.on_hover_text(text);
+    if response.gained_focus() {
+        response.scroll_to_me(None);
+    }
     if response.clicked() {
         desk.actions.push(Action::Example(number));
     }

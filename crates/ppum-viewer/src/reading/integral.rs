@@ -93,12 +93,8 @@ impl Integral {
 impl Asked {
     fn find(&self, watcher: &dyn Watcher) -> Option<Result<TipIntensity, String>> {
         // without the loads near the tip the factors would be others
-        let known = Problem::of_dataset(&self.dataset);
-        let cracks = &self.dataset.steps.get(self.step)?.cracks;
-        let problem = match known {
-            Ok(Some(problem)) if problem.cracks != *cracks => return Some(Err(UNKNOWN.into())),
-            Err(_) => return Some(Err(UNKNOWN.into())),
-            Ok(problem) => problem,
+        let Ok(problem) = Problem::of_step(&self.dataset, self.step) else {
+            return Some(Err(UNKNOWN.into()));
         };
         if let Err(error) = check_effort(&self.dataset, self.step, problem.as_ref()) {
             return Some(Err(error.to_string()));

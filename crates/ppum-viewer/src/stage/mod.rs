@@ -30,6 +30,7 @@ use ppum_render::view::View;
 use ppum_scene::compare::Compare;
 use ppum_scene::deformed::{self, Factor};
 use ppum_scene::scene::default_quantity;
+use ppum_scene::spot::Spot;
 
 use crate::controls::Controls;
 use crate::field::OwnedField;
@@ -434,7 +435,8 @@ impl Stage {
     /// The way from the view's centre to the point that a ring marks near the pointer, else to the
     /// pointer itself, so that one who enlarges a point of a crack stays on the crack.
     fn snapped(&self, view: &View, pointer: Vec2, scale: f64) -> Vec2 {
-        let ring = self.reading.hover.as_ref().filter(|probed| probed.spot.on.is_some());
+        let is_marked = |spot: &Spot| spot.on.is_some() || spot.offset() == Vec2::ZERO;
+        let ring = self.reading.hover.as_ref().filter(|probed| is_marked(&probed.spot));
         let offset = ring.map(|probed| probed.spot.from(view.center));
         let reach = (readout::SNAP + 1.0) * scale * view.pixel_size();
         offset.filter(|offset| (*offset - pointer).length() < reach).unwrap_or(pointer)

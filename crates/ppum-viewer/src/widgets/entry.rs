@@ -9,7 +9,9 @@ pub fn entry(ui: &mut Ui, name: &str, text: &str, hint: &str, width: f32) -> Opt
     let unfinished = ui.data(|data| data.get_temp::<String>(id));
     let mut edited = unfinished.unwrap_or_else(|| text.to_owned());
     let field = TextEdit::singleline(&mut edited).id(id.with("field")).hint_text(hint.to_owned());
-    let response = ui.add(field.desired_width(width)).on_hover_text(format!("{name}: {edited}"));
+    let whole = if edited.is_empty() { hint } else { &edited };
+    let about = format!("{name}: {whole}");
+    let response = ui.add(field.desired_width(width)).on_hover_text(about);
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::text_edit(true, text, &edited, hint);
         info.label = Some(name.to_owned());

@@ -5,7 +5,8 @@ use std::fs;
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, TouchPhase, vec2};
 use egui_kittest::kittest::Queryable as _;
-use ppum::vec2::vec2 as v;
+use ppum::vec2::{Vec2, vec2 as v};
+use ppum_render::view::View;
 use ppum_scene::overlays::Overlay;
 use ppum_viewer::session::DrawerPage;
 
@@ -83,11 +84,21 @@ fn the_finder_knows_what_people_say_and_offers_what_can_be_done() {
     assert!(lab.window.query_by_label("Nothing of this name can be done now.").is_some());
 }
 
-/// One who enlarges a point of a crack stays on the crack.
+/// One who enlarges a point of a crack stays on the crack, and at a tip stays at the tip.
 #[test]
-fn the_wheel_keeps_to_the_crack_that_is_marked() {
+fn the_wheel_keeps_to_the_crack_or_tip_that_is_marked() {
+    let view = enlarged(v(0.1, 0.0));
+    assert!(view.width < 1e-6, "{}", view.width);
+    assert!(view.center.y.abs() < view.height(), "the crack is in sight: {}", view.center.y);
+    let (view, tip) = (enlarged(v(0.5, 0.0)), v(0.5, 0.0));
+    let off = (view.center - tip).length();
+    assert!(view.width < 1e-6 && off < view.width, "the tip is in sight: {off}");
+}
+
+/// The view after many turns of the wheel 2.5 points beside a place.
+fn enlarged(place: Vec2) -> View {
     let mut lab = lab();
-    let beside = at(&lab.window, v(0.1, 0.0)) + vec2(0.0, 2.5);
+    let beside = at(&lab.window, place) + vec2(0.0, 2.5);
     lab.window.hover_at(beside);
     lab.settle();
     for _ in 0..40 {
@@ -98,9 +109,7 @@ fn the_wheel_keeps_to_the_crack_that_is_marked() {
         lab.window.event(Event::MouseWheel { unit, delta, modifiers, phase, source });
         lab.settle();
     }
-    let view = lab.viewer().stages[0].view.expect("a view");
-    assert!(view.width < 1e-6, "{}", view.width);
-    assert!(view.center.y.abs() < view.height(), "the crack is in sight: {}", view.center.y);
+    lab.viewer().stages[0].view.expect("a view")
 }
 
 /// What is written is seen before it is solved; a solution of another text is told.

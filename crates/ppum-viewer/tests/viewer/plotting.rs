@@ -194,6 +194,12 @@ fn k_draws_the_circle_that_the_solver_takes() {
     };
     assert!((radius / own - 1.0).abs() < 1e-12 || radius < own, "{radius} {own}");
     assert_eq!(window.state().session.drawer, Some(DrawerPage::Plot));
+    // the same key takes it away
+    window.hover_at(left);
+    settle(&mut window);
+    window.key_press(Key::K);
+    settle(&mut window);
+    assert_eq!(curve(&window), None);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Choosing and writing quantities.
 
-use egui::{Key, Modifiers};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::Queryable;
 use ppum::crack::Side;
 use ppum::quantity::Quantity;
@@ -44,6 +44,34 @@ fn q_opens_the_list_and_keys_choose_from_it() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     settle(&mut window);
     assert_eq!(scene(&window).quantity, None);
+}
+
+/// A list that the mouse has opened takes what is written, however fast the click was.
+#[test]
+fn a_click_opens_the_list_ready_to_be_written_in() {
+    for frames in [0, 1, 4] {
+        let mut window = plate_window();
+        let place = window.get_by_label("Choose a quantity").rect().center();
+        window.hover_at(place);
+        window.step();
+        for pressed in [true, false] {
+            window.event(button(place, pressed));
+            window.run_steps(frames);
+        }
+        window.run_steps(3);
+        for letter in ["s", "x", "y"] {
+            window.event(Event::Text(letter.into()));
+            window.step();
+        }
+        let field = window.get_by_label("Search quantities");
+        assert!(field.is_focused(), "{frames}");
+        assert_eq!(field.value().as_deref(), Some("sxy"), "{frames}");
+    }
+}
+
+fn button(pos: Pos2, pressed: bool) -> Event {
+    let modifiers = Modifiers::NONE;
+    Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers }
 }
 
 #[test]
