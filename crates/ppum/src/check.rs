@@ -19,28 +19,13 @@ mod results;
 mod tiling;
 mod work;
 
-use std::collections::BTreeSet;
-
 use crate::dataset::{Dataset, Equation, Partition, Step};
-use crate::vec2::{Rect, Vec2};
-use errors::Errors;
+pub use errors::CheckError;
+use errors::{Errors, check_length, check_names, check_number, fail, require};
 use fields::check_field;
 use functions::{check_crack, check_function};
 use partition::check_partition;
 use results::{check_intensities, check_reaction, check_warning};
-
-/// A thing that is wrong in a dataset.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{place}: {mistake}")]
-#[non_exhaustive]
-pub struct CheckError {
-    /// The place, as a path through the dataset's fields, e.g. `steps[0].partition.half[17]`.
-    pub place: String,
-    /// The mistake, and what was expected.
-    pub mistake: String,
-}
-
-type Checked = Result<(), CheckError>;
 
 impl Dataset {
     /// Checks that the dataset can be evaluated: consistent lengths, indices in range, rising
@@ -135,101 +120,6 @@ fn check_results(step: &Step, errors: &mut Errors) {
     growth::check_growth(step, errors);
 }
 
-impl CheckError {
-    /// The same error seen from the object that holds its place.
-    fn inside(self, outer: &str) -> Self {
-        let separator = if self.place.is_empty() { "" } else { "." };
-        Self { place: format!("{outer}{separator}{}", self.place), ..self }
-    }
-}
-
-fn fail(place: &str, mistake: String) -> Checked {
-    Err(CheckError { place: place.to_owned(), mistake })
-}
-
-fn require(condition: bool, place: &str, mistake: impl FnOnce() -> String) -> Checked {
-    if condition { Ok(()) } else { fail(place, mistake()) }
-}
-
-/// Checks every entry of an array; the place names the first that fails.
-fn check_all<T>(
-    name: &str,
-    values: &[T],
-    good: impl Fn(&T) -> bool,
-    mistake: impl Fn(&T) -> String,
-) -> Checked {
-    check_each(name, values.len(), |k| good(&values[k]), |k| mistake(&values[k]))
-}
-
-/// The same of what belongs to each of so many entries.
-fn check_each(
-    name: &str,
-    count: usize,
-    good: impl Fn(usize) -> bool,
-    mistake: impl Fn(usize) -> String,
-) -> Checked {
-    match (0..count).find(|&k| !good(k)) {
-        None => Ok(()),
-        Some(k) => fail(&format!("{name}[{k}]"), mistake(k)),
-    }
-}
-
-fn check_number(place: &str, value: f64) -> Checked {
-    require(value.is_finite(), place, || format!("{value} is not a finite number"))
-}
-
-fn check_numbers(name: &str, values: &[f64]) -> Checked {
-    check_all(name, values, |v| v.is_finite(), |v| format!("{v} is not a finite number"))
-}
-
-fn check_points(name: &str, points: &[Vec2]) -> Checked {
-    check_all(
-        name,
-        points,
-        |p| p.is_finite(),
-        |p| format!("({}, {}) is not a finite point", p.x, p.y),
-    )
-}
-
-fn check_extents(name: &str, extents: &[Vec2]) -> Checked {
-    check_all(
-        name,
-        extents,
-        |e| e.is_finite() && e.x > 0.0 && e.y > 0.0,
-        |e| format!("({}, {}) must be finite and positive", e.x, e.y),
-    )
-}
-
-fn is_box(b: &Rect) -> bool {
-    let size = b.size();
-    b.min.is_finite() && b.max.is_finite() && size.is_finite() && size.x > 0.0 && size.y > 0.0
-}
-
-fn check_box(place: &str, b: &Rect) -> Checked {
-    require(is_box(b), place, || {
-        format!("({}, {}) to ({}, {}) is not a box", b.min.x, b.min.y, b.max.x, b.max.y)
-    })
-}
-
-fn check_length(place: &str, length: usize, expected: usize, of: &str) -> Checked {
-    require(length == expected, place, || {
-        format!("has {length} entries, expected {expected} ({of})")
-    })
-}
-
-fn check_index(place: &str, index: usize, count: usize, of: &str) -> Checked {
-    require(index < count, place, || format!("index {index}, but there are {count} {of}"))
-}
-
-fn check_names<'a>(place: &str, names: impl Iterator<Item = &'a String>) -> Checked {
-    let mut seen = BTreeSet::new();
-    for name in names {
-        require(!name.trim().is_empty(), place, || "a name is empty".into())?;
-        require(seen.insert(name), place, || format!("the name `{name}` occurs twice"))?;
-    }
-    Ok(())
-}
-
 /// Checks a step by itself. True if its partition is one.
 fn check_step(step: &Step, equation: &Equation, errors: &mut Errors) -> bool {
     check_results(step, errors);
@@ -260,7 +150,7 @@ mod tests {
     use crate::dataset::{Attribute, BoxPartition, FieldData, Ring, TipIntensity};
     use crate::equation::{Material, StressState};
     use crate::function::{Cut, Frame, FunctionKind, Part};
-    use crate::vec2::vec2;
+    use crate::vec2::{Rect, vec2};
     use crate::weight::WeightFunction;
 
     fn partition() -> BoxPartition {

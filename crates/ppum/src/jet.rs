@@ -3,7 +3,7 @@
 //! Operations take the order `D` of derivatives that are kept: 0 value, 1 gradient, 2 Hessian.
 //! Derivatives above `D` are left at zero and cost nothing.
 
-use ppum_formula::real::Real;
+use ppum_formula::real::{Lanes, Real};
 
 /// Value, gradient and Hessian of a function at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,38 @@ pub struct Jet<R> {
     pub xy: R,
     /// ∂²f/∂y²
     pub yy: R,
+}
+
+impl Jet<f64> {
+    /// The jet outside the domain.
+    pub(crate) const NAN: Self =
+        Self { v: f64::NAN, x: f64::NAN, y: f64::NAN, xx: f64::NAN, xy: f64::NAN, yy: f64::NAN };
+}
+
+impl<R: Real<Scalar = f64>> Jet<R> {
+    /// Writes the lanes, with `D` derivatives and zeros for others, to some places.
+    #[inline(always)]
+    pub(crate) fn store<const D: usize>(
+        &self,
+        places: impl Iterator<Item = usize>,
+        out: &mut [Jet<f64>],
+    ) {
+        let mut lanes = [Lanes::default(); 6];
+        self.v.store(&mut lanes[0]);
+        if D >= 1 {
+            self.x.store(&mut lanes[1]);
+            self.y.store(&mut lanes[2]);
+        }
+        if D >= 2 {
+            self.xx.store(&mut lanes[3]);
+            self.xy.store(&mut lanes[4]);
+            self.yy.store(&mut lanes[5]);
+        }
+        let [v, x, y, xx, xy, yy] = lanes;
+        for (k, place) in places.enumerate() {
+            out[place] = Jet { v: v[k], x: x[k], y: y[k], xx: xx[k], xy: xy[k], yy: yy[k] };
+        }
+    }
 }
 
 impl<R: Real> Jet<R> {

@@ -8,12 +8,6 @@ use std::path::Path;
 /// The circles that are left, of each crate as it may be, by their first modules and sizes. What
 /// ends one of them strikes its line; new ones are refused.
 const LEFT: &[(&str, &str, usize)] = &[
-    ("ppum", "check", 7),
-    ("ppum", "crack", 2),
-    ("ppum", "dataset", 10),
-    ("ppum", "function", 3),
-    ("ppum", "quantity", 4),
-    ("ppum", "sample", 4),
     ("ppum-format", "damage", 2),
     ("ppum-format", "decode", 6),
     ("ppum-format", "hdf5::read::batch", 4),

@@ -6,9 +6,10 @@
 //! for some patch, s the position in its support in units of half extents. Cells with their own
 //! supports, 1.01 times as large or more, obey at once. For others a line sweeps over the plane.
 
+use super::errors::{Checked, fail};
 use super::line::IntervalSums;
 use super::ranks::{Ranks, in_order};
-use super::{Checked, fail, tiling};
+use super::tiling;
 use crate::dataset::BoxPartition;
 use crate::domain::{Domain, Hole};
 use crate::vec2::{Rect, Vec2, vec2};

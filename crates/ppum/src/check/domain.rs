@@ -1,6 +1,6 @@
 //! The rules for a dataset's domain.
 
-use super::{Checked, Errors, check_box, check_number, check_points, require};
+use super::errors::{Checked, Errors, check_box, check_number, check_points, require};
 use crate::domain::{Domain, Hole};
 
 /// Most circles and corners of polygons that holes may have together: whether a point lies in a

@@ -1,6 +1,6 @@
 //! Fields: components, blocks and their coefficients.
 
-use super::{
+use super::errors::{
     Checked, Errors, check_all, check_each, check_length, check_names, check_numbers, fail, require,
 };
 use crate::dataset::{Equation, FieldData, MAX_DEGREE, Step};

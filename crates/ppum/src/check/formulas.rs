@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::sync::Arc;
 
+use super::errors::{CheckError, Checked, Errors, check_names, fail, require};
 use super::fields::MAX_COMPONENTS;
-use super::{CheckError, Checked, Errors, check_names, fail, require};
 use crate::dataset::{
     Dataset, FieldData, MAX_QUANTITIES, MAX_QUANTITY_TEXT, MAX_TABLES, NamedQuantity, Step,
 };

@@ -1,6 +1,8 @@
 //! Cracks, and the functions that belong to them.
 
-use super::{Checked, check_all, check_index, check_names, check_number, check_points, require};
+use super::errors::{
+    Checked, check_all, check_index, check_names, check_number, check_points, require,
+};
 use crate::crack::{Crack, SegmentId};
 use crate::function::{Cut, Frame, Function, FunctionKind, Part};
 use crate::vec2::Vec2;

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Checked, Errors, fail};
+use super::errors::{Checked, Errors, fail};
 use crate::crack::tips;
 use crate::dataset::Step;
 use crate::growth::Advance;

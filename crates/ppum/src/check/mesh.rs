@@ -1,6 +1,6 @@
 //! Meshes: the arrays of their elements, their maps, and the level fields that cut them.
 
-use super::{
+use super::errors::{
     Checked, Errors, check_all, check_each, check_index, check_length, check_numbers, check_points,
     fail, require,
 };

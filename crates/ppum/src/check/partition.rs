@@ -1,10 +1,10 @@
 //! The patches of a partition.
 
-use super::mesh::check_mesh;
-use super::{
+use super::errors::{
     Checked, Errors, check_all, check_each, check_extents, check_length, check_points, is_box,
     require,
 };
+use super::mesh::check_mesh;
 use crate::dataset::{BoxPartition, Partition};
 
 /// Most patches: their borders are counted in 32 bits.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{
+use super::errors::{
     Checked, Errors, check_all, check_index, check_length, check_number, check_numbers,
     check_points, require,
 };

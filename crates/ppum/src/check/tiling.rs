@@ -4,9 +4,9 @@
 //! of a cell or of a gap, and it changes only where a cell begins or ends: linear in n cells, but
 //! for the sorting of different borders.
 
+use super::errors::{CheckError, Checked, fail};
 use super::marks::Marks;
 use super::ranks::{Ranks, in_order};
-use super::{CheckError, Checked, fail};
 use crate::dataset::BoxPartition;
 use crate::domain::{Domain, Hole};
 use crate::vec2::{Rect, Vec2, vec2};

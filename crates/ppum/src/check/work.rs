@@ -3,9 +3,9 @@
 //! A small file can say that a hundred thousand patches lie over each other. Every command
 //! evaluates at points, so what a point takes is bounded here, once, and all others rely on it.
 
+use super::errors::{Checked, fail};
 use super::line::IntervalSums;
 use super::ranks::{Ranks, in_order};
-use super::{Checked, fail};
 use crate::dataset::{BoxPartition, Dataset, FieldData, Step};
 use crate::function::{FunctionTable, Slot};
 use crate::mesh::{Clip, Mesh};

@@ -1,11 +1,11 @@
 //! Evaluation at many points, on lanes.
 
-use super::LocalField;
+use super::local::LocalField;
 use crate::crack::Side;
 use crate::jet::Jet;
 use crate::mesh::grid::PointGrid;
 use crate::vec2::Vec2;
-use ppum_formula::real::{Job, Lanes, Real, Scalar};
+use ppum_formula::real::{Job, Real, Scalar};
 
 /// [`LocalField::evaluate_into`] on lanes.
 struct Many<'a, 'f, const D: usize> {
@@ -28,7 +28,7 @@ impl<const D: usize> Job<f64> for Many<'_, '_, D> {
             self.local.at_once::<R, D>(points, self.side, &patches, &mut lanes, out);
             for (&point, out) in points.iter().zip(out.chunks_mut(components)) {
                 if !self.local.contains(point) {
-                    out.fill(NOWHERE);
+                    out.fill(Jet::NAN);
                 }
             }
             self.local.patches = patches;
@@ -56,35 +56,6 @@ impl<const D: usize> Job<f64> for LaneEvaluation<'_, '_, D> {
         for (points, out) in chunks {
             self.local.at_once::<R, D>(points, self.side, self.patches, &mut lanes, out);
         }
-    }
-}
-
-/// The value outside the domain.
-pub(super) const NOWHERE: Jet<f64> =
-    Jet { v: f64::NAN, x: f64::NAN, y: f64::NAN, xx: f64::NAN, xy: f64::NAN, yy: f64::NAN };
-
-/// Writes the first lanes of a jet, with `D` derivatives and zeros for others, into every
-/// `stride`-th of `out`.
-#[inline(always)]
-fn scatter<R: Real<Scalar = f64>, const D: usize>(
-    jet: &Jet<R>,
-    stride: usize,
-    out: &mut [Jet<f64>],
-) {
-    let mut lanes = [Lanes::default(); 6];
-    jet.v.store(&mut lanes[0]);
-    if D >= 1 {
-        jet.x.store(&mut lanes[1]);
-        jet.y.store(&mut lanes[2]);
-    }
-    if D >= 2 {
-        jet.xx.store(&mut lanes[3]);
-        jet.xy.store(&mut lanes[4]);
-        jet.yy.store(&mut lanes[5]);
-    }
-    let [v, x, y, xx, xy, yy] = lanes;
-    for (k, out) in out.iter_mut().step_by(stride).take(R::LANES).enumerate() {
-        *out = Jet { v: v[k], x: x[k], y: y[k], xx: xx[k], xy: xy[k], yy: yy[k] };
     }
 }
 
@@ -159,9 +130,9 @@ impl LocalField<'_> {
         let like = lanes[0].v;
         let offset = [like.with_lanes(|k| at(k).x), like.with_lanes(|k| at(k).y)];
         self.over_patches::<R, D>(offset, side, patches, lanes);
-        let out = &mut out[..points.len() * components];
         for (component, jet) in lanes.iter().enumerate() {
-            scatter::<R, D>(jet, components, &mut out[component..]);
+            let places = (0..points.len()).map(|k| k * components + component);
+            jet.store::<D>(places, out);
         }
     }
 }

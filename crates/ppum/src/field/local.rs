@@ -1,9 +1,8 @@
 //! A field as seen from an anchor: evaluation at one point, or at one vector of points.
 
-use super::Field;
+use super::compiled::Field;
 use super::functions::FunctionJets;
-use super::lanes::NOWHERE;
-use crate::crack::Side;
+use crate::crack::{SegmentId, Side};
 use crate::domain::LocalDomain;
 use crate::function::{LocalFunctions, Slot};
 use crate::jet::Jet;
@@ -45,8 +44,26 @@ pub struct Covering {
     pub overlap: usize,
 }
 
+impl Field<'_> {
+    /// The field as seen from an anchor.
+    #[must_use]
+    pub fn at(&self, anchor: Vec2) -> LocalField<'_> {
+        LocalField::new(self, anchor, self.functions.at(&self.step.cracks, anchor))
+    }
+
+    /// The field as seen from an anchor, for points on a segment of a crack: there an evaluation
+    /// takes the side of this crack that it is told, wherever rounding has put the points.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    #[must_use]
+    pub fn on(&self, segment: SegmentId, anchor: Vec2) -> LocalField<'_> {
+        LocalField::new(self, anchor, self.functions.on(&self.step.cracks, segment, anchor))
+    }
+}
+
 impl<'f> LocalField<'f> {
-    pub(super) fn new(field: &'f Field<'f>, anchor: Vec2, functions: LocalFunctions<'f>) -> Self {
+    fn new(field: &'f Field<'f>, anchor: Vec2, functions: LocalFunctions<'f>) -> Self {
         let domain = field.domain.at(anchor);
         let mesh = field.step.partition.mesh().map(|mesh| LocalMesh::new(field, mesh, anchor));
         Self { field, anchor, domain, functions, mesh, patches: Vec::new() }
@@ -196,7 +213,7 @@ impl<'f> LocalField<'f> {
     ) {
         let Some(mesh) = &self.mesh else { return };
         let (n, [x, y]) = (self.field.components(), offset.map(R::lanes));
-        let mut jets = vec![NOWHERE; R::LANES * n];
+        let mut jets = vec![Jet::NAN; R::LANES * n];
         for (lane, jets) in jets.chunks_mut(n).enumerate() {
             let offset = vec2(x[lane], y[lane]);
             if let Some(place) = mesh.owner_among(offset, side, patches) {

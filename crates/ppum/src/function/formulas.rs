@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use super::Frame;
+use super::kinds::Frame;
 use super::seen::AnchoredCracks;
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
 use crate::jet::Jet;
@@ -11,7 +11,8 @@ use crate::vec2::{Vec2, vec2};
 use ppum_formula::real::{Lanes, Real};
 use ppum_formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
 
-use super::table::GROUP;
+/// Largest number of functions in a group.
+pub const GROUP: usize = 4;
 
 /// Up to [`GROUP`] formulas of one scope in one frame.
 #[derive(Clone, Debug)]

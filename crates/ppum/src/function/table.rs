@@ -7,12 +7,14 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-use super::formulas::{Formulas, LocalFormulas};
+use super::formulas::{Formulas, GROUP, LocalFormulas};
 use super::indicator::{Cut, LocalIndicator};
+use super::kinds::{Frame, Function, FunctionKind};
 use super::seen::AnchoredCracks;
-use super::{Frame, Function, FunctionKind, WESTERGAARD, westergaard};
+use super::westergaard::westergaard;
 use crate::crack::{Crack, LocalCrack, LocalTip, SegmentId, Side, TipId, TipPoint};
 use crate::jet::Jet;
+use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
 use ppum_formula::real::Real;
 use ppum_formula::{DerivativeError, Formula, FormulaError, Scope, ScopeError, Scratch, Table};
@@ -41,9 +43,6 @@ pub struct FunctionTable {
 /// Least cost of a group in [`FunctionTable::cost`]: it is found, kept for a point or a tile of
 /// a picture, and turned into the world.
 const LEAST_COST: usize = 256;
-
-/// Largest number of functions in a group.
-pub const GROUP: usize = 4;
 
 #[derive(Clone, Debug)]
 enum Group {

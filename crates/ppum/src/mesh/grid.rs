@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::evaluate::LanePoint;
 use super::local::{Candidate, LocalMesh, Location};
-use super::many::{NOWHERE, OnePatch};
+use super::many::OnePatch;
 use super::map::TOLERANCE;
 use crate::crack::Side;
 use crate::function::LocalFunctions;
@@ -99,7 +99,7 @@ impl<const D: usize> Job<f64> for OnGrid<'_, '_, '_, D> {
 
     #[inline(always)]
     fn run<R: Real<Scalar = f64>>(mut self, zero: R) {
-        self.out.fill(NOWHERE);
+        self.out.fill(Jet::NAN);
         let (mesh, count) = (self.mesh, self.grid.x.len() * self.grid.y.len());
         let (beside, inside) = (BTreeMap::new(), Vec::new());
         let mut found = Found { is_free: vec![true; count], beside, inside };

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Mesh;
+use super::elements::Mesh;
 use super::map::{Inverse, Map, TOLERANCE};
 use super::shape::Edge;
 use super::taylor::Dense;
@@ -15,17 +15,6 @@ use crate::crack::Side;
 use crate::dataset::FieldData;
 use crate::field::Field;
 use crate::vec2::{Rect, Vec2};
-
-/// Part of its own size by which the box of an element is larger than what holds it: who looks for
-/// the elements at an anchor finds those beside it, too.
-const BESIDE: f64 = 1.0 / 32.0;
-
-/// A box that holds a patch and what lies beside it.
-pub(crate) fn reach(mesh: &Mesh, patch: usize) -> Rect {
-    let bounds = mesh.bounds(patch);
-    let margin = bounds.size() * BESIDE;
-    Rect::new(bounds.min - margin, bounds.max + margin)
-}
 
 /// The elements of a field's step seen from an anchor.
 #[derive(Clone, Debug)]
@@ -132,7 +121,7 @@ impl<'f> LocalMesh<'f> {
         let origin = self.mesh.origin[k];
         let from_origin =
             [difference(self.anchor.x, origin.x), difference(self.anchor.y, origin.y)];
-        let (reach, inverse) = (reach(self.mesh, k), Inverse::new(self.mesh.map(k)));
+        let (reach, inverse) = (self.mesh.reach(k), Inverse::new(self.mesh.map(k)));
         let reach = Rect::new(reach.min - self.anchor, reach.max - self.anchor);
         Candidate { patch: k, near, inverse, from_origin, reach }
     }

@@ -14,10 +14,6 @@ use ppum_formula::real::{Job, Lanes, Real, Scalar};
 const POINTS: usize = 256;
 const CANDIDATES: usize = 64;
 
-/// Outside.
-pub(super) const NOWHERE: Jet<f64> =
-    Jet { v: f64::NAN, x: f64::NAN, y: f64::NAN, xx: f64::NAN, xy: f64::NAN, yy: f64::NAN };
-
 impl LocalMesh<'_> {
     /// The field at many points, components of one after those of the other; NaN outside. Fastest
     /// for points near each other.
@@ -82,7 +78,7 @@ impl<const D: usize> Job<f64> for Many<'_, '_, '_, '_, D> {
     #[inline(always)]
     fn run<R: Real<Scalar = f64>>(self, zero: R) {
         let components = self.mesh.field.components();
-        self.out.fill(NOWHERE);
+        self.out.fill(Jet::NAN);
         let key = |k: usize| self.owners[k].map(|at| (at.patch, at.near.is_some()));
         let mut order: Vec<usize> = (0..self.offsets.len()).filter(|&k| key(k).is_some()).collect();
         order.sort_by_key(|&k| key(k));
@@ -139,31 +135,7 @@ impl OnePatch<'_, '_, '_, '_> {
         };
         self.mesh.evaluate_at::<R, D>((self.seen, self.map), self.functions, &at, lanes);
         for (c, jet) in lanes.iter().enumerate() {
-            store::<R, D>(jet, rows[..count].iter().map(|row| row + c), out);
+            jet.store::<D>(rows[..count].iter().map(|row| row + c), out);
         }
-    }
-}
-
-/// Writes the lanes of a jet to some places.
-#[inline(always)]
-fn store<R: Real<Scalar = f64>, const D: usize>(
-    jet: &Jet<R>,
-    places: impl Iterator<Item = usize>,
-    out: &mut [Jet<f64>],
-) {
-    let mut lanes = [Lanes::default(); 6];
-    jet.v.store(&mut lanes[0]);
-    if D >= 1 {
-        jet.x.store(&mut lanes[1]);
-        jet.y.store(&mut lanes[2]);
-    }
-    if D >= 2 {
-        jet.xx.store(&mut lanes[3]);
-        jet.xy.store(&mut lanes[4]);
-        jet.yy.store(&mut lanes[5]);
-    }
-    let [v, x, y, xx, xy, yy] = lanes;
-    for (k, place) in places.enumerate() {
-        out[place] = Jet { v: v[k], x: x[k], y: y[k], xx: xx[k], xy: xy[k], yy: yy[k] };
     }
 }

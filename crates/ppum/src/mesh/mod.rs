@@ -10,6 +10,7 @@
 //! A cut element is two patches with the same map and opposite clips: one where a level field is ≥
 //! 0, one where it is < 0.
 
+mod elements;
 mod evaluate;
 pub mod grid;
 mod local;
@@ -18,108 +19,6 @@ mod map;
 mod shape;
 mod taylor;
 
-use std::ops::Range;
-
-use crate::polynomial::PolynomialSpace;
-use crate::vec2::{Rect, Vec2, vec2};
-pub(crate) use local::{LocalMesh, reach};
-use map::Map;
+pub use elements::{Clip, Mesh};
+pub(crate) use local::LocalMesh;
 pub use shape::Shape;
-
-/// Steps of Newton's method for the place of a point in an element.
-const NEWTON: usize = 4;
-
-/// The elements of a mesh as patches. Structure of arrays; vectors have one entry per patch where
-/// nothing else is said.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Mesh {
-    /// The reference shapes.
-    pub shape: Vec<Shape>,
-    /// Images of ξ = 0.
-    pub origin: Vec<Vec2>,
-    /// Degrees of the maps.
-    pub map_degree: Vec<u8>,
-    /// Monomials of the maps.
-    pub map_space: Vec<PolynomialSpace>,
-    /// First column of each map in `map`; patches may share one.
-    pub map_offset: Vec<u64>,
-    /// Coefficients of the maps M without constant terms, for x and for y.
-    pub map: [Vec<f64>; 2],
-    /// The mesh's own number of the element; the sides of a cut share it.
-    pub element: Vec<u32>,
-    /// Offsets of the patches' clips, one more than patches; empty if there is no clip.
-    pub clip_offsets: Vec<u64>,
-    /// The clips of all patches.
-    pub clips: Vec<Clip>,
-}
-
-/// A patch's half of the plane: where a level field is not negative, or where it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Clip {
-    /// Index of the level field among the step's fields.
-    pub field: u32,
-    /// True for level ≥ 0, false for level < 0.
-    pub is_above: bool,
-}
-
-impl Mesh {
-    /// Number of patches.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.shape.len()
-    }
-
-    /// True if there is no patch.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.shape.is_empty()
-    }
-
-    /// The columns of a patch's map.
-    #[must_use]
-    pub fn map_range(&self, patch: usize) -> Range<usize> {
-        let start = self.map_offset[patch] as usize;
-        start..start + self.map_space[patch].size(self.map_degree[patch].into()) - 1
-    }
-
-    /// The coefficients of a patch's map without the constant, for x and for y.
-    #[must_use]
-    pub fn map_of(&self, patch: usize) -> [&[f64]; 2] {
-        let range = self.map_range(patch);
-        [&self.map[0][range.clone()], &self.map[1][range]]
-    }
-
-    /// A box that holds the patch: |ξ|, |η| ≤ 1, so no component is farther from the origin's than
-    /// Σ |coefficient|.
-    #[must_use]
-    pub fn bounds(&self, patch: usize) -> Rect {
-        let [x, y] = self.map_of(patch).map(|c| c.iter().map(|c| c.abs()).sum());
-        Rect::around(self.origin[patch], vec2(x, y))
-    }
-
-    /// The clips of a patch.
-    #[must_use]
-    pub fn clips(&self, patch: usize) -> &[Clip] {
-        match self.clip_offsets.get(patch..patch + 2) {
-            Some(&[start, end]) => &self.clips[start as usize..end as usize],
-            _ => &[],
-        }
-    }
-
-    fn map(&self, patch: usize) -> Map {
-        Map::new(self.map_space[patch], self.map_degree[patch], self.map_of(patch))
-    }
-
-    /// Operations that it may take to see whether a patch holds a point, without its clips.
-    pub(crate) fn search_work(&self, patch: usize) -> usize {
-        let columns = self.map_range(patch).len();
-        NEWTON * 2 * columns + self.map(patch).search_work(columns)
-    }
-
-    /// x = origin + M(ξ), and det DM(ξ).
-    #[must_use]
-    pub fn image(&self, patch: usize, xi: [f64; 2]) -> (Vec2, f64) {
-        let [x, y] = self.map(patch).at::<f64, 1>(xi);
-        (self.origin[patch] + vec2(x.v, y.v), x.x * y.y - x.y * y.x)
-    }
-}

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::sample::{Sample, Source};
 use crate::dataset::NamedQuantity;
 use crate::equation::{Equation, Moduli};
 use crate::field::Field;
@@ -11,8 +12,6 @@ use ppum_formula::{
     Block, DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Scratch, Table,
     one_line,
 };
-
-use super::{Sample, Source};
 
 /// The names that formulas of quantities may use.
 #[derive(Clone, Copy, Debug)]

@@ -12,8 +12,9 @@
 //! their [texts](crate::library::ELASTICITY).
 
 use super::formula::{Input, QuantityFormula, QuantityFormulaError, Vocabulary};
+use super::kinds::{Axis, ELASTIC, Quantity, QuantityError};
 use super::material::MaterialGradient;
-use super::{Axis, ELASTIC, Quantity, QuantityError, Sample};
+use super::sample::Sample;
 use crate::crack::Side;
 use crate::equation::{Equation, Moduli};
 use crate::field::{Field, LocalField};

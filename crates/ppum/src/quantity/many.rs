@@ -1,6 +1,7 @@
 //! Quantities at many points.
 
-use super::{Quantity, Sample, Source};
+use super::kinds::Quantity;
+use super::sample::{Sample, Source};
 use crate::crack::Side;
 use crate::field::LocalField;
 use crate::jet::Jet;

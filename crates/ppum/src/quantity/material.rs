@@ -1,6 +1,6 @@
 //! Gradients of a material's constants.
 
-use super::QuantityFormulaError;
+use super::formula::QuantityFormulaError;
 use crate::equation::{Equation, Moduli, StressState};
 use crate::expression::Expression;
 use crate::library::{PLANE_STRAIN, PLANE_STRESS};

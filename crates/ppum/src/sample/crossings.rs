@@ -1,6 +1,6 @@
 //! Where curves pass through cracks.
 
-use super::Place;
+use super::place::Place;
 use crate::crack::{Crack, CrackEnd, SegmentId, Side};
 use crate::vec2::Vec2;
 

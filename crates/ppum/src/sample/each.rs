@@ -5,7 +5,7 @@
 //! that one patch covers are evaluated by it, and the others apart from them, where a patch that
 //! does not cover a point adds zero.
 
-use super::Place;
+use super::place::Place;
 use crate::crack::{SegmentId, Side};
 use crate::field::{Field, LocalField};
 use crate::jet::Jet;

@@ -12,7 +12,7 @@
 //! from which p − a is exact, too: a is zero, or the difference no longer than p. So smaller
 //! patches lose nothing by a lattice that is wider than they are.
 
-use super::{Place, ROUNDING, largest, settle};
+use super::place::{Place, ROUNDING, largest, settle};
 use crate::box_tree::BoxTree;
 use crate::compensated::difference;
 use crate::crack::{Side, TipId, tips};

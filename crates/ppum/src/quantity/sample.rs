@@ -1,0 +1,50 @@
+//! What quantities are made of.
+
+use crate::equation::Moduli;
+use crate::jet::Jet;
+use crate::vec2::Vec2;
+use ppum_formula::real::Real;
+
+/// The ingredients of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The field's values.
+    Values,
+    /// The field's gradient.
+    Gradient,
+    /// The values and the exact solution.
+    Exact,
+    /// The partition of unity alone.
+    Partition,
+}
+
+/// A field at a point, or at a vector of points: what quantities are made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<'a, R> {
+    /// Points are `anchor + offset`.
+    pub anchor: Vec2,
+    /// Offsets from the anchor.
+    pub offset: [R; 2],
+    /// The constants of the equation there.
+    pub moduli: Moduli<R>,
+    /// The components with derivatives, as many as the quantity's
+    /// [source](super::Quantity::source) asks.
+    pub jets: &'a [Jet<R>],
+    /// The exact values, for [`Quantity::Error`](super::Quantity::Error) alone; may be empty
+    /// otherwise.
+    pub exact: &'a [R],
+}
+
+impl<R: Real> Sample<'_, R> {
+    /// A quantity of the gradient: +∞ where a derivative of any component is infinite or none.
+    #[inline(always)]
+    pub(super) fn apart(&self, value: R) -> R {
+        let (zero, infinite) = (value.lit(0.0), value.lit(f64::INFINITY));
+        // zero, or NaN
+        let mut test = zero;
+        for jet in self.jets {
+            test = jet.x.mul_add(zero, jet.y.mul_add(zero, test));
+        }
+        R::select(test.ge(test), value, infinite)
+    }
+}
