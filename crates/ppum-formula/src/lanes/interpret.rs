@@ -7,13 +7,39 @@
 //! these in double precision. Nothing is fused: in double precision each result is that of the
 //! scalar back end to the last bit.
 
-use super::tape::{Instruction, Tape};
+use std::sync::Arc;
+
 use crate::elementary;
 use crate::real::{Double, DoubleFunction, Job, Numbers, Real, Scalar};
 use crate::table::Table;
 
 /// Vectors of a block: enough that a step's work outweighs its start.
 pub(crate) const VECTORS: usize = 8;
+
+/// A program for blocks of points.
+#[derive(Clone, Debug)]
+pub(crate) struct Tape {
+    pub(crate) instructions: Vec<Instruction>,
+    pub(crate) constants: Vec<f64>,
+    pub(crate) tables: Arc<[Arc<Table>]>,
+    /// Registers 0 .. `n_outputs` are the outputs, `n_inputs` more the inputs, then `n_slots`
+    /// slots.
+    pub(crate) n_outputs: usize,
+    pub(crate) n_inputs: usize,
+    pub(crate) n_slots: usize,
+}
+
+/// One operation on all points of a block.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Instruction {
+    pub(crate) action: Action,
+    /// Registers, or indices of constants.
+    pub(crate) operands: [u32; 4],
+    /// The operands that are constants: bit k stands for operand k.
+    pub(crate) constants: u8,
+    /// The register it writes; it may be that of an operand.
+    pub(crate) to: u32,
+}
 
 /// Runs a tape; `registers` are its registers one after the other. It is not generic, so that the
 /// interpreter is compiled here and not in every crate that uses it.

@@ -5,5 +5,4 @@ mod tape;
 
 #[cfg(test)]
 pub(crate) use interpret::{GREATEST_SQUARE, LEAST_SQUARE};
-pub(crate) use interpret::{VECTORS, interpret};
-pub(crate) use tape::Tape;
+pub(crate) use interpret::{Tape, VECTORS, interpret};

@@ -7,36 +7,10 @@
 
 use std::sync::Arc;
 
-use super::interpret::Action;
+use super::interpret::{Action, Instruction, Tape};
 use crate::graph::{NodeId, Op};
 use crate::operation::{Binary, Comparison, Unary};
 use crate::program::Program;
-use crate::table::Table;
-
-/// A program for blocks of points.
-#[derive(Clone, Debug)]
-pub(crate) struct Tape {
-    pub(crate) instructions: Vec<Instruction>,
-    pub(crate) constants: Vec<f64>,
-    pub(crate) tables: Arc<[Arc<Table>]>,
-    /// Registers 0 .. `n_outputs` are the outputs, `n_inputs` more the inputs, then `n_slots`
-    /// slots.
-    pub(crate) n_outputs: usize,
-    pub(crate) n_inputs: usize,
-    pub(crate) n_slots: usize,
-}
-
-/// One operation on all points of a block.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Instruction {
-    pub(crate) action: Action,
-    /// Registers, or indices of constants.
-    pub(crate) operands: [u32; 4],
-    /// The operands that are constants: bit k stands for operand k.
-    pub(crate) constants: u8,
-    /// The register it writes; it may be that of an operand.
-    pub(crate) to: u32,
-}
 
 impl Tape {
     /// The tape of a program with a number of inputs.

@@ -48,6 +48,17 @@ pub(crate) fn lower_condition(
     Ok(graph.select(condition, one, zero))
 }
 
+impl Scope {
+    /// The nodes of the functions with derivative rules of their own, added to a graph: cos θ and
+    /// sin θ in polar scopes, else none.
+    pub(crate) fn definitions(&self, graph: &mut Graph) -> Vec<NodeId> {
+        self.defined
+            .iter()
+            .map(|f| lower(&f.definition, self, graph).expect("checked when it was defined"))
+            .collect()
+    }
+}
+
 struct Lowering<'a> {
     graph: &'a mut Graph,
     scope: &'a Scope,

@@ -2,12 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::ops::Range;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use crate::error::FormulaError;
-use crate::graph::{Graph, NodeId};
 use crate::language::ast::Ast;
-use crate::language::lower;
 use crate::library;
 use crate::table::Table;
 
@@ -40,51 +38,36 @@ pub const VARIABLES: [&str; 5] = ["x", "y", "r", "theta", "t"];
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scope {
-    independent: Vec<String>,
-    dependent: Vec<Dependent>,
-    defined: Arc<[Defined]>,
+    pub(super) independent: Vec<String>,
+    pub(super) dependent: Vec<Dependent>,
+    pub(super) defined: Arc<[Defined]>,
     parameters: Vec<(String, f64)>,
     tables: Arc<[Arc<Table>]>,
     /// The dependent variables that are sides of cracks: they follow each other.
-    sides: Range<usize>,
+    pub(super) sides: Range<usize>,
 }
 
 /// A dependent variable.
 #[derive(Clone, Debug, PartialEq)]
-struct Dependent {
-    name: String,
+pub(super) struct Dependent {
+    pub(super) name: String,
     /// Its derivative with respect to each independent variable.
-    rules: Arc<[Ast]>,
+    pub(super) rules: Arc<[Ast]>,
 }
 
 /// A function of the inputs whose derivatives have rules of their own, better than those of its
 /// definition: fewer operations, no cancellation.
 #[derive(Clone, Debug, PartialEq)]
-struct Defined {
+pub(super) struct Defined {
     /// The text that stands for it.
-    name: &'static str,
-    definition: Ast,
+    pub(super) name: &'static str,
+    pub(super) definition: Ast,
     /// Its derivative with respect to each independent variable.
-    rules: Arc<[Ast]>,
+    pub(super) rules: Arc<[Ast]>,
 }
 
-/// cos θ and sin θ of the polar angle: name, definition, derivatives. The direction of the origin
-/// itself is +x, so that √r sin θ has the value 0 there; NaN stays NaN.
-const WHOLE_ANGLE: [(&str, &str, [&str; 2]); 2] = [
-    ("cos(theta)", "if(r == 0, 1, x/r)", ["sin(theta)*sin(theta)/r", "-(sin(theta)*cos(theta)/r)"]),
-    ("sin(theta)", "if(r == 0, 0, y/r)", ["-(sin(theta)*cos(theta)/r)", "cos(theta)*cos(theta)/r"]),
-];
-
-/// The inputs of polar coordinates and their derivatives.
-const POLAR: [(&str, [&str; 2]); 4] = [
-    ("r", ["cos(theta)", "sin(theta)"]),
-    ("theta", ["-(sin(theta)/r)", "cos(theta)/r"]),
-    (COS_HALF, ["sin(theta/2)*sin(theta)/(2*r)", "-(sin(theta/2)*cos(theta)/(2*r))"]),
-    (SIN_HALF, ["-(cos(theta/2)*sin(theta)/(2*r))", "cos(theta/2)*cos(theta)/(2*r)"]),
-];
-
-const COS_HALF: &str = "cos(theta/2)";
-const SIN_HALF: &str = "sin(theta/2)";
+pub(super) const COS_HALF: &str = "cos(theta/2)";
+pub(super) const SIN_HALF: &str = "sin(theta/2)";
 
 /// A name or a rule that a [`Scope`] cannot take.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -137,7 +120,7 @@ pub(crate) enum Meaning {
 }
 
 impl Dependent {
-    fn without_rules(name: &str) -> Self {
+    pub(super) fn without_rules(name: &str) -> Self {
         Self { name: name.to_owned(), rules: Arc::default() }
     }
 }
@@ -167,47 +150,6 @@ impl Scope {
     #[must_use]
     pub fn cartesian() -> Self {
         Self::new(&["x", "y"]).expect("x and y are names")
-    }
-
-    /// Inputs x, y, r, theta, `cos(theta/2)`, `sin(theta/2)`, where r = √(x² + y²) and θ is the
-    /// polar angle on the branch that the caller chooses, with the half angles on the same branch:
-    /// ∂r = (x, y)/r, ∂θ = (−y, x)/r², ∂ cos(θ/2) = sin(θ/2) (y, −x)/(2r²), ∂ sin(θ/2) = cos(θ/2)
-    /// (−y, x)/(2r²).
-    ///
-    /// The names of the last two are their texts. Sines, cosines and tangents of multiples kθ/2,
-    /// 0 < |k| ≤ 64, are products of x/r, y/r and these two; θ itself is not used for them. At r =
-    /// 0 cos θ is 1 and sin θ is 0, their derivatives are NaN.
-    #[must_use]
-    pub fn polar() -> Self {
-        static SCOPE: LazyLock<Scope> = LazyLock::new(Scope::new_polar);
-        SCOPE.clone()
-    }
-
-    fn new_polar() -> Self {
-        let mut scope = Self::cartesian();
-        scope.dependent.extend(POLAR.map(|(name, _)| Dependent::without_rules(name)));
-        // the rules use the definitions
-        scope.defined = scope.whole_angle(|_| Arc::default());
-        let parsed = |texts: &[&str; 2]| texts.map(|text| scope.built_in(text)).into();
-        let (defined, rules) = (scope.whole_angle(parsed), POLAR.map(|(_, texts)| parsed(&texts)));
-        scope.defined = defined;
-        for (dependent, rules) in scope.dependent.iter_mut().zip(rules) {
-            dependent.rules = rules;
-        }
-        scope
-    }
-
-    fn whole_angle(&self, rules: impl Fn(&[&str; 2]) -> Arc<[Ast]>) -> Arc<[Defined]> {
-        let define = |(name, text, texts): &(&'static str, &str, [&str; 2])| Defined {
-            name,
-            definition: self.built_in(text),
-            rules: rules(texts),
-        };
-        WHOLE_ANGLE.iter().map(define).collect()
-    }
-
-    fn built_in(&self, text: &str) -> Ast {
-        lower::checked(text, self).expect("definitions and rules are formulas")
     }
 
     /// Adds a named constant.
@@ -242,52 +184,6 @@ impl Scope {
         }
         self.tables = self.tables.iter().chain(tables).cloned().collect();
         Ok(self)
-    }
-
-    /// Adds an input that is a function of the independent variables. `rules` are its derivatives
-    /// with respect to each of them, in their order, as formulas of this scope and of itself.
-    ///
-    /// # Errors
-    /// When the name is not one or is taken, or a rule is missing or is no formula.
-    pub fn with_dependent(self, name: &str, rules: &[&str]) -> Result<Self, ScopeError> {
-        self.with_dependents(&[(name, rules)])
-    }
-
-    /// Adds inputs that are functions of the independent variables, each with the rules of its
-    /// derivatives, which may use all inputs of the group.
-    fn with_dependents(mut self, group: &[(&str, &[&str])]) -> Result<Self, ScopeError> {
-        let first = self.dependent.len();
-        for (name, rules) in group {
-            self.check_name(name)?;
-            let (expected, given) = (self.independent.len(), rules.len());
-            if given != expected {
-                return Err(ScopeError::RuleCount { name: (*name).to_owned(), expected, given });
-            }
-            self.dependent.push(Dependent::without_rules(name));
-        }
-        for (k, (name, rules)) in group.iter().enumerate() {
-            let parsed: Result<Arc<[Ast]>, FormulaError> =
-                rules.iter().map(|rule| lower::checked(rule, &self)).collect();
-            self.dependent[first + k].rules =
-                parsed.map_err(|error| ScopeError::Rule { name: (*name).to_owned(), error })?;
-        }
-        Ok(self)
-    }
-
-    /// Adds the sides of cracks as inputs called `side(0)` to `side(n - 1)`: +1 on the left of
-    /// crack k, −1 on its right, with derivatives 0. Formulas write them so.
-    ///
-    /// # Panics
-    /// When inputs were added after sides.
-    #[must_use]
-    pub fn with_sides(mut self, n: usize) -> Self {
-        let (first, end) = (self.n_sides(), self.dependent.len());
-        assert!(first == 0 || self.sides.end == end, "sides of cracks follow each other");
-        let rules: Arc<[Ast]> = vec![self.built_in("0"); self.independent.len()].into();
-        let side = |k| Dependent { name: format!("side({k})"), rules: rules.clone() };
-        self.dependent.extend((first..first + n).map(side));
-        self.sides = end - first..end + n;
-        self
     }
 
     /// Names of the inputs of an evaluation, in order.
@@ -344,15 +240,6 @@ impl Scope {
         }
     }
 
-    /// The nodes of the functions with derivative rules of their own, added to a graph: cos θ and
-    /// sin θ in polar scopes, else none.
-    pub(crate) fn definitions(&self, graph: &mut Graph) -> Vec<NodeId> {
-        self.defined
-            .iter()
-            .map(|f| lower::lower(&f.definition, self, graph).expect("checked when it was defined"))
-            .collect()
-    }
-
     /// The text that stands for a function of [`Scope::definitions`].
     pub(crate) fn defined_name(&self, index: usize) -> &'static str {
         self.defined[index].name
@@ -399,7 +286,7 @@ impl Scope {
             .map(|(i, _)| Meaning::Table(i))
     }
 
-    fn check_name(&self, name: &str) -> Result<(), ScopeError> {
+    pub(super) fn check_name(&self, name: &str) -> Result<(), ScopeError> {
         let letter = |c: char| c.is_ascii_alphabetic() || c == '_';
         let named =
             name.starts_with(letter) && name.chars().all(|c| letter(c) || c.is_ascii_digit());

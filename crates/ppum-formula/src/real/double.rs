@@ -2,25 +2,7 @@
 
 use fearless_simd::{Simd, f32x16, f64x8, prelude::*, u64x8};
 
-use super::Real;
-
-/// A number in double precision, or a vector of such.
-pub trait Double: Real<Scalar = f64> {
-    /// 2ⁿ of a whole number n from −1022 to 1023; of others any number.
-    fn power_of_two(self) -> Self;
-    /// The largest n with 2ⁿ ≤ |self|, of normal numbers; of others any number.
-    fn exponent(self) -> Self;
-    /// The magnitude of `self` with the sign of another number, zeros and NaN included. Select
-    /// first, then copy the sign: for AVX-512 LLVM up to 22 makes one masked instruction of
-    /// `select(mask, a.copysign(b), b)`, with the wrong table (llvm/llvm-project#157929).
-    fn copysign(self, sign: Self) -> Self;
-}
-
-/// A function of `N` numbers in double precision.
-pub trait DoubleFunction<const N: usize>: Copy {
-    /// Its value. Must be `#[inline(always)]`.
-    fn apply<R: Double>(self, operands: [R; N]) -> R;
-}
+use super::traits::{Double, DoubleFunction, Real};
 
 /// Bits of 2⁵², whose last bits count ones: those of 2⁵² + n are these or n.
 const ONES: u64 = 1075 << MANTISSA;

@@ -2,7 +2,7 @@
 
 use fearless_simd::{Level, Simd, f64x8, prelude::*};
 
-use super::Job;
+use super::traits::Job;
 
 /// Runs a job on the vectors of an instruction set.
 fn on<S: Simd, J: Job<f64>>(simd: S, job: J) -> J::Output {

@@ -8,6 +8,7 @@
 //! of a table at some arguments `place_0`, …; tables are functions that begin with `table_`, the
 //! prelude's begin with `ppum_`.
 
+mod number;
 mod table;
 
 use std::sync::Arc;
@@ -17,6 +18,7 @@ use crate::language::scope::{Scope, VARIABLES};
 use crate::operation::{Binary, Comparison, Unary};
 use crate::program::Program;
 use crate::table::Table;
+use crate::wgsl::number::number;
 use crate::wgsl::table::{MAX_ELEMENTS, elements};
 
 /// The functions that the texts of [`FormulaJets::wgsl`](crate::FormulaJets::wgsl) call. A module
@@ -105,17 +107,6 @@ fn parameter(input: &str) -> String {
             Some(crack) => format!("side_{crack}"),
             None => format!("in_{other}"),
         },
-    }
-}
-
-/// A number in single precision, negative ones in parentheses. One that is not finite is made by a
-/// function: as a constant expression it is an error.
-pub(crate) fn number(value: f64) -> String {
-    let value = value as f32;
-    match (value.is_finite(), value.is_sign_negative()) {
-        (true, false) => format!("{value:?}"),
-        (true, true) => format!("({value:?})"),
-        (false, _) => format!("ppum_from_bits({:#x}u)", value.to_bits()),
     }
 }
 

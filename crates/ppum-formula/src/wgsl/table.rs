@@ -4,7 +4,7 @@
 //! seconds to compile that. So the binary search for the cell is written out: an `if` for each
 //! inner knot, and in the innermost blocks the coefficients of one cell.
 
-use super::number;
+use super::number::number;
 use crate::table::Table;
 
 /// Most knots or cubics of a table. The text grows with them, and so does the time to compile it: a
