@@ -5,9 +5,9 @@ use ppum::jet::Jet;
 use ppum::quantity::{Input, Quantity, QuantityBlock, QuantityFormula, Sample, Source};
 use ppum::real::{Real, Scalar};
 
-use super::collapse::{ANY, known};
-use super::sums::size;
-use super::tile::{Scratch, Tile, load_jet};
+use super::collapse::{ANY, Slopes, known};
+use super::layout::{load_slopes, size};
+use super::tile::{Scratch, Tile};
 
 impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     /// Makes the quantity of what begins at `start` and writes it to the raster. The quantity most
@@ -196,7 +196,8 @@ fn load<R: Real, const D: usize>(cell: &[R::Scalar], jets: &mut [Jet<R>], zero: 
     let size = size::<R, D>();
     let mut component = 0;
     while component < jets.len() {
-        jets[component] = load_jet::<R, D>(&cell[(component + 1) * size..], zero);
+        let Slopes { v, x, y } = load_slopes::<R, D>(&cell[(component + 1) * size..], zero);
+        jets[component] = Jet { v, x, y, ..Jet::constant(v) };
         component += 1;
     }
 }

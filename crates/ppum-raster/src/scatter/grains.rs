@@ -22,11 +22,8 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::collapse::{ROWS, numbers};
 use super::plan::{Affine, COLUMNS, Patch, PatchBlock, add_blocks};
-use super::tile::{Scratch, Tile};
+use super::tile::{Grains, Scratch, Tile};
 use crate::pixels::Pixels;
-
-/// Pixels of a patch, on average, below which the patches of a picture are drawn as grains.
-pub(super) const MOST_PIXELS: usize = 4;
 
 /// Columns of a patch up to which its pixels are taken one by one.
 const NARROW: usize = 2;
@@ -36,19 +33,6 @@ const TOGETHER: usize = 2;
 
 /// Numbers of a row of sums: vectors begin anywhere in the tile.
 const WIDTH: usize = COLUMNS + 16;
-
-/// The sums of a tile, and the patch at hand. Memory that a thread uses again.
-#[derive(Debug, Default)]
-pub(super) struct Grains<T> {
-    found: Vec<u32>,
-    /// The blocks of the patch; the first is of function 1.
-    blocks: Vec<PatchBlock>,
-    /// Of each component the coefficients of the first block, less the constant that the
-    /// tile subtracts.
-    smooth: Vec<T>,
-    /// By rows, then numbers: W with derivatives, then W v of each component.
-    sums: Vec<T>,
-}
 
 /// Pixels of a row of a patch.
 #[derive(Clone, Copy, Debug)]

@@ -25,11 +25,15 @@
 //! so zoom costs nothing, and each tile subtracts a constant displacement, which the partition of
 //! unity reproduces, before weights and displacements are multiplied.
 
+mod band;
 mod collapse;
 mod finish;
+mod gather;
 mod grains;
+mod layout;
 mod mesh;
 mod plan;
+mod prepared;
 mod schedule;
 mod strips;
 mod sums;
@@ -40,24 +44,22 @@ mod weights;
 use std::ops::Range;
 
 use ppum::field::Field;
-use ppum::function::LocalFunctions;
 use ppum::progress::{Cancelled, Watcher};
 use ppum::quantity::{Quantity, Source};
-use ppum::real::{Real, Scalar};
-use ppum::weight::WeightFunction;
+use ppum::real::Scalar;
 use rayon::prelude::*;
 
 use crate::error::RenderError;
 use crate::parts::Parts;
 use crate::raster::{Raster, Sample, SampleSlice, zeros};
 use crate::rows::Strips;
-use crate::summation::{Savings, Summation};
+use crate::summation::Summation;
 use crate::view::View;
+use band::Band;
 use collapse::ROWS;
-use grains::MOST_PIXELS;
-use plan::{COLUMNS, Plan, strips};
-use tile::{Band, Scratch};
-use weights::Weights;
+use plan::strips;
+use prepared::PreparedView;
+use tile::Scratch;
 
 pub use crate::rows::BAND;
 pub use schedule::{Schedule, TileLoad};
@@ -207,59 +209,7 @@ fn resolves<T: Scalar>(length: f64) -> bool {
     (T::from_f64(square).to_f64() / square - 1.0).abs() < 1e-6 || T::VECTOR == f64::VECTOR
 }
 
-/// A view of a field, ready to be drawn.
-struct PreparedView<'f, T> {
-    view: View,
-    quantity: &'f Quantity,
-    weight: &'f WeightFunction,
-    /// Its factors, if it is a formula.
-    weights: Weights<T>,
-    functions: LocalFunctions<'f>,
-    plan: Plan<'f>,
-    /// Offsets of the columns from the view's centre, up to full tiles.
-    xs: Vec<T>,
-    /// Offsets of the rows.
-    ys: Vec<T>,
-    savings: Savings,
-    field: &'f Field<'f>,
-}
-
-impl<'f, T: Sample> PreparedView<'f, T> {
-    fn new(
-        field: &'f Field<'f>,
-        view: &View,
-        quantity: &'f Quantity,
-        summation: Summation,
-    ) -> Self {
-        let functions = field.functions.at(&field.step.cracks, view.center);
-        let mut groups = 0..functions.table().groups();
-        let (most_pixels, savings) = match summation {
-            Summation::Automatic if groups.all(|group| functions.is_native(group)) => {
-                (MOST_PIXELS, Savings::ALL)
-            }
-            // formulas are run for many pixels of strips at a time, and would be dear one by one
-            Summation::Automatic => (0, Savings::ALL),
-            Summation::RowSpans(savings) => (0, savings),
-            Summation::PerPatch => (usize::MAX, Savings::ALL),
-        };
-        let mut plan = Plan::new(field, view, quantity, ROWS, most_pixels);
-        let weight = &field.step.partition.boxes().weight;
-        let columns = view.pixels[0].next_multiple_of(COLUMNS as u32);
-        let rows = view.pixels[1].next_multiple_of(ROWS as u32);
-        Self {
-            view: *view,
-            quantity,
-            weight,
-            weights: Weights::new(weight, view, &mut plan.patches),
-            functions,
-            plan,
-            xs: (0..columns).map(|i| T::from_f64(view.column_offset(i))).collect(),
-            ys: (0..rows).map(|j| T::from_f64(view.row_offset(j))).collect(),
-            savings,
-            field,
-        }
-    }
-
+impl<T: Sample> PreparedView<'_, T> {
     /// Draws with `D` derivatives, a strip at a time, whose rows `take` is given in order; bands of
     /// rows in parallel.
     fn draw<const D: usize>(
@@ -331,22 +281,6 @@ impl<'f, T: Sample> PreparedView<'f, T> {
                     }
                 }
             }
-        }
-    }
-}
-
-impl<T: Scalar> PreparedView<'_, T> {
-    /// Exact values minus `shift` at the pixels of a vector, component by component.
-    fn load_exact<R: Real<Scalar = T>>(
-        &self,
-        [column, row]: [usize; 2],
-        shift: &[f64],
-        out: &mut [R],
-        zero: R,
-    ) {
-        let point = |lane| self.view.center + self.view.offset((column + lane) as u32, row as u32);
-        for (component, (out, shift)) in out.iter_mut().zip(shift).enumerate() {
-            *out = zero.with_lanes(|lane| self.field.exact(component, point(lane)) - shift);
         }
     }
 }

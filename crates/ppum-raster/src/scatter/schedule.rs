@@ -3,8 +3,8 @@
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 
-use super::PreparedView;
 use super::plan::COLUMNS;
+use super::prepared::PreparedView;
 use super::tile::{Scratch, Tile};
 use crate::summation::Summation;
 use crate::view::View;

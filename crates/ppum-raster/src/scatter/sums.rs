@@ -6,12 +6,12 @@
 
 use std::ops::Range;
 
-use ppum::function::GROUP;
 use ppum::real::{Real, Scalar};
 
-use super::collapse::{ANY, Factor, ROWS, Slopes, evaluate, known, numbers, splat, table_len};
-use super::strips::{BlockTerm, DOWN, Strip, weight_len};
-use super::tile::{Batch, load_slopes};
+use super::collapse::{ANY, Factor, ROWS, Slopes, evaluate, known, splat, table_len};
+use super::layout::{basis_stride, load_slopes, size, store_slopes, weight_len};
+use super::strips::{BlockTerm, DOWN, Strip};
+use super::tile::Batch;
 
 /// Where the sums of some rows come from and go to.
 pub(super) struct RowSums<'a, T> {
@@ -346,32 +346,4 @@ fn plus_product<R: Real, const D: usize>(sum: Slopes<R>, b: Factor<R>, v: Slopes
         out.y = b.slope.mul_add(v.v, b.value.mul_add(v.y, sum.y));
     }
     out
-}
-
-#[inline(always)]
-pub(super) fn store_slopes<R: Real, const D: usize>(slopes: Slopes<R>, to: &mut [R::Scalar]) {
-    let to = &mut to[..size::<R, D>()];
-    slopes.v.store(to);
-    if D >= 1 {
-        slopes.x.store(&mut to[R::LANES..]);
-        slopes.y.store(&mut to[2 * R::LANES..]);
-    }
-}
-
-/// Numbers a function has at a vector of points.
-#[inline(always)]
-pub(super) const fn size<R: Real, const D: usize>() -> usize {
-    numbers::<D>() * R::LANES
-}
-
-/// Numbers a group has at a vector of points.
-#[inline(always)]
-pub(super) const fn basis_stride<R: Real, const D: usize>() -> usize {
-    GROUP * size::<R, D>()
-}
-
-/// Numbers a group has in the basis.
-#[inline(always)]
-pub(super) const fn basis_len<R: Real, const D: usize>() -> usize {
-    ROWS * basis_stride::<R, D>()
 }

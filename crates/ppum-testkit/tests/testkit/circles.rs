@@ -14,7 +14,6 @@ const LEFT: &[(&str, &str, usize)] = &[
     ("ppum-format", "hdf5::read::source", 2),
     ("ppum-format", "hdf5::read::texts", 2),
     ("ppum-format", "hdf5::values", 2),
-    ("ppum-raster", "scatter", 6),
     ("ppum-solve", "assembly", 10),
     ("ppum-solve", "basis", 5),
     ("ppum-solve", "corner", 3),
