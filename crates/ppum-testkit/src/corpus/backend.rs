@@ -3,7 +3,7 @@
 use ppum::formula::{Formula, FormulaJets, Scratch};
 use ppum::real::Scalar as Number;
 
-use super::Case;
+use super::cases::Case;
 
 /// The result of an evaluator on a case.
 #[derive(Clone, Debug)]

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::{Backend, Case, Outcome, Tolerance};
+use super::backend::{Backend, Outcome};
+use super::cases::Case;
+use super::tolerance::Tolerance;
 
 /// The results of a run over cases.
 #[derive(Clone, Debug, Default)]

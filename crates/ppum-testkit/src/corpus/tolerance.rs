@@ -1,6 +1,6 @@
 //! The distance that back ends may have from the corpus, decided in this place alone.
 
-use super::Bound;
+use super::cases::Bound;
 
 /// The errors that an evaluator may make: with the unit roundoff u
 ///

@@ -1,7 +1,10 @@
 //! The exact fields against tabulated values, equilibrium, free faces and their own texts.
 
-use super::*;
-use ppum::dataset::StressState;
+use super::field::{ElasticField, ExactField, stress};
+use super::{CrackInPlane, RoundHole, Slit, Smooth, Williams};
+use num_complex::Complex64;
+use ppum::dataset::{Material, StressState};
+use ppum::vec2::{Vec2, vec2};
 use std::f64::consts::{FRAC_PI_4, PI};
 
 const STRAIN: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };

@@ -1,6 +1,6 @@
 //! Two equal collinear cracks in the infinite plane under all-round tension.
 
-use super::number;
+use super::field::number;
 use num_complex::Complex64;
 use ppum::vec2::Vec2;
 use std::f64::consts::PI;

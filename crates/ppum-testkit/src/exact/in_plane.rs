@@ -1,6 +1,6 @@
 //! A straight crack in the infinite plane under uniform stress far away.
 
-use super::{Axes, Component, ElasticField, ExactField, Wirtinger, number, sum};
+use super::field::{Axes, Component, ElasticField, ExactField, Wirtinger, number, sum};
 use num_complex::Complex64;
 use ppum::dataset::Material;
 use ppum::vec2::Vec2;

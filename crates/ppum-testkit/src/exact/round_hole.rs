@@ -1,6 +1,6 @@
 //! A round hole in an infinite plane: Kirsch's and Lamé's solutions.
 
-use super::{Component, ElasticField, ExactField, Wirtinger, number};
+use super::field::{Component, ElasticField, ExactField, Wirtinger, number};
 use num_complex::Complex64;
 use ppum::dataset::Material;
 use ppum::vec2::Vec2;

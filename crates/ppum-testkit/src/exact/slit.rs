@@ -1,6 +1,6 @@
 //! The scalar field at the end of a slit.
 
-use super::{Component, ExactField};
+use super::field::{Component, ExactField};
 use num_complex::Complex64;
 use ppum::vec2::{Vec2, vec2};
 

@@ -1,6 +1,6 @@
 //! A smooth manufactured displacement with its body force.
 
-use super::{Component, ElasticField, ExactField, number};
+use super::field::{Component, ElasticField, ExactField, number};
 use ppum::dataset::Material;
 use ppum::vec2::{Vec2, vec2};
 

@@ -1,6 +1,6 @@
 //! Williams' eigenfunctions at the tip of a straight crack with free faces.
 
-use super::{Axes, Component, ElasticField, ExactField, Wirtinger, number};
+use super::field::{Axes, Component, ElasticField, ExactField, Wirtinger, number};
 use num_complex::Complex64;
 use ppum::dataset::Material;
 use ppum::vec2::Vec2;

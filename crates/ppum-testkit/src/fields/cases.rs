@@ -12,7 +12,7 @@ use ppum::function::{Frame, FunctionKind, WESTERGAARD};
 use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
 
-use super::Window;
+use super::window::Window;
 use crate::synthetic::{Coefficients, Recipe, crack, kinked};
 
 /// A dataset to be drawn.

@@ -6,7 +6,7 @@ use ppum::jet::Jet;
 use ppum::quantity::{Quantity, Source};
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::Window;
+use super::window::Window;
 
 /// Half the width of the band along cracks and borders, pixels. Positions in single precision are
 /// good to some 10⁻⁵ of a pixel.

@@ -1,6 +1,7 @@
 //! Blocks and coefficients of synthetic fields.
 
-use super::{Components, Junction, Recipe};
+use super::components::Components;
+use super::recipe::{Coefficients, Junction, Recipe};
 use crate::random::Random;
 use ppum::crack::{Crack, End, LocalCrack, Side};
 use ppum::dataset::{BoxPartition, FieldData, monomials};
@@ -8,22 +9,6 @@ use ppum::function::{Function, FunctionKind, FunctionTable, GROUP, Slot};
 use ppum::jet::Jet;
 use ppum::polynomial::exponents;
 use ppum::vec2::{Rect, Vec2, vec2};
-
-/// The choice of the coefficients.
-#[derive(Clone, Debug)]
-pub enum Coefficients {
-    /// Uniform in \[−1, 1): patches have nothing to do with each other.
-    Random,
-    /// As a solver finds them: the field is [`smooth`] plus [`amplitude`] × Westergaard functions
-    /// of the tips × [`cut_off`], plus a [`level`] for each component at a junction × cut-off.
-    /// Patches near a tip have its functions with these factors, all else is expanded by Taylor's
-    /// formula about each patch, so that neighbours agree up to h³.
-    Taylor,
-    /// The same polynomial everywhere: for each component the coefficients of the monomials, in the
-    /// order of datasets, of x and y measured from the domain's centre. Blocks other than the
-    /// smooth one get zeros. Degrees of blocks must suffice.
-    Polynomial(Vec<Vec<f64>>),
-}
 
 /// Factor of tip function `k` of a tip in [`Coefficients::Taylor`].
 #[must_use]

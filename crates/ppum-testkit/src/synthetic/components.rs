@@ -230,7 +230,7 @@ fn centroid(polygon: &[Vec2]) -> Vec2 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::crack;
+    use super::super::recipe::crack;
     use super::*;
     use crate::random::Random;
     use ppum::crack::CrackEnd;

@@ -3,16 +3,26 @@
 use ppum::crack::{Crack, CrackEnd};
 use ppum::vec2::{Vec2, vec2};
 
-use super::{Junction, crack};
+use super::recipe::{Junction, Recipe, crack};
 use CrackEnd::{Junction as Joined, Mouth, Tip};
 
 /// Zone of the tips: no arm is shorter than twice that, so tips keep to their own crack, and no
 /// patch of level 2 that holds a tip has its centre farther from it.
-pub(super) const ZONE: f64 = 0.1;
+const ZONE: f64 = 0.1;
+
+impl Recipe {
+    /// Cracks that cross, branch and end on each other, with patches of several sizes around where
+    /// they do.
+    #[must_use]
+    pub fn meeting() -> Self {
+        let (cracks, junctions) = cracks();
+        Self { cracks, junctions, zone: ZONE, ..Self::default() }
+    }
+}
 
 /// The cracks, and where they meet: in a star of five arms, at the kink of a crack and on a
 /// straight part of it, and where two cross.
-pub(super) fn cracks() -> (Vec<Crack>, Vec<Junction>) {
+fn cracks() -> (Vec<Crack>, Vec<Junction>) {
     let (star, kink) = ([0.5617, 0.3923], [0.6943, -0.1237]);
     let arms = [[0.3511, 0.5143], [0.6291, 0.6437], [0.8163, 0.4291], [0.6127, 0.1731]];
     let mut cracks: Vec<_> = arms.iter().map(|&end| crack(&[star, end], [Joined, Tip])).collect();

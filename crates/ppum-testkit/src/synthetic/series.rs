@@ -3,7 +3,7 @@
 use ppum::crack::CrackEnd;
 use ppum::dataset::Dataset;
 
-use super::{Recipe, crack};
+use super::recipe::{Recipe, crack};
 
 /// A step for each load: that of its recipe, with coefficients times the load. Domain and
 /// components of all recipes are those of the first.

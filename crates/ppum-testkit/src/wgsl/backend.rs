@@ -2,7 +2,7 @@
 
 use ppum::formula::{FormulaJets, Scope, wgsl_prelude};
 
-use super::Module;
+use super::module::Module;
 use crate::corpus::{Backend, Case, Outcome, SHADER, jets, orders, parse};
 
 /// Single precision at one point: the text of [`FormulaJets::wgsl`] in the interpreter.

@@ -30,12 +30,6 @@ const LEFT: &[(&str, &str, usize)] = &[
     ("ppum-solve", "solve", 3),
     ("ppum-solve", "solve::goal", 2),
     ("ppum-solve", "space", 8),
-    ("ppum-testkit", "corpus", 4),
-    ("ppum-testkit", "corpus::hostile", 2),
-    ("ppum-testkit", "exact", 7),
-    ("ppum-testkit", "fields", 3),
-    ("ppum-testkit", "synthetic", 3),
-    ("ppum-testkit", "wgsl", 2),
 ];
 
 fn circles_by_crate() -> BTreeMap<String, BTreeSet<BTreeSet<String>>> {

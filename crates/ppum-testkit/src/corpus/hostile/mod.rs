@@ -8,10 +8,10 @@ mod mutate;
 #[cfg(feature = "wgsl")]
 mod survive;
 
+use super::cases::{Case, cases, folder, unescaped};
 use super::record::{Record, records};
-use super::{cases, folder, unescaped};
 
-pub use mutate::mutant;
+pub use mutate::{Seed, mutant};
 #[cfg(feature = "wgsl")]
 pub use survive::{Arena, Fate, survive};
 
@@ -19,15 +19,6 @@ pub use survive::{Arena, Fate, survive};
 /// least of all platforms. The parser needs most, at its deepest nesting with all precedences in
 /// each level.
 pub const STACK: usize = 1 << 20;
-
-/// A kept text.
-#[derive(Clone, Debug)]
-pub struct Seed {
-    /// Its origin.
-    pub name: String,
-    /// The text.
-    pub text: String,
-}
 
 /// The hostile texts: recipes, one-liners, and what the fuzzer found.
 ///
@@ -52,7 +43,7 @@ pub fn seeds() -> Vec<Seed> {
 /// As [`cases`].
 #[must_use]
 pub fn valid_seeds() -> Vec<Seed> {
-    let seed = |case: super::Case| Seed { name: case.place, text: case.formula };
+    let seed = |case: Case| Seed { name: case.place, text: case.formula };
     let mut seeds: Vec<Seed> = cases().into_iter().map(seed).collect();
     seeds.dedup_by(|a, b| a.text == b.text);
     seeds

@@ -1,7 +1,15 @@
 //! Mutants: texts with a few random changes, of characters or of the parts of a formula.
 
-use super::Seed;
 use crate::random::Random;
+
+/// A text that mutants are made of.
+#[derive(Clone, Debug)]
+pub struct Seed {
+    /// Its origin.
+    pub name: String,
+    /// The text.
+    pub text: String,
+}
 
 /// Pieces that mean something to the language, or should not, divided by `|`.
 const PIECES: &str = "theta/2|let a = |let b = |a|b|if(|if(x < y, |table(wave, |dtable(wave, 1, |wave|\
