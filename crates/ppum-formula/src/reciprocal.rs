@@ -17,13 +17,13 @@ pub(crate) fn share_reciprocals(graph: &mut Graph, values: &[NodeId], outputs: &
     let (needed, kept) = (graph.needed(outputs), graph.needed(values));
     let is_kept = |node: usize| kept.get(node).copied().unwrap_or(false);
     let divisions = |graph: &Graph, node: usize| match graph.op(NodeId(node as u32)) {
-        Op::Binary(Binary::Div, a, b) if !is_kept(node) => Some((a, Denominator::of(graph, b))),
+        Op::Binary(Binary::Div, a, b) if !is_kept(node) => Some((a, Denominator::new(graph, b))),
         _ => None,
     };
     let mut uses: HashMap<NodeId, u32> = HashMap::new();
     for node in (0..needed.len()).filter(|&node| needed[node]) {
         if let Some((_, denominator)) = divisions(graph, node) {
-            *uses.entry(denominator.of).or_default() += 1;
+            *uses.entry(denominator.base).or_default() += 1;
         }
     }
     let mut new: Vec<NodeId> = Vec::with_capacity(needed.len());
@@ -33,8 +33,8 @@ pub(crate) fn share_reciprocals(graph: &mut Graph, values: &[NodeId], outputs: &
             id
         } else {
             match divisions(graph, node) {
-                Some((a, b)) if uses[&b.of] > 1 => {
-                    b.under(graph, new[a.index()], new[b.of.index()])
+                Some((a, b)) if uses[&b.base] > 1 => {
+                    b.under(graph, new[a.index()], new[b.base.index()])
                 }
                 _ => {
                     let op = graph.op(id);
@@ -49,29 +49,29 @@ pub(crate) fn share_reciprocals(graph: &mut Graph, values: &[NodeId], outputs: &
     }
 }
 
-/// A denominator `of` / `factor`, the factor a power of two.
+/// A denominator `base` / `factor`, the factor a power of two.
 struct Denominator {
-    of: NodeId,
+    base: NodeId,
     factor: f64,
 }
 
 impl Denominator {
-    fn of(graph: &Graph, b: NodeId) -> Self {
+    fn new(graph: &Graph, b: NodeId) -> Self {
         if let Op::Binary(Binary::Mul, c, d) = graph.op(b) {
-            for (constant, of) in [(c, d), (d, c)] {
+            for (constant, base) in [(c, d), (d, c)] {
                 let factor = graph.value(constant).and_then(super::graph::exact_reciprocal);
                 if let Some(factor) = factor {
-                    return Self { of, factor };
+                    return Self { base, factor };
                 }
             }
         }
-        Self { of: b, factor: 1.0 }
+        Self { base: b, factor: 1.0 }
     }
 
-    /// a / self as a product; `of` is what it has become.
-    fn under(&self, graph: &mut Graph, a: NodeId, of: NodeId) -> NodeId {
+    /// a / self as a product; `base` is the node that its own has become.
+    fn under(&self, graph: &mut Graph, a: NodeId, base: NodeId) -> NodeId {
         let (one, factor) = (graph.constant(1.0), graph.constant(self.factor));
-        let reciprocal = graph.binary(Binary::Div, one, of);
+        let reciprocal = graph.binary(Binary::Div, one, base);
         let scaled = graph.binary(Binary::Mul, factor, reciprocal);
         graph.binary(Binary::Mul, a, scaled)
     }

@@ -54,8 +54,8 @@ impl AdapterChoice {
         self == Self::Any || kind <= AdapterKind::Virtual
     }
 
-    /// The words behind "adapter" in a message.
-    pub(crate) fn words(self) -> &'static str {
+    /// The text behind "adapter" in a message.
+    pub(crate) fn suffix(self) -> &'static str {
         match self {
             Self::Real => " of a graphics card",
             Self::Any => "",

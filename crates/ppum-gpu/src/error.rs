@@ -14,7 +14,7 @@ pub enum GpuError {
     #[error(
         "no graphics adapter{}: install a Vulkan driver for the graphics card, or the software \
          one (on Debian `libvulkan1 mesa-vulkan-drivers`)",
-        choice.words()
+        choice.suffix()
     )]
     NoAdapter {
         /// The adapters that would have done.

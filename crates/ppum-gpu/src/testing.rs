@@ -21,7 +21,7 @@ pub fn texts<O: Output>(
 ) -> Result<Vec<String>, RenderError> {
     output.check(field)?;
     let groups = Groups::new(&field.step.functions);
-    let (layout, ..) = SceneLayout::of(field, Bodies::new(field, &groups).shape);
+    let (layout, ..) = SceneLayout::of_field(field, Bodies::new(field, &groups).shape);
     let wanted = (&output.quantity(), output.order());
-    Ok(ShaderText::new(&groups, field, wanted, method, O::FINISH)?.all(layout))
+    Ok(ShaderText::new(&groups, field, wanted, method, O::FINISH)?.shaders(layout))
 }

@@ -107,7 +107,7 @@ mod tests {
     }
 
     /// The segment that is found, and that asking all segments in their order finds the same.
-    fn found(cracks: &[Crack], anchor: Vec2, offset: Vec2) -> Option<SegmentId> {
+    fn segment_at(cracks: &[Crack], anchor: Vec2, offset: Vec2) -> Option<SegmentId> {
         let by_all = (0..).zip(cracks).find_map(|(index, crack)| {
             let mut segments = 0..crack.points.len() as u32 - 1;
             let segment = segments.find(|&k| touches_segment(crack, k, anchor, offset))?;
@@ -126,14 +126,14 @@ mod tests {
             let crack = crack(&[(a.x, a.y), (b.x, b.y)], [CrackEnd::Tip; 2]);
             let point = a + (b - a) * (0.01 + 0.98 * f64::from(k) / 500.0);
             let on = Some(SegmentId { crack: 0, segment: 0 });
-            assert_eq!(found(&[crack], point, Vec2::ZERO), on, "{point:?}");
+            assert_eq!(segment_at(&[crack], point, Vec2::ZERO), on, "{point:?}");
         }
     }
 
     #[test]
     fn tips_do_not_count_and_mouths_and_kinks_do() {
         let bent = [crack(&[(0.0, 0.1), (0.3, 0.1), (0.5, 0.7)], [CrackEnd::Mouth, CrackEnd::Tip])];
-        let at = |x, y| found(&bent, vec2(x, y), Vec2::ZERO);
+        let at = |x, y| segment_at(&bent, vec2(x, y), Vec2::ZERO);
         let segment = |segment| Some(SegmentId { crack: 0, segment });
         assert_eq!(at(0.0, 0.1), segment(0));
         assert_eq!(at(0.3, 0.1), segment(0));
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn offsets_mean_what_they_say() {
         let straight = [crack(&[(-0.5, 0.3), (0.5, 0.3)], [CrackEnd::Tip; 2])];
-        let at = |dx, dy| found(&straight, vec2(0.5, 0.3), vec2(dx, dy));
+        let at = |dx, dy| segment_at(&straight, vec2(0.5, 0.3), vec2(dx, dy));
         assert!(at(-1e-30, 0.0).is_some());
         assert_eq!(at(1e-30, 0.0), None);
         assert_eq!(at(-1e-30, 1e-40), None);

@@ -34,17 +34,17 @@ pub(crate) enum Multiple {
 pub(crate) fn multiple(
     kind: &ExprKind,
     theta: Option<u32>,
-    of: impl Fn(ExprId) -> Multiple,
+    operand: impl Fn(ExprId) -> Multiple,
 ) -> Multiple {
     use Multiple::{Constant, Of, Unknown};
     match *kind {
         ExprKind::Input(input) if Some(input) == theta => Of(1.0),
-        ExprKind::Prefix(Prefix::Plus, a) => of(a),
-        ExprKind::Prefix(Prefix::Minus, a) => match of(a) {
+        ExprKind::Prefix(Prefix::Plus, a) => operand(a),
+        ExprKind::Prefix(Prefix::Minus, a) => match operand(a) {
             Of(k) => Of(-k),
             _ => Unknown,
         },
-        ExprKind::Infix(infix, a, b) => match (infix, of(a), of(b)) {
+        ExprKind::Infix(infix, a, b) => match (infix, operand(a), operand(b)) {
             (Infix::Add, Of(j), Of(k)) => Of(j + k),
             (Infix::Sub, Of(j), Of(k)) => Of(j - k),
             (Infix::Mul, Constant(c), Of(k)) | (Infix::Mul, Of(k), Constant(c)) => Of(c * k),
@@ -57,14 +57,19 @@ pub(crate) fn multiple(
 
 /// `op` of a multiple of θ as products, if it is a sine, cosine or tangent of kθ/2 with whole k,
 /// 0 < |k| ≤ 64.
-pub(crate) fn expand(op: Unary, of: Multiple, scope: &Scope, graph: &mut Graph) -> Option<NodeId> {
-    let Multiple::Of(factor) = of else { return None };
+pub(crate) fn expand(
+    op: Unary,
+    angle: Multiple,
+    scope: &Scope,
+    graph: &mut Graph,
+) -> Option<NodeId> {
+    let Multiple::Of(factor) = angle else { return None };
     let halves = 2.0 * factor;
     let fits = halves.fract() == 0.0 && halves != 0.0 && halves.abs() <= MAX_MULTIPLE;
     if !fits || !matches!(op, Unary::Sin | Unary::Cos | Unary::Tan) {
         return None;
     }
-    let turn = Turn::of(halves.abs() as u32, scope, graph)?;
+    let turn = Turn::of_halves(halves.abs() as u32, scope, graph)?;
     let sin = if halves < 0.0 { graph.neg(turn.sin) } else { turn.sin };
     Some(match op {
         Unary::Sin => sin,
@@ -82,7 +87,7 @@ struct Turn {
 
 impl Turn {
     /// e^{ikθ/2}, k > 0.
-    fn of(halves: u32, scope: &Scope, graph: &mut Graph) -> Option<Self> {
+    fn of_halves(halves: u32, scope: &Scope, graph: &mut Graph) -> Option<Self> {
         let [cos, sin] = scope.half_angles()?;
         let half = Self { cos: graph.input(cos), sin: graph.input(sin) };
         let mut product = (halves % 2 == 1).then_some(half);

@@ -41,10 +41,10 @@ impl Gpu {
     /// # Errors
     /// As [`Gpu::open`].
     pub async fn request(choice: AdapterChoice) -> Result<Self, GpuError> {
-        Self::of(&adapter::choose(choice).await?).await
+        Self::open_adapter(&adapter::choose(choice).await?).await
     }
 
-    async fn of(adapter: &Adapter) -> Result<Self, GpuError> {
+    async fn open_adapter(adapter: &Adapter) -> Result<Self, GpuError> {
         let descriptor = DeviceDescriptor {
             label: Some("ppum"),
             required_features: adapter.features() & Features::FLOAT32_BLENDABLE,

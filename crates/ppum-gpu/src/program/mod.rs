@@ -77,7 +77,7 @@ impl<'f, O: Output> Program<'f, O> {
     }
 
     /// The patch whose φ is drawn.
-    pub(crate) fn chosen(&self) -> Option<u32> {
+    pub(crate) fn drawn_patch(&self) -> Option<u32> {
         match self.output.quantity() {
             Quantity::PartitionFunction(patch) => Some(patch),
             _ => None,
@@ -86,7 +86,7 @@ impl<'f, O: Output> Program<'f, O> {
 
     /// The number of pipelines that are compiled.
     #[cfg(test)]
-    pub(crate) fn made(&self) -> usize {
+    pub(crate) fn n_compiled(&self) -> usize {
         self.pipelines.as_ref().map_or(0, |pipelines| pipelines.finish.len())
     }
 

@@ -53,7 +53,7 @@ impl Pipelines {
     ) -> Result<Self, GpuError> {
         let slots = (shader.method() == Method::Splat).then(|| shader.slots(layout));
         slots.map_or(Ok(()), |slots| check_splat(gpu, slots))?;
-        let sums = slots.map_or(0, Slots::all);
+        let sums = slots.map_or(0, Slots::textures);
         let [data, textures] = gpu.checked("describe the bindings", || {
             [data_layout(gpu), textures_layout(gpu, sums + 1)]
         })?;
@@ -87,7 +87,7 @@ impl Pipelines {
 
     /// Textures that patches are splatted into.
     pub(crate) fn sums(&self) -> usize {
-        self.splat.as_ref().map_or(0, |splat| splat.slots.all() as usize)
+        self.splat.as_ref().map_or(0, |splat| splat.slots.textures() as usize)
     }
 }
 
@@ -114,7 +114,7 @@ fn check_splat(gpu: &Gpu, slots: Slots) -> Result<(), GpuError> {
     if !gpu.info().blends_floats {
         return Err(GpuError::NoBlending { adapter: gpu.info().name.clone() });
     }
-    let needed = slots.all() + OTHER_TEXTURES;
+    let needed = slots.textures() + OTHER_TEXTURES;
     if needed > MOST_TEXTURES {
         return Err(GpuError::TooFewTextures { needed, most: MOST_TEXTURES });
     }

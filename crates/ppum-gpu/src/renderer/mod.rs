@@ -285,7 +285,7 @@ fn view_data<O: Output>(
     if let Some(shading) = program.output().shading() {
         shading.note(&mut data.record);
     }
-    if let Some(patch) = program.chosen() {
+    if let Some(patch) = program.drawn_patch() {
         data.record.chosen = on_card.bodies[patch as usize];
     }
     Ok(data)

@@ -211,7 +211,7 @@ mod tests {
     }
 
     /// The patches of the leaf that holds a point, by the shader's descent.
-    fn found(bins: &Bins, p: Vec2) -> &[u32] {
+    fn leaf_patches(bins: &Bins, p: Vec2) -> &[u32] {
         let t = p - bins.origin;
         let (mut x, mut y) = (t.x / bins.pitch.x, t.y / bins.pitch.y);
         let last = bins.size.map(|n| f64::from(n) - 1.0);
@@ -248,7 +248,7 @@ mod tests {
             let mut random = Random(seed);
             for _ in 0..2000 {
                 let p = random.point(&recipe.domain);
-                let list = found(&bins, p);
+                let list = leaf_patches(&bins, p);
                 let holds = |c: &Covered| c.support.contains(p);
                 let all = (0u32..).zip(&patches).filter(|(_, c)| holds(c)).map(|(i, _)| i);
                 for index in all {
@@ -290,12 +290,12 @@ mod tests {
     #[test]
     fn small_regions() {
         let none = Bins::new(UNIT, &[], 1e-9);
-        assert!(found(&none, vec2(0.5, 0.5)).is_empty());
+        assert!(leaf_patches(&none, vec2(0.5, 0.5)).is_empty());
         let large = Rect::around(Vec2::ZERO, vec2(1e9, 1e9));
         let one = [Covered { support: large, cell: vec2(1.5e9, 1.5e9) }];
         let bins = Bins::new(UNIT, &one, 1e-9);
         for p in [Vec2::ZERO, vec2(0.5, 0.25), vec2(1.0, 1.0)] {
-            assert_eq!(found(&bins, p), [0]);
+            assert_eq!(leaf_patches(&bins, p), [0]);
         }
     }
 }

@@ -85,7 +85,7 @@ pub(crate) struct Others {
 
 impl Others {
     /// Terms of a group.
-    fn of(group: u32, constants: bool) -> Self {
+    fn of_group(group: u32, constants: bool) -> Self {
         Self { constants, polynomials: !constants, group: constants.then_some(group) }
     }
 
@@ -170,7 +170,7 @@ impl Summary {
         for term in &terms.others {
             let is_constant =
                 |block: Option<usize>| block.is_some_and(|b| data.block_degree[b] == 0);
-            let all = Others::of(term.group, term.blocks.into_iter().all(is_constant));
+            let all = Others::of_group(term.group, term.blocks.into_iter().all(is_constant));
             let is_alone = terms.others.iter().filter(|t| t.group == term.group).count() == 1;
             let others = Others { group: all.group.filter(|_| is_alone), ..all };
             self.put((term.group, others), field.step.partition.support(patch));

@@ -32,7 +32,7 @@ pub(crate) struct Lattice {
 impl Lattice {
     /// The lattice of a partition; none if patches differ in size, cells do not lie in columns and
     /// rows, or polynomials have frames of their own.
-    pub(crate) fn of(partition: &BoxPartition) -> Option<Self> {
+    pub(crate) fn from_partition(partition: &BoxPartition) -> Option<Self> {
         let (pitch, half) = (partition.cell.first()?.size(), *partition.half.first()?);
         let alike = |&other: &Vec2| near(other.x, half.x) && near(other.y, half.y);
         let reaches_far = half.x >= pitch.x || half.y >= pitch.y;
@@ -123,16 +123,16 @@ mod tests {
     #[test]
     fn uniform_covers_are_lattices_and_others_are_not() {
         let mut cover = Cover::grid(DOMAIN, [7, 6]).expect("a grid");
-        assert_eq!(Lattice::of(&partition(&cover)).map(|l| l.size), Some([7, 6]));
+        assert_eq!(Lattice::from_partition(&partition(&cover)).map(|l| l.size), Some([7, 6]));
         cover.refine_leaves(&[3]).expect("a cover");
-        assert!(Lattice::of(&partition(&cover)).is_none());
+        assert!(Lattice::from_partition(&partition(&cover)).is_none());
     }
 
     /// The four patches of a bin are all that cover a point of it.
     #[test]
     fn bins_hold_all_that_cover() {
         let partition = partition(&Cover::uniform(DOMAIN, 3).expect("a cover"));
-        let lattice = Lattice::of(&partition).expect("a lattice");
+        let lattice = Lattice::from_partition(&partition).expect("a lattice");
         let bodies: Vec<u32> = (0..partition.len() as u32).map(|k| 10 * k).collect();
         let anchor = vec2(0.4, 0.7);
         let small = Rect::around(vec2(0.05, -0.11), vec2(0.2, 0.01));

@@ -132,7 +132,7 @@ impl OnCard {
         check_sizes(field, groups)?;
         let Bodies { parts, patches, shape, enriched } = Bodies::new(field, groups);
         let data = card.upload("the coefficients", &parts)?;
-        let (layout, lattice, levels) = SceneLayout::of(field, shape);
+        let (layout, lattice, levels) = SceneLayout::of_field(field, shape);
         let (gpu, bodies, region) = (Arc::clone(&card.gpu), patches, None);
         Ok(Self { gpu, layout, data, bodies, lattice, levels, enriched, region })
     }
@@ -176,14 +176,14 @@ impl OnCard {
 
 impl SceneLayout {
     /// That of a field, with its lattice or its levels if it has some.
-    pub(crate) fn of(
+    pub(crate) fn of_field(
         field: &Field<'_>,
         shape: BodyFacts,
     ) -> (Self, Option<Lattice>, Option<Levels>) {
         let (own_frames, partition) = (has_own_frames(field), field.step.partition.boxes());
-        let lattice = if own_frames { None } else { Lattice::of(partition) };
+        let lattice = if own_frames { None } else { Lattice::from_partition(partition) };
         let searched = !own_frames && lattice.is_none();
-        let levels = if searched { Levels::of(partition) } else { None };
+        let levels = if searched { Levels::from_partition(partition) } else { None };
         let layout = Self {
             components: Components::new(field.components()),
             shape,

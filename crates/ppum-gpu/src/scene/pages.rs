@@ -27,12 +27,12 @@ pub(crate) struct Levels {
     /// The largest half-extents.
     pub(crate) half: Vec2,
     /// How many times those of each patch are halved.
-    of: Vec<u8>,
+    halvings: Vec<u8>,
 }
 
 impl Levels {
     /// Those of a partition; none if there are other sizes.
-    pub(crate) fn of(partition: &BoxPartition) -> Option<Self> {
+    pub(crate) fn from_partition(partition: &BoxPartition) -> Option<Self> {
         let half = partition.half.iter().copied().reduce(Vec2::max)?;
         let level = |own: &Vec2| {
             let level = (half.x / own.x).log2().round();
@@ -41,8 +41,8 @@ impl Levels {
             let fits = level <= MOST_LEVELS && near(own.x, wanted.x) && near(own.y, wanted.y);
             fits.then_some(level as u8)
         };
-        let of = partition.half.iter().map(level).collect::<Option<_>>()?;
-        Some(Self { half, of })
+        let halvings = partition.half.iter().map(level).collect::<Option<_>>()?;
+        Some(Self { half, halvings })
     }
 }
 
@@ -95,7 +95,7 @@ impl Pages<'_> {
         push_seen(four, |patch| (center[patch] - self.anchor) - corner, words);
         words.extend(four.map(|patch| patch.map_or(NO_PATCH, |patch| self.bodies[patch])));
         let level = |k: usize| {
-            let levels = four[k].zip(self.levels).map(|(patch, levels)| levels.of[patch]);
+            let levels = four[k].zip(self.levels).map(|(patch, levels)| levels.halvings[patch]);
             u32::from(levels.unwrap_or_default()) << (8 * k)
         };
         words.extend([(0..FEW).map(level).sum(), is_followed.into(), 0, 0]);
@@ -141,7 +141,12 @@ mod tests {
 
     /// The shader's way from a point to what pages tell of it, in double precision: addresses,
     /// coordinates in the supports and in the frames of polynomials.
-    fn told(words: &[u32], bins: &Bins, pages: &Pages<'_>, p: Vec2) -> Vec<(u32, [Vec2; 2])> {
+    fn page_entries(
+        words: &[u32],
+        bins: &Bins,
+        pages: &Pages<'_>,
+        p: Vec2,
+    ) -> Vec<(u32, [Vec2; 2])> {
         let t = p - pages.anchor - bins.origin;
         let last = bins.size.map(|n| f64::from(n) - 1.0);
         let (i, j) =
@@ -187,7 +192,7 @@ mod tests {
         }
     }
 
-    /// Every patch that covers a point is told with the point's coordinates, to a few roundings of
+    /// Every patch that covers a point has an entry with its coordinates, to a few roundings of
     /// single precision.
     #[test]
     fn pages_tell_where_points_lie() {
@@ -196,7 +201,7 @@ mod tests {
             let recipe = Recipe { tip_level: 9, own_frames, overlap, ..Recipe::random(seed) };
             let (partition, anchor) = (recipe.partition(), recipe.domain.center());
             let bodies: Vec<u32> = (0..partition.len() as u32).map(|k| 3 * k + 1).collect();
-            let levels = if own_frames { None } else { Levels::of(&partition) };
+            let levels = if own_frames { None } else { Levels::from_partition(&partition) };
             assert!(own_frames || levels.is_some(), "quadtrees have levels");
             let bins = bins(&partition, recipe.domain, anchor);
             let levels = levels.as_ref();
@@ -211,7 +216,7 @@ mod tests {
             let mut random = Random(seed);
             for _ in 0..500 {
                 let p = random.point(&recipe.domain);
-                let told = told(&words, &bins, &pages, p);
+                let entries = page_entries(&words, &bins, &pages, p);
                 for k in (0..partition.len()).filter(|&k| partition.support(k).contains(p)) {
                     let at = |origin: Vec2, scale: Vec2| (p - origin).scaled_by(inverse(scale));
                     let exact = [
@@ -219,7 +224,7 @@ mod tests {
                         at(partition.origin[k], partition.scale[k]),
                     ];
                     let (_, found) =
-                        told.iter().find(|(body, _)| *body == bodies[k]).expect("a patch");
+                        entries.iter().find(|(body, _)| *body == bodies[k]).expect("a patch");
                     for (found, exact) in found.iter().zip(exact) {
                         let error = (*found - exact).length();
                         assert!(error < 8.0 * f64::from(f32::EPSILON), "{error:e} at {p:?}");
@@ -235,9 +240,9 @@ mod tests {
         let mut cover = Cover::grid(domain, [7, 6]).expect("a grid");
         cover.refine_leaves(&[3, 8]).expect("a cover");
         let mut partition = cover.partition(1.3, WeightFunction::Linear).expect("an overlap");
-        let levels = Levels::of(&partition).expect("a quadtree");
-        assert_eq!(levels.of.iter().max(), Some(&1));
+        let levels = Levels::from_partition(&partition).expect("a quadtree");
+        assert_eq!(levels.halvings.iter().max(), Some(&1));
         partition.half[5].x *= 1.001;
-        assert!(Levels::of(&partition).is_none());
+        assert!(Levels::from_partition(&partition).is_none());
     }
 }

@@ -104,7 +104,7 @@ impl ShaderText {
     }
 
     /// All shaders that a scene may need: those of the last pass, then those of splatting.
-    pub(crate) fn all(&self, layout: SceneLayout) -> Vec<String> {
+    pub(crate) fn shaders(&self, layout: SceneLayout) -> Vec<String> {
         let kinds = self.kinds(layout).into_iter().map(|kind| self.finish(layout, kind));
         let passes = self.slots(layout).passes().filter(|_| self.method == Method::Splat);
         kinds.chain(passes.map(|pass| self.splat(layout, pass))).collect()
@@ -175,7 +175,7 @@ impl ShaderText {
         };
         text + &palette_binding(match self.method {
             Method::Gather => 0,
-            Method::Splat => self.slots(layout).all(),
+            Method::Splat => self.slots(layout).textures(),
         })
     }
 

@@ -56,7 +56,7 @@ impl Slots {
     }
 
     /// All textures that the last pass adds up from.
-    pub(crate) fn all(self) -> u32 {
+    pub(crate) fn textures(self) -> u32 {
         self.weights + self.count()
     }
 

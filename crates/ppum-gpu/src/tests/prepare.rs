@@ -24,7 +24,7 @@ fn a_prepared_program_has_all_its_pipelines() {
     let center = field.domain.bounds.center();
     let views = [1.4, 0.6, 0.2].map(|width| View::new(center, width, [64, 48]).expect("a view"));
     renderer.prepare(&mut prepared, &views[0]).expect("it draws");
-    let made = prepared.made();
+    let made = prepared.n_compiled();
     for view in &views {
         let [a, b] = [&mut prepared, &mut other].map(|program| {
             let drawn =
@@ -33,5 +33,9 @@ fn a_prepared_program_has_all_its_pipelines() {
         });
         assert!(a == b, "the same picture");
     }
-    assert!(other.made() > 1 && prepared.made() == made, "{made}, {}", prepared.made());
+    assert!(
+        other.n_compiled() > 1 && prepared.n_compiled() == made,
+        "{made}, {}",
+        prepared.n_compiled()
+    );
 }

@@ -48,7 +48,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         out: &mut [T],
         zero: R,
     ) {
-        let list = tiles.of(self.column, self.band);
+        let list = tiles.patches_at(self.column, self.band);
         if self.scene.plan.has_grains {
             self.sum_grains(scratch, zero);
             scratch.listed.clear();
@@ -183,7 +183,10 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             let mut jet = [Jet::constant(zero)];
             let offset = self.offset(vector, row, zero);
             self.scene.functions.evaluate::<R, D>(group, offset, Side::Above, &mut jet);
-            store_slopes::<R, D>(Slopes::of(jet[0]), &mut basis[row * basis_stride::<R, D>()..]);
+            store_slopes::<R, D>(
+                Slopes::from_jet(jet[0]),
+                &mut basis[row * basis_stride::<R, D>()..],
+            );
         }
     }
 }
@@ -193,7 +196,7 @@ fn store_jets<R: Real, const D: usize>(jets: &[Jet<R>; GROUP], to: &mut [R::Scal
     let to = &mut to[..basis_stride::<R, D>()];
     let mut k = 0;
     while k < GROUP {
-        store_slopes::<R, D>(Slopes::of(jets[k]), &mut to[k * size::<R, D>()..]);
+        store_slopes::<R, D>(Slopes::from_jet(jets[k]), &mut to[k * size::<R, D>()..]);
         k += 1;
     }
 }

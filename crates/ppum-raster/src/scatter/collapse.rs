@@ -52,7 +52,7 @@ impl<R: Real> Slopes<R> {
     }
 
     #[inline(always)]
-    pub(super) fn of(jet: Jet<R>) -> Self {
+    pub(super) fn from_jet(jet: Jet<R>) -> Self {
         Self { v: jet.v, x: jet.x, y: jet.y }
     }
 
@@ -74,7 +74,7 @@ pub(super) const ANY: usize = usize::MAX;
 
 /// `constant` unless it is [`ANY`]: loops up to a constant unroll.
 #[inline(always)]
-pub(super) const fn known(constant: usize, number: usize) -> usize {
+pub(super) const fn constant_or(constant: usize, number: usize) -> usize {
     if constant == ANY { number } else { constant }
 }
 
@@ -114,7 +114,7 @@ fn collapse_degree<R: Real, const D: usize, const P: usize, const ADD: bool>(
     across: &Across<R>,
     table: &mut [R::Scalar],
 ) {
-    let degree = known(P, degree);
+    let degree = constant_or(P, degree);
     let coefficients = &coefficients[..monomials(degree)];
     let table = &mut table[..table_len::<R, D>(degree)];
     let mut j = degree + 1;
@@ -157,7 +157,7 @@ pub(super) fn evaluate<R: Real, const D: usize, const P: usize, const C: usize>(
     eta: R,
     scale: R,
 ) -> [Slopes<R>; C] {
-    let degree = known(P, degree);
+    let degree = constant_or(P, degree);
     let mut v = [Slopes::constant(eta.lit(0.0)); C];
     let (mut at, mut j) = (0, 0);
     while j <= degree {

@@ -5,7 +5,7 @@ use ppum::jet::Jet;
 use ppum::quantity::{Input, Quantity, QuantityBlock, QuantityFormula, Sample, Source};
 use ppum::real::{Real, Scalar};
 
-use super::collapse::{ANY, Slopes, known};
+use super::collapse::{ANY, Slopes, constant_or};
 use super::layout::{load_slopes, size};
 use super::tile::{Scratch, Tile};
 
@@ -55,7 +55,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         out: &mut [T],
         zero: R,
     ) {
-        let components = known(C, scratch.shift.len());
+        let components = constant_or(C, scratch.shift.len());
         // Two stay in registers.
         let mut pair = [Jet::constant(zero); 2];
         let mut many = Vec::new();

@@ -387,7 +387,7 @@ impl Tiles {
     }
 
     /// The patches that meet a tile, ascending.
-    pub(super) fn of(&self, column: usize, band: usize) -> &[u32] {
+    pub(super) fn patches_at(&self, column: usize, band: usize) -> &[u32] {
         let tile = self.index(column, band);
         &self.patches[self.starts[tile] as usize..self.starts[tile + 1] as usize]
     }

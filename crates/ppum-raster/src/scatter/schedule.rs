@@ -61,7 +61,7 @@ impl<'f> Schedule<'f> {
         let mut scratch = Scratch::default();
         scratch.shift.resize(self.scene.plan.coefficients.len(), 0.0);
         scratch.places.resize(self.scene.functions.table().groups(), 0);
-        let patches = tiles.of(column, row);
+        let patches = tiles.patches_at(column, row);
         tile.take_patches(patches, &mut scratch);
         let mut load =
             TileLoad { patches: patches.len(), first_batch: patches.len(), row_spans: 0 };

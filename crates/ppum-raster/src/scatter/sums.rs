@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use ppum::real::{Real, Scalar};
 
-use super::collapse::{ANY, Factor, ROWS, Slopes, evaluate, known, splat, table_len};
+use super::collapse::{ANY, Factor, ROWS, Slopes, constant_or, evaluate, splat, table_len};
 use super::layout::{basis_stride, load_slopes, size, store_slopes, weight_len};
 use super::strips::{BlockTerm, DOWN, Strip};
 use super::tile::Batch;
@@ -224,7 +224,7 @@ impl<'a, T: Scalar> RowSums<'a, T> {
         let all: &'a [Strip] = self.strips;
         let strip = &all[at];
         let terms: &'a [BlockTerm] = &self.terms[strip.terms.clone()];
-        let degree = known(P, terms[0].degree);
+        let degree = constant_or(P, terms[0].degree);
         let start = strip.table + weight_len::<R, D>() + component * strip.len;
         let smooth = self.tables_of::<R, D, C>(strip, start, degree);
         let start = start + table_len::<R, D>(degree);
@@ -267,7 +267,7 @@ impl<'a, T: Scalar> RowSums<'a, T> {
         eta: R,
     ) -> [Slopes<R>; C] {
         let scale = eta.lit(local.strip.frame.scale);
-        let degree = known(P, local.degree);
+        let degree = constant_or(P, local.degree);
         let mut v = evaluate::<R, D, P, C>(local.smooth, degree, eta, scale);
         let mut start = local.start;
         for term in local.others {

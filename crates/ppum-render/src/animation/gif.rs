@@ -38,7 +38,7 @@ impl<W: Write> Gif<W> {
     ) -> Result<Self, AnimationError> {
         let side = |n: u32| u16::try_from(n).map_err(|_| AnimationError::TooLarge { size });
         let size = [side(size[0])?, side(size[1])?];
-        let palette = Palette::of(colors);
+        let palette = Palette::new(colors);
         let mut encoder = Encoder::new(out, size[0], size[1], &palette.bytes())?;
         encoder.set_repeat(Repeat::Infinite)?;
         let delay = (milliseconds + 5) / 10;

@@ -25,7 +25,7 @@ pub(super) struct Palette {
 
 impl Palette {
     /// The palette of colours that were counted.
-    pub(super) fn of(colors: &ColorCounts) -> Self {
+    pub(super) fn new(colors: &ColorCounts) -> Self {
         let mut boxes = vec![ColorBox::new(colors.counted())];
         while boxes.len() < PLACES {
             let wide = boxes.iter().enumerate().filter(|(_, b)| b.spread > 0.0);

@@ -74,7 +74,7 @@ impl DeformedView<'_> {
             (DeformationMap::new(self.field(), self.anchor), self.field().domain.at(self.anchor));
         let mut face = |crack: &Crack, side: Side| {
             let mut paths = Joined::new(self);
-            for face in Face::all(crack, side, self.anchor) {
+            for face in Face::on_side(crack, side, self.anchor) {
                 let mut place = |o: Vec2| {
                     let is_plate = domain.contains(o);
                     is_plate.then(|| map.place(self, face.beside(o), side)).flatten()
@@ -170,7 +170,8 @@ struct Face {
 }
 
 impl Face {
-    fn all(crack: &Crack, side: Side, anchor: Vec2) -> impl Iterator<Item = Self> {
+    /// The faces of a side of a crack, in order.
+    fn on_side(crack: &Crack, side: Side, anchor: Vec2) -> impl Iterator<Item = Self> {
         let sign = if side == Side::Above { 1.0 } else { -1.0 };
         let last = crack.points.len() - 2;
         crack.points.windows(2).enumerate().map(move |(k, ends)| {

@@ -238,7 +238,7 @@ impl<'f> DeformedPoints<'f> {
             }
             parts.finish_one()
         })?;
-        Ok(self.shown(values))
+        Ok(self.with_overlap(values))
     }
 
     /// The picture of one value per patch: each pixel has that of the cell in which its point lies,
@@ -270,11 +270,11 @@ impl<'f> DeformedPoints<'f> {
             let seen = self.points[pair[0] as usize..pair[1] as usize].first();
             seen.map_or(f64::NAN, |point| value(near, point.offset))
         };
-        self.shown(self.starts.par_windows(2).map_init(Vec::new, of_pixel).collect())
+        self.with_overlap(self.starts.par_windows(2).map_init(Vec::new, of_pixel).collect())
     }
 
     /// The picture of one value per pixel.
-    fn shown(&self, values: Vec<f64>) -> DeformedRaster {
+    fn with_overlap(&self, values: Vec<f64>) -> DeformedRaster {
         let overlap = self.starts.windows(2).map(|pair| pair[1] - pair[0] > 1).collect();
         DeformedRaster { values: Raster::new(self.view.view.pixels, values), overlap }
     }

@@ -37,7 +37,12 @@ impl Bent {
 }
 
 /// Both sides of the parts of curved interfaces in a rectangle of offsets from an anchor.
-pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect, pixel: f64) -> Vec<Bent> {
+pub(super) fn bent_interfaces(
+    field: &Field<'_>,
+    anchor: Vec2,
+    rect: &Rect,
+    pixel: f64,
+) -> Vec<Bent> {
     let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
     let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
     let kinks: Vec<_> = kinks.filter(|kink| kink.line().is_none()).collect();

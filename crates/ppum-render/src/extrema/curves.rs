@@ -103,7 +103,7 @@ impl Arc {
 }
 
 /// All boundaries in a rectangle of offsets from an anchor.
-pub(super) fn all(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> Vec<BoundaryCurve> {
+pub(super) fn boundary_curves(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> Vec<BoundaryCurve> {
     let mut curves = borders(rect);
     for (index, crack) in (0..).zip(&field.step.cracks) {
         let local = LocalCrack::new(crack, anchor);

@@ -160,7 +160,7 @@ impl Extrema {
         quantity: &Quantity,
         raster: &Raster<T>,
     ) -> Option<Self> {
-        let rect = seen(field, view)?;
+        let rect = visible_bounds(field, view)?;
         let [value, parts] = even::value(field, quantity)?;
         // a formula may differ somewhere; single precision does so everywhere
         let is_same = |v: f64| v.is_nan() || (v - value).abs() <= PART * parts;
@@ -214,10 +214,10 @@ pub fn extrema<T: Sample>(
     let Ok(slope) = QuantityGradient::new(quantity, field) else {
         return Ok(Extrema::of_pixels(raster, view));
     };
-    let Some(rect) = seen(field, view) else { return Ok(None) };
+    let Some(rect) = visible_bounds(field, view) else { return Ok(None) };
     let points = singular::candidates(field, view.center, &rect);
-    let mut curves = curves::all(field, view.center, &rect);
-    let bent = bent::all(field, view.center, &rect, view.pixel_size());
+    let mut curves = curves::boundary_curves(field, view.center, &rect);
+    let bent = bent::bent_interfaces(field, view.center, &rect, view.pixel_size());
     curves.extend(bent.into_iter().map(|bent| BoundaryCurve::bent(bent, On::Interface)));
     let Some(mut samples) = samples(field, view, &curves, points.len()) else {
         return Ok(Extrema::of_pixels(raster, view));
@@ -420,7 +420,7 @@ impl Search<'_, '_> {
 }
 
 /// The part of the domain's box that a view shows, by offsets from its centre.
-fn seen(field: &Field<'_>, view: &View) -> Option<Rect> {
+fn visible_bounds(field: &Field<'_>, view: &View) -> Option<Rect> {
     let (half, bounds) = (view.half(), field.domain.bounds);
     let bounds = Rect::new(bounds.min - view.center, bounds.max - view.center);
     let rect = Rect::new(-half, half).intersection(&bounds);

@@ -72,7 +72,7 @@ pub(super) fn candidates(
     anchor: Vec2,
     rect: &Rect,
 ) -> Vec<(Vec2, SingularKind)> {
-    let mut all = known(field);
+    let mut all = tips_kinks_and_corners(field);
     all.retain(|(p, _)| rect.contains(*p - anchor));
     for function in &field.step.functions {
         if let FunctionKind::Formula { frame: Frame::Fixed { origin, .. }, .. } = function.kind
@@ -86,7 +86,7 @@ pub(super) fn candidates(
 }
 
 /// Tips, kinks and corners.
-fn known(field: &Field<'_>) -> Vec<(Vec2, SingularKind)> {
+fn tips_kinks_and_corners(field: &Field<'_>) -> Vec<(Vec2, SingularKind)> {
     let cracks = &field.step.cracks;
     let tip = |id: TipId| (cracks[id.crack as usize].end_point(id.end), SingularKind::Tip(id));
     let mut all: Vec<_> = tips(cracks).map(tip).collect();

@@ -18,7 +18,7 @@ use ppum_testkit::synthetic::{Coefficients, Recipe};
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 
 /// Extrema from a raster of the reference; one in f32 leads to the same values.
-fn found(field: &Field<'_>, view: &View, text: &str) -> Extrema {
+fn extrema_of(field: &Field<'_>, view: &View, text: &str) -> Extrema {
     let quantity = Quantity::parse(text, field).expect("a quantity");
     let raster = reference(field, view, &quantity, unwatched()).expect("a raster");
     let found = extrema(field, view, &quantity, &raster, unwatched()).expect("a search");
@@ -52,7 +52,7 @@ fn a_peak_inside_and_a_corner() {
     let field = Field::new(&dataset, 0).expect("a field");
     let bounds = dataset.domain.bounds;
     let view = View::fit(bounds, [37, 31]).expect("a view");
-    let all = found(&field, &view, "ux");
+    let all = extrema_of(&field, &view, "ux");
     assert!((all.max.value - 2.0).abs() < 1e-13, "{all:?}");
     assert!((all.max.offset - vec2(a, b)).length() < 1e-6 && all.max.on == On::Inside);
     // concave: least at a corner
@@ -94,7 +94,7 @@ fn random_fields_against_brute_force() {
         let field = Field::new(&dataset, 0).expect("a field");
         let view = View::hug(dataset.domain.bounds, [140, 110]).expect("a view");
         for text in ["ux", "syy"] {
-            let all = found(&field, &view, text);
+            let all = extrema_of(&field, &view, text);
             let quantity = Quantity::parse(text, &field).expect("a quantity");
             let mut local = field.at(view.center);
             let mut value = |p| quantity.at(&mut local, p, Side::Above);
@@ -140,7 +140,7 @@ fn where_cracks_meet() {
         let field = Field::new(&dataset, 0).expect("a field");
         let view = View::hug(dataset.domain.bounds, [200, 150]).expect("a view");
         for text in ["ux", "uy"] {
-            let all = found(&field, &view, text);
+            let all = extrema_of(&field, &view, text);
             let quantity = Quantity::parse(text, &field).expect("a quantity");
             let mut local = field.at(view.center);
             let mut value = |p| quantity.at(&mut local, p, Side::Above);
@@ -195,8 +195,8 @@ fn on_the_faces_of_a_crack() {
     let hill = format!("3*((x - {})^2 + (y - {})^2)", at.x, at.y);
     let along = |r: f64| r.sqrt() - 3.0 * (r - 0.04).powi(2);
     let expected = (0..1_000_000).map(|k| along(1e-6 * f64::from(k))).fold(0.0, f64::max);
-    let high = found(&field, &view, &format!("{opened} - {hill}")).max;
-    let low = found(&field, &view, &format!("{opened} + {hill}")).min;
+    let high = extrema_of(&field, &view, &format!("{opened} - {hill}")).max;
+    let low = extrema_of(&field, &view, &format!("{opened} + {hill}")).min;
     let segment = SegmentId { crack: 0, segment: 0 };
     assert!((high.value / expected - 1.0).abs() < 1e-9, "{high:?} {expected}");
     assert!((low.value / -expected - 1.0).abs() < 1e-9, "{low:?} {expected}");
@@ -222,7 +222,7 @@ fn on_the_rim_of_a_hole() {
         View::new(center + vec2(radius, 0.0) + shift * 1e-7, 5e-9, [33, 31]).expect("a view"),
     ];
     for view in &views {
-        let all = found(&field, view, &syy);
+        let all = extrema_of(&field, view, &syy);
         assert!((all.max.value - 3.0).abs() < 1e-6, "{all:?}");
         assert_eq!(all.max.on, On::Rim(0));
         let place = view.center + all.max.offset - center;
@@ -231,7 +231,7 @@ fn on_the_rim_of_a_hole() {
             "{place:?}"
         );
     }
-    let all = found(&field, &views[0], &sxx);
+    let all = extrema_of(&field, &views[0], &sxx);
     assert!((all.min.value + 1.0).abs() < 1e-6 && all.min.on == On::Rim(0), "{all:?}");
 }
 
@@ -246,7 +246,7 @@ fn rims_end_with_the_view() {
     let field = Field::new(&dataset, 0).expect("a field");
     // from 0.3 to 2.1 radii right of the centre and above it
     let view = View::new(center + vec2(1.2, 1.2) * radius, 1.8 * radius, [33, 33]).expect("a view");
-    let all = found(&field, &view, &syy);
+    let all = extrema_of(&field, &view, &syy);
     let exact = (1.0 + 2.0 * (1.0 - 2.0 * 0.09)) * (1.0 - 0.09);
     assert!((all.max.value - exact).abs() < 1e-5, "{all:?}, {exact}");
     for extremum in [all.min, all.max] {
@@ -263,25 +263,25 @@ fn infinite_at_a_tip() {
     let kind = SingularKind::Tip(TipId { crack: 0, end: End::Last });
     for width in [1.0, 1e-9] {
         let view = View::new(tip + vec2(0.1, 0.05) * width, width, [33, 31]).expect("a view");
-        let mises = found(&field, &view, "von-mises");
+        let mises = extrema_of(&field, &view, "von-mises");
         assert_eq!((mises.max.value, mises.max.on), (f64::INFINITY, On::Singular(kind)));
         assert!((mises.max.offset + view.center - tip).length() < 1e-16);
         assert!(mises.min.value > 0.0 && mises.min.on == On::Border, "{mises:?}");
-        let shear = found(&field, &view, "sxy");
+        let shear = extrema_of(&field, &view, "sxy");
         assert_eq!((shear.min.value, shear.max.value), (f64::NEG_INFINITY, f64::INFINITY));
         // rounding next to the tip is no minimum
-        let stress = found(&field, &view, "syy");
+        let stress = extrema_of(&field, &view, "syy");
         for extremum in [stress.min, stress.max].into_iter().filter(|e| e.value.is_finite()) {
             let away = (extremum.offset + (view.center - tip)).length();
             assert!(away > 0.999e-3 * view.pixel_size(), "{stress:?}");
         }
-        let value = found(&field, &view, "uy");
+        let value = extrema_of(&field, &view, "uy");
         assert!(value.singular.is_empty() && value.max.value.is_finite());
         let beside =
             View::new(tip + vec2(3.0, 3.0) * width * 0.2, width, [33, 31]).expect("a view");
-        let beside = found(&field, &beside, "von-mises");
+        let beside = extrema_of(&field, &beside, "von-mises");
         assert!(beside.max.value.is_finite() && beside.singular.is_empty());
-        let angle = found(&field, &view, "direction");
+        let angle = extrema_of(&field, &view, "direction");
         let quarter = std::f64::consts::FRAC_PI_2;
         assert!(angle.max.value <= quarter && angle.min.value >= -quarter, "{angle:?}");
     }
@@ -298,7 +298,7 @@ fn infinity_is_in_the_field_not_in_the_pixels() {
     let field = Field::new(&dataset, 0).expect("a field");
     for pixels in [[33, 31], [330, 310]] {
         let view = View::new(tip + vec2(0.1, 0.05), 1.0, pixels).expect("a view");
-        let mises = found(&field, &view, "von-mises");
+        let mises = extrema_of(&field, &view, "von-mises");
         assert_eq!(mises.max.value, f64::INFINITY, "{pixels:?}: {:?}", mises.max);
     }
 }
@@ -323,7 +323,7 @@ fn valleys_on_the_faces_of_a_tip() {
         let ahead = format!("({x}*({:?}) + {y}*({:?}))/{away}", d.x, d.y);
         let c = sign / r.sqrt();
         let text = format!("({opened}/{away} - ({c:?}))^2 + (1 + {ahead})*{:?}", 1.0 / r);
-        let least = found(&field, &view, &text).min;
+        let least = extrema_of(&field, &view, &text).min;
         let off = (least.offset + (view.center - tip) + d * r).length();
         let told = format!("{least:?} {side:?}, {} pixels", r / view.pixel_size());
         assert!(least.value.abs() < 1e-8 / r && off < 1e-3 * r, "{told}: {off}");
@@ -350,7 +350,7 @@ fn valleys_beside_a_tip() {
             let stress = Quantity::parse(name, &field).expect("a stress");
             format!("({name} - ({:?}))^2", stress.at(&mut local, there, Side::Above))
         });
-        let least = found(&field, &view, &near.join(" + ")).min;
+        let least = extrema_of(&field, &view, &near.join(" + ")).min;
         let away = (least.offset + (view.center - tip) - there).length();
         let scale = 1.0 / (r * view.pixel_size());
         assert!(least.value < 1e-8 * scale, "{least:?}, {r} pixels, {angle}");
@@ -372,7 +372,7 @@ fn at_an_interface_and_at_corners() {
     }];
     let field = Field::new(&dataset, 0).expect("a field");
     let view = View::fit(dataset.domain.bounds, [64, 51]).expect("a view");
-    let all = found(&field, &view, "sxx");
+    let all = extrema_of(&field, &view, "sxx");
     assert!((all.max.value - 2.7123).abs() < 1e-6 && all.max.on == On::Interface, "{all:?}");
     assert!((all.max.offset + view.center - vec2(0.7123, 0.1)).length() < 1e-4);
     assert!((all.min.value - 1.0).abs() < 1e-12);
@@ -394,7 +394,7 @@ fn at_a_round_interface() {
         Equation::Elasticity(Elasticity { young, poisson, state: StressState::PlaneStrain });
     let field = Field::new(&dataset, 0).expect("a field");
     let view = View::fit(dataset.domain.bounds, [91, 72]).expect("a view");
-    let all = found(&field, &view, "sxx");
+    let all = extrema_of(&field, &view, "sxx");
     let expected = 2.0 + 0.5 * 0.21 * 0.21;
     assert!((all.max.value - expected).abs() < 1e-8 && all.max.on == On::Interface, "{all:?}");
     let far = all.max.offset.length() - 0.21;

@@ -161,7 +161,7 @@ impl<'a, 'f> Marcher<'a, 'f> {
             let corners: Vec<f64> = tile.piece.corners.iter().map(|&c| self.value(c)).collect();
             return (0..n).map(|k| [corners[k], corners[(k + 1) % n]]).collect();
         }
-        (0..n).map(|k| [INSET, 1.0 - INSET].map(|t| self.value(tile.seen(k, t)))).collect()
+        (0..n).map(|k| [INSET, 1.0 - INSET].map(|t| self.value(tile.side_point(k, t)))).collect()
     }
 
     /// The place on a side where a level is passed, by Newton's method in a bracket; the same from
@@ -178,7 +178,7 @@ impl<'a, 'f> Marcher<'a, 'f> {
             if is_turned { ([b, a], [values[1], values[0]]) } else { ([a, b], values) };
         let is_face = tile.piece.faces[k];
         let mut along = |t: f64| {
-            let seen = tile.seen(k, if is_turned { 1.0 - t } else { t });
+            let seen = tile.side_point(k, if is_turned { 1.0 - t } else { t });
             let Slope { value, gradient } = self.slope(seen);
             (value - level, gradient.dot(b - a))
         };
@@ -285,7 +285,7 @@ impl Tile {
     }
 
     /// A point of a side, on faces as it is seen from inside.
-    fn seen(&self, k: usize, t: f64) -> Vec2 {
+    fn side_point(&self, k: usize, t: f64) -> Vec2 {
         let (a, b) = (self.piece.corners[k], self.next(k));
         // the same from both sides
         let p = if (b.x, b.y) < (a.x, a.y) { b + (a - b) * (1.0 - t) } else { a + (b - a) * t };

@@ -60,7 +60,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_4, TAU};
 
     /// A root of `f` with its derivative, and the number of evaluations.
-    fn found(f: impl Fn(f64) -> (f64, f64)) -> (Root, usize) {
+    fn root_and_count(f: impl Fn(f64) -> (f64, f64)) -> (Root, usize) {
         let mut count = 0;
         let mut counted = |t| {
             count += 1;
@@ -79,7 +79,7 @@ mod tests {
                 (&|t| (a * a - t * t, -2.0 * t), 14),
                 (&|t| ((t - a).cbrt(), ((t - a).cbrt().powi(-2)) / 3.0), 60),
             ] {
-                let (root, count) = found(f);
+                let (root, count) = root_and_count(f);
                 assert!((root.at - a).abs() < 1e-9 && root.jump.is_none(), "{a} {}", root.at);
                 assert!(count <= most, "{a}: {count} > {most}");
             }
@@ -93,22 +93,22 @@ mod tests {
         // an angle that turns slowly and jumps
         let angle = |t: f64| (if t < 0.37 { 1.2 + 0.3 * t } else { 0.3 * t - 1.9 }, 0.3);
         for f in [&step as &dyn Fn(f64) -> (f64, f64), &pole, &angle] {
-            let [a, b] = found(f).0.jump.expect("a jump");
+            let [a, b] = root_and_count(f).0.jump.expect("a jump");
             assert!(a <= 0.37 && 0.37 <= b && b - a < 1e-9, "{a} {b}");
         }
         // a plateau of zeros counts as below
         let plateau = |t: f64| (if t < 0.37 { 0.0 } else { 2.0 }, 0.0);
-        assert!((found(plateau).0.at - 0.37).abs() < 1e-9);
+        assert!((root_and_count(plateau).0.at - 0.37).abs() < 1e-9);
     }
 
     /// An end at a tip, or a wave with several roots: one of them is found.
     #[test]
     fn infinite_ends_and_many_roots() {
         let tip = |t: f64| (1.0 / t.sqrt() - 3.0, -0.5 * t.powf(-1.5));
-        assert!((found(tip).0.at - 1.0 / 9.0).abs() < 1e-9);
+        assert!((root_and_count(tip).0.at - 1.0 / 9.0).abs() < 1e-9);
         let wave = |t: f64| {
             ((2.25 * TAU * t - FRAC_PI_4).sin(), 2.25 * TAU * (2.25 * TAU * t - FRAC_PI_4).cos())
         };
-        assert!(wave(found(wave).0.at).0.abs() < 1e-7);
+        assert!(wave(root_and_count(wave).0.at).0.abs() < 1e-7);
     }
 }

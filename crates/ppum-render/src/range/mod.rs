@@ -338,7 +338,7 @@ impl<T: Sample> RangeInput<'_, T> {
         let min = below.iter().copied().fold(low, f64::min);
         let (_, &mut high, above) = values.select_nth_unstable_by(last - skip, f64::total_cmp);
         let max = above.iter().copied().fold(high, f64::max);
-        let [least, most] = self.known();
+        let [least, most] = self.usable_extrema();
         let (min, max) = (least.map_or(min, |v| min.min(v)), most.map_or(max, |v| max.max(v)));
         let scaled = |v: f64| if self.is_log { v.ln() } else { v };
         let slack = SLACK * (scaled(high) - scaled(low));
@@ -349,7 +349,7 @@ impl<T: Sample> RangeInput<'_, T> {
     }
 
     /// The extrema that are known, finite and usable.
-    fn known(&self) -> [Option<f64>; 2] {
+    fn usable_extrema(&self) -> [Option<f64>; 2] {
         let known = self.values.filter(|values| !values.is_of_pixels());
         let usable = |v: f64| (v.is_finite() && self.is_usable(v)).then(|| within(v));
         let both = known.map(|values| [values.min.value, values.max.value].map(usable));
@@ -369,7 +369,7 @@ impl<T: Sample> RangeInput<'_, T> {
         let pixels = self.usable().into_iter().fold(None, |bounds: Bounds, v| {
             Some(bounds.map_or((v, v), |(min, max)| (min.min(v), max.max(v))))
         });
-        let [min, max] = self.known();
+        let [min, max] = self.usable_extrema();
         let basis = if min.is_some() && max.is_some() { Basis::All } else { Basis::Pixels };
         let bounds = pixels.map(|(low, high)| {
             (min.map_or(low, |min| min.min(low)), max.map_or(high, |max| max.max(high)))

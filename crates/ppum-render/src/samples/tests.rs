@@ -22,7 +22,7 @@ fn polynomial(ux: &[f64]) -> Dataset {
     Recipe { cracks: vec![], degrees: vec![2], coefficients, ..Recipe::default() }.dataset()
 }
 
-fn drawn<T: Sample>(dataset: &Dataset, view: &View, quantity: &str, n: u8) -> Means<T> {
+fn means_of<T: Sample>(dataset: &Dataset, view: &View, quantity: &str, n: u8) -> Means<T> {
     let field = Field::new(dataset, 0).expect("a field");
     let quantity = Quantity::parse(quantity, &field).expect("a quantity");
     means(&field, view, &quantity, samples(n), unwatched()).expect("a picture")
@@ -48,7 +48,7 @@ fn the_mean_of_a_linear_field_is_the_value_at_the_centre() {
     let dataset = polynomial(&[0.3, -1.7, 0.9]);
     let view = inner([31, 23]);
     for n in COUNTS {
-        let found = drawn::<f64>(&dataset, &view, "ux", n);
+        let found = means_of::<f64>(&dataset, &view, "ux", n);
         assert!(found.undefined().is_empty() && found.opacity().iter().all(|&o| o == 255));
         for (i, j) in [(0, 0), (30, 0), (17, 22), (4, 9)] {
             let p = view.center - dataset.domain.bounds.center() + view.offset(i, j);
@@ -67,8 +67,8 @@ fn the_mean_of_a_square_is_that_of_the_midpoint_rule() {
     let view = inner([7, 5]);
     let h = view.pixel_size();
     for n in COUNTS {
-        let found = drawn::<f64>(&dataset, &view, "ux", n);
-        let narrow = drawn::<f32>(&dataset, &view, "ux", n);
+        let found = means_of::<f64>(&dataset, &view, "ux", n);
+        let narrow = means_of::<f32>(&dataset, &view, "ux", n);
         for (i, j) in [(0, 0), (6, 4), (3, 2)] {
             let p = view.center - dataset.domain.bounds.center() + view.offset(i, j);
             let spread = h * h * (1.0 - 1.0 / f64::from(n).powi(2)) / 12.0;
@@ -90,13 +90,13 @@ fn one_sample_is_the_centre() {
         let dataset = Recipe::random(seed).dataset();
         let field = Field::new(&dataset, 0).expect("a field");
         let view = View::new(vec2(0.8, 0.2), 1.7, [83, 67]).expect("a view");
-        let found = drawn::<f64>(&dataset, &view, "syy", 1);
+        let found = means_of::<f64>(&dataset, &view, "syy", 1);
         let quantity = Quantity::parse("syy", &field).expect("a quantity");
         let centers = render::<f64>(&field, &view, &quantity, unwatched()).expect("a picture");
         assert_eq!(bits(&found.raster), bits(&centers));
         assert_eq!(found.undefined(), centers.undefined(field.domain, &view));
         let narrow = render::<f32>(&field, &view, &quantity, unwatched()).expect("a picture");
-        let same = drawn::<f32>(&dataset, &view, "syy", 1).raster.values.into_iter();
+        let same = means_of::<f32>(&dataset, &view, "syy", 1).raster.values.into_iter();
         assert!(same.zip(narrow.values).all(|(a, b)| a.to_bits() == b.to_bits()));
         let solid = found.opacity().iter().filter(|&&opacity| opacity == 255).count();
         assert!(solid > 1000 && found.opacity().iter().all(|&opacity| opacity % 255 == 0));
@@ -126,7 +126,7 @@ fn strips_change_nothing() {
             assert_eq!(bits(&Raster::new(finer.pixels, all)), bits(&whole), "{rows}");
         }
         let at_once = Means::of(field.domain, &view, samples(n), &whole);
-        let found = drawn::<f64>(&dataset, &view, "von-mises", n);
+        let found = means_of::<f64>(&dataset, &view, "von-mises", n);
         assert_eq!(bits(&found.raster), bits(&at_once.raster));
         assert_eq!(found.inside, at_once.inside);
     }
@@ -152,7 +152,7 @@ fn opacity_is_the_share_of_the_area() {
     let view = View::new(vec2(0.85, 0.2), 0.5, [40, 40]).expect("a view");
     let h = view.pixel_size();
     for n in [4, 16] {
-        let found = drawn::<f64>(&dataset, &view, "ux", n);
+        let found = means_of::<f64>(&dataset, &view, "ux", n);
         let mut cut = 0;
         for (k, &opacity) in (0u32..).zip(&found.opacity()) {
             let p = view.center + view.offset(k % 40, k / 40);
@@ -184,7 +184,7 @@ fn means_at_a_tip() {
         let view = View::new(tip, width, pixels).expect("a view");
         let finer = view.finer(4).expect("a view");
         let values = reference(&field, &finer, &quantity, unwatched()).expect("a picture");
-        let found = drawn::<f64>(&dataset, &view, "syy", 4);
+        let found = means_of::<f64>(&dataset, &view, "syy", 4);
         let size = values.statistics().max;
         for (i, j) in [(0, 0), (4, 3), (8, 6), (2, 5)] {
             let all = (0..16).map(|k| values.value(4 * i + k % 4, 4 * j + k / 4));
@@ -192,9 +192,9 @@ fn means_at_a_tip() {
             assert!((found.raster.value(i, j) - mean).abs() < 1e-12 * size, "{width:e}");
         }
         // three by three samples meet the tip, where the stress is infinite
-        let through = drawn::<f64>(&dataset, &view, "syy", 3).raster.statistics();
+        let through = means_of::<f64>(&dataset, &view, "syy", 3).raster.statistics();
         assert_eq!((through.infinite, through.undefined), (0, 0));
-        assert_eq!(drawn::<f64>(&dataset, &view, "syy", 1).raster.statistics().infinite, 1);
+        assert_eq!(means_of::<f64>(&dataset, &view, "syy", 1).raster.statistics().infinite, 1);
     }
 }
 
@@ -205,15 +205,15 @@ fn what_has_no_value_does_not_count() {
     let view = View::new(vec2(0.8, 0.2), 0.4, [5, 5]).expect("a view");
     let (h, n) = (view.pixel_size(), 8);
     // √(x − 0.8): in the middle column the right half has values
-    let found = drawn::<f64>(&dataset, &view, "sqrt(ux)", n);
+    let found = means_of::<f64>(&dataset, &view, "sqrt(ux)", n);
     let right = (0..4).map(|k| ((f64::from(k) + 0.5) * h / 8.0).sqrt()).sum::<f64>() / 4.0;
     assert!((found.raster.value(2, 3) - right).abs() < 1e-14);
     assert!(found.raster.value(1, 3).is_nan() && found.opacity().iter().all(|&o| o == 255));
     assert_eq!(found.undefined(), [0, 1, 5, 6, 10, 11, 15, 16, 20, 21]);
     // all infinite: 1/0 of both signs, and of one
-    let one = drawn::<f64>(&dataset, &view, "-1/(ux - ux)^2", n);
+    let one = means_of::<f64>(&dataset, &view, "-1/(ux - ux)^2", n);
     assert!(one.raster.values.iter().all(|v| *v == f64::NEG_INFINITY));
-    let both = drawn::<f64>(&dataset, &view, "1/(0*ux)", n);
+    let both = means_of::<f64>(&dataset, &view, "1/(0*ux)", n);
     assert!(both.raster.value(2, 2).is_nan() && both.raster.value(3, 2) == f64::INFINITY);
 }
 
@@ -224,7 +224,7 @@ fn means_do_not_depend_on_threads() {
     let view = View::new(random.point(&dataset.domain.bounds), 0.9, [50, 50]).expect("a view");
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| drawn::<f64>(&dataset, &view, "tresca", 4))
+        pool.install(|| means_of::<f64>(&dataset, &view, "tresca", 4))
     };
     let (one, three) = (on(1), on(3));
     assert_eq!((bits(&one.raster), one.inside), (bits(&three.raster), three.inside));

@@ -55,7 +55,7 @@ impl Report {
             assert_eq!(expected.len(), found.len(), "{}: order {order}", case.place);
             for (&expected, &found) in expected.iter().zip(found) {
                 self.numbers += 1;
-                let limit = tolerance.of(&case.bounds[order], expected);
+                let limit = tolerance.limit(&case.bounds[order], expected);
                 let ratio = difference(found, expected) / limit;
                 if ratio > 1.0 {
                     failure += &format!(

@@ -57,7 +57,7 @@ pub const SHADER: Tolerance = Tolerance {
 impl Tolerance {
     /// The largest allowed difference from `expected`, the corpus' number as a double.
     #[must_use]
-    pub fn of(&self, bound: &Bound, expected: f64) -> f64 {
+    pub fn limit(&self, bound: &Bound, expected: f64) -> f64 {
         let inputs = if self.rounds_inputs { bound.inputs } else { 0.0 };
         let rounding =
             self.arithmetic * bound.arithmetic + self.functions * bound.functions + inputs;

@@ -44,7 +44,7 @@ impl Case {
         }
     }
 
-    fn seen(self, windows: Vec<Window>) -> Self {
+    fn with_windows(self, windows: Vec<Window>) -> Self {
         Self { windows, ..self }
     }
 
@@ -113,7 +113,7 @@ pub fn functions() -> Vec<Case> {
         Case::new("tip functions without a kernel", &formulas, SOME),
         Case::new("other tip functions", &others, SOME),
         Case::new("formulas in fixed frames and with sides", &sides, SOME),
-        Case::new("several cracks", &cracks, SOME).seen(vec![whole([147, 111])]),
+        Case::new("several cracks", &cracks, SOME).with_windows(vec![whole([147, 111])]),
         Case::new("a function of a table", &extra_of_one("x*y^2"), SOME).with(tabulate),
     ];
     for components in [1, 3, 4, 6] {
@@ -160,7 +160,7 @@ pub fn junctions() -> Vec<Case> {
     };
     let one = Recipe { components: 1, weight: WeightFunction::Cubic, ..Recipe::meeting() };
     vec![
-        Case::new("junctions", &graded, SOME).seen(vec![whole([151, 113])]),
+        Case::new("junctions", &graded, SOME).with_windows(vec![whole([151, 113])]),
         Case::new("junctions in large patches", &coarse, SOME),
         Case::new("junctions of unrelated patches", &random, SOME),
         Case::new("junctions of a potential", &one, &["gradient", "u"]),
@@ -186,7 +186,7 @@ pub fn equations() -> Vec<Case> {
     let one = Recipe { components: 1, ..coarse.clone() };
     let conductivity = expression("1 + 0.5*sin(3*x)");
     vec![
-        Case::new("all quantities", &coarse, &elastic).seen(vec![whole([89, 67])]),
+        Case::new("all quantities", &coarse, &elastic).with_windows(vec![whole([89, 67])]),
         Case::new("plane stress", &coarse, &["von-mises", "szz"])
             .with(|d| d.equation = Equation::elasticity(stress)),
         Case::new("materials by region", &coarse, &["von-mises", "energy"])
@@ -223,9 +223,9 @@ pub fn wholes() -> Vec<Case> {
     let patch = vec2(0.2 + 1.0 / 6.0, -0.3 + 1.0 / 6.0);
     let alone = vec![seen(patch, 0.11, [65, 33]), seen(patch, 1e-8, [33, 65])];
     vec![
-        Case::new("partly and wholly outside", &Recipe::default(), SOME).seen(windows),
-        Case::new("inside one patch", &inside, SOME).seen(alone),
-        Case::new("unrelated patches", &unrelated(), SOME).seen(vec![whole([101, 75])]),
+        Case::new("partly and wholly outside", &Recipe::default(), SOME).with_windows(windows),
+        Case::new("inside one patch", &inside, SOME).with_windows(alone),
+        Case::new("unrelated patches", &unrelated(), SOME).with_windows(vec![whole([101, 75])]),
     ]
 }
 
@@ -251,7 +251,7 @@ pub fn zooms() -> Case {
         .iter()
         .flat_map(|place| ZOOMS.map(|zoom| zoomed(&recipe, place(zoom), zoom)))
         .collect();
-    Case::new("zooms", &recipe, SOME).seen(windows)
+    Case::new("zooms", &recipe, SOME).with_windows(windows)
 }
 
 const ZOOMS: [f64; 5] = [1.0, 1e3, 1e6, 1e9, 1e12];
@@ -271,5 +271,5 @@ pub fn junction_zooms() -> Case {
     let places = recipe.junctions.iter().map(|place| place.center).chain([middle]);
     let seen = places.flat_map(|at| ZOOMS[1..].iter().map(move |&zoom| (at, zoom)));
     let windows = seen.map(|(at, zoom)| zoomed(&recipe, at, zoom)).collect();
-    Case::new("zooms to junctions", &recipe, SOME).seen(windows)
+    Case::new("zooms to junctions", &recipe, SOME).with_windows(windows)
 }

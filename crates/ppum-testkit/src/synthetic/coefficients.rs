@@ -314,7 +314,8 @@ impl CoefficientMaker<'_> {
         for (junction, (place, components)) in
             self.recipe.junctions.iter().zip(&self.around).enumerate()
         {
-            let (share, k) = (cut_off(p - place.center, 0.5 * place.radius), components.of(p));
+            let (share, k) =
+                (cut_off(p - place.center, 0.5 * place.radius), components.containing(p));
             for (component, jet) in jets.iter_mut().enumerate() {
                 *jet = jet.plus::<2>(share.scaled::<2>(level(junction, k, component)));
             }

@@ -61,7 +61,7 @@ impl Components {
 
     /// The component of a point of the box.
     #[must_use]
-    pub fn of(&self, p: Vec2) -> usize {
+    pub fn containing(&self, p: Vec2) -> usize {
         self.of_cell[self.cell(p)]
     }
 
@@ -269,7 +269,10 @@ mod tests {
                 let d = p - center;
                 let angle = d.y.atan2(d.x);
                 let sector = angles.iter().filter(|&&a| a < angle).count() % angles.len();
-                assert_eq!(*seen.entry(sector).or_insert(components.of(p)), components.of(p));
+                assert_eq!(
+                    *seen.entry(sector).or_insert(components.containing(p)),
+                    components.containing(p)
+                );
             }
             let distinct: std::collections::BTreeSet<_> = seen.values().collect();
             assert_eq!(distinct.len(), seen.len(), "{angles:?}");

@@ -91,7 +91,7 @@ mod tests {
         let around = recipe.junctions.iter().zip(around(recipe)).enumerate();
         for (k, (place, components)) in around {
             let share = cut_off(p - place.center, 0.5 * place.radius).v;
-            sum += level(k, components.of(p), 0) * share;
+            sum += level(k, components.containing(p), 0) * share;
         }
         sum
     }

@@ -94,6 +94,6 @@ pub fn with_wrong_derivative(text: String) -> String {
 pub fn tells_wrong_derivative(case: &Case) -> bool {
     let last = case.expected.len() - 1;
     let expected = case.expected[last][case.expected[last].len() - 1];
-    let limit = SHADER.of(&case.bounds[last], expected);
+    let limit = SHADER.limit(&case.bounds[last], expected);
     last > 0 && case.not_single.is_none() && 1.0 + expected.abs() > 2.0 * limit
 }

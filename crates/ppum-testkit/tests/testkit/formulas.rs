@@ -50,7 +50,7 @@ fn wrong_expectations_fail() {
         let last = case.expected.len() - 1;
         let bound = case.bounds[last];
         if let Some(expected) = case.expected[last].iter_mut().find(|v| v.is_finite()) {
-            *expected += 4.0 * SCALAR.of(&bound, *expected).max(f64::MIN_POSITIVE);
+            *expected += 4.0 * SCALAR.limit(&bound, *expected).max(f64::MIN_POSITIVE);
             changed += 1;
         }
     }

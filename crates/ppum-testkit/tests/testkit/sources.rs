@@ -20,7 +20,7 @@ struct Crate {
 pub(crate) fn imports(sources: &Path) -> Imports {
     let mut found = Crate { code: code(sources), names: BTreeMap::new() };
     found.names = found.code.keys().map(|m| (m.clone(), found.names_of(m))).collect();
-    found.code.keys().map(|module| (module.clone(), found.of(module))).collect()
+    found.code.keys().map(|module| (module.clone(), found.imports_of(module))).collect()
 }
 
 /// The code of the modules below a folder of sources, without comments and unit tests.
@@ -88,7 +88,7 @@ impl Crate {
         used(&self.code[module]).iter().filter_map(of).collect()
     }
 
-    fn of(&self, module: &Module) -> BTreeSet<Module> {
+    fn imports_of(&self, module: &Module) -> BTreeSet<Module> {
         let code = &self.code[module];
         let paths = used(code).into_iter().chain(inline(code));
         let places = paths.filter_map(|path| self.absolute(module, path.split(" as ").next()?));

@@ -3,8 +3,8 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
+use super::anchored::AnchoredCracks;
 use super::kinds::Frame;
-use super::seen::AnchoredCracks;
 use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
 use crate::jet::Jet;
 use crate::vec2::{Vec2, vec2};
@@ -86,12 +86,12 @@ impl Formulas {
         self.compiled.jets[2].n_operations()
     }
 
-    /// The functions as they see the cracks.
-    pub(super) fn seen(&self, seen: &AnchoredCracks<'_>) -> LocalFormulas<'_> {
-        let used = |(crack, &used): (u32, &bool)| used.then(|| seen.crack(crack));
+    /// The functions as seen from the anchor of the cracks.
+    pub(super) fn anchored(&self, cracks: &AnchoredCracks<'_>) -> LocalFormulas<'_> {
+        let used = |(crack, &used): (u32, &bool)| used.then(|| cracks.crack(crack));
         LocalFormulas {
             compiled: &self.compiled,
-            frame: LocalFrame::new(seen, self.frame),
+            frame: LocalFrame::new(cracks, self.frame),
             cracks: (0..).zip(&self.compiled.uses[POLAR..]).map(used).collect(),
         }
     }
@@ -110,14 +110,14 @@ enum LocalFrame {
 }
 
 impl LocalFrame {
-    fn new(seen: &AnchoredCracks<'_>, frame: Frame) -> Self {
-        let anchor = seen.anchor;
+    fn new(cracks: &AnchoredCracks<'_>, frame: Frame) -> Self {
+        let anchor = cracks.anchor;
         match frame {
             Frame::World => Self::Fixed { from_origin: anchor, axis: vec2(1.0, 0.0) },
             Frame::Fixed { origin, angle } => {
                 Self::Fixed { from_origin: anchor - origin, axis: vec2(angle.cos(), angle.sin()) }
             }
-            Frame::Tip(tip) => Self::Tip(seen.tip(tip)),
+            Frame::Tip(tip) => Self::Tip(cracks.tip(tip)),
             Frame::Levels(_) => Self::Levels,
         }
     }

@@ -13,7 +13,7 @@
 //!      inside   outside
 //! ```
 
-use super::seen::AnchoredCracks;
+use super::anchored::AnchoredCracks;
 use crate::crack::{LocalSegment, SegmentId, Side};
 use ppum_formula::real::Real;
 

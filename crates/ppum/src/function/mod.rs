@@ -1,9 +1,9 @@
 //! The function table: the f_b of function × polynomial.
 
+mod anchored;
 mod formulas;
 mod indicator;
 mod kinds;
-mod seen;
 mod table;
 mod westergaard;
 

@@ -7,10 +7,10 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
+use super::anchored::AnchoredCracks;
 use super::formulas::{Formulas, GROUP, LocalFormulas};
 use super::indicator::{Cut, LocalIndicator};
 use super::kinds::{Frame, Function, FunctionKind};
-use super::seen::AnchoredCracks;
 use super::westergaard::westergaard;
 use crate::crack::{Crack, LocalCrack, LocalTip, SegmentId, Side, TipId, TipPoint};
 use crate::jet::Jet;
@@ -404,7 +404,7 @@ pub fn function_scope(
 #[derive(Clone, Debug)]
 pub struct LocalFunctions<'t> {
     table: &'t FunctionTable,
-    seen: AnchoredCracks<'t>,
+    cracks: AnchoredCracks<'t>,
     /// Groups of a page.
     page: usize,
     pages: Vec<OnceLock<Page<'t>>>,
@@ -424,9 +424,9 @@ enum LocalGroup<'t> {
 
 impl<'t> LocalFunctions<'t> {
     /// As many pages as a page has places.
-    fn new(table: &'t FunctionTable, seen: AnchoredCracks<'t>) -> Self {
+    fn new(table: &'t FunctionTable, cracks: AnchoredCracks<'t>) -> Self {
         let page = table.groups.len().isqrt() + 1;
-        Self { table, seen, page, pages: vec![OnceLock::new(); page] }
+        Self { table, cracks, page, pages: vec![OnceLock::new(); page] }
     }
 
     #[inline(always)]
@@ -440,11 +440,13 @@ impl<'t> LocalFunctions<'t> {
     fn form(&self, group: usize) -> &LocalGroup<'t> {
         let page = self.pages[group / self.page].get_or_init(|| vec![OnceLock::new(); self.page]);
         page[group % self.page].get_or_init(|| match &self.table.groups[group] {
-            &Group::Side(crack) => LocalGroup::Side(self.seen.crack(crack)),
-            &Group::Westergaard(tip) => LocalGroup::Westergaard(self.seen.tip(tip)),
-            Group::Component(cuts) => LocalGroup::Component(LocalIndicator::new(cuts, &self.seen)),
+            &Group::Side(crack) => LocalGroup::Side(self.cracks.crack(crack)),
+            &Group::Westergaard(tip) => LocalGroup::Westergaard(self.cracks.tip(tip)),
+            Group::Component(cuts) => {
+                LocalGroup::Component(LocalIndicator::new(cuts, &self.cracks))
+            }
             Group::Level(_) => LocalGroup::Level,
-            Group::Formulas(formulas) => LocalGroup::Formulas(formulas.seen(&self.seen)),
+            Group::Formulas(formulas) => LocalGroup::Formulas(formulas.anchored(&self.cracks)),
         })
     }
 

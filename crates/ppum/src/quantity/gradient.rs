@@ -118,7 +118,7 @@ impl QuantityGradient {
     #[must_use]
     pub fn at(&self, local: &mut LocalField<'_>, offset: Vec2, side: Side) -> Slope {
         if matches!(self.rule, Rule::Partition) {
-            return self.of_partition(local, offset).map_or(Slope::NOWHERE, Slope::of);
+            return self.of_partition(local, offset).map_or(Slope::NOWHERE, Slope::from_jet);
         }
         let mut jets = vec![Jet::constant(0.0); local.field.components()];
         let inside = match self.rule {
@@ -153,14 +153,16 @@ impl QuantityGradient {
 
     /// Value and gradient where the field is known to its second derivatives; NaN outside
     /// the domain.
-    pub(crate) fn known(
+    pub(crate) fn slope_from_jets(
         &self,
         local: &mut LocalField<'_>,
         offset: Vec2,
         jets: &[Jet<f64>],
     ) -> Slope {
         match self.rule {
-            Rule::Partition => self.of_partition(local, offset).map_or(Slope::NOWHERE, Slope::of),
+            Rule::Partition => {
+                self.of_partition(local, offset).map_or(Slope::NOWHERE, Slope::from_jet)
+            }
             _ if local.has_values(offset, jets) => self.of_jets(local, offset, jets),
             _ => Slope::NOWHERE,
         }
@@ -171,9 +173,9 @@ impl QuantityGradient {
         let value = self.quantity.of_values(local, offset, jets);
         let gradient = match &self.rule {
             Rule::Partition => vec2(f64::NAN, f64::NAN),
-            Rule::Component(c) => of(&jets[*c]),
-            Rule::Derivative(c, axis) => of_derivative(&jets[*c], *axis),
-            Rule::Norm => norm(jets.iter().map(|u| (u.v, of(u))), value),
+            Rule::Component(c) => gradient(&jets[*c]),
+            Rule::Derivative(c, axis) => gradient_of_derivative(&jets[*c], *axis),
+            Rule::Norm => norm(jets.iter().map(|u| (u.v, gradient(u))), value),
             Rule::GradientNorm => norm(jets.iter().flat_map(derivatives), value),
             Rule::Error(exact) => {
                 let p = local.anchor + offset;
@@ -200,8 +202,8 @@ impl Slope {
     /// Outside the domain.
     const NOWHERE: Self = Self { value: f64::NAN, gradient: vec2(f64::NAN, f64::NAN) };
 
-    fn of(jet: Jet<f64>) -> Self {
-        Self { value: jet.v, gradient: of(&jet) }
+    fn from_jet(jet: Jet<f64>) -> Self {
+        Self { value: jet.v, gradient: gradient(&jet) }
     }
 }
 
@@ -293,20 +295,20 @@ impl Input {
             Self::Lambda => modulus(|m| m.lambda),
             Self::OutOfPlane => modulus(|m| m.out_of_plane),
             Self::Conductivity => modulus(|m| m.conductivity),
-            Self::Value(c) => of(&jets[c]),
-            Self::SlopeX(c) => of_derivative(&jets[c], Axis::X),
-            Self::SlopeY(c) => of_derivative(&jets[c], Axis::Y),
+            Self::Value(c) => gradient(&jets[c]),
+            Self::SlopeX(c) => gradient_of_derivative(&jets[c], Axis::X),
+            Self::SlopeY(c) => gradient_of_derivative(&jets[c], Axis::Y),
         }
     }
 }
 
 /// ∇u
-fn of(u: &Jet<f64>) -> Vec2 {
+fn gradient(u: &Jet<f64>) -> Vec2 {
     vec2(u.x, u.y)
 }
 
 /// ∇(∂u/∂x) or ∇(∂u/∂y)
-fn of_derivative(u: &Jet<f64>, axis: Axis) -> Vec2 {
+fn gradient_of_derivative(u: &Jet<f64>, axis: Axis) -> Vec2 {
     match axis {
         Axis::X => vec2(u.xx, u.xy),
         Axis::Y => vec2(u.xy, u.yy),
@@ -315,14 +317,14 @@ fn of_derivative(u: &Jet<f64>, axis: Axis) -> Vec2 {
 
 /// Both derivatives with their gradients.
 fn derivatives(u: &Jet<f64>) -> [(f64, Vec2); 2] {
-    [(u.x, of_derivative(u, Axis::X)), (u.y, of_derivative(u, Axis::Y))]
+    [(u.x, gradient_of_derivative(u, Axis::X)), (u.y, gradient_of_derivative(u, Axis::Y))]
 }
 
 /// u − u_exact with its gradient.
 fn difference(u: &Jet<f64>, exact: &FormulaJets, p: Vec2) -> (f64, Vec2) {
     let mut out = [0.0; 3];
     exact.evaluate(&[p.x, p.y], &mut Vec::new(), &mut out);
-    (u.v - out[0], of(u) - vec2(out[1], out[2]))
+    (u.v - out[0], gradient(u) - vec2(out[1], out[2]))
 }
 
 /// ∇|v| = Σ v ∇v / |v|

@@ -60,7 +60,7 @@ impl Wanted<'_> {
             }
             Self::Slopes(slopes) => {
                 for (numbers, slope) in row.as_chunks_mut::<3>().0.iter_mut().zip(*slopes) {
-                    let found = slope.known(local, offset, jets);
+                    let found = slope.slope_from_jets(local, offset, jets);
                     *numbers = [found.value, found.gradient.x, found.gradient.y];
                 }
             }

@@ -29,7 +29,7 @@ pub fn seeds() -> Vec<Seed> {
     let folder = folder().join("hostile");
     let lines = std::fs::read_to_string(folder.join("texts.txt")).expect("the file is kept");
     let lines = (1..).zip(lines.lines());
-    let mut seeds: Vec<Seed> = records(&folder.join("recipes.txt")).iter().map(cooked).collect();
+    let mut seeds: Vec<Seed> = records(&folder.join("recipes.txt")).iter().map(expanded).collect();
     seeds.extend(
         lines.map(|(k, line)| Seed { name: format!("texts.txt:{k}"), text: unescaped(line) }),
     );
@@ -51,7 +51,7 @@ pub fn valid_seeds() -> Vec<Seed> {
 
 /// A recipe's text: its parts, each repeated, `{n}` and `{m}` being the number of the repetition
 /// counted from 0 and from 1.
-fn cooked(record: &Record) -> Seed {
+fn expanded(record: &Record) -> Seed {
     let part = |count: &str, quoted: &str| -> String {
         let count: usize = count.parse().unwrap_or_else(|_| record.fail("expected a count"));
         let part = quoted.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
