@@ -108,6 +108,15 @@ pub(crate) enum Comparison {
 }
 
 impl Comparison {
+    /// The operator, in formulas and in WGSL.
+    pub(crate) fn symbol(self) -> &'static str {
+        match self {
+            Self::Less => "<",
+            Self::LessEqual => "<=",
+            Self::Equal => "==",
+        }
+    }
+
     /// Whether it holds; never for NaN.
     #[expect(clippy::float_cmp, reason = "`==` of formulas is exact")]
     pub(crate) fn holds(self, a: f64, b: f64) -> bool {

@@ -6,7 +6,7 @@ use crate::graph::{NodeId, Op};
 use crate::language::ast::precedence;
 use crate::language::scope::Scope;
 use crate::library::{Function, name_of};
-use crate::operation::{Binary, Comparison, Unary};
+use crate::operation::{Binary, Unary};
 use crate::program::Program;
 
 /// Longer or deeper pieces of text get a name by `let`, as shared ones do: it keeps the text
@@ -112,7 +112,9 @@ impl<'a> Printer<'a> {
                 strength: precedence::COMPARISON,
                 depth: 0,
             },
-            Op::Compare(op, a, b) => self.infix(a, sign(op), b, precedence::COMPARISON),
+            Op::Compare(op, a, b) => {
+                self.infix(a, &format!(" {} ", op.symbol()), b, precedence::COMPARISON)
+            }
             Op::Not(a) => self.prefix("not ", a, precedence::COMPARISON, precedence::NOT),
             Op::And(a, b) => self.infix(a, " and ", b, precedence::AND),
             Op::Or(a, b) => self.infix(a, " or ", b, precedence::OR),
@@ -236,12 +238,4 @@ fn number(value: f64) -> PrintedTerm {
     let text = text.strip_suffix(".0").unwrap_or(&text).to_owned();
     let strength = if text.starts_with('-') { precedence::MINUS } else { precedence::ATOM };
     PrintedTerm { text, strength, depth: 0 }
-}
-
-fn sign(op: Comparison) -> &'static str {
-    match op {
-        Comparison::Less => " < ",
-        Comparison::LessEqual => " <= ",
-        Comparison::Equal => " == ",
-    }
 }

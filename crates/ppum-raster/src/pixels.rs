@@ -36,7 +36,7 @@ impl<'v> Pixels<'v> {
     /// Some columns and rows of the view in the world, enlarged by the margin; there is one of each
     /// at least.
     #[must_use]
-    pub fn window_of(&self, [columns, rows]: [Range<usize>; 2]) -> Rect {
+    pub(crate) fn window_of(&self, [columns, rows]: [Range<usize>; 2]) -> Rect {
         let margin = (0.5 + self.margin) / self.density;
         let around = vec2(margin, margin);
         let [first, last] = [columns.start, columns.end - 1];

@@ -127,16 +127,6 @@ impl View {
         Self::new(self.center, self.width / factor, self.pixels)
     }
 
-    /// The picture magnified `factor` times so that the point at a continuous pixel position stays
-    /// where it is.
-    ///
-    /// # Errors
-    /// As [`View::new`].
-    pub fn zoom_at(&self, pixel: Vec2, factor: f64) -> Result<Self, ViewError> {
-        let shift = self.offset_at(pixel) * (1.0 - 1.0 / factor);
-        Self::new(self.center + shift, self.width / factor, self.pixels)
-    }
-
     /// The same window with `n` × `n` pixels in place of each: the centre of pixel (n i + a, n j +
     /// b) lies at ((a + 1/2)/n, (b + 1/2)/n) of pixel (i, j), as exactly as centres lie anywhere.
     /// It may have more than [`MAX_PIXELS`], and is then drawn in strips

@@ -39,7 +39,7 @@ use crate::progress::{Cancelled, Phase, Progress, Watcher};
 use crate::quantity::Quantity;
 use crate::sides::Segments;
 use crate::vec2::{Rect, Vec2, vec2};
-pub use crossings::{Curve, Passage, passages, passages_from};
+pub use crossings::{Curve, Passage, passages_from};
 pub use each::{Wanted, evaluate_each};
 pub use place::{Place, settle};
 pub use seats::Seats;

@@ -7,11 +7,21 @@ pub type Segment = [Vec2; 2];
 
 /// Distance of `p` to a segment, to rounding of p − a and b − a.
 #[must_use]
-pub fn distance([a, b]: Segment, p: Vec2) -> f64 {
+pub fn distance(segment @ [a, b]: Segment, p: Vec2) -> f64 {
+    ((p - a) - (b - a) * closest_part(segment, p)).length()
+}
+
+/// The point of a segment that is closest to `p`.
+#[must_use]
+pub fn closest_point(segment @ [a, b]: Segment, p: Vec2) -> Vec2 {
+    a + (b - a) * closest_part(segment, p)
+}
+
+/// The part of its length, from 0 to 1, at which a segment is closest to `p`.
+fn closest_part([a, b]: Segment, p: Vec2) -> f64 {
     let (d, q) = (b - a, p - a);
     let square = d.dot(d);
-    let s = if square > 0.0 { (q.dot(d) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (q - d * s).length()
+    if square > 0.0 { (q.dot(d) / square).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// Distance of `p` to a polyline; ∞ if it has fewer than two points.

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use crate::graph::{NodeId, Op};
 use crate::language::scope::{Scope, VARIABLES};
-use crate::operation::{Binary, Comparison, Unary};
+use crate::operation::{Binary, Unary};
 use crate::program::Program;
 use crate::table::Table;
 use crate::wgsl::number::number;
@@ -162,7 +162,7 @@ impl Results<'_> {
             Op::Unary(op, a) => unary(op, at(a)),
             Op::Binary(op, a, b) => binary(op, at(a), at(b)),
             Op::Select(c, a, b) => format!("select({}, {}, {})", at(b), at(a), at(c)),
-            Op::Compare(op, a, b) => format!("{} {} {}", at(a), comparison(op), at(b)),
+            Op::Compare(op, a, b) => format!("{} {} {}", at(a), op.symbol(), at(b)),
             Op::Not(c) => format!("!{}", at(c)),
             // without the branches of && and ||
             Op::And(a, b) => format!("{} & {}", at(a), at(b)),
@@ -229,14 +229,6 @@ fn binary(op: Binary, a: &str, b: &str) -> String {
         Binary::Hypot => "ppum_hypot",
     };
     format!("{function}({a}, {b})")
-}
-
-fn comparison(op: Comparison) -> &'static str {
-    match op {
-        Comparison::Less => "<",
-        Comparison::LessEqual => "<=",
-        Comparison::Equal => "==",
-    }
 }
 
 /// aⁿ by the products of [`power`](crate::operation::power): the lines of the squares that are

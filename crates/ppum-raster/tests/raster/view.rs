@@ -87,16 +87,6 @@ fn finer_pixels_divide_pixels() {
 }
 
 #[test]
-fn zoom_at_keeps_the_point_under_the_cursor() {
-    let view = View::fit(square(), [640, 480]).unwrap();
-    let cursor = vec2(100.25, 33.5);
-    let world = view.center + view.offset_at(cursor);
-    let closer = view.zoom_at(cursor, 8.0).unwrap();
-    assert_eq!(closer.width, view.width / 8.0);
-    assert!((closer.pixel(world) - cursor).length() < 1e-10);
-}
-
-#[test]
 fn impossible_views_are_refused() {
     let at = |center, width, pixels| View::new(center, width, pixels).unwrap_err();
     assert_eq!(at(Vec2::ZERO, 1.0, [0, 5]), ViewError::Pixels(0, 5));

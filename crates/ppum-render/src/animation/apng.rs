@@ -4,7 +4,7 @@ use std::io::Write;
 
 use ::png::{BitDepth, BlendOp, ColorType, Encoder, SrgbRenderingIntent, Writer};
 
-use super::{AnimationError, Changed, check_size};
+use super::changed::{AnimationError, Changed, check_size};
 use crate::image::{Image, Rgba};
 use crate::png::{self, Text};
 

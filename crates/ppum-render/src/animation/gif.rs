@@ -5,8 +5,9 @@ use std::io::Write;
 
 use ::gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
+use super::changed::{AnimationError, Changed, check_size};
+use super::palette::ColorCounts;
 use super::palette::{Palette, TRANSPARENT};
-use super::{AnimationError, Changed, ColorCounts, check_size};
 use crate::image::Image;
 
 /// A GIF file that is being written. Its palette of 256 colours is that of all images: all of their

@@ -10,55 +10,44 @@ mod changed;
 mod gif;
 mod palette;
 
-use crate::image::Image;
-use crate::png::Text;
-
 pub use apng::Apng;
 pub use changed::AnimationError;
-use changed::{Changed, check_size};
 pub use gif::Gif;
 pub use palette::ColorCounts;
-
-/// The images as the bytes of an APNG file, each shown for some milliseconds: see [`Apng`].
-///
-/// # Errors
-/// No images, images of several sizes, an impossible key of a text.
-pub fn apng(
-    images: &[Image],
-    milliseconds: u16,
-    texts: &[Text],
-) -> Result<Vec<u8>, AnimationError> {
-    let size = images.first().ok_or(AnimationError::Empty)?.size;
-    let mut bytes = Vec::new();
-    let count = u32::try_from(images.len()).unwrap_or(u32::MAX);
-    let mut file = Apng::new(&mut bytes, size, count, milliseconds, texts)?;
-    images.iter().try_for_each(|image| file.add(image))?;
-    file.finish()?;
-    Ok(bytes)
-}
-
-/// The images as the bytes of a GIF file, each shown for some milliseconds: see [`Gif`].
-///
-/// # Errors
-/// No images, images of several sizes, a side of more than 65535 pixels.
-pub fn gif(images: &[Image], milliseconds: u16) -> Result<Vec<u8>, AnimationError> {
-    let size = images.first().ok_or(AnimationError::Empty)?.size;
-    let mut colors = ColorCounts::new();
-    images.iter().for_each(|image| colors.add(image));
-    let mut bytes = Vec::new();
-    let mut file = Gif::new(&mut bytes, size, &colors, milliseconds)?;
-    images.iter().try_for_each(|image| file.add(image))?;
-    file.finish()?;
-    Ok(bytes)
-}
 
 #[cfg(test)]
 mod tests {
     use ppum_testkit::random::Random;
 
-    use crate::colormap::Colormap;
-
     use super::*;
+    use crate::colormap::Colormap;
+    use crate::image::Image;
+    use crate::png::Text;
+
+    fn apng(
+        images: &[Image],
+        milliseconds: u16,
+        texts: &[Text],
+    ) -> Result<Vec<u8>, AnimationError> {
+        let size = images.first().ok_or(AnimationError::Empty)?.size;
+        let mut bytes = Vec::new();
+        let count = u32::try_from(images.len()).unwrap_or(u32::MAX);
+        let mut file = Apng::new(&mut bytes, size, count, milliseconds, texts)?;
+        images.iter().try_for_each(|image| file.add(image))?;
+        file.finish()?;
+        Ok(bytes)
+    }
+
+    fn gif(images: &[Image], milliseconds: u16) -> Result<Vec<u8>, AnimationError> {
+        let size = images.first().ok_or(AnimationError::Empty)?.size;
+        let mut colors = ColorCounts::new();
+        images.iter().for_each(|image| colors.add(image));
+        let mut bytes = Vec::new();
+        let mut file = Gif::new(&mut bytes, size, &colors, milliseconds)?;
+        images.iter().try_for_each(|image| file.add(image))?;
+        file.finish()?;
+        Ok(bytes)
+    }
 
     /// A slope whose colours move, with a corner that is not there.
     fn images(map: &str, count: u32) -> Vec<Image> {

@@ -1,6 +1,7 @@
 //! From a place in the deformed plane to the point of the plate.
 
 use ppum::domain::LocalDomain;
+use ppum::segment::closest_point;
 use ppum::vec2::{Rect, Vec2};
 
 use super::leaf::Leaf;
@@ -169,13 +170,8 @@ fn nearest(corners: &[Vec2], p: Vec2) -> Vec2 {
     if holds(corners, p) {
         return p;
     }
-    let foot = |[a, b]: [Vec2; 2]| {
-        let (d, q) = (b - a, p - a);
-        let square = d.dot(d);
-        a + d * if square > 0.0 { (q.dot(d) / square).clamp(0.0, 1.0) } else { 0.0 }
-    };
     let nearer = |a: &Vec2, b: &Vec2| (*a - p).length().total_cmp(&(*b - p).length());
-    sides(corners).map(foot).min_by(nearer).unwrap_or(p)
+    sides(corners).map(|side| closest_point(side, p)).min_by(nearer).unwrap_or(p)
 }
 
 fn sides(corners: &[Vec2]) -> impl Iterator<Item = [Vec2; 2]> {

@@ -1,19 +1,16 @@
 //! Extrema against closed forms and brute force.
 
 use super::*;
-use ppum::cover::Cover;
-use ppum::crack::{Crack, CrackEnd, End, SegmentId, TipId};
-use ppum::dataset::{Dataset, FieldData, Step};
+use ppum::crack::{End, SegmentId, TipId};
 use ppum::domain::Hole;
 use ppum::equation::{Elasticity, Equation, Material, StressState};
-use ppum::function::{Frame, FunctionKind, WESTERGAARD};
 use ppum::progress::unwatched;
 use ppum::vec2::vec2;
 use ppum::weight::WeightFunction;
 use ppum_raster::reference::reference;
 use ppum_testkit::exact::{ElasticField, RoundHole};
 use ppum_testkit::random::Random;
-use ppum_testkit::synthetic::{Coefficients, Recipe};
+use ppum_testkit::synthetic::{Coefficients, Recipe, opening, polynomial};
 
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 
@@ -30,11 +27,6 @@ fn extrema_of(field: &Field<'_>, view: &View, text: &str) -> Extrema {
     };
     assert!(close(found.min.value, same.min.value) && close(found.max.value, same.max.value));
     found
-}
-
-fn polynomial(ux: &[f64]) -> Dataset {
-    let coefficients = Coefficients::Polynomial(vec![ux.to_vec(), vec![]]);
-    Recipe { cracks: vec![], degrees: vec![2], coefficients, ..Recipe::default() }.dataset()
 }
 
 #[test]
@@ -164,22 +156,6 @@ fn where_cracks_meet() {
             assert!(all.min.value <= lo + slack, "{seed} {text} {:?} {lo}", all.min);
         }
     }
-}
-
-/// u = e √r sin(θ/2) about a tip, its crack along the direction d.
-fn opening(tip: Vec2, d: Vec2) -> Dataset {
-    let domain = Rect::around(tip, vec2(1.0, 1.0));
-    let partition = Cover::uniform(domain, 3).expect("a cover");
-    let partition = partition.partition(1.3, WeightFunction::Quadratic).expect("a partition");
-    let crack = Crack { points: vec![tip - d * 0.7, tip], ends: [CrackEnd::Tip; 2] };
-    let frame = Frame::Tip(TipId { crack: 0, end: End::Last });
-    let mut displacement = FieldData::new("displacement", &["ux", "uy"]);
-    (0..64).for_each(|_| displacement.push_patch(&[(0, 0)]));
-    displacement.coefficients[0].fill(d.left().x);
-    displacement.coefficients[1].fill(d.left().y);
-    let step = Step::new(partition).with_crack(crack);
-    let step = step.with_function("opening", FunctionKind::formula(WESTERGAARD[1], frame));
-    Dataset::new(domain, Equation::elasticity(MATERIAL)).with_step(step.with_field(displacement))
 }
 
 /// √r − 3 (r − 0.04)² along the upper face, and its negative on the lower one; looked at from

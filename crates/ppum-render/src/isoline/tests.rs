@@ -1,18 +1,17 @@
 //! Isolines against exact curves.
 
 use super::*;
-use ppum::cover::Cover;
-use ppum::crack::{Crack, CrackEnd, End, LocalCrack, Side, TipId};
-use ppum::dataset::{Dataset, FieldData, Step};
+use ppum::crack::{End, LocalCrack, Side, TipId};
+use ppum::dataset::{Dataset, FieldData};
 use ppum::domain::Hole;
-use ppum::equation::{Elasticity, Equation, Material, StressState};
-use ppum::function::{Frame, FunctionKind, WESTERGAARD};
+use ppum::equation::{Elasticity, Equation, StressState};
+use ppum::function::{Frame, FunctionKind};
 use ppum::progress::unwatched;
 use ppum::segment;
 use ppum::vec2::{Rect, vec2};
 use ppum::weight::WeightFunction;
 use ppum_raster::reference::reference;
-use ppum_testkit::synthetic::{Coefficients, Recipe};
+use ppum_testkit::synthetic::{Coefficients, Recipe, opening};
 
 /// Distance from the exact curve that every point has to keep, pixels.
 const DISTANCE: f64 = 0.1;
@@ -80,23 +79,6 @@ fn circles_and_hyperbolas() {
             assert!(off < DISTANCE, "{off} {p:?}");
         }
     }
-}
-
-/// u = e √r sin(θ/2) about a tip, its crack along the direction d.
-fn opening(tip: Vec2, d: Vec2) -> Dataset {
-    let domain = Rect::around(tip, vec2(1.0, 1.0));
-    let partition = Cover::uniform(domain, 3).expect("a cover");
-    let partition = partition.partition(1.3, WeightFunction::Quadratic).expect("a partition");
-    let crack = Crack { points: vec![tip - d * 0.7, tip], ends: [CrackEnd::Tip; 2] };
-    let frame = Frame::Tip(TipId { crack: 0, end: End::Last });
-    let mut displacement = FieldData::new("displacement", &["ux", "uy"]);
-    (0..64).for_each(|_| displacement.push_patch(&[(0, 0)]));
-    displacement.coefficients[0].fill(d.left().x);
-    displacement.coefficients[1].fill(d.left().y);
-    let step = Step::new(partition).with_crack(crack);
-    let step = step.with_function("opening", FunctionKind::formula(WESTERGAARD[1], frame));
-    let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
-    Dataset::new(domain, Equation::elasticity(material)).with_step(step.with_field(displacement))
 }
 
 /// Radius of the line σ_vM = `level` in the direction θ from the crack: σ_vM = √(3μ² + (λ + μ)²(1 −

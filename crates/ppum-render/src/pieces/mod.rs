@@ -132,7 +132,7 @@ impl<'f> Pieces<'f> {
     /// False if nothing cuts any square of a rectangle of offsets from the anchor; all of it lies
     /// in the domain then, or all outside. Of curved interfaces samples tell.
     #[must_use]
-    pub fn may_cut(&self, rect: &Rect) -> bool {
+    pub(crate) fn may_cut(&self, rect: &Rect) -> bool {
         let near = self.bounds.intersection(rect);
         if near.min.x > near.max.x || near.min.y > near.max.y {
             return false;
@@ -253,14 +253,6 @@ impl Piece {
     #[must_use]
     pub fn seen_from_inside(&self, point: Vec2) -> Vec2 {
         point + (self.center() - point) * self.inset
-    }
-
-    /// Twice the area, positive.
-    #[must_use]
-    pub fn double_area(&self) -> f64 {
-        let next = self.corners.iter().cycle().skip(1);
-        let origin = self.corners[0];
-        self.corners.iter().zip(next).map(|(a, b)| (*a - origin).cross(*b - origin)).sum()
     }
 }
 

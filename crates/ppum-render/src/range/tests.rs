@@ -1,21 +1,17 @@
 //! Ranges against closed forms, sorted values and the extrema of fields.
 
-use ppum::cover::Cover;
-use ppum::crack::{Crack, CrackEnd};
 use ppum::crack::{End, TipId};
-use ppum::dataset::{Dataset, FieldData, Step};
+use ppum::dataset::Dataset;
 use ppum::domain::Hole;
-use ppum::equation::{Equation, Material, StressState};
+use ppum::equation::{Material, StressState};
 use ppum::field::Field;
-use ppum::function::{Frame, FunctionKind, WESTERGAARD};
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
-use ppum::vec2::{Rect, Vec2, vec2};
-use ppum::weight::WeightFunction;
+use ppum::vec2::{Vec2, vec2};
 use ppum_raster::view::View;
 use ppum_testkit::exact::{ElasticField, RoundHole};
 use ppum_testkit::random::Random;
-use ppum_testkit::synthetic::{Coefficients, Recipe};
+use ppum_testkit::synthetic::{Recipe, opening, polynomial};
 
 use super::*;
 use crate::extrema::{On, SingularKind, extrema};
@@ -167,11 +163,6 @@ fn automatic(dataset: &Dataset, view: &View, text: &str) -> ValueSpan {
     spanned(dataset, view, text, Range::Auto, Scale::Linear)
 }
 
-fn polynomial(ux: &[f64]) -> Dataset {
-    let coefficients = Coefficients::Polynomial(vec![ux.to_vec(), vec![]]);
-    Recipe { cracks: vec![], degrees: vec![2], coefficients, ..Recipe::default() }.dataset()
-}
-
 /// u = c − |x − p|² + k: c + k at p, between the pixels of any picture.
 fn hill(random: &mut Random) -> (Dataset, Vec2, f64) {
     let bounds = Recipe::default().domain;
@@ -230,21 +221,6 @@ fn the_rim_of_a_hole_is_in_the_range() {
         assert!((span.max - 3.0).abs() < 1e-6 && span.basis == Basis::All, "{span:?}");
         assert_eq!(span.values.as_ref().unwrap().max.on, On::Rim(0));
     }
-}
-
-/// u = d⊥ √r sin(θ/2) about a tip at the end of a crack along d.
-fn opening(tip: Vec2, d: Vec2) -> Dataset {
-    let domain = Rect::around(tip, vec2(1.0, 1.0));
-    let partition = Cover::uniform(domain, 3).unwrap().partition(1.3, WeightFunction::Quadratic);
-    let crack = Crack { points: vec![tip - d * 0.7, tip], ends: [CrackEnd::Tip; 2] };
-    let frame = Frame::Tip(TipId { crack: 0, end: End::Last });
-    let mut displacement = FieldData::new("displacement", &["ux", "uy"]);
-    (0..64).for_each(|_| displacement.push_patch(&[(0, 0)]));
-    displacement.coefficients[0].fill(d.left().x);
-    displacement.coefficients[1].fill(d.left().y);
-    let step = Step::new(partition.unwrap()).with_crack(crack);
-    let step = step.with_function("opening", FunctionKind::formula(WESTERGAARD[1], frame));
-    Dataset::new(domain, Equation::elasticity(MATERIAL)).with_step(step.with_field(displacement))
 }
 
 #[test]

@@ -8,18 +8,12 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_raster::reference::reference;
 use ppum_raster::scatter::render;
 use ppum_testkit::random::Random;
-use ppum_testkit::synthetic::{Coefficients, Recipe};
+use ppum_testkit::synthetic::{Recipe, polynomial};
 
 const COUNTS: [u8; 6] = [1, 2, 3, 5, 8, 16];
 
 fn samples(n: u8) -> Samples {
     Samples::new(n).expect("a number of samples")
-}
-
-/// u_x as a polynomial of the distance from the plate's middle, without cracks.
-fn polynomial(ux: &[f64]) -> Dataset {
-    let coefficients = Coefficients::Polynomial(vec![ux.to_vec(), vec![]]);
-    Recipe { cracks: vec![], degrees: vec![2], coefficients, ..Recipe::default() }.dataset()
 }
 
 fn means_of<T: Sample>(dataset: &Dataset, view: &View, quantity: &str, n: u8) -> Means<T> {

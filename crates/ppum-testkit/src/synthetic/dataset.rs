@@ -1,18 +1,52 @@
 //! The datasets of recipes.
 
 use super::coefficients::{self, indicators};
-use super::recipe::Recipe;
+use super::recipe::{Coefficients, Recipe};
+use ppum::cover::Cover;
+use ppum::crack::{Crack, CrackEnd, End, TipId};
 use ppum::dataset::{BoxPartition, Dataset, Equation, FieldData, Material, Step, StressState};
-use ppum::function::{Frame, Function, FunctionKind};
+use ppum::function::{Frame, Function, FunctionKind, WESTERGAARD};
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::weight::WeightFunction;
+
+const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+
+/// u_x as a polynomial of degree 2 of the way from the middle of the default domain, without
+/// cracks; the coefficients in the order of [`Coefficients::Polynomial`].
+#[must_use]
+pub fn polynomial(ux: &[f64]) -> Dataset {
+    let coefficients = Coefficients::Polynomial(vec![ux.to_vec(), vec![]]);
+    Recipe { cracks: vec![], degrees: vec![2], coefficients, ..Recipe::default() }.dataset()
+}
+
+/// u = d⊥ √r sin(θ/2) about the last tip of a crack along the unit vector d, in a square of width 2
+/// about the tip.
+///
+/// # Panics
+/// If the square is none of finite numbers.
+#[must_use]
+pub fn opening(tip: Vec2, d: Vec2) -> Dataset {
+    let domain = Rect::around(tip, vec2(1.0, 1.0));
+    let cover = Cover::uniform(domain, 3).expect("a cover");
+    let partition = cover.partition(1.3, WeightFunction::Quadratic).expect("a partition");
+    let crack = Crack { points: vec![tip - d * 0.7, tip], ends: [CrackEnd::Tip; 2] };
+    let frame = Frame::Tip(TipId { crack: 0, end: End::Last });
+    let mut displacement = FieldData::new("displacement", &["ux", "uy"]);
+    (0..64).for_each(|_| displacement.push_patch(&[(0, 0)]));
+    displacement.coefficients[0].fill(d.left().x);
+    displacement.coefficients[1].fill(d.left().y);
+    let step = Step::new(partition).with_crack(crack);
+    let step = step.with_function("opening", FunctionKind::formula(WESTERGAARD[1], frame));
+    Dataset::new(domain, Equation::elasticity(MATERIAL)).with_step(step.with_field(displacement))
+}
 
 impl Recipe {
     /// The dataset, of one step with one field.
     #[must_use]
     pub fn dataset(&self) -> Dataset {
-        let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
         let equation = match self.components {
             1 => Equation::poisson(1.0),
-            _ => Equation::elasticity(material),
+            _ => Equation::elasticity(MATERIAL),
         };
         let mut dataset = Dataset::new(self.domain, equation).with_step(self.step());
         dataset.title = "synthetic".into();
@@ -74,7 +108,6 @@ mod tests {
     use ppum::field::Field;
     use ppum::function::FunctionTable;
     use ppum::jet::Jet;
-    use ppum::vec2::Vec2;
 
     /// The field that [`Coefficients::Taylor`] expands, as the sum of its parts.
     fn target(recipe: &Recipe, table: &FunctionTable, p: Vec2) -> f64 {

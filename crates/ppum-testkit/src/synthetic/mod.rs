@@ -15,5 +15,6 @@ mod series;
 
 pub use coefficients::{amplitude, cut_off, level, smooth};
 pub use components::Components;
+pub use dataset::{opening, polynomial};
 pub use recipe::{Coefficients, Junction, Recipe, crack, kinked};
 pub use series::{growing, series};

@@ -163,8 +163,7 @@ impl<'d> Field<'d> {
     }
 
     /// The formulas of the exact solution, one for each component; none if it is not known.
-    #[must_use]
-    pub fn exact_formulas(&self) -> &[Formula] {
+    pub(crate) fn exact_formulas(&self) -> &[Formula] {
         &self.exact
     }
 }

@@ -11,8 +11,9 @@ pub use crate::library::WESTERGAARD;
 pub use formulas::GROUP;
 pub use indicator::{Cut, Part};
 pub use kinds::{Declared, Frame, Function, FunctionKind};
+pub(crate) use table::LevelUse;
 pub use table::{
-    CompileError, FunctionError, FunctionTable, LevelUse, LocalFunctions, Slot, at_tip,
-    function_scope, native,
+    CompileError, FunctionError, FunctionTable, LocalFunctions, Slot, at_tip, function_scope,
+    native,
 };
 pub use westergaard::westergaard;

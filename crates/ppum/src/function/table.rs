@@ -56,7 +56,7 @@ enum Group {
 /// How a group of functions depends on the level fields of a mesh: the patch that holds a point
 /// evaluates them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LevelUse {
+pub(crate) enum LevelUse {
     /// It is the sign of this one.
     Sign(u32),
     /// They are x and y of its frame.
@@ -180,8 +180,7 @@ impl FunctionTable {
     }
 
     /// How a group depends on level fields; `None` if it does not.
-    #[must_use]
-    pub fn level_use(&self, group: usize) -> Option<LevelUse> {
+    pub(crate) fn level_use(&self, group: usize) -> Option<LevelUse> {
         match &self.groups[group] {
             Group::Level(field) => Some(LevelUse::Sign(*field)),
             Group::Formulas(formulas) => formulas.levels().map(LevelUse::Frame),

@@ -28,8 +28,7 @@ const SAME: f64 = 1e-12;
 
 /// The points at which a curve passes through the cracks, in its order; not tips, nor where it runs
 /// along a segment. Linear in the number of segments.
-#[must_use]
-pub fn passages(cracks: &[Crack], curve: Curve) -> Vec<Passage> {
+fn passages(cracks: &[Crack], curve: Curve) -> Vec<Passage> {
     let mut found: Vec<Passage> = Vec::new();
     for (index, crack) in (0..).zip(cracks) {
         for (segment, ends) in (0..).zip(crack.points.windows(2)) {

@@ -1,10 +1,11 @@
 //! von Mises' stress far below the resolution of f64 coordinates, against 31 digits.
 
-use crate::support::{compiled, distance_to_crack};
+use crate::support::compiled;
 use ppum::crack::{CrackEnd, Side};
 use ppum::dataset::{Dataset, Elasticity};
 use ppum::field::Field;
 use ppum::quantity::Quantity;
+use ppum::segment::polyline_distance;
 use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_testkit::extended::{Extended, point, von_mises};
@@ -38,7 +39,12 @@ fn largest_error(dataset: &Dataset, anchor: Vec2) -> f64 {
 /// True if rounding hides on which side of a crack the point is.
 fn on_crack(field: &Field<'_>, anchor: Vec2, offset: Vec2) -> bool {
     let r = offset.length();
-    r > 1e-6 && field.step.cracks.iter().any(|c| distance_to_crack(c, anchor + offset) < 1e-9 * r)
+    r > 1e-6
+        && field
+            .step
+            .cracks
+            .iter()
+            .any(|c| polyline_distance(&c.points, anchor + offset) < 1e-9 * r)
 }
 
 fn assert_exact(name: &str, dataset: &Dataset, anchor: Vec2) {

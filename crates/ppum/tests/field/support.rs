@@ -1,9 +1,10 @@
 //! Shared by the tests: where a field is not smooth, scales, and comparisons.
 
-use ppum::crack::{Crack, Side};
+use ppum::crack::Side;
 use ppum::dataset::{Dataset, Step};
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
+use ppum::segment::polyline_distance;
 use ppum::vec2::Vec2;
 
 /// The field of a synthetic dataset.
@@ -80,22 +81,13 @@ pub(crate) fn distance_to_kinks(step: &Step, p: Vec2) -> f64 {
     nearest
 }
 
-/// Distance from `p` to a crack.
-pub(crate) fn distance_to_crack(crack: &Crack, p: Vec2) -> f64 {
-    let to_segment = |s: &[Vec2]| {
-        let (tangent, length) = ((s[1] - s[0]).unit(), (s[1] - s[0]).length());
-        (p - s[0] - tangent * tangent.dot(p - s[0]).clamp(0.0, length)).length()
-    };
-    crack.points.windows(2).map(to_segment).fold(f64::INFINITY, f64::min)
-}
-
 /// Distance from `p` to the nearest crack.
 pub(crate) fn distance_to_cracks(step: &Step, p: Vec2) -> f64 {
-    step.cracks.iter().map(|c| distance_to_crack(c, p)).fold(f64::INFINITY, f64::min)
+    step.cracks.iter().map(|c| polyline_distance(&c.points, p)).fold(f64::INFINITY, f64::min)
 }
 
 /// True if the segment from `p` to `q` meets a crack, or comes closer than `margin` to one.
 pub(crate) fn meets_crack(step: &Step, p: Vec2, q: Vec2, margin: f64) -> bool {
     let near = (q - p).length() + margin;
-    step.cracks.iter().any(|crack| distance_to_crack(crack, p) <= near)
+    step.cracks.iter().any(|crack| polyline_distance(&crack.points, p) <= near)
 }
