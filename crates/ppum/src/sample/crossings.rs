@@ -26,8 +26,7 @@ pub struct Passage {
 /// its two segments.
 const SAME: f64 = 1e-12;
 
-/// The points at which a curve passes through the cracks, in its order; not tips, nor where it runs
-/// along a segment. Linear in the number of segments.
+/// [`passages_from`] the origin.
 fn passages(cracks: &[Crack], curve: Curve) -> Vec<Passage> {
     let mut found: Vec<Passage> = Vec::new();
     for (index, crack) in (0..).zip(cracks) {
@@ -44,22 +43,23 @@ fn passages(cracks: &[Crack], curve: Curve) -> Vec<Passage> {
     found
 }
 
-/// The same of a curve whose points are counted from an anchor, that of a circle its centre: near
-/// it no digit of them is lost.
+/// The points at which a curve passes through the cracks, in its order; not tips, nor where it runs
+/// along a segment. The curve's points are counted from an anchor, that of a circle its centre:
+/// near it no digit of them is lost. Linear in the number of segments.
 #[must_use]
 pub fn passages_from(cracks: &[Crack], anchor: Vec2, curve: Curve) -> Vec<Passage> {
     if anchor == Vec2::ZERO {
         return passages(cracks, curve);
     }
-    let seen = |crack: &Crack| {
+    let shifted = |crack: &Crack| {
         let points = crack.points.iter().map(|&p| p - anchor).collect();
         Crack { points, ends: crack.ends }
     };
-    let seen: Vec<Crack> = cracks.iter().map(seen).collect();
-    let mut all = passages(&seen, curve);
+    let shifted: Vec<Crack> = cracks.iter().map(shifted).collect();
+    let mut all = passages(&shifted, curve);
     for passage in &mut all {
         let Some(id) = passage.places[0].on else { continue };
-        let points = &seen[id.crack as usize].points[id.segment as usize..];
+        let points = &shifted[id.crack as usize].points[id.segment as usize..];
         let offset = curve.refined([points[0], points[1]], passage.places[0].point);
         passage.at = curve.at(offset).0;
         for place in &mut passage.places {
