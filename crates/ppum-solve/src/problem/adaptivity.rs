@@ -1,5 +1,7 @@
 //! How a cover is improved by its own solutions.
 
+use super::words::Words;
+
 /// Solve, estimate the error, improve the cover where it is large, again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -35,6 +37,11 @@ pub enum AdaptKind {
     Hp,
 }
 
+impl Words for AdaptKind {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("h", Self::H), ("p", Self::P), ("hp", Self::Hp)];
+}
+
 /// The steps of an adaptation that a dataset keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Keep {
@@ -43,6 +50,10 @@ pub enum Keep {
     Last,
     /// All of them.
     All,
+}
+
+impl Words for Keep {
+    const WORDS: &'static [(&'static str, Self)] = &[("last", Self::Last), ("all", Self::All)];
 }
 
 /// Defaults: up to ten steps and 100,000 unknowns, which a direct solver on one machine makes in

@@ -2,12 +2,11 @@
 
 use std::fmt;
 
-use super::Problem;
 use ppum::crack::Side;
-use ppum::segment;
+use ppum::expression::Expression;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use ppum::expression::Expression;
+use super::words::Words;
 
 /// An edge of the box Ω.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,12 +28,7 @@ impl Edge {
     /// Name in problem files.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Left => "left",
-            Self::Right => "right",
-            Self::Bottom => "bottom",
-            Self::Top => "top",
-        }
+        self.word()
     }
 
     /// The edge of a name.
@@ -84,6 +78,15 @@ impl Edge {
             Self::Top => domain.max.y - p.y,
         }
     }
+}
+
+impl Words for Edge {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("left", Self::Left),
+        ("right", Self::Right),
+        ("bottom", Self::Bottom),
+        ("top", Self::Top),
+    ];
 }
 
 /// A part of the border of the plate.
@@ -144,8 +147,7 @@ impl fmt::Display for BorderPart {
             Self::Hole(hole) => write!(f, "the rim of hole {hole}"),
             Self::Crack { crack, face: None } => write!(f, "the faces of crack {crack}"),
             Self::Crack { crack, face: Some(side) } => {
-                let side = if *side == Side::Above { "above" } else { "below" };
-                write!(f, "the face of crack {crack} {side} it")
+                write!(f, "the face of crack {crack} {} it", side.word())
             }
         }
     }
@@ -235,33 +237,5 @@ impl BoundaryCondition {
             };
         }
         values
-    }
-}
-
-impl Problem {
-    /// The source (body force) at a point; zero beyond the components.
-    pub(crate) fn source_at(&self, x: Vec2) -> [f64; 2] {
-        let mut source = [0.0; 2];
-        source.iter_mut().zip(&self.source).for_each(|(value, e)| *value = e.value(x));
-        source
-    }
-
-    /// The traction on the face of a crack at a point of it, the sum of all conditions there.
-    pub(crate) fn face_load(&self, crack: usize, side: Side, x: Vec2) -> [f64; 2] {
-        let segments = self.cracks[crack].points.windows(2);
-        let distance = |s: &[Vec2]| segment::distance([s[0], s[1]], x);
-        let nearest = segments.min_by(|s, t| distance(s).total_cmp(&distance(t)));
-        let Some(&[a, b]) = nearest else { return [0.0; 2] };
-        let left = (b - a).unit().left();
-        let normal = if side == Side::Above { -left } else { left };
-        let mut sum = [0.0; 2];
-        for condition in &self.boundary {
-            let BorderPart::Crack { crack: other, face } = condition.on else { continue };
-            if other == crack && face.is_none_or(|face| face == side) {
-                let load = condition.values(x, normal);
-                sum.iter_mut().zip(load).for_each(|(sum, t)| *sum += t);
-            }
-        }
-        sum
     }
 }

@@ -6,9 +6,7 @@ use ppum::crack::{Crack, CrackEnd};
 use ppum::segment::{self, Segment, gap};
 use ppum::vec2::Vec2;
 
-use super::check::MistakeAt;
-use super::cracks::points_of;
-use super::key::Key;
+use super::key::{Key, MistakeAt};
 use super::nearby::{Nearby, TooDense};
 
 /// Most contacts that are told.
@@ -56,7 +54,7 @@ pub(super) fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -
     let (mut along, mut meetings) = (BTreeMap::new(), 0);
     for &(crack, k, segment) in &pieces {
         let Ok(near) = nearby.of(segment) else {
-            return vec![MistakeAt::new(Key::new("crack"), TooDense::message("the cracks"))];
+            return vec![Key::new("crack").mistake(TooDense::message("the cracks"))];
         };
         let earlier = near.into_iter().take_while(|&other| pieces[other].0 < crack);
         for other in earlier.filter(|&other| gap(segment, segments[other]) <= touch) {
@@ -72,7 +70,7 @@ pub(super) fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -
     let too_many = (meetings > MOST_MEETINGS).then(|| {
         let message =
             format!("the cracks meet at more than {MOST_MEETINGS} places; leave some out");
-        MistakeAt::new(Key::new("crack"), message)
+        Key::new("crack").mistake(message)
     });
     along.into_iter().take(MOST_TOLD).map(overlap).chain(too_many).collect()
 }
@@ -81,7 +79,7 @@ pub(super) fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -
 fn overlap(((crack, other), k): ((usize, usize), usize)) -> MistakeAt {
     let message = "the crack runs along another one; leave out the part that they have in common, or \
                    move them apart";
-    MistakeAt::new(points_of(crack).index(k), message).with_other(points_of(other))
+    Key::points(crack).index(k).mistake(message).with_other(Key::points(other))
 }
 
 /// True if two segments have more than a point in common: both ends of what one covers of the other

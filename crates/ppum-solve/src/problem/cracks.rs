@@ -7,9 +7,8 @@ use ppum::text::{exact, trimmed};
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::boundary::Edge;
-use super::check::MistakeAt;
 use super::contacts::{check_contacts, find_junctions};
-use super::key::Key;
+use super::key::{Key, MistakeAt};
 use super::nearby::{TooDense, first_pair};
 use super::straight::straightened;
 use crate::geometry::{Placed, wider};
@@ -113,7 +112,7 @@ pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<MistakeAt> 
     let mut found = Vec::new();
     let mut in_order = Vec::new();
     for (index, crack) in cracks.iter().enumerate() {
-        let key = points_of(index);
+        let key = Key::points(index);
         let mut broken = check_crack(&crack.points, &domain.bounds, touch, &key);
         broken.extend(check_at_holes(crack, &holes, touch, &key));
         in_order.extend(broken.is_empty().then_some(index));
@@ -123,10 +122,6 @@ pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<MistakeAt> 
     found
 }
 
-pub(super) fn points_of(crack: usize) -> Key {
-    Key::new("crack").index(crack).name("points")
-}
-
 /// Some of the crack lies in the material, and no tip too near to a rim to be meant.
 fn check_at_holes(crack: &Crack, holes: &Holes<'_>, touch: f64, key: &Key) -> Option<MistakeAt> {
     let lost = |hole: &Hole| crack.points.iter().all(|p| reaches(hole, *p, touch));
@@ -134,13 +129,13 @@ fn check_at_holes(crack: &Crack, holes: &Holes<'_>, touch: f64, key: &Key) -> Op
     let first = *crack.points.first()?;
     let hole = holes_at(holes, first).find(|(_, hole)| convex(hole) && lost(hole))?.0;
     let message = format!("the crack lies in hole {hole}; move it out, or leave it out");
-    Some(MistakeAt::new(key.clone(), message))
+    Some(key.clone().mistake(message))
 }
 
 fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<MistakeAt> {
     if points.len() < 2 {
         let message = "a crack needs at least two points; add `[x, y]`";
-        return vec![MistakeAt::new(key.clone(), message)];
+        return vec![key.clone().mistake(message)];
     }
     let mut found: Vec<MistakeAt> = check_places(points, domain, touch, key).into_iter().collect();
     found.extend(check_segments(points, domain, touch, key));
@@ -183,7 +178,7 @@ fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option
             ),
             _ => return None,
         };
-        Some(MistakeAt::new(key.clone().index(index), message))
+        Some(key.clone().index(index).mistake(message))
     };
     points.iter().enumerate().find_map(place)
 }
@@ -227,7 +222,7 @@ fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<
             ),
             None => return None,
         };
-        Some(MistakeAt::new(key.clone().index(at), message))
+        Some(key.clone().index(at).mistake(message))
     };
     points.windows(2).enumerate().filter_map(segment).collect()
 }
@@ -235,7 +230,7 @@ fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<
 /// No crossing with itself.
 fn check_whole(points: &[Vec2], touch: f64, key: &Key) -> Option<MistakeAt> {
     let Ok(touching) = self_touch(points, touch) else {
-        return Some(MistakeAt::new(key.clone(), TooDense::message("parts of the crack")));
+        return Some(key.clone().mistake(TooDense::message("parts of the crack")));
     };
     touching.map(|(first, second)| {
         let message = format!(
@@ -245,7 +240,7 @@ fn check_whole(points: &[Vec2], touch: f64, key: &Key) -> Option<MistakeAt> {
             first + 1,
             second + 1
         );
-        MistakeAt::new(key.clone().index(second), message)
+        key.clone().index(second).mistake(message)
     })
 }
 

@@ -1,10 +1,14 @@
 //! The discretisation of a problem.
 
 use ppum::dataset::MAX_DEGREE;
+use ppum::expression::Expression;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
-use ppum::expression::Expression;
+use super::words::Words;
+
+/// Highest level of a uniform cover: 4^10 ≈ 10⁶ cells, beyond what a direct solver holds.
+pub(super) const MAX_LEVEL: u32 = 10;
 
 /// Cover, local spaces and enrichment.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,6 +109,17 @@ pub enum Enrichment {
     AdditiveOnly,
 }
 
+impl Words for Enrichment {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("none", Self::None),
+        ("jumps", Self::Jumps),
+        ("tip-patch", Self::TipPatch),
+        ("zone", Self::Zone),
+        ("williams", Self::Williams),
+        ("additive-only", Self::AdditiveOnly),
+    ];
+}
+
 impl Discretization {
     /// Defaults on the given cells: order 2, α = 1.3, linear weights, Williams' series in zones
     /// around tips, refined at tips.
@@ -163,14 +178,7 @@ impl Enrichment {
     /// Name in problem files.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Jumps => "jumps",
-            Self::TipPatch => "tip-patch",
-            Self::Zone => "zone",
-            Self::Williams => "williams",
-            Self::AdditiveOnly => "additive-only",
-        }
+        self.word()
     }
 
     /// True if all patches in a zone around each tip hold its functions.

@@ -1,16 +1,10 @@
 //! Enrichments of one's own.
 
-use ppum::crack::tips;
-use ppum::dataset::MAX_DEGREE;
 use ppum::expression::Expression;
-use ppum::formula::{Formula, FormulaJets};
-use ppum::function::{Declared, function_scope};
-use ppum::vec2::{Rect, Vec2};
+use ppum::function::Declared;
+use ppum::vec2::Vec2;
 
-use super::check::{MistakeAt, too_wide};
-use super::key::Key;
-use super::{Problem, expression};
-use crate::geometry::meets;
+use super::words::Words;
 
 /// Functions that the local spaces of some patches hold beside polynomials, each times all
 /// polynomials up to a degree: `[[enrichment]]` in problem files.
@@ -69,6 +63,11 @@ pub enum Site {
     Along([Vec2; 2]),
 }
 
+/// What is written as a word; points and segments are arrays.
+impl Words for Site {
+    const WORDS: &'static [(&'static str, Self)] = &[("tips", Self::Tips)];
+}
+
 /// The patches that have an enrichment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
@@ -97,115 +96,9 @@ impl LocalEnrichment {
             declared: Declared::default(),
         }
     }
-}
 
-impl LocalEnrichment {
     /// True if the zone around each tip has the problem's radius.
     pub(super) fn has_default_zone(&self) -> bool {
         self.site == Site::Tips && self.region == Region::Default
     }
-}
-
-/// All rules broken by the enrichments.
-pub(super) fn check_enrichments(problem: &Problem) -> Vec<MistakeAt> {
-    let check = |(index, new): (usize, &LocalEnrichment)| {
-        let found = [
-            bad_functions(new, problem),
-            bad_site(new, problem),
-            bad_region(new, problem),
-            bad_degree(new),
-            bad_declaration(new),
-        ];
-        let at = move |(name, message)| {
-            MistakeAt::new(Key::new("enrichment").index(index).name(name), message)
-        };
-        found.into_iter().flatten().map(at)
-    };
-    problem.enrichments.iter().enumerate().flat_map(check).collect()
-}
-
-/// A key and what is wrong with its value.
-type Broken = (&'static str, String);
-
-fn bad_functions(new: &LocalEnrichment, problem: &Problem) -> Option<Broken> {
-    if new.functions.is_empty() {
-        return Some(("functions", "there is no function; give at least one".to_owned()));
-    }
-    let scope = match function_scope(&new.parameters, problem.cracks.len(), &problem.tables) {
-        Ok(scope) => scope,
-        Err(error) => return Some(("parameters", error.to_string())),
-    };
-    new.functions.iter().find_map(|text| {
-        let message = match Formula::parse(text, &scope) {
-            Err(error) => expression::message(&error),
-            Ok(formula) => FormulaJets::new(&[&formula], 2).err()?.to_string(),
-        };
-        Some(("functions", format!("`{text}`: {message}")))
-    })
-}
-
-fn bad_site(new: &LocalEnrichment, problem: &Problem) -> Option<Broken> {
-    let domain = &problem.domain.bounds;
-    let message = |text: &str| text.to_owned();
-    match new.site {
-        Site::World => None,
-        Site::Tips => tips(&problem.cracks).next().is_none().then(|| {
-            ("at", message("there is no tip; add a [[crack]] that ends inside, or give a point"))
-        }),
-        Site::Point { at, angle } if !(at.is_finite() && angle.is_finite()) => {
-            Some(("at", message("the point and its angle must be finite")))
-        }
-        Site::Point { at, .. } => (!domain.contains(at))
-            .then(|| ("at", format!("[{}, {}] lies outside the domain; move it in", at.x, at.y))),
-        Site::Along([a, b]) => bad_segment([a, b], domain).map(|m| ("along", message(m))),
-    }
-}
-
-fn bad_segment([a, b]: [Vec2; 2], domain: &Rect) -> Option<&'static str> {
-    if !(a.is_finite() && b.is_finite()) {
-        Some("the points must be finite")
-    } else if (b - a).length() <= f64::EPSILON * (a.length() + b.length()) {
-        Some("the two points are equal; give two different ones")
-    } else if !meets([a, b], domain) {
-        Some("the segment does not meet the domain; move it in")
-    } else {
-        None
-    }
-}
-
-fn bad_region(new: &LocalEnrichment, problem: &Problem) -> Option<Broken> {
-    match (&new.region, new.site) {
-        (Region::Near(_), Site::World) => {
-            let message = "`radius` has no meaning without `at` or `along`; add one of them, or write \
-                           `where`";
-            Some(("radius", message.to_owned()))
-        }
-        (Region::Near(radius), _) if !(*radius >= 0.0 && radius.is_finite()) => {
-            Some(("radius", format!("`radius` is {radius}, but must be finite and not negative")))
-        }
-        (Region::Near(radius), Site::Tips) => {
-            Some(("radius", format!("`radius` {}", too_wide(problem, *radius)?)))
-        }
-        (Region::Where(_), Site::Tips) => {
-            let message = "`where` cannot choose patches of all tips at once; write `radius`";
-            Some(("where", message.to_owned()))
-        }
-        _ => None,
-    }
-}
-
-fn bad_degree(new: &LocalEnrichment) -> Option<Broken> {
-    let degree = new.degree.filter(|degree| *degree > MAX_DEGREE)?;
-    Some(("degree", format!("`degree` is {degree}, but must be 0 to {MAX_DEGREE}")))
-}
-
-fn bad_declaration(new: &LocalEnrichment) -> Option<Broken> {
-    let Declared { kinks, singular } = &new.declared;
-    let message =
-        |key: &str| format!("`{key}` has a point that is not finite, or a segment without length");
-    if kinks.iter().any(|[a, b]| !((*b - *a).length() > 0.0 && a.is_finite() && b.is_finite())) {
-        return Some(("kinks", message("kinks")));
-    }
-    let wrong = singular.iter().any(|p| !p.is_finite());
-    wrong.then(|| ("singular", message("singular")))
 }

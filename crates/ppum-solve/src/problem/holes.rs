@@ -3,9 +3,8 @@
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2};
 
-use super::check::MistakeAt;
 use super::cracks::{TOUCH, crosses_itself, place, shown};
-use super::key::Key;
+use super::key::{Key, MistakeAt};
 use super::nearby::TooDense;
 use crate::geometry::meets;
 
@@ -21,7 +20,7 @@ pub(super) fn check_holes(domain: &Domain) -> Vec<MistakeAt> {
         let message = format!(
             "the holes have more than {MAX_RIMS} circles and corners together; leave some out"
         );
-        return vec![MistakeAt::new(Key::new("hole"), message)];
+        return vec![Key::new("hole").mistake(message)];
     }
     let check = |(index, hole): (usize, &Hole)| {
         let (key, message) = match hole {
@@ -30,7 +29,7 @@ pub(super) fn check_holes(domain: &Domain) -> Vec<MistakeAt> {
                 ("points", bad_polygon(points, hole, &domain.bounds, touch)?)
             }
         };
-        Some(MistakeAt::new(Key::new("hole").index(index).name(key), message))
+        Some(Key::new("hole").index(index).name(key).mistake(message))
     };
     domain.holes.iter().enumerate().filter_map(check).collect()
 }

@@ -1,4 +1,5 @@
-//! Paths of keys, by which the checks of a problem name a place without knowing of files.
+//! Paths of keys, by which the checks of a problem name a place without knowing of files, and what
+//! is wrong there.
 
 use std::fmt;
 use std::ops::Range;
@@ -6,7 +7,9 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// The way from the root of a problem file to a value, e.g. `crack[0].points[1]`.
+use super::keys::{KeyRow, ROOT};
+
+/// The path from the root of a problem file to a value, e.g. `crack[0].points[1]`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Key(Vec<KeySegment>);
 
@@ -21,6 +24,16 @@ impl Key {
         Self(vec![KeySegment::Name(name)])
     }
 
+    /// The path of names that points separate, e.g. `growth.paris.c`.
+    pub(super) fn of(path: &'static str) -> Self {
+        Self(path.split('.').map(KeySegment::Name).collect())
+    }
+
+    /// The points of a crack.
+    pub(super) fn points(crack: usize) -> Self {
+        Self::new("crack").index(crack).name("points")
+    }
+
     pub(super) fn name(mut self, name: &'static str) -> Self {
         self.0.push(KeySegment::Name(name));
         self
@@ -29,6 +42,32 @@ impl Key {
     pub(super) fn index(mut self, index: usize) -> Self {
         self.0.push(KeySegment::Index(index));
         self
+    }
+
+    /// The mistake of the value, with a message.
+    pub(super) fn mistake(self, message: impl Into<String>) -> MistakeAt {
+        MistakeAt { key: self, message: message.into(), other: None }
+    }
+
+    /// The mistake of a number that is out of the range of its key.
+    pub(super) fn out_of_range(self, value: f64) -> Option<MistakeAt> {
+        let row = self.row()?;
+        let message = row.mistake(value)?;
+        Some(self.mistake(format!("`{}` {message}", row.name)))
+    }
+
+    fn row(&self) -> Option<&'static KeyRow> {
+        let names = self.0.iter().filter_map(|segment| match segment {
+            KeySegment::Name(name) => Some(*name),
+            KeySegment::Index(_) => None,
+        });
+        let mut table = Some(&ROOT);
+        let mut found = None;
+        for name in names {
+            found = table?.row(name);
+            table = found?.kind.table();
+        }
+        found
     }
 
     /// The bytes of the value; those of the deepest value on the way that exists if it does not.
@@ -65,4 +104,28 @@ impl fmt::Display for Key {
         }
         Ok(())
     }
+}
+
+/// A rule that is broken.
+pub(super) struct MistakeAt {
+    pub(super) key: Key,
+    pub(super) message: String,
+    /// The other of two values that contradict each other.
+    pub(super) other: Option<Key>,
+}
+
+impl MistakeAt {
+    pub(super) fn with_other(self, other: Key) -> Self {
+        Self { other: Some(other), ..self }
+    }
+}
+
+/// What to say of a hole or a crack that is not among so many.
+pub(super) fn no_such(what: &str, index: usize, count: usize) -> String {
+    let those = match count {
+        0 => format!("the problem has no [[{what}]]"),
+        1 => format!("the only [[{what}]] has the number 0"),
+        n => format!("the [[{what}]] are numbered from 0 to {}", n - 1),
+    };
+    format!("there is no {what} {index}; {those}")
 }

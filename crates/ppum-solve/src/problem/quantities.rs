@@ -6,9 +6,9 @@ use ppum::dataset::{Equation, NamedQuantity};
 use ppum::formula::Table;
 use ppum::quantity::{QuantityFormula, QuantityFormulaError, Vocabulary, names};
 
-use super::check::MistakeAt;
-use super::key::Key;
-use super::{Problem, expression};
+use super::expression;
+use super::key::{Key, MistakeAt};
+use super::model::Problem;
 
 /// Name of the field of an equation, and names of its components.
 pub(crate) fn field_names(equation: &Equation) -> (&'static str, &'static [&'static str]) {
@@ -39,7 +39,7 @@ pub(super) fn check_quantities(problem: &Problem) -> Vec<MistakeAt> {
     let rule = |index| {
         let key = Key::new("quantity").index(index);
         let (name, message) = broken(problem, index)?;
-        Some(MistakeAt::new(key.name(name), message))
+        Some(key.name(name).mistake(message))
     };
     (0..problem.quantities.len()).filter_map(rule).collect()
 }

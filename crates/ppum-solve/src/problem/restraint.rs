@@ -1,7 +1,7 @@
 //! Restraints: parts of the border where values are given, in the words that reactions are
 //! stored with.
 
-use super::{BorderPart, Edge};
+use super::boundary::{BorderPart, Edge};
 use ppum::domain::Domain;
 use ppum::vec2::Vec2;
 

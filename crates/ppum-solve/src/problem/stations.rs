@@ -6,7 +6,8 @@ use ppum::crack::Side;
 use ppum::domain::Hole;
 use ppum::vec2::{Vec2, vec2};
 
-use super::{BorderPart, BoundaryCondition, Problem};
+use super::boundary::{BorderPart, BoundaryCondition};
+use super::model::Problem;
 
 /// A point of the border with what a condition says there.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@ use super::csv::{self, CsvLine, mistake};
 use super::error::{Mistake, ProblemError};
 
 /// Knots and values; `y` is empty in a curve. The values of a surface stand in rows of constant y.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct TableData {
     pub(super) x: Vec<f64>,
     pub(super) y: Vec<f64>,
@@ -58,59 +58,54 @@ impl TableData {
 
 fn parse(text: &str, file: &str) -> Result<TableData, Vec<Mistake>> {
     let mut lines = csv::lines(text).peekable();
-    let mut reader = Reader { file, data: TableData::default(), mistakes: Vec::new() };
-    match lines.next_if(|first| first.words[0].text.is_empty()) {
-        Some(first) => reader.grid(&first, lines),
-        None => reader.knots(lines),
+    let mut reader = Reader { file, mistakes: Vec::new() };
+    let first = lines.next_if(|first| first.words[0].text.is_empty());
+    let x = first.as_ref().map(|first| reader.knots(first));
+    let (knots, values) = reader.rows(lines, first.map_or(2, |first| first.words.len()));
+    if !reader.mistakes.is_empty() {
+        return Err(reader.mistakes);
     }
-    if reader.mistakes.is_empty() { Ok(reader.data) } else { Err(reader.mistakes) }
+    let (x, y) = x.map_or((knots.clone(), Vec::new()), |x| (x, knots));
+    Ok(TableData { x, y, values })
 }
 
 struct Reader<'f> {
     file: &'f str,
-    data: TableData,
     mistakes: Vec<Mistake>,
 }
 
 impl Reader<'_> {
-    fn grid<'t>(&mut self, first: &CsvLine<'_>, rest: impl Iterator<Item = CsvLine<'t>>) {
-        let count = first.words.len();
-        for place in 1..count {
+    /// The knots after the empty place of a line.
+    fn knots(&mut self, line: &CsvLine<'_>) -> Vec<f64> {
+        let mut knots = Vec::new();
+        for place in 1..line.words.len() {
             if csv::is_enough(&self.mistakes) {
-                return;
+                break;
             }
-            if let Some(knot) = self.number(first, place) {
-                let before = self.data.x.last().copied();
-                self.increases(before, knot, first.number, first.words[place].column);
-                self.data.x.push(knot);
+            if let Some(knot) = self.number(line, place) {
+                self.push(&mut knots, knot, (line.number, line.words[place].column));
             }
         }
-        for line in rest {
-            if csv::is_enough(&self.mistakes) {
-                return;
-            }
-            if let Some([knot, values @ ..]) = self.numbers(&line, count).as_deref() {
-                let before = self.data.y.last().copied();
-                self.increases(before, *knot, line.number, line.words[0].column);
-                self.data.y.push(*knot);
-                self.data.values.extend(values);
-            }
-        }
+        knots
     }
 
-    /// The lines of a curve.
-    fn knots<'t>(&mut self, lines: impl Iterator<Item = CsvLine<'t>>) {
+    /// The knots that lines of so many numbers begin with, and the values that follow them.
+    fn rows<'t>(
+        &mut self,
+        lines: impl Iterator<Item = CsvLine<'t>>,
+        count: usize,
+    ) -> (Vec<f64>, Vec<f64>) {
+        let (mut knots, mut all) = (Vec::new(), Vec::new());
         for line in lines {
             if csv::is_enough(&self.mistakes) {
-                return;
+                break;
             }
-            if let Some(&[knot, value]) = self.numbers(&line, 2).as_deref() {
-                let before = self.data.x.last().copied();
-                self.increases(before, knot, line.number, line.words[0].column);
-                self.data.x.push(knot);
-                self.data.values.push(value);
+            if let Some([knot, values @ ..]) = self.numbers(&line, count).as_deref() {
+                self.push(&mut knots, *knot, (line.number, line.words[0].column));
+                all.extend(values);
             }
         }
+        (knots, all)
     }
 
     fn numbers(&mut self, line: &CsvLine<'_>, count: usize) -> Option<Vec<f64>> {
@@ -136,11 +131,13 @@ impl Reader<'_> {
         number
     }
 
-    fn increases(&mut self, before: Option<f64>, knot: f64, line: usize, column: usize) {
-        if let Some(before) = before.filter(|before| knot <= *before) {
+    /// Adds a knot, which must exceed the one before.
+    fn push(&mut self, knots: &mut Vec<f64>, knot: f64, (line, column): (usize, usize)) {
+        if let Some(before) = knots.last().filter(|before| knot <= **before) {
             let message = format!("{knot} follows {before}, but knots must increase; sort them");
             self.mistakes.push(mistake(self.file, line, column, message));
         }
+        knots.push(knot);
     }
 }
 

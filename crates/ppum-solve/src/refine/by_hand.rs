@@ -111,7 +111,7 @@ fn demands(problem: &Problem) -> Placed<Demand<'_>> {
             }
             RefinementRegion::Crack(crack) => Lines::Crack(sides(false, crack)),
         };
-        let bounds = refinement.bounds(problem);
+        let bounds = refinement.bounds(&problem.domain, &problem.cracks);
         (bounds, (index, bounds, lines))
     };
     let all: Vec<_> = problem.refinements.iter().enumerate().map(demand).collect();

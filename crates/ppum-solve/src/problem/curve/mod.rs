@@ -11,6 +11,8 @@
 mod spline;
 
 use ppum::vec2::{Vec2, vec2};
+
+use super::keys::MOST_SEGMENTS;
 pub(super) use spline::Spline;
 use std::f64::consts::TAU;
 
@@ -21,9 +23,6 @@ const TURN: f64 = 1.0 / 32.0;
 /// Least number of segments along a curve, however little it turns: K is off by less than that turn
 /// times 2e-4.
 const LEAST: f64 = 16.0;
-
-/// Most segments of one curve: what asks for more has a cusp.
-pub(super) const MOST: usize = 4096;
 
 /// Length of the first and the last segment in those of the others. K of an arc of 138° in 18 and
 /// in 50 segments is off by 1.2e-3 and 2e-4 at 0.408, where the tangent meets the line of the other
@@ -43,7 +42,7 @@ pub(super) enum SmoothCurve {
     Spline(Spline),
 }
 
-/// A curve that cannot be divided: it has a cusp, or needs more than [`MOST`] segments.
+/// A curve that cannot be divided: it has a cusp, or needs more than [`MOST_SEGMENTS`] segments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TooSharp {
     /// Where it turns the most.
@@ -190,7 +189,7 @@ impl<'c> Walk<'c> {
     /// The number of whole segments, and of `ends` more, that the curve takes.
     fn segments(&self, ends: f64, least: usize) -> Result<usize, TooSharp> {
         let count = (self.total() - ends).ceil();
-        if count < MOST as f64 {
+        if count < MOST_SEGMENTS as f64 {
             return Ok((count.max(0.0) as usize).max(least));
         }
         let turns =

@@ -5,7 +5,7 @@ use ppum::vec2::Vec2;
 
 /// A cubic spline through points, over the length of its chords; periodic if closed.
 #[derive(Clone, Debug, PartialEq)]
-pub(in super::super) struct Spline {
+pub(crate) struct Spline {
     points: Vec<Vec2>,
     /// Length of the chord after each point.
     chords: Vec<f64>,
@@ -18,7 +18,7 @@ impl Spline {
     /// second point and the last but one the third derivative is continuous, too ("not a knot"):
     /// without curvature at its ends, as natural splines are, it would miss the tangents there, and
     /// K with them.
-    pub(in super::super) fn open(points: &[Vec2]) -> Self {
+    pub(crate) fn open(points: &[Vec2]) -> Self {
         let chords: Vec<f64> = points.windows(2).map(|p| (p[1] - p[0]).length()).collect();
         let inner = points.len() - 2;
         let row = |k: usize| (chords[k], 2.0 * (chords[k] + chords[k + 1]), chords[k + 1]);
@@ -47,7 +47,7 @@ impl Spline {
 
     /// Through all points and back to the first one; three points or more, no two successive
     /// ones equal.
-    pub(in super::super) fn closed(points: &[Vec2]) -> Self {
+    pub(crate) fn closed(points: &[Vec2]) -> Self {
         let n = points.len();
         let round: Vec<Vec2> = (0..n + 2).map(|k| points[k % n]).collect();
         let chords: Vec<f64> = round.windows(2).map(|p| (p[1] - p[0]).length()).collect();

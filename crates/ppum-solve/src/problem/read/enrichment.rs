@@ -1,66 +1,28 @@
 //! The tables `[[enrichment]]`.
 
-use std::sync::Arc;
-
 use ppum::expression::Expression;
-use ppum::formula::{Formula, FormulaJets, Scope, ScopeError, Table};
+use ppum::formula::{Formula, FormulaJets, Scope, ScopeError};
 use ppum::function::{Declared, function_scope};
 use ppum::library::{self, Entry};
+use ppum::text::nearest;
 use ppum::vec2::Vec2;
 
-use super::super::document::{Section, Value, nearest};
+use super::super::document::{Read as _, Section, Value, all};
 use super::super::enrichment::{LocalEnrichment, Region, Site};
-use super::super::scopes;
-use super::all;
 
-const KEYS: [&str; 12] = [
-    "name",
-    "function",
-    "functions",
-    "parameters",
-    "at",
-    "angle",
-    "along",
-    "radius",
-    "where",
-    "degree",
-    "kinks",
-    "singular",
-];
-
-/// Names that formulas of enrichments may use beside their parameters.
-pub(super) struct Names<'n> {
-    pub(super) cracks: usize,
-    pub(super) tables: &'n [Arc<Table>],
-}
-
-impl Names<'_> {
-    fn scope(&self, parameters: &[(String, f64)]) -> Result<Scope, ScopeError> {
-        function_scope(parameters, self.cracks, self.tables)
-    }
-}
-
-/// The enrichments; none at all if one of them cannot be read, as the checks count them.
-pub(super) fn enrichments(root: &Section<'_>, names: &Names<'_>) -> Vec<LocalEnrichment> {
-    let read = |section: Section<'_>| enrichment(&section.only(&KEYS, &[]), names);
-    all(root.sections("enrichment").into_iter().map(read)).unwrap_or_default()
-}
-
-fn enrichment(section: &Section<'_>, names: &Names<'_>) -> Option<LocalEnrichment> {
-    let functions = functions(section, names);
-    let site = site(section);
-    let region = region(section, names.tables);
-    let declared = declared(section);
-    let name = section.get("name").map_or(Some(None), |value| value.text().map(Some));
-    let degree = section.get("degree").map_or(Some(None), |value| value.whole().map(Some));
+/// The enrichment of a problem with so many cracks.
+pub(super) fn enrichment(section: &Section<'_>, cracks: usize) -> Option<LocalEnrichment> {
+    let functions = functions(section, cracks);
+    let (site, region, declared) = (site(section), region(section), declared(section));
+    let (name, degree) = (section.optional("name"), section.optional("degree"));
     let functions = functions?;
     Some(LocalEnrichment {
-        name: name?.unwrap_or(&functions.name).to_owned(),
+        name: name?.unwrap_or(functions.name),
         functions: functions.texts,
         parameters: functions.parameters,
         site: site?,
         region: region?,
-        degree: degree?.map(|degree| degree as usize),
+        degree: degree?,
         declared: declared?,
     })
 }
@@ -73,12 +35,14 @@ struct Functions {
     parameters: Vec<(String, f64)>,
 }
 
-fn functions(section: &Section<'_>, names: &Names<'_>) -> Option<Functions> {
+fn functions(section: &Section<'_>, cracks: usize) -> Option<Functions> {
     let given = given(section)?;
     let entries: Vec<_> = given.iter().filter_map(entry).collect();
     let of_library = entries.len() == given.len();
-    let parameters = parameters(section, &entries, of_library, names)?;
-    let scope = names.scope(&parameters).ok()?;
+    let scope =
+        |constants: &[(String, f64)]| function_scope(constants, cracks, section.document.tables());
+    let parameters = parameters(section, &entries, of_library, scope)?;
+    let scope = scope(&parameters).ok()?;
     let texts = all(given.iter().map(|value| texts(value, &scope)))?.concat();
     let name = match entries[..] {
         [entry] if of_library => entry.name.to_owned(),
@@ -89,15 +53,15 @@ fn functions(section: &Section<'_>, names: &Names<'_>) -> Option<Functions> {
 
 /// The values of `function` or `functions`.
 fn given<'a>(section: &Section<'a>) -> Option<Vec<Value<'a>>> {
-    match (section.get("function"), section.get("functions")) {
+    match (section.value("function"), section.value("functions")) {
         (Some(one), None) => Some(vec![one]),
-        (None, Some(list)) => list.list("a list of formulas in quotes"),
+        (None, Some(list)) => list.list(),
         (Some(_), Some(list)) => list.error("contradicts `function`; put all into `functions`"),
         (None, None) => {
-            if !["function", "functions"].iter().any(|key| section.mentions(key)) {
-                section.error("[[enrichment]] has no function; add e.g. `function = \"abs(y)\"`");
+            if section.mentions_any(&["function", "functions"]) {
+                return None;
             }
-            None
+            section.error("[[enrichment]] has no function; add e.g. `function = \"abs(y)\"`")
         }
     }
 }
@@ -113,20 +77,20 @@ fn parameters(
     section: &Section<'_>,
     entries: &[&Entry],
     of_library: bool,
-    names: &Names<'_>,
+    scope: impl Fn(&[(String, f64)]) -> Result<Scope, ScopeError>,
 ) -> Option<Vec<(String, f64)>> {
     let defaults: Vec<_> = entries.iter().flat_map(|entry| entry.parameters).collect();
-    let table = match section.get("parameters") {
-        Some(value) => Some(value.table("`parameters`", "{ lambda = 0.6 }")?),
+    let table = match section.value("parameters") {
+        Some(value) => Some(value.table()?),
         None => None,
     };
     let read = |(name, value): (&str, Value<'_>)| {
         if of_library && !defaults.iter().any(|(known, _)| *known == name) {
             return value.error(&no_parameter(name, &defaults));
         }
-        let scope = names.scope(&[(name.to_owned(), 1.0)]);
+        let scope = scope(&[(name.to_owned(), 1.0)]);
         scope.map_err(|error| value.report(&error.to_string())).ok()?;
-        Some((name.to_owned(), value.constant()?))
+        Some((name.to_owned(), f64::read(&value)?))
     };
     let mut found = all(table.iter().flat_map(|table| table.entries()).map(read))?;
     for &&(name, value) in &defaults {
@@ -171,49 +135,36 @@ pub(super) fn is_word(text: &str) -> bool {
 }
 
 fn site(section: &Section<'_>) -> Option<Site> {
-    let (at, angle, along) = (section.get("at"), section.get("angle"), section.get("along"));
+    let (at, angle) = (section.value("at"), section.value("angle"));
     let point = at.as_ref().filter(|at| at.as_text().is_none());
     if let (Some(angle), None) = (&angle, point) {
         return angle.error("has no meaning without a point in `at`; remove it");
     }
-    match (at, along) {
+    match (at, section.value("along")) {
         (Some(_), Some(along)) => along.error("contradicts `at`; give one of them"),
-        (None, Some(along)) => segment(&along).map(Site::Along),
-        (Some(at), None) if at.as_text().is_some() => at.choice(&[("tips", Site::Tips)]),
+        (None, Some(along)) => <[Vec2; 2]>::read(&along).map(Site::Along),
+        (Some(at), None) if at.as_text().is_some() => at.choice(),
         (Some(at), None) => {
-            let (at, angle) = (at.point(), angle.map_or(Some(0.0), |angle| angle.constant()));
+            let (at, angle) = (Vec2::read(&at), section.or("angle", 0.0));
             Some(Site::Point { at: at?, angle: angle? })
         }
         (None, None) => Some(Site::World),
     }
 }
 
-fn region(section: &Section<'_>, tables: &[Arc<Table>]) -> Option<Region> {
-    match (section.get("radius"), section.get("where")) {
+fn region(section: &Section<'_>) -> Option<Region> {
+    match (section.value("radius"), section.value("where")) {
         (Some(_), Some(condition)) => condition.error("contradicts `radius`; give one of them"),
-        (Some(radius), None) => radius.number().map(Region::Near),
+        (Some(_), None) => section.get("radius").map(Region::Near),
         (None, Some(value)) => {
-            let scope = scopes::position(tables).ok()?;
-            let text = value.text()?;
-            value.inside(text, Expression::condition(text, &scope)).map(Region::Where)
+            let (text, scope) = (value.text()?, section.document.scope()?);
+            value.inside(text, Expression::condition(text, scope)).map(Region::Where)
         }
         (None, None) => Some(Region::Default),
     }
 }
 
 fn declared(section: &Section<'_>) -> Option<Declared> {
-    let list =
-        |key: &str, what: &str| section.get(key).map_or(Some(Vec::new()), |value| value.list(what));
-    let kinks = list("kinks", "a list of segments [[[x0, y0], [x1, y1]], …]")
-        .and_then(|kinks| all(kinks.iter().map(segment)));
-    let singular = list("singular", "a list of points [[x, y], …]")
-        .and_then(|points| all(points.iter().map(Value::point)));
+    let (kinks, singular) = (section.or("kinks", Vec::new()), section.or("singular", Vec::new()));
     Some(Declared { kinks: kinks?, singular: singular? })
-}
-
-/// Two points.
-fn segment(value: &Value<'_>) -> Option<[Vec2; 2]> {
-    let [from, to] = value.pair("two points [[x0, y0], [x1, y1]]")?;
-    let (from, to) = (from.point(), to.point());
-    Some([from?, to?])
 }

@@ -3,66 +3,101 @@
 //! Every reader of a table reports what is wrong and returns something harmless in its place (or
 //! `None` where nothing is harmless), so that one reading finds all mistakes.
 
-mod adaptivity;
 mod boundary;
 mod curve;
 mod discretization;
 mod enrichment;
-mod growth;
-mod hole;
-mod quantity;
-mod refinement;
+mod steps;
 mod table;
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use ppum::dataset::{Dataset, Elasticity, Equation, Material, StressState};
+use ppum::dataset::{
+    Dataset, Elasticity, Equation, MAX_QUANTITIES, MAX_QUANTITY_TEXT, NamedQuantity, StressState,
+};
 use ppum::domain::Domain;
-use ppum::formula::Scope;
-use ppum::vec2::{Rect, Vec2};
+use ppum::expression::Expression;
+use ppum::quantity::QuantityFormulaError;
+use ppum::vec2::Rect;
 use toml::de::DeTable;
 
+use super::adaptivity::Adaptivity;
+use super::boundary::BorderPart;
 use super::check::mistakes;
-use super::document::{Instead, Report, Section, Value};
-use super::error::ProblemError;
+use super::cracks;
+use super::discretization::Order;
+use super::document::{Document, FileSource, Read as _, Section, Value, all};
+use super::error::{Location, Mistake, ProblemError};
+use super::keys::ROOT;
+use super::model::Problem;
+use super::quantities;
+use super::refinement::RefinementRegion;
+use super::report::Report;
+use super::solver::Solver;
 use super::stiffness::default_order;
-use super::{Adaptivity, BorderPart, Order, Problem, RefinementRegion, Solver, SolverKind, scopes};
-use adaptivity::adaptivity;
-use boundary::boundary;
-use curve::course;
-use discretization::discretization;
-use enrichment::enrichments;
-use growth::growth;
-use hole::holes;
-use ppum::expression::Expression;
-use quantity::quantities;
-use refinement::refinements;
-use table::tables;
+use super::words::EquationKind;
 
-/// The folder of the files that a text names.
-#[derive(Clone, Copy)]
-pub(super) enum Files<'a> {
-    /// In a folder.
-    In(&'a Path),
-    /// Nowhere any more: the text is that of a dataset, which holds what was in them.
-    Stored(&'a Dataset),
+/// Longest problem file, in bytes: a hundred thousand cracks take some.
+pub const MAX_LENGTH: u64 = 16 << 20;
+
+impl Problem {
+    /// Reads a problem file of at most [`MAX_LENGTH`] bytes. Paths in it are relative to its
+    /// folder, and lead to files of at most 64 MiB.
+    ///
+    /// # Errors
+    /// Everything that is wrong, with file, line, column and remedy, of a file of numbers the first
+    /// 100 mistakes; or that the file cannot be read.
+    pub fn read(path: &Path) -> Result<Self, ProblemError> {
+        let file = path.display().to_string();
+        let text = ppum_file::text(path, MAX_LENGTH).map_err(|error| Mistake {
+            location: Location::File(file.clone()),
+            message: format!("cannot read the problem file: {error}"),
+        })?;
+        Self::parse(&text, &file, path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Reads a problem from the text of a problem file.
+    ///
+    /// `file_name` is for messages, and the title if the text has none; paths in the text are
+    /// relative to `base_dir`.
+    ///
+    /// # Errors
+    /// Everything that is wrong, with file, line, column and remedy.
+    pub fn parse(text: &str, file_name: &str, base_dir: &Path) -> Result<Self, ProblemError> {
+        read(text, file_name, FileSource::Folder(base_dir))
+    }
+
+    /// The problem of a dataset, from the text it holds; none if it holds none. Tables and points
+    /// that were read from files are those of the dataset: the files need not be there any more.
+    ///
+    /// # Errors
+    /// Everything that is wrong in the text.
+    pub fn of_dataset(dataset: &Dataset) -> Result<Option<Self>, ProblemError> {
+        let read = |text: &String| Self::parse_with(text, dataset);
+        dataset.problem.as_ref().map(read).transpose()
+    }
+
+    /// The problem of another text, with the tables and points of a dataset in place of the files
+    /// that the text names.
+    ///
+    /// # Errors
+    /// Everything that is wrong in the text.
+    pub fn parse_with(text: &str, dataset: &Dataset) -> Result<Self, ProblemError> {
+        read(text, "problem", FileSource::Stored(dataset))
+    }
 }
 
-pub(super) fn read(text: &str, file: &str, files: Files<'_>) -> Result<Problem, ProblemError> {
-    let report = Report::new(file, text);
-    let (document, errors) = DeTable::parse_recoverable(text);
-    report_syntax(&report, &errors);
-    let problem = if errors.is_empty() {
-        problem(Section::root(&report, document.get_ref()), files)
-    } else {
-        None
-    };
+fn read(text: &str, file: &str, source: FileSource<'_>) -> Result<Problem, ProblemError> {
+    let document = Document::new(file, text, source);
+    let (table, errors) = DeTable::parse_recoverable(text);
+    report_syntax(&document.report, &errors);
+    let problem = if errors.is_empty() { problem(&document, table.get_ref()) } else { None };
     if let Some(problem) = &problem {
-        report_violations(&report, document.get_ref(), problem);
+        report_violations(&document.report, table.get_ref(), problem);
     }
-    let files = report.files();
-    let mistakes = report.into_findings();
+    let files = document.files.take();
+    let mistakes = document.report.into_findings();
     let problem = match problem {
         Some(problem) if mistakes.is_empty() => problem,
         _ => return Err(ProblemError::new(mistakes)),
@@ -72,7 +107,7 @@ pub(super) fn read(text: &str, file: &str, files: Files<'_>) -> Result<Problem, 
         title => title.to_owned(),
     };
     // mistakes are about the vertices of the file
-    let cracks = super::cracks::settled(problem.cracks, &problem.domain);
+    let cracks = cracks::settled(problem.cracks, &problem.domain);
     Ok(Problem { title, cracks, text: Some(text.to_owned()), files, ..problem })
 }
 
@@ -106,100 +141,50 @@ fn report_violations(report: &Report<'_>, document: &DeTable<'_>, problem: &Prob
     }
 }
 
-/// The kind of equation, which decides what other tables may say.
-#[derive(Clone, Copy, PartialEq)]
-enum EquationKind {
-    Elasticity,
-    Poisson,
-}
-
-/// Words of a problem file that differ with the equation.
-struct EquationKeys {
-    /// Table of the right-hand side.
-    source: &'static str,
-    /// Key of the unknown field.
-    unknown: &'static str,
-    /// Key of its Neumann data.
-    neumann: &'static str,
-    /// The form of an array of components.
-    components: usize,
-}
-
-impl EquationKind {
-    fn words(self) -> EquationKeys {
-        let (source, unknown, neumann, components) = match self {
-            Self::Elasticity => ("body_force", "displacement", "traction", 2),
-            Self::Poisson => ("source", "value", "flux", 1),
-        };
-        EquationKeys { source, unknown, neumann, components }
+fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Problem> {
+    let root = Section::unchecked(document, &ROOT, table, 0);
+    let kind = match root.mentions("equation") {
+        true => root.section("equation").and_then(|section| section.require("kind")),
+        false => Some(EquationKind::Elasticity),
+    };
+    document.equation.set(kind);
+    let root = &root.checked();
+    if !root.mentions_any(&["boundary", "body_force", "source"]) {
+        root.error::<()>("nothing acts on the plate; add [[boundary]]");
     }
-
-    /// An equation of this kind.
-    fn example(self) -> Equation {
-        let state = StressState::PlaneStress;
-        match self {
-            Self::Elasticity => Equation::elasticity(Material { young: 1.0, poisson: 0.0, state }),
-            Self::Poisson => Equation::poisson(1.0),
-        }
-    }
-
-    /// Keys of the other equation, and what to write instead.
-    fn foreign(self) -> &'static [(&'static str, Instead)] {
-        match self {
-            Self::Elasticity => &[
-                ("source", Instead(&["body_force"])),
-                ("value", Instead(&["displacement"])),
-                ("flux", Instead(&["traction"])),
-                ("conductivity", Instead(&["young", "poisson", "state"])),
-            ],
-            Self::Poisson => &[
-                ("body_force", Instead(&["source"])),
-                ("displacement", Instead(&["value"])),
-                ("traction", Instead(&["flux"])),
-                ("young", Instead(&["conductivity"])),
-                ("poisson", Instead(&["conductivity"])),
-                ("state", Instead(&[])),
-            ],
-        }
-    }
-}
-
-fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
-    let kind = kind(&root);
-    let root = &sections(root, kind);
-    let title = root.get("title").and_then(|value| value.text()).unwrap_or_default();
-    let domain = domain(root);
-    let tables = tables(root, files, &kind.unwrap_or(EquationKind::Elasticity).example());
-    let scope = scopes::position(&tables).ok()?;
-    let discretization = discretization(root, files, &tables);
+    let title = root.get("title").unwrap_or_default();
+    let bounds = domain(root);
+    let example = kind.unwrap_or(EquationKind::Elasticity).example();
+    let tables = document.tables.get_or_init(|| table::tables(root, &example)).clone();
+    document.scope()?;
+    let plan = root.required_section("discretization");
+    let discretization = plan.as_ref().and_then(discretization::discretization);
+    let accuracy = plan.as_ref().and_then(|plan| plan.get("accuracy"));
     let solver = solver(root);
-    let cracks = cracks(root);
-    let holes = holes(root);
-    let names = enrichment::Names { cracks: cracks.len(), tables: &tables };
-    let enrichments = enrichments(root, &names);
-    let mut refinements = refinements(root, &tables);
+    let cracks = root.each("crack", |section| curve::course(&section));
+    let holes = all(root.sections("hole").iter().map(curve::hole));
+    let enrichments = root.each("enrichment", |new| enrichment::enrichment(&new, cracks.len()));
+    let mut refinements = root.each("refine", |new| steps::refinement(&new));
     let kind = kind?;
-    let exact = exact(root, kind, &scope);
-    let source = source(root, kind, &scope);
-    let equation = equation(root, kind, &scope);
-    let quantities = quantities(root, &equation, &tables);
-    let given = boundary::ConditionNames { scope: &scope, exact: exact.as_deref() };
-    let mut boundary = boundary(root, kind, domain, &given);
+    let exact = exact(root, kind);
+    let source = source(root, kind);
+    let equation = equation(root, kind);
+    let quantities = quantities(root, &equation);
+    let mut boundary = boundary::boundary(root, kind, bounds, exact.as_deref());
     if cracks.is_empty() && root.mentions("crack") {
         // none could be read: what is said of them cannot be judged
         boundary.retain(|condition| !matches!(condition.on, BorderPart::Crack { .. }));
         refinements.retain(|new| !matches!(new.place, RefinementRegion::Crack(_)));
     }
-    let domain = Domain { bounds: domain?, holes: holes? };
-    let (mut discretization, adaptivity) = (discretization?, adaptivity(root));
-    if root.section("discretization").is_some_and(|section| !section.mentions("order")) {
-        let accuracy = adaptivity.as_ref().and_then(|set| set.accuracy);
+    let domain = Domain { bounds: bounds?, holes: holes? };
+    let mut discretization = discretization?;
+    if !plan?.mentions("order") {
         let first = accuracy.map_or(0, Adaptivity::first_order);
         discretization.order = Order::Uniform(default_order(&equation, &domain).max(first));
     }
     Some(Problem {
-        title: title.to_owned(),
-        cracks: super::cracks::with_ends(cracks, &domain),
+        title,
+        cracks: cracks::with_ends(cracks, &domain),
         domain,
         equation,
         boundary,
@@ -209,8 +194,8 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
         tables,
         enrichments,
         discretization,
-        adaptivity,
-        growth: growth(root, &scope),
+        adaptivity: steps::adaptivity(root, accuracy),
+        growth: root.section("growth").map(|section| steps::growth(&section)),
         refinements,
         solver,
         text: None,
@@ -218,158 +203,102 @@ fn problem(root: Section<'_>, files: Files<'_>) -> Option<Problem> {
     })
 }
 
-/// Reports tables that are not known, and that none acts. Without a kind those of all kinds are.
-fn sections(root: Section<'_>, kind: Option<EquationKind>) -> Section<'_> {
-    let mut known = vec!["title", "domain", "equation", "material", "crack", "hole", "boundary"];
-    known.extend([
-        "exact",
-        "discretization",
-        "adaptivity",
-        "growth",
-        "refine",
-        "solver",
-        "table",
-        "enrichment",
-        "quantity",
-    ]);
-    let mut remedies = Vec::new();
-    match kind {
-        Some(kind) => {
-            known.push(kind.words().source);
-            remedies.extend(kind.foreign());
-        }
-        None => known.extend(["body_force", "source"]),
-    }
-    let root = root.only(&known, &remedies);
-    if !["boundary", "body_force", "source"].iter().any(|key| root.mentions(key)) {
-        root.error("nothing acts on the plate; add [[boundary]]");
-    }
-    root
-}
-
-/// A table that must be there, with the keys it may have.
-fn required<'a>(
-    root: &Section<'a>,
-    key: &'static str,
-    known: &[&'static str],
-    remedies: &[(&'static str, Instead)],
-) -> Option<Section<'a>> {
-    if !root.mentions(key) {
-        let keys: Vec<_> = known.iter().map(|key| format!("`{key}`")).collect();
-        let keys = keys.join(", ");
-        root.error(format!("the table [{key}] is missing; add it with its keys {keys}"));
-    }
-    Some(root.section(key)?.only(known, remedies))
-}
-
 fn domain(root: &Section<'_>) -> Option<Rect> {
-    let section = required(root, "domain", &["min", "max"], &[])?;
-    let min = section.require("min", "min = [-1.0, -1.0]").and_then(|value| value.point());
-    let max = section.require("max", "max = [1.0, 1.0]").and_then(|value| value.point());
+    let section = root.required_section("domain")?;
+    let (min, max) = (section.require("min"), section.require("max"));
     Some(Rect::new(min?, max?))
 }
 
-fn kind(root: &Section<'_>) -> Option<EquationKind> {
-    if !root.mentions("equation") {
-        return Some(EquationKind::Elasticity);
-    }
-    let section = root.section("equation")?.only(&["kind"], &[]);
-    let choices = [("elasticity", EquationKind::Elasticity), ("poisson", EquationKind::Poisson)];
-    section.require("kind", "kind = \"elasticity\"")?.choice(&choices)
-}
-
-fn equation(root: &Section<'_>, kind: EquationKind, scope: &Scope) -> Equation {
-    match kind {
-        EquationKind::Elasticity => Equation::Elasticity(material(root, scope)),
-        EquationKind::Poisson => {
-            let read = || {
-                let section = root.section("material")?.only(&["conductivity"], kind.foreign());
-                section.get("conductivity")?.expression(scope)
-            };
-            Equation::Poisson { conductivity: read().unwrap_or(1.0.into()) }
-        }
-    }
-}
-
 /// Values that are missing or wrong are reported, and replaced by possible ones.
-fn material(root: &Section<'_>, scope: &Scope) -> Elasticity {
-    let states =
-        [("plane-strain", StressState::PlaneStrain), ("plane-stress", StressState::PlaneStress)];
-    let keys = ["young", "poisson", "state"];
-    let section = required(root, "material", &keys, EquationKind::Elasticity.foreign());
-    let value = |key, example| section.as_ref()?.require(key, example);
-    let constant = |key, example| value(key, example)?.expression(scope);
-    let state = || value("state", "state = \"plane-strain\"")?.choice(&states);
-    Elasticity {
-        young: constant("young", "young = 1.0").unwrap_or(1.0.into()),
-        poisson: constant("poisson", "poisson = 0.3").unwrap_or(0.0.into()),
-        state: state().unwrap_or(StressState::PlaneStress),
+fn equation(root: &Section<'_>, kind: EquationKind) -> Equation {
+    if kind == EquationKind::Poisson {
+        let conductivity = root.section("material").and_then(|section| section.get("conductivity"));
+        return Equation::Poisson { conductivity: conductivity.unwrap_or(1.0.into()) };
     }
+    let section = root.required_section("material");
+    let constant = |key| section.as_ref()?.require::<Expression>(key);
+    Equation::Elasticity(Elasticity {
+        young: constant("young").unwrap_or(1.0.into()),
+        poisson: constant("poisson").unwrap_or(0.0.into()),
+        state: section
+            .as_ref()
+            .and_then(|s| s.require("state"))
+            .unwrap_or(StressState::PlaneStress),
+    })
 }
 
-/// The cracks; none at all if one of them cannot be read, as the checks count them.
-fn cracks(root: &Section<'_>) -> Vec<Vec<Vec2>> {
-    all(root.sections("crack").into_iter().map(course)).unwrap_or_default()
-}
-
-fn points(value: &Value<'_>) -> Option<Vec<Vec2>> {
-    all(value.list("a list of points [[x, y], …]")?.iter().map(Value::point))
-}
-
-fn source(root: &Section<'_>, kind: EquationKind, scope: &Scope) -> Vec<Expression> {
-    let words = kind.words();
-    let read = || {
-        let section = root.section(words.source)?.only(&["value"], &[]);
-        let example =
-            if kind == EquationKind::Poisson { "value = 1.0" } else { "value = [0.0, -1.0]" };
-        expressions(&section.require("value", example)?, kind, scope)
-    };
-    read().unwrap_or_else(|| vec![Expression::number(0.0); words.components])
+fn source(root: &Section<'_>, kind: EquationKind) -> Vec<Expression> {
+    let [source, ..] = kind.keys();
+    let section = root.section(source);
+    let given = section.and_then(|section| expressions(&section.required("value")?));
+    given.unwrap_or_else(|| vec![Expression::number(0.0); kind.components()])
 }
 
 /// The exact solution: empty if there is none, `None` if it cannot be read.
-fn exact(root: &Section<'_>, kind: EquationKind, scope: &Scope) -> Option<Vec<Expression>> {
+fn exact(root: &Section<'_>, kind: EquationKind) -> Option<Vec<Expression>> {
     if !root.mentions("exact") {
         return Some(Vec::new());
     }
-    let unknown = kind.words().unknown;
-    let section = root.section("exact")?.only(&[unknown], kind.foreign());
-    let formulas = if kind == EquationKind::Poisson { "\"x*y\"" } else { "[\"x*y\", \"x + y\"]" };
-    let value = section.require(unknown, &format!("{unknown} = {formulas}"))?;
-    expressions(&value, kind, scope)
+    let [_, unknown, _] = kind.keys();
+    expressions(&root.section("exact")?.required(unknown)?)
 }
 
-/// One value per component: those of an array, or the value itself if there is but one.
-fn components<'a>(value: &Value<'a>, kind: EquationKind) -> Option<Vec<Value<'a>>> {
-    match kind {
-        EquationKind::Elasticity => value.pair("an array of two, one per component").map(Vec::from),
-        EquationKind::Poisson => Some(vec![value.clone()]),
-    }
-}
-
-fn expressions(value: &Value<'_>, kind: EquationKind, scope: &Scope) -> Option<Vec<Expression>> {
-    all(components(value, kind)?.iter().map(|value| value.expression(scope)))
-}
-
-/// Everything, or nothing if one is missing; unlike `collect` it asks all of them, so that each can
-/// report.
-fn all<T>(items: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
-    let items: Vec<_> = items.collect();
-    items.into_iter().collect()
+fn expressions(value: &Value<'_>) -> Option<Vec<Expression>> {
+    all(value.components()?.iter().map(Expression::read))
 }
 
 fn solver(root: &Section<'_>) -> Solver {
-    let kinds = [
-        ("auto", SolverKind::Auto),
-        ("direct", SolverKind::Direct),
-        ("multilevel", SolverKind::Multilevel),
-    ];
-    let section = root.section("solver").map(|s| s.only(&["kind", "tolerance", "kernels"], &[]));
-    let get = |key| section.as_ref()?.get(key);
-    let tolerance = get("tolerance").and_then(|value| value.number());
+    let default = Solver::default();
+    let Some(section) = root.section("solver") else { return default };
     Solver {
-        tolerance: tolerance.unwrap_or(Solver::default().tolerance),
-        kind: get("kind").and_then(|value| value.choice(&kinds)).unwrap_or_default(),
-        kernels: get("kernels").and_then(|value| value.boolean()).unwrap_or(true),
+        tolerance: section.get("tolerance").unwrap_or(default.tolerance),
+        kind: section.get("kind").unwrap_or(default.kind),
+        kernels: section.get("kernels").unwrap_or(default.kernels),
     }
+}
+
+/// The quantities that can be read, each of which may use those before it.
+fn quantities(root: &Section<'_>, equation: &Equation) -> Vec<NamedQuantity> {
+    let mut found = Vec::new();
+    let sections = root.sections_at_most(MAX_QUANTITIES, "quantity");
+    if is_too_long(&sections) {
+        return found;
+    }
+    for section in sections {
+        found.extend(quantity(&section, equation, &found));
+    }
+    found
+}
+
+/// Reports formulas that are longer together than a dataset can hold: each is read with all
+/// before it.
+fn is_too_long(sections: &[Section<'_>]) -> bool {
+    let mut sum = 0;
+    let too_long = sections.iter().find(|section| {
+        let formula = section.value("formula");
+        sum += formula.and_then(|value| value.as_text()).map_or(0, str::len);
+        sum > MAX_QUANTITY_TEXT
+    });
+    let message = format!(
+        "the formulas of the quantities are longer than {MAX_QUANTITY_TEXT} bytes together; leave some out"
+    );
+    too_long.inspect(|section| _ = section.error::<()>(message)).is_some()
+}
+
+fn quantity(
+    section: &Section<'_>,
+    equation: &Equation,
+    earlier: &[NamedQuantity],
+) -> Option<NamedQuantity> {
+    let name = section.require("name");
+    let formula = section.required("formula").and_then(|value| {
+        let text = value.text()?;
+        match quantities::parse(text, equation, section.document.tables(), earlier) {
+            Ok(_) => Some(text),
+            Err(QuantityFormulaError::Formula(error)) => value.inside(text, Err(error)),
+            Err(error) => value.error(&format!("cannot be used: {error}")),
+        }
+    });
+    let unit = section.or("unit", String::new());
+    Some(NamedQuantity { name: name?, text: formula?.to_owned(), unit: unit? })
 }

@@ -1,33 +1,31 @@
 //! The tables `[[table]]`.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use ppum::dataset::{Equation, MAX_TABLES};
 use ppum::formula::{Table, TableError};
 
-use super::super::document::{Section, Value};
+use super::super::document::{FileSource, Read as _, Section, Value, all};
 use super::super::scopes;
 use super::super::table_file::{self, TableData};
-use super::Files;
 
 /// The tables. For one that is wrong in all but its name another one stands in, so that formulas
 /// that read it are not found wrong as well.
-pub(super) fn tables(root: &Section<'_>, files: Files<'_>, equation: &Equation) -> Vec<Arc<Table>> {
-    let folder = match files {
-        Files::In(folder) => folder,
-        Files::Stored(dataset) => return dataset.tables.clone(),
-    };
+pub(super) fn tables(root: &Section<'_>, equation: &Equation) -> Vec<Arc<Table>> {
+    if let FileSource::Stored(dataset) = root.document.source {
+        return dataset.tables.clone();
+    }
     let mut found = Vec::new();
     for section in root.sections_at_most(MAX_TABLES, "table") {
-        let section = section.only(&["name", "x", "y", "values", "file"], &[]);
-        let name = section.require("name", "name = \"stiffness\"");
-        let data = data(&section, folder);
+        let name = section.required("name");
+        let data = data(&section);
         let Some((value, name)) = name.and_then(|value| Some((value.clone(), value.text()?)))
         else {
             continue;
         };
-        let table = data.and_then(|data| table(&section, name, data));
+        let table = data.and_then(|data| {
+            data.table(name).map(Arc::new).map_err(|error| report(&section, &error)).ok()
+        });
         found.extend(table.or_else(|| stand_in(name, section.mentions("y"))));
         if let Err(error) = scopes::check(&found, equation) {
             found.pop();
@@ -40,58 +38,48 @@ pub(super) fn tables(root: &Section<'_>, files: Files<'_>, equation: &Equation) 
 /// A table with the value 1.
 fn stand_in(name: &str, is_surface: bool) -> Option<Arc<Table>> {
     let knots = vec![0.0, 1.0];
-    let table = match is_surface {
-        true => Table::surface(name, knots.clone(), knots, vec![1.0; 4]),
-        false => Table::curve(name, knots, vec![1.0; 2]),
-    };
-    table.ok().map(Arc::new)
+    let y = if is_surface { knots.clone() } else { Vec::new() };
+    let values = vec![1.0; if is_surface { 4 } else { 2 }];
+    TableData { x: knots, y, values }.table(name).ok().map(Arc::new)
 }
 
-fn data(section: &Section<'_>, folder: &Path) -> Option<TableData> {
-    match (section.get("file"), ["x", "y", "values"].iter().find_map(|key| section.get(key))) {
-        (Some(_), Some(own)) => own.error("contradicts `file`; give one of them"),
+/// Keys of data that stand in the problem file.
+const INLINE: [&str; 3] = ["x", "y", "values"];
+
+fn data(section: &Section<'_>) -> Option<TableData> {
+    match (section.value("file"), section.given(&INLINE).first()) {
+        (Some(_), Some((_, own))) => own.error("contradicts `file`; give one of them"),
         (Some(file), None) => {
-            let found = table_file::read(&file.file(folder)?);
-            found.map_err(|mistakes| mistakes.into_iter().for_each(|new| file.add(new))).ok()
+            let FileSource::Folder(folder) = section.document.source else { return None };
+            table_file::read(&file.file(folder)?).map_err(|mistakes| file.add(mistakes)).ok()
         }
         (None, Some(_)) => inline(section),
-        (None, None) => {
-            if !["file", "x", "y", "values"].iter().any(|key| section.mentions(key)) {
-                section.error("[[table]] has no data; add `x` and `values`, or `file`");
-            }
-            None
-        }
+        (None, None) if section.mentions("file") || section.mentions_any(&INLINE) => None,
+        _ => section.error("[[table]] has no data; add `x` and `values`, or `file`"),
     }
 }
 
 fn inline(section: &Section<'_>) -> Option<TableData> {
-    let x = section.require("x", "x = [0.0, 0.5, 1.0]").and_then(|value| numbers(&value));
-    let y = section.get("y").map_or(Some(Vec::new()), |value| numbers(&value));
-    let values = section.require("values", "values = [1.0, 2.0, 4.0]");
+    let x: Option<Vec<f64>> = section.require("x");
+    let y: Option<Vec<f64>> = section.or("y", Vec::new());
+    let values = section.required("values");
     let (x, y, values) = (x?, y?, values?);
-    let values = if y.is_empty() { numbers(&values)? } else { rows(&values, x.len())? };
+    let rows = |row: &Value<'_>| row_of(row, x.len());
+    let values = match y.is_empty() {
+        true => Vec::read(&values)?,
+        false => all(values.list()?.iter().map(rows))?.concat(),
+    };
     Some(TableData { x, y, values })
 }
 
-fn numbers(value: &Value<'_>) -> Option<Vec<f64>> {
-    super::all(value.list("a list of numbers")?.iter().map(Value::number))
-}
-
-fn rows(values: &Value<'_>, length: usize) -> Option<Vec<f64>> {
-    let row = |row: &Value<'_>| {
-        let found = row.list("a row of numbers for each knot in y")?;
-        let given = found.len();
-        if given != length {
-            let needed = format!("has a row of {given} numbers, but `x` has {length}");
-            return row.error(&needed);
-        }
-        super::all(found.iter().map(Value::number))
-    };
-    Some(super::all(values.list("a list of rows")?.iter().map(row))?.concat())
-}
-
-fn table(section: &Section<'_>, name: &str, data: TableData) -> Option<Arc<Table>> {
-    data.table(name).map(Arc::new).map_err(|error| report(section, &error)).ok()
+/// A row of so many numbers.
+fn row_of(row: &Value<'_>, length: usize) -> Option<Vec<f64>> {
+    let found = Vec::read(row)?;
+    let given = found.len();
+    if given != length {
+        return row.error(&format!("has a row of {given} numbers, but `x` has {length}"));
+    }
+    Some(found)
 }
 
 /// Reports what is wrong with the data, at the list or the number.
@@ -101,10 +89,10 @@ fn report(section: &Section<'_>, error: &TableError) {
         TableError::NotIncreasing { axis, index, .. } => (axis.to_string(), Some(*index)),
         _ => ("values".to_owned(), None),
     };
-    let list = section.get(&key).or_else(|| section.get("file"));
+    let list = section.value(&key).or_else(|| section.value("file"));
     let number = list.as_ref().and_then(|list| list.element(index?));
     match number.or(list) {
         Some(value) => value.report(&error.to_string()),
-        None => section.error(error.to_string()),
+        None => _ = section.error::<()>(error.to_string()),
     }
 }

@@ -11,7 +11,7 @@ use super::*;
 
 /// A plate with one of everything. Line numbers: 1 domain, 4 material, 8 crack, 10 and 13 boundary,
 /// 16 and 20 table, 25, 32, 38 and 42 enrichment, 45 quantity, 49 discretization.
-const FORMULAS: &str = include_str!("../../../tests/bad_files/formulas.toml");
+pub(super) const FORMULAS: &str = include_str!("../../../tests/bad_files/formulas.toml");
 
 #[test]
 fn everything_given_by_formulas() {
@@ -169,27 +169,6 @@ fn files_of_tables() {
     wrong("plate.toml:18:8: table `k` has 1 knots in x; at least two are needed");
     data("");
     wrong("k.csv: there are no values");
-}
-
-/// Every line left out or given another value: what is refused is refused with a reason, and what
-/// is accepted passes the checks.
-#[test]
-fn nothing_is_refused_without_a_reason() {
-    const VALUES: [&str; 9] =
-        ["1", "-1", "1e300", "true", "\"x\"", "\"\"", "[]", "[[1, 2], [3, 4]]", "{ a = 1 }"];
-    let lines: Vec<_> = FORMULAS.lines().collect();
-    for (place, line) in lines.iter().enumerate() {
-        let with = |new: &str| {
-            let text = [&lines[..place], &[new], &lines[place + 1..]].concat().join("\n");
-            match parse(&text) {
-                Ok(problem) => assert_eq!(problem.check(), Ok(()), "{text}"),
-                Err(error) => assert!(!error.mistakes().is_empty(), "{text}"),
-            }
-        };
-        with("");
-        let Some((key, _)) = line.split_once(" = ") else { continue };
-        VALUES.iter().for_each(|value| with(&format!("{key} = {value}")));
-    }
 }
 
 #[test]

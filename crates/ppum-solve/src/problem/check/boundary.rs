@@ -1,0 +1,121 @@
+//! Rules for conditions on the border.
+
+use std::collections::BTreeMap;
+
+use ppum::crack::Side;
+use ppum::vec2::Rect;
+
+use super::super::boundary::{BorderPart, BoundaryCondition, Edge};
+use super::super::key::{Key, MistakeAt, no_such};
+use super::super::model::Problem;
+
+/// All rules broken by the conditions on the border.
+pub(super) fn check_boundary(problem: &Problem) -> Vec<MistakeAt> {
+    let parts = problem.boundary.iter().enumerate();
+    let mut found: Vec<_> = parts.filter_map(|(k, part)| check_part(k, part, problem)).collect();
+    found.extend(check_contradictions(&problem.boundary));
+    found
+}
+
+/// A component of which a condition says something, on a stretch of a part of the border.
+struct Claim {
+    /// Kind and number of the part, face, component.
+    place: (u8, usize, u8, usize),
+    stretch: [f64; 2],
+    condition: usize,
+}
+
+fn claims(index: usize, condition: &BoundaryCondition) -> Vec<Claim> {
+    let [both, above, below] = [vec![0, 1], vec![0], vec![1]];
+    let (kind, number, faces, stretch) = match condition.on {
+        BorderPart::Edge { edge, from, to } => (0, edge as usize, above, [from, to]),
+        BorderPart::Hole(hole) => (1, hole, above, [0.0, 1.0]),
+        BorderPart::Crack { crack, face } => {
+            let faces = face.map_or(both, |side| if side == Side::Above { above } else { below });
+            (2, crack, faces, [0.0, 1.0])
+        }
+    };
+    let components = (0..condition.components.len()).filter(|&k| condition.says(k));
+    let claim = |(component, face)| Claim {
+        place: (kind, number, face, component),
+        stretch,
+        condition: index,
+    };
+    components.flat_map(|k| faces.iter().map(move |&face| (k, face))).map(claim).collect()
+}
+
+/// No component is given twice at a place. Of the conditions that an earlier one contradicts each
+/// is told once.
+fn check_contradictions(boundary: &[BoundaryCondition]) -> Vec<MistakeAt> {
+    let mut all: Vec<_> =
+        boundary.iter().enumerate().flat_map(|(k, part)| claims(k, part)).collect();
+    all.sort_by(|a, b| a.place.cmp(&b.place).then(a.stretch[0].total_cmp(&b.stretch[0])));
+    let mut pairs = BTreeMap::new();
+    let mut claims = all.iter();
+    let Some(mut farthest) = claims.next() else { return Vec::new() };
+    for claim in claims {
+        let meets = claim.place == farthest.place && claim.stretch[0] < farthest.stretch[1];
+        if meets && claim.condition != farthest.condition {
+            let (a, b) = (claim.condition, farthest.condition);
+            pairs.entry(a.max(b)).or_insert(a.min(b));
+        }
+        if !meets || claim.stretch[1] > farthest.stretch[1] {
+            farthest = claim;
+        }
+    }
+    let mistake = |(later, earlier): (usize, usize)| {
+        let message = contradiction(&boundary[earlier], &boundary[later])?;
+        Some(on(later).mistake(message).with_other(on(earlier)))
+    };
+    pairs.into_iter().filter_map(mistake).collect()
+}
+
+fn on(index: usize) -> Key {
+    Key::new("boundary").index(index).name("on")
+}
+
+fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) -> Option<MistakeAt> {
+    let (holes, cracks) = (problem.domain.holes.len(), problem.cracks.len());
+    let message = match condition.on {
+        BorderPart::Edge { edge, from, to } => bad_range(edge, [from, to], &problem.domain.bounds)?,
+        BorderPart::Hole(hole) if hole >= holes => no_such("hole", hole, holes),
+        BorderPart::Crack { crack, .. } if crack >= cracks => no_such("crack", crack, cracks),
+        BorderPart::Crack { .. } if condition.held().contains(&true) => {
+            "the faces of a crack cannot be held; give them a traction or a pressure".to_owned()
+        }
+        _ => return None,
+    };
+    Some(on(index).mistake(message))
+}
+
+fn bad_range(edge: Edge, [from, to]: [f64; 2], domain: &Rect) -> Option<String> {
+    let [first, last] = edge.range(domain);
+    if from >= to {
+        return Some(format!("`from` is {from} and `to` is {to}, but `to` must exceed `from`"));
+    }
+    let edge = edge.name();
+    (from < first || to > last).then(|| {
+        format!(
+            "from {from} to {to} leaves the {edge} edge, which runs from {first} to {last}; stay inside"
+        )
+    })
+}
+
+/// Two conditions that speak of the same component at the same place.
+fn contradiction(a: &BoundaryCondition, b: &BoundaryCondition) -> Option<String> {
+    let place = a.on.common(&b.on)?;
+    let count = a.components.len().min(b.components.len());
+    let component = (0..count).find(|&k| a.says(k) && b.says(k))?;
+    let what = match count {
+        1 => "the value or flux".to_owned(),
+        _ => format!("the {} component", ["x", "y"][component]),
+    };
+    let remedy = match place {
+        BorderPart::Edge { .. } => "divide the edge by `from` and `to`, or leave",
+        _ => "leave",
+    };
+    Some(format!(
+        "{what} on {place} is given twice; give each component once at each place: {remedy} a \
+         component \"free\""
+    ))
+}

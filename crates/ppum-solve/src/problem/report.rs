@@ -1,0 +1,67 @@
+//! What is wrong in a text, with the places.
+
+use std::cell::RefCell;
+use std::iter;
+
+use super::error::{Location, Mistake};
+
+/// Collects mistakes; shared by all sections and values of a document.
+pub(super) struct Report<'a> {
+    file: &'a str,
+    pub(super) text: &'a str,
+    /// Bytes at which the lines of the text begin: files may have as many mistakes as lines.
+    lines: Vec<usize>,
+    /// With the offset in the text, by which they are sorted in the end.
+    mistakes: RefCell<Vec<(usize, Mistake)>>,
+}
+
+impl<'a> Report<'a> {
+    pub(super) fn new(file: &'a str, text: &'a str) -> Self {
+        let starts = text.match_indices('\n').map(|(newline, _)| newline + 1);
+        let lines = iter::once(0).chain(starts).collect();
+        Self { file, text, lines, mistakes: RefCell::default() }
+    }
+
+    /// Reports a mistake at a byte of the text.
+    pub(super) fn at(&self, offset: usize, message: impl Into<String>) {
+        let (line, column) = self.position(offset);
+        let location = Location::Text { file: self.file.to_owned(), line, column };
+        self.add(offset, Mistake { location, message: message.into() });
+    }
+
+    /// Reports a mistake in another file, named at a byte of this text.
+    pub(super) fn add(&self, offset: usize, mistake: Mistake) {
+        self.mistakes.borrow_mut().push((offset, mistake));
+    }
+
+    /// Line and column in characters, from 1, of a byte of the text.
+    pub(super) fn position(&self, offset: usize) -> (usize, usize) {
+        let line = self.lines.partition_point(|start| *start <= offset);
+        let before = self.text.get(self.lines[line - 1]..offset).unwrap_or_default();
+        (line, before.chars().count() + 1)
+    }
+
+    /// The mistakes in the order of the text.
+    pub(super) fn into_findings(self) -> Vec<Mistake> {
+        let mut mistakes = self.mistakes.into_inner();
+        mistakes.sort_by_key(|(offset, _)| *offset);
+        // of a curve each vertex has the place of all
+        mistakes.dedup_by(|a, b| a.0 == b.0 && a.1.message == b.1.message);
+        mistakes.into_iter().map(|(_, mistake)| mistake).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_characters_and_lines_from_one() {
+        let text = "ä = 1\r\nβγ = 2\n";
+        let report = Report::new("plate.toml", text);
+        assert_eq!(report.position(0), (1, 1));
+        assert_eq!(report.position(text.find('=').expect("there")), (1, 3));
+        assert_eq!(report.position(text.find('2').expect("there")), (2, 6));
+        assert_eq!(report.position(text.len()), (3, 1));
+    }
+}

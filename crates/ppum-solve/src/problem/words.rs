@@ -1,0 +1,68 @@
+//! Values that have names in problem files.
+
+use ppum::crack::Side;
+use ppum::dataset::{Equation, Material, StressState};
+
+/// Values that are written as one of some words.
+pub(super) trait Words: Copy + PartialEq + 'static {
+    /// All of them, with their words.
+    const WORDS: &'static [(&'static str, Self)];
+
+    /// The word of a value.
+    fn word(self) -> &'static str {
+        Self::WORDS.iter().find(|(_, value)| *value == self).map_or("", |(word, _)| word)
+    }
+}
+
+/// The words of all values.
+pub(super) fn words<T: Words>() -> Vec<&'static str> {
+    T::WORDS.iter().map(|(word, _)| *word).collect()
+}
+
+impl Words for StressState {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("plane-strain", Self::PlaneStrain), ("plane-stress", Self::PlaneStress)];
+}
+
+impl Words for Side {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("above", Self::Above), ("below", Self::Below)];
+}
+
+/// The kind of equation, which decides what tables may say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EquationKind {
+    /// −div σ(u) = f.
+    Elasticity,
+    /// −div (κ ∇u) = f.
+    Poisson,
+}
+
+impl Words for EquationKind {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("elasticity", Self::Elasticity), ("poisson", Self::Poisson)];
+}
+
+impl EquationKind {
+    /// Keys of the right-hand side, of the unknown field, and of its Neumann data.
+    pub(super) fn keys(self) -> [&'static str; 3] {
+        match self {
+            Self::Elasticity => ["body_force", "displacement", "traction"],
+            Self::Poisson => ["source", "value", "flux"],
+        }
+    }
+
+    /// Number of components of the unknown field.
+    pub(super) fn components(self) -> usize {
+        self.example().components()
+    }
+
+    /// An equation of this kind.
+    pub(super) fn example(self) -> Equation {
+        let state = StressState::PlaneStress;
+        match self {
+            Self::Elasticity => Equation::elasticity(Material { young: 1.0, poisson: 0.0, state }),
+            Self::Poisson => Equation::poisson(1.0),
+        }
+    }
+}
