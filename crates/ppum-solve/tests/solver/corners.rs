@@ -4,13 +4,13 @@
 //! geometrically towards every singular point (NGSolve 6.2.2608), right to 1e-7. Cells that are not
 //! refined towards these points had errors of 0.1 to 3.7 % in the energy and up to 5.6 % in K.
 
+use crate::studies::support::parsed;
 use ppum::crack::End;
 use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::{Plan, solve};
 use ppum_solve::space::discretise;
-use std::path::Path;
 
 const PULLED: &str = r#"
 [[boundary]]
@@ -37,7 +37,7 @@ fn plate(tables: &str, keys: &str) -> Problem {
         "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
          state = \"plane-strain\"\n{tables}\n[discretization]\n{keys}\n"
     );
-    Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem")
+    parsed(&text)
 }
 
 fn solved_with(tables: &str, keys: &str) -> Dataset {
@@ -308,7 +308,7 @@ fn loaded_corners_anywhere() {
              [[boundary]]\non = {{ crack = 0 }}\npressure = 1.0\n[[boundary]]\non = {{ hole = 0 }}\npressure = 0.5\n\
              [discretization]\n{keys}\n"
         );
-        let problem = Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem");
+        let problem = parsed(&text);
         let dataset = solve(&problem, unwatched()).expect("a solution");
         let tip = |end: End| {
             let mut all = dataset.steps[0].intensities.iter();
@@ -356,7 +356,7 @@ fn assert_potential((hole, exact): (&str, f64), level: u32, order: usize, tolera
          on = \"bottom\"\nflux = -1.0\n[[boundary]]\non = \"top\"\nflux = 1.0\n{hole}[discretization]\n\
          level = {level}\norder = {order}\n"
     );
-    let problem = Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem");
+    let problem = parsed(&text);
     let dataset = solve(&problem, unwatched()).expect("a solution");
     let error = 1.0 - energy(&dataset) / exact;
     assert!((-1e-7..tolerance).contains(&error), "{order}: {error}");

@@ -1,6 +1,6 @@
 //! Cracks and holes given as curves, which the program divides into segments.
 
-use crate::studies::support::solved;
+use crate::studies::support::{parsed, solved};
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::domain::Hole;
@@ -21,7 +21,7 @@ fn plate(half: f64, level: u32, [x, y]: [f64; 2], tables: &str) -> Problem {
          traction = [0, {y}]\n[[boundary]]\non = \"left\"\ntraction = [-{x}, 0]\n[[boundary]]\non = \"right\"\n\
          traction = [{x}, 0]\n[discretization]\nlevel = {level}\n{tables}"
     );
-    Problem::parse(&text, "plate.toml", Path::new(".")).unwrap_or_else(|e| panic!("{e}\n{text}"))
+    parsed(&text)
 }
 
 /// The plate on 8 × 8 cells, none of which is divided: enough where two solutions are compared that

@@ -6,7 +6,7 @@
 
 use crate::studies::exact_fields::{MATERIAL, OBLIQUE, SQUARE, discretization, expressions, held};
 use crate::studies::plates::pulled;
-use crate::studies::support::{Both, both, errors, record, solved};
+use crate::studies::support::{Both, both, errors, parsed, record, solved};
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::domain::{Domain, Hole};
@@ -16,7 +16,6 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::problem::{Cells, Edge, Order, Problem};
 use ppum_testkit::exact::{ExactField as _, RoundHole, Smooth};
 use ppum_testkit::random::Random;
-use std::path::Path;
 
 /// Bounds of the effectivity of solutions that see their data.
 const SMOOTH: [f64; 2] = [0.7, 1.8];
@@ -30,10 +29,6 @@ fn assert_effective(name: &str, dataset: &Dataset, error: f64, [least, most]: [f
     let effectivity = estimated / error;
     println!("{name}: error {error:.2e}, estimated {estimated:.2e}, effectivity {effectivity:.2}");
     assert!((least..=most).contains(&effectivity), "{name}: {estimated:e} for {error:e}");
-}
-
-fn parsed(text: &str) -> Problem {
-    Problem::parse(text, "plate.toml", Path::new(".")).expect("a problem")
 }
 
 /// Asserts the estimate of a field on [−1, 1]² with its body force, given on the border, at pairs

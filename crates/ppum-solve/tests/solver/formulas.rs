@@ -23,7 +23,7 @@ use ppum_solve::space::{Space, discretise};
 use ppum_testkit::exact::ExactField;
 
 use crate::studies::exact_fields::{OBLIQUE, SQUARE, discretization};
-use crate::studies::support::{both, errors, solved};
+use crate::studies::support::{both, errors, parsed, solved};
 
 /// Value and gradient of each component at `anchor + offset`.
 pub(crate) type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
@@ -293,7 +293,7 @@ level = 2
 #[test]
 fn a_round_inclusion() {
     let problem = |level| {
-        let mut problem = Problem::parse(DISC, "disc.toml", Path::new("")).expect("in order");
+        let mut problem = parsed(DISC);
         problem.discretization.cells = Cells::Level(level);
         problem
     };

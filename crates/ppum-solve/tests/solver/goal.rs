@@ -3,10 +3,9 @@
 
 use crate::studies::factors::{errors_of_factors, plates};
 use crate::studies::plates::{Known, Plate, centre_cracks, end_shear, slanted_cracks};
-use crate::studies::support::solved;
+use crate::studies::support::{parsed, solved};
 use ppum_solve::diagnostics::kind;
-use ppum_solve::problem::{Adaptivity, Cells, Order, Problem};
-use std::path::Path;
+use ppum_solve::problem::{Adaptivity, Cells, Order};
 
 /// Limits of the effectivity, the estimated error over the error. Where K is nearly right by chance
 /// it is larger.
@@ -55,7 +54,7 @@ fn clamped_and_stiff() -> Plate {
     let known = |(tip, mode, value)| Known { name: "K", tip, mode, value };
     let mut plate = end_shear();
     plate.name = "clamped, ν = 0.49".into();
-    plate.problem = Problem::parse(text, "plate.toml", Path::new("")).expect("a problem");
+    plate.problem = parsed(text);
     plate.known = factors.map(known).to_vec();
     plate
 }
@@ -85,7 +84,7 @@ fn steps_begin_near_their_end() {
         let plate = "[domain]\nmin = [0, 0]\nmax = [1, 1]\n[material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
                      [[boundary]]\non = \"top\"\ndisplacement = [0, 0]\n[discretization]\n";
         let text = format!("{plate}{text}\n");
-        Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem").discretization
+        parsed(&text).discretization
     };
     let easy = [("1e-2", 2, 2), ("1e-3", 2, 2), ("1e-4", 3, 3)];
     let hard = [("1e-6", 3, 4), ("1e-7", 3, 6), ("1e-8", 3, 7)];

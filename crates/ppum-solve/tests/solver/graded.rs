@@ -1,7 +1,7 @@
 //! Stress intensity factors where the material varies or jumps.
 
 use crate::studies::exact_fields::{OBLIQUE, discretization};
-use crate::studies::support::solved;
+use crate::studies::support::{parsed, solved};
 use ppum::crack::Side;
 use ppum::dataset::{
     Dataset, Elasticity, Equation, Material, Ring, Step, StressState, TipIntensity,
@@ -11,12 +11,11 @@ use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::diagnostics::kind;
 use ppum_solve::intensity::{Loads, intensities};
-use ppum_solve::problem::{Cells, Problem};
+use ppum_solve::problem::Cells;
 use ppum_solve::space::Space;
 use ppum_testkit::exact::{Component, ExactField as _, Williams};
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
-use std::path::Path;
 
 const K: [f64; 2] = [1.0, 0.5];
 const T_STRESS: f64 = 0.3;
@@ -215,7 +214,7 @@ impl Plate<'_> {
              poisson = \"{poisson}\"\nstate = \"{state}\"\n[[crack]]\npoints = {crack}\n{rest}\n\
              [discretization]\nlevel = {level}\norder = {order}\nrefine = {refine}\n"
         );
-        solved(&Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem"))
+        solved(&parsed(&text))
     }
 
     fn tips(&self) -> Vec<TipIntensity> {

@@ -1,19 +1,15 @@
 //! Cracks that grow: kinks, paths, what they meet, loads and cycles, and series that
 //! are interrupted.
 
+use crate::studies::support::parsed;
 use ppum::crack::{CrackEnd, End, TipId};
 use ppum::dataset::{Advance, Dataset, Fate, GrowthStop, Step, TipIntensity};
 use ppum::progress::{Progress, Verdict, unwatched};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::growth::{GrowthError, Kink, Last, grow, kink, series};
-use ppum_solve::problem::{Criterion, Problem};
+use ppum_solve::problem::Criterion;
 use ppum_solve::report::forget_times;
 use ppum_solve::solve::SolveError;
-use std::path::Path;
-
-fn parsed(text: &str) -> Problem {
-    Problem::parse(text, "plate.toml", Path::new(".")).expect("a problem in order")
-}
 
 fn grown(text: &str) -> Vec<Step> {
     series(&parsed(text), None, unwatched()).expect("a series").steps

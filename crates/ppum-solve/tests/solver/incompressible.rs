@@ -1,7 +1,5 @@
 //! Plates that hardly change their volume.
 
-use std::path::Path;
-
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Material, StressState};
 use ppum::field::Field;
@@ -12,7 +10,7 @@ use ppum_solve::problem::{Cells, Order, Problem};
 use ppum_testkit::random::Random;
 
 use crate::studies::exact_fields::{SQUARE, discretization, expressions, held};
-use crate::studies::support::{Errors, errors, solved};
+use crate::studies::support::{Errors, errors, parsed, solved};
 
 /// The plate of `examples/centre-crack-tension.toml`.
 fn cracked(material: &str, discretization: &str) -> Problem {
@@ -21,7 +19,7 @@ fn cracked(material: &str, discretization: &str) -> Problem {
          points = [[-0.5, 0.0], [0.5, 0.0]]\n[[boundary]]\non = \"bottom\"\ntraction = [0, -1]\n\
          [[boundary]]\non = \"top\"\ntraction = [0, 1]\n[discretization]\n{discretization}\n"
     );
-    Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem")
+    parsed(&text)
 }
 
 fn strain(poisson: &str) -> String {
@@ -86,7 +84,7 @@ fn all_round_pressure_is_not_warned_of() {
         .to_owned();
     let side = |on: &str| format!("[[boundary]]\non = \"{on}\"\npressure = 1\n");
     let text = ["left", "right", "bottom", "top"].map(side).concat() + &text;
-    let problem = Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem");
+    let problem = parsed(&text);
     let dataset = solved(&problem);
     assert!(dataset.steps[0].warnings.is_empty(), "{:?}", dataset.steps[0].warnings);
 }

@@ -1,7 +1,5 @@
 //! Materials that jump, without an enrichment of the problem's own.
 
-use std::path::Path;
-
 use ppum::dataset::Step;
 use ppum::progress::unwatched;
 use ppum::vec2::vec2;
@@ -9,7 +7,7 @@ use ppum_solve::problem::{Cells, Enrichment, LocalEnrichment, Order, Problem, Re
 use ppum_solve::space::discretise;
 
 use super::formulas::{energy_error, given, study};
-use crate::studies::support::solved;
+use crate::studies::support::{parsed, solved};
 
 /// A plate [−1, 1]² with the displacement of its exact solution on all edges.
 fn held(equation: &str, material: &str, unknown: &str, exact: &str) -> Problem {
@@ -19,7 +17,7 @@ fn held(equation: &str, material: &str, unknown: &str, exact: &str) -> Problem {
         "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[equation]\nkind = \"{equation}\"\n\
          [material]\n{material}\n[exact]\n{unknown} = {exact}\n{edges}[discretization]\nlevel = 2\n"
     );
-    Problem::parse(&text, "plate.toml", Path::new("")).expect("in order")
+    parsed(&text)
 }
 
 /// The same with polynomials of a degree on equal cells of a level.
@@ -148,7 +146,7 @@ fn cracked(young: &str, poisson: &str) -> Problem {
          state = \"plane-strain\"\n[[crack]]\npoints = [[-0.6, 0.02], [0.3, 0.02]]\n[[boundary]]\non = \"top\"\n\
          traction = [0.0, 1.0]\n[[boundary]]\non = \"bottom\"\ntraction = [0.0, -1.0]\n[discretization]\nlevel = 3\n"
     );
-    Problem::parse(&text, "plate.toml", Path::new("")).expect("in order")
+    parsed(&text)
 }
 
 fn space(problem: &Problem) -> Step {
@@ -236,8 +234,7 @@ fn a_crack_before_stiffer_material() {
             ends[1],
             pull[1]
         );
-        let dataset =
-            solved(&Problem::parse(&text, "plate.toml", Path::new("")).expect("in order"));
+        let dataset = solved(&parsed(&text));
         let step = &dataset.steps[0];
         assert!(step.warnings.is_empty(), "{:?}", step.warnings);
         let energy =

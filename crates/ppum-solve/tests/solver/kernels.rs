@@ -1,17 +1,14 @@
 //! Problems solved with formulas where there are kernels for them: the same answers.
 
-use std::path::Path;
-
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
-use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 
-use crate::studies::support::strain_energy;
+use crate::studies::support::{parsed, strain_energy};
 
 const PLATE: &str = r#"
 [domain]
@@ -67,7 +64,7 @@ functions = [
 
 fn solved(discretization: &str) -> Dataset {
     let text = PLATE.to_owned() + discretization;
-    let problem = Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem");
+    let problem = parsed(&text);
     solve(&problem, unwatched()).expect("a solution")
 }
 

@@ -4,17 +4,15 @@
 //! The reactions of the restraints balance the loads as they were integrated, to rounding
 //! (see [`reactions`](super::reactions)): they tell of quadrature alone, however coarse the cells.
 
-use crate::studies::support::solved;
+use crate::studies::support::{parsed, solved};
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Warning};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::diagnostics::kind;
-use ppum_solve::problem::Problem;
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
-use std::path::Path;
 
 /// Adaptive rules aim at 1e-10 of the load.
 const ACCURACY: f64 = 1e-9;
@@ -33,7 +31,7 @@ fn solution(rest: &str, discretization: &str) -> Dataset {
          state = \"plane-strain\"\n[[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n{rest}\n\
          [discretization]\n{discretization}\n"
     );
-    solved(&Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem"))
+    solved(&parsed(&text))
 }
 
 fn on(part: &str, load: &str) -> String {
@@ -188,7 +186,7 @@ fn the_end_of_a_bar() {
              value = \"if(x < {a}, 1, 0)\"\n[[boundary]]\non = \"left\"\nvalue = 0\n[discretization]\n\
              cells = [4, 1]\norder = 2\n"
         );
-        let problem = Problem::parse(&text, "bar.toml", Path::new("")).expect("a problem");
+        let problem = parsed(&text);
         let dataset = solved(&problem);
         let field = Field::new(&dataset, 0).expect("a field");
         let mut out = [Jet::constant(0.0)];
@@ -205,7 +203,7 @@ fn given_values_that_jump() {
                 [[boundary]]\non = \"left\"\nvalue = \"if(y < 0.123, 1, 0)\"\n[[boundary]]\non = \"right\"\n\
                 value = \"if(y < 0.123, 0, 1)\"\n[discretization]\nlevel = 2\n";
     let flow = |text: &str| {
-        let problem = Problem::parse(text, "plate.toml", Path::new("")).expect("a problem");
+        let problem = parsed(text);
         solved(&problem).steps[0].reactions.iter().map(|r| r.force[0]).collect::<Vec<_>>()
     };
     // Green's second identity with x: twice the flow through the plate, of width 2, is the
@@ -272,7 +270,7 @@ fn one_circle_in_several_formulas() {
              at = [0.1, -0.05]\nwhere = \"abs(hypot(x - 0.1, y + 0.05) - 0.4) < 0.1\"\n\
              [discretization]\nlevel = 3\norder = 1\n"
         );
-        points(&solved(&Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem")))
+        points(&solved(&parsed(&text)))
     };
     let once = plate("0.3");
     for poisson in [

@@ -3,7 +3,7 @@
 //!
 //! Covers have at least 3,000 unknowns, below which a system is its own coarsest level.
 
-use crate::studies::support::{record, solved, unknowns};
+use crate::studies::support::{parsed, record, solved, unknowns};
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
@@ -17,7 +17,6 @@ use ppum_solve::report::SolverReport;
 use ppum_solve::solve::{SolveError, solve};
 use ppum_solve::space::Space;
 use ppum_testkit::random::Random;
-use std::path::Path;
 
 const HEAD: &str = "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n";
 const STEEL: &str = "[material]\nyoung = 1.0\npoisson = 0.3\nstate = \"plane-strain\"\n";
@@ -31,7 +30,7 @@ fn crack(points: &str) -> String {
 
 fn parse(text: &str, level: u32, order: usize) -> Problem {
     let text = format!("{text}[discretization]\nlevel = {level}\norder = {order}\n");
-    Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem")
+    parsed(&text)
 }
 
 /// The solution by a solver. A multilevel one has several levels: on one alone it would be the
@@ -138,7 +137,7 @@ fn uniform_covers() {
     agree("pure traction", &parse(&format!("{HEAD}{STEEL}{PULLED}"), 4, 3));
     let wide = "[domain]\nmin = [0.0, 0.0]\nmax = [5.0, 1.0]\n";
     let strip = format!("{wide}{STEEL}{HELD}[discretization]\ncells = [51, 13]\norder = 1\n");
-    let strip = Problem::parse(&strip, "strip.toml", Path::new("")).expect("a problem");
+    let strip = parsed(&strip);
     agree("a grid of odd numbers", &strip);
 }
 

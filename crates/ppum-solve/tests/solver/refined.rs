@@ -1,6 +1,6 @@
 //! Cells divided by hand: `[[refine]]`.
 
-use crate::studies::support::solved;
+use crate::studies::support::{parsed, solved};
 use ppum::progress::unwatched;
 use ppum::segment::polyline_distance;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -18,7 +18,7 @@ const PLATE: &str = "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\
 /// The plate with these cells, divided by hand alone.
 fn plate(cells: &str, refine: &str) -> Problem {
     let text = format!("{PLATE}[discretization]\n{cells}\nrefine = false\n{refine}");
-    Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem")
+    parsed(&text)
 }
 
 fn cells_of(problem: &Problem) -> Vec<Rect> {
@@ -188,7 +188,7 @@ fn a_level_by_hand() {
             "{}[[crack]]\npoints = [[-0.5, 0.02], [0.4, 0.1]]\n[discretization]\nlevel = {level}\norder = 1\n{refine}",
             PLATE.split("[[hole]]").next().expect("a plate")
         );
-        let problem = Problem::parse(&text, "plate.toml", Path::new(".")).expect("a problem");
+        let problem = parsed(&text);
         let dataset = solved(&problem);
         dataset.steps[0].intensities.iter().map(|tip| tip.k1.hypot(tip.k2)).collect::<Vec<_>>()
     };

@@ -1,11 +1,9 @@
 //! What a solution tells of its patches and phases.
 
-use crate::studies::support::{record, solved};
+use crate::studies::support::{parsed, record, solved};
 use ppum::dataset::{Dataset, Step};
 use ppum::progress::Phase;
-use ppum_solve::problem::Problem;
 use ppum_solve::report::{ASSEMBLY_SECONDS, SolverReport};
-use std::path::Path;
 
 fn plate(more: &str) -> Dataset {
     let text = format!(
@@ -19,7 +17,7 @@ fn plate(more: &str) -> Dataset {
         {more}
         "#
     );
-    solved(&Problem::parse(&text, "plate.toml", Path::new("")).expect("a problem"))
+    solved(&parsed(&text))
 }
 
 fn values<'s>(step: &'s Step, name: &str) -> &'s [f64] {

@@ -1,13 +1,10 @@
 //! Warnings: each is provoked, and good problems are silent.
 
-use std::path::Path;
-
-use crate::studies::support::solved;
+use crate::studies::support::{parsed, solved};
 use ppum::dataset::{Dataset, Warning};
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::diagnostics::{kind, recompute};
-use ppum_solve::problem::Problem;
 use ppum_testkit::random::Random;
 
 /// A plate with a crack, 8 × 8 cells.
@@ -20,7 +17,7 @@ fn text(points: &str, loads: &str, discretization: &str) -> String {
 }
 
 fn solve_text(text: &str) -> Dataset {
-    solved(&Problem::parse(text, "plate.toml", Path::new("")).expect("a problem"))
+    solved(&parsed(text))
 }
 
 fn plate(points: &str, loads: &str, discretization: &str) -> Dataset {

@@ -1,9 +1,9 @@
 //! Long calls told of, stopped, and run on threads of the caller's.
 
 use std::error::Error;
-use std::path::Path;
 use std::sync::Mutex;
 
+use crate::studies::support::parsed;
 use ppum::dataset::Dataset;
 use ppum::progress::{Cancelled, Phase, Progress, Verdict, Watcher, unwatched};
 use ppum_solve::diagnostics::effort::EffortError;
@@ -47,7 +47,7 @@ const PHASES: [Phase; 6] = [
 ];
 
 fn plate() -> Problem {
-    Problem::parse(PLATE, "plate.toml", Path::new("")).expect("a problem")
+    parsed(PLATE)
 }
 
 fn on_threads<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> R {

@@ -2,13 +2,12 @@
 
 use super::exact_fields::SQUARE;
 use super::plates::pulled;
-use super::support::{Both, errors, record};
+use super::support::{Both, errors, parsed, record};
 use ppum::dataset::{Dataset, Step};
 use ppum::domain::Hole;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::problem::{AdaptKind, Adaptivity, Cells, Keep, Order, Problem};
 use std::f64::consts::PI;
-use std::path::Path;
 
 /// Strain energies by finite elements of order 10 and 12 on meshes graded towards the singular
 /// points (NGSolve 6.2.2608): of a plate with a crack, good to 1e-9, and of one with a square hole,
@@ -56,7 +55,7 @@ pub(crate) fn corner() -> Problem {
          hypot(x, y)^(2/3)*sin(2/3*s)\"\n{border}\
          [[boundary]]\non = {{ hole = 0 }}\nvalue = 0.0\n[discretization]\nlevel = 2\n"
     );
-    Problem::parse(&text, "corner.toml", Path::new(".")).expect("a problem")
+    parsed(&text)
 }
 
 fn at_corner(x: Vec2) -> Both {

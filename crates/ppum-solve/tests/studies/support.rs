@@ -1,4 +1,6 @@
-//! Solving, and norms of what was found.
+//! Problems from texts, solving, and norms of what was found.
+
+use std::path::Path;
 
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Step};
@@ -26,6 +28,12 @@ pub(crate) struct Errors {
 pub(crate) fn solved(problem: &Problem) -> Dataset {
     problem.check().expect("a problem in order");
     solve(problem, unwatched()).expect("a solution")
+}
+
+/// The problem of the text of a problem file that is in order.
+pub(crate) fn parsed(text: &str) -> Problem {
+    let problem = Problem::parse(text, "plate.toml", Path::new(""));
+    problem.unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 /// Values and gradients of two components.
