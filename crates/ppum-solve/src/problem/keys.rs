@@ -580,7 +580,7 @@ tables! {
     /// The law of Paris.
     static PARIS = "`paris`", "{ c = 1e-10, m = 3 }" {
         c: Constant, required("1e-10"), range(POSITIVE) =>
-            "C in da/dN = c ΔK^m, with ΔK = (1 − ratio) × strength (Paris & Erdogan 1963).";
+            "The factor c in da/dN = c ΔK^m, with ΔK = (1 − ratio) × strength (Paris & Erdogan 1963).";
         m: Constant, required("3"), range(within(0.0, 100.0)), remedy("2 to 4 is usual") => "The exponent m.";
         threshold: Constant, range(NOT_NEGATIVE), default("0") => "Tips with ΔK up to this stay.";
         ratio: Constant, range(within(-1e3, 1.0).with_open([false, true])), default("0"),
