@@ -47,8 +47,8 @@ mod _core {
     use crate::moving::animation;
     #[pymodule_export]
     use crate::picture::{
-        check_request, colormap, colormaps, default_request, extrema_in, figure, frame, render,
-        rgba,
+        check_request, colormap, colormaps, default_request, extrema_in, figure, frame,
+        option_texts, render, rgba,
     };
     #[pymodule_export]
     use crate::plot::{Curves, profiles, told};

@@ -1,5 +1,7 @@
 //! Pictures: values at pixels, colours, figures, extreme values.
 
+use std::collections::BTreeMap;
+
 use numpy::{IntoPyArray as _, PyArray1, PyArray3, PyArrayMethods as _};
 use ppum::crack::Side;
 use ppum::progress::Watcher;
@@ -15,6 +17,7 @@ use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 use ppum_scene::drawing::{Drawn, RasterValues, Shown};
 use ppum_scene::engine::Engine;
+use ppum_scene::help::TEXTS;
 use ppum_scene::notice::Notice;
 use ppum_scene::panels::{DrawnPanels, datasets, draw};
 use ppum_scene::request::Request;
@@ -43,6 +46,12 @@ pub(crate) fn colormaps() -> Vec<&'static str> {
 pub(crate) fn colormap(name: &str) -> PyResult<Vec<(u8, u8, u8)>> {
     let map = Colormap::named(name).map_err(|error| RenderError::new_err(error.to_string()))?;
     Ok(map.palette(BAR).into_iter().map(|[r, g, b, _]| (r, g, b)).collect())
+}
+
+/// What options of pictures do, by their names in the program.
+#[pyfunction]
+pub(crate) fn option_texts() -> BTreeMap<&'static str, &'static str> {
+    TEXTS.iter().map(|(name, text)| (&**name, &**text)).collect()
 }
 
 /// A request that asks for nothing, with all that could be asked for.

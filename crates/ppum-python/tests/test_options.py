@@ -45,6 +45,19 @@ def test_options_are_in_signatures_and_help(function, kind):
         assert f"{name}: {option.text}" in function.__doc__
 
 
+@pytest.mark.parametrize("_, kind", FUNCTIONS, ids=lambda thing: getattr(thing, "__qualname__", None))
+def test_options_have_the_texts_of_the_program(_, kind):
+    """By Python's names; what the program does not have has a text of its own."""
+    names = {"cmap": "colormap", "clim": "range", "norm": "scale", "overlays": "overlay", "contrast": "extremes", "colorbar": "bar"}
+    theirs = _core.option_texts()
+    for name, (_, option) in options_of(kind).items():
+        assert option.text[0] in "`[4" or option.text[0].isupper(), name
+        assert len(option.text) > 4 and "--" not in option.text, name
+        shared = theirs.get(names.get(name, name), "")
+        if kind is styles.RgbaOptions and name not in ("view", "vmin", "vmax", "size"):
+            assert shared and option.text.startswith(re.split("--| \\[default", shared)[0]), name
+
+
 def test_consoles_complete_options(f, problem):
     shell = pytest.importorskip("IPython.core.completer").IPCompleter(namespace={"f": f, "plate": problem})
     for line, option in {

@@ -22,8 +22,8 @@ pub struct Colors {
     /// Name of the map, or of a file with one; by default that of the quantity.
     #[cfg_attr(feature = "clap", arg(long, value_name = "NAME", help = maps()))]
     pub colormap: Option<String>,
-    /// Values that the colours span: auto for all, but robust against peaks that are infinite;
-    /// full; two values; two percentiles, or one for both ends
+    /// Range of the colours: auto, all values, but robust against infinite peaks; full, all finite
+    /// values; two values; or two percentiles, such as 2% and 98%
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "auto|full|A,B|P%,Q%|P%", allow_hyphen_values = true),
@@ -31,28 +31,29 @@ pub struct Colors {
     )]
     #[serde(with = "written")]
     pub range: Range,
-    /// How values spread over the colours: linear, log or symlog
+    /// Mapping of values to colours: linear, log, or symlog, logarithmic on both sides of zero
     #[cfg_attr(feature = "clap", arg(long, default_value = "linear"))]
     #[serde(with = "written")]
     pub scale: Scale,
-    /// Colours of values below and above the range
+    /// Colours of values beyond the range: those of the map's ends, or contrasting ones that do not
+    /// occur in the map
     #[cfg_attr(
         feature = "clap",
         arg(long = "extremes", value_parser = extremes(), default_value = "end"),
-        arg(action = clap::ArgAction::Set)
+        arg(action = clap::ArgAction::Set, value_name = "end|contrast")
     )]
     pub contrast: bool,
-    /// Show values in so many bands of one colour each
+    /// Number of bands of one colour each
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "N"),
         arg(value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_BANDS)))
     )]
     pub bands: Option<u16>,
-    /// Put zero in the middle of a range that is found and holds it, as diverging maps always do
+    /// Centre an automatic range that contains zero at zero, as diverging maps always do
     #[cfg_attr(feature = "clap", arg(long))]
     pub symmetric: bool,
-    /// Colour of points of the plate without a value, as #rrggbb [default: crosshatched]
+    /// Colour of points of the body without a value, as #rrggbb [default: crosshatched]
     #[cfg_attr(feature = "clap", arg(long, value_name = "#RRGGBB"))]
     #[serde(with = "written::optional", skip_serializing_if = "Option::is_none")]
     pub nan_color: Option<Rgb>,

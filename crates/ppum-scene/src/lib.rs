@@ -20,6 +20,8 @@ pub mod engine;
 pub mod export;
 #[cfg(feature = "problem")]
 pub mod facts;
+#[cfg(feature = "clap")]
+pub mod help;
 pub mod layers;
 pub mod look;
 pub mod minus;

@@ -17,38 +17,37 @@ use crate::paper::PaperSize;
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default, deny_unknown_fields)]
 pub struct Look {
-    /// Size of the page in pixels [default: 1024x768, a bare picture of the whole domain takes its
-    /// shape; of `compare` and of panels 660x600 for each panel]
+    /// Width and height of the page in pixels [default: 1024x768, in a bare image of the whole
+    /// domain at most; 660x600 for each of several panels]
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "WxH", value_parser = size),
         arg(conflicts_with_all = ["inches", "cm"])
     )]
     pub size: Option<[u32; 2]>,
-    /// Size on paper, in inches; with a width alone the height is that of what is drawn
+    /// Width and height on paper in inches; with a width alone the height follows from the image
     #[cfg_attr(feature = "clap", arg(long, value_name = "W[xH]", conflicts_with = "cm"))]
     pub inches: Option<PaperSize>,
-    /// The same in centimetres
+    /// Width and height on paper in centimetres, as with --inches
     #[cfg_attr(feature = "clap", arg(long, value_name = "W[xH]"))]
     pub cm: Option<PaperSize>,
-    /// Pixels per inch [default: 300 with --inches or --cm, else 96]
+    /// Pixels per inch [default: 300 for a size on paper, else 96]
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = positive))]
     pub dpi: Option<f64>,
-    /// Size of the letters of a figure in points [default: 9 with --inches or --cm, else with the
+    /// Font size of a figure in points [default: 9 for a size on paper, else in proportion to the
     /// size in pixels]
     #[cfg_attr(feature = "clap", arg(long, value_name = "PT", value_parser = positive))]
     pub font_size: Option<f64>,
-    /// Colours around the picture of a figure [default: light]
+    /// Colours of a figure around its image [default: light]
     #[cfg_attr(feature = "clap", arg(long, value_enum))]
     pub theme: Option<ThemeName>,
-    /// Leave out the colour of a figure's page
+    /// Give a figure a transparent background
     #[cfg_attr(feature = "clap", arg(long))]
     pub transparent: bool,
-    /// Place of a figure's colour bar [default: auto, below long plates]
+    /// Position of a figure's colour bar, or none [default: auto, below long bodies, else right]
     #[cfg_attr(feature = "clap", arg(long, value_enum))]
     pub bar: Option<BarName>,
-    /// Marks of a figure: auto, about how many, or at which values; of the colour bar, or with x=
-    /// or y= in front of an axis
+    /// Ticks of the axes x and y and of the colour bar: auto, about how many, or at which values
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "[x=|y=]auto|N|A,B,…", allow_hyphen_values = true)

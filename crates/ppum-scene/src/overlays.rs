@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+#[cfg(feature = "clap")]
+use clap::ValueEnum as _;
 use ppum::text::exact;
 #[cfg(feature = "clap")]
 use ppum_render::glyph::LEAST_SPACING;
@@ -17,27 +19,30 @@ pub const SPACING: f64 = 36.0;
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default)]
 pub struct Overlays {
-    /// What is drawn over the colours, in any number and order; a figure always shows the cracks
-    #[cfg_attr(feature = "clap", arg(long = "overlay", value_enum, value_delimiter = ','))]
+    /// Overlays, in any number and order; a figure always shows the cracks
+    #[cfg_attr(
+        feature = "clap",
+        arg(long = "overlay", value_enum, value_name = "NAME,…", value_delimiter = ',')
+    )]
     pub shown: Vec<Overlay>,
-    /// Isolines of the quantity: auto for round levels, N for about so many, or the levels
+    /// Isolines of the quantity: at round levels (auto), at about so many, or at these values
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "auto|N|A,B,…", allow_hyphen_values = true)
     )]
     pub isolines: Option<Levels>,
-    /// Write their levels along the isolines
+    /// Label the isolines with their levels, where there is room
     #[cfg_attr(feature = "clap", arg(long, requires = "isolines"))]
     pub level_labels: bool,
-    /// Arrows of the displacement (of a potential its gradient), so many pixels of a bare picture
-    /// apart [default: 36]
+    /// Arrows of the displacement, or of the gradient of a potential, so many pixels of a bare image
+    /// apart, usually 36
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true),
         arg(default_missing_value = SPACING_TEXT, value_parser = spacing)
     )]
     pub arrows: Option<f64>,
-    /// Crosses of the principal stresses, so many pixels of a bare picture apart [default: 36]
+    /// Crosses of the principal stresses, so many pixels of a bare image apart, usually 36
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true),
@@ -113,20 +118,12 @@ impl Overlay {
         }
     }
 
-    /// What it shows, in a line.
+    /// What it shows, as the command line says it.
+    #[cfg(feature = "clap")]
     #[must_use]
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Self::Patches => "Supports of the patches, which overlap",
-            Self::Cells => "Borders of the cover's cells",
-            Self::Boxes => "Boxes of the cells, coloured by the kind of enrichment",
-            Self::Points => "Points the cover was made from",
-            Self::Centers => "Centres of the cells, coloured by the kind of enrichment",
-            Self::Rings => "Rings that the stress intensity factors are integrated over",
-            Self::Cracks => "Cracks with their tips, rims of holes, cuts of elements",
-            Self::Supports => "Supports of the plate, as its problem file has them",
-            Self::Loads => "Loads on the plate, as its problem file has them",
-        }
+    pub fn meaning(self) -> String {
+        let help = self.to_possible_value().and_then(|value| value.get_help().cloned());
+        help.map(|help| help.to_string()).unwrap_or_default()
     }
 
     /// True if the deformed plate has it too.

@@ -16,30 +16,30 @@ use crate::arguments::positive;
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default, deny_unknown_fields)]
 pub struct Place {
-    /// Window by two opposite corners
+    /// View by two opposite corners
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "X0,Y0,X1,Y1", value_parser = window, allow_hyphen_values = true),
         arg(conflicts_with_all = ["center", "tip"])
     )]
     pub view: Option<[f64; 4]>,
-    /// Window by its centre, with --width
+    /// Centre of the view
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "X,Y", value_parser = center, allow_hyphen_values = true),
         arg(requires = "width", conflicts_with = "tip")
     )]
     pub center: Option<[f64; 2]>,
-    /// Width of the window around --center
+    /// Width of the view, of which --center is the middle
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "W", requires = "center", value_parser = positive)
     )]
     pub width: Option<f64>,
-    /// Window around a crack tip, numbered from 0 as in `ppum sif`
+    /// Centre the view at a crack tip, numbered from 0
     #[cfg_attr(feature = "clap", arg(long, value_name = "K"))]
     pub tip: Option<usize>,
-    /// How much larger than in a picture of the whole domain things are around --tip [default: 10]
+    /// Magnification at --tip, relative to an image of the whole domain [default: 10]
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "Z", requires = "tip", value_parser = positive)

@@ -22,7 +22,7 @@ pub struct Request {
     /// Add axes, a colour bar, a title and the cracks
     #[cfg_attr(feature = "clap", arg(long))]
     pub figure: bool,
-    /// Leave out the colours and their bar: the overlays alone
+    /// Draw the overlays alone, without colours and colour bar
     #[cfg_attr(feature = "clap", arg(long))]
     pub blank: bool,
     /// Size and look of the page.
@@ -41,15 +41,14 @@ pub struct Request {
     #[cfg_attr(feature = "clap", command(flatten))]
     #[serde(flatten)]
     pub scene: Scene,
-    /// Show the mean of N x N values in each pixel, against jagged edges, in place of that at
-    /// its centre
+    /// Show in each pixel the mean of N x N values, for smooth edges, in place of that at its centre
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", default_value = "1"))]
     #[serde(serialize_with = "side", deserialize_with = "samples")]
     pub samples: Samples,
     /// What computes the values
     #[cfg_attr(feature = "clap", arg(long, value_enum, default_value = "auto"))]
     pub backend: Backend,
-    /// Precision of the computation [default: that of the backend, f64 on the CPU, f32 on the GPU]
+    /// Precision of the values [default: f64 on the CPU, f32 on the GPU]
     #[cfg_attr(feature = "clap", arg(long, value_enum))]
     pub precision: Option<Precision>,
 }
@@ -65,8 +64,7 @@ pub struct Panels {
     /// The parts, of which `all` is the whole field; they take the place of that of the scene.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub parts: Vec<String>,
-    /// Panels of a figure with several quantities or parts: columns and rows [default: as large
-    /// as fits]
+    /// Columns and rows of the panels of several quantities or parts [default: as large as fits]
     #[cfg_attr(feature = "clap", arg(long, value_name = "CxR", value_parser = layout))]
     pub layout: Option<[u32; 2]>,
     /// Give all panels one range and one colour bar

@@ -33,14 +33,14 @@ pub struct Scene {
     /// What is drawn over the colours.
     #[cfg_attr(feature = "clap", command(flatten))]
     pub overlays: Overlays,
-    /// Draw the plate with so many times its displacement; `auto` shows the largest as some 5 % of
-    /// the plate
+    /// Draw the body deformed by so many times its displacement; with auto the largest displacement
+    /// is some 5 % of its size
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "FACTOR|auto", allow_hyphen_values = true)
     )]
     pub deformed: Option<Factor>,
-    /// Draw the border of the undeformed plate too, dashed
+    /// Draw the border of the undeformed body too, dashed
     #[cfg_attr(feature = "clap", arg(long, requires = "deformed"))]
     pub outline: bool,
 }

@@ -12,11 +12,14 @@ import difflib
 import functools
 import inspect
 import numbers
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
+
+from . import _core
 
 __all__ = ["Option", "nearest", "one_of", "options_of", "passes", "refuse_unknown", "takes"]
 
@@ -31,14 +34,19 @@ FOREIGN = {
     "color_map": "cmap",
     "colormap": "cmap",
     "contours": "isolines",
+    "extremes": "contrast",
     "figsize": "inches",
     "fontsize": "font_size",
     "levels": "isolines",
     "log_scale": "norm",
+    "overlay": "overlays",
     "range": "clim",
     "scale": "norm",
     "warp": "deformed",
 }
+
+
+_TEXTS = _core.option_texts()
 
 
 class _Unset:
@@ -53,23 +61,36 @@ UNSET = _Unset()
 
 @dataclass(frozen=True)
 class Option:
-    """The default and the description of an option; one without a default is left out where it is not given."""
+    """The default and the description of an option; one without a default is left out where it is not given.
+
+    An option without a text has that of the program's option, by the name of `FOREIGN` if theirs differ, and `more`.
+    """
 
     default: Any
-    text: str
+    text: str = ""
+    more: str = ""
 
 
 def options_of(kind: type) -> dict[str, tuple[Any, Option]]:
     """The types and options of a dictionary, by their names."""
     hints = get_type_hints(kind, include_extras=True)
-    return {name: _split(hint) for name, hint in hints.items()}
+    return {name: _split(name, hint) for name, hint in hints.items()}
 
 
-def _split(hint: Any) -> tuple[Any, Option]:
+def _split(name: str, hint: Any) -> tuple[Any, Option]:
     if get_origin(hint) is not Annotated:
         hint = get_args(hint)[0]
     kind, option = get_args(hint)
-    return kind, option
+    shared, bracket, default = ("" if option.text else _shared_text(name)).partition(" [default")
+    text = option.text or "; ".join(filter(None, [shared, option.more])) + bracket + default
+    return kind, replace(option, text=text[:1].upper() + text[1:])
+
+
+def _shared_text(name: str) -> str:
+    """What the program says of an option, with Python's names of options."""
+    names = [name, *(foreign for foreign, ours in FOREIGN.items() if ours == name)]
+    (text,) = (_TEXTS[known] for known in names if known in _TEXTS)
+    return re.sub(r"--([a-z-]+)", lambda found: f"`{FOREIGN.get(found[1], found[1])}`", text)
 
 
 def takes(function: _F) -> _F:

@@ -46,10 +46,7 @@ Ends = tuple[float | str | None, float | str | None]
 class RangeOptions(TypedDict, total=False):
     """The values that colours span."""
 
-    clim: Annotated[
-        Clim,
-        Option("auto", "what the colours span: `auto`, `full`, two values, or two percentiles as `2%`"),
-    ]
+    clim: Annotated[Clim, Option("auto")]
     vmin: Annotated[float | None, Option(None, "the lower end of `clim` alone")]
     vmax: Annotated[float | None, Option(None, "the upper end of `clim` alone")]
 
@@ -57,35 +54,24 @@ class RangeOptions(TypedDict, total=False):
 class ColorOptions(RangeOptions, total=False):
     """Colours, and the deformed plate."""
 
-    cmap: Annotated[
-        str | os.PathLike[str] | None,
-        Option(None, "one of `ppum.COLORMAPS`, also with `_r`, or a file with a map; by default what suits"),
-    ]
-    norm: Annotated[Norm, Option("linear", "how values spread over the colours")]
-    deformed: Annotated[
-        Literal["auto"] | float | None,
-        Option(None, "a factor, or `auto`: the plate moved by its displacement"),
-    ]
+    cmap: Annotated[str | os.PathLike[str] | None, Option(None)]
+    norm: Annotated[Norm, Option("linear")]
+    deformed: Annotated[Literal["auto"] | float | None, Option(None)]
 
 
 class SceneOptions(ColorOptions, total=False):
     """What a picture shows."""
 
-    bands: Annotated[int | None, Option(None, "the number of bands of one colour each")]
-    symmetric: Annotated[bool, Option(False, "whether a range that is found lies evenly around zero")]
-    nan_color: Annotated[
-        Any, Option(None, "the colour of points of the plate that have no value, crosshatched without one")
-    ]
-    contrast: Annotated[bool, Option(False, "whether values beyond the range have colours of their own")]
-    overlays: Annotated[Overlay | Sequence[Overlay], Option((), "what is drawn over it, one or a list")]
-    isolines: Annotated[
-        Literal["auto"] | float | Sequence[float] | None,
-        Option(None, "lines of equal values: `auto`, about how many, or at these values"),
-    ]
-    level_labels: Annotated[bool, Option(False, "whether isolines bear their values")]
-    arrows: Annotated[float | None, Option(None, "arrows of the displacement, so many pixels apart")]
-    crosses: Annotated[float | None, Option(None, "crosses of principal stresses, so many pixels apart")]
-    outline: Annotated[bool, Option(False, "whether the outline of the undeformed plate is drawn")]
+    bands: Annotated[int | None, Option(None)]
+    symmetric: Annotated[bool, Option(False)]
+    nan_color: Annotated[Any, Option(None, more="or a colour of matplotlib")]
+    contrast: Annotated[bool, Option(False)]
+    overlays: Annotated[Overlay | Sequence[Overlay], Option(())]
+    isolines: Annotated[Literal["auto"] | float | Sequence[float] | None, Option(None)]
+    level_labels: Annotated[bool, Option(False)]
+    arrows: Annotated[float | None, Option(None)]
+    crosses: Annotated[float | None, Option(None)]
+    outline: Annotated[bool, Option(False)]
 
 
 class HtmlOptions(PlaceOptions, SceneOptions, total=False):
@@ -95,11 +81,9 @@ class HtmlOptions(PlaceOptions, SceneOptions, total=False):
 class ImageOptions(SceneOptions, total=False):
     """What an image shows, and how it is computed."""
 
-    samples: Annotated[int, Option(1, "each pixel is the mean of so many samples across and down")]
-    precision: Annotated[
-        Literal["f64", "f32"] | None, Option(None, "the precision in which values are computed")
-    ]
-    blank: Annotated[bool, Option(False, "whether overlays are drawn alone")]
+    samples: Annotated[int, Option(1)]
+    precision: Annotated[Literal["f64", "f32"] | None, Option(None)]
+    blank: Annotated[bool, Option(False)]
 
 
 class Labels(TypedDict, total=False):
@@ -122,25 +106,14 @@ class Ticks(TypedDict, total=False):
 class PageOptions(TypedDict, total=False):
     """The page of a figure."""
 
-    size: Annotated[
-        tuple[int, int] | None,
-        Option(None, "columns and rows of pixels; by default 1024 and 768, of each of several panels 660 and 600"),
-    ]
-    inches: Annotated[
-        float | tuple[float, float] | None,
-        Option(None, "in place of `size`: width and height, or a width, with the height that the picture needs"),
-    ]
-    dpi: Annotated[float | None, Option(None, "pixels in an inch; with `inches` 300")]
-    font_size: Annotated[float | None, Option(None, "size of letters, points")]
-    theme: Annotated[Literal["light", "dark"], Option("light", "the colours of page and letters")]
-    transparent: Annotated[bool, Option(False, "whether the page has no background")]
-    colorbar: Annotated[
-        bool | Literal["right", "bottom"],
-        Option(True, "whether there is a colour bar, and where; by default where there is room"),
-    ]
-    ticks: Annotated[
-        Ticks, Option({}, "marks in place of those of the figure: a dictionary of x, y, colorbar")
-    ]
+    size: Annotated[tuple[int, int] | None, Option(None)]
+    inches: Annotated[float | tuple[float, float] | None, Option(None)]
+    dpi: Annotated[float | None, Option(None)]
+    font_size: Annotated[float | None, Option(None)]
+    theme: Annotated[Literal["light", "dark"], Option("light")]
+    transparent: Annotated[bool, Option(False)]
+    colorbar: Annotated[bool | Literal["right", "bottom"], Option(True)]
+    ticks: Annotated[Ticks, Option({}, more="a dictionary of x, y, colorbar")]
     labels: Annotated[
         Labels, Option({}, "texts in place of those of the figure: a dictionary of title, x, y, colorbar")
     ]
@@ -157,10 +130,8 @@ class FigureOptions(AnimationOptions, total=False):
         Sequence[str] | None,
         Option(None, "parts of the field, each in a panel: those of `Field.part`, and `all`, the whole field"),
     ]
-    layout: Annotated[
-        tuple[int, int] | None, Option(None, "columns and rows of panels; by default as large as fits")
-    ]
-    shared_range: Annotated[bool, Option(False, "whether all panels have one range and one colour bar")]
+    layout: Annotated[tuple[int, int] | None, Option(None)]
+    shared_range: Annotated[bool, Option(False)]
 
 
 class RgbaOptions(PixelOptions, ImageOptions, total=False):

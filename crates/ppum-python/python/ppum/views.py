@@ -57,10 +57,10 @@ class PlaceOptions(TypedDict, total=False):
     """What is seen; all of the plate if nothing is said."""
 
     view: Annotated[View | None, Option(None, "a `View`, in place of center, width, tip and zoom")]
-    center: Annotated[Sequence[float] | NDArray[Any] | None, Option(None, "the middle, a point")]
-    width: Annotated[float | None, Option(None, "from the left border to the right one, a length")]
-    tip: Annotated[int | None, Option(None, "the number of a crack tip, in place of center")]
-    zoom: Annotated[float | None, Option(None, "in place of width: how much is enlarged; of points and tips 10")]
+    center: Annotated[Sequence[float] | NDArray[Any] | None, Option(None)]
+    width: Annotated[float | None, Option(None)]
+    tip: Annotated[int | None, Option(None)]
+    zoom: Annotated[float | None, Option(None, more="or at `center`")]
 
 
 class PixelOptions(PlaceOptions, total=False):

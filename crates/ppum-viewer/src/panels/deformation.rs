@@ -3,6 +3,7 @@
 use egui::{Slider, Ui};
 use ppum::text::trimmed_to;
 use ppum_scene::deformed::{Factor, words};
+use ppum_scene::help::tooltip;
 
 use super::{failure, note};
 use crate::controls::Controls;
@@ -83,8 +84,7 @@ fn motion(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls) {
             let now = ui.input(|input| input.time);
             controls.swing = controls.swing.is_none().then(|| Swing::new(now));
         }
-        let text = "The border of the plate as it was";
-        ui.checkbox(&mut pane.scene.outline, "outline").on_hover_text(text);
+        ui.checkbox(&mut pane.scene.outline, "outline").on_hover_text(tooltip("outline"));
     });
 }
 

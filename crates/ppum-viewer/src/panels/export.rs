@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use egui::{ComboBox, DragValue, Grid, Key, Modifiers, TextEdit, Ui, Window};
+use ppum_scene::help::tooltip;
 use ppum_scene::moving::Moving;
 
 use crate::export::{ExportChoice, ExportKind, LengthUnit, Order, PageSize};
@@ -314,11 +315,13 @@ fn size(ui: &mut Ui, page: &mut PageSize, is_figure: bool) {
     if is_figure && is_paper {
         ui.label("Letters");
         let letters = DragValue::new(&mut page.font_size).range(4.0..=40.0).speed(0.1);
-        ui.add(letters.suffix(" pt")).accessible_name("Size of the letters");
+        let letters = ui.add(letters.suffix(" pt")).accessible_name("Size of the letters");
+        letters.on_hover_text(tooltip("font_size"));
         ui.end_row();
         ui.label("Resolution");
         let dpi = DragValue::new(&mut page.dpi).range(50.0..=1200.0).max_decimals(0);
-        ui.add(dpi.suffix(" pixels per inch")).accessible_name("Resolution");
+        let dpi = ui.add(dpi.suffix(" pixels per inch")).accessible_name("Resolution");
+        dpi.on_hover_text(tooltip("dpi"));
         ui.end_row();
     }
 }

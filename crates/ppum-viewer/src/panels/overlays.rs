@@ -2,6 +2,7 @@
 
 use egui::{Checkbox, DragValue, RichText, Sense, TextEdit, Ui, vec2};
 use ppum_figure::overlay::{LegendEntry, Symbol};
+use ppum_scene::help::tooltip;
 use ppum_scene::overlays::{Levels, Overlay, Overlays, SPACING};
 
 use super::{failure, note, wrong};
@@ -49,8 +50,8 @@ fn switch(ui: &mut Ui, pane: &mut Pane, controls: &Controls, overlay: Overlay) {
         None => is_moved.then_some("The deformed plate has cells and cracks alone"),
     };
     let response = ui.add_enabled(why.is_none() || is_on, Checkbox::new(&mut is_on, name(overlay)));
-    let text = why.unwrap_or(overlay.meaning());
-    if response.on_hover_text(text).on_disabled_hover_text(text).changed() {
+    let text = why.map_or_else(|| overlay.meaning(), str::to_owned);
+    if response.on_hover_text(&text).on_disabled_hover_text(text).changed() {
         shown.retain(|other| *other != overlay);
         shown.extend(is_on.then_some(overlay));
     }
@@ -69,14 +70,14 @@ fn name(overlay: Overlay) -> &'static str {
 fn isolines(ui: &mut Ui, overlays: &mut Overlays, controls: &mut Controls) {
     ui.horizontal(|ui| {
         let mut is_on = overlays.isolines.is_some();
-        let text = "Lines of one value, found on the exact field";
-        if ui.checkbox(&mut is_on, "isolines").on_hover_text(text).changed() {
+        let checkbox = ui.checkbox(&mut is_on, "isolines");
+        if checkbox.on_hover_text(tooltip("isolines")).changed() {
             overlays.isolines = is_on.then_some(Levels::Auto);
         }
         if is_on {
             levels(ui, overlays, controls);
             ui.checkbox(&mut overlays.level_labels, "labels")
-                .on_hover_text("Write levels on the lines");
+                .on_hover_text(tooltip("level_labels"));
         }
     });
     if let Some(mistake) = controls.levels.mistake.as_ref().filter(|_| overlays.isolines.is_some())
@@ -105,11 +106,13 @@ fn levels(ui: &mut Ui, overlays: &mut Overlays, controls: &mut Controls) {
     }
 }
 
-/// Arrows or crosses with their distance.
+/// Arrows or crosses with their distance; the name begins with that of the option.
 fn glyphs(ui: &mut Ui, spacing: &mut Option<f64>, name: &str, why: Option<&str>) {
     ui.horizontal(|ui| {
         let mut is_on = spacing.is_some();
         let response = ui.add_enabled(why.is_none() || is_on, Checkbox::new(&mut is_on, name));
+        let option = name.split(' ').next().unwrap_or(name);
+        let response = response.on_hover_text(tooltip(option));
         if response.on_disabled_hover_text(why.unwrap_or_default()).changed() {
             *spacing = is_on.then_some(SPACING);
         }

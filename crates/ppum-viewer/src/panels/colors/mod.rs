@@ -9,6 +9,7 @@ use egui::{DragValue, Ui};
 use ppum_render::colormap::{Colormap, Rgb};
 use ppum_render::scale::Scale;
 use ppum_scene::colors::{Colors, MOST_BANDS};
+use ppum_scene::help::tooltip;
 use ppum_scene::range::Telling;
 
 use super::failure;
@@ -62,7 +63,7 @@ fn map(ui: &mut Ui, colors: &mut Colors, controls: &mut Controls, default: &str)
 
 fn bands(ui: &mut Ui, colors: &mut Colors) {
     let mut has_bands = colors.bands.is_some();
-    if ui.checkbox(&mut has_bands, "in steps").changed() {
+    if ui.checkbox(&mut has_bands, "in steps").on_hover_text(tooltip("bands")).changed() {
         colors.bands = has_bands.then_some(8);
     }
     if let Some(count) = &mut colors.bands {
@@ -85,16 +86,16 @@ fn scale(ui: &mut Ui, colors: &mut Colors) {
 
 /// The colours of values below and above the range.
 fn beyond(ui: &mut Ui, colors: &mut Colors) {
-    let text = "Colours below and above the range that do not occur in the map";
-    ui.checkbox(&mut colors.contrast, "contrast beyond the range").on_hover_text(text);
+    let contrast = ui.checkbox(&mut colors.contrast, "contrast beyond the range");
+    contrast.on_hover_text(tooltip("extremes"));
 }
 
 /// The colour of points without a value.
 fn without_value(ui: &mut Ui, colors: &mut Colors) {
     ui.horizontal(|ui| {
         let mut has_color = colors.nan_color.is_some();
-        let text = "Points of the plate where the quantity is not defined; crosshatched without";
-        if ui.checkbox(&mut has_color, "colour for no value").on_hover_text(text).changed() {
+        let checkbox = ui.checkbox(&mut has_color, "colour for no value");
+        if checkbox.on_hover_text(tooltip("nan_color")).changed() {
             colors.nan_color = has_color.then_some(Rgb([160, 160, 160]));
         }
         if let Some(Rgb(color)) = &mut colors.nan_color {

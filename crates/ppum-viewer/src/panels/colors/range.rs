@@ -4,6 +4,7 @@ use egui::{DragValue, RichText, Ui};
 use ppum::text::trimmed_to;
 use ppum_render::range::Range;
 use ppum_scene::colors::Colors;
+use ppum_scene::help::tooltip;
 
 use crate::controls::range::{digits, parse, set};
 use crate::controls::whole::Whole;
@@ -30,9 +31,8 @@ pub(super) fn show(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
     }
     ui.horizontal_wrapped(|ui| {
         let colors = &mut pane.scene.colors;
-        let text = "Zero in the middle, where the range holds it";
         let is_symmetric = ui.checkbox(&mut colors.symmetric, "symmetric about zero");
-        if is_symmetric.on_hover_text(text).changed() && colors.symmetric {
+        if is_symmetric.on_hover_text(tooltip("symmetric")).changed() && colors.symmetric {
             mirror(colors);
         }
         whole(ui, pane, stage);
