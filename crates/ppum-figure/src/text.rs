@@ -180,13 +180,28 @@ fn unit(scale: PxScale) -> f32 {
 /// The text, or as much of its beginning as fits with an ellipsis.
 #[must_use]
 pub(crate) fn fitted(text: &str, size: f64, room: f64) -> String {
+    shortened(text, size, room, |kept| {
+        let begin: String = text.chars().take(kept).collect();
+        format!("{}…", begin.trim_end())
+    })
+}
+
+/// The text, or as much of its beginning and its end as fits with an ellipsis between.
+#[must_use]
+pub(crate) fn squeezed(text: &str, size: f64, room: f64) -> String {
+    let all: Vec<char> = text.chars().collect();
+    shortened(text, size, room, |kept| {
+        let (begin, end) = (&all[..kept.div_ceil(2)], &all[all.len() - kept / 2..]);
+        let [begin, end] = [begin, end].map(|part| part.iter().collect::<String>());
+        format!("{}…{}", begin.trim_end(), end.trim_start())
+    })
+}
+
+/// The text, or the longest of its `short` forms, of so many of its letters, that fits.
+fn shortened(text: &str, size: f64, room: f64, short: impl Fn(usize) -> String) -> String {
     if width(text, size) <= room {
         return text.to_owned();
     }
-    let short = |kept: usize| {
-        let begin: String = text.chars().take(kept).collect();
-        format!("{}…", begin.trim_end())
-    };
     // texts grow with their letters, of which there may be many
     let (mut fits, mut too_many) = (0, text.chars().count());
     while fits + 1 < too_many {
@@ -197,22 +212,6 @@ pub(crate) fn fitted(text: &str, size: f64, room: f64) -> String {
         }
     }
     if fits > 0 { short(fits) } else { String::new() }
-}
-
-/// The text, or as much of its beginning and its end as fits with an ellipsis between.
-#[must_use]
-pub(crate) fn squeezed(text: &str, size: f64, room: f64) -> String {
-    if width(text, size) <= room {
-        return text.to_owned();
-    }
-    let all: Vec<char> = text.chars().collect();
-    let of = |kept: usize| {
-        let (begin, end) = (&all[..kept.div_ceil(2)], &all[all.len() - kept / 2..]);
-        let [begin, end] = [begin, end].map(|part| part.iter().collect::<String>());
-        format!("{}…{}", begin.trim_end(), end.trim_start())
-    };
-    let fits = |text: &String| width(text, size) <= room;
-    (1..all.len()).rev().map(of).find(fits).unwrap_or_default()
 }
 
 /// The text in lines that fit, broken between words, and within words that are longer than a line.

@@ -49,6 +49,7 @@ pub(crate) fn animation<'py>(
     };
     let dataset = &*dataset.0;
     let mut request = this.request(request)?;
+    request.panels.check_steps().map_err(|error| RenderError::new_err(error.to_string()))?;
     request.scene.subject = written::<Subject>(changes)?;
     let moving = Moving::Steps(steps);
     let drawn = |engine: &Engine<'_>| {

@@ -73,10 +73,11 @@ def test_what_triangles_cannot_be_is_said(f):
     ]:
         with pytest.raises(error, match=words):
             f.triangles(**options)
-    with pytest.raises(ValueError, match="vtu"):
+    with pytest.raises(ValueError, match="cannot draw 'stl': triangles are vtu$"):
         mesh.save("plate.stl")
-    with pytest.raises(ValueError, match="Field.triangles"):
-        f.dataset.save("plate.vtu")
+    for end, maker in {"vtu": "triangles", "png": "figure", "gif": "animate", "csv": "line", "html": "to_html"}.items():
+        with pytest.raises(ValueError, match=rf"end its name in \.h5; .*Field\.{maker}"):
+            f.dataset.save(f"plate.{end}")
 
 
 def test_pyvista_has_the_same_numbers(f):

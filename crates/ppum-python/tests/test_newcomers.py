@@ -158,7 +158,7 @@ def test_a_quantity_of_the_name_of_a_method(potential):
         (lambda ds, p: ppum.Problem((0, 0), (1, 1)), TypeError, "ppum.Elastic or ppum.Poisson is needed, not tuple"),
         (lambda ds, p: ppum.Problem((0, 0), ppum.Poisson()), TypeError, "two corners are needed"),
         (lambda ds, p: ds.field.render("ux", zoom=0), ppum.RenderError, "zoom: 0 does not enlarge"),
-        (lambda ds, p: ds.field.render("ux", size=(-1, 5)), ppum.RenderError, "-1x5 pixels cannot be drawn"),
+        (lambda ds, p: ds.field.render("ux", size=(-1, 5)), ppum.RenderError, "-1x5 cannot be drawn"),
         (lambda ds, p: ds.field.figure("ux").save(p / "no/x.png"), FileNotFoundError, "no such folder: '.*no'"),
         (lambda ds, p: ds.field.figure("ux").save(p / "x"), ValueError, "'x' has no end.*png, svg or pdf"),
         (lambda ds, p: ds.field.figure("ux").save(p / "x.jpg"), ValueError, "'jpg': figures are png, svg or pdf"),

@@ -132,7 +132,7 @@ def test_unknown_options_are_refused_at_the_call(f, problem, use, meant):
         ({"theme": "pink"}, "theme: 'pink' is not one of 'light', 'dark'"),
         ({"colorbar": "left"}, "colorbar: 'left' is not one of 'right', 'bottom'"),
         ({"tip": 0, "zoom": 0}, "zoom: 0 does not enlarge"),
-        ({"size": (-1, 5)}, "size: a picture of -1x5 pixels"),
+        ({"size": (-1, 5)}, "size: -1x5 cannot be drawn"),
     ],
 )
 def test_wrong_values_are_refused_at_the_call(f, options, message):
@@ -147,6 +147,43 @@ def test_values_of_wrong_types_are_refused(f):
         with pytest.raises(TypeError, match=f"{next(iter(options))}: .* is needed, not"):
             f.figure("ux", **options)
     assert f.figure("ux", bands=np.int64(3), arrows=np.float32(40), symmetric=np.True_, size=np.array([90, 90]))
+
+
+@pytest.mark.parametrize(
+    "use, message",
+    [
+        (lambda f: f.figure("ux", ticks=3), "ticks: a dictionary of x, y, colorbar is needed, not 3"),
+        (lambda f: f.figure("ux", labels="A"), "labels: a dictionary of title, x, y, colorbar is needed, not 'A'"),
+        (lambda f: f.figure("ux", layout=2), "layout: 2 is not two whole numbers, columns and rows"),
+        (lambda f: f.figure("ux", layout=(0, 1)), "layout: 0x1 cannot be drawn"),
+        (lambda f: f.figure("ux", dpi=1e9), "dpi: give 1 to 100000 pixels per inch"),
+        (lambda f: f.figure("ux", inches=1e9), "inches|write a width above zero, up to 1000"),
+        (lambda f: f.animate(["ux", "uy"]), "quantity: an animation shows one"),
+        (lambda f: f.part(3), "part: 'smooth', .* is needed, not 3"),
+        (lambda f: f.with_weight(3), "weight: a name or a formula of t is needed, not 3"),
+        (lambda f: f.with_function({0: 3}), "0: a formula is needed, such as 'r\\*theta', not 3"),
+        (lambda f: f.with_function({99: "r"}), "99"),
+    ],
+)
+def test_what_is_wrong_is_said_in_words(f, use, message):
+    with pytest.raises((TypeError, ValueError), match=message) as info:
+        use(f)
+    assert "invalid type" not in str(info.value) and "object" not in str(info.value)
+
+
+def test_functions_are_replaced_by_number(f):
+    names = f.dataset.steps[-1].functions
+    number = next(k for k, name in enumerate(names) if name.startswith("westergaard 1"))
+    values = [f.with_function({which: "r"}).at(x, x).uy for which in (number, names[number]) for x in (-0.36, 0.36)]
+    assert values[:2] == values[2:] != [f.at(x, x).uy for x in (-0.36, 0.36)]
+
+
+def test_empty_rows_of_a_layout_are_told(f):
+    figure = f.figure(["ux", "uy", "sxx"], layout=(2, 2), size=(700, 900))
+    figure.png()
+    assert figure.warnings == ()
+    with pytest.warns(UserWarning, match="the layout 2x2 leaves rows or columns of the page empty: it has 1 image"):
+        f.figure("ux", layout=(2, 2), size=(700, 900)).png()
 
 
 def test_one_end_of_a_range(f):

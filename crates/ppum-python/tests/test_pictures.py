@@ -93,7 +93,7 @@ def test_panels_marks_and_places_are_those_of_the_program(ds, f, program, tmp_pa
 def test_panels_that_there_are_not(f):
     for wrong, error, message in [
         ({"quantity": ["ux", "uy"], "layout": (1, 1)}, ppum.RenderError, "1x1 has fewer panels than there are pictures, 2"),
-        ({"quantity": ["ux", "uy"], "layout": (0, 1)}, ppum.RenderError, "at least 1x1"),
+        ({"quantity": ["ux", "uy"], "layout": (0, 1)}, ppum.RenderError, "layout: 0x1 cannot be drawn"),
         ({"quantity": "ux", "shared_range": True}, ppum.RenderError, "is for panels"),
         ({"quantity": "ux", "parts": ["all", "jump"], "deformed": 1.0}, ppum.RenderError, "do not go together"),
         ({"quantity": "ux", "parts": ["all", "nothing"]}, ppum.QuantityError, "nothing"),

@@ -1,10 +1,11 @@
 //! Size and look of images and figures, as data.
 
 use std::fmt;
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use ppum_figure::figure::{BarPlace, Design, Theme, TickChoice, hugging};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, de};
 
 #[cfg(feature = "clap")]
 use crate::arguments::{positive, size};
@@ -32,7 +33,8 @@ pub struct Look {
     #[cfg_attr(feature = "clap", arg(long, value_name = "W[xH]"))]
     pub cm: Option<PaperSize>,
     /// Pixels per inch [default: 300 for a size on paper, else 96]
-    #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = positive))]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = dpi))]
+    #[serde(deserialize_with = "checked_dpi")]
     pub dpi: Option<f64>,
     /// Font size of a figure in points [default: 9 for a size on paper, else in proportion to the
     /// size in pixels]
@@ -110,6 +112,24 @@ pub(crate) const SHAPE: f64 = 4.0 / 3.0;
 const INCH: f64 = 2.54;
 const PRINT_DPI: f64 = 300.0;
 const SCREEN_DPI: f64 = 96.0;
+
+/// Least and largest number of pixels per inch: files of PNG hold no more of them, and sizes in
+/// pixels are whole numbers.
+const RESOLUTIONS: RangeInclusive<f64> = 1.0..=1e5;
+
+#[cfg(feature = "clap")]
+fn dpi(text: &str) -> Result<f64, String> {
+    let found = positive(text).ok().filter(|dpi| RESOLUTIONS.contains(dpi));
+    found.ok_or_else(|| "write a number of pixels from 1 to 100000".into())
+}
+
+fn checked_dpi<'d, D: Deserializer<'d>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    let dpi = Option::<f64>::deserialize(deserializer)?;
+    let is_known = dpi.is_none_or(|dpi| RESOLUTIONS.contains(&dpi));
+    is_known
+        .then_some(dpi)
+        .ok_or_else(|| de::Error::custom("dpi: give 1 to 100000 pixels per inch"))
+}
 
 impl Look {
     /// The names of options that are for figures alone, and true for those that are given.
@@ -322,6 +342,24 @@ mod tests {
         }
         for wrong in ["z=3", "0", "101", "1,a", "inf,0", "some"] {
             assert!(wrong.parse::<AxisTicks>().is_err(), "{wrong}");
+        }
+    }
+
+    /// Sizes of a page are what they are said to be: products of lengths and resolutions are no
+    /// larger than whole numbers of 32 bits.
+    #[test]
+    fn resolutions_and_lengths_have_ends() {
+        let read = |text: &str| serde_json::from_str::<Look>(text);
+        let page =
+            read(r#"{ "inches": "1000x1000", "dpi": 1e5 }"#).ok().and_then(|l| l.given_size());
+        assert_eq!(page, Some([100_000_000; 2]));
+        for (wrong, reason) in [
+            (r#"{ "dpi": 1e9 }"#, "dpi: give 1 to 100000"),
+            (r#"{ "dpi": 0 }"#, "dpi: give 1 to 100000"),
+            (r#"{ "cm": "1001" }"#, "up to 1000"),
+        ] {
+            let error = read(wrong).unwrap_err().to_string();
+            assert!(error.contains(reason), "{error}");
         }
     }
 }

@@ -46,6 +46,8 @@ pub enum Notice {
     NoProblem,
     /// Supports and loads of a problem file that cannot be read.
     UnreadableProblem,
+    /// A layout of columns and rows, some of which have none of so many images.
+    EmptyPanels([u32; 2], usize),
     /// A legend of these entries has no room.
     NoLegend(Vec<String>),
     /// Characters that the font of figures lacks, in a file of some form.
@@ -84,6 +86,13 @@ impl fmt::Display for Notice {
             }
             Self::Infinite(name) => {
                 return write!(f, "`{name}` has no finite value in the picture");
+            }
+            Self::EmptyPanels([columns, rows], count) => {
+                let images = if *count == 1 { "image" } else { "images" };
+                return write!(
+                    f,
+                    "the layout {columns}x{rows} leaves rows or columns of the page empty: it has {count} {images}"
+                );
             }
             Self::NoLegend(entries) => {
                 let list = entries.join(", ");

@@ -12,6 +12,7 @@ use ppum_render::range::ValueSpan;
 use crate::drawing::{BodyView, Drawn};
 use crate::engine::Engine;
 use crate::look::{DEFAULT_SIZE, Look, SHAPE};
+use crate::notice::Notice;
 use crate::placing::{Placing, extent};
 use crate::request::{PanelsError, Request};
 use crate::scene::{Subject, SubjectError};
@@ -118,6 +119,7 @@ impl<'a> PanelFigure<'a> {
         let titled = title(source, request)?;
         let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
         let grid = self.grid(&titled, &captions)?;
+        self.tell_empty(grid, engine);
         let size = [grid.columns, grid.rows];
         let aspect = request.place.aspect(source.field);
         let design = request.design(source.field, Look::page(aspect, size), size);
@@ -134,6 +136,14 @@ impl<'a> PanelFigure<'a> {
         let names = self.contents.iter().step_by(self.sources.len());
         let names = names.map(|content| content.asked.name.as_str()).collect::<Vec<_>>().join(", ");
         Ok(DrawnPanels { page, shots, labels, names, is_shared: self.is_shared() })
+    }
+
+    /// Tells of rows and columns that no panel is in.
+    fn tell_empty(&self, grid: PanelGrid, engine: &Engine<'_>) {
+        let (count, columns) = (self.contents.len(), grid.columns as usize);
+        if columns > count || grid.rows as usize > count.div_ceil(columns) {
+            engine.tell(Notice::EmptyPanels([grid.columns, grid.rows], count));
+        }
     }
 
     fn is_shared(&self) -> bool {

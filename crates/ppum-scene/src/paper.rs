@@ -16,6 +16,9 @@ pub struct PaperSize {
     pub height: Option<f64>,
 }
 
+/// Longest side of a page, in its unit: more than any paper has.
+const LONGEST: f64 = 1000.0;
+
 impl PaperSize {
     /// The same in a unit that is so many times as long.
     #[must_use]
@@ -29,7 +32,7 @@ impl FromStr for PaperSize {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let length =
-            |text: &str| text.trim().parse().ok().filter(|l: &f64| *l > 0.0 && l.is_finite());
+            |text: &str| text.trim().parse().ok().filter(|l: &f64| *l > 0.0 && *l <= LONGEST);
         let (width, height) = text.split_once('x').map_or((text, None), |(w, h)| (w, Some(h)));
         let size = match height {
             None => length(width).map(|width| Self { width, height: None }),
@@ -37,7 +40,11 @@ impl FromStr for PaperSize {
                 .zip(length(height))
                 .map(|(width, height)| Self { width, height: Some(height) }),
         };
-        size.ok_or_else(|| "write a width above zero, or WIDTHxHEIGHT, e.g. 3.4 or 3.4x2.6".into())
+        size.ok_or_else(|| {
+            format!(
+                "write a width above zero, up to {LONGEST}, or WIDTHxHEIGHT, e.g. 3.4 or 3.4x2.6"
+            )
+        })
     }
 }
 

@@ -93,6 +93,9 @@ pub enum PanelsError {
     /// One range for one picture.
     #[error("a shared range is for panels; give several quantities or parts")]
     Shared,
+    /// Panels of several steps.
+    #[error("several panels and several steps do not go together; draw the panels of one step")]
+    Steps,
 }
 
 impl Panels {
@@ -106,6 +109,14 @@ impl Panels {
             () if self.shared_range && !self.are_given() => Err(PanelsError::Shared),
             () => Ok(()),
         }
+    }
+
+    /// Refuses panels of several steps.
+    ///
+    /// # Errors
+    /// There are panels.
+    pub fn check_steps(&self) -> Result<(), PanelsError> {
+        if self.are_given() { Err(PanelsError::Steps) } else { Ok(()) }
     }
 
     /// True for a figure of several panels, or of one that is called so.

@@ -54,6 +54,20 @@ fn figures_are_drawn_as_asked() {
         let complaint = lab.fail(&format!("render plate.h5 -o d.png {option}"));
         assert!(complaint.contains("add --figure"), "{complaint}");
     }
+    for (option, reason) in [("--dpi 1e9", "from 1 to 100000"), ("--inches 1e9", "up to 1000")] {
+        let complaint = lab.fail(&format!("render plate.h5 -o d.png --figure {option}"));
+        assert!(complaint.contains(reason), "{complaint}");
+    }
+}
+
+/// The end of a title says which step it is.
+#[test]
+fn long_titles_keep_their_ends() {
+    let lab = Lab::solved(CRACKED);
+    let title = "title=Some words about a plate that take many more lines than four of this page has, step 7";
+    lab.run_with("render plate.h5 -o a.svg --figure --inches 2 --labels", &[title]);
+    let svg = read(&lab, "a.svg");
+    assert!(svg.contains(">Some") && svg.contains("step 7</text>"), "{svg}");
 }
 
 #[test]

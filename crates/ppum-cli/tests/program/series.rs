@@ -177,8 +177,8 @@ fn steps_are_chosen() {
         ("--steps 1 --step 1", "--step"),
         ("--fps 5", "--steps"),
         ("--steps 1 --fps 51", "up to 50"),
-        ("--steps 1 --layout 1x1", "several panels and --steps"),
-        ("--steps 1 -q ux,uy", "several panels and --steps"),
+        ("--steps 1 --layout 1x1", "draw the panels of one step"),
+        ("--steps 1 -q ux,uy", "several panels and several steps"),
         ("--steps all --tip 1", "1 tip, numbered from 0"),
         ("--steps all -o -", "-o"),
     ] {

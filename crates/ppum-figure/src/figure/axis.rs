@@ -27,14 +27,17 @@ impl FigureAxis {
     }
 
     /// The label, shortened if there is less room \[pixels\]: its name in the middle, to half of
-    /// the room at least, and what is behind that, a number, a power of ten and the unit, at
-    /// its end.
+    /// the room at least, and the number behind that at its end, for the power of ten and the unit,
+    /// which are cut last.
     pub(super) fn fitted(&self, size: f64, room: f64) -> String {
         let (name, rest) = self.label.split_at(self.name);
         let kept = (room - text::width(rest, size)).max(0.5 * room);
         let name = text::squeezed(name, size, kept);
-        let rest = text::fitted(rest, size, room - text::width(&name, size));
-        format!("{name}{rest}")
+        let (number, measure) = rest.split_at(rest.find(" [").unwrap_or(rest.len()));
+        let room = room - text::width(&name, size);
+        let measure = text::fitted(measure, size, room);
+        let number = text::fitted(number, size, room - text::width(&measure, size));
+        format!("{name}{number}{measure}")
     }
 }
 
@@ -173,6 +176,18 @@ mod tests {
         assert!(label.contains('…') && text::width(&label, 12.0) <= 200.0, "{label}");
         assert!(text::width(&axis.fitted(12.0, 20.0), 12.0) <= 20.0);
         assert_eq!(axis.fitted(12.0, 1e6), axis.label);
+    }
+
+    /// A tip has a place of many digits, which give way to the power of ten that ticks are in.
+    #[test]
+    fn places_of_many_digits_keep_their_powers() {
+        let ticks = Ticks { reference: 0.5_f64.sqrt() / 2.0, exponent: -12, ..Ticks::default() };
+        let axis = FigureAxis::new(ticks.clone(), &axis_label("y", &ticks, "mm"), 1, 1.0);
+        for room in [120.0, 150.0, 180.0] {
+            let label = axis.fitted(14.0, room);
+            assert!(label.starts_with("y −") && label.ends_with("… [×10⁻¹² mm]"), "{label}");
+            assert!(text::width(&label, 14.0) <= room, "{label}");
+        }
     }
 
     /// Whatever the lengths of name and unit, both begin in the label, and a power of ten is whole.

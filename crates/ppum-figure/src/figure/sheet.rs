@@ -216,12 +216,13 @@ pub(super) fn draw_bar(
     }
 }
 
-/// The lines of a caption or title: wrapped, and cut after some lines, lest it take the page.
+/// The lines of a caption or title: wrapped, and after some lines shortened, lest it take the page,
+/// to what follows and the end, where the step of a series is.
 pub(super) fn lines(title: &str, size: f64, room: f64, most: usize) -> Vec<String> {
     let mut lines = text::wrapped(title, size, room);
     if lines.len() > most {
         let rest = lines.split_off(most - 1).join(" ");
-        lines.push(text::fitted(&rest, size, room));
+        lines.push(text::squeezed(&rest, size, room));
     }
     lines
 }

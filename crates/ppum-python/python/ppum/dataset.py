@@ -281,9 +281,8 @@ class Dataset:
             ValueError: A name of another kind of file, such as ``.vtu``.
         """
         path = Path(path)
-        if path.suffix.lower() in (".html", ".pvd", ".vtkhdf", ".vtu"):
-            others = "`Field.triangles` makes .vtu files, `Field.to_html` pages"
-            raise ValueError(f"{path.name}: a dataset is an HDF5 file; {others}")
+        if remedy := _OTHER_FILES.get(path.suffix.lower()):
+            raise ValueError(f"{path.name}: a dataset is an HDF5 file, end its name in .h5; {remedy}")
         self._core.save(path)
 
     def to_bytes(self) -> bytes:
@@ -328,6 +327,19 @@ class Dataset:
         )
         tips = last.tips._repr_html_() if last.tips else ""
         return f"<p><b>{html.escape(self.title)}</b></p><table><tbody>{body}</tbody></table>{tips}"
+
+
+_PICTURES = "`Field.figure` draws pictures, `Field.animate` animations"
+_MESHES = "`Field.triangles` makes .vtu files"
+_TABLES = "`Field.line` and others make tables"
+#: Ends of the names of other files, and what makes these.
+_OTHER_FILES = {
+    **dict.fromkeys((".png", ".svg", ".pdf", ".jpg", ".gif", ".apng"), _PICTURES),
+    **dict.fromkeys((".vtu", ".pvd", ".vtk", ".vtkhdf"), _MESHES),
+    **dict.fromkeys((".csv", ".npy", ".npz", ".txt"), _TABLES),
+    **dict.fromkeys((".html", ".htm"), "`Field.to_html` makes pages"),
+    **dict.fromkeys((".toml",), "`Problem.to_toml` is the text of a problem file"),
+}
 
 
 def open(source: str | os.PathLike[str] | bytes | IO[bytes]) -> Dataset:

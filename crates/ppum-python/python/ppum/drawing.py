@@ -149,7 +149,9 @@ class Drawing(FieldCore):
         at = self._place(options, look["size"] or SIZE)
         made = json.loads(self._scene(quantity, options, at, may_find=is_one))
         asked = {**made, "figure": is_figure, "look": look, "place": self._placed(options, at)}
-        return json.dumps(asked, default=plain)
+        text = json.dumps(asked, default=plain)
+        _core.check_request(self._core, text)
+        return text
 
     def _placed(self, options: PlaceOptions, at: Spot | None) -> dict[str, Any]:
         """The place of a picture, as the libraries read it; a tip is followed where the plate is deformed."""
@@ -211,6 +213,8 @@ class Drawing(FieldCore):
             >>> moving.gif()[:6]
             b'GIF89a'
         """
+        if quantities(quantity)[1]:
+            raise ValueError("quantity: an animation shows one; `figure` has panels for those of one step")
         made = self._request(quantity, options, is_one=False, is_figure=not bare)
         return Animation(self, (made, self._numbers(steps)), milliseconds(fps), progress)
 

@@ -72,7 +72,8 @@ class Drawn:
     @classmethod
     def _plural(cls) -> str:
         *others, last = cls._forms
-        return f"{cls.__name__.lower()}s are {', '.join(others)} or {last}"
+        name = cls.__name__.lower().removesuffix("s")
+        return f"{name}s are {', '.join(others)}{' or ' if others else ''}{last}"
 
 
 class Page(Drawn):

@@ -134,9 +134,11 @@ class Field(Sampling, Exporting):
             >>> bool(abs(sum(parts) - f.at(0.3, 0.1).ux) < 1e-12)
             True
         """
+        if not isinstance(part, str):
+            raise TypeError(f"part: 'smooth', 'jump', 'tip', 'other' or 'patch:N' is needed, not {part!r}")
         return self._changed(part=part)
 
-    def with_function(self, functions: Mapping[str, str]) -> Field:
+    def with_function(self, functions: Mapping[str | int, str]) -> Field:
         """The field with other functions in place of its own, by name or number: formulas of x, y, r, theta. The
         coefficients stay.
 
@@ -148,8 +150,7 @@ class Field(Sampling, Exporting):
             >>> bool(g.at(0.4, 0.3).uy == f.at(0.4, 0.3).uy)
             False
         """
-        known = [tuple(pair) for pair in self._subject.get("functions", [])]
-        return self._changed(functions=[*known, *functions.items()])
+        return self._with_formulas("functions", functions)
 
     def with_weight(self, weight: str) -> Field:
         """The field with another weight function: one of the library by name, or a formula of t. The coefficients stay.
@@ -161,6 +162,8 @@ class Field(Sampling, Exporting):
             >>> bool(f.with_weight("bump").at(0.26, 0.1).ux != f.at(0.26, 0.1).ux)
             True
         """
+        if not isinstance(weight, str):
+            raise TypeError(f"weight: a name or a formula of t is needed, not {weight!r}")
         return self._changed(weight=weight)
 
     def with_quantity(self, quantities: Mapping[str, str]) -> Field:
@@ -169,8 +172,16 @@ class Field(Sampling, Exporting):
         Raises:
             QuantityError: No such quantity, no formula.
         """
-        known = [tuple(pair) for pair in self._subject.get("quantities", [])]
-        return self._changed(quantities=[*known, *quantities.items()])
+        return self._with_formulas("quantities", quantities)
+
+    def _with_formulas(self, what: str, formulas: Mapping[Any, str]) -> Field:
+        """The field with more formulas in place of functions or quantities."""
+        for which, text in formulas.items():
+            if not isinstance(text, str):
+                raise TypeError(f"{which}: a formula is needed, such as 'r*theta', not {text!r}")
+        known = [tuple(pair) for pair in self._subject.get(what, [])]
+        more = [(str(which), text) for which, text in formulas.items()]
+        return self._changed(**{what: [*known, *more]})
 
     def _of_step(self, number: int) -> Field:
         """The field of another step, changed as this one is."""

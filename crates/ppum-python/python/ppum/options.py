@@ -15,7 +15,7 @@ import numbers
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints, is_typeddict
 
 import numpy as np
 
@@ -166,6 +166,9 @@ def _check(name: str, kind: Any, value: Any) -> None:
 
     Only options of words, numbers, truth values and None are looked at, and lists of words; others check themselves.
     """
+    if is_typeddict(kind) and not isinstance(value, Mapping):
+        keys = ", ".join(kind.__annotations__)
+        raise TypeError(f"{name}: a dictionary of {keys} is needed, not {value!r}")
     atoms = list(_atoms(kind))
     words = [atom for atom in atoms if isinstance(atom, str)]
     if str in atoms or not words and set(atoms) - _PLAIN.keys():

@@ -218,14 +218,14 @@ def scene(asked: str | Sequence[str] | None, options: ColorOptions, found: str |
     o: Any = options
     quantity, several = quantities(asked)
     cmap, deformed = o.get("cmap"), o.get("deformed")
-    overlays, isolines = o.get("overlays", ()), o.get("isolines")
+    overlays, isolines, layout = o.get("overlays", ()), o.get("isolines"), o.get("layout")
     return json.dumps(
         {
             "quantity": quantity,
             "panels": {
                 "quantities": several,
                 "parts": list(o.get("parts") or ()),
-                "layout": o.get("layout"),
+                "layout": None if layout is None else pixels(layout, "layout"),
                 "shared_range": bool(o.get("shared_range", False)),
             },
             "colors": {

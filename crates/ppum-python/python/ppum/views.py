@@ -72,8 +72,8 @@ class PixelOptions(PlaceOptions, total=False):
     ]
 
 
-def pixels(size: tuple[int, int]) -> tuple[int, int]:
-    """Columns and rows, both positive.
+def pixels(size: tuple[int, int], name: str = "size") -> tuple[int, int]:
+    """Columns and rows, both positive, of an option of this name.
 
     Raises:
         RenderError: They are not.
@@ -81,9 +81,9 @@ def pixels(size: tuple[int, int]) -> tuple[int, int]:
     try:
         columns, rows = (operator.index(n) for n in size)
     except (TypeError, ValueError):
-        raise RenderError(f"size: {size!r} is not two whole numbers, columns and rows") from None
+        raise RenderError(f"{name}: {size!r} is not two whole numbers, columns and rows") from None
     if not (0 < columns < 2**32 and 0 < rows < 2**32):
-        raise RenderError(f"size: a picture of {columns}x{rows} pixels cannot be drawn; give positive numbers")
+        raise RenderError(f"{name}: {columns}x{rows} cannot be drawn; give positive numbers")
     return columns, rows
 
 

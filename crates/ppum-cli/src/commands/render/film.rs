@@ -40,10 +40,7 @@ impl Args {
     ) -> anyhow::Result<String> {
         let path = &self.output;
         ensure!(!is_standard(path), "-o -: pictures of steps go to files; give a name with -o");
-        ensure!(
-            !request.panels.are_given(),
-            "several panels and --steps do not go together yet; draw those of each step with --step"
-        );
+        request.panels.check_steps()?;
         let all = series(&self.subject.file)?;
         let steps = self.series.of(all.len())?;
         self.check_files(&steps, all.len())?;
