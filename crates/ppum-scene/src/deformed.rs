@@ -9,13 +9,11 @@ use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::deform::{DeformError, Deformation, DeformedPoints, automatic_factor};
 use ppum_render::raster::Raster;
-use serde::{Deserialize, Serialize};
 
 use crate::drawing::{Drawn, PROCESSOR, Shown};
 
 /// How many times its displacement a plate is drawn with: written as a number, or `auto`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Factor {
     /// The largest displacement is some 5 % of the plate.
     Auto,
@@ -46,19 +44,7 @@ impl fmt::Display for Factor {
     }
 }
 
-impl TryFrom<String> for Factor {
-    type Error = &'static str;
-
-    fn try_from(text: String) -> Result<Self, Self::Error> {
-        text.parse()
-    }
-}
-
-impl From<Factor> for String {
-    fn from(factor: Factor) -> Self {
-        factor.to_string()
-    }
-}
+crate::written::as_text!(Factor);
 
 impl Factor {
     /// The number, which for `auto` follows from the displacements of all plates.

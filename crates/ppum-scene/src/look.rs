@@ -83,8 +83,7 @@ pub enum BarName {
 
 /// Marks of an axis or of the colour bar, written `x=5`, `y=auto` or `bar=0,1`; those of the bar
 /// may be written without its name.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Clone, Debug, PartialEq)]
 pub struct AxisTicks {
     axis: LabelledAxis,
     choice: TickChoice,
@@ -308,19 +307,7 @@ impl fmt::Display for AxisTicks {
     }
 }
 
-impl TryFrom<String> for AxisTicks {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, Self::Error> {
-        text.parse()
-    }
-}
-
-impl From<AxisTicks> for String {
-    fn from(ticks: AxisTicks) -> Self {
-        ticks.to_string()
-    }
-}
+crate::written::as_text!(AxisTicks);
 
 #[cfg(test)]
 mod tests {

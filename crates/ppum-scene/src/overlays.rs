@@ -176,8 +176,7 @@ const MARGIN: f64 = 48.0;
 const MARGIN_PART: f64 = 0.15;
 
 /// The levels of isolines: written `auto`, a number, or values with commas between.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Levels {
     /// Round ones, some fourteen at most.
     Auto,
@@ -226,19 +225,7 @@ pub(crate) fn listed(values: &[f64]) -> String {
     texts.join(",") + end
 }
 
-impl TryFrom<String> for Levels {
-    type Error = &'static str;
-
-    fn try_from(text: String) -> Result<Self, Self::Error> {
-        text.parse()
-    }
-}
-
-impl From<Levels> for String {
-    fn from(levels: Levels) -> Self {
-        levels.to_string()
-    }
-}
+crate::written::as_text!(Levels);
 
 #[cfg(test)]
 mod tests {

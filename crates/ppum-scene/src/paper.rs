@@ -3,12 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use serde::{Deserialize, Serialize};
-
 /// A width on paper, and a height; without one it is that of what is drawn. Written `3.4x2.6`
 /// or `3.4`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaperSize {
     /// The width, positive.
     pub width: f64,
@@ -55,19 +52,7 @@ impl fmt::Display for PaperSize {
     }
 }
 
-impl TryFrom<String> for PaperSize {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, Self::Error> {
-        text.parse()
-    }
-}
-
-impl From<PaperSize> for String {
-    fn from(size: PaperSize) -> Self {
-        size.to_string()
-    }
-}
+crate::written::as_text!(PaperSize);
 
 #[cfg(test)]
 mod tests {

@@ -46,3 +46,22 @@ pub(crate) mod optional {
         text.map(|text| text.parse().map_err(de::Error::custom)).transpose()
     }
 }
+
+/// Keeps a type, as a field or in a list, as the command line writes it.
+macro_rules! as_text {
+    ($kind:ty) => {
+        impl serde::Serialize for $kind {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                crate::written::serialize(self, serializer)
+            }
+        }
+
+        impl<'d> serde::Deserialize<'d> for $kind {
+            fn deserialize<D: serde::Deserializer<'d>>(deserializer: D) -> Result<Self, D::Error> {
+                crate::written::deserialize(deserializer)
+            }
+        }
+    };
+}
+
+pub(crate) use as_text;
