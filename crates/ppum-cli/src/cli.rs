@@ -116,21 +116,4 @@ mod tests {
             assert!(text.starts_with("Examples:") && text.contains(&example), "{example}: {text}");
         }
     }
-
-    #[test]
-    fn every_option_is_documented() {
-        let page = include_str!("../../../docs/cli.md");
-        for command in Cli::command().get_subcommands() {
-            let start = format!("\n## `ppum {}", command.get_name());
-            let section = page
-                .split_once(&start)
-                .map_or("", |(_, rest)| rest)
-                .split("\n## ")
-                .next()
-                .unwrap_or_default();
-            for option in command.get_arguments().filter_map(clap::Arg::get_long) {
-                assert!(section.contains(&format!("--{option}")), "{start} --{option}");
-            }
-        }
-    }
 }

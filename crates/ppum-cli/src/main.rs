@@ -19,6 +19,8 @@ mod page;
 mod panics;
 mod profile;
 mod progress;
+#[cfg(test)]
+mod reference;
 mod remedy;
 mod replacements;
 mod signals;
