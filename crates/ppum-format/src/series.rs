@@ -76,8 +76,10 @@ impl Series {
         &self.head
     }
 
-    /// True if steps can be appended to the file: it has no checksum over all of it.
-    pub(crate) fn can_grow(&self) -> bool {
+    /// True if steps are read when they are asked for, and can be appended to the file: it has no
+    /// checksum over all of it.
+    #[must_use]
+    pub fn can_grow(&self) -> bool {
         matches!(self.steps, Steps::Stored(..))
     }
 

@@ -1,11 +1,12 @@
 //! Datasets: files, bytes, and what stands in them.
 
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ppum::dataset::Dataset as Data;
-use ppum_format::{from_bytes as decode, to_bytes, write};
+use ppum_format::{Series, from_bytes as decode, to_bytes, write};
 use ppum_solve::report::ASSEMBLY_SECONDS;
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -15,14 +16,28 @@ use crate::watch::{guard, long};
 
 /// A dataset, which never changes.
 #[pyclass(frozen, module = "ppum._core")]
-pub(crate) struct Dataset(pub(crate) Arc<Data>);
+pub(crate) struct Dataset(Steps);
 
-/// Reads a file with all its steps.
+/// The steps of a dataset.
+enum Steps {
+    /// In memory.
+    Whole(Arc<Data>),
+    /// In a file, read when they are asked for.
+    Stored { series: Series, name: String, newest: Mutex<Option<(usize, Arc<Data>)>> },
+}
+
+/// Opens a file; one of several steps stays open.
 #[pyfunction]
 pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Dataset> {
     let name = path.display().to_string();
-    let read = long(py, None, None, |_| ppum_format::read(&path))?;
-    read.map(Dataset::new).map_err(|error| unreadable(&name, error))
+    let opened = long(py, None, None, |_| match Series::open(&path)? {
+        series if series.can_grow() && series.len() > 1 => Ok(Err(series)),
+        series => series.into_dataset(0).map(Ok),
+    })?;
+    match opened.map_err(|error| unreadable(&name, error))? {
+        Ok(data) => Ok(Dataset::new(data)),
+        Err(series) => Ok(Dataset(Steps::Stored { series, name, newest: Mutex::default() })),
+    }
 }
 
 /// Reads the bytes of a file.
@@ -53,7 +68,73 @@ fn are_equal_untimed(one: &Data, other: &Data) -> bool {
 
 impl Dataset {
     pub(crate) fn new(dataset: Data) -> Self {
-        Self(Arc::new(dataset))
+        Self(Steps::Whole(Arc::new(dataset)))
+    }
+
+    /// What all steps have in common.
+    fn head(&self) -> &Data {
+        match &self.0 {
+            Steps::Whole(data) => data,
+            Steps::Stored { series, .. } => series.head(),
+        }
+    }
+
+    /// The dataset with a step at its number; of a file the other steps are empty.
+    ///
+    /// # Errors
+    /// `IndexError`; a step that cannot be read.
+    pub(crate) fn at(&self, number: usize) -> PyResult<Arc<Data>> {
+        let count = self.__len__();
+        if number >= count {
+            return Err(PyIndexError::new_err(format!(
+                "there is no step {number}; the dataset has {count} (numbered from 0)"
+            )));
+        }
+        match &self.0 {
+            Steps::Whole(data) => Ok(Arc::clone(data)),
+            Steps::Stored { series, name, newest } => {
+                let known = || newest.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Some((_, data)) = known().as_ref().filter(|(of, _)| *of == number) {
+                    return Ok(Arc::clone(data));
+                }
+                // without the lock: a thread that waits for parts of a step may begin another one
+                let data = Arc::new(series.at(number).map_err(|error| unreadable(name, error))?);
+                *known() = Some((number, Arc::clone(&data)));
+                Ok(data)
+            }
+        }
+    }
+
+    /// The dataset with all steps, or with what the solver tells of them alone.
+    fn filled(&self, is_whole: bool) -> PyResult<Arc<Data>> {
+        let (series, name) = match &self.0 {
+            Steps::Whole(data) => return Ok(Arc::clone(data)),
+            Steps::Stored { series, name, .. } => (series, name),
+        };
+        let step = |number| match is_whole {
+            true => series.dataset(number).map(|mut data| data.steps.remove(0)),
+            false => series.results(number),
+        };
+        let mut data = series.head().clone();
+        let steps = (0..series.len()).map(step).collect::<Result<_, _>>();
+        data.steps = steps.map_err(|error| unreadable(name, error))?;
+        Ok(Arc::new(data))
+    }
+
+    /// The dataset with all steps.
+    ///
+    /// # Errors
+    /// Steps that cannot be read.
+    pub(crate) fn whole(&self) -> PyResult<Arc<Data>> {
+        self.filled(true)
+    }
+
+    /// The dataset with the cracks of all steps and what the solver tells of them.
+    ///
+    /// # Errors
+    /// Steps that cannot be read.
+    pub(crate) fn results(&self) -> PyResult<Arc<Data>> {
+        self.filled(false)
     }
 }
 
@@ -61,31 +142,45 @@ impl Dataset {
 impl Dataset {
     /// Writes a file, in one step: what was there before stays until the new one is complete.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        long(py, None, None, |_| write(&self.0, &path))?.map_err(unwritable)
+        long(py, None, None, |_| write(&*self.whole()?, &path).map_err(unwritable))?
     }
 
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = long(py, None, None, |_| to_bytes(&self.0))?.map_err(unwritable)?;
+        let bytes = long(py, None, None, |_| to_bytes(&*self.whole()?).map_err(unwritable))??;
         Ok(PyBytes::new(py, &bytes))
     }
 
     fn __len__(&self) -> usize {
-        self.0.steps.len()
+        match &self.0 {
+            Steps::Whole(data) => data.steps.len(),
+            Steps::Stored { series, .. } => series.len(),
+        }
+    }
+
+    /// True if steps are read when they are asked for.
+    fn is_stored(&self) -> bool {
+        matches!(self.0, Steps::Stored { .. })
     }
 
     /// Whether all numbers and texts are equal, but for the times that solving took.
-    fn __eq__(&self, other: &Self) -> bool {
-        *self.0 == *other.0 || are_equal_untimed(&self.0, &other.0)
+    fn __eq__(&self, py: Python<'_>, other: &Self) -> PyResult<bool> {
+        if self.__len__() != other.__len__() {
+            return Ok(false);
+        }
+        long(py, None, None, |_| {
+            let (one, other) = (self.whole()?, other.whole()?);
+            Ok(*one == *other || are_equal_untimed(&one, &other))
+        })?
     }
 
     /// What all steps have in common, as JSON.
     fn about(&self) -> PyResult<String> {
-        guard(|| Ok(facts::about(&self.0)))
+        guard(|| Ok(facts::about(self.head())))
     }
 
     /// What is in a step but for its fields, as JSON.
-    fn step(&self, number: usize) -> PyResult<String> {
-        guard(|| facts::step_json(&self.0, number))
+    fn step(&self, py: Python<'_>, number: usize) -> PyResult<String> {
+        long(py, None, None, |_| Ok(facts::step_json(&*self.at(number)?, number)))?
     }
 
     /// The stored values of cells, by their names.
@@ -94,8 +189,9 @@ impl Dataset {
         py: Python<'py>,
         number: usize,
     ) -> PyResult<Vec<(String, Bound<'py, numpy::PyArray1<f64>>)>> {
-        let step = facts::step(&self.0, number)?;
+        let data = self.at(number)?;
         let array = |values: &[f64]| numpy::PyArray1::from_slice(py, values);
-        Ok(step.attributes.iter().map(|a| (a.name.clone(), array(&a.values))).collect())
+        let all = data.steps[number].attributes.iter();
+        Ok(all.map(|a| (a.name.clone(), array(&a.values))).collect())
     }
 }

@@ -11,6 +11,7 @@ use ppum_scene::scene::Subject;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use crate::dataset::Dataset;
 use crate::errors::{RenderError, cancelled, quantity, unwritable};
 use crate::field::Field;
 use crate::picture::Spot;
@@ -117,13 +118,16 @@ pub(crate) fn triangles(
 pub(crate) fn page(
     py: Python<'_>,
     this: &Field,
+    dataset: &Dataset,
     request: &str,
     at: Option<Spot>,
     file: String,
 ) -> PyResult<String> {
     let Request { mut scene, .. } = this.request(request)?;
     // parts and replaced functions are in the dataset already
-    let (dataset, step) = this.owned.place();
+    let (changed, step) = this.owned.place();
+    let whole = if changed.steps.len() > 1 { Some(dataset.whole()?) } else { None };
+    let dataset = whole.as_deref().unwrap_or(changed);
     scene.subject = Subject { step: Some(step), ..Subject::default() };
     let view = at.map(|((x, y), width)| View { center: [x, y], width, pixels: SHAPE });
     let start = Start::new(scene, this.owned.field(), view, file);

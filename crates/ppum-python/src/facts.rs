@@ -1,11 +1,10 @@
 //! The facts of datasets as JSON, which Python reads, and quantities as dictionaries.
 
 use ppum::crack::tips;
-use ppum::dataset::{Dataset, Step};
+use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::quantity::{Quantity, available};
 use ppum_scene::facts::{About, Crack, Number, Results, Tip};
-use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use serde::Serialize;
 
@@ -40,30 +39,13 @@ pub(crate) fn about(dataset: &Dataset) -> String {
     json(&DatasetFacts { about: About::new(dataset), problem: dataset.problem.as_deref() })
 }
 
-/// The step of a number.
-///
-/// # Errors
-/// `IndexError`.
-pub(crate) fn step(dataset: &Dataset, number: usize) -> PyResult<&Step> {
-    let count = dataset.steps.len();
-    let missing = || {
-        PyIndexError::new_err(format!(
-            "there is no step {number}; the dataset has {count} (numbered from 0)"
-        ))
-    };
-    dataset.steps.get(number).ok_or_else(missing)
-}
-
-/// What is in a step, as JSON.
-///
-/// # Errors
-/// `IndexError`.
-pub(crate) fn step_json(dataset: &Dataset, number: usize) -> PyResult<String> {
-    let step = step(dataset, number)?;
+/// What is in a step that there is, as JSON.
+pub(crate) fn step_json(dataset: &Dataset, number: usize) -> String {
+    let step = &dataset.steps[number];
     let results = Results::new(dataset, number);
     let arcs = step.growth.iter().flat_map(|growth| &growth.tips);
     let path = |tip: &ppum::dataset::Advance| tip.path.iter().map(|&p| p.into()).collect();
-    Ok(json(&StepFacts {
+    json(&StepFacts {
         load: step.load,
         patches: step.partition.len(),
         cracks: step.cracks.iter().map(Crack::new).collect(),
@@ -73,7 +55,7 @@ pub(crate) fn step_json(dataset: &Dataset, number: usize) -> PyResult<String> {
         results: &results,
         ends: tips(&step.cracks).map(|tip| tip.end.name()).collect(),
         arcs: arcs.map(|tip| (Number(tip.curvature), path(tip))).collect(),
-    }))
+    })
 }
 
 fn json(facts: &impl Serialize) -> String {

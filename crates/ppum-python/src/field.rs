@@ -114,8 +114,7 @@ impl Field {
     #[new]
     fn new(py: Python<'_>, dataset: &Dataset, step: usize, subject: &str) -> PyResult<Self> {
         let subject = written::<Subject>(subject)?;
-        let data = dataset.0.clone();
-        let owned = long(py, None, None, |_| changed(data, step, &subject))??;
+        let owned = long(py, None, None, |_| changed(dataset.at(step)?, step, &subject))??;
         // what is changed is a copy of one step
         let step = subject.is_whole().then_some(step);
         let told = Subject { step, part: subject.part, ..Subject::default() };
@@ -233,13 +232,12 @@ fn changed(data: Arc<Data>, step: usize, what: &Subject) -> PyResult<Owned> {
     if what.is_whole() {
         return Owned::new(data, step).map_err(no_field);
     }
-    let Some(only) = data.steps.get(step) else { return Owned::new(data, step).map_err(no_field) };
     let mut copy = Data::new(data.domain.clone(), data.equation.clone());
     copy.title = of_step(&data, step);
     copy.problem.clone_from(&data.problem);
     copy.quantities.clone_from(&data.quantities);
     copy.tables.clone_from(&data.tables);
-    copy.steps.push(only.clone());
+    copy.steps.push(data.steps[step].clone());
     what.apply(&mut copy).map_err(|error| subject(&error))?;
     Owned::new(Arc::new(copy), 0).map_err(no_field)
 }

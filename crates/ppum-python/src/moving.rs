@@ -2,7 +2,8 @@
 
 use ppum::progress::Watcher;
 use ppum_scene::engine::Engine;
-use ppum_scene::moving::{AnimationFormat, Film, InMemory, Moving, MovingError};
+use ppum_scene::moving::{AnimationFormat, Film, Frames, MovingError, Work, with_subject};
+use ppum_scene::request::Request;
 use ppum_scene::scene::Subject;
 use ppum_scene::still::Common;
 use pyo3::exceptions::PyValueError;
@@ -15,12 +16,48 @@ use crate::field::{Field, written};
 use crate::picture::made;
 use crate::watch::long;
 
-fn unmoved(error: MovingError) -> PyErr {
-    match error {
-        MovingError::Field(error) => no_field(error),
-        MovingError::Subject(error) => subject(&error),
-        MovingError::Shot(error) => picture(*error),
-        error => RenderError::new_err(error.to_string()),
+/// Some steps of a dataset, of which one at a time is read.
+struct Reel<'a> {
+    dataset: &'a Dataset,
+    request: Request,
+    steps: Vec<usize>,
+}
+
+/// The reason why there is no animation: a step that cannot be read, or drawn.
+enum Unmoved {
+    Read(PyErr),
+    Drawn(MovingError),
+}
+
+impl<E: Into<MovingError>> From<E> for Unmoved {
+    fn from(error: E) -> Self {
+        Self::Drawn(error.into())
+    }
+}
+
+impl From<Unmoved> for PyErr {
+    fn from(error: Unmoved) -> Self {
+        match error {
+            Unmoved::Read(error) => error,
+            Unmoved::Drawn(MovingError::Field(error)) => no_field(error),
+            Unmoved::Drawn(MovingError::Subject(error)) => subject(&error),
+            Unmoved::Drawn(MovingError::Shot(error)) => picture(*error),
+            Unmoved::Drawn(error) => RenderError::new_err(error.to_string()),
+        }
+    }
+}
+
+impl Frames for Reel<'_> {
+    type Error = Unmoved;
+
+    fn count(&self) -> usize {
+        self.steps.len()
+    }
+
+    fn with(&self, number: usize, work: &mut Work<'_, Unmoved>) -> Result<(), Unmoved> {
+        let step = self.steps[number];
+        let data = self.dataset.at(step).map_err(Unmoved::Read)?;
+        with_subject(&data, &self.request.at_step(step), work)
     }
 }
 
@@ -47,21 +84,23 @@ pub(crate) fn animation<'py>(
             return Err(PyValueError::new_err(format!("`{other}` is no form: {known}")));
         }
     };
-    let dataset = &*dataset.0;
     let mut request = this.request(request)?;
     request.panels.check_steps().map_err(|error| RenderError::new_err(error.to_string()))?;
     request.scene.subject = written::<Subject>(changes)?;
-    let moving = Moving::Steps(steps);
-    let drawn = |engine: &Engine<'_>| {
-        let frames = InMemory::new(dataset, &request, &moving).map_err(unmoved)?;
-        let Common { placing, design } = Common::new(&frames, &request).map_err(unmoved)?;
-        let film = Film::new(&frames, &placing, design.as_ref(), engine).map_err(unmoved)?;
-        let title = |_: &_| vec![("Title".into(), dataset.title.clone())];
+    let title = this.owned.dataset().title.clone();
+    let drawn = |engine: &Engine<'_>| -> Result<Vec<u8>, Unmoved> {
+        let mut frames = Reel { dataset, request: request.clone(), steps };
+        frames.request = frames.settled(&request)?;
+        let Common { placing, design } = Common::new(&frames, &request)?;
+        let film = Film::new(&frames, &placing, design.as_ref(), engine)?;
+        let title = |_: &_| vec![("Title".into(), title.clone())];
         let mut bytes = Vec::new();
-        film.write(form, milliseconds, &title, &mut bytes).map_err(unmoved)?;
+        film.write(form, milliseconds, &title, &mut bytes)?;
         Ok(bytes)
     };
-    let all = |watcher: &dyn Watcher| made(&request, watcher, drawn);
+    let all = |watcher: &dyn Watcher| {
+        made(&request, watcher, |engine| drawn(engine).map_err(PyErr::from))
+    };
     let (bytes, told) = long(py, None, progress.as_ref(), all)??;
     Ok((PyBytes::new(py, &bytes), told))
 }

@@ -159,11 +159,16 @@ pub(crate) fn told(
     kind: &str,
     log: &str,
 ) -> PyResult<Curves> {
-    let (names, datasets): (Vec<String>, Vec<Arc<Data>>) =
-        named.into_iter().map(|(name, dataset)| (name, dataset.get().0.clone())).unzip();
+    let kind = written::<PlotKind>(kind)?;
+    // errors follow from the fields, all else from what the solver tells
+    let is_whole = matches!(kind, PlotKind::Convergence { .. });
+    let data = |dataset: &Dataset| if is_whole { dataset.whole() } else { dataset.results() };
+    let datasets = named.iter().map(|(_, dataset)| data(dataset.get()));
+    let datasets = datasets.collect::<PyResult<Vec<Arc<Data>>>>()?;
+    let names: Vec<String> = named.into_iter().map(|(name, _)| name).collect();
     let pairs = names.iter().zip(&datasets);
     let named: Vec<_> = pairs.map(|(name, dataset)| Named { name, dataset }).collect();
-    let plot = match written::<PlotKind>(kind)? {
+    let plot = match kind {
         PlotKind::Convergence { step } => {
             long(py, None, None, |_| plots::convergence(&named, step))?
         }

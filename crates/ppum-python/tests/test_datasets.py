@@ -1,10 +1,14 @@
 """What stands in datasets, and problems."""
 
 import math
+import pickle
+import weakref
 
+import h5py
 import numpy as np
 import ppum
 import pytest
+from ppum.field import KEPT
 from conftest import ROOT, plate
 
 
@@ -58,6 +62,53 @@ def test_a_series_of_growth():
     first, last = series.steps[0].field, series.field
     assert first.at(0.3, 0.4).uy != last.at(0.3, 0.4).uy
     assert last.part("jump").at(0.0, 0.0).uy != 0.0 and "step 2" in repr(last)
+
+
+def test_a_series_in_a_file_is_that_in_memory(grown, tmp_path):
+    """Its steps are read when they are asked for, whatever happens to its name."""
+    path = tmp_path / "grown.h5"
+    grown.save(path)
+    stored = ppum.open(path)
+    assert stored._core.is_stored() and not grown._core.is_stored()
+    path.unlink()
+    assert stored.title == grown.title and len(stored.steps) == len(grown.steps) == 3
+    x, y = np.random.default_rng(3).uniform(0, 1, (2, 400))
+    for ours, theirs in zip([*stored.steps, *stored.steps[::-1]], [*grown.steps, *grown.steps[::-1]], strict=True):
+        assert np.array_equal(ours.field.at(x, y).uy, theirs.field.at(x, y).uy, equal_nan=True)
+        assert ours.field.part("jump").at(0.3, 0.5).uy == theirs.field.part("jump").at(0.3, 0.5).uy
+        assert ours.tips == theirs.tips and ours.load == theirs.load and ours.field is ours.field
+        assert np.array_equal(ours.attributes["order"], theirs.attributes["order"])
+    assert stored == grown and hash(stored) == hash(grown) and stored.field == grown.field
+    assert pickle.loads(pickle.dumps(stored)) == grown and stored.to_bytes() == grown.to_bytes()
+    assert stored.steps[0].field.figure("uy").png() == grown.steps[0].field.figure("uy").png()
+    assert stored.field.animate("uy", size=(300, 240)).apng() == grown.field.animate("uy", size=(300, 240)).apng()
+    assert stored.steps[1].field.to_html() == grown.steps[1].field.to_html()
+    for kind in (ppum.plots.history, ppum.plots.series):
+        assert kind(stored).svg() == kind(grown).svg()
+    with pytest.raises(IndexError, match="there is no step 3; the dataset has 3"):
+        ppum.Field(stored, 3)
+
+
+def test_of_a_series_in_a_file_few_steps_are_in_memory(grown, tmp_path):
+    grown.save(tmp_path / "grown.h5")
+    stored = ppum.open(tmp_path / "grown.h5")
+    made = [weakref.ref(ppum.Field(stored, number)) for number in range(3)]
+    assert [field() for field in made] == [None] * 3
+    assert stored._field.cache_info().maxsize == KEPT and grown._field.cache_info().maxsize is None
+
+
+def test_damage_is_found_where_it_is(grown, tmp_path):
+    """In the step that is read, as its checksum says."""
+    path = tmp_path / "grown.h5"
+    grown.save(path)
+    data = bytearray(path.read_bytes())
+    values = np.array(h5py.File(path)["steps/0001/fields/0000/coefficients"]).tobytes()
+    data[data.index(values[:64]) + 5] ^= 1
+    path.write_bytes(data)
+    stored = ppum.open(path)
+    assert stored.steps[0].field.at(0.3, 0.4).uy == grown.steps[0].field.at(0.3, 0.4).uy
+    with pytest.raises(ppum.FormatError, match="checksum"):
+        stored.steps[1].field
 
 
 def test_problems_are_frozen_values(problem):

@@ -156,6 +156,14 @@ impl Request {
         self.figure || self.panels.are_given()
     }
 
+    /// The same of a step.
+    #[must_use]
+    pub fn at_step(&self, step: usize) -> Self {
+        let mut request = self.clone();
+        request.scene.subject.step = Some(step);
+        request
+    }
+
     /// The look of a figure, of a size unless another is given, with so many panels across
     /// and down.
     #[must_use]

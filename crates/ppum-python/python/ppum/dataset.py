@@ -6,7 +6,7 @@ import html
 import json
 import os
 from collections.abc import Mapping
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, Unpack
 
@@ -28,7 +28,7 @@ from .facts import (
     row,
     tips_of,
 )
-from .field import Field
+from .field import KEPT, Field
 from .options import passes
 from .styles import ViewerOptions
 from .tables import History, Numbered, Table
@@ -145,14 +145,14 @@ class Step:
         """Stored values of the cover's cells by name, each of shape (patches,)."""
         return dict(self.dataset._core.attributes(self.number))
 
-    @cached_property
+    @property
     def field(self) -> Field:
         """The field of the step.
 
         Raises:
             FormatError: The step has none, or a function that cannot be compiled.
         """
-        return Field(self.dataset, self.number)
+        return self.dataset._field(self.number)
 
     def __repr__(self) -> str:
         return f"<ppum.Step {self.number}, {_count(self.patches, 'patch', 'patches')}, {_count(len(self.tips), 'tip')}>"
@@ -179,6 +179,9 @@ class Dataset:
 
     def __init__(self, core: _core.Dataset) -> None:
         self._core = core
+        # a field holds the data of its step, which those of a file need not
+        most = KEPT if core.is_stored() else None
+        self._field = lru_cache(most)(partial(Field, self))
 
     @cached_property
     def _facts(self) -> dict[str, Any]:
@@ -343,7 +346,8 @@ _OTHER_FILES = {
 
 
 def open(source: str | os.PathLike[str] | bytes | IO[bytes]) -> Dataset:
-    """Opens a dataset, whole: no file stays open.
+    """Opens a dataset. A file with the steps of a series stays open, and each step is read when it is asked for; any other
+    is read whole.
 
     Args:
         source: A path, the bytes of a file, or a file that is open for reading bytes.

@@ -216,7 +216,7 @@ class Exporting(Drawing):
             folder_of(target)
         at = self._place(options, SIZE)
         name = f"{target.stem}.h5" if target is not None else "dataset.h5"
-        page = _core.page(self._core, self._scene(quantity, options, at), at, name)
+        page = _core.page(self._core, self.dataset._core, self._scene(quantity, options, at), at, name)
         if target is None:
             return page
         replace(target, page.encode())

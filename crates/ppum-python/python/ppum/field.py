@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Field"]
 
+#: Fields of a series in a file that are kept ready.
+KEPT = 4
+
 Floats = NDArray[np.float64]
 ResamplingMethod = Literal["nearest", "bilinear", "bicubic", "cells"]
 

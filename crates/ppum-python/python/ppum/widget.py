@@ -12,6 +12,7 @@ import math
 import os
 import sys
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack, get_args
 
@@ -21,6 +22,7 @@ import traitlets
 
 from . import _core
 from .errors import PpumError, QuantityError
+from .field import KEPT
 from .options import passes, takes
 from .pictures import Figure
 from .styles import FigureOptions, Norm, ViewerOptions, scene, span
@@ -115,7 +117,7 @@ class Viewer(anywidget.AnyWidget):
         self._version, self._is_answering = 0, False
         #: The field; its step is that of `step`.
         self.field = field
-        self._fields = {field._number: field}
+        self._other = lru_cache(KEPT)(field._of_step)
         # what the center has beyond double precision
         self._rest = (0.0, 0.0)
         # the last range that was found, for frames of moving views
@@ -234,9 +236,7 @@ class Viewer(anywidget.AnyWidget):
         }
 
     def _at_step(self) -> Field:
-        if self.step not in self._fields:
-            self._fields[self.step] = self.field._of_step(self.step)
-        return self._fields[self.step]
+        return self.field if self.step == self.field._number else self._other(self.step)
 
     def _hear(self, _: Any, content: Any, buffers: Any) -> None:
         """Answers a message of the browser: a frame, or what is under the mouse. All views hear it, and ask for their own."""

@@ -89,6 +89,18 @@ pub trait Frames {
         Ok(found.factor())
     }
 
+    /// The request of them, with the factor of the deformed plate as a number.
+    ///
+    /// # Errors
+    /// As [`Self::factor`].
+    fn settled(&self, request: &Request) -> Result<Request, Self::Error> {
+        let mut request = request.clone();
+        if let Some(factor) = request.scene.deformed {
+            request.scene.deformed = Some(Factor::Given(self.factor(factor)?));
+        }
+        Ok(request)
+    }
+
     /// The box that shows the plate in all frames.
     ///
     /// # Errors
@@ -174,9 +186,7 @@ impl<'a> InMemory<'a> {
         moving: &'a Moving,
     ) -> Result<Self, MovingError> {
         let mut all = Self { dataset, request: request.clone(), moving };
-        if let Some(factor) = request.scene.deformed {
-            all.request.scene.deformed = Some(Factor::Given(all.factor(factor)?));
-        }
+        all.request = all.settled(request)?;
         Ok(all)
     }
 
@@ -184,7 +194,7 @@ impl<'a> InMemory<'a> {
     fn of(&self, number: usize) -> Request {
         let mut request = self.request.clone();
         match self.moving {
-            Moving::Steps(steps) => request.scene.subject.step = Some(steps[number]),
+            Moving::Steps(steps) => request = request.at_step(steps[number]),
             Moving::Factor(largest, count) => {
                 let part = number as f64 / *count as f64;
                 let share = 0.5 - 0.5 * (std::f64::consts::TAU * part).cos();
@@ -206,18 +216,29 @@ impl Frames for InMemory<'_> {
     }
 
     fn with(&self, number: usize, work: &mut Work<'_, MovingError>) -> Result<(), MovingError> {
-        let request = self.of(number);
-        let subject = &request.scene.subject;
-        let mut changed = None;
-        let dataset = match subject.is_whole() {
-            true => self.dataset,
-            false => {
-                let changed = changed.insert(self.dataset.clone());
-                subject.apply(changed)?;
-                changed
-            }
-        };
-        let field = Field::new(dataset, subject.step_of(dataset))?;
-        work(FieldSource::of(dataset, &field), &request)
+        with_subject(self.dataset, &self.of(number), work)
     }
+}
+
+/// Works on what a request shows of a dataset.
+///
+/// # Errors
+/// What the dataset does not have; those of the work.
+pub fn with_subject<E: From<SubjectError> + From<FieldError>>(
+    dataset: &Dataset,
+    request: &Request,
+    work: &mut Work<'_, E>,
+) -> Result<(), E> {
+    let subject = &request.scene.subject;
+    let mut changed = None;
+    let dataset = match subject.is_whole() {
+        true => dataset,
+        false => {
+            let changed = changed.insert(dataset.clone());
+            subject.apply(changed)?;
+            changed
+        }
+    };
+    let field = Field::new(dataset, subject.step_of(dataset))?;
+    work(FieldSource::of(dataset, &field), request)
 }

@@ -8,4 +8,4 @@ mod film;
 mod frames;
 
 pub use film::{AnimationFormat, Film};
-pub use frames::{FrameView, Frames, InMemory, Moving, MovingError, Work};
+pub use frames::{FrameView, Frames, InMemory, Moving, MovingError, Work, with_subject};

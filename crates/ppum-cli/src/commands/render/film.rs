@@ -48,9 +48,7 @@ impl Args {
         let texts = self.subject.texts()?;
         let request = self.request(texts.iter().map(|given| given.text.clone()).collect());
         let mut reel = Reel { args: self, all, steps, texts, request: request.clone(), bars };
-        if let Some(factor) = request.scene.deformed {
-            reel.request.scene.deformed = Some(Factor::Given(reel.factor(factor)?));
-        }
+        reel.request = reel.settled(&request)?;
         let Common { placing, design } = Common::new(&reel, &request)?;
         let film = Film::new(&reel, &placing, design.as_ref(), engine)?;
         self.write(&reel, &film, engine)
@@ -155,9 +153,7 @@ impl Frames for Reel<'_> {
         args.subject.replacements.apply(&mut dataset, Some(step)).with_context(at)?;
         let field = field(&dataset, Some(step)).with_context(at)?;
         check_all(&field, &self.texts)?;
-        let mut request = self.request.clone();
-        request.scene.subject.step = Some(step);
-        work(FieldSource::of(&dataset, &field), &request)
+        work(FieldSource::of(&dataset, &field), &self.request.at_step(step))
     }
 }
 
