@@ -34,8 +34,8 @@ pub struct Overlays {
     /// Label the isolines with their levels, where there is room
     #[cfg_attr(feature = "clap", arg(long, requires = "isolines"))]
     pub level_labels: bool,
-    /// Arrows of the displacement, or of the gradient of a potential, so many pixels of a bare image
-    /// apart, usually 36
+    /// Arrows of the displacement, or of the gradient of a potential, so many pixels of a bare
+    /// image apart, usually 36
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true),
