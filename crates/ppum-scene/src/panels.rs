@@ -119,7 +119,6 @@ impl<'a> PanelFigure<'a> {
         let titled = title(source, request)?;
         let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
         let grid = self.grid(&titled, &captions)?;
-        self.tell_empty(grid, engine);
         let size = [grid.columns, grid.rows];
         let aspect = request.place.aspect(source.field);
         let design = request.design(source.field, Look::page(aspect, size), size);
@@ -133,6 +132,7 @@ impl<'a> PanelFigure<'a> {
         let lacking = all.iter().filter(|panel| lacks_legend(panel, room, &design));
         lacking.for_each(|panel| tell_legend(&panel.legend, engine));
         let page = panels(&titled, &all, grid, &design)?;
+        self.tell_empty(grid, engine);
         let names = self.contents.iter().step_by(self.sources.len());
         let names = names.map(|content| content.asked.name.as_str()).collect::<Vec<_>>().join(", ");
         Ok(DrawnPanels { page, shots, labels, names, is_shared: self.is_shared() })
