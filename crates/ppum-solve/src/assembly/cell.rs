@@ -120,21 +120,6 @@ impl<'s> CellAssembler<'s> {
         matrix
     }
 
-    /// The part of one cell in the factors of tips, in a system without matrix.
-    pub(crate) fn duals(&mut self, cell: usize, rules: &[Rule]) -> CellSystem {
-        let mut system = self.zero(CellFunctions::new(&self.assembly, cell));
-        let mut plain = self.zero(CellFunctions::plain(&self.assembly, cell));
-        if let Some(Functionals { duals, .. }) = self.functionals {
-            for rule in rules {
-                let (shapes, numbers) =
-                    (self.evaluator.see(rule), plain.functions.numbers(&rule.patches));
-                duals.add((cell, rule), shapes, &numbers, &mut plain.duals);
-            }
-        }
-        system.add_functionals(&plain, self.assembly.basis, self.assembly.components());
-        system
-    }
-
     /// A system of a cell of which nothing but the size is known.
     fn zero(&self, functions: CellFunctions) -> CellSystem {
         let unknowns = functions.len() * self.assembly.law.components;

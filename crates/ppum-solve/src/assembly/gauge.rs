@@ -59,11 +59,6 @@ impl<'p> FreeModes<'p> {
         self.modes.len()
     }
 
-    /// True if the modes are those of a gauge, on the whole plate: pieces might have other borders.
-    pub(crate) fn are_those_of(&self, gauge: &Gauge) -> bool {
-        self.modes == gauge.modes && (self.modes.is_empty() || self.pieces.all().len() == 1)
-    }
-
     /// Adds ∫ N·m over the points of a rule in its piece for each mode m; shapes are those of the
     /// rule's patches, `numbers` their places in a part.
     pub(super) fn add(
@@ -115,16 +110,6 @@ impl Gauge {
     /// Number of free modes.
     pub(crate) fn len(&self) -> usize {
         self.modes.len()
-    }
-
-    /// The moments of the modes, which it does without from here on.
-    pub(crate) fn take_moments(&mut self) -> Vec<Vec<f64>> {
-        std::mem::take(&mut self.moments)
-    }
-
-    /// The patches whose unknowns get a penalty.
-    pub(crate) fn penalised(&self) -> &[usize] {
-        &self.patches
     }
 
     /// Adds γ Σ_k r_k r_kᵀ, r_k the part of a functional on the unknowns of one patch.

@@ -78,11 +78,6 @@ impl<'p> Given<'p> {
         self.source.is_none() && self.conditions.is_empty()
     }
 
-    /// True if some data have rules of their own, which depend on the plate as a whole.
-    pub(crate) fn has_own_rules(&self) -> bool {
-        self.source_rules.any() || self.conditions.iter().any(|given| given.own.any())
-    }
-
     /// The source, with the rules that it has in a cell for its own.
     pub(crate) fn source(&self, cell: usize) -> Option<SourceTerm<'_>> {
         let values = self.source.as_deref()?;

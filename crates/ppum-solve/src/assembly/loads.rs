@@ -100,11 +100,6 @@ impl<R> Default for LoadRules<R> {
 }
 
 impl<R: Points> LoadRules<R> {
-    /// True if any cell has rules that are not those of the system.
-    pub(crate) fn any(&self) -> bool {
-        self.own.iter().any(Option::is_some)
-    }
-
     /// The rules of a cell, if they are not those of the system.
     pub(crate) fn of(&self, cell: usize) -> Option<&[R]> {
         self.own.get(cell)?.as_deref()

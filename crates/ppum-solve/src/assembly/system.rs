@@ -8,11 +8,11 @@ use super::cell_system::CellSystem;
 use super::given::Given;
 use super::reaction::Reactions;
 use super::template::Templates;
-use crate::basis::{Earlier, Penalty};
+use crate::basis::Penalty;
 use crate::linear::{BlockMatrix, BlockPattern};
 use crate::quadrature::{Doubt, EdgeRule, Rule};
 use crate::report::Unresolved;
-use crate::space::{Space, Unchanged};
+use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
 use ppum::vec2::Rect;
 use std::borrow::Cow;
@@ -47,14 +47,6 @@ struct CellFacts {
     doubt: Doubt,
     /// Seconds that one core took to find its points and integrate.
     seconds: f64,
-}
-
-/// What a cell adds to a system.
-enum CellContribution<'t> {
-    /// All that there is.
-    Whole(CellSystem, Stiffness<'t>),
-    /// Its part in the factors of tips: the rest is known.
-    Duals(CellSystem),
 }
 
 /// Nitsche's β in units of (λ + 2μ) / width from which on a cell's border is cut into slivers;
@@ -120,9 +112,8 @@ fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
 }
 
 impl System {
-    /// Assembles the system of what is given, and functionals, as far as it is not that of an
-    /// earlier one with the same basis, data and free modes. Advances the stage by the number
-    /// of cells.
+    /// Assembles the system of what is given, and functionals. Advances the stage by the number of
+    /// cells.
     ///
     /// # Errors
     /// Data that are not finite, with their place; cancelled.
@@ -130,7 +121,6 @@ impl System {
         assembly: Assembly<'_>,
         given: &Given<'_>,
         functionals: Functionals<'_>,
-        earlier: Earlier<'_, Self>,
         stage: &Stage<'_>,
     ) -> Result<Self, Halt> {
         let Assembly { space, .. } = assembly;
@@ -140,12 +130,6 @@ impl System {
         // to ask the system for memory and to return it takes longer than to write there
         let memory = Mutex::new(Vec::new());
         let spare = || memory.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = |cell: usize, pieces: &[BorderPiece<'_>]| {
-            let (unchanged, earlier) = earlier?;
-            let is_known = pieces.is_empty() && unchanged.all(&space.coverers[cell]);
-            // the patch of the cell is one of those that cover it
-            unchanged.patch(cell).filter(|_| is_known).map(|was| earlier.cells[was])
-        };
         in_batches(
             stage,
             assembly.n_cells(),
@@ -153,14 +137,6 @@ impl System {
             |assembler, cell| {
                 let start = Instant::now();
                 let pieces = given.border(space, &quadrature, cell);
-                if let Some(facts) = known(cell, &pieces) {
-                    let rules = || space.rules(&quadrature, cell);
-                    let near = !functionals.duals.is_far(cell);
-                    let duals =
-                        near.then(|| CellContribution::Duals(assembler.duals(cell, &rules())));
-                    let seconds = start.elapsed().as_secs_f64();
-                    return Ok((CellFacts { seconds, ..facts }, duals));
-                }
                 let source = given.source(cell);
                 let template = templates.of(cell);
                 let shares_rules = source.is_some_and(|source| source.rules.is_none());
@@ -179,30 +155,18 @@ impl System {
                 let stiffness = made.or(template).expect("it is made unless there is a template");
                 let doubt = doubt_of(&rules, &pieces);
                 let seconds = start.elapsed().as_secs_f64();
-                Ok((
-                    CellFacts { points, doubt, seconds },
-                    Some(CellContribution::Whole(part, stiffness)),
-                ))
+                Ok((CellFacts { points, doubt, seconds }, part, stiffness))
             },
-            |cell, (facts, part)| {
+            |cell, (facts, part, stiffness)| {
                 system.cells.push(facts);
-                match part {
-                    None => {}
-                    Some(CellContribution::Duals(part)) => system.add_functionals(&part, &assembly),
-                    Some(CellContribution::Whole(part, stiffness)) => {
-                        let penalty = part.penalty * width(&space.partition().cell[cell]);
-                        system.nitsche = system.nitsche.max(penalty);
-                        system.add(part, &stiffness, &assembly);
-                        if let Cow::Owned(matrix) = stiffness.matrix {
-                            spare().push(matrix.into_values());
-                        }
-                    }
+                let penalty = part.penalty * width(&space.partition().cell[cell]);
+                system.nitsche = system.nitsche.max(penalty);
+                system.add(part, &stiffness, &assembly);
+                if let Cow::Owned(matrix) = stiffness.matrix {
+                    spare().push(matrix.into_values());
                 }
             },
         )?;
-        if let Some((unchanged, earlier)) = earlier {
-            system.inherit(unchanged, earlier);
-        }
         system.sum_up(given);
         Ok(system)
     }
@@ -215,20 +179,6 @@ impl System {
         if doubt.functions > 0.0 {
             let functions = Unresolved { load: None, error: doubt.functions, at: doubt.at };
             self.unresolved.push(functions);
-        }
-    }
-
-    /// Takes what an earlier system has of patches that are as they were. Of their cells those were
-    /// left out here that nothing else was to be known of.
-    fn inherit(&mut self, unchanged: &Unchanged, earlier: &Self) {
-        self.matrix.take_blocks(&earlier.matrix, |patch| unchanged.patch(patch));
-        for patch in 0..self.matrix.n_blocks() {
-            let Some(was) = unchanged.patch(patch) else { continue };
-            let [to, from] = [self.matrix.unknowns(patch), earlier.matrix.unknowns(was)];
-            self.load[to.clone()].copy_from_slice(&earlier.load[from.clone()]);
-            for (sum, known) in self.moments.iter_mut().zip(&earlier.moments) {
-                sum[to.clone()].copy_from_slice(&known[from.clone()]);
-            }
         }
     }
 

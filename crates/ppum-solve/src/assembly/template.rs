@@ -113,7 +113,7 @@ mod tests {
         let step = discretise(problem, unwatched()).expect("a cover");
         let space = &Space::of_problem(problem, step).expect("a space");
         let stage = Stage::uncounted(unwatched(), Phase::Basis).expect("nobody stops it");
-        let basis = &StableBasis::new(space, None, &stage).expect("a basis");
+        let basis = &StableBasis::new(space, &stage).expect("a basis");
         look(Assembly { problem, space, basis, law: &Law::new(&problem.equation) });
     }
 

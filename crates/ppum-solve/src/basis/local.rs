@@ -117,24 +117,6 @@ impl LocalBasis {
         }
     }
 
-    /// True if the functions are the same to the last bit.
-    pub(super) fn is_same(&self, other: &Self) -> bool {
-        let bits = |a: &Mat<f64>, b: &Mat<f64>| {
-            let columns = a.col_iter().zip(b.col_iter());
-            let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
-            a.shape() == b.shape()
-                && columns.into_iter().all(|(a, b)| a.iter().zip(b.iter()).all(same))
-        };
-        let tied = match (&self.tie, &other.tie) {
-            (Some(own), Some(other)) => bits(own, other),
-            (None, None) => true,
-            _ => false,
-        };
-        tied && self.dropped == other.dropped
-            && self.least.to_bits() == other.least.to_bits()
-            && bits(&self.matrix, &other.matrix)
-    }
-
     /// Number of functions.
     pub(super) fn len(&self) -> usize {
         self.matrix.nrows()

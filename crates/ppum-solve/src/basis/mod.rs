@@ -14,7 +14,7 @@ mod transform;
 mod williams;
 
 use crate::quadrature::{EdgeRule, Rule};
-use crate::space::{Space, Unchanged};
+use crate::space::Space;
 use crate::watched::{Halt, Stage, each, in_batches};
 use confined::{lonely, reductions};
 use faer::linalg::matmul::matmul;
@@ -50,24 +50,16 @@ pub(crate) struct StableBasis {
     /// Of each patch, the first functions of the jumps around corners and junctions of cracks of
     /// which nearly nothing lies where it is alone.
     pub(crate) lonely: Vec<Vec<usize>>,
-    grams: Vec<Arc<Gram>>,
 }
 
-/// What was made for an earlier space, and what is as it was.
-pub(crate) type Earlier<'a, T> = Option<(&'a Unchanged, &'a T)>;
-
 impl StableBasis {
-    /// The basis of a space, from the Gram matrices of its patches, as far as they are not those of
-    /// an earlier one. Advances the stage by twice the number of cells.
+    /// The basis of a space, from the Gram matrices of its patches. Advances the stage by twice the
+    /// number of cells.
     ///
     /// # Errors
     /// Functions that are not finite, with their place; cancelled.
-    pub(crate) fn new(
-        space: &Space<'_>,
-        earlier: Earlier<'_, Self>,
-        stage: &Stage<'_>,
-    ) -> Result<Self, Halt> {
-        let grams = grams(space, earlier, stage)?;
+    pub(crate) fn new(space: &Space<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
+        let grams = grams(space, stage)?;
         let reductions = reductions(space, &grams, stage)?;
         let (alike, none) = (space.alike(), Vec::new());
         let mut of_kinds: Vec<Option<Arc<LocalBasis>>> = vec![None; alike.patch_kinds().len()];
@@ -101,7 +93,7 @@ impl StableBasis {
             },
         )?;
         let lonely = (0..patches.len()).map(|i| lonely(space, i, &grams[i])).collect();
-        Ok(Self { sizes: sizes(&patches), patches, kinds, lonely, grams })
+        Ok(Self { sizes: sizes(&patches), patches, kinds, lonely })
     }
 
     /// The basis of some patches of kinds alone, as of a space that has no others.
@@ -110,7 +102,7 @@ impl StableBasis {
             patches.iter().map(|&p| Arc::clone(&self.patches[p as usize])).collect();
         let n = patches.len();
         let (kinds, lonely) = (vec![None; n], vec![Vec::new(); n]);
-        Self { sizes: sizes(&patches), patches, kinds, lonely, grams: Vec::new() }
+        Self { sizes: sizes(&patches), patches, kinds, lonely }
     }
 
     /// The kind of a patch, if it has the functions that all of its kind have.
@@ -122,11 +114,6 @@ impl StableBasis {
     /// `tied` is false.
     pub(crate) fn fields(&self, patch: u32, tied: bool) -> Fields<'_> {
         self.patches[patch as usize].fields(tied)
-    }
-
-    /// True if a patch has the very functions that a patch of another basis has.
-    pub(crate) fn is_same(&self, patch: usize, other: &Self, its: usize) -> bool {
-        self.patches[patch].is_same(&other.patches[its])
     }
 
     /// Makes the basis of patches orthonormal in I + Σ w ∫ N Nᵀ, the sum over penalties with
@@ -372,14 +359,8 @@ impl Gram {
 /// φ at which nothing of φψ is left but rounding.
 const LEAST: f64 = 1e-280;
 
-/// The Gram matrix of every patch, over the domain: of those that are as they were, the one that
-/// they had.
-fn grams(
-    space: &Space<'_>,
-    earlier: Earlier<'_, StableBasis>,
-    stage: &Stage<'_>,
-) -> Result<Vec<Arc<Gram>>, Halt> {
-    let is_known = |coverers: &[u32]| earlier.is_some_and(|(unchanged, _)| unchanged.all(coverers));
+/// The Gram matrix of every patch, over the domain.
+fn grams(space: &Space<'_>, stage: &Stage<'_>) -> Result<Vec<Arc<Gram>>, Halt> {
     let (quadrature, alike) = (space.quadrature(0), space.alike());
     let of_cells = each(stage, alike.kinds().len(), |kind| {
         let (kind, alone) = (&alike.kinds()[kind], alike.kinds()[kind].space(space));
@@ -395,17 +376,17 @@ fn grams(
         space.partition().len(),
         || (ShapeEvaluator::of_series(space), Shapes::default()),
         |seen, cell| {
-            let coverers = &space.coverers[cell];
-            let is_left_out = is_known(coverers) || alike.cell(cell).is_some();
             let rules = || space.rules(&quadrature, cell);
-            Ok(if is_left_out { Vec::new() } else { parts(space, coverers, &rules(), seen) })
+            let is_alike = alike.cell(cell).is_some();
+            let coverers = &space.coverers[cell];
+            Ok(if is_alike { Vec::new() } else { parts(space, coverers, &rules(), seen) })
         },
         |cell, parts| {
             let own = space.coverers[cell].iter().zip(&parts);
-            let member = alike.cell(cell).filter(|_| !is_known(&space.coverers[cell]));
-            let of_kind = member.map(|member| (&member.patches, &of_cells[member.kind as usize]));
-            let of_kind =
-                of_kind.into_iter().flat_map(|(patches, parts)| patches.iter().zip(parts));
+            let of_kind = alike
+                .cell(cell)
+                .into_iter()
+                .flat_map(|member| member.patches.iter().zip(&of_cells[member.kind as usize]));
             for (&patch, part) in
                 own.chain(of_kind).filter(|(p, _)| alike.patch(**p as usize).is_none())
             {
@@ -413,16 +394,11 @@ fn grams(
             }
         },
     )?;
-    let finished = |(patch, mut gram): (usize, Gram)| {
-        let known =
-            earlier.and_then(|(unchanged, basis)| Some(&basis.grams[unchanged.patch(patch)?]));
-        match (known, alike.patch(patch)) {
-            (Some(known), _) => Arc::clone(known),
-            (None, Some(kind)) => Arc::clone(&of_kinds[kind]),
-            (None, None) => {
-                gram.complete();
-                Arc::new(gram)
-            }
+    let finished = |(patch, mut gram): (usize, Gram)| match alike.patch(patch) {
+        Some(kind) => Arc::clone(&of_kinds[kind]),
+        None => {
+            gram.complete();
+            Arc::new(gram)
         }
     };
     Ok(grams.into_iter().enumerate().map(finished).collect())

@@ -11,7 +11,8 @@
 //! Two conditions on each of the two rays make a determinant of order four, an entire function of λ
 //! (real and imaginary parts of A and B are its unknowns); its zeros are the exponents (Williams
 //! 1952). The smallest is found by counting zeros in rectangles with the argument principle, so
-//! that complex ones are not missed. Laplace: λ = π/ω with the same condition on both rays,
+//! that complex ones are not missed. Of free sides it is the first zero of sin λω + λ sin ω, which
+//! is real and changes the sign. Laplace: λ = π/ω with the same condition on both rays,
 //! π/(2ω) otherwise.
 
 use super::Constants;
@@ -49,16 +50,18 @@ fn elastic(sector: &Sector, kappa: f64) -> f64 {
     if sector.opening <= PI && sector.held == [[false; 2]; 2] {
         return 1.0;
     }
+    let opening = sector.opening;
+    let has_zeros = |right: f64| match sector.held {
+        [[false, false], [false, false]] => (right * opening).sin() + right * opening.sin() < 0.0,
+        _ => zeros(sector, kappa, right) > 0,
+    };
     let (mut none, mut some) = (LEAST, LARGEST);
-    if zeros(sector, kappa, some) == 0 {
+    if !has_zeros(some) {
         return 1.0;
     }
     while some - none > ACCURACY {
         let middle = 0.5 * (none + some);
-        match zeros(sector, kappa, middle) {
-            0 => none = middle,
-            _ => some = middle,
-        }
+        *if has_zeros(middle) { &mut some } else { &mut none } = middle;
     }
     0.5 * (none + some)
 }

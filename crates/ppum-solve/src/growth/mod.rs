@@ -21,7 +21,7 @@ pub use criterion::{Kink, kink};
 pub use decision::Undecided;
 
 use crate::problem::{GrowthRule, Location, Mistake, Problem, ProblemError};
-use crate::solve::{Plan, Shelf, SolveError};
+use crate::solve::{Plan, SolveError};
 use decision::{Decision, decide, grown};
 use ppum::dataset::{Dataset, Growth, GrowthStop, Step, Warning};
 use ppum::progress::{Progress, Verdict, Watcher};
@@ -80,8 +80,6 @@ struct Before {
 struct GrowthSeries<'a> {
     rule: &'a GrowthRule,
     memory: Option<u64>,
-    /// Integrals that the steps have in common.
-    shelf: Shelf,
 }
 
 /// Solves a problem whose cracks grow, and gives each step to `keep` as a dataset of its own when
@@ -101,7 +99,7 @@ pub fn grow<E>(
 ) -> Result<(), GrowthError<E>> {
     let single = GrowthRule::new(0);
     let rule = problem.growth.as_ref().unwrap_or(&single);
-    let series = GrowthSeries { rule, memory, shelf: Shelf::default() };
+    let series = GrowthSeries { rule, memory };
     let (mut number, mut current, mut before) = match start(problem, last) {
         Some(start) => start,
         None => return Ok(()),
@@ -238,7 +236,7 @@ impl GrowthSeries<'_> {
         problem.check().map_err(Obstacle::Problem)?;
         let plan = Plan::new(problem, self.memory, watcher).map_err(Obstacle::Solve)?;
         plan.check(watcher).map_err(Obstacle::Solve)?;
-        Ok(plan.with_shelf(&self.shelf))
+        Ok(plan)
     }
 
     /// The dataset of a step under its load, with what is decided in it: if nothing can be, the end

@@ -94,14 +94,14 @@ impl Finest<'_> {
         let problem = self.problem;
         let step = discretise_on(problem, mesh, stage)?;
         let space = Space::of_problem(problem, step).map_err(|_| Trouble::TooCoarse)?;
-        let mut basis = StableBasis::new(&space, None, stage)?;
+        let mut basis = StableBasis::new(&space, stage)?;
         let law = &Law::new(&problem.equation);
         let found = slivers(Assembly { problem, space: &space, basis: &basis, law }, stage)?;
         basis.damp(&space, &found)?;
         let assembly = Assembly { problem, space: &space, basis: &basis, law };
         let (free, duals) = (&FreeModes::none(self.plate), &Duals::new(&[], &space));
         let given = Given::restraints(problem);
-        let system = System::new(assembly, &given, Functionals { free, duals }, None, stage)?;
+        let system = System::new(assembly, &given, Functionals { free, duals }, stage)?;
         let matrix = system.matrix;
         Ok((FinerLevel { space, basis }, matrix))
     }

@@ -140,21 +140,6 @@ impl BlockMatrix {
         sum += block;
     }
 
-    /// Takes the blocks of patches that an earlier matrix has, too: `earlier` tells which of its
-    /// patches a patch is.
-    ///
-    /// # Panics
-    /// If the earlier matrix has no such block, or one of another shape.
-    pub(crate) fn take_blocks(&mut self, matrix: &Self, earlier: impl Fn(usize) -> Option<usize>) {
-        for (k, (i, j)) in self.pattern.pairs().enumerate() {
-            if let (Some(row), Some(column)) = (earlier(i), earlier(j)) {
-                let from = matrix.pattern.position(row, column).expect("a block of both matrices");
-                let own = &mut self.values[self.block_starts[k]..self.block_starts[k + 1]];
-                own.copy_from_slice(matrix.stored(from));
-            }
-        }
-    }
-
     /// Row, column and place of every stored block, in the order of storage.
     pub(super) fn stored_places(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
         self.pattern.pairs().enumerate().map(|(k, (i, j))| (i, j, k))
@@ -282,22 +267,6 @@ mod tests {
         assert_eq!(sum[(1, 6 + 2)], full[(1, 6 + 2)] + 12.0);
         assert_eq!(sum[(6 + 3, 2)], full[(6 + 3, 2)] + 23.0);
         assert!(blocks.block(1, 3).is_none());
-    }
-
-    /// Patches 1, 2 and 3 of one matrix are 0, 1 and 2 of the other: only what couples two of them
-    /// is taken.
-    #[test]
-    fn blocks_of_an_earlier_matrix() {
-        let (mut blocks, _) = random_matrix(&[3, 2, 0, 4]);
-        let before = blocks.clone();
-        let pattern = BlockPattern::new(vec![0, 2, 3, 4, 5], vec![0, 1, 1, 2, 3]);
-        let mut earlier = BlockMatrix::new(&[2, 0, 4, 1], pattern);
-        earlier.add_block(0, 0, Mat::<f64>::identity(2, 2).as_ref());
-        blocks.take_blocks(&earlier, |patch| patch.checked_sub(1));
-        assert_eq!(blocks.block(1, 1), earlier.block(0, 0));
-        assert_eq!(blocks.block(3, 3), earlier.block(2, 2));
-        assert_eq!(blocks.block(0, 1), before.block(0, 1));
-        assert_eq!(blocks.block(0, 3), before.block(0, 3));
     }
 
     #[test]

@@ -145,12 +145,6 @@ impl Smoothness {
         }
     }
 
-    /// True if quadrature has to look at formulas where one of these patches is active.
-    pub(crate) fn has_probes(&self, patches: &[u32]) -> bool {
-        let own = |&patch: &u32| !self.patch_probes[patch as usize].is_empty();
-        !self.common_probes.is_empty() || patches.iter().any(own)
-    }
-
     /// Operations of all formulas that are looked at.
     pub(crate) fn probe_operations(&self) -> usize {
         self.probes.0.iter().map(Probe::operations).sum()

@@ -6,7 +6,6 @@ mod clock;
 mod error;
 mod estimate;
 mod goal;
-mod shelf;
 mod solution;
 mod solved;
 
@@ -25,7 +24,6 @@ use adaptive::adapted;
 use clock::Clock;
 use ppum::dataset::{Dataset, Step, TipIntensity};
 use ppum::progress::{Phase, Watcher};
-pub(crate) use shelf::Shelf;
 use solution::{Assembled, Solving};
 use solved::{PlanSolution, Solved};
 
@@ -93,8 +91,6 @@ pub struct Plan<'p> {
     estimate: Estimate,
     /// Number of patches that a crack or rim crosses twice.
     crossed_twice: usize,
-    /// What the solution before has left, in a series.
-    shelf: Option<&'p Shelf>,
     clock: Clock,
 }
 
@@ -132,14 +128,7 @@ impl<'p> Plan<'p> {
         let space = Space::of_problem(problem, step)?;
         let estimate = fits(Estimate::of_space(problem, &space, memory), memory)?;
         clock.lap(Phase::Cover);
-        let shelf = None;
-        Ok(Self { problem, mesh, memory, dataset, space, estimate, crossed_twice, shelf, clock })
-    }
-
-    /// The plan of a solution that takes from a shelf what has not changed since the one before,
-    /// and leaves there its own.
-    pub(crate) fn with_shelf(self, shelf: &'p Shelf) -> Self {
-        Self { shelf: Some(shelf), ..self }
+        Ok(Self { problem, mesh, memory, dataset, space, estimate, crossed_twice, clock })
     }
 
     /// The effort of the solution.
@@ -207,9 +196,9 @@ impl<'p> Plan<'p> {
 
     /// Solves the plan, and integrates the factors of its tips.
     fn solve_plan(mut self, watcher: &dyn Watcher) -> Result<PlanSolution<'p>, SolveError> {
-        let Self { problem, ref mesh, ref space, estimate, shelf, .. } = self;
+        let Self { problem, ref mesh, ref space, estimate, .. } = self;
         let Estimate { solver: kind, falls_back, .. } = estimate;
-        let solving = Solving { problem, mesh, space, kind, falls_back, shelf, watcher };
+        let solving = Solving { problem, mesh, space, kind, falls_back, watcher };
         let mut solution = solving.solution(&self.dataset, &mut self.clock)?;
         solution.store(&mut self.dataset.steps[0]);
         PlanSolution::new(self, solution, watcher)
@@ -221,9 +210,9 @@ impl<'p> Plan<'p> {
     }
 
     fn solving<'a>(&'a self, watcher: &'a dyn Watcher) -> Solving<'a> {
-        let Self { problem, mesh, space, estimate, shelf, .. } = self;
+        let Self { problem, mesh, space, estimate, .. } = self;
         let Estimate { solver: kind, falls_back, .. } = *estimate;
-        Solving { problem, mesh, space, kind, falls_back, shelf: *shelf, watcher }
+        Solving { problem, mesh, space, kind, falls_back, watcher }
     }
 }
 

@@ -4,7 +4,6 @@ use super::SolveError;
 use super::chosen::{Chosen, Wanted};
 use super::clock::Clock;
 use super::goal::DualSolutions;
-use super::shelf::{Reused, Shelf};
 use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Gauge, Given, System, slivers};
 use crate::basis::StableBasis;
 use crate::equilibrium::{BodyPieces, Plate};
@@ -14,7 +13,7 @@ use crate::law::Law;
 use crate::linear::LinearError;
 use crate::problem::Problem;
 use crate::report::{ASSEMBLY_SECONDS, LinearKind, SolverReport, Unresolved};
-use crate::space::{Mesh, Prints, Space, SpaceError};
+use crate::space::{Mesh, Space, SpaceError};
 use crate::watched::Stage;
 use faer::Mat;
 use ppum::dataset::{Attribute, Dataset, FieldData, Reaction, Step};
@@ -51,8 +50,6 @@ pub(super) struct Solving<'a> {
     /// The linear solver, and whether the direct one may take its place.
     pub(super) kind: LinearKind,
     pub(super) falls_back: bool,
-    /// What the solution before has left, in a series.
-    pub(super) shelf: Option<&'a Shelf>,
     pub(super) watcher: &'a dyn Watcher,
 }
 
@@ -61,8 +58,6 @@ pub(super) struct Assembled {
     pub(super) basis: StableBasis,
     pub(super) system: System,
     pub(super) gauge: Gauge,
-    /// What it is to be known by in the shelf, if there is one.
-    prints: Option<Prints>,
 }
 
 impl Solving<'_> {
@@ -83,11 +78,10 @@ impl Solving<'_> {
     }
 
     /// The stable basis, damped where the border cuts slivers.
-    fn basis(&self, law: &Law<'_>, reused: Option<&Reused>) -> Result<StableBasis, SolveError> {
+    fn basis(&self, law: &Law<'_>) -> Result<StableBasis, SolveError> {
         let Self { problem, space, watcher, .. } = *self;
         let stage = Stage::new(watcher, Phase::Basis, 3 * space.partition().len())?;
-        let mut basis = StableBasis::new(space, reused.and_then(Reused::basis), &stage)
-            .map_err(SolveError::of_basis)?;
+        let mut basis = StableBasis::new(space, &stage).map_err(SolveError::of_basis)?;
         let assembly = Assembly { problem, space, basis: &basis, law };
         let slivers = slivers(assembly, &stage).map_err(SolveError::of_data)?;
         basis.damp(space, &slivers).map_err(SolveError::of_basis)?;
@@ -107,20 +101,17 @@ impl Solving<'_> {
     ) -> Result<Assembled, SolveError> {
         let Self { problem, space, watcher, .. } = *self;
         let law = &Law::new(&problem.equation);
-        let reused = self.shelf.map(|shelf| shelf.take(space));
-        let basis = self.basis(law, reused.as_ref())?;
+        let basis = self.basis(law)?;
         clock.lap(Phase::Basis);
         let assembly = Assembly { problem, space, basis: &basis, law };
         let stage = Stage::new(watcher, Phase::Assembly, assembly.n_cells())?;
         let free = FreeModes::new(plate);
         let functionals = Functionals { free: &free, duals: &Duals::new(tips, space) };
-        let earlier = reused.as_ref().and_then(|reused| reused.system(space, &basis, given, &free));
-        let earlier = earlier.as_ref().map(|(unchanged, system)| (unchanged, *system));
-        let system = System::new(assembly, given, functionals, earlier, &stage);
+        let system = System::new(assembly, given, functionals, &stage);
         let mut system = system.map_err(SolveError::of_data)?;
         let gauge = Gauge::new(free, std::mem::take(&mut system.moments), &system.matrix);
         clock.lap(Phase::Assembly);
-        Ok(Assembled { basis, system, gauge, prints: reused.map(Reused::into_prints) })
+        Ok(Assembled { basis, system, gauge })
     }
 
     /// The solution of the problem, whose dataset has no coefficients yet.
@@ -144,7 +135,7 @@ impl Solving<'_> {
             other => other,
         };
         let SystemSolution { unknowns: solution, duals, report } = found?;
-        let Assembled { basis, mut system, gauge, prints } = assembled;
+        let Assembled { basis, mut system, gauge } = assembled;
         clock.lap(Phase::Solution);
         let components = self.problem.components();
         let cut_off: Vec<_> = basis.cut_off(components).map(|n| n as f64).collect();
@@ -173,7 +164,7 @@ impl Solving<'_> {
         };
         let dual_unknowns = duals.iter().flat_map(|duals| &duals.unknowns).map(Vec::as_slice);
         let all: Vec<&[f64]> = std::iter::once(solution.as_slice()).chain(dual_unknowns).collect();
-        let solution = Solution {
+        Ok(Solution {
             coefficients: basis.plain(self.space, &solution, components),
             local: basis.local_coefficients(&all, components),
             attributes: vec![
@@ -184,14 +175,10 @@ impl Solving<'_> {
             ],
             reactions: system.reactions.of(self.problem, &basis, &system.matrix, &solution),
             unresolved: std::mem::take(&mut system.unresolved),
-            lonely: basis.lonely.clone(),
+            lonely: basis.lonely,
             duals,
             report,
-        };
-        if let (Some(shelf), Some(prints)) = (self.shelf, prints) {
-            shelf.put(prints, basis, system, gauge);
-        }
-        Ok(solution)
+        })
     }
 
     /// The solution of the system, without what is left of free motions, and the dual solutions.

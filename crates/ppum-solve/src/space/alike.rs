@@ -226,7 +226,7 @@ impl<'d> Space<'d> {
             equation: self.equation,
             smoothness: Default::default(),
             orders: self.orders,
-            probed: Vec::new(),
+            rules: Vec::new(),
             alike: OnceLock::from(Alike::default()),
             step: std::borrow::Cow::Owned(step),
         }

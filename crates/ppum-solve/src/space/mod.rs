@@ -6,7 +6,6 @@ mod discretise;
 mod enrichment;
 mod inspect;
 mod mesh;
-mod prints;
 mod williams;
 
 use crate::problem::Problem;
@@ -26,7 +25,6 @@ use ppum::dataset::{BoxPartition, Equation, FieldData, Step, monomials};
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
 use ppum::function::{FunctionError, FunctionKind, FunctionTable};
-pub(crate) use prints::{Prints, Unchanged};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
@@ -69,8 +67,8 @@ pub struct Space<'d> {
     equation: &'d Equation,
     smoothness: Smoothness,
     orders: Orders,
-    /// Of each cell where formulas are probed, its rules once they are made.
-    probed: Vec<OnceLock<Vec<Rule>>>,
+    /// Of each cell, its rules once they are made; none of cells that are alike.
+    rules: Vec<OnceLock<Vec<Rule>>>,
     /// The cells that are alike, once somebody asks.
     alike: OnceLock<Alike>,
 }
@@ -127,7 +125,7 @@ impl<'d> Space<'d> {
             in_series: BTreeSet::new(),
             equation,
             orders: orders(partition, smoothness.degree()),
-            probed: vec![OnceLock::new(); partition.len()],
+            rules: vec![OnceLock::new(); partition.len()],
             smoothness,
             alike: OnceLock::new(),
             step,
@@ -160,19 +158,15 @@ impl<'d> Space<'d> {
         self.quadrature_of(&self.smoothness, extra)
     }
 
-    /// The rules of the default quadrature on a cell. Where formulas are probed they cost up to
-    /// seconds, and are made once; on cells that are alike they are moved.
+    /// The rules of the default quadrature on a cell. They are made once, for Gram matrices,
+    /// stiffness and estimate, since they take a tenth of a solution's time, and seconds where
+    /// formulas are probed; on cells that are alike they are moved.
     pub(crate) fn rules(&self, quadrature: &Quadrature<'_>, cell: usize) -> Cow<'_, [Rule]> {
         if let Some(rules) = self.alike().rules(self, cell) {
             return Cow::Owned(rules);
         }
-        let coverers = &self.coverers[cell];
-        let rules = || quadrature.cell(&self.partition().cell[cell], coverers);
-        if self.smoothness.has_probes(coverers) {
-            Cow::Borrowed(self.probed[cell].get_or_init(rules))
-        } else {
-            Cow::Owned(rules())
-        }
+        let rules = || quadrature.cell(&self.partition().cell[cell], &self.coverers[cell]);
+        Cow::Borrowed(self.rules[cell].get_or_init(rules))
     }
 
     /// Operations of all formulas that quadrature looks at.
