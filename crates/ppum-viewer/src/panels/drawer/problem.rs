@@ -3,8 +3,12 @@
 use std::ops::Range;
 
 use egui::text::{CCursor, CCursorRange};
-use egui::{FontId, ProgressBar, ScrollArea, TextEdit, TextStyle, Ui, vec2};
+use egui::{
+    CompletionPopup, CompletionQuery, FontId, Key, ProgressBar, RectAlign, ScrollArea, Suggestion,
+    TextEdit, TextStyle, Ui, vec2,
+};
 use ppum::text::trimmed;
+use ppum_solve::problem::keys::completions;
 
 use crate::actions::Action;
 use crate::desk::Desk;
@@ -88,10 +92,14 @@ fn editor(ui: &mut Ui, draft: &mut ProblemDraft, solving: &mut Solving) {
     let area = ScrollArea::both().id_salt("text").auto_shrink([false; 2]);
     area.show(ui, |ui| {
         let margin = egui::Margin { left: gutter as i8, right: 8, top: 4, bottom: 4 };
-        let edit = TextEdit::multiline(&mut draft.text).id(editor_id()).code_editor();
+        let edit = TextEdit::multiline(&mut draft.text).code_editor();
         let edit = edit.layouter(&mut layouter).margin(margin).desired_width(f32::INFINITY);
         let rows = (ui.available_height() / (1.2 * font.size)).max(2.0) as usize;
-        let mut shown = edit.desired_rows(rows).show(ui);
+        let popup = CompletionPopup::new(editor_id())
+            .word_boundary(|c| !(c.is_ascii_alphanumeric() || "_[\"-".contains(c)))
+            .align(RectAlign::BOTTOM_START)
+            .accept_keys([Key::Tab]);
+        let mut shown = popup.show(ui, edit.desired_rows(rows), suggestions).text_edit;
         shown.response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::MultilineTextInput, true, "Text of the problem")
         });
@@ -100,6 +108,18 @@ fn editor(ui: &mut Ui, draft: &mut ProblemDraft, solving: &mut Solving) {
             go(ui, &mut shown, &draft.text, place);
         }
     });
+}
+
+/// Keys, tables and words that begin like what is written, where they may stand.
+fn suggestions(query: &CompletionQuery<'_>) -> Vec<Suggestion> {
+    let end = query.word_range.end.0;
+    let end = query.text.char_indices().nth(end).map_or(query.text.len(), |(byte, _)| byte);
+    if query.word.is_empty() {
+        return Vec::new();
+    }
+    let all = completions(query.text, end).into_iter();
+    let fits = |name: &String| name.starts_with(query.word) && name != query.word;
+    all.filter(fits).map(Suggestion::new).collect()
 }
 
 /// The name of the editor among all widgets.
