@@ -26,7 +26,7 @@ const LEFT: &[(&str, &str, usize)] = &[
     ("ppum-solve", "smoothness::interfaces", 3),
     ("ppum-solve", "solve", 3),
     ("ppum-solve", "solve::goal", 2),
-    ("ppum-solve", "space", 8),
+    ("ppum-solve", "space", 7),
 ];
 
 fn circles_by_crate() -> BTreeMap<String, BTreeSet<BTreeSet<String>>> {

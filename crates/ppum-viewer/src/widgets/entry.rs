@@ -8,9 +8,8 @@ pub fn entry(ui: &mut Ui, name: &str, text: &str, hint: &str, width: f32) -> Opt
     let id = ui.scope_id().with(name);
     let unfinished = ui.data(|data| data.get_temp::<String>(id));
     let mut edited = unfinished.unwrap_or_else(|| text.to_owned());
+    let about = format!("{name}: {}", if edited.is_empty() { hint } else { &edited });
     let field = TextEdit::singleline(&mut edited).id(id.with("field")).hint_text(hint.to_owned());
-    let whole = if edited.is_empty() { hint } else { &edited };
-    let about = format!("{name}: {whole}");
     let response = ui.add(field.desired_width(width)).on_hover_text(about);
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::text_edit(true, text, &edited, hint);

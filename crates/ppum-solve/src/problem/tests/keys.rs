@@ -1,6 +1,6 @@
 //! The tables of `docs/problem-file.md` and the schema beside it are those of the keys.
 //!
-//! `PPUM_WRITE_DOCS=1 cargo test -p ppum-solve --lib problem::tests::keys` writes them anew.
+//! `PPUM_WRITE=1 cargo test -p ppum-solve --lib problem::tests::keys` writes them anew.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -212,7 +212,7 @@ fn holds(file: &str, expected: impl FnOnce(&str) -> String) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs").join(file);
     let text = std::fs::read_to_string(&path).unwrap_or_default();
     let expected = expected(&text);
-    if std::env::var_os("PPUM_WRITE_DOCS").is_some() {
+    if std::env::var_os("PPUM_WRITE").is_some() {
         std::fs::write(&path, &expected).expect("written");
     } else {
         let lines = text.lines().zip(expected.lines());
