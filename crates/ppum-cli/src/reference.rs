@@ -102,15 +102,20 @@ fn value_name(arg: &Arg) -> String {
     }
 }
 
-/// `PPUM_WRITE=1 cargo test --release -p ppum-cli tables` writes them anew.
-#[test]
-fn tables_of_options_are_those_of_the_program() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/cli.md");
-    let page = std::fs::read_to_string(path).unwrap();
-    let wanted = with_tables(&page);
-    if std::env::var_os("PPUM_WRITE").is_some() {
-        return std::fs::write(path, wanted).unwrap();
+#[cfg(test)]
+mod tests {
+    use super::with_tables;
+
+    /// `PPUM_WRITE=1 cargo test --release -p ppum-cli tables` writes them anew.
+    #[test]
+    fn tables_of_options_are_those_of_the_program() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/cli.md");
+        let page = std::fs::read_to_string(path).unwrap();
+        let wanted = with_tables(&page);
+        if std::env::var_os("PPUM_WRITE").is_some() {
+            return std::fs::write(path, wanted).unwrap();
+        }
+        let rows = page.lines().zip(wanted.lines()).find(|(ours, theirs)| ours != theirs);
+        assert!(page == wanted, "{rows:?}: write the tables of docs/cli.md anew");
     }
-    let rows = page.lines().zip(wanted.lines()).find(|(ours, theirs)| ours != theirs);
-    assert!(page == wanted, "{rows:?}: write the tables of docs/cli.md anew");
 }

@@ -183,11 +183,14 @@ mod tests {
     fn places_of_many_digits_keep_their_powers() {
         let ticks = Ticks { reference: 0.5_f64.sqrt() / 2.0, exponent: -12, ..Ticks::default() };
         let axis = FigureAxis::new(ticks.clone(), &axis_label("y", &ticks, "mm"), 1, 1.0);
-        for room in [120.0, 150.0, 180.0] {
+        let mut shown = 0;
+        for room in [120.0, 150.0, 180.0, 210.0] {
             let label = axis.fitted(14.0, room);
-            assert!(label.starts_with("y −") && label.ends_with("… [×10⁻¹² mm]"), "{label}");
-            assert!(text::width(&label, 14.0) <= room, "{label}");
+            assert!(label.starts_with('y') && label.ends_with("… [×10⁻¹² mm]"), "{label}");
+            assert!(text::width(&label, 14.0) <= room && label.len() >= shown, "{label}");
+            shown = label.len();
         }
+        assert!(axis.fitted(14.0, 210.0).starts_with("y − 0.3"), "{}", axis.fitted(14.0, 210.0));
     }
 
     /// Whatever the lengths of name and unit, both begin in the label, and a power of ten is whole.

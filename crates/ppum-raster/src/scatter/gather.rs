@@ -18,12 +18,14 @@ use crate::summation::Savings;
 const MOST_ACTIVE: usize = 256;
 
 /// True if there is no room for another strip.
+#[inline]
 fn is_full<T>(scratch: &Scratch<T>, numbers: usize) -> bool {
     let is_full = scratch.strips.used > numbers || scratch.active.len() > MOST_ACTIVE;
     is_full && !scratch.strips.all.is_empty()
 }
 
 /// The place of a group among the active ones, with others or as a new one, needed on some rows.
+#[inline]
 fn need(active: &mut Vec<Active>, places: &mut [u32], group: u32, rows: &Range<usize>) -> usize {
     let place = places[group as usize] as usize;
     if let Some(known) = active.get_mut(place).filter(|known| known.group == group) {
@@ -35,6 +37,7 @@ fn need(active: &mut Vec<Active>, places: &mut [u32], group: u32, rows: &Range<u
     active.len() - 1
 }
 
+#[inline]
 fn union(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
     a.start.min(b.start)..a.end.max(b.end)
 }

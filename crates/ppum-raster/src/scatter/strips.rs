@@ -63,6 +63,7 @@ pub(super) struct Strip {
 
 impl Strip {
     /// True if a patch has the same b(y), η(y), functions and degrees.
+    #[inline]
     fn joins(&self, patch: &Patch) -> bool {
         self.kind == patch.kind && self.support == patch.support[1] && self.frame == patch.frame[1]
     }
@@ -79,6 +80,7 @@ pub(super) struct BlockTerm {
 }
 
 impl<T: Scalar> Strips<T> {
+    #[inline]
     pub(super) fn clear(&mut self) {
         self.all.clear();
         self.terms.clear();
@@ -88,6 +90,7 @@ impl<T: Scalar> Strips<T> {
     }
 
     /// The strip of a patch, or the slot for one.
+    #[inline]
     pub(super) fn find(&self, patch: &Patch, joins: bool) -> Result<usize, usize> {
         let first = patch.rows.start as usize * TRIES % SLOTS;
         for slot in first..first + TRIES {
@@ -102,6 +105,7 @@ impl<T: Scalar> Strips<T> {
     }
 
     /// Makes room for a strip; the numbers in its tables are left over from others.
+    #[inline]
     pub(super) fn push(&mut self, strip: Strip, len: usize, slot: usize) -> usize {
         let place = self.all.len();
         self.used += len;

@@ -56,6 +56,7 @@ struct Local<'a, T, const C: usize> {
 
 impl<'a, T: Scalar> RowSums<'a, T> {
     /// The degree of all smooth blocks, [`ANY`] if they differ.
+    #[inline]
     pub(super) fn common_degree(&self) -> usize {
         let degree =
             |at: &usize| self.terms.get(self.strips[*at].terms.start).map_or(0, |term| term.degree);

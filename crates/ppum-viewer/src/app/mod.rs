@@ -270,11 +270,16 @@ impl Viewer {
 
 /// Frames what has the focus of the keyboard.
 fn focus_ring(ctx: &egui::Context) {
+    // who reads a response in the frame of a click takes the focus from what the click has opened
+    if ctx.input(|input| input.pointer.any_click()) {
+        return ctx.request_repaint();
+    }
     let Some(focused) = ctx.memory(egui::Memory::focused) else { return };
     let Some(response) = ctx.read_response(focused) else { return };
     let layer = egui::LayerId::new(egui::Order::Tooltip, egui::Id::unique("focus"));
     let stroke = egui::Stroke::new(2.0, ctx.global_style().visuals.selection.stroke.color);
-    let rect = response.rect.expand(1.0).intersect(ctx.content_rect().shrink(1.0));
+    let seen = response.rect.intersect(response.interact_rect);
+    let rect = seen.expand(1.0).intersect(ctx.content_rect().shrink(1.0));
     ctx.layer_painter(layer).rect_stroke(rect, 3.0, stroke, egui::StrokeKind::Outside);
 }
 

@@ -16,7 +16,6 @@ use crate::job::Job;
 use crate::replacing::{ASK, Replacing};
 use crate::session::Pane;
 use crate::stage::Stage;
-use crate::widgets::give_keys;
 
 /// What is to be written, while one chooses it and while it is made.
 pub struct Exporter {
@@ -168,7 +167,9 @@ impl Exporter {
         let width = (ui.ctx().content_rect().width() - 180.0).clamp(120.0, 340.0);
         let name = ui.add(TextEdit::singleline(&mut self.path).desired_width(width));
         let name = name.labelled_by(label.id);
-        give_keys(&name, &mut self.is_new);
+        if std::mem::take(&mut self.is_new) {
+            name.request_focus();
+        }
         let is_entered = name.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         ui.end_row();
         size(ui, &mut self.page, self.what == ExportChoice::Figure);

@@ -24,7 +24,7 @@ use crate::reading::probe::Probed;
 use crate::reading::words::number;
 use crate::session::Pane;
 use crate::shapes::{self, Placed};
-use crate::widgets::{give_keys, wrong};
+use crate::widgets::wrong;
 
 /// What is done to the bar just now.
 #[derive(Clone, Debug, Default)]
@@ -422,13 +422,15 @@ enum Done {
 fn field(ui: &mut Ui, edited: &mut Edited) -> Done {
     let edit = TextEdit::singleline(&mut edited.text).desired_width(90.0);
     let edit = ui.add(edit).accessible_name(format!("{} as a number", ENDS[edited.end]));
-    let is_left = edit.lost_focus() && !edited.is_new;
-    give_keys(&edit, &mut edited.is_new);
+    if edited.is_new {
+        edit.request_focus();
+        edited.is_new = false;
+    }
     if let Some(mistake) = &edited.mistake {
         ui.colored_label(wrong(ui), mistake);
     }
     let [enter, escape] = [Key::Enter, Key::Escape].map(|key| ui.input(|i| i.key_pressed(key)));
-    match (is_left, enter, escape) {
+    match (edit.lost_focus(), enter, escape) {
         (_, _, true) => Done::Left,
         (true, true, _) => Done::Entered,
         (true, false, _) => Done::Left,

@@ -3,7 +3,7 @@
 
 use egui::{Button, Key, Modifiers, Response, RichText, ScrollArea, TextEdit, Ui};
 
-use super::{give_keys, note};
+use super::note;
 
 /// Something that can be chosen.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -111,7 +111,10 @@ impl Chooser {
     fn field(&mut self, ui: &mut Ui, name: &str) {
         let edit = TextEdit::singleline(&mut self.text).hint_text("type to search");
         let edit = ui.add(edit.desired_width(f32::INFINITY)).accessible_name(name);
-        give_keys(&edit, &mut self.is_new);
+        if self.is_new {
+            edit.request_focus();
+            self.is_new = false;
+        }
         self.has_keys = edit.has_focus();
         if edit.changed() {
             self.at = 0;

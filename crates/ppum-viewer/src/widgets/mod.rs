@@ -15,15 +15,6 @@ pub fn button(ui: &mut Ui, sign: &str, name: &str) -> egui::Response {
     response
 }
 
-/// Gives the keys to a field that has just been opened. The press that opened it takes them away
-/// again when its frame ends, so they are given in the next frame too.
-pub(crate) fn give_keys(field: &egui::Response, is_new: &mut bool) {
-    if *is_new {
-        field.request_focus();
-        *is_new = field.ctx.input(|input| input.pointer.any_pressed());
-    }
-}
-
 /// A text that is cut off after so many letters.
 pub(crate) fn elided(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
