@@ -23,7 +23,7 @@ enum Steps {
     /// In memory.
     Whole(Arc<Data>),
     /// In a file, read when they are asked for.
-    Stored { series: Series, name: String, newest: Mutex<Option<(usize, Arc<Data>)>> },
+    Stored { series: Box<Series>, name: String, newest: Mutex<Option<(usize, Arc<Data>)>> },
 }
 
 /// Opens a file; one of several steps stays open.
@@ -36,7 +36,9 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Dataset> {
     })?;
     match opened.map_err(|error| unreadable(&name, error))? {
         Ok(data) => Ok(Dataset::new(data)),
-        Err(series) => Ok(Dataset(Steps::Stored { series, name, newest: Mutex::default() })),
+        Err(series) => {
+            Ok(Dataset(Steps::Stored { series: Box::new(series), name, newest: Mutex::default() }))
+        }
     }
 }
 

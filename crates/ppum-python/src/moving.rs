@@ -88,6 +88,7 @@ pub(crate) fn animation<'py>(
     request.panels.check_steps().map_err(|error| RenderError::new_err(error.to_string()))?;
     request.scene.subject = written::<Subject>(changes)?;
     let title = this.owned.dataset().title.clone();
+    #[expect(clippy::result_large_err, reason = "one for a whole film")]
     let drawn = |engine: &Engine<'_>| -> Result<Vec<u8>, Unmoved> {
         let mut frames = Reel { dataset, request: request.clone(), steps };
         frames.request = frames.settled(&request)?;

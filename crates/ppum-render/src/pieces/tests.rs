@@ -93,7 +93,7 @@ fn pieces_are_convex_inside_and_on_one_side() {
             for piece in &pieces {
                 looked += 1;
                 assert_eq!(piece.corners.len(), piece.faces.len());
-                assert!(area(&piece) > 0.0);
+                assert!(area(piece) > 0.0);
                 let center = piece.center();
                 let seen: Vec<Vec2> =
                     piece.corners.iter().map(|&c| piece.seen_from_inside(c)).collect();
@@ -279,7 +279,7 @@ fn many_sides() {
     let field = Field::new(&dataset, 0).expect("a field");
     let square = Rect::around(vec2(0.001, 0.0), vec2(0.01, 0.01));
     let pieces = Pieces::new(&field, vec2(0.7, 0.2)).of(&square);
-    let area: f64 = pieces.iter().map(|piece| area(piece)).sum();
+    let area: f64 = pieces.iter().map(area).sum();
     let hole = 100.0 * 0.004 * 0.007 * (std::f64::consts::TAU / 200.0).sin();
     assert!((area - (4e-4 - hole)).abs() < 1e-3 * hole, "{area:e}");
     assert!(pieces.len() < 20000, "{}", pieces.len());
