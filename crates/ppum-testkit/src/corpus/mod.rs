@@ -1,7 +1,7 @@
 //! The conformance corpus of formulas: `tests/corpus` at the repository's root, whose `README.md`
 //! says what a record means and where its numbers come from.
 //!
-//! [`cases`] reads it, a [`Backend`] evaluates a case, [`check`] compares and counts.
+//! [`cases()`] reads it, a [`Backend`] evaluates a case, [`check`] compares and counts.
 
 mod backend;
 mod cases;
