@@ -23,8 +23,10 @@ pub use decision::Undecided;
 use crate::problem::{GrowthRule, Location, Mistake, Problem, ProblemError};
 use crate::solve::{Plan, SolveError};
 use decision::{Decision, decide, grown};
+use ppum::crack::Crack;
 use ppum::dataset::{Dataset, Growth, GrowthStop, Step, Warning};
 use ppum::progress::{Progress, Verdict, Watcher};
+use ppum::segment::polyline_distance;
 use settle::settled;
 use std::convert::Infallible;
 
@@ -168,23 +170,32 @@ impl Problem {
     /// step where cracks grow; none if it holds none. Its loads are those that act in the step.
     ///
     /// # Errors
-    /// Everything that is wrong in the text; a step that the dataset has not; other cracks in a
-    /// problem without growth, since nothing is known of the loads on them.
+    /// Everything that is wrong in the text; cracks of the step that are neither those of the
+    /// problem nor what these grow to, since nothing is known of the loads on them.
     pub fn of_step(dataset: &Dataset, step: usize) -> Result<Option<Self>, ProblemError> {
-        let cracks = dataset.steps.get(step).map(|step| &step.cracks);
-        match (Self::of_dataset(dataset)?, cracks) {
-            (Some(problem), Some(cracks)) if problem.growth.is_some() => {
-                Ok(Some(Self { cracks: cracks.clone(), ..problem }))
-            }
-            (Some(problem), cracks) if cracks != Some(&problem.cracks) => Err(Mistake {
-                location: Location::File("problem".into()),
-                message: format!("it has other cracks than step {step}"),
-            }
-            .into()),
-            (problem, _) => Ok(problem),
+        let Some(problem) = Self::of_dataset(dataset)? else { return Ok(None) };
+        let cracks = dataset.steps.get(step).map_or(&[][..], |step| &step.cracks);
+        let has_grown = problem.growth.is_some() && go_on(&problem.cracks, cracks);
+        if has_grown || problem.cracks == cracks {
+            return Ok(Some(Self { cracks: cracks.to_vec(), ..problem }));
         }
+        let location = Location::File("problem".into());
+        Err(Mistake { location, message: format!("it has other cracks than step {step}") }.into())
     }
 }
+
+/// True if each crack runs along the whole of one that there was before.
+fn go_on(before: &[Crack], cracks: &[Crack]) -> bool {
+    let along = |old: &Crack, new: &Crack| {
+        let far = ROUNDING * old.length();
+        old.points.iter().all(|p| polyline_distance(&new.points, *p) <= far)
+    };
+    before.len() == cracks.len() && before.iter().zip(cracks).all(|(old, new)| along(old, new))
+}
+
+/// Distance from a crack that is rounding, in parts of its length: vertices that do not change its
+/// path are removed.
+const ROUNDING: f64 = 1e-9;
 
 /// Number and problem of the next step, and what was decided in the one before; none if the series
 /// has ended.

@@ -6,8 +6,9 @@ use ppum::crack::{CrackEnd, End, TipId};
 use ppum::dataset::{Advance, Dataset, Fate, GrowthStop, Step, TipIntensity};
 use ppum::progress::{Progress, Verdict, unwatched};
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_solve::diagnostics::recompute;
 use ppum_solve::growth::{GrowthError, Kink, Last, grow, kink, series};
-use ppum_solve::problem::Criterion;
+use ppum_solve::problem::{Criterion, Problem};
 use ppum_solve::report::forget_times;
 use ppum_solve::solve::SolveError;
 
@@ -590,8 +591,7 @@ fn fracture_ends_fatigue() {
 }
 
 /// A series that goes on from one of its steps has the same bits as one that was not interrupted,
-/// by all criteria: what is decided is stored, and what a step takes over from the one before it is
-/// what it would have integrated itself.
+/// by all criteria: what is decided is stored, and nothing else is taken over from a step.
 #[test]
 fn series_go_on_from_their_steps() {
     let edge = "[[-1, 0.1], [-0.2, 0.15]]";
@@ -619,6 +619,32 @@ fn series_go_on_from_their_steps() {
             assert_eq!(a.len(), b.len());
         }
     }
+}
+
+/// The problem of a step has its cracks and the loads on their faces, new ones too: K is found
+/// again as it was stored. Cracks that do not begin as those of the problem are refused.
+#[test]
+fn a_step_has_a_problem_of_its_own() {
+    let beside = "[[crack]]\npoints = [[0.4, 0.1], [0.7, -0.1]]";
+    let pressed = "boundary = [{ on = { crack = 1 }, pressure = 0.5 },";
+    let text = pulled("[[-0.4, 0.1], [-0.2, 0.15]]", beside, "steps = 2, increment = 0.05");
+    let text = text.replacen("boundary = [", pressed, 1);
+    let mut all = series(&parsed(&text), None, unwatched()).expect("a series");
+    assert!(all.steps[2].cracks[1].length() > all.steps[0].cracks[1].length());
+    for step in 0..all.steps.len() {
+        let problem = Problem::of_step(&all, step).expect("a problem");
+        let (found, _) = recompute(&all, step, problem.as_ref(), unwatched()).expect("a field");
+        for (tip, stored) in found.iter().zip(&all.steps[step].intensities) {
+            let factors = tip.factors.as_ref().expect("factors");
+            let miss = (factors.k1 - stored.k1).abs().max((factors.k2 - stored.k2).abs());
+            assert!(miss <= 1e-12 * stored.k1.hypot(stored.k2), "{step}: {factors:?} {stored:?}");
+        }
+    }
+    let cracks = all.steps[2].cracks.clone();
+    all.steps[2].cracks.reverse();
+    assert!(Problem::of_step(&all, 2).is_err());
+    all.steps[2].cracks = cracks[..1].to_vec();
+    assert!(Problem::of_step(&all, 2).is_err() && Problem::of_step(&all, 7).is_err());
 }
 
 /// A step without the seconds that it took, in words: NaN is equal to itself there.
