@@ -158,11 +158,6 @@ fn digest(content: &Content, scope: &Scope) -> Result<String, ReadError> {
 
 fn update(hash: &mut Sha256, values: &ArrayValues) -> Result<(), String> {
     match values {
-        ArrayValues::F64(v) => update_by(hash, v, |x| x.to_le_bytes()),
-        ArrayValues::U8(v) => hash.update(v),
-        ArrayValues::U32(v) => update_by(hash, v, |x| x.to_le_bytes()),
-        ArrayValues::U64(v) => update_by(hash, v, |x| x.to_le_bytes()),
-        ArrayValues::I64(v) => update_by(hash, v, |x| x.to_le_bytes()),
         ArrayValues::Text(v) => v.iter().for_each(|x| {
             hash.update(x.as_bytes());
             hash.update([0]);
@@ -173,22 +168,7 @@ fn update(hash: &mut Sha256, values: &ArrayValues) -> Result<(), String> {
                  additions in the group `user`, or delete the attribute with the checksum"
             ));
         }
+        numbers => hash.update(numbers.little_endian().unwrap_or_default()),
     }
     Ok(())
-}
-
-/// Numbers that are fed to a digest at once: what a call takes beside its bytes is then nothing.
-const BLOCK: usize = 1 << 9;
-
-fn update_by<T: Copy, const N: usize>(
-    hash: &mut Sha256,
-    numbers: &[T],
-    bytes: impl Fn(T) -> [u8; N],
-) {
-    let mut block = [[0; N]; BLOCK];
-    for numbers in numbers.chunks(BLOCK) {
-        let block = &mut block[..numbers.len()];
-        block.iter_mut().zip(numbers).for_each(|(block, number)| *block = bytes(*number));
-        hash.update(block.as_flattened());
-    }
 }

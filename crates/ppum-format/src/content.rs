@@ -1,5 +1,6 @@
 //! The content of a file: named arrays, free of both the data model and HDF5.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::{Deref, DerefMut};
 
@@ -191,9 +192,21 @@ pub enum ArrayValues {
     Other(String),
 }
 
-#[cfg(feature = "damage")]
 impl ArrayValues {
+    /// The bytes of numbers, of each the lowest first; none of texts and types outside the format.
+    pub(crate) fn little_endian(&self) -> Option<Cow<'_, [u8]>> {
+        match self {
+            Self::F64(v) => Some(little_endian(v)),
+            Self::U8(v) => Some(little_endian(v)),
+            Self::U32(v) => Some(little_endian(v)),
+            Self::U64(v) => Some(little_endian(v)),
+            Self::I64(v) => Some(little_endian(v)),
+            Self::Text(_) | Self::Other(_) => None,
+        }
+    }
+
     /// Number of values; none of a type outside the format.
+    #[cfg(feature = "damage")]
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::F64(v) => v.len(),
@@ -205,6 +218,13 @@ impl ArrayValues {
             Self::Other(_) => 0,
         }
     }
+}
+
+fn little_endian<T: bytemuck::Pod>(numbers: &[T]) -> Cow<'_, [u8]> {
+    if cfg!(target_endian = "little") {
+        return Cow::Borrowed(bytemuck::cast_slice(numbers));
+    }
+    numbers.iter().flat_map(|number| bytemuck::bytes_of(number).iter().rev().copied()).collect()
 }
 
 /// A Rust type that stands for one of the element types.

@@ -8,6 +8,8 @@
 mod content;
 mod forge;
 
+pub use content::Damaged;
+use forge::{EXTREMES, number};
 pub use forge::{object_headers, seal, sealed_parts};
 use ppum::dataset::Dataset;
 
@@ -22,17 +24,6 @@ pub fn unchecked(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
     let mut content = encode::content(dataset)?;
     checksum::seal(&mut content);
     hdf5::to_bytes(&content)
-}
-
-/// A damaged file.
-#[derive(Clone, Debug)]
-pub struct Damaged {
-    /// Its bytes.
-    pub bytes: Vec<u8>,
-    /// The kind of damage, e.g. `truncated`.
-    pub what: String,
-    /// True if the checksum was made right again, or is not there: only the meaning can tell.
-    pub is_sealed: bool,
 }
 
 /// A copy of a file with one to three damages of one kind. `below(n)` is a random number below n;
@@ -73,9 +64,6 @@ const CHANGES: [(&str, Change); 9] = [
     ("text that is not UTF-8", |bytes, below| not_utf8(bytes, below)),
     (FORGED, |bytes, below| forge::forged(bytes, below)),
 ];
-
-/// Bytes that mean something extreme.
-const EXTREMES: [u8; 6] = [0x00, 0x01, 0x7f, 0x80, 0xfe, 0xff];
 
 fn bits(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
     for _ in 0..=below(8) {
@@ -121,25 +109,6 @@ fn copied(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
 fn inserted(bytes: &mut Vec<u8>, below: &mut dyn FnMut(usize) -> usize) {
     let (at, fill) = (below(bytes.len() + 1), EXTREMES[below(EXTREMES.len())]);
     bytes.splice(at..at, vec![fill; 1 + below(40)]);
-}
-
-/// Sizes and addresses stand at even places.
-fn number(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
-    let number = match below(7) {
-        0 => u64::MAX,
-        1 => 1 << 63,
-        2 => 1 << 32,
-        3 => bytes.len() as u64,
-        4 => below(bytes.len()) as u64,
-        5 => f64::NAN.to_bits(),
-        _ => below(3) as u64,
-    };
-    let width = [1, 2, 4, 8][below(4)];
-    let places = (bytes.len() / 2).saturating_sub(4);
-    if places > 0 {
-        let at = 2 * below(places);
-        bytes[at..at + width].copy_from_slice(&number.to_le_bytes()[..width]);
-    }
 }
 
 /// One byte in a run of letters.

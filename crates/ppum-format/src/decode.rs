@@ -8,7 +8,7 @@ mod tables;
 
 use std::sync::Arc;
 
-use ppum::crack::{Crack, CrackEnd, End, TipId};
+use ppum::crack::{Crack, CrackEnd};
 use ppum::dataset::{
     Attribute, BoxPartition, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Partition,
     Reaction, Record, Ring, Step, StressState, TipIntensity, Warning,
@@ -24,13 +24,13 @@ use crate::content::{Array, Content, Element, ObjectKind, step_path};
 use crate::error::ReadError;
 use crate::limits::FORMAT_VERSION;
 use crate::names::{
-    BOX_WITH_HOLES, BOXES, CIRCLE, CRACK_ENDS, ELASTICITY, ENDS, EQUATIONS, EquationKind, MESH,
+    BOX_WITH_HOLES, BOXES, CIRCLE, CRACK_ENDS, ELASTICITY, EQUATIONS, EquationKind, MESH,
     NO_EQUATION, PLAIN_BOX, POISSON, POLYGON, STRESS_STATES, WEIGHTS,
 };
 use functions::functions;
 pub(crate) use group::missing;
 use group::{GroupReader, attempt, numbered, optional, read};
-use growth::growth;
+use growth::{growth, tip_ids};
 use mesh::mesh;
 use tables::{Scopes, tables};
 
@@ -381,13 +381,6 @@ fn intensities(group: &GroupReader) -> Vec<TipIntensity> {
         ..TipIntensity::new(tips[k], k1[k], k2[k])
     };
     parts.into_iter().enumerate().map(intensity).collect()
-}
-
-/// The tips that the rows of a table are about.
-fn tip_ids(group: &GroupReader, n: usize) -> Vec<TipId> {
-    let (cracks, ends) = (group.column::<u32>("crack", n), group.column::<String>("end", n));
-    let end = |word: &str| group.word(ENDS, word, "end").unwrap_or(End::Start);
-    cracks.into_iter().zip(ends).map(|(crack, word)| TipId { crack, end: end(&word) }).collect()
 }
 
 /// Values that are not there, or NaN, where they are not known.

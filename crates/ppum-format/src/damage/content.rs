@@ -1,10 +1,20 @@
 //! Damage to what a file means: its named arrays.
 
-use super::Damaged;
 use crate::content::{Array, ArrayValues, Content};
 use crate::{checksum, hdf5};
 
 type Below<'a> = &'a mut dyn FnMut(usize) -> usize;
+
+/// A damaged file.
+#[derive(Clone, Debug)]
+pub struct Damaged {
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+    /// The kind of damage, e.g. `truncated`.
+    pub what: String,
+    /// True if the checksum was made right again, or is not there: only the meaning can tell.
+    pub is_sealed: bool,
+}
 
 /// A copy with one to three arrays changed; none if the file cannot be read, or the result
 /// not written.

@@ -8,12 +8,12 @@ use crate::hdf5::lookup3;
 pub(super) fn forged(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
     let parts = sealed_parts(bytes);
     if parts.is_empty() {
-        return super::number(bytes, below);
+        return number(bytes, below);
     }
     let part = &parts[below(parts.len())];
     let at = part.start + 6 + below(part.len() - 10);
     let width = [1, 1, 2, 4, 8][below(5)].min(part.end - 4 - at);
-    let fill = super::EXTREMES[below(super::EXTREMES.len())];
+    let fill = EXTREMES[below(EXTREMES.len())];
     bytes[at..at + width].fill(fill);
     seal(bytes, part);
 }
@@ -42,7 +42,7 @@ fn parts(bytes: &[u8], signatures: &[&[u8; 4]]) -> Vec<Range<usize>> {
     let starts = bytes.windows(4).enumerate().filter(|(_, w)| is_start(w)).map(|(at, _)| at);
     starts
         .filter_map(|start| {
-            let sizes = start + 10..bytes.len().min(start + LONGEST).saturating_sub(4);
+            let sizes = start + 10..=bytes.len().min(start + LONGEST).saturating_sub(4);
             sizes.into_iter().find_map(|end| {
                 let stored = u32::from_le_bytes(*bytes[end..].first_chunk()?);
                 (lookup3(&bytes[start..end]) == stored).then_some(start..end + 4)
@@ -58,4 +58,26 @@ const LONGEST: usize = 5000;
 pub fn seal(bytes: &mut [u8], part: &Range<usize>) {
     let sum = lookup3(&bytes[part.start..part.end - 4]);
     bytes[part.end - 4..part.end].copy_from_slice(&sum.to_le_bytes());
+}
+
+/// Bytes that mean something extreme.
+pub(super) const EXTREMES: [u8; 6] = [0x00, 0x01, 0x7f, 0x80, 0xfe, 0xff];
+
+/// Sizes and addresses stand at even places.
+pub(super) fn number(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
+    let number = match below(7) {
+        0 => u64::MAX,
+        1 => 1 << 63,
+        2 => 1 << 32,
+        3 => bytes.len() as u64,
+        4 => below(bytes.len()) as u64,
+        5 => f64::NAN.to_bits(),
+        _ => below(3) as u64,
+    };
+    let width = [1, 2, 4, 8][below(4)];
+    let places = (bytes.len() / 2).saturating_sub(4);
+    if places > 0 {
+        let at = 2 * below(places);
+        bytes[at..at + width].copy_from_slice(&number.to_le_bytes()[..width]);
+    }
 }

@@ -9,7 +9,6 @@ use std::ops::Range;
 
 use ppum::vec2::{Vec2, vec2};
 
-use super::Read;
 use crate::content::{ArrayValues, Content, Element, ObjectKind, join, key};
 use crate::error::ReadError;
 use crate::names::{Words, value};
@@ -106,7 +105,7 @@ impl<'a> GroupReader<'a> {
         }
     }
 
-    pub(super) fn or_report<T>(&self, read: Read<T>) -> Option<T> {
+    pub(super) fn or_report<T>(&self, read: Result<T, ReadError>) -> Option<T> {
         read.map_err(|error| self.report(error)).ok()
     }
 

@@ -1,11 +1,11 @@
 //! `steps/…/growth`: what the tips of a step do next.
 
+use ppum::crack::{End, TipId};
 use ppum::dataset::{Advance, Fate, Growth};
 
 use super::group::GroupReader;
-use super::tip_ids;
 use crate::content::ObjectKind;
-use crate::names::{FATES, GROWTH_NUMBERS, MEETS_CRACK, MEETS_HOLE, STOPS};
+use crate::names::{ENDS, FATES, GROWTH_NUMBERS, MEETS_CRACK, MEETS_HOLE, STOPS};
 
 pub(super) fn growth(group: &GroupReader) -> Growth {
     let mut growth = Growth::default();
@@ -46,4 +46,11 @@ fn fate(group: &GroupReader, word: &str, other: i64) -> Fate {
             group.word(FATES, word, "fate").unwrap_or(Fate::Unknown)
         }
     }
+}
+
+/// The tips that the rows of a table are about.
+pub(super) fn tip_ids(group: &GroupReader, n: usize) -> Vec<TipId> {
+    let (cracks, ends) = (group.column::<u32>("crack", n), group.column::<String>("end", n));
+    let end = |word: &str| group.word(ENDS, word, "end").unwrap_or(End::Start);
+    cracks.into_iter().zip(ends).map(|(crack, word)| TipId { crack, end: end(&word) }).collect()
 }

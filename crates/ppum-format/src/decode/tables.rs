@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use ppum::formula::{Scope, ScopeError, Table, TableError, VARIABLES};
 
-use super::Read;
 use super::group::{Extent, GroupReader, numbered};
 use crate::content::ObjectKind;
 use crate::error::ReadError;
@@ -19,7 +18,7 @@ pub(super) struct Scopes {
 }
 
 impl Scopes {
-    pub(super) fn new(tables: &[Arc<Table>]) -> Read<Self> {
+    pub(super) fn new(tables: &[Arc<Table>]) -> Result<Self, ReadError> {
         let scope = |variables: &[&str]| Scope::new(variables)?.with_tables(tables);
         Self::of(scope).map_err(|error| ReadError::object("tables", error.to_string()))
     }

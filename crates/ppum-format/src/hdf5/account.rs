@@ -121,13 +121,8 @@ pub(super) fn memory(count: u64, size: u64, is_text: bool) -> Option<u64> {
 /// Memory of an array that is there.
 pub(super) fn memory_of(array: &Array) -> u64 {
     let bytes = match &array.values {
-        ArrayValues::F64(v) => size_of_val(v.as_slice()),
-        ArrayValues::U8(v) => v.len(),
-        ArrayValues::U32(v) => size_of_val(v.as_slice()),
-        ArrayValues::U64(v) => size_of_val(v.as_slice()),
-        ArrayValues::I64(v) => size_of_val(v.as_slice()),
         ArrayValues::Text(v) => v.iter().map(|text| text.len() + TEXT_BYTES as usize).sum(),
-        ArrayValues::Other(_) => 0,
+        numbers => numbers.little_endian().map_or(0, |bytes| bytes.len()),
     };
     ARRAY_BYTES + bytes as u64
 }

@@ -14,6 +14,7 @@ use super::lookup3::lookup3;
 use super::messages::{Addition, CONTINUATION, LINK, LINK_INFO, Message, NO_HEAP, block, header};
 use super::objects::group;
 use super::read::Ranges;
+use super::write::{END, ROOT, SUPERBLOCK, superblock};
 use crate::content::Content;
 use crate::error::WriteError;
 
@@ -24,17 +25,6 @@ const STEPS: &str = "steps";
 /// kB.
 const LINKS: usize = 64;
 
-/// Bytes of a superblock of version 2 or 3, with numbers of eight bytes.
-const SUPERBLOCK: usize = 48;
-
-/// Places in it: of the address that all others count from, of the end, and of the root.
-const BASE: usize = 12;
-const END: usize = 28;
-const ROOT: usize = 36;
-
-/// The first bytes of a superblock, with the widths of numbers but without flags.
-const START: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
-
 /// Times the length of what is appended that its arrays may take in memory, compressed: a reader
 /// takes four times the length of a file, whatever the number of its steps.
 const EXPANSION: u64 = 3;
@@ -42,7 +32,8 @@ const EXPANSION: u64 = 3;
 /// The part of a file that appending changes.
 #[derive(Clone, Debug)]
 pub(crate) struct Trunk {
-    superblock: [u8; SUPERBLOCK],
+    /// Where the file ends.
+    end: u64,
     /// Messages of the root but the link to `steps`.
     root: Vec<Message>,
     /// Messages of `steps` but the links in its own header.
@@ -63,26 +54,20 @@ impl Trunk {
     /// Reads the trunk of a file that this program began; none of what another program may have
     /// made of it.
     pub(crate) fn read(file: &dyn Ranges) -> Option<Self> {
-        let mut superblock = [0; SUPERBLOCK];
-        fill(file, 0, &mut superblock)?;
-        let (body, sum) = superblock.split_at(SUPERBLOCK - 4);
-        let is_known = body.starts_with(START) && matches!(body[8], 2 | 3) && body[9..11] == [8; 2];
-        if !is_known || word(body, BASE) != 0 || sum != lookup3(body).to_le_bytes() {
+        let mut start = [0; SUPERBLOCK];
+        fill(file, 0, &mut start)?;
+        let (end, root) = (word(&start, END), word(&start, ROOT));
+        if start != superblock(end, root) {
             return None;
         }
-        let mut root = gathered(file, messages(file, word(body, ROOT))?)?;
+        let mut root = gathered(file, messages(file, root)?)?;
         let at = root.iter().position(|m| m.link_to(STEPS).is_some())?;
         let address = root.remove(at).link_to(STEPS)?;
         let all = messages(file, address)?;
         // a group whose links are in a heap would not show one in its header
         let is_plain = |message: &Message| message.kind != LINK_INFO || message.body == NO_HEAP;
         let (links, steps): (Vec<_>, Vec<_>) = all.into_iter().partition(|m| m.kind == LINK);
-        steps.iter().all(is_plain).then_some(Self { superblock, root, steps, links })
-    }
-
-    /// The end of the file.
-    pub(crate) fn end(&self) -> u64 {
-        word(&self.superblock, END)
+        steps.iter().all(is_plain).then_some(Self { end, root, steps, links })
     }
 
     /// What makes a step part of the file, and the trunk of the file that has it.
@@ -99,13 +84,13 @@ impl Trunk {
     /// The objects of the step, compressed as long as they can be read again.
     fn objects(&self, content: &Content, path: &str) -> Result<(Addition, u64), WriteError> {
         let stored = |compressed| {
-            let mut addition = Addition::new(self.end());
+            let mut addition = Addition::new(self.end);
             let address = group(&mut addition, content, path, compressed)?;
             Ok((addition, address))
         };
         let (addition, address) = stored(true)?;
         let memory: u64 = content.values().map(memory_of).sum();
-        let length = addition.end() - self.end();
+        let length = addition.end() - self.end;
         if memory <= EXPANSION * length { Ok((addition, address)) } else { stored(false) }
     }
 
@@ -114,7 +99,6 @@ impl Trunk {
         mut addition: Addition,
         link: Message,
     ) -> Result<(AppendedStep, Self), WriteError> {
-        let end = self.end();
         if self.links.len() >= LINKS {
             self.move_links(&mut addition)?;
         }
@@ -122,11 +106,8 @@ impl Trunk {
         let steps = addition.put(&header(&[self.steps.as_slice(), &self.links].concat())?);
         let link = Message::link(STEPS, steps);
         let root = addition.put(&header(&[self.root.as_slice(), &[link]].concat())?);
-        self.superblock[END..END + 8].copy_from_slice(&addition.end().to_le_bytes());
-        self.superblock[ROOT..ROOT + 8].copy_from_slice(&root.to_le_bytes());
-        let sum = lookup3(&self.superblock[..SUPERBLOCK - 4]);
-        self.superblock[SUPERBLOCK - 4..].copy_from_slice(&sum.to_le_bytes());
-        let start = self.superblock.to_vec();
+        let end = std::mem::replace(&mut self.end, addition.end());
+        let start = superblock(self.end, root).to_vec();
         Ok((AppendedStep { end, bytes: addition.into_bytes(), start }, self))
     }
 

@@ -13,6 +13,9 @@ pub(super) const LINK_INFO: u8 = 0x02;
 pub(super) const NO_HEAP: [u8; 18] =
     [0, 0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0, !0];
 
+/// The address that leads nowhere.
+pub(super) const NOWHERE: u64 = u64::MAX;
+
 /// A message of a header.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Message {
@@ -28,8 +31,9 @@ impl Message {
 
     /// A hard link.
     pub(super) fn link(name: &str, address: u64) -> Self {
-        // version; the length of the name takes one byte
-        let mut body = vec![1, 0, name.len() as u8];
+        // version; the length of the name takes one byte; its characters, if they are not ASCII
+        let mut body = if name.is_ascii() { vec![1, 0] } else { vec![1, 0x10, 1] };
+        body.push(name.len() as u8);
         body.extend(name.as_bytes());
         body.extend(address.to_le_bytes());
         Self::new(LINK, body)

@@ -1,10 +1,11 @@
-//! Groups, attributes and arrays as HDF5 stores them, for what is appended to a file: headers of
-//! version 2, links and attributes in them.
+//! Groups, attributes and arrays as HDF5 stores them: headers of version 2, links and attributes in
+//! them.
 
 use std::collections::BTreeMap;
 
+use super::layout::{contiguous, large};
 use super::messages::{Addition, LINK_INFO, Message, NO_HEAP, header};
-use super::values::{bytes, contiguous, datatype, large};
+use super::values::{bytes, datatype, long_text};
 use crate::content::{Array, Content, ObjectKind, join, key};
 use crate::error::WriteError;
 
@@ -46,7 +47,8 @@ fn headers(
         vec![Message::new(LINK_INFO, NO_HEAP.to_vec()), Message::new(GROUP_INFO, vec![0; 2])];
     for name in content.attributes(path) {
         let full = key(path, name, ObjectKind::Attribute);
-        messages.push(Message::new(ATTRIBUTE, attribute(&full, name, &content[&full])?));
+        let attribute = attribute(addition, &full, name, &content[&full])?;
+        messages.push(Message::new(ATTRIBUTE, attribute));
     }
     let mut members: Vec<&str> = content.members(path).collect();
     members.sort_unstable();
@@ -61,8 +63,17 @@ fn headers(
     Ok(addition.put(&header(&messages)?))
 }
 
-fn attribute(full: &str, name: &str, array: &Array) -> Result<Vec<u8>, WriteError> {
-    let (datatype, space) = (datatype(full, array)?, dataspace(&array.shape));
+fn attribute(
+    addition: &mut Addition,
+    full: &str,
+    name: &str,
+    array: &Array,
+) -> Result<Vec<u8>, WriteError> {
+    let (datatype, values) = match long_text(addition, array) {
+        Some((datatype, value)) => (datatype, value.into()),
+        None => (datatype(full, array)?, bytes(array)),
+    };
+    let space = dataspace(&array.shape);
     let sizes = [name.len() as u16 + 1, datatype.len() as u16, space.len() as u16];
     // version, flags; the name is ASCII
     let mut body = vec![3, 0];
@@ -70,7 +81,7 @@ fn attribute(full: &str, name: &str, array: &Array) -> Result<Vec<u8>, WriteErro
     body.push(0);
     body.extend(name.as_bytes());
     body.push(0);
-    Ok([body, datatype, space, bytes(array)].concat())
+    Ok([&body, &datatype, &space, &*values].concat())
 }
 
 fn dataset(

@@ -1,28 +1,10 @@
-//! Values of arrays as HDF5 stores them, for what is appended to a file.
-//!
-//! Arrays are contiguous; long ones of numbers are one chunk, or some with an index of fixed
-//! length, shuffled and deflated.
+//! Types and values of arrays as HDF5 stores them.
 
-use std::io::Write as _;
+use std::borrow::Cow;
 
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
-
-use super::messages::{ALIGNMENT, Addition, Message, sealed};
-use super::write::{DEFLATE_LEVEL, check_text, chunk, is_chunked};
+use super::messages::Addition;
 use crate::content::{Array, ArrayValues};
 use crate::error::WriteError;
-
-/// Kinds of messages.
-const LAYOUT: u8 = 0x08;
-const FILTERS: u8 = 0x0b;
-
-/// The address that leads nowhere.
-const NOWHERE: u64 = u64::MAX;
-
-/// Arrays of so many bytes and more stand before all headers, so that these and small arrays are
-/// near each other: who reads nothing but stress intensity factors reads a page or two.
-const LARGE: usize = 1 << 12;
 
 /// Bytes of the texts of an array, all of the same length.
 fn text_length(texts: &[String]) -> usize {
@@ -30,7 +12,7 @@ fn text_length(texts: &[String]) -> usize {
 }
 
 /// Bytes of an element.
-fn size(values: &ArrayValues) -> usize {
+pub(super) fn size(values: &ArrayValues) -> usize {
     match values {
         ArrayValues::F64(_) | ArrayValues::U64(_) | ArrayValues::I64(_) => 8,
         ArrayValues::U32(_) => 4,
@@ -65,196 +47,50 @@ pub(super) fn datatype(name: &str, array: &Array) -> Result<Vec<u8>, WriteError>
     })
 }
 
-fn number(n: usize) -> [u8; 4] {
+pub(super) fn number(n: usize) -> [u8; 4] {
     (n as u32).to_le_bytes()
 }
 
 /// The values of an array, row-major.
-pub(super) fn bytes(array: &Array) -> Vec<u8> {
-    bytes_of(&array.values)
-}
-
-fn bytes_of(values: &ArrayValues) -> Vec<u8> {
-    match values {
-        ArrayValues::F64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
-        ArrayValues::U8(v) => v.clone(),
-        ArrayValues::U32(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
-        ArrayValues::U64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
-        ArrayValues::I64(v) => v.iter().flat_map(|x| x.to_le_bytes()).collect(),
-        ArrayValues::Text(v) => {
-            let length = text_length(v);
-            let padding = |text: &String| std::iter::repeat_n(0, length - text.len());
-            v.iter().flat_map(|text| text.bytes().chain(padding(text))).collect()
-        }
-        ArrayValues::Other(_) => Vec::new(),
-    }
-}
-
-/// True if deflation makes less than half of an array, as some parts of it show.
-pub(super) fn shrinks(array: &Array) -> bool {
-    let parts = match &array.values {
-        ArrayValues::F64(v) => ArrayValues::F64(parts(v)),
-        ArrayValues::U8(v) => ArrayValues::U8(parts(v)),
-        ArrayValues::U32(v) => ArrayValues::U32(parts(v)),
-        ArrayValues::U64(v) => ArrayValues::U64(parts(v)),
-        ArrayValues::I64(v) => ArrayValues::I64(parts(v)),
-        ArrayValues::Text(_) | ArrayValues::Other(_) => return false,
+pub(super) fn bytes(array: &Array) -> Cow<'_, [u8]> {
+    let ArrayValues::Text(texts) = &array.values else {
+        return array.values.little_endian().unwrap_or_default();
     };
-    let bytes = bytes_of(&parts);
-    let packed = deflated(&shuffled(&bytes, size(&parts)));
-    packed.is_ok_and(|packed| 2 * packed.len() < bytes.len())
+    let length = text_length(texts);
+    let padded = |text: &String| [text.as_bytes(), &vec![0; length - text.len()]].concat();
+    texts.iter().flat_map(padded).collect()
 }
 
-/// Parts of an array that stand for all of it, and elements of each.
-const PARTS: usize = 2;
-const PART: usize = 1 << 14;
+/// Bytes of a text that an attribute holds itself: a message has at most 64 KiB.
+const LONGEST_TEXT: usize = 60_000;
 
-fn parts<T: Copy>(values: &[T]) -> Vec<T> {
-    let stride = values.len().div_ceil(PARTS).max(1);
-    values.chunks(stride).flat_map(|part| &part[..part.len().min(PART)]).copied().collect()
-}
-
-/// Puts values behind the end. Their layout.
-pub(super) fn contiguous(addition: &mut Addition, values: &[u8]) -> Message {
-    let address = if values.is_empty() { NOWHERE } else { addition.put(values) };
-    let place = [address.to_le_bytes(), (values.len() as u64).to_le_bytes()].concat();
-    // version and class
-    Message::new(LAYOUT, [[3, 1].as_slice(), &place].concat())
-}
-
-/// Layout and filters of a large array, whose values are put behind the end; none of a small one.
-pub(super) fn large(
-    addition: &mut Addition,
-    name: &str,
-    array: &Array,
-    compressed: bool,
-) -> Result<Option<Vec<Message>>, WriteError> {
-    if compressed && is_chunked(array) && array.shape.len() <= 2 {
-        return chunked(addition, name, array).map(Some);
+/// The type and the bytes of a text too long for a message, which is put behind the end, in a heap
+/// of its own; none of other values.
+pub(super) fn long_text(addition: &mut Addition, array: &Array) -> Option<(Vec<u8>, Vec<u8>)> {
+    let ArrayValues::Text(texts) = &array.values else { return None };
+    let ([text], []) = (texts.as_slice(), array.shape.as_slice()) else { return None };
+    if text.len() <= LONGEST_TEXT {
+        return None;
     }
-    let values = bytes(array);
-    Ok((values.len() >= LARGE).then(|| vec![contiguous(addition, &values)]))
+    let padding = vec![0; text.len().next_multiple_of(8) - text.len()];
+    let length = (text.len() as u64).to_le_bytes();
+    // version; one object, named once; no room is left
+    let size = (32 + text.len() + padding.len()) as u64;
+    let head = [b"GCOL\x01\0\0\0".as_slice(), &size.to_le_bytes(), &[1, 0, 1, 0, 0, 0, 0, 0]];
+    let heap =
+        addition.put(&[&head.concat(), length.as_slice(), text.as_bytes(), &padding].concat());
+    let value = [&length[..4], &heap.to_le_bytes(), &number(1)].concat();
+    // a sequence of characters of UTF-8
+    let kind = [[0x19, 1, 1, 0], number(16), [0x10, 0, 0, 0], number(1), [0, 0, 8, 0]].concat();
+    Some((kind, value))
 }
 
-/// A chunk that is stored: its address and length.
-type Stored = (u64, u64);
-
-fn chunked(addition: &mut Addition, name: &str, array: &Array) -> Result<Vec<Message>, WriteError> {
-    let (size, shape) = (size(&array.values), chunk(&array.shape));
-    let chunk_bytes = size as u64 * shape.iter().product::<u64>();
-    let mut stored = Vec::new();
-    for values in chunks(&array.shape, &shape, &bytes(array), size) {
-        let packed = deflated(&shuffled(&values, size))
-            .map_err(|e| WriteError::object(name, e.to_string()))?;
-        stored.push((addition.put(&packed), packed.len() as u64));
+/// Makes sure that texts can be stored: they are padded with NUL in the file, and where a reader
+/// finds U+FFFD something was not UTF-8.
+pub(super) fn check_text(name: &str, texts: &[String]) -> Result<(), WriteError> {
+    if texts.iter().any(|t| t.contains(['\0', char::REPLACEMENT_CHARACTER])) {
+        let mistake = "texts must not contain the characters NUL and U+FFFD";
+        return Err(WriteError::object(name, mistake));
     }
-    let index = match stored.as_slice() {
-        &[(address, length)] => single(address, length),
-        many => fixed(addition, many, chunk_bytes),
-    };
-    // version, class; the only chunk is filtered; directions with that of bytes, as short as HDF5
-    // wants them
-    let extents: Vec<u64> = shape.iter().copied().chain([size as u64]).collect();
-    let width = extents.iter().map(|n| (n.ilog2() as usize + 8) / 8).max().unwrap_or(1);
-    let flags = if stored.len() == 1 { 2 } else { 0 };
-    let mut layout = vec![4, 2, flags, extents.len() as u8, width as u8];
-    layout.extend(extents.iter().flat_map(|n| n.to_le_bytes().into_iter().take(width)));
-    layout.extend(index);
-    Ok(vec![Message::new(FILTERS, filters(size)), Message::new(LAYOUT, layout)])
-}
-
-/// The filters: shuffle, which is told the size of elements, and deflate, which is told its level.
-fn filters(size: usize) -> Vec<u8> {
-    let filter = |id: u8, value: usize| [[id, 0, 0, 0, 1, 0].as_slice(), &number(value)].concat();
-    [vec![2, 2], filter(2, size), filter(1, DEFLATE_LEVEL as usize)].concat()
-}
-
-/// The values of each chunk, those on the border filled up with zeros.
-fn chunks(shape: &[u64], chunk: &[u64], values: &[u8], size: usize) -> Vec<Vec<u8>> {
-    let matrix = |shape: &[u64]| match *shape {
-        [rows, columns] => (rows, columns),
-        _ => (1, shape.iter().product()),
-    };
-    let ((rows, columns), (height, width)) = (matrix(shape), matrix(chunk));
-    let mut all = Vec::new();
-    for top in (0..rows).step_by(height as usize) {
-        for left in (0..columns).step_by(width as usize) {
-            let mut one = vec![0; (height * width) as usize * size];
-            let count = width.min(columns - left) as usize * size;
-            for row in top..rows.min(top + height) {
-                let from = (row * columns + left) as usize * size;
-                let to = ((row - top) * width) as usize * size;
-                one[to..to + count].copy_from_slice(&values[from..from + count]);
-            }
-            all.push(one);
-        }
-    }
-    all
-}
-
-/// The first bytes of all elements, then the second ones, and so on.
-fn shuffled(values: &[u8], size: usize) -> Vec<u8> {
-    (0..size).flat_map(|plane| values.iter().skip(plane).step_by(size).copied()).collect()
-}
-
-fn deflated(values: &[u8]) -> std::io::Result<Vec<u8>> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(DEFLATE_LEVEL));
-    encoder.write_all(values)?;
-    encoder.finish()
-}
-
-/// The index of the only chunk: its length, no filter left out, its address.
-fn single(address: u64, length: u64) -> Vec<u8> {
-    [[1].as_slice(), &length.to_le_bytes(), &[0; 4], &address.to_le_bytes()].concat()
-}
-
-/// Logarithm of the entries of a page, from which on an index comes in pages: HDF5's own, unless
-/// there are more.
-const PAGE_BITS: u8 = 10;
-
-/// An index of fixed length.
-fn fixed(addition: &mut Addition, chunks: &[Stored], chunk_bytes: u64) -> Vec<u8> {
-    let count = chunks.len() as u64;
-    let page_bits = PAGE_BITS.max((count - 1).ilog2() as u8 + 1);
-    // as wide as HDF5 has it: room for what filters lengthen
-    let width = (1 + (chunk_bytes.ilog2() as usize + 8) / 8).min(8);
-    let header = addition.next();
-    let mut head = b"FAHD\0\x01".to_vec();
-    head.extend([(8 + width + 4) as u8, page_bits]);
-    head.extend(count.to_le_bytes());
-    // the block of entries comes next
-    let block = (header + head.len() as u64 + 8 + 4).next_multiple_of(ALIGNMENT);
-    head.extend(block.to_le_bytes());
-    addition.put(&sealed(head));
-    let mut body = b"FADB\0\x01".to_vec();
-    body.extend(header.to_le_bytes());
-    for (address, length) in chunks {
-        body.extend(address.to_le_bytes());
-        body.extend(&length.to_le_bytes()[..width]);
-        body.extend([0; 4]);
-    }
-    addition.put(&sealed(body));
-    [[3, page_bits].as_slice(), &header.to_le_bytes()].concat()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use ppum_testkit::random::Random;
-
-    /// Borders of cells and indices shrink, numbers without a pattern do not, wherever in an array
-    /// they are.
-    #[test]
-    fn what_shrinks() {
-        let mut random = Random(4);
-        let n = 40_000_u32;
-        let corner = |k: u32| [f64::from(k % 160) / 160.0, f64::from(k / 160) / 125.0];
-        let cells = Array::rows((0..n).map(corner));
-        let indices = Array::vector((0..n).map(|k| 6 * u64::from(k)));
-        assert!(shrinks(&cells) && shrinks(&indices));
-        let mut numbers: Vec<f64> = (0..n).map(|_| random.unit() - 0.5).collect();
-        assert!(!shrinks(&Array::vector(numbers.clone())));
-        numbers[..2000].fill(1.0);
-        assert!(!shrinks(&Array::vector(numbers)));
-    }
+    Ok(())
 }

@@ -59,7 +59,7 @@ fn patches() -> Dataset {
 /// Patches that all cover everything.
 fn patches_piled() -> Dataset {
     let mut dataset = plate(1, 0, middle());
-    let n = 150_000;
+    let n = 1 << 17;
     dataset.steps[0].partition = piled(n).into();
     dataset.steps[0].fields = vec![displacement(&vec![vec![(0, 0)]; n])];
     dataset
@@ -68,7 +68,7 @@ fn patches_piled() -> Dataset {
 /// Patches as thin rows and thin columns: each meets all of the other kind, but a point has a few.
 fn patches_columns() -> Dataset {
     let mut dataset = plate(1, 0, middle());
-    let n = 60_000;
+    let n = 1 << 16;
     let partition = dataset.steps[0].partition.boxes_mut().expect("boxes");
     *partition = piled(2 * n);
     for k in 0..n {

@@ -79,16 +79,14 @@ const ARROWS: [(&str, &[&str]); 16] = [
 
 /// Foreign crates that are known in one place of the product only, so that they can be
 /// replaced there.
-const DOORS: [(&str, &str); 23] = [
+const DOORS: [(&str, &str); 21] = [
     ("ab_glyph", "ppum-figure"),
     ("clap", "ppum-cli"),
     ("eframe", "ppum-viewer"),
     ("egui", "ppum-viewer"),
     ("faer", "ppum-solve"),
     ("fearless_simd", "ppum-formula"),
-    ("flate2", "ppum-format"),
     ("gif", "ppum-render"),
-    ("hdf5-pure", "ppum-format"),
     ("miniz_oxide", "ppum-figure"),
     ("naga", "ppum-testkit"),
     ("numpy", "ppum-python"),

@@ -12,7 +12,7 @@ use crate::content::{Array, Content};
 use crate::{Arrays, bytes, encode};
 
 /// A triangle and a square cut in two, all of them curved, with functions of level fields.
-fn dataset() -> Dataset {
+pub(super) fn dataset() -> Dataset {
     let (mut random, mut elements) = (Random(2), Elements::default());
     let triangle = random_map(&mut random, (Shape::Triangle, Total, 3), 0.9, 0.5);
     let square = random_map(&mut random, (Shape::Square, Tensor, 2), 0.9, 0.5);

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::source::{Cursor, Hdf5File, Parsed, fail};
+use super::error::{Parsed, fail};
+use super::source::{Cursor, Hdf5File};
 
 /// Parts of an array, each read and checked once.
 struct Blocks<'f> {

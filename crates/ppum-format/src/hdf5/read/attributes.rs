@@ -1,11 +1,12 @@
 //! Attributes of a group.
 
 use super::super::account::memory;
+use super::error::{Parsed, fail};
 use super::header::{ATTRIBUTE, ATTRIBUTE_INFO, DATATYPE, Header, shared};
 use super::heap::dense;
-use super::source::{Cursor, Parsed, fail};
-use super::texts::{Texts, text};
-use super::types::{DatatypeClass, Space, Type, end_without};
+use super::source::Cursor;
+use super::texts::{Texts, end_without, text};
+use super::types::{DatatypeClass, Space, Type};
 use crate::content::{Array, ArrayValues};
 
 /// Kind of the index of attributes by name.

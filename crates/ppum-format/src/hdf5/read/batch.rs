@@ -6,9 +6,10 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::chunks::{ChunkGrid, Stored};
+use super::error::{Parsed, fail};
 use super::filters::{Pipeline, Undone};
-use super::source::{Hdf5File, Parsed, fail};
-use super::storage::step;
+use super::source::Hdf5File;
+use super::types::step;
 
 /// Chunks whose filters are undone together, on several threads.
 pub(super) struct Batch<'a, 'f> {

@@ -1,10 +1,10 @@
 //! The indexes of chunks.
 
 use super::arrays::{Extensible, Fixed};
-use super::source::{Cursor, Hdf5File, Parsed, fail};
-use super::storage::step;
+use super::error::{Parsed, fail};
+use super::source::{Cursor, Hdf5File};
 use super::trees::{self, CHUNKS};
-use super::types::Space;
+use super::types::{Space, step};
 
 /// The division of an array.
 pub(super) struct ChunkGrid<'a> {

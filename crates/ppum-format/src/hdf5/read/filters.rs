@@ -4,10 +4,11 @@ use std::borrow::Cow;
 
 use super::super::account::Account;
 use super::chunks::Stored;
+use super::error::{Parsed, fail};
 use super::inflate;
 use super::packing::{scale_offset, unpacked};
 use super::shuffle::unshuffle;
-use super::source::{Cursor, Parsed, fail};
+use super::source::Cursor;
 
 /// Numbers under which filters are registered.
 const DEFLATE: u16 = 1;

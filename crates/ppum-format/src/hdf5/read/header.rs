@@ -1,6 +1,7 @@
 //! Headers of objects: what a file says of a group or an array is a list of messages.
 
-use super::source::{Cursor, Hdf5File, Parsed, fail};
+use super::error::{Parsed, fail};
+use super::source::{Cursor, Hdf5File};
 
 /// Kinds of messages.
 pub(super) const DATASPACE: u16 = 0x01;

@@ -1,6 +1,7 @@
 //! Fractal heaps, where groups with many links or attributes keep them.
 
-use super::source::{Cursor, Hdf5File, Parsed, fail};
+use super::error::{Parsed, fail};
+use super::source::{Cursor, Hdf5File};
 use super::trees::{records, width};
 
 /// Types of the objects of a heap, from bits 4 and 5 of the first byte of their identifiers.

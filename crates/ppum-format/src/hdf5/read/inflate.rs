@@ -92,15 +92,11 @@ const STEP: usize = 1 << 16;
 
 #[cfg(test)]
 mod tests {
-    use std::io::Write as _;
-
     use super::*;
-    use flate2::{Compression, write::ZlibEncoder};
     use ppum_testkit::random::Random;
 
     fn deflated(bytes: &[u8]) -> Vec<u8> {
-        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(4));
-        encoder.write_all(bytes).and_then(|()| encoder.finish()).expect("in memory")
+        crate::hdf5::layout::deflated(bytes).expect("a stream")
     }
 
     /// Bytes that shrink to about a half.

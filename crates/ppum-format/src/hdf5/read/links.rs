@@ -1,8 +1,9 @@
 //! The links of a group, in the three ways that HDF5 keeps them.
 
+use super::error::{Parsed, fail};
 use super::header::{Header, LINK, LINK_INFO, SYMBOL_TABLE};
 use super::heap::dense;
-use super::source::{Cursor, Hdf5File, Parsed, fail};
+use super::source::{Cursor, Hdf5File};
 use super::trees::{GROUPS, entries};
 
 /// The end of a link: an object of this file, or nothing that is read.

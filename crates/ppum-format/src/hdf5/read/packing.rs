@@ -1,6 +1,6 @@
 //! Filters that pack numbers and texts: LZF of h5py, scale-offset of HDF5.
 
-use super::source::{Parsed, fail};
+use super::error::{Parsed, fail};
 
 /// Undoes LZF (Marc Lehmann's liblzf): runs of literals, and references to what is there already.
 pub(super) fn unpacked(data: &[u8], most: usize) -> Parsed<Vec<u8>> {

@@ -4,29 +4,8 @@ use std::borrow::Cow;
 
 use super::super::account::Account;
 use super::super::lookup3::lookup3;
+use super::error::{Parsed, fail};
 use super::store::Bytes;
-
-/// The reason why a part of a file cannot be read.
-#[derive(Debug)]
-pub(super) struct Hdf5Error(pub(super) Cow<'static, str>);
-
-pub(super) type Parsed<T> = Result<T, Hdf5Error>;
-
-impl From<&'static str> for Hdf5Error {
-    fn from(text: &'static str) -> Self {
-        Self(text.into())
-    }
-}
-
-impl From<String> for Hdf5Error {
-    fn from(text: String) -> Self {
-        Self(text.into())
-    }
-}
-
-pub(super) fn fail<T>(mistake: impl Into<Hdf5Error>) -> Parsed<T> {
-    Err(mistake.into())
-}
 
 /// A file, with the widths of addresses and lengths in it.
 #[derive(Clone, Copy)]

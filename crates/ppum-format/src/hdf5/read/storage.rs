@@ -2,9 +2,10 @@
 
 use super::batch::{Batch, Hyperslab};
 use super::chunks::{ChunkGrid, Index};
+use super::error::{Parsed, fail};
 use super::filters::{Pipeline, filters};
 use super::header::{EXTERNAL_FILES, FILL_VALUE, FILTERS, Header, LAYOUT, OLD_FILL_VALUE};
-use super::source::{Cursor, Parsed, fail};
+use super::source::Cursor;
 use super::types::{Space, product};
 
 /// Classes of layouts.
@@ -148,16 +149,4 @@ fn new_chunks(layout: &mut Cursor, space: &Space) -> Parsed<Chunks> {
     let (flags, rank, width) = (layout.u8()?, layout.u8()?, layout.u8()?);
     let chunk = (0..rank).map(|_| layout.number(width.into())).collect::<Parsed<_>>()?;
     Ok((flags, chunk, Index::parse(layout, flags, space)?))
-}
-
-/// The next place in an array of this shape, in row-major order; false after the last one.
-pub(super) fn step(at: &mut [u64], shape: &[u64]) -> bool {
-    for (place, n) in at.iter_mut().zip(shape).rev() {
-        *place += 1;
-        if *place < *n {
-            return true;
-        }
-        *place = 0;
-    }
-    false
 }

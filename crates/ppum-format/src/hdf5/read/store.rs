@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::io;
 
 use super::super::account::Account;
-use super::source::{Parsed, fail};
+use super::error::{Parsed, fail};
 
 /// A file that can be read in parts.
 pub(crate) trait Ranges {

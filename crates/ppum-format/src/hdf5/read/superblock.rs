@@ -1,7 +1,8 @@
 //! The start of a file: widths of numbers, and where the root group is.
 
 use super::super::account::Account;
-use super::source::{Cursor, Hdf5File, Parsed, fail};
+use super::error::{Parsed, fail};
+use super::source::{Cursor, Hdf5File};
 use super::store::{Bytes, Chain, Ranges, ReadRanges};
 
 const SIGNATURE: &[u8; 8] = b"\x89HDF\r\n\x1a\n";

@@ -10,10 +10,11 @@ use ppum_testkit::processor::thread_time;
 
 use super::super::account::Account;
 use super::chunks::Stored;
+use super::error::{Hdf5Error, Parsed};
 use super::filters::{Pipeline, filters};
 use super::header::Header;
 use super::packing::unpacked;
-use super::source::{Hdf5Error, Hdf5File, Parsed};
+use super::source::Hdf5File;
 use super::store::{Bytes, PAGE};
 use super::trees::{CHUNKS, entries};
 use super::types::{DatatypeClass, Padding, Type};

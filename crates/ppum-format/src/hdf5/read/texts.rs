@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::source::{Hdf5File, Parsed, fail};
-use super::types::end_without;
+use super::error::{Parsed, fail};
+use super::source::Hdf5File;
 
 /// The characters of a text of the format.
 pub(super) fn text(raw: &[u8]) -> Parsed<String> {
@@ -85,4 +85,9 @@ fn collection(source: Hdf5File<'_>, address: u64) -> Parsed<BTreeMap<u16, &[u8]>
         rest.skip(padding)?;
     }
     Ok(objects)
+}
+
+/// The end of the text without its padding.
+pub(super) fn end_without(raw: &[u8], pad: u8) -> usize {
+    raw.iter().rposition(|&byte| byte != pad).map_or(0, |last| last + 1)
 }

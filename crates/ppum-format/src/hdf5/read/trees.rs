@@ -1,6 +1,7 @@
 //! B-trees: the indexes of links, attributes and chunks.
 
-use super::source::{Cursor, Hdf5File, Parsed, fail};
+use super::error::{Parsed, fail};
+use super::source::{Cursor, Hdf5File};
 
 /// The uses of B-trees of the first version: the links of groups, and chunks.
 pub(super) const GROUPS: u8 = 0;

@@ -2,8 +2,9 @@
 
 use bytemuck::Pod;
 
-use super::source::{Cursor, Parsed, fail};
-use super::texts::{Texts, text};
+use super::error::{Parsed, fail};
+use super::source::Cursor;
+use super::texts::{Texts, end_without, text};
 use crate::content::{ArrayValues, Element as _};
 
 /// An element type.
@@ -181,11 +182,6 @@ impl Padding {
     }
 }
 
-/// The end of the text without its padding.
-pub(super) fn end_without(raw: &[u8], pad: u8) -> usize {
-    raw.iter().rposition(|&byte| byte != pad).map_or(0, |last| last + 1)
-}
-
 /// The shape of an array.
 #[derive(Clone, Debug)]
 pub(super) struct Space {
@@ -226,4 +222,16 @@ pub(super) fn product(shape: &[u64]) -> Option<u64> {
         return Some(0);
     }
     shape.iter().try_fold(1_u64, |product, &n| product.checked_mul(n))
+}
+
+/// The next place in an array of this shape, in row-major order; false after the last one.
+pub(super) fn step(at: &mut [u64], shape: &[u64]) -> bool {
+    for (place, n) in at.iter_mut().zip(shape).rev() {
+        *place += 1;
+        if *place < *n {
+            return true;
+        }
+        *place = 0;
+    }
+    false
 }
