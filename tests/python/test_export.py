@@ -163,6 +163,59 @@ def test_vtk_probes_the_mesh():
         assert data["tips"].shape == (2, 3) and data["stress_intensity_factors"].shape == (2, 2)
 
 
+GROWTH = """
+[growth]
+steps = 2
+increment = 0.05
+"""
+
+
+def arrays_of(grid):
+    """Points, corners of cells, arrays at points and field data, by names."""
+    from vtk.util.numpy_support import vtk_to_numpy
+
+    named = {"points": grid.GetPoints().GetData(), "corners": grid.GetCells().GetConnectivityArray()}
+    for kind, data in [("", grid.GetPointData()), ("field ", grid.GetFieldData())]:
+        named.update({kind + data.GetArrayName(k): data.GetArray(k) for k in range(data.GetNumberOfArrays())})
+    return {name: vtk_to_numpy(array) for name, array in named.items()}
+
+
+def test_vtk_reads_the_steps_of_one_file():
+    """The file of a series has in each step what the file of that step has."""
+    if importlib.util.find_spec("vtkmodules") is None:
+        print("SKIPPED 1 (so far): series in VTK: it is not installed")
+        return
+    import vtk
+
+    with tempfile.TemporaryDirectory(prefix="ppum-") as name:
+        folder = pathlib.Path(name)
+        (folder / "growth.toml").write_text(PROBLEM + GROWTH)
+        run("solve", folder / "growth.toml", "-o", folder / "growth.h5", folder=folder)
+        asked = ["-q", "displacement,stress,sxx/2", "--tolerance", 0.05]
+        run("export", folder / "growth.h5", "-o", folder / "growth.vtkhdf", *asked, folder=folder)
+        series = vtk.vtkHDFReader()
+        series.SetFileName(str(folder / "growth.vtkhdf"))
+        series.UpdateInformation()
+        steps = series.GetNumberOfSteps()
+        sizes = set()
+        for step in range(steps):
+            run("export", folder / "growth.h5", "-o", folder / "step.vtu", "--step", step, *asked, folder=folder)
+            one = vtk.vtkXMLUnstructuredGridReader()
+            one.SetFileName(str(folder / "step.vtu"))
+            one.Update()
+            series.SetStep(step)
+            series.Update()
+            assert series.GetTimeValue() == step
+            alone, together = arrays_of(one.GetOutput()), arrays_of(series.GetOutputDataObject(0))
+            together["sxx/2"] = together.pop("sxx\u22152")
+            together = {name: rows for name, rows in together.items() if name != "field Time"}
+            assert together.keys() == alone.keys(), together.keys() ^ alone.keys()
+            for name, rows in alone.items():
+                assert (together[name] == rows).all(), name
+            sizes.add(len(alone["points"]))
+        assert steps == 3 and len(sizes) > 1
+
+
 if __name__ == "__main__":
     for name, test in list(globals().items()):
         if name.startswith("test_"):

@@ -569,6 +569,36 @@ def test_a_series_that_grows():
     assert status != 0 and "`steps/0149@sha256`" in message, message
 
 
+def test_h5py_reads_long_titles():
+    """A text that no header can hold stands in a heap."""
+    title = "Übung " * 20_000
+    (FOLDER / "long.toml").write_text(LONG.format(title), encoding="utf-8")
+    command = programs.ppum("solve", FOLDER / "long.toml", "-o", FOLDER / "long.h5")
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    with h5py.File(FOLDER / "long.h5") as file:
+        assert text(file.attrs["title"]) == title and is_right(file)
+
+
+LONG = """title = "{}"
+[domain]
+min = [0.0, 0.0]
+max = [1.0, 1.0]
+[equation]
+kind = "poisson"
+[material]
+conductivity = 1.0
+[[boundary]]
+on = "left"
+value = 0.0
+[[boundary]]
+on = "right"
+value = 1.0
+[discretization]
+level = 1
+"""
+
+
 def test_a_newer_major_version_is_refused():
     copy = FOLDER / "newer.h5"
     copy.write_bytes(files()[0].read_bytes())

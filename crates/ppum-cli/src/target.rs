@@ -26,7 +26,10 @@ impl FileKind {
             Self::Dataset => ("datasets are HDF5 files", &["h5", "hdf5"]),
             Self::Picture => ("pictures are PNG, SVG or PDF files", &["png", "svg", "pdf"]),
             Self::Animation => ("moving pictures are GIF or APNG files", &["gif", "apng"]),
-            Self::Mesh => ("meshes are VTU files, or PVD files of series", &["vtu", "pvd"]),
+            Self::Mesh => (
+                "meshes are VTU or VTKHDF files, or PVD files of series",
+                &["vtu", "vtkhdf", "pvd"],
+            ),
             Self::Page => ("pages are HTML files", &["html", "htm"]),
             Self::Table => ("tables are CSV or NPY files", &["csv", "npy"]),
         }

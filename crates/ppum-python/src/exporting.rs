@@ -4,8 +4,9 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
 use ppum::vec2::Vec2;
 use ppum_format::to_bytes;
 use ppum_page::{LARGEST, Start, View, html};
+use ppum_scene::export::vtkhdf::{self, ExportedStep};
 use ppum_scene::export::vtu::{About, write};
-use ppum_scene::export::{Accuracy, Array, ExportError, Mesh, resolve};
+use ppum_scene::export::{Accuracy, Array, ExportError, resolve};
 use ppum_scene::request::Request;
 use ppum_scene::scene::Subject;
 use pyo3::prelude::*;
@@ -23,8 +24,7 @@ const SHAPE: [u32; 2] = [1024, 768];
 /// Triangles on which values are linear.
 #[pyclass(frozen, module = "ppum._core")]
 pub(crate) struct Triangles {
-    mesh: Mesh,
-    about: About,
+    step: ExportedStep,
 }
 
 /// How well an array is resolved.
@@ -41,24 +41,24 @@ pub(crate) struct AccuracyFacts {
 #[pymethods]
 impl Triangles {
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, coordinates(&self.mesh.points), 2)
+        rows(py, coordinates(&self.step.mesh.points), 2)
     }
 
     /// Points where arrays are infinite.
     fn singular<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, coordinates(&self.mesh.singular), 2)
+        rows(py, coordinates(&self.step.mesh.singular), 2)
     }
 
     /// Three numbers of points each.
     fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u32>>> {
-        let corners: Vec<u32> = self.mesh.triangles.iter().flatten().copied().collect();
+        let corners: Vec<u32> = self.step.mesh.triangles.iter().flatten().copied().collect();
         rows(py, corners, 3)
     }
 
     /// The values of an array, a row of components for each point.
     fn values<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let width = self.mesh.arrays[number].array.components.len();
-        rows(py, self.mesh.values_of(number), width)
+        let width = self.step.mesh.arrays[number].array.components.len();
+        rows(py, self.step.mesh.values_of(number), width)
     }
 
     fn accuracy(&self) -> Vec<AccuracyFacts> {
@@ -70,24 +70,30 @@ impl Triangles {
             share: a.share,
             is_singular: a.is_singular,
         };
-        self.mesh.arrays.iter().map(facts).collect()
+        self.step.mesh.arrays.iter().map(facts).collect()
     }
 
     /// The radius about singular points within which the tolerance does not hold.
     fn radius(&self) -> f64 {
-        self.mesh.radius
+        self.step.mesh.radius
     }
 
     /// False if the limit of triangles ended the work.
     fn is_complete(&self) -> bool {
-        self.mesh.is_complete
+        self.step.mesh.is_complete
+    }
+
+    /// The bytes of a `.vtkhdf` file.
+    fn vtkhdf<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = long(py, None, None, |_| vtkhdf::file(std::slice::from_ref(&self.step)))?;
+        Ok(PyBytes::new(py, &bytes.map_err(unwritable)?))
     }
 
     /// The bytes of a `.vtu` file.
     fn vtu<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = long(py, None, None, |_| {
             let mut bytes = Vec::new();
-            write(&mut bytes, &self.mesh, &self.about).map(|()| bytes)
+            write(&mut bytes, &self.step.mesh, &self.step.about).map(|()| bytes)
         })??;
         Ok(PyBytes::new(py, &bytes))
     }
@@ -110,7 +116,8 @@ pub(crate) fn triangles(
     let accuracy = Accuracy { tolerance, radius, cells: most };
     let mesh = long(py, None, progress, |watcher| resolve(field, &arrays, &accuracy, watcher))?;
     let about = About::of(this.owned.dataset(), field, hash);
-    Ok(Triangles { mesh: mesh.map_err(unexported)?, about })
+    let mesh = mesh.map_err(unexported)?;
+    Ok(Triangles { step: ExportedStep { time: field.step.load, mesh, about } })
 }
 
 /// The page of a field, which shows first what is asked for, at a place if one is given.

@@ -53,9 +53,12 @@ def test_files_are_those_of_the_program(ds, program, tmp_path):
     ds.save(tmp_path / "plate.h5")
     mesh = ds.field.triangles(["uy", "displacement"], tolerance=0.01)
     mesh.save(tmp_path / "ours.vtu")
+    mesh.save(tmp_path / "ours.vtkhdf")
     asked = ["-q", "uy,displacement", "--tolerance", "0.01"]
     program("export", tmp_path / "plate.h5", "-o", tmp_path / "its.vtu", *asked)
-    assert (tmp_path / "ours.vtu").read_bytes() == (tmp_path / "its.vtu").read_bytes()
+    program("export", tmp_path / "plate.h5", "-o", tmp_path / "its.vtkhdf", *asked)
+    for form in ("vtu", "vtkhdf"):
+        assert (tmp_path / f"ours.{form}").read_bytes() == (tmp_path / f"its.{form}").read_bytes()
 
 
 def test_what_triangles_cannot_be_is_said(f):
@@ -73,7 +76,7 @@ def test_what_triangles_cannot_be_is_said(f):
     ]:
         with pytest.raises(error, match=words):
             f.triangles(**options)
-    with pytest.raises(ValueError, match="cannot draw 'stl': triangles are vtu$"):
+    with pytest.raises(ValueError, match="cannot draw 'stl': triangles are vtu or vtkhdf$"):
         mesh.save("plate.stl")
     for end, maker in {"vtu": "triangles", "png": "figure", "gif": "animate", "csv": "line", "html": "to_html"}.items():
         with pytest.raises(ValueError, match=rf"end its name in \.h5; .*Field\.{maker}"):

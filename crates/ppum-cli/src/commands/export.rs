@@ -28,14 +28,16 @@ use crate::target;
 ///
 /// A mesh, .vtu, has triangles that resolve the quantities to a tolerance, and points with the
 /// values of both sides on cracks. The file and the command tell the largest difference from the
-/// field, measured at random points. A .pvd file lists one .vtu file for each step of a series.
+/// field, measured at random points. Of a series .vtkhdf has all steps in one file, .pvd lists a
+/// .vtu file for each.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
-    /// File to write: page, .html, or mesh, .vtu, of a series .pvd; - for a page to standard output
+    /// File to write: page, .html, or mesh, .vtu or .vtkhdf, of a series .vtkhdf or .pvd; - for a
+    /// page to standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     /// Quantity or value of cells, see `ppum info`, or a formula of quantities, or @FILE with one
@@ -64,6 +66,7 @@ Examples:
   ppum export growth.h5 -o growth.html --step 0
   ppum solve plate.toml -o - | ppum export - -o plate.html
   ppum export plate.h5 -o plate.vtu --tolerance 1e-4
+  ppum export growth.h5 -o growth.vtkhdf
   ppum export growth.h5 -o growth.pvd -q 'displacement,s1'";
 
 /// The shape of the first view; a window of another shape shows more.

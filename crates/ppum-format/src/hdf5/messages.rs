@@ -63,7 +63,7 @@ fn encoded(messages: &[Message]) -> Result<Vec<u8>, WriteError> {
     let mut bytes = Vec::new();
     for Message { kind, flags, body } in messages {
         let Ok(size) = u16::try_from(body.len()) else {
-            let message = "a text of an attribute has more than 65,000 bytes".to_owned();
+            let message = "an attribute has more than 65,000 bytes".to_owned();
             return Err(WriteError::Hdf5 { message });
         };
         bytes.push(*kind);

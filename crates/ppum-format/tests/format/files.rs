@@ -232,6 +232,20 @@ fn lists_may_be_empty() {
     assert!(same(&from_bytes(to_bytes(&data).unwrap()).unwrap(), &data));
 }
 
+/// Texts that no message of a header can hold, of the root and of steps.
+#[test]
+fn texts_of_any_length_are_stored() {
+    for length in [59_999, 60_000, 60_001, 65_536, 300_001] {
+        let mut data = dataset(1);
+        data.title = "ü".repeat(length / 2) + &"x".repeat(length % 2);
+        for step in &mut data.steps {
+            step.fields[0].unit = data.title.clone();
+        }
+        let back = from_bytes(to_bytes(&data).unwrap()).unwrap();
+        assert!(same(&back, &data), "{length}");
+    }
+}
+
 #[test]
 fn what_has_no_meaning_is_not_written() {
     let mut data = dataset(2);

@@ -333,7 +333,7 @@ class Dataset:
 
 
 _PICTURES = "`Field.figure` draws pictures, `Field.animate` animations"
-_MESHES = "`Field.triangles` makes .vtu files"
+_MESHES = "`Field.triangles` makes .vtu and .vtkhdf files"
 _TABLES = "`Field.line` and others make tables"
 #: Ends of the names of other files, and what makes these.
 _OTHER_FILES = {

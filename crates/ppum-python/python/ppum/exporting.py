@@ -51,7 +51,8 @@ class ArrayAccuracy:
 class Triangles(Drawn):
     """Triangles that resolve a field to a tolerance: between points values are linear. Made by `Field.triangles`.
 
-    No triangle crosses a crack; a point on one is there twice, with the values of both sides. They are saved as ``vtu``.
+    No triangle crosses a crack; a point on one is there twice, with the values of both sides. They are saved as ``vtu``
+    or ``vtkhdf``.
 
     Attributes:
         points: Shape (n, 2).
@@ -70,7 +71,7 @@ class Triangles(Drawn):
         >>> mesh.save("plate.vtu")
     """
 
-    _forms = ("vtu",)
+    _forms = ("vtu", "vtkhdf")
 
     def __init__(self, core: _core.Triangles) -> None:
         super().__init__()
@@ -110,7 +111,7 @@ class Triangles(Drawn):
         return grid
 
     def _draw(self, form: str) -> bytes:
-        return self._core.vtu()
+        return self._core.vtu() if form == "vtu" else self._core.vtkhdf()
 
     def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError("triangles cannot be pickled; pickle the field, or save them")

@@ -1,7 +1,8 @@
 //! A field as triangles for programs that interpolate, such as ParaView, to a tolerance.
 //!
 //! [`resolve`] makes a mesh on which linear interpolation differs from the field by no more than a
-//! given part of the range of each [`Array`]; [`vtu::write`] writes it. No triangle crosses a
+//! given part of the range of each [`Array`]; [`vtu::write`] and
+//! [`vtkhdf::file`] write it. No triangle crosses a
 //! crack, a rim or a line on which stresses jump, and a vertex there has a point on each side
 //! (`torn`). What has been reached is [`MeasuredAccuracy`] at random points that had no part in
 //! refinement.
@@ -15,6 +16,7 @@ mod measure;
 mod refine;
 mod singular;
 mod torn;
+pub mod vtkhdf;
 pub mod vtu;
 
 use ppum::field::Field;
@@ -82,6 +84,13 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// Bytes of memory, nearly.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let points = self.points.len() * (size_of::<Vec2>() + size_of::<Place>());
+        points + size_of_val(&*self.triangles) + size_of_val(&*self.values)
+    }
+
     /// The values of an array by its number: a row of its components for each point, zero where
     /// one has no quantity.
     #[must_use]

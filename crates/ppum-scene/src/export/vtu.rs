@@ -20,7 +20,7 @@ use super::{Mesh, RANDOM_POINTS};
 const BLOCK: usize = 1 << 18;
 
 /// The number of triangles among the kinds of cells of VTK.
-const TRIANGLE: u8 = 5;
+pub(super) const TRIANGLE: u8 = 5;
 
 /// What a file tells beside the mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -133,12 +133,11 @@ fn attributes<Q>(components: &[(&str, Option<Q>)]) -> String {
     text
 }
 
-/// The field data: what the mesh is accurate to, and what else is told.
-fn write_about(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> {
-    let names: Vec<&str> = mesh.arrays.iter().map(|a| a.array.name.as_str()).collect();
+/// What a mesh is accurate to.
+pub(super) fn accuracy(mesh: &Mesh) -> [Numbers; 8] {
     let of = |value: fn(&super::MeasuredAccuracy) -> f64| mesh.arrays.iter().map(value).collect();
     let singular = mesh.singular.iter().flat_map(|p| [p.x, p.y, 0.0]).collect();
-    let accuracy = [
+    [
         Numbers::new("tolerance", 1, vec![mesh.accuracy.tolerance]),
         Numbers::new("range", 1, of(|a| a.range)),
         Numbers::new("allowed_difference", 1, of(|a| a.allowed)),
@@ -147,14 +146,23 @@ fn write_about(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()
         Numbers::new("random_points", 1, vec![RANDOM_POINTS as f64]),
         Numbers::new("singular_radius", 1, vec![mesh.radius]),
         Numbers::new("singular_points", 3, singular),
-    ];
+    ]
+}
+
+/// The texts of the field data, with the names of arrays.
+pub(super) fn texts(mesh: &Mesh, about: &About) -> Vec<(&'static str, String)> {
+    let names: Vec<&str> = mesh.arrays.iter().map(|a| a.array.name.as_str()).collect();
+    about.texts.iter().cloned().chain([("quantities", names.join("\n"))]).collect()
+}
+
+/// The field data: what the mesh is accurate to, and what else is told.
+fn write_about(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> {
     writeln!(out, "<FieldData>")?;
-    let quantities = [("quantities", names.join("\n"))];
-    for (name, text) in about.texts.iter().chain(&quantities) {
+    for (name, text) in texts(mesh, about) {
         let size = format!("NumberOfTuples=\"{}\"", text.len());
         array(out, "UInt8", name, &size, text.as_bytes())?;
     }
-    for Numbers { name, width, values } in accuracy.iter().chain(&about.numbers) {
+    for Numbers { name, width, values } in accuracy(mesh).iter().chain(&about.numbers) {
         let rows = values.len() / width;
         let size = format!("NumberOfComponents=\"{width}\" NumberOfTuples=\"{rows}\"");
         numbers(out, name, &size, values)?;

@@ -16,7 +16,10 @@ const ARROWS: [(&str, &[&str]); 16] = [
     ("ppum-raster", &["ppum"]),
     ("ppum-render", &["ppum", "ppum-raster"]),
     ("ppum-figure", &["ppum", "ppum-render"]),
-    ("ppum-scene", &["ppum", "ppum-figure", "ppum-file", "ppum-render", "ppum-solve"]),
+    (
+        "ppum-scene",
+        &["ppum", "ppum-figure", "ppum-file", "ppum-format", "ppum-render", "ppum-solve"],
+    ),
     ("ppum-page", &["ppum", "ppum-figure", "ppum-format", "ppum-render", "ppum-scene"]),
     ("ppum-gpu", &["ppum", "ppum-render"]),
     (

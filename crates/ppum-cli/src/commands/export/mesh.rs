@@ -1,13 +1,15 @@
-//! Meshes for programs that interpolate: `.vtu`, and `.pvd` for series.
+//! Meshes for programs that interpolate: `.vtu`, and `.vtkhdf` or `.pvd` for series.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
+use anyhow::{anyhow, ensure};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::text::short;
+use ppum_scene::export::vtkhdf::{self, ExportedStep};
 use ppum_scene::export::vtu::{self, About};
 use ppum_scene::export::{
     Accuracy, Array, ExportError, MeasuredAccuracy, Mesh, RANDOM_POINTS, resolve,
@@ -66,12 +68,17 @@ impl Options {
 
 /// True if the name of a file says that it is a mesh.
 pub(super) fn is_meant(path: &Path) -> bool {
-    is_collection(path) || has_extension(path, "vtu")
+    is_collection(path) || has_extension(path, "vtu") || is_vtkhdf(path)
 }
 
 /// True if the name of a file says that it lists the meshes of a series.
 pub(super) fn is_collection(path: &Path) -> bool {
     has_extension(path, "pvd")
+}
+
+/// True if the name of a file says that it holds the meshes of all steps.
+fn is_vtkhdf(path: &Path) -> bool {
+    has_extension(path, "vtkhdf")
 }
 
 fn has_extension(path: &Path, wanted: &str) -> bool {
@@ -89,15 +96,40 @@ pub(super) struct Job<'a> {
 }
 
 impl Options {
-    /// Writes the mesh of a step, by default the last one.
+    /// Writes the mesh of a step, by default the last one; in the form of VTKHDF those of all.
     pub(super) fn write(
         &self,
         job: &Job<'_>,
         step: Option<usize>,
         out: &mut Output,
     ) -> anyhow::Result<()> {
-        let step = step.unwrap_or(job.dataset.steps.len().saturating_sub(1));
-        self.write_step(job, step, job.output, out)
+        let count = job.dataset.steps.len();
+        if is_vtkhdf(job.output) {
+            return self.write_vtkhdf(job, step.map_or(0..count, |step| step..step + 1), out);
+        }
+        self.write_step(job, step.unwrap_or(count.saturating_sub(1)), job.output, out)
+    }
+
+    /// Writes the meshes of some steps to one file.
+    fn write_vtkhdf(
+        &self,
+        job: &Job<'_>,
+        steps: Range<usize>,
+        out: &mut Output,
+    ) -> anyhow::Result<()> {
+        let times = times(job.dataset);
+        let (mut meshes, mut bytes) = (Vec::new(), 0);
+        for step in steps {
+            let (mesh, about) = self.mesh(job, step)?;
+            bytes += mesh.bytes();
+            ensure!(bytes <= vtkhdf::MOST_BYTES, "{} meshes {TOO_LARGE}", meshes.len() + 1);
+            meshes.push(ExportedStep { time: times[step], mesh, about });
+        }
+        let file = vtkhdf::file(&meshes)?;
+        target::save(job.output, |out| out.write_all(&file))?;
+        let (steps, size) = (count(meshes.len(), "step", "steps"), file.len() as f64 / 1e6);
+        writeln!(out, "wrote {}: {steps}, {size:.1} MB", job.output.display())?;
+        meshes.iter().try_for_each(|step| self.tell_mesh(&step.mesh, out))
     }
 
     /// Writes the meshes of all steps and their list; `inputs` are not replaced.
@@ -126,29 +158,40 @@ impl Options {
         file: &Path,
         out: &mut Output,
     ) -> anyhow::Result<()> {
-        let field = field(job.dataset, Some(step))?;
-        let arrays = arrays(&field, job.quantities)?;
-        let accuracy = self.accuracy();
-        let mesh = resolve(&field, &arrays, &accuracy, &Bar::new()).map_err(explained)?;
-        let about = About::of(job.dataset, &field, job.hash.to_owned());
+        let (mesh, about) = self.mesh(job, step)?;
         target::save(file, |out| vtu::write(out, &mesh, &about))?;
         let size = file.metadata().map_or(0, |found| found.len()) as f64 / 1e6;
-        let (triangles, points) = (mesh.triangles.len(), mesh.points.len());
-        let file = file.display();
-        writeln!(out, "wrote {file}: {triangles} triangles, {points} points, {size:.1} MB")?;
+        writeln!(out, "wrote {}: {size:.1} MB", file.display())?;
+        self.tell_mesh(&mesh, out)
+    }
+
+    fn mesh(&self, job: &Job<'_>, step: usize) -> anyhow::Result<(Mesh, About)> {
+        let field = field(job.dataset, Some(step))?;
+        let arrays = arrays(&field, job.quantities)?;
+        let mesh = resolve(&field, &arrays, &self.accuracy(), &Bar::new()).map_err(explained)?;
+        Ok((mesh, About::of(job.dataset, &field, job.hash.to_owned())))
+    }
+
+    /// The size of a mesh, and how well it resolves the field.
+    fn tell_mesh(&self, mesh: &Mesh, out: &mut Output) -> anyhow::Result<()> {
+        writeln!(out, "  {} triangles, {} points", mesh.triangles.len(), mesh.points.len())?;
         for measured in &mesh.arrays {
-            writeln!(out, "  {}", summary(&mesh, measured))?;
+            writeln!(out, "  {}", summary(mesh, measured))?;
         }
         if !mesh.is_complete {
             tell(&format!(
                 "the limit of {} triangles is reached and the tolerance is not: what is measured \
                  is above; raise --max-cells or --tolerance",
-                accuracy.cells
+                mesh.accuracy.cells
             ));
         }
         Ok(())
     }
 }
+
+/// Why the meshes of a series are not written to one file.
+const TOO_LARGE: &str = "take more memory than one file may; raise --tolerance, or end -o in .pvd \
+                         for a file of each step";
 
 /// `growth.pvd` has `growth-0000.vtu` and so on beside it.
 fn file_of(job: &Job<'_>, step: usize) -> PathBuf {
