@@ -163,6 +163,40 @@ def test_vtk_probes_the_mesh():
         assert data["tips"].shape == (2, 3) and data["stress_intensity_factors"].shape == (2, 2)
 
 
+def test_vtk_reads_lines():
+    """The tips with their K, the crack from one to the other, and all of the border."""
+    if importlib.util.find_spec("vtkmodules") is None:
+        print("SKIPPED 1 (so far): lines in VTK: it is not installed")
+        return
+    import h5py
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+
+    with tempfile.TemporaryDirectory(prefix="ppum-") as name:
+        folder = pathlib.Path(name)
+        dataset, _ = exported(folder)
+        run("export", dataset, "-o", folder / "lines.vtp", folder=folder)
+        reader = vtk.vtkXMLPolyDataReader()
+        reader.SetFileName(str(folder / "lines.vtp"))
+        reader.Update()
+        lines = reader.GetOutput()
+        array = lambda name: vtk_to_numpy(lines.GetCellData().GetArray(name))
+        assert (lines.GetNumberOfVerts(), lines.GetNumberOfLines()) == (2, 5)
+        points = vtk_to_numpy(lines.GetPoints().GetData())
+        assert (points[:2, :2] == TIPS).all()
+        ends = points[2:, :2].reshape(-1, 2, 2)
+        lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        is_crack = array("crack")[2:] == 0
+        assert (array("kind")[2:] == is_crack).all() and (array("kind")[:2] == 2).all()
+        assert np.isclose(lengths[is_crack].sum(), np.linalg.norm(TIPS[1] - TIPS[0]))
+        assert np.isclose(lengths[~is_crack].sum(), 8)
+        with h5py.File(dataset) as file:
+            stored = file["steps/0000/intensities"]
+            for name, array_name in [("k1", "K_I"), ("k2", "K_II"), ("t_stress", "T"), ("j", "J"), ("error", "error")]:
+                assert (array(array_name)[:2] == stored[name][()]).all()
+        assert np.isnan(array("K_I")[2:]).all()
+
+
 GROWTH = """
 [growth]
 steps = 2

@@ -15,8 +15,8 @@ pub(crate) enum FileKind {
     /// Of several pictures.
     Animation,
     Table,
-    Page,
-    Mesh,
+    /// A page, a mesh or lines.
+    Export,
 }
 
 impl FileKind {
@@ -26,11 +26,10 @@ impl FileKind {
             Self::Dataset => ("datasets are HDF5 files", &["h5", "hdf5"]),
             Self::Picture => ("pictures are PNG, SVG or PDF files", &["png", "svg", "pdf"]),
             Self::Animation => ("moving pictures are GIF or APNG files", &["gif", "apng"]),
-            Self::Mesh => (
-                "meshes are VTU or VTKHDF files, or PVD files of series",
-                &["vtu", "vtkhdf", "pvd"],
+            Self::Export => (
+                "pages are HTML files, meshes VTU, VTKHDF or PVD files, lines VTP files",
+                &["html", "htm", "vtu", "vtkhdf", "pvd", "vtp"],
             ),
-            Self::Page => ("pages are HTML files", &["html", "htm"]),
             Self::Table => ("tables are CSV or NPY files", &["csv", "npy"]),
         }
     }
@@ -54,8 +53,7 @@ impl FileKind {
         match self {
             Self::Dataset => standard::check_output("a dataset"),
             Self::Picture | Self::Animation => standard::check_output("a picture"),
-            Self::Page => standard::check_output("a page"),
-            Self::Mesh => standard::check_output("a mesh"),
+            Self::Export => standard::check_output("a page"),
             Self::Table => Ok(()),
         }
     }

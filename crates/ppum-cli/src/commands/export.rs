@@ -29,15 +29,16 @@ use crate::target;
 /// A mesh, .vtu, has triangles that resolve the quantities to a tolerance, and points with the
 /// values of both sides on cracks. The file and the command tell the largest difference from the
 /// field, measured at random points. Of a series .vtkhdf has all steps in one file, .pvd lists a
-/// .vtu file for each.
+/// .vtu file for each. A .vtp file has cracks, tips with their K and the border as lines and
+/// points.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
-    /// File to write: page, .html, or mesh, .vtu or .vtkhdf, of a series .vtkhdf or .pvd; - for a
-    /// page to standard output
+    /// File to write: page, .html, or mesh, .vtu or .vtkhdf, of a series .vtkhdf or .pvd; lines,
+    /// .vtp; - for a page to standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     /// Quantity or value of cells, see `ppum info`, or a formula of quantities, or @FILE with one
@@ -77,8 +78,8 @@ impl Args {
         if mesh::is_meant(&self.output) {
             return self.write_mesh(out);
         }
-        self.accuracy.check_none()?;
-        target::check(&self.output, target::FileKind::Page, self.inputs())?;
+        self.accuracy.check_none("a page is")?;
+        target::check(&self.output, target::FileKind::Export, self.inputs())?;
         let bytes = self.bytes(LARGEST)?;
         let dataset = named(&self.file, ppum_format::from_bytes(bytes.clone()))?;
         let start = self.start(&dataset)?;
@@ -93,7 +94,7 @@ impl Args {
     }
 
     fn write_mesh(&self, out: &mut Output) -> anyhow::Result<()> {
-        target::check(&self.output, target::FileKind::Mesh, self.inputs())?;
+        target::check(&self.output, target::FileKind::Export, self.inputs())?;
         self.check_no_look()?;
         let bytes = self.bytes(standard::DATASET)?;
         let hash = mesh::hash(&bytes);

@@ -17,6 +17,7 @@ mod refine;
 mod singular;
 mod torn;
 pub mod vtkhdf;
+pub mod vtp;
 pub mod vtu;
 
 use ppum::field::Field;

@@ -14,6 +14,7 @@ use ppum::weight::WeightFunction;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Recipe, crack, kinked};
 
+use super::vtp::Lines;
 use super::*;
 
 /// Radius about tips, and tolerance.
@@ -244,6 +245,36 @@ fn check(seed: u64) {
     let singular: Vec<bool> = mesh.arrays.iter().map(|array| array.is_singular).collect();
     assert_eq!((singular, mesh.singular.len()), (vec![false, true, true], 3));
     assert!(mesh.values.iter().all(|value| value.is_finite()));
+}
+
+/// The segments of the border are closed curves: each end is an end of two, and each lies on the
+/// border. Those of cracks are as long as the cracks.
+#[test]
+fn lines_bound_the_body() {
+    for seed in 0..20 {
+        let mut dataset = plate(seed);
+        let notch = vec2(dataset.domain.bounds.max.x, 0.7 + 0.01 * seed as f64);
+        dataset.domain.holes.push(Hole::Circle { center: notch, radius: 0.07 });
+        let field = Field::new(&dataset, 0).unwrap();
+        let lines = Lines::of(&field);
+        let mut ends: BTreeMap<[u64; 2], u32> = BTreeMap::new();
+        let mut length = 0.0;
+        for (segment, crack) in &lines.segments {
+            if crack.is_some() {
+                length += (segment[1] - segment[0]).length();
+                continue;
+            }
+            assert!(is_on_outline(&dataset.domain, (segment[0] + segment[1]) / 2.0));
+            for end in segment {
+                *ends.entry([end.x.to_bits(), end.y.to_bits()]).or_default() += 1;
+            }
+        }
+        assert!(ends.values().all(|count| *count == 2), "{seed}: {ends:?}");
+        let of_crack = |c: &Crack| c.points.windows(2).map(|p| (p[1] - p[0]).length()).sum::<f64>();
+        let cracks: f64 = field.step.cracks.iter().map(of_crack).sum();
+        assert!((length - cracks).abs() < 1e-12, "{seed}: {length} {cracks}");
+        assert_eq!(lines.tips.len(), 3, "{seed}");
+    }
 }
 
 #[test]

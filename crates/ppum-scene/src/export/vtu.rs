@@ -79,16 +79,10 @@ impl Numbers {
 /// Those of the writer.
 pub fn write(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> {
     let (points, cells) = (mesh.points.len(), mesh.triangles.len());
-    writeln!(out, "<?xml version=\"1.0\"?>")?;
-    writeln!(
-        out,
-        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
-         header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>"
-    )?;
+    write_head(out, "UnstructuredGrid")?;
     write_about(out, mesh, about)?;
     writeln!(out, "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">")?;
     writeln!(out, "<Points>")?;
-    let flat = |p: Vec2| [p.x, p.y, 0.0];
     let positions: Vec<f64> = mesh.points.iter().copied().flat_map(flat).collect();
     numbers(out, "Points", "NumberOfComponents=\"3\"", &positions)?;
     writeln!(out, "</Points>\n<Cells>")?;
@@ -100,6 +94,21 @@ pub fn write(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> 
     writeln!(out, "</Cells>\n<PointData>")?;
     write_arrays(out, mesh)?;
     writeln!(out, "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
+}
+
+/// Writes the start of a file of some kind, up to the field data.
+pub(super) fn write_head(out: &mut dyn Write, kind: &str) -> io::Result<()> {
+    writeln!(
+        out,
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" \
+         byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+         compressor=\"vtkZLibDataCompressor\">\n<{kind}>"
+    )
+}
+
+/// A point in space.
+pub(super) fn flat(p: Vec2) -> [f64; 3] {
+    [p.x, p.y, 0.0]
 }
 
 /// Writes the list of the files of a series, with their times.
@@ -158,10 +167,7 @@ pub(super) fn texts(mesh: &Mesh, about: &About) -> Vec<(&'static str, String)> {
 /// The field data: what the mesh is accurate to, and what else is told.
 fn write_about(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> {
     writeln!(out, "<FieldData>")?;
-    for (name, text) in texts(mesh, about) {
-        let size = format!("NumberOfTuples=\"{}\"", text.len());
-        array(out, "UInt8", name, &size, text.as_bytes())?;
-    }
+    write_texts(out, &texts(mesh, about))?;
     for Numbers { name, width, values } in accuracy(mesh).iter().chain(&about.numbers) {
         let rows = values.len() / width;
         let size = format!("NumberOfComponents=\"{width}\" NumberOfTuples=\"{rows}\"");
@@ -170,14 +176,33 @@ fn write_about(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()
     writeln!(out, "</FieldData>")
 }
 
-fn numbers(out: &mut dyn Write, name: &str, size: &str, values: &[f64]) -> io::Result<()> {
+/// Writes texts as arrays of bytes.
+pub(super) fn write_texts(out: &mut dyn Write, texts: &[(&str, String)]) -> io::Result<()> {
+    texts.iter().try_for_each(|(name, text)| {
+        let size = format!("NumberOfTuples=\"{}\"", text.len());
+        array(out, "UInt8", name, &size, text.as_bytes())
+    })
+}
+
+pub(super) fn numbers(
+    out: &mut dyn Write,
+    name: &str,
+    size: &str,
+    values: &[f64],
+) -> io::Result<()> {
     let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
     array(out, "Float64", name, size, &bytes)
 }
 
 /// An array: number of blocks, their size, that of the last one if it is smaller, their sizes once
 /// compressed; then the blocks.
-fn array(out: &mut dyn Write, kind: &str, name: &str, size: &str, bytes: &[u8]) -> io::Result<()> {
+pub(super) fn array(
+    out: &mut dyn Write,
+    kind: &str,
+    name: &str,
+    size: &str,
+    bytes: &[u8],
+) -> io::Result<()> {
     let blocks: Vec<Vec<u8>> = bytes.par_chunks(BLOCK).map(zlib).collect();
     let head = [blocks.len(), BLOCK, bytes.len() % BLOCK];
     let head = head.into_iter().chain(blocks.iter().map(Vec::len));

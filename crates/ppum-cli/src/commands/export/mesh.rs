@@ -10,6 +10,7 @@ use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::text::short;
 use ppum_scene::export::vtkhdf::{self, ExportedStep};
+use ppum_scene::export::vtp::{self, Lines};
 use ppum_scene::export::vtu::{self, About};
 use ppum_scene::export::{
     Accuracy, Array, ExportError, MeasuredAccuracy, Mesh, RANDOM_POINTS, resolve,
@@ -41,8 +42,8 @@ pub(crate) struct Options {
 }
 
 impl Options {
-    /// Refuses options that pages do not have.
-    pub(super) fn check_none(&self) -> anyhow::Result<()> {
+    /// Refuses options of meshes, where `what` is written.
+    pub(super) fn check_none(&self, what: &str) -> anyhow::Result<()> {
         let given = [
             ("--tolerance", self.tolerance.is_some()),
             ("--tip-radius", self.tip_radius.is_some()),
@@ -50,7 +51,7 @@ impl Options {
         ];
         match given.into_iter().find(|(_, is_given)| *is_given) {
             Some((option, _)) => {
-                Err(anyhow!("{option} is for meshes; a page is exact, end -o in .vtu for a mesh"))
+                Err(anyhow!("{option} is for meshes; {what} exact, end -o in .vtu for a mesh"))
             }
             None => Ok(()),
         }
@@ -68,7 +69,7 @@ impl Options {
 
 /// True if the name of a file says that it is a mesh.
 pub(super) fn is_meant(path: &Path) -> bool {
-    is_collection(path) || has_extension(path, "vtu") || is_vtkhdf(path)
+    is_collection(path) || ["vtu", "vtkhdf", "vtp"].iter().any(|end| has_extension(path, end))
 }
 
 /// True if the name of a file says that it lists the meshes of a series.
@@ -79,6 +80,11 @@ pub(super) fn is_collection(path: &Path) -> bool {
 /// True if the name of a file says that it holds the meshes of all steps.
 fn is_vtkhdf(path: &Path) -> bool {
     has_extension(path, "vtkhdf")
+}
+
+/// True if the name of a file says that it holds lines and points alone.
+fn is_lines(path: &Path) -> bool {
+    has_extension(path, "vtp")
 }
 
 fn has_extension(path: &Path, wanted: &str) -> bool {
@@ -107,7 +113,12 @@ impl Options {
         if is_vtkhdf(job.output) {
             return self.write_vtkhdf(job, step.map_or(0..count, |step| step..step + 1), out);
         }
-        self.write_step(job, step.unwrap_or(count.saturating_sub(1)), job.output, out)
+        let step = step.unwrap_or(count.saturating_sub(1));
+        if is_lines(job.output) {
+            self.check_none("lines are")?;
+            return write_lines(job, step, out);
+        }
+        self.write_step(job, step, job.output, out)
     }
 
     /// Writes the meshes of some steps to one file.
@@ -140,7 +151,9 @@ impl Options {
         out: &mut Output,
     ) -> anyhow::Result<()> {
         let files: Vec<_> = (0..job.dataset.steps.len()).map(|step| file_of(job, step)).collect();
-        files.iter().try_for_each(|f| target::check(f, target::FileKind::Mesh, inputs.clone()))?;
+        files
+            .iter()
+            .try_for_each(|f| target::check(f, target::FileKind::Export, inputs.clone()))?;
         for (step, file) in files.iter().enumerate() {
             self.write_step(job, step, file, out)?;
         }
@@ -187,6 +200,18 @@ impl Options {
         }
         Ok(())
     }
+}
+
+/// Writes the cracks, the tips and the border of a step.
+fn write_lines(job: &Job<'_>, step: usize, out: &mut Output) -> anyhow::Result<()> {
+    ensure!(job.quantities.is_none(), "--quantity: lines of .vtp have none; end -o in .vtu");
+    let field = field(job.dataset, Some(step))?;
+    let lines = Lines::of(&field);
+    let about = About::of(job.dataset, &field, job.hash.to_owned());
+    target::save(job.output, |out| vtp::write(out, &lines, &about))?;
+    let (tips, segments) = (lines.tips.len(), lines.segments.len());
+    let counts = [count(tips, "tip", "tips"), count(segments, "segment", "segments")].join(", ");
+    Ok(writeln!(out, "wrote {}: {counts}", job.output.display())?)
 }
 
 /// Why the meshes of a series are not written to one file.
