@@ -48,8 +48,8 @@ pub enum StartError {
 }
 
 impl Start {
-    /// What a page shows first of a scene of a field: its cracks are always drawn, and a quantity
-    /// that would be shown anyway is left out, so that other steps show it too.
+    /// What a page shows first of a scene of a field: its cracks are drawn unless they are left
+    /// out, and a quantity that would be shown anyway is left out, so that other steps show it too.
     ///
     /// # Errors
     /// What pages do not have.
@@ -68,7 +68,7 @@ impl Start {
         if scene.deformed.is_some() {
             return Err(StartError::Deformed);
         }
-        if !scene.overlays.shown.contains(&Overlay::Cracks) {
+        if !scene.overlays.no_cracks && !scene.overlays.shown.contains(&Overlay::Cracks) {
             scene.overlays.shown.push(Overlay::Cracks);
         }
         scene.quantity = scene.quantity.filter(|text| text != default_quantity(field));

@@ -49,6 +49,7 @@ def requests(seed, count):
     for number in range(count):
         deformed = maybe("auto", "0.05") if number % 3 else None
         shown = ["cells", "cracks"] if deformed else ["cells", "patches", "rings", "cracks", "supports", "loads"]
+        overlays = chance.sample(shown, chance.randrange(len(shown)))
         tip = chance.choice([(-0.35, -0.35), (0.35, 0.35), (0.0, 0.9)])
         yield {
             "figure": number % 2 == 0,
@@ -65,7 +66,8 @@ def requests(seed, count):
                 "symmetric": chance.random() < 0.3,
             },
             "overlays": {
-                "shown": chance.sample(shown, chance.randrange(len(shown))),
+                "shown": overlays,
+                "no_cracks": "cracks" not in overlays,
                 "isolines": maybe("auto", "5", "1e9,"),
                 "level_labels": chance.random() < 0.5,
                 "arrows": maybe(30.0),

@@ -102,8 +102,8 @@ const SPACING: f64 = 30.0;
 
 impl Overlays {
     /// Draws them over a picture of what is seen. The deformed plate of a figure has its border and
-    /// the faces of its cracks whatever is asked for; with `outline` the border of the undeformed
-    /// one too.
+    /// the faces of its cracks unless they are left out; with `outline` the border of the
+    /// undeformed one too.
     ///
     /// # Errors
     /// Overlays that the field or the deformed plate does not have; too many isolines; a watcher
@@ -172,7 +172,9 @@ impl<'a> Drawing<'a> {
     /// The overlays in their order, each once; a notice says which need cells that there are not.
     fn wanted(&mut self) -> Vec<Overlay> {
         let mut wanted = self.overlays.shown.clone();
-        wanted.extend(self.ground.design.map(|_| Overlay::Cracks));
+        if self.ground.design.is_some() && !self.overlays.no_cracks {
+            wanted.push(Overlay::Cracks);
+        }
         wanted.sort_unstable();
         wanted.dedup();
         if !cells::exist(self.ground.field) {

@@ -19,12 +19,15 @@ pub const SPACING: f64 = 36.0;
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default)]
 pub struct Overlays {
-    /// Overlays, in any number and order; a figure always shows the cracks
+    /// Overlays, in any number and order; a figure shows the cracks without being asked
     #[cfg_attr(
         feature = "clap",
         arg(long = "overlay", value_enum, value_name = "NAME,…", value_delimiter = ',')
     )]
     pub shown: Vec<Overlay>,
+    /// Leave the cracks out of a figure or a page
+    #[cfg_attr(feature = "clap", arg(long))]
+    pub no_cracks: bool,
     /// Isolines of the quantity: at round levels (auto), at about so many, or at these values
     #[cfg_attr(
         feature = "clap",

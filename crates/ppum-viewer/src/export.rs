@@ -16,6 +16,7 @@ use ppum_scene::look::Look;
 use ppum_scene::minus::Side;
 use ppum_scene::moving::{AnimationFormat as Animation, Film, Frames, InMemory, Moving, Work};
 use ppum_scene::notice::Notice;
+use ppum_scene::overlays::Overlay;
 use ppum_scene::place::Place;
 use ppum_scene::request::Request;
 use ppum_scene::scene::Scene;
@@ -227,8 +228,16 @@ impl Order {
         FieldSource { dataset: self.field.dataset(), field: self.field.field(), left }
     }
 
+    /// What is drawn; a page shows the cracks where the window does.
+    fn request(&self) -> Request {
+        let mut scene = self.scene.clone();
+        let is_page = self.kind != ExportKind::Picture;
+        scene.overlays.no_cracks = is_page && !scene.overlays.shown.contains(&Overlay::Cracks);
+        Request::from(scene)
+    }
+
     fn still(&self, path: &Path, engine: &Engine<'_>) -> Result<Vec<u8>, String> {
-        let (source, request) = (self.source(), Request::from(self.scene.clone()));
+        let (source, request) = (self.source(), self.request());
         let design = self.design(&request)?;
         let view = self.shaped(design.as_ref())?;
         let made = page(source, &request, &view, design.as_ref(), engine);
@@ -257,7 +266,7 @@ impl Order {
         engine: &Engine<'_>,
         done: &AtomicUsize,
     ) -> Result<Vec<u8>, String> {
-        let (source, request) = (self.source(), Request::from(self.scene.clone()));
+        let (source, request) = (self.source(), self.request());
         let frames = InMemory::new(source.dataset, &request, moving).map_err(|e| e.to_string())?;
         let frames = CountedFrames { frames, done };
         let design = self.design(&request)?;
@@ -287,7 +296,7 @@ impl Order {
         if self.left.is_some() {
             return Err(NO_COMMAND.into());
         }
-        let (source, mut request) = (self.source(), Request::from(self.scene.clone()));
+        let (source, mut request) = (self.source(), self.request());
         let design = self.design(&request)?;
         let mut view = self.shaped(design.as_ref())?;
         request.look.size = Some(view.pixels);

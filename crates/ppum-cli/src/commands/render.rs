@@ -319,6 +319,7 @@ mod tests {
         let isolines = maybe(random, |r| levels[r.below(3)].clone());
         Overlays {
             shown: (0..random.below(4)).map(|_| random.pick(&Overlay::ALL)).collect(),
+            no_cracks: is(random),
             level_labels: isolines.is_some() && is(random),
             isolines,
             arrows: maybe(random, |r| r.between(20.0, 50.0)),

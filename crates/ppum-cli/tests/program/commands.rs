@@ -49,6 +49,7 @@ fn overlays(random: &mut Random, is_deformed: bool) -> Overlays {
         [Levels::Auto, Levels::Count(5), Levels::At(vec![0.75]), Levels::At(vec![0.5, 1.5])];
     Overlays {
         shown: (0..random.below(4)).map(|_| random.pick(&all)).collect(),
+        no_cracks: random.below(2) == 0,
         isolines: maybe(random, |r| levels[r.below(levels.len())].clone()),
         level_labels: random.below(2) == 0,
         arrows: maybe(random, |r| r.between(20.0, 50.0)),

@@ -67,6 +67,7 @@ class SceneOptions(ColorOptions, total=False):
     nan_color: Annotated[Any, Option(None, more="or a colour of matplotlib")]
     contrast: Annotated[bool, Option(False)]
     overlays: Annotated[Overlay | Sequence[Overlay], Option(())]
+    no_cracks: Annotated[bool, Option(False)]
     isolines: Annotated[Literal["auto"] | float | Sequence[float] | None, Option(None)]
     level_labels: Annotated[bool, Option(False)]
     arrows: Annotated[float | None, Option(None)]
@@ -239,6 +240,7 @@ def scene(asked: str | Sequence[str] | None, options: ColorOptions, found: str |
             },
             "overlays": {
                 "shown": [overlays] if isinstance(overlays, str) else list(overlays),
+                "no_cracks": bool(o.get("no_cracks", False)),
                 "isolines": None if isolines is None else _levels(isolines),
                 "level_labels": bool(o.get("level_labels", False)),
                 "arrows": o.get("arrows"),

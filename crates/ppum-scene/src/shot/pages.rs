@@ -130,6 +130,7 @@ mod tests {
             let field = Field::new(&dataset, 0).unwrap();
             let overlays = Overlays {
                 shown: vec![Overlay::Patches, Overlay::Points, Overlay::Centers, Overlay::Rings],
+                no_cracks: false,
                 isolines: Some(Levels::Count(4)),
                 level_labels: true,
                 arrows: Some(SPACING),

@@ -90,6 +90,30 @@ fn a_picture_has_the_pixels_that_are_seen() {
     assert!(all > 10_000 && f64::from(same) > 0.97 * f64::from(all), "{same} of {all}");
 }
 
+/// A figure has lines of cracks where the window shows them, and its command draws the same.
+#[test]
+fn a_figure_has_cracks_where_they_are_seen() {
+    let strokes = |is_shown: bool| {
+        let mut lab = asked("Figure");
+        if !is_shown {
+            lab.state().session.panes[0].scene.overlays.shown.clear();
+            lab.settle();
+        }
+        let path = lab.path("cracks.svg");
+        named(&mut lab, &path);
+        lab.window.run_steps(3);
+        let says_so = |node: egui_kittest::Node<'_>| {
+            node.value().is_some_and(|text| text.contains("--no-cracks"))
+        };
+        let command = lab.window.query_all_by_role(egui::accesskit::Role::MultilineTextInput);
+        assert_eq!(command.into_iter().any(says_so), !is_shown);
+        assert!(saved(&mut lab));
+        std::fs::read_to_string(&path).expect("there").matches("<path").count()
+    };
+    let [with, without] = [true, false].map(strokes);
+    assert!(with > without, "{with} and {without}");
+}
+
 #[test]
 fn figures_and_animations_are_what_their_names_say() {
     for (kind, name, magic) in [

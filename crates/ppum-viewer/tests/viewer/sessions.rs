@@ -65,6 +65,7 @@ fn pane(random: &mut Random) -> Pane {
     scene.colors.contrast = random.below(2) == 1;
     scene.colors.bands = some(random, |r| r.below(65_536) as u16);
     scene.overlays.shown = Overlay::ALL.into_iter().filter(|_| random.below(2) == 1).collect();
+    scene.overlays.no_cracks = random.below(2) == 1;
     scene.overlays.isolines = some(random, |r| match r.below(3) {
         0 => Levels::Auto,
         1 => Levels::Count(1 + r.below(50)),
