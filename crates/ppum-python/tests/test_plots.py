@@ -15,9 +15,18 @@ def test_points_are_values(ds, f):
     assert label == "uy" and np.allclose(points[:, 0], along, rtol=1e-14)
     expected = f.at(-0.9 + 1.8 * along / along[-1], 1.3 + 0.2 * along / along[-1]).uy
     assert np.allclose(points[:, 1], expected, rtol=1e-11)
-    for (label, points), name in zip(ppum.plots.crack(f, ds.cracks[0]).curves, ("opening", "sliding"), strict=True):
-        table = f.along(0)
-        assert label == name and np.allclose(points[:, 1], table[name], rtol=1e-11, atol=1e-14)
+    first, last = (np.array(ds.cracks[0].points[k]) for k in (0, -1))
+    along = (last - first) / np.linalg.norm(last - first)
+    across = np.array([-along[1], along[0]])
+    curves = ppum.plots.crack(f, ds.cracks[0]).curves
+    for (label, points), name, way in zip(curves, ("opening", "sliding"), (across, along), strict=True):
+        places = first + points[:, :1] * along
+        above, below = (f.at(*places.T, side=side) for side in ("above", "below"))
+        jump = np.column_stack([above.ux - below.ux, above.uy - below.uy]) @ way
+        assert label == name and np.allclose(points[:, 1], jump, rtol=1e-9, atol=1e-12)
+        # they crowd at the tips
+        steps = np.diff(points[:, 0])
+        assert steps[0] < 0.1 * steps.max() and steps[-1] < 0.1 * steps.max()
     angles = ppum.plots.around(f, 1, 0.01, ["sxx", "syy"], num=73).curves
     assert [label for label, _ in angles] == ["sxx", "syy"]
     assert np.allclose(angles[1][1][:, 1], f.around(1, 0.01, num=73, quantities=["syy"]).syy, rtol=1e-11)

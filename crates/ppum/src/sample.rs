@@ -16,7 +16,8 @@
 //!
 //! # fn sampled(dataset: &Dataset) -> Result<(), Box<dyn std::error::Error>> {
 //! let field = Field::new(dataset, 0)?;
-//! let places = sample::line(&field.step.cracks, vec2(-1.0, 0.1), vec2(1.0, 0.1), 201);
+//! let ends = [vec2(-1.0, 0.1), vec2(1.0, 0.1)];
+//! let places = sample::line(&field.step.cracks, ends, &sample::evenly(201));
 //! let quantities = [Quantity::parse("uy", &field)?, Quantity::parse("von-mises", &field)?];
 //! let rows = sample::evaluate(&field, &quantities, &places, unwatched())?;
 //! for (place, row) in places.iter().zip(rows.chunks(quantities.len())) {
@@ -95,20 +96,50 @@ pub fn points(cracks: &[Crack], points: &[Vec2]) -> Vec<Place> {
     sided(&Segments::new(cracks), points).flatten().collect()
 }
 
-/// Places at `count` points at equal distances from a to b, both included exactly; the middle if
-/// there is one alone. On both sides where one lies on a crack.
+/// The parts of a curve at which `count` points lie at equal distances: from 0 to 1, both included;
+/// the middle if there is one alone.
 #[must_use]
-pub fn line(cracks: &[Crack], a: Vec2, b: Vec2, count: usize) -> Vec<Place> {
-    let all: Vec<Vec2> = (0..count).map(|k| between(a, b, k, count)).collect();
+pub fn evenly(count: usize) -> Vec<f64> {
+    let part = |k: usize| if count == 1 { 0.5 } else { k as f64 / (count - 1) as f64 };
+    (0..count).map(part).collect()
+}
+
+/// The parts of a curve at which `count` points lie that crowd at some parts of it, given in
+/// ascending order: at a distance d from such a part they lie some √d apart, as the graph of a
+/// square root needs them.
+#[must_use]
+pub fn crowded(count: usize, at: &[f64]) -> Vec<f64> {
+    let part = |even: f64| {
+        let next = at.partition_point(|&at| at <= even);
+        let (before, after) = (next.checked_sub(1).map(|k| at[k]), at.get(next).copied());
+        let (from, to) = (before.unwrap_or(0.0), after.unwrap_or(1.0));
+        let t = if from < to { (even - from) / (to - from) } else { 0.0 };
+        let one = |t: f64| 0.5 * t * t * (3.0 - t);
+        from + (to - from)
+            * match (before, after) {
+                (None, None) => t,
+                (Some(_), None) => one(t),
+                (None, Some(_)) => 1.0 - one(1.0 - t),
+                (Some(_), Some(_)) => t * t * (3.0 - 2.0 * t),
+            }
+    };
+    evenly(count).into_iter().map(part).collect()
+}
+
+/// Places at parts of the line from a to b, see [`evenly`]; both are met exactly. On both sides
+/// where one lies on a crack.
+#[must_use]
+pub fn line(cracks: &[Crack], ends: [Vec2; 2], parts: &[f64]) -> Vec<Place> {
+    let all: Vec<Vec2> = parts.iter().map(|&part| between(ends, part)).collect();
     points(cracks, &all)
 }
 
 /// The same from `anchor + a` to `anchor + b`: near the anchor no digit of them is lost, and points
 /// mean what they say.
 #[must_use]
-pub fn line_from(cracks: &[Crack], anchor: Vec2, a: Vec2, b: Vec2, count: usize) -> Vec<Place> {
+pub fn line_from(cracks: &[Crack], anchor: Vec2, ends: [Vec2; 2], parts: &[f64]) -> Vec<Place> {
     let segments = Segments::new(cracks);
-    let offsets = (0..count).map(|k| between(a, b, k, count));
+    let offsets = parts.iter().map(|&part| between(ends, part));
     offsets.flat_map(|offset| Place::sides(&segments, anchor, offset)).collect()
 }
 
@@ -117,13 +148,14 @@ pub fn line_from(cracks: &[Crack], anchor: Vec2, a: Vec2, b: Vec2, count: usize)
 #[must_use]
 pub fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<Place> {
     let (Rect { min, max }, segments) = (window, Segments::new(cracks));
-    let row = |j: u32| {
-        let y = between(min, max, j as usize, ny as usize).y;
-        let x = |i: u32| between(min, max, i as usize, nx as usize).x;
-        let points: Vec<Vec2> = (0..nx).map(|i| vec2(x(i), y)).collect();
+    let [columns, rows] = [nx, ny].map(|count| evenly(count as usize));
+    let row = |part: f64| {
+        let y = between([min, max], part).y;
+        let x = |&part: &f64| between([min, max], part).x;
+        let points: Vec<Vec2> = columns.iter().map(|part| vec2(x(part), y)).collect();
         sided(&segments, &points).map(|places| places[0]).collect::<Vec<_>>()
     };
-    (0..ny).flat_map(row).collect()
+    rows.into_iter().flat_map(row).collect()
 }
 
 /// Places on a circle at `count` equal steps of the angle from −π to π about the x axis, both
@@ -131,12 +163,11 @@ pub fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<Place> {
 #[must_use]
 pub fn circle(cracks: &[Crack], center: Vec2, radius: f64, count: usize) -> Vec<(f64, Place)> {
     let segments = Segments::new(cracks);
-    let at = |k: usize| {
-        let angle = angle(k, count);
+    let at = |angle: f64| {
         let places = Place::sides(&segments, center, direction(vec2(1.0, 0.0), angle) * radius);
         places.into_iter().map(move |place| (angle, place))
     };
-    (0..count).flat_map(at).collect()
+    angles(count).flat_map(at).collect()
 }
 
 /// Places on a circle around a tip with their angles θ in the tip's frame, `count` equal steps from
@@ -150,7 +181,7 @@ pub fn around(
     count: usize,
 ) -> Option<Vec<(f64, Place)>> {
     let frame = TipFrame::new(cracks, tip)?;
-    Some((0..count).map(|k| angle(k, count)).map(|t| (t, frame.place(radius, t))).collect())
+    Some(angles(count).map(|t| (t, frame.place(radius, t))).collect())
 }
 
 /// Places on the ray from a tip at an angle θ in the tip's frame, with their distances r from
@@ -169,9 +200,9 @@ pub fn ray(
     Some((0..count).map(distance).map(|r| (r, frame.place(r, angle))).collect())
 }
 
-/// Angle k of `count` from −π to π, both included.
-fn angle(k: usize, count: usize) -> f64 {
-    between(vec2(-PI, 0.0), vec2(PI, 0.0), k, count).x
+/// Angles at `count` equal steps from −π to π, both included.
+fn angles(count: usize) -> impl Iterator<Item = f64> {
+    evenly(count).into_iter().map(|part| between([vec2(-PI, 0.0), vec2(PI, 0.0)], part).x)
 }
 
 /// The unit vector at an angle from another one, exactly opposite to it at ±π.
@@ -243,17 +274,12 @@ fn places(segments: &Segments<'_>, anchor: Vec2, point: Vec2) -> Vec<Place> {
     places
 }
 
-/// Point k of `count` from a to b, both included exactly; the middle if there is one alone.
-fn between(a: Vec2, b: Vec2, k: usize, count: usize) -> Vec2 {
-    match (k, count) {
-        (_, 1) => (a + b) * 0.5,
-        (0, _) => a,
-        (k, n) if k + 1 == n => b,
-        (k, n) => a + (b - a) * (k as f64 / (n - 1) as f64),
-    }
+/// The point at a part of the way from a to b, both exactly at 0 and 1.
+fn between([a, b]: [Vec2; 2], part: f64) -> Vec2 {
+    if part == 1.0 { b } else { a + (b - a) * part }
 }
 
-/// Points at equal distances along a crack, to be seen from both of its sides.
+/// Points along a crack, to be seen from both of its sides.
 ///
 /// Each is seen from the nearer end of its segment, so that what is near a tip keeps its digits.
 #[derive(Clone, Debug)]
@@ -272,20 +298,18 @@ pub struct Station {
 }
 
 impl Stations {
-    /// `count` points at equal distances along the crack of this index, its ends included; the last
-    /// one if there is one alone. None if there is no such crack.
+    /// The points at parts of the length of the crack of this index, see [`evenly`]. None if there
+    /// is no such crack.
     #[must_use]
-    pub fn along(cracks: &[Crack], index: u32, count: usize) -> Option<Self> {
+    pub fn along(cracks: &[Crack], index: u32, parts: &[f64]) -> Option<Self> {
         let crack = cracks.get(index as usize)?;
         let mut starts = vec![0.0];
         for p in crack.points.windows(2) {
             starts.push(starts[starts.len() - 1] + (p[1] - p[0]).length());
         }
         let total = starts[starts.len() - 1];
-        let s = |k: usize| {
-            if k + 1 == count { total } else { total * (k as f64 / (count - 1) as f64) }
-        };
-        Some(Self((0..count).map(|k| Station::new(crack, index, &starts, s(k))).collect()))
+        let at = |part: &f64| Station::new(crack, index, &starts, total * part);
+        Some(Self(parts.iter().map(at).collect()))
     }
 
     /// The points, from the crack's start.
@@ -345,10 +369,10 @@ mod tests {
     fn ends_are_exact() {
         let (a, b) = (vec2(0.1, 0.2), vec2(0.7, -0.3));
         for n in [2, 3, 7, 1000] {
-            assert_eq!((between(a, b, 0, n), between(a, b, n - 1, n)), (a, b));
+            assert_eq!([evenly(n)[0], evenly(n)[n - 1]].map(|at| between([a, b], at)), [a, b]);
         }
-        assert_eq!(between(a, b, 0, 1), (a + b) * 0.5);
-        let places = line(&[], a, b, 7);
+        assert_eq!(evenly(1), [0.5]);
+        let places = line(&[], [a, b], &evenly(7));
         assert_eq!((places[0].point, places[6].point), (a, b));
         let bounds = Rect::new(vec2(-1.1, 0.1), vec2(0.7, 1.3));
         let corners = grid(&[], bounds, [7, 9]);
@@ -380,7 +404,7 @@ mod tests {
             let listed: Vec<_> = (0..97).map(|n| on(0.1 * f64::from(n), radius)).collect();
             assert!(settled(&plate, super::points(&[], &listed)).iter().all(|&v| v));
             let plate = Domain { bounds, holes: vec![cornered] };
-            let along = |a: Vec2, b: Vec2| line(&[], a, b, 53);
+            let along = |a: Vec2, b: Vec2| line(&[], [a, b], &evenly(53));
             for n in 0..5 {
                 let [a, b] = [points[n], points[(n + 1) % 5]];
                 assert!(settled(&plate, along(a, b)).iter().all(|&v| v), "{k} {n}");

@@ -10,16 +10,16 @@ use ppum::vec2::Vec2;
 use super::{Profile, ProfileError, evaluate};
 use crate::table::{Column, Table};
 
-/// One row for each of `count` points at equal distances along the crack, its ends included.
+/// One row for each of the points at parts of the crack's length.
 pub(super) fn table(
     field: &Field<'_>,
     quantities: &[(String, Quantity)],
     index: usize,
-    count: usize,
+    parts: &[f64],
     watcher: &dyn Watcher,
 ) -> Result<Profile, ProfileError> {
     let cracks = &field.step.cracks;
-    let stations = u32::try_from(index).ok().and_then(|k| Stations::along(cracks, k, count));
+    let stations = u32::try_from(index).ok().and_then(|k| Stations::along(cracks, k, parts));
     let stations = stations.ok_or(ProfileError::Crack { index, count: cracks.len() })?;
     let components = (0..).map(Quantity::Component).take(field.data.components.len());
     let asked = quantities.iter().map(|(_, quantity)| quantity.clone());

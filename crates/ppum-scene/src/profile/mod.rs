@@ -7,7 +7,7 @@ mod variable;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use ppum::crack::{TipId, tips};
+use ppum::crack::{CrackEnd, TipId, tips};
 use ppum::field::Field;
 use ppum::progress::{Cancelled, Phase, Progress, Watcher};
 use ppum::quantity::Quantity;
@@ -169,13 +169,15 @@ impl Along {
     ) -> Result<Profile, ProfileError> {
         check(count)?;
         if let Self::Crack { index } = self {
-            return faces::table(field, quantities, *index, count, watcher);
+            return faces::table(field, quantities, *index, &sample::evenly(count), watcher);
         }
-        self.listed(field, quantities, self.places(field, count)?, watcher)
+        let places = self.places(field, &sample::evenly(count))?;
+        self.listed(field, quantities, places, watcher)
     }
 
-    /// The table of a curve that is drawn: a line or a circle has both sides of the cracks that it
-    /// passes through, first that from which it comes; at its ends that alone which it runs on.
+    /// The table of a curve that is drawn: points of lines and cracks crowd at tips, and a line or
+    /// a circle has both sides of the cracks that it passes through, first that from which it
+    /// comes; at its ends that alone which it runs on.
     ///
     /// # Errors
     /// See [`ProfileError`].
@@ -188,10 +190,14 @@ impl Along {
     ) -> Result<Profile, ProfileError> {
         check(count)?;
         let is_circle = matches!(self, Self::Circle { .. });
+        let parts = sample::crowded(count, &self.parts_at_tips(field, count));
+        if let Self::Crack { index } = self {
+            return faces::table(field, quantities, *index, &parts, watcher);
+        }
+        let mut places = self.places(field, &parts)?;
         let Some(passages) = self.passages(field) else {
-            return self.table(field, quantities, count, watcher);
+            return self.listed(field, quantities, places, watcher);
         };
-        let mut places = self.places(field, count)?;
         let [Some((start, _)), Some((end, _))] =
             [places.first(), places.last()].map(|p| p.copied())
         else {
@@ -216,6 +222,32 @@ impl Along {
             }
         }
         self.listed(field, quantities, places, watcher)
+    }
+
+    /// The parts of a crack's or a line's length at which there are tips; a line has those that are
+    /// nearer than its points are to each other.
+    fn parts_at_tips(&self, field: &Field<'_>, count: usize) -> Vec<f64> {
+        let cracks = &field.step.cracks;
+        let mut parts: Vec<f64> = match *self {
+            Self::Crack { index } => {
+                let ends = cracks.get(index).map(|crack| [0.0, 1.0].into_iter().zip(crack.ends));
+                let is_tip = |(_, end): &(f64, CrackEnd)| *end == CrackEnd::Tip;
+                ends.into_iter().flatten().filter(is_tip).map(|(part, _)| part).collect()
+            }
+            Self::Line { anchor, from, to } => {
+                let [anchor, from, to] = [anchor, from, to].map(Vec2::from);
+                let (way, near) = (to - from, (to - from).length() / count as f64);
+                let part = |tip: TipId| {
+                    let way_to = cracks[tip.crack as usize].end_point(tip.end) - anchor - from;
+                    let part = (way_to.dot(way) / way.dot(way)).clamp(0.0, 1.0);
+                    ((way_to - way * part).length() < near).then_some(part)
+                };
+                tips(cracks).filter_map(part).collect()
+            }
+            _ => Vec::new(),
+        };
+        parts.sort_by(f64::total_cmp);
+        parts
     }
 
     /// Where a line or a circle passes through cracks; nothing of other curves.
@@ -247,14 +279,14 @@ impl Along {
     }
 
     /// The places of a line, a circle or a tip with the variable.
-    fn places(&self, field: &Field<'_>, count: usize) -> Result<Vec<(f64, Place)>, ProfileError> {
-        let cracks = &field.step.cracks;
+    fn places(&self, field: &Field<'_>, parts: &[f64]) -> Result<Vec<(f64, Place)>, ProfileError> {
+        let (cracks, count) = (&field.step.cracks, parts.len());
         let positive = |radius: f64| match radius > 0.0 && radius.is_finite() {
             true => Ok(radius),
             false => Err(ProfileError::Radius),
         };
         let places = match *self {
-            Self::Line { anchor, from, to } => line(field, [anchor, from, to], count)?,
+            Self::Line { anchor, from, to } => line(field, [anchor, from, to], parts)?,
             Self::Circle { center, radius } => {
                 in_degrees(sample::circle(cracks, center.into(), positive(radius)?, count))
             }
@@ -304,17 +336,17 @@ fn in_degrees(places: Vec<(f64, Place)>) -> Vec<(f64, Place)> {
 fn line(
     field: &Field<'_>,
     ends: [[f64; 2]; 3],
-    count: usize,
+    parts: &[f64],
 ) -> Result<Vec<(f64, Place)>, ProfileError> {
     let ([anchor, a, b], cracks) = (ends.map(Vec2::from), &field.step.cracks);
     if a == b {
         return Err(ProfileError::Point);
     }
     if anchor == Vec2::ZERO {
-        let places = sample::line(cracks, a, b, count).into_iter();
+        let places = sample::line(cracks, [a, b], parts).into_iter();
         return Ok(places.map(|place| ((place.point - a).length(), place)).collect());
     }
-    let places = sample::line_from(cracks, anchor, a, b, count).into_iter();
+    let places = sample::line_from(cracks, anchor, [a, b], parts).into_iter();
     Ok(places.map(|place| ((place.offset - a).length(), place)).collect())
 }
 

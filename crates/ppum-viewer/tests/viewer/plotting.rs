@@ -88,7 +88,8 @@ fn a_line_has_the_values_that_the_program_samples() {
     let values = found.as_ref().as_ref().expect("values");
     let field = Field::new(&dataset, 0).expect("a field");
     let uy = Quantity::parse("uy", &field).expect("a quantity");
-    let places = ppum::sample::line(&field.step.cracks, v(0.1, -0.5), v(0.1, 0.5), 201);
+    let parts = ppum::sample::evenly(201);
+    let places = ppum::sample::line(&field.step.cracks, [v(0.1, -0.5), v(0.1, 0.5)], &parts);
     let expected = ppum::sample::evaluate(&field, &[uy], &places, unwatched()).expect("values");
     assert_eq!(values.table.column("uy"), Some(expected));
     let csv = values.table.csv();
