@@ -12,7 +12,7 @@ use super::discretization::{Enrichment, MAX_LEVEL, MOST_TERMS};
 use super::enrichment::Site;
 use super::growth::{Criterion, LoadControl};
 use super::solver::SolverKind;
-use super::words::{EquationKind, words};
+use super::words::{EquationKind, Words as _, words};
 use EquationKind::{Elasticity, Poisson};
 use Kind::{
     Array, Components, Constant, Either, Flag, List, Number, Table, Tables, Text, Value, Whole,
@@ -254,7 +254,8 @@ fn exact() -> Vec<&'static str> {
 }
 
 /// What may stand at a byte of a problem file: headings after a bracket, words after the sign of
-/// equality, else keys of the table whose heading is the last before it. For editors.
+/// equality, else keys of the table whose heading is the last before it; those of the text's
+/// equation alone. For editors.
 #[must_use]
 pub fn completions(text: &str, at: usize) -> Vec<String> {
     let before = text.get(..at).unwrap_or_default();
@@ -268,9 +269,11 @@ pub fn completions(text: &str, at: usize) -> Vec<String> {
         None => Some(&ROOT),
         Some(path) => path.split('.').try_fold(&ROOT, |table, name| table.row(name)?.kind.table()),
     };
-    let rows = table.map_or(&[][..], |table| table.keys).iter();
+    let equation = equation_of(text);
+    let fits = |row: &&KeyRow| row.fits(Some(equation));
+    let rows = table.map_or(&[][..], |table| table.keys).iter().filter(fits);
     if line.starts_with('[') {
-        let tables = ROOT.keys.iter().filter_map(|row| row.kind.table());
+        let tables = ROOT.keys.iter().filter(fits).filter_map(|row| row.kind.table());
         return tables.map(|table| table.name.to_owned()).collect();
     }
     if let Some((key, _)) = line.split_once('=') {
@@ -279,6 +282,16 @@ pub fn completions(text: &str, at: usize) -> Vec<String> {
     }
     let is_key = line.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     rows.filter(|_| is_key).map(|row| row.name.to_owned()).collect()
+}
+
+/// The equation of a text that may be half written: the kind in its table `[equation]`.
+fn equation_of(text: &str) -> EquationKind {
+    let own = text.split_once("[equation]").map_or("", |(_, rest)| rest);
+    let lines = own.lines().take_while(|line| !line.trim_start().starts_with('['));
+    let values = lines.filter_map(|line| line.split_once('='));
+    let kind = values.into_iter().find(|(key, _)| key.trim() == "kind");
+    let names = |(word, _): &&(&str, EquationKind)| kind.is_some_and(|(_, v)| v.contains(word));
+    EquationKind::WORDS.iter().find(names).map_or(Elasticity, |(_, kind)| *kind)
 }
 
 /// Tables by their names, each with an example if it is written inline, and a row for each key:

@@ -276,4 +276,16 @@ fn keys_are_completed_where_they_stand() {
     assert_eq!(at("[domain]\nmin = ["), Vec::<String>::new());
     assert_eq!(at("[nobody]\n"), Vec::<String>::new());
     assert_eq!(at("# "), Vec::<String>::new());
+    // each equation has its own
+    let poisson = "[equation]\nkind = \"poisson\"\n";
+    for (text, is_poisson) in
+        [("", false), ("[equation]\nkind = \"elasticity\"\n", false), (poisson, true)]
+    {
+        let tables = at(&format!("{text}["));
+        let has = |table: &str| tables.contains(&table.to_owned());
+        assert_eq!((has("[source]"), has("[body_force]")), (is_poisson, !is_poisson), "{text}");
+        let keys = at(&format!("{text}[material]\n"));
+        let has = |key: &str| keys.contains(&key.to_owned());
+        assert_eq!((has("conductivity"), has("young")), (is_poisson, !is_poisson), "{text}");
+    }
 }
