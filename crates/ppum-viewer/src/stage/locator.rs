@@ -12,8 +12,8 @@ use crate::shapes::{self, Placed};
 
 /// The larger side of the map, in points of the window.
 const SIDE: f32 = 110.0;
-/// The map is shown in views narrower than this part of the plate.
-const PART: f64 = 0.4;
+/// The map is shown where the plate is enlarged more than this.
+const ENLARGED: f64 = 2.5;
 
 /// What the map shows of a plate: its holes and cracks, drawn once.
 pub struct Locator {
@@ -32,19 +32,21 @@ impl Locator {
         Some(Self { map, items })
     }
 
-    /// The width from the left of the stage that the map takes; none where it is not shown.
+    /// The width from the left of the stage that the map takes in a view that is `times` larger
+    /// than the whole plate; none where it is not shown.
     #[must_use]
-    pub fn width(&self, rect: Rect, view: &View) -> f32 {
+    pub fn width(&self, rect: Rect, times: f64) -> f32 {
         let width = self.map.pixels[0] as f32;
-        let is_shown = view.width <= PART * self.map.width && rect.width() >= 3.0 * width;
+        let is_shown = times >= ENLARGED && rect.width() >= 3.0 * width;
         if is_shown { width + 24.0 } else { 0.0 }
     }
 
     /// Shows the map in the upper left corner of the stage, if the view is a small part of the
-    /// plate; tells the point of the plate that was clicked.
-    pub fn show(&self, ui: &Ui, rect: Rect, view: &View) -> Option<Vec2> {
+    /// plate, with how many `times` larger it is than the whole; the point of the plate that was
+    /// clicked.
+    pub fn show(&self, ui: &Ui, rect: Rect, view: &View, times: f64) -> Option<Vec2> {
         let [width, height] = self.map.pixels.map(|n| n as f32);
-        if self.width(rect, view) == 0.0 {
+        if self.width(rect, times) == 0.0 {
             return None;
         }
         let corner = rect.min + vec2(14.0, 14.0);
@@ -54,13 +56,16 @@ impl Locator {
         painter.rect_filled(whole, 0.0, Color32::from_gray(230));
         shapes::draw(&painter.with_clip_rect(whole), Placed::new(corner, 1.0), &self.items);
         self.mark(&painter, whole, view);
-        let zoom = format!("×{}", magnification(self.map.width / view.width));
+        let zoom = format!("×{}", magnification(times));
+        let name = format!("Map of the plate, {zoom}");
         let font = egui::FontId::proportional(12.0);
         let galley = painter.layout_no_wrap(zoom, font, Color32::WHITE);
         let below = Rect::from_min_size(whole.left_bottom() + vec2(0.0, 6.0), galley.size());
         painter.rect_filled(below.expand2(vec2(4.0, 1.0)), 4.0, Color32::from_black_alpha(150));
         painter.galley(below.min, galley, Color32::WHITE);
-        self.clicked(&ui.interact(whole, ui.scope_id().with("locator"), Sense::click()), whole)
+        let response = ui.interact(whole, ui.scope_id().with("locator"), Sense::click());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+        self.clicked(&response, whole)
     }
 
     /// Marks the view: a box, with lines towards it where it is too small to be seen.
@@ -83,7 +88,6 @@ impl Locator {
     }
 
     fn clicked(&self, response: &Response, whole: Rect) -> Option<Vec2> {
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Locator"));
         let at = response.interact_pointer_pos().filter(|_| response.clicked())?;
         let pixel = at - whole.min;
         Some(self.map.center + self.map.offset_at(ppum::vec2::vec2(pixel.x.into(), pixel.y.into())))

@@ -208,9 +208,11 @@ impl Stage {
             bar::of_difference(ui, rect, (pane, compare.is_some()), frame);
         }
         fallback::show(ui, rect, &self.frames);
-        self.furnish(ui, rect, pane, &view);
+        let fit = crate::plate::view(None, whole, pixels, self.taken);
+        let times = fit.map_or(1.0, |fit| fit.width / view.width);
+        self.furnish(ui, rect, pane, &view, times);
         let map = self.locator.as_ref().and_then(|(_, locator)| locator.as_ref());
-        let taken = map.map_or(0.0, |map| map.width(rect, &view));
+        let taken = map.map_or(0.0, |map| map.width(rect, times));
         let caption = self.caption.as_deref();
         difference::show(ui, (rect, taken), (&self.pair, caption), &self.frames);
         let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
@@ -354,7 +356,7 @@ impl Stage {
     }
 
     /// The map, the scale bar, and a word where it goes no deeper.
-    fn furnish(&mut self, ui: &Ui, rect: Rect, pane: &mut Pane, view: &View) {
+    fn furnish(&mut self, ui: &Ui, rect: Rect, pane: &mut Pane, view: &View, times: f64) {
         scale_bar::show(ui, rect, view);
         if self.is_at_the_end {
             end_of_doubles(ui, rect);
@@ -365,7 +367,7 @@ impl Stage {
             self.locator = Some((Arc::clone(&frame.field), locator));
         }
         let Some((_, Some(locator))) = &self.locator else { return };
-        if let Some(point) = locator.show(ui, rect, view) {
+        if let Some(point) = locator.show(ui, rect, view, times) {
             self.fly_to(pane, Some(VisibleRegion { center: point.into(), width: view.width }));
         }
     }
