@@ -25,6 +25,8 @@ use crate::stage::Stage;
 impl Viewer {
     /// Does what was asked for.
     pub fn act(&mut self, ctx: &egui::Context, action: Action) {
+        // whatever opens next has the keyboard
+        self.palette = None;
         let is_done = self.travel(action)
             || self.choose(ctx, action)
             || self.read(ctx, action)

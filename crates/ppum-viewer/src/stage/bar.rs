@@ -388,13 +388,11 @@ impl<'a> Standing<'a> {
             egui::Frame::popup(ui.style()).inner_margin(4.0).show(ui, |ui| field(ui, &mut edited))
         });
         let mut is_done = is_done.inner.inner;
-        if is_done == Done::Entered {
-            match self.entered(&edited, colors) {
-                Ok(()) => {}
-                Err(mistake) => {
-                    (edited.mistake, edited.is_new, is_done) = (Some(mistake), true, Done::No);
-                }
-            }
+        if matches!(is_done, Done::Entered | Done::Finished)
+            && let Err(mistake) = self.entered(&edited, colors)
+            && is_done == Done::Entered
+        {
+            (edited.mistake, edited.is_new, is_done) = (Some(mistake), true, Done::No);
         }
         if is_done == Done::No {
             grip.edited = Some(edited);
@@ -415,6 +413,7 @@ impl<'a> Standing<'a> {
 enum Done {
     No,
     Entered,
+    Finished,
     Left,
 }
 
@@ -433,7 +432,8 @@ fn field(ui: &mut Ui, edited: &mut Edited) -> Done {
     match (edit.lost_focus(), enter, escape) {
         (_, _, true) => Done::Left,
         (true, true, _) => Done::Entered,
-        (true, false, _) => Done::Left,
+        // a number that is written counts, as in other fields; one that is none is given up
+        (true, false, _) => Done::Finished,
         _ => Done::No,
     }
 }

@@ -8,7 +8,7 @@ use egui_kittest::kittest::Queryable as _;
 use ppum::vec2::{Vec2, vec2 as v};
 use ppum_render::view::View;
 use ppum_scene::overlays::Overlay;
-use ppum_viewer::session::DrawerPage;
+use ppum_viewer::session::{DrawerPage, VisibleRegion};
 
 use crate::kit::{at, plate};
 use crate::lab::{Lab, shot};
@@ -82,6 +82,37 @@ fn the_finder_knows_what_people_say_and_offers_what_can_be_done() {
     find(&mut lab, "steps");
     assert!(lab.window.query_all_by_label_contains("Save an animation").next().is_none());
     assert!(lab.window.query_by_label("Nothing of this name can be done now.").is_some());
+}
+
+/// What opens next has the keyboard, and the finder is gone.
+#[test]
+fn the_finder_makes_place_for_what_opens() {
+    let mut lab = lab();
+    find(&mut lab, "open");
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    lab.window.run_steps(3);
+    // the button of this name alone
+    assert_eq!(lab.window.query_all_by_label("Find an action").count(), 1);
+    let field = lab.window.query_all_by_role(Role::TextInput).find(|node| node.is_focused());
+    field.expect("the name of the file").type_text("pla");
+    lab.window.run_steps(3);
+    let named = |node: egui_kittest::Node<'_>| node.value().is_some_and(|v| v.ends_with("/pla"));
+    assert!(lab.window.query_all_by_role(Role::TextInput).any(named));
+}
+
+/// The map says how many times larger the view is than the whole plate.
+#[test]
+fn the_map_says_what_the_wheel_does() {
+    let mut lab = lab();
+    let whole = lab.viewer().stages[0].view.expect("a view");
+    for (times, is_shown) in [(2.0, false), (30.0, true)] {
+        let width = whole.width / times;
+        let place = VisibleRegion { center: [0.0, 0.0], width };
+        lab.state().session.panes[0].place = Some(place);
+        lab.settle();
+        let name = format!("Map of the plate, ×{times}");
+        assert_eq!(lab.window.query_by_label(&name).is_some(), is_shown, "{times}");
+    }
 }
 
 /// One who enlarges a point of a crack stays on the crack, and at a tip stays at the tip.

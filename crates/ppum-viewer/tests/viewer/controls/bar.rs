@@ -72,12 +72,7 @@ fn a_click_on_an_end_edits_its_number() {
     let [min, _] = bounds(&window);
     let body = window.get_by_label("Range of the colours").rect();
     let top = body.center_top() + vec2(0.0, 2.0);
-    window.hover_at(top);
-    window.step();
-    window.drag_at(top);
-    window.step();
-    window.drop_at(top);
-    window.run_steps(3);
+    press(&mut window, top);
     write(&mut window, "Upper end of the colours as a number", "-9");
     window.key_press(Key::Enter);
     settle(&mut window);
@@ -87,6 +82,25 @@ fn a_click_on_an_end_edits_its_number() {
     settle(&mut window);
     assert_eq!(scene(&window).colors.range, Range::Fixed(min, 1.25));
     assert!(window.query_by_label("Upper end of the colours as a number").is_none());
+    // a click elsewhere takes what is written, unless it is no end
+    for (text, max) in [("1.5", 1.5), ("-9", 1.5), ("much", 1.5), ("2", 2.0)] {
+        press(&mut window, top);
+        write(&mut window, "Upper end of the colours as a number", text);
+        let elsewhere = window.get_by_label("Plate").rect().left_center() + vec2(80.0, 0.0);
+        press(&mut window, elsewhere);
+        settle(&mut window);
+        assert_eq!(scene(&window).colors.range, Range::Fixed(min, max), "{text}");
+        assert!(window.query_by_label("Upper end of the colours as a number").is_none());
+    }
+}
+
+fn press(window: &mut Window, at: egui::Pos2) {
+    window.hover_at(at);
+    window.step();
+    window.drag_at(at);
+    window.step();
+    window.drop_at(at);
+    window.run_steps(3);
 }
 
 #[test]
