@@ -11,6 +11,7 @@ use super::read::has_extension;
 use super::session_file;
 use crate::job::Job;
 use crate::replacing::{self, Replacing};
+use crate::widgets::note_folder;
 
 /// What a file is chosen for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +59,8 @@ impl Purpose {
 #[derive(Debug)]
 pub struct Dialog {
     purpose: Purpose,
+    /// The folder of names without one.
+    folder: PathBuf,
     text: String,
     chosen: Option<usize>,
     listed: Option<(PathBuf, Vec<FolderEntry>)>,
@@ -83,7 +86,9 @@ impl Dialog {
         }
         let (listed, listing, system, error) = (None, None, None, None);
         let replacing = Replacing::default();
-        Self { purpose, text, chosen: None, listed, listing, system, error, replacing }
+        let folder = if start.is_dir() { Some(start) } else { start.parent() };
+        let folder = folder.unwrap_or(Path::new("")).to_owned();
+        Self { purpose, folder, text, chosen: None, listed, listing, system, error, replacing }
     }
 
     /// What the file is chosen for.
@@ -121,6 +126,9 @@ impl Dialog {
         if edit.changed() {
             (self.chosen, self.error) = (None, None);
             self.replacing.forget();
+        }
+        if !self.purpose.is_open() && !self.text.trim().is_empty() {
+            note_folder(ui, &self.path());
         }
         // what is written now decides, not what stood there before
         let fitting = self.fitting();
@@ -186,7 +194,7 @@ impl Dialog {
 
     /// Goes into a folder, or completes a name; a file that was meant is done with.
     fn take(&mut self, ui: &Ui, (name, is_folder): FolderEntry, is_meant: bool) -> Option<PathBuf> {
-        let path = folder(&self.text).join(&name);
+        let path = self.shown_folder().join(&name);
         self.text = path.display().to_string();
         self.chosen = None;
         if is_folder {
@@ -197,7 +205,7 @@ impl Dialog {
     }
 
     fn path(&self) -> PathBuf {
-        let path = home(self.text.trim());
+        let path = self.folder.join(home(self.text.trim()));
         let has_end = path.extension().is_some() || self.purpose.is_open();
         match self.purpose.extensions().first() {
             Some(end) if !has_end => path.with_extension(end),
@@ -228,7 +236,7 @@ impl Dialog {
         let name =
             Path::new(&self.text).file_name().filter(|_| !self.text.ends_with(MAIN_SEPARATOR));
         let name = name.and_then(|name| name.to_str()).unwrap_or_default().to_lowercase();
-        let here = folder(&self.text);
+        let here = self.shown_folder();
         let Some((_, entries)) = self.listed.as_ref().filter(|(listed, _)| *listed == here) else {
             return Vec::new();
         };
@@ -240,6 +248,17 @@ impl Dialog {
         entries.iter().filter(is_fit).take(MOST).cloned().collect()
     }
 
+    /// The folder that the text leads to.
+    fn shown_folder(&self) -> PathBuf {
+        let path = home(&self.text);
+        let folder = match self.text.ends_with(['/', MAIN_SEPARATOR]) {
+            true => Some(&*path),
+            false => path.parent(),
+        };
+        let folder = self.folder.join(folder.unwrap_or(Path::new("")));
+        if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder }
+    }
+
     /// Takes what was listed and chosen, and lists the folder of the text.
     fn poll(&mut self, ui: &Ui) {
         if let Some((folder, job)) = &self.listing
@@ -248,7 +267,7 @@ impl Dialog {
             self.listed = Some((folder.clone(), entries.unwrap_or_default()));
             self.listing = None;
         }
-        let here = folder(&self.text);
+        let here = self.shown_folder();
         if self.listing.is_none() && self.listed.as_ref().is_none_or(|(listed, _)| *listed != here)
         {
             let folder = here.clone();
@@ -269,23 +288,13 @@ impl Dialog {
             return;
         }
         let (title, is_open) = (self.purpose.title(), self.purpose.is_open());
-        let (ends, folder) = (self.purpose.extensions(), folder(&self.text));
+        let (ends, folder) = (self.purpose.extensions(), self.shown_folder());
         self.system = Some(Job::start(ui.ctx(), move |_| {
             let dialog = rfd::FileDialog::new().set_title(title).set_directory(folder);
             let dialog = dialog.add_filter(ends.join(", "), ends);
             if is_open { dialog.pick_file() } else { dialog.save_file() }
         }));
     }
-}
-
-/// The folder that a text leads to.
-fn folder(text: &str) -> PathBuf {
-    let path = home(text);
-    let folder = match text.ends_with(['/', MAIN_SEPARATOR]) {
-        true => path,
-        false => path.parent().map(Path::to_owned).unwrap_or_default(),
-    };
-    if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder }
 }
 
 /// `~` is the folder of the person, as shells have it.

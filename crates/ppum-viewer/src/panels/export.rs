@@ -16,6 +16,7 @@ use crate::job::Job;
 use crate::replacing::{ASK, Replacing};
 use crate::session::Pane;
 use crate::stage::Stage;
+use crate::widgets::note_folder;
 
 /// What is to be written, while one chooses it and while it is made.
 pub struct Exporter {
@@ -100,9 +101,10 @@ impl Exporter {
 
     fn choose(&mut self, ui: &mut Ui, pane: &Pane, stage: &mut Stage, frame: &Arc<Frame>) {
         let grid = Grid::new("save").num_columns(2);
-        let is_entered = grid.show(ui, |ui| self.fields(ui, frame)).inner;
+        let file = stage.opened.as_ref().and_then(|opened| opened.path.as_deref());
+        let is_entered = grid.show(ui, |ui| self.fields(ui, frame, file)).inner;
         let order = self.order(pane, stage, frame);
-        let path = PathBuf::from(self.path.trim());
+        let path = self.path(order.file.as_deref());
         let refused = self.refused(&path, order.file.as_deref());
         ui.horizontal(|ui| {
             let is_ready = refused.is_none() && self.job.is_none();
@@ -140,7 +142,7 @@ impl Exporter {
     }
 
     /// The fields; true if Enter has finished the name.
-    fn fields(&mut self, ui: &mut Ui, frame: &Frame) -> bool {
+    fn fields(&mut self, ui: &mut Ui, frame: &Frame, file: Option<&Path>) -> bool {
         let before = self.what;
         ui.label("Kind");
         ComboBox::from_id_salt("kind").selected_text(self.what.name()).show_ui(ui, |ui| {
@@ -166,12 +168,20 @@ impl Exporter {
         let label = ui.label("File");
         let width = (ui.ctx().content_rect().width() - 180.0).clamp(120.0, 340.0);
         let name = ui.add(TextEdit::singleline(&mut self.path).desired_width(width));
-        let name = name.labelled_by(label.id);
+        let name = name.labelled_by(label.id).on_hover_text(&self.path);
         if std::mem::take(&mut self.is_new) {
             name.request_focus();
         }
         let is_entered = name.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         ui.end_row();
+        if !self.path.trim().is_empty() {
+            ui.label("");
+            ui.scope(|ui| {
+                ui.set_max_width(width);
+                note_folder(ui, &self.path(file));
+            });
+            ui.end_row();
+        }
         size(ui, &mut self.page, self.what == ExportChoice::Figure);
         if matches!(self.what, ExportChoice::Steps | ExportChoice::Deformation) {
             ui.label("Images a second");
@@ -239,6 +249,13 @@ impl Exporter {
                 ),
             },
         }
+    }
+
+    /// The file: beside the dataset where its name has no folder.
+    fn path(&self, dataset: Option<&Path>) -> PathBuf {
+        let name = Path::new(self.path.trim());
+        let folder = dataset.and_then(Path::parent).filter(|_| name.file_name().is_some());
+        folder.map_or_else(|| name.to_owned(), |folder| folder.join(name))
     }
 
     /// The reason why the file cannot be written under its name, if there is one.

@@ -45,6 +45,15 @@ impl Output {
         self.told.as_ref().filter(|_| self.told_of == self.proposal)
     }
 
+    /// The file without its end.
+    #[must_use]
+    pub fn file(&self) -> PathBuf {
+        match self.path.trim() {
+            "" => self.proposal.clone(),
+            name => self.proposal.with_file_name(name),
+        }
+    }
+
     /// Writes bytes to the file of the name with an end of its own, in one step, and tells it;
     /// never over an input, over another file if that is asked for twice.
     pub fn save(&mut self, end: &str, bytes: &[u8], inputs: &[&Path]) {
@@ -60,10 +69,7 @@ impl Output {
         bytes: &[u8],
         inputs: &[&Path],
     ) -> Result<PathBuf, OutputError> {
-        let name = match self.path.trim() {
-            "" => self.proposal.clone(),
-            name => self.proposal.with_file_name(name),
-        };
+        let name = self.file();
         let has_end = name.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
         let mut path = name.into_os_string();
         if !has_end {

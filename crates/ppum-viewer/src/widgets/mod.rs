@@ -5,6 +5,8 @@ pub mod chooser;
 pub mod editor;
 pub mod entry;
 
+use std::path::Path;
+
 use egui::text::LayoutJob;
 use egui::{Color32, FontId, Label, RichText, Stroke, Ui, Visuals, vec2};
 
@@ -89,6 +91,14 @@ pub(crate) fn note_of(ui: &mut Ui, text: &str, lines: usize) {
             label.on_hover_text(text);
         }
     });
+}
+
+/// Says in which folder a file of some name goes; all of the name on hover.
+pub(crate) fn note_folder(ui: &mut Ui, path: &Path) {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let folder = path.parent().unwrap_or(&path).display().to_string();
+    let text = note(ui, format!("in {folder}"));
+    ui.add(Label::new(text).truncate()).on_hover_text(path.display().to_string());
 }
 
 /// Size of notes \[points\].

@@ -14,10 +14,10 @@ use crate::reading::tool::Tool;
 use crate::session::Pane;
 use crate::shapes::{self, Placed};
 use crate::stage::Stage;
-use crate::widgets::button;
 use crate::widgets::chart::darkened;
 use crate::widgets::entry::entry;
 use crate::widgets::wrong;
+use crate::widgets::{button, note_folder};
 
 /// Shows the page.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
@@ -259,7 +259,7 @@ fn write(ui: &mut Ui, stage: &mut Stage, what: &str, files: &Files<'_>) {
         Some(Err(reason)) => {
             ui.colored_label(ui.visuals().error_fg_color, reason);
         }
-        None => {}
+        None => note_folder(ui, &output.file()),
     }
 }
 
