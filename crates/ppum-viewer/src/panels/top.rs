@@ -74,8 +74,13 @@ fn replaced(ui: &mut Ui, desk: &mut Desk<'_>) {
 /// Shows the progress of a running solution on every page; a click opens the page *Problem*.
 fn solving(ui: &mut Ui, desk: &mut Desk<'_>) {
     let Some(running) = desk.solving.running() else { return };
-    let bar =
-        ProgressBar::new(running.progress_report().part()).desired_width(110.0).text("solving");
+    let told = running.progress_report();
+    let step = told.progress.map_or(0, |progress| progress.step);
+    let text = match told.steps {
+        Some(last) => format!("step {step} of {last}"),
+        None => "solving".into(),
+    };
+    let bar = ProgressBar::new(told.part).desired_width(130.0).text(text);
     let response = ui.add(bar).interact(Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "A solution runs"));
     if response.on_hover_text("Show the problem, and cancel there").clicked() {

@@ -4,7 +4,7 @@ pub mod marks;
 pub mod preview;
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use ppum::dataset::Dataset;
@@ -105,6 +105,8 @@ pub struct SolutionProgress {
     pub estimate: Option<String>,
     /// The number of the last step of a series.
     pub steps: Option<usize>,
+    /// The part of the whole that is done.
+    pub part: f32,
 }
 
 /// A dataset, and why it has no more steps than it has, if it should have.
@@ -140,6 +142,11 @@ pub const PHASES: [Phase; 6] = [
     Phase::Intensity,
     Phase::Estimation,
 ];
+
+/// The number of a phase among all.
+pub(crate) fn phase_number(phase: Phase) -> usize {
+    PHASES.iter().position(|known| *known == phase).unwrap_or(0)
+}
 
 impl Solving {
     /// Nothing is written yet.
@@ -327,10 +334,16 @@ impl Running {
 }
 
 impl SolutionProgress {
-    /// The part of the present phase that is done.
-    #[must_use]
-    pub fn part(&self) -> f32 {
-        self.progress.map_or(0.0, |p| p.done as f32 / p.total.max(1) as f32)
+    /// Notes progress. Every step counts alike, and every phase of a step; work that is done once
+    /// more, as for an estimate before the solution, counts once.
+    fn note(&mut self, progress: Progress) {
+        let done = progress.done as f32 / progress.total.max(1) as f32;
+        let in_step = (phase_number(progress.phase) as f32 + done) / PHASES.len() as f32;
+        let part = match self.steps {
+            Some(last) => (progress.step as f32 + in_step) / (last + 1) as f32,
+            None => in_step,
+        };
+        (self.progress, self.part) = (Some(progress), self.part.max(part));
     }
 }
 
@@ -342,21 +355,20 @@ struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    fn tell(&self, estimate: String, steps: Option<usize>) {
-        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
-        (told.estimate, told.steps) = (Some(estimate), steps);
+    fn told(&self) -> MutexGuard<'_, SolutionProgress> {
+        self.told.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl Watcher for Follower<'_> {
     fn hear(&self, progress: Progress) -> Verdict {
-        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut told = self.told();
         // as many pictures as eyes can follow
         let hundredth = |p: Progress| (p.step, p.phase, 100 * p.done / p.total.max(1));
         if told.progress.map(hundredth) != Some(hundredth(progress)) {
             self.ctx.request_repaint();
         }
-        told.progress = Some(progress);
+        told.note(progress);
         Verdict::go_on_unless(self.stop.is_set())
     }
 }
@@ -375,9 +387,9 @@ fn solve(
     follower: &Follower<'_>,
 ) -> Result<SolvedDataset, Stopped> {
     let problem = parse(text, source).map_err(|error| Stopped::Failed(summary(&error)))?;
+    follower.told().steps = problem.growth.as_ref().map(|rule| rule.steps);
     let plan = Plan::new(&problem, memory, follower)?;
-    let steps = problem.growth.as_ref().map(|rule| rule.steps);
-    follower.tell(plan.estimate().to_string(), steps);
+    follower.told().estimate = Some(plan.estimate().to_string());
     holds(plan.dataset())?;
     if problem.growth.is_some() {
         return grown(&problem, memory, follower);

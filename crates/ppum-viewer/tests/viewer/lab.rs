@@ -87,7 +87,7 @@ impl Lab {
     }
 
     /// Shows pictures until something is so.
-    pub(crate) fn until(&mut self, what: &str, is_so: impl Fn(&Viewer) -> bool) {
+    pub(crate) fn until(&mut self, what: &str, mut is_so: impl FnMut(&Viewer) -> bool) {
         show_until(&mut self.window, what, |window| is_so(window.state()));
     }
 

@@ -162,11 +162,17 @@ fn a_series_is_stopped() {
     // minutes of work
     let mut lab = lab(&growing(1e-5, 8000));
     lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    let mut part = 0.0;
     lab.until("its third step is solved", |viewer| {
-        let progress =
-            viewer.solving.running().and_then(|running| running.progress_report().progress);
-        progress.is_some_and(|progress| progress.step >= 3)
+        let Some(running) = viewer.solving.running() else { return false };
+        let told = running.progress_report();
+        // that of the whole: it never goes back, and a step is an 8001st of it
+        assert!(told.part >= part, "{} after {part}", told.part);
+        part = told.part;
+        told.progress.is_some_and(|progress| progress.step >= 3)
     });
+    assert!((3.0 / 8001.0..0.01).contains(&part), "{part}");
+    assert!(lab.window.query_all_by_label_contains(" of 8000, ").next().is_some());
     lab.window.get_by_label("Cancel").click();
     lab.window.step();
     lab.settle();

@@ -16,7 +16,7 @@ use crate::session::ProblemDraft;
 use crate::shapes;
 use crate::solving::marks::HighlightStyle;
 use crate::solving::preview::Preview;
-use crate::solving::{Mark, PHASES, Running, SolutionOutcome, Solving};
+use crate::solving::{Mark, PHASES, Running, SolutionOutcome, Solving, phase_number};
 use crate::widgets::button;
 
 /// Longest text that is written in a window: every picture lays all of it out.
@@ -289,14 +289,14 @@ fn progress(ui: &mut Ui, running: &Running) {
         ui.weak(estimate);
     }
     let phase = told.progress.map(|progress| progress.phase);
-    let at = phase.and_then(|phase| PHASES.iter().position(|known| *known == phase)).unwrap_or(0);
+    let at = phase.map_or(0, phase_number);
     let name = phase.map_or("beginning", ppum::progress::Phase::name);
     let name = if running.is_cancelled() { "stopping" } else { name };
     let step = told.steps.zip(told.progress);
     let step = step.map_or(String::new(), |(n, at)| format!("step {} of {n}, ", at.step));
     let phase = format!("{} of {}: {name}", at + 1, PHASES.len());
     let text = format!("{step}{phase}, {:.0} s", running.seconds());
-    let bar = ui.add(ProgressBar::new(told.part()).desired_height(8.0));
+    let bar = ui.add(ProgressBar::new(told.part).desired_height(8.0));
     ui.label(&text);
     bar.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, &text));
     ui.ctx().request_repaint_after(std::time::Duration::from_millis(500));
