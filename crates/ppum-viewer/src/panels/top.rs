@@ -1,37 +1,23 @@
 //! The bar at the top of the window.
 
-use egui::{ProgressBar, RichText, Sense, Ui};
+use egui::{Label, ProgressBar, RichText, Sense, Ui};
 
 use super::player;
 use crate::actions::Action;
 use crate::desk::Desk;
 use crate::session::DrawerPage;
-use crate::widgets::{button, elided};
-
-/// Most characters of a title that are shown; the width of what stands beside it, and of a
-/// character \[points\].
-const MOST: usize = 60;
-const BESIDE: f32 = 600.0;
-const LETTER: f32 = 8.0;
+use crate::widgets::button;
 
 /// A text on one line.
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Shows the title and buttons for the most frequent actions.
+/// Shows buttons for the most frequent actions, and the title in the room that they leave: it ends
+/// in … where it has none, and is told on hover then.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     ui.horizontal_wrapped(|ui| {
         super::files::menu(ui, desk);
-        let (_, stage) = desk.active();
-        let title = stage.opened.as_ref().map_or("ppum", |opened| &opened.dataset.title);
-        let title = one_line(title);
-        let room = ((ui.ctx().content_rect().width() - BESIDE) / LETTER) as usize;
-        let most = room.clamp(12, MOST);
-        let response = ui.strong(elided(&title, most));
-        if title.chars().count() > most {
-            response.on_hover_text(title);
-        }
         for (sign, name, action) in [
             ("⌂", "Show the whole plate", Action::Fit),
             ("↶", "Undo", Action::Undo),
@@ -50,6 +36,9 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         }
         replaced(ui, desk);
         solving(ui, desk);
+        let opened = desk.active().1.opened.as_ref();
+        let title = one_line(opened.map_or("ppum", |opened| &opened.dataset.title));
+        ui.add(Label::new(RichText::new(title).strong()).truncate());
     });
     player::show(ui, desk);
 }

@@ -44,9 +44,6 @@ impl Stage {
             let is_selected = self.reading.selected == Some(k);
             probe(&painter, sight, spot, &(k + 1).to_string(), is_selected);
         }
-        if let Some((_, spot)) = &self.reading.clicked {
-            probe(&painter, sight, spot, "", false);
-        }
         if let Some(at) = self.reading.marked.and_then(|spot| sight.position(&spot)) {
             painter.circle(at, 5.0, INK, Stroke::new(1.5, Color32::WHITE));
         }
@@ -77,7 +74,9 @@ fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {
     let width = (within.width() - 24.0).min(420.0);
     let font = egui::TextStyle::Body.resolve(ui.style());
     let color = ui.visuals().strong_text_color();
-    let galley = ui.painter().layout(text.to_owned(), font, color, width);
+    // a number stays beside its name
+    let joined = text.replace(" = ", "\u{a0}=\u{a0}");
+    let galley = ui.painter().layout(joined, font, color, width);
     let size = galley.size() + vec2(12.0, 8.0);
     let room = (within.size() - size).max(egui::Vec2::ZERO);
     let corner = at - vec2(0.5 * size.x, size.y + 8.0) - within.min;
@@ -88,7 +87,8 @@ fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {
     let builder = egui::UiBuilder::new().max_rect(rect.shrink2(vec2(6.0, 4.0)));
     let mut child = ui.new_child(builder);
     child.set_clip_rect(within);
-    child.add(egui::Label::new(galley).selectable(false));
+    let label = child.add(egui::Label::new(galley).selectable(false));
+    label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
 }
 
 /// The supports of the patches, the more strongly the more they count.

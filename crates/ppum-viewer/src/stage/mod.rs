@@ -41,7 +41,6 @@ use crate::reading::owner::Owner;
 use crate::reading::question::Question;
 use crate::session::{Pane, VisibleRegion};
 use crate::undo::{Rest, Undo};
-use crate::widgets::elided;
 use against::Against;
 use difference::Pair;
 use flight::Flight;
@@ -120,9 +119,6 @@ impl Moved {
         deformed::bounds(field, self.factor.number(&[field])?, self.outline)
     }
 }
-
-/// Letters of a name above one of two views.
-const LONGEST: usize = 40;
 
 /// Part of the picture that the keys move it by.
 const PAN: f64 = 0.125;
@@ -319,8 +315,7 @@ impl Stage {
         let known = self.controls.known.field();
         let usual = || known.map(|field| default_quantity(field.field()).to_owned());
         let quantity = pane.scene.quantity.clone().or_else(usual);
-        let quantity = quantity.map(|text| elided(&text, LONGEST));
-        let name = Some(elided(&name, LONGEST)).filter(|name| !name.is_empty());
+        let name = Some(name).filter(|name| !name.is_empty());
         Some([name, step, quantity].into_iter().flatten().collect::<Vec<_>>().join(" · "))
     }
 
