@@ -169,7 +169,10 @@ impl Viewer {
                     false => stage.tell("No circle for K: this step has no crack tip"),
                 }
             }
-            Action::Draw(tool) => stage.reading.tool = Some(tool),
+            Action::Draw(tool) => {
+                let tool = Some(tool).filter(|tool| stage.reading.tool != Some(*tool));
+                stage.reading.tool = tool;
+            }
             Action::Step(by) => {
                 if let Some(opened) = &stage.opened {
                     player::go(pane, &opened.dataset, by.into());

@@ -21,7 +21,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
     let (pane, stage) = desk.active();
     if pane.probes.is_empty() {
-        ui.weak("Click the plate to pin a probe, or press p at the pointer.");
+        ui.weak("Press p at the pointer, or choose Probe at the top and click the plate.");
         return;
     }
     let Some(names) = names(stage) else { return };

@@ -5,6 +5,7 @@ use egui::{Label, ProgressBar, RichText, Sense, Ui};
 use super::player;
 use crate::actions::Action;
 use crate::desk::Desk;
+use crate::reading::tool::Tool;
 use crate::session::DrawerPage;
 use crate::widgets::button;
 
@@ -77,15 +78,23 @@ fn solving(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
 }
 
-/// Shows buttons for features that are easily overlooked: saving images, K at a tip, two views.
+/// Shows buttons for features that are easily overlooked: saving images, probes, K at a tip, two
+/// views.
 fn reading(ui: &mut Ui, desk: &mut Desk<'_>) {
     let (pane, stage) = desk.active();
     let has_tips = stage.tips(pane) > 0;
+    let is_probing = stage.reading.tool == Some(Tool::Probe);
     ui.separator();
     ui.menu_button("Save image", |ui| super::files::exports(ui, desk))
         .response
         .on_hover_text("An image, a figure for print, an animation");
     for (name, hint, action, is_possible) in [
+        (
+            "Probe",
+            "Click points of the plate to keep their values; p keeps those at the pointer",
+            Action::Draw(Tool::Probe),
+            true,
+        ),
         (
             "K at a tip",
             "K, T and G on a circle around the nearest tip",
@@ -94,7 +103,8 @@ fn reading(ui: &mut Ui, desk: &mut Desk<'_>) {
         ),
         ("Two views", "Two views side by side, or one", Action::Split, true),
     ] {
-        let button = ui.add_enabled(is_possible, egui::Button::new(name));
+        let is_on = is_probing && name == "Probe";
+        let button = ui.add_enabled(is_possible, egui::Button::new(name).selected(is_on));
         if button.on_hover_text(hint).clicked() {
             desk.actions.push(action);
         }

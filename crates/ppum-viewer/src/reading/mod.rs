@@ -36,7 +36,7 @@ pub struct Reading {
     pub selected: Option<usize>,
     /// The point of the curve that belongs to the place of the pointer in the plot.
     pub marked: Option<Spot>,
-    /// What the next drag over the plate draws.
+    /// What the next drag over the plate draws, or clicks do.
     pub tool: Option<Tool>,
     /// The handle that is dragged.
     pub(crate) grip: Option<Grip>,
@@ -46,8 +46,6 @@ pub struct Reading {
     pub(crate) wants_plot: bool,
     /// Why the numbers of a curve were refused.
     pub refused: Option<String>,
-    /// A place that was clicked, and when: a probe, unless it becomes a double click.
-    pub(crate) clicked: Option<(f64, Spot)>,
     /// Values along the curve.
     pub plot: Question<Asked, CurveValues>,
     /// The last values along a curve that could be found.
@@ -93,9 +91,6 @@ impl Reading {
     /// True while something is on its way.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        if self.integral.is_working() {
-            return true;
-        }
-        self.plot.is_working() || self.clicked.is_some()
+        self.integral.is_working() || self.plot.is_working()
     }
 }

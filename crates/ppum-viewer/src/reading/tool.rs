@@ -1,6 +1,6 @@
 //! What the mouse draws over the plate, and what it holds.
 
-/// What a drag over the plate draws.
+/// What a drag over the plate draws, or a click does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tool {
     /// A line, from its start.
@@ -11,6 +11,8 @@ pub enum Tool {
     Ray,
     /// The crack that is clicked.
     Crack,
+    /// Probes, each where it is clicked.
+    Probe,
 }
 
 impl Tool {
@@ -22,6 +24,7 @@ impl Tool {
             Self::Circle => "drag a circle from its centre; begin at a tip for K",
             Self::Ray => "drag away from a tip",
             Self::Crack => "click a crack",
+            Self::Probe => "click points of the plate to keep their values",
         }
     }
 }

@@ -403,7 +403,7 @@ impl Stage {
         dataset: &Dataset,
     ) {
         let scale = f64::from(ui.pixels_per_point());
-        if response.double_clicked() {
+        if response.double_clicked() && self.reading.tool.is_none() {
             self.fly_to(pane, None);
         }
         if response.dragged_by(PointerButton::Primary) {

@@ -6,6 +6,7 @@ use ppum::vec2::Vec2;
 use super::Stage;
 use super::sight::Sight;
 use crate::controls::range::digits;
+use crate::reading::tool::Tool;
 use crate::reading::words::{self, Places};
 use crate::session::Pane;
 use ppum_scene::spot::Spot;
@@ -47,7 +48,7 @@ impl Stage {
             false => reader.snapped(spot, sight.reach(SNAP)),
         });
         self.reading.hover = hover.map(|spot| reader.read(&spot));
-        self.click(ui, response, sight, pane);
+        self.click(response, sight, pane);
         self.reading.refresh(&frame, pane);
         self.ask_integral(ui, pane, &frame);
     }
@@ -61,34 +62,17 @@ impl Stage {
         }
     }
 
-    /// A click selects a probe, or pins a new one unless a second click follows.
-    fn click(&mut self, ui: &Ui, response: &Response, sight: &Sight, pane: &mut Pane) {
-        let now = ui.input(|input| input.time);
-        if response.double_clicked() || response.triple_clicked() {
-            self.reading.clicked = None;
-        } else if response.clicked()
-            && self.reading.tool.is_none()
-            && !self.controls.is_picking
-            && let Some(at) = response.interact_pointer_pos()
+    /// A click selects a probe; with the tool for probes it pins one where there is none.
+    fn click(&mut self, response: &Response, sight: &Sight, pane: &mut Pane) {
+        let is_free = matches!(self.reading.tool, None | Some(Tool::Probe));
+        let at = response.interact_pointer_pos().filter(|_| response.clicked() && is_free);
+        let Some(at) = at else { return };
+        if let Some(known) = probe_at(sight, pane, at) {
+            self.reading.selected = Some(known);
+        } else if self.reading.tool.is_some()
+            && let Some(spot) = self.hovered()
         {
-            match probe_at(sight, pane, at) {
-                Some(known) => self.reading.selected = Some(known),
-                None => {
-                    let hover = self.reading.hover.as_ref();
-                    let inside = hover.filter(|probed| !probed.is_outside());
-                    self.reading.clicked = inside.map(|probed| (now, probed.spot));
-                }
-            }
-        }
-        if let Some((then, spot)) = self.reading.clicked {
-            let delay = ui.options(|options| options.input_options.max_double_click_delay);
-            if now - then > delay {
-                self.reading.clicked = None;
-                self.pin(pane, spot);
-            } else {
-                let rest = std::time::Duration::from_secs_f64(delay - (now - then) + 0.01);
-                ui.ctx().request_repaint_after(rest);
-            }
+            self.pin(pane, spot);
         }
     }
 
@@ -164,7 +148,8 @@ impl Stage {
     /// The parts of the line, the most important first, and the patches in words, the
     /// longest first.
     fn words(&mut self, pane: &Pane) -> (Vec<String>, Vec<String>) {
-        if let Some(tool) = self.reading.tool {
+        // who pins probes wants to see values
+        if let Some(tool) = self.reading.tool.filter(|tool| *tool != Tool::Probe) {
             return (vec![format!("{}; Escape leaves it", tool.hint())], Vec::new());
         }
         let Some(frame) = self.frame().cloned() else { return Default::default() };

@@ -251,7 +251,7 @@ impl Pen<'_> {
                 let (tip, _) = self.tip_near(spot, f64::INFINITY)?;
                 Some((Along::Ray { tip, angle: 0.0, far: None }, Grip::To))
             }
-            Tool::Crack => None,
+            Tool::Crack | Tool::Probe => None,
         }
     }
 

@@ -15,6 +15,7 @@ use ppum_testkit::meshes::{Elements, Polynomial, field, random_polynomial};
 use ppum_testkit::random::Random;
 use ppum_viewer::Viewer;
 use ppum_viewer::reading::owner::Owner;
+use ppum_viewer::reading::tool::Tool;
 
 use crate::kit::{at, hover, settle, window};
 
@@ -66,9 +67,10 @@ fn click(window: &mut Window, point: Vec2) {
 }
 
 #[test]
-fn a_click_on_an_element_shows_its_data() {
+fn a_probe_of_an_element_shows_its_data() {
     let dataset = mesh();
     let mut window = window(dataset.clone(), SIZE);
+    window.state_mut().stages[0].reading.tool = Some(Tool::Probe);
     let field = Field::new(&dataset, 0).expect("a field");
     let mesh = dataset.steps[0].partition.mesh().expect("a mesh");
     let mut random = Random(9);

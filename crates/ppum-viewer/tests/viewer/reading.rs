@@ -149,33 +149,35 @@ fn deep_inside_no_digit_is_lost() {
 }
 
 #[test]
-fn a_click_pins_a_probe_and_a_double_click_does_not() {
+fn clicks_pin_probes_while_the_tool_for_them_is_chosen() {
     let mut window = window(plate(), SIZE);
     show(&mut window, "uy", None);
     let place = at(&window, v(0.4, 0.5));
+    let count = |window: &Window| window.state().session.panes[0].probes.len();
     click(&mut window, place);
     settle(&mut window);
-    assert_eq!(window.state().session.panes[0].probes.len(), 1);
-    assert_eq!(window.state().stages[0].reading.selected, Some(0));
-    // a click on its mark selects it and pins no other
-    window.state_mut().stages[0].reading.selected = None;
+    assert_eq!(count(&window), 0);
+    window.get_by_label("Probe").click();
     settle(&mut window);
-    click(&mut window, place + vec2(3.0, 0.0));
-    settle(&mut window);
-    assert_eq!(window.state().session.panes[0].probes.len(), 1);
-    assert_eq!(window.state().stages[0].reading.selected, Some(0));
-    // two clicks at once show the whole plate, and pin nothing
-    let slow = |options: &mut egui::Options| options.input_options.max_double_click_delay = 2.0;
-    window.ctx.options_mut(slow);
-    let other = at(&window, v(-0.4, 0.5));
-    window.hover_at(other);
-    window.step();
-    for pressed in [true, false, true, false] {
-        window.event(button(other, pressed));
+    for (k, place) in [place, at(&window, v(-0.4, 0.5))].into_iter().enumerate() {
+        click(&mut window, place);
+        settle(&mut window);
+        assert_eq!((count(&window), window.state().stages[0].reading.selected), (k + 1, Some(k)));
     }
-    window.step();
+    // a click on its mark selects it and pins no other, whatever the tool is
+    for _ in 0..2 {
+        click(&mut window, place + vec2(3.0, 0.0));
+        settle(&mut window);
+        assert_eq!((count(&window), window.state().stages[0].reading.selected), (2, Some(0)));
+        window.state_mut().stages[0].reading.selected = None;
+        window.key_press(Key::Escape);
+        settle(&mut window);
+    }
+    // and after Escape nothing is pinned
+    let free = at(&window, v(0.4, -0.5));
+    click(&mut window, free);
     settle(&mut window);
-    assert_eq!(window.state().session.panes[0].probes.len(), 1);
+    assert_eq!(count(&window), 2);
 }
 
 #[test]
