@@ -74,6 +74,8 @@ pub enum Action {
     Close,
     /// Write the dataset to a file that is chosen.
     SaveDataset,
+    /// Write a page of what is seen to a file that is chosen.
+    ExportPage,
     /// Write the session to its file; to one that is chosen if it has none.
     SaveSession,
     /// Write the session to a file that is chosen.
@@ -192,6 +194,7 @@ pub fn synonyms(action: Action) -> &'static str {
         Action::Help => "shortcuts keyboard manual font",
         Action::Palette => "search command",
         Action::SaveDataset => "export h5 hdf5 result",
+        Action::ExportPage => "save html web internet share",
         Action::Open | Action::OpenBeside => "load import file",
         Action::Solve => "run compute calculate",
         Action::CancelSolving => "stop abort",
@@ -277,6 +280,7 @@ pub const ALL: &[ActionEntry] = &[
         "Files and problems",
     ),
     entry(Action::SaveDataset, "Save the dataset", None, "Files and problems"),
+    entry(Action::ExportPage, "Export a page for browsers", None, "Files and problems"),
     entry(Action::Solve, "Solve the problem", control(Key::Enter), "Files and problems"),
     entry(Action::CancelSolving, "Cancel the solution", None, "Files and problems"),
     entry(Action::SaveProblem, "Save the problem's text", None, "Files and problems"),

@@ -18,6 +18,7 @@ pub mod fonts;
 pub mod frames;
 pub mod job;
 pub mod offscreen;
+mod page;
 pub mod panels;
 pub mod plate;
 pub mod player;

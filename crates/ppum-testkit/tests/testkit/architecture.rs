@@ -30,6 +30,7 @@ const ARROWS: [(&str, &[&str]); 16] = [
             "ppum-figure",
             "ppum-format",
             "ppum-gpu",
+            "ppum-page",
             "ppum-render",
             "ppum-scene",
             "ppum-solve",

@@ -15,6 +15,7 @@ use crate::files::examples::{self, Example};
 use crate::files::read::{Arrived, Content, Why};
 use crate::files::watch::{Stamp, stamp};
 use crate::files::{SavedFile, Written, name, session_file};
+use crate::page::PageOrder;
 use crate::panels::drawer::problem::editor_id;
 use crate::plate;
 use crate::player;
@@ -116,6 +117,7 @@ impl Viewer {
             Action::OpenBeside => self.files.ask(Purpose::Open(1), file.as_deref()),
             Action::Close => self.part(ctx, Parting::Pane(active)),
             Action::SaveDataset => self.ask_dataset(active),
+            Action::ExportPage => self.ask_page(active, file),
             // who writes the problem means the problem
             Action::SaveSession if ctx.memory(|m| m.has_focus(editor_id())) => self.save_problem(),
             Action::SaveSession => match self.files.session.clone() {
@@ -157,6 +159,25 @@ impl Viewer {
         let name = draft.or(example.map(|example| example.name.into())).or_else(title)?;
         let name = name.with_extension("h5");
         Some(self.files.folder_near(None).join(name))
+    }
+
+    /// Asks for the name of a page; what keeps it from being written is told first.
+    fn ask_page(&mut self, pane: usize, file: Option<PathBuf>) {
+        if let Err(reason) = PageOrder::new(&self.session.panes[pane], &self.stages[pane]) {
+            return self.files.tell(Path::new(""), format!("no page is exported: {reason}"), true);
+        }
+        let near = file.or_else(|| self.name_of_solution(pane));
+        let near = near.map(|near| near.with_extension("html"));
+        self.files.ask(Purpose::ExportPage(pane), near.as_deref());
+    }
+
+    fn export_page(&mut self, path: PathBuf, pane: usize) {
+        let shown = self.session.panes.get(pane).zip(self.stages.get(pane));
+        let order = shown.ok_or_else(|| NOTHING_TO_SAVE.to_owned());
+        match order.and_then(|(pane, stage)| PageOrder::new(pane, stage)) {
+            Ok(order) => self.files.write(path, SavedFile::Page, move |path| order.write(path)),
+            Err(reason) => self.files.tell(&path, reason, true),
+        }
     }
 
     fn ask_session(&mut self) {
@@ -259,6 +280,7 @@ impl Viewer {
             Purpose::Open(pane) => self.open_file(ctx, &path, pane),
             Purpose::SaveSession => self.write_session(path),
             Purpose::SaveProblem => self.write_problem(path),
+            Purpose::ExportPage(pane) => self.export_page(path, pane),
             Purpose::SaveDataset(pane) => {
                 let opened = self.stages.get(pane).and_then(|stage| stage.opened.as_ref());
                 match opened.map(|opened| Arc::clone(&opened.dataset)) {
@@ -284,6 +306,7 @@ impl Viewer {
                 }
             }
             SavedFile::Session => self.files.session = Some(path.clone()),
+            SavedFile::Page => return,
             SavedFile::Problem => {
                 self.solving.on_disk = self.solving.saving.take();
                 if let Some(draft) = &mut self.session.draft {

@@ -24,6 +24,8 @@ pub enum Purpose {
     SaveDataset(usize),
     /// To write the problem's text.
     SaveProblem,
+    /// To write a page of what a pane shows.
+    ExportPage(usize),
 }
 
 impl Purpose {
@@ -36,6 +38,7 @@ impl Purpose {
             Self::SaveSession => "Save the session",
             Self::SaveDataset(_) => "Save the dataset",
             Self::SaveProblem => "Save the problem",
+            Self::ExportPage(_) => "Export a page for browsers",
         }
     }
 
@@ -47,6 +50,7 @@ impl Purpose {
             Self::SaveSession => &[session_file::EXTENSION],
             Self::SaveDataset(_) => &["h5"],
             Self::SaveProblem => &["toml"],
+            Self::ExportPage(_) => &["html"],
         }
     }
 

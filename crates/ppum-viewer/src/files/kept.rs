@@ -87,7 +87,7 @@ pub fn keep_session(session: &Session, folder: &Path) -> std::io::Result<()> {
 }
 
 /// Writes a text, completely or not at all.
-pub(super) fn replace(path: &Path, text: &str) -> std::io::Result<()> {
+pub(crate) fn replace(path: &Path, text: &str) -> std::io::Result<()> {
     ppum_file::replace(path, |out| out.write_all(text.as_bytes()))
 }
 

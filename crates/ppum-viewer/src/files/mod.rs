@@ -78,6 +78,8 @@ pub enum SavedFile {
     Session,
     /// The problem's text.
     Problem,
+    /// A page.
+    Page,
 }
 
 /// A file that was written.
@@ -351,7 +353,7 @@ impl Files {
                 Ok(stamp) => {
                     // what the window itself has written is no news to it
                     self.follow(&path, stamp);
-                    self.tell(&path, format!("{} is written", name(&path)), false);
+                    self.tell(&path, format!("{} is written", path.display()), false);
                     written.push(Written { path, what });
                 }
                 Err(error) => {

@@ -53,6 +53,7 @@ pub fn exports(ui: &mut Ui, desk: &mut Desk<'_>) {
         ("Figure for print…", Action::Save(ExportChoice::Figure), has_dataset),
         ("Animation of the steps…", Action::Save(ExportChoice::Steps), steps > 1),
         ("Animation of the deformation…", Action::Save(ExportChoice::Deformation), is_elastic),
+        ("Export page…", Action::ExportPage, has_dataset),
         ("Copy the command", Action::CopyCommand, has_dataset),
     ] {
         if ui.add_enabled(is_possible, egui::Button::new(name)).clicked() {

@@ -204,3 +204,32 @@ fn another_file_is_replaced_when_it_is_asked_for_twice_and_the_dataset_never() {
     assert!(lab.window.query_by_label("Stop").is_none());
     assert_eq!(std::fs::read(&other).expect("there"), before);
 }
+
+/// A page is written beside the dataset and holds what is seen; where there is none, the reason is
+/// said.
+#[test]
+fn a_page_is_exported() {
+    let mut lab = Lab::new();
+    let path = lab.write("plate.h5", &plate());
+    lab.open(&path);
+    let export = |lab: &mut Lab| {
+        lab.window.get_by_label("Save image").click();
+        lab.window.run_steps(3);
+        lab.window.get_by_label("Export page…").click();
+        lab.window.run_steps(5);
+    };
+    lab.state().session.panes[0].scene.quantity = Some("hypot(ux, uy)".into());
+    lab.settle();
+    export(&mut lab);
+    lab.window.key_press(Key::Enter);
+    show_until(&mut lab.window, "the page is written", |window| {
+        window.query_by_label_contains("plate.html is written").is_some()
+    });
+    let page = std::fs::read_to_string(path.with_extension("html")).expect("there");
+    assert!(page.contains("<html") && page.contains("hypot(ux, uy)") && page.contains("plate.h5"));
+    let subject = &mut lab.state().session.panes[0].scene.subject;
+    subject.part = Some("smooth".into());
+    lab.settle();
+    export(&mut lab);
+    assert!(lab.window.query_by_label_contains("no page is exported").is_some());
+}
