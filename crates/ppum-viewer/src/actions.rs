@@ -104,6 +104,8 @@ pub enum Action {
     Panels,
     /// Light, dark.
     Theme,
+    /// Letters and controls larger (1), smaller (-1), or as they were (0).
+    Interface(i8),
     /// The list of keys.
     Help,
     /// Find an action by its name.
@@ -167,13 +169,15 @@ pub fn synonyms(action: Action) -> &'static str {
         Action::Overlays => "mesh cells patches cracks outline elements grid",
         Action::Isolines => "contour level lines",
         Action::Deform => "deformation warp displacement opening",
+        Action::Quit => "exit leave close window",
+        Action::Interface(_) => "zoom scale font size letters larger smaller interface",
         Action::Swing => "animate warp movie",
         Action::Compare => "interpolation error sampling",
         Action::Probe | Action::Draw(Tool::Probe) => "value pick point query marker",
         Action::CircleForK => "sif stress intensity factor k1 k2 j integral energy release",
         Action::Draw(_) => "profile path section cut",
         Action::Extrema => "minimum maximum peak",
-        Action::Drawer(DrawerPage::Plot) => "profile line graph chart opening path csv curve",
+        Action::Drawer(DrawerPage::Plot) => "profile line graph chart sliding jump path csv",
         Action::Drawer(DrawerPage::Tips) => {
             "sif stress intensity factors k1 k2 t g energy release error"
         }
@@ -206,7 +210,7 @@ pub fn synonyms(action: Action) -> &'static str {
 pub const GROUPS: [&str; 6] =
     ["Moving", "Colours", "Over the picture", "Reading", "Files and problems", "Window"];
 
-/// All actions, in the order of the help sheet.
+/// All actions, in the order of the help sheet. The keys for the interface's size are egui's own.
 pub const ALL: &[ActionEntry] = &[
     entry(Action::Fit, "Show the whole plate", key(Key::F), "Moving"),
     entry(Action::NextTip, "Fly to the next tip", key(Key::N), "Moving"),
@@ -246,7 +250,12 @@ pub const ALL: &[ActionEntry] = &[
     entry(Action::Draw(Tool::Ray), "Draw a ray from a tip", None, "Reading"),
     entry(Action::Draw(Tool::Crack), "Choose a crack by a click", None, "Reading"),
     entry(Action::Extrema, "Mark the extrema of the view", None, "Reading"),
-    entry(Action::Drawer(DrawerPage::Plot), "Plot along a curve", key(Key::X), "Reading"),
+    entry(
+        Action::Drawer(DrawerPage::Plot),
+        "Plot along a curve, or opening of a crack",
+        key(Key::X),
+        "Reading",
+    ),
     entry(Action::Drawer(DrawerPage::Tips), "Table of the tips", key(Key::T), "Reading"),
     entry(Action::Drawer(DrawerPage::Series), "Values over the steps", None, "Reading"),
     entry(Action::Drawer(DrawerPage::Solver), "The solver's report", None, "Reading"),
@@ -297,9 +306,12 @@ pub const ALL: &[ActionEntry] = &[
     entry(Action::Redo, "Redo", control_shift(Key::Z), "Window"),
     entry(Action::Panels, "Show or hide the panels", key(Key::Tab), "Window"),
     entry(Action::Theme, "Light or dark", None, "Window"),
+    entry(Action::Interface(1), "Enlarge the interface", control(Key::Plus), "Window"),
+    entry(Action::Interface(-1), "Reduce the interface", control(Key::Minus), "Window"),
+    entry(Action::Interface(0), "Interface in its usual size", control(Key::Num0), "Window"),
     entry(Action::Help, "Keys", key(Key::H), "Window"),
     entry(Action::Palette, "Find an action", control(Key::K), "Window"),
-    entry(Action::Quit, "Close the window", control(Key::Q), "Window"),
+    entry(Action::Quit, "Quit", control(Key::Q), "Window"),
 ];
 
 /// What the mouse does, and keys that are no actions: what is done by hand, what comes of it, and

@@ -66,6 +66,7 @@ impl Viewer {
             | Action::Redo
             | Action::Panels
             | Action::Theme
+            | Action::Interface(_)
             | Action::Help
             | Action::Palette
             | Action::Quit => true,
@@ -205,6 +206,11 @@ impl Viewer {
             Action::Redo => self.restore(ctx, false),
             Action::Panels => self.session.panels = !self.session.panels,
             Action::Theme => self.turn_theme(ctx),
+            Action::Interface(by) => match by {
+                1.. => egui::gui_zoom::zoom_in(ctx),
+                0 => ctx.set_zoom_factor(1.0),
+                _ => egui::gui_zoom::zoom_out(ctx),
+            },
             Action::Help => self.has_help = !self.has_help,
             Action::Palette => self.palette = Some(Palette::default()),
             Action::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
