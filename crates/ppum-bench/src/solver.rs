@@ -69,7 +69,7 @@ impl SolverRun {
         Ok(Self {
             level,
             unknowns: report.unknowns.context("the solver counts unknowns")? as u64,
-            kind: report.solver.and_then(LinearKind::of_code).map(LinearKind::word),
+            kind: report.solver.map(LinearKind::word),
             iterations: report.iterations,
             condition: report.preconditioned_condition,
             bytes: report.solver_bytes,

@@ -26,8 +26,8 @@ pub struct SolverReport {
     pub residual: Option<f64>,
     /// Unknowns left out because they depend on those of other patches.
     pub dependent: Option<f64>,
-    /// The linear solver, the [code](LinearKind::code) of a [`LinearKind`].
-    pub solver: Option<f64>,
+    /// The linear solver.
+    pub solver: Option<LinearKind>,
     /// Bytes that the linear solver has held: matrices of all levels, factors.
     pub solver_bytes: Option<f64>,
     /// 1 where the direct solver took the place of the multilevel one, whose levels did not serve.
@@ -56,8 +56,8 @@ pub struct SolverReport {
     pub estimated_error: Option<f64>,
     /// Largest estimated error of the stress intensity factors of a tip, as a part of their size.
     pub factor_error: Option<f64>,
-    /// The reason that ended the adaptation, the [code](StopReason::code) of a [`StopReason`].
-    pub stop: Option<f64>,
+    /// The reason that ended the adaptation.
+    pub stop: Option<StopReason>,
     /// Relative error of stresses evaluated in double precision.
     pub rounding: Option<f64>,
     /// Seconds of each phase, in the order of the work.
@@ -104,31 +104,16 @@ impl LevelSize {
     ];
 }
 
-/// A solver of linear systems.
+/// A solver of linear systems; in a dataset's history it is a number, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LinearKind {
     /// Sparse Cholesky factorisation.
-    Direct,
+    Direct = 1,
     /// Conjugate gradients with coarser levels.
     Multilevel,
 }
 
 impl LinearKind {
-    /// Both, in the order of their codes.
-    pub const ALL: [Self; 2] = [Self::Direct, Self::Multilevel];
-
-    /// The number that stands for it in a dataset's history, from 1.
-    #[must_use]
-    pub fn code(self) -> f64 {
-        Self::ALL.iter().position(|kind| *kind == self).map_or(0.0, |k| k as f64 + 1.0)
-    }
-
-    /// The kind with a code.
-    #[must_use]
-    pub fn of_code(code: f64) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.code() == code)
-    }
-
     /// Its word in problem files.
     #[must_use]
     pub fn word(self) -> &'static str {
@@ -139,11 +124,11 @@ impl LinearKind {
     }
 }
 
-/// The reason why an adaptation ended.
+/// The reason why an adaptation ended; in a dataset's history it is a number, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StopReason {
     /// The estimated error is as small as wanted.
-    Tolerance,
+    Tolerance = 1,
     /// As many steps were made as wanted.
     Steps,
     /// The next step would have more unknowns than wanted.
@@ -155,22 +140,6 @@ pub enum StopReason {
 }
 
 impl StopReason {
-    /// All reasons, in the order of their codes.
-    pub const ALL: [Self; 5] =
-        [Self::Tolerance, Self::Steps, Self::Unknowns, Self::Memory, Self::Limits];
-
-    /// The number that stands for it in a dataset's history, from 1.
-    #[must_use]
-    pub fn code(self) -> f64 {
-        Self::ALL.iter().position(|stop| *stop == self).map_or(0.0, |k| k as f64 + 1.0)
-    }
-
-    /// The reason with a code.
-    #[must_use]
-    pub fn of_code(code: f64) -> Option<Self> {
-        Self::ALL.into_iter().find(|stop| stop.code() == code)
-    }
-
     /// A word for it, in JSON the key of the problem file where there is one.
     #[must_use]
     pub fn word(self) -> &'static str {
@@ -184,32 +153,73 @@ impl StopReason {
     }
 }
 
-/// A number of the report by its name in files.
-type ReportEntry = (&'static str, fn(&mut SolverReport) -> &mut Option<f64>);
+impl From<LinearKind> for f64 {
+    fn from(kind: LinearKind) -> Self {
+        Self::from(kind as u8)
+    }
+}
+
+impl TryFrom<f64> for LinearKind {
+    type Error = f64;
+
+    fn try_from(number: f64) -> Result<Self, f64> {
+        let mut all = [Self::Direct, Self::Multilevel].into_iter();
+        all.find(|kind| f64::from(*kind) == number).ok_or(number)
+    }
+}
+
+impl From<StopReason> for f64 {
+    fn from(reason: StopReason) -> Self {
+        Self::from(reason as u8)
+    }
+}
+
+impl TryFrom<f64> for StopReason {
+    type Error = f64;
+
+    fn try_from(number: f64) -> Result<Self, f64> {
+        let all = [Self::Tolerance, Self::Steps, Self::Unknowns, Self::Memory, Self::Limits];
+        all.into_iter().find(|reason| f64::from(*reason) == number).ok_or(number)
+    }
+}
+
+/// A number of the report by its name in files: its value, and how it is taken up if it is the
+/// first of its name.
+type ReportEntry = (&'static str, fn(&SolverReport) -> Option<f64>, fn(&mut SolverReport, f64));
+
+macro_rules! entries {
+    ($($name:expr => $field:ident,)*) => {
+        [$((
+            $name,
+            |report| report.$field.map(f64::from),
+            |report, value| report.$field = report.$field.or_else(|| value.try_into().ok()),
+        )),*]
+    };
+}
 
 /// All numbers but the seconds, in the order of files.
-const ENTRIES: [ReportEntry; 21] = [
-    ("crossed twice", |r| &mut r.crossed_twice),
-    ("unknowns", |r| &mut r.unknowns),
-    ("cut-off", |r| &mut r.cut_off),
-    ("residual", |r| &mut r.residual),
-    ("dependent", |r| &mut r.dependent),
-    (SOLVER, |r| &mut r.solver),
-    (BYTES, |r| &mut r.solver_bytes),
-    ("solver fallback", |r| &mut r.fallback),
-    ("solver levels", |r| &mut r.solver_levels),
-    ("iterations", |r| &mut r.iterations),
-    ("preconditioned condition", |r| &mut r.preconditioned_condition),
-    ("nitsche", |r| &mut r.nitsche),
-    ("pieces", |r| &mut r.pieces),
-    ("free motions", |r| &mut r.free_modes),
-    ("imbalance", |r| &mut r.imbalance),
-    ("quadrature points", |r| &mut r.quadrature_points),
-    ("energy", |r| &mut r.energy),
-    ("estimated error", |r| &mut r.estimated_error),
-    ("estimated error of factors", |r| &mut r.factor_error),
-    (STOP, |r| &mut r.stop),
-    ("rounding", |r| &mut r.rounding),
+const ENTRIES: [ReportEntry; 21] = entries![
+    "crossed twice" => crossed_twice,
+    "unknowns" => unknowns,
+    "cut-off" => cut_off,
+    "residual" => residual,
+    "dependent" => dependent,
+    SOLVER => solver,
+    BYTES => solver_bytes,
+    "solver fallback" => fallback,
+    "solver levels" => solver_levels,
+    "iterations" => iterations,
+    "preconditioned condition" => preconditioned_condition,
+    "nitsche" => nitsche,
+    "pieces" => pieces,
+    "free motions" => free_modes,
+    "imbalance" => imbalance,
+    "quadrature points" => quadrature_points,
+    "energy" => energy,
+    "estimated error" => estimated_error,
+    "estimated error of factors" => factor_error,
+    STOP => stop,
+    "rounding" => rounding,
 ];
 
 /// The records whose values are codes.
@@ -258,8 +268,8 @@ pub fn forget_times(step: &mut Step) {
 #[must_use]
 pub fn word(name: &str, value: f64) -> Option<&'static str> {
     match name {
-        SOLVER => LinearKind::of_code(value).map(LinearKind::word),
-        STOP => StopReason::of_code(value).map(StopReason::word),
+        SOLVER => LinearKind::try_from(value).ok().map(LinearKind::word),
+        STOP => StopReason::try_from(value).ok().map(StopReason::word),
         _ => None,
     }
 }
@@ -292,8 +302,9 @@ impl SolverReport {
                 report.add_level(record);
             } else if let Some(place) = course_place(&record.name) {
                 report.add_course(place, record.value);
-            } else if let Some((_, entry)) = ENTRIES.iter().find(|(name, _)| *name == record.name) {
-                entry(&mut report).get_or_insert(record.value);
+            } else if let Some((.., take)) = ENTRIES.iter().find(|(name, ..)| *name == record.name)
+            {
+                take(&mut report, record.value);
             }
         }
         report
@@ -305,9 +316,8 @@ impl SolverReport {
         let mut report = self.clone();
         let record =
             |name: &str, value, unit: &str| Record { name: name.into(), value, unit: unit.into() };
-        let numbers = ENTRIES.iter().filter_map(|(name, entry)| {
-            let unit = if *name == BYTES { BYTE } else { "" };
-            Some(record(name, (*entry(&mut report))?, unit))
+        let numbers = ENTRIES.iter().filter_map(|(name, value, _)| {
+            Some(record(name, value(self)?, if *name == BYTES { BYTE } else { "" }))
         });
         let mut records: Vec<_> = numbers.collect();
         for unit in [SECOND, BYTE, UNKNOWNS] {
@@ -392,9 +402,10 @@ mod tests {
     #[test]
     fn reports_come_back_from_records() {
         let mut report = SolverReport::default();
-        for (k, (_, entry)) in ENTRIES.iter().enumerate() {
-            *entry(&mut report) = Some(k as f64);
+        for (k, (name, _, take)) in ENTRIES.iter().enumerate() {
+            take(&mut report, if word(name, 2.0).is_some() { 2.0 } else { k as f64 });
         }
+        assert_eq!(report.stop, Some(StopReason::Steps));
         report.seconds = PHASES.iter().map(|&phase| (phase, 0.5)).collect();
         report.bytes = vec![(Phase::Basis, 80.0), (Phase::Assembly, 96.0)];
         report.worked = vec![(Phase::Cover, 7.0), (Phase::Basis, 5.0)];

@@ -11,7 +11,7 @@ use ppum::dataset::{Dataset, Record, Step};
 use ppum_scene::facts::{self, Tip, all_tips};
 use ppum_scene::range::places;
 use ppum_solve::problem::Problem;
-use ppum_solve::report::{LinearKind, SolverReport, StopReason};
+use ppum_solve::report::{LinearKind, SolverReport};
 use ppum_solve::solve::Plan;
 use serde::Serialize;
 
@@ -195,7 +195,7 @@ impl Adaptation {
     /// None of a dataset that was solved once.
     fn new(dataset: &Dataset) -> Option<Self> {
         let last = SolverReport::of(&dataset.steps.last()?.history);
-        let stop = StopReason::of_code(last.stop?)?.word();
+        let stop = last.stop?.word();
         Some(Self { stop, steps: dataset.steps.iter().map(StepRow::new).collect() })
     }
 
@@ -248,7 +248,7 @@ impl Report {
             estimated_error: report.estimated_error.map(Number),
             adaptation: Adaptation::new(dataset),
             growth: None,
-            solver: report.solver.and_then(LinearKind::of_code).map(LinearKind::word),
+            solver: report.solver.map(LinearKind::word),
             seconds: times.iter().map(|r| r.value).sum(),
             phases: times.iter().map(phase).collect(),
             history: numbers.into_iter().map(facts::Record::new).collect(),

@@ -61,7 +61,7 @@ impl Solver {
             bytes: level.bytes,
         });
         let row = Self {
-            kind: report.solver.and_then(LinearKind::of_code).map(LinearKind::word),
+            kind: report.solver.map(LinearKind::word),
             iterations: report.iterations.and_then(finite),
             reduction: report.residuals.last().copied().and_then(finite),
             condition: report.preconditioned_condition.and_then(finite),

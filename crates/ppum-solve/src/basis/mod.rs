@@ -211,7 +211,7 @@ impl StableBasis {
     /// basis: a row for each component of each of some solutions.
     pub(crate) fn local_coefficients(
         &self,
-        solutions: &[&[f64]],
+        solutions: &[Vec<f64>],
         components: usize,
     ) -> Vec<Mat<f64>> {
         let mut first = 0;

@@ -32,8 +32,7 @@ pub(super) fn of_report(
 
 /// The warning about an adaptation that ended before the estimated error was as small as wanted.
 fn of_tolerance(report: &SolverReport, adaptivity: Option<&Adaptivity>) -> Option<Warning> {
-    let stop = StopReason::of_code(report.stop?)?;
-    let adaptivity = adaptivity?;
+    let (stop, adaptivity) = (report.stop?, adaptivity?);
     let of_energy = report.estimated_error?.powi(2);
     let (key, wanted, found) = match (adaptivity.accuracy, adaptivity.tolerance) {
         (Some(wanted), _) => ("accuracy", wanted, report.factor_error.unwrap_or(of_energy)),

@@ -8,7 +8,7 @@ use super::criterion::kink;
 use super::decision::{bent, grown};
 use super::{Before, GrowthSeries};
 use crate::problem::Criterion;
-use crate::solve::{Attempt, Plan, SolveError};
+use crate::solve::{Plan, SolveError};
 use ppum::crack::{Crack, TipId};
 use ppum::dataset::{Advance, Dataset, Fate, Growth, TipIntensity, Warning};
 use ppum::progress::Watcher;
@@ -40,8 +40,8 @@ pub(super) fn settled(
     let mut known = Vec::new();
     for round in 1.. {
         let factors = match tried {
-            Attempt::Done(dataset) => return Ok((problem.cracks, warned(*dataset, &growth))),
-            Attempt::Refused(factors) => factors,
+            Ok(dataset) => return Ok((problem.cracks, warned(dataset, &growth))),
+            Err(factors) => factors,
         };
         let found: Vec<_> = angles(&growth, &factors).map(Bend::new).collect();
         let curvatures: Vec<_> = found.iter().map(|bend| (bend.tip, bend.next(&known))).collect();

@@ -65,12 +65,6 @@ impl<'a> Cholesky<'a> {
         let dependent = replaced_pivots(&factor, &matrix)?;
         Ok(Self { matrix, scale, factor, dependent })
     }
-
-    /// Bytes of the matrix and of the factor's values.
-    pub(crate) fn bytes(&self) -> usize {
-        self.matrix.bytes() + self.factor.bytes()
-    }
-
     /// f − K u.
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
         let product = self.matrix.multiply(u);
@@ -132,6 +126,10 @@ impl LinearSolver for Cholesky<'_> {
 
     fn n_dependent(&self) -> usize {
         self.dependent.len()
+    }
+
+    fn bytes(&self) -> usize {
+        self.matrix.bytes() + self.factor.bytes()
     }
 }
 

@@ -28,7 +28,6 @@ mod transfer;
 
 pub(crate) use block_matrix::{BlockMatrix, BlockPattern};
 pub(crate) use cholesky::Cholesky;
-pub(crate) use conjugate::Course;
 pub(crate) use dense::{add_at, product, taken};
 pub use eigen::EigenError;
 pub(crate) use eigen::{SymmetricEigen, inverse_root_diagonal, scaled};
@@ -36,6 +35,6 @@ pub(crate) use elimination::fill;
 pub(crate) use multilevel::{Coarse, Multilevel};
 pub(crate) use pencil::largest_eigenvalue;
 pub use solver::LinearError;
-pub(crate) use solver::LinearSolver;
+pub(crate) use solver::{LinearSolution, LinearSolver};
 pub use spectrum::Spectrum;
 pub(crate) use transfer::Transfer;

@@ -123,13 +123,8 @@ impl<'a> Multilevel<'a> {
     }
 
     /// Number of levels.
-    pub(crate) fn n_levels(&self) -> usize {
+    fn n_levels(&self) -> usize {
         self.levels.len() + 1
-    }
-
-    /// Bytes of all levels.
-    pub(crate) fn bytes(&self) -> usize {
-        (0..self.n_levels()).map(|level| self.bytes_of(level)).sum()
     }
 
     fn bytes_of(&self, level: usize) -> usize {
@@ -137,15 +132,6 @@ impl<'a> Multilevel<'a> {
             Some(level) => level.smoother.bytes() + level.transfer.bytes(),
             None => self.coarsest.0.bytes() + self.coarsest.1.bytes(),
         }
-    }
-
-    /// Blocks, unknowns, stored values and bytes of all levels, the finest first.
-    pub(crate) fn sizes(&self) -> Vec<[usize; 4]> {
-        let size = |level| {
-            let matrix = &self.rows(level).matrix;
-            [matrix.n_blocks(), matrix.n_unknowns(), matrix.n_values(), self.bytes_of(level)]
-        };
-        (0..self.n_levels()).map(size).collect()
     }
 
     fn rows(&self, level: usize) -> &Rows<'a> {
@@ -267,6 +253,18 @@ impl LinearSolver for Multilevel<'_> {
     /// None: conjugate gradients need to leave out nothing.
     fn n_dependent(&self) -> usize {
         0
+    }
+
+    fn bytes(&self) -> usize {
+        (0..self.n_levels()).map(|level| self.bytes_of(level)).sum()
+    }
+
+    fn level_sizes(&self) -> Vec<[usize; 4]> {
+        let size = |level| {
+            let matrix = &self.rows(level).matrix;
+            [matrix.n_blocks(), matrix.n_unknowns(), matrix.n_values(), self.bytes_of(level)]
+        };
+        (0..self.n_levels()).map(size).collect()
     }
 }
 

@@ -37,6 +37,15 @@ pub(crate) trait LinearSolver {
 
     /// Number of unknowns that are left out, because they depend on others.
     fn n_dependent(&self) -> usize;
+
+    /// Bytes that are held: matrices and factors.
+    fn bytes(&self) -> usize;
+
+    /// Blocks, unknowns, stored values and bytes of all levels, the finest first; none without
+    /// levels.
+    fn level_sizes(&self) -> Vec<[usize; 4]> {
+        Vec::new()
+    }
 }
 
 /// A solution and how well it solves the system.

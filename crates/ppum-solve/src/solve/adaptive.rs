@@ -1,8 +1,11 @@
 //! Solutions on covers that are improved where the one before errs.
 
+use super::SolveError;
 use super::clock::Clock;
+use super::diagnosed::Diagnosed;
+use super::discretised::Discretised;
+use super::plan::{Plan, most_cells};
 use super::solved::Solved;
-use super::{Plan, SolveError, most_cells};
 use crate::adapt::{Adviser, mark};
 use crate::problem::{Adaptivity, Keep};
 use crate::report::StopReason;
@@ -42,16 +45,16 @@ pub(super) fn adapted(
     let (mut plan, mut kept) = (first, Vec::new());
     for step in 0.. {
         let here = InStep { watcher, step };
-        let solved = plan.solved(&here)?;
-        match solved.next(set, step, &InStep { watcher, step: step + 1 })? {
+        let diagnosed = Diagnosed::new(Solved::new(plan, &here)?, &here)?;
+        match diagnosed.next(set, step, &InStep { watcher, step: step + 1 })? {
             Next::Plan(next) => {
                 if set.keep == Keep::All {
-                    kept.append(&mut solved.finish(None, &here)?.steps);
+                    kept.append(&mut diagnosed.dataset(None, &here)?.steps);
                 }
                 plan = *next;
             }
             Next::Stop(stop) => {
-                let mut dataset = solved.finish(Some(stop), &here)?;
+                let mut dataset = diagnosed.dataset(Some(stop), &here)?;
                 kept.append(&mut dataset.steps);
                 dataset.steps = kept;
                 return Ok(dataset);
@@ -61,7 +64,7 @@ pub(super) fn adapted(
     unreachable!("steps have no end but that of the loop")
 }
 
-impl<'p> Solved<'p> {
+impl<'p> Diagnosed<'p> {
     /// The plan of the step after this one, or what ends the adaptation.
     fn next(
         &self,
@@ -87,7 +90,7 @@ impl<'p> Solved<'p> {
         let Some(mesh) = self.improved(set, parts)? else {
             return Ok(Next::Stop(StopReason::Limits));
         };
-        let Plan { problem, memory, .. } = self.plan;
+        let Plan { discretised: Discretised { problem, .. }, memory, .. } = self.plan;
         if mesh.n_cells() > most_cells(problem, memory) {
             return Ok(Next::Stop(StopReason::Memory));
         }
@@ -103,7 +106,7 @@ impl<'p> Solved<'p> {
     /// The mesh of the next step, given the parts that the cells have in the error; none if nothing
     /// can be improved where it is needed.
     fn improved(&self, set: &Adaptivity, parts: &[f64]) -> Result<Option<Mesh>, SolveError> {
-        let Plan { problem, mesh, dataset, space, .. } = &self.plan;
+        let Discretised { problem, mesh, dataset, space, .. } = &self.plan.discretised;
         let field = Field::new(dataset, 0)?;
         let adviser = Adviser::new(set.kind, problem, &field, space);
         let mut changes = vec![Change::Keep; parts.len()];

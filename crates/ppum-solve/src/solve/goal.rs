@@ -17,42 +17,13 @@
 //! falls like r^(−3/2) from its tip, so a tip at the distance r counts (r_nearest / r)^(3/2) of it.
 //! A cell far from all tips, as at a corner that pollutes all factors, counts fully for each.
 
-use super::SolveError;
-use super::solution::Solving;
 use crate::adapt::Estimated;
-use crate::intensity::{FACTORS, Sensitivity};
-use crate::linear::LinearSolver;
-use crate::space::Space;
+use crate::intensity::FACTORS;
 use faer::Mat;
 use ppum::vec2::{Rect, Vec2};
 
 /// Exponent by which the strain of a dual solution falls from its tip.
 const FALL: f64 = 1.5;
-
-/// The dual solutions of K_I and K_II of all tips with factors.
-pub(super) struct DualSolutions {
-    /// The places of the tips.
-    tips: Vec<Vec2>,
-    /// Their unknowns in the order of the system.
-    pub(super) unknowns: Vec<Vec<f64>>,
-}
-
-impl Solving<'_> {
-    /// The dual solutions for the loads of K_I and K_II; none without tips.
-    pub(super) fn duals(
-        &self,
-        tips: &[Sensitivity<'_>],
-        loads: &[Vec<f64>],
-        solver: &dyn LinearSolver,
-    ) -> Result<Option<DualSolutions>, SolveError> {
-        if loads.is_empty() {
-            return Ok(None);
-        }
-        let unknowns = solver.solve_roughly(loads).map_err(|error| self.located(error))?;
-        let tips = tips.iter().map(Sensitivity::tip).collect();
-        Ok(Some(DualSolutions { tips, unknowns }))
-    }
-}
 
 /// The estimated errors of factors.
 #[derive(Clone, Debug, Default)]
@@ -63,22 +34,22 @@ pub(super) struct Goal {
     pub(super) cells: Vec<(usize, f64)>,
 }
 
-impl DualSolutions {
-    /// The estimated errors of factors, from those of the solution and of the dual fields.
-    pub(super) fn goal(&self, space: &Space<'_>, estimated: &Estimated) -> Goal {
+impl Goal {
+    /// The estimated errors of the factors of tips, from those of the solution and of the dual
+    /// fields in cells; none without tips.
+    pub(super) fn new(tips: &[Vec2], cells: &[Rect], estimated: &Estimated) -> Self {
+        if tips.is_empty() {
+            return Self::default();
+        }
         let part = |(products, unseen): (&Mat<f64>, &f64)| {
             let of_mode = |k: usize| products[(0, k)].abs() + (unseen * products[(k, k)]).sqrt();
             [of_mode(1), of_mode(2)]
         };
-        let parts: Vec<_> = estimated.products.iter().zip(&estimated.unseen).map(part).collect();
-        self.of_tips(&space.partition().cell, &parts)
-    }
-
-    fn of_tips(&self, cells: &[Rect], parts: &[[f64; FACTORS]]) -> Goal {
-        let mut errors = vec![[0.0; FACTORS]; self.tips.len()];
+        let parts = estimated.products.iter().zip(&estimated.unseen).map(part);
+        let mut errors = vec![[0.0; FACTORS]; tips.len()];
         let mut of_cells = Vec::with_capacity(cells.len());
         for (cell, part) in cells.iter().zip(parts) {
-            let distances = self.tips.iter().map(|tip| (*tip - cell.center()).length());
+            let distances = tips.iter().map(|tip| (*tip - cell.center()).length());
             let distances: Vec<f64> = distances.collect();
             let nearest = nearest(&distances);
             for (sums, distance) in errors.iter_mut().zip(&distances) {
@@ -88,7 +59,7 @@ impl DualSolutions {
             of_cells.push((nearest, part[0].hypot(part[1])));
         }
         let errors = errors.into_iter().map(|[first, second]| first.hypot(second)).collect();
-        Goal { errors, cells: of_cells }
+        Self { errors, cells: of_cells }
     }
 }
 

@@ -1,158 +1,124 @@
-//! A solution with its estimated error, and what is made of it.
+//! A plan whose dataset has its coefficients.
 
-use super::goal::Goal;
-use super::solution::Solution;
-use super::{Plan, SolveError};
-use crate::adapt::{LocalFields, estimated};
-use crate::diagnostics::DiagnosedSolution;
+use super::SolveError;
+use super::assembled::Assembled;
+use super::discretised::Discretised;
+use super::plan::Plan;
+use super::unknowns::Unknowns;
 use crate::intensity::{TipOutcome, intensities_under};
-use crate::law::Law;
-use crate::report::{SolverReport, StopReason, Unresolved};
-use crate::watched::Stage;
-use ppum::dataset::{Attribute, Dataset, TipIntensity};
+use crate::report::{ASSEMBLY_SECONDS, SolverReport, Unresolved};
+use faer::Mat;
+use ppum::dataset::{Attribute, FieldData, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
+use ppum::vec2::Vec2;
 
-/// Part of the largest [strength](TipOutcome::strength) of a tip below which factors count as
-/// nothing, and are no measure of their errors.
-const NOTHING: f64 = 1e-2;
-
-/// Part of the energy that a field of the same size could have up to which the energy is rounding:
-/// of rigid motions.
-const ROUNDING: f64 = 1e-20;
-
-/// A plan whose dataset has its coefficients, with the factors of its tips.
-pub(super) struct PlanSolution<'p> {
-    plan: Plan<'p>,
-    solution: Solution,
-    tips: Vec<TipOutcome>,
-}
-
-/// The same with its estimated error.
+/// A solution with the stress intensity factors of its tips.
 pub(super) struct Solved<'p> {
     pub(super) plan: Plan<'p>,
+    /// The numbers of the report that are known with the solution.
     pub(super) report: SolverReport,
+    /// Of each patch, the coefficients of the functions that the solver evaluates: a row for each
+    /// component of the solution and of the dual solutions.
+    pub(super) local: Vec<Mat<f64>>,
     /// Integrands that quadrature did not resolve.
-    unresolved: Vec<Unresolved>,
-    /// The squares of the estimated error, cell by cell.
-    pub(super) squares: Vec<f64>,
-    /// What is known of the tips.
-    tips: Vec<TipOutcome>,
-    goal: Goal,
+    pub(super) unresolved: Vec<Unresolved>,
+    /// Of each patch, the first functions of components of which nearly nothing lies where it
+    /// is alone.
+    pub(super) lonely: Vec<Vec<usize>>,
+    /// The tips whose factors have dual solutions.
+    pub(super) dual_tips: Vec<Vec2>,
+    /// The findings about all tips.
+    pub(super) tips: Vec<TipOutcome>,
 }
 
-impl<'p> PlanSolution<'p> {
-    /// Finds the factors.
-    pub(super) fn new(
-        mut plan: Plan<'p>,
-        solution: Solution,
-        watcher: &dyn Watcher,
-    ) -> Result<Self, SolveError> {
-        let Plan { problem, dataset, space, clock, .. } = &mut plan;
+impl<'p> Solved<'p> {
+    /// Solves a plan, and integrates the factors of its tips.
+    ///
+    /// # Errors
+    /// See [`SolveError`].
+    pub(super) fn new(mut plan: Plan<'p>, watcher: &dyn Watcher) -> Result<Self, SolveError> {
+        let Plan { discretised, estimate, clock, .. } = &mut plan;
+        let mut assembled = Assembled::new(discretised, clock, watcher)?;
+        let unknowns = Unknowns::new(discretised, &mut assembled, estimate, watcher)?;
+        clock.lap(Phase::Solution);
+        let mut solved = Self::without_factors(plan, assembled, unknowns);
+        let Plan { discretised: Discretised { problem, dataset, space, .. }, clock, .. } =
+            &mut solved.plan;
         let field = Field::new(dataset, 0)?;
-        let tips = intensities_under(Some(problem), dataset, &field, space, watcher)?;
+        solved.tips = intensities_under(Some(problem), dataset, &field, space, watcher)?;
         clock.lap(Phase::Intensity);
-        Ok(Self { plan, solution, tips })
+        Ok(solved)
+    }
+
+    /// Writes the solution into the dataset of its plan.
+    fn without_factors(mut plan: Plan<'p>, assembled: Assembled, unknowns: Unknowns) -> Self {
+        let Discretised { problem, space, dataset, .. } = &mut plan.discretised;
+        let components = problem.components();
+        let report = report(&assembled, unknowns.report, components);
+        let Assembled { basis, mut system, tips: dual_tips, .. } = assembled;
+        let (solution, step) = (&unknowns.all[0], &mut dataset.steps[0]);
+        write_coefficients(&mut step.fields[0], &basis.plain(space, solution, components));
+        step.reactions = system.reactions.of(problem, &basis, &system.matrix, solution);
+        let cut_off = basis.cut_off(components).map(|n| n as f64).collect();
+        step.attributes.extend([
+            attribute("cut-off", cut_off),
+            attribute("least-eigenvalue", basis.least()),
+            attribute("quadrature-points", system.points()),
+            attribute(ASSEMBLY_SECONDS, system.seconds()),
+        ]);
+        let local = basis.local_coefficients(&unknowns.all, components);
+        let unresolved = std::mem::take(&mut system.unresolved);
+        let (lonely, tips) = (basis.lonely, Vec::new());
+        Self { plan, report, local, unresolved, lonely, dual_tips, tips }
     }
 
     /// The factors of the tips that have any.
     pub(super) fn factors(&self) -> Vec<TipIntensity> {
         self.tips.iter().filter_map(|outcome| outcome.factors.clone()).collect()
     }
+}
 
-    /// Finds the energy and the estimated errors of all.
-    pub(super) fn estimated(self, watcher: &dyn Watcher) -> Result<Solved<'p>, SolveError> {
-        let Self { mut plan, solution, mut tips } = self;
-        let Solution { mut report, local, unresolved, lonely, duals, .. } = solution;
-        let Plan { problem, dataset, space, clock, .. } = &mut plan;
-        let stage = Stage::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
-        let field = Field::new(dataset, 0)?;
-        let fields = LocalFields { space, coefficients: &local, lonely: &lonely };
-        let found = estimated(problem, &field, fields, &stage).map_err(SolveError::of_data)?;
-        let energy = found.energy;
-        let goal = duals.map_or_else(Goal::default, |duals| duals.goal(space, &found));
-        let factors = tips.iter_mut().filter_map(|outcome| outcome.factors.as_mut());
-        factors.zip(&goal.errors).for_each(|(factors, error)| factors.error = Some(*error));
-        report.energy = Some(energy);
-        clock.lap(Phase::Estimation);
-        let squares = found.squares;
-        // nothing is a part of no energy, or of one that is rounding
-        if energy > ROUNDING * energy_of_size(&field) {
-            report.estimated_error = Some((squares.iter().sum::<f64>() / (2.0 * energy)).sqrt());
-            dataset.steps[0].attributes.push(indicator(&squares, energy));
-        }
-        let mut solved = Solved { plan, report, unresolved, squares, tips, goal };
-        if !solved.goal.errors.is_empty() {
-            solved.report.factor_error = Some(solved.goal().0);
-        }
-        Ok(solved)
+/// The report of a linear solver, with the numbers of the system.
+fn report(assembled: &Assembled, solver: SolverReport, components: usize) -> SolverReport {
+    let Assembled { plate, basis, system, gauge, .. } = assembled;
+    let cut_off = basis.cut_off(components).sum::<usize>() as f64;
+    let kept = basis.unknowns(components).sum::<usize>() as f64;
+    let (all, left) = (kept + cut_off, kept - solver.dependent.unwrap_or(0.0));
+    let mut bytes =
+        vec![(Phase::Basis, basis.bytes() as f64), (Phase::Assembly, system.bytes() as f64)];
+    bytes.extend(solver.solver_bytes.map(|held| (Phase::Solution, held)));
+    SolverReport {
+        unknowns: Some(all),
+        cut_off: Some(cut_off),
+        bytes,
+        worked: vec![
+            (Phase::Cover, all),
+            (Phase::Basis, all),
+            (Phase::Assembly, kept),
+            (Phase::Solution, left),
+        ],
+        nitsche: Some(system.nitsche),
+        pieces: Some(plate.pieces.all().len() as f64),
+        free_modes: Some(gauge.len() as f64),
+        imbalance: Some(plate.imbalance()),
+        quadrature_points: Some(system.points().iter().sum()),
+        ..solver
     }
 }
 
-impl Solved<'_> {
-    /// The largest estimated error of the factors of a tip, as a part of their size, and of each
-    /// cell its part in the sum of all; without tips those of the energy.
-    pub(super) fn goal(&self) -> (f64, Vec<f64>) {
-        let with_factors = self.tips.iter().filter_map(|o| Some((o.strength, o.factors.as_ref()?)));
-        let (strengths, sizes): (Vec<_>, Vec<_>) =
-            with_factors.map(|(strength, factors)| (strength, size(factors))).unzip();
-        let largest = strengths.into_iter().fold(0.0, f64::max);
-        if largest == 0.0 {
-            return (self.report.estimated_error.unwrap_or(0.0).powi(2), self.squares.clone());
+fn attribute(name: &str, values: Vec<f64>) -> Attribute {
+    Attribute { name: name.into(), values }
+}
+
+/// Writes coefficients that stand patch by patch and in each patch component by component.
+fn write_coefficients(data: &mut FieldData, coefficients: &[f64]) {
+    let mut rest = coefficients;
+    for patch in 0..data.patch_blocks.len() - 1 {
+        for component in data.coefficients_mut(patch) {
+            let (part, tail) = rest.split_at(component.len());
+            component.copy_from_slice(part);
+            rest = tail;
         }
-        let relative = |tip: usize, error: f64| error / sizes[tip].max(NOTHING * largest);
-        let errors = self.goal.errors.iter().enumerate().map(|(tip, error)| relative(tip, *error));
-        let cells = self.goal.cells.iter().map(|(tip, part)| relative(*tip, *part));
-        (errors.fold(0.0, f64::max), cells.collect())
     }
-
-    /// The dataset of a solution with its stress intensity factors, its diagnosis and its report;
-    /// of the last step of an adaptation with what has ended it.
-    pub(super) fn finish(
-        self,
-        stop: Option<StopReason>,
-        watcher: &dyn Watcher,
-    ) -> Result<Dataset, SolveError> {
-        let Self { plan, mut report, unresolved, tips, .. } = self;
-        let Plan { problem, mut dataset, ref space, crossed_twice, mut clock, .. } = plan;
-        let field = Field::new(&dataset, 0)?;
-        report.crossed_twice = Some(crossed_twice as f64);
-        report.stop = stop.map(StopReason::code);
-        let problem = Some(problem);
-        let diagnosis = {
-            let (dataset, field, report) = (&dataset, &field, &report);
-            let unresolved = &unresolved;
-            let case =
-                DiagnosedSolution { dataset, step: 0, field, space, problem, report, unresolved };
-            case.diagnose(&tips, watcher)?
-        };
-        clock.lap(Phase::Estimation);
-        report.rounding = Some(diagnosis.rounding);
-        report.seconds = clock.seconds;
-        let step = &mut dataset.steps[0];
-        step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
-        step.warnings = diagnosis.warnings;
-        step.history = report.records();
-        Ok(dataset)
-    }
-}
-
-/// |(K_I, K_II)|
-fn size(tip: &TipIntensity) -> f64 {
-    tip.k1.hypot(tip.k2)
-}
-
-/// A modulus times the square of the largest coefficient.
-fn energy_of_size(field: &Field<'_>) -> f64 {
-    let all = field.data.coefficients.iter().flatten();
-    let largest = all.fold(0.0_f64, |most, c| most.max(c.abs()));
-    let law = Law::new(field.equation).at(field.step.partition.boxes().center[0]);
-    law.modulus(0) * largest * largest
-}
-
-/// The attribute `indicator`, η_j / ‖u‖ in the energy norm: the root of the sum of its squares is
-/// the estimated error.
-fn indicator(squares: &[f64], energy: f64) -> Attribute {
-    let values = squares.iter().map(|square| (square / (2.0 * energy)).sqrt()).collect();
-    Attribute { name: "indicator".into(), values }
 }

@@ -12,7 +12,7 @@ use ppum::progress::{Phase, Progress, Verdict, unwatched};
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::diagnostics::kind;
 use ppum_solve::problem::{AdaptKind, Adaptivity, Cells, Keep, Problem};
-use ppum_solve::report::{StopReason, forget_times};
+use ppum_solve::report::{SolverReport, StopReason, forget_times};
 use ppum_solve::solve::{Plan, SolveError, solve};
 use ppum_testkit::random::Random;
 use std::ops::Range;
@@ -197,7 +197,7 @@ fn results_do_not_depend_on_threads() {
 }
 
 fn stop(dataset: &Dataset) -> Option<StopReason> {
-    StopReason::of_code(record(dataset.steps.last().expect("steps"), "adaptation stop"))
+    SolverReport::of(&dataset.steps.last().expect("steps").history).stop
 }
 
 /// Each end of an adaptation is told, only in its last step; one that has not come to its

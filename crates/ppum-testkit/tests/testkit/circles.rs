@@ -18,8 +18,6 @@ const LEFT: &[(&str, &str, usize)] = &[
     ("ppum-solve", "linear::knots", 2),
     ("ppum-solve", "quadrature", 10),
     ("ppum-solve", "smoothness::interfaces", 3),
-    ("ppum-solve", "solve", 3),
-    ("ppum-solve", "solve::goal", 2),
     ("ppum-solve", "space", 7),
 ];
 

@@ -1,0 +1,68 @@
+//! The system of a discretised problem, in the stable basis.
+
+use super::SolveError;
+use super::clock::Clock;
+use super::discretised::Discretised;
+use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Gauge, System, slivers};
+use crate::basis::StableBasis;
+use crate::equilibrium::Plate;
+use crate::intensity::{Sensitivity, sensitivities};
+use crate::law::Law;
+use crate::watched::Stage;
+use ppum::field::Field;
+use ppum::progress::{Phase, Watcher};
+use ppum::vec2::Vec2;
+
+/// The system in the stable basis, without the penalty of the gauge.
+pub(super) struct Assembled {
+    pub(super) plate: Plate,
+    pub(super) basis: StableBasis,
+    pub(super) system: System,
+    pub(super) gauge: Gauge,
+    /// The tips whose factors are functionals of the system.
+    pub(super) tips: Vec<Vec2>,
+}
+
+impl Assembled {
+    /// The system of what is given on the plate.
+    ///
+    /// # Errors
+    /// Loads without restraint, data and functions that are not finite; cancelled.
+    pub(super) fn new(
+        discretised: &Discretised<'_>,
+        clock: &mut Clock,
+        watcher: &dyn Watcher,
+    ) -> Result<Self, SolveError> {
+        let Discretised { problem, dataset, space, .. } = discretised;
+        let (given, plate) = discretised.loaded(watcher)?;
+        let field = Field::new(dataset, 0)?;
+        let tips = sensitivities(dataset, &field, space);
+        let law = &Law::new(&problem.equation);
+        let basis = stable_basis(discretised, law, watcher)?;
+        clock.lap(Phase::Basis);
+        let assembly = Assembly { problem, space, basis: &basis, law };
+        let stage = Stage::new(watcher, Phase::Assembly, assembly.n_cells())?;
+        let free = FreeModes::new(&plate);
+        let functionals = Functionals { free: &free, duals: &Duals::new(&tips, space) };
+        let system = System::new(assembly, &given, functionals, &stage);
+        let mut system = system.map_err(SolveError::of_data)?;
+        let gauge = Gauge::new(free, std::mem::take(&mut system.moments), &system.matrix);
+        clock.lap(Phase::Assembly);
+        let tips = tips.iter().map(Sensitivity::tip).collect();
+        Ok(Self { plate, basis, system, gauge, tips })
+    }
+}
+
+/// The stable basis, damped where the border cuts slivers.
+fn stable_basis(
+    Discretised { problem, space, .. }: &Discretised<'_>,
+    law: &Law<'_>,
+    watcher: &dyn Watcher,
+) -> Result<StableBasis, SolveError> {
+    let stage = Stage::new(watcher, Phase::Basis, 3 * space.partition().len())?;
+    let mut basis = StableBasis::new(space, &stage).map_err(SolveError::of_basis)?;
+    let assembly = Assembly { problem, space, basis: &basis, law };
+    let slivers = slivers(assembly, &stage).map_err(SolveError::of_data)?;
+    basis.damp(space, &slivers).map_err(SolveError::of_basis)?;
+    Ok(basis)
+}

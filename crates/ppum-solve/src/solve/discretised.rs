@@ -1,0 +1,70 @@
+//! A problem on a cover: its local spaces, the data that act on it, and its pieces.
+
+use super::SolveError;
+use crate::assembly::Given;
+use crate::equilibrium::{BodyPieces, Plate};
+use crate::problem::Problem;
+use crate::refine::n_crossed_twice;
+use crate::space::{Mesh, Space, SpaceError, discretise_on};
+use crate::watched::Stage;
+use ppum::dataset::{Dataset, Step};
+use ppum::progress::{Phase, Watcher};
+
+/// A problem whose cover and functions are known.
+pub(super) struct Discretised<'p> {
+    pub(super) problem: &'p Problem,
+    pub(super) mesh: Mesh,
+    /// The dataset, whose coefficients are zero until the system is solved.
+    pub(super) dataset: Dataset,
+    /// The space of its step: the only one from here to the last warning.
+    pub(super) space: Space<'p>,
+    /// Number of patches that a crack or rim crosses twice.
+    pub(super) crossed_twice: usize,
+}
+
+impl<'p> Discretised<'p> {
+    /// The problem on a mesh.
+    ///
+    /// # Errors
+    /// A space that cannot be built or could not be stored; cancelled.
+    pub(super) fn new(
+        problem: &'p Problem,
+        mesh: Mesh,
+        stage: &Stage<'_>,
+    ) -> Result<Self, SolveError> {
+        let step = discretise_on(problem, &mesh, stage)?;
+        let crossed_twice = n_crossed_twice(problem, step.partition.boxes());
+        let dataset = dataset(problem, step.clone());
+        dataset.check()?;
+        stage.advance(0)?;
+        let space = Space::of_problem(problem, step)?;
+        Ok(Self { problem, mesh, dataset, space, crossed_twice })
+    }
+
+    /// The data of the problem, and the plate that they act on.
+    ///
+    /// # Errors
+    /// Loads without restraint, data that are not finite; cancelled.
+    pub(super) fn loaded(&self, watcher: &dyn Watcher) -> Result<(Given<'p>, Plate), SolveError> {
+        let Self { problem, space, .. } = self;
+        let pieces = BodyPieces::new(&problem.domain, &problem.cracks);
+        if pieces.all().is_empty() {
+            return Err(SpaceError::Nothing.into());
+        }
+        let stage = Stage::uncounted(watcher, Phase::Basis)?;
+        let given = Given::new(problem, space, &stage).map_err(SolveError::of_data)?;
+        let balances = given.balance(space, &pieces, &stage).map_err(SolveError::of_data)?;
+        Ok((given, Plate::new(pieces, balances)?))
+    }
+}
+
+fn dataset(problem: &Problem, step: Step) -> Dataset {
+    let mut dataset =
+        Dataset::new(problem.domain.clone(), problem.equation.clone()).with_step(step);
+    dataset.title.clone_from(&problem.title);
+    dataset.program = concat!("ppum ", env!("CARGO_PKG_VERSION")).into();
+    dataset.problem.clone_from(&problem.text);
+    dataset.quantities.clone_from(&problem.quantities);
+    dataset.tables.clone_from(&problem.tables);
+    dataset
+}
