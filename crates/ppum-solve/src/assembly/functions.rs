@@ -1,10 +1,34 @@
-//! The functions that live in a cell, and the places of their unknowns in the system.
+//! A system that is to be assembled, the functions that live in a cell, and the places of their
+//! unknowns in the system.
 
-use super::Assembly;
 use super::cell_matrix::CellMatrix;
 use crate::basis::StableBasis;
+use crate::law::Law;
 use crate::linear::{BlockMatrix, add_at, product, taken};
+use crate::problem::Problem;
+use crate::space::Space;
 use faer::{Mat, MatRef};
+
+/// A system that is to be assembled: the problem, the functions, and the law of its equation.
+#[derive(Clone, Copy)]
+pub(crate) struct Assembly<'a> {
+    pub(crate) problem: &'a Problem,
+    pub(crate) space: &'a Space<'a>,
+    pub(crate) basis: &'a StableBasis,
+    pub(crate) law: &'a Law<'a>,
+}
+
+impl Assembly<'_> {
+    /// Components of the unknown field.
+    pub(crate) fn components(&self) -> usize {
+        self.law.components
+    }
+
+    /// Number of cells.
+    pub(crate) fn n_cells(&self) -> usize {
+        self.space.partition().len()
+    }
+}
 
 /// The functions of a cell's patches, numbered patch after patch.
 #[derive(Clone, Debug)]

@@ -24,33 +24,8 @@ mod template;
 
 pub(crate) use cell::Functionals;
 pub(crate) use dual::Duals;
+pub(crate) use functions::Assembly;
 pub(crate) use gauge::{FreeModes, Gauge};
 pub(crate) use given::Given;
 pub(crate) use loads::border_rules;
 pub(crate) use system::{System, pattern, slivers};
-
-use crate::basis::StableBasis;
-use crate::law::Law;
-use crate::problem::Problem;
-use crate::space::Space;
-
-/// A system that is to be assembled: the problem, the functions, and the law of its equation.
-#[derive(Clone, Copy)]
-pub(crate) struct Assembly<'a> {
-    pub(crate) problem: &'a Problem,
-    pub(crate) space: &'a Space<'a>,
-    pub(crate) basis: &'a StableBasis,
-    pub(crate) law: &'a Law<'a>,
-}
-
-impl Assembly<'_> {
-    /// Components of the unknown field.
-    pub(crate) fn components(&self) -> usize {
-        self.law.components
-    }
-
-    /// Number of cells.
-    pub(crate) fn n_cells(&self) -> usize {
-        self.space.partition().len()
-    }
-}

@@ -8,7 +8,6 @@
 //! says just that the reactions balance the loads: what differs is rounding, however coarse
 //! the cells.
 
-use super::cell_system::CellSystem;
 use super::functions::CellFunctions;
 use crate::basis::StableBasis;
 use crate::equilibrium::{MODES, PerMode, RigidModes};
@@ -92,9 +91,9 @@ pub(crate) struct Reactions(Vec<(CellFunctions, Vec<CellReaction>)>);
 
 impl Reactions {
     /// Adds those of the next cell.
-    pub(crate) fn push(&mut self, part: CellSystem) {
-        if !part.reactions.is_empty() {
-            self.0.push((part.functions, part.reactions));
+    pub(crate) fn push(&mut self, functions: CellFunctions, parts: Vec<CellReaction>) {
+        if !parts.is_empty() {
+            self.0.push((functions, parts));
         }
     }
 

@@ -230,7 +230,7 @@ impl System {
             let [p, q] = [k, l].map(|k| patches[k] as usize);
             self.matrix.add_block(p, q, stiffness.block(k, l));
         }
-        self.reactions.push(part);
+        self.reactions.push(part.functions, part.reactions);
     }
 }
 

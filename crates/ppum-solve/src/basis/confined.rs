@@ -10,9 +10,9 @@
 //! S = G_ii − G_iN G_NN⁻¹ G_Ni = U Λ Uᵀ,   keep λ > τ        where G_ii = I
 //! ```
 
-use super::Gram;
+use super::gram::{Gram, LEAST};
 use super::shape::{ShapeEvaluator, Shapes};
-use super::transform::CUT_OFF;
+use super::transform::{CUT_OFF, FunctionCombinations};
 use crate::linear::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
 use crate::quadrature::Rule;
 use crate::space::Space;
@@ -77,9 +77,6 @@ pub(super) fn reductions(
     }
     Ok(parts)
 }
-
-/// Functions of a patch, and the combinations of them that are kept.
-pub(super) type FunctionCombinations = (Range<usize>, Mat<f64>);
 
 /// The combinations of a jump's functions that its patch keeps.
 struct ReducedJump {
@@ -335,7 +332,7 @@ impl WeightedShapes<'_> {
         let (own, other) = (row(self.functions(jump).start), row(self.functions(other).start));
         let (phi, half) = (row(self.first(jump.patch)), self.space.partition().half[jump.patch]);
         let weights = &self.rule.weights;
-        let there = (0..own.len()).filter(|&q| other[q] != 0.0 && phi[q] > super::LEAST);
+        let there = (0..own.len()).filter(|&q| other[q] != 0.0 && phi[q] > LEAST);
         there.map(|q| weights[q] * (own[q] / phi[q]).powi(2)).sum::<f64>() / (half.x * half.y)
     }
 

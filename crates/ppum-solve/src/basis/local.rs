@@ -1,11 +1,11 @@
 //! The basis of one patch.
 
-use super::Gram;
-use super::confined::{FunctionCombinations, matrix};
+use super::confined::matrix;
+use super::gram::Gram;
 use super::tie::{self, tie};
-use super::transform::{CUT_OFF, Transform};
+use super::transform::{CUT_OFF, FunctionCombinations, Transform};
 use super::williams::{fields, parts};
-use crate::linear::{EigenError, SymmetricEigen};
+use crate::linear::{EigenError, SymmetricEigen, times};
 use crate::space::Space;
 use faer::{Mat, MatRef};
 use std::borrow::Cow;
@@ -157,11 +157,6 @@ impl LocalBasis {
             .map(|i| times(self.matrix.as_ref(), &free[i * self.len()..(i + 1) * self.len()]))
             .collect()
     }
-}
-
-/// Aᵀ x
-pub(super) fn times(a: MatRef<'_, f64>, x: &[f64]) -> Vec<f64> {
-    (0..a.ncols()).map(|j| (0..a.nrows()).map(|k| a[(k, j)] * x[k]).sum()).collect()
 }
 
 /// The transformation of a patch, of whose functions only some combinations may stay.

@@ -35,6 +35,7 @@
 use faer::{Mat, MatRef};
 
 use crate::linear::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
+use std::ops::Range;
 
 /// Cut-off ε below which a function counts as dependent.
 ///
@@ -53,6 +54,9 @@ pub(crate) const REACH: f64 = 100.0;
 /// Diagonal entries up to this fraction of the largest belong to functions that vanish on the
 /// patch. Smaller ones would ask for coefficients beyond 1e20, which single precision cannot hold.
 const VANISHING: f64 = 1e-40;
+
+/// Functions of a patch, and the combinations of them that are kept.
+pub(super) type FunctionCombinations = (Range<usize>, Mat<f64>);
 
 /// The stable transformation T of one patch.
 #[derive(Clone, Debug)]

@@ -12,9 +12,9 @@
 //! wedge they are [`WedgeTerm`]s (Williams 1952). One unknown each: they *tie* the components of
 //! the functions c, s, C and S. Of Poisson's equation s alone leaves the faces of a crack free.
 
-use super::confined::FunctionCombinations;
-use super::local::times;
+use super::transform::FunctionCombinations;
 use crate::corner::{Symmetry, WedgeTerm};
+use crate::linear::times;
 use crate::space::{ANGULAR, Origin, SeriesFunctions, Space};
 use faer::Mat;
 use ppum::crack::TipId;

@@ -15,9 +15,10 @@
 //! is real and changes the sign. Laplace: λ = π/ω with the same condition on both rays,
 //! π/(2ω) otherwise.
 
-use super::Constants;
 use super::sectors::Sector;
 use faer::c64;
+use ppum::dataset::Equation;
+use ppum::vec2::Vec2;
 use std::f64::consts::PI;
 
 /// Smallest and largest exponents that are looked for. At 2π a wedge that is held on one ray
@@ -33,6 +34,20 @@ const STEPS: usize = 64;
 
 /// Accuracy of an exponent.
 const ACCURACY: f64 = 1e-4;
+
+/// The part of the equation that the exponents depend on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Constants {
+    /// Kolosov's κ.
+    Elastic(f64),
+    Poisson,
+}
+
+impl Constants {
+    pub(super) fn at(equation: &Equation, p: Vec2) -> Self {
+        equation.elastic().map_or(Self::Poisson, |elastic| Self::Elastic(elastic.at(p).kolosov()))
+    }
+}
 
 /// The smallest Re λ in (0, 1) of a sector, 1 if there is none.
 pub(super) fn smallest(sector: &Sector, constants: Constants) -> f64 {

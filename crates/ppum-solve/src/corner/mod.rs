@@ -16,9 +16,8 @@ use crate::geometry::{rim_crossings, sure_side};
 use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem, touch};
 use crate::quadrature::{sign_changes, tame};
 use crate::smoothness::levels_of_data;
-use exponent::smallest;
+use exponent::{Constants, smallest};
 use ppum::crack::{Crack, LocalCrack, Side, tips};
-use ppum::dataset::Equation;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use sectors::{LOOK, Sector, Surroundings};
@@ -166,20 +165,6 @@ fn with_functions(problem: &Problem, mut corners: Vec<Corner>) -> Vec<Corner> {
         corners.iter_mut().for_each(|corner| corner.wedge = None);
     }
     corners
-}
-
-/// The part of the equation that the exponents depend on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Constants {
-    /// Kolosov's κ.
-    Elastic(f64),
-    Poisson,
-}
-
-impl Constants {
-    fn at(equation: &Equation, p: Vec2) -> Self {
-        equation.elastic().map_or(Self::Poisson, |elastic| Self::Elastic(elastic.at(p).kolosov()))
-    }
 }
 
 /// Part of the loads at a point by which they may differ from those of a uniform stress: more than

@@ -10,7 +10,7 @@
 //! have tractions r^λ times zero on both sides (Williams 1952). Of Laplace's equation r^λ sin λθ
 //! with λ = π/ω and r^λ cos λθ with λ = 2π/ω have no flux there.
 
-use super::Constants;
+use super::exponent::Constants;
 use std::f64::consts::PI;
 
 /// Exponents that are taken: between 1 and 2 gradients are finite and polynomials still see the

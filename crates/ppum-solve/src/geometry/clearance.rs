@@ -1,12 +1,10 @@
 //! Clearance of crack tips: the largest disc around a tip in which nothing disturbs its field.
 
-use super::AS_LONG;
-use super::jumps::{extension, extensions};
 use super::material::jumps;
 use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::Dataset;
 use ppum::domain::Domain;
-use ppum::segment;
+use ppum::segment::{self, Segment, gap};
 use ppum::vec2::{Rect, Vec2};
 
 /// Distance from a tip, in cells, at which the material is compared with the tip's: more than
@@ -23,6 +21,11 @@ pub(crate) const AMPLE_CLEARANCE: f64 = 2.0;
 /// cells at its tip: K of a crack with a kink of 0.1 at 1/50 of its length from the tip is off by
 /// 6e-6, with one of 0.2 by 5e-5. On an arc turns up to 0.6 change nothing.
 const GENTLE: f64 = 0.1;
+
+/// Part of a length by which another may exceed it and still be as long, and cosine of angles that
+/// are right ones: lengths of cracks are often whole cells, and their rounding must not decide
+/// which cells are divided.
+const AS_LONG: f64 = 1e-6;
 
 /// The largest disc around a tip that holds no border, no hole, no other crack, and of its own
 /// crack no more than the part that leads away from the tip. This part may have kinks. The material
@@ -203,6 +206,30 @@ pub(crate) fn sure_side(crack: &Crack, at: Vec2, bounds: &Rect, touch: f64) -> f
     let all = crack.points.windows(2).map(|s| [s[0], s[1]]).chain(rays);
     let others = all.map(|s| segment::distance(s, at)).filter(|distance| *distance > touch);
     0.5 * others.fold(f64::INFINITY, f64::min)
+}
+
+/// The straight extension of a crack at an end.
+pub(super) fn extension(crack: &Crack, end: End, length: f64) -> Segment {
+    let tip = crack.end_point(end);
+    [tip, tip + crack.growth_direction(end) * length]
+}
+
+/// The straight extensions of a crack, of a length; none if one of them comes near to the crack or
+/// the other one: between the two its side is not that of the nearest segment.
+pub(super) fn extensions(crack: &Crack, reach: f64, touch: f64) -> Option<[Segment; 2]> {
+    let points = &crack.points;
+    let rays = [End::Start, End::Last].map(|end| extension(crack, end, reach));
+    let last = points.len() - 2;
+    let own = points.windows(2).map(|s| [s[0], s[1]]).enumerate();
+    let meets = |(k, s): (usize, Segment)| {
+        (k != 0 && gap(rays[0], s) <= touch) || (k != last && gap(rays[1], s) <= touch)
+    };
+    (gap(rays[0], rays[1]) > touch && !own.into_iter().any(meets)).then_some(rays)
+}
+
+/// True if a length is larger than another by more than rounding of either.
+pub(crate) fn exceeds(length: f64, other: f64) -> bool {
+    length > other * (1.0 + AS_LONG)
 }
 
 #[cfg(test)]

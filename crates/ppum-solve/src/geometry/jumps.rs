@@ -10,7 +10,7 @@
 //! there would be a small difference of large parts. So it gives the patch the indicator of
 //! the sliver.
 
-use super::clearance::led_away;
+use super::clearance::{extension, extensions, led_away};
 use super::clip::{clipped, inside, meets, segment_inside, solid_part};
 use super::components::{Components, middle};
 use super::placed::{Placed, around, wider};
@@ -218,23 +218,4 @@ impl<'p> Jumps<'p> {
 fn segments(crack: u32, points: &[Vec2]) -> impl Iterator<Item = (SegmentId, Segment)> + '_ {
     let ends = points.windows(2).map(|s| [s[0], s[1]]);
     (0..).zip(ends).map(move |(segment, ends)| (SegmentId { crack, segment }, ends))
-}
-
-/// The straight extension of a crack at an end.
-pub(super) fn extension(crack: &Crack, end: End, length: f64) -> Segment {
-    let tip = crack.end_point(end);
-    [tip, tip + crack.growth_direction(end) * length]
-}
-
-/// The straight extensions of a crack, of a length; none if one of them comes near to the crack or
-/// the other one: between the two its side is not that of the nearest segment.
-pub(super) fn extensions(crack: &Crack, reach: f64, touch: f64) -> Option<[Segment; 2]> {
-    let points = &crack.points;
-    let rays = [End::Start, End::Last].map(|end| extension(crack, end, reach));
-    let last = points.len() - 2;
-    let own = points.windows(2).map(|s| [s[0], s[1]]).enumerate();
-    let meets = |(k, s): (usize, Segment)| {
-        (k != 0 && gap(rays[0], s) <= touch) || (k != last && gap(rays[1], s) <= touch)
-    };
-    (gap(rays[0], rays[1]) > touch && !own.into_iter().any(meets)).then_some(rays)
 }

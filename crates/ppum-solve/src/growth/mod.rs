@@ -9,26 +9,28 @@
 //! increments. By the criterion of local symmetry the arc is bent until K_II = 0 at its end.
 //!
 //! Each step is solved for itself, from its cracks alone, and given away when it is complete. What
-//! follows it is decided with it and stored in its [`Growth`], so that a series goes on from any of
-//! its steps with the same bits.
+//! follows it is decided with it and stored in its [`Growth`](ppum::dataset::Growth), so that a
+//! series goes on from any of its steps with the same bits.
 
 mod criterion;
 mod decision;
 mod path;
 mod settle;
+mod step;
 
 pub use criterion::{Kink, kink};
 pub use decision::Undecided;
 
 use crate::problem::{GrowthRule, Location, Mistake, Problem, ProblemError};
-use crate::solve::{Plan, SolveError};
-use decision::{Decision, decide, grown};
+use crate::solve::SolveError;
+use decision::grown;
 use ppum::crack::Crack;
-use ppum::dataset::{Dataset, Growth, GrowthStop, Step, Warning};
+use ppum::dataset::{Dataset, Step};
 use ppum::progress::{Progress, Verdict, Watcher};
 use ppum::segment::polyline_distance;
 use settle::settled;
 use std::convert::Infallible;
+use step::{Before, GrowthSeries, Obstacle, closed};
 
 /// A series that has ended before its end.
 #[derive(Debug, thiserror::Error)]
@@ -62,26 +64,8 @@ impl Watcher for InStep<'_> {
 pub struct Last<'s> {
     /// Its number, from 0.
     pub number: usize,
-    /// The step, with its [`Growth`].
+    /// The step, with its [`Growth`](ppum::dataset::Growth).
     pub step: &'s Step,
-}
-
-/// The next problem cannot be solved.
-enum Obstacle {
-    Problem(ProblemError),
-    Solve(SolveError),
-}
-
-/// A step that has been solved: its problem, and what was decided.
-struct Before {
-    problem: Problem,
-    growth: Growth,
-}
-
-/// A series on its way.
-struct GrowthSeries<'a> {
-    rule: &'a GrowthRule,
-    memory: Option<u64>,
 }
 
 /// Solves a problem whose cracks grow, and gives each step to `keep` as a dataset of its own when
@@ -205,104 +189,4 @@ fn start(problem: &Problem, last: Option<Last<'_>>) -> Option<(usize, Problem, O
     let at_last = Problem { cracks: step.cracks.clone(), ..problem.clone() };
     let next = grown(&at_last, growth);
     Some((number + 1, next, Some(Before { problem: at_last, growth: growth.clone() })))
-}
-
-/// A step that is complete, and whether the series ends with it because of what the next one meets.
-fn closed(mut dataset: Dataset, obstacle: Option<&Obstacle>) -> (Dataset, bool) {
-    let (stop, message) = match obstacle {
-        None | Some(Obstacle::Solve(SolveError::Cancelled(_))) => return (dataset, false),
-        Some(Obstacle::Solve(error @ SolveError::Unbalanced(_))) => {
-            (GrowthStop::PieceComesOff, error.to_string())
-        }
-        Some(Obstacle::Solve(error)) => (GrowthStop::Unsolvable, error.to_string()),
-        Some(Obstacle::Problem(error)) => (GrowthStop::Unsolvable, error.to_string()),
-    };
-    dataset.steps[0].growth.iter_mut().for_each(|growth| growth.stop = Some(stop));
-    dataset.steps[0].warnings.push(ending(stop, &message));
-    (dataset, true)
-}
-
-/// The warning that a series ends before its end.
-fn ending(stop: GrowthStop, message: &str) -> Warning {
-    let message = format!("growth ends here, {}: {message}", stop.words());
-    Warning { kind: "growth".to_owned(), at: None, value: 0.0, limit: 0.0, message }
-}
-
-impl Obstacle {
-    fn into_error(self) -> SolveError {
-        match self {
-            Self::Solve(error) => error,
-            Self::Problem(error) => SolveError::Problem(error),
-        }
-    }
-}
-
-impl GrowthSeries<'_> {
-    /// The plan of a problem whose loads balance.
-    fn plan<'p>(
-        &'p self,
-        problem: &'p Problem,
-        watcher: &dyn Watcher,
-    ) -> Result<Plan<'p>, Obstacle> {
-        problem.check().map_err(Obstacle::Problem)?;
-        let plan = Plan::new(problem, self.memory, watcher).map_err(Obstacle::Solve)?;
-        plan.check(watcher).map_err(Obstacle::Solve)?;
-        Ok(plan)
-    }
-
-    /// The dataset of a step under its load, with what is decided in it: if nothing can be, the end
-    /// of the series.
-    ///
-    /// # Errors
-    /// Nothing can be decided in the first step.
-    fn decided(
-        &self,
-        problem: &Problem,
-        mut dataset: Dataset,
-        before: Option<&Growth>,
-    ) -> Result<(Dataset, Growth), Undecided> {
-        let step = &mut dataset.steps[0];
-        let decision = decide(problem, self.rule, &step.intensities, before);
-        let Decision { growth, load } = match (decision, before) {
-            (Err(error), Some(Growth { cycles, .. })) => {
-                let stop = GrowthStop::Unsolvable;
-                step.warnings.push(ending(stop, &error.to_string()));
-                let mut growth = Growth::default();
-                (growth.cycles, growth.stop) = (*cycles, Some(stop));
-                Decision { growth, load: 1.0 }
-            }
-            (decision, _) => decision?,
-        };
-        under(step, load);
-        step.growth = Some(growth.clone());
-        Ok((dataset, growth))
-    }
-}
-
-/// The step under a multiple of its loads.
-fn under(step: &mut Step, load: f64) {
-    step.load *= load;
-    if load == 1.0 {
-        return;
-    }
-    for field in &mut step.fields {
-        field.coefficients.iter_mut().flatten().for_each(|c| *c *= load);
-    }
-    for tip in &mut step.intensities {
-        for k in
-            [&mut tip.k1, &mut tip.k2].into_iter().chain(&mut tip.t_stress).chain(&mut tip.error)
-        {
-            *k *= load;
-        }
-        tip.j.iter_mut().for_each(|j| *j *= load * load);
-        for ring in &mut tip.rings {
-            (ring.k1, ring.k2) = (load * ring.k1, load * ring.k2);
-        }
-    }
-    for reaction in &mut step.reactions {
-        reaction.force.iter_mut().for_each(|force| *force *= load);
-        reaction.moment *= load;
-    }
-    let energies = step.history.iter_mut().filter(|record| record.name == "energy");
-    energies.for_each(|record| record.value *= load * load);
 }

@@ -6,7 +6,7 @@
 
 use super::criterion::kink;
 use super::decision::{bent, grown};
-use super::{Before, GrowthSeries};
+use super::step::{Before, GrowthSeries};
 use crate::problem::Criterion;
 use crate::solve::{Plan, SolveError};
 use ppum::crack::{Crack, TipId};

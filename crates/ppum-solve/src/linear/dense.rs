@@ -27,3 +27,8 @@ pub(crate) fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     matmul(product.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
     product
 }
+
+/// Aᵀ x
+pub(crate) fn times(a: MatRef<'_, f64>, x: &[f64]) -> Vec<f64> {
+    (0..a.ncols()).map(|j| (0..a.nrows()).map(|k| a[(k, j)] * x[k]).sum()).collect()
+}

@@ -13,8 +13,8 @@
 use super::block_matrix::BlockMatrix;
 use super::dense::product;
 use super::eigen::SymmetricEigen;
+use super::inverse::inverse;
 use super::rows::{Rows, add_product};
-use super::smoother::inverse;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use rayon::prelude::*;

@@ -10,6 +10,7 @@ mod eigen;
 mod elimination;
 mod factor;
 mod front;
+mod inverse;
 mod kernel;
 mod knots;
 mod multilevel;
@@ -28,7 +29,7 @@ mod transfer;
 
 pub(crate) use block_matrix::{BlockMatrix, BlockPattern};
 pub(crate) use cholesky::Cholesky;
-pub(crate) use dense::{add_at, product, taken};
+pub(crate) use dense::{add_at, product, taken, times};
 pub use eigen::EigenError;
 pub(crate) use eigen::{SymmetricEigen, inverse_root_diagonal, scaled};
 pub(crate) use elimination::fill;

@@ -15,9 +15,8 @@
 //! a [`Doubt`].
 
 use super::doubt::Doubt;
-use super::edge::Face;
 use super::gauss::{Rules1d, closed, gauss};
-use super::geometry::Probes;
+use super::geometry::{Face, Probes};
 use ppum::vec2::Vec2;
 use std::cell::Cell;
 

@@ -1,8 +1,10 @@
 //! Rules along segments: parts of the boundary, faces of cracks.
 
 use super::adapt::{Demand, Refined, Subregion as _, refined};
+use super::cell::{Quadrature, SAME_POINT, TOLERANCE, distinct, straight_cut};
 use super::doubt::Doubt;
 use super::gauss::gauss;
+use super::geometry::{Face, Kink, LevelFunction, Singular};
 use super::orders::Active;
 use super::polygon::SegmentCut;
 use super::polygon::line_side;
@@ -10,10 +12,7 @@ use super::roots::{sign_changes, tame};
 use super::singular::panels;
 use super::split::{breaks, component, divided, kinks, varies};
 use super::stretch::{Path, Stretch};
-use super::{
-    Kink, LevelFunction, Quadrature, SAME_POINT, Singular, TOLERANCE, distinct, straight_cut,
-};
-use ppum::crack::{Crack, SegmentId, Side};
+use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2};
 use std::cell::Cell;
 
@@ -28,30 +27,6 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Distance behind a border, in units of a cell, at which it is asked whether there is a hole.
 const INWARD: f64 = 1e-9;
-
-/// A face of a crack: one side of one of its segments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Face {
-    /// The segment.
-    pub segment: SegmentId,
-    /// The side that the material lies on.
-    pub side: Side,
-}
-
-impl Face {
-    /// The faces of a crack on one side, one per segment.
-    pub(crate) fn of(crack: &Crack, index: usize, side: Side) -> impl Iterator<Item = Self> {
-        let segment = move |segment| SegmentId { crack: index as u32, segment };
-        (1..crack.points.len() as u32).map(move |k| Self { segment: segment(k - 1), side })
-    }
-
-    /// The ends of the segment.
-    fn ends(&self, cracks: &[Crack]) -> [Vec2; 2] {
-        let (points, k) =
-            (&cracks[self.segment.crack as usize].points, self.segment.segment as usize);
-        [points[k], points[k + 1]]
-    }
-}
 
 /// A rule on the part of a segment in one cell on which one set of patches is active.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,7 @@
 //! The geometry that decides where integrands are smooth.
 
-use super::edge::Face;
 use super::gauss::MAX_POINTS;
-use ppum::crack::Crack;
+use ppum::crack::{Crack, SegmentId, Side};
 use ppum::dataset::BoxPartition;
 use ppum::domain::Hole;
 use ppum::vec2::Vec2;
@@ -15,6 +14,30 @@ const LEAST_EXPONENT: f64 = 0.04;
 
 /// More points along a ray for the exponent λ: this over √λ.
 const EXTRA_POINTS: f64 = 8.0;
+
+/// A face of a crack: one side of one of its segments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Face {
+    /// The segment.
+    pub segment: SegmentId,
+    /// The side that the material lies on.
+    pub side: Side,
+}
+
+impl Face {
+    /// The faces of a crack on one side, one per segment.
+    pub(crate) fn of(crack: &Crack, index: usize, side: Side) -> impl Iterator<Item = Self> {
+        let segment = move |segment| SegmentId { crack: index as u32, segment };
+        (1..crack.points.len() as u32).map(move |k| Self { segment: segment(k - 1), side })
+    }
+
+    /// The ends of the segment.
+    pub(super) fn ends(&self, cracks: &[Crack]) -> [Vec2; 2] {
+        let (points, k) =
+            (&cracks[self.segment.crack as usize].points, self.segment.segment as usize);
+        [points[k], points[k + 1]]
+    }
+}
 
 /// The geometry that decides where integrands are smooth. Lists of a patch are indices into the
 /// slices before them, in any order; an empty `patch_…` slice means that no patch has any.

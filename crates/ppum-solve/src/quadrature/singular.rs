@@ -11,7 +11,6 @@
 //!
 //! [`Growth`]: super::Growth
 
-use super::Rules;
 use super::adapt::{Demand, Refined, Subregion as _, refined};
 use super::chart::{Apex, Chart, quadrilaterals};
 use super::curve::{ChartWindow, cut_all};
@@ -20,6 +19,7 @@ use super::geometry::{LevelFunction, Probes, Singular};
 use super::holes;
 use super::piece::SmoothPiece;
 use super::polygon::Polygon;
+use super::rule::Rules;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::cell::Cell;

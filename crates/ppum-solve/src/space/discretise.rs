@@ -1,48 +1,19 @@
 //! From a problem to a step with all coefficients zero: cover, enrichment, inspection.
 
 use super::enrichment::{Block, Enrichments};
-use super::inspect::{InspectError, inspect};
+use super::error::SpaceError;
+use super::inspect::inspect;
 use super::mesh::Mesh;
 use crate::geometry::Placed;
+use crate::problem::Problem;
 use crate::problem::quantities::field_names;
-use crate::problem::{OrderError, Problem};
 use crate::quadrature::{Geometry, Orders, Quadrature, Rule};
 use crate::refine::RefineError;
 use crate::watched::Stage;
 use ppum::dataset::{Attribute, BoxPartition, FieldData, MAX_DEGREE, Step, monomials};
 use ppum::domain::Hole;
-use ppum::progress::{Cancelled, Phase, Watcher};
+use ppum::progress::{Phase, Watcher};
 use ppum::vec2::{Rect, vec2};
-
-/// The space of a problem cannot be built.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SpaceError {
-    /// The cover.
-    #[error(transparent)]
-    Refine(RefineError),
-    /// Holes that leave nothing.
-    #[error("the holes swallow the whole domain; make them smaller")]
-    Nothing,
-    /// The order formula.
-    #[error(transparent)]
-    Order(#[from] OrderError),
-    /// A function that cannot be used.
-    #[error(transparent)]
-    Function(#[from] InspectError),
-    /// The watcher wanted the work to stop.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
-
-impl From<RefineError> for SpaceError {
-    fn from(error: RefineError) -> Self {
-        match error {
-            RefineError::Cancelled(cancelled) => Self::Cancelled(cancelled),
-            error => Self::Refine(error),
-        }
-    }
-}
 
 /// The step of a problem with all coefficients zero.
 ///

@@ -1,6 +1,6 @@
 //! The cells of a problem with what adaptation has made of them.
 
-use super::SpaceError;
+use super::error::SpaceError;
 use crate::problem::Problem;
 use crate::refine::{RefineError, cover};
 use crate::watched::Stage;

@@ -1,7 +1,6 @@
 //! Functions that stand for the series of tips and corners: the solution takes combinations of
 //! them only.
 
-use super::Space;
 use crate::corner::{Corner, Symmetry, WedgeTerm, corners};
 use crate::problem::Problem;
 use ppum::crack::{Side, TipId};
@@ -178,41 +177,6 @@ fn of_patch(step: &Step, patch: usize, groups: &Groups) -> Vec<SeriesFunctions> 
         at += monomials(degree);
     }
     found
-}
-
-impl Space<'_> {
-    /// The series of a patch.
-    pub(crate) fn series(&self, patch: usize) -> &[SeriesFunctions] {
-        self.series.get(patch).map_or(&[], Vec::as_slice)
-    }
-
-    /// Number of functions of a patch that the solver evaluates.
-    pub(crate) fn evaluated(&self, patch: usize) -> usize {
-        let fewer = |series: &SeriesFunctions| series.functions.len() - series.evaluated();
-        self.sizes[patch] - self.series(patch).iter().map(fewer).sum::<usize>()
-    }
-
-    /// The series of a patch with the numbers of their functions among those that the
-    /// solver evaluates.
-    pub(crate) fn evaluated_series(
-        &self,
-        patch: usize,
-    ) -> impl Iterator<Item = (Range<usize>, &SeriesFunctions)> {
-        let mut fewer = 0;
-        self.series(patch).iter().map(move |series| {
-            let (first, n) = (series.functions.start - fewer, series.evaluated());
-            fewer += series.functions.len() - n;
-            (first..first + n, series)
-        })
-    }
-
-    /// Number of unknowns of a patch, before any are cut off.
-    pub(crate) fn unknowns(&self, patch: usize) -> usize {
-        let (components, series) = (self.equation.components(), self.series(patch));
-        let theirs: usize = series.iter().map(|series| series.functions.len()).sum();
-        let unknowns: usize = series.iter().map(|series| series.unknowns(components)).sum();
-        components * (self.sizes[patch] - theirs) + unknowns
-    }
 }
 
 const _: () = assert!(GROUP == WESTERGAARD.len() && GROUP == WEDGE.len());

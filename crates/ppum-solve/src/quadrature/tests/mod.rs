@@ -12,8 +12,9 @@ mod together;
 mod weights;
 
 use super::*;
-use ppum::crack::CrackEnd;
+use ppum::crack::{Crack, CrackEnd};
 use ppum::dataset::BoxPartition;
+use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_testkit::random::Random;
 

@@ -11,120 +11,13 @@
 //! is what the material's formula shows: the argument of its `sign`, of the inequality of its `if`.
 //! Whether the constants really jump is seen by looking at both sides.
 
+mod interface;
 mod place;
 mod trouble;
 
+pub(crate) use interface::{Interface, Interfaces, proportional};
 pub(crate) use place::{BESIDE, InterfacePoint};
 pub(crate) use trouble::{Cause, Trouble};
-
-use crate::law::Law;
-use crate::quadrature::LevelFunction;
-use ppum::dataset::Equation;
-use ppum::domain::Domain;
-use ppum::formula::{Formula, Kink, one_line};
-use ppum::function::Frame;
-use ppum::vec2::{Rect, Vec2, vec2};
-use std::sync::Arc;
-
-/// Points in each direction at which two level functions are compared.
-const COMPARED: usize = 24;
-
-/// Part of a level function's size that is rounding.
-const ROUNDING: f64 = 1e-12;
-
-/// The sets on which constants of an equation may jump on a domain.
-pub(crate) struct Interfaces<'e> {
-    /// No two have proportional level functions.
-    pub(crate) all: Vec<Interface>,
-    domain: &'e Domain,
-    law: Law<'e>,
-}
-
-/// A set on which a constant may jump: the zeros of a level function ψ.
-pub(crate) struct Interface {
-    level: Arc<LevelFunction>,
-    /// The derivatives of ψ.
-    slopes: [Formula; 2],
-    /// The text of ψ in the plate's coordinates.
-    name: String,
-    /// A frame and the text of |ψ| in it.
-    pub(crate) frame: Frame,
-    pub(crate) text: String,
-}
-
-impl<'e> Interfaces<'e> {
-    /// Those of an equation.
-    pub(crate) fn new(equation: &'e Equation, domain: &'e Domain) -> Self {
-        let mut all: Vec<Interface> = Vec::new();
-        let formulas = equation.constants().filter(|(_, e)| e.constant().is_none());
-        let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
-        for new in kinks.filter_map(|kink| Interface::new(&kink, &domain.bounds)) {
-            let is_new = |known: &Interface| {
-                !proportional(&|p| known.value(p), &|p| new.value(p), &domain.bounds)
-            };
-            if all.iter().all(is_new) {
-                all.push(new);
-            }
-        }
-        Self { all, domain, law: Law::new(equation) }
-    }
-}
-
-impl Interface {
-    /// None if the level function has no derivatives.
-    fn new(kink: &Kink, domain: &Rect) -> Option<Self> {
-        let derivative = |variable| kink.value.derivative(variable).ok();
-        let slopes = [derivative("x")?, derivative("y")?];
-        let name = one_line(kink.value.text());
-        let (frame, text) = match kink.line() {
-            Some(line) => (along(line, domain.center()), "abs(y)".to_owned()),
-            None => (Frame::World, format!("abs({})", kink.value.text())),
-        };
-        let value = kink.value.clone();
-        let level = Arc::new(move |p: Vec2| value.evaluate(&[p.x, p.y]));
-        Some(Self { level, slopes, name, frame, text })
-    }
-
-    /// ψ
-    pub(crate) fn value(&self, p: Vec2) -> f64 {
-        (self.level)(p)
-    }
-
-    /// ∇ψ
-    pub(crate) fn gradient(&self, p: Vec2) -> Vec2 {
-        let [x, y] = self.slopes.each_ref().map(|slope| slope.evaluate(&[p.x, p.y]));
-        vec2(x, y)
-    }
-
-    /// Its name in reports: the equation of its points.
-    pub(crate) fn name(&self) -> String {
-        format!("{} = 0", self.name)
-    }
-}
-
-/// The frame along the line a x + b y + c = 0, its origin next to a point.
-fn along([a, b, c]: [f64; 3], near: Vec2) -> Frame {
-    let normal = vec2(a, b);
-    let origin = near - normal * ((normal.dot(near) + c) / normal.dot(normal));
-    let way = normal.left();
-    Frame::Fixed { origin, angle: (-way.y).atan2(-way.x) }
-}
-
-/// True if two functions are multiples of each other, as far as points all over a box tell: then
-/// they vanish at the same places.
-pub(crate) fn proportional(f: &dyn Fn(Vec2) -> f64, g: &dyn Fn(Vec2) -> f64, rect: &Rect) -> bool {
-    let part = |k: usize| (k as f64 + 0.4142) / COMPARED as f64;
-    let (min, size) = (rect.min, rect.size());
-    let points = (0..COMPARED * COMPARED)
-        .map(|k| (k % COMPARED, k / COMPARED))
-        .map(|(i, j)| min + vec2(size.x * part(i), size.y * part(j)));
-    let pairs: Vec<_> = points.map(|p| (f(p), g(p))).collect();
-    let largest = pairs.iter().copied().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-    largest.is_some_and(|(a, b)| {
-        let bound = ROUNDING * (a * b).abs();
-        bound > 0.0 && pairs.iter().all(|(x, y)| (y * a - x * b).abs() <= bound)
-    })
-}
 
 #[cfg(test)]
 mod tests;

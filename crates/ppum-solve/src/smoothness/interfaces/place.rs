@@ -1,6 +1,6 @@
 //! The course of an interface through a box.
 
-use super::{Interface, Interfaces};
+use super::interface::{Interface, Interfaces};
 use crate::geometry::inside;
 use crate::quadrature::may_meet;
 use ppum::vec2::{Rect, Vec2, vec2};

@@ -1,6 +1,7 @@
 //! Places at which interfaces ask for more than a kink across a patch.
 
-use super::{InterfacePoint, Interfaces};
+use super::interface::Interfaces;
+use super::place::InterfacePoint;
 use crate::geometry::inside;
 use ppum::crack::{Crack, End};
 use ppum::segment;

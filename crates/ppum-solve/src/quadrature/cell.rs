@@ -1,0 +1,307 @@
+//! Rules on cells.
+
+use super::geometry::{Geometry, Kink, LevelFunction, Singular};
+use super::orders::{Active, Orders};
+use super::polygon::{Polygon, SegmentCut, line_side};
+use super::rule::{Rule, Rules};
+use super::singular::PieceQuadrature;
+use super::{adapt, curve, holes, split};
+use ppum::crack::Crack;
+use ppum::domain::Hole;
+use ppum::vec2::{Rect, Vec2, vec2};
+use std::cell::Cell;
+use std::sync::Arc;
+
+/// Lengths below this part of a cell are rounding.
+pub(super) const TOLERANCE: f64 = 1e-12;
+
+/// Pieces smaller than this part of their cell are dropped. Slivers that have an area are kept.
+const LEAST_AREA: f64 = 1e-24;
+
+/// Singular points nearer than this part of a rectangle's diameter to each other count as one.
+pub(super) const SAME_POINT: f64 = 1e-9;
+
+/// The rules of a step's cells.
+#[derive(Clone)]
+pub(crate) struct Quadrature<'a> {
+    pub(super) geometry: Geometry<'a>,
+    pub(super) orders: Orders,
+    /// Segments of cracks and sides of holes.
+    segments: Vec<SegmentCut>,
+    /// Round rims: at least as many as there are round holes.
+    pub(super) circles: Vec<Arc<LevelFunction>>,
+    /// Boxes of the holes, and of the round ones.
+    boxes: Vec<Rect>,
+    circle_boxes: Vec<Rect>,
+    /// Most divisions in one cell, or along one line through it.
+    pub(super) divisions: usize,
+}
+
+/// A disc around a point at which the integrand is singular.
+#[derive(Clone, Copy)]
+pub(crate) struct Disc {
+    pub center: Vec2,
+    pub radius: f64,
+    /// Length on which the integrand's factor of the disc varies.
+    pub scale: f64,
+    /// Gauss points in each direction of pieces as large as that, and at the centre.
+    pub order: usize,
+    /// Gauss points of pieces that are next to nothing against it, enough for what else is in
+    /// the integrand.
+    pub least: usize,
+}
+
+impl Disc {
+    /// The same number of points on all pieces.
+    #[cfg(test)]
+    pub(super) fn even(center: Vec2, radius: f64, order: usize) -> Self {
+        Self { center, radius, scale: radius, order, least: order }
+    }
+
+    /// Gauss points of a rectangle that is at least its diameter away from singular points.
+    fn order(&self, diameter: f64) -> usize {
+        let more = self.order.saturating_sub(self.least) as f64 * (diameter / self.scale).min(1.0);
+        self.least.min(self.order) + more.ceil() as usize
+    }
+}
+
+impl<'a> Quadrature<'a> {
+    /// The quadrature for a geometry.
+    #[must_use]
+    pub(crate) fn new(geometry: Geometry<'a>, orders: Orders) -> Self {
+        let sides = geometry.holes.iter().flat_map(Hole::sides).map(SegmentCut::segment);
+        let segments = geometry.cracks.iter().flat_map(cuts).chain(sides).collect();
+        let circles = geometry.holes.iter().filter_map(holes::level).collect();
+        let round = geometry.holes.iter().filter(|hole| matches!(hole, Hole::Circle { .. }));
+        let circle_boxes = round.map(Hole::bounds).collect();
+        let boxes = geometry.holes.iter().map(Hole::bounds).collect();
+        let divisions = adapt::MOST_DIVISIONS;
+        Self { geometry, orders, segments, circles, boxes, circle_boxes, divisions }
+    }
+
+    /// The same with fewer divisions of a cell where formulas are probed.
+    #[must_use]
+    pub(crate) fn with_divisions(self, most: usize) -> Self {
+        Self { divisions: most.min(self.divisions), ..self }
+    }
+
+    /// The rules on a cell. `coverers` are the patches whose open supports meet the cell; more of
+    /// them do no harm.
+    #[must_use]
+    pub(crate) fn cell(&self, cell: &Rect, coverers: &[u32]) -> Vec<Rule> {
+        self.rules(cell, coverers, self.orders, None)
+    }
+
+    /// True if nothing cuts a cell but borders of patches, and all that multiplies their weights is
+    /// smooth there.
+    #[must_use]
+    pub(crate) fn is_whole(&self, cell: &Rect, coverers: &[u32]) -> bool {
+        let Geometry { common_kinks, common_probes, .. } = self.geometry;
+        common_kinks.is_empty()
+            && common_probes.is_empty()
+            && self.geometry.is_smooth(coverers)
+            && self.cuts_near(cell).next().is_none()
+            && !self.boxes.iter().any(|hole| hole.overlaps(cell))
+    }
+
+    /// The rules on the pieces of a cell that meet a disc, with more points than the disc asks for
+    /// where the weight function needs them.
+    ///
+    /// The integrand may be singular like r⁻¹ at the disc's centre, whichever functions are active,
+    /// and must vanish outside the disc: of the cell the part inside the disc's bounding square is
+    /// integrated. The anchor is the centre wherever no other singular point is near.
+    #[must_use]
+    pub(crate) fn disc(&self, cell: &Rect, coverers: &[u32], disc: Disc) -> Vec<Rule> {
+        let part = cell.intersection(&Rect::around(disc.center, vec2(disc.radius, disc.radius)));
+        let size = part.size();
+        if size.x <= 0.0 || size.y <= 0.0 {
+            return Vec::new();
+        }
+        let overlap = disc.order.max(self.orders.overlap);
+        let orders = Orders { overlap, parts: self.orders.parts, ..Orders::uniform(disc.order) };
+        self.rules(&part, coverers, orders, Some(disc))
+    }
+
+    fn rules(
+        &self,
+        cell: &Rect,
+        coverers: &[u32],
+        orders: Orders,
+        disc: Option<Disc>,
+    ) -> Vec<Rule> {
+        let segments = self.cuts_near(cell).collect();
+        let boxes = self.boxes.iter().zip(self.geometry.holes);
+        let holes = boxes.filter(|(b, _)| b.overlaps(cell)).map(|(_, hole)| hole).collect();
+        let size = cell.size();
+        let least = LEAST_AREA * size.x * size.y;
+        let (rules, left) = (Rules::default(), Cell::new(self.divisions));
+        let quadrature = self;
+        let mut run =
+            CellIntegration { quadrature, cell, orders, disc, segments, holes, least, rules, left };
+        let mut sorted = coverers.to_vec();
+        sorted.sort_unstable();
+        let partition = self.geometry.partition;
+        split::rectangles(partition, orders.parts, cell, &sorted, &mut |rect, patches| {
+            run.add(rect, patches);
+        });
+        // Nothing is left where all pieces lie in holes.
+        run.rules.0.retain(|rule| !rule.offsets.is_empty());
+        let mut singular: Vec<Vec2> = self.geometry.singular.iter().map(|s| s.point).collect();
+        singular.extend(disc.map(|d| d.center));
+        run.rules.0.iter().for_each(|rule| rule.check(&singular));
+        run.rules.0
+    }
+
+    /// The segments of cracks and sides of holes that meet the closed box.
+    pub(super) fn cuts_near(&self, rect: &Rect) -> impl Iterator<Item = SegmentCut> {
+        self.segments.iter().copied().filter(|cut| meets(rect, cut.ends[0], cut.ends[1]))
+    }
+}
+
+/// The segments of a crack, which goes on beyond its ends.
+fn cuts(crack: &Crack) -> impl Iterator<Item = SegmentCut> {
+    let last = crack.points.len().saturating_sub(2);
+    let segments = crack.points.windows(2).enumerate();
+    segments.map(move |(k, s)| SegmentCut { ends: [s[0], s[1]], goes_on: [k == 0, k == last] })
+}
+
+/// True if the segment meets the closed box, up to rounding.
+fn meets(rect: &Rect, a: Vec2, b: Vec2) -> bool {
+    let slack = rect.size() * TOLERANCE;
+    let near = Rect::new(rect.min - slack, rect.max + slack);
+    near.overlaps(&Rect::new(a.min(b), a.max(b))) && {
+        let side = near.corners().map(|p| line_side(a, b, p));
+        !(side.iter().all(|&s| s > 0.0) || side.iter().all(|&s| s < 0.0))
+    }
+}
+
+/// One cell's work.
+struct CellIntegration<'a> {
+    quadrature: &'a Quadrature<'a>,
+    cell: &'a Rect,
+    orders: Orders,
+    disc: Option<Disc>,
+    segments: Vec<SegmentCut>,
+    /// The holes whose boxes meet the cell.
+    holes: Vec<&'a Hole>,
+    least: f64,
+    rules: Rules,
+    /// Divisions that are left.
+    left: Cell<usize>,
+}
+
+impl CellIntegration<'_> {
+    /// Adds a rectangle on which the partition functions of `patches` are smooth.
+    fn add(&mut self, rect: &Rect, patches: &[u32]) {
+        if self.disc.is_some_and(|d| rect.distance(d.center) >= d.radius) {
+            return;
+        }
+        let geometry = self.quadrature.geometry;
+        if holes::covered(&self.holes, rect) {
+            return;
+        }
+        let diameter = rect.size().length();
+        let mut singular = self.singular_points(rect, patches);
+        let nearest = singular.first().map_or(f64::INFINITY, |s| rect.distance(s.point));
+        singular.retain(|s| rect.distance(s.point) < diameter);
+        let elsewhere = self.disc.map_or_else(|| self.cell.center(), |d| d.center);
+        let anchor = singular.first().map_or(elsewhere, |s| s.point);
+
+        let kinks = geometry.active_kinks(patches);
+        let active = geometry.active_probes(patches);
+        let mut curves = curves_near(&kinks, rect);
+        let circles = self.quadrature.circles.iter().zip(&self.quadrature.circle_boxes);
+        let near = circles.filter(|(_, b)| b.overlaps(rect)).map(|(level, _)| level.as_ref());
+        curves.extend(near.filter(|&level| curve::may_meet(level, rect)));
+        let order = self.orders.choose(&Active {
+            patches: patches.len(),
+            distance: nearest / diameter,
+            kinks: geometry.has_kinks(patches) || !curves.is_empty(),
+            probes: !active.is_empty(),
+        });
+        let order = match self.disc {
+            Some(disc) if nearest >= diameter && active.is_empty() => {
+                order.min(disc.order(diameter).max(self.quadrature.orders.overlap))
+            }
+            _ => order,
+        };
+        let polygons = self.cut(rect, anchor, &kinks);
+        let mut pieces = PieceQuadrature {
+            rules: &mut self.rules,
+            patches,
+            order,
+            reserve: self.orders.reserve,
+            size: self.cell.size().length(),
+            least: self.least,
+            curves: &curves,
+            holes: &holes::near(&self.holes, rect),
+            probes: (geometry.probes, &active),
+            left: &self.left,
+        };
+        for polygon in polygons {
+            pieces.add(anchor, &polygon, &singular);
+        }
+    }
+
+    /// The rectangle cut by the segments that meet it and by straight kinks, relative to
+    /// the anchor.
+    fn cut(&self, rect: &Rect, anchor: Vec2, kinks: &[&Kink]) -> Vec<Polygon> {
+        let meets = |cut: &&SegmentCut| meets(rect, cut.ends[0], cut.ends[1]);
+        let meeting = self.segments.iter().filter(meets).copied();
+        let straight = kinks.iter().filter_map(|kink| straight_cut(kink, rect));
+        let cuts: Vec<_> = meeting.chain(straight).map(|cut| cut.seen_from(anchor)).collect();
+        Polygon(rect.corners().map(|p| p - anchor).to_vec()).pieces(&cuts, self.least)
+    }
+
+    /// The distinct singular points, the nearest first.
+    fn singular_points(&self, rect: &Rect, patches: &[u32]) -> Vec<Singular> {
+        let mut points = self.quadrature.geometry.singular_points(patches);
+        points.extend(self.disc.map(|d| Singular::tip(d.center)));
+        points.sort_by(|a, b| rect.distance(a.point).total_cmp(&rect.distance(b.point)));
+        distinct(points, SAME_POINT * rect.size().length())
+    }
+}
+
+/// Points without those that are not apart from one before them, which takes their growth.
+pub(super) fn distinct(points: Vec<Singular>, apart: f64) -> Vec<Singular> {
+    let mut distinct: Vec<Singular> = Vec::new();
+    for p in points {
+        match distinct.iter_mut().find(|q| (p.point - q.point).length() <= apart) {
+            Some(known) => known.growth = known.growth.and(p.growth),
+            None => distinct.push(p),
+        }
+    }
+    distinct
+}
+
+/// The cut of a straight kink through a rectangle, if it meets that.
+pub(super) fn straight_cut(kink: &Kink, rect: &Rect) -> Option<SegmentCut> {
+    match *kink {
+        Kink::Line(line) => Some(SegmentCut::line(line)),
+        Kink::Segment([a, b]) => meets(rect, a, b).then_some(SegmentCut::segment([a, b])),
+        Kink::Curve(_) => None,
+    }
+}
+
+impl Kink {
+    /// False if it certainly stays away from a rectangle.
+    pub(crate) fn may_meet(&self, rect: &Rect) -> bool {
+        match self {
+            Self::Line([a, b]) => {
+                let side = rect.corners().map(|p| line_side(*a, *b, p));
+                !(side.iter().all(|&s| s > 0.0) || side.iter().all(|&s| s < 0.0))
+            }
+            Self::Segment([a, b]) => meets(rect, *a, *b),
+            Self::Curve(level) => curve::may_meet(level.as_ref(), rect),
+        }
+    }
+}
+
+/// The level functions of the curved kinks that may meet a rectangle.
+fn curves_near<'k>(kinks: &[&'k Kink], rect: &Rect) -> Vec<&'k LevelFunction> {
+    let levels = kinks.iter().filter_map(|kink| match *kink {
+        Kink::Curve(level) => Some(level.as_ref()),
+        _ => None,
+    });
+    levels.filter(|&level| curve::may_meet(level, rect)).collect()
+}

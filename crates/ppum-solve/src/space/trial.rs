@@ -1,0 +1,285 @@
+//! A step with the lists that the solver needs to walk over it.
+
+use super::alike::Alike;
+use super::inspect;
+use super::williams::{self, SeriesFunctions};
+use crate::problem::Problem;
+use crate::quadrature::{Orders, Quadrature, Rule};
+use crate::smoothness::Smoothness;
+use ppum::box_tree::BoxTree;
+use ppum::crack::{LocalCrack, Side};
+use ppum::dataset::{BoxPartition, Equation, FieldData, Step, monomials};
+use ppum::domain::{Domain, Hole};
+use ppum::formula::Table;
+use ppum::function::{FunctionError, FunctionKind, FunctionTable};
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+/// Accuracy of the quadrature of products of partition functions with polynomials of the
+/// highest degree.
+///
+/// What a solution has of the highest degree falls with the order as its error does, so the same
+/// part of it is allowed at all orders: 2e-5, which changes factors by less than a thousandth of
+/// their error (docs/decisions/0030-points.md).
+const WEIGHT_ACCURACY: f64 = 2e-5;
+
+/// A step and its walks. Errors, energies and stress intensity factors of a solution are integrated
+/// over the same cells as the system, so one space serves from the first estimate to the last
+/// warning: what it looks at of its step is everything but the coefficients.
+#[derive(Debug)]
+pub struct Space<'d> {
+    pub(super) step: Cow<'d, Step>,
+    /// The holes that are cut out of the cells.
+    pub(crate) holes: &'d [Hole],
+    /// The step's functions, compiled.
+    pub(crate) functions: FunctionTable,
+    /// The patches whose open supports meet a cell, cell by cell.
+    pub(crate) coverers: Vec<Vec<u32>>,
+    /// The number of functions of a patch's local space, patch by patch.
+    pub(crate) sizes: Vec<usize>,
+    /// The constant σ that a block's function f is replaced by f − σ with while solving, block
+    /// by block.
+    ///
+    /// For the side of a crack σ is the side of the patch's centre, so that f − σ vanishes on the
+    /// larger part of the patch: the jump across a sliver is a function of its own, not a small
+    /// difference of large ones. Zero for all other functions.
+    pub(crate) shifts: Vec<f64>,
+    /// Of each patch, those functions that stand for the series of tips and corners; empty if there
+    /// are none anywhere.
+    pub(super) series: Vec<Vec<SeriesFunctions>>,
+    /// The functions of the table that they are made of.
+    pub(super) in_series: BTreeSet<u32>,
+    pub(super) equation: &'d Equation,
+    pub(super) smoothness: Smoothness,
+    pub(super) orders: Orders,
+    /// Of each cell, its rules once they are made; none of cells that are alike.
+    pub(super) rules: Vec<OnceLock<Vec<Rule>>>,
+    /// The cells that are alike, once somebody asks.
+    pub(super) alike: OnceLock<Alike>,
+}
+
+impl<'d> Space<'d> {
+    /// The walks over the first field of a step on a domain.
+    ///
+    /// # Errors
+    /// A function of the step that does not compile.
+    ///
+    /// # Panics
+    /// If the step has no field.
+    pub fn new(
+        step: &'d Step,
+        domain: &'d Domain,
+        equation: &'d Equation,
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
+        Self::on(Cow::Borrowed(step), domain, equation, tables)
+    }
+
+    /// The walks over a step of a problem, with formulas in place of kernels where the problem
+    /// wants that.
+    ///
+    /// # Errors
+    /// A function of the step that does not compile.
+    pub(crate) fn of_problem(problem: &'d Problem, step: Step) -> Result<Self, FunctionError> {
+        let Problem { domain, equation, tables, .. } = problem;
+        let mut space = Self::on(Cow::Owned(step), domain, equation, tables)?;
+        (space.series, space.in_series) = williams::series(problem, &space.step);
+        if !problem.solver.kernels {
+            let Step { functions, cracks, .. } = &*space.step;
+            space.functions = FunctionTable::of_formulas(functions, cracks.len(), tables)?;
+        }
+        Ok(space)
+    }
+
+    fn on(
+        step: Cow<'d, Step>,
+        domain: &'d Domain,
+        equation: &'d Equation,
+        tables: &[Arc<Table>],
+    ) -> Result<Self, FunctionError> {
+        let (partition, data) = (step.partition.boxes(), &step.fields[0]);
+        let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
+        let smoothness = Smoothness::new(&step, data, equation, tables)?;
+        Ok(Self {
+            holes: &domain.holes,
+            functions: FunctionTable::new(&step.functions, step.cracks.len(), tables)?,
+            coverers: coverers(partition),
+            sizes: (0..partition.len()).map(size).collect(),
+            shifts: shifts(&step, data),
+            series: Vec::new(),
+            in_series: BTreeSet::new(),
+            equation,
+            orders: orders(partition, smoothness.degree()),
+            rules: vec![OnceLock::new(); partition.len()],
+            smoothness,
+            alike: OnceLock::new(),
+            step,
+        })
+    }
+
+    /// The step, whose coefficients play no part.
+    pub(crate) fn step(&self) -> &Step {
+        &self.step
+    }
+
+    /// The equation of the field.
+    pub(crate) fn equation(&self) -> &'d Equation {
+        self.equation
+    }
+
+    /// The partition of unity.
+    pub(crate) fn partition(&self) -> &BoxPartition {
+        self.step.partition.boxes()
+    }
+
+    /// The field, whose coefficients play no part.
+    pub(crate) fn data(&self) -> &FieldData {
+        &self.step.fields[0]
+    }
+
+    /// The quadrature over the cells. `extra` Gauss points in each direction come on top of the
+    /// default, for errors.
+    pub(crate) fn quadrature(&self, extra: usize) -> Quadrature<'_> {
+        self.quadrature_of(&self.smoothness, extra)
+    }
+
+    /// The rules of the default quadrature on a cell. They are made once, for Gram matrices,
+    /// stiffness and estimate, since they take a tenth of a solution's time, and seconds where
+    /// formulas are probed; on cells that are alike they are moved.
+    pub(crate) fn rules(&self, quadrature: &Quadrature<'_>, cell: usize) -> Cow<'_, [Rule]> {
+        if let Some(rules) = self.alike().rules(cell, self.partition().cell[cell].center()) {
+            return Cow::Owned(rules);
+        }
+        let rules = || quadrature.cell(&self.partition().cell[cell], &self.coverers[cell]);
+        Cow::Borrowed(self.rules[cell].get_or_init(rules))
+    }
+
+    /// Operations of all formulas that quadrature looks at.
+    pub(crate) fn probe_operations(&self) -> usize {
+        self.smoothness.probe_operations()
+    }
+
+    /// The places at which the functions of the space and the coefficients are not smooth.
+    pub(crate) fn smoothness(&self) -> &Smoothness {
+        &self.smoothness
+    }
+
+    /// The quadrature of integrands that are smooth elsewhere.
+    pub(crate) fn quadrature_of<'q>(
+        &'q self,
+        smoothness: &'q Smoothness,
+        extra: usize,
+    ) -> Quadrature<'q> {
+        let geometry = smoothness.geometry(self.partition(), &self.step.cracks, self.holes);
+        let orders = match extra {
+            0 => self.orders,
+            _ => orders(self.partition(), self.degree() + extra),
+        };
+        Quadrature::new(geometry, orders)
+    }
+
+    /// Largest degree of a polynomial, times its function where that is a piecewise polynomial.
+    pub(crate) fn degree(&self) -> usize {
+        self.smoothness.degree()
+    }
+
+    /// True if a patch has functions that are not built in.
+    pub(crate) fn has_own_functions(&self, patch: u32) -> bool {
+        let functions = &self.step().functions;
+        let is_own =
+            |f: u32| !self.in_series.contains(&f) && inspect::is_own(&functions[f as usize].kind);
+        self.data().blocks(patch as usize).any(|b| is_own(self.data().block_function[b]))
+    }
+
+    /// Degree of the polynomials of a patch.
+    pub(crate) fn order(&self, patch: usize) -> usize {
+        self.data().block_degree[self.data().blocks(patch).start].into()
+    }
+
+    /// Number of polynomials of a patch: the functions of its first block.
+    pub(crate) fn n_polynomials(&self, patch: usize) -> usize {
+        block_size(self.data(), self.data().blocks(patch).start)
+    }
+}
+
+impl Space<'_> {
+    /// The series of a patch.
+    pub(crate) fn series(&self, patch: usize) -> &[SeriesFunctions] {
+        self.series.get(patch).map_or(&[], Vec::as_slice)
+    }
+
+    /// Number of functions of a patch that the solver evaluates.
+    pub(crate) fn evaluated(&self, patch: usize) -> usize {
+        let fewer = |series: &SeriesFunctions| series.functions.len() - series.evaluated();
+        self.sizes[patch] - self.series(patch).iter().map(fewer).sum::<usize>()
+    }
+
+    /// The series of a patch with the numbers of their functions among those that the
+    /// solver evaluates.
+    pub(crate) fn evaluated_series(
+        &self,
+        patch: usize,
+    ) -> impl Iterator<Item = (Range<usize>, &SeriesFunctions)> {
+        let mut fewer = 0;
+        self.series(patch).iter().map(move |series| {
+            let (first, n) = (series.functions.start - fewer, series.evaluated());
+            fewer += series.functions.len() - n;
+            (first..first + n, series)
+        })
+    }
+
+    /// Number of unknowns of a patch, before any are cut off.
+    pub(crate) fn unknowns(&self, patch: usize) -> usize {
+        let (components, series) = (self.equation.components(), self.series(patch));
+        let theirs: usize = series.iter().map(|series| series.functions.len()).sum();
+        let unknowns: usize = series.iter().map(|series| series.unknowns(components)).sum();
+        components * (self.sizes[patch] - theirs) + unknowns
+    }
+}
+
+/// Of each cell, the patches whose open supports meet it.
+fn coverers(partition: &BoxPartition) -> Vec<Vec<u32>> {
+    let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
+    let tree = BoxTree::new(&supports);
+    let of_cell = |cell| {
+        let mut found = Vec::new();
+        tree.query_box(cell, &mut found);
+        found
+    };
+    partition.cell.iter().map(of_cell).collect()
+}
+
+/// The numbers of Gauss points that polynomials of a degree and the partition's weights need.
+fn orders(partition: &BoxPartition, degree: usize) -> Orders {
+    let BoxPartition { weight, half, cell, .. } = partition;
+    let value = |xi: f64| {
+        let [value, slope, _] = weight.spline(xi);
+        [value, slope]
+    };
+    let stretch = 2.0 * half[0].x / cell[0].size().x;
+    Orders::for_weight(degree, stretch, weight.breakpoints(), &value, WEIGHT_ACCURACY).0
+}
+
+pub(super) fn block_size(data: &FieldData, block: usize) -> usize {
+    monomials(data.block_degree[block] as usize)
+}
+
+fn shifts(step: &Step, data: &FieldData) -> Vec<f64> {
+    let shift = |patch: usize, block: usize| match &step.functions
+        [data.block_function[block] as usize]
+        .kind
+    {
+        FunctionKind::Side { crack } => {
+            let seen = LocalCrack::new(
+                &step.cracks[*crack as usize],
+                step.partition.boxes().center[patch],
+            );
+            seen.side([0.0, 0.0], Side::Above)
+        }
+        _ => 0.0,
+    };
+    let patches = 0..step.partition.len();
+    patches.flat_map(|patch| data.blocks(patch).map(move |b| shift(patch, b))).collect()
+}
