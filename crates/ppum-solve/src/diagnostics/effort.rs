@@ -3,12 +3,14 @@
 //!
 //! Factors are integrals over all cells in a disc, and a file of some kilobytes can ask for a
 //! hundred thousand tips in a hundred thousand cells. What is looked at, and how often, is added up
-//! here from sizes alone, and compared with bounds that are above what solved problems take: a
-//! plate of a million patches with a few cracks and holes, or of a hundred thousand patches with a
-//! thousand cracks, stays below them.
+//! here from sizes alone, in operations, and compared with one bound that is above what solved
+//! problems take: a plate of a million patches with a few cracks and holes, or of a hundred
+//! thousand patches with a thousand cracks, stays below it.
 
+use super::faces::SAMPLES;
 use crate::geometry::TipClearance;
 use crate::problem::Problem;
+use crate::smoothness::COMPARED;
 use ppum::box_tree::BoxTree;
 use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::{Dataset, FieldData, Step, monomials};
@@ -18,59 +20,47 @@ use ppum::function::{FunctionError, FunctionKind, FunctionTable, Slot};
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::collections::BTreeSet;
 
-/// Most pairs of cells and patches that meet, and of patches and the kinks and singular points of
-/// their functions: lists of them are kept, 256 MiB.
-const MOST_PAIRS: u64 = 1 << 26;
+/// Most operations: ten minutes, of which a vector does several at once.
+const MOST: f64 = (1_u64 << 40) as f64;
 
-/// Most comparisons: of tips with cells, cracks and rims, of cells with the segments near them, of
-/// kinks with each other. Some ten seconds.
-const MOST_LOOKS: u64 = 1 << 34;
+/// Operations that a comparison counts as, of which no vector does several: comparisons alone take
+/// ten seconds at most.
+const COMPARISON: f64 = (1 << 6) as f64;
 
-/// Most operations of evaluations: ten minutes, of which a vector does several at once.
-const MOST_OPERATIONS: u64 = 1 << 40;
+/// Operations that a pair in a list counts as: lists alone take 256 MiB at most.
+const PAIR: f64 = (1 << 14) as f64;
 
-/// Places at which a field is looked at in a cell for warnings.
-const PLACES: u64 = 32;
-
-/// Looks at each rim from a cell.
-const RIM_LOOKS: u64 = 32;
+/// Places at which a field is looked at in a cell for warnings, and looks at each rim from there.
+const PLACES: f64 = 32.0;
 
 /// Looks at each segment from a segment behind a kink: both faces, in the cells that it may meet.
-const FACE_LOOKS: u64 = 8;
-
-/// Places along a crack.
-const CRACK_PLACES: u64 = 192;
+const FACE_LOOKS: f64 = 8.0;
 
 /// Quadrature points in a cell of a disc: twelve in each direction of nine pieces.
-const POINTS: u64 = 9 * 144;
-
-/// Points at which two curves are compared.
-const COMPARED: u64 = 1152;
+const POINTS: f64 = 9.0 * 144.0;
 
 /// Comparisons at a corner of the border for each condition on it.
-const CORNER_LOOKS: u64 = 1 << 12;
+const CORNER_LOOKS: f64 = (1 << 12) as f64;
 
 /// Finding a patch at a point, and its weight.
-const PATCH: u64 = 16;
+const PATCH: usize = 16;
 
 /// Finding the factors takes too much.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EffortError {
-    /// There is too much of something.
+    /// There are too many operations.
     #[error(
-        "{tips} tips in {cells} cells take {count:.1e} {what}, but at most {most:.1e} are done"
+        "{tips} tips in {cells} cells take {operations:.1e} operations, but at most {most:.1e} are done"
     )]
     TooMuch {
         /// Tips of the step.
         tips: usize,
         /// Cells of the step.
         cells: usize,
-        /// The amount.
-        count: f64,
-        /// Of what.
-        what: &'static str,
-        /// The most that is done.
+        /// The operations, or those of a part that is too much by itself.
+        operations: f64,
+        /// The most that are done.
         most: f64,
     },
     /// A function that does not compile.
@@ -82,7 +72,7 @@ pub enum EffortError {
 /// the warnings about a `problem` that it solves.
 ///
 /// # Errors
-/// The first thing of which there is too much.
+/// Too many operations; a function that does not compile.
 ///
 /// # Panics
 /// If there is no such step, or it has no field.
@@ -94,29 +84,12 @@ pub fn check_effort(
     let step = &dataset.steps[step];
     let table = FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables)?;
     let count = Count { dataset, step, data: &step.fields[0], table };
-    let error = |what, count: u64, most: u64| EffortError::TooMuch {
-        tips: tips(&step.cracks).count(),
-        cells: step.partition.len(),
-        count: count as f64,
-        what,
-        most: most as f64,
-    };
-    let within =
-        |what, count, most| if count <= most { Ok(()) } else { Err(error(what, count, most)) };
-    let of_corners = problem.map_or(0, |problem| {
-        let conditions = problem.boundary.len() as u64;
-        // each has two ends
-        conditions.saturating_mul(2 * conditions + count.rims()).saturating_mul(CORNER_LOOKS)
-    });
-    within("comparisons", count.looks().saturating_add(of_corners), MOST_LOOKS)?;
-    within("pairs of patches and kinks", count.kinks_of_patches(), MOST_PAIRS)?;
-    let neighbours = count.neighbours();
-    within(
-        "pairs of cells and patches",
-        neighbours.iter().map(|n| n.len() as u64).sum(),
-        MOST_PAIRS,
-    )?;
-    within("operations", count.operations(&neighbours), MOST_OPERATIONS)
+    let operations = count.operations(problem);
+    if operations <= MOST {
+        return Ok(());
+    }
+    let (tips, cells) = (tips(&step.cracks).count(), step.partition.len());
+    Err(EffortError::TooMuch { tips, cells, operations, most: MOST })
 }
 
 struct Count<'d> {
@@ -127,36 +100,53 @@ struct Count<'d> {
 }
 
 impl Count<'_> {
+    /// All operations, or as many as are known to be too many.
+    fn operations(&self, problem: Option<&Problem>) -> f64 {
+        let sum = COMPARISON * self.comparisons(problem) + PAIR * self.kinks_of_patches();
+        if sum > MOST {
+            return sum;
+        }
+        let neighbours = self.neighbours();
+        let sum = sum + PAIR * neighbours.iter().map(Vec::len).sum::<usize>() as f64;
+        if sum > MOST { sum } else { sum + self.evaluations(&neighbours) }
+    }
+
     /// Circles and corners of holes.
-    fn rims(&self) -> u64 {
+    fn rims(&self) -> f64 {
         let corners = |hole: &Hole| match hole {
             Hole::Circle { .. } => 1,
-            Hole::Polygon { points } => points.len() as u64,
+            Hole::Polygon { points } => points.len(),
         };
-        self.dataset.domain.holes.iter().map(corners).sum()
+        self.dataset.domain.holes.iter().map(corners).sum::<usize>() as f64
+    }
+
+    fn segments(&self) -> f64 {
+        self.step.cracks.iter().map(|crack| crack.points.len()).sum::<usize>() as f64
     }
 
     /// Comparisons of everything with everything.
-    fn looks(&self) -> u64 {
+    fn comparisons(&self, problem: Option<&Problem>) -> f64 {
         let (n_tips, cells) =
-            (tips(&self.step.cracks).count() as u64, self.step.partition.len() as u64);
-        let segments = self.step.cracks.iter().map(|crack| crack.points.len() as u64).sum::<u64>();
-        let kinks: u64 = self.declared().iter().sum();
-        let curves = self.curves();
-        let of_tips = n_tips.saturating_mul(cells + segments + self.rims());
-        let of_cells = RIM_LOOKS.saturating_mul(cells).saturating_mul(self.rims());
-        let of_kinks = kinks.saturating_mul(kinks).saturating_add(curves * curves * COMPARED);
+            (tips(&self.step.cracks).count() as f64, self.step.partition.len() as f64);
+        let (segments, rims, curves) = (self.segments(), self.rims(), self.curves());
+        let kinks: f64 = self.declared().iter().sum();
         // rules along the faces behind kinks look at all segments
         let behind =
-            |tip: TipId| self.step.cracks[tip.crack as usize].points.len().saturating_sub(2) as u64;
-        let own: u64 = tips(&self.step.cracks).map(behind).sum();
-        let of_faces = FACE_LOOKS.saturating_mul(own).saturating_mul(segments);
-        of_tips.saturating_add(of_cells).saturating_add(of_kinks).saturating_add(of_faces)
+            |tip: TipId| self.step.cracks[tip.crack as usize].points.len().saturating_sub(2);
+        let behind = tips(&self.step.cracks).map(behind).sum::<usize>() as f64;
+        // each condition has two ends
+        let conditions = problem.map_or(0.0, |problem| problem.boundary.len() as f64);
+        n_tips * (cells + segments + rims)
+            + PLACES * cells * rims
+            + kinks * kinks
+            + curves * curves * (2 * COMPARED * COMPARED) as f64
+            + FACE_LOOKS * behind * segments
+            + CORNER_LOOKS * conditions * (2.0 * conditions + rims)
     }
 
     /// Curves on which the coefficients of the equation may have kinks.
-    fn curves(&self) -> u64 {
-        self.coefficients().map(|e| e.formula().kinks().len() as u64).sum()
+    fn curves(&self) -> f64 {
+        self.coefficients().map(|e| e.formula().kinks().len()).sum::<usize>() as f64
     }
 
     fn coefficients(&self) -> impl Iterator<Item = &Expression> {
@@ -165,17 +155,17 @@ impl Count<'_> {
     }
 
     /// Of each function the number of kinks and singular points that it declares.
-    fn declared(&self) -> Vec<u64> {
+    fn declared(&self) -> Vec<f64> {
         let of = |kind: &FunctionKind| match kind {
             FunctionKind::Formula { declared, .. } => {
                 declared.kinks.len() + declared.singular.len()
             }
             _ => 0,
         };
-        self.step.functions.iter().map(|function| of(&function.kind) as u64).collect()
+        self.step.functions.iter().map(|function| of(&function.kind) as f64).collect()
     }
 
-    fn kinks_of_patches(&self) -> u64 {
+    fn kinks_of_patches(&self) -> f64 {
         let declared = self.declared();
         self.data.block_function.iter().map(|&function| declared[function as usize]).sum()
     }
@@ -189,37 +179,47 @@ impl Count<'_> {
         for cell in &partition.cell {
             let mut found = Vec::new();
             tree.query_box(cell, &mut found);
-            pairs += found.len() as u64;
+            pairs += found.len();
             all.push(found);
-            if pairs > MOST_PAIRS {
+            if PAIR * pairs as f64 > MOST {
                 break;
             }
         }
         all
     }
 
-    /// Operations of all evaluations of the field.
-    fn operations(&self, neighbours: &[Vec<u32>]) -> u64 {
-        let tree = BoxTree::new(&self.step.partition.boxes().cell);
+    /// Operations of all evaluations of the field: at places in cells and along cracks, and at the
+    /// points in discs.
+    fn evaluations(&self, neighbours: &[Vec<u32>]) -> f64 {
         let declared = self.declared();
-        let curves = self.curves();
         let work: Vec<_> = neighbours.iter().map(|patches| self.work(patches, &declared)).collect();
-        let once = work.iter().fold(0u64, |sum, (work, _)| sum.saturating_add(*work));
-        let (everywhere, mean) = (PLACES.saturating_mul(once), once / work.len().max(1) as u64);
-        let along = CRACK_PLACES * mean * self.step.cracks.len() as u64;
-        let mut sum = everywhere.saturating_add(along);
+        let once: f64 = work.iter().map(|(work, _)| work).sum();
+        let mut sum = PLACES * once + self.crack_places() * once / work.len().max(1) as f64;
+        let cells = BoxTree::new(&self.step.partition.boxes().cell);
         for tip in tips(&self.step.cracks) {
-            let mut cells = Vec::new();
-            tree.query_box(&self.disc(tip), &mut cells);
-            for (work, kinks) in cells.into_iter().map(|c| work[c as usize]) {
-                let pieces = POINTS * (1 + kinks + curves);
-                sum = sum.saturating_add(pieces.saturating_mul(work));
-            }
-            if sum > MOST_OPERATIONS {
+            let work = self.cells_of(tip, &cells).into_iter().map(|cell| work[cell as usize]);
+            sum += work.map(|(work, kinks)| self.points(kinks) * work).sum::<f64>();
+            if sum > MOST {
                 break;
             }
         }
         sum
+    }
+
+    /// Places along cracks, on both faces.
+    fn crack_places(&self) -> f64 {
+        2.0 * (SAMPLES * self.step.cracks.len()) as f64 + 2.0 * self.segments()
+    }
+
+    /// Points in a cell of a disc with so many kinks.
+    fn points(&self, kinks: f64) -> f64 {
+        POINTS * (1.0 + kinks + self.curves())
+    }
+
+    fn cells_of(&self, tip: TipId, cells: &BoxTree) -> Vec<u32> {
+        let mut found = Vec::new();
+        cells.query_box(&self.disc(tip), &mut found);
+        found
     }
 
     /// The square around the largest disc that a tip may have.
@@ -233,12 +233,11 @@ impl Count<'_> {
 
     /// Operations of an evaluation in a cell with these patches around it, and the number of kinks
     /// and singular points that their functions declare.
-    fn work(&self, patches: &[u32], declared: &[u64]) -> (u64, u64) {
-        let (mut groups, mut work) = (BTreeSet::new(), PATCH * patches.len() as u64);
+    fn work(&self, patches: &[u32], declared: &[f64]) -> (f64, f64) {
+        let (mut groups, mut work) = (BTreeSet::new(), PATCH * patches.len());
         let mut functions = BTreeSet::new();
         for block in patches.iter().flat_map(|&patch| self.data.blocks(patch as usize)) {
-            work += (monomials(self.data.block_degree[block].into()) * self.data.components.len())
-                as u64;
+            work += monomials(self.data.block_degree[block].into()) * self.data.components.len();
             let function = self.data.block_function[block];
             functions.insert(function);
             if let Slot::Jet { group, .. } = self.table.of(function) {
@@ -247,7 +246,81 @@ impl Count<'_> {
         }
         let groups = groups.into_iter().map(|g| self.table.cost(g as usize, &self.step.cracks));
         let coefficients = self.coefficients().map(|e| 3 * e.formula().text().len());
-        work += groups.chain(coefficients).sum::<usize>() as u64;
-        (work, functions.into_iter().map(|function| declared[function as usize]).sum())
+        work += groups.chain(coefficients).sum::<usize>();
+        (work as f64, functions.into_iter().map(|function| declared[function as usize]).sum())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostics::faces::places;
+    use crate::intensity::{Loads, TipOutcome, intensities};
+    use crate::problem::Problem;
+    use crate::solve::Plan;
+    use crate::space::Space;
+    use ppum::field::Field;
+    use ppum::progress::unwatched;
+    use ppum_testkit::random::Random;
+    use std::path::Path;
+    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+    /// A plate with up to three random cracks, one above the other, and a cell size of its own.
+    fn plate(random: &mut Random) -> Problem {
+        let mut text = format!(
+            "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
+             [[boundary]]\non = \"top\"\ntraction = [0, 1]\n[discretization]\nlevel = {}\n",
+            3 + random.below(3)
+        );
+        for k in 0..1 + random.below(3) {
+            let from = random.between(-0.9, -0.1);
+            let mut point = |part: usize| {
+                let x = from + 0.3 * part as f64;
+                [x, -0.6 + 0.6 * k as f64 + random.between(-0.15, 0.15)]
+            };
+            let points: Vec<_> = (0..4).map(&mut point).collect();
+            text += &format!("[[crack]]\npoints = {points:?}\n");
+        }
+        Problem::parse(&text, "plate", Path::new(".")).expect("a problem")
+    }
+
+    /// The points in the discs of all tips, counted by a body force, and the bound of their number.
+    fn points(count: &Count<'_>) -> [f64; 2] {
+        let Count { dataset, step, .. } = *count;
+        let space = Space::new(step, &dataset.domain, &dataset.equation, &[]).expect("a space");
+        let field = Field::new(dataset, 0).expect("a field");
+        let counted = AtomicUsize::new(0);
+        let force = |_: Vec2| {
+            counted.fetch_add(1, Relaxed);
+            [0.0; 2]
+        };
+        let loads = Loads { force: Some(&force), faces: None };
+        let tips = intensities(dataset, &field, &space, loads, unwatched()).expect("factors");
+        let cells = BoxTree::new(&step.partition.boxes().cell);
+        let with_factors = tips.iter().filter(|outcome| outcome.factors.is_some());
+        let of_tip = |outcome: &TipOutcome| count.cells_of(outcome.tip, &cells).len() as f64;
+        let bound = with_factors.map(of_tip).sum::<f64>() * count.points(0.0);
+        [counted.into_inner() as f64, bound]
+    }
+
+    /// No more is looked at than is bounded, and not far less.
+    #[test]
+    fn points_and_places_are_bounded() {
+        let mut random = Random(12);
+        for _ in 0..4 {
+            let problem = plate(&mut random);
+            let plan = Plan::new(&problem, None, unwatched()).expect("a plan");
+            let (dataset, step) = (plan.dataset(), &plan.dataset().steps[0]);
+            let table = FunctionTable::new(&step.functions, step.cracks.len(), &[]);
+            let table = table.expect("functions that compile");
+            let count = Count { dataset, step, data: &step.fields[0], table };
+            let [counted, bound] = points(&count);
+            assert!(counted <= bound && bound < 50.0 * counted, "{counted} points of {bound}");
+            let cracks = step.cracks.iter().enumerate();
+            let along =
+                2.0 * cracks.map(|(k, crack)| places(crack, k).count()).sum::<usize>() as f64;
+            let bound = count.crack_places();
+            assert!(along <= bound && bound < 1.1 * along, "{along} places of {bound}");
+        }
     }
 }

@@ -9,7 +9,7 @@ use ppum::text::Places;
 use ppum::vec2::{Vec2, vec2};
 
 /// Places along a crack at which its opening is looked at.
-const SAMPLES: usize = 96;
+pub(super) const SAMPLES: usize = 96;
 
 /// Part of a crack's scale by which faces may overlap where they should just touch.
 const NOISE: f64 = 5e-3;
@@ -58,7 +58,7 @@ fn overlap(field: &Field<'_>, (index, crack): (usize, &Crack), seats: &Places) -
 
 /// Points along a crack, equally apart and none at a vertex, with their segment and the
 /// normal there.
-fn places(crack: &Crack, index: usize) -> impl Iterator<Item = (Vec2, SegmentId, Vec2)> {
+pub(super) fn places(crack: &Crack, index: usize) -> impl Iterator<Item = (Vec2, SegmentId, Vec2)> {
     let length = crack.length();
     (0..).zip(crack.points.windows(2)).flat_map(move |(segment, s)| {
         let (a, way) = (s[0], s[1] - s[0]);

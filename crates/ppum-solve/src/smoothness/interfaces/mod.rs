@@ -15,7 +15,7 @@ mod interface;
 mod place;
 mod trouble;
 
-pub(crate) use interface::{Interface, Interfaces, proportional};
+pub(crate) use interface::{COMPARED, Interface, Interfaces, proportional};
 pub(crate) use place::{BESIDE, InterfacePoint};
 pub(crate) use trouble::{Cause, Trouble};
 
