@@ -99,14 +99,14 @@ impl BodyPieces {
         let bounds = domain.bounds;
         let inside = |face: Triangle<'_>| domain.contains(from_unit(&bounds, face.center()));
         let material: Vec<bool> = mesh.inner_faces().map(inside).collect();
-        let mut piece_of = vec![None; material.len()];
+        let (mut piece_of, mut seen) = (vec![None; material.len()], vec![false; material.len()]);
         let mut all = Vec::new();
         for face in mesh.inner_faces() {
-            if material[index(&face)] && piece_of[index(&face)].is_none() {
-                let found = flood(&mesh, face, &material);
-                let piece = BodyPiece::of_faces(&bounds, &mesh, &found);
+            if material[index(&face)] && !seen[index(&face)] {
+                let found = flood(face, &material, &mut seen);
+                let piece = BodyPiece::of_faces(&bounds, &found);
                 if piece.area > LEAST_AREA * bounds.size().x * bounds.size().y {
-                    found.iter().for_each(|&face| piece_of[face] = Some(all.len()));
+                    found.iter().for_each(|face| piece_of[index(face)] = Some(all.len()));
                     all.push(piece);
                 }
             }
@@ -179,10 +179,10 @@ impl BodyPiece {
         Self { area: bounds.size().x * bounds.size().y, centroid: center, inside: center }
     }
 
-    fn of_faces(bounds: &Rect, mesh: &SegmentMesh, faces: &[usize]) -> Self {
+    fn of_faces(bounds: &Rect, faces: &[Triangle<'_>]) -> Self {
         let (mut area, mut moment) = (0.0, Vec2::ZERO);
         let mut largest = (0.0, Vec2::ZERO);
-        for face in mesh.inner_faces().filter(|face| faces.binary_search(&index(face)).is_ok()) {
+        for face in faces {
             let part =
                 (face.area() * bounds.size().x * bounds.size().y, from_unit(bounds, face.center()));
             area += part.0;
@@ -280,20 +280,22 @@ fn distance([a, b]: [Point2<f64>; 2], p: Point2<f64>) -> f64 {
 }
 
 /// The faces that are connected with one, ascending.
-fn flood(mesh: &SegmentMesh, start: Triangle<'_>, material: &[bool]) -> Vec<usize> {
-    let mut seen = vec![false; material.len()];
-    let mut waiting = vec![start.fix()];
+fn flood<'m>(start: Triangle<'m>, material: &[bool], seen: &mut [bool]) -> Vec<Triangle<'m>> {
+    let (mut found, mut next) = (vec![start], 0);
     seen[index(&start)] = true;
-    while let Some(face) = waiting.pop() {
-        for edge in mesh.face(face).adjacent_edges() {
-            let next = edge.rev().face().as_inner().filter(|_| !edge.is_constraint_edge());
-            if let Some(next) = next.filter(|next| material[index(next)] && !seen[index(next)]) {
-                seen[index(&next)] = true;
-                waiting.push(next.fix());
+    while let Some(&face) = found.get(next) {
+        for edge in face.adjacent_edges() {
+            let other = edge.rev().face().as_inner().filter(|_| !edge.is_constraint_edge());
+            if let Some(other) = other.filter(|other| material[index(other)] && !seen[index(other)])
+            {
+                seen[index(&other)] = true;
+                found.push(other);
             }
         }
+        next += 1;
     }
-    (0..seen.len()).filter(|&face| seen[face]).collect()
+    found.sort_unstable_by_key(index);
+    found
 }
 
 /// The piece of a face, or of the one nearest to it across edges.
