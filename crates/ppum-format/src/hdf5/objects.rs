@@ -15,6 +15,7 @@ const DATATYPE: u8 = 0x03;
 const FILL_VALUE: u8 = 0x05;
 const GROUP_INFO: u8 = 0x0a;
 const ATTRIBUTE: u8 = 0x0c;
+const ATTRIBUTE_INFO: u8 = 0x15;
 
 /// Puts a group with all that is in it behind the end. The address of its header.
 pub(super) fn group(
@@ -43,8 +44,12 @@ fn headers(
     path: &str,
     layouts: &Layouts,
 ) -> Result<u64, WriteError> {
-    let mut messages =
-        vec![Message::new(LINK_INFO, NO_HEAP.to_vec()), Message::new(GROUP_INFO, vec![0; 2])];
+    // without the message about attributes programs of HDF5 such as h5repack count none
+    let mut messages = vec![
+        Message::new(LINK_INFO, NO_HEAP.to_vec()),
+        Message::new(GROUP_INFO, vec![0; 2]),
+        Message::new(ATTRIBUTE_INFO, NO_HEAP.to_vec()),
+    ];
     for name in content.attributes(path) {
         let full = key(path, name, ObjectKind::Attribute);
         let attribute = attribute(addition, &full, name, &content[&full])?;
