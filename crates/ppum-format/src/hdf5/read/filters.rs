@@ -238,6 +238,6 @@ fn other(id: u16) -> String {
     };
     format!(
         "its chunks went through filter {id}{name}, which is not read; store it with gzip or without \
-         filters, for instance by h5repack -f GZIP=4"
+         filters, for instance by h5repack -f NONE"
     )
 }
