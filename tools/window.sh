@@ -72,7 +72,7 @@ move 300 250
 picture plate
 press 2; sleep 2; move 420 330
 picture tip
-i=0; while [ "$i" -lt 44 ]; do xdotool key plus; sleep 0.05; i=$((i + 1)); done; sleep 2
+i=0; while [ "$i" -lt 43 ]; do xdotool key plus; sleep 0.05; i=$((i + 1)); done; sleep 2
 picture deep
 move 480 400; wheel 4 60; sleep 2
 picture deepest
