@@ -52,6 +52,8 @@ pub struct SolverReport {
     pub quadrature_points: Option<f64>,
     /// Energy of the solution, ½ ∫ σ:ε or ½ ∫ κ |∇u|².
     pub energy: Option<f64>,
+    /// Energy of the whole of which the plate with a crack on an edge is a half or a quarter.
+    pub whole_energy: Option<f64>,
     /// Estimated error of the solution in the energy norm, as a part of the norm of the solution.
     pub estimated_error: Option<f64>,
     /// Largest estimated error of the stress intensity factors of a tip, as a part of their size.
@@ -198,7 +200,7 @@ macro_rules! entries {
 }
 
 /// All numbers but the seconds, in the order of files.
-const ENTRIES: [ReportEntry; 21] = entries![
+const ENTRIES: [ReportEntry; 22] = entries![
     "crossed twice" => crossed_twice,
     "unknowns" => unknowns,
     "cut-off" => cut_off,
@@ -216,11 +218,18 @@ const ENTRIES: [ReportEntry; 21] = entries![
     "imbalance" => imbalance,
     "quadrature points" => quadrature_points,
     "energy" => energy,
+    WHOLE_ENERGY => whole_energy,
     "estimated error" => estimated_error,
     "estimated error of factors" => factor_error,
     STOP => stop,
     "rounding" => rounding,
 ];
+
+/// The record of the energy of the whole.
+const WHOLE_ENERGY: &str = "energy of the whole";
+
+/// The records of energies, which grow with the square of the loads.
+pub(crate) const ENERGIES: [&str; 2] = ["energy", WHOLE_ENERGY];
 
 /// The records whose values are codes.
 const SOLVER: &str = "linear solver";

@@ -57,6 +57,7 @@ class BoundaryOptions(TypedDict, total=False):
     traction: Annotated[Sequence[Value] | str, _key("[tx, ty], each a value or `free`")]
     pressure: Annotated[Value, _key("pressure p: the traction −p n")]
     symmetry: Annotated[bool, _key("whether the normal displacement is 0, the other one free")]
+    antisymmetry: Annotated[bool, _key("whether the tangential displacement is 0, the other one free")]
     value: Annotated[Value, _key("of a potential: u, or `exact`")]
     flux: Annotated[Value, _key("of a potential: the flux into the plate")]
 

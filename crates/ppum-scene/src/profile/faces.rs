@@ -26,6 +26,9 @@ pub(super) fn table(
     let wanted: Vec<_> = asked.chain(components).collect();
     let values = evaluate(field, &wanted, &stations.places(), watcher)?;
     let (above, below) = values.split_at(values.len() / 2);
+    // the body is on the left of a crack on an edge
+    let nothing = vec![f64::NAN; below.len()];
+    let below = if is_on_edge(field, index) { &nothing } else { below };
     let sides = above.chunks(wanted.len()).zip(below.chunks(wanted.len()));
     let rows = stations
         .all()
@@ -36,6 +39,16 @@ pub(super) fn table(
     let places = stations.all().iter().map(|station| station.place(Side::Above)).collect();
     let table = Table::new(columns(field, quantities), rows);
     Ok(Profile { table, places, undefined: Vec::new() })
+}
+
+/// True of a crack on an edge of the box, of which one face is in the body.
+fn is_on_edge(field: &Field<'_>, crack: usize) -> bool {
+    let (bounds, points) = (&field.domain.bounds, &field.step.cracks[crack].points);
+    let is_along = |line: &dyn Fn(&Vec2) -> bool| points.iter().all(line);
+    is_along(&|p| p.x == bounds.min.x)
+        || is_along(&|p| p.x == bounds.max.x)
+        || is_along(&|p| p.y == bounds.min.y)
+        || is_along(&|p| p.y == bounds.max.y)
 }
 
 fn columns(field: &Field<'_>, quantities: &[(String, Quantity)]) -> Vec<Column> {

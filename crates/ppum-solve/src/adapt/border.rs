@@ -62,9 +62,11 @@ impl BorderConditions {
     }
 }
 
-/// The pieces of an edge between the ends of its conditions.
+/// The pieces of an edge between the ends of its conditions, without the faces of cracks.
 fn pieces(problem: &Problem, edge: Edge) -> Vec<BorderPart> {
+    let faces: Vec<_> = problem.faces_on(edge).collect();
     let mut ends = edge.range(&problem.domain.bounds).to_vec();
+    ends.extend(faces.iter().flatten());
     for condition in &problem.boundary {
         if let BorderPart::Edge { edge: own, from, to } = condition.on
             && own == edge
@@ -74,7 +76,9 @@ fn pieces(problem: &Problem, edge: Edge) -> Vec<BorderPart> {
     }
     ends.sort_by(f64::total_cmp);
     ends.dedup();
-    ends.windows(2).map(|s| BorderPart::Edge { edge, from: s[0], to: s[1] }).collect()
+    let is_face = |s: &[f64]| faces.iter().any(|[from, to]| *from <= s[0] && s[1] <= *to);
+    let pieces = ends.windows(2).filter(|s| !is_face(s));
+    pieces.map(|s| BorderPart::Edge { edge, from: s[0], to: s[1] }).collect()
 }
 
 fn bounds(problem: &Problem, on: BorderPart) -> Rect {

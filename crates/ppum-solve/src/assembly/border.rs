@@ -33,7 +33,7 @@
 
 use super::Assembly;
 use super::cell_system::CellSystem;
-use super::reaction::Restraint;
+use super::reaction::{CellReaction, Restraint};
 use crate::basis::{BasisEvaluator, Shapes};
 use crate::equilibrium::RigidModes;
 use crate::linear::{EigenError, add_at, largest_eigenvalue};
@@ -67,6 +67,8 @@ pub(crate) struct BorderPiece<'a> {
     pub(crate) own: Option<&'a [EdgeRule]>,
     /// Components whose value is given.
     pub(crate) held: [bool; 2],
+    /// True if all fields have these values.
+    pub(crate) is_exact: bool,
     /// The given values; tractions where not held (zero where free).
     pub(crate) values: BorderData<'a>,
     /// Number of the condition.
@@ -156,7 +158,10 @@ impl<'a> Border<'a> {
             for i in (0..self.assembly.components()).filter(|&i| piece.held[i]) {
                 let trace = self.trace(i, rule, &numbers, shapes);
                 if terms != BorderTerms::Data {
-                    self.hold(&trace, piece, rule);
+                    self.react(&trace, piece, rule);
+                }
+                if terms != BorderTerms::Data && !piece.is_exact {
+                    self.hold(&trace, rule);
                 }
                 if terms != BorderTerms::Stiffness {
                     self.give(&trace, piece, rule);
@@ -210,9 +215,9 @@ impl<'a> Border<'a> {
         })
     }
 
-    /// Adds the points of a component whose value is given to the matrices M, C, B, to length and
-    /// modulus of Γ, and to the integrals of the restraint's reaction.
-    fn hold(&mut self, trace: &Trace<'_>, piece: &BorderPiece<'_>, rule: &EdgeRule) {
+    /// Adds the points of a component whose value is given to the matrices M, C, B, and to length
+    /// and modulus of Γ.
+    fn hold(&mut self, trace: &Trace<'_>, rule: &EdgeRule) {
         self.measure(trace.component, rule);
         let Trace { values, value_rows, tractions, traction_rows, .. } = trace;
         let tractions = tractions.as_ref();
@@ -224,6 +229,12 @@ impl<'a> Border<'a> {
             let rows = traction_rows.iter().zip(column.iter());
             rows.for_each(|(&row, t)| self.tractions[first + row] = *t);
         }
+    }
+
+    /// Adds the same points to the integrals of the restraint's reaction.
+    fn react(&mut self, trace: &Trace<'_>, piece: &BorderPiece<'_>, rule: &EdgeRule) {
+        let Trace { values, value_rows, tractions, traction_rows, .. } = trace;
+        let tractions = tractions.as_ref();
         let restraint = self.restraint(piece.condition);
         for k in 0..piece.modes.count() {
             let mode = mode(piece, rule, k, trace.component);
@@ -301,8 +312,13 @@ impl<'a> Border<'a> {
         for (load, (value, traction)) in system.load.iter_mut().zip(loads) {
             *load += beta * value - traction;
         }
-        system.reactions = self.restraints.into_iter().map(|r| r.finish(beta)).collect();
+        system.reactions = self.reactions(beta);
         Ok(())
+    }
+
+    /// The reactions of the restraints with a penalty β.
+    pub(crate) fn reactions(self, beta: f64) -> Vec<CellReaction> {
+        self.restraints.into_iter().map(|restraint| restraint.finish(beta)).collect()
     }
 }
 

@@ -68,7 +68,9 @@ impl<'s> CellAssembler<'s> {
         border: &[BorderPiece<'_>],
         known: Option<&Stiffness<'_>>,
     ) -> Result<(CellSystem, Option<CellMatrix>), EigenError> {
-        let is_held = border.iter().any(|piece| piece.held.contains(&true));
+        let is_restrained = border.iter().any(|piece| piece.held.contains(&true));
+        // what all fields satisfy needs nothing of the matrix
+        let is_held = border.iter().any(|piece| piece.held.contains(&true) && !piece.is_exact);
         let mut system = self.zero(CellFunctions::new(&self.assembly, cell));
         let memory = std::mem::take(&mut self.memory);
         let zero = || system.functions.zero(&self.assembly, !is_held, memory);
@@ -90,12 +92,13 @@ impl<'s> CellAssembler<'s> {
             return Ok((system, matrix));
         }
         // where nothing is held there are loads alone, and the matrices stay empty
-        let unknowns = if is_held { system.load.len() } else { 0 };
+        let unknowns = if is_restrained { system.load.len() } else { 0 };
         let mut on_border = Border::new(self.assembly, unknowns);
         for piece in border {
             on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
         }
         if !is_held {
+            system.reactions = on_border.reactions(0.0);
             return Ok((system, matrix));
         }
         let block = |k: usize, l: usize| match (&matrix, known) {

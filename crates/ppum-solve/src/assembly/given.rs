@@ -159,6 +159,7 @@ impl<'p> GivenCondition<'p> {
             rules,
             own: self.own.of(cell),
             held: self.condition.held(),
+            is_exact: problem.is_exact(self.condition),
             values: &*self.values,
             condition: self.number,
             modes: modes(problem),

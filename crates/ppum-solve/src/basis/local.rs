@@ -2,10 +2,11 @@
 
 use super::confined::matrix;
 use super::gram::Gram;
+use super::held::{HeldFields, held_fields};
 use super::tie::{self, tie};
 use super::transform::{CUT_OFF, FunctionCombinations, Transform};
 use super::williams::{fields, parts};
-use crate::linear::{EigenError, SymmetricEigen, times};
+use crate::linear::{EigenError, SymmetricEigen, inverse_root_diagonal, times};
 use crate::space::Space;
 use faer::{Mat, MatRef};
 use std::borrow::Cow;
@@ -18,6 +19,9 @@ pub(super) struct LocalBasis {
     /// What the unknowns are of the functions of all components, where these share any: [unknowns,
     /// components · kept].
     pub(super) tie: Option<Mat<f64>>,
+    /// What takes the functions of a field to the unknowns, where that is not the tie itself: its
+    /// product with the transposed tie is the unit matrix.
+    pub(super) inverse: Option<Mat<f64>>,
     tied: Option<Tied>,
     /// Number of unknowns that were cut off for each component, or for all where they are tied.
     dropped: usize,
@@ -85,6 +89,11 @@ impl LocalBasis {
         gram: &Gram,
         confined: &[FunctionCombinations],
     ) -> Result<Self, EigenError> {
+        if !space.held_lines(patch).is_empty() {
+            let series = fields(space, patch).unwrap_or_default();
+            let measures = (&gram.weighted, gram.plain.as_slice());
+            return Ok(Self::of_fields(&held_fields(space, patch, measures, series)?, gram));
+        }
         let series = parts(space, patch);
         let n_series: usize = series.iter().map(|(_, rows)| rows.nrows()).sum();
         let all: Vec<FunctionCombinations> = confined.iter().cloned().chain(series).collect();
@@ -94,7 +103,8 @@ impl LocalBasis {
         let lost: usize = confined.iter().map(|(range, rows)| range.len() - rows.nrows()).sum();
         let (dropped, least) = (transform.dropped + lost, transform.least);
         let (Some(fields), Some(rows)) = (fields(space, patch), &rows) else {
-            return Ok(Self { matrix: transform.matrix, tie: None, tied: None, dropped, least });
+            let matrix = transform.matrix;
+            return Ok(Self { matrix, tie: None, inverse: None, tied: None, dropped, least });
         };
         let tie = tie(gram.weighted.as_ref(), &transform, &fields)?;
         let wanted = fields.len() + 2 * (first + lost);
@@ -103,7 +113,29 @@ impl LocalBasis {
         let plain = (0..rows.ncols()).rfind(is_seen).map_or(0, |last| last + 1);
         let tied = Tied::new(&tie, &transform.matrix, transform.first, plain);
         let matrix = transform.matrix;
-        Ok(Self { matrix, tie: Some(tie), tied: Some(tied), dropped, least })
+        Ok(Self { matrix, tie: Some(tie), inverse: None, tied: Some(tied), dropped, least })
+    }
+
+    /// The basis of fields. The functions are the plain ones, scaled.
+    fn of_fields(HeldFields { parts, transform }: &HeldFields, gram: &Gram) -> Self {
+        let scale = inverse_root_diagonal(gram.weighted.as_ref(), 0.0);
+        let (n, m) = (scale.len(), transform.matrix.nrows());
+        let fields = parts.each_ref().map(|part| &transform.matrix * part);
+        let weighted = fields.each_ref().map(|part| part * &gram.weighted);
+        let of_scaled = |k: usize, j: usize| match scale[j % n] {
+            0.0 => 0.0,
+            scale => fields[j / n][(k, j % n)] / scale,
+        };
+        Self {
+            matrix: Mat::from_fn(n, n, |k, j| if k == j { scale[k] } else { 0.0 }),
+            tie: Some(Mat::from_fn(m, 2 * n, of_scaled)),
+            inverse: Some(Mat::from_fn(m, 2 * n, |k, j| {
+                weighted[j / n][(k, j % n)] * scale[j % n]
+            })),
+            tied: Some(Tied { scalar: 0, plain: 0, fields }),
+            dropped: transform.dropped,
+            least: transform.least,
+        }
     }
 
     /// What the unknowns are, or all functions in each component where `tied` is false.
@@ -141,6 +173,7 @@ impl LocalBasis {
         let root = &eigen.vectors * eigen.inverse_root(0.0);
         if let Some(tie) = &mut self.tie {
             *tie = tie::renewed(tie, gram, root.as_ref())?;
+            self.inverse = None;
         }
         self.matrix = root * &self.matrix;
         self.tied = self.tie.as_ref().map(|tie| Tied::new(tie, &self.matrix, 0, 0));

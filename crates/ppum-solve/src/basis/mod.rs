@@ -8,6 +8,7 @@
 
 mod confined;
 mod gram;
+mod held;
 mod local;
 mod shape;
 mod tie;
@@ -63,7 +64,9 @@ impl StableBasis {
         let (alike, none) = (space.alike(), Vec::new());
         let mut of_kinds: Vec<Option<Arc<LocalBasis>>> = vec![None; alike.patch_kinds().len()];
         let mut first = vec![usize::MAX; of_kinds.len()];
-        let kinds: Vec<_> = (0..grams.len()).map(|i| alike.patch(i)).collect();
+        let is_free = |i: usize| space.held_lines(i).is_empty();
+        let kinds: Vec<_> =
+            (0..grams.len()).map(|i| alike.patch(i).filter(|_| is_free(i))).collect();
         (0..).zip(&kinds).for_each(|(i, kind)| {
             kind.iter().for_each(|&kind| first[kind] = first[kind].min(i));
         });
@@ -184,6 +187,11 @@ impl StableBasis {
     /// component: [unknowns, components · functions], component by component.
     pub(crate) fn tie(&self, patch: u32) -> Option<&Mat<f64>> {
         self.patches[patch as usize].tie.as_ref()
+    }
+
+    /// What takes the functions of a field to the unknowns of a patch with a tie.
+    pub(crate) fn inverse_tie(&self, patch: u32) -> Option<&Mat<f64>> {
+        self.patches[patch as usize].inverse.as_ref().or(self.tie(patch))
     }
 
     /// Replaces plain shape functions of some patches by those of the basis.

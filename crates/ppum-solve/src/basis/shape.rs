@@ -283,7 +283,7 @@ impl ShapeEvaluator<'_> {
         patch: u32,
         series: &SeriesFunctions,
     ) -> Option<(Range<usize>, Terms)> {
-        let Origin::Tip(tip) = series.origin else { return None };
+        let Origin::Tip(tip, _) = series.origin else { return None };
         let frame = TipFrame::new(self.space.step(), patch as usize, tip);
         let terms = Terms { count: series.terms(), frame, from_tip: anchor - frame.at };
         self.series.then(|| (series.blocks.clone(), terms))

@@ -13,8 +13,9 @@
 //! the functions c, s, C and S. Of Poisson's equation s alone leaves the faces of a crack free.
 
 use super::transform::FunctionCombinations;
-use crate::corner::{Symmetry, WedgeTerm};
+use crate::corner::WedgeTerm;
 use crate::linear::times;
+use crate::problem::Symmetry;
 use crate::space::{ANGULAR, Origin, SeriesFunctions, Space};
 use faer::Mat;
 use ppum::crack::TipId;
@@ -33,7 +34,7 @@ pub(super) fn parts(space: &Space<'_>, patch: usize) -> Vec<FunctionCombinations
         let n = functions.len();
         let rows = match series.origin {
             // s alone
-            Origin::Tip(_) if is_scalar => {
+            Origin::Tip(..) if is_scalar => {
                 Mat::from_fn(n / ANGULAR, n, |term, k| f64::from(k == ANGULAR * term + 1))
             }
             _ => Mat::identity(n, n),
@@ -48,7 +49,7 @@ pub(super) fn parts(space: &Space<'_>, patch: usize) -> Vec<FunctionCombinations
 pub(super) fn stored(space: &Space<'_>, patch: usize, mut evaluated: &[f64]) -> Vec<f64> {
     let mut out = Vec::with_capacity(space.sizes[patch]);
     for series in space.series(patch) {
-        let Origin::Tip(tip) = series.origin else { continue };
+        let Origin::Tip(tip, _) = series.origin else { continue };
         let (before, after) = evaluated.split_at(series.functions.start - out.len());
         let (own, after) = after.split_at(series.evaluated());
         out.extend(before);
@@ -69,7 +70,7 @@ pub(super) fn fields(space: &Space<'_>, patch: usize) -> Option<Vec<[Vec<f64>; 2
     let n = space.evaluated(patch);
     let of_series = |(functions, series): (Range<usize>, &SeriesFunctions)| {
         let fields = match series.origin {
-            Origin::Tip(tip) => of_tip(space.step(), tip, series, body),
+            Origin::Tip(tip, symmetry) => of_tip(space.step(), (tip, symmetry), series, body),
             Origin::Corner { at, bisector, term } => vec![of_corner(at, bisector, &term, body)],
         };
         let modes = fields.len() * ANGULAR / functions.len();
@@ -84,17 +85,22 @@ pub(super) fn fields(space: &Space<'_>, patch: usize) -> Option<Vec<[Vec<f64>; 2
 /// Factors of c, s, C and S of a term in the two components of a field.
 type Field = [[f64; ANGULAR]; 2];
 
-/// The fields of a tip, of each term for opening and for sliding.
-fn of_tip(step: &Step, tip: TipId, series: &SeriesFunctions, body: &Elasticity) -> Vec<Field> {
+/// The fields of a tip, of each term for opening and for sliding, or of one symmetry alone.
+fn of_tip(
+    step: &Step,
+    (tip, only): (TipId, Option<Symmetry>),
+    series: &SeriesFunctions,
+    body: &Elasticity,
+) -> Vec<Field> {
     let crack = &step.cracks[tip.crack as usize];
     let axis = crack.growth_direction(tip.end);
     let kappa = body.at(crack.end_point(tip.end)).kolosov();
     let modes = |n: usize| {
         let lambda = n as f64 + 0.5;
-        let term =
-            |symmetry, factor| mode(kappa, &WedgeTerm { exponent: lambda, symmetry, factor });
-        let (opening, sliding) = (Symmetry::Symmetric, Symmetry::Antisymmetric);
-        [term(opening, 1.0 - lambda), term(sliding, 1.0 + lambda)].map(|mode| world(&mode, axis))
+        let both = [(Symmetry::Symmetric, 1.0 - lambda), (Symmetry::Antisymmetric, 1.0 + lambda)];
+        let wanted = both.into_iter().filter(move |(own, _)| only.is_none_or(|only| *own == only));
+        let term = move |(symmetry, factor)| WedgeTerm { exponent: lambda, symmetry, factor };
+        wanted.map(move |of| world(&mode(kappa, &term(of)), axis))
     };
     (0..series.terms()).flat_map(modes).collect()
 }

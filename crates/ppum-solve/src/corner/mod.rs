@@ -22,7 +22,7 @@ use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use sectors::{LOOK, Sector, Surroundings};
 use std::f64::consts::TAU;
-pub(crate) use wedge::{Symmetry, WedgeTerm};
+pub(crate) use wedge::WedgeTerm;
 
 /// Rounding of angles.
 const SAME_ANGLE: f64 = 1e-6;
@@ -125,12 +125,14 @@ impl Nature {
 /// in their number.
 pub(crate) fn corners(problem: &Problem) -> Vec<Corner> {
     let touch = touch(&problem.domain.bounds);
-    let places = distinct(places(problem), touch);
-    let around = Surroundings { problem, touch };
-    let scale = scale_of_values(problem);
     let tips: Vec<_> = tips(&problem.cracks)
         .map(|tip| problem.cracks[tip.crack as usize].end_point(tip.end))
         .collect();
+    let mut places = distinct(places(problem), touch);
+    // symmetries end at tips on edges
+    places.retain(|at| tips.iter().all(|tip| (*tip - *at).length() > touch));
+    let around = Surroundings { problem, touch };
+    let scale = scale_of_values(problem);
     let corner = |&at: &Vec2| {
         let apart = |others: &[Vec2]| {
             let lengths = others.iter().map(|p| (*p - at).length());

@@ -11,6 +11,7 @@
 //! with λ = π/ω and r^λ cos λθ with λ = 2π/ω have no flux there.
 
 use super::exponent::Constants;
+use crate::problem::Symmetry;
 use std::f64::consts::PI;
 
 /// Exponents that are taken: between 1 and 2 gradients are finite and polynomials still see the
@@ -29,20 +30,12 @@ const HALVINGS: usize = 60;
 /// Exponents are rounded to multiples of this, so that those of equal wedges are equal.
 const ROUNDED: f64 = 1e-13;
 
-/// Symmetry of a field to the bisector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Symmetry {
-    /// The wedge opens; a potential is even.
-    Symmetric,
-    /// The sides of the wedge slide; a potential is odd.
-    Antisymmetric,
-}
-
 /// A field of a wedge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct WedgeTerm {
     /// λ
     pub(crate) exponent: f64,
+    /// Symmetry to the bisector.
     pub(crate) symmetry: Symmetry,
     /// B of a symmetric field, i B of an antisymmetric one: of the tip of a crack 1 − λ and 1 + λ.
     pub(crate) factor: f64,

@@ -294,7 +294,7 @@ mod tests {
             counted.fetch_add(1, Relaxed);
             [0.0; 2]
         };
-        let loads = Loads { force: Some(&force), faces: None };
+        let loads = Loads { force: Some(&force), ..Loads::default() };
         let tips = intensities(dataset, &field, &space, loads, unwatched()).expect("factors");
         let cells = BoxTree::new(&step.partition.boxes().cell);
         let with_factors = tips.iter().filter(|outcome| outcome.factors.is_some());

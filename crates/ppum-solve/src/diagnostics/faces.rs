@@ -1,6 +1,7 @@
 //! Warnings about the faces of cracks: whether they open.
 
 use super::{kind, short, warning};
+use crate::problem::{Problem, Symmetry};
 use ppum::crack::{Crack, SegmentId, Side};
 use ppum::dataset::Warning;
 use ppum::field::Field;
@@ -15,12 +16,17 @@ pub(super) const SAMPLES: usize = 96;
 const NOISE: f64 = 5e-3;
 
 /// The warnings about the faces of all cracks of a displacement.
-pub(super) fn of_faces(field: &Field<'_>, seats: &Places) -> Vec<Warning> {
+pub(super) fn of_faces(
+    field: &Field<'_>,
+    problem: Option<&Problem>,
+    seats: &Places,
+) -> Vec<Warning> {
     if field.equation.elastic().is_none() || field.components() != 2 {
         return Vec::new();
     }
+    let symmetry = |k: usize| problem.and_then(|problem| problem.symmetry_of(k));
     let cracks = field.step.cracks.iter().enumerate();
-    cracks.filter_map(|(k, crack)| overlap(field, (k, crack), seats)).collect()
+    cracks.filter_map(|(k, crack)| overlap((field, symmetry(k)), (k, crack), seats)).collect()
 }
 
 /// Opening and strain at a point of a crack.
@@ -34,7 +40,14 @@ struct FaceSample {
     strain: f64,
 }
 
-fn overlap(field: &Field<'_>, (index, crack): (usize, &Crack), seats: &Places) -> Option<Warning> {
+/// A field, and its symmetry to a crack of which one face is in the body.
+type FieldAtFaces<'a> = (&'a Field<'a>, Option<Symmetry>);
+
+fn overlap(
+    field: FieldAtFaces<'_>,
+    (index, crack): (usize, &Crack),
+    seats: &Places,
+) -> Option<Warning> {
     let places: Vec<FaceSample> =
         places(crack, index).filter_map(|p| FaceSample::new(field, p)).collect();
     // an opening is small against other jumps, or against what the strain makes of the length
@@ -70,14 +83,22 @@ pub(super) fn places(crack: &Crack, index: usize) -> impl Iterator<Item = (Vec2,
 }
 
 impl FaceSample {
-    fn new(field: &Field<'_>, (at, on, normal): (Vec2, SegmentId, Vec2)) -> Option<Self> {
+    fn new(
+        (field, symmetry): FieldAtFaces<'_>,
+        (at, on, normal): (Vec2, SegmentId, Vec2),
+    ) -> Option<Self> {
         let mut local = field.on(on, at);
         let mut face = |side: Side| {
             let mut u = [Jet::constant(0.0); 2];
             local.evaluate::<1>(Vec2::ZERO, side, &mut u).then_some(u)
         };
         let (above, below) = (face(Side::Above)?, face(Side::Below)?);
-        let jump = vec2(above[0].v - below[0].v, above[1].v - below[1].v);
+        let opening = normal * vec2(above[0].v, above[1].v).dot(normal);
+        let jump = match symmetry {
+            None => vec2(above[0].v - below[0].v, above[1].v - below[1].v),
+            Some(Symmetry::Symmetric) => opening * 2.0,
+            Some(Symmetry::Antisymmetric) => (vec2(above[0].v, above[1].v) - opening) * 2.0,
+        };
         let strain = |u: [Jet<f64>; 2]| u[0].x.hypot(u[1].y).hypot(0.5 * (u[0].y + u[1].x));
         Some(Self {
             at,

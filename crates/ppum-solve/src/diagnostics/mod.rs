@@ -122,7 +122,7 @@ impl DiagnosedSolution<'_> {
         let is_strained = !rounding.is_all();
         if is_strained {
             warnings.extend(of_tips(tips, &field.step.cracks, &places));
-            warnings.extend(of_faces(field, &places));
+            warnings.extend(of_faces(field, self.problem, &places));
         }
         stage.advance(0)?;
         // an adaptation has looked for itself how small cells should be

@@ -75,6 +75,9 @@ impl Obstacle {
 }
 
 impl TipClearance {
+    /// That of a tip on the border.
+    pub(crate) const NONE: Self = Self { radius: 0.0, end: Obstacle::Border };
+
     /// The clearance of a tip of a dataset's step with these cracks, in cells of the size `cell`.
     pub(crate) fn new(dataset: &Dataset, cracks: &[Crack], tip: TipId, cell: f64) -> Self {
         let p = cracks[tip.crack as usize].end_point(tip.end);
@@ -111,8 +114,10 @@ impl TipClearance {
         of_own: f64,
     ) -> Self {
         let p = own.end_point(tip.end);
-        let depth = (p - domain.bounds.min).min(domain.bounds.max - p);
-        let border = Self { radius: depth.x.min(depth.y), end: Obstacle::Border };
+        let [low, high] = [p - domain.bounds.min, domain.bounds.max - p];
+        // a tip on an edge has one half of its field in the body
+        let depths = [low.x, low.y, high.x, high.y].into_iter().filter(|depth| *depth != 0.0);
+        let border = Self { radius: depths.fold(f64::INFINITY, f64::min), end: Obstacle::Border };
         let holes = domain.holes.iter().enumerate();
         let rims =
             holes.map(|(k, hole)| Self { radius: hole.rim_distance(p), end: Obstacle::Hole(k) });

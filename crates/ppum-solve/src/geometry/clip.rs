@@ -21,7 +21,7 @@ pub(crate) fn length_inside(crack: &Crack, open: &Rect, holes: &[Hole]) -> f64 {
 }
 
 /// Part of a range of a segment's parameter that lies outside of holes.
-pub(super) fn solid_part<'h>(
+pub(crate) fn solid_part<'h>(
     a: Vec2,
     b: Vec2,
     [from, to]: [f64; 2],

@@ -13,6 +13,7 @@ pub(crate) use clearance::{AMPLE_CLEARANCE, bent_part, exceeds, from_tip, sure_s
 pub use clearance::{Obstacle, TipClearance};
 pub(crate) use clip::{
     clipped, distance, inside, length_inside, meets, rim_crossings, runs_of_rim, segment_inside,
+    solid_part,
 };
 pub(crate) use jumps::Jumps;
 pub(crate) use material::interface_distance;

@@ -121,7 +121,7 @@ pub(super) fn grown(problem: &Problem, growth: &Growth) -> Problem {
     growth.tips.iter().for_each(|row| extend(&mut next.cracks[row.tip.crack as usize], row));
     let lines = next.cracks.iter().map(|crack| crack.points.clone());
     next.cracks = cracks(lines, &next.domain);
-    next
+    next.with_free_faces()
 }
 
 /// Adds the way of a tip to its crack.

@@ -161,7 +161,7 @@ impl Problem {
         let cracks = dataset.steps.get(step).map_or(&[][..], |step| &step.cracks);
         let has_grown = problem.growth.is_some() && go_on(&problem.cracks, cracks);
         if has_grown || problem.cracks == cracks {
-            return Ok(Some(Self { cracks: cracks.to_vec(), ..problem }));
+            return Ok(Some(Self { cracks: cracks.to_vec(), ..problem }.with_free_faces()));
         }
         let location = Location::File("problem".into());
         Err(Mistake { location, message: format!("it has other cracks than step {step}") }.into())
@@ -186,7 +186,7 @@ const ROUNDING: f64 = 1e-9;
 fn start(problem: &Problem, last: Option<Last<'_>>) -> Option<(usize, Problem, Option<Before>)> {
     let Some(Last { number, step }) = last else { return Some((0, problem.clone(), None)) };
     let growth = step.growth.as_ref().filter(|growth| growth.stop.is_none())?;
-    let at_last = Problem { cracks: step.cracks.clone(), ..problem.clone() };
+    let at_last = Problem { cracks: step.cracks.clone(), ..problem.clone() }.with_free_faces();
     let next = grown(&at_last, growth);
     Some((number + 1, next, Some(Before { problem: at_last, growth: growth.clone() })))
 }

@@ -38,17 +38,25 @@ const JOINS: f64 = 0.25;
 /// The way of a tip along an arc, among the cracks as they are.
 pub(super) fn way(problem: &Problem, cracks: &[Crack], tip: TipId, arc: Arc) -> Way {
     let ahead = Ahead { problem, cracks, tip, reach: JOINS * arc.length };
-    let path = arc.points();
+    // along an edge rounding must not lead out of the plate
+    let edge = problem.edge_of(tip.crack as usize);
+    let bounds = &problem.domain.bounds;
+    let on_edge = |points: Vec<Vec2>| match edge {
+        Some(edge) => points.iter().map(|p| edge.point(bounds, edge.coordinate(*p))).collect(),
+        None => points,
+    };
+    let path = on_edge(arc.points());
     if let Some(hit) = ahead.first(arc.from, &path) {
         return hit.way(path);
     }
     let end = arc.direction + arc.curvature * arc.length;
     let beyond = arc_from(*path.last().unwrap_or(&arc.from), end, 0.0, LEFT * arc.length);
+    let beyond = on_edge(beyond);
     match ahead.first(*path.last().unwrap_or(&arc.from), &beyond) {
         None => Way { path, length: arc.length, fate: Fate::Grows },
         Some(hit) => {
             let length = 0.5 * (arc.length + hit.distance);
-            Way { path: Arc { length, ..arc }.points(), length, fate: Fate::Grows }
+            Way { path: on_edge(Arc { length, ..arc }.points()), length, fate: Fate::Grows }
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::decision::{Decision, Undecided, decide};
 use crate::problem::{GrowthRule, Problem, ProblemError};
+use crate::report::ENERGIES;
 use crate::solve::{Plan, SolveError};
-use ppum::dataset::{Dataset, Growth, GrowthStop, Step, Warning};
+use ppum::dataset::{Dataset, Growth, GrowthStop, Record, Step, Warning};
 use ppum::progress::Watcher;
 
 /// The next problem cannot be solved.
@@ -120,6 +121,7 @@ fn under(step: &mut Step, load: f64) {
         reaction.force.iter_mut().for_each(|force| *force *= load);
         reaction.moment *= load;
     }
-    let energies = step.history.iter_mut().filter(|record| record.name == "energy");
+    let is_energy = |record: &&mut Record| ENERGIES.contains(&record.name.as_str());
+    let energies = step.history.iter_mut().filter(is_energy);
     energies.for_each(|record| record.value *= load * load);
 }

@@ -149,7 +149,7 @@ impl Between<'_> {
 
     /// C_i (I ⊗ B) C_kᵀ; none if no components share unknowns.
     fn tied(&self, i: u32, k: u32, b: &Mat<f64>) -> Option<Mat<f64>> {
-        let (left, right) = (self.fine.1.tie(i), self.coarse.1.tie(k));
+        let (left, right) = (self.fine.1.inverse_tie(i), self.coarse.1.tie(k));
         if left.is_none() && right.is_none() {
             return None;
         }

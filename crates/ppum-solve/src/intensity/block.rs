@@ -273,7 +273,7 @@ impl Kernels<'_> {
         let point = self.block.points(first, zero);
         let auxiliary = tip.body.fields::<R, D>(&point);
         let (q, slope) = cut_off(square(&point), tip.radii[RINGS - 1]);
-        let half = zero.lit(0.5 * tip.modulus());
+        let halves = tip.halves().map(|halves| zero.lit(0.5 * tip.modulus() * halves));
         let mut densities = [[[zero; FACTORS]; 2]; 2];
         for (component, of_component) in densities.iter_mut().enumerate() {
             for (axis, of_modes) in of_component.iter_mut().enumerate() {
@@ -281,8 +281,8 @@ impl Kernels<'_> {
                 let u = [[zero.lit(a), zero.lit(b)], [zero.lit(c), zero.lit(d)]];
                 let of = FieldSample { point, u, lame, force }
                     .integrands::<D>(tip.body.lame, &auxiliary);
-                for (density, (flow, source)) in
-                    of_modes.iter_mut().zip(of.flows.iter().zip(of.sources))
+                for ((density, half), (flow, source)) in
+                    of_modes.iter_mut().zip(halves).zip(of.flows.iter().zip(of.sources))
                 {
                     *density = half * (slope * *flow + q * source);
                 }

@@ -4,8 +4,10 @@ use super::FaceLoad;
 use super::auxiliary::Body;
 use super::course::{Course, CourseSegment};
 use super::integral::{Modes, cut_off, square, turned};
+use crate::problem::Symmetry;
 use crate::quadrature::{GaussRule, closed, gauss};
 use ppum::crack::{LocalTip, Side};
+use ppum::vec2::vec2;
 
 /// Gauss points of a panel.
 const ORDER: usize = 8;
@@ -55,11 +57,13 @@ pub(super) struct Faces<'a> {
     /// False if the loads have a resultant at the tip: the integral for T has no value then, and is
     /// left out.
     pub(super) is_balanced: bool,
+    /// True if only the face above is in the body.
+    pub(super) is_half: bool,
 }
 
 impl Faces<'_> {
-    /// −∫ t_i uᵃ_i,1 q ds over both faces. Panels are divided until they resolve the load, which
-    /// may bend or jump anywhere.
+    /// −∫ t_i uᵃ_i,1 q ds over both faces, or over the one in the body. Panels are divided until
+    /// they resolve the load, which may bend or jump anywhere.
     pub(super) fn integrals(&self) -> Modes {
         self.course.parts().map(|part| self.part(&part)).fold(zero(), plus)
     }
@@ -148,7 +152,10 @@ impl Faces<'_> {
             let q = |k: usize| cut_off(square(&point), self.radii[k]).0;
             std::array::from_fn(|k| work.map(|w| -q(k) * w))
         };
-        let mut both = plus(of_side(Side::Above), of_side(Side::Below));
+        let mut both = of_side(Side::Above);
+        if !self.is_half {
+            both = plus(both, of_side(Side::Below));
+        }
         let is_at_tip = part.is_first && along < AT_TIP;
         if is_at_tip || !self.is_balanced {
             both.iter_mut().for_each(|modes| modes[2] = 0.0);
@@ -157,9 +164,9 @@ impl Faces<'_> {
     }
 }
 
-/// σ_22 in the tip's frame that the loads on the faces at a tip stand for; none if these have a
-/// resultant, under which stresses grow like log r.
-pub(super) fn pressed(course: &Course, load: FaceLoad<'_>) -> Option<f64> {
+/// σ_22 in the tip's frame that the loads on the faces at a tip stand for, or those on one face and
+/// their image; none if these have a resultant, under which stresses grow like log r.
+pub(super) fn pressed(course: &Course, load: FaceLoad<'_>, half: Option<Symmetry>) -> Option<f64> {
     let first = course.parts().next()?;
     let loads = LOOKS.map(|part| {
         let at = first.ends[0] + (first.ends[1] - first.ends[0]) * part;
@@ -168,7 +175,11 @@ pub(super) fn pressed(course: &Course, load: FaceLoad<'_>) -> Option<f64> {
             .map(|side| turned(tip.axis, load(course.tip().crack, side, at)) * tip.orientation)
     });
     let size = loads.as_flattened().iter().map(|t| t.length()).fold(0.0, f64::max);
-    let [above, below] = loads[0];
+    let [above, below] = match (loads[0], half) {
+        (loads, None) => loads,
+        ([above, _], Some(Symmetry::Symmetric)) => [above, vec2(above.x, -above.y)],
+        ([above, _], Some(Symmetry::Antisymmetric)) => [above, vec2(-above.x, above.y)],
+    };
     ((above + below).length() <= BALANCED * size).then_some(0.5 * (below.y - above.y))
 }
 
@@ -210,6 +221,7 @@ mod tests {
             radii: &RADII,
             load,
             is_balanced: true,
+            is_half: false,
         }
         .integrals()
     }

@@ -6,9 +6,11 @@ use super::bent::Bend;
 use super::block::{Local, PointBlock};
 use super::course::Course;
 use super::faces::{Faces, pressed};
+use super::sensitivity::FACTORS;
 use super::slope::Slope;
 use crate::geometry::{Placed, around};
 use crate::law::Law;
+use crate::problem::Symmetry;
 use crate::quadrature::{Disc, Doubt, Quadrature, Rule};
 use crate::space::Space;
 use crate::watched::Stage;
@@ -94,6 +96,8 @@ pub(super) struct Interaction<'a> {
     slope: Option<Slope<'a>>,
     /// σ_22 at the tip by the loads on its faces; none if these have a resultant there.
     pressed: Option<f64>,
+    /// The symmetry to the axis of a field of which one half is in the body.
+    half: Option<Symmetry>,
 }
 
 impl<'a> Interaction<'a> {
@@ -114,7 +118,8 @@ impl<'a> Interaction<'a> {
         let material = elastic.at(center);
         let body = Body::new(&material);
         let slope = Slope::new(elastic, center, radii[RINGS - 1]);
-        let pressed = loads.faces.map_or(Some(0.0), |load| pressed(&course, load));
+        let half = loads.symmetry.and_then(|symmetry| symmetry(tip));
+        let pressed = loads.faces.map_or(Some(0.0), |load| pressed(&course, load, half));
         Some(Self {
             field,
             space,
@@ -128,6 +133,7 @@ impl<'a> Interaction<'a> {
             loads,
             slope,
             pressed,
+            half,
         })
     }
 
@@ -161,8 +167,8 @@ impl<'a> Interaction<'a> {
 
     fn faces(&self) -> Option<Faces<'_>> {
         let Self { course, body, radii, pressed, .. } = self;
-        let is_balanced = pressed.is_some();
-        self.loads.faces.map(|load| Faces { course, body, radii, load, is_balanced })
+        let (is_balanced, is_half) = (pressed.is_some(), self.half.is_some());
+        self.loads.faces.map(|load| Faces { course, body, radii, load, is_balanced, is_half })
     }
 
     fn cell(
@@ -202,6 +208,16 @@ impl<'a> Interaction<'a> {
         let local = seen.insert(known.unwrap_or_else(|| self.field.at(rule.anchor)));
         local.evaluate_over::<1>(&offsets, Side::Above, &rule.patches, &mut jets);
         PointBlock::new(self, rule.anchor, &offsets).integrals(&weights, &jets)
+    }
+
+    /// The number of halves, alike in the integrals of symmetric and of antisymmetric fields, that
+    /// those over the body stand for.
+    pub(super) fn halves(&self) -> [f64; FACTORS] {
+        match self.half {
+            None => [1.0; FACTORS],
+            Some(Symmetry::Symmetric) => [2.0, 0.0],
+            Some(Symmetry::Antisymmetric) => [0.0, 2.0],
+        }
     }
 
     /// E′ at the tip.
@@ -247,12 +263,15 @@ impl<'a> Interaction<'a> {
     /// force sees ε_11 by its work, and σ_22 by the opening of its own field, u_2(−π) − u_2(π) =
     /// (κ − 1)/(4μ): together E′M = σ_11 − σ_22.
     fn integrals(&self, integrals: &Integrals) -> TipIntegrals {
-        let modulus = self.modulus();
+        let (modulus, [one, two]) = (self.modulus(), self.halves());
+        let integrals = &integrals.times(one.max(two));
+        let [one, two] = [one, two].map(|halves| halves.min(1.0));
         let rings = std::array::from_fn(|k| {
             let [m1, m2, _] = integrals.modes[k];
-            Ring { r1: 0.0, r2: self.radii[k], k1: 0.5 * modulus * m1, k2: 0.5 * modulus * m2 }
+            let [k1, k2] = [one * m1, two * m2].map(|m| 0.5 * modulus * m);
+            Ring { r1: 0.0, r2: self.radii[k], k1, k2 }
         });
-        let of_force = modulus * integrals.modes[RINGS - 1][2];
+        let of_force = one * modulus * integrals.modes[RINGS - 1][2];
         let strength = (modulus * integrals.energy.max(0.0) / self.largest()).sqrt();
         TipIntegrals {
             rings,

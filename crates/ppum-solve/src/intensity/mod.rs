@@ -47,7 +47,14 @@
 //! E_j = W δ_1j − σ_ij u_i,1      E_j,j = ½ ε:C,_1:ε + b_i u_i,1
 //! ```
 //!
-//! with the second integral over all faces. It knows nothing of auxiliary fields: that J = G =
+//! with the second integral over all faces.
+//!
+//! At a tip on an edge of the box, with the other half of the body mirrored ([`Symmetry`]), the
+//! integrals over one half are doubled. Of a symmetric field those of K_I and T, and J, are twice
+//! that half: on the line ahead of the tip P_j n_j = 0 since there u_2 = uᵃ_2 = 0 and σ_12 = σᵃ_12
+//! = 0. That of K_II is zero. Of an antisymmetric field that of K_II alone is not.
+//!
+//! J knows nothing of auxiliary fields: that J = G =
 //! (K_I² + K_II²)/E′ is a check. C is differentiated, so that there is no J where the material
 //! jumps in the disc.
 
@@ -62,7 +69,7 @@ mod slope;
 
 use crate::geometry::{AMPLE_CLEARANCE, interface_distance};
 pub use crate::geometry::{Obstacle, TipClearance};
-use crate::problem::Problem;
+use crate::problem::{Edge, Problem, Symmetry};
 pub use crate::quadrature::Doubt;
 use crate::space::Space;
 use crate::watched::Stage;
@@ -95,13 +102,18 @@ pub type PointLoad<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
 /// The traction t on a face of a crack, given by its index, at a point.
 pub type FaceLoad<'a> = &'a (dyn Fn(u32, Side, Vec2) -> [f64; 2] + Sync);
 
-/// The loads that act where the interaction integral looks.
+/// The symmetry of the field at a tip on an edge; none at others.
+pub type TipSymmetry<'a> = &'a (dyn Fn(TipId) -> Option<Symmetry> + Sync);
+
+/// The loads that act where the interaction integral looks, and what is known of the field there.
 #[derive(Clone, Copy, Default)]
 pub struct Loads<'a> {
     /// Body force, if there is one.
     pub force: Option<PointLoad<'a>>,
     /// Tractions on the faces of cracks, if there are any.
     pub faces: Option<FaceLoad<'a>>,
+    /// The symmetry of the field at tips on edges of the box, which have no factors without.
+    pub symmetry: Option<TipSymmetry<'a>>,
 }
 
 /// The findings about a tip.
@@ -163,7 +175,9 @@ pub fn intensities(
         return Ok(Vec::new());
     }
     let stage = Stage::uncounted(watcher, Phase::Intensity)?;
-    let outcome = |tip| stage.advance(0).map(|()| TipOutcome::new(dataset, space, tip));
+    let symmetry = |tip| loads.symmetry.and_then(|symmetry| symmetry(tip));
+    let outcome =
+        |tip| stage.advance(0).map(|()| TipOutcome::new(dataset, space, (tip, symmetry(tip))));
     let mut tips = tips(&field.step.cracks).map(outcome).collect::<Result<Vec<_>, _>>()?;
     let wanted: Vec<_> = tips.iter_mut().filter(|outcome| outcome.has_room()).collect();
     let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.clearance.radius)));
@@ -235,6 +249,10 @@ pub fn on_circle(
         return Err(CircleError::Disturbed(clear));
     }
     let field = Field::new(dataset, step)?;
+    let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
+    if !is_half_known(dataset, at, problem.and_then(|problem| problem.symmetry_at(tip))) {
+        return Err(CircleError::Disturbed(TipClearance::NONE));
+    }
     let Dataset { domain, equation, tables, .. } = dataset;
     if equation.elastic().is_none() || field.components() != equation.components() {
         return Err(CircleError::NoDisplacement);
@@ -274,12 +292,19 @@ fn under<T>(problem: Option<&Problem>, factor: f64, find: impl FnOnce(Loads<'_>)
     let loads = Loads {
         force: problem.filter(|p| has_force(p)).map(|_| &force as PointLoad<'_>),
         faces: problem.filter(|p| p.loads_faces()).map(|_| &face as FaceLoad<'_>),
+        symmetry: Some(&|tip| problem.and_then(|problem| problem.symmetry_at(tip))),
     };
     find(loads)
 }
 
 fn has_force(problem: &Problem) -> bool {
     problem.source.iter().any(|component| component.constant() != Some(0.0))
+}
+
+/// False at a tip on an edge of which no symmetry is known: nothing is known of its other half.
+fn is_half_known(dataset: &Dataset, at: Vec2, symmetry: Option<Symmetry>) -> bool {
+    let is_on = |edge: Edge| edge.depth(&dataset.domain.bounds, at) == 0.0;
+    symmetry.is_some() || !Edge::ALL.into_iter().any(is_on)
 }
 
 /// The longest side of the cells that a point lies in.
@@ -289,10 +314,18 @@ fn cell_at(cells: &[Rect], at: Vec2) -> f64 {
 }
 
 impl TipOutcome {
-    fn new(dataset: &Dataset, space: &Space<'_>, tip: TipId) -> Self {
+    fn new(
+        dataset: &Dataset,
+        space: &Space<'_>,
+        (tip, symmetry): (TipId, Option<Symmetry>),
+    ) -> Self {
         let at = space.step().cracks[tip.crack as usize].end_point(tip.end);
         let cell = cell_at(&space.partition().cell, at);
-        let clearance = TipClearance::new(dataset, &space.step().cracks, tip, cell);
+        let clearance = if is_half_known(dataset, at, symmetry) {
+            TipClearance::new(dataset, &space.step().cracks, tip, cell)
+        } else {
+            TipClearance::NONE
+        };
         let reach = clearance.radius.min(AMPLE_CLEARANCE * cell);
         let elastic = dataset.equation.elastic().filter(|_| reach > 0.0);
         let interface = elastic.and_then(|body| interface_distance(body, at, reach));

@@ -10,7 +10,7 @@
 
 use super::block::PointBlock;
 use super::integral::Interaction;
-use super::{Loads, RADII, TipOutcome};
+use super::{Loads, RADII, TipOutcome, TipSymmetry};
 use crate::geometry::Placed;
 use crate::quadrature::Rule;
 use crate::space::Space;
@@ -34,12 +34,15 @@ pub(crate) fn sensitivities<'a>(
     dataset: &Dataset,
     field: &'a Field<'a>,
     space: &'a Space<'a>,
+    symmetry: TipSymmetry<'a>,
 ) -> Vec<Sensitivity<'a>> {
+    let loads = Loads { symmetry: Some(symmetry), ..Loads::default() };
     let of_tip = |outcome: TipOutcome| {
         let radii = RADII.map(|part| part * outcome.clearance.radius);
-        Interaction::new(field, space, outcome.tip, radii, Loads::default())
+        Interaction::new(field, space, outcome.tip, radii, loads)
     };
-    let outcomes = tips(&field.step.cracks).map(|tip| TipOutcome::new(dataset, space, tip));
+    let outcomes =
+        tips(&field.step.cracks).map(|tip| TipOutcome::new(dataset, space, (tip, symmetry(tip))));
     outcomes.filter(TipOutcome::has_room).filter_map(of_tip).map(Sensitivity).collect()
 }
 

@@ -57,6 +57,15 @@ impl Edge {
         }
     }
 
+    /// The edge's own coordinate of a point.
+    #[must_use]
+    pub fn coordinate(self, p: Vec2) -> f64 {
+        match self {
+            Self::Left | Self::Right => p.y,
+            Self::Bottom | Self::Top => p.x,
+        }
+    }
+
     /// The point of the edge with own coordinate `s`.
     #[must_use]
     pub fn point(self, domain: &Rect, s: f64) -> Vec2 {

@@ -18,7 +18,8 @@ use crate::geometry::{Placed, wider};
 pub(super) const TOUCH: f64 = 1e-9;
 
 /// A crack along a polyline: ends on the border of the box, to which they are moved, and on the rim
-/// or inside of a hole (up to 10⁻⁹ of the domain's size) are mouths, all others tips. Of cracks
+/// or inside of a hole (up to 10⁻⁹ of the domain's size) are mouths, all others tips. A crack that
+/// lies on an edge has tips where it ends between two corners, and the body on its left. Of cracks
 /// that meet, see [`cracks`].
 #[must_use]
 pub fn crack(points: Vec<Vec2>, domain: &Domain) -> Crack {
@@ -41,26 +42,34 @@ pub fn cracks(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Domain) -> Ve
 pub(super) fn settled(cracks: Vec<Crack>, domain: &Domain) -> Vec<Crack> {
     let lines = cracks.into_iter().map(|crack| crack.points);
     let is_mouth = |p| edges_at(p, &domain.bounds, 0.0).next().is_some();
-    with_ends(straightened(lines, is_mouth, touch(&domain.bounds)), domain)
+    let straight = straightened(lines, is_mouth, touch(&domain.bounds));
+    with_ends(straight.into_iter().map(|line| with_body_on_left(line, &domain.bounds)), domain)
 }
 
-/// Cracks along polylines as they are, but for ends on edges, which they are moved to.
+/// Cracks along polylines as they are, but for ends on edges, and whole cracks, which they are
+/// moved to.
 pub(super) fn with_ends(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Domain) -> Vec<Crack> {
     let touch = touch(&domain.bounds);
     let holes = holes_of(domain, touch);
-    let end = |point: Option<&mut Vec2>| {
+    let end = |point: Option<&mut Vec2>, most_edges: usize| {
         let Some(p) = point else { return CrackEnd::Tip };
         *p = onto_edges(*p, &domain.bounds, touch);
-        let is_on_edge = edges_at(*p, &domain.bounds, 0.0).next().is_some();
+        let is_mouth = edges_at(*p, &domain.bounds, 0.0).count() > most_edges;
         let mut near = holes_at(&holes, *p);
-        if is_on_edge || near.any(|(_, hole)| reaches(hole, *p, touch)) {
+        if is_mouth || near.any(|(_, hole)| reaches(hole, *p, touch)) {
             CrackEnd::Mouth
         } else {
             CrackEnd::Tip
         }
     };
     let crack = |mut points: Vec<Vec2>| {
-        let ends = [end(points.first_mut()), end(points.last_mut())];
+        // along an edge a crack ends at corners: there it goes on in the mirrored half
+        let is_along = edge_along(&points, &domain.bounds, touch).is_some();
+        if is_along {
+            points.iter_mut().for_each(|p| *p = onto_edges(*p, &domain.bounds, touch));
+        }
+        let most = usize::from(is_along);
+        let ends = [end(points.first_mut(), most), end(points.last_mut(), most)];
         Crack { points, ends }
     };
     let mut cracks: Vec<_> = lines.into_iter().map(crack).collect();
@@ -105,6 +114,23 @@ fn edges_at(p: Vec2, domain: &Rect, tolerance: f64) -> impl Iterator<Item = Edge
     depths.into_iter().filter(move |(_, depth)| depth.abs() <= tolerance).map(|(edge, _)| edge)
 }
 
+/// The edge that all points of a line are on, up to the distance `touch`.
+pub(super) fn edge_along(points: &[Vec2], bounds: &Rect, touch: f64) -> Option<Edge> {
+    let holds = |edge: &Edge| points.iter().all(|p| edge.depth(bounds, *p).abs() <= touch);
+    Edge::ALL.into_iter().find(|edge| points.len() > 1 && holds(edge))
+}
+
+/// The line of a crack on an edge in the direction that has the body on its left, so that the face
+/// in the body is the one above; other lines as they are.
+fn with_body_on_left(mut points: Vec<Vec2>, bounds: &Rect) -> Vec<Vec2> {
+    if let Some(edge) = edge_along(&points, bounds, 0.0)
+        && (points[points.len() - 1] - points[0]).left().dot(edge.normal()) > 0.0
+    {
+        points.reverse();
+    }
+    points
+}
+
 /// All rules broken by the cracks. Each crack must be in order before two are compared.
 pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<MistakeAt> {
     let touch = touch(&domain.bounds);
@@ -145,9 +171,10 @@ fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Mis
     found
 }
 
-/// Each point inside the closed box; on its border only the ends, and then exactly. The first that
-/// is not is told: a curve has many.
+/// Each point inside the closed box; on its border only the ends, and then exactly, or all on one
+/// edge. The first that is not is told: a curve has many.
 fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option<MistakeAt> {
+    let is_along = edge_along(points, domain, 0.0).is_some();
     let place = |(index, p): (usize, &Vec2)| {
         let is_end = index == 0 || index + 1 == points.len();
         let near = edges_at(*p, domain, touch).next();
@@ -171,7 +198,7 @@ fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option
                     if is_end { "put it on the edge, " } else { "" }
                 )
             }
-            Some(edge) if !is_end => format!(
+            Some(edge) if !is_end && !is_along => format!(
                 "the crack touches the {} edge between its ends, at {}; only an end may lie on the border",
                 edge.name(),
                 shown(*p)
@@ -199,11 +226,13 @@ pub(super) fn shown(p: Vec2) -> String {
     format!("[{}, {}]", trimmed(p.x), trimmed(p.y))
 }
 
-/// Each segment of positive length, and not along the border.
+/// Each segment of positive length, and along the border all of them or none.
 fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<MistakeAt> {
+    let is_along = edge_along(points, domain, 0.0).is_some();
     let segment = |(index, pair): (usize, &[Vec2])| {
         let [a, b] = [pair[0], pair[1]];
         let along = edges_at(a, domain, touch)
+            .filter(|_| !is_along)
             .find(|edge| edges_at(b, domain, touch).any(|other| other == *edge));
         let (at, message) = match along {
             _ if (b - a).length() <= touch => {
@@ -216,7 +245,8 @@ fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<
             Some(edge) => (
                 index,
                 format!(
-                    "the crack runs along the {} edge; move it into the plate, or model both halves of one that is symmetric about it",
+                    "the crack runs along the {} edge, and leaves it; move it into the plate, or let all of it lie on \
+                     the edge, as in half of a symmetric plate",
                     edge.name()
                 ),
             ),

@@ -414,6 +414,7 @@ tables! {
             "The traction σ n, n outwards; each component is a value, or `\"free\"`.";
         pressure: Value, only(Elasticity, &[]) => "A pressure p, that is, the traction −p n.";
         symmetry: Flag, only(Elasticity, &[]) => "On edges: the normal displacement is 0, the tangential one free.";
+        antisymmetry: Flag, only(Elasticity, &[]) => "On edges: the tangential displacement is 0, the normal one free.";
         value: Either(&[Value, Word(exact)]), default("free"), only(Poisson, &["displacement"]) => "The value of u.";
         flux: Value, default("free"), only(Poisson, &["traction"]) => "The flux κ ∂u/∂n into the plate, n outwards.";
     }

@@ -56,6 +56,7 @@ mod solver;
 mod stations;
 mod stiffness;
 mod straight;
+mod symmetry;
 mod table_file;
 #[cfg(test)]
 mod tests;
@@ -80,4 +81,5 @@ pub(crate) use restraint::restraint_words;
 pub use solver::{Solver, SolverKind};
 pub use stations::Station;
 pub(crate) use stiffness::{FREE_OF_LOCKING, STIFF, stiffness_ratio};
+pub use symmetry::Symmetry;
 pub use table_file::read_table;

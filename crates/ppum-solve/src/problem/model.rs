@@ -119,14 +119,14 @@ impl Problem {
         let new = points.iter().copied().map(Vec2::from).collect();
         let all = std::mem::take(&mut self.cracks).into_iter().map(|crack| crack.points);
         self.cracks = cracks(all.chain([new]), &self.domain);
-        self
+        self.with_free_faces()
     }
 
     /// The problem with conditions on a whole edge, one per component.
     #[must_use]
     pub fn with_boundary(mut self, edge: Edge, components: Vec<Condition>) -> Self {
         self.boundary.push(BoundaryCondition::on_edge(edge, &self.domain.bounds, components));
-        self
+        self.with_free_faces()
     }
 
     /// The problem with a pressure on a part of the border.

@@ -36,7 +36,8 @@ impl Assembled {
         let Discretised { problem, dataset, space, .. } = discretised;
         let (given, plate) = discretised.loaded(watcher)?;
         let field = Field::new(dataset, 0)?;
-        let tips = sensitivities(dataset, &field, space);
+        let symmetry = |tip| problem.symmetry_at(tip);
+        let tips = sensitivities(dataset, &field, space, &symmetry);
         let law = &Law::new(&problem.equation);
         let basis = stable_basis(discretised, law, watcher)?;
         clock.lap(Phase::Basis);

@@ -55,6 +55,7 @@ impl<'p> Diagnosed<'p> {
         factors.zip(&goal.errors).for_each(|(factors, error)| factors.error = Some(*error));
         let Estimated { energy, squares, .. } = found;
         report.energy = Some(energy);
+        report.whole_energy = problem.images().map(|images| images * energy);
         clock.lap(Phase::Estimation);
         // nothing is a part of no energy, or of one that is rounding
         if energy > ROUNDING * energy_of_size(&field) {

@@ -143,6 +143,7 @@ impl<'d> Space<'d> {
             shifts: vec![0.0; n],
             series: Vec::new(),
             in_series: Default::default(),
+            held: Default::default(),
             equation: self.equation,
             smoothness: Default::default(),
             orders: self.orders,

@@ -1,6 +1,7 @@
 //! A step with the lists that the solver needs to walk over it.
 
 use super::alike::Alike;
+use super::held::{HeldLine, held_lines};
 use super::inspect;
 use super::williams::{self, SeriesFunctions};
 use crate::problem::Problem;
@@ -13,7 +14,7 @@ use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
 use ppum::function::{FunctionError, FunctionKind, FunctionTable};
 use std::borrow::Cow;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -51,6 +52,8 @@ pub struct Space<'d> {
     pub(super) series: Vec<Vec<SeriesFunctions>>,
     /// The functions of the table that they are made of.
     pub(super) in_series: BTreeSet<u32>,
+    /// Of patches at edges with cracks, the lines on which a component is zero.
+    pub(super) held: BTreeMap<u32, Vec<HeldLine>>,
     pub(super) equation: &'d Equation,
     pub(super) smoothness: Smoothness,
     pub(super) orders: Orders,
@@ -86,6 +89,7 @@ impl<'d> Space<'d> {
         let Problem { domain, equation, tables, .. } = problem;
         let mut space = Self::on(Cow::Owned(step), domain, equation, tables)?;
         (space.series, space.in_series) = williams::series(problem, &space.step);
+        space.held = held_lines(problem, space.partition());
         if !problem.solver.kernels {
             let Step { functions, cracks, .. } = &*space.step;
             space.functions = FunctionTable::of_formulas(functions, cracks.len(), tables)?;
@@ -110,6 +114,7 @@ impl<'d> Space<'d> {
             shifts: shifts(&step, data),
             series: Vec::new(),
             in_series: BTreeSet::new(),
+            held: BTreeMap::new(),
             equation,
             orders: orders(partition, smoothness.degree()),
             rules: vec![OnceLock::new(); partition.len()],
@@ -117,6 +122,11 @@ impl<'d> Space<'d> {
             alike: OnceLock::new(),
             step,
         })
+    }
+
+    /// The lines on which a component is zero that a patch sees.
+    pub(crate) fn held_lines(&self, patch: usize) -> &[HeldLine] {
+        self.held.get(&(patch as u32)).map_or(&[], Vec::as_slice)
     }
 
     /// The step, whose coefficients play no part.

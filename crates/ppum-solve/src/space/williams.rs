@@ -1,8 +1,8 @@
 //! Functions that stand for the series of tips and corners: the solution takes combinations of
 //! them only.
 
-use crate::corner::{Corner, Symmetry, WedgeTerm, corners};
-use crate::problem::Problem;
+use crate::corner::{Corner, WedgeTerm, corners};
+use crate::problem::{Problem, Symmetry};
 use ppum::crack::{Side, TipId};
 use ppum::dataset::{Equation, Step, monomials};
 use ppum::function::{Declared, Frame, Function, FunctionKind, GROUP, WESTERGAARD, native};
@@ -34,8 +34,8 @@ pub(crate) enum Origin {
     /// ```
     ///
     /// so that Williams' series up to r^(N − ½) are combinations of them with polynomials of degree
-    /// N − 1.
-    Tip(TipId),
+    /// N − 1. At a tip on an edge they are those of one symmetry to its axis.
+    Tip(TipId, Option<Symmetry>),
     /// The four of [`WEDGE`] in the frame of a corner make one field. Of Poisson's equation one of
     /// them does.
     Corner {
@@ -53,8 +53,9 @@ impl SeriesFunctions {
     /// Number of unknowns.
     pub(crate) fn unknowns(&self, components: usize) -> usize {
         match self.origin {
-            // of a term a field for opening and one for sliding, or one function alone
-            Origin::Tip(_) => components * self.terms(),
+            // of a term a field for opening and one for sliding, one of both, or one function alone
+            Origin::Tip(_, None) => components * self.terms(),
+            Origin::Tip(_, Some(_)) => self.terms(),
             Origin::Corner { .. } => 1,
         }
     }
@@ -63,7 +64,7 @@ impl SeriesFunctions {
     /// of, not those that they are stored as.
     pub(crate) fn evaluated(&self) -> usize {
         match self.origin {
-            Origin::Tip(_) => ANGULAR * self.terms(),
+            Origin::Tip(..) => ANGULAR * self.terms(),
             Origin::Corner { .. } => self.functions.len(),
         }
     }
@@ -90,7 +91,7 @@ pub(super) fn series(problem: &Problem, step: &Step) -> (Vec<Vec<SeriesFunctions
 type Groups = BTreeMap<u32, (Origin, usize)>;
 
 fn groups(problem: &Problem, step: &Step) -> Groups {
-    let mut groups = of_tips(step);
+    let mut groups = of_tips(problem, step);
     // to look for corners takes a second where rims have thousands of vertices
     if !step.functions.iter().any(|function| function.name.starts_with(OF_CORNER)) {
         return groups;
@@ -107,7 +108,7 @@ fn groups(problem: &Problem, step: &Step) -> Groups {
 }
 
 /// The functions of each tip that are built in: those of the problem's own come later in the table.
-fn of_tips(step: &Step) -> Groups {
+fn of_tips(problem: &Problem, step: &Step) -> Groups {
     let mut known = Vec::new();
     let tip = |kind: &FunctionKind| match kind {
         FunctionKind::Formula { text, frame, .. } => native(text, *frame),
@@ -116,7 +117,7 @@ fn of_tips(step: &Step) -> Groups {
     let mut first = |kind: &FunctionKind| {
         let (tip, _) = tip(kind).filter(|(tip, k)| *k == 0 && !known.contains(tip))?;
         known.push(tip);
-        Some((Origin::Tip(tip), WESTERGAARD.len()))
+        Some((Origin::Tip(tip, problem.symmetry_at(tip)), WESTERGAARD.len()))
     };
     let all = (0..).zip(&step.functions);
     all.filter_map(|(index, function)| Some((index, first(&function.kind)?))).collect()

@@ -12,6 +12,7 @@ mod formulas;
 mod goal;
 mod graded;
 mod growth;
+mod halves;
 mod holes;
 mod incompressible;
 mod intensity;

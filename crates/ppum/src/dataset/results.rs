@@ -45,7 +45,8 @@ pub struct Warning {
 /// the plate.
 ///
 /// The solver's t is the conservative one, (σ n)_i − β (u_i − g_i) with Nitsche's β (Hughes et al.
-/// 2000): the reactions and the loads on a plate add up to zero, to rounding.
+/// 2000): the reactions and the loads on a plate add up to zero, to rounding. On an edge with a
+/// crack it is σ n, and they add up to zero up to the error of the solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reaction {
     /// The place in words, e.g. `bottom`, `top from -0.1 to 0.1`, `hole 0`.

@@ -3,6 +3,7 @@
 mod boundary;
 mod enrichment;
 mod refinement;
+mod symmetry;
 
 use ppum::dataset::Equation;
 use ppum::domain::Domain;
@@ -27,6 +28,7 @@ use crate::geometry::Jumps;
 use boundary::check_boundary;
 use enrichment::{check_enrichments, too_wide};
 use refinement::check_refinements;
+use symmetry::check_symmetry;
 
 /// Most cells of a base cover.
 const MAX_CELLS: u64 = 1 << (2 * MAX_LEVEL);
@@ -75,6 +77,7 @@ pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
         found.extend(check_zone(problem));
         found.extend(check_enrichments(problem));
         found.extend(check_boundary(problem));
+        found.extend(check_symmetry(problem));
     }
     found.extend(domain);
     found

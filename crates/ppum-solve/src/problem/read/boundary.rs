@@ -18,7 +18,7 @@ pub(super) fn boundary(
     let domain = domain.unwrap_or(Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)));
     root.each("boundary", |section| {
         let on = section.required("on").and_then(|value| part(&value, &domain));
-        if section.mentions_any(&["pressure", "symmetry"]) {
+        if section.mentions_any(&SPECIAL) {
             return special(&section, on);
         }
         let components = conditions(&section, kind, exact);
@@ -26,18 +26,23 @@ pub(super) fn boundary(
     })
 }
 
-/// A pressure, or symmetry, which say all components.
+/// Keys that say all components.
+const SPECIAL: [&str; 3] = ["pressure", "symmetry", "antisymmetry"];
+
+/// A pressure, symmetry or antisymmetry, which say all components.
 fn special(section: &Section<'_>, on: Option<BorderPart>) -> Option<BoundaryCondition> {
-    let given = section.given(&["pressure", "symmetry", "displacement", "traction"]);
+    let [pressure, symmetry, antisymmetry] = SPECIAL;
+    let given = section.given(&[pressure, symmetry, antisymmetry, "displacement", "traction"]);
     if let [(_, first), (second, _), ..] = &given[..] {
         let what = format!("says all components, and so does `{second}`; write two [[boundary]]");
         return first.error(&what);
     }
-    if section.mentions("pressure") {
-        let pressure = section.get("pressure")?;
+    if section.mentions(pressure) {
+        let pressure = section.get(pressure)?;
         return Some(BoundaryCondition::pressure(on?, pressure));
     }
-    let value = section.value("symmetry")?;
+    let is_symmetric = section.mentions(symmetry);
+    let value = section.value(if is_symmetric { symmetry } else { antisymmetry })?;
     if !bool::read(&value)? {
         return value.error("is false, which says nothing; leave this [[boundary]] out");
     }
@@ -45,9 +50,9 @@ fn special(section: &Section<'_>, on: Option<BorderPart>) -> Option<BoundaryCond
         return value.error("is for edges of the domain; give a displacement or a traction here");
     };
     let normal = edge.normal();
-    let condition = |along: f64| match along == 0.0 {
-        true => Condition::Free,
-        false => Condition::Dirichlet(0.0.into()),
+    let condition = |across: f64| match (across != 0.0) == is_symmetric {
+        true => Condition::Dirichlet(0.0.into()),
+        false => Condition::Free,
     };
     Some(BoundaryCondition::new(on?, vec![condition(normal.x), condition(normal.y)]))
 }

@@ -108,7 +108,8 @@ fn read(text: &str, file: &str, source: FileSource<'_>) -> Result<Problem, Probl
     };
     // mistakes are about the vertices of the file
     let cracks = cracks::settled(problem.cracks, &problem.domain);
-    Ok(Problem { title, cracks, text: Some(text.to_owned()), files, ..problem })
+    let problem = Problem { title, cracks, text: Some(text.to_owned()), files, ..problem };
+    Ok(problem.with_free_faces())
 }
 
 /// The message where a bracket is open; every line that follows is then read as a part of

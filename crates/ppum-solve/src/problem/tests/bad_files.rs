@@ -12,11 +12,12 @@ macro_rules! files {
         )),*]
     };
 }
-const FILES: [(&str, &str, &str); 9] = files![
+const FILES: [(&str, &str, &str); 10] = files![
     "centre_crack",
     "curves",
     "formulas",
     "growth",
+    "half",
     "holes",
     "membrane",
     "plate",
