@@ -74,7 +74,10 @@ impl DeformedView<'_> {
             (DeformationMap::new(self.field(), self.anchor), self.field().domain.at(self.anchor));
         let mut face = |crack: &Crack, side: Side| {
             let mut paths = Joined::new(self);
-            for face in Face::on_side(crack, side, self.anchor) {
+            let bounds = &self.field().domain.bounds;
+            let is_inside = |k: usize| crack.outer_side(k, bounds) != Some(side);
+            let faces = Face::on_side(crack, side, self.anchor).enumerate();
+            for (_, face) in faces.filter(|(segment, _)| is_inside(*segment)) {
                 let mut place = |o: Vec2| {
                     let is_plate = domain.contains(o);
                     is_plate.then(|| map.place(self, face.beside(o), side)).flatten()

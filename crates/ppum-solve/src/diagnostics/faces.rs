@@ -92,7 +92,9 @@ impl FaceSample {
             let mut u = [Jet::constant(0.0); 2];
             local.evaluate::<1>(Vec2::ZERO, side, &mut u).then_some(u)
         };
-        let (above, below) = (face(Side::Above)?, face(Side::Below)?);
+        let above = face(Side::Above)?;
+        // of a crack on an edge the other face is the image of this one
+        let below = if symmetry.is_some() { above } else { face(Side::Below)? };
         let opening = normal * vec2(above[0].v, above[1].v).dot(normal);
         let jump = match symmetry {
             None => vec2(above[0].v - below[0].v, above[1].v - below[1].v),

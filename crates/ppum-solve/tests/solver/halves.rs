@@ -1,8 +1,12 @@
 //! Cracks on edges: halves and quarters of symmetric plates against the whole ones.
 
 use crate::studies::support::{parsed, record, solved, unknowns};
+use ppum::crack::{SegmentId, Side};
 use ppum::dataset::{Dataset, Material, StressState, TipIntensity};
+use ppum::field::Field;
 use ppum::progress::unwatched;
+use ppum::quantity::Quantity;
+use ppum::sample::{Wanted, evaluate_each, points};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::growth::series;
@@ -236,6 +240,29 @@ fn half_of_a_plate_in_shear() {
 
 /// On all four edges, in both directions, of any size, and with vertices that are moved by rounding
 /// a half has the same factors; reversed it has the same bits.
+/// Of a crack on an edge one face is in the body, wherever it is evaluated.
+#[test]
+fn outer_faces_have_no_values() {
+    let dataset = part_of(&centre_crack(0.5, 2), Symmetry::Symmetric, false).solved();
+    let field = Field::new(&dataset, 0).expect("a field");
+    let cracks = &dataset.steps[0].cracks;
+    let middle = (cracks[0].points[0] + cracks[0].points[1]) / 2.0;
+    let mut on = field.on(SegmentId { crack: 0, segment: 0 }, middle);
+    for quantity in ["uy", "syy", "von-mises"] {
+        let quantity = Quantity::parse(quantity, &field).expect("a quantity");
+        let alone = [Side::Above, Side::Below].map(|side| quantity.at(&mut on, Vec2::ZERO, side));
+        let offsets = [Vec2::ZERO, vec2(0.1, 0.0), vec2(-0.1, 0.0)];
+        let together = [Side::Above, Side::Below].map(|side| {
+            Quantity::at_many(std::slice::from_ref(&quantity), &mut on, &offsets, side)[0]
+        });
+        let places = points(cracks, &[middle]);
+        let rows = evaluate_each(&field, Wanted::Values(std::slice::from_ref(&quantity)), &places);
+        for [inner, outer] in [alone, together, [rows[0], rows[1]]] {
+            assert!(inner.is_finite() && outer.is_nan(), "{inner} {outer}");
+        }
+    }
+}
+
 #[test]
 fn halves_in_all_positions() {
     let mut random = Random(45);

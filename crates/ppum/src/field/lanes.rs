@@ -79,6 +79,9 @@ impl LocalField<'_> {
         if let Some(mesh) = &self.mesh {
             return mesh.evaluate_many::<D>(&self.functions, (offsets, side), out);
         }
+        if self.outer == Some(side) {
+            return out.fill(Jet::NAN);
+        }
         f64::dispatch(Many::<D> { local: self, offsets, side, out });
     }
 
@@ -111,6 +114,9 @@ impl LocalField<'_> {
         patches: &[u32],
         out: &mut [Jet<f64>],
     ) {
+        if self.outer == Some(side) {
+            return out.fill(Jet::NAN);
+        }
         f64::dispatch(LaneEvaluation::<D> { local: self, offsets, side, patches, out });
     }
 

@@ -19,6 +19,8 @@ pub struct LocalField<'f> {
     /// The anchor.
     pub anchor: Vec2,
     domain: LocalDomain,
+    /// The side of the segment that it is seen on that lies outside of the domain, if one does.
+    pub(super) outer: Option<Side>,
     pub(super) functions: LocalFunctions<'f>,
     /// The elements, if the patches are those of a mesh.
     pub(super) mesh: Option<LocalMesh<'f>>,
@@ -52,13 +54,17 @@ impl Field<'_> {
     }
 
     /// The field as seen from an anchor, for points on a segment of a crack: there an evaluation
-    /// takes the side of this crack that it is told, wherever rounding has put the points.
+    /// takes the side of this crack that it is told, wherever rounding has put the points. Of a
+    /// segment on the border of the domain one side lies outside, where there are no values.
     ///
     /// # Panics
     /// If there is no such segment.
     #[must_use]
     pub fn on(&self, segment: SegmentId, anchor: Vec2) -> LocalField<'_> {
-        LocalField::new(self, anchor, self.functions.on(&self.step.cracks, segment, anchor))
+        let functions = self.functions.on(&self.step.cracks, segment, anchor);
+        let crack = &self.step.cracks[segment.crack as usize];
+        let outer = crack.outer_side(segment.segment as usize, &self.domain.bounds);
+        LocalField { outer, ..LocalField::new(self, anchor, functions) }
     }
 }
 
@@ -66,7 +72,7 @@ impl<'f> LocalField<'f> {
     fn new(field: &'f Field<'f>, anchor: Vec2, functions: LocalFunctions<'f>) -> Self {
         let domain = field.domain.at(anchor);
         let mesh = field.step.partition.mesh().map(|mesh| LocalMesh::new(field, mesh, anchor));
-        Self { field, anchor, domain, functions, mesh, patches: Vec::new() }
+        Self { field, anchor, domain, outer: None, functions, mesh, patches: Vec::new() }
     }
 
     /// The functions as seen from the anchor.
@@ -101,7 +107,7 @@ impl<'f> LocalField<'f> {
         if self.mesh.is_some() {
             return self.on_mesh::<D>(offset, side, out).is_some();
         }
-        if !self.contains(offset) {
+        if self.outer == Some(side) || !self.contains(offset) {
             return false;
         }
         let patches = self.covering_any(&[offset]);
@@ -117,12 +123,13 @@ impl<'f> LocalField<'f> {
     }
 
     /// True where the field was evaluated in the domain: on a mesh values say so, since finding the
-    /// element is most of the work.
+    /// element is most of the work, and on a crack at the border, which has one face in the domain.
     #[must_use]
     pub(crate) fn has_values(&self, offset: Vec2, jets: &[Jet<f64>]) -> bool {
+        let any = || jets.iter().any(|jet| !jet.v.is_nan());
         match &self.mesh {
-            Some(_) => jets.iter().any(|jet| !jet.v.is_nan()),
-            None => self.contains(offset),
+            None => self.contains(offset) && (self.outer.is_none() || any()),
+            Some(_) => any(),
         }
     }
 

@@ -194,7 +194,7 @@ impl<'a, 'd> Chunk<'a, 'd> {
         jets.resize(keys.len() * components, Jet::constant(0.0));
         wanted.jets(local, (offsets, self.place(keys[0])), patches, jets);
         for ((&key, &offset), jets) in keys.iter().zip(&*offsets).zip(jets.chunks(components)) {
-            if local.contains(offset) {
+            if local.has_values(offset, jets) {
                 let row = &mut rows[number(key) * width..][..width];
                 wanted.row(local, offset, jets, row);
             }
