@@ -31,9 +31,11 @@ impl Message {
 
     /// A hard link.
     pub(super) fn link(name: &str, address: u64) -> Self {
-        // version; the length of the name takes one byte; its characters, if they are not ASCII
-        let mut body = if name.is_ascii() { vec![1, 0] } else { vec![1, 0x10, 1] };
-        body.push(name.len() as u8);
+        // version; flags: whether a character set follows, and the bytes of the name's length, as a
+        // power of two
+        let power: u8 = if name.len() < 1 << 8 { 0 } else { 2 };
+        let mut body = if name.is_ascii() { vec![1, power] } else { vec![1, 0x10 | power, 1] };
+        body.extend(&(name.len() as u32).to_le_bytes()[..1 << power]);
         body.extend(name.as_bytes());
         body.extend(address.to_le_bytes());
         Self::new(LINK, body)
@@ -63,7 +65,8 @@ fn encoded(messages: &[Message]) -> Result<Vec<u8>, WriteError> {
     let mut bytes = Vec::new();
     for Message { kind, flags, body } in messages {
         let Ok(size) = u16::try_from(body.len()) else {
-            let message = "an attribute has more than 65,000 bytes".to_owned();
+            let message =
+                "an attribute or the name of an array has more than 65,000 bytes".to_owned();
             return Err(WriteError::Hdf5 { message });
         };
         bytes.push(*kind);
