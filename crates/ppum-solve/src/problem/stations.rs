@@ -57,11 +57,14 @@ impl Problem {
                 rim.into_iter().filter(|&(p, _)| bounds.contains(p)).collect()
             }
             BorderPart::Crack { crack, face } => {
-                let segments = self.cracks[crack].points.windows(2);
+                let crack = &self.cracks[crack];
+                let segments = crack.points.windows(2).enumerate();
                 let sides = [Side::Above, Side::Below].into_iter();
                 let sides = sides.filter(|side| face.is_none_or(|face| face == *side));
                 let faces = sides.flat_map(|side| {
-                    segments.clone().flat_map(move |ends| {
+                    let is_in_body = move |k: usize| crack.outer_side(k, bounds) != Some(side);
+                    let segments = segments.clone().filter(move |(k, _)| is_in_body(*k));
+                    segments.flat_map(move |(_, ends)| {
                         let left = (ends[1] - ends[0]).unit().left();
                         let outward = if side == Side::Above { -left } else { left };
                         along([ends[0], ends[1]], spacing).map(move |p| (p, outward))
