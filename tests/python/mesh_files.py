@@ -17,7 +17,7 @@ PLAIN = dict(kind="one", crack=-1, formula="", frame="", frame_end="", frame_ang
 def write(path, arrays, libver=None, gzip=False):
     """Writes arrays and attributes by their paths in the format; with `gzip` long ones are deflated."""
     with h5py.File(path, "w", libver=libver) as file:
-        file.attrs.update(format="ppum", format_version=np.array([1, 4], "u4"))
+        file.attrs.update(format="ppum", format_version=np.array([1, 5], "u4"))
         for name, values in arrays.items():
             group, _, attribute = name.partition("@")
             if "@" in name:

@@ -171,8 +171,8 @@ class Field:
         if kind == "circle":
             ((x, y),) = corners
             return x * x + y * y < self.real(radius) ** 2
-        assert kind == "polygon"
-        inside = False
+        assert kind in ("polygon", "outside")
+        inside = kind == "outside"
         for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1]):
             # twice the area of the triangle of the side and the point
             area = ax * by - ay * bx

@@ -94,7 +94,7 @@ def test_h5py_reads_and_the_checksum_agrees():
     for path in files():
         with h5py.File(path) as file:
             assert text(file.attrs["format"]) == "ppum"
-            assert list(file.attrs["format_version"]) == [1, 4]
+            assert list(file.attrs["format_version"]) == [1, 5]
             assert text(file.attrs["title"]) == f"Übung {int(path.stem)}"
             assert is_right(file)
             assert counts_attributes(file)
@@ -239,7 +239,7 @@ def test_the_smallest_file_of_the_page():
 def test_all_errors_are_listed():
     path = smallest()
     with h5py.File(path, "a") as file:
-        file.attrs["format_version"] = [1, 4]
+        file.attrs["format_version"] = [1, 5]
         step = file["steps/0000"]
         step.attrs["load"] = 1
         step["partition"].attrs["weight"] = "bspline"
@@ -250,7 +250,7 @@ def test_all_errors_are_listed():
     lines = run("check", path).stdout.splitlines()
     assert len(lines) == 1 and lines[0].startswith("@format_version: has type i64, expected u32"), lines
     with h5py.File(path, "a") as file:
-        file.attrs["format_version"] = np.array([1, 4], "u4")
+        file.attrs["format_version"] = np.array([1, 5], "u4")
     checked = run("check", path)
     places = sorted(line.split(":")[0] for line in checked.stdout.splitlines())
     expected = ["fields/0000/block_offset", "functions/kind", "partition/level", "partition@weight"]

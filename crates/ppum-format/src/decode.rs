@@ -24,8 +24,8 @@ use crate::content::{Array, Content, Element, ObjectKind, step_path};
 use crate::error::ReadError;
 use crate::limits::FORMAT_VERSION;
 use crate::names::{
-    BOX_WITH_HOLES, BOXES, CIRCLE, CRACK_ENDS, ELASTICITY, EQUATIONS, EquationKind, MESH,
-    NO_EQUATION, PLAIN_BOX, POISSON, POLYGON, STRESS_STATES, WEIGHTS,
+    BOX_WITH_HOLES, BOXES, CRACK_ENDS, ELASTICITY, EQUATIONS, EquationKind, HOLES, MESH,
+    NO_EQUATION, PLAIN_BOX, POISSON, STRESS_STATES, WEIGHTS,
 };
 use functions::functions;
 pub(crate) use group::missing;
@@ -171,14 +171,14 @@ fn holes(group: &GroupReader) -> Vec<Hole> {
     let parts = group.parts("offsets", n, ("points", &group.points("points")));
     let rows = kinds.iter().zip(parts).zip(radii);
     let hole = |((kind, points), radius): ((&String, Vec<Vec2>), f64)| {
-        match (group.word(&[(true, CIRCLE), (false, POLYGON)], kind, "kind")?, &*points) {
-            (true, &[center]) => return Some(Hole::Circle { center, radius }),
-            (true, _) if group.is_wrong("points") => {}
-            (true, other) => {
+        match (group.word(HOLES, kind, "kind")?, &*points) {
+            (None, &[center]) => return Some(Hole::Circle { center, radius }),
+            (None, _) if group.is_wrong("points") => {}
+            (None, other) => {
                 group.error("offsets", format!("a circle has 1 point, not {}", other.len()));
             }
-            (false, _) if radius == 0.0 => return Some(Hole::Polygon { points }),
-            (false, _) => group.error("radius", format!("is {radius} of a polygon, must be 0")),
+            (Some(side), _) if radius == 0.0 => return Some(Hole::Polygon { points, side }),
+            (Some(_), _) => group.error("radius", format!("is {radius} of a polygon, must be 0")),
         }
         None
     };

@@ -20,8 +20,8 @@ use crate::content::{Array, ArrayValues, Content, Element, join, step_path};
 use crate::error::WriteError;
 use crate::limits::{FORMAT_VERSION, MAX_TABLE_VALUES};
 use crate::names::{
-    BOX_WITH_HOLES, BOXES, CIRCLE, CRACK_ENDS, ENDS, FATES, GROWTH_NUMBERS, MEETS_CRACK,
-    MEETS_HOLE, MESH, NO_LEVELS, PLAIN_BOX, POLYGON, STOPS, STRESS_STATES, Words, word,
+    BOX_WITH_HOLES, BOXES, CRACK_ENDS, ENDS, FATES, GROWTH_NUMBERS, HOLES, MEETS_CRACK, MEETS_HOLE,
+    MESH, NO_LEVELS, PLAIN_BOX, STOPS, STRESS_STATES, Words, word,
 };
 
 type Written = Result<(), WriteError>;
@@ -77,11 +77,12 @@ fn domain(group: &mut GroupWriter, domain: &Domain, is_mesh: bool) {
 
 fn holes(group: &mut GroupWriter, holes: &[Hole]) {
     let rows = holes.iter().map(|hole| match hole {
-        Hole::Circle { center, radius } => (CIRCLE, *radius, std::slice::from_ref(center)),
-        Hole::Polygon { points } => (POLYGON, 0.0, points.as_slice()),
+        Hole::Circle { center, radius } => (None, *radius, std::slice::from_ref(center)),
+        Hole::Polygon { points, side } => (Some(*side), 0.0, points.as_slice()),
     });
     let points = rows.clone().flat_map(|(_, _, points)| points);
-    group.vector("kind", rows.clone().map(|(kind, ..)| kind.to_owned()));
+    let kinds = rows.clone().filter_map(|(kind, ..)| word(HOLES, kind));
+    group.vector("kind", kinds.map(str::to_owned));
     group.array("points", Array::rows(points.map(|&p| <[f64; 2]>::from(p))));
     group.array("offsets", offsets(rows.clone().map(|(_, _, points)| points.len())));
     group.vector("radius", rows.map(|(_, radius, _)| radius));

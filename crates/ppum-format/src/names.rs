@@ -2,6 +2,7 @@
 
 use ppum::crack::{CrackEnd, End};
 use ppum::dataset::{Advance, Fate, GrowthStop, StressState};
+use ppum::domain::PolygonSide;
 use ppum::mesh::Shape;
 use ppum::polynomial::PolynomialSpace;
 use ppum::weight::WeightFunction;
@@ -71,9 +72,12 @@ pub(crate) fn code<T: PartialEq>(codes: &Codes<T>, value: T) -> Option<u8> {
     codes.iter().position(|(v, _)| *v == value).map(|code| code as u8)
 }
 
-/// Kinds of holes.
-pub(crate) const CIRCLE: &str = "circle";
-pub(crate) const POLYGON: &str = "polygon";
+/// Kinds of holes: a circle, or what is cut out of a polygon.
+pub(crate) const HOLES: &Words<Option<PolygonSide>> = &[
+    (None, "circle"),
+    (Some(PolygonSide::Inside), "polygon"),
+    (Some(PolygonSide::Outside), "outside"),
+];
 
 /// What tips do next, but for those that meet something with a number.
 pub(crate) const FATES: &Words<Fate> = &[

@@ -1,7 +1,8 @@
 //! The domain: a box minus holes.
 //!
 //! Holes are open sets: their rims belong to the domain, as the box's border does. They may overlap
-//! each other and the border, which makes notches and quarter models.
+//! each other and the border, which makes notches and quarter models. A body of any outline is a
+//! box minus the outside of a polygon.
 //!
 //! As everywhere points are `anchor + offset`, and what the anchor has to do with a rim is formed
 //! once, without cancellation: a rim in a view 10⁻¹² of the domain wide has no noise.
@@ -19,7 +20,7 @@ pub struct Domain {
     pub holes: Vec<Hole>,
 }
 
-/// A bounded open set that is cut out of the box.
+/// An open set that is cut out of the box.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Hole {
     /// The points nearer to the centre than the radius.
@@ -29,13 +30,24 @@ pub enum Hole {
         /// Radius, positive.
         radius: f64,
     },
-    /// The inside of a closed polygon that does not cross itself; either orientation. Were it to
-    /// cross itself, a point would be inside if a ray from it crosses the rim an odd number
+    /// One of the sides of a closed polygon that does not cross itself; either orientation. Were it
+    /// to cross itself, a point would be inside if a ray from it crosses the rim an odd number
     /// of times.
     Polygon {
         /// The corners, three or more; the last one is joined to the first.
         points: Vec<Vec2>,
+        /// The side that is cut out.
+        side: PolygonSide,
     },
+}
+
+/// A side of a closed polygon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PolygonSide {
+    /// What it encloses: a hole of the body.
+    Inside,
+    /// All else: the polygon is the body's outline.
+    Outside,
 }
 
 impl From<Rect> for Domain {
@@ -53,6 +65,12 @@ impl Domain {
         LocalDomain { bounds, holes: self.holes.iter().map(|hole| hole.at(anchor)).collect() }
     }
 
+    /// The index of the hole that is all outside of the body's outline, if there is one.
+    #[must_use]
+    pub fn outline(&self) -> Option<usize> {
+        self.holes.iter().position(Hole::is_outside)
+    }
+
     /// True if `p` lies in the closed box and in no hole.
     #[must_use]
     pub fn contains(&self, p: Vec2) -> bool {
@@ -61,6 +79,24 @@ impl Domain {
 }
 
 impl Hole {
+    /// The inside of a polygon.
+    #[must_use]
+    pub fn polygon(points: Vec<Vec2>) -> Self {
+        Self::Polygon { points, side: PolygonSide::Inside }
+    }
+
+    /// The outside of a polygon, which is the outline of the body.
+    #[must_use]
+    pub fn outside(points: Vec<Vec2>) -> Self {
+        Self::Polygon { points, side: PolygonSide::Outside }
+    }
+
+    /// True if it is the outside of an outline, and not bounded.
+    #[must_use]
+    pub fn is_outside(&self) -> bool {
+        matches!(self, Self::Polygon { side: PolygonSide::Outside, .. })
+    }
+
     /// The hole as seen from an anchor.
     #[must_use]
     pub fn at(&self, anchor: Vec2) -> LocalHole {
@@ -68,9 +104,10 @@ impl Hole {
             Self::Circle { center, radius } => {
                 LocalRim::Circle { d: anchor - *center, excess: circle(*center, *radius, anchor) }
             }
-            Self::Polygon { .. } => {
-                LocalRim::Polygon(self.sides().map(|[a, b]| LocalSide::new(a, b, anchor)).collect())
-            }
+            Self::Polygon { side, .. } => LocalRim::Polygon(
+                self.sides().map(|[a, b]| LocalSide::new(a, b, anchor)).collect(),
+                *side,
+            ),
         })
     }
 
@@ -80,12 +117,19 @@ impl Hole {
         self.at(p).contains(Vec2::ZERO)
     }
 
-    /// The smallest box that holds the hole.
+    /// The smallest box that holds the hole; that of the outside of a polygon is infinite.
     #[must_use]
     pub fn bounds(&self) -> Rect {
+        const FAR: Vec2 = vec2(f64::INFINITY, f64::INFINITY);
+        if self.is_outside() { Rect::new(-FAR, FAR) } else { self.rim_bounds() }
+    }
+
+    /// The smallest box that holds the rim.
+    #[must_use]
+    pub fn rim_bounds(&self) -> Rect {
         match self {
             Self::Circle { center, radius } => Rect::around(*center, vec2(*radius, *radius)),
-            Self::Polygon { points } => {
+            Self::Polygon { points, .. } => {
                 let empty = Rect::new(
                     vec2(f64::INFINITY, f64::INFINITY),
                     vec2(f64::NEG_INFINITY, f64::NEG_INFINITY),
@@ -95,21 +139,28 @@ impl Hole {
         }
     }
 
+    /// Boxes that together hold the rim, and of a bounded hole its inside.
+    pub fn boxes(&self) -> impl Iterator<Item = Rect> + '_ {
+        let bounded = (!self.is_outside()).then(|| self.rim_bounds());
+        let sides = self.sides().filter(|_| self.is_outside());
+        bounded.into_iter().chain(sides.map(|[a, b]| Rect::new(a.min(b), a.max(b))))
+    }
+
     /// The sides of a polygon, in order; nothing for a circle.
     pub fn sides(&self) -> impl Iterator<Item = [Vec2; 2]> + '_ {
         let points: &[Vec2] = match self {
             Self::Circle { .. } => &[],
-            Self::Polygon { points } => points,
+            Self::Polygon { points, .. } => points,
         };
         (0..points.len()).map(|k| [points[k], points[(k + 1) % points.len()]])
     }
 
-    /// +1 for a circle and for polygons whose corners run counter-clockwise, −1 for others.
+    /// +1 if the hole is on the left of its sides, −1 if it is on their right; +1 for a circle.
     #[must_use]
     pub fn orientation(&self) -> f64 {
-        let origin = self.bounds().min;
+        let origin = self.rim_bounds().min;
         let twice: f64 = self.sides().map(|[a, b]| (a - origin).cross(b - origin)).sum();
-        if twice < 0.0 { -1.0 } else { 1.0 }
+        if (twice < 0.0) == self.is_outside() { 1.0 } else { -1.0 }
     }
 
     /// Distance of `p` to the rim, on either side of it.
@@ -168,8 +219,8 @@ pub enum LocalRim {
         /// |d|² − r², formed without cancellation.
         excess: f64,
     },
-    /// The sides in order.
-    Polygon(Vec<LocalSide>),
+    /// The sides in order, and on which side of them the hole is.
+    Polygon(Vec<LocalSide>, PolygonSide),
 }
 
 impl LocalHole {
@@ -184,11 +235,24 @@ impl LocalHole {
     pub fn contains(&self, offset: Vec2) -> bool {
         match &self.0 {
             LocalRim::Circle { d, excess } => excess + (*d * 2.0 + offset).dot(offset) < 0.0,
-            LocalRim::Polygon(sides) => {
+            LocalRim::Polygon(sides, side) => {
                 let crossed = sides.iter().filter(|side| side.crosses(offset)).count();
-                crossed % 2 == 1 && !sides.iter().any(|side| side.holds(offset))
+                let is_in = (crossed % 2 == 1) == (*side == PolygonSide::Inside);
+                is_in && !sides.iter().any(|side| side.holds(offset))
             }
         }
+    }
+
+    /// The hole as far as points at a height ask for it: without the sides above and below.
+    #[must_use]
+    pub fn at_height(&self, y: f64) -> Self {
+        let meets = |side: &LocalSide| side.a.y.min(side.b.y) <= y && y <= side.a.y.max(side.b.y);
+        Self(match &self.0 {
+            LocalRim::Polygon(sides, side) => {
+                LocalRim::Polygon(sides.iter().copied().filter(meets).collect(), *side)
+            }
+            round @ LocalRim::Circle { .. } => round.clone(),
+        })
     }
 
     /// A point outside, beyond the rim by about `reach`, for one that lies inside by no more than
@@ -206,7 +270,7 @@ impl LocalHole {
                 let is_near = -value <= reach * (far + radius);
                 if is_near { offset + out.unit() * (2.0 * reach) } else { offset }
             }
-            LocalRim::Polygon(sides) => {
+            LocalRim::Polygon(sides, _) => {
                 let near = sides.iter().filter(|side| side.distance(offset) <= reach);
                 let beyond = |side: &LocalSide| {
                     let step = side.direction.unit().left() * (2.0 * reach);
@@ -268,7 +332,7 @@ mod tests {
     const BOX: Rect = Rect::new(vec2(-2.0, -1.0), vec2(2.0, 1.0));
 
     fn polygon(points: &[[f64; 2]]) -> Hole {
-        Hole::Polygon { points: points.iter().copied().map(Vec2::from).collect() }
+        Hole::polygon(points.iter().copied().map(Vec2::from).collect())
     }
 
     #[test]
@@ -298,14 +362,18 @@ mod tests {
             })
             .collect();
         let turned: Vec<Vec2> = corners.iter().rev().copied().collect();
-        let holes = [corners, turned].map(|points| Hole::Polygon { points });
+        let holes = [corners.clone(), turned.clone()].map(Hole::polygon);
+        let outsides = [corners, turned].map(Hole::outside);
         for k in 0..1600 {
             let p = vec2(f64::from(k % 40) / 20.0 - 0.983, f64::from(k / 40) / 20.0 - 0.977);
             let seen = |[a, b]: [Vec2; 2]| (a - p).cross(b - p).atan2((a - p).dot(b - p));
             for hole in &holes {
                 let angle: f64 = hole.sides().map(seen).sum();
                 assert_eq!(hole.contains(p), angle.abs() > 3.0, "{p:?}");
+                assert_eq!(hole.at(p).at_height(0.0).contains(Vec2::ZERO), angle.abs() > 3.0);
             }
+            let in_body = !holes[0].contains(p);
+            assert!(outsides.iter().all(|hole| hole.contains(p) == in_body), "{p:?}");
         }
     }
 
@@ -340,6 +408,11 @@ mod tests {
         assert_eq!(round.rim_distance(vec2(2.5, 0.25)), 1.5);
         let triangle = polygon(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
         assert_eq!(triangle.bounds(), Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)));
+        let outside = Hole::outside([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(Vec2::from).to_vec());
+        assert_eq!((outside.rim_bounds(), outside.boxes().count()), (triangle.bounds(), 3));
+        assert!(outside.bounds().contains(vec2(-1e300, 1e300)));
+        // the corners run counter-clockwise: the triangle is on their left
+        assert_eq!([&triangle, &outside].map(Hole::orientation), [1.0, -1.0]);
         assert_eq!(triangle.rim_distance(vec2(0.25, 0.125)), 0.125);
         assert_eq!(triangle.rim_distance(vec2(-3.0, -4.0)), 5.0);
     }

@@ -391,7 +391,7 @@ mod tests {
             let on = |angle: f64, r: f64| center + vec2(angle.cos(), angle.sin()) * r;
             let points: Vec<Vec2> = (0..5).map(|n| on(1.1 * f64::from(n), radius)).collect();
             let round = Hole::Circle { center, radius };
-            let cornered = Hole::Polygon { points: points.clone() };
+            let cornered = Hole::polygon(points.clone());
             let is_in = |domain: &Domain, p: Place| domain.at(p.anchor).contains(p.offset);
             let settled = |domain: &Domain, mut places: Vec<Place>| {
                 settle(domain, &mut places);

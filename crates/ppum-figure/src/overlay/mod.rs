@@ -168,7 +168,7 @@ mod tests {
     fn rims_of_holes_are_in_place() {
         let circle = Hole::Circle { center: vec2(0.5, 0.25), radius: 0.625 };
         let corners = [[0.5, 0.25], [0.875, 0.75], [0.0, 1.0]].map(Vec2::from);
-        let polygon = Hole::Polygon { points: corners.to_vec() };
+        let polygon = Hole::polygon(corners.to_vec());
         for (hole, center, width) in [
             (&circle, vec2(0.4, 0.3), 1.5),
             (&circle, vec2(0.875, 0.75), 1e-12),

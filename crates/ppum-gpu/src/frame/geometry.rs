@@ -6,7 +6,7 @@
 
 use ppum::crack::{LocalCrack, LocalTip, SegmentId, TipId};
 use ppum::dataset::Step;
-use ppum::domain::{Domain, Hole, LocalRim, LocalSide};
+use ppum::domain::{Domain, Hole, LocalRim, LocalSide, PolygonSide};
 use ppum::function::{Cut, FunctionKind, Part};
 use ppum::vec2::{Vec2, vec2};
 
@@ -169,8 +169,9 @@ fn rim(hole: &Hole, center: Vec2) -> Vec<Vec2> {
             let half = 0.5 / radius;
             vec![vec2(0.0, excess * half), *d * (2.0 * half), vec2(half, 0.0)]
         }
-        (_, LocalRim::Polygon(sides)) => {
-            let head = vec2(sides.len() as f64, 0.0);
+        (_, LocalRim::Polygon(sides, cut)) => {
+            let outside = if *cut == PolygonSide::Outside { 1.0 } else { 0.0 };
+            let head = vec2(sides.len() as f64, outside);
             std::iter::once(head).chain(sides.iter().flat_map(side)).collect()
         }
         _ => unreachable!("a circle is seen as a circle"),

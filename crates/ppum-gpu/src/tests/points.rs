@@ -616,9 +616,8 @@ fn insides_of_holes() {
         let inside = holes_contain(u32(input(k, 2u)), u32(input(k, 3u)), vec2<f32>(input(k, 0u), input(k, 1u)));
         put(k, 0u, select(0.0, 1.0, inside));
     }";
-    let polygon = |points: &[[f64; 2]]| Hole::Polygon {
-        points: points.iter().copied().map(Vec2::from).collect(),
-    };
+    let polygon =
+        |points: &[[f64; 2]]| Hole::polygon(points.iter().copied().map(Vec2::from).collect());
     let holes = vec![
         Hole::Circle { center: vec2(0.5, 0.25), radius: 0.625 },
         polygon(&[[-1.0, -0.5], [-0.5, -0.5], [-0.5, 0.0], [-1.0, 0.0]]),

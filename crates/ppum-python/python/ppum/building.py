@@ -235,7 +235,9 @@ def _holes(holes: Sequence[Hole]) -> Arrays:
         for k, hole in enumerate(holes)
     ]
     return {
-        "domain/holes/kind": ["circle" if h.points is None else "polygon" for h in holes],
+        "domain/holes/kind": [
+            "circle" if h.points is None else "outside" if h.is_outside else "polygon" for h in holes
+        ],
         "domain/holes/points": np.concatenate(points),
         "domain/holes/offsets": np.cumsum([0, *map(len, points)]),
         "domain/holes/radius": [float(h.radius or 0) for h in holes],

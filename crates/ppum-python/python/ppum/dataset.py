@@ -215,7 +215,7 @@ class Dataset:
         holes = (
             Hole(tuple(h["center"]), h["radius"], None)
             if h["kind"] == "circle"
-            else Hole(None, None, points(h["points"]))
+            else Hole(None, None, points(h["points"]), h["kind"] == "outside")
             for h in self._facts["domain"]["holes"]
         )
         return Numbered(holes, "hole")

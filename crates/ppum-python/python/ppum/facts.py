@@ -55,11 +55,15 @@ class Crack:
 
 @dataclass(frozen=True)
 class Hole:
-    """A hole: a circle (`center`, `radius`) or a polygon (`points`, shape (n, 2)); the others are None."""
+    """A hole: a circle (`center`, `radius`) or a polygon (`points`, shape (n, 2)); the others are None.
+
+    With `is_outside` it is all that is outside of the polygon, which is the outline of the body.
+    """
 
     center: Point | None
     radius: float | None
     points: NDArray[np.float64] | None
+    is_outside: bool = False
 
 
 @dataclass(frozen=True)

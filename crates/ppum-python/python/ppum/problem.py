@@ -80,16 +80,15 @@ class Problem:
 
     def __init__(
         self,
-        domain: Iterable[Iterable[float]],
+        domain: Iterable[Iterable[float]] | Mapping[str, Any],
         material: Elastic | Poisson,
         *,
         title: str = "",
     ) -> None:
         if not isinstance(material, (Elastic, Poisson)):
             raise TypeError(f"material: ppum.Elastic or ppum.Poisson is needed, not {_kind(material)}")
-        low, high = _box(domain)
         spec: dict[str, Any] = {"title": title} if title else {}
-        spec["domain"] = {"min": low, "max": high}
+        spec["domain"] = _domain(domain)
         if isinstance(material, Poisson):
             spec["equation"] = {"kind": "poisson"}
             spec["material"] = {"conductivity": material.conductivity}
@@ -194,7 +193,8 @@ class Problem:
         """One more condition.
 
         Args:
-            on: ``left``, ``right``, ``bottom`` or ``top``; or a dictionary of edge, from, to; of hole; of crack and face.
+            on: ``left``, ``right``, ``bottom``, ``top`` or ``outline``; or a dictionary of edge, from, to; of hole; of
+                piece; of crack and face.
 
         Example:
             >>> plate.boundary({"crack": 0, "face": "above"}, pressure=1).check()
@@ -328,17 +328,19 @@ def _kind(value: Any) -> str:
     return type(value).__name__
 
 
-def _box(domain: Any) -> tuple[Any, Any]:
-    """The corners of a domain.
+def _domain(domain: Any) -> Mapping[str, Any]:
+    """The table of a domain, which may be two corners.
 
     Raises:
-        TypeError: It has not two.
+        TypeError: There are not two.
     """
+    if isinstance(domain, Mapping):
+        return domain
     try:
         low, high = domain
-        return tuple(low), tuple(high)
+        return {"min": tuple(low), "max": tuple(high)}
     except (TypeError, ValueError):
-        message = "domain: two corners are needed, ((x0, y0), (x1, y1))"
+        message = "domain: two corners are needed, ((x0, y0), (x1, y1)), or a table such as {'outline': {'points': …}}"
         raise TypeError(f"{message}, not {domain!r}") from None
 
 

@@ -30,14 +30,15 @@ def _key(text: str) -> Option:
 
 
 class HoleOptions(TypedDict, total=False):
-    """A circle, a polygon, an ellipse or a closed curve."""
+    """A circle, a polygon, an ellipse, a closed curve or a path of pieces."""
 
     center: Annotated[ArrayLike, _key("the centre of a circle")]
     radius: Annotated[float, _key("its radius")]
     points: Annotated[ArrayLike, _key("the corners of a polygon, shape (n, 2)")]
     ellipse: Annotated[Table, _key("an ellipse: `ppum.ellipse`, or a table of problem files")]
     spline: Annotated[ArrayLike, _key("points of a smooth closed curve, shape (n, 2)")]
-    segments: Annotated[int, _key("the number of segments of an ellipse or a spline")]
+    path: Annotated[Sequence[Table], _key("several curves, each from where the one before ends, with names")]
+    segments: Annotated[int, _key("the number of segments of each curve")]
 
 
 class CrackOptions(TypedDict, total=False):

@@ -273,10 +273,11 @@ impl<T: Sample> PreparedView<'_, T> {
             let rows = seen.rows.start.max(first_row)..seen.rows.end.min(first_row + ROWS);
             for row in rows {
                 let line = &mut out[(row - first_row) * width..][..width];
+                let hole = seen.hole.at_height(self.view.offset(0, row as u32).y);
                 for column in seen.columns.clone() {
                     let offset = self.view.offset(column as u32, row as u32);
                     // holes may lie over each other
-                    if !line[column].to_f64().is_nan() && seen.hole.contains(offset) {
+                    if !line[column].to_f64().is_nan() && hole.contains(offset) {
                         line[column] = T::from_f64(f64::NAN);
                     }
                 }

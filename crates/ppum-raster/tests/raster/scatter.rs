@@ -232,7 +232,7 @@ fn holes_are_nan_where_the_reference_has_them() {
     let round = Hole::Circle { center: at(0.3, 0.4), radius: 0.125 };
     let notch = Hole::Circle { center: at(1.0, 0.6), radius: 0.2 };
     let points = vec![at(0.2, 0.5), at(0.6, 0.45), at(0.4, 0.6), at(0.5, 0.9)];
-    dataset.domain.holes = vec![round, notch, Hole::Polygon { points }];
+    dataset.domain.holes = vec![round, notch, Hole::polygon(points)];
     agree(&dataset, &whole([131, 97]), &SOME);
     let field = Field::new(&dataset, 0).unwrap();
     let rim = at(0.3, 0.4) - vec2(0.075, 0.1);

@@ -101,7 +101,7 @@ impl DeformedView<'_> {
         for hole in &self.field().domain.holes {
             all.extend(match hole {
                 Hole::Circle { center, radius } => border.circle(*center, *radius),
-                Hole::Polygon { points } => border.polygon(points, -hole.orientation()),
+                Hole::Polygon { points, .. } => border.polygon(points, -hole.orientation()),
             });
         }
         all

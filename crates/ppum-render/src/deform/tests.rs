@@ -180,7 +180,7 @@ fn affine_fields_are_inverted_exactly() {
         if case % 2 == 1 {
             let round = Hole::Circle { center: vec2(0.3, -0.4), radius: 0.7 };
             let corners = vec![vec2(-1.5, 1.0), vec2(-0.5, 0.9), vec2(-1.1, 1.6)];
-            let holes = vec![round, Hole::Polygon { points: corners }];
+            let holes = vec![round, Hole::polygon(corners)];
             dataset.domain = Domain { bounds: dataset.domain.bounds, holes };
         }
         let field = Field::new(&dataset, 0).unwrap();
@@ -241,7 +241,7 @@ fn a_bent_plate_fills_the_polygon_of_its_moved_border() {
             deformation.place(p)
         })
         .collect();
-    let polygon = Hole::Polygon { points: border };
+    let polygon = Hole::polygon(border);
     let mut inside = 0;
     for (i, j) in pixels(&points.view) {
         let place = view.center + view.offset(i, j);

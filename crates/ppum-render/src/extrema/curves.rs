@@ -137,13 +137,14 @@ fn borders(rect: &Rect) -> Vec<BoundaryCurve> {
 
 fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Vec<BoundaryCurve>) {
     let local = hole.at(anchor);
+    let on = if hole.is_outside() { On::Border } else { On::Rim(index) };
     match (hole, local.rim()) {
         (Hole::Circle { radius, .. }, LocalRim::Circle { d, excess }) => {
             let (shape, toward) =
                 (arc(*radius, *d, *excess, rect).map(CurveShape::Arc), Vec2::ZERO);
-            curves.extend(shape.map(|shape| BoundaryCurve { shape, toward, on: On::Rim(index) }));
+            curves.extend(shape.map(|shape| BoundaryCurve { shape, toward, on }));
         }
-        (_, LocalRim::Polygon(sides)) => {
+        (_, LocalRim::Polygon(sides, _)) => {
             let orientation = hole.orientation();
             for side in sides {
                 let length = side.direction.length();
@@ -151,7 +152,7 @@ fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Ve
                 let foot = tangent.left() * (-side.cross / length);
                 let range = [tangent.dot(side.a), tangent.dot(side.b)];
                 let outward = tangent.left() * -orientation;
-                let rim = |ends| BoundaryCurve::straight(ends, outward, On::Rim(index));
+                let rim = |ends| BoundaryCurve::straight(ends, outward, on);
                 curves.extend(clipped(foot, tangent, range, rect).map(rim));
             }
         }

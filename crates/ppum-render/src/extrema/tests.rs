@@ -343,9 +343,8 @@ fn at_an_interface_and_at_corners() {
     let (young, poisson) = (young.parse().expect("a formula"), 0.0.into());
     dataset.equation =
         Equation::Elasticity(Elasticity { young, poisson, state: StressState::PlaneStrain });
-    dataset.domain.holes = vec![Hole::Polygon {
-        points: [[1.0, 0.3], [1.2, 0.3], [1.1, 0.5]].map(Vec2::from).to_vec(),
-    }];
+    dataset.domain.holes =
+        vec![Hole::polygon([[1.0, 0.3], [1.2, 0.3], [1.1, 0.5]].map(Vec2::from).to_vec())];
     let field = Field::new(&dataset, 0).expect("a field");
     let view = View::fit(dataset.domain.bounds, [64, 51]).expect("a view");
     let all = extrema_of(&field, &view, "sxx");

@@ -198,7 +198,7 @@ fn plate(is_smooth: bool) -> Dataset {
     let mut dataset = recipe.dataset();
     dataset.domain.holes = vec![
         Hole::Circle { center: vec2(0.5, 0.6), radius: 0.06 },
-        Hole::Polygon { points: vec![vec2(1.3, 0.1), vec2(1.4, 0.05), vec2(1.35, 0.2)] },
+        Hole::polygon(vec![vec2(1.3, 0.1), vec2(1.4, 0.05), vec2(1.35, 0.2)]),
     ];
     dataset
 }

@@ -278,7 +278,7 @@ fn add_crack(crack: &Crack, anchor: Vec2, lines: &mut Vec<PolygonCut>, boxes: &m
 
 fn add_sides(hole: &Hole, anchor: Vec2, lines: &mut Vec<PolygonCut>, boxes: &mut Vec<Rect>) {
     let local = hole.at(anchor);
-    let LocalRim::Polygon(sides) = local.rim() else { return };
+    let LocalRim::Polygon(sides, _) = local.rim() else { return };
     for (ends, &LocalSide { a, b, direction, cross }) in hole.sides().zip(sides) {
         let length = direction.length();
         if length > 0.0 {

@@ -15,8 +15,7 @@ fn dataset(seed: u64) -> Dataset {
     let recipe = if seed < 4 { Recipe::random(seed) } else { Recipe::meeting() };
     let mut dataset = recipe.dataset();
     let circle = |x, y, radius| Hole::Circle { center: vec2(x, y), radius };
-    let polygon =
-        |points: &[[f64; 2]]| Hole::Polygon { points: points.iter().map(|&p| p.into()).collect() };
+    let polygon = |points: &[[f64; 2]]| Hole::polygon(points.iter().map(|&p| p.into()).collect());
     dataset.domain.holes = vec![
         circle(0.5, 0.6, 0.08),
         circle(0.2, -0.3, 0.1),
@@ -35,7 +34,7 @@ fn places(dataset: &Dataset, random: &mut Random) -> Vec<(Vec2, Rect)> {
     for hole in &dataset.domain.holes {
         match hole {
             Hole::Circle { center, radius } => points.push(*center + vec2(0.6, 0.8) * *radius),
-            Hole::Polygon { points: corners } => {
+            Hole::Polygon { points: corners, .. } => {
                 points.extend(corners.iter().copied().chain([(corners[0] + corners[1]) * 0.5]));
             }
         }
@@ -275,7 +274,7 @@ fn many_sides() {
         let (r, t) = (0.004 + 0.003 * (k % 2) as f64, std::f64::consts::TAU * k as f64 / 200.0);
         vec2(0.7 + r * t.cos(), 0.2 + r * t.sin())
     };
-    dataset.domain.holes = vec![Hole::Polygon { points: (0..200).map(star).collect() }];
+    dataset.domain.holes = vec![Hole::polygon((0..200).map(star).collect())];
     let field = Field::new(&dataset, 0).expect("a field");
     let square = Rect::around(vec2(0.001, 0.0), vec2(0.01, 0.01));
     let pieces = Pieces::new(&field, vec2(0.7, 0.2)).of(&square);

@@ -149,7 +149,7 @@ pub(super) fn crossings(borders: &[Border]) -> Vec<Vec2> {
 /// The domain with polygons in the place of round holes.
 pub(super) fn with_polygons(domain: &Domain) -> Domain {
     let polygon = |hole: &Hole| match hole {
-        Hole::Circle { center, radius } => Hole::Polygon { points: around(*center, *radius) },
+        Hole::Circle { center, radius } => Hole::polygon(around(*center, *radius)),
         Hole::Polygon { .. } => hole.clone(),
     };
     Domain { bounds: domain.bounds, holes: domain.holes.iter().map(polygon).collect() }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use ppum::crack::{self, CrackEnd};
 use ppum::dataset::{self, Dataset, StressState};
-use ppum::domain;
+use ppum::domain::{self, PolygonSide};
 use ppum::expression::Expression;
 use ppum::text::{Places, trimmed};
 use ppum::vec2::Vec2;
@@ -31,6 +31,7 @@ struct Domain {
 enum Hole {
     Circle { center: [f64; 2], radius: f64 },
     Polygon { points: Vec<[f64; 2]> },
+    Outside { points: Vec<[f64; 2]> },
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -102,7 +103,12 @@ impl Hole {
             domain::Hole::Circle { center, radius } => {
                 Self::Circle { center: (*center).into(), radius: *radius }
             }
-            domain::Hole::Polygon { points } => Self::Polygon { points: arrays(points) },
+            domain::Hole::Polygon { points, side: PolygonSide::Inside } => {
+                Self::Polygon { points: arrays(points) }
+            }
+            domain::Hole::Polygon { points, side: PolygonSide::Outside } => {
+                Self::Outside { points: arrays(points) }
+            }
         }
     }
 
@@ -113,6 +119,7 @@ impl Hole {
                 format!("circle around {center}, radius {}", trimmed(*radius))
             }
             Self::Polygon { points } => format!("polygon {}", path(points, places)),
+            Self::Outside { points } => format!("outside of {}", path(points, places)),
         }
     }
 }

@@ -2,7 +2,7 @@
 //! speaks of among them.
 
 use crate::geometry::around;
-use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem};
+use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem, SideRun};
 use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2};
 
@@ -17,7 +17,7 @@ impl BorderConditions {
     /// The parts of edges, the rims, and the faces of cracks.
     pub(super) fn all(problem: &Problem) -> Vec<Self> {
         let edges = Edge::ALL.into_iter().flat_map(|edge| pieces(problem, edge));
-        let rims = (0..problem.domain.holes.len()).map(BorderPart::Hole);
+        let rims = (0..problem.domain.holes.len()).flat_map(|hole| sides(problem, hole));
         let sides = [Side::Above, Side::Below];
         let faces = (0..problem.cracks.len())
             .flat_map(|crack| sides.map(|side| BorderPart::Crack { crack, face: Some(side) }));
@@ -30,7 +30,8 @@ impl BorderConditions {
                 BorderPart::Edge { edge, from, to },
                 BorderPart::Edge { edge: own, from: a, to: b },
             ) => edge == own && from <= a && b <= to,
-            (BorderPart::Hole(hole), BorderPart::Hole(own)) => hole == own,
+            (_, BorderPart::Hole(own)) => condition.on == BorderPart::Hole(own),
+            (part, BorderPart::Sides(run)) => problem.is_on(part, run.hole, run.from),
             (BorderPart::Crack { crack, face }, BorderPart::Crack { crack: own, face: side }) => {
                 crack == own && (face.is_none() || face == side)
             }
@@ -81,13 +82,39 @@ fn pieces(problem: &Problem, edge: Edge) -> Vec<BorderPart> {
     pieces.map(|s| BorderPart::Edge { edge, from: s[0], to: s[1] }).collect()
 }
 
+/// The rim of a hole between the ends of its pieces with conditions.
+fn sides(problem: &Problem, hole: usize) -> Vec<BorderPart> {
+    let on = problem.boundary.iter().map(|condition| condition.on);
+    let parts: Vec<_> =
+        on.filter(|on| matches!(on, BorderPart::Sides(_) | BorderPart::Piece(_))).collect();
+    let count = problem.domain.holes[hole].sides().count();
+    let of = |side: usize| parts.iter().map(move |part| problem.is_on(*part, hole, side));
+    let is_end = |side: &usize| *side == 0 || !of(*side).eq(of(side - 1));
+    let mut ends: Vec<_> = (0..count).filter(is_end).collect();
+    if ends.len() < 2 && !of(0).any(|is_on| is_on) {
+        return vec![BorderPart::Hole(hole)];
+    }
+    ends.push(count);
+    let run = |ends: &[usize]| BorderPart::Sides(SideRun { hole, from: ends[0], to: ends[1] });
+    ends.windows(2).map(run).collect()
+}
+
 fn bounds(problem: &Problem, on: BorderPart) -> Rect {
     let domain = &problem.domain;
     match on {
         BorderPart::Edge { edge, from, to } => {
             around(&[from, to].map(|s| edge.point(&domain.bounds, s)))
         }
-        BorderPart::Hole(hole) => domain.holes[hole].bounds(),
+        BorderPart::Hole(hole) => domain.holes[hole].rim_bounds(),
+        BorderPart::Sides(SideRun { hole, from, to }) => {
+            let sides = domain.holes[hole].sides().skip(from).take(to - from);
+            around(&sides.flatten().collect::<Vec<_>>())
+        }
+        BorderPart::Piece(piece) => {
+            let runs = problem.pieces[piece].runs.iter();
+            let all = runs.map(|run| bounds(problem, BorderPart::Sides(*run)));
+            all.reduce(|all, run| all.union(&run)).unwrap_or(around(&[]))
+        }
         BorderPart::Crack { crack, .. } => around(&problem.cracks[crack].points),
     }
 }

@@ -297,7 +297,17 @@ pub(crate) fn border_rules(
             let ends = [from, to].map(|s| edge.point(&problem.domain.bounds, s));
             quadrature.edge(rect, coverers, ends, edge.normal())
         }
-        BorderPart::Hole(hole) => quadrature.rim(rect, coverers, &problem.domain.holes[hole]),
+        BorderPart::Hole(hole) => {
+            quadrature.rim(rect, coverers, &problem.domain.holes[hole], |_| true)
+        }
+        BorderPart::Sides(run) => {
+            let is_wanted = |side| run.holds(run.hole, side);
+            quadrature.rim(rect, coverers, &problem.domain.holes[run.hole], is_wanted)
+        }
+        BorderPart::Piece(piece) => {
+            let runs = problem.pieces[piece].runs.iter().map(|run| BorderPart::Sides(*run));
+            runs.flat_map(|run| border_rules(problem, run, quadrature, rect, coverers)).collect()
+        }
         BorderPart::Crack { crack, face } => {
             let both = [Side::Above, Side::Below];
             let sides = both.into_iter().filter(|side| face.is_none_or(|face| face == *side));

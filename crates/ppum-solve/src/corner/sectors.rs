@@ -51,8 +51,8 @@ const BESIDE: f64 = 1e-9;
 enum On {
     /// An edge, with its own coordinate a step from the point.
     Edge(Edge, f64),
-    /// The rim of a hole.
-    Hole(usize),
+    /// A side of the rim of a hole; 0 of a circle.
+    Rim { hole: usize, side: usize },
     /// A crack, in its direction or against it.
     Crack { crack: usize, ahead: bool },
 }
@@ -60,12 +60,12 @@ enum On {
 impl On {
     /// True if conditions on a part of the border hold here. The material is on the left of a
     /// first ray.
-    fn is_part_of(self, part: BorderPart, is_first: bool) -> bool {
+    fn is_part_of(self, part: BorderPart, problem: &Problem, is_first: bool) -> bool {
         match (self, part) {
             (Self::Edge(edge, s), BorderPart::Edge { edge: other, from, to }) => {
                 other == edge && from < s && s < to
             }
-            (Self::Hole(hole), BorderPart::Hole(other)) => hole == other,
+            (Self::Rim { hole, side }, part) => problem.is_on(part, hole, side),
             (Self::Crack { crack, ahead }, BorderPart::Crack { crack: other, face }) => {
                 let side = if ahead == is_first { Side::Above } else { Side::Below };
                 crack == other && face.is_none_or(|face| face == side)
@@ -121,7 +121,7 @@ impl Surroundings<'_> {
         let normals = sector.normals();
         for (k, ray) in rays.into_iter().enumerate() {
             for condition in &self.problem.boundary {
-                if !ray.on.is_part_of(condition.on, k == 0) {
+                if !ray.on.is_part_of(condition.on, self.problem, k == 0) {
                     continue;
                 }
                 let place = p + vec2(ray.angle.cos(), ray.angle.sin()) * beside;
@@ -152,7 +152,7 @@ impl Surroundings<'_> {
             rays.extend(self.along_edge(edge, p, LOOK * room));
         }
         for (index, hole) in self.problem.domain.holes.iter().enumerate() {
-            rays.extend(self.along_rim(hole, p).into_iter().map(|way| ray(way, On::Hole(index))));
+            rays.extend(self.along_rim((index, hole), p));
         }
         for (crack, index) in self.problem.cracks.iter().zip(0..) {
             for segment in crack.points.windows(2) {
@@ -181,14 +181,19 @@ impl Surroundings<'_> {
         inside.map(|(way, _, s)| ray(way, On::Edge(edge, s))).collect()
     }
 
-    fn along_rim(&self, hole: &Hole, p: Vec2) -> Vec<Vec2> {
+    fn along_rim(&self, (index, hole): (usize, &Hole), p: Vec2) -> Vec<Ray> {
+        let on = |side: usize| On::Rim { hole: index, side };
         match hole {
             Hole::Circle { center, .. } if self.is_on(hole.rim_distance(p)) => {
                 let tangent = (p - *center).left();
-                vec![tangent, -tangent]
+                vec![ray(tangent, on(0)), ray(-tangent, on(0))]
             }
             Hole::Circle { .. } => Vec::new(),
-            Hole::Polygon { .. } => hole.sides().flat_map(|side| self.along(side, p)).collect(),
+            Hole::Polygon { .. } => {
+                let sides = hole.sides().enumerate();
+                let ways = |(k, side)| self.along(side, p).map(move |way| ray(way, on(k)));
+                sides.flat_map(ways).collect()
+            }
         }
     }
 

@@ -129,7 +129,7 @@ fn corners_of_holes_and_kinks_are_found_where_they_are_in_the_plate() {
     let mut problem = plate().with_crack(&[[-0.75, -0.5], [-0.25, -0.5], [-0.25, -0.25]]);
     let square = |x: f64, y: f64, h: f64| {
         let points = [[-h, -h], [h, -h], [h, h], [-h, h]];
-        Hole::Polygon { points: points.map(|[a, b]| vec2(x + a, y + b)).to_vec() }
+        Hole::polygon(points.map(|[a, b]| vec2(x + a, y + b)).to_vec())
     };
     problem.domain.holes = vec![square(1.0, 0.5, 0.25), square(0.0, 0.5, 0.125)];
     let corner = |x: f64, y: f64| (vec2(x, y), 0.544, Nature::Corner);

@@ -115,7 +115,7 @@ impl Count<'_> {
     fn rims(&self) -> f64 {
         let corners = |hole: &Hole| match hole {
             Hole::Circle { .. } => 1,
-            Hole::Polygon { points } => points.len(),
+            Hole::Polygon { points, .. } => points.len(),
         };
         self.dataset.domain.holes.iter().map(corners).sum::<usize>() as f64
     }

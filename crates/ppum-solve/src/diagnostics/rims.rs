@@ -35,7 +35,8 @@ pub(super) fn of_rims(field: &Field<'_>, holes: &[Hole], places: &Places) -> Opt
         degrees.max().map_or(0, usize::from)
     };
     let of_hole = |(hole, shape): (usize, &Hole)| {
-        let near: Vec<(u32, Rect)> = cells.near(&wider(&shape.bounds(), 0.0)).copied().collect();
+        let near: Vec<(u32, Rect)> =
+            cells.near(&wider(&shape.rim_bounds(), 0.0)).copied().collect();
         let (part, cell) = coarsest(shape, &near)?;
         Some(Coarse { hole, cell, part, error: rim_error(part, order(cell)) })
     };
@@ -45,21 +46,28 @@ pub(super) fn of_rims(field: &Field<'_>, holes: &[Hole], places: &Places) -> Opt
         |a: &Coarse, b: &Coarse| a.error.total_cmp(&b.error).then(a.part.total_cmp(&b.part));
     let worst = all.into_iter().filter(|coarse| coarse.error > LARGE).max_by(by_error)?;
     let at = partition.cell[worst.cell as usize].center();
-    let message = message(&worst, count, &places.show(at));
+    let message = message(&worst, &holes[worst.hole], count, &places.show(at));
     Some(warning(kind::COARSE_HOLE, Some(at), [worst.error, LARGE], message))
 }
 
-fn message(worst: &Coarse, count: usize, at: &str) -> String {
+fn message(worst: &Coarse, shape: &Hole, count: usize, at: &str) -> String {
     let Coarse { hole, part, error, .. } = worst;
+    let (place, remedy) = match shape.is_outside() {
+        true => ("the outline".to_owned(), "[[refine]] with `center` and `radius`".to_owned()),
+        false => (
+            format!("the rim of hole {hole}, counted from 0"),
+            format!("[[refine]] with `hole = {hole}`"),
+        ),
+    };
     let others = match count {
         1 => String::new(),
         2 => ", and of one other hole".into(),
         n => format!(", and of {} other holes", n - 1),
     };
     format!(
-        "the cells at the rim of hole {hole}, counted from 0{others}, are too large for the stress there: the worst, \
+        "the cells at {place}{others}, are too large for the stress there: the worst, \
          around {at}, is {} of the radius of curvature long, and stresses are off by up to about {} % of the \
-         largest; use smaller cells there ([[refine]] with `hole = {hole}`), a higher `order`, and leave out \
+         largest; use smaller cells there ({remedy}), a higher `order`, and leave out \
          `refine = false`",
         short((1e3 * part).round() / 1e3),
         short((1e3 * error).round() / 10.0)

@@ -119,8 +119,10 @@ impl TipClearance {
         let depths = [low.x, low.y, high.x, high.y].into_iter().filter(|depth| *depth != 0.0);
         let border = Self { radius: depths.fold(f64::INFINITY, f64::min), end: Obstacle::Border };
         let holes = domain.holes.iter().enumerate();
-        let rims =
-            holes.map(|(k, hole)| Self { radius: hole.rim_distance(p), end: Obstacle::Hole(k) });
+        let rims = holes.map(|(k, hole)| Self {
+            radius: hole.rim_distance(p),
+            end: if hole.is_outside() { Obstacle::Border } else { Obstacle::Hole(k) },
+        });
         let others = cracks.filter(|(k, _)| *k != tip.crack as usize).map(|(k, c)| Self {
             radius: segment::polyline_distance(&c.points, p),
             end: Obstacle::Crack(k),

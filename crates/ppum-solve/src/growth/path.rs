@@ -121,7 +121,8 @@ impl Ahead<'_> {
         let near = touch(&domain.bounds);
         let border = leaves(s, &domain.bounds).map(|(t, at)| (t, at, Fate::LeavesPlate));
         let holes = (0u32..).zip(&domain.holes).filter_map(move |(k, hole)| {
-            enters(s, hole).map(|t| (t, on(s, t), Fate::MeetsHole(k)))
+            let fate = if hole.is_outside() { Fate::LeavesPlate } else { Fate::MeetsHole(k) };
+            enters(s, hole).map(|t| (t, on(s, t), fate))
         });
         let others = (0u32..).zip(self.cracks).flat_map(move |(k, crack)| {
             let own = k == self.tip.crack;
@@ -191,7 +192,7 @@ fn enters(s: Segment, hole: &Hole) -> Option<f64> {
             let t = (b < 0.0 && root >= 0.0).then(|| c / (-b + root.sqrt()))?;
             (t <= 1.0).then_some(t.max(0.0))
         }
-        Hole::Polygon { points } => {
+        Hole::Polygon { points, .. } => {
             let sides = (0..points.len()).map(|k| [points[k], points[(k + 1) % points.len()]]);
             let hits = sides.filter_map(|side| Some(crosses(s, side, 0.0)?.0));
             hits.min_by(f64::total_cmp)
@@ -281,7 +282,7 @@ mod tests {
     fn holes() {
         let circle = Hole::Circle { center: vec2(0.5, 0.0), radius: 0.25 };
         let points = vec![vec2(0.25, -0.1), vec2(0.6, -0.1), vec2(0.6, 0.3), vec2(0.25, 0.3)];
-        for hole in [circle, Hole::Polygon { points }] {
+        for hole in [circle, Hole::polygon(points)] {
             let problem = plate(vec![hole], &[&[[-0.5, 0.0], [0.0, 0.0]]]);
             let found = from_origin(&problem, 0.0, 0.0, 0.3);
             assert_eq!(

@@ -110,8 +110,14 @@ pub enum BorderPart {
         /// End of the piece, larger than `from`.
         to: f64,
     },
-    /// The rim of a hole, by its index.
+    /// The rim of a hole, by its index; that of the hole around the outline is the outline.
     Hole(usize),
+    /// Some sides of the rim of a hole.
+    Sides(SideRun),
+    /// A piece of rims that has a name, by its index in [`Problem::pieces`].
+    ///
+    /// [`Problem::pieces`]: super::Problem::pieces
+    Piece(usize),
     /// A face of a crack, or both.
     Crack {
         /// Index of the crack.
@@ -129,7 +135,7 @@ impl BorderPart {
         Self::Edge { edge, from, to }
     }
 
-    /// The part that two have in common.
+    /// The part that two that meet have in common; of pieces of rims one of them.
     pub(super) fn common(&self, other: &Self) -> Option<Self> {
         match (*self, *other) {
             (Self::Edge { edge, from: a, to: b }, Self::Edge { edge: same, from: c, to: d }) => {
@@ -137,6 +143,11 @@ impl BorderPart {
                 (edge == same && from < to).then_some(Self::Edge { edge, from, to })
             }
             (Self::Hole(hole), Self::Hole(same)) => (hole == same).then_some(*self),
+            (
+                part @ (Self::Piece(_) | Self::Sides(_)),
+                Self::Hole(_) | Self::Piece(_) | Self::Sides(_),
+            )
+            | (Self::Hole(_), part @ (Self::Piece(_) | Self::Sides(_))) => Some(part),
             (Self::Crack { crack, face }, Self::Crack { crack: same, face: other }) => {
                 let apart = face.is_some() && other.is_some() && face != other;
                 let face = face.or(other);
@@ -147,6 +158,35 @@ impl BorderPart {
     }
 }
 
+/// Sides of rims with a name, on which conditions may be given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// The name; different ones are different.
+    pub name: String,
+    /// Where it is; no two runs, of this piece or of others, have a side in common.
+    pub runs: Vec<SideRun>,
+}
+
+/// Successive sides of the polygon around a hole, as [`Hole::sides`] counts them.
+///
+/// [`Hole::sides`]: ppum::domain::Hole::sides
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideRun {
+    /// Index of the hole.
+    pub hole: usize,
+    /// Number of the first side.
+    pub from: usize,
+    /// Number of the side after the last one.
+    pub to: usize,
+}
+
+impl SideRun {
+    /// True if a side of a hole belongs to it.
+    pub(crate) fn holds(self, hole: usize, side: usize) -> bool {
+        self.hole == hole && (self.from..self.to).contains(&side)
+    }
+}
+
 impl fmt::Display for BorderPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -154,6 +194,10 @@ impl fmt::Display for BorderPart {
                 write!(f, "the {} edge between {from} and {to}", edge.name())
             }
             Self::Hole(hole) => write!(f, "the rim of hole {hole}"),
+            Self::Sides(SideRun { hole, from, to }) => {
+                write!(f, "the sides {from} to {} of hole {hole}", to - 1)
+            }
+            Self::Piece(piece) => write!(f, "piece {piece}"),
             Self::Crack { crack, face: None } => write!(f, "the faces of crack {crack}"),
             Self::Crack { crack, face: Some(side) } => {
                 write!(f, "the face of crack {crack} {} it", side.word())

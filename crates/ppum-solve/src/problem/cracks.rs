@@ -11,7 +11,7 @@ use super::contacts::{check_contacts, find_junctions};
 use super::key::{Key, MistakeAt};
 use super::nearby::{TooDense, first_pair};
 use super::straight::straightened;
-use crate::geometry::{Placed, wider};
+use crate::geometry::{Placed, length_inside, wider};
 
 /// Lengths below this part of the domain's longer side count as zero: nearer things are meant to
 /// touch, and no cover resolves them.
@@ -82,7 +82,8 @@ type Holes<'h> = Placed<(usize, &'h Hole)>;
 
 fn holes_of(domain: &Domain, touch: f64) -> Holes<'_> {
     let holes = domain.holes.iter().enumerate();
-    Placed::new(holes.map(|hole| (wider(&hole.1.bounds(), 2.0 * touch), hole)))
+    let place = |hole: &Hole| hole.bounds().intersection(&domain.bounds);
+    Placed::new(holes.map(|hole| (wider(&place(hole.1), 2.0 * touch), hole)))
 }
 
 /// The holes that may reach a point.
@@ -141,6 +142,7 @@ pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<MistakeAt> 
         let key = Key::points(index);
         let mut broken = check_crack(&crack.points, &domain.bounds, touch, &key);
         broken.extend(check_at_holes(crack, &holes, touch, &key));
+        broken.extend(check_in_outline(crack, domain, touch, &key));
         in_order.extend(broken.is_empty().then_some(index));
         found.extend(broken);
     }
@@ -156,6 +158,14 @@ fn check_at_holes(crack: &Crack, holes: &Holes<'_>, touch: f64, key: &Key) -> Op
     let hole = holes_at(holes, first).find(|(_, hole)| convex(hole) && lost(hole))?.0;
     let message = format!("the crack lies in hole {hole}; move it out, or leave it out");
     Some(key.clone().mistake(message))
+}
+
+/// Some of the crack lies in the outline of the body.
+fn check_in_outline(crack: &Crack, domain: &Domain, touch: f64, key: &Key) -> Option<MistakeAt> {
+    let outline = std::slice::from_ref(&domain.holes[domain.outline()?]);
+    let inside = length_inside(crack, &domain.bounds, outline);
+    let message = "the crack lies outside of the outline; move it in, or leave it out";
+    (inside <= touch).then(|| key.clone().mistake(message))
 }
 
 fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<MistakeAt> {

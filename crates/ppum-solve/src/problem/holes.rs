@@ -3,10 +3,11 @@
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2};
 
+use super::boundary::Edge;
 use super::cracks::{TOUCH, crosses_itself, place, shown};
 use super::key::{Key, MistakeAt};
 use super::nearby::TooDense;
-use crate::geometry::meets;
+use crate::geometry::{meets, solid_part};
 
 /// Most circles and corners of polygons together, as in a dataset.
 const MAX_RIMS: usize = 1 << 14;
@@ -25,13 +26,39 @@ pub(super) fn check_holes(domain: &Domain) -> Vec<MistakeAt> {
     let check = |(index, hole): (usize, &Hole)| {
         let (key, message) = match hole {
             Hole::Circle { center, radius } => bad_circle(*center, *radius, &domain.bounds, touch)?,
-            Hole::Polygon { points } => {
+            Hole::Polygon { points, .. } => {
                 ("points", bad_polygon(points, hole, &domain.bounds, touch)?)
             }
         };
-        Some(Key::new("hole").index(index).name(key).mistake(message))
+        let key = match hole.is_outside() {
+            true => Key::of("domain.outline"),
+            false => Key::new("hole").index(index).name(key),
+        };
+        Some(key.mistake(message))
     };
-    domain.holes.iter().enumerate().filter_map(check).collect()
+    let mut found: Vec<_> = domain.holes.iter().enumerate().filter_map(check).collect();
+    if found.is_empty() {
+        found.extend(holes_outside(domain));
+    }
+    found
+}
+
+/// Holes that lie outside of the outline.
+fn holes_outside(domain: &Domain) -> Vec<MistakeAt> {
+    let Some(outline) = domain.outline().map(|index| &domain.holes[index]) else {
+        return Vec::new();
+    };
+    let is_side_out =
+        |[a, b]: [Vec2; 2]| solid_part(a, b, [0.0, 1.0], std::iter::once(outline)) == 0.0;
+    let is_out = |hole: &Hole| match hole {
+        Hole::Circle { center, radius } => {
+            outline.contains(*center) && outline.rim_distance(*center) >= *radius
+        }
+        Hole::Polygon { .. } => !hole.is_outside() && hole.sides().all(is_side_out),
+    };
+    let out = domain.holes.iter().enumerate().filter(|(_, hole)| is_out(hole));
+    let message = "the hole lies outside of the outline; move it in, or leave it out";
+    out.map(|(index, _)| Key::new("hole").index(index).mistake(message)).collect()
 }
 
 fn bad_circle(
@@ -80,12 +107,33 @@ fn bad_polygon(points: &[Vec2], hole: &Hole, bounds: &Rect, touch: f64) -> Optio
             shown(place(sides[first], sides[second]))
         ));
     }
+    if hole.is_outside() {
+        return bad_outline(hole, bounds, touch).map(str::to_owned);
+    }
     let met = sides.iter().any(|side| meets(*side, bounds));
     let swallows = hole.contains(bounds.center()) && !sides.iter().any(|s| crosses_box(*s, bounds));
     match (swallows, met) {
         (true, _) => Some(SWALLOWS.to_owned()),
         (false, false) => Some(MISSES.to_owned()),
         _ => None,
+    }
+}
+
+fn bad_outline(outline: &Hole, bounds: &Rect, touch: f64) -> Option<&'static str> {
+    let met = outline.sides().any(|side| crosses_box(side, bounds));
+    let along = |[a, b]: [Vec2; 2]| {
+        Edge::ALL.iter().any(|edge| [a, b].iter().all(|p| edge.depth(bounds, *p).abs() <= touch))
+    };
+    if !met && outline.contains(bounds.center()) {
+        Some("the outline lies outside of the box; leave `min` and `max` out")
+    } else if !met {
+        Some("the outline encloses the whole box, which is the body then; leave one of them out")
+    } else if outline.sides().any(along) {
+        Some(
+            "the outline runs along an edge of the box; leave `min` and `max` out, or make the box larger",
+        )
+    } else {
+        None
     }
 }
 

@@ -11,6 +11,7 @@ use super::boundary::Edge;
 use super::discretization::{Enrichment, MAX_LEVEL, MOST_TERMS};
 use super::enrichment::Site;
 use super::growth::{Criterion, LoadControl};
+use super::restraint;
 use super::solver::SolverKind;
 use super::words::{EquationKind, Words as _, words};
 use EquationKind::{Elasticity, Poisson};
@@ -249,6 +250,11 @@ impl KeyTable {
     }
 }
 
+/// The parts of the border that have names of their own.
+fn places() -> Vec<&'static str> {
+    words::<Edge>().into_iter().chain([restraint::OUTLINE]).collect()
+}
+
 fn exact() -> Vec<&'static str> {
     vec!["exact"]
 }
@@ -312,7 +318,7 @@ tables! {
     /// The whole file.
     pub static ROOT = "the problem file", "" {
         title: Text("text"), default("name of the file") => "The problem's name, one line.";
-        domain: Table(&DOMAIN), required("") => "The plate: a box.";
+        domain: Table(&DOMAIN), required("") => "The plate: a box, or a body of any outline.";
         equation: Table(&EQUATION) => "The equation.";
         material: Table(&MATERIAL) => "The material; Poisson's equation may do without.";
         hole: Tables(&HOLE) => "A hole.";
@@ -332,8 +338,20 @@ tables! {
     }
 
     static DOMAIN = "[domain]", "" {
-        min: POINT, required("[-1.0, -1.0]") => "Lower left corner.";
-        max: POINT, required("[1.0, 1.0]") => "Upper right corner; larger than `min` in both directions.";
+        min: POINT, example("[-1.0, -1.0]") => "Lower left corner; required without `outline`.";
+        max: POINT, example("[1.0, 1.0]") => "Upper right corner; larger than `min` in both directions.";
+        outline: Table(&OUTLINE) => "The outline of the body; `min` and `max` may be left out then.";
+    }
+
+    /// A closed curve around the body.
+    static OUTLINE = "`outline`", "{ points = [[0, 0], [2, 0], [0, 1]] }" {
+        points: POINTS =>
+            "The corners of a polygon, three or more, clockwise or counter-clockwise; it may not cross itself.";
+        ellipse: Table(&WHOLE_ELLIPSE) => "Instead: an ellipse.";
+        spline: POINTS => "Instead: a smooth closed curve through three or more points.";
+        path: List("pieces such as { arc = { … } }", &Table(&RIM_PIECE)) =>
+            "Instead: several pieces, each starting where the previous one ends, the first where the last one ends.";
+        segments: Whole, range(SEGMENTS), default("see [curves](#curves)") => "The number of segments of each curve.";
     }
 
     static EQUATION = "[equation]", "" {
@@ -358,8 +376,9 @@ tables! {
             "itself.";
         ellipse: Table(&WHOLE_ELLIPSE) => "Instead: an ellipse.";
         spline: POINTS => "Instead: a smooth closed curve through three or more points.";
-        segments: Whole, range(SEGMENTS), default("see [curves](#curves)") =>
-            "The number of segments of an ellipse or a spline.";
+        path: List("pieces such as { arc = { … } }", &Table(&RIM_PIECE)) =>
+            "Instead: several pieces, each starting where the previous one ends, the first where the last one ends.";
+        segments: Whole, range(SEGMENTS), default("see [curves](#curves)") => "The number of segments of each curve.";
     }
 
     static CRACK = "[[crack]]", "" {
@@ -378,6 +397,15 @@ tables! {
         arc: Table(&ARC) => "Instead: an arc of a circle.";
         ellipse: Table(&ELLIPSE) => "Instead: a part of an ellipse.";
         spline: POINTS => "Instead: a smooth curve through three or more points.";
+    }
+
+    /// A piece of an outline or of the rim of a hole.
+    static RIM_PIECE = "a piece of `path`", "{ points = [[0, 0], [1, 0]], name = \"base\" }" {
+        points: POINTS => "A polyline of at least two points.";
+        arc: Table(&ARC) => "Instead: an arc of a circle.";
+        ellipse: Table(&ELLIPSE) => "Instead: a part of an ellipse.";
+        spline: POINTS => "Instead: a smooth curve through three or more points.";
+        name: Text("name") => "A name for `on = { piece = … }`; several pieces may have it.";
     }
 
     /// An arc of a circle.
@@ -405,8 +433,9 @@ tables! {
     }
 
     static BOUNDARY = "[[boundary]]", "" {
-        on: Either(&[Word(words::<Edge>), Table(&ON)]), required("\"top\"") =>
-            "Where: an edge, a piece of one, the rim of a hole, the faces of a crack; see below.";
+        on: Either(&[Word(places), Table(&ON)]), required("\"top\"") =>
+            "Where: an edge, a piece of one, the outline, the rim of a hole, a piece with a name, the faces of a "
+            "crack; see below.";
         displacement: Either(&[Components("[ux, uy]", &["free", "exact"]), Word(exact)]), default("free"),
             only(Elasticity, &["value"]) =>
             "Each component is a value, `\"free\"`, or `\"exact\"`.";
@@ -426,6 +455,7 @@ tables! {
             "Start of the piece: its y on the left and right, its x at the bottom and top.";
         to: Number, default("end of the edge") => "End of the piece, larger than `from`.";
         hole: Whole => "The rim of this hole, except the parts in other holes or outside the box.";
+        piece: Text("name") => "The pieces of outline and rims with this name.";
         crack: Whole => "The faces of this crack.";
         face: Word(words::<Side>), default("both") => "Only the face that bounds the material on this side.";
     }

@@ -63,7 +63,7 @@ mod tests;
 mod words;
 
 pub use adaptivity::{AdaptKind, Adaptivity, Keep};
-pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge};
+pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge, Piece, SideRun};
 pub(crate) use cracks::touch;
 pub use cracks::{crack, cracks};
 pub(crate) use curve::arc_from;

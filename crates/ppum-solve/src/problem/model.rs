@@ -12,7 +12,7 @@ use ppum::segment;
 use ppum::vec2::Vec2;
 
 use super::adaptivity::Adaptivity;
-use super::boundary::{BorderPart, BoundaryCondition, Condition, Edge};
+use super::boundary::{BorderPart, BoundaryCondition, Condition, Edge, Piece};
 use super::cracks::cracks;
 use super::discretization::{Discretization, Enrichment};
 use super::enrichment::LocalEnrichment;
@@ -32,6 +32,8 @@ pub struct Problem {
     pub equation: Equation,
     /// The cracks.
     pub cracks: Vec<Crack>,
+    /// Pieces of rims that have names, which conditions may be on.
+    pub pieces: Vec<Piece>,
     /// The conditions on the border.
     pub boundary: Vec<BoundaryCondition>,
     /// The right-hand side f, one expression per component: body force or source.
@@ -95,6 +97,7 @@ impl Problem {
             source: vec![Expression::number(0.0); equation.components()],
             equation,
             cracks: Vec::new(),
+            pieces: Vec::new(),
             boundary: Vec::new(),
             exact: Vec::new(),
             quantities: Vec::new(),
@@ -182,6 +185,18 @@ impl Problem {
         let others = tips(&self.cracks).filter(|other| *other != tip);
         let distances = others.map(|other| (position(other) - position(tip)).length());
         0.25 * distances.fold(length, f64::min)
+    }
+
+    /// True if a side of the rim of a hole belongs to a part of the border.
+    pub(crate) fn is_on(&self, part: BorderPart, hole: usize, side: usize) -> bool {
+        match part {
+            BorderPart::Hole(whole) => whole == hole,
+            BorderPart::Sides(run) => run.holds(hole, side),
+            BorderPart::Piece(piece) => {
+                self.pieces[piece].runs.iter().any(|run| run.holds(hole, side))
+            }
+            BorderPart::Edge { .. } | BorderPart::Crack { .. } => false,
+        }
     }
 
     /// The source (body force) at a point; zero beyond the components.

@@ -68,7 +68,7 @@ impl LocalRefinement {
             RefinementRegion::Plate => return domain.bounds,
             RefinementRegion::Box(rect) => rect,
             RefinementRegion::Disc { center, radius } => Rect::around(center, vec2(radius, radius)),
-            RefinementRegion::Hole(hole) => domain.holes[hole].bounds(),
+            RefinementRegion::Hole(hole) => domain.holes[hole].rim_bounds(),
             RefinementRegion::Crack(crack) => geometry::around(&cracks[crack].points),
         };
         geometry::wider(&around, self.distance)

@@ -2,8 +2,12 @@
 //! stored with.
 
 use super::boundary::{BorderPart, Edge};
+use super::model::Problem;
 use ppum::domain::Domain;
 use ppum::vec2::Vec2;
+
+/// The word for the whole outline of the body.
+pub(super) const OUTLINE: &str = "outline";
 
 /// The middle of a restraint by the words of its reaction: of an edge or a piece of it, of a
 /// circle, of the box around a polygon. None for words of other programs.
@@ -16,29 +20,37 @@ pub fn restraint_center(on: &str, domain: &Domain) -> Option<Vec2> {
         Some(edge.point(bounds, 0.5 * from + 0.5 * to))
     };
     match on.split(' ').collect::<Vec<_>>()[..] {
+        [OUTLINE] => Some(domain.holes[domain.outline()?].rim_bounds().center()),
         [edge] => on_edge(edge, None),
         [edge, "from", from, "to", to] => {
             on_edge(edge, Some([from.parse().ok()?, to.parse().ok()?]))
         }
-        ["hole", hole] => Some(domain.holes.get(hole.parse::<usize>().ok()?)?.bounds().center()),
+        ["hole", hole] => {
+            Some(domain.holes.get(hole.parse::<usize>().ok()?)?.rim_bounds().center())
+        }
         _ => None,
     }
 }
 
 /// A part of the border as problem files name it.
-pub(crate) fn restraint_words(on: BorderPart, domain: &Domain) -> String {
+pub(crate) fn restraint_words(on: BorderPart, problem: &Problem) -> String {
+    let domain = &problem.domain;
     match on {
         BorderPart::Edge { edge, .. } if on == BorderPart::edge(edge, &domain.bounds) => {
             edge.name().into()
         }
         BorderPart::Edge { edge, from, to } => format!("{} from {from} to {to}", edge.name()),
+        BorderPart::Hole(hole) if domain.outline() == Some(hole) => OUTLINE.into(),
         BorderPart::Hole(hole) => format!("hole {hole}"),
+        BorderPart::Piece(piece) => format!("piece {}", problem.pieces[piece].name),
+        BorderPart::Sides(_) => on.to_string(),
         BorderPart::Crack { .. } => on.to_string(),
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::discretization::{Cells, Discretization};
     use super::*;
     use ppum::domain::Hole;
     use ppum::vec2::{Rect, vec2};
@@ -48,9 +60,11 @@ mod tests {
     fn centres_follow_from_the_words() {
         let circle = Hole::Circle { center: vec2(0.5, 0.25), radius: 0.1 };
         let corners = [vec2(2.0, 0.0), vec2(3.0, 0.0), vec2(3.0, 1.0)];
-        let polygon = Hole::Polygon { points: corners.to_vec() };
+        let polygon = Hole::polygon(corners.to_vec());
         let bounds = Rect::new(vec2(0.0, -1.0), vec2(4.0, 2.0));
-        let domain = Domain { bounds, holes: vec![circle, polygon] };
+        let outside = [[-1.0, -1.0], [5.0, -1.0], [2.0, 3.0]].map(Vec2::from).to_vec();
+        let domain = Domain { bounds, holes: vec![circle, polygon, Hole::outside(outside)] };
+        let problem = Problem::poisson(domain, 1.0, Discretization::new(Cells::Level(1)));
         let piece = BorderPart::Edge { edge: Edge::Left, from: -0.1 - 0.2, to: 1e-7 };
         for (part, center) in [
             (BorderPart::edge(Edge::Top, &bounds), vec2(2.0, 2.0)),
@@ -58,15 +72,16 @@ mod tests {
             (piece, vec2(0.0, 0.5 * (-0.1 - 0.2) + 0.5e-7)),
             (BorderPart::Hole(0), vec2(0.5, 0.25)),
             (BorderPart::Hole(1), vec2(2.5, 0.5)),
+            (BorderPart::Hole(2), vec2(2.0, 1.0)),
         ] {
             assert_eq!(
-                restraint_center(&restraint_words(part, &domain), &domain),
+                restraint_center(&restraint_words(part, &problem), &problem.domain),
                 Some(center),
                 "{part}"
             );
         }
-        for other in ["", "hole 2", "hole x", "rim", "top from 0 to", "top  from 0 to 1"] {
-            assert_eq!(restraint_center(other, &domain), None, "{other}");
+        for other in ["", "hole 3", "hole x", "rim", "top from 0 to", "top  from 0 to 1"] {
+            assert_eq!(restraint_center(other, &problem.domain), None, "{other}");
         }
     }
 }

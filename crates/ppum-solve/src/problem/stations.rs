@@ -52,9 +52,12 @@ impl Problem {
                 let points = along(ends, spacing).map(|p| (p, edge.normal()));
                 points.filter(|&(p, _)| self.domain.contains(p)).collect()
             }
-            BorderPart::Hole(index) => {
-                let rim = around(&self.domain.holes[index], spacing);
-                rim.into_iter().filter(|&(p, _)| bounds.contains(p)).collect()
+            BorderPart::Hole(_) | BorderPart::Sides(_) | BorderPart::Piece(_) => {
+                let holes = self.domain.holes.iter().enumerate();
+                let rims = holes.flat_map(|(index, hole)| {
+                    around(hole, |side| self.is_on(part, index, side), spacing)
+                });
+                rims.filter(|&(p, _)| bounds.contains(p)).collect()
             }
             BorderPart::Crack { crack, face } => {
                 let crack = &self.cracks[crack];
@@ -82,9 +85,11 @@ fn along([a, b]: [Vec2; 2], spacing: f64) -> impl Iterator<Item = Vec2> {
     (0..count).map(move |k| a + (b - a) * ((f64::from(k) + 0.5) / f64::from(count)))
 }
 
-/// Points of the rim of a hole with the normals out of the material, into the hole.
-fn around(hole: &Hole, spacing: f64) -> Vec<(Vec2, Vec2)> {
+/// Points of the sides of a rim that are wanted, with the normals out of the material, into the
+/// hole.
+fn around(hole: &Hole, is_wanted: impl Fn(usize) -> bool, spacing: f64) -> Vec<(Vec2, Vec2)> {
     match hole {
+        Hole::Circle { .. } if !is_wanted(0) => Vec::new(),
         Hole::Circle { center, radius } => {
             let count = parts(TAU * radius, spacing).max(4);
             let direction = |k: u32| {
@@ -94,10 +99,30 @@ fn around(hole: &Hole, spacing: f64) -> Vec<(Vec2, Vec2)> {
             (0..count).map(direction).map(|d| (*center + d * *radius, -d)).collect()
         }
         Hole::Polygon { .. } => {
-            let inward = |[a, b]: [Vec2; 2]| (b - a).unit().left() * hole.orientation();
-            hole.sides().flat_map(|s| along(s, spacing).map(move |p| (p, inward(s)))).collect()
+            let wanted = hole.sides().enumerate().filter(|(k, _)| is_wanted(*k));
+            along_sides(&wanted.map(|(_, side)| side).collect::<Vec<_>>(), spacing)
+                .map(|(p, way)| (p, way.left() * hole.orientation()))
+                .collect()
         }
     }
+}
+
+/// Points of sides one after the other, also of short ones: the middles of equal parts of their
+/// whole length, with the directions there.
+fn along_sides(sides: &[[Vec2; 2]], spacing: f64) -> impl Iterator<Item = (Vec2, Vec2)> {
+    let lengths = sides.iter().scan(0.0, |sum, [a, b]| {
+        *sum += (*b - *a).length();
+        Some(*sum)
+    });
+    let ends: Vec<f64> = lengths.collect();
+    let whole = ends.last().copied().unwrap_or(0.0);
+    let count = if sides.is_empty() { 0 } else { parts(whole, spacing) };
+    (0..count).map(move |k| {
+        let s = whole * ((f64::from(k) + 0.5) / f64::from(count));
+        let index = ends.partition_point(|end| *end < s).min(sides.len() - 1);
+        let ([_, b], way) = (sides[index], (sides[index][1] - sides[index][0]).unit());
+        (b - way * (ends[index] - s), way)
+    })
 }
 
 /// Number of parts of a length, each about as long as the spacing.

@@ -50,7 +50,7 @@ pub(super) fn straightened(
 
 /// The vertices of a line that keep it within `touch` of its course. Vertices that are no farther
 /// apart all stay: they are mistakes.
-fn needed(points: &[Vec2], touch: f64) -> Vec<Vec2> {
+pub(super) fn needed(points: &[Vec2], touch: f64) -> Vec<Vec2> {
     let mut kept: Vec<Vec2> = points.first().copied().into_iter().collect();
     let mut range: Option<Range> = None;
     for pair in points.windows(2) {

@@ -8,6 +8,7 @@ use super::geometry::{Kink, Singular};
 use super::orders::Active;
 use super::roots::{sign_changes, tame};
 use super::split::{breaks, component, divided, kinks};
+use crate::geometry::wider;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::cell::Cell;
@@ -24,11 +25,17 @@ const EXTRA_POINTS: usize = 3;
 const DEPTH: usize = 40;
 
 impl Quadrature<'_> {
-    /// Rules on the part of a hole's rim that belongs to a cell; empty if none does. Normals point
-    /// into the hole.
+    /// Rules on the part of a hole's rim that belongs to a cell, of a polygon on the sides that are
+    /// wanted; empty if there is none. Normals point into the hole.
     #[must_use]
-    pub(crate) fn rim(&self, cell: &Rect, coverers: &[u32], hole: &Hole) -> Vec<EdgeRule> {
-        if !closed_meet(cell, &hole.bounds()) {
+    pub(crate) fn rim(
+        &self,
+        cell: &Rect,
+        coverers: &[u32],
+        hole: &Hole,
+        is_wanted: impl Fn(usize) -> bool,
+    ) -> Vec<EdgeRule> {
+        if !closed_meet(cell, &hole.rim_bounds()) {
             return Vec::new();
         }
         match *hole {
@@ -37,10 +44,14 @@ impl Quadrature<'_> {
             }
             Hole::Polygon { .. } => {
                 let turn = hole.orientation();
-                let side = |[a, b]: [Vec2; 2]| {
+                let side = |(_, [a, b]): (usize, [Vec2; 2])| {
                     self.edge(cell, coverers, [a, b], (b - a).unit().left() * turn)
                 };
-                hole.sides().flat_map(side).collect()
+                let near = wider(cell, TOLERANCE * cell.size().length());
+                let here = |(k, [a, b]): &(usize, [Vec2; 2])| {
+                    is_wanted(*k) && closed_meet(&near, &Rect::new(a.min(*b), a.max(*b)))
+                };
+                hole.sides().enumerate().filter(here).flat_map(side).collect()
             }
         }
     }

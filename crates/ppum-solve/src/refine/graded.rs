@@ -70,7 +70,9 @@ pub(super) fn graded(problem: &Problem, corners: &[Corner], size: f64) -> Vec<Gr
     let on_curves: BTreeSet<_> =
         problem.domain.holes.iter().flat_map(bends).map(|bend| bits(bend.at)).collect();
     // what follows a curve has its radius, and is no corner
-    let sharp = corners.iter().filter(|corner| !on_curves.contains(&bits(corner.at)));
+    let sharp = corners
+        .iter()
+        .filter(|corner| corner.nature == Nature::Support || !on_curves.contains(&bits(corner.at)));
     let at_corners = sharp.filter_map(|c| Graded::corner(c, plate.x.min(plate.y)));
     let rims = problem.domain.holes.iter().flat_map(|hole| Graded::rim(hole, problem));
     let mut all: Vec<_> = at_corners.chain(rims).collect();
@@ -100,7 +102,7 @@ impl Graded {
 
     /// The demands of the rim of a hole where it is curved.
     fn rim(hole: &Hole, problem: &Problem) -> Vec<Self> {
-        let part = finest(&problem.discretization.order, &hole.bounds());
+        let part = finest(&problem.discretization.order, &hole.rim_bounds());
         let of = |from, radius: f64| Self { from, finest: part * radius, slope: SLOPE };
         match *hole {
             Hole::Circle { center, radius } => {

@@ -40,7 +40,9 @@ pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
     let thinnest = THINNEST * plate.x.min(plate.y);
     let mut found = Vec::new();
     for (k, hole) in holes.iter().enumerate() {
-        let edges = Edge::ALL.into_iter().map(|edge| Other::Edge(edge, bounds));
+        // edges of the box are no borders where they are outside of an outline
+        let edges = Edge::ALL.into_iter().filter(|_| !hole.is_outside());
+        let edges = edges.map(|edge| Other::Edge(edge, bounds));
         let others = holes[..k].iter().map(Other::Hole);
         let cracks = problem.cracks.iter().map(|crack| Other::Crack(&crack.points));
         let all = edges.chain(others).chain(cracks);
@@ -63,9 +65,9 @@ impl Ligament<'_> {
     /// the cell.
     pub(super) const REACH: f64 = 1.0 / ACROSS;
 
-    /// The box of the hole.
+    /// The box of the rim.
     pub(super) fn place(&self) -> Rect {
-        self.hole.bounds()
+        self.hole.rim_bounds()
     }
 
     /// Asks for half as fine cells.
@@ -78,7 +80,7 @@ impl Ligament<'_> {
     pub(super) fn cells(&self, size: f64) -> f64 {
         let length = match self.hole {
             Hole::Circle { radius, .. } => 2.0 * (2.0 * radius * self.finest / ACROSS).sqrt(),
-            Hole::Polygon { .. } => self.hole.bounds().size().length(),
+            Hole::Polygon { .. } => self.hole.rim_bounds().size().length(),
         };
         if self.finest < size { 2.0 * length / (ACROSS * self.finest) } else { 0.0 }
     }
@@ -105,7 +107,7 @@ impl Other<'_> {
     fn corners(&self) -> Vec<Vec2> {
         match self {
             Self::Edge(..) | Self::Hole(Hole::Circle { .. }) => Vec::new(),
-            Self::Hole(Hole::Polygon { points }) => points.clone(),
+            Self::Hole(Hole::Polygon { points, .. }) => points.clone(),
             Self::Crack(points) => points.to_vec(),
         }
     }
@@ -124,10 +126,10 @@ fn width(hole: &Hole, other: Other<'_>) -> f64 {
         (Hole::Polygon { .. }, Other::Hole(Hole::Circle { center, radius })) => {
             hole.rim_distance(*center) - radius
         }
-        (Hole::Polygon { points }, Other::Edge(edge, bounds)) => {
+        (Hole::Polygon { points, .. }, Other::Edge(edge, bounds)) => {
             points.iter().map(|p| edge.depth(bounds, *p)).fold(f64::INFINITY, f64::min)
         }
-        (Hole::Polygon { points }, _) => {
+        (Hole::Polygon { points, .. }, _) => {
             let there = points.iter().map(|p| other.distance(*p));
             let back = other.corners().into_iter().map(|p| hole.rim_distance(p));
             there.chain(back).fold(f64::INFINITY, f64::min)

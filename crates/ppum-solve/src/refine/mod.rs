@@ -322,9 +322,9 @@ impl<'p> Rims<'p> {
     fn new(problem: &'p Problem) -> Self {
         let rims = problem.domain.holes.iter().filter_map(|hole| match hole {
             Hole::Circle { .. } => None,
-            Hole::Polygon { points } => {
-                let size = hole.bounds().size();
-                Some((hole.bounds(), (points.as_slice(), size.x.max(size.y))))
+            Hole::Polygon { points, .. } => {
+                let size = hole.rim_bounds().size();
+                Some((hole.rim_bounds(), (points.as_slice(), size.x.max(size.y))))
             }
         });
         let overlap = problem.discretization.overlap;

@@ -92,7 +92,7 @@ mod tests {
         let (a, b, n) = (2.0, 0.5, 400);
         let at = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(n);
         let points = (0..n).map(|k| vec2(a * at(k).cos(), b * at(k).sin())).collect();
-        let all = bends(&Hole::Polygon { points });
+        let all = bends(&Hole::polygon(points));
         assert_eq!(all.len(), n as usize);
         let near =
             |p: Vec2| all.iter().find(|bend| (bend.at - p).length() < 1e-9).map(|b| b.radius);
@@ -110,6 +110,6 @@ mod tests {
     #[test]
     fn corners_are_none() {
         let square = [[0.0, 0.0], [0.5, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from);
-        assert!(bends(&Hole::Polygon { points: square.to_vec() }).is_empty());
+        assert!(bends(&Hole::polygon(square.to_vec())).is_empty());
     }
 }

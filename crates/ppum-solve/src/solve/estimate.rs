@@ -325,8 +325,17 @@ fn area(hole: &Hole, bounds: &Rect) -> f64 {
     let inside = part.x.max(0.0) * part.y.max(0.0);
     match hole {
         Hole::Circle { radius, .. } => inside.min(PI * radius * radius),
+        Hole::Polygon { .. } if hole.is_outside() => inside - least_inside(hole, bounds),
         Hole::Polygon { .. } => inside,
     }
+}
+
+/// The area of an outline in a box; nothing of one that the box cuts.
+fn least_inside(outline: &Hole, bounds: &Rect) -> f64 {
+    let corner = bounds.min;
+    let twice: f64 = outline.sides().map(|[a, b]| (a - corner).cross(b - corner)).sum();
+    let is_whole = outline.sides().all(|[a, _]| bounds.contains(a));
+    if is_whole { 0.5 * twice.abs() } else { 0.0 }
 }
 
 fn least_order(problem: &Problem) -> usize {

@@ -106,7 +106,9 @@ fn solid_part(
     }
     let geometry = Geometry { holes, ..Geometry::new(&partition, &[]) };
     let quadrature = Quadrature::new(geometry, Orders::for_degree(1));
-    let placed = Placed::new(holes.iter().map(|hole| (hole.bounds(), hole)));
+    let all = partition.cell.iter().copied().reduce(|all, cell| all.union(&cell));
+    let all = all.ok_or(SpaceError::Nothing)?;
+    let placed = Placed::new(holes.iter().map(|hole| (hole.bounds().intersection(&all), hole)));
     let is_solid = |(index, cell): (u32, &Rect)| {
         let size = cell.size();
         let near: Vec<_> = placed.near(cell).copied().collect();

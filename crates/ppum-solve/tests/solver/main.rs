@@ -22,6 +22,7 @@ mod kernels;
 mod kinked;
 mod loads;
 mod multilevel;
+mod outlines;
 mod physics;
 mod pieces;
 mod plates;

@@ -40,7 +40,7 @@ pub(crate) fn square_hole() -> Problem {
     let mut problem = pulled(SQUARE, [1, 1], &[]);
     let points = [(-0.3, -0.3), (0.3, -0.3), (0.3, 0.3), (-0.3, 0.3)];
     let points = points.map(|(x, y)| vec2(x, y)).into();
-    problem.domain.holes = vec![Hole::Polygon { points }];
+    problem.domain.holes = vec![Hole::polygon(points)];
     problem
 }
 

@@ -290,6 +290,6 @@ fn polygon() -> Dataset {
     let comb = |k: u32| vec2(f64::from(k) / f64::from(1 << 14), 0.5 + 0.25 * f64::from(k % 2));
     let mut points: Vec<_> = (0..(1 << 14) - 2).map(comb).collect();
     points.extend([vec2(1.0, 0.875), vec2(0.0, 0.875)]);
-    dataset.domain.holes = vec![Hole::Polygon { points }];
+    dataset.domain.holes = vec![Hole::polygon(points)];
     dataset
 }

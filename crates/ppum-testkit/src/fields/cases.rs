@@ -194,6 +194,7 @@ pub fn equations() -> Vec<Case> {
         Case::new("Poisson", &one, &["energy", "u"])
             .with(|d| d.equation = Equation::Poisson { conductivity }),
         Case::new("holes", &coarse, &["von-mises", "ux"]).with(|d| d.domain.holes = holes()),
+        Case::new("outline", &coarse, &["von-mises", "ux"]).with(|d| d.domain.holes = outlined()),
     ]
 }
 
@@ -206,7 +207,15 @@ fn holes() -> Vec<Hole> {
     let round = Hole::Circle { center: vec2(0.5, 0.1), radius: 0.125 };
     let notch = Hole::Circle { center: vec2(1.2, 0.71), radius: 0.2 };
     let points = [[0.4, 0.2], [0.8, 0.15], [0.6, 0.3], [0.7, 0.55]];
-    vec![round, notch, Hole::Polygon { points: points.map(Vec2::from).to_vec() }]
+    vec![round, notch, Hole::polygon(points.map(Vec2::from).to_vec())]
+}
+
+/// A body with an outline that turns inwards, leaves the box and has a hole over it.
+fn outlined() -> Vec<Hole> {
+    let points = [[-0.9, 0.05], [0.2, 0.3], [1.1, -0.2], [1.0, 0.9], [0.1, 0.55], [-0.6, 0.8]];
+    let mut all = holes();
+    all.push(Hole::outside(points.map(Vec2::from).to_vec()));
+    all
 }
 
 /// Windows partly and wholly outside, of odd sizes, and inside one patch.

@@ -11,7 +11,7 @@ pub(super) fn check(domain: &Domain, errors: &mut Errors) {
     errors.add(check_box("", &domain.bounds));
     let rims = domain.holes.iter().map(|hole| match hole {
         Hole::Circle { .. } => 1,
-        Hole::Polygon { points } => points.len(),
+        Hole::Polygon { points, .. } => points.len(),
     });
     let count: usize = rims.sum();
     errors.add(require(count <= MAX_RIMS, "holes", || {
@@ -27,7 +27,7 @@ fn check_hole(hole: &Hole) -> Checked {
             check_number("radius", *radius)?;
             require(*radius > 0.0, "radius", || format!("{radius} is not positive"))
         }
-        Hole::Polygon { points } => {
+        Hole::Polygon { points, .. } => {
             check_points("points", points)?;
             require(points.len() >= 3, "", || {
                 format!("has {} points, a polygon needs three or more", points.len())
@@ -49,9 +49,8 @@ mod tests {
     #[test]
     fn holes() {
         let circle = |x, radius| Hole::Circle { center: vec2(x, 0.5), radius };
-        let polygon = |points: &[[f64; 2]]| Hole::Polygon {
-            points: points.iter().copied().map(Into::into).collect(),
-        };
+        let polygon =
+            |points: &[[f64; 2]]| Hole::polygon(points.iter().copied().map(Into::into).collect());
         for (hole, place) in [
             (circle(0.5, 0.0), "domain.holes[1].radius"),
             (circle(0.5, f64::INFINITY), "domain.holes[1].radius"),

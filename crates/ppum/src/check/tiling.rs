@@ -395,7 +395,7 @@ mod tests {
                 let [left, right] = [-1.0, 1.0].map(|side| {
                     let corners = [[0.0, -1.0], [side, -1.0], [side, 1.0], [0.0, 1.0]];
                     let points = corners.map(|[x, y]| center + vec2(x * half.x, y * half.y));
-                    Hole::Polygon { points: points.to_vec() }
+                    Hole::polygon(points.to_vec())
                 });
                 assert_eq!(mistake(&partition, vec![left.clone(), right]), None, "two halves");
                 assert!(mistake(&partition, vec![left]).is_some(), "one half");

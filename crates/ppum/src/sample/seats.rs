@@ -70,7 +70,7 @@ impl<'d> Seats<'d> {
             segments: Segments::new(cracks),
             tree: BoxTree::new(&boxes),
             tips,
-            holes: domain.holes.iter().map(Hole::bounds).collect(),
+            holes: domain.holes.iter().flat_map(Hole::boxes).collect(),
             spacing: (1.0 + largest_half.log2()).ceil().min(WIDEST).exp2(),
             reach: 2.0 * ROUNDING * [min.x, min.y, max.x, max.y].into_iter().fold(0.0, largest),
         }

@@ -4,13 +4,14 @@
 fn holes_contain(at: u32, count: u32, offset: vec2<f32>) -> bool {
     var next = at;
     for (var k = 0u; k < count; k++) {
-        // 0 of a circle
-        let sides = u32(load_view(next).x);
+        // 0 of a circle; 1 if what is outside of a polygon is cut out
+        let head = load_view(next);
+        let sides = u32(head.x);
         var inside = false;
         if sides == 0u {
             inside = hole_circle(next, offset);
         } else {
-            inside = hole_polygon(next + 1u, sides, offset);
+            inside = hole_polygon(next + 1u, sides, head.y != 0.0, offset);
         }
         if inside {
             return true;
@@ -27,9 +28,10 @@ fn hole_circle(at: u32, offset: vec2<f32>) -> bool {
     return excess + dot(load_view(at + 1u) + half_curvature * offset, offset) < 0.0;
 }
 
-// A ray from the point to the right crosses an odd number of sides, and the point is on none.
-fn hole_polygon(at: u32, sides: u32, offset: vec2<f32>) -> bool {
-    var inside = false;
+// A ray from the point to the right crosses an odd number of sides, an even one of the outline, and
+// the point is on none.
+fn hole_polygon(at: u32, sides: u32, outside: bool, offset: vec2<f32>) -> bool {
+    var inside = outside;
     for (var k = 0u; k < sides; k++) {
         let side = at + HOLE_SIDE_PAIRS * k;
         let a = load_view(side);

@@ -16,7 +16,7 @@ pub(super) fn with_polygons(domain: &Domain, cracks: &[Vec<Vec2>]) -> Domain {
     let polygon = |hole: &Hole| match hole {
         Hole::Polygon { .. } => hole.clone(),
         Hole::Circle { center, radius } => {
-            Hole::Polygon { points: in_circle(*center, *radius, &segments, &domain.holes) }
+            Hole::polygon(in_circle(*center, *radius, &segments, &domain.holes))
         }
     };
     Domain { bounds: domain.bounds, holes: domain.holes.iter().map(polygon).collect() }

@@ -7,7 +7,7 @@ fn bounds() -> Rect {
 }
 
 fn domain(holes: &[Vec<Vec2>]) -> Domain {
-    let holes = holes.iter().map(|points| Hole::Polygon { points: points.clone() }).collect();
+    let holes = holes.iter().map(|points| Hole::polygon(points.clone())).collect();
     Domain { bounds: bounds(), holes }
 }
 

@@ -126,7 +126,7 @@ fn cracks_that_end_on_holes() {
     assert_eq!(on(&[left, right], &circle), 2);
     assert_eq!(on(&[&[[-1.0, 0.5], [2.0, 0.5]]], &circle), 2, "through it");
     let wall = [[0.4, -0.5], [3.0, -0.5], [3.0, 3.0], [0.4, 3.0]];
-    let wall = Hole::Polygon { points: wall.map(Vec2::from).to_vec() };
+    let wall = Hole::polygon(wall.map(Vec2::from).to_vec());
     assert_eq!(on(&[&[[-1.0, 0.5], [0.45, 0.5]]], &wall), 2, "up to a wall");
     assert_eq!(on(&[&[[-1.0, 0.5], [0.35, 0.5]]], &wall), 1, "not quite");
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ppum::crack::Side;
 use ppum::vec2::Rect;
 
-use super::super::boundary::{BorderPart, BoundaryCondition, Edge};
+use super::super::boundary::{BorderPart, BoundaryCondition, Edge, Piece, SideRun};
 use super::super::key::{Key, MistakeAt, no_such};
 use super::super::model::Problem;
 
@@ -13,7 +13,7 @@ use super::super::model::Problem;
 pub(super) fn check_boundary(problem: &Problem) -> Vec<MistakeAt> {
     let parts = problem.boundary.iter().enumerate();
     let mut found: Vec<_> = parts.filter_map(|(k, part)| check_part(k, part, problem)).collect();
-    found.extend(check_contradictions(&problem.boundary));
+    found.extend(check_contradictions(problem));
     found
 }
 
@@ -25,30 +25,39 @@ struct Claim {
     condition: usize,
 }
 
-fn claims(index: usize, condition: &BoundaryCondition) -> Vec<Claim> {
+fn claims(index: usize, condition: &BoundaryCondition, pieces: &[Piece]) -> Vec<Claim> {
     let [both, above, below] = [vec![0, 1], vec![0], vec![1]];
-    let (kind, number, faces, stretch) = match condition.on {
-        BorderPart::Edge { edge, from, to } => (0, edge as usize, above, [from, to]),
-        BorderPart::Hole(hole) => (1, hole, above, [0.0, 1.0]),
+    let run = |&SideRun { hole, from, to }: &SideRun| (1, hole, [from as f64, to as f64]);
+    let (faces, parts) = match condition.on {
+        BorderPart::Edge { edge, from, to } => (above, vec![(0, edge as usize, [from, to])]),
+        BorderPart::Hole(hole) => (above, vec![(1, hole, [0.0, f64::INFINITY])]),
+        BorderPart::Sides(sides) => (above, vec![run(&sides)]),
+        BorderPart::Piece(piece) => {
+            (above, pieces.get(piece).iter().flat_map(|piece| &piece.runs).map(run).collect())
+        }
         BorderPart::Crack { crack, face } => {
             let faces = face.map_or(both, |side| if side == Side::Above { above } else { below });
-            (2, crack, faces, [0.0, 1.0])
+            (faces, vec![(2, crack, [0.0, 1.0])])
         }
     };
     let components = (0..condition.components.len()).filter(|&k| condition.says(k));
-    let claim = |(component, face)| Claim {
-        place: (kind, number, face, component),
-        stretch,
-        condition: index,
+    let places = components.flat_map(|k| faces.iter().map(move |&face| (face, k)));
+    let claim = |(face, component): (u8, usize)| {
+        parts.iter().map(move |&(kind, number, stretch)| Claim {
+            place: (kind, number, face, component),
+            stretch,
+            condition: index,
+        })
     };
-    components.flat_map(|k| faces.iter().map(move |&face| (k, face))).map(claim).collect()
+    places.flat_map(claim).collect()
 }
 
 /// No component is given twice at a place. Of the conditions that an earlier one contradicts each
 /// is told once.
-fn check_contradictions(boundary: &[BoundaryCondition]) -> Vec<MistakeAt> {
+fn check_contradictions(problem: &Problem) -> Vec<MistakeAt> {
+    let Problem { boundary, pieces, .. } = problem;
     let mut all: Vec<_> =
-        boundary.iter().enumerate().flat_map(|(k, part)| claims(k, part)).collect();
+        boundary.iter().enumerate().flat_map(|(k, part)| claims(k, part, pieces)).collect();
     all.sort_by(|a, b| a.place.cmp(&b.place).then(a.stretch[0].total_cmp(&b.stretch[0])));
     let mut pairs = BTreeMap::new();
     let mut claims = all.iter();
@@ -64,7 +73,7 @@ fn check_contradictions(boundary: &[BoundaryCondition]) -> Vec<MistakeAt> {
         }
     }
     let mistake = |(later, earlier): (usize, usize)| {
-        let message = contradiction(&boundary[earlier], &boundary[later])?;
+        let message = contradiction(problem, &boundary[earlier], &boundary[later])?;
         Some(on(later).mistake(message).with_other(on(earlier)))
     };
     pairs.into_iter().filter_map(mistake).collect()
@@ -79,6 +88,12 @@ fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) ->
     let message = match condition.on {
         BorderPart::Edge { edge, from, to } => bad_range(edge, [from, to], &problem.domain.bounds)?,
         BorderPart::Hole(hole) if hole >= holes => no_such("hole", hole, holes),
+        BorderPart::Piece(piece) if piece >= problem.pieces.len() => {
+            no_such("piece", piece, problem.pieces.len())
+        }
+        BorderPart::Sides(run) if !is_of(run, problem) => {
+            format!("there is no hole {} with sides {} to {}", run.hole, run.from, run.to)
+        }
         BorderPart::Crack { crack, .. } if crack >= cracks => no_such("crack", crack, cracks),
         BorderPart::Crack { .. } if condition.held().contains(&true) => {
             "the faces of a crack cannot be held; give them a traction or a pressure".to_owned()
@@ -86,6 +101,11 @@ fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) ->
         _ => return None,
     };
     Some(on(index).mistake(message))
+}
+
+fn is_of(run: SideRun, problem: &Problem) -> bool {
+    let count = problem.domain.holes.get(run.hole).map_or(0, |hole| hole.sides().count());
+    run.from < run.to && run.to <= count
 }
 
 fn bad_range(edge: Edge, [from, to]: [f64; 2], domain: &Rect) -> Option<String> {
@@ -102,7 +122,11 @@ fn bad_range(edge: Edge, [from, to]: [f64; 2], domain: &Rect) -> Option<String> 
 }
 
 /// Two conditions that speak of the same component at the same place.
-fn contradiction(a: &BoundaryCondition, b: &BoundaryCondition) -> Option<String> {
+fn contradiction(
+    problem: &Problem,
+    a: &BoundaryCondition,
+    b: &BoundaryCondition,
+) -> Option<String> {
     let place = a.on.common(&b.on)?;
     let count = a.components.len().min(b.components.len());
     let component = (0..count).find(|&k| a.says(k) && b.says(k))?;
@@ -113,6 +137,11 @@ fn contradiction(a: &BoundaryCondition, b: &BoundaryCondition) -> Option<String>
     let remedy = match place {
         BorderPart::Edge { .. } => "divide the edge by `from` and `to`, or leave",
         _ => "leave",
+    };
+    let place = match place {
+        BorderPart::Piece(piece) => format!("the piece `{}`", problem.pieces[piece].name),
+        BorderPart::Hole(hole) if problem.domain.outline() == Some(hole) => "the outline".into(),
+        other => other.to_string(),
     };
     Some(format!(
         "{what} on {place} is given twice; give each component once at each place: {remedy} a \

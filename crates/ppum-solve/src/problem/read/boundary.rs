@@ -1,23 +1,25 @@
 //! The tables `[[boundary]]`.
 
+use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::vec2::{Rect, vec2};
 
 use super::super::boundary::{BorderPart, BoundaryCondition, Condition, Edge};
 use super::super::document::{Read as _, Section, Value, all};
+use super::super::restraint::OUTLINE;
 use super::super::words::EquationKind;
+use super::rim::Body;
 
 /// The conditions; none at all if one of them cannot be read, as the checks count them. `exact` is
 /// the exact solution: empty if there is none, `None` if it cannot be read.
 pub(super) fn boundary(
     root: &Section<'_>,
     kind: EquationKind,
-    domain: Option<Rect>,
+    body: &Body,
     exact: Option<&[Expression]>,
 ) -> Vec<BoundaryCondition> {
-    let domain = domain.unwrap_or(Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)));
     root.each("boundary", |section| {
-        let on = section.required("on").and_then(|value| part(&value, &domain));
+        let on = section.required("on").and_then(|value| part(&value, body));
         if section.mentions_any(&SPECIAL) {
             return special(&section, on);
         }
@@ -58,17 +60,23 @@ fn special(section: &Section<'_>, on: Option<BorderPart>) -> Option<BoundaryCond
 }
 
 /// A part of the border: the name of an edge, or a table.
-fn part(value: &Value<'_>, domain: &Rect) -> Option<BorderPart> {
+fn part(value: &Value<'_>, body: &Body) -> Option<BorderPart> {
+    let domain = &body.bounds.unwrap_or(Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)));
     let Some(section) = value.as_section() else {
-        return Some(BorderPart::edge(value.choice()?, domain));
+        return if value.as_text() == Some(OUTLINE) {
+            outline(value, body)
+        } else {
+            Some(BorderPart::edge(value.choice()?, domain))
+        };
     };
-    let mut given = ["hole", "crack", "edge"].into_iter().filter(|key| section.mentions(key));
+    let mut given =
+        ["hole", "piece", "crack", "edge"].into_iter().filter(|key| section.mentions(key));
     let (key, second) = (given.next().unwrap_or("edge"), given.next());
     if second.is_some() {
         return value.error("names several parts of the border; write one [[boundary]] for each");
     }
     let others: &[_] = match key {
-        "hole" => &["from", "to", "face"],
+        "hole" | "piece" => &["from", "to", "face"],
         "crack" => &["from", "to"],
         _ => &["face"],
     };
@@ -77,6 +85,7 @@ fn part(value: &Value<'_>, domain: &Rect) -> Option<BorderPart> {
     }
     match key {
         "hole" => section.get("hole").map(BorderPart::Hole),
+        "piece" => piece(&section.value("piece")?, body),
         "crack" => {
             let (crack, face) = (section.get("crack"), section.optional("face"));
             Some(BorderPart::Crack { crack: crack?, face: face? })
@@ -86,6 +95,31 @@ fn part(value: &Value<'_>, domain: &Rect) -> Option<BorderPart> {
             let [first, last] = edge.range(domain);
             let (from, to) = (section.or("from", first), section.or("to", last));
             Some(BorderPart::Edge { edge, from: from?, to: to? })
+        }
+    }
+}
+
+/// The outline of the body; if it cannot be read, any part.
+fn outline(value: &Value<'_>, body: &Body) -> Option<BorderPart> {
+    let holes = body.holes.as_ref()?;
+    match holes.iter().position(Hole::is_outside) {
+        Some(hole) => Some(BorderPart::Hole(hole)),
+        None => value.error("is the outline, but [domain] has none; name an edge, or give one"),
+    }
+}
+
+/// The piece of a name.
+fn piece(value: &Value<'_>, body: &Body) -> Option<BorderPart> {
+    let name = String::read(value)?;
+    body.holes.as_ref()?;
+    let names: Vec<_> = body.pieces.iter().map(|piece| format!("`{}`", piece.name)).collect();
+    match body.pieces.iter().position(|piece| piece.name == name) {
+        Some(piece) => Some(BorderPart::Piece(piece)),
+        None if names.is_empty() => value.error(&format!(
+            "is \"{name}\", but no piece of a `path` has a `name`; give it one, in [domain.outline] or [[hole]]"
+        )),
+        None => {
+            value.error(&format!("is \"{name}\", but known pieces are {}", names.join(", ")))
         }
     }
 }

@@ -1,6 +1,6 @@
-//! The tables `[[crack]]` and `[[hole]]`, which may be curves: `arc`, `ellipse`, `spline`, `path`.
+//! The table `[[crack]]`, which may be a curve: `arc`, `ellipse`, `spline`, `path`; and what closed
+//! curves have in common with it.
 
-use ppum::domain::Hole;
 use ppum::vec2::{Vec2, vec2};
 
 use super::super::cracks::shown;
@@ -9,7 +9,7 @@ use super::super::document::{Read as _, Section, Value, all};
 use super::super::keys::MOST_SEGMENTS;
 
 /// Gap between pieces of a path, in parts of their size, that is rounding of their ends.
-const JOINT: f64 = 1e-6;
+pub(super) const JOINT: f64 = 1e-6;
 
 /// The course of a `[[crack]]`.
 pub(super) fn course(section: &Section<'_>) -> Option<Vec<Vec2>> {
@@ -28,52 +28,13 @@ pub(super) fn course(section: &Section<'_>) -> Option<Vec<Vec2>> {
     }
 }
 
-/// The hole of a `[[hole]]`.
-pub(super) fn hole(section: &Section<'_>) -> Option<Hole> {
-    let curved = section.given(&["ellipse", "spline"]);
-    if curved.is_empty() && section.mentions_any(&["ellipse", "spline"]) {
-        return None;
-    }
-    let given = section.given(&["center", "radius", "points", "ellipse", "spline"]);
-    match &curved[..] {
-        [(_, value), ..] if given.len() > 1 => {
-            return value.error("gives the hole once more; leave one out");
-        }
-        [(key, value)] => {
-            return Some(Hole::Polygon { points: rim(key, value, segments(section)?)? });
-        }
-        _ => {}
-    }
-    if let Some(value) = section.value("segments") {
-        return value.error("is for curves; remove it");
-    }
-    if section.mentions("points") {
-        let value = section.value("points")?;
-        if section.mentions_any(&["center", "radius"]) {
-            return value.error("make a polygon, `center` and `radius` a circle; leave one out");
-        }
-        return Some(Hole::Polygon { points: Vec::read(&value)? });
-    }
-    let (center, radius) = (section.require("center"), section.require("radius"));
-    Some(Hole::Circle { center: center?, radius: radius? })
-}
-
 /// The number of segments that is asked for; none if that is left to the program.
-fn segments(section: &Section<'_>) -> Option<Option<usize>> {
+pub(super) fn segments(section: &Section<'_>) -> Option<Option<usize>> {
     if section.value("segments").is_none() {
         return Some(None);
     }
     section.get::<usize>("segments")?;
     Some(Some(section.within("segments")? as usize))
-}
-
-/// The corners of a closed curve.
-fn rim(key: &str, value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
-    let curve = match key {
-        "ellipse" => ellipse(value, false)?,
-        _ => SmoothCurve::Spline(Spline::closed(&knots(value, true)?)),
-    };
-    points_or_mistake(curve.closed(segments), value)
 }
 
 /// The vertices of an open curve.
@@ -86,7 +47,10 @@ fn open(key: &str, value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec
     points_or_mistake(curve.divided(segments), value)
 }
 
-fn points_or_mistake(points: Result<Vec<Vec2>, TooSharp>, value: &Value<'_>) -> Option<Vec<Vec2>> {
+pub(super) fn points_or_mistake(
+    points: Result<Vec<Vec2>, TooSharp>,
+    value: &Value<'_>,
+) -> Option<Vec<Vec2>> {
     points.or_else(|TooSharp { at }| {
         let message = format!(
             "turns too sharply around {}: it would take more than {MOST_SEGMENTS} segments; make it rounder, or say how \
@@ -99,12 +63,21 @@ fn points_or_mistake(points: Result<Vec<Vec2>, TooSharp>, value: &Value<'_>) -> 
 
 /// Pieces one after the other, each from where the one before ends.
 fn path(value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
+    Some(joined(value, segments)?.0)
+}
+
+/// Pieces one after the other, each from where the one before ends, and the number of the point at
+/// which each begins.
+pub(super) fn joined(
+    value: &Value<'_>,
+    segments: Option<usize>,
+) -> Option<(Vec<Vec2>, Vec<usize>)> {
     let pieces = value.list()?;
     if pieces.is_empty() {
         return value.error("has no pieces; give one at least");
     }
     let all = all(pieces.iter().map(|value| piece(value, segments)))?;
-    let mut points: Vec<Vec2> = Vec::new();
+    let (mut points, mut starts): (Vec<Vec2>, _) = (Vec::new(), vec![0]);
     for (piece, value) in all.iter().zip(&pieces) {
         let Some(end) = points.last().copied() else {
             points.clone_from(piece);
@@ -118,9 +91,10 @@ fn path(value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
                 shown(piece[0]), shown(end)
             ));
         }
+        starts.push(points.len() - 1);
         points.extend(&piece[1..]);
     }
-    Some(points)
+    Some((points, starts))
 }
 
 fn piece(value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
@@ -153,7 +127,7 @@ fn arc(value: &Value<'_>) -> Option<SmoothCurve> {
 }
 
 /// A part of an ellipse, or all of it.
-fn ellipse(value: &Value<'_>, is_part: bool) -> Option<SmoothCurve> {
+pub(super) fn ellipse(value: &Value<'_>, is_part: bool) -> Option<SmoothCurve> {
     let section = value.table()?;
     let center = section.require("center");
     let axes = section.required("axes").and_then(|value| {
@@ -182,7 +156,7 @@ fn range(section: &Section<'_>) -> Option<[f64; 2]> {
 }
 
 /// The points of a spline.
-fn knots(value: &Value<'_>, is_closed: bool) -> Option<Vec<Vec2>> {
+pub(super) fn knots(value: &Value<'_>, is_closed: bool) -> Option<Vec<Vec2>> {
     let points: Vec<Vec2> = Vec::read(value)?;
     if points.len() < 3 {
         return value.error("needs at least 3 points; add `[x, y]`");

@@ -7,6 +7,7 @@ mod boundary;
 mod curve;
 mod discretization;
 mod enrichment;
+mod rim;
 mod steps;
 mod table;
 
@@ -19,7 +20,6 @@ use ppum::dataset::{
 use ppum::domain::Domain;
 use ppum::expression::Expression;
 use ppum::quantity::QuantityFormulaError;
-use ppum::vec2::Rect;
 use toml::de::DeTable;
 
 use super::adaptivity::Adaptivity;
@@ -154,7 +154,6 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
         root.error::<()>("nothing acts on the plate; add [[boundary]]");
     }
     let title = root.get("title").unwrap_or_default();
-    let bounds = domain(root);
     let example = kind.unwrap_or(EquationKind::Elasticity).example();
     let tables = document.tables.get_or_init(|| table::tables(root, &example)).clone();
     document.scope()?;
@@ -163,7 +162,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     let accuracy = plan.as_ref().and_then(|plan| plan.get("accuracy"));
     let solver = solver(root);
     let cracks = root.each("crack", |section| curve::course(&section));
-    let holes = all(root.sections("hole").iter().map(curve::hole));
+    let body = rim::body(root, discretization.as_ref());
     let enrichments = root.each("enrichment", |new| enrichment::enrichment(&new, cracks.len()));
     let mut refinements = root.each("refine", |new| steps::refinement(&new));
     let kind = kind?;
@@ -171,13 +170,13 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     let source = source(root, kind);
     let equation = equation(root, kind);
     let quantities = quantities(root, &equation);
-    let mut boundary = boundary::boundary(root, kind, bounds, exact.as_deref());
+    let mut boundary = boundary::boundary(root, kind, &body, exact.as_deref());
     if cracks.is_empty() && root.mentions("crack") {
         // none could be read: what is said of them cannot be judged
         boundary.retain(|condition| !matches!(condition.on, BorderPart::Crack { .. }));
         refinements.retain(|new| !matches!(new.place, RefinementRegion::Crack(_)));
     }
-    let domain = Domain { bounds: bounds?, holes: holes? };
+    let domain = Domain { bounds: body.bounds?, holes: body.holes? };
     let mut discretization = discretization?;
     if !plan?.mentions("order") {
         let first = accuracy.map_or(0, Adaptivity::first_order);
@@ -188,6 +187,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
         cracks: cracks::with_ends(cracks, &domain),
         domain,
         equation,
+        pieces: body.pieces,
         boundary,
         source,
         exact: exact.unwrap_or_default(),
@@ -202,12 +202,6 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
         text: None,
         files: Vec::new(),
     })
-}
-
-fn domain(root: &Section<'_>) -> Option<Rect> {
-    let section = root.required_section("domain")?;
-    let (min, max) = (section.require("min"), section.require("max"));
-    Some(Rect::new(min?, max?))
 }
 
 /// Values that are missing or wrong are reported, and replaced by possible ones.

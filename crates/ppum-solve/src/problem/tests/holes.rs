@@ -14,7 +14,7 @@ fn everything_about_holes() {
     let problem = good(HOLES);
     let [round, triangle] = &problem.domain.holes[..] else { panic!("two holes") };
     assert_eq!(*round, Hole::Circle { center: vec2(0.0, 0.25), radius: 0.5 });
-    assert!(matches!(triangle, Hole::Polygon { points } if points.len() == 3));
+    assert!(matches!(triangle, Hole::Polygon { points, .. } if points.len() == 3));
     assert_eq!(problem.cracks[0].ends, [CrackEnd::Mouth, CrackEnd::Tip]);
     let [left, top, first, second, face] = &problem.boundary[..] else { panic!("five conditions") };
     assert_eq!(left.components, [Condition::Dirichlet(0.0.into()), Condition::Free]);

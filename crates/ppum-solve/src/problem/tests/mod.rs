@@ -6,6 +6,7 @@ mod holes;
 mod keys;
 mod large_files;
 mod mistakes;
+mod outlines;
 
 use std::path::Path;
 

@@ -10,7 +10,7 @@ fn circle(x: f64, y: f64, radius: f64) -> Hole {
 }
 
 fn polygon(points: &[[f64; 2]]) -> Hole {
-    Hole::Polygon { points: points.iter().copied().map(Vec2::from).collect() }
+    Hole::polygon(points.iter().copied().map(Vec2::from).collect())
 }
 
 /// The rules of all cells, and those of the rims.
@@ -20,7 +20,10 @@ fn with_holes(case: &Case, holes: &[Hole]) -> (Vec<Rule>, Vec<EdgeRule>) {
     let cells = || geometry.partition.cell.iter().map(|c| (c, coverers(geometry.partition, c)));
     let areas = cells().flat_map(|(c, patches)| quadrature.cell(c, &patches)).collect();
     let rim = |(c, patches): (&Rect, Vec<u32>)| {
-        holes.iter().flat_map(|hole| quadrature.rim(c, &patches, hole)).collect::<Vec<_>>()
+        holes
+            .iter()
+            .flat_map(|hole| quadrature.rim(c, &patches, hole, |_| true))
+            .collect::<Vec<_>>()
     };
     (areas, cells().flat_map(rim).collect())
 }
