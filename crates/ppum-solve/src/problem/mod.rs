@@ -66,6 +66,7 @@ pub use adaptivity::{AdaptKind, Adaptivity, Keep};
 pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge, Piece, SideRun};
 pub(crate) use cracks::touch;
 pub use cracks::{crack, cracks};
+pub use curve::Spline;
 pub(crate) use curve::arc_from;
 pub use discretization::{Cells, Discretization, Enrichment, MOST_TERMS, Order, OrderError};
 pub use enrichment::{LocalEnrichment, Region, Site};

@@ -7,12 +7,13 @@ use std::process::Command;
 use serde_json::Value;
 
 /// The crates that each crate may depend on, and does.
-const ARROWS: [(&str, &[&str]); 16] = [
+const ARROWS: [(&str, &[&str]); 17] = [
     ("ppum-formula", &[]),
     ("ppum", &["ppum-formula"]),
     ("ppum-file", &[]),
     ("ppum-format", &["ppum", "ppum-file"]),
     ("ppum-solve", &["ppum", "ppum-file"]),
+    ("ppum-import", &["ppum", "ppum-solve"]),
     ("ppum-raster", &["ppum"]),
     ("ppum-render", &["ppum", "ppum-raster"]),
     ("ppum-figure", &["ppum", "ppum-render"]),
@@ -44,6 +45,7 @@ const ARROWS: [(&str, &[&str]); 16] = [
             "ppum-figure",
             "ppum-format",
             "ppum-gpu",
+            "ppum-import",
             "ppum-page",
             "ppum-render",
             "ppum-scene",
@@ -83,7 +85,7 @@ const ARROWS: [(&str, &[&str]); 16] = [
 
 /// Foreign crates that are known in one place of the product only, so that they can be
 /// replaced there.
-const DOORS: [(&str, &str); 21] = [
+const DOORS: [(&str, &str); 22] = [
     ("ab_glyph", "ppum-figure"),
     ("clap", "ppum-cli"),
     ("eframe", "ppum-viewer"),
@@ -97,6 +99,7 @@ const DOORS: [(&str, &str); 21] = [
     ("pdf-writer", "ppum-figure"),
     ("png", "ppum-render"),
     ("pyo3", "ppum-python"),
+    ("roxmltree", "ppum-import"),
     ("rfd", "ppum-viewer"),
     ("signal-hook", "ppum-cli"),
     ("spade", "ppum-solve"),

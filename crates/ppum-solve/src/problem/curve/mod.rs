@@ -13,7 +13,7 @@ mod spline;
 use ppum::vec2::{Vec2, vec2};
 
 use super::keys::MOST_SEGMENTS;
-pub(super) use spline::Spline;
+pub use spline::Spline;
 use std::f64::consts::TAU;
 
 /// Turn of the curve from vertex to vertex, in radians: K of arcs is right to 4e-5

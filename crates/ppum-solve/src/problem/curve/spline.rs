@@ -5,7 +5,7 @@ use ppum::vec2::Vec2;
 
 /// A cubic spline through points, over the length of its chords; periodic if closed.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Spline {
+pub struct Spline {
     points: Vec<Vec2>,
     /// Length of the chord after each point.
     chords: Vec<f64>,
@@ -18,7 +18,8 @@ impl Spline {
     /// second point and the last but one the third derivative is continuous, too ("not a knot"):
     /// without curvature at its ends, as natural splines are, it would miss the tangents there, and
     /// K with them.
-    pub(crate) fn open(points: &[Vec2]) -> Self {
+    #[must_use]
+    pub fn open(points: &[Vec2]) -> Self {
         let chords: Vec<f64> = points.windows(2).map(|p| (p[1] - p[0]).length()).collect();
         let inner = points.len() - 2;
         let row = |k: usize| (chords[k], 2.0 * (chords[k] + chords[k + 1]), chords[k + 1]);
@@ -47,7 +48,8 @@ impl Spline {
 
     /// Through all points and back to the first one; three points or more, no two successive
     /// ones equal.
-    pub(crate) fn closed(points: &[Vec2]) -> Self {
+    #[must_use]
+    pub fn closed(points: &[Vec2]) -> Self {
         let n = points.len();
         let round: Vec<Vec2> = (0..n + 2).map(|k| points[k % n]).collect();
         let chords: Vec<f64> = round.windows(2).map(|p| (p[1] - p[0]).length()).collect();
@@ -72,13 +74,15 @@ impl Spline {
     }
 
     /// Number of its spans, between successive points.
-    pub(super) fn spans(&self) -> usize {
+    #[must_use]
+    pub fn spans(&self) -> usize {
         self.chords.len()
     }
 
     /// Place and two derivatives at a parameter, whole numbers at the points; per span, so that
     /// lengths of derivatives jump.
-    pub(super) fn at(&self, t: f64) -> [Vec2; 3] {
+    #[must_use]
+    pub fn at(&self, t: f64) -> [Vec2; 3] {
         let k = (t.max(0.0) as usize).min(self.spans() - 1);
         let (s, h) = (t - k as f64, self.chords[k]);
         let ([a, b], [p, q]) =
