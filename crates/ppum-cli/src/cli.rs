@@ -5,8 +5,8 @@ use std::ffi::OsString;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::commands::{
-    check, compare, completions, demo, export, formula, info, man, plot, probe, render, sample,
-    sif, solve, view,
+    check, compare, completions, demo, export, formula, import, info, man, plot, probe, render,
+    sample, sif, solve, view,
 };
 use crate::output::Output;
 
@@ -22,6 +22,7 @@ pub(crate) struct Cli {
 const EXAMPLES: &str = "\
 Examples:
   ppum demo                                  solve a cracked plate and draw it
+  ppum import part.dxf                       a problem file of a drawing or a mesh
   ppum solve plate.toml                      solve a problem; writes plate.h5
   ppum sif plate.h5                          stress intensity factors of all tips
   ppum probe plate.h5 --at 0.25,-0.1         values at a point
@@ -37,6 +38,7 @@ Examples:
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Demo(demo::Args),
+    Import(import::Args),
     Solve(solve::Args),
     Info(info::Args),
     Check(check::Args),
@@ -80,6 +82,7 @@ impl Command {
             |words: Vec<OsString>, out: &mut Output| Cli::understood(words)?.command.run(out);
         match self {
             Self::Demo(args) => args.run(out, &line),
+            Self::Import(args) => args.run(out),
             Self::Solve(args) => args.run(out),
             Self::Info(args) => args.run(out),
             Self::Check(args) => args.run(out),

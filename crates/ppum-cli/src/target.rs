@@ -11,6 +11,7 @@ use crate::standard::{self, is_standard};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum FileKind {
     Dataset,
+    Problem,
     Picture,
     /// Of several pictures.
     Animation,
@@ -24,6 +25,7 @@ impl FileKind {
     fn words(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Dataset => ("datasets are HDF5 files", &["h5", "hdf5"]),
+            Self::Problem => ("problem files are TOML files", &["toml"]),
             Self::Picture => ("pictures are PNG, SVG or PDF files", &["png", "svg", "pdf"]),
             Self::Animation => ("moving pictures are GIF or APNG files", &["gif", "apng"]),
             Self::Export => (
@@ -54,7 +56,7 @@ impl FileKind {
             Self::Dataset => standard::check_output("a dataset"),
             Self::Picture | Self::Animation => standard::check_output("a picture"),
             Self::Export => standard::check_output("a page"),
-            Self::Table => Ok(()),
+            Self::Table | Self::Problem => Ok(()),
         }
     }
 }

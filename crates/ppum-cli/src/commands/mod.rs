@@ -6,6 +6,7 @@ pub(crate) mod completions;
 pub(crate) mod demo;
 pub(crate) mod export;
 pub(crate) mod formula;
+pub(crate) mod import;
 pub(crate) mod info;
 pub(crate) mod man;
 pub(crate) mod plot;

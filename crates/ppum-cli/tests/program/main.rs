@@ -16,6 +16,7 @@ mod files;
 mod formula;
 mod gallery;
 mod growing;
+mod import;
 mod info;
 mod meshes;
 mod messages;
