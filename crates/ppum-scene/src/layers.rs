@@ -44,6 +44,37 @@ pub struct Ground<'a> {
     pub has_bar: bool,
 }
 
+impl Ground<'_> {
+    /// The levels of isolines; none where nothing but rounding tells values apart.
+    pub(crate) fn levels(&self, wanted: &Levels) -> Vec<f64> {
+        let norm = &self.picture.normalization;
+        match wanted {
+            _ if self.picture.one_value.is_some() => Vec::new(),
+            Levels::Auto => levels::automatic(norm, AUTOMATIC),
+            Levels::Count(count) => levels::about(norm, *count),
+            Levels::At(values) => values.clone(),
+        }
+    }
+
+    /// Isolines, found on the exact field; the picture's values say where to look for them.
+    pub(crate) fn isolines(
+        &self,
+        quantity: &Quantity,
+        levels: &[f64],
+        watcher: &dyn Watcher,
+    ) -> Result<Vec<Isoline>, RenderError> {
+        let Self { field, picture: Picture { view, .. }, values, .. } = *self;
+        match values {
+            RasterValues::Double(raster) => {
+                isolines(field, view, quantity, levels, raster, watcher)
+            }
+            RasterValues::Single(raster) => {
+                isolines(field, view, quantity, levels, raster, watcher)
+            }
+        }
+    }
+}
+
 /// Scale of lines and letters over a picture: that of the figure's design, or of a bare picture of
 /// so many pixels.
 #[must_use]
@@ -231,21 +262,12 @@ impl<'a> Drawing<'a> {
         Ok(())
     }
 
-    /// Isolines, found on the exact field; the picture's values say where to look for them.
     fn isolines(&mut self) -> Result<(), LayersError> {
         let Some((quantity, levels)) = self.levels() else { return Ok(()) };
-        let Ground { field, picture, values, .. } = self.ground;
-        let view = &picture.view;
-        let lines = match values {
-            RasterValues::Double(raster) => {
-                isolines(field, view, quantity, &levels, raster, self.watcher)
-            }
-            RasterValues::Single(raster) => {
-                isolines(field, view, quantity, &levels, raster, self.watcher)
-            }
-        }?;
-        let room = self.room(view, &field.step.cracks);
-        self.add_isolines(view, &lines, room);
+        let lines = self.ground.isolines(quantity, &levels, self.watcher)?;
+        let Ground { field, picture, .. } = self.ground;
+        let room = self.room(&picture.view, &field.step.cracks);
+        self.add_isolines(&picture.view, &lines, room);
         Ok(())
     }
 
@@ -292,20 +314,11 @@ impl<'a> Drawing<'a> {
     /// The quantity of isolines and their levels, if they are asked for and there can be some.
     fn levels(&mut self) -> Option<(&'a Quantity, Vec<f64>)> {
         let wanted = self.overlays.isolines.as_ref()?;
-        let Ground { picture, quantity, .. } = self.ground;
-        let Some(quantity) = quantity else {
+        let Some(quantity) = self.ground.quantity else {
             self.layers.notices.push(Notice::NoIsolines);
             return None;
         };
-        let norm = &picture.normalization;
-        let levels = match wanted {
-            // nothing but rounding tells values apart
-            _ if picture.one_value.is_some() => Vec::new(),
-            Levels::Auto => levels::automatic(norm, AUTOMATIC),
-            Levels::Count(count) => levels::about(norm, *count),
-            Levels::At(values) => values.clone(),
-        };
-        Some((quantity, levels))
+        Some((quantity, self.ground.levels(wanted)))
     }
 
     /// Arrows and crosses with what their lengths mean in the legend. `lattice` makes points with a

@@ -23,6 +23,9 @@ pub enum ShotError {
     /// The quantity, isolines, or a watcher that stopped it.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// Isolines of values that are constant in each cell.
+    #[error("values that are constant in each cell have no isolines")]
+    NoIsolines,
     /// The backend.
     #[error(transparent)]
     Engine(EngineError),

@@ -5,6 +5,7 @@ use ppum::field::Field;
 use ppum_figure::figure::{BarPlace, Design};
 use ppum_render::RenderError;
 use ppum_render::image::Image;
+use ppum_render::isoline::Isoline;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::ValueSpan;
 use ppum_render::samples::Samples;
@@ -17,6 +18,7 @@ use crate::engine::Engine;
 use crate::layers::{Ground, Layers};
 use crate::minus::{self, Minus, Side};
 use crate::notice::Notice;
+use crate::overlays::Levels;
 use crate::range;
 use crate::request::Request;
 use crate::scene::Scene;
@@ -171,6 +173,32 @@ impl<'a> Input<'a> {
             factor: self.seen.moved().map(|points| points.view.factor()),
             dataset: (self.dataset.title.clone(), step.filter(|_| self.dataset.steps.len() > 1)),
         })
+    }
+
+    /// The isolines of a quantity that a picture of it in these colours has.
+    ///
+    /// # Errors
+    /// As the steps that a picture consists of; values of cells, which have none.
+    pub fn isolines(
+        &self,
+        wanted: &Levels,
+        colors: &Colors,
+        engine: &Engine<'_>,
+    ) -> Result<Vec<Isoline>, ShotError> {
+        let Self { dataset, field, .. } = *self;
+        let quantity = self.shown.quantity().ok_or(ShotError::NoIsolines)?;
+        let drawn = self.values(Samples::CENTER, engine)?;
+        let picture = &self.coloring(colors, &drawn, engine)?.picture(&drawn)?;
+        let ground = Ground {
+            dataset,
+            field,
+            quantity: Some(quantity),
+            picture,
+            values: &drawn.values,
+            design: None,
+            has_bar: false,
+        };
+        Ok(ground.isolines(quantity, &ground.levels(wanted), engine.watcher)?)
     }
 
     fn layers(
