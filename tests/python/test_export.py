@@ -50,13 +50,44 @@ def run(*arguments, folder):
     return done.stdout
 
 
-def exported(folder):
-    """The paths of a dataset and of its mesh."""
-    (folder / "plate.toml").write_text(PROBLEM)
+def needs(package, what):
+    """Gives a test an empty folder, and skips it where a package is missing."""
+
+    def decorate(test):
+        def wrapper():
+            if importlib.util.find_spec(package) is None:
+                print(f"SKIPPED 1 (so far): {what}: it is not installed")
+                return
+            with tempfile.TemporaryDirectory(prefix="ppum-") as name:
+                test(pathlib.Path(name))
+
+        wrapper.__name__, wrapper.__doc__ = test.__name__, test.__doc__
+        return wrapper
+
+    return decorate
+
+
+def solved(folder, problem=PROBLEM):
+    """The path of a dataset."""
+    (folder / "plate.toml").write_text(problem)
     run("solve", folder / "plate.toml", "-o", folder / "plate.h5", folder=folder)
-    accuracy = ["--tolerance", TOLERANCE, "--tip-radius", RADIUS]
-    run("export", folder / "plate.h5", "-o", folder / "plate.vtu", *accuracy, folder=folder)
-    return folder / "plate.h5", folder / "plate.vtu"
+    return folder / "plate.h5"
+
+
+def exported(dataset, name, *options):
+    """The path of a file made of a dataset."""
+    path = dataset.with_name(name)
+    run("export", dataset, "-o", path, *options, folder=path.parent)
+    return path
+
+
+def read(reader, path):
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutputDataObject(0)
+
+
+ACCURACY = ["--tolerance", TOLERANCE, "--tip-radius", RADIUS]
 
 
 def sampled(dataset, points, folder):
@@ -86,12 +117,17 @@ def is_beside(points):
     return np.abs(along[0] * from_tip[:, 1] - along[1] * from_tip[:, 0]) > 1e-14
 
 
-def check_differences(dataset, interpolated, points, tolerances, folder):
+def columns_of(arrays):
+    """The columns of `sampled` among arrays at points."""
+    return np.column_stack([arrays["displacement"][:, :2], arrays["stress"][:, 1], arrays["von-mises"]])
+
+
+def check_differences(dataset, interpolated, points, field_data):
     """Displacements everywhere, stresses outside of the radius about tips."""
-    beside = is_beside(points)
+    beside, tolerances = is_beside(points), allowed(field_data)
     assert beside.mean() > 0.95
     points, interpolated = points[beside], interpolated[beside]
-    exact = sampled(dataset, points, folder)
+    exact = sampled(dataset, points, dataset.parent)
     away = np.linalg.norm(points[:, None] - TIPS[None], axis=2).min(axis=1)
     off = np.abs(exact - interpolated)
     assert (off[:, :2] <= tolerances[:2]).all(), off.max(axis=0)
@@ -99,102 +135,159 @@ def check_differences(dataset, interpolated, points, tolerances, folder):
     assert off[:, 0].max() > 0
 
 
-def test_meshio_reads_the_mesh():
-    if importlib.util.find_spec("meshio") is None:
-        print("SKIPPED 1 (so far): meshes in meshio: it is not installed")
-        return
+@needs("meshio", "meshes in meshio")
+def test_meshio_reads_the_mesh(folder):
     import meshio
 
-    with tempfile.TemporaryDirectory(prefix="ppum-") as name:
-        folder = pathlib.Path(name)
-        dataset, path = exported(folder)
-        mesh = meshio.read(path)
-        [cells] = mesh.cells
-        assert cells.type == "triangle"
-        random = np.random.default_rng(1)
-        chosen = cells.data[random.integers(len(cells.data), size=POINTS)]
-        weights = random.dirichlet([1, 1, 1], size=POINTS)
-        points = np.einsum("nk,nkd->nd", weights, mesh.points[chosen])[:, :2]
-        u, stress, mises = (mesh.point_data[key] for key in ("displacement", "stress", "von-mises"))
-        assert u.shape[1] == 3 and stress.shape[1] == 6
-        columns = np.column_stack([u[:, :2], stress[:, 1], mises])
-        interpolated = np.einsum("nk,nkc->nc", weights, columns[chosen])
-        check_differences(dataset, interpolated, points, allowed(mesh.field_data), folder)
-        assert text(mesh.field_data, "title") == "Slanted crack & <tags>"
-        assert text(mesh.field_data, "quantities").split("\n") == ["displacement", "stress", "von-mises"]
+    dataset = solved(folder)
+    mesh = meshio.read(exported(dataset, "plate.vtu", *ACCURACY))
+    [cells] = mesh.cells
+    assert cells.type == "triangle"
+    random = np.random.default_rng(1)
+    chosen = cells.data[random.integers(len(cells.data), size=POINTS)]
+    weights = random.dirichlet([1, 1, 1], size=POINTS)
+    points = np.einsum("nk,nkd->nd", weights, mesh.points[chosen])[:, :2]
+    assert mesh.point_data["displacement"].shape[1] == 3 and mesh.point_data["stress"].shape[1] == 6
+    interpolated = np.einsum("nk,nkc->nc", weights, columns_of(mesh.point_data)[chosen])
+    check_differences(dataset, interpolated, points, mesh.field_data)
+    assert text(mesh.field_data, "title") == "Slanted crack & <tags>"
+    assert text(mesh.field_data, "quantities").split("\n") == ["displacement", "stress", "von-mises"]
+    assert text(mesh.field_data, "units").split("\n") == [""] * 3
 
 
-def test_vtk_probes_the_mesh():
-    if importlib.util.find_spec("vtkmodules") is None:
-        print("SKIPPED 1 (so far): meshes in VTK: it is not installed")
-        return
+def probed(grid, points):
+    """The arrays of a grid at points, as VTK interpolates in its cells."""
     import vtk
-    from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+    from vtk.util.numpy_support import numpy_to_vtk
 
-    with tempfile.TemporaryDirectory(prefix="ppum-") as name:
-        folder = pathlib.Path(name)
-        dataset, path = exported(folder)
-        reader = vtk.vtkXMLUnstructuredGridReader()
-        reader.SetFileName(str(path))
-        reader.Update()
-        grid = reader.GetOutput()
-        assert grid.GetNumberOfCells() > 1000
+    cloud, positions = vtk.vtkPolyData(), vtk.vtkPoints()
+    positions.SetData(numpy_to_vtk(np.column_stack([points, np.zeros(len(points))]), deep=True))
+    cloud.SetPoints(positions)
+    probe = vtk.vtkProbeFilter()
+    probe.SetInputData(cloud)
+    probe.SetSourceData(grid)
+    # the default search misses points of cells that are there
+    (getattr(probe, "SetCellLocator", None) or probe.SetCellLocatorPrototype)(vtk.vtkStaticCellLocator())
+    probe.Update()
+    found = arrays_of(probe.GetOutput())
+    assert (found["vtkValidPointMask"] == 1).all()
+    return found
+
+
+@needs("vtkmodules", "meshes in VTK")
+def test_vtk_probes_meshes_of_all_orders(folder):
+    import vtk
+
+    dataset = solved(folder)
+    counts = []
+    for order in (1, 2, 3, 4):
+        path = exported(dataset, "plate.vtu", *ACCURACY, "--order", order)
+        grid = read(vtk.vtkXMLUnstructuredGridReader(), path)
+        counts.append(grid.GetNumberOfCells())
         points = np.random.default_rng(2).uniform(-1, 1, size=(POINTS, 2))
-        cloud, positions = vtk.vtkPolyData(), vtk.vtkPoints()
-        positions.SetData(numpy_to_vtk(np.column_stack([points, np.zeros(POINTS)]), deep=True))
-        cloud.SetPoints(positions)
-        probe = vtk.vtkProbeFilter()
-        probe.SetInputData(cloud)
-        probe.SetSourceData(grid)
-        # the default search misses points of cells that are there
-        probe.SetCellLocatorPrototype(vtk.vtkStaticCellLocator())
-        probe.Update()
-        found = probe.GetOutput().GetPointData()
-        valid = vtk_to_numpy(found.GetArray("vtkValidPointMask")) == 1
-        assert valid.all()
-        array = lambda name: vtk_to_numpy(found.GetArray(name))
-        interpolated = np.column_stack([array("displacement")[:, :2], array("stress")[:, 1], array("von-mises")])
-        fields = grid.GetFieldData()
-        data = {fields.GetArrayName(k): vtk_to_numpy(fields.GetArray(k)) for k in range(fields.GetNumberOfArrays())}
-        check_differences(dataset, interpolated, points, allowed(data), folder)
+        data = arrays_of(grid, grid.GetFieldData())
+        check_differences(dataset, columns_of(probed(grid, points)), points, data)
+        check_faces(dataset, arrays_of(grid))
         assert [grid.GetPointData().GetArray("stress").GetComponentName(k) for k in range(6)] == [
             "XX", "YY", "ZZ", "XY", "YZ", "XZ",
         ]
         assert data["tips"].shape == (2, 3) and data["stress_intensity_factors"].shape == (2, 2)
+        if order == 1:
+            check_contours(dataset, grid, data)
+    assert counts[0] > max(counts[1:]) > 1000
 
 
-def test_vtk_reads_lines():
-    """The tips with their K, the crack from one to the other, and all of the border."""
-    if importlib.util.find_spec("vtkmodules") is None:
-        print("SKIPPED 1 (so far): lines in VTK: it is not installed")
-        return
-    import h5py
+#: Distance from the crack at which its faces are sampled.
+BESIDE = 1e-9
+
+
+def check_faces(dataset, arrays):
+    """Each place on the crack has a point for each side, with the displacement beside it."""
+    along = (TIPS[1] - TIPS[0]) / np.linalg.norm(TIPS[1] - TIPS[0])
+    across = np.array([-along[1], along[0]])
+    from_tip = arrays["points"][:, :2] - TIPS[0]
+    s = from_tip @ along / np.linalg.norm(TIPS[1] - TIPS[0])
+    on = (np.abs(from_tip @ across) < 1e-12) & (s > 0.01) & (s < 0.99)
+    at, u = arrays["points"][on][:, :2], arrays["displacement"][on][:, :2]
+    above, below = (sampled(dataset, at + side * BESIDE * across, dataset.parent)[:, :2] for side in (1, -1))
+    off = np.stack([np.abs(u - face).max(axis=1) for face in (above, below)])
+    # gradients of 20 at most outside of s > 0.01
+    assert (off.min(axis=0) < 20 * BESIDE).all() and (np.abs(above - below).max(axis=1) > 1e-3).all()
+    own = np.argmin(off, axis=0)
+    faces = {}
+    for place, side in zip(map(tuple, np.round(at, 12)), own):
+        faces.setdefault(place, set()).add(side)
+    assert len(faces) > 20 and all(sides == {0, 1} for sides in faces.values())
+
+
+def check_contours(dataset, grid, field_data):
+    """Contours of VTK end at the crack, and are where the field has their level."""
     import vtk
     from vtk.util.numpy_support import vtk_to_numpy
 
-    with tempfile.TemporaryDirectory(prefix="ppum-") as name:
-        folder = pathlib.Path(name)
-        dataset, _ = exported(folder)
-        run("export", dataset, "-o", folder / "lines.vtp", folder=folder)
-        reader = vtk.vtkXMLPolyDataReader()
-        reader.SetFileName(str(folder / "lines.vtp"))
-        reader.Update()
-        lines = reader.GetOutput()
-        array = lambda name: vtk_to_numpy(lines.GetCellData().GetArray(name))
-        assert (lines.GetNumberOfVerts(), lines.GetNumberOfLines()) == (2, 5)
-        points = vtk_to_numpy(lines.GetPoints().GetData())
-        assert (points[:2, :2] == TIPS).all()
-        ends = points[2:, :2].reshape(-1, 2, 2)
-        lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-        is_crack = array("crack")[2:] == 0
-        assert (array("kind")[2:] == is_crack).all() and (array("kind")[:2] == 2).all()
-        assert np.isclose(lengths[is_crack].sum(), np.linalg.norm(TIPS[1] - TIPS[0]))
-        assert np.isclose(lengths[~is_crack].sum(), 8)
-        with h5py.File(dataset) as file:
-            stored = file["steps/0000/intensities"]
-            for name, array_name in [("k1", "K_I"), ("k2", "K_II"), ("t_stress", "T"), ("j", "J"), ("error", "error")]:
-                assert (array(array_name)[:2] == stored[name][()]).all()
-        assert np.isnan(array("K_I")[2:]).all()
+    uy = vtk.vtkArrayCalculator()
+    uy.SetInputData(grid)
+    uy.AddScalarVariable("uy", "displacement", 1)
+    uy.SetFunction("uy")
+    uy.SetResultArrayName("uy")
+    contour = vtk.vtkContourFilter()
+    contour.SetInputConnection(uy.GetOutputPort())
+    contour.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_POINTS, "uy")
+    levels = np.linspace(-2, 2, 9) + 0.1
+    for k, level in enumerate(levels):
+        contour.SetValue(k, level)
+    contour.Update()
+    found = contour.GetOutput()
+    points = vtk_to_numpy(found.GetPoints().GetData())[:, :2].astype(float)
+    ends = points[vtk_to_numpy(found.GetLines().GetConnectivityArray()).reshape(-1, 2)]
+    line = TIPS[1] - TIPS[0]
+    side = line[0] * (ends - TIPS[0])[..., 1] - line[1] * (ends - TIPS[0])[..., 0]
+    s = (ends - TIPS[0]) @ line / (line @ line)
+    crosses = (side[:, 0] * side[:, 1] < 0) & (np.abs(side).min(axis=1) > 1e-6) & ((s > 0) & (s < 1)).all(axis=1)
+    assert len(ends) > 100 and not crosses.any()
+    exact = sampled(dataset, points[is_beside(points)], dataset.parent)[:, 1]
+    off = np.abs(exact[:, None] - levels).min(axis=1)
+    # points of contours are in single precision
+    assert off.max() <= 1.01 * allowed(field_data)[1], off.max()
+
+
+@needs("vtkmodules", "lines in VTK")
+def test_vtk_reads_lines(folder):
+    """The tips with their K, the crack from one to the other, all of the border, its loads, and isolines."""
+    import h5py
+    import vtk
+
+    dataset = solved(folder)
+    path = exported(dataset, "lines.vtp", "-q", "uy", "--isolines", "-0.5,0.7,1.1")
+    lines = read(vtk.vtkXMLPolyDataReader(), path)
+    array = arrays_of(lines, lines.GetCellData())
+    kind, offsets = array["kind"], arrays_of(lines, lines.GetFieldData(), lines.GetLines())["offsets"]
+    verts, isolines = lines.GetNumberOfVerts(), kind == 3
+    count = isolines.sum()
+    assert (kind[:2] == 2).all() and (kind[2:verts] == 5).all() and lines.GetNumberOfLines() == 5 + count
+    points = arrays_of(lines)["points"][:, :2]
+    assert (points[:2] == TIPS).all()
+    loads = points[2:verts]
+    assert len(loads) > 40 and (np.abs(loads[:, 1]) == 1).all()
+    assert (array["traction"][2:verts] == loads[:, 1:] * [0, 1, 0]).all()
+    assert not array["traction"][verts:].any() and not array["held"].any()
+    ends = points[verts : verts + 10].reshape(-1, 2, 2)
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    is_crack = array["crack"][verts : verts + 5] == 0
+    assert (kind[verts : verts + 5] == is_crack).all()
+    assert np.isclose(lengths[is_crack].sum(), np.linalg.norm(TIPS[1] - TIPS[0]))
+    assert np.isclose(lengths[~is_crack].sum(), 8)
+    with h5py.File(dataset) as file:
+        stored = file["steps/0000/intensities"]
+        for name, array_name in [("k1", "K_I"), ("k2", "K_II"), ("t_stress", "T"), ("j", "J"), ("error", "error")]:
+            assert (array[array_name][:2] == stored[name][()]).all()
+    assert np.isnan(array["K_I"][2:]).all() and np.isnan(array["level"][~isolines]).all()
+    assert set(array["level"][isolines]) == {-0.5, 0.7, 1.1} and (array["crack"][isolines] == -1).all()
+    levels, places = np.repeat(array["level"][isolines], np.diff(offsets)[5:]), points[verts + 10 :]
+    beside = is_beside(places)
+    off = np.abs(sampled(dataset, places[beside], folder)[:, 1] - levels[beside])
+    # Newton's method and places on faces are good to 1e-6 of a pixel of 2/768, with slopes of 20 at most
+    assert count >= 3 and off.max() < 1e-6 * 2 / 768 * 20, off.max()
 
 
 GROWTH = """
@@ -204,48 +297,45 @@ increment = 0.05
 """
 
 
-def arrays_of(grid):
-    """Points, corners of cells, arrays at points and field data, by names."""
+def arrays_of(grid, data=None, cells=None):
+    """Arrays of a grid by names: those at points with the points, or the given ones."""
     from vtk.util.numpy_support import vtk_to_numpy
 
-    named = {"points": grid.GetPoints().GetData(), "corners": grid.GetCells().GetConnectivityArray()}
-    for kind, data in [("", grid.GetPointData()), ("field ", grid.GetFieldData())]:
-        named.update({kind + data.GetArrayName(k): data.GetArray(k) for k in range(data.GetNumberOfArrays())})
+    data = grid.GetPointData() if data is None else data
+    named = {data.GetArrayName(k): data.GetArray(k) for k in range(data.GetNumberOfArrays())}
+    named["points"] = grid.GetPoints().GetData()
+    if cells is not None:
+        named.update(corners=cells.GetConnectivityArray(), offsets=cells.GetOffsetsArray())
     return {name: vtk_to_numpy(array) for name, array in named.items()}
 
 
-def test_vtk_reads_the_steps_of_one_file():
+@needs("vtkmodules", "series in VTK")
+def test_vtk_reads_the_steps_of_one_file(folder):
     """The file of a series has in each step what the file of that step has."""
-    if importlib.util.find_spec("vtkmodules") is None:
-        print("SKIPPED 1 (so far): series in VTK: it is not installed")
-        return
     import vtk
 
-    with tempfile.TemporaryDirectory(prefix="ppum-") as name:
-        folder = pathlib.Path(name)
-        (folder / "growth.toml").write_text(PROBLEM + GROWTH)
-        run("solve", folder / "growth.toml", "-o", folder / "growth.h5", folder=folder)
-        asked = ["-q", "displacement,stress,sxx/2", "--tolerance", 0.05]
-        run("export", folder / "growth.h5", "-o", folder / "growth.vtkhdf", *asked, folder=folder)
+    dataset = solved(folder, PROBLEM + GROWTH)
+    for order in (1, 3):
+        asked = ["-q", "displacement,stress,sxx/2", "--tolerance", 0.05, "--order", order]
         series = vtk.vtkHDFReader()
-        series.SetFileName(str(folder / "growth.vtkhdf"))
+        series.SetFileName(str(exported(dataset, "growth.vtkhdf", *asked)))
         series.UpdateInformation()
         steps = series.GetNumberOfSteps()
         sizes = set()
         for step in range(steps):
-            run("export", folder / "growth.h5", "-o", folder / "step.vtu", "--step", step, *asked, folder=folder)
-            one = vtk.vtkXMLUnstructuredGridReader()
-            one.SetFileName(str(folder / "step.vtu"))
-            one.Update()
+            one = exported(dataset, "step.vtu", "--step", step, *asked)
+            one = read(vtk.vtkXMLUnstructuredGridReader(), one)
             series.SetStep(step)
             series.Update()
             assert series.GetTimeValue() == step
-            alone, together = arrays_of(one.GetOutput()), arrays_of(series.GetOutputDataObject(0))
-            together["sxx/2"] = together.pop("sxx\u22152")
-            together = {name: rows for name, rows in together.items() if name != "field Time"}
-            assert together.keys() == alone.keys(), together.keys() ^ alone.keys()
-            for name, rows in alone.items():
-                assert (together[name] == rows).all(), name
+            both = series.GetOutputDataObject(0)
+            assert one.GetCellType(0) == both.GetCellType(0) == (5 if order == 1 else 69)
+            for of in (lambda grid: grid.GetPointData(), lambda grid: grid.GetFieldData()):
+                alone, together = (arrays_of(grid, of(grid), grid.GetCells()) for grid in (one, both))
+                together = {name.replace("\u2215", "/"): rows for name, rows in together.items() if name != "Time"}
+                assert together.keys() == alone.keys(), together.keys() ^ alone.keys()
+                for name, rows in alone.items():
+                    assert (together[name] == rows).all(), name
             sizes.add(len(alone["points"]))
         assert steps == 3 and len(sizes) > 1
 

@@ -21,7 +21,7 @@ use crate::watch::long;
 /// Columns and rows that give the first view of a page its shape.
 const SHAPE: [u32; 2] = [1024, 768];
 
-/// Triangles on which values are linear.
+/// Triangles on which values are polynomials.
 #[pyclass(frozen, module = "ppum._core")]
 pub(crate) struct Triangles {
     step: ExportedStep,
@@ -49,10 +49,10 @@ impl Triangles {
         rows(py, coordinates(&self.step.mesh.singular), 2)
     }
 
-    /// Three numbers of points each.
+    /// The numbers of the points of each.
     fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u32>>> {
-        let corners: Vec<u32> = self.step.mesh.triangles.iter().flatten().copied().collect();
-        rows(py, corners, 3)
+        let mesh = &self.step.mesh;
+        rows(py, mesh.cells.clone(), mesh.cells.len() / mesh.triangles().len())
     }
 
     /// The values of an array, a row of components for each point.
@@ -109,11 +109,12 @@ pub(crate) fn triangles(
     tolerance: f64,
     radius: Option<f64>,
     most: usize,
+    order: u8,
     hash: String,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Triangles> {
     let (field, arrays) = (this.owned.field(), this.arrays(names)?);
-    let accuracy = Accuracy { tolerance, radius, cells: most };
+    let accuracy = Accuracy { tolerance, radius, cells: most, order };
     let mesh = long(py, None, progress, |watcher| resolve(field, &arrays, &accuracy, watcher))?;
     let about = About::of(this.owned.dataset(), field, hash);
     let mesh = mesh.map_err(unexported)?;

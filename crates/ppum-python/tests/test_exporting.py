@@ -51,10 +51,10 @@ def test_cells_cover_the_plate_and_cracks_are_open(f):
 
 def test_files_are_those_of_the_program(ds, program, tmp_path):
     ds.save(tmp_path / "plate.h5")
-    mesh = ds.field.triangles(["uy", "displacement"], tolerance=0.01)
+    mesh = ds.field.triangles(["uy", "displacement"], tolerance=0.01, order=2)
     mesh.save(tmp_path / "ours.vtu")
     mesh.save(tmp_path / "ours.vtkhdf")
-    asked = ["-q", "uy,displacement", "--tolerance", "0.01"]
+    asked = ["-q", "uy,displacement", "--tolerance", "0.01", "--order", "2"]
     program("export", tmp_path / "plate.h5", "-o", tmp_path / "its.vtu", *asked)
     program("export", tmp_path / "plate.h5", "-o", tmp_path / "its.vtkhdf", *asked)
     for form in ("vtu", "vtkhdf"):
@@ -66,6 +66,7 @@ def test_what_triangles_cannot_be_is_said(f):
         mesh = f.triangles(["uy"], tolerance=1e-6, max_cells=6000)
     assert not mesh.is_complete and len(mesh.cells) <= 6000
     for options, error, words in [
+        ({"order": 5}, ValueError, "order: 5 is not one of 1, 2, 3 and 4"),
         ({"tolerance": 0}, ValueError, "tolerance: 0 is not a positive number"),
         ({"tip_radius": float("nan")}, ValueError, "tip_radius: nan"),
         ({"max_cells": 10}, ppum.RenderError, "along borders alone"),
@@ -83,10 +84,15 @@ def test_what_triangles_cannot_be_is_said(f):
             f.dataset.save(f"plate.{end}")
 
 
-def test_pyvista_has_the_same_numbers(f):
+@pytest.mark.parametrize("order", [1, 2, 4])
+def test_pyvista_has_the_same_numbers(f, order):
     pytest.importorskip("pyvista")
-    mesh, grid = f.triangles(tolerance=0.02), f.to_pyvista(tolerance=0.02)
+    mesh = f.triangles(tolerance=0.02, order=order)
+    grid = f.to_pyvista(tolerance=0.02, order=order)
+    assert mesh.cells.shape[1] == (order + 1) * (order + 2) // 2
     assert (grid.n_points, grid.n_cells) == (len(mesh.points), len(mesh.cells))
+    assert np.array_equal(grid.cell_connectivity.reshape(mesh.cells.shape), mesh.cells)
+    assert set(grid.celltypes) == {5 if order == 1 else 69}
     assert np.array_equal(grid.points[:, :2], mesh.points.astype(grid.points.dtype))
     for name, rows in mesh.values.items():
         assert np.array_equal(grid.point_data[name], rows)

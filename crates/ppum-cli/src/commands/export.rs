@@ -29,8 +29,8 @@ use crate::target;
 /// A mesh, .vtu, has triangles that resolve the quantities to a tolerance, and points with the
 /// values of both sides on cracks. The file and the command tell the largest difference from the
 /// field, measured at random points. Of a series .vtkhdf has all steps in one file, .pvd lists a
-/// .vtu file for each. A .vtp file has cracks, tips with their K and the border as lines and
-/// points.
+/// .vtu file for each. A .vtp file has cracks, tips with their K, the border, supports, loads and,
+/// with --isolines, those of a quantity as lines and points.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -68,6 +68,8 @@ Examples:
   ppum solve plate.toml -o - | ppum export - -o plate.html
   ppum export plate.h5 -o plate.vtu --tolerance 1e-4
   ppum export growth.h5 -o growth.vtkhdf
+  ppum export plate.h5 -o plate.vtu --tolerance 1e-6 --order 3
+  ppum export plate.h5 -o lines.vtp -q von-mises --isolines auto
   ppum export growth.h5 -o growth.pvd -q 'displacement,s1'";
 
 /// The shape of the first view; a window of another shape shows more.
@@ -104,6 +106,7 @@ impl Args {
             hash: &hash,
             output: &self.output,
             quantities: self.quantity.as_deref(),
+            isolines: self.overlays.isolines.as_ref(),
         };
         if !mesh::is_collection(&self.output) {
             return self.accuracy.write(&job, self.step, out);
@@ -112,13 +115,15 @@ impl Args {
         self.accuracy.write_all(&job, self.inputs(), out)
     }
 
-    /// Refuses options that only pages have.
+    /// Refuses options that only pages have; lines may have isolines.
     fn check_no_look(&self) -> anyhow::Result<()> {
+        let isolines = self.overlays.isolines.clone().filter(|_| mesh::is_lines(&self.output));
         ensure!(
             !self.place.is_given()
                 && self.colors == Colors::default()
-                && self.overlays == Overlays::default(),
-            "a mesh has no view, colours and overlays: these options are for pages; end -o in .html"
+                && self.overlays == Overlays { isolines, ..Overlays::default() },
+            "a mesh has no view, colours and overlays: these options are for pages, --isolines for \
+             lines too; end -o in .html or .vtp"
         );
         Ok(())
     }

@@ -182,6 +182,7 @@ def triangles(
     tolerance: float,
     radius: float | None,
     most: int,
+    order: int,
     hash: str,
     progress: _Progress | None,
 ) -> Triangles: ...

@@ -28,6 +28,9 @@ __all__ = ["ArrayAccuracy", "Exporting", "Triangles"]
 
 Floats = NDArray[np.float64]
 
+#: Degrees of the polynomials in triangles.
+ORDERS = range(1, 5)
+
 
 @dataclass(frozen=True)
 class ArrayAccuracy:
@@ -49,14 +52,16 @@ class ArrayAccuracy:
 
 
 class Triangles(Drawn):
-    """Triangles that resolve a field to a tolerance: between points values are linear. Made by `Field.triangles`.
+    """Triangles that resolve a field to a tolerance: between points values are linear, or polynomials of a higher order. Made
+    by `Field.triangles`.
 
     No triangle crosses a crack; a point on one is there twice, with the values of both sides. They are saved as ``vtu``
     or ``vtkhdf``.
 
     Attributes:
         points: Shape (n, 2).
-        cells: Numbers of three points each, counter-clockwise: shape (m, 3).
+        cells: Numbers of the points of each: shape (m, 3), counter-clockwise; of order n (m, (n + 1)(n + 2)/2), in VTK's
+            order: corners, points on edges, points inside.
         values: Arrays at the points by their names: shape (n,); vectors (n, 3); symmetric tensors (n, 6), as VTK has them:
             XX, YY, ZZ, XY, YZ, XZ.
         accuracy: How well each of them is resolved.
@@ -103,7 +108,11 @@ class Triangles(Drawn):
         """
         pyvista = needed("pyvista", "pyvista", "grids of PyVista")
         points = np.column_stack([self.points, np.zeros(len(self.points))])
-        grid = pyvista.UnstructuredGrid({pyvista.CellType.TRIANGLE: self.cells}, points)
+        types = pyvista.CellType
+        kind = types.TRIANGLE if self.cells.shape[1] == 3 else types.LAGRANGE_TRIANGLE
+        sizes = np.full((len(self.cells), 1), self.cells.shape[1])
+        cells = np.hstack([sizes, self.cells])
+        grid = pyvista.UnstructuredGrid(cells.ravel(), np.full(len(cells), kind, np.uint8), points)
         for name, rows in self.values.items():
             grid.point_data[name] = rows
         for name, told in self.accuracy.items():
@@ -131,6 +140,7 @@ class Exporting(Drawing):
         tolerance: float = 1e-3,
         tip_radius: float | None = None,
         max_cells: int = 1_000_000,
+        order: int = 1,
         progress: Any = None,
     ) -> Triangles:
         """Triangles for programs that interpolate, fine enough for a tolerance. Warns where the limit of triangles ends the work.
@@ -142,11 +152,14 @@ class Exporting(Drawing):
             tip_radius: The radius about tips outside of which stresses are resolved; by default 1/200 of the longer side of
                 the domain. A smaller one means a larger range.
             max_cells: Most triangles.
+            order: Degree of the polynomials between the points of a triangle, 1 to 4; higher ones take fewer triangles for
+                fine tolerances.
             progress: As in `render`.
 
         Raises:
             QuantityError: No quantity of the field.
             RenderError: More triangles are needed along cracks and borders alone; a dataset of elements.
+            ValueError: A number that is not positive, no such order, no quantities.
 
         Example:
             >>> f.triangles(["uy"], tolerance=0.01).accuracy["uy"].largest < 0.05
@@ -154,6 +167,8 @@ class Exporting(Drawing):
         """
         positive("tolerance", tolerance)
         positive("tip_radius", tip_radius)
+        if order not in ORDERS:
+            raise ValueError(f"order: {order} is not one of 1, 2, 3 and 4")
         if isinstance(quantities, str):
             raise TypeError(f"quantities: give a list, [{quantities!r}]")
         if quantities is not None and not quantities:
@@ -161,7 +176,7 @@ class Exporting(Drawing):
         names = None if quantities is None else list(quantities)
         hashed = hashlib.sha256(self.dataset.to_bytes()).hexdigest()
         made = _core.triangles(
-            self._core, names, float(tolerance), tip_radius, int(max_cells), hashed, progress
+            self._core, names, float(tolerance), tip_radius, int(max_cells), order, hashed, progress
         )
         if not made.is_complete():
             text = f"the limit of {max_cells} triangles is reached and the tolerance is not"
@@ -175,6 +190,7 @@ class Exporting(Drawing):
         tolerance: float = 1e-3,
         tip_radius: float | None = None,
         max_cells: int = 1_000_000,
+        order: int = 1,
     ) -> Any:
         """The field as a `pyvista.UnstructuredGrid`, to a tolerance: `triangles`, whose arguments these are.
 
@@ -182,7 +198,9 @@ class Exporting(Drawing):
             ImportError: The package pyvista is not installed.
         """
         needed("pyvista", "pyvista", "grids of PyVista")
-        made = self.triangles(quantities, tolerance=tolerance, tip_radius=tip_radius, max_cells=max_cells)
+        made = self.triangles(
+            quantities, tolerance=tolerance, tip_radius=tip_radius, max_cells=max_cells, order=order
+        )
         return made.to_pyvista()
 
     @takes

@@ -5,7 +5,8 @@
 //! domain, and its sides leave the rim by r (1/cos(π/n) − 1) < 10⁻⁴ r. Where a weight is continuous
 //! and its derivative is not, as for the linear one, stresses jump at the places of a patch where
 //! |ξ| or |η| is one of the breakpoints or 1. These lines, and straight interfaces of the
-//! material, are segments too.
+//! material, are segments too; for triangles of higher order those on which stresses have a kink,
+//! as for the quadratic weight, since polynomials do not follow it.
 
 use std::f64::consts::TAU;
 
@@ -42,6 +43,22 @@ pub(super) struct BorderKind {
     pub(super) crack: Option<SegmentId>,
     /// True if derivatives of the field may jump.
     pub(super) kink: bool,
+    /// True for lines in patches and of the material.
+    pub(super) is_line: bool,
+}
+
+/// The lines in patches and of the material that are wanted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LineRequest {
+    /// True if quantities jump with derivatives of the field.
+    pub(super) jumps: bool,
+    /// Degree of the polynomials in triangles.
+    pub(super) order: u8,
+}
+
+impl LineRequest {
+    /// None.
+    pub(super) const NONE: Self = Self { jumps: false, order: 1 };
 }
 
 impl BorderKind {
@@ -51,27 +68,46 @@ impl BorderKind {
     }
 
     pub(super) fn and(self, other: Self) -> Self {
-        Self { crack: self.crack.or(other.crack), kink: self.kink || other.kink }
+        Self {
+            crack: self.crack.or(other.crack),
+            kink: self.kink || other.kink,
+            is_line: self.is_line || other.is_line,
+        }
     }
 }
 
-/// All segments; `kinks` says whether lines are wanted on which derivatives jump.
-pub(super) fn borders(field: &Field<'_>, domain: &Domain, kinks: bool) -> Vec<Border> {
+/// All segments.
+pub(super) fn borders(field: &Field<'_>, domain: &Domain, lines: LineRequest) -> Vec<Border> {
     let plain = |ends| Border { ends, kind: BorderKind::default() };
     let rims = domain.holes.iter().flat_map(Hole::sides);
     let mut all: Vec<_> = outline(&domain.bounds).into_iter().chain(rims).map(plain).collect();
     for (crack, points) in (0..).zip(field.step.cracks.iter().map(|crack| &crack.points)) {
         for (segment, ends) in (0..).zip(points.windows(2)) {
-            let kind = BorderKind { crack: Some(SegmentId { crack, segment }), kink: false };
+            let crack = Some(SegmentId { crack, segment });
+            let kind = BorderKind { crack, ..BorderKind::default() };
             all.push(Border { ends: [ends[0], ends[1]], kind });
         }
     }
-    if kinks {
-        let kind = BorderKind { crack: None, kink: true };
-        let lines = patch_lines(field, &domain.bounds).into_iter().chain(interfaces(field));
-        all.extend(lines.map(|ends| Border { ends, kind }));
+    if lines.jumps || lines.order > 1 {
+        all.extend(inner_lines(field, &domain.bounds, lines));
     }
     divided(&all, SAME * longest(&domain.bounds))
+}
+
+/// Lines in patches and of the material.
+fn inner_lines(field: &Field<'_>, bounds: &Rect, lines: LineRequest) -> Vec<Border> {
+    let weight = &field.step.partition.boxes().weight;
+    let mut places = jumps(weight, 1);
+    let kink = lines.jumps && !places.is_empty();
+    if lines.order > 1 {
+        places.extend(jumps(weight, 2));
+    }
+    let line = |kink| {
+        let kind = BorderKind { crack: None, kink, is_line: true };
+        move |ends| Border { ends, kind }
+    };
+    let in_patches = patch_lines(field, bounds, &places).into_iter().map(line(kink));
+    in_patches.chain(interfaces(field).into_iter().map(line(lines.jumps))).collect()
 }
 
 pub(super) fn longest(bounds: &Rect) -> f64 {
@@ -84,8 +120,8 @@ pub(super) fn longest(bounds: &Rect) -> f64 {
 fn divided(all: &[Border], reach: f64) -> Vec<Border> {
     let mut known = crossings(all);
     let mut inner: Vec<Vec<Vec2>> = vec![Vec::new(); all.len()];
-    for i in (0..all.len()).filter(|&i| !all[i].kind.kink) {
-        for j in (0..all.len()).filter(|&j| j > i || all[j].kind.kink) {
+    for i in (0..all.len()).filter(|&i| !all[i].kind.is_line) {
+        for j in (0..all.len()).filter(|&j| j > i || all[j].kind.is_line) {
             for p in meetings(all[i].ends, all[j].ends, reach) {
                 let near = known.iter().find(|q| (**q - p).length() <= reach).copied();
                 let point = near.unwrap_or(p);
@@ -215,12 +251,11 @@ struct Stretch {
     to: f64,
 }
 
-/// Lines in patches on which derivatives of the field jump, each once.
-fn patch_lines(field: &Field<'_>, bounds: &Rect) -> Vec<[Vec2; 2]> {
+/// Lines at these places of patches, each once.
+fn patch_lines(field: &Field<'_>, bounds: &Rect, places: &[f64]) -> Vec<[Vec2; 2]> {
     let (partition, reach) = (field.step.partition.boxes(), SAME * longest(bounds));
-    let places = jumps(&partition.weight);
     let known = known_points(field);
-    let lines = [0, 1].map(|axis| stretches(partition, &places, bounds, axis));
+    let lines = [0, 1].map(|axis| stretches(partition, places, bounds, axis));
     let snaps = [0, 1].map(|axis| {
         let at = lines[axis].iter().map(|line| line.at);
         let ends = lines[1 - axis].iter().flat_map(|line| [line.from, line.to]);
@@ -277,9 +312,9 @@ fn joined(mut all: Vec<Stretch>) -> Vec<Stretch> {
     found
 }
 
-/// The places ξ in \[−1, 1\] at which the slope of a weight jumps.
-fn jumps(weight: &WeightFunction) -> Vec<f64> {
-    let slope = |t: f64| weight.spline(t)[1];
+/// The places ξ in \[−1, 1\] at which a derivative of a weight jumps, the first or the second.
+fn jumps(weight: &WeightFunction, derivative: usize) -> Vec<f64> {
+    let slope = |t: f64| weight.spline(t)[derivative];
     let places: Vec<f64> = weight.breakpoints().iter().copied().chain([0.0, 1.0]).collect();
     let sides = |t: f64| [slope(t - BESIDE), if t < 1.0 { slope(t + BESIDE) } else { 0.0 }];
     let largest = places.iter().flat_map(|&t| sides(t)).fold(0.0, |a: f64, b| a.max(b.abs()));
@@ -328,12 +363,14 @@ mod tests {
 
     #[test]
     fn slopes_jump_where_weights_have_kinks() {
-        assert_eq!(jumps(&WeightFunction::Linear), [-1.0, -0.0, 1.0]);
-        assert!(jumps(&WeightFunction::Quadratic).is_empty());
-        assert!(jumps(&WeightFunction::Cubic).is_empty());
+        assert_eq!(jumps(&WeightFunction::Linear, 1), [-1.0, -0.0, 1.0]);
+        assert!(jumps(&WeightFunction::Quadratic, 1).is_empty());
+        assert!(jumps(&WeightFunction::Cubic, 1).is_empty());
+        assert_eq!(jumps(&WeightFunction::Quadratic, 2), [-1.0, -1.0 / 3.0, 1.0 / 3.0, 1.0]);
+        assert!(jumps(&WeightFunction::Cubic, 2).is_empty());
         let scope = ppum::formula::Scope::new(&["t"]).unwrap();
         let bent = WeightFunction::formula("max(1 - 2*t, (1 - t)/4)", &scope).unwrap();
-        let found = jumps(&bent);
+        let found = jumps(&bent, 1);
         assert_eq!(found.len(), 5, "{found:?}");
         assert!((found[3] - 3.0 / 7.0).abs() < 1e-12, "{found:?}");
     }

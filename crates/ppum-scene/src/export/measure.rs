@@ -3,6 +3,7 @@
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
+use super::lagrange::Weights;
 use super::refine::{Refined, or_infinite};
 
 /// Random points of a measurement: half of them uniform in the domain, half of them uniform among
@@ -27,9 +28,10 @@ impl Refined<'_, '_> {
         let (width, allowed) = (self.columns.len(), self.allowed());
         let at = self.random_points(seed);
         let exact = self.exact(&at);
-        let rows = exact.par_chunks(width);
-        let differences: Vec<Vec<f64>> =
-            at.par_iter().zip(rows).map(|(&(t, b), row)| self.differences(t, b, row)).collect();
+        let nodes = self.nodes(&at.iter().map(|(t, _)| *t).collect::<Vec<_>>());
+        let rows = exact.par_chunks(width).zip(nodes.par_chunks(self.cell.nodes.len() * width));
+        let difference = |(at, (exact, nodes))| self.differences(at, exact, nodes);
+        let differences: Vec<Vec<f64>> = at.par_iter().zip(rows).map(difference).collect();
         let mut found =
             Measurement { largest: vec![0.0; width], share: vec![1.0; width], failed: Vec::new() };
         for c in 0..width {
@@ -49,9 +51,9 @@ impl Refined<'_, '_> {
     }
 
     /// Differences at a place; −1 where nothing is claimed of a column.
-    fn differences(&self, triangle: u32, weights: [f64; 3], exact: &[f64]) -> Vec<f64> {
-        let is_far = self.singular.loosened(self.position(triangle, weights)) == 1.0;
-        let interpolated = self.interpolated(triangle, weights);
+    fn differences(&self, at: &(u32, Weights), exact: &[f64], nodes: &[f64]) -> Vec<f64> {
+        let is_far = self.singular.loosened(self.position(at.0, at.1)) == 1.0;
+        let interpolated = self.interpolated(nodes, &self.cell.weights(at.1));
         let difference = |c: usize| match is_far || !self.singular.columns[c] {
             true if exact[c].is_nan() && interpolated[c].is_nan() => -1.0,
             true => or_infinite((exact[c] - interpolated[c]).abs()),
@@ -60,7 +62,7 @@ impl Refined<'_, '_> {
         (0..exact.len()).map(difference).collect()
     }
 
-    fn random_points(&self, seed: u64) -> Vec<(u32, [f64; 3])> {
+    fn random_points(&self, seed: u64) -> Vec<(u32, Weights)> {
         let count = self.mesh.triangles.len() as u32;
         let mut sum = 0.0;
         let mut areas = Vec::with_capacity(count as usize);

@@ -1,8 +1,8 @@
 //! A field as triangles for programs that interpolate, such as ParaView, to a tolerance.
 //!
-//! [`resolve`] makes a mesh on which linear interpolation differs from the field by no more than a
-//! given part of the range of each [`Array`]; [`vtu::write`] and
-//! [`vtkhdf::file`] write it. No triangle crosses a
+//! [`resolve`] makes a mesh on which interpolation, linear or of a higher [order](Accuracy::order),
+//! differs from the field by no more than a given part of the range of each [`Array`];
+//! [`vtu::write`] and [`vtkhdf::file`] write it. No triangle crosses a
 //! crack, a rim or a line on which stresses jump, and a vertex there has a point on each side
 //! (`torn`). What has been reached is [`MeasuredAccuracy`] at random points that had no part in
 //! refinement.
@@ -12,6 +12,7 @@
 
 mod arrays;
 mod borders;
+mod lagrange;
 mod measure;
 mod refine;
 mod singular;
@@ -19,6 +20,8 @@ mod torn;
 pub mod vtkhdf;
 pub mod vtp;
 pub mod vtu;
+
+use std::slice::Chunks;
 
 use ppum::field::Field;
 use ppum::progress::{Cancelled, Watcher};
@@ -29,7 +32,8 @@ use ppum_solve::triangulation::NotFinite;
 
 pub use arrays::Array;
 use arrays::Columns;
-use borders::{Border, SAME, borders, crossings, longest, with_polygons};
+use borders::{Border, LineRequest, SAME, borders, crossings, longest, with_polygons};
+use lagrange::{Lagrange, node_count};
 pub use measure::RANDOM_POINTS;
 use refine::{Limits, Refined};
 use singular::Singular;
@@ -45,13 +49,19 @@ pub struct Accuracy {
     pub radius: Option<f64>,
     /// Most triangles.
     pub cells: usize,
+    /// The degree of the polynomials in triangles, 1 to [`HIGHEST_ORDER`].
+    pub order: u8,
 }
 
 impl Default for Accuracy {
     fn default() -> Self {
-        Self { tolerance: 1e-3, radius: None, cells: 1_000_000 }
+        Self { tolerance: 1e-3, radius: None, cells: 1_000_000, order: 1 }
     }
 }
+
+/// The highest order of triangles: polynomials between equidistant nodes oscillate with their
+/// degree.
+pub const HIGHEST_ORDER: u8 = 4;
 
 /// The default radius about singular points, in parts of the longer side of the domain: the values
 /// there make the range, which grows as R^−½ and loosens the tolerance elsewhere.
@@ -68,8 +78,8 @@ pub struct Mesh {
     pub points: Vec<Vec2>,
     /// Where the field's values at the points were taken.
     pub places: Vec<Place>,
-    /// Three points each, counter-clockwise.
-    pub triangles: Vec<[u32; 3]>,
+    /// The points of the triangles, [`Mesh::triangles`] one after the other.
+    pub cells: Vec<u32>,
     /// A row for each point, of the quantities of all arrays.
     pub values: Vec<f64>,
     /// The arrays, and how well they are resolved.
@@ -89,7 +99,13 @@ impl Mesh {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let points = self.points.len() * (size_of::<Vec2>() + size_of::<Place>());
-        points + size_of_val(&*self.triangles) + size_of_val(&*self.values)
+        points + size_of_val(&*self.cells) + size_of_val(&*self.values)
+    }
+
+    /// The points of each triangle, in VTK's order: corners, counter-clockwise, and those of higher
+    /// orders, first on the edges, then inside.
+    pub fn triangles(&self) -> Chunks<'_, u32> {
+        self.cells.chunks(node_count(self.accuracy.order))
     }
 
     /// The values of an array by its number: a row of its components for each point, zero where
@@ -116,6 +132,8 @@ impl Mesh {
 pub struct MeasuredAccuracy {
     /// The array.
     pub array: Array,
+    /// The unit of its components, empty where there is none.
+    pub unit: String,
     /// Largest minus smallest value, of components the widest; of infinite quantities outside of
     /// the radius.
     pub range: f64,
@@ -154,6 +172,9 @@ pub enum ExportError {
         /// The longer side of the domain.
         longest: f64,
     },
+    /// An order that triangles cannot have.
+    #[error("triangles have an order of 1 to {HIGHEST_ORDER}, not {0}")]
+    Order(u8),
     /// The borders alone take more triangles.
     #[error("{needed} triangles are needed along borders alone, more than the {limit} allowed")]
     Cells {
@@ -177,6 +198,9 @@ pub fn resolve(
     if field.step.partition.mesh().is_some() {
         return Err(ExportError::Elements);
     }
+    if !(1..=HIGHEST_ORDER).contains(&accuracy.order) {
+        return Err(ExportError::Order(accuracy.order));
+    }
     let (radius, longest) = (radius(field, accuracy), longest(&field.domain.bounds));
     if radius >= longest {
         return Err(ExportError::Radius { radius, longest });
@@ -184,12 +208,13 @@ pub fn resolve(
     let columns = Columns::new(arrays);
     let mut refined = Refined {
         field,
-        mesh: begin(field, &columns)?,
+        mesh: begin(field, LineRequest { jumps: columns.any_jumps(), order: accuracy.order })?,
         values: Vec::new(),
         singular: Singular::new(field, &columns, radius),
         ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; columns.len()],
         limits: Limits { tolerance: accuracy.tolerance, cells: accuracy.cells },
         columns: &columns,
+        cell: Lagrange::new(accuracy.order),
     };
     let needed = refined.mesh.triangles.len();
     if needed > accuracy.cells {
@@ -203,13 +228,13 @@ fn radius(field: &Field<'_>, accuracy: &Accuracy) -> f64 {
     accuracy.radius.unwrap_or(RADIUS * longest(&field.domain.bounds))
 }
 
-/// The triangles between all borders. Without lines on which stresses jump, cells have points too:
-/// the field varies on their scale.
-fn begin<'d>(field: &Field<'d>, columns: &Columns) -> Result<Torn<'d>, NotFinite> {
+/// The triangles between all borders. Without lines in patches, cells have points too: the field
+/// varies on their scale.
+fn begin<'d>(field: &Field<'d>, lines: LineRequest) -> Result<Torn<'d>, NotFinite> {
     let domain = with_polygons(field.domain);
-    let all = borders(field, &domain, columns.any_jumps());
-    let has_kinks = all.iter().any(|border| border.kind.kink);
-    let points = if has_kinks { crossings(&all) } else { points_of_cells(field, &all) };
+    let all = borders(field, &domain, lines);
+    let has_lines = all.iter().any(|border| border.kind.is_line);
+    let points = if has_lines { crossings(&all) } else { points_of_cells(field, &all) };
     Torn::new(field, &domain, &all, &points)
 }
 
@@ -247,7 +272,9 @@ impl Refined<'_, '_> {
 
     /// The mesh, measured at points that have not been used before.
     fn finished(mut self, arrays: &[Array], accuracy: &Accuracy, is_complete: bool) -> Mesh {
-        self.fill();
+        let cells = self.mesh.add_nodes(&self.cell);
+        self.evaluate_new();
+        self.fill(&cells);
         let found = self.measure(ROUNDS);
         let allowed = self.allowed();
         let measured = |(number, array): (usize, &Array)| {
@@ -257,6 +284,7 @@ impl Refined<'_, '_> {
                 |value: &dyn Fn(usize) -> f64| of.iter().map(|&c| value(c)).fold(0.0, f64::max);
             MeasuredAccuracy {
                 array: array.clone(),
+                unit: array.quantities().next().map_or("", |q| q.unit(self.field)).to_owned(),
                 range: most(&|c| (self.ranges[c][1] - self.ranges[c][0]).max(0.0)),
                 allowed: most(&|c| allowed[c]),
                 largest: most(&|c| found.largest[c]),
@@ -268,7 +296,7 @@ impl Refined<'_, '_> {
             arrays: arrays.iter().enumerate().map(measured).collect(),
             points: self.mesh.points.iter().map(|point| point.position).collect(),
             places: self.mesh.points.iter().map(|point| point.place).collect(),
-            triangles: self.mesh.triangles.iter().map(|triangle| triangle.corners).collect(),
+            cells,
             values: self.values,
             singular: self.singular.points,
             radius: self.singular.radius,

@@ -8,23 +8,13 @@ use rayon::prelude::*;
 
 use super::arrays::Columns;
 use super::borders;
+use super::lagrange::{Lagrange, Weights};
 use super::singular::Singular;
-use super::torn::Torn;
+use super::torn::{Torn, TornPoint};
 
-/// Barycentric coordinates at which a triangle is looked at: the middle, near the middles of the
-/// edges, where quadratic functions differ most, and between.
-const TESTS: [[f64; 3]; 7] = [
-    [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
-    [0.48, 0.48, 0.04],
-    [0.04, 0.48, 0.48],
-    [0.48, 0.04, 0.48],
-    [0.7, 0.15, 0.15],
-    [0.15, 0.7, 0.15],
-    [0.15, 0.15, 0.7],
-];
-
-/// Part of the tolerance that is allowed at these: elsewhere it may be a little more.
-const MARGIN: f64 = 0.75;
+/// Part of the tolerance that is allowed at tests: elsewhere it may be a little more, and in large
+/// triangles of higher order, of which tests see a smaller part, more than that.
+const MARGINS: [f64; 2] = [0.75, 0.5];
 
 /// Triangles with edges shorter than this part of the domain, or thinner than the other, are not
 /// divided: rounding would decide what lies in them.
@@ -41,6 +31,9 @@ const ROUNDING: f64 = 1e-13;
 /// Places, or triangles, that a thread takes at a time.
 const CHUNK: usize = 1024;
 
+/// Tests that are evaluated at a time.
+const TESTS: usize = 7 * 64 * CHUNK;
+
 /// The limits of a refinement.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
@@ -53,6 +46,8 @@ pub(super) struct Limits {
 pub(super) struct Refined<'a, 'd> {
     pub(super) field: &'a Field<'d>,
     pub(super) columns: &'a Columns,
+    /// How values are interpolated.
+    pub(super) cell: Lagrange,
     pub(super) mesh: Torn<'d>,
     /// A row for each point.
     pub(super) values: Vec<f64>,
@@ -109,6 +104,15 @@ impl Refined<'_, '_> {
     pub(super) fn evaluate_new(&mut self) {
         let width = self.columns.len();
         let new = &self.mesh.points[self.values.len() / width..];
+        let rows = self.rows(new);
+        let new: Vec<Vec2> = new.iter().map(|point| point.position).collect();
+        new.iter().zip(rows.chunks(width)).for_each(|(at, row)| self.widen(*at, row));
+        self.values.extend(rows);
+    }
+
+    /// Exact rows at points of the mesh.
+    fn rows(&self, new: &[TornPoint]) -> Vec<f64> {
+        let width = self.columns.len();
         let inside: Vec<Place> = new.iter().map(|point| point.inside).collect();
         let mut rows = evaluate(self.field, self.columns, &inside);
         let is_apart = |k: &usize| new[*k].place != new[*k].inside;
@@ -120,62 +124,77 @@ impl Refined<'_, '_> {
             let steady = (0..width).filter(|&c| !self.columns.jumps[c]);
             steady.for_each(|c| row[c] = exact[c]);
         }
-        let new: Vec<Vec2> = new.iter().map(|point| point.position).collect();
-        new.iter().zip(rows.chunks(width)).for_each(|(at, row)| self.widen(*at, row));
-        self.values.extend(rows);
+        rows
+    }
+
+    /// Rows of all nodes of each triangle.
+    pub(super) fn nodes(&self, triangles: &[u32]) -> Vec<f64> {
+        let (width, inner) = (self.columns.len(), self.cell.nodes.len() - 3);
+        let points = triangles.par_iter().flat_map_iter(|&t| self.mesh.inner_nodes(t, &self.cell));
+        let rows = self.rows(&points.collect::<Vec<_>>());
+        let mut all = Vec::with_capacity(rows.len() + 3 * width * triangles.len());
+        for (k, &t) in triangles.iter().enumerate() {
+            let corners = self.mesh.triangles[t as usize].corners;
+            corners.iter().for_each(|&c| all.extend(&self.values[c as usize * width..][..width]));
+            all.extend(&rows[k * inner * width..][..inner * width]);
+        }
+        all
     }
 
     /// The triangles among the given ones in which interpolation is not good enough.
     fn coarse(&mut self, fresh: &[u32]) -> Vec<u32> {
-        let width = self.columns.len();
+        let (width, tests) = (self.columns.len(), self.cell.tests.clone());
         let mut coarse = Vec::new();
-        for part in fresh.chunks(64 * CHUNK) {
-            let at: Vec<_> = part.iter().flat_map(|&t| TESTS.map(|b| (t, b))).collect();
+        for part in fresh.chunks(TESTS / tests.len()) {
+            let at: Vec<_> =
+                part.iter().flat_map(|&t| tests.iter().map(move |b| (t, *b))).collect();
             let exact = self.exact(&at);
             for (&(t, b), row) in at.iter().zip(exact.chunks(width)) {
                 self.widen(self.position(t, b), row);
             }
-            let allowed = self.allowed();
-            let rows = exact.par_chunks(TESTS.len() * width);
+            let (allowed, nodes) = (self.allowed(), self.nodes(part));
+            let rows = exact.par_chunks(tests.len() * width);
             let is_coarse: Vec<bool> = part
                 .par_iter()
+                .zip(nodes.par_chunks(self.cell.nodes.len() * width))
                 .zip(rows)
-                .map(|(&t, rows)| self.is_coarse(t, rows, &allowed))
+                .map(|((&t, nodes), rows)| self.is_coarse((t, nodes), rows, &allowed))
                 .collect();
             coarse.extend(part.iter().zip(is_coarse).filter_map(|(&t, is)| is.then_some(t)));
         }
         coarse
     }
 
-    /// True if exact rows at the tests of a triangle differ from interpolation.
-    fn is_coarse(&self, triangle: u32, rows: &[f64], allowed: &[f64]) -> bool {
-        let tests = || TESTS.iter().zip(rows.chunks(self.columns.len()));
-        let differs = |(weights, exact): (&[f64; 3], &[f64])| {
-            let at = self.position(triangle, *weights);
-            let excess = self.excess(at, exact, &self.interpolated(triangle, *weights), allowed);
-            excess > MARGIN
+    /// True if exact rows at the tests of a triangle differ from interpolation between its nodes.
+    fn is_coarse(&self, (triangle, nodes): (u32, &[f64]), rows: &[f64], allowed: &[f64]) -> bool {
+        let tests = self.cell.tests.iter().zip(&self.cell.at_tests);
+        let mut tests = tests.zip(rows.chunks(self.columns.len()));
+        let margin = MARGINS[usize::from(self.cell.order > 1)];
+        let differs = |((at, weights), exact): ((&Weights, &Vec<f64>), &[f64])| {
+            let at = self.position(triangle, *at);
+            let excess = self.excess(at, exact, &self.interpolated(nodes, weights), allowed);
+            excess > margin
         };
-        self.may_divide(triangle) && tests().any(differs)
+        self.may_divide(triangle) && tests.any(differs)
     }
 
     /// Exact rows at places inside triangles, given by barycentric coordinates.
-    pub(super) fn exact(&self, at: &[(u32, [f64; 3])]) -> Vec<f64> {
-        let place = |(t, b): &(u32, [f64; 3])| self.mesh.place(self.position(*t, *b));
+    pub(super) fn exact(&self, at: &[(u32, Weights)]) -> Vec<f64> {
+        let place = |(t, b): &(u32, Weights)| self.mesh.place(self.position(*t, *b));
         let places: Vec<Place> = at.par_iter().map(place).collect();
         evaluate(self.field, self.columns, &places)
     }
 
-    pub(super) fn position(&self, triangle: u32, [_, q, r]: [f64; 3]) -> Vec2 {
+    pub(super) fn position(&self, triangle: u32, [_, q, r]: Weights) -> Vec2 {
         let [a, b, c] = self.mesh.corners(triangle);
         a + ((b - a) * q + (c - a) * r)
     }
 
-    pub(super) fn interpolated(&self, triangle: u32, weights: [f64; 3]) -> Vec<f64> {
+    /// The row at a place with these weights of nodes.
+    pub(super) fn interpolated(&self, nodes: &[f64], weights: &[f64]) -> Vec<f64> {
         let width = self.columns.len();
-        let corners = self.mesh.triangles[triangle as usize].corners;
-        let row = |corner: u32| &self.values[corner as usize * width..][..width];
-        let rows = corners.map(row);
-        (0..width).map(|c| (0..3).map(|k| weights[k] * rows[k][c]).sum()).collect()
+        let rows = || weights.iter().zip(nodes.chunks(width));
+        (0..width).map(|c| rows().map(|(weight, row)| weight * row[c]).sum()).collect()
     }
 
     /// Largest difference of two rows in parts of what is allowed.
@@ -229,24 +248,25 @@ impl Refined<'_, '_> {
     }
 
     /// Replaces values that are not finite, those of tips, by the mean of those in the middles of
-    /// the triangles that meet there.
-    pub(super) fn fill(&mut self) {
+    /// the triangles that meet there; `cells` are the points of each triangle.
+    pub(super) fn fill(&mut self, cells: &[u32]) {
         let width = self.columns.len();
-        let is_finite = |corner: u32| {
-            self.values[corner as usize * width..][..width].iter().all(|v| v.is_finite())
+        let points = |t: u32| {
+            let count = self.cell.nodes.len();
+            &cells[t as usize * count..][..count]
         };
-        let touches = |t: &u32| {
-            let corners = self.mesh.triangles[*t as usize].corners;
-            !corners.into_iter().all(is_finite)
+        let is_finite = |&point: &u32| {
+            self.values[point as usize * width..][..width].iter().all(|v| v.is_finite())
         };
+        let touches = |t: &u32| !points(*t).iter().all(is_finite);
         let around: Vec<u32> = (0..self.mesh.triangles.len() as u32).filter(touches).collect();
         let at: Vec<_> = around.iter().map(|&t| (t, [1.0 / 3.0; 3])).collect();
         let middles = self.exact(&at);
         let mut sums = vec![(0.0, 0u32); self.values.len()];
         for (&t, row) in around.iter().zip(middles.chunks(width)) {
-            for corner in self.mesh.triangles[t as usize].corners {
+            for &point in points(t) {
                 for (c, &value) in row.iter().enumerate().filter(|(_, value)| value.is_finite()) {
-                    let sum = &mut sums[corner as usize * width + c];
+                    let sum = &mut sums[point as usize * width + c];
                     *sum = (sum.0 + value, sum.1 + 1);
                 }
             }

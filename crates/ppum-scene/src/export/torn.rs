@@ -7,6 +7,7 @@
 //! half of the smallest one that the beginning has.
 
 mod begin;
+mod nodes;
 
 use ppum::crack::{SegmentId, Side};
 use ppum::sample::{Place, Seats};
@@ -137,21 +138,25 @@ impl Torn<'_> {
         neighbours.iter().position(|&n| n == neighbour).expect("neighbours know each other")
     }
 
-    /// The point in the middle of an edge as a triangle sees it.
     fn add_middle(&mut self, middle: Vec2, triangle: u32, edge: usize) -> u32 {
+        self.points.push(self.on_edge(middle, triangle, edge));
+        self.points.len() as u32 - 1
+    }
+
+    /// A point inside of an edge as a triangle sees it.
+    fn on_edge(&self, point: Vec2, triangle: u32, edge: usize) -> TornPoint {
         let corners = self.corners(triangle);
         let kind = self.triangles[triangle as usize].kinds[edge];
         let along = corners[(edge + 1) % 3] - corners[edge];
         let place = match kind.crack {
-            Some(segment) => on_crack(segment, middle, self.side(segment, along)),
-            None => self.place(middle),
+            Some(segment) => on_crack(segment, point, self.side(segment, along)),
+            None => self.place(point),
         };
-        let mut point = TornPoint::new(middle, place);
+        let mut seen = TornPoint::new(point, place);
         if kind.kink {
-            point.inside = self.seen_from_inside(middle, corners, INSET);
+            seen.inside = self.seen_from_inside(point, corners, INSET);
         }
-        self.points.push(point);
-        self.points.len() as u32 - 1
+        seen
     }
 
     /// The side of a crack that a triangle is on, from the direction of its edge.

@@ -8,7 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use ppum_format::{ArrayValues, Hdf5File, WriteError};
 
 use super::Mesh;
-use super::vtu::{About, Numbers, TRIANGLE, accuracy, texts};
+use super::lagrange::node_count;
+use super::vtu::{About, Numbers, accuracy, cell_type, texts};
 
 /// The mesh of a step, and what is told of it.
 #[derive(Clone, Debug)]
@@ -70,8 +71,8 @@ impl Grid<'_> {
         let steps = self.steps;
         let n = steps.len() as u64;
         let points = self.of_steps(|mesh| mesh.points.len());
-        let cells = self.of_steps(|mesh| mesh.triangles.len());
-        let corners = self.of_steps(|mesh| 3 * mesh.triangles.len());
+        let cells = self.of_steps(|mesh| mesh.triangles().len());
+        let corners = self.of_steps(|mesh| mesh.cells.len());
         for (part, counts) in [("Point", &points), ("Cell", &cells), ("ConnectivityId", &corners)] {
             self.numbers(&format!("VTKHDF/NumberOf{part}s"), counts.clone(), &[n]);
             // of cells for each kind of topology, of which there is one
@@ -86,14 +87,17 @@ impl Grid<'_> {
         let meshes = || steps.iter().map(|step| &step.mesh);
         let places = meshes().flat_map(|mesh| &mesh.points).flat_map(|p| [p.x, p.y, 0.0]);
         self.rows("VTKHDF/Points", 3, places.collect());
-        let corners = meshes().flat_map(|mesh| mesh.triangles.as_flattened());
-        let corners: Vec<i64> = corners.map(|&k| k.into()).collect();
+        let corners: Vec<i64> = meshes().flat_map(|mesh| &mesh.cells).map(|&k| k.into()).collect();
         self.file.insert("VTKHDF/Connectivity", &[corners.len() as u64], ArrayValues::I64(corners));
-        let ends = meshes().flat_map(|mesh| (0..=mesh.triangles.len()).map(|k| 3 * k as i64));
-        let ends: Vec<i64> = ends.collect();
+        let ends = |mesh: &'_ Mesh| {
+            let size = node_count(mesh.accuracy.order);
+            (0..=mesh.triangles().len()).map(move |k| (size * k) as i64)
+        };
+        let ends: Vec<i64> = meshes().flat_map(ends).collect();
         self.file.insert("VTKHDF/Offsets", &[ends.len() as u64], ArrayValues::I64(ends));
-        let count = cells.iter().sum::<i64>() as usize;
-        self.file.insert("VTKHDF/Types", &[count as u64], ArrayValues::U8(vec![TRIANGLE; count]));
+        let types = meshes().flat_map(|mesh| mesh.triangles().map(|_| cell_type(mesh)));
+        let types: Vec<u8> = types.collect();
+        self.file.insert("VTKHDF/Types", &[types.len() as u64], ArrayValues::U8(types));
     }
 
     /// Rows of numbers; a vector of one for each row.

@@ -1,76 +1,187 @@
-//! Cracks, tips and the border of the body as points and lines (`.vtp`), to lie over a mesh.
+//! Cracks, tips, the border of the body, its supports and loads, and isolines as points and lines
+//! (`.vtp`), to lie over a mesh.
 
 use std::io::{self, Write};
 
-use ppum::crack::{TipId, tips};
-use ppum::dataset::TipIntensity;
+use ppum::crack::tips;
+use ppum::dataset::{Dataset, TipIntensity};
 use ppum::domain::Hole;
 use ppum::field::Field;
+use ppum::progress::Watcher;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::borders::{Border, SAME, borders, longest, with_polygons};
+use super::borders::{Border, LineRequest, SAME, borders, longest, with_polygons};
 use super::vtu::{About, array, flat, numbers, write_texts};
+use crate::colors::Colors;
+use crate::drawing::BodyView;
+use crate::engine::Engine;
+use crate::look::DEFAULT_SIZE;
+use crate::overlays::Levels;
+use crate::place::{ImageExtent, Place};
+use crate::shot::{Asked, FieldSource, ShotError};
+use crate::stations::Stations;
 
-/// What a cell is, as its array `kind` has it.
-const BORDER: u8 = 0;
-const CRACK: u8 = 1;
-const TIP: u8 = 2;
+/// Distance of points with supports and loads, in parts of the longer side of the domain.
+const SPACING: f64 = 0.04;
 
 /// Points and lines of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lines {
-    /// The tips, with their factors where they are known.
-    pub tips: Vec<(Vec2, TipId, Option<TipIntensity>)>,
-    /// Segments of the border, rims of holes among them, where they bound the body, and of cracks
-    /// with their numbers.
-    pub segments: Vec<([Vec2; 2], Option<u32>)>,
+    /// Tips, supports and loads.
+    pub points: Vec<Feature>,
+    /// Cracks, the border where it bounds the body, rims of holes among it, and isolines.
+    pub lines: Vec<Feature>,
+}
+
+/// A point or a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Feature {
+    /// What it is.
+    pub kind: FeatureKind,
+    /// Its points, one or several.
+    pub points: Vec<Vec2>,
+}
+
+/// What a point or line is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FeatureKind {
+    /// A segment of the border.
+    Border,
+    /// A segment of the crack of a number.
+    Crack(u32),
+    /// A tip of the crack of a number, with its factors where they are known.
+    Tip(u32, Option<TipIntensity>),
+    /// An isoline of a level.
+    Isoline(f64),
+    /// A point whose displacement is held, in x and in y.
+    Support([bool; 2]),
+    /// A point with a traction.
+    Load(Vec2),
+}
+
+impl FeatureKind {
+    /// Its number in the array `kind`.
+    fn number(&self) -> u8 {
+        match self {
+            Self::Border => 0,
+            Self::Crack(_) => 1,
+            Self::Tip(..) => 2,
+            Self::Isoline(_) => 3,
+            Self::Support(_) => 4,
+            Self::Load(_) => 5,
+        }
+    }
+
+    /// The crack, −1 if there is none.
+    fn crack(&self) -> i32 {
+        match self {
+            Self::Crack(crack) | Self::Tip(crack, _) => *crack as i32,
+            _ => -1,
+        }
+    }
+
+    /// A number of a tip, NaN where it is not known and of all else.
+    fn of_tip(&self, value: impl Fn(&TipIntensity) -> Option<f64>) -> f64 {
+        match self {
+            Self::Tip(_, Some(found)) => value(found).unwrap_or(f64::NAN),
+            _ => f64::NAN,
+        }
+    }
+
+    /// The level of an isoline, else NaN.
+    fn level(&self) -> f64 {
+        if let Self::Isoline(level) = self { *level } else { f64::NAN }
+    }
+
+    /// The traction of a load, else zero.
+    fn traction(&self) -> Vec2 {
+        if let Self::Load(traction) = self { *traction } else { Vec2::ZERO }
+    }
+
+    /// One for each direction that a support holds.
+    fn held(&self) -> [u8; 2] {
+        let held = if let Self::Support(held) = self { *held } else { [false; 2] };
+        held.map(u8::from)
+    }
+}
+
+/// The quantity of isolines and their levels.
+#[derive(Clone, Copy, Debug)]
+pub struct IsolineRequest<'a> {
+    /// What is shown of the field.
+    pub asked: &'a Asked,
+    /// The levels.
+    pub levels: &'a Levels,
 }
 
 impl Lines {
-    /// Those of a field's step.
+    /// Those of a field's step, without isolines; supports and loads if the dataset has its
+    /// problem.
     #[must_use]
-    pub fn of(field: &Field<'_>) -> Self {
+    pub fn of(dataset: &Dataset, field: &Field<'_>) -> Self {
         let domain = with_polygons(field.domain);
         let bounds = &domain.bounds;
         let near = SAME * longest(bounds);
         let around = Rect::around(bounds.center(), bounds.size() * 0.5 + vec2(near, near));
-        let all = borders(field, &domain, false).into_iter();
+        let all = borders(field, &domain, LineRequest::NONE).into_iter();
         let of_body = all.filter(|Border { ends: [a, b], .. }| {
             let middle = (*a + *b) / 2.0;
             let is_cut = |hole: &Hole| hole.contains(middle) && hole.rim_distance(middle) > near;
             around.contains(middle) && !domain.holes.iter().any(is_cut)
         });
-        let segment = |border: Border| (border.ends, border.kind.crack.map(|s| s.crack));
-        Self { tips: tips_of(field), segments: of_body.map(segment).collect() }
+        let segment = |Border { ends, kind }: Border| Feature {
+            kind: kind
+                .crack
+                .map_or(FeatureKind::Border, |segment| FeatureKind::Crack(segment.crack)),
+            points: ends.to_vec(),
+        };
+        let points = tips_of(field).chain(stations(dataset, SPACING * longest(bounds))).collect();
+        Self { points, lines: of_body.map(segment).collect() }
     }
 
-    fn kinds(&self) -> Vec<u8> {
-        let line = |(_, crack): &([Vec2; 2], Option<u32>)| crack.map_or(BORDER, |_| CRACK);
-        self.tips.iter().map(|_| TIP).chain(self.segments.iter().map(line)).collect()
+    /// Adds the isolines that an image of the whole domain has by default.
+    ///
+    /// # Errors
+    /// See [`Input::isolines`].
+    pub fn add_isolines(
+        &mut self,
+        source: FieldSource<'_>,
+        IsolineRequest { asked, levels }: IsolineRequest<'_>,
+        watcher: &dyn Watcher,
+    ) -> Result<(), ShotError> {
+        let extent = ImageExtent { pixels: DEFAULT_SIZE, may_shrink: false, margin: 0.0 };
+        let view = Place::default().seen(source.field, extent)?;
+        let (seen, engine) = (BodyView::Plate(view), Engine::processor(watcher));
+        let found = source.input(asked, &seen).isolines(levels, &Colors::default(), &engine)?;
+        self.lines.extend(found.iter().map(|line| Feature {
+            kind: FeatureKind::Isoline(line.level),
+            points: line.polyline().into_iter().map(|p| view.center + p).collect(),
+        }));
+        Ok(())
     }
 
-    /// The crack of each cell, −1 for the border.
-    fn cracks(&self) -> Vec<u8> {
-        let tips = self.tips.iter().map(|(_, tip, _)| Some(tip.crack));
-        let all = tips.chain(self.segments.iter().map(|(_, crack)| *crack));
-        all.flat_map(|crack| crack.map_or(-1, |crack| crack as i32).to_le_bytes()).collect()
-    }
-
-    /// A number of tips, NaN where it is not known, and for segments.
-    fn of_tips(&self, value: impl Fn(&TipIntensity) -> Option<f64>) -> Vec<f64> {
-        let tips = self.tips.iter().map(|(_, _, found)| found.as_ref().and_then(&value));
-        let all = tips.chain(self.segments.iter().map(|_| None));
-        all.map(|value| value.unwrap_or(f64::NAN)).collect()
+    fn kinds(&self) -> impl Iterator<Item = &FeatureKind> {
+        self.points.iter().chain(&self.lines).map(|feature| &feature.kind)
     }
 }
 
-fn tips_of(field: &Field<'_>) -> Vec<(Vec2, TipId, Option<TipIntensity>)> {
+fn tips_of(field: &Field<'_>) -> impl Iterator<Item = Feature> {
     let step = field.step;
-    let tip = |tip: TipId| {
+    tips(&step.cracks).map(|tip| {
         let known = step.intensities.iter().find(|intensity| intensity.tip == tip);
-        (step.cracks[tip.crack as usize].end_point(tip.end), tip, known.cloned())
-    };
-    tips(&step.cracks).map(tip).collect()
+        Feature {
+            kind: FeatureKind::Tip(tip.crack, known.cloned()),
+            points: vec![step.cracks[tip.crack as usize].end_point(tip.end)],
+        }
+    })
+}
+
+/// Points with supports and loads.
+fn stations(dataset: &Dataset, spacing: f64) -> impl Iterator<Item = Feature> {
+    let Stations { supports, loads } = Stations::of(dataset, spacing).unwrap_or_default();
+    let feature = |kind, at| Feature { kind, points: vec![at] };
+    let supports = supports.into_iter().map(move |s| feature(FeatureKind::Support(s.held), s.at));
+    supports.chain(loads.into_iter().map(move |l| feature(FeatureKind::Load(l.traction), l.at)))
 }
 
 /// Writes points and lines.
@@ -78,48 +189,53 @@ fn tips_of(field: &Field<'_>) -> Vec<(Vec2, TipId, Option<TipIntensity>)> {
 /// # Errors
 /// Those of the writer.
 pub fn write(out: &mut dyn Write, lines: &Lines, about: &About) -> io::Result<()> {
-    let (tips, segments) = (lines.tips.len(), lines.segments.len());
+    let [verts, sizes] = [&lines.points, &lines.lines]
+        .map(|all| all.iter().map(|feature| feature.points.len()).collect::<Vec<_>>());
+    let places = lines.points.iter().chain(&lines.lines).flat_map(|feature| &feature.points);
+    let points: Vec<f64> = places.copied().flat_map(flat).collect();
     super::vtu::write_head(out, "PolyData")?;
     writeln!(out, "<FieldData>")?;
     write_texts(out, &about.texts)?;
     writeln!(out, "</FieldData>")?;
     writeln!(
         out,
-        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{tips}\" NumberOfLines=\"{segments}\">",
-        tips + 2 * segments
+        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">",
+        points.len() / 3,
+        verts.len(),
+        sizes.len()
     )?;
-    let ends = lines.segments.iter().flat_map(|(ends, _)| *ends);
-    let points: Vec<f64> =
-        lines.tips.iter().map(|(at, _, _)| *at).chain(ends).flat_map(flat).collect();
     writeln!(out, "<Points>")?;
     numbers(out, "Points", "NumberOfComponents=\"3\"", &points)?;
     writeln!(out, "</Points>")?;
-    write_cells(out, "Verts", (0, tips), 1)?;
-    write_cells(out, "Lines", (tips, segments), 2)?;
+    write_cells(out, "Verts", 0, &verts)?;
+    write_cells(out, "Lines", verts.len(), &sizes)?;
     write_arrays(out, lines)?;
     writeln!(out, "</Piece>\n</PolyData>\n</VTKFile>")
 }
 
-/// So many cells of some points each, which follow each other from the first one on.
-fn write_cells(
-    out: &mut dyn Write,
-    kind: &str,
-    (first, count): (usize, usize),
-    size: usize,
-) -> io::Result<()> {
+/// Cells of so many points each, which follow each other from the first one on.
+fn write_cells(out: &mut dyn Write, kind: &str, first: usize, sizes: &[usize]) -> io::Result<()> {
     let bytes = |numbers: &mut dyn Iterator<Item = usize>| -> Vec<u8> {
         numbers.flat_map(|number| (number as i32).to_le_bytes()).collect()
     };
+    let mut ends = sizes.iter().scan(0, |end, size| {
+        *end += size;
+        Some(*end)
+    });
+    let points = sizes.iter().sum::<usize>();
     writeln!(out, "<{kind}>")?;
-    array(out, "Int32", "connectivity", "", &bytes(&mut (first..first + size * count)))?;
-    array(out, "Int32", "offsets", "", &bytes(&mut (1..=count).map(|k| size * k)))?;
+    array(out, "Int32", "connectivity", "", &bytes(&mut (first..first + points)))?;
+    array(out, "Int32", "offsets", "", &bytes(&mut ends))?;
     writeln!(out, "</{kind}>")
 }
 
 fn write_arrays(out: &mut dyn Write, lines: &Lines) -> io::Result<()> {
+    let bytes =
+        |number: fn(&FeatureKind) -> Vec<u8>| lines.kinds().flat_map(number).collect::<Vec<_>>();
     writeln!(out, "<CellData>")?;
-    array(out, "UInt8", "kind", "", &lines.kinds())?;
-    array(out, "Int32", "crack", "", &lines.cracks())?;
+    array(out, "UInt8", "kind", "", &bytes(|kind| vec![kind.number()]))?;
+    array(out, "Int32", "crack", "", &bytes(|kind| kind.crack().to_le_bytes().to_vec()))?;
+    array(out, "UInt8", "held", "NumberOfComponents=\"2\"", &bytes(|kind| kind.held().to_vec()))?;
     type Value = fn(&TipIntensity) -> Option<f64>;
     let values: [(&str, Value); 5] = [
         ("K_I", |tip| Some(tip.k1)),
@@ -129,7 +245,10 @@ fn write_arrays(out: &mut dyn Write, lines: &Lines) -> io::Result<()> {
         ("J", |tip| tip.j),
     ];
     for (name, value) in values {
-        numbers(out, name, "", &lines.of_tips(value))?;
+        numbers(out, name, "", &lines.kinds().map(|kind| kind.of_tip(value)).collect::<Vec<_>>())?;
     }
+    numbers(out, "level", "", &lines.kinds().map(FeatureKind::level).collect::<Vec<_>>())?;
+    let tractions: Vec<f64> = lines.kinds().flat_map(|kind| flat(kind.traction())).collect();
+    numbers(out, "traction", "NumberOfComponents=\"3\"", &tractions)?;
     writeln!(out, "</CellData>")
 }

@@ -14,13 +14,16 @@ use ppum_figure::canvas::xml::escaped;
 use ppum_figure::canvas::zlib::zlib;
 use rayon::prelude::*;
 
-use super::{Mesh, RANDOM_POINTS};
+use super::lagrange::node_count;
+use super::{MeasuredAccuracy, Mesh, RANDOM_POINTS};
 
 /// Bytes that are compressed at a time.
 const BLOCK: usize = 1 << 18;
 
-/// The number of triangles among the kinds of cells of VTK.
-pub(super) const TRIANGLE: u8 = 5;
+/// The number of a mesh's triangles among the kinds of cells of VTK: linear or Lagrange's.
+pub(super) fn cell_type(mesh: &Mesh) -> u8 {
+    if mesh.accuracy.order == 1 { 5 } else { 69 }
+}
 
 /// What a file tells beside the mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -78,7 +81,7 @@ impl Numbers {
 /// # Errors
 /// Those of the writer.
 pub fn write(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> {
-    let (points, cells) = (mesh.points.len(), mesh.triangles.len());
+    let (points, cells) = (mesh.points.len(), mesh.triangles().len());
     write_head(out, "UnstructuredGrid")?;
     write_about(out, mesh, about)?;
     writeln!(out, "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">")?;
@@ -86,11 +89,12 @@ pub fn write(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> 
     let positions: Vec<f64> = mesh.points.iter().copied().flat_map(flat).collect();
     numbers(out, "Points", "NumberOfComponents=\"3\"", &positions)?;
     writeln!(out, "</Points>\n<Cells>")?;
-    let corners: Vec<u8> = mesh.triangles.iter().flatten().flat_map(|k| k.to_le_bytes()).collect();
-    array(out, "Int32", "connectivity", "", &corners)?;
-    let ends: Vec<u8> = (1..=cells as u32).flat_map(|k| (3 * k).to_le_bytes()).collect();
+    let numbers_of_points: Vec<u8> = mesh.cells.iter().flat_map(|k| k.to_le_bytes()).collect();
+    array(out, "Int32", "connectivity", "", &numbers_of_points)?;
+    let size = node_count(mesh.accuracy.order) as u32;
+    let ends: Vec<u8> = (1..=cells as u32).flat_map(|k| (size * k).to_le_bytes()).collect();
     array(out, "Int32", "offsets", "", &ends)?;
-    array(out, "UInt8", "types", "", &vec![TRIANGLE; cells])?;
+    array(out, "UInt8", "types", "", &vec![cell_type(mesh); cells])?;
     writeln!(out, "</Cells>\n<PointData>")?;
     write_arrays(out, mesh)?;
     writeln!(out, "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
@@ -144,7 +148,7 @@ fn attributes<Q>(components: &[(&str, Option<Q>)]) -> String {
 
 /// What a mesh is accurate to.
 pub(super) fn accuracy(mesh: &Mesh) -> [Numbers; 8] {
-    let of = |value: fn(&super::MeasuredAccuracy) -> f64| mesh.arrays.iter().map(value).collect();
+    let of = |value: fn(&MeasuredAccuracy) -> f64| mesh.arrays.iter().map(value).collect();
     let singular = mesh.singular.iter().flat_map(|p| [p.x, p.y, 0.0]).collect();
     [
         Numbers::new("tolerance", 1, vec![mesh.accuracy.tolerance]),
@@ -158,10 +162,13 @@ pub(super) fn accuracy(mesh: &Mesh) -> [Numbers; 8] {
     ]
 }
 
-/// The texts of the field data, with the names of arrays.
+/// The texts of the field data, with the names of arrays and their units, one a line.
 pub(super) fn texts(mesh: &Mesh, about: &About) -> Vec<(&'static str, String)> {
-    let names: Vec<&str> = mesh.arrays.iter().map(|a| a.array.name.as_str()).collect();
-    about.texts.iter().cloned().chain([("quantities", names.join("\n"))]).collect()
+    let lines = |of: fn(&MeasuredAccuracy) -> &str| {
+        mesh.arrays.iter().map(of).collect::<Vec<_>>().join("\n")
+    };
+    let named = [("quantities", lines(|a| &a.array.name)), ("units", lines(|a| &a.unit))];
+    about.texts.iter().cloned().chain(named).collect()
 }
 
 /// The field data: what the mesh is accurate to, and what else is told.

@@ -10,15 +10,18 @@ use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::text::short;
 use ppum_scene::export::vtkhdf::{self, ExportedStep};
-use ppum_scene::export::vtp::{self, Lines};
+use ppum_scene::export::vtp::{self, IsolineRequest, Lines};
 use ppum_scene::export::vtu::{self, About};
 use ppum_scene::export::{
-    Accuracy, Array, ExportError, MeasuredAccuracy, Mesh, RANDOM_POINTS, resolve,
+    Accuracy, Array, ExportError, HIGHEST_ORDER, MeasuredAccuracy, Mesh, RANDOM_POINTS, resolve,
 };
+use ppum_scene::overlays::Levels;
+use ppum_scene::scene::Scene;
+use ppum_scene::shot::{Asked, FieldSource};
 use sha2::{Digest as _, Sha256};
 
-use crate::dataset::{field, quantity};
-use crate::given::parts;
+use crate::dataset::{check_shown, field, quantity};
+use crate::given::{Given, parts};
 use crate::number::count;
 use crate::output::{Output, tell};
 use crate::progress::Bar;
@@ -39,6 +42,10 @@ pub(crate) struct Options {
     /// Most triangles of a mesh [default: 1000000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     max_cells: Option<u32>,
+    /// Degree of the polynomials between the points of a triangle, 1 to 4: higher ones take fewer
+    /// triangles for fine tolerances [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=i64::from(HIGHEST_ORDER)))]
+    order: Option<u8>,
 }
 
 impl Options {
@@ -48,6 +55,7 @@ impl Options {
             ("--tolerance", self.tolerance.is_some()),
             ("--tip-radius", self.tip_radius.is_some()),
             ("--max-cells", self.max_cells.is_some()),
+            ("--order", self.order.is_some()),
         ];
         match given.into_iter().find(|(_, is_given)| *is_given) {
             Some((option, _)) => {
@@ -63,6 +71,7 @@ impl Options {
             tolerance: self.tolerance.unwrap_or(default.tolerance),
             radius: self.tip_radius,
             cells: self.max_cells.map_or(default.cells, |cells| cells as usize),
+            order: self.order.unwrap_or(default.order),
         }
     }
 }
@@ -83,7 +92,7 @@ fn is_vtkhdf(path: &Path) -> bool {
 }
 
 /// True if the name of a file says that it holds lines and points alone.
-fn is_lines(path: &Path) -> bool {
+pub(super) fn is_lines(path: &Path) -> bool {
     has_extension(path, "vtp")
 }
 
@@ -99,6 +108,8 @@ pub(super) struct Job<'a> {
     pub(super) output: &'a Path,
     /// Quantities with commas between.
     pub(super) quantities: Option<&'a str>,
+    /// The levels of isolines among lines.
+    pub(super) isolines: Option<&'a Levels>,
 }
 
 impl Options {
@@ -116,6 +127,8 @@ impl Options {
         let step = step.unwrap_or(count.saturating_sub(1));
         if is_lines(job.output) {
             self.check_none("lines are")?;
+            let is_idle = job.quantities.is_some() && job.isolines.is_none();
+            ensure!(!is_idle, "--quantity: lines have one for --isolines alone; end -o in .vtu");
             return write_lines(job, step, out);
         }
         self.write_step(job, step, job.output, out)
@@ -187,7 +200,7 @@ impl Options {
 
     /// The size of a mesh, and how well it resolves the field.
     fn tell_mesh(&self, mesh: &Mesh, out: &mut Output) -> anyhow::Result<()> {
-        writeln!(out, "  {} triangles, {} points", mesh.triangles.len(), mesh.points.len())?;
+        writeln!(out, "  {} triangles, {} points", mesh.triangles().len(), mesh.points.len())?;
         for measured in &mesh.arrays {
             writeln!(out, "  {}", summary(mesh, measured))?;
         }
@@ -202,16 +215,24 @@ impl Options {
     }
 }
 
-/// Writes the cracks, the tips and the border of a step.
+/// Writes the cracks, the tips, the border and isolines of a step.
 fn write_lines(job: &Job<'_>, step: usize, out: &mut Output) -> anyhow::Result<()> {
-    ensure!(job.quantities.is_none(), "--quantity: lines of .vtp have none; end -o in .vtu");
     let field = field(job.dataset, Some(step))?;
-    let lines = Lines::of(&field);
-    let about = About::of(job.dataset, &field, job.hash.to_owned());
+    let mut lines = Lines::of(job.dataset, &field);
+    let mut about = About::of(job.dataset, &field, job.hash.to_owned());
+    if let Some(levels) = job.isolines {
+        let quantity = job.quantities.map(Given::read).transpose()?;
+        quantity.iter().try_for_each(|given| check_shown(&field, given))?;
+        let quantity = quantity.map(|given| given.text.trim().to_owned());
+        let asked = Asked::new(&Scene { quantity, ..Scene::default() }, &field)?;
+        let source = FieldSource::of(job.dataset, &field);
+        lines.add_isolines(source, IsolineRequest { asked: &asked, levels }, &Bar::new())?;
+        about.texts.push(("quantities", asked.name));
+    }
     target::save(job.output, |out| vtp::write(out, &lines, &about))?;
-    let (tips, segments) = (lines.tips.len(), lines.segments.len());
-    let counts = [count(tips, "tip", "tips"), count(segments, "segment", "segments")].join(", ");
-    Ok(writeln!(out, "wrote {}: {counts}", job.output.display())?)
+    let counts =
+        [count(lines.points.len(), "point", "points"), count(lines.lines.len(), "line", "lines")];
+    Ok(writeln!(out, "wrote {}: {}", job.output.display(), counts.join(", "))?)
 }
 
 /// Why the meshes of a series are not written to one file.
