@@ -415,6 +415,21 @@ def test_all_that_a_dataset_holds(tmp_path):
     assert ppum.build(explicit).cracks[0].ends == ("tip", "tip")
 
 
+def test_outlines_are_holes_outside_of_a_polygon(tmp_path):
+    cover = ppum.Cover.uniform([(0, 0), (2, 2)], (4, 4))
+    outline = np.array([(0.1, 0.2), (1.9, 0.3), (1.0, 1.8)])
+    state = ppum.State(cover, ppum.Coefficients("u", {"one": np.ones((16, 1))}))
+    ds = ppum.build(state, holes=[ppum.Hole((1.0, 0.7), 0.2, None), ppum.Hole(None, None, outline, True)])
+    assert [hole.is_outside for hole in ds.holes] == [False, True]
+    values = ds.field.at([0.5, 1.0, 1.0, 0.3], [0.4, 0.7, 1.7, 1.5])["u"]
+    assert np.isnan(values).tolist() == [False, True, False, True]
+    ds.save(tmp_path / "outline.h5")
+    assert (ppum.open(tmp_path / "outline.h5").holes[1].points == outline).all()
+    plate = ppum.Problem(domain={"outline": {"points": outline}}, material=ppum.Elastic(1.0, 0.3, "plane-stress"))
+    pressed = plate.boundary("outline", pressure=2.0).discretization(level=3).solve()
+    assert float(pressed.field.at(1.0, 0.7)["sxx"]) == pytest.approx(-2.0, abs=1e-9)
+
+
 def test_forms_of_blocks_are_the_same():
     rng = np.random.default_rng(2)
     c = rng.normal(size=(8, 6))

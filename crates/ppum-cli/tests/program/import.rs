@@ -23,6 +23,30 @@ fn a_drawing_becomes_a_problem_file() {
     assert_eq!(String::from_utf8(output.stdout).unwrap(), text);
 }
 
+/// With a material and loads an imported part is solved: the clamp takes what the rest is loaded by.
+#[test]
+fn an_imported_part_is_solved() {
+    let lab = Lab::new();
+    lab.write("part.svg", DRAWING);
+    lab.run("import part.svg");
+    let drawn = std::fs::read_to_string(lab.path("part.toml")).unwrap();
+    let rest = "[material]\nyoung = 1.0\npoisson = 0.3\nstate = \"plane-stress\"\n[[boundary]]\n\
+                on = { piece = \"clamp\" }\ndisplacement = [0, 0]\n[[boundary]]\non = { hole = 0 }\n\
+                traction = [0, -1]\n[discretization]\nlevel = 3\n";
+    let kept = drawn.lines().take_while(|line| !line.starts_with("[discretization]"));
+    let kept: Vec<_> = kept.collect();
+    lab.write("loaded.toml", &format!("{}\n{rest}", kept.join("\n")));
+    let told = lab.run("solve loaded.toml -o loaded.h5");
+    assert!(told.contains("K_I") && told.contains("(10, 14)"), "{told}");
+    let facts = lab.run("info loaded.h5 --json");
+    let facts: serde_json::Value = serde_json::from_str(&facts).unwrap();
+    let force = &facts["steps"][0]["reactions"][0]["force"];
+    // the weight of the rim: 2π r
+    let exact = std::f64::consts::TAU * 4.0;
+    let found = force[1].as_f64().unwrap();
+    assert!((found / exact - 1.0).abs() < 1e-6, "{force}");
+}
+
 /// What people may have edited is kept, unless they say otherwise.
 #[test]
 fn problem_files_are_kept() {
