@@ -117,6 +117,23 @@ ELASTICITY = {
     "hydrostatic": "(sxx + syy + szz)/3",
     "energy": "((lambda + mu)*(exx + eyy)^2 + mu*((exx - eyy)^2 + 4*exy^2))/2",
 }
+# Those of given strains, in place of the ones of stresses.
+EIGENSTRAIN = dict(list(ELASTICITY.items())[:7]) | {
+    "elastic_xx": "exx - (eigenstrain_xx + out_of_plane*eigenstrain_zz)",
+    "elastic_yy": "eyy - (eigenstrain_yy + out_of_plane*eigenstrain_zz)",
+    "elastic_xy": "exy - eigenstrain_xy",
+    "sxx": "2*mu*elastic_xx + lambda*(elastic_xx + elastic_yy)",
+    "syy": "2*mu*elastic_yy + lambda*(elastic_xx + elastic_yy)",
+    "sxy": "2*mu*elastic_xy",
+    "szz": "out_of_plane*(sxx + syy) - young*eigenstrain_zz",
+    "von_mises": "hypot(sqrt(3)*mu*hypot(elastic_xx - elastic_yy, 2*elastic_xy), (sxx + syy)/2 - szz)",
+    "s1": "(lambda + mu)*(elastic_xx + elastic_yy) + mu*hypot(elastic_xx - elastic_yy, 2*elastic_xy)",
+    "s2": "(lambda + mu)*(elastic_xx + elastic_yy) - mu*hypot(elastic_xx - elastic_yy, 2*elastic_xy)",
+    "tresca": "(s1 - s2)/2 + max((s1 - s2)/2, abs((sxx + syy)/2 - szz))",
+    "direction": "if(sxy == 0, if(sxx >= syy, 0, pi/2), atan2(2*sxy, sxx - syy)/2)",
+    "hydrostatic": "(sxx + syy + szz)/3",
+    "energy": "(sxx*elastic_xx + syy*elastic_yy + 2*sxy*elastic_xy + young*eigenstrain_zz^2)/2",
+}
 POISSON = {
     "magnitude": "abs(u)",
     "gradient": "sqrt(du_dx^2 + du_dy^2)",
@@ -250,7 +267,8 @@ class Field:
 
     def read_quantities(self, file):
         """Formulas of quantities, in the order in which they are defined."""
-        library = {"elasticity": (["ux", "uy"], ELASTICITY), "poisson": (["u"], POISSON)}
+        library = {"elasticity": (["ux", "uy"], ELASTICITY), "eigenstrain": (["ux", "uy"], EIGENSTRAIN),
+                   "poisson": (["u"], POISSON)}
         components, library = library.get(self.kind, ([], {}))
         library = library if components == self.components else {}
         named = file.get("quantities")
@@ -442,11 +460,13 @@ class Field:
         """The constants of the equation at a point."""
         at = {"x": self.real(x), "y": self.real(y)}
         known = {name: formula.evaluate(at).v for name, formula in self.constants.items()}
-        if self.kind == "elasticity":
+        if self.kind in ("elasticity", "eigenstrain"):
             young, poisson = known["young"], known["poisson"]
             strain = self.state == "plane-strain"
             mu = young / (2 * (1 + poisson))
             divisor = (1 + poisson) * (1 - 2 * poisson) if strain else 1 - poisson**2
             known |= {"mu": mu, "lambda": young * poisson / divisor}
             known["out_of_plane"] = poisson if strain else self.real(0)
+            if self.kind == "eigenstrain" and not strain:
+                known["eigenstrain_zz"] = self.real(0)
         return known

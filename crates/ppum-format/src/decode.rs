@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use ppum::crack::{Crack, CrackEnd};
 use ppum::dataset::{
-    Attribute, BoxPartition, Dataset, Elasticity, Equation, FieldData, NamedQuantity, Partition,
-    Reaction, Record, Ring, Step, StressState, TipIntensity, Warning,
+    Attribute, BoxPartition, Dataset, EIGENSTRAINS, Elasticity, Equation, FieldData, NamedQuantity,
+    Partition, Reaction, Record, Ring, Step, StressState, TipIntensity, Warning,
 };
 use ppum::domain::{Domain, Hole};
 use ppum::expression::Expression;
@@ -188,14 +188,20 @@ fn holes(group: &GroupReader) -> Vec<Hole> {
 fn equation(group: &GroupReader, scopes: &Option<Scopes>) -> Equation {
     let constant = |name| constant(group, name, scopes);
     match group.attribute_word(EQUATIONS, "kind") {
-        Some(EquationKind::Elasticity) => {
+        Some(kind @ (EquationKind::Elasticity | EquationKind::Eigenstrain)) => {
             group.refuse("conductivity", ObjectKind::Attribute, ELASTICITY);
+            if kind == EquationKind::Elasticity {
+                let refuse = |name| group.refuse(name, ObjectKind::Attribute, ELASTICITY);
+                EIGENSTRAINS.into_iter().for_each(refuse);
+            }
             Equation::Elasticity(Elasticity {
                 young: constant("young"),
                 poisson: constant("poisson"),
                 state: group
                     .attribute_word(STRESS_STATES, "state")
                     .unwrap_or(StressState::PlaneStrain),
+                eigenstrain: (kind == EquationKind::Eigenstrain)
+                    .then(|| Box::new(EIGENSTRAINS.map(constant))),
             })
         }
         Some(EquationKind::Poisson) => {

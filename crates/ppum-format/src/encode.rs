@@ -20,8 +20,9 @@ use crate::content::{Array, ArrayValues, Content, Element, join, step_path};
 use crate::error::WriteError;
 use crate::limits::{FORMAT_VERSION, MAX_TABLE_VALUES};
 use crate::names::{
-    BOX_WITH_HOLES, BOXES, CRACK_ENDS, ENDS, FATES, GROWTH_NUMBERS, HOLES, MEETS_CRACK, MEETS_HOLE,
-    MESH, NO_LEVELS, PLAIN_BOX, STOPS, STRESS_STATES, Words, word,
+    BOX_WITH_HOLES, BOXES, CRACK_ENDS, EIGENSTRAIN, ELASTICITY, ENDS, FATES, GROWTH_NUMBERS, HOLES,
+    MEETS_CRACK, MEETS_HOLE, MESH, NO_EQUATION, NO_LEVELS, PLAIN_BOX, POISSON, STOPS,
+    STRESS_STATES, Words, word,
 };
 
 type Written = Result<(), WriteError>;
@@ -141,10 +142,10 @@ fn equation(group: &mut GroupWriter, equation: &Equation) -> Written {
         Equation::Elasticity(elasticity) => {
             let state = group.word(STRESS_STATES, elasticity.state, "state")?;
             group.attribute("state", Array::scalar(state));
-            "elasticity"
+            if elasticity.eigenstrain.is_some() { EIGENSTRAIN } else { ELASTICITY }
         }
-        Equation::Poisson { .. } => "poisson",
-        Equation::None => "none",
+        Equation::Poisson { .. } => POISSON,
+        Equation::None => NO_EQUATION,
     };
     group.attribute("kind", Array::scalar(kind.to_owned()));
     Ok(())

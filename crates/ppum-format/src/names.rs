@@ -16,16 +16,19 @@ pub(crate) const STRESS_STATES: &Words<StressState> =
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum EquationKind {
     Elasticity,
+    Eigenstrain,
     Poisson,
     None,
 }
 
 pub(crate) const ELASTICITY: &str = "elasticity";
+pub(crate) const EIGENSTRAIN: &str = "eigenstrain";
 pub(crate) const POISSON: &str = "poisson";
 pub(crate) const NO_EQUATION: &str = "none";
 
 pub(crate) const EQUATIONS: &Words<EquationKind> = &[
     (EquationKind::Elasticity, ELASTICITY),
+    (EquationKind::Eigenstrain, EIGENSTRAIN),
     (EquationKind::Poisson, POISSON),
     (EquationKind::None, NO_EQUATION),
 ];

@@ -2,13 +2,14 @@
 
 use ppum::dataset::Equation;
 use ppum::equation::Moduli;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Vec2, vec2};
 
 /// C\[i\]\[k\]\[j\]\[l\]
 type Tensor = [[[[f64; 2]; 2]; 2]; 2];
 
-/// The law of an equation: the flux of ∇u is σ_ik = Σ_jl C\[i\]\[k\]\[j\]\[l\] ∂u_j/∂x_l with C =
-/// Σ_m a_m(x) T_m, constant tensors T_m times coefficients a_m of position.
+/// The law of an equation: the flux of ∇u is σ_ik = Σ_jl C\[i\]\[k\]\[j\]\[l\] (∂u_j/∂x_l − ε⁰_jl)
+/// with the given strains ε⁰ and C = Σ_m a_m(x) T_m, constant tensors T_m times coefficients a_m of
+/// position.
 ///
 /// Elasticity: C = λ δ_ik δ_jl + μ (δ_ij δ_kl + δ_il δ_jk) with the plane λ; Poisson: κ δ_kl. Where
 /// the constants are the same everywhere there is one term with coefficient 1.
@@ -31,8 +32,8 @@ impl<'e> Law<'e> {
     pub(crate) fn new(equation: &'e Equation) -> Self {
         let components = equation.components();
         let mut law = Self { components, equation, terms: units(components), uniform: false };
-        if equation.is_uniform() {
-            (law.terms, law.uniform) = (vec![law.at(Vec2::ZERO)], true);
+        if equation.has_uniform_material() {
+            (law.terms, law.uniform) = (vec![law.linear_at(Vec2::ZERO)], true);
         }
         law
     }
@@ -40,6 +41,30 @@ impl<'e> Law<'e> {
     /// The law at a point.
     #[must_use]
     pub(crate) fn at(&self, x: Vec2) -> LawAt {
+        let law = self.linear_at(x);
+        self.eigenstrain(x).map_or(law, |eigenstrain| LawAt { eigenstrain, ..law })
+    }
+
+    /// The strains ε⁰ that are given in the plane at a point, if any are.
+    pub(crate) fn eigenstrain(&self, x: Vec2) -> Option<[Vec2; 2]> {
+        self.equation.elastic()?.eigenstrain.as_ref()?;
+        let [xx, yy, xy] = self.equation.moduli(x, [0.0, 0.0]).plane_eigenstrain();
+        Some([vec2(xx, xy), vec2(xy, yy)])
+    }
+
+    /// True if strains are given.
+    pub(crate) fn has_eigenstrain(&self) -> bool {
+        self.equation.eigenstrains().next().is_some()
+    }
+
+    /// E (ε⁰_zz)², twice the energy of the strain that the third direction does not take.
+    pub(crate) fn energy_through(&self, x: Vec2) -> f64 {
+        let Moduli { young, eigenstrain: [.., zz], .. } = self.equation.moduli(x, [0.0, 0.0]);
+        young * zz * zz
+    }
+
+    /// The law at a point without given strains.
+    fn linear_at(&self, x: Vec2) -> LawAt {
         let coefficients = self.coefficients(x);
         let mut tensor = Tensor::default();
         for (term, a) in self.terms.iter().zip(coefficients) {
@@ -47,7 +72,7 @@ impl<'e> Law<'e> {
             let parts = term.tensor.as_flattened().as_flattened().as_flattened();
             entries.iter_mut().zip(parts).for_each(|(entry, part)| *entry += a * part);
         }
-        LawAt { components: self.components, tensor }
+        LawAt { components: self.components, tensor, eigenstrain: [Vec2::ZERO; 2] }
     }
 
     /// The coefficients a_m at a point, one per term.
@@ -94,7 +119,7 @@ fn units(components: usize) -> Vec<LawAt> {
                 std::array::from_fn(|j| std::array::from_fn(|l| entry(i, k, j, l)))
             })
         });
-        LawAt { components, tensor }
+        LawAt { components, tensor, eigenstrain: [Vec2::ZERO; 2] }
     };
     if components == 1 {
         return vec![term(&|i, k, j, l| delta(i, 0) * delta(j, 0) * delta(k, l))];
@@ -110,6 +135,8 @@ fn units(components: usize) -> Vec<LawAt> {
 pub(crate) struct LawAt {
     components: usize,
     tensor: Tensor,
+    /// ε⁰
+    eigenstrain: [Vec2; 2],
 }
 
 impl LawAt {
@@ -163,6 +190,24 @@ impl LawAt {
     /// The flux σ of a gradient, `g[j] = ∇u_j`; rows beyond the components are zero.
     #[must_use]
     pub(crate) fn flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
+        self.linear_flux(&self.elastic(g))
+    }
+
+    /// A gradient without the strains that are given.
+    #[must_use]
+    pub(crate) fn elastic(&self, g: &[Vec2; 2]) -> [Vec2; 2] {
+        std::array::from_fn(|j| g[j] - self.eigenstrain[j])
+    }
+
+    /// C ε⁰: the stress that the body lacks where it takes the given strains.
+    #[must_use]
+    pub(crate) fn prestress(&self) -> [[f64; 2]; 2] {
+        self.linear_flux(&self.eigenstrain)
+    }
+
+    /// The flux C g of a gradient where no strains are given.
+    #[must_use]
+    pub(crate) fn linear_flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
         let entry = |i: usize, k: usize| {
             (0..self.components)
                 .map(|j| self.tensor[i][k][j][0] * g[j].x + self.tensor[i][k][j][1] * g[j].y)

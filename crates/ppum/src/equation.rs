@@ -31,7 +31,14 @@ pub struct Elasticity {
     pub poisson: Expression,
     /// Plane strain or plane stress.
     pub state: StressState,
+    /// The given strains ε⁰_xx, ε⁰_yy, ε⁰_xy and ε⁰_zz, α ΔT of a temperature, which make no
+    /// stress where the body takes them: σ = C(ε − ε⁰). ε⁰_zz has no effect in plane stress.
+    pub eigenstrain: Option<Box<[Expression; 4]>>,
 }
+
+/// The names of the given strains in files and in formulas.
+pub const EIGENSTRAINS: [&str; 4] =
+    ["eigenstrain_xx", "eigenstrain_yy", "eigenstrain_xy", "eigenstrain_zz"];
 
 impl Elasticity {
     /// The material at a point.
@@ -40,7 +47,7 @@ impl Elasticity {
         Material { young: self.young.value(p), poisson: self.poisson.value(p), state: self.state }
     }
 
-    /// The material, if it is the same everywhere.
+    /// The material, if it is the same everywhere, however given strains vary.
     #[must_use]
     pub fn uniform(&self) -> Option<Material> {
         let (young, poisson) = (self.young.constant()?, self.poisson.constant()?);
@@ -51,7 +58,7 @@ impl Elasticity {
 impl From<Material> for Elasticity {
     fn from(material: Material) -> Self {
         let Material { young, poisson, state } = material;
-        Self { young: young.into(), poisson: poisson.into(), state }
+        Self { young: young.into(), poisson: poisson.into(), state, eigenstrain: None }
     }
 }
 
@@ -89,14 +96,20 @@ impl Equation {
     }
 
     /// The expressions of the material constants with their names: `young` and `poisson`,
-    /// `conductivity`, or none.
+    /// `conductivity`, or none; after them the given strains, if there are any.
     pub fn constants(&self) -> impl Iterator<Item = (&'static str, &Expression)> {
         let list = match self {
             Self::Elasticity(e) => [Some(("young", &e.young)), Some(("poisson", &e.poisson))],
             Self::Poisson { conductivity } => [Some(("conductivity", conductivity)), None],
             Self::None => [None, None],
         };
-        list.into_iter().flatten()
+        list.into_iter().flatten().chain(self.eigenstrains())
+    }
+
+    /// The expressions of the given strains with their names.
+    pub fn eigenstrains(&self) -> impl Iterator<Item = (&'static str, &Expression)> {
+        let given = self.elastic().and_then(|elastic| elastic.eigenstrain.as_deref());
+        EIGENSTRAINS.into_iter().zip(given.into_iter().flatten())
     }
 
     /// The mistake in the constants, if there is one: the name of the first that is impossible and
@@ -118,6 +131,11 @@ impl Equation {
     }
 
     fn mistake_at(&self, p: Vec2) -> Option<(&'static str, String)> {
+        let values = self.eigenstrains().map(|(name, expression)| (name, expression.value(p)));
+        let infinite = values.into_iter().find(|(_, value)| !value.is_finite());
+        if let Some((name, value)) = infinite {
+            return Some((name, format!("is {value}, but must be finite")));
+        }
         let positive = |name, expression: &Expression| {
             let value = expression.value(p);
             let message = || (name, format!("is {value}, but must be positive and finite"));
@@ -138,10 +156,16 @@ impl Equation {
         }
     }
 
-    /// True if the constants are the same everywhere.
+    /// True if the constants are the same everywhere, given strains among them.
     #[must_use]
     pub fn is_uniform(&self) -> bool {
         self.constants().all(|(_, expression)| expression.constant().is_some())
+    }
+
+    /// True if the material is the same everywhere, however given strains vary.
+    #[must_use]
+    pub fn has_uniform_material(&self) -> bool {
+        self.elastic().map_or_else(|| self.is_uniform(), |elastic| elastic.uniform().is_some())
     }
 
     /// The moduli at the points `anchor + offset` of some lanes.
@@ -151,7 +175,14 @@ impl Equation {
             Self::Elasticity(e) => {
                 let (young, poisson) =
                     (e.young.values(anchor, offset), e.poisson.values(anchor, offset));
-                Moduli::new(young, poisson, e.state)
+                let moduli = Moduli::new(young, poisson, e.state);
+                match &e.eigenstrain {
+                    None => moduli,
+                    Some(given) => {
+                        let eigenstrain = given.each_ref().map(|e| e.values(anchor, offset));
+                        Moduli { eigenstrain, ..moduli }.in_state(e.state)
+                    }
+                }
             }
             Self::Poisson { conductivity } => {
                 let zero = offset[0].lit(0.0);
@@ -179,6 +210,8 @@ pub struct Moduli<R> {
     pub out_of_plane: R,
     /// κ of Poisson's equation.
     pub conductivity: R,
+    /// ε⁰_xx, ε⁰_yy, ε⁰_xy and ε⁰_zz; the last is zero in plane stress, where it has no effect.
+    pub eigenstrain: [R; 4],
 }
 
 impl<R: Real> Moduli<R> {
@@ -205,7 +238,25 @@ impl<R: Real> Moduli<R> {
             mu: zero,
             out_of_plane: zero,
             conductivity: zero,
+            eigenstrain: [zero; 4],
         }
+    }
+
+    #[inline(always)]
+    fn in_state(self, state: StressState) -> Self {
+        let [xx, yy, xy, zz] = self.eigenstrain;
+        let zz = if state == StressState::PlaneStress { zz.lit(0.0) } else { zz };
+        Self { eigenstrain: [xx, yy, xy, zz], ..self }
+    }
+
+    /// The strains in the plane under which σ_xx, σ_yy and σ_xy vanish: those given, and in plane
+    /// strain ν ε⁰_zz in all directions, as ε_zz = 0 leaves −ε⁰_zz in the third.
+    #[inline(always)]
+    #[must_use]
+    pub fn plane_eigenstrain(&self) -> [R; 3] {
+        let [xx, yy, xy, zz] = self.eigenstrain;
+        let through = self.out_of_plane * zz;
+        [xx + through, yy + through, xy]
     }
 }
 

@@ -177,6 +177,37 @@ pub const ELASTICITY: [Definition; 18] = [
     ("energy", "((lambda + mu)*(exx + eyy)^2 + mu*((exx - eyy)^2 + 4*exy^2))/2"),
 ];
 
+/// The quantities of stresses where strains ε⁰ are given, in place of those of [`ELASTICITY`]: σ =
+/// C(ε − ε⁰) with the elastic strains in the plane, and σ_zz = ν(σ_xx + σ_yy) − E ε⁰_zz.
+pub const EIGENSTRAIN: [Definition; 14] = [
+    ("elastic_xx", "exx - (eigenstrain_xx + out_of_plane*eigenstrain_zz)"),
+    ("elastic_yy", "eyy - (eigenstrain_yy + out_of_plane*eigenstrain_zz)"),
+    ("elastic_xy", "exy - eigenstrain_xy"),
+    ("sxx", "2*mu*elastic_xx + lambda*(elastic_xx + elastic_yy)"),
+    ("syy", "2*mu*elastic_yy + lambda*(elastic_xx + elastic_yy)"),
+    ("sxy", "2*mu*elastic_xy"),
+    ("szz", "out_of_plane*(sxx + syy) - young*eigenstrain_zz"),
+    (
+        "von_mises",
+        "hypot(sqrt(3)*mu*hypot(elastic_xx - elastic_yy, 2*elastic_xy), (sxx + syy)/2 - szz)",
+    ),
+    (
+        "s1",
+        "(lambda + mu)*(elastic_xx + elastic_yy) + mu*hypot(elastic_xx - elastic_yy, 2*elastic_xy)",
+    ),
+    (
+        "s2",
+        "(lambda + mu)*(elastic_xx + elastic_yy) - mu*hypot(elastic_xx - elastic_yy, 2*elastic_xy)",
+    ),
+    ("tresca", "(s1 - s2)/2 + max((s1 - s2)/2, abs((sxx + syy)/2 - szz))"),
+    ("direction", "if(sxy == 0, if(sxx >= syy, 0, pi/2), atan2(2*sxy, sxx - syy)/2)"),
+    ("hydrostatic", "(sxx + syy + szz)/3"),
+    ("energy", "(sxx*elastic_xx + syy*elastic_yy + 2*sxy*elastic_xy + young*eigenstrain_zz^2)/2"),
+];
+
+/// Number of quantities of [`ELASTICITY`] before those that [`EIGENSTRAIN`] takes the place of.
+pub const STRAINS: usize = 7;
+
 /// Quantities of a field with the one component u.
 pub const POISSON: [Definition; 3] = [
     ("magnitude", "abs(u)"),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use ppum::library::{ELASTICITY, POISSON};
+use ppum::library::{EIGENSTRAIN, ELASTICITY, POISSON};
 
 const PAGE: &str = include_str!("../../../../FORMAT.md");
 
@@ -13,7 +13,7 @@ fn quantities_are_those_of_the_library() {
     let on_page: BTreeSet<(&str, &str)> = lines
         .map(|(name, text)| (name, text.trim().split("   ").next().expect("a part")))
         .collect();
-    for (name, text) in ELASTICITY.into_iter().chain(POISSON) {
+    for (name, text) in ELASTICITY.into_iter().chain(POISSON).chain(EIGENSTRAIN) {
         assert!(on_page.contains(&(name, text)), "{name}: {text}");
     }
 }

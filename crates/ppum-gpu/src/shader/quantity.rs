@@ -46,6 +46,9 @@ pub(crate) fn quantity_wgsl(field: &Field<'_>, quantity: &Quantity) -> Result<St
         }
         // of a single component there is no stress
         _ if components < 2 => returning("", "ppum_from_bits(0x7f800000u)"),
+        _ if field.equation.elastic().is_some() => {
+            of_library(quantity, field, field.equation, &["ux", "uy"])?
+        }
         _ => of_library(quantity, field, &solid(), &["ux", "uy"])?,
     })
 }
@@ -102,7 +105,8 @@ fn of_library(
         .into_iter()
         .find(|(_, known)| known == quantity)
         .ok_or_else(|| GpuError::formula("this quantity", &"it has no formula"))?;
-    let vocabulary = Vocabulary { equation, components: &components, tables: &[], named: &[] };
+    let of_field = Vocabulary::of(field);
+    let vocabulary = Vocabulary { equation, components: &components, named: &[], ..of_field };
     let formula = QuantityFormula::new(&name.replace('-', "_"), &vocabulary)
         .map_err(|error| GpuError::formula(&name, &error))?;
     of_formula(&formula, field, &vocabulary)

@@ -41,11 +41,13 @@ class Elastic:
         young: Young's modulus, a stress; a number or a formula of x and y.
         poisson: Poisson's ratio; a number or a formula.
         state: ``plane-strain`` or ``plane-stress``.
+        expansion: Coefficient of thermal expansion, for ``problem.section("temperature", value=…)``.
     """
 
     young: float | str
     poisson: float | str
     state: str = "plane-strain"
+    expansion: float | str | None = None
 
 
 @dataclass(frozen=True)
@@ -98,6 +100,8 @@ class Problem:
                 "poisson": material.poisson,
                 "state": material.state,
             }
+            if material.expansion is not None:
+                spec["material"]["expansion"] = material.expansion
         self._set(plain(spec), None, "problem", Path())
 
     def _set(self, spec: dict[str, Any], text: str | None, name: str, folder: Path) -> None:

@@ -341,8 +341,12 @@ fn at_an_interface_and_at_corners() {
     let mut dataset = polynomial(&[0.0, 1.0]);
     let young = "if(x > 0.7123, 1, 2 + x - (y - 0.1)^2)";
     let (young, poisson) = (young.parse().expect("a formula"), 0.0.into());
-    dataset.equation =
-        Equation::Elasticity(Elasticity { young, poisson, state: StressState::PlaneStrain });
+    dataset.equation = Equation::Elasticity(Elasticity {
+        young,
+        poisson,
+        state: StressState::PlaneStrain,
+        eigenstrain: None,
+    });
     dataset.domain.holes =
         vec![Hole::polygon([[1.0, 0.3], [1.2, 0.3], [1.1, 0.5]].map(Vec2::from).to_vec())];
     let field = Field::new(&dataset, 0).expect("a field");
@@ -365,8 +369,12 @@ fn at_a_round_interface() {
     let (x, y) = (format!("(x - {})", center.x), format!("(y - {})", center.y));
     let young = format!("if(hypot({x}, {y}) > 0.21, 1, 2 + {x}*{y})");
     let (young, poisson) = (young.parse().expect("a formula"), 0.0.into());
-    dataset.equation =
-        Equation::Elasticity(Elasticity { young, poisson, state: StressState::PlaneStrain });
+    dataset.equation = Equation::Elasticity(Elasticity {
+        young,
+        poisson,
+        state: StressState::PlaneStrain,
+        eigenstrain: None,
+    });
     let field = Field::new(&dataset, 0).expect("a field");
     let view = View::fit(dataset.domain.bounds, [91, 72]).expect("a view");
     let all = extrema_of(&field, &view, "sxx");

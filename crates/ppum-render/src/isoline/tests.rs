@@ -350,6 +350,7 @@ fn interfaces_cut_lines() {
         young: young.parse().expect("a formula"),
         poisson: 0.0.into(),
         state: StressState::PlaneStrain,
+        eigenstrain: None,
     });
     let field = Field::new(&dataset, 0).expect("a field");
     let view = View::new(center, 0.6, [90, 80]).expect("a view");

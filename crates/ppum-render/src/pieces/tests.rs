@@ -221,8 +221,12 @@ fn faces_end_at_a_tip() {
 fn two_materials(young: &str) -> Dataset {
     let mut dataset = Recipe { cracks: vec![], ..Recipe::default() }.dataset();
     let (young, poisson) = (young.parse().expect("a formula"), 0.3.into());
-    dataset.equation =
-        Equation::Elasticity(Elasticity { young, poisson, state: StressState::PlaneStrain });
+    dataset.equation = Equation::Elasticity(Elasticity {
+        young,
+        poisson,
+        state: StressState::PlaneStrain,
+        eigenstrain: None,
+    });
     dataset
 }
 

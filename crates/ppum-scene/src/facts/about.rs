@@ -37,8 +37,16 @@ enum Hole {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 enum Equation {
-    Elasticity { young: Constant, poisson: Constant, state: &'static str },
-    Poisson { conductivity: Constant },
+    Elasticity {
+        young: Constant,
+        poisson: Constant,
+        state: &'static str,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        eigenstrain: Option<[Constant; 4]>,
+    },
+    Poisson {
+        conductivity: Constant,
+    },
     None,
 }
 
@@ -134,6 +142,10 @@ impl Equation {
                     StressState::PlaneStrain => "plane-strain",
                     StressState::PlaneStress => "plane-stress",
                 },
+                eigenstrain: material
+                    .eigenstrain
+                    .as_ref()
+                    .map(|given| given.each_ref().map(Constant::from)),
             },
             dataset::Equation::Poisson { conductivity } => {
                 Self::Poisson { conductivity: conductivity.into() }
@@ -146,8 +158,10 @@ impl Equation {
 impl fmt::Display for Equation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Elasticity { young, poisson, state } => {
-                write!(f, "elasticity, E {young}, ν {poisson}, {state}")
+            Self::Elasticity { young, poisson, state, eigenstrain } => {
+                write!(f, "elasticity, E {young}, ν {poisson}, {state}")?;
+                let Some([xx, yy, xy, zz]) = eigenstrain else { return Ok(()) };
+                write!(f, ", given strains xx {xx}, yy {yy}, xy {xy}, zz {zz}")
             }
             Self::Poisson { conductivity } => write!(f, "Poisson, κ {conductivity}"),
             Self::None => f.write_str("none"),

@@ -33,6 +33,7 @@ pub(super) fn unseen_data(
         quadrature: space.quadrature(0),
         border: BorderConditions::all(problem),
         has_source: problem.source.iter().any(|f| f.formula().constant().is_none()),
+        has_eigenstrain: problem.equation.eigenstrains().any(|(_, e)| e.constant().is_none()),
     };
     let mut squares = Vec::with_capacity(n);
     let work = |(): &mut (), cell: usize| Ok(data.in_cell(cell));
@@ -50,6 +51,7 @@ struct DataResidual<'a> {
     border: Vec<BorderConditions>,
     /// True if the source varies: a constant is a polynomial.
     has_source: bool,
+    has_eigenstrain: bool,
 }
 
 impl DataResidual<'_> {
@@ -62,7 +64,26 @@ impl DataResidual<'_> {
             rules.iter().map(|rule| self.on_border(part, rule, rect, order)).sum::<f64>()
         });
         let on_border: f64 = on_border.sum();
-        if self.has_source { on_border + self.of_source(cell, rect, order) } else { on_border }
+        let inside = if self.has_source { self.of_source(cell, rect, order) } else { 0.0 };
+        on_border + inside + self.of_eigenstrain(cell, rect, order)
+    }
+
+    /// ∫ |C ε⁰ − Π C ε⁰|² / C with the best polynomials of a degree below the order p, which the
+    /// strains of polynomials have: what the rest of the given strains does to the energy. Nothing
+    /// is said of cells with other functions, which may see it.
+    fn of_eigenstrain(&self, cell: usize, rect: &Rect, order: usize) -> f64 {
+        let data = &self.space.step().fields[0];
+        let has_others = |&patch: &u32| data.blocks(patch as usize).len() > 1;
+        if !self.has_eigenstrain || self.space.coverers[cell].iter().any(has_others) {
+            return 0.0;
+        }
+        let rules = self.space.rules(&self.quadrature, cell);
+        let given = |x| {
+            let [[xx, xy], [_, yy]] = self.law.at(x).prestress();
+            [xx, yy, std::f64::consts::SQRT_2 * xy]
+        };
+        let (places, mut values) = values_in_cell(&rules, rect, &given);
+        unseen(&places, order, &mut values) / self.law.at(rect.center()).modulus(0)
     }
 
     /// (d/(π p))² ∫ |f − Π f|² / C with the cell's diagonal d and the best polynomial Π f of a
@@ -74,26 +95,10 @@ impl DataResidual<'_> {
             return 0.0;
         }
         let rules = self.space.rules(&self.quadrature, cell);
-        let (places, mut values) = self.source_values(&rules, rect);
+        let source = |x| self.problem.source_at(x);
+        let (places, mut values) = values_in_cell(&rules, rect, &source);
         let d = rect.size().length() / (PI * order.max(1) as f64);
         d * d * unseen(&places, order, &mut values) / self.law.at(rect.center()).modulus(0)
-    }
-
-    /// The points of a cell, in units of half its size, with the roots of their weights, and the
-    /// source there.
-    fn source_values(&self, rules: &[Rule], rect: &Rect) -> (Vec<(Vec2, f64)>, Vec<Vec<f64>>) {
-        let (center, half) = (rect.center(), rect.size() * 0.5);
-        let (mut places, mut values) = (Vec::new(), vec![Vec::new(); self.law.components]);
-        for rule in rules {
-            for (&offset, weight) in rule.offsets.iter().zip(&rule.weights) {
-                let (x, root) = (rule.anchor + offset, weight.sqrt());
-                let way = x - center;
-                places.push((vec2(way.x / half.x, way.y / half.y), root));
-                let source = self.problem.source_at(x);
-                values.iter_mut().zip(source).for_each(|(values, f)| values.push(root * f));
-            }
-        }
-        (places, values)
     }
 
     /// The squares of what the field misses of the tractions and values at the points of a rule.
@@ -142,4 +147,24 @@ impl DataResidual<'_> {
         let crack = rule.face.map(|face| &self.field.step.cracks[face.segment.crack as usize]);
         crack.iter().flat_map(|crack| crack.tips().map(|end| crack.end_point(end))).collect()
     }
+}
+
+/// The points of a cell, in units of half its size, with the roots of their weights, and a function
+/// there.
+fn values_in_cell<const N: usize>(
+    rules: &[Rule],
+    rect: &Rect,
+    function: &dyn Fn(Vec2) -> [f64; N],
+) -> (Vec<(Vec2, f64)>, Vec<Vec<f64>>) {
+    let (center, half) = (rect.center(), rect.size() * 0.5);
+    let (mut places, mut values) = (Vec::new(), vec![Vec::new(); N]);
+    for rule in rules {
+        for (&offset, weight) in rule.offsets.iter().zip(&rule.weights) {
+            let (x, root) = (rule.anchor + offset, weight.sqrt());
+            let way = x - center;
+            places.push((vec2(way.x / half.x, way.y / half.y), root));
+            values.iter_mut().zip(function(x)).for_each(|(values, f)| values.push(root * f));
+        }
+    }
+    (places, values)
 }

@@ -36,7 +36,7 @@ use ppum::field::Field;
 
 /// The estimated error in the energy norm, cell by cell.
 pub(crate) struct Estimated {
-    /// ½ ∫ σ:ε of the field.
+    /// ½ ∫ σ:(ε − ε⁰) of the field.
     pub(crate) energy: f64,
     /// The squares η_j².
     pub(crate) squares: Vec<f64>,

@@ -98,8 +98,9 @@ impl SampledFields<'_> {
         let whole = [0, 1].map(|axis| total(&products, axis));
         let mut energy = Mat::zeros(1, 1);
         let first = self.law.components * self.shapes.points;
-        let own = whole.each_ref().map(|slopes| &slopes[..first]);
-        self.add_products(&self.rule.weights, own, &mut energy);
+        let mut own = whole.each_ref().map(|slopes| slopes[..first].to_vec());
+        let through = self.take_eigenstrain(&mut own);
+        self.add_products(&self.rule.weights, own.each_ref().map(Vec::as_slice), &mut energy);
         if products.len() > 1 {
             for part in &mut products {
                 let weights = self.weights(part);
@@ -108,7 +109,23 @@ impl SampledFields<'_> {
                 self.add_products(&weights, slopes, sum);
             }
         }
-        0.5 * energy[(0, 0)]
+        0.5 * (energy[(0, 0)] + through)
+    }
+
+    /// Leaves the elastic part of the slopes of one field; returns twice the energy of the third
+    /// direction.
+    fn take_eigenstrain(&self, slopes: &mut [Vec<f64>; 2]) -> f64 {
+        let (points, mut through) = (self.shapes.points, 0.0);
+        for (q, (&offset, weight)) in self.rule.offsets.iter().zip(&self.rule.weights).enumerate() {
+            let x = self.rule.anchor + offset;
+            let Some(given) = self.law.eigenstrain(x) else { return 0.0 };
+            for (component, given) in given.into_iter().enumerate() {
+                slopes[0][component * points + q] -= given.x;
+                slopes[1][component * points + q] -= given.y;
+            }
+            through += weight * self.law.energy_through(x);
+        }
+        through
     }
 
     /// Adds ∫ σ:∇v of all pairs of fields. Slopes have a row for each component of each field.

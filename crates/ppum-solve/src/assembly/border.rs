@@ -19,7 +19,8 @@
 //! traction      B_(a,j)(b,k) = ∫_Γ t_i(N_a e_j) t_i(N_b e_k)
 //! ```
 //!
-//! summed over the components i that are held. β must be chosen so that v·K v > 0. By Cauchy's
+//! summed over the components i that are held. Where strains ε⁰ are given, t_i(u) is less by (C ε⁰
+//! n)_i, which goes to the load. β must be chosen so that v·K v > 0. By Cauchy's
 //! inequality 2 ∫ t_i(v) v_i ≤ ε ∫ t_i(v)² + ε⁻¹ ∫ v_i², and ∫ t_i(v)² ≤ λ a(v, v) with the largest
 //! λ of the pencil B x = λ A x, A the cell's stiffness before the terms above: any β > λ will do.
 //! β = 2 λ, and a cell cut into slivers so gets the larger value it needs (Griebel & Schweitzer
@@ -181,10 +182,20 @@ impl<'a> Border<'a> {
     ) {
         let points = rule.offsets.iter().zip(&rule.normals).zip(&rule.weights);
         let at = |((&o, &normal), &weight): ((&Vec2, &Vec2), &f64)| {
-            piece.loads(rule.anchor + o, normal).map(|t| weight * t)
+            let (x, loads) = (rule.anchor + o, piece.loads(rule.anchor + o, normal));
+            // the traction of the unknown, C ε n − C ε⁰ n, stands where a value is held
+            let lacking = self.lacking(x, normal);
+            [0, 1].map(|i| weight * if piece.held[i] { -lacking[i] } else { loads[i] })
         };
         let loads: Vec<[f64; 2]> = points.map(at).collect();
         shapes.add_loads(&loads, numbers, self.assembly.components(), load);
+    }
+
+    /// C ε⁰ n
+    fn lacking(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
+        let law = self.assembly.law;
+        let stress = law.eigenstrain(x).map_or([[0.0; 2]; 2], |_| law.at(x).prestress());
+        stress.map(|row| row[0] * normal.x + row[1] * normal.y)
     }
 
     /// The functions as component i sees them; shapes carry the roots of the weights.
@@ -264,9 +275,14 @@ impl<'a> Border<'a> {
                 self.traction_load[row] += tractions[(k, q)] * g;
             }
         }
+        let points = rule.offsets.iter().zip(&rule.normals).zip(&rule.weights);
+        let lacking = |((&o, &normal), w): ((&Vec2, &Vec2), &f64)| {
+            self.lacking(rule.anchor + o, normal)[trace.component] * w.sqrt()
+        };
+        let lacking: Vec<f64> = points.map(lacking).collect();
         let restraint = self.restraint(piece.condition);
         for k in 0..piece.modes.count() {
-            restraint.give(k, &mode(piece, rule, k, trace.component), &given);
+            restraint.give(k, &mode(piece, rule, k, trace.component), &given, &lacking);
         }
     }
 

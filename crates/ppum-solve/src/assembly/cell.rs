@@ -1,7 +1,7 @@
 //! The contribution of one leaf cell to the system, in the stable basis.
 //!
 //! ```text
-//! K = ∫_C ∇N·C·∇N        f = ∫_C N·b
+//! K = ∫_C ∇N·C·∇N        f = ∫_C N·b + ∇N·C ε⁰
 //! ```
 
 use super::Assembly;
@@ -82,6 +82,7 @@ impl<'s> CellAssembler<'s> {
             self.stiffen(rule, !is_held, matrix.as_mut(), &system.functions);
             self.add_functionals((cell, rule), &mut plain);
             self.load(rule, shared, &mut system);
+            self.prestress(rule, &mut system);
         }
         system.add_functionals(&plain, self.assembly.basis, self.assembly.components());
         for rule in source.and_then(|source| source.rules).unwrap_or_default() {
@@ -146,6 +147,23 @@ impl<'s> CellAssembler<'s> {
         let load = |(&o, &weight): (&Vec2, &f64)| source(rule.anchor + o).map(|f| weight * f);
         let loads: Vec<[f64; 2]> = points.map(load).collect();
         self.shapes.add_loads(&loads, &numbers, self.assembly.components(), &mut system.load);
+    }
+
+    /// Adds ∫ ∇N·C ε⁰ of the strains that are given at the points of the rule that was looked
+    /// at last.
+    fn prestress(&mut self, rule: &Rule, system: &mut CellSystem) {
+        let law = self.assembly.law;
+        if !law.has_eigenstrain() {
+            return;
+        }
+        self.evaluator.apply(&rule.patches, &mut self.shapes);
+        let points = rule.offsets.iter().zip(&rule.weights);
+        let stress = |(&o, &weight): (&Vec2, &f64)| {
+            law.at(rule.anchor + o).prestress().map(|row| row.map(|s| weight * s))
+        };
+        let stresses: Vec<[[f64; 2]; 2]> = points.map(stress).collect();
+        let numbers = system.functions.numbers(&rule.patches);
+        self.shapes.add_stresses(&stresses, &numbers, &mut system.load);
     }
 
     /// Adds the points of the rule that was looked at last to a matrix of fields, or of functions

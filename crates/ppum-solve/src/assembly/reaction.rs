@@ -1,7 +1,7 @@
 //! Reactions: the resultant force and moment that restraints exert on the plate.
 //!
 //! ```text
-//! R_k = ∫ m_k,i t_i     t_i = (σ(u) n)_i − β (u_i − g_i)     over the components i that are held
+//! R_k = ∫ m_k,i t_i     t_i = (C(ε(u) − ε⁰) n)_i − β (u_i − g_i)     over the i that are held
 //! ```
 //!
 //! m_k are the rigid-body modes. With Nitsche's own β the system, tested with a rigid-body mode,
@@ -32,12 +32,20 @@ pub(crate) struct Restraint {
     value: [Vec<f64>; MODES],
     /// ∫ m_i g_i
     given: PerMode,
+    /// ∫ m_i (C ε⁰ n)_i
+    lacking: PerMode,
 }
 
 impl Restraint {
     pub(crate) fn new(condition: usize, unknowns: usize) -> Self {
         let zero = || std::array::from_fn(|_| vec![0.0; unknowns]);
-        Self { condition, traction: zero(), value: zero(), given: [0.0; MODES] }
+        Self {
+            condition,
+            traction: zero(),
+            value: zero(),
+            given: [0.0; MODES],
+            lacking: [0.0; MODES],
+        }
     }
 
     /// Adds the values that mode `k` takes at points, times the roots of their weights: rows of
@@ -59,9 +67,12 @@ impl Restraint {
         }
     }
 
-    /// Adds the data that are given at points where mode `k` has these values, all times the roots.
-    pub(crate) fn give(&mut self, k: usize, mode: &[f64], given: &[f64]) {
-        self.given[k] += mode.iter().zip(given).map(|(m, g)| m * g).sum::<f64>();
+    /// Adds the data that are given at points where mode `k` has these values, and the tractions
+    /// that given strains take away, all times the roots.
+    pub(crate) fn give(&mut self, k: usize, mode: &[f64], given: &[f64], lacking: &[f64]) {
+        let sum = |values: &[f64]| mode.iter().zip(values).map(|(m, v)| m * v).sum::<f64>();
+        self.given[k] += sum(given);
+        self.lacking[k] += sum(lacking);
     }
 
     /// The reaction as a function of the cell's unknowns, now that β is known.
@@ -70,7 +81,8 @@ impl Restraint {
         for (work, value) in work.iter_mut().zip(&value) {
             work.iter_mut().zip(value).for_each(|(work, value)| *work -= beta * value);
         }
-        CellReaction { condition: self.condition, work, given: self.given.map(|g| beta * g) }
+        let given = std::array::from_fn(|k| beta * self.given[k] - self.lacking[k]);
+        CellReaction { condition: self.condition, work, given }
     }
 }
 

@@ -139,7 +139,8 @@ impl System {
                 let pieces = given.border(space, &quadrature, cell);
                 let source = given.source(cell);
                 let template = templates.of(cell);
-                let shares_rules = source.is_some_and(|source| source.rules.is_none());
+                let shares_rules = source.is_some_and(|source| source.rules.is_none())
+                    || assembly.law.has_eigenstrain();
                 let rules = match &template {
                     Some(_) if !shares_rules && !functionals.are_of(cell) => Cow::default(),
                     _ => space.rules(&quadrature, cell),

@@ -81,6 +81,20 @@ impl Shapes {
         }
     }
 
+    /// Adds Σ ∇N · σ over the points, the stresses σ_ik times weights, to the same load.
+    pub(crate) fn add_stresses(
+        &self,
+        stresses: &[[[f64; 2]; 2]],
+        numbers: &[usize],
+        sum: &mut [f64],
+    ) {
+        let along = |k: usize| Mat::from_fn(self.points, 2, |q, i| stresses[q][i][k]);
+        let sums = self.slopes_along([&along(0), &along(1)]);
+        for (k, &number) in numbers.iter().enumerate() {
+            (0..2).for_each(|i| sum[number * 2 + i] += sums[(k, i)]);
+        }
+    }
+
     /// Σ G·∇N over the points, for vectors G with a column of points each, of their x and of their
     /// y: \[functions, vectors\].
     pub(crate) fn slopes_along(&self, [x, y]: [&Mat<f64>; 2]) -> Mat<f64> {

@@ -82,8 +82,9 @@ fn energy(field: &Field<'_>, cell: usize) -> f64 {
     let density = |p: Vec2| {
         let mut u = [Jet::constant(0.0); 2];
         let inside = field.at(p).evaluate::<1>(Vec2::ZERO, Side::Above, &mut u);
-        let g = u.map(|jet| vec2(jet.x, jet.y));
-        let s = law.at(p).flux(&g);
+        let law_at = law.at(p);
+        let g = law_at.elastic(&u.map(|jet| vec2(jet.x, jet.y)));
+        let s = law_at.linear_flux(&g);
         let sum: f64 = (0..law.components).map(|i| s[i][0] * g[i].x + s[i][1] * g[i].y).sum();
         if inside && sum.is_finite() { 0.5 * sum } else { 0.0 }
     };

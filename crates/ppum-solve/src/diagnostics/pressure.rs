@@ -100,12 +100,13 @@ fn oscillation(field: &Field<'_>, law: &Law<'_>, cell: usize) -> Option<Oscillat
     Some(Oscillation { area: rect.size().x * rect.size().y, tail, stress })
 }
 
-/// λ div u and σ:σ in the plane at a point; `None` outside the plate, and where they are infinite.
+/// λ tr(ε − ε⁰) and σ:σ in the plane at a point; `None` outside the plate, and where they are infinite.
 fn stresses(local: &mut LocalField<'_>, offset: Vec2, law: &LawAt) -> Option<(f64, f64)> {
     let mut u = [Jet::constant(0.0); 2];
     let is_inside = local.evaluate::<1>(offset, Side::Above, &mut u);
-    let [[xx, xy], [yx, yy]] = law.flux(&u.map(|jet| vec2(jet.x, jet.y)));
-    let pressure = law.lambda() * (u[0].x + u[1].y);
+    let g = u.map(|jet| vec2(jet.x, jet.y));
+    let ([[xx, xy], [yx, yy]], [ex, ey]) = (law.flux(&g), law.elastic(&g));
+    let pressure = law.lambda() * (ex.x + ey.y);
     let square = xx * xx + xy * xy + yx * yx + yy * yy;
     (is_inside && square.is_finite()).then_some((pressure, square))
 }

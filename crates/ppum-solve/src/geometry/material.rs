@@ -30,8 +30,22 @@ pub(crate) fn interface_distance(body: &Elasticity, p: Vec2, reach: f64) -> Opti
     if body.uniform().is_some() {
         return None;
     }
-    let along = |ray: Vec2| first_jump(&|r| body.at(p + ray * r), reach);
+    let along = |ray: Vec2| first_jump(&|r| body.at(p + ray * r), &change, reach);
     rays().filter_map(along).reduce(f64::min)
+}
+
+/// True if given strains jump within `reach` of a point, as seen from there: across a straight
+/// crack that ends at the point they may.
+pub(crate) fn eigenstrain_jumps(body: &Elasticity, p: Vec2, reach: f64) -> bool {
+    let Some(given) = &body.eigenstrain else { return false };
+    let at = |x: Vec2| given.each_ref().map(|e| e.value(x));
+    let difference = |a: &[f64; 4], b: &[f64; 4]| {
+        a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+    };
+    let size = rays().map(|ray| difference(&at(p), &at(p + ray * reach))).fold(0.0, f64::max);
+    let change = |a: &[f64; 4], b: &[f64; 4]| difference(a, b) / size;
+    let jumps = |ray: Vec2| first_jump(&|r| at(p + ray * r), &change, reach).is_some();
+    size > 0.0 && rays().any(jumps)
 }
 
 fn rays() -> impl Iterator<Item = Vec2> {
@@ -45,9 +59,13 @@ fn change(a: &Material, b: &Material) -> f64 {
     young.max((a.poisson - b.poisson).abs())
 }
 
-/// The least distance below `reach` at which the material jumps. What changes over a step and no
+/// The least distance below `reach` at which there is a jump. What changes over a step and no
 /// more when that is halved to nothing has varied smoothly.
-fn first_jump(at: &dyn Fn(f64) -> Material, reach: f64) -> Option<f64> {
+fn first_jump<T: Copy>(
+    at: &dyn Fn(f64) -> T,
+    change: &dyn Fn(&T, &T) -> f64,
+    reach: f64,
+) -> Option<f64> {
     let r = |k: u32| reach * f64::from(k) / f64::from(STEPS);
     (0..STEPS).find_map(|k| {
         let [mut near, mut far] = [r(k), r(k + 1)].map(|r| (r, at(r)));
@@ -70,7 +88,7 @@ mod tests {
 
     fn body(young: &str, poisson: &str) -> Elasticity {
         let [young, poisson] = [young, poisson].map(|text| text.parse().expect("a formula"));
-        Elasticity { young, poisson, state: StressState::PlaneStrain }
+        Elasticity { young, poisson, state: StressState::PlaneStrain, eigenstrain: None }
     }
 
     #[test]

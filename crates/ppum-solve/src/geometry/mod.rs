@@ -16,5 +16,5 @@ pub(crate) use clip::{
     solid_part,
 };
 pub(crate) use jumps::Jumps;
-pub(crate) use material::interface_distance;
+pub(crate) use material::{eigenstrain_jumps, interface_distance};
 pub(crate) use placed::{Placed, around, wider};

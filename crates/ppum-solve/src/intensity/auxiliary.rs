@@ -138,6 +138,12 @@ pub(super) fn stress<R: Real>([lambda, mu]: [R; 2], u: &Gradients<R>) -> Gradien
     [[trace + two_mu * u[0][0], shear], [shear, trace + two_mu * u[1][1]]]
 }
 
+/// The difference of two gradients.
+#[inline(always)]
+pub(super) fn difference<R: Real>(g: &Gradients<R>, other: &Gradients<R>) -> Gradients<R> {
+    [minus(g[0], other[0]), minus(g[1], other[1])]
+}
+
 /// σ_ij g_i,j of a symmetric stress.
 #[inline(always)]
 pub(super) fn work<R: Real>(s: &Gradients<R>, g: &Gradients<R>) -> R {

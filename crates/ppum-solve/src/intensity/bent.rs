@@ -1,8 +1,8 @@
 //! The part of the interaction integral that comes from the faces of the crack behind its kinks.
 
-use super::auxiliary::{Gradients, stress, work};
+use super::auxiliary::{Gradients, difference, stress, work};
 use super::course::CourseSegment;
-use super::integral::{Integrals, Interaction, cut_off, in_frame, square, turned};
+use super::integral::{Integrals, Interaction, cut_off, square, turned};
 use crate::quadrature::{EdgeRule, Face, Quadrature};
 use ppum::crack::{SegmentId, Side};
 use ppum::jet::Jet;
@@ -48,7 +48,7 @@ impl Interaction<'_> {
         let points = rule.offsets.iter().zip(&rule.weights).zip(&rule.normals);
         for (((offset, &weight), normal), u) in points.zip(jets.chunks_exact(2)) {
             let point = tip.point([offset.x, offset.y], side);
-            let (u, normal) = (in_frame(u, tip.axis), turned(tip.axis, (*normal).into()));
+            let (u, normal) = (self.gradient(u, tip.axis), turned(tip.axis, (*normal).into()));
             let parts = self.auxiliary(&point).map(|a| -self.crossing(&u, &a.gradient, normal));
             let part = |radius: f64| parts.map(|m| cut_off(square(&point), radius).0 * m);
             let modes = self.radii.map(part);
@@ -76,7 +76,8 @@ impl Interaction<'_> {
 
     /// E_j n_j = W n_1 − t_i u_i,1
     fn energy_crossing(&self, u: &Gradients, normal: Vec2, world: Vec2, traction: Vec2) -> f64 {
-        let energy = 0.5 * work(&stress(self.lame(world), u), u);
+        let elastic = difference(u, &self.eigenstrain(world));
+        let energy = 0.5 * work(&stress(self.lame(world), &elastic), &elastic);
         energy * normal.x - traction.dot(vec2(u[0][0], u[1][0]))
     }
 }

@@ -1,6 +1,6 @@
 //! The integrands of the interaction integral at the points of a rule, on lanes.
 
-use super::auxiliary::{Auxiliary, Gradients, stress, work};
+use super::auxiliary::{Auxiliary, Gradients, difference, stress, work};
 use super::integral::{Integrals, Interaction, MODES, RINGS, cut_off, in_frame, square};
 use super::sensitivity::{FACTORS, Kernel};
 use ppum::crack::{LocalTip, Side, TipPoint};
@@ -18,6 +18,8 @@ pub(super) struct Local {
     pub(super) lame: [f64; 2],
     /// The body force in the tip's frame.
     pub(super) force: [f64; 2],
+    /// The given strains without those at the tip, in its frame.
+    pub(super) eigenstrain: Gradients,
 }
 
 /// Points that see a tip from one anchor.
@@ -40,7 +42,7 @@ impl<'b> PointBlock<'b> {
     /// The integrals of a field with these jets, the two components of a point beside each other.
     pub(super) fn integrals(&self, weights: &[f64], jets: &[Jet<f64>]) -> Integrals {
         let gradients: Vec<Gradients> =
-            jets.chunks_exact(2).map(|u| in_frame(u, self.tip.axis)).collect();
+            jets.chunks_exact(2).map(|u| self.tip.gradient(u, self.tip.axis)).collect();
         let energies = self.locals.as_ref().map(|locals| {
             let points = self.offsets.iter().zip(locals).zip(&gradients);
             let source = |((&offset, local), u): ((&Vec2, &Local), &Gradients)| {
@@ -83,12 +85,22 @@ impl<'b> PointBlock<'b> {
             [zero.with_lanes(|k| at(k).force[0]), zero.with_lanes(|k| at(k).force[1])],
         )
     }
+
+    /// The given strains at these points without those at the tip.
+    #[inline(always)]
+    fn eigenstrain<R: Real<Scalar = f64>>(&self, first: usize, zero: R) -> Gradients<R> {
+        let Some(locals) = &self.locals else { return [[zero; 2]; 2] };
+        let at = |k: usize| &locals[(first + k).min(locals.len() - 1)].eigenstrain;
+        [0, 1].map(|i| [0, 1].map(|j| zero.with_lanes(|k| at(k)[i][j])))
+    }
 }
 
 /// A point and the field there, in the tip's frame.
 struct FieldSample<R> {
     point: TipPoint<R>,
     u: Gradients<R>,
+    /// ∇u without the given strains.
+    elastic: Gradients<R>,
     lame: [R; 2],
     force: [R; 2],
 }
@@ -109,7 +121,7 @@ impl<R: Real> FieldSample<R> {
         auxiliary: &[Auxiliary<R>; MODES],
     ) -> Integrands<R> {
         let lame = [self.point.x.lit(lame[0]), self.point.x.lit(lame[1])];
-        let (own, at_tip) = (stress(self.lame, &self.u), stress(lame, &self.u));
+        let (own, at_tip) = (stress(self.lame, &self.elastic), stress(lame, &self.u));
         let through = self.through(&own, &at_tip, lame);
         let [mut flows, mut sources] = [[self.point.x.lit(0.0); MODES]; 2];
         for (mode, auxiliary) in auxiliary.iter().enumerate() {
@@ -147,12 +159,13 @@ impl<R: Real> FieldSample<R> {
     }
 }
 
-/// E_j x_j with E_j = W δ_1j − σ_ij u_i,1 and W = ½ σ_ij u_i,j: the flow of energy whose integral
-/// round a tip is J.
+/// E_j x_j with E_j = W δ_1j − σ_ij u_i,1 and W = ½ σ_ij (u_i,j − ε⁰_ij): the flow of energy whose
+/// integral round a tip is J.
 #[inline(always)]
-fn energy_flow<R: Real>(stress: &Gradients<R>, u: &Gradients<R>, point: &TipPoint<R>) -> R {
+fn energy_flow<R: Real>(stress: &Gradients<R>, sample: &FieldSample<R>) -> R {
+    let FieldSample { point, u, elastic, .. } = sample;
     let flow = |j: usize| stress[0][j] * u[0][0] + stress[1][j] * u[1][0];
-    (work(stress, u) * point.x.lit(0.5) - flow(0)) * point.x - flow(1) * point.y
+    (work(stress, elastic) * point.x.lit(0.5) - flow(0)) * point.x - flow(1) * point.y
 }
 
 /// The sums of all integrands over the points of a block, in their order.
@@ -205,7 +218,8 @@ impl Sums<'_> {
                 zero.with_lanes(|k| self.gradients[at(k)][1][1]),
             ],
         ];
-        let sample = FieldSample { point: self.block.points(first, zero), u, lame, force };
+        let elastic = difference(&u, &self.block.eigenstrain(first, zero));
+        let sample = FieldSample { point: self.block.points(first, zero), u, elastic, lame, force };
         let auxiliary = tip.body.fields::<R, D>(&sample.point);
         let of = sample.integrands::<D>(tip.body.lame, &auxiliary);
         let source = match &self.energies {
@@ -221,9 +235,9 @@ impl Sums<'_> {
                 *density = last.1 * *flow + last.0 * source;
             }
         }
-        let energy = energy_flow(&of.stress, &sample.u, &sample.point);
+        let energy = energy_flow(&of.stress, &sample);
         densities[SUMS - 2] = last.1 * energy + last.0 * source;
-        densities[SUMS - 1] = work(&of.stress, &sample.u);
+        densities[SUMS - 1] = work(&of.stress, &sample.elastic);
         densities
     }
 }
@@ -279,7 +293,7 @@ impl Kernels<'_> {
             for (axis, of_modes) in of_component.iter_mut().enumerate() {
                 let [[a, b], [c, d]] = unit(component, axis, tip.axis);
                 let u = [[zero.lit(a), zero.lit(b)], [zero.lit(c), zero.lit(d)]];
-                let of = FieldSample { point, u, lame, force }
+                let of = FieldSample { point, u, elastic: u, lame, force }
                     .integrands::<D>(tip.body.lame, &auxiliary);
                 for ((density, half), (flow, source)) in
                     of_modes.iter_mut().zip(halves).zip(of.flows.iter().zip(of.sources))

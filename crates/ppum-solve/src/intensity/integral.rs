@@ -1,7 +1,7 @@
 //! The interaction integral over the cells of a space.
 
 use super::Loads;
-use super::auxiliary::{Auxiliary, Body, Gradients};
+use super::auxiliary::{Auxiliary, Body, Gradients, difference, stress, work};
 use super::bent::Bend;
 use super::block::{Local, PointBlock};
 use super::course::Course;
@@ -92,6 +92,9 @@ pub(super) struct Interaction<'a> {
     /// Radii of the discs, ascending.
     pub(super) radii: [f64; RINGS],
     pub(super) loads: Loads<'a>,
+    /// The strains given at the tip, in its frame. The field is taken without them: a body that
+    /// strains alike everywhere has the same stresses.
+    pub(super) shift: Gradients,
     /// How the material varies, as the J-integral needs it; none if it jumps in the discs.
     slope: Option<Slope<'a>>,
     /// σ_22 at the tip by the loads on its faces; none if these have a resultant there.
@@ -118,6 +121,10 @@ impl<'a> Interaction<'a> {
         let material = elastic.at(center);
         let body = Body::new(&material);
         let slope = Slope::new(elastic, center, radii[RINGS - 1]);
+        let axis = crack.growth_direction(tip.end);
+        let at_tip = law.eigenstrain(center).map(|given| tensor_in_frame(&given, axis));
+        let is_finite = |given: &Gradients| given.as_flattened().iter().all(|e| e.is_finite());
+        let shift = at_tip.filter(is_finite).unwrap_or_default();
         let half = loads.symmetry.and_then(|symmetry| symmetry(tip));
         let pressed = loads.faces.map_or(Some(0.0), |load| pressed(&course, load, half));
         Some(Self {
@@ -128,7 +135,8 @@ impl<'a> Interaction<'a> {
             body,
             course,
             center,
-            axis: crack.growth_direction(tip.end),
+            axis,
+            shift,
             radii,
             loads,
             slope,
@@ -227,20 +235,37 @@ impl<'a> Interaction<'a> {
 
     /// False where all flows have no divergence.
     pub(super) fn has_sources(&self) -> bool {
-        self.loads.force.is_some() || !self.law.is_uniform()
+        self.loads.force.is_some() || !self.law.is_uniform() || self.law.has_eigenstrain()
     }
 
     /// What is particular to a point, where the field has a gradient that is given in the
     /// tip's frame.
     pub(super) fn local(&self, world: Vec2) -> Local {
         let force = self.loads.force.map_or(Vec2::ZERO, |force| turned(self.axis, force(world)));
-        Local { lame: self.lame(world), force: force.into() }
+        Local { lame: self.lame(world), force: force.into(), eigenstrain: self.eigenstrain(world) }
     }
 
-    /// E_j,j of the flow of energy: what the material's variation and the body force add to it, ½
-    /// ε:C,_1:ε + b_i u_i,1.
+    /// ∇u of the jets at a point without the strains given at the tip, in its frame.
+    pub(super) fn gradient(&self, u: &[Jet<f64>], axis: Vec2) -> Gradients {
+        difference(&in_frame(u, axis), &self.shift)
+    }
+
+    /// The strains given at a point without those at the tip, in its frame.
+    pub(super) fn eigenstrain(&self, world: Vec2) -> Gradients {
+        let given = self.law.eigenstrain(world).map(|given| tensor_in_frame(&given, self.axis));
+        given.map_or([[0.0; 2]; 2], |given| difference(&given, &self.shift))
+    }
+
+    /// E_j,j of the flow of energy: what the material's variation, the given strains and the body
+    /// force add to it, ½ e:C,_1:e − σ:ε⁰,_1 + b_i u_i,1 with e = ε − ε⁰.
     pub(super) fn energy_source(&self, world: Vec2, local: &Local, u: &Gradients) -> f64 {
-        let graded = self.slope.as_ref().map_or(0.0, |s| s.energy(world, self.axis, u));
+        let elastic = difference(u, &local.eigenstrain);
+        let graded = self.slope.as_ref().map_or(0.0, |slope| {
+            let strained = slope.eigenstrain(world, self.axis).map_or(0.0, |along| {
+                work(&stress(local.lame, &elastic), &tensor_in_frame(&along, self.axis))
+            });
+            slope.energy(world, self.axis, &elastic) - strained
+        });
         graded + local.force[0] * u[0][0] + local.force[1] * u[1][0]
     }
 
@@ -385,6 +410,11 @@ pub(super) fn turned(axis: Vec2, vector: [f64; 2]) -> Vec2 {
 
 /// The displacement gradient in a frame with the given x axis.
 pub(super) fn in_frame(u: &[Jet<f64>], axis: Vec2) -> Gradients {
-    let (gx, gy) = (turned(axis, [u[0].x, u[0].y]), turned(axis, [u[1].x, u[1].y]));
+    tensor_in_frame(&[vec2(u[0].x, u[0].y), vec2(u[1].x, u[1].y)], axis)
+}
+
+/// A gradient or strain in a frame with the given x axis.
+fn tensor_in_frame(g: &[Vec2; 2], axis: Vec2) -> Gradients {
+    let (gx, gy) = (turned(axis, g[0].into()), turned(axis, g[1].into()));
     [(gx * axis.x + gy * axis.y).into(), (gy * axis.x - gx * axis.y).into()]
 }

@@ -1,38 +1,46 @@
 //! The variation of a material along the crack, as the J-integral needs it.
 
 use super::auxiliary::Gradients;
-use crate::geometry::interface_distance;
+use crate::geometry::{eigenstrain_jumps, interface_distance};
 use ppum::dataset::{Elasticity, StressState};
 use ppum::expression::Expression;
 use ppum::formula::FormulaJets;
 use ppum::vec2::{Vec2, vec2};
 
-/// A material that varies without jumps.
+/// A material that varies without jumps, as given strains do.
 pub(super) struct Slope<'a> {
     body: &'a Elasticity,
     /// E and ν with their first derivatives; none of a constant.
     constants: [Option<FormulaJets>; 2],
+    /// The given strains with their first derivatives.
+    eigenstrain: Option<[Option<FormulaJets>; 4]>,
 }
 
 impl<'a> Slope<'a> {
-    /// The variation in a disc. None if the material jumps there: the energy that crosses an
-    /// interface is no integral over the disc. None if its formulas are too large to
-    /// be differentiated.
+    /// The variation in a disc. None if the material or a given strain jumps there: the energy that
+    /// crosses an interface is no integral over the disc. None if formulas are too large to be
+    /// differentiated.
     pub(super) fn new(body: &'a Elasticity, center: Vec2, radius: f64) -> Option<Self> {
-        if interface_distance(body, center, radius).is_some() {
+        if interface_distance(body, center, radius).is_some()
+            || eigenstrain_jumps(body, center, radius)
+        {
             return None;
         }
         let jets = |expression: &Expression| match expression.constant() {
             Some(_) => Some(None),
             None => FormulaJets::new(&[expression.formula()], 1).ok().map(Some),
         };
-        Some(Self { body, constants: [jets(&body.young)?, jets(&body.poisson)?] })
+        let eigenstrain = match body.eigenstrain.as_deref() {
+            None => None,
+            Some([xx, yy, xy, zz]) => Some([jets(xx)?, jets(yy)?, jets(xy)?, jets(zz)?]),
+        };
+        Some(Self { body, constants: [jets(&body.young)?, jets(&body.poisson)?], eigenstrain })
     }
 
     /// ½ ε:C,_1:ε = ½ λ,_1 (tr ε)² + μ,_1 ε:ε, the derivative along `axis` at a point where u has
     /// the gradient `u` in the frame of that axis.
     pub(super) fn energy(&self, at: Vec2, axis: Vec2, u: &Gradients) -> f64 {
-        let [young, poisson] = [0, 1].map(|k| self.along(k, at, axis));
+        let [young, poisson] = [0, 1].map(|k| along(self.constants[k].as_ref(), at, axis));
         if young == 0.0 && poisson == 0.0 {
             return 0.0;
         }
@@ -42,12 +50,19 @@ impl<'a> Slope<'a> {
         0.5 * lambda * trace * trace + mu * square
     }
 
-    /// The derivative of a constant along the axis.
-    fn along(&self, constant: usize, at: Vec2, axis: Vec2) -> f64 {
-        let Some(jets) = &self.constants[constant] else { return 0.0 };
-        let mut out = [0.0; 3];
-        jets.evaluate(&[at.x, at.y], &mut Vec::new(), &mut out);
-        vec2(out[1], out[2]).dot(axis)
+    /// The derivative of the plane's given strains along `axis`, as a gradient; none if there are
+    /// no strains.
+    pub(super) fn eigenstrain(&self, at: Vec2, axis: Vec2) -> Option<[Vec2; 2]> {
+        let (jets, given) = (self.eigenstrain.as_ref()?, self.body.eigenstrain.as_deref()?);
+        let [xx, yy, xy, zz] = jets.each_ref().map(|jets| along(jets.as_ref(), at, axis));
+        let through = match self.body.state {
+            StressState::PlaneStress => 0.0,
+            StressState::PlaneStrain => {
+                let slope = along(self.constants[1].as_ref(), at, axis);
+                self.body.poisson.value(at) * zz + slope * given[3].value(at)
+            }
+        };
+        Some([vec2(xx + through, xy), vec2(xy, yy + through)])
     }
 
     /// The derivatives of λ and μ from those of E and ν.
@@ -67,6 +82,14 @@ impl<'a> Slope<'a> {
     }
 }
 
+/// The derivative of a formula along an axis; zero of a constant.
+fn along(jets: Option<&FormulaJets>, at: Vec2, axis: Vec2) -> f64 {
+    let Some(jets) = jets else { return 0.0 };
+    let mut out = [0.0; 3];
+    jets.evaluate(&[at.x, at.y], &mut Vec::new(), &mut out);
+    vec2(out[1], out[2]).dot(axis)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -77,7 +100,7 @@ mod tests {
         for state in [StressState::PlaneStrain, StressState::PlaneStress] {
             let [young, poisson] = ["2 + x*y", "0.25 + 0.05*sin(x + 2*y)"]
                 .map(|text| text.parse().expect("a formula"));
-            let body = Elasticity { young, poisson, state };
+            let body = Elasticity { young, poisson, state, eigenstrain: None };
             let (at, axis) = (vec2(0.3, 0.2), vec2(0.6, 0.8));
             let slope = Slope::new(&body, at, 0.1).expect("no jump");
             let u = [[0.3, -0.2], [0.5, 0.7]];
@@ -97,7 +120,8 @@ mod tests {
     #[test]
     fn jumps_have_no_slope() {
         let [young, poisson] = ["if(y > 0.3, 2, 1)", "0.3"].map(|t| t.parse().expect("a formula"));
-        let body = Elasticity { young, poisson, state: StressState::PlaneStrain };
+        let state = StressState::PlaneStrain;
+        let body = Elasticity { young, poisson, state, eigenstrain: None };
         assert!(Slope::new(&body, vec2(0.0, 0.0), 0.2).is_some());
         assert!(Slope::new(&body, vec2(0.0, 0.0), 0.4).is_none());
     }

@@ -321,6 +321,8 @@ tables! {
         domain: Table(&DOMAIN), required("") => "The plate: a box, or a body of any outline.";
         equation: Table(&EQUATION) => "The equation.";
         material: Table(&MATERIAL) => "The material; Poisson's equation may do without.";
+        temperature: Table(&TEMPERATURE), only(Elasticity, &[]) => "The change of temperature.";
+        strain: Table(&STRAIN), only(Elasticity, &[]) => "Strains that are given beside.";
         hole: Tables(&HOLE) => "A hole.";
         crack: Tables(&CRACK) => "A crack.";
         boundary: Tables(&BOUNDARY) => "Conditions on a part of the border.";
@@ -364,8 +366,23 @@ tables! {
             "Poisson's ratio, −1 < ν < 0.5 in plane strain, −1 < ν ≤ 0.5 in plane stress.";
         state: Word(words::<StressState>), required("\"plane-strain\""), only(Elasticity, &[]) =>
             "The assumption about the third direction: ε_zz = 0 or σ_zz = 0.";
+        expansion: Value, default("none"), example("1.2e-5"), only(Elasticity, &[]) =>
+            "Coefficient α of thermal expansion, for `[temperature]`.";
         conductivity: Value, range(POSITIVE), default("1"), only(Poisson, &["young", "poisson", "state"]) =>
             "Conductivity κ > 0.";
+    }
+
+    static TEMPERATURE = "[temperature]", "" {
+        value: Value, required("\"100*y\"") =>
+            "The change of temperature ΔT since there was no stress; it strains the body by α ΔT in all directions.";
+    }
+
+    static STRAIN = "[strain]", "" {
+        xx: Value, default("0") =>
+            "The strain ε⁰_xx that makes no stress where the body takes it: of growth, swelling, phases.";
+        yy: Value, default("0") => "ε⁰_yy.";
+        xy: Value, default("0") => "ε⁰_xy, half the change of a right angle.";
+        zz: Value, default("0") => "ε⁰_zz; without effect in plane stress.";
     }
 
     static HOLE = "[[hole]]", "" {

@@ -66,7 +66,8 @@ impl Problem {
     /// True if tips have Williams' series, and corners theirs: where the material varies they have
     /// other ones.
     pub(crate) fn has_series(&self) -> bool {
-        self.discretization.enrichment == Enrichment::Williams && self.equation.is_uniform()
+        self.discretization.enrichment == Enrichment::Williams
+            && self.equation.has_uniform_material()
     }
 
     /// A problem of elasticity on a box, as yet without cracks, loads and restraints.

@@ -4,6 +4,7 @@ mod adaptive;
 mod awkward;
 mod corners;
 mod curved;
+mod eigenstrain;
 mod estimate;
 mod estimator;
 mod examples;

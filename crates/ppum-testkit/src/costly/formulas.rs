@@ -178,6 +178,7 @@ fn with_young(dataset: &mut Dataset, text: &str) {
         young: Expression::parse_in(text, &scope).expect("a formula"),
         poisson: 0.3.into(),
         state: StressState::PlaneStrain,
+        eigenstrain: None,
     });
 }
 

@@ -181,6 +181,7 @@ pub fn equations() -> Vec<Case> {
         young: expression("if(x < 0.8131, 1, 2) + 0.25*y"),
         poisson: expression("if(x^2 + y^2 < 0.5, 0.2, 0.3)"),
         state: StressState::PlaneStress,
+        eigenstrain: None,
     });
     let stress = Material { young: 1.0, poisson: 0.35, state: StressState::PlaneStress };
     let one = Recipe { components: 1, ..coarse.clone() };

@@ -181,6 +181,7 @@ mod tests {
             young: Expression::parse_in(young, &scope).expect("a formula"),
             poisson: 0.3.into(),
             state: StressState::PlaneStrain,
+            eigenstrain: None,
         })
     }
 

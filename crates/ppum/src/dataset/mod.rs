@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 use crate::crack::Crack;
 use crate::domain::Domain;
-pub use crate::equation::{Elasticity, Equation, Material, StressState};
+pub use crate::equation::{EIGENSTRAINS, Elasticity, Equation, Material, StressState};
 use crate::function::{Function, FunctionKind};
 pub use crate::growth::{Advance, Fate, Growth, GrowthStop};
 use ppum_formula::Table;

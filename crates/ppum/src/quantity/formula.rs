@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use super::sample::{Sample, Source};
 use crate::dataset::NamedQuantity;
-use crate::equation::{Equation, Moduli};
+use crate::equation::{EIGENSTRAINS, Equation, Moduli, StressState};
 use crate::field::Field;
-use crate::library::{Definition, ELASTICITY, POISSON};
+use crate::library::{Definition, EIGENSTRAIN, ELASTICITY, POISSON, STRAINS};
 use ppum_formula::real::{Real, Scalar};
 use ppum_formula::{
     Block, DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Scratch, Table,
@@ -43,8 +43,9 @@ impl<'a> Vocabulary<'a> {
 ///
 /// It may use the position `x`, `y`; the components and derivatives of the field, `ux`, `dux_dx`,
 /// …; the constants of the equation, `young`, `poisson`, `mu`, `lambda`, `out_of_plane` (= σ_zz /
-/// (σ_xx + σ_yy)) or `conductivity`; the [library's](crate::library::ELASTICITY) quantities, `-` in
-/// names written as `_`; the dataset's named quantities and tables.
+/// (σ_xx + σ_yy)) or `conductivity`; the [given strains](crate::equation::EIGENSTRAINS); the
+/// [library's](crate::library::ELASTICITY) quantities, `-` in names written as `_`; the dataset's
+/// named quantities and tables.
 #[derive(Clone, Debug)]
 pub struct QuantityFormula {
     name: Option<String>,
@@ -155,12 +156,24 @@ impl<'a> Vocabulary<'a> {
 
     /// The quantities of the library and of the dataset: names and texts.
     fn definitions(&self) -> impl Iterator<Item = (String, &'a str)> {
-        let library: &[Definition] = match (self.equation, self.components) {
-            (Equation::Elasticity(_), [x, y]) if x == "ux" && y == "uy" => &ELASTICITY,
-            (Equation::Poisson { .. }, [u]) if u == "u" => &POISSON,
-            _ => &[],
+        let is_plane = matches!(self.components, [x, y] if x == "ux" && y == "uy");
+        let library: [&[Definition]; 2] = match self.equation {
+            Equation::Elasticity(body) if is_plane && body.eigenstrain.is_some() => {
+                [&ELASTICITY[..STRAINS], &EIGENSTRAIN]
+            }
+            Equation::Elasticity(_) if is_plane => [&ELASTICITY, &[]],
+            Equation::Poisson { .. } if self.components == ["u"] => [&POISSON, &[]],
+            _ => [&[], &[]],
         };
-        let library = library.iter().map(|&(name, text)| (name.to_owned(), text));
+        let state = self.equation.elastic().map(|body| body.state);
+        let has_effect =
+            move |name: &str| name != EIGENSTRAINS[3] || state != Some(StressState::PlaneStress);
+        let given = self
+            .equation
+            .eigenstrains()
+            .map(move |(name, e)| (name.to_owned(), if has_effect(name) { e.text() } else { "0" }));
+        let library = library.into_iter().flatten();
+        let library = given.chain(library.map(|&(name, text)| (name.to_owned(), text)));
         let named = self.named.iter().map(|q| (q.name.replace('-', "_"), q.text.as_str()));
         library.chain(named)
     }
@@ -381,7 +394,7 @@ impl Input {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::equation::{Material, StressState};
+    use crate::equation::Material;
     use crate::jet::Jet;
     use crate::quantity::Quantity;
     use crate::vec2::{Vec2, vec2};

@@ -16,7 +16,7 @@ use super::kinds::{Axis, ELASTIC, Quantity, QuantityError};
 use super::material::MaterialGradient;
 use super::sample::Sample;
 use crate::crack::Side;
-use crate::equation::{Equation, Moduli};
+use crate::equation::Moduli;
 use crate::field::{Field, LocalField};
 use crate::jet::Jet;
 use crate::vec2::{Vec2, vec2};
@@ -224,7 +224,7 @@ impl Rule {
             }
             Quantity::Formula(formula) => Self::Chain(Box::new(Chain::new(formula, field)?)),
             built_in => {
-                let formula = text(built_in, field.equation, field.components())?;
+                let formula = text(built_in, field)?;
                 Self::Chain(Box::new(Chain::new(&formula, field)?))
             }
         })
@@ -232,17 +232,16 @@ impl Rule {
 }
 
 /// A built-in quantity of strains as the formula of its text.
-fn text(
-    quantity: &Quantity,
-    equation: &Equation,
-    components: usize,
-) -> Result<QuantityFormula, QuantityFormulaError> {
-    let names: &[&str] = if components == 1 { &["u"] } else { &["ux", "uy"] };
+fn text(quantity: &Quantity, field: &Field<'_>) -> Result<QuantityFormula, QuantityFormulaError> {
+    let names: &[&str] = if field.components() == 1 { &["u"] } else { &["ux", "uy"] };
     let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
-    let vocabulary = Vocabulary { equation, components: &names, tables: &[], named: &[] };
+    let vocabulary = Vocabulary { components: &names, named: &[], ..Vocabulary::of(field) };
     let text = match quantity {
         Quantity::EnergyDensity => "energy".to_owned(),
         // the text of the library has an angle of its own where σ_xy = 0, without a slope
+        Quantity::PrincipalDirection if field.equation.eigenstrains().next().is_some() => {
+            "atan2(2*elastic_xy, elastic_xx - elastic_yy)/2".to_owned()
+        }
         Quantity::PrincipalDirection => "atan2(2*exy, exx - eyy)/2".to_owned(),
         other => {
             let name = ELASTIC.iter().find(|(_, known)| known == other);

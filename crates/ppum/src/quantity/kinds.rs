@@ -48,7 +48,7 @@ pub enum Quantity {
     PrincipalDirection,
     /// tr(σ)/3 of the full tensor: `hydrostatic`.
     Hydrostatic,
-    /// ½ σ:ε, or ½ κ |∇u|²: `energy`.
+    /// ½ σ:(ε − ε⁰), or ½ κ |∇u|²: `energy`.
     EnergyDensity,
     /// |u − u_exact|: `error`.
     Error,
@@ -257,7 +257,8 @@ impl Quantity {
 
     #[inline(always)]
     fn of_strain<R: Real>(&self, moduli: &Moduli<R>, e: &Strain<R>) -> R {
-        let s = e.stress(moduli);
+        let elastic = e.elastic(moduli);
+        let s = elastic.stress(moduli);
         match self {
             Q::Divergence => e.xx + e.yy,
             Q::Curl => e.curl,
@@ -274,7 +275,7 @@ impl Quantity {
             Q::Principal2 => s.center() - s.radius(),
             Q::PrincipalDirection => s.direction(),
             Q::Hydrostatic => (s.xx + s.yy + s.zz) * s.xx.lit(1.0 / 3.0),
-            Q::EnergyDensity => e.energy(&s),
+            Q::EnergyDensity => elastic.energy(&s, moduli),
             _ => s.xx.lit(f64::NAN),
         }
     }

@@ -45,6 +45,7 @@ impl MaterialGradient {
             mu: zero,
             out_of_plane: zero,
             conductivity: zero,
+            eigenstrain: [zero; 4],
         };
         let Some(law) = &self.law else { return Moduli { conductivity: of(0), ..none } };
         let (young, poisson) = (of(0), of(1));

@@ -30,20 +30,30 @@ impl<R: Real> Strain<R> {
         Self { xx: u[0].x, yy: u[1].y, xy: (u[0].y + u[1].x) * half, curl }
     }
 
+    /// The strain without what is given of it in the plane; zeros change no bit.
+    #[inline(always)]
+    pub(super) fn elastic(&self, moduli: &Moduli<R>) -> Self {
+        let [xx, yy, xy] = moduli.plane_eigenstrain();
+        Self { xx: self.xx - xx, yy: self.yy - yy, xy: self.xy - xy, curl: self.curl }
+    }
+
+    /// The stress of an elastic strain, σ_zz = ν(σ_xx + σ_yy) − E ε⁰_zz in plane strain.
     #[inline(always)]
     pub(super) fn stress(&self, moduli: &Moduli<R>) -> Stress<R> {
         let double_mu = moduli.mu + moduli.mu;
         let pressure = moduli.lambda * (self.xx + self.yy);
         let (xx, yy) = (double_mu.mul_add(self.xx, pressure), double_mu.mul_add(self.yy, pressure));
-        let zz = moduli.out_of_plane * (xx + yy);
+        let zz = moduli.out_of_plane * (xx + yy) - moduli.young * moduli.eigenstrain[3];
         Stress { xx, yy, xy: double_mu * self.xy, zz }
     }
 
-    /// ½ σ:ε; the third direction does no work in plane strain nor in plane stress.
+    /// ½ σ:(ε − ε⁰) of an elastic strain. With ε_zz = 0 or σ_zz = 0 the third direction has ½ E
+    /// (ε⁰_zz)² beside.
     #[inline(always)]
-    pub(super) fn energy(&self, s: &Stress<R>) -> R {
-        let half = self.xx.lit(0.5);
-        half * s.xx.mul_add(self.xx, s.yy * self.yy) + s.xy * self.xy
+    pub(super) fn energy(&self, s: &Stress<R>, moduli: &Moduli<R>) -> R {
+        let (half, through) = (self.xx.lit(0.5), moduli.eigenstrain[3]);
+        let plane = half * s.xx.mul_add(self.xx, s.yy * self.yy) + s.xy * self.xy;
+        plane + half * moduli.young * (through * through)
     }
 }
 

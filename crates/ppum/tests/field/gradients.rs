@@ -50,7 +50,12 @@ fn quantities(field: &Field<'_>) -> Vec<(String, Quantity)> {
 fn heterogeneous(state: StressState) -> Equation {
     let [young, poisson] = ["2 + sin(3*x)*cos(2*y)", "0.25 + 0.1*x*y/(1 + x^2)"];
     let parse = |text: &str| text.parse().expect("a formula");
-    Equation::Elasticity(Elasticity { young: parse(young), poisson: parse(poisson), state })
+    Equation::Elasticity(Elasticity {
+        young: parse(young),
+        poisson: parse(poisson),
+        state,
+        eigenstrain: None,
+    })
 }
 
 /// Coefficients as a solver finds them, so that scales are known: u, its derivatives and the

@@ -1,9 +1,12 @@
 //! The library's formulas and the kernels that stand in for them are the same functions.
 
-use ppum::equation::{Equation, Material, Moduli, StressState};
+use ppum::equation::{Elasticity, Equation, Material, Moduli, StressState};
+use ppum::expression::Expression;
 use ppum::formula::{Formula, Scope};
 use ppum::jet::Jet;
-use ppum::library::{ELASTICITY, PLANE_STRAIN, PLANE_STRESS, POISSON, WEIGHTS};
+use ppum::library::{
+    Definition, EIGENSTRAIN, ELASTICITY, PLANE_STRAIN, PLANE_STRESS, POISSON, WEIGHTS,
+};
 use ppum::quantity::{Quantity, QuantityFormula, Sample, Vocabulary, names};
 use ppum::vec2::Vec2;
 use ppum::weight::WeightFunction;
@@ -64,7 +67,8 @@ fn gradients() -> Vec<[Jet<f64>; 2]> {
     all
 }
 
-fn compare(equation: &Equation, components: &[&str], definitions: &[(&str, &str)]) {
+/// `given` is the size of given strains.
+fn compare(equation: &Equation, components: &[&str], definitions: &[Definition], given: f64) {
     let components: Vec<_> = components.iter().map(|&c| c.to_owned()).collect();
     let vocabulary = Vocabulary { equation, components: &components, tables: &[], named: &[] };
     let known = names(equation, &components);
@@ -80,7 +84,7 @@ fn compare(equation: &Equation, components: &[&str], definitions: &[(&str, &str)
             let at = Sample { anchor, offset, moduli, jets, exact: &[] };
             let (a, b) = (native.of_field(&at), formula.of_field(&at));
             // differences of stresses cancel to rounding of the largest
-            let size = jets.iter().flat_map(|j| [j.v, j.x, j.y]).fold(0.0, |a, b| b.abs().max(a));
+            let size = jets.iter().flat_map(|j| [j.v, j.x, j.y]).fold(given, |a, b| b.abs().max(a));
             let size = if *name == "energy" { size * size } else { size };
             let size = if *name == "direction" { 1e3 } else { size };
             assert!((a - b).abs() <= 2e-14 * size, "{name} of {jets:?}: {a:e} {b:e}");
@@ -108,13 +112,20 @@ fn moduli_and_their_formulas() {
     }
 }
 
+fn expression(text: &str) -> Expression {
+    text.parse().expect("a formula")
+}
+
 #[test]
 fn quantities_and_their_formulas() {
     for state in [StressState::PlaneStrain, StressState::PlaneStress] {
         let material = Material { young: 2.0, poisson: 0.3, state };
-        compare(&Equation::elasticity(material), &["ux", "uy"], &ELASTICITY);
+        compare(&Equation::elasticity(material), &["ux", "uy"], &ELASTICITY, 0.0);
+        let eigenstrain = Some(Box::new(["0.3 + x", "-0.2", "y/4", "0.1*x"].map(expression)));
+        let body = Elasticity { eigenstrain, ..material.into() };
+        compare(&Equation::Elasticity(body), &["ux", "uy"], &EIGENSTRAIN[3..], 1.0);
     }
-    compare(&Equation::poisson(1.5), &["u"], &POISSON);
+    compare(&Equation::poisson(1.5), &["u"], &POISSON, 0.0);
 }
 
 /// No kernel of elasticity or Poisson without a formula: what is left has no gradient in it.

@@ -153,6 +153,7 @@ fn quantities_of_materials() {
                 young: parse(young),
                 poisson: parse(poisson),
                 state,
+                eigenstrain: None,
             });
             let field = Field::new(&dataset, 0).expect("a field");
             for name in field_names(&field) {

@@ -5,7 +5,7 @@ mod enrichment;
 mod refinement;
 mod symmetry;
 
-use ppum::dataset::Equation;
+use ppum::dataset::{EIGENSTRAINS, Equation};
 use ppum::domain::Domain;
 use ppum::expression::Expression;
 use ppum::text::trimmed;
@@ -176,6 +176,13 @@ fn check_combinations(problem: &Problem) -> Vec<MistakeAt> {
                 .to_owned(),
         ),
         (
+            is_critical && problem.equation.eigenstrains().next().is_some(),
+            "growth.load",
+            "`load = \"critical\"` multiplies the loads by a factor, but not temperatures and given strains; leave it \
+             out, or leave [temperature] and [strain] out"
+                .to_owned(),
+        ),
+        (
             growth.is_some() && problem.equation.elastic().is_none(),
             "growth",
             "cracks grow by their stress intensity factors, which only elasticity has; leave [growth] out".to_owned(),
@@ -260,6 +267,10 @@ fn check_tables(problem: &Problem) -> Option<MistakeAt> {
 
 fn check_equation(equation: &Equation, domain: &Domain) -> Option<MistakeAt> {
     let (name, message) = equation.mistake(domain)?;
+    if EIGENSTRAINS.contains(&name) {
+        let message = format!("`{name}` {message}; correct [temperature] or [strain]");
+        return Some(Key::of("material.expansion").mistake(message));
+    }
     Some(Key::new("material").name(name).mistake(format!("`{name}` {message}")))
 }
 

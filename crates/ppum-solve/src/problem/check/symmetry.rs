@@ -108,10 +108,18 @@ fn bad_whole(problem: &Problem) -> Option<(Key, String)> {
                        out, or model the whole plate";
         return Some((Key::of("discretization.enrichment"), message.to_owned()));
     }
-    if !problem.equation.is_uniform() {
+    if !problem.equation.has_uniform_material() {
         let message = "a crack on an edge needs a material that is the same everywhere; give numbers for `young` \
                        and `poisson`, or model the whole plate";
         return Some((Key::new("material"), message.to_owned()));
+    }
+    let given = problem.equation.elastic().and_then(|body| body.eigenstrain.as_deref());
+    let is_sheared = given.is_some_and(|[_, _, xy, _]| xy.constant() != Some(0.0));
+    let slides = (0..problem.cracks.len()).any(is_antisymmetric);
+    if given.is_some() && (is_sheared || slides) {
+        let message = "temperatures and given strains have the symmetry of a crack on an edge only with `symmetry = \
+                       true` and without [strain] `xy`; model the whole plate";
+        return Some((Key::of("material.expansion"), message.to_owned()));
     }
     if !problem.enrichments.is_empty() {
         let message = "user-defined functions do not satisfy the symmetry of an edge with a crack; leave \

@@ -150,7 +150,8 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     };
     document.equation.set(kind);
     let root = &root.checked();
-    if !root.mentions_any(&["boundary", "body_force", "source"]) {
+    let loads = ["boundary", "body_force", "source", "temperature", "strain"];
+    if !root.mentions_any(&loads) {
         root.error::<()>("nothing acts on the plate; add [[boundary]]");
     }
     let title = root.get("title").unwrap_or_default();
@@ -219,7 +220,41 @@ fn equation(root: &Section<'_>, kind: EquationKind) -> Equation {
             .as_ref()
             .and_then(|s| s.require("state"))
             .unwrap_or(StressState::PlaneStress),
+        eigenstrain: eigenstrain(root, section.and_then(|s| s.get("expansion"))),
     })
+}
+
+/// ε⁰ = α ΔT I + what is given beside; none if nothing is.
+fn eigenstrain(root: &Section<'_>, expansion: Option<Expression>) -> Option<Box<[Expression; 4]>> {
+    let temperature = root.section("temperature");
+    let given = root.section("strain");
+    if temperature.is_none() && given.is_none() {
+        return None;
+    }
+    let swelling = temperature.as_ref().map(|section| match &expansion {
+        Some(alpha) => format!("({})*({})", alpha.text(), text_of(section, "value")),
+        None => {
+            let message = "`expansion` is missing in [material]; a change of temperature strains the body by it";
+            section.error::<()>(message);
+            "0".to_owned()
+        }
+    });
+    let component = |name: &'static str| {
+        let beside = given.as_ref().filter(|section| section.mentions(name));
+        let beside = beside.map(|section| text_of(section, name));
+        let parts = swelling.iter().filter(|_| name != "xy").chain(&beside);
+        let parts: Vec<&str> = parts.map(String::as_str).collect();
+        let text = if parts.is_empty() { "0".to_owned() } else { parts.join(" + ") };
+        // the parts are formulas, so that their sum is one but for its size
+        Expression::parse_in(&text, root.document.scope()?).ok()
+    };
+    let all = ["xx", "yy", "xy", "zz"].map(|name| component(name).unwrap_or(0.0.into()));
+    Some(Box::new(all))
+}
+
+/// The text of an expression that must be there; zero if it is missing or wrong.
+fn text_of(section: &Section<'_>, key: &str) -> String {
+    section.require::<Expression>(key).map_or("0".to_owned(), |e| e.text().to_owned())
 }
 
 fn source(root: &Section<'_>, kind: EquationKind) -> Vec<Expression> {
