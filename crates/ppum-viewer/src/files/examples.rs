@@ -42,7 +42,7 @@ macro_rules! example {
 }
 
 /// All examples, those for a first look first.
-pub const ALL: [Example; 32] = [
+pub const ALL: [Example; 33] = [
     example!("centre-crack", "Held at the bottom, pulled at the top"),
     example!("edge-crack", "A strip in tension, K_I known"),
     example!("slanted-crack", "Both modes at 45°, K known"),
@@ -63,6 +63,7 @@ pub const ALL: [Example; 32] = [
     example!("kinked-in-plane", "One kink in a very large plate"),
     example!("centre-crack-tension", "The reference case for K_I"),
     example!("quarter-plate", "A quarter of it, with symmetry"),
+    example!("thermal-hot-spot", "A temperature alone"),
     example!("compact-tension", "A standard specimen, by its outline"),
     example!("paper-centre-crack", "Figure 5 of the paper"),
     example!("paper-adaptive-1", "Figure 8: cells where the error is"),
