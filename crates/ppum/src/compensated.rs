@@ -1,21 +1,37 @@
 //! Differences and products that carry their rounding errors (Dekker 1971, Shewchuk 1997).
 
 use crate::vec2::Vec2;
+use ppum_formula::real::Real;
 
 /// A number as the sum of a rounded value and its rounding error.
 pub(crate) type Pair = (f64, f64);
 
 /// a − b.
-pub(crate) fn difference(a: f64, b: f64) -> Pair {
+#[inline(always)]
+pub(crate) fn difference<R: Real>(a: R, b: R) -> (R, R) {
     let d = a - b;
     let bb = a - d;
     (d, (a - (d + bb)) + (bb - b))
 }
 
+/// u v of numbers, by their halves: not all processors fuse.
+#[inline(always)]
+pub(crate) fn exact_product<R: Real>(u: R, v: R) -> (R, R) {
+    let ((a, b), (c, d), high) = (halves(u), halves(v), u * v);
+    (high, b * d - (((high - a * c) - b * c) - a * d))
+}
+
+#[inline(always)]
+fn halves<R: Real>(u: R) -> (R, R) {
+    let wide = u.lit(134_217_729.0) * u;
+    let high = wide - (wide - u);
+    (high, u - high)
+}
+
 /// u v.
 pub(crate) fn product(u: Pair, v: Pair) -> Pair {
-    let high = u.0 * v.0;
-    (high, u.0.mul_add(v.0, -high) + (u.0 * v.1 + u.1 * v.0))
+    let (high, low) = exact_product(u.0, v.0);
+    (high, low + (u.0 * v.1 + u.1 * v.0))
 }
 
 /// a + b of pairs.

@@ -29,11 +29,11 @@ impl Jet<f64> {
 }
 
 impl<R: Real<Scalar = f64>> Jet<R> {
-    /// Writes the lanes, with `D` derivatives and zeros for others, to some places.
+    /// Writes lanes, with `D` derivatives and zeros for others, to a place for each.
     #[inline(always)]
     pub(crate) fn store<const D: usize>(
         &self,
-        places: impl Iterator<Item = usize>,
+        places: impl Iterator<Item = (usize, usize)>,
         out: &mut [Jet<f64>],
     ) {
         let mut lanes = [Lanes::default(); 6];
@@ -48,7 +48,7 @@ impl<R: Real<Scalar = f64>> Jet<R> {
             self.yy.store(&mut lanes[5]);
         }
         let [v, x, y, xx, xy, yy] = lanes;
-        for (k, place) in places.enumerate() {
+        for (k, place) in places {
             out[place] = Jet { v: v[k], x: x[k], y: y[k], xx: xx[k], xy: xy[k], yy: yy[k] };
         }
     }

@@ -46,7 +46,8 @@ pub fn polynomial<R: Real, const D: usize>(
     nested::<R, D, false>(coefficients, degree, xi)
 }
 
-/// Σ c_k ξ^a η^b over the monomials of a space, with derivatives by (ξ, η).
+/// Σ c_k ξ^a η^b over the monomials of a space, with derivatives by (ξ, η): the loops of frequent
+/// degrees are unrolled.
 #[inline(always)]
 pub fn polynomial_in<R: Real, const D: usize>(
     space: PolynomialSpace,
@@ -55,7 +56,13 @@ pub fn polynomial_in<R: Real, const D: usize>(
     xi: [R; 2],
 ) -> Jet<R> {
     match space {
-        PolynomialSpace::Total => nested::<R, D, false>(coefficients, degree, xi),
+        PolynomialSpace::Total => match degree {
+            1 => nested::<R, D, false>(coefficients, 1, xi),
+            2 => nested::<R, D, false>(coefficients, 2, xi),
+            3 => nested::<R, D, false>(coefficients, 3, xi),
+            4 => nested::<R, D, false>(coefficients, 4, xi),
+            _ => nested::<R, D, false>(coefficients, degree, xi),
+        },
         PolynomialSpace::Tensor => nested::<R, D, true>(coefficients, degree, xi),
     }
 }

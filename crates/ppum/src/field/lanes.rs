@@ -137,7 +137,7 @@ impl LocalField<'_> {
         let offset = [like.with_lanes(|k| at(k).x), like.with_lanes(|k| at(k).y)];
         self.over_patches::<R, D>(offset, side, patches, lanes);
         for (component, jet) in lanes.iter().enumerate() {
-            let places = (0..points.len()).map(|k| k * components + component);
+            let places = (0..points.len()).map(|k| (k, k * components + component));
             jet.store::<D>(places, out);
         }
     }

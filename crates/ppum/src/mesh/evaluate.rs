@@ -126,12 +126,12 @@ impl LocalMesh<'_> {
             None => functions.evaluate::<R, D>(group, at.offset, at.side, &mut jets),
             Some(LevelUse::Sign(field)) => {
                 let level = self.level::<R, 0>(seen, field as usize, at.delta).v;
-                jets[0].v = at.sign(level);
+                jets[0].v = sign(level, at.side);
             }
             Some(LevelUse::Frame([x, y])) => {
                 let x = world.jet::<D>(self.level::<R, D>(seen, x as usize, at.delta));
                 let y = world.jet::<D>(self.level::<R, D>(seen, y as usize, at.delta));
-                let (sign, branch) = (at.sign(y.v), y.v.lit(1.0));
+                let (sign, branch) = (sign(y.v, at.side), y.v.lit(1.0));
                 let point = TipPoint { x: x.v, y: y.v, sign, branch };
                 functions.evaluate_in_frame::<R, D>(group, &point, (at.offset, at.side), &mut jets);
                 let mut k = 0;
@@ -145,14 +145,6 @@ impl LocalMesh<'_> {
     }
 }
 
-/// A point by its number, with its place in a patch.
-#[derive(Clone, Copy)]
-pub(super) struct LanePoint {
-    pub(super) index: usize,
-    pub(super) offset: Vec2,
-    pub(super) delta: [f64; 2],
-}
-
 /// Places in a patch, as δ and as offsets from the anchor.
 pub(super) struct At<R> {
     pub(super) delta: [R; 2],
@@ -160,18 +152,15 @@ pub(super) struct At<R> {
     pub(super) side: Side,
 }
 
-impl<R: Real> At<R> {
-    /// +1 where a level field is positive, −1 where it is negative; where it is zero, that of
-    /// the side.
-    #[inline(always)]
-    fn sign(&self, level: R) -> R {
-        let (zero, one) = (level.lit(0.0), level.lit(1.0));
-        let is_above = match self.side {
-            Side::Above => level.ge(zero),
-            Side::Below => level.gt(zero),
-        };
-        R::select(is_above, one, level.lit(-1.0))
-    }
+/// +1 where a level field is positive, −1 where it is negative; where it is zero, that of the side.
+#[inline(always)]
+pub(super) fn sign<R: Real>(level: R, side: Side) -> R {
+    let zero = level.lit(0.0);
+    let is_above = match side {
+        Side::Above => level.ge(zero),
+        Side::Below => level.gt(zero),
+    };
+    R::sign(is_above, level.lit(1.0))
 }
 
 /// The chain rule from ξ to the world: G = DM⁻¹, ∇v = Gᵀ ∇_ξ v, ∇²v = Gᵀ (∇²_ξ v − Σ_i ∂v/∂x_i ∇²_ξ

@@ -1,13 +1,12 @@
 //! The points of a grid, such as the centres of pixels: elements are looked at one after the other,
 //! each on the part of the rows that its edges leave. So no point looks for its owner.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::evaluate::LanePoint;
+use super::evaluate::At;
+use super::frame::{Frame, Places};
 use super::local::{Candidate, LocalMesh, Location};
-use super::many::OnePatch;
 use super::map::TOLERANCE;
 use crate::crack::Side;
 use crate::function::LocalFunctions;
@@ -15,10 +14,10 @@ use crate::jet::Jet;
 use crate::vec2::{Rect, Vec2, vec2};
 use ppum_formula::real::{Job, Lanes, Real, Scalar};
 
-/// Rounding of the place of a column, in columns.
+/// Rounding of the place of a row or column, in rows or columns.
 const ROUNDING: f64 = 1e-6;
 
-/// Points `anchor + (x_i, y_j)`, row by row; the x are evenly spaced and rise.
+/// Points `anchor + (x_i, y_j)`, row by row; x and y are evenly spaced, and the x rise.
 #[derive(Clone, Copy, Debug)]
 pub struct PointGrid<'a> {
     /// Offsets of the columns.
@@ -33,24 +32,77 @@ impl PointGrid<'_> {
         self.y.iter().flat_map(|&y| self.x.iter().map(move |&x| vec2(x, y)))
     }
 
-    fn offset(&self, point: usize) -> Vec2 {
-        vec2(self.x[point % self.x.len()], self.y[point / self.x.len()])
-    }
-
     fn bounds(&self) -> Option<Rect> {
         let [first, last] = [self.x.first().zip(self.y.first()), self.x.last().zip(self.y.last())]
             .map(|corner| corner.map(|(&x, &y)| vec2(x, y)));
         first.zip(last).map(|(a, b)| Rect::new(a.min(b), a.max(b)))
     }
+}
 
-    /// The columns between two offsets, and some that rounding adds.
-    fn columns(&self, from: f64, to: f64) -> Range<usize> {
-        let n = self.x.len();
-        let pitch = if n > 1 { (self.x[n - 1] - self.x[0]) / (n - 1) as f64 } else { 1.0 };
-        let column = |x: f64| (x - self.x[0]) / pitch;
-        let first = (column(from) - ROUNDING).ceil().max(0.0) as usize;
-        let end = (column(to) + ROUNDING).floor() + 1.0;
-        first..(end.max(0.0) as usize).min(n)
+/// Evenly spaced numbers.
+#[derive(Clone, Copy)]
+struct Axis {
+    first: f64,
+    /// How many fit in a unit; negative if they fall.
+    density: f64,
+    count: usize,
+}
+
+impl Axis {
+    fn new(values: &[f64]) -> Self {
+        let (first, last) = (values.first().copied(), values.last().copied());
+        let size = last.zip(first).map_or(0.0, |(last, first)| last - first);
+        let density = if size == 0.0 { 1.0 } else { (values.len() - 1) as f64 / size };
+        Self { first: first.unwrap_or(0.0), density, count: values.len() }
+    }
+
+    /// The numbers from one to another that is larger, and some that rounding adds.
+    #[inline(always)]
+    fn between(&self, from: f64, to: f64) -> Range<usize> {
+        let [a, b] = [from, to].map(|value| (value - self.first) * self.density);
+        let (a, b) = if self.density < 0.0 { (b, a) } else { (a, b) };
+        let first = (a - ROUNDING).ceil().max(0.0) as usize;
+        let end = (b + ROUNDING).floor() + 1.0;
+        first..(end.max(0.0) as usize).min(self.count)
+    }
+}
+
+/// Points of a grid that an element may hold.
+#[derive(Default)]
+struct Points {
+    index: Vec<usize>,
+    /// x and y, some more than points.
+    offset: [Vec<f64>; 2],
+}
+
+impl Points {
+    fn clear(&mut self) {
+        self.index.clear();
+        self.offset.iter_mut().for_each(Vec::clear);
+    }
+
+    #[inline(always)]
+    fn push(&mut self, index: usize, [x, y]: [f64; 2]) {
+        self.index.push(index);
+        self.offset[0].push(x);
+        self.offset[1].push(y);
+    }
+
+    /// Makes all vectors of lanes whole.
+    fn pad(&mut self, lanes: usize) {
+        let size = self.index.len().next_multiple_of(lanes);
+        for offset in &mut self.offset {
+            offset.truncate(self.index.len());
+            offset.resize(size, offset.last().copied().unwrap_or(0.0));
+        }
+    }
+
+    /// Moves a point to the front, where others are that stay.
+    #[inline(always)]
+    fn keep(&mut self, point: usize, place: usize) {
+        self.index[place] = self.index[point];
+        self.offset[0][place] = self.offset[0][point];
+        self.offset[1][place] = self.offset[1][point];
     }
 }
 
@@ -90,8 +142,6 @@ struct Found<'m> {
     is_free: Vec<bool>,
     /// The places of free points in elements that miss them by rounding, with their margins.
     beside: BTreeMap<usize, (f64, Location<'m>)>,
-    /// The points of one element, and their places in it.
-    inside: Vec<(usize, Location<'m>)>,
 }
 
 impl<const D: usize> Job<f64> for OnGrid<'_, '_, '_, D> {
@@ -101,136 +151,156 @@ impl<const D: usize> Job<f64> for OnGrid<'_, '_, '_, D> {
     fn run<R: Real<Scalar = f64>>(mut self, zero: R) {
         self.out.fill(Jet::NAN);
         let (mesh, count) = (self.mesh, self.grid.x.len() * self.grid.y.len());
-        let (beside, inside) = (BTreeMap::new(), Vec::new());
-        let mut found = Found { is_free: vec![true; count], beside, inside };
+        let mut found = Found { is_free: vec![true; count], beside: BTreeMap::new() };
         let mut lanes = vec![Jet::constant(zero); mesh.field.components()];
-        let mut points = Vec::new();
+        let axes = [self.grid.x, self.grid.y].map(Axis::new);
+        let mut points = Points::default();
         for patch in mesh.patches_of(self.grid) {
             let candidate = mesh.candidate(patch);
             points.clear();
-            self.add_points(&candidate, &found.is_free, &mut points);
-            found.inside.clear();
-            self.locate::<R>(zero, &candidate, &points, &mut found);
-            self.evaluate::<R>(&found.inside, Some(&candidate), &mut lanes);
+            self.add_points(axes, &candidate, &found.is_free, &mut points);
+            for frame in candidate.frames(mesh.mesh) {
+                self.on_lanes::<R>(&frame, &mut points, &mut found, &mut lanes);
+            }
+            self.one_by_one(&candidate, &points, &mut found);
         }
         let Found { beside, is_free, .. } = found;
         let left = beside.into_iter().filter(|(point, _)| is_free[*point]);
-        for (point, (_, place)) in left {
-            self.evaluate::<R>(&[(point, place)], None, &mut lanes);
-        }
+        left.for_each(|(point, (_, place))| self.evaluate(point, &place));
     }
 }
 
 impl<const D: usize> OnGrid<'_, '_, '_, D> {
     /// The free points that an element may hold.
     #[inline(always)]
-    fn add_points(&self, candidate: &Candidate<'_>, is_free: &[bool], points: &mut Vec<usize>) {
+    fn add_points(
+        &self,
+        [columns, rows]: [Axis; 2],
+        candidate: &Candidate<'_>,
+        is_free: &[bool],
+        points: &mut Points,
+    ) {
         let (grid, reach) = (self.grid, candidate.reach());
         let far = reach.max.max(-reach.min);
         let planes = candidate.half_planes(self.mesh.mesh, far);
-        for (row, &y) in grid.y.iter().enumerate() {
-            if y < reach.min.y || y > reach.max.y {
-                continue;
-            }
+        for row in rows.between(reach.min.y, reach.max.y) {
+            let y = grid.y[row];
             let (mut from, mut to) = (reach.min.x, reach.max.x);
             for [a, b, c] in planes.iter().flatten() {
                 let rest = a + c * y;
                 if *b > 0.0 {
-                    from = from.max(-rest / b);
+                    from = from.max(-rest);
                 } else if *b < 0.0 {
-                    to = to.min(-rest / b);
+                    to = to.min(rest);
                 } else if rest < 0.0 {
                     to = f64::NEG_INFINITY;
                 }
             }
-            let first = row * grid.x.len();
-            let columns = grid.columns(from, to).map(|column| first + column);
-            points.extend(columns.filter(|&point| is_free[point]));
-        }
-    }
-
-    /// The places of points in an element, as far as they lie in it.
-    #[inline(always)]
-    fn locate<'m, R: Real<Scalar = f64>>(
-        &self,
-        zero: R,
-        candidate: &Candidate<'m>,
-        points: &[usize],
-        found: &mut Found<'m>,
-    ) {
-        let offset = |point: usize| self.grid.offset(point);
-        let Some(inverse) = candidate.bent() else {
-            for &point in points {
-                let place = self.mesh.location(candidate, offset(point), None);
-                found.add(self.mesh, (point, place), self.side);
-            }
-            return;
-        };
-        for points in points.chunks(R::LANES) {
-            let mut targets = [Lanes::default(); 2];
-            for lane in 0..R::LANES {
-                let target = candidate.target(offset(points[lane.min(points.len() - 1)]));
-                (targets[0][lane], targets[1][lane]) = (target[0], target[1]);
-            }
-            let target = [zero.load(&targets[0]), zero.load(&targets[1])];
-            let [x, y, step] = inverse.newton_on::<R>(target);
-            let (x, y, step) = (x.lanes(), y.lanes(), step.lanes());
-            for (lane, &point) in points.iter().enumerate() {
-                let xi = [x[lane], y[lane]];
-                let place = match candidate.decided(self.mesh.mesh, xi, step[lane]) {
-                    true => Some(Location { patch: candidate.patch, delta: xi, near: None }),
-                    false => self.mesh.location(candidate, offset(point), None),
-                };
-                found.add(self.mesh, (point, place), self.side);
+            for column in columns.between(from, to) {
+                let point = row * grid.x.len() + column;
+                if is_free[point] {
+                    points.push(point, [grid.x[column], y]);
+                }
             }
         }
     }
 
+    /// Evaluates the points that lie in an element, on lanes, and leaves those that are not sure.
     #[inline(always)]
-    fn evaluate<R: Real<Scalar = f64>>(
+    fn on_lanes<'m, R: Real<Scalar = f64>>(
         &mut self,
-        inside: &[(usize, Location<'_>)],
-        candidate: Option<&Candidate<'_>>,
+        frame: &Frame<'_, 'm>,
+        points: &mut Points,
+        found: &mut Found<'m>,
         lanes: &mut [Jet<R>],
     ) {
-        let (grid, mesh) = (self.grid, self.mesh);
-        for run in inside.chunk_by(|a, b| a.1.near.is_some() == b.1.near.is_some()) {
-            let seen = (run[0].1.patch, run[0].1.near);
-            let map = match (seen.1, candidate.and_then(Candidate::map)) {
-                (None, Some(map)) => Cow::Borrowed(map),
-                _ => mesh.map_of(seen),
-            };
-            let one =
-                OnePatch { mesh, functions: self.functions, side: self.side, seen, map: &map };
-            for points in run.chunks(R::LANES) {
-                let place = |k: usize| {
-                    let (index, location) = &points[k];
-                    LanePoint { index: *index, offset: grid.offset(*index), delta: location.delta }
-                };
-                one.evaluate::<R, D>((points.len(), place), lanes, self.out);
+        let (count, mut left, zero) = (points.index.len(), 0, lanes[0].v.lit(0.0));
+        points.pad(R::LANES);
+        for start in (0..count).step_by(R::LANES) {
+            let [x, y] = &points.offset;
+            let offset = [zero.load(&x[start..]), zero.load(&y[start..])];
+            let Places { delta, margin, certainty } = frame.places(offset);
+            let margin = self.mesh.clipped(frame.seen, delta, (margin, self.side));
+            let (margins, certainties) = (margin.lanes(), certainty.lanes());
+            let mut inside = Lanes::default().map(|_| (0, 0));
+            let mut hits = 0;
+            for (lane, point) in (start..count.min(start + R::LANES)).enumerate() {
+                let (index, margin) = (points.index[point], margins[lane]);
+                if certainties[lane] < 0.0 {
+                    points.keep(point, left);
+                    left += 1;
+                } else if margin >= 0.0 {
+                    found.is_free[index] = false;
+                    inside[hits] = (lane, index);
+                    hits += 1;
+                } else if margin >= -TOLERANCE {
+                    let delta = [delta[0].lanes()[lane], delta[1].lanes()[lane]];
+                    let (patch, near) = frame.seen;
+                    found.add_beside(index, margin, Location { patch, delta, near });
+                }
+            }
+            if hits > 0 {
+                let at = At { delta, offset, side: self.side };
+                self.store(frame, &at, &inside[..hits], lanes);
             }
         }
+        points.index.truncate(left);
+    }
+
+    /// Evaluates the field on lanes, and writes those that have points.
+    #[inline(always)]
+    fn store<R: Real<Scalar = f64>>(
+        &mut self,
+        frame: &Frame<'_, '_>,
+        at: &At<R>,
+        points: &[(usize, usize)],
+        lanes: &mut [Jet<R>],
+    ) {
+        let seen = (frame.seen, &frame.inverse.map);
+        self.mesh.evaluate_at::<R, D>(seen, self.functions, at, lanes);
+        let components = lanes.len();
+        for (c, jet) in lanes.iter().enumerate() {
+            let rows = points.iter().map(|(lane, point)| (*lane, point * components + c));
+            jet.store::<D>(rows, self.out);
+        }
+    }
+
+    /// Evaluates the points that lie in an element.
+    fn one_by_one<'m>(
+        &mut self,
+        candidate: &Candidate<'m>,
+        points: &Points,
+        found: &mut Found<'m>,
+    ) {
+        for (k, &point) in points.index.iter().enumerate() {
+            let offset = vec2(points.offset[0][k], points.offset[1][k]);
+            let Some(place) = self.mesh.location(candidate, offset, None) else { continue };
+            let margin = self.mesh.margin(&place);
+            if margin < -TOLERANCE || !self.mesh.is_kept(&place, self.side) {
+                continue;
+            }
+            if margin >= 0.0 {
+                found.is_free[point] = false;
+                self.evaluate(point, &place);
+            } else {
+                found.add_beside(point, margin, place);
+            }
+        }
+    }
+
+    fn evaluate(&mut self, point: usize, place: &Location<'_>) {
+        let (columns, components) = (self.grid.x.len(), self.mesh.field.components());
+        let offset = vec2(self.grid.x[point % columns], self.grid.y[point / columns]);
+        let out = &mut self.out[point * components..][..components];
+        self.mesh.evaluate::<D>(place, self.functions, (offset, self.side), out);
     }
 }
 
 impl<'m> Found<'m> {
-    /// Adds the place of a point, if it lies in its patch or misses it by rounding.
-    #[inline(always)]
-    fn add(
-        &mut self,
-        mesh: &LocalMesh<'_>,
-        (point, place): (usize, Option<Location<'m>>),
-        side: Side,
-    ) {
-        let Some(place) = place else { return };
-        let margin = mesh.margin(&place);
-        if margin < -TOLERANCE || !mesh.is_kept(&place, side) {
-            return;
-        }
-        if margin >= 0.0 {
-            self.is_free[point] = false;
-            self.inside.push((point, place));
-        } else if self.beside.get(&point).is_none_or(|(most, _)| margin > *most) {
+    /// Adds the place of a point in an element that misses it by rounding.
+    #[cold]
+    fn add_beside(&mut self, point: usize, margin: f64, place: Location<'m>) {
+        if self.beside.get(&point).is_none_or(|(most, _)| margin > *most) {
             self.beside.insert(point, (margin, place));
         }
     }

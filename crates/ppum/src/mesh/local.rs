@@ -7,14 +7,16 @@
 use std::collections::BTreeMap;
 
 use super::elements::Mesh;
-use super::map::{Inverse, Map, TOLERANCE};
+use super::evaluate::{Seen, sign};
+use super::map::{Inverse, TOLERANCE};
 use super::shape::Edge;
 use super::taylor::Dense;
-use crate::compensated::{Pair, difference, minus, plus};
+use crate::compensated::{Pair, difference, minus};
 use crate::crack::Side;
 use crate::dataset::FieldData;
 use crate::field::Field;
 use crate::vec2::{Rect, Vec2};
+use ppum_formula::real::Real;
 
 /// The elements of a field's step seen from an anchor.
 #[derive(Clone, Debug)]
@@ -29,11 +31,11 @@ pub(crate) struct LocalMesh<'f> {
 #[derive(Clone, Debug)]
 pub(super) struct Near {
     /// The ξ of the anchor, but for rounding.
-    at: [f64; 2],
+    pub(super) at: [f64; 2],
     /// The map in δ.
     pub(super) inverse: Inverse,
     /// anchor − origin − M(at): what rounding leaves.
-    rest: [Pair; 2],
+    pub(super) rest: [Pair; 2],
     /// The fields that are used, by their index: coefficients in δ of the patch's blocks, for each
     /// component one block after the other.
     fields: BTreeMap<usize, Vec<f64>>,
@@ -51,11 +53,11 @@ pub(crate) struct Location<'m> {
 /// A patch, ready to be asked for many points.
 pub(super) struct Candidate<'m> {
     pub(super) patch: usize,
-    near: Option<&'m Near>,
+    pub(super) near: Option<&'m Near>,
     /// Of the element as it is.
     pub(super) inverse: Option<Inverse>,
     /// anchor − origin.
-    from_origin: [Pair; 2],
+    pub(super) from_origin: [Pair; 2],
     /// A box around the patch and what lies beside it, from the anchor.
     reach: Rect,
 }
@@ -139,11 +141,11 @@ impl<'f> LocalMesh<'f> {
             return None;
         }
         if let Some(near) = candidate.near
-            && let Some(delta) = near.inverse.near(moved(&near.rest, offset))
+            && let Some(delta) = near.inverse.near(moved(&near.rest, offset.into()))
         {
             return Some(Location { patch, delta, near: Some(near) });
         }
-        let t = moved(&candidate.from_origin, offset);
+        let t = moved(&candidate.from_origin, offset.into());
         let delta = candidate.inverse.as_ref()?.at(self.mesh.shape[patch], t, start)?;
         Some(Location { patch, delta, near: None })
     }
@@ -157,19 +159,32 @@ impl<'f> LocalMesh<'f> {
     /// True if the patch's clips hold at a place.
     #[inline]
     pub(super) fn is_kept(&self, place: &Location<'_>, side: Side) -> bool {
-        self.mesh.clips(place.patch).iter().all(|clip| {
-            let (patch, near) = (place.patch, place.near);
-            let level = self.level::<f64, 0>((patch, near), clip.field as usize, place.delta).v;
-            let is_above = level > 0.0 || (level == 0.0 && side == Side::Above);
-            is_above == clip.is_above
-        })
+        self.clipped((place.patch, place.near), place.delta, (1.0, side)) > 0.0
+    }
+
+    /// The margins of places in a patch where its clips hold, else −1.
+    #[inline(always)]
+    pub(super) fn clipped<R: Real>(
+        &self,
+        seen: Seen<'_>,
+        delta: [R; 2],
+        (mut margin, side): (R, Side),
+    ) -> R {
+        for clip in self.mesh.clips(seen.0) {
+            let level = self.level::<R, 0>(seen, clip.field as usize, delta).v;
+            let kept = sign(level, side) * level.lit(if clip.is_above { 1.0 } else { -1.0 });
+            margin = R::select(kept.gt(level.lit(0.0)), margin, level.lit(-1.0));
+        }
+        margin
     }
 }
 
 /// A point that is moved by an offset.
-#[inline]
-fn moved(from: &[Pair; 2], offset: Vec2) -> [Pair; 2] {
-    [plus(from[0], (offset.x, 0.0)), plus(from[1], (offset.y, 0.0))]
+#[inline(always)]
+pub(super) fn moved<R: Real>(from: &[Pair; 2], offset: [R; 2]) -> [(R, R); 2] {
+    let [x, y] = offset;
+    let (p, q) = (difference(x.lit(from[0].0), -x), difference(y.lit(from[1].0), -y));
+    [(p.0, p.1 + x.lit(from[0].1)), (q.0, q.1 + y.lit(from[1].1))]
 }
 
 impl Candidate<'_> {
@@ -178,34 +193,8 @@ impl Candidate<'_> {
         self.reach
     }
 
-    /// The map of the element as it is.
-    pub(super) fn map(&self) -> Option<&Map> {
-        self.inverse.as_ref().map(|inverse| &inverse.map)
-    }
-
-    /// The inverse of a map that is solved by Newton's method, if the patch is not near.
-    pub(super) fn bent(&self) -> Option<&Inverse> {
-        self.inverse.as_ref().filter(|inverse| self.near.is_none() && !inverse.map.is_affine())
-    }
-
-    /// M(ξ) of an offset.
-    #[inline]
-    pub(super) fn target(&self, offset: Vec2) -> [f64; 2] {
-        moved(&self.from_origin, offset).map(|t| t.0 + t.1)
-    }
-
-    /// True if Newton's method has arrived with a step at a ξ that is the only one or lies in the
-    /// shape.
-    #[inline]
-    pub(super) fn decided(&self, mesh: &Mesh, xi: [f64; 2], step: f64) -> bool {
-        let inverse = self.inverse.as_ref();
-        inverse.is_some_and(|inverse| {
-            inverse.has_arrived(xi, step) && inverse.decides(mesh.shape[self.patch], xi)
-        })
-    }
-
-    /// Half-planes a + b x + c y ≥ 0 of offsets that hold all of the patch, and what lies just
-    /// beside it: those of the edges for the linear part of the map, farther out by κ. `far` is the
+    /// Half-planes a + b x + c y ≥ 0 of offsets, |b| = 1 or b = 0, that hold all of the patch, and
+    /// what lies just beside it: those of the edges for the linear part of the map, farther out by κ. `far` is the
     /// farthest that offsets are looked at.
     #[inline]
     pub(super) fn half_planes(&self, mesh: &Mesh, far: Vec2) -> [Option<Edge>; 4] {
@@ -215,7 +204,9 @@ impl Candidate<'_> {
         for (plane, &[a, x, y]) in planes.iter_mut().zip(mesh.shape[self.patch].edges()) {
             let [b, c] = inverse.slopes([x, y]);
             let rounding = 1e-14 * (b.abs() * (u.abs() + far.x) + c.abs() * (v.abs() + far.y));
-            *plane = Some([a + b * u + c * v + inverse.beyond() + rounding, b, c]);
+            let size = if b == 0.0 { 1.0 } else { b.abs().recip() };
+            let constant = a + b * u + c * v + inverse.beyond() + rounding;
+            *plane = Some([constant * size, b * size, c * size]);
         }
         planes
     }

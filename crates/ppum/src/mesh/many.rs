@@ -1,9 +1,8 @@
 //! Many points: each one's owner first, beginning with the place of its neighbour, then those of
 //! one patch on lanes.
 
-use super::evaluate::{At, LanePoint, Seen};
+use super::evaluate::At;
 use super::local::{Candidate, LocalMesh, Location};
-use super::map::Map;
 use crate::crack::Side;
 use crate::function::LocalFunctions;
 use crate::jet::Jet;
@@ -86,56 +85,34 @@ impl<const D: usize> Job<f64> for Many<'_, '_, '_, '_, D> {
         for run in order.chunk_by(|&a, &b| key(a) == key(b)) {
             let Some(first) = self.owners[run[0]] else { continue };
             let (mesh, functions, seen) = (self.mesh, self.functions, (first.patch, first.near));
-            let one = OnePatch { mesh, functions, side: self.side, seen, map: &mesh.map_of(seen) };
+            let map = mesh.map_of(seen);
             for points in run.chunks(R::LANES) {
-                let place = |k: usize| {
-                    let (index, owner) = (points[k], self.owners[points[k]]);
-                    let delta = owner.map_or([0.0; 2], |place| place.delta);
-                    LanePoint { index, offset: self.offsets[index], delta }
-                };
-                one.evaluate::<R, D>((points.len(), place), &mut lanes, self.out);
+                let at = self.places(points, zero);
+                mesh.evaluate_at::<R, D>((seen, &map), functions, &at, &mut lanes);
+                for (c, jet) in lanes.iter().enumerate() {
+                    let rows = points.iter().map(|point| point * components + c);
+                    jet.store::<D>(rows.enumerate(), self.out);
+                }
             }
         }
     }
 }
 
-/// What evaluates the field in one patch.
-pub(super) struct OnePatch<'a, 'f, 't, 'm> {
-    pub(super) mesh: &'a LocalMesh<'f>,
-    pub(super) functions: &'a LocalFunctions<'t>,
-    pub(super) side: Side,
-    pub(super) seen: Seen<'m>,
-    pub(super) map: &'a Map,
-}
-
-impl OnePatch<'_, '_, '_, '_> {
-    /// Evaluates some places, no more than there are lanes, and writes the components of each to
-    /// the rows of its number; `lanes` is for as many components.
+impl<const D: usize> Many<'_, '_, '_, '_, D> {
+    /// The places of no more points than there are lanes; the last stands in for those missing.
     #[inline(always)]
-    pub(super) fn evaluate<R: Real<Scalar = f64>, const D: usize>(
-        &self,
-        (count, place): (usize, impl Fn(usize) -> LanePoint),
-        lanes: &mut [Jet<R>],
-        out: &mut [Jet<f64>],
-    ) {
-        // the last point stands in for those that are missing
+    fn places<R: Real<Scalar = f64>>(&self, points: &[usize], zero: R) -> At<R> {
         let (mut delta, mut offset) = ([Lanes::default(); 2], [Lanes::default(); 2]);
-        let mut rows = Lanes::default().map(|_| 0);
         for lane in 0..R::LANES {
-            let place = place(lane.min(count - 1));
-            (delta[0][lane], delta[1][lane]) = (place.delta[0], place.delta[1]);
-            (offset[0][lane], offset[1][lane]) = (place.offset.x, place.offset.y);
-            rows[lane] = place.index * lanes.len();
+            let index = points[lane.min(points.len() - 1)];
+            let xi = self.owners[index].map_or([0.0; 2], |place| place.delta);
+            (delta[0][lane], delta[1][lane]) = (xi[0], xi[1]);
+            (offset[0][lane], offset[1][lane]) = (self.offsets[index].x, self.offsets[index].y);
         }
-        let zero = lanes[0].v.lit(0.0);
-        let at = At {
+        At {
             delta: [zero.load(&delta[0]), zero.load(&delta[1])],
             offset: [zero.load(&offset[0]), zero.load(&offset[1])],
             side: self.side,
-        };
-        self.mesh.evaluate_at::<R, D>((self.seen, self.map), self.functions, &at, lanes);
-        for (c, jet) in lanes.iter().enumerate() {
-            jet.store::<D>(rows[..count].iter().map(|row| row + c), out);
         }
     }
 }

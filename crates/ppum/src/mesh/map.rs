@@ -7,11 +7,12 @@
 //! ```text
 //! κ = Σ |J⁻¹ c_k|     |u − J⁻¹ (t − M(c))| ≤ κ for every solution u of the part          (nothing here: leave it)
 //! L = Σ k |J⁻¹ c_k|   L < 1: u ← u − J⁻¹ (M(u) − t), put back into the part, contracts     (one solution or none)
+//! Q = Σ k (k − 1) |J⁻¹ c_k|   L ≤ ½: an error e becomes at most Q e² by a step of Newton's method
 //! ```
 
 use super::shape::Shape;
 use super::taylor::Dense;
-use crate::compensated::{Pair, difference};
+use crate::compensated::{Pair, difference, exact_product};
 use crate::jet::Jet;
 use crate::polynomial::{PolynomialSpace, polynomial_in};
 use ppum_formula::real::Real;
@@ -25,6 +26,13 @@ pub(super) const TOLERANCE: f64 = 1e-11;
 
 /// Largest contraction L that is iterated.
 const CONTRACTION: f64 = 0.75;
+
+/// Largest δ of the form that is seen from ξ(anchor).
+pub(super) const NEAR: f64 = 0.25;
+
+/// Relative error that is rounding, and most steps of Newton's method on lanes.
+const ROUNDING: f64 = 1e-16;
+const MOST_STEPS: u32 = 6;
 
 /// Most parts that are looked at.
 const MOST_PARTS: usize = 1 << 6;
@@ -101,35 +109,32 @@ impl Map {
     /// one for each column of a part. Expanding a part about its centre takes more, but most parts
     /// are left at once.
     pub(super) fn search_work(&self, columns: usize) -> usize {
-        let is_bent = self.bounds().is_some_and(|(_, _, lipschitz)| lipschitz > CONTRACTION);
+        let is_bent = self.bounds().is_some_and(|bounds| bounds.lipschitz > CONTRACTION);
         if is_bent { MOST_PARTS * columns } else { 0 }
     }
 
-    /// J⁻¹, κ and L.
-    fn bounds(&self) -> Option<(Matrix, f64, f64)> {
+    fn bounds(&self) -> Option<Bounds> {
         let inverse = self.linear().inverse()?;
-        let (mut kappa, mut lipschitz) = (0.0, 0.0);
+        let mut bounds = Bounds { inverse, kappa: 0.0, lipschitz: 0.0, curvature: 0.0 };
+        if self.degree == 1 && self.space == PolynomialSpace::Total {
+            return Some(bounds);
+        }
         for (k, (a, b)) in self.space.exponents(self.degree).enumerate() {
+            let (part, power) = (largest(inverse.times([self.x[k], self.y[k]])), f64::from(a + b));
             if a + b > 1 {
-                let part = largest(inverse.times([self.x[k], self.y[k]]));
-                kappa += part;
-                lipschitz += part * f64::from(a + b);
+                bounds.kappa += part;
+                bounds.lipschitz += part * power;
+                bounds.curvature += part * power * (power - 1.0);
             }
         }
-        Some((inverse, kappa, lipschitz))
+        Some(bounds)
     }
 
     /// The solution of a linear map with the rounding errors of t and of the products.
-    fn refined(&self, inverse: &Matrix, xi: [f64; 2], t: [Pair; 2]) -> [f64; 2] {
-        let Matrix(rows) = self.linear();
-        let residual = |row: [f64; 2], t: Pair| {
-            let (p, q) = (row[0] * xi[0], row[1] * xi[1]);
-            let errors = row[0].mul_add(xi[0], -p) + row[1].mul_add(xi[1], -q);
-            let first = difference(t.0, p);
-            let second = difference(first.0, q);
-            second.0 + (first.1 + second.1 + t.1 - errors)
-        };
-        let step = inverse.times([residual(rows[0], t[0]), residual(rows[1], t[1])]);
+    #[inline(always)]
+    fn refined<R: Real>(&self, inverse: &Matrix, xi: [R; 2], t: [(R, R); 2]) -> [R; 2] {
+        let Matrix([first, second]) = self.linear();
+        let step = inverse.times([residual(first, xi, t[0]), residual(second, xi, t[1])]);
         [xi[0] + step[0], xi[1] + step[1]]
     }
 
@@ -178,14 +183,14 @@ impl Map {
         let (map, constant) = self.shifted(at);
         let map = map.scaled(size);
         let t = [t[0] - constant[0].0 - constant[0].1, t[1] - constant[1].0 - constant[1].1];
-        let Some((inverse, kappa, lipschitz)) = map.bounds() else { return SearchOutcome::Unknown };
-        if largest(inverse.times(t)) > 1.0 + kappa + 1e-9 {
+        let Some(bounds) = map.bounds() else { return SearchOutcome::Unknown };
+        if largest(bounds.inverse.times(t)) > 1.0 + bounds.kappa + 1e-9 {
             return SearchOutcome::Nothing;
         }
-        if lipschitz > CONTRACTION {
+        if bounds.lipschitz > CONTRACTION {
             return SearchOutcome::Unknown;
         }
-        match map.contracted(&inverse, t) {
+        match map.contracted(&bounds.inverse, t) {
             Some(u) => {
                 let xi = [at[0] + size * u[0], at[1] + size * u[1]];
                 let is_here = shape.margin([0.0; 2], xi) >= -TOLERANCE;
@@ -213,20 +218,27 @@ impl Map {
     }
 }
 
+/// J⁻¹, κ, L and Q in the square.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    inverse: Matrix,
+    kappa: f64,
+    lipschitz: f64,
+    curvature: f64,
+}
+
 /// A map, ready to be inverted.
 #[derive(Clone, Debug)]
 pub(super) struct Inverse {
     pub(super) map: Map,
-    matrix: Matrix,
-    kappa: f64,
-    lipschitz: f64,
+    bounds: Bounds,
 }
 
 impl Inverse {
     /// `None` if the map is singular at ξ = 0.
     pub(super) fn new(map: Map) -> Option<Self> {
-        let (matrix, kappa, lipschitz) = map.bounds()?;
-        Some(Self { map, matrix, kappa, lipschitz })
+        let bounds = map.bounds()?;
+        Some(Self { map, bounds })
     }
 
     /// A ξ of the shape, or beside it, with M(ξ) = t, for t and its rounding error. Newton's method
@@ -239,12 +251,12 @@ impl Inverse {
         start: Option<[f64; 2]>,
     ) -> Option<[f64; 2]> {
         let target = t.map(|t| t.0 + t.1);
-        let guess = self.matrix.times(target);
+        let guess = self.bounds.inverse.times(target);
         if shape.margin([0.0; 2], guess) < -self.beyond() {
             return None;
         }
         if self.map.is_affine() {
-            return Some(self.map.refined(&self.matrix, guess, t));
+            return Some(self.map.refined(&self.bounds.inverse, guess, t));
         }
         let start = start.unwrap_or_else(|| guess.map(|g| g.clamp(-1.0, 1.0)));
         match self.map.newton(start, target) {
@@ -257,13 +269,13 @@ impl Inverse {
     /// by no more than twice as much as ξ.
     #[inline]
     pub(super) fn beyond(&self) -> f64 {
-        2.0 * self.kappa + 1e-6
+        2.0 * self.bounds.kappa + 1e-6
     }
 
     /// The slopes in x and y of a function of ξ with slopes in ξ and η, for the linear part.
     #[inline]
     pub(super) fn slopes(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let Matrix([[a, b], [c, d]]) = self.matrix;
+        let Matrix([[a, b], [c, d]]) = self.bounds.inverse;
         [x * a + y * c, x * b + y * d]
     }
 
@@ -272,24 +284,28 @@ impl Inverse {
     /// L r^(k − 1), k the highest degree, and there is one solution where that is below 1.
     #[inline]
     pub(super) fn decides(&self, shape: Shape, xi: [f64; 2]) -> bool {
-        shape.margin([0.0; 2], xi) >= -TOLERANCE
-            || self.lipschitz * largest(xi).max(1.0).powi(self.map.highest() - 1) < 1.0
+        shape.margin([0.0; 2], xi) >= -TOLERANCE || self.uniqueness(xi) > 0.0
     }
 
-    /// True if the error that a step of Newton's method leaves, about its square, is rounding.
-    #[inline]
-    pub(super) fn has_arrived(&self, xi: [f64; 2], step: f64) -> bool {
-        step <= 1e-9 * largest(xi) || step <= 1e-15
-    }
-
-    /// Newton's method on lanes, from J⁻¹ t put into the square: ξ, η, and the size of the last
-    /// step, by which [`has_arrived`](Self::has_arrived) knows.
+    /// On lanes, the ξ with M(ξ) = t, and by how much that is sure: where the second number is
+    /// negative, Newton's method needs more steps or does not arrive. Linear maps are solved.
     #[inline(always)]
-    pub(super) fn newton_on<R: Real>(&self, t: [R; 2]) -> [R; 3] {
-        let (one, Matrix([[a, b], [c, d]])) = (t[0].lit(1.0), self.matrix);
-        let guess = [t[0] * one.lit(a) + t[1] * one.lit(b), t[0] * one.lit(c) + t[1] * one.lit(d)];
+    pub(super) fn solve<R: Real>(&self, t: [(R, R); 2]) -> ([R; 2], R) {
+        let target = [t[0].0 + t[0].1, t[1].0 + t[1].1];
+        let guess = self.bounds.inverse.times(target);
+        match self.map.is_affine() {
+            true => (self.map.refined(&self.bounds.inverse, guess, t), target[0].lit(1.0)),
+            false => self.newton_on(guess, target),
+        }
+    }
+
+    /// Newton's method from a place put into the square. The error that the last step leaves, Q
+    /// times its square, must be rounding.
+    #[inline(always)]
+    fn newton_on<R: Real>(&self, guess: [R; 2], t: [R; 2]) -> ([R; 2], R) {
+        let (one, (curvature, mut left)) = (t[0].lit(1.0), self.lane_steps());
         let mut xi = [guess[0].min(one).max(-one), guess[1].min(one).max(-one)];
-        let (mut size, mut left) = (one, self.lane_steps());
+        let mut size = one;
         while left > 0 {
             left -= 1;
             let [x, y] = self.map.at::<R, 1>(xi);
@@ -297,36 +313,52 @@ impl Inverse {
             let (dx, dy) = (x.v - t[0], y.v - t[1]);
             let step = [(y.y * dx - x.y * dy) * inverse, (x.x * dy - y.x * dx) * inverse];
             xi = [xi[0] - step[0], xi[1] - step[1]];
-            size = step[0].abs().max(step[1].abs());
+            size = largest(step);
         }
-        [xi[0], xi[1], size]
+        (xi, largest(xi) * one.lit(ROUNDING) - size * size * one.lit(curvature))
     }
 
-    /// Steps of Newton's method on lanes: errors are at most κ at first, and each step leaves less
-    /// than the square. Points that need more are looked at one by one.
-    fn lane_steps(&self) -> u32 {
-        match self.kappa {
-            k if k < 0.003 => 3,
-            k if k < 0.1 => 4,
-            _ => 6,
+    /// Q and the steps of Newton's method on lanes: errors are at most κ at first. Where DM turns
+    /// too far for the bound (L > ½), Q is taken to be 100, and points that need more steps are
+    /// looked at one by one.
+    fn lane_steps(&self) -> (f64, u32) {
+        let Bounds { kappa, lipschitz, curvature, .. } = self.bounds;
+        let q = if lipschitz <= 0.5 { curvature } else { curvature.max(100.0) };
+        let (mut error, mut steps) = (q * kappa * kappa, 1);
+        while error > ROUNDING && steps < MOST_STEPS {
+            error = q * error * error;
+            steps += 1;
         }
+        (q, steps)
+    }
+
+    /// How far below 1 the contraction is in the square that holds ξ and the shape: no
+    /// other solution lies there where this is positive.
+    #[inline(always)]
+    pub(super) fn uniqueness<R: Real>(&self, xi: [R; 2]) -> R {
+        let one = xi[0].lit(1.0);
+        let (size, mut contraction) = (largest(xi).max(one), one.lit(self.bounds.lipschitz));
+        for _ in 1..self.map.highest() {
+            contraction = contraction * size;
+        }
+        one - contraction
     }
 
     /// The ξ with M(ξ) = t if it lies within a quarter of 0.
     pub(super) fn near(&self, t: [Pair; 2]) -> Option<[f64; 2]> {
-        let guess = self.matrix.times(t.map(|t| t.0));
+        let guess = self.bounds.inverse.times(t.map(|t| t.0));
         let found = match self.map.is_affine() {
-            true => Some(self.map.refined(&self.matrix, guess, t)),
+            true => Some(self.map.refined(&self.bounds.inverse, guess, t)),
             false => self.map.newton(guess, t.map(|t| t.0 + t.1)),
         };
-        found.filter(|xi| largest(*xi) <= 0.25)
+        found.filter(|xi| largest(*xi) <= NEAR)
     }
 
     /// The ξ with M(ξ) = t in the shape, or one that lies beside it.
     pub(super) fn beside(&self, shape: Shape, t: [Pair; 2]) -> Option<[f64; 2]> {
         let newton = || {
             let target = t.map(|t| t.0 + t.1);
-            let guess = self.matrix.times(target);
+            let guess = self.bounds.inverse.times(target);
             self.map.newton(guess.map(|g| g.clamp(-1.0, 1.0)), target)
         };
         let found = self.at(shape, t, None).or_else(newton);
@@ -341,7 +373,17 @@ enum SearchOutcome {
     Unknown,
 }
 
-fn largest([a, b]: [f64; 2]) -> f64 {
+/// t − (a ξ + b η) with the rounding errors of t and of the products.
+#[inline(always)]
+fn residual<R: Real>([a, b]: [f64; 2], [x, y]: [R; 2], t: (R, R)) -> R {
+    let (p, q) = (exact_product(x.lit(a), x), exact_product(y.lit(b), y));
+    let first = difference(t.0, p.0);
+    let second = difference(first.0, q.0);
+    second.0 + (first.1 + second.1 + t.1 - (p.1 + q.1))
+}
+
+#[inline(always)]
+pub(super) fn largest<R: Real>([a, b]: [R; 2]) -> R {
     a.abs().max(b.abs())
 }
 
@@ -360,8 +402,9 @@ impl Matrix {
             .then(|| Self([[d * inverse, -b * inverse], [-c * inverse, a * inverse]]))
     }
 
-    #[inline]
-    pub(super) fn times(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        self.0.map(|[a, b]| a * x + b * y)
+    #[inline(always)]
+    pub(super) fn times<R: Real>(&self, [x, y]: [R; 2]) -> [R; 2] {
+        let Self([[a, b], [c, d]]) = *self;
+        [x.lit(a) * x + y.lit(b) * y, x.lit(c) * x + y.lit(d) * y]
     }
 }

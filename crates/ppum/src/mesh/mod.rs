@@ -12,6 +12,7 @@
 
 mod elements;
 mod evaluate;
+mod frame;
 pub mod grid;
 mod local;
 mod many;

@@ -1,5 +1,7 @@
 //! Reference shapes: which ξ lie in them, by how much, and points to sample them at.
 
+use ppum_formula::real::Real;
+
 /// A reference shape, closed, with its centroid at ξ = 0 and |ξ|, |η| ≤ 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -38,9 +40,15 @@ impl Shape {
     /// max(|ξ|, |η|) of a square. The part of `at` is formed first, so that tiny δ beside an edge
     /// keep their digits.
     #[must_use]
-    pub fn margin(self, at: [f64; 2], delta: [f64; 2]) -> f64 {
-        let edge = |&[a, b, c]: &Edge| sum(a, b * at[0], c * at[1]) + (b * delta[0] + c * delta[1]);
-        self.edges().iter().map(edge).fold(f64::INFINITY, f64::min)
+    #[inline(always)]
+    pub fn margin<R: Real>(self, at: [f64; 2], delta: [R; 2]) -> R {
+        let [x, y] = delta;
+        let mut margin = x.lit(f64::INFINITY);
+        for &[a, b, c] in self.edges() {
+            let constant = x.lit(sum(a, b * at[0], c * at[1]));
+            margin = margin.min(constant + (x.lit(b) * x + y.lit(c) * y));
+        }
+        margin
     }
 
     /// Points of the closed shape: its centroid, and a lattice with `n` intervals an edge.
@@ -60,6 +68,7 @@ impl Shape {
 }
 
 /// a + b + c for |a|, |b|, |c| ≤ 2, with the rounding error of the first sum.
+#[inline(always)]
 fn sum(a: f64, b: f64, c: f64) -> f64 {
     let high = a + b;
     let part = high - a;

@@ -73,6 +73,9 @@ impl Quantity {
 
     /// The quantity of a field that is known at a point of the domain.
     pub(super) fn of_values(&self, local: &LocalField<'_>, offset: Vec2, jets: &[Jet<f64>]) -> f64 {
+        if let Self::Component(c) = self {
+            return jets[*c as usize].v;
+        }
         let (field, point) = (local.field, local.anchor + offset);
         let exact: Vec<_> = match self.source() {
             Source::Exact => (0..jets.len()).map(|c| field.exact(c, point)).collect(),
