@@ -44,7 +44,8 @@ def getfem():
     pieces = cut.cut_mesh()
     exported = gf.MeshFem(pieces, 2)
     exported.set_classical_discontinuous_fem(2, 0.001)
-    exported.export_to_vtu("out/gallery-getfem.vtu", exported, gf.compute_interpolate_on(mf, u, exported), "displacement")
+    values = gf.compute_interpolate_on(mf, u, exported)
+    exported.export_to_vtu("out/gallery-getfem.vtu", exported, values, "displacement")
 
 
 def _pulled(gf, mesh, cut, mf):
