@@ -9,7 +9,7 @@ use crate::compensated::Pair;
 use ppum_formula::real::Real;
 
 /// An element as it is, or as seen from a ξ beside the anchor.
-pub(super) struct Frame<'a, 'm> {
+pub(super) struct SeenElement<'a, 'm> {
     pub(super) seen: Seen<'m>,
     pub(super) inverse: &'a Inverse,
     shape: Shape,
@@ -20,7 +20,7 @@ pub(super) struct Frame<'a, 'm> {
 }
 
 /// The places of points on lanes.
-pub(super) struct Places<R> {
+pub(super) struct LanePlaces<R> {
     pub(super) delta: [R; 2],
     pub(super) margin: R,
     /// Negative where δ is not sure to be the place in the shape, or to be the only one.
@@ -29,24 +29,24 @@ pub(super) struct Places<R> {
 
 impl<'m> Candidate<'m> {
     /// The element as seen from the anchor if that is near, then as it is; none of singular maps.
-    pub(super) fn frames(&self, mesh: &Mesh) -> impl Iterator<Item = Frame<'_, 'm>> {
+    pub(super) fn frames(&self, mesh: &Mesh) -> impl Iterator<Item = SeenElement<'_, 'm>> {
         let (patch, shape) = (self.patch, mesh.shape[self.patch]);
         let near = self.near.map(|near| {
             let (at, inverse, from) = (near.at, &near.inverse, &near.rest);
-            Frame { seen: (patch, Some(near)), inverse, shape, at, from }
+            SeenElement { seen: (patch, Some(near)), inverse, shape, at, from }
         });
         let own = self.inverse.as_ref().map(|inverse| {
             let (at, from) = ([0.0; 2], &self.from_origin);
-            Frame { seen: (patch, None), inverse, shape, at, from }
+            SeenElement { seen: (patch, None), inverse, shape, at, from }
         });
         near.into_iter().chain(own)
     }
 }
 
-impl Frame<'_, '_> {
+impl SeenElement<'_, '_> {
     /// The places of offsets from the anchor.
     #[inline(always)]
-    pub(super) fn places<R: Real>(&self, offset: [R; 2]) -> Places<R> {
+    pub(super) fn places<R: Real>(&self, offset: [R; 2]) -> LanePlaces<R> {
         let (delta, certainty) = self.inverse.solve(moved(self.from, offset));
         let margin = self.shape.margin(self.at, delta);
         let (zero, one) = (margin.lit(0.0), margin.lit(1.0));
@@ -58,6 +58,6 @@ impl Frame<'_, '_> {
             }
         };
         let certainty = R::select(certainty.ge(zero), decided, -one);
-        Places { delta, margin, certainty }
+        LanePlaces { delta, margin, certainty }
     }
 }

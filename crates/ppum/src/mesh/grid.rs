@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::evaluate::At;
-use super::frame::{Frame, Places};
+use super::frame::{LanePlaces, SeenElement};
 use super::local::{Candidate, LocalMesh, Location};
 use super::map::TOLERANCE;
 use crate::crack::Side;
@@ -41,14 +41,14 @@ impl PointGrid<'_> {
 
 /// Evenly spaced numbers.
 #[derive(Clone, Copy)]
-struct Axis {
+struct Spacing {
     first: f64,
     /// How many fit in a unit; negative if they fall.
     density: f64,
     count: usize,
 }
 
-impl Axis {
+impl Spacing {
     fn new(values: &[f64]) -> Self {
         let (first, last) = (values.first().copied(), values.last().copied());
         let size = last.zip(first).map_or(0.0, |(last, first)| last - first);
@@ -69,13 +69,13 @@ impl Axis {
 
 /// Points of a grid that an element may hold.
 #[derive(Default)]
-struct Points {
+struct GridPoints {
     index: Vec<usize>,
     /// x and y, some more than points.
     offset: [Vec<f64>; 2],
 }
 
-impl Points {
+impl GridPoints {
     fn clear(&mut self) {
         self.index.clear();
         self.offset.iter_mut().for_each(Vec::clear);
@@ -153,8 +153,8 @@ impl<const D: usize> Job<f64> for OnGrid<'_, '_, '_, D> {
         let (mesh, count) = (self.mesh, self.grid.x.len() * self.grid.y.len());
         let mut found = Found { is_free: vec![true; count], beside: BTreeMap::new() };
         let mut lanes = vec![Jet::constant(zero); mesh.field.components()];
-        let axes = [self.grid.x, self.grid.y].map(Axis::new);
-        let mut points = Points::default();
+        let axes = [self.grid.x, self.grid.y].map(Spacing::new);
+        let mut points = GridPoints::default();
         for patch in mesh.patches_of(self.grid) {
             let candidate = mesh.candidate(patch);
             points.clear();
@@ -175,10 +175,10 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
     #[inline(always)]
     fn add_points(
         &self,
-        [columns, rows]: [Axis; 2],
+        [columns, rows]: [Spacing; 2],
         candidate: &Candidate<'_>,
         is_free: &[bool],
-        points: &mut Points,
+        points: &mut GridPoints,
     ) {
         let (grid, reach) = (self.grid, candidate.reach());
         let far = reach.max.max(-reach.min);
@@ -209,8 +209,8 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
     #[inline(always)]
     fn on_lanes<'m, R: Real<Scalar = f64>>(
         &mut self,
-        frame: &Frame<'_, 'm>,
-        points: &mut Points,
+        frame: &SeenElement<'_, 'm>,
+        points: &mut GridPoints,
         found: &mut Found<'m>,
         lanes: &mut [Jet<R>],
     ) {
@@ -219,7 +219,7 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
         for start in (0..count).step_by(R::LANES) {
             let [x, y] = &points.offset;
             let offset = [zero.load(&x[start..]), zero.load(&y[start..])];
-            let Places { delta, margin, certainty } = frame.places(offset);
+            let LanePlaces { delta, margin, certainty } = frame.places(offset);
             let margin = self.mesh.clipped(frame.seen, delta, (margin, self.side));
             let (margins, certainties) = (margin.lanes(), certainty.lanes());
             let mut inside = Lanes::default().map(|_| (0, 0));
@@ -251,7 +251,7 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
     #[inline(always)]
     fn store<R: Real<Scalar = f64>>(
         &mut self,
-        frame: &Frame<'_, '_>,
+        frame: &SeenElement<'_, '_>,
         at: &At<R>,
         points: &[(usize, usize)],
         lanes: &mut [Jet<R>],
@@ -269,7 +269,7 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
     fn one_by_one<'m>(
         &mut self,
         candidate: &Candidate<'m>,
-        points: &Points,
+        points: &GridPoints,
         found: &mut Found<'m>,
     ) {
         for (k, &point) in points.index.iter().enumerate() {
