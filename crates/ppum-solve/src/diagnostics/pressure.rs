@@ -100,7 +100,8 @@ fn oscillation(field: &Field<'_>, law: &Law<'_>, cell: usize) -> Option<Oscillat
     Some(Oscillation { area: rect.size().x * rect.size().y, tail, stress })
 }
 
-/// λ tr(ε − ε⁰) and σ:σ in the plane at a point; `None` outside the plate, and where they are infinite.
+/// λ tr(ε − ε⁰) and σ:σ in the plane at a point; `None` outside the plate, and where they are
+/// infinite.
 fn stresses(local: &mut LocalField<'_>, offset: Vec2, law: &LawAt) -> Option<(f64, f64)> {
     let mut u = [Jet::constant(0.0); 2];
     let is_inside = local.evaluate::<1>(offset, Side::Above, &mut u);
