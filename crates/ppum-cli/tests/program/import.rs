@@ -23,7 +23,8 @@ fn a_drawing_becomes_a_problem_file() {
     assert_eq!(String::from_utf8(output.stdout).unwrap(), text);
 }
 
-/// With a material and loads an imported part is solved: the clamp takes what the rest is loaded by.
+/// With a material and loads an imported part is solved: the clamp takes what the rest is
+/// loaded by.
 #[test]
 fn an_imported_part_is_solved() {
     let lab = Lab::new();

@@ -69,6 +69,16 @@ fn arrays(points: &[Vec2]) -> Vec<[f64; 2]> {
     points.iter().copied().map(Vec2::into).collect()
 }
 
+/// Corners of rims that a line has at most.
+const CORNERS: usize = 16;
+
+fn rim(points: &[[f64; 2]], places: &Places) -> String {
+    match points.len() {
+        0..=CORNERS => path(points, places),
+        n => format!("{} … ({n} corners)", path(&points[..3], places)),
+    }
+}
+
 fn path(points: &[[f64; 2]], places: &Places) -> String {
     let points: Vec<_> = points.iter().map(|&p| places.show(p.into())).collect();
     points.join(" – ")
@@ -126,8 +136,8 @@ impl Hole {
                 let center = places.show((*center).into());
                 format!("circle around {center}, radius {}", trimmed(*radius))
             }
-            Self::Polygon { points } => format!("polygon {}", path(points, places)),
-            Self::Outside { points } => format!("outside of {}", path(points, places)),
+            Self::Polygon { points } => format!("polygon {}", rim(points, places)),
+            Self::Outside { points } => format!("outside of {}", rim(points, places)),
         }
     }
 }

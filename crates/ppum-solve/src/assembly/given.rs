@@ -142,7 +142,7 @@ impl<'p> Given<'p> {
         let name = if self.problem.components() == 1 { "the source" } else { "the body force" };
         let inside = self.source_rules.doubt().map(|doubt| unresolved(name.into(), doubt));
         let of_given = |given: &GivenCondition<'p>| {
-            let what = format!("what is given on {}", given.condition.on);
+            let what = format!("what is given on {}", self.problem.words_of(given.condition.on));
             given.own.doubt().map(|doubt| unresolved(what, doubt))
         };
         inside.into_iter().chain(self.conditions.iter().filter_map(of_given)).collect()

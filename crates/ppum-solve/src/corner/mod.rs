@@ -173,6 +173,9 @@ fn with_functions(problem: &Problem, mut corners: Vec<Corner>) -> Vec<Corner> {
 /// smooth loads change on the short way on which they are looked at.
 const UNFIT: f64 = 1e-4;
 
+/// Turn, its sine, up to which a vertex of a rim follows a curve.
+const BEND: f64 = 0.1;
+
 /// True if no uniform stress (gradient) has the loads of a sector's two rays: t₁ = σ n₁ and t₂ = σ
 /// n₂ need n₂·t₁ = n₁·t₂, on a straight border t₁ = t₂. Any two fluxes fit but on a
 /// straight border.
@@ -180,9 +183,11 @@ fn is_unfit(sector: &Sector, components: usize) -> bool {
     let [n1, n2] = sector.normals();
     let [t1, t2] = sector.load.map(Vec2::from);
     let size = t1.length() + t2.length();
-    let is_straight = n1.cross(n2).abs() < UNFIT && n1.dot(n2) > 0.0;
+    let turn = if n1.dot(n2) > 0.0 { n1.cross(n2).abs() } else { 1.0 };
     let apart = match components {
-        _ if is_straight => (t1 - t2).length(),
+        _ if turn < UNFIT => (t1 - t2).length(),
+        // a vertex of a rim that follows a curve: loads may be smooth or turn with the normal
+        2 if turn < BEND => (t1 - t2).length().min((n2.dot(t1) - n1.dot(t2)).abs()),
         1 => 0.0,
         _ => (n2.dot(t1) - n1.dot(t2)).abs(),
     };
@@ -230,16 +235,29 @@ fn values_jump(sector: &Sector, scale: f64) -> bool {
     jumps(0) || jumps(1)
 }
 
-/// The size of the values given on edges, at their ends and quarters.
+/// The size of the values given on edges, at their ends and quarters, and at corners of rims.
 fn scale_of_values(problem: &Problem) -> f64 {
     let sizes = problem.boundary.iter().flat_map(|condition| {
-        let BorderPart::Edge { edge, from, to } = condition.on else { return Vec::new() };
-        let at =
-            |k: u32| edge.point(&problem.domain.bounds, from + (to - from) * f64::from(k) / 4.0);
-        let (held, all) = (condition.held(), (0..=4).map(at));
-        let values = all.map(|p| condition.values(p, edge.normal()));
+        let bounds = &problem.domain.bounds;
+        let all: Vec<Vec2> = match condition.on {
+            BorderPart::Edge { edge, from, to } => (0..=4)
+                .map(|k| edge.point(bounds, from + (to - from) * f64::from(k) / 4.0))
+                .collect(),
+            part => {
+                let holes = problem.domain.holes.iter().enumerate();
+                let rims = holes.flat_map(|(k, hole)| {
+                    let sides = hole.sides().enumerate();
+                    let own = sides.filter(move |(side, _)| problem.is_on(part, k, *side));
+                    own.flat_map(|(_, ends)| ends)
+                });
+                rims.collect()
+            }
+        };
+        let held = condition.held();
+        // values, unlike pressures, do not depend on the normal
+        let values = all.into_iter().map(|p| condition.values(p, Vec2::ZERO));
         let size = |v: [f64; 2]| [0, 1].map(|i| if held[i] { v[i].abs() } else { 0.0 });
-        values.flat_map(size).collect()
+        values.flat_map(size).collect::<Vec<_>>()
     });
     sizes.fold(0.0, f64::max)
 }

@@ -98,6 +98,9 @@ impl Words for Edge {
     ];
 }
 
+/// The word for the whole outline of the body.
+pub(super) const OUTLINE: &str = "outline";
+
 /// A part of the border of the plate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BorderPart {

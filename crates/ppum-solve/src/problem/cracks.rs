@@ -51,9 +51,11 @@ pub(super) fn settled(cracks: Vec<Crack>, domain: &Domain) -> Vec<Crack> {
 pub(super) fn with_ends(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Domain) -> Vec<Crack> {
     let touch = touch(&domain.bounds);
     let holes = holes_of(domain, touch);
-    let end = |point: Option<&mut Vec2>, most_edges: usize| {
+    let end = |point: Option<&mut Vec2>, before: Option<Vec2>, most_edges: usize| {
         let Some(p) = point else { return CrackEnd::Tip };
         *p = onto_edges(*p, &domain.bounds, touch);
+        let onward = before.and_then(|before| beyond_rim(*p, (*p - before).unit(), domain));
+        *p = *p + onward.unwrap_or(Vec2::ZERO);
         let is_mouth = edges_at(*p, &domain.bounds, 0.0).count() > most_edges;
         let mut near = holes_at(&holes, *p);
         if is_mouth || near.any(|(_, hole)| reaches(hole, *p, touch)) {
@@ -69,12 +71,41 @@ pub(super) fn with_ends(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Dom
             points.iter_mut().for_each(|p| *p = onto_edges(*p, &domain.bounds, touch));
         }
         let most = usize::from(is_along);
-        let ends = [end(points.first_mut(), most), end(points.last_mut(), most)];
+        let [second, last_but_one] =
+            [points.get(1), points.iter().rev().nth(1)].map(|p| p.copied());
+        let ends =
+            [end(points.first_mut(), second, most), end(points.last_mut(), last_but_one, most)];
         Crack { points, ends }
     };
     let mut cracks: Vec<_> = lines.into_iter().map(crack).collect();
     find_junctions(&mut cracks, touch);
     cracks
+}
+
+/// Turn of a rim from side to side up to which it follows a curve, and reach of ends on the curve,
+/// in parts of the distance between the curve and its sides.
+const FOLLOWS: f64 = 0.2;
+const ON_CURVE: f64 = 2.0;
+
+/// The way on, along a crack, from an end that lies on the curve that a rim follows, but in the
+/// body, to beyond the rim; none for other ends.
+fn beyond_rim(p: Vec2, way: Vec2, domain: &Domain) -> Option<Vec2> {
+    let on = |hole: &Hole| {
+        let sides: Vec<_> = hole.sides().collect();
+        let n = sides.len();
+        let gap = |k: usize| {
+            let [before, own, after] =
+                [sides[(k + n - 1) % n], sides[k], sides[(k + 1) % n]].map(|[a, b]| (b - a).unit());
+            let turn = before.cross(own).abs().max(own.cross(after).abs());
+            let [a, b] = sides[k];
+            let gap = ON_CURVE * (b - a).length() * turn / 8.0;
+            let is_on = turn < FOLLOWS && distance(sides[k], p) <= gap;
+            let meets = own.cross(way).abs();
+            (is_on && meets > FOLLOWS).then(|| way * (2.0 * gap / meets))
+        };
+        (0..n).find_map(gap).filter(|way| hole.contains(p + *way) && !hole.contains(p))
+    };
+    domain.holes.iter().find_map(on)
 }
 
 /// Holes with their numbers.
@@ -143,6 +174,7 @@ pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<MistakeAt> 
         let mut broken = check_crack(&crack.points, &domain.bounds, touch, &key);
         broken.extend(check_at_holes(crack, &holes, touch, &key));
         broken.extend(check_in_outline(crack, domain, touch, &key));
+        broken.extend(check_along_rims(crack, domain, touch, &key));
         in_order.extend(broken.is_empty().then_some(index));
         found.extend(broken);
     }
@@ -160,10 +192,30 @@ fn check_at_holes(crack: &Crack, holes: &Holes<'_>, touch: f64, key: &Key) -> Op
     Some(key.clone().mistake(message))
 }
 
+/// No segment runs along a side of a rim.
+fn check_along_rims(crack: &Crack, domain: &Domain, touch: f64, key: &Key) -> Option<MistakeAt> {
+    let sides = domain.holes.iter().flat_map(Hole::sides);
+    let runs_along = |s: &[Vec2], [a, b]: [Vec2; 2]| {
+        let way = (b - a).unit();
+        let beside = |p: Vec2| way.cross(p - a).abs() <= touch;
+        let [from, to] = [s[0], s[1]].map(|p| way.dot(p - a));
+        let common = from.max(to).min((b - a).length()) - from.min(to).max(0.0);
+        beside(s[0]) && beside(s[1]) && common > touch
+    };
+    let mut pairs = sides.flat_map(|side| crack.points.windows(2).map(move |s| (s, side)));
+    let (segment, _) = pairs.find(|(s, side)| runs_along(s, *side))?;
+    let message = format!(
+        "the crack runs along the border at {}; move it into the body, or leave it out",
+        shown(segment[0])
+    );
+    Some(key.clone().mistake(message))
+}
+
 /// Some of the crack lies in the outline of the body.
 fn check_in_outline(crack: &Crack, domain: &Domain, touch: f64, key: &Key) -> Option<MistakeAt> {
     let outline = std::slice::from_ref(&domain.holes[domain.outline()?]);
-    let inside = length_inside(crack, &domain.bounds, outline);
+    // a crack may lie on an edge of the box
+    let inside = length_inside(crack, &wider(&domain.bounds, domain.bounds.size().x), outline);
     let message = "the crack lies outside of the outline; move it in, or leave it out";
     (inside <= touch).then(|| key.clone().mistake(message))
 }

@@ -7,11 +7,10 @@ use ppum::dataset::{MAX_DEGREE, StressState};
 use ppum::text::exact as digits;
 
 use super::adaptivity::{AdaptKind, Keep};
-use super::boundary::Edge;
+use super::boundary::{self, Edge};
 use super::discretization::{Enrichment, MAX_LEVEL, MOST_TERMS};
 use super::enrichment::Site;
 use super::growth::{Criterion, LoadControl};
-use super::restraint;
 use super::solver::SolverKind;
 use super::words::{EquationKind, Words as _, words};
 use EquationKind::{Elasticity, Poisson};
@@ -252,7 +251,7 @@ impl KeyTable {
 
 /// The parts of the border that have names of their own.
 fn places() -> Vec<&'static str> {
-    words::<Edge>().into_iter().chain([restraint::OUTLINE]).collect()
+    words::<Edge>().into_iter().chain([boundary::OUTLINE]).collect()
 }
 
 fn exact() -> Vec<&'static str> {

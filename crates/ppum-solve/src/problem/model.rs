@@ -188,6 +188,15 @@ impl Problem {
         0.25 * distances.fold(length, f64::min)
     }
 
+    /// A part of the border in words.
+    pub(crate) fn words_of(&self, part: BorderPart) -> String {
+        match part {
+            BorderPart::Piece(piece) => format!("the piece `{}`", self.pieces[piece].name),
+            BorderPart::Hole(hole) if self.domain.outline() == Some(hole) => "the outline".into(),
+            other => other.to_string(),
+        }
+    }
+
     /// True if a side of the rim of a hole belongs to a part of the border.
     pub(crate) fn is_on(&self, part: BorderPart, hole: usize, side: usize) -> bool {
         match part {

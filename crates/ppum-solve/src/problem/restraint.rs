@@ -1,13 +1,9 @@
 //! Restraints: parts of the border where values are given, in the words that reactions are
 //! stored with.
 
-use super::boundary::{BorderPart, Edge};
-use super::model::Problem;
+use super::boundary::{BorderPart, Edge, OUTLINE, Piece};
 use ppum::domain::Domain;
 use ppum::vec2::Vec2;
-
-/// The word for the whole outline of the body.
-pub(super) const OUTLINE: &str = "outline";
 
 /// The middle of a restraint by the words of its reaction: of an edge or a piece of it, of a
 /// circle, of the box around a polygon. None for words of other programs.
@@ -33,8 +29,7 @@ pub fn restraint_center(on: &str, domain: &Domain) -> Option<Vec2> {
 }
 
 /// A part of the border as problem files name it.
-pub(crate) fn restraint_words(on: BorderPart, problem: &Problem) -> String {
-    let domain = &problem.domain;
+pub(crate) fn restraint_words(on: BorderPart, domain: &Domain, pieces: &[Piece]) -> String {
     match on {
         BorderPart::Edge { edge, .. } if on == BorderPart::edge(edge, &domain.bounds) => {
             edge.name().into()
@@ -42,7 +37,7 @@ pub(crate) fn restraint_words(on: BorderPart, problem: &Problem) -> String {
         BorderPart::Edge { edge, from, to } => format!("{} from {from} to {to}", edge.name()),
         BorderPart::Hole(hole) if domain.outline() == Some(hole) => OUTLINE.into(),
         BorderPart::Hole(hole) => format!("hole {hole}"),
-        BorderPart::Piece(piece) => format!("piece {}", problem.pieces[piece].name),
+        BorderPart::Piece(piece) => format!("piece {}", pieces[piece].name),
         BorderPart::Sides(_) => on.to_string(),
         BorderPart::Crack { .. } => on.to_string(),
     }
@@ -50,7 +45,6 @@ pub(crate) fn restraint_words(on: BorderPart, problem: &Problem) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::discretization::{Cells, Discretization};
     use super::*;
     use ppum::domain::Hole;
     use ppum::vec2::{Rect, vec2};
@@ -64,7 +58,6 @@ mod tests {
         let bounds = Rect::new(vec2(0.0, -1.0), vec2(4.0, 2.0));
         let outside = [[-1.0, -1.0], [5.0, -1.0], [2.0, 3.0]].map(Vec2::from).to_vec();
         let domain = Domain { bounds, holes: vec![circle, polygon, Hole::outside(outside)] };
-        let problem = Problem::poisson(domain, 1.0, Discretization::new(Cells::Level(1)));
         let piece = BorderPart::Edge { edge: Edge::Left, from: -0.1 - 0.2, to: 1e-7 };
         for (part, center) in [
             (BorderPart::edge(Edge::Top, &bounds), vec2(2.0, 2.0)),
@@ -75,13 +68,13 @@ mod tests {
             (BorderPart::Hole(2), vec2(2.0, 1.0)),
         ] {
             assert_eq!(
-                restraint_center(&restraint_words(part, &problem), &problem.domain),
+                restraint_center(&restraint_words(part, &domain, &[]), &domain),
                 Some(center),
                 "{part}"
             );
         }
         for other in ["", "hole 3", "hole x", "rim", "top from 0 to", "top  from 0 to 1"] {
-            assert_eq!(restraint_center(other, &problem.domain), None, "{other}");
+            assert_eq!(restraint_center(other, &domain), None, "{other}");
         }
     }
 }

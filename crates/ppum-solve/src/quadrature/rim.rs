@@ -35,7 +35,9 @@ impl Quadrature<'_> {
         hole: &Hole,
         is_wanted: impl Fn(usize) -> bool,
     ) -> Vec<EdgeRule> {
-        if !closed_meet(cell, &hole.rim_bounds()) {
+        // a side on a line of cells may be beside it by rounding
+        let near = wider(cell, TOLERANCE * cell.size().length());
+        if !closed_meet(&near, &hole.rim_bounds()) {
             return Vec::new();
         }
         match *hole {
@@ -47,7 +49,6 @@ impl Quadrature<'_> {
                 let side = |(_, [a, b]): (usize, [Vec2; 2])| {
                     self.edge(cell, coverers, [a, b], (b - a).unit().left() * turn)
                 };
-                let near = wider(cell, TOLERANCE * cell.size().length());
                 let here = |(k, [a, b]): &(usize, [Vec2; 2])| {
                     is_wanted(*k) && closed_meet(&near, &Rect::new(a.min(*b), a.max(*b)))
                 };

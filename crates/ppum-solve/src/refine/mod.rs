@@ -41,8 +41,10 @@ use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
 pub(crate) use rim::{coarsest, rim_error};
 
-/// Part of a hole's size below which cells are not divided to part the sides of its rim.
+/// Part of a hole's size below which cells are not divided to part the sides of its rim; of an
+/// outline, whose gaps are slots of the body, a smaller one.
 const LEAST_GAP: f64 = 1.0 / 128.0;
+const LEAST_SLOT: f64 = 1.0 / 2048.0;
 
 /// Cells that are added without asking, for all but tips; beyond them, and four times the base
 /// cover, all is resolved less finely, rims first. A dozen round holes take them at order 2, half a
@@ -314,7 +316,7 @@ pub(crate) fn n_crossed_twice(problem: &Problem, partition: &BoxPartition) -> us
 struct Rims<'p> {
     domain: Rect,
     overlap: f64,
-    /// Their corners and sizes.
+    /// Their corners, and sizes of cells that are not divided.
     rims: Placed<(&'p [Vec2], f64)>,
 }
 
@@ -324,7 +326,8 @@ impl<'p> Rims<'p> {
             Hole::Circle { .. } => None,
             Hole::Polygon { points, .. } => {
                 let size = hole.rim_bounds().size();
-                Some((hole.rim_bounds(), (points.as_slice(), size.x.max(size.y))))
+                let part = if hole.is_outside() { LEAST_SLOT } else { LEAST_GAP };
+                Some((hole.rim_bounds(), (points.as_slice(), part * size.x.max(size.y))))
             }
         });
         let overlap = problem.discretization.overlap;
@@ -336,9 +339,9 @@ impl<'p> Rims<'p> {
     fn cross_twice(&self, patch: &Rect) -> bool {
         let size = patch.size().x.max(patch.size().y) / self.overlap;
         let inside = patch.intersection(&self.domain);
-        self.rims.near(patch).any(|(points, whole)| {
-            exceeds(size, LEAST_GAP * whole) && runs_of_rim(points, &inside) > 1
-        })
+        self.rims
+            .near(patch)
+            .any(|(points, least)| exceeds(size, *least) && runs_of_rim(points, &inside) > 1)
     }
 }
 

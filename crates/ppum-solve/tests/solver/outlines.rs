@@ -173,3 +173,68 @@ fn boxes_cut_outlines() {
         }
     }
 }
+
+/// Sides of holes on lines of cells, but for rounding, are loaded: else the pressure in a hole
+/// would not be in equilibrium.
+#[test]
+fn sides_on_lines_of_cells_count_once() {
+    let mut random = Random(22);
+    for _ in 0..30 {
+        let (min, size) = (random.between(-1.0, 1.0), random.between(0.1, 3.0));
+        let count = 4 + random.below(6);
+        // the outline has n − 1 of n cells
+        let line = |k: usize| min + size * ((k as f64 - 0.5) / (count - 1) as f64);
+        let (a, b) = (line(2), line(count - 1));
+        let max = min + size;
+        let text = format!(
+            "[domain.outline]\npoints = [[{min:?}, {min:?}], [{max:?}, {min:?}], [{max:?}, {max:?}], \
+             [{min:?}, {max:?}]]\n[[hole]]\npoints = [[{a:?}, {a:?}], [{b:?}, {a:?}], [{b:?}, {b:?}], \
+             [{a:?}, {b:?}]]\n[material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-stress\"\n\
+             [[boundary]]\non = {{ hole = 0 }}\npressure = 1\n[discretization]\n\
+             cells = [{count}, {count}]\norder = 1\nrefine = false\n"
+        );
+        // refused if a side is missing
+        solved(&parsed(&text));
+    }
+}
+
+/// A crack that ends on the circle that an outline follows has a mouth there, as one that ends
+/// beyond it, also where the polygon leaves the end inside.
+#[test]
+fn cracks_end_on_curves() {
+    let factor = |end: [f64; 2]| {
+        let text = format!(
+            "[[crack]]\npoints = [[0.1, 0.05], {end:?}]\n[domain.outline]\n\
+             ellipse = {{ center = [0, 0], axes = [1, 1] }}\n[material]\nyoung = 1\npoisson = 0.3\n\
+             state = \"plane-stress\"\n[[boundary]]\non = \"outline\"\npressure = -1\n\
+             [discretization]\nlevel = 3\norder = 4\n"
+        );
+        let dataset = solved(&parsed(&text));
+        assert_eq!(dataset.steps[0].intensities.len(), 1, "one tip: {end:?}");
+        factors(&dataset)[0]
+    };
+    for angle in [0.0f64, 0.013, 0.5, 1.0] {
+        let (sin, cos) = angle.sin_cos();
+        let [on, beyond] = [1.0, 1.05].map(|far| factor([far * cos, far * sin]));
+        assert!((on / beyond - 1.0).abs() < 2e-2, "{angle}: {on} {beyond}");
+    }
+}
+
+/// Smooth data on an outline that follows a curve, exact on the circle, warn of nothing.
+#[test]
+fn smooth_data_on_curves_do_not_jump() {
+    for (what, values) in [
+        ("displacement", "[\"0.01*x*y\", \"0.01*(x + y^2)\"]"),
+        ("traction", "[\"x\", \"-y\"]"),
+        ("pressure", "\"1 + x*y\""),
+    ] {
+        let text = format!(
+            "[domain.outline]\nellipse = {{ center = [0, 0], axes = [1, 1] }}\n[material]\nyoung = 1\n\
+             poisson = 0.3\nstate = \"plane-stress\"\n[[boundary]]\non = \"outline\"\n{what} = {values}\n\
+             [discretization]\nlevel = 4\norder = 3\n"
+        );
+        let dataset = solved(&parsed(&text));
+        let told: Vec<_> = dataset.steps[0].warnings.iter().map(|w| &w.message).collect();
+        assert!(!told.iter().any(|message| message.contains("jump")), "{what}: {told:?}");
+    }
+}

@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use super::local::{LocalMesh, Location, Near};
+use super::local::{LocalMesh, Location, Seen, sign};
 use super::map::Map;
 use crate::crack::{Side, TipPoint};
 use crate::function::{GROUP, LevelUse, LocalFunctions, Slot};
@@ -11,9 +11,6 @@ use crate::jet::Jet;
 use crate::polynomial::polynomial_in;
 use crate::vec2::Vec2;
 use ppum_formula::real::Real;
-
-/// A patch as it is, or as seen from a ξ beside the anchor.
-pub(super) type Seen<'m> = (usize, Option<&'m Near>);
 
 impl LocalMesh<'_> {
     /// All components of the field at a place, with derivatives in the world.
@@ -150,17 +147,6 @@ pub(super) struct At<R> {
     pub(super) delta: [R; 2],
     pub(super) offset: [R; 2],
     pub(super) side: Side,
-}
-
-/// +1 where a level field is positive, −1 where it is negative; where it is zero, that of the side.
-#[inline(always)]
-pub(super) fn sign<R: Real>(level: R, side: Side) -> R {
-    let zero = level.lit(0.0);
-    let is_above = match side {
-        Side::Above => level.ge(zero),
-        Side::Below => level.gt(zero),
-    };
-    R::sign(is_above, level.lit(1.0))
 }
 
 /// The chain rule from ξ to the world: G = DM⁻¹, ∇v = Gᵀ ∇_ξ v, ∇²v = Gᵀ (∇²_ξ v − Σ_i ∂v/∂x_i ∇²_ξ

@@ -1,8 +1,7 @@
 //! An element as seen from a point, and the places of many points in it.
 
 use super::elements::Mesh;
-use super::evaluate::Seen;
-use super::local::{Candidate, moved};
+use super::local::{Candidate, Seen, moved};
 use super::map::{Inverse, NEAR, TOLERANCE, largest};
 use super::shape::Shape;
 use crate::compensated::Pair;

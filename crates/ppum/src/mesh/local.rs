@@ -7,7 +7,6 @@
 use std::collections::BTreeMap;
 
 use super::elements::Mesh;
-use super::evaluate::{Seen, sign};
 use super::map::{Inverse, TOLERANCE};
 use super::shape::Edge;
 use super::taylor::Dense;
@@ -194,8 +193,8 @@ impl Candidate<'_> {
     }
 
     /// Half-planes a + b x + c y ≥ 0 of offsets, |b| = 1 or b = 0, that hold all of the patch, and
-    /// what lies just beside it: those of the edges for the linear part of the map, farther out by κ. `far` is the
-    /// farthest that offsets are looked at.
+    /// what lies just beside it: those of the edges for the linear part of the map, farther out
+    /// by κ. `far` is the farthest that offsets are looked at.
     #[inline]
     pub(super) fn half_planes(&self, mesh: &Mesh, far: Vec2) -> [Option<Edge>; 4] {
         let mut planes = [None; 4];
@@ -255,4 +254,18 @@ fn shifted(data: &FieldData, patch: usize, at: [f64; 2]) -> Vec<f64> {
         }
     }
     out
+}
+
+/// A patch as it is, or as seen from a ξ beside the anchor.
+pub(super) type Seen<'m> = (usize, Option<&'m Near>);
+
+/// +1 where a level field is positive, −1 where it is negative; where it is zero, that of the side.
+#[inline(always)]
+pub(super) fn sign<R: Real>(level: R, side: Side) -> R {
+    let zero = level.lit(0.0);
+    let is_above = match side {
+        Side::Above => level.ge(zero),
+        Side::Below => level.gt(zero),
+    };
+    R::sign(is_above, level.lit(1.0))
 }

@@ -3,11 +3,14 @@
 use std::collections::BTreeMap;
 
 use ppum::crack::Side;
-use ppum::vec2::Rect;
+use ppum::domain::Domain;
+use ppum::vec2::{Rect, Vec2};
 
 use super::super::boundary::{BorderPart, BoundaryCondition, Edge, Piece, SideRun};
+use super::super::cracks::touch;
 use super::super::key::{Key, MistakeAt, no_such};
 use super::super::model::Problem;
+use crate::geometry::{clipped, solid_part, wider};
 
 /// All rules broken by the conditions on the border.
 pub(super) fn check_boundary(problem: &Problem) -> Vec<MistakeAt> {
@@ -86,7 +89,10 @@ fn on(index: usize) -> Key {
 fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) -> Option<MistakeAt> {
     let (holes, cracks) = (problem.domain.holes.len(), problem.cracks.len());
     let message = match condition.on {
-        BorderPart::Edge { edge, from, to } => bad_range(edge, [from, to], &problem.domain.bounds)?,
+        part @ BorderPart::Edge { edge, from, to } => {
+            bad_range(edge, [from, to], &problem.domain.bounds)
+                .or_else(|| (!reaches_body(part, problem)).then(|| NOTHING_THERE.to_owned()))?
+        }
         BorderPart::Hole(hole) if hole >= holes => no_such("hole", hole, holes),
         BorderPart::Piece(piece) if piece >= problem.pieces.len() => {
             no_such("piece", piece, problem.pieces.len())
@@ -98,9 +104,36 @@ fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) ->
         BorderPart::Crack { .. } if condition.held().contains(&true) => {
             "the faces of a crack cannot be held; give them a traction or a pressure".to_owned()
         }
+        part if !reaches_body(part, problem) => NOTHING_THERE.to_owned(),
         _ => return None,
     };
     Some(on(index).mistake(message))
+}
+
+const NOTHING_THERE: &str = "nothing of the body is there: it lies in holes, or outside of the outline or the box; leave this [[boundary]] \
+     out, or name another part";
+
+/// True if some of a part of the border bounds the body.
+fn reaches_body(part: BorderPart, problem: &Problem) -> bool {
+    let Domain { bounds, holes } = &problem.domain;
+    let is_solid = |[a, b]: [Vec2; 2], own: Option<usize>| {
+        let others = (0..).zip(holes).filter(|(k, _)| own != Some(*k)).map(|(_, hole)| hole);
+        let near = wider(bounds, touch(bounds));
+        clipped(a, b, &near).is_some_and(|range| solid_part(a, b, range, others) > 0.0)
+    };
+    match part {
+        BorderPart::Edge { edge, from, to } => {
+            is_solid([from, to].map(|s| edge.point(bounds, s)), None)
+        }
+        BorderPart::Hole(hole) if holes[hole].sides().next().is_none() => true,
+        BorderPart::Hole(_) | BorderPart::Sides(_) | BorderPart::Piece(_) => {
+            holes.iter().enumerate().any(|(k, hole)| {
+                let mut sides = hole.sides().enumerate();
+                sides.any(|(side, ends)| problem.is_on(part, k, side) && is_solid(ends, Some(k)))
+            })
+        }
+        BorderPart::Crack { .. } => true,
+    }
 }
 
 fn is_of(run: SideRun, problem: &Problem) -> bool {
@@ -138,11 +171,7 @@ fn contradiction(
         BorderPart::Edge { .. } => "divide the edge by `from` and `to`, or leave",
         _ => "leave",
     };
-    let place = match place {
-        BorderPart::Piece(piece) => format!("the piece `{}`", problem.pieces[piece].name),
-        BorderPart::Hole(hole) if problem.domain.outline() == Some(hole) => "the outline".into(),
-        other => other.to_string(),
-    };
+    let place = problem.words_of(place);
     Some(format!(
         "{what} on {place} is given twice; give each component once at each place: {remedy} a \
          component \"free\""

@@ -6,7 +6,7 @@ mod refinement;
 mod symmetry;
 
 use ppum::dataset::{EIGENSTRAINS, Equation};
-use ppum::domain::Domain;
+use ppum::domain::{Domain, Hole};
 use ppum::expression::Expression;
 use ppum::text::trimmed;
 use ppum::vec2::{Rect, vec2};
@@ -253,7 +253,17 @@ fn check_domain(domain: &Domain) -> Vec<MistakeAt> {
         Key::of("domain.max").mistake(message)
     };
     let box_is_wrong: Vec<_> = wrong.map(message).collect();
+    if !box_is_wrong.is_empty() && domain.outline().is_some_and(|k| is_flat(&domain.holes[k])) {
+        let message = "the outline encloses nothing; give three corners or more, not all on a line";
+        return vec![Key::of("domain.outline").mistake(message)];
+    }
     if box_is_wrong.is_empty() { check_holes(domain) } else { box_is_wrong }
+}
+
+/// True if the corners of an outline lie on an upright or a level line.
+fn is_flat(outline: &Hole) -> bool {
+    let size = outline.rim_bounds().size();
+    !(size.x > 0.0 && size.y > 0.0)
 }
 
 /// Names that all formulas may use; files cannot break this, code can.

@@ -36,6 +36,7 @@ pub(super) fn check_refinements(problem: &Problem) -> Vec<MistakeAt> {
 fn bad_place(new: &LocalRefinement, problem: &Problem) -> Option<(&'static str, String)> {
     let (bounds, holes, cracks) =
         (&problem.domain.bounds, problem.domain.holes.len(), problem.cracks.len());
+    let holes = holes - usize::from(problem.domain.outline().is_some());
     let missed = |what: &str| format!("the {what} misses the domain; move it in, or leave it out");
     match new.place {
         RefinementRegion::Box(rect) => {

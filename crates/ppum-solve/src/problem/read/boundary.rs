@@ -4,9 +4,9 @@ use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::vec2::{Rect, vec2};
 
-use super::super::boundary::{BorderPart, BoundaryCondition, Condition, Edge};
+use super::super::boundary::{BorderPart, BoundaryCondition, Condition, Edge, OUTLINE};
 use super::super::document::{Read as _, Section, Value, all};
-use super::super::restraint::OUTLINE;
+use super::super::key::no_such;
 use super::super::words::EquationKind;
 use super::rim::Body;
 
@@ -84,7 +84,17 @@ fn part(value: &Value<'_>, body: &Body) -> Option<BorderPart> {
         return other.error(&format!("has no meaning with `{key}`; remove it"));
     }
     match key {
-        "hole" => section.get("hole").map(BorderPart::Hole),
+        "hole" => {
+            let (hole, count) = (section.get("hole")?, body.holes.as_ref().map(|h| bounded(h)));
+            match count {
+                // the outline has no number
+                Some(count) if hole >= count => {
+                    section.value("hole")?.report(&no_such("hole", hole, count));
+                    None
+                }
+                _ => Some(BorderPart::Hole(hole)),
+            }
+        }
         "piece" => piece(&section.value("piece")?, body),
         "crack" => {
             let (crack, face) = (section.get("crack"), section.optional("face"));
@@ -97,6 +107,11 @@ fn part(value: &Value<'_>, body: &Body) -> Option<BorderPart> {
             Some(BorderPart::Edge { edge, from: from?, to: to? })
         }
     }
+}
+
+/// The number of holes without what is outside of the outline.
+fn bounded(holes: &[Hole]) -> usize {
+    holes.iter().filter(|hole| !hole.is_outside()).count()
 }
 
 /// The outline of the body; if it cannot be read, any part.

@@ -160,7 +160,10 @@ fn path(value: &Value<'_>, segments: Option<usize>) -> Option<Rim> {
     let name = |(value, run): (&Value<'_>, [usize; 2])| {
         let section = value.table()?;
         let Some(name) = section.value("name") else { return Some(None) };
-        Some(Some((String::read(&name)?, run)))
+        match String::read(&name)? {
+            empty if empty.is_empty() => name.error("is empty; leave it out, or give a name"),
+            text => Some(Some((text, run))),
+        }
     };
     let names = all(value.list()?.iter().zip(runs).map(name))?;
     Some(Rim { hole: Hole::polygon(points), names: names.into_iter().flatten().collect() })

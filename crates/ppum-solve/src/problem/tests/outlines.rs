@@ -83,6 +83,15 @@ fn mistakes_of_outlines() {
     wrong("center = [2.5, 0.5]", "center = [2.5, 0.5], centre = 1", "unknown key");
     let twice = "on = \"outline\"\ntraction = [0, 1]\n[[boundary]]\non = { piece = \"head\" }";
     wrong("on = { piece = \"head\" }", twice, "on the piece `head` is given twice");
+    wrong("on = { piece = \"slot\" }", "on = { hole = 1 }", "the only [[hole]] has the number 0");
+    wrong("on = { piece = \"slot\" }", "on = \"left\"", "nothing of the body is there");
+    wrong("[[0, 2.5], [0.5, 2.5]]", "[[0, 2.5], [0, 3]]", "the crack runs along the border");
+    wrong("name = \"head\"", "name = \"\"", "is empty");
+    let flat = "[domain.outline]\npoints = [[0, 0], [1, 0]]\n[material]";
+    let (_, rest) = BRACKET.split_once("[material]").expect("it");
+    let error = parse(&format!("{flat}{rest}").replace("{ piece = \"head\" }", "\"outline\""));
+    let error = error.expect_err("a mistake").to_string();
+    assert!(error.contains("the outline encloses nothing"), "{error}");
     let box_around = |min: &str| format!("min = {min}\nmax = [4, 4]\npath = [");
     let with_box = |min| BRACKET.replacen("path = [", &box_around(min), 1);
     for (min, message) in
