@@ -1,4 +1,4 @@
-"""Draws an exported mesh by VTK, as ParaView does: `vtk_image.py FILE.vtu OUT.png CX,CY WIDTH LOW,HIGH [NAME]`.
+"""Draws an exported mesh by VTK, as ParaView does: `vtk_image.py FILE.vtu -o OUT.png CX,CY WIDTH LOW,HIGH [NAME]`.
 
 Needs pyvista and matplotlib. The colours and the place are those of `ppum render --center CX,CY --width WIDTH --range
 LOW,HIGH --colormap viridis --size 600x600`.
@@ -10,7 +10,7 @@ import pyvista as pv
 
 PIXELS = 600
 
-file, out, center, width, span, *name = sys.argv[1:]
+file, _, out, center, width, span, *name = sys.argv[1:]
 x, y = map(float, center.split(","))
 plotter = pv.Plotter(off_screen=True, window_size=[PIXELS, PIXELS])
 plotter.add_mesh(
