@@ -317,7 +317,7 @@ tables! {
     /// The whole file.
     pub static ROOT = "the problem file", "" {
         title: Text("text"), default("name of the file") => "The problem's name, one line.";
-        domain: Table(&DOMAIN), required("") => "The plate: a box, or a body of any outline.";
+        domain: Table(&DOMAIN), required("min = [-1, -1]`, `max = [1, 1]") => "The plate: a box, or a body of any outline.";
         equation: Table(&EQUATION) => "The equation.";
         material: Table(&MATERIAL) => "The material; Poisson's equation may do without.";
         temperature: Table(&TEMPERATURE), only(Elasticity, &[]) => "The change of temperature.";

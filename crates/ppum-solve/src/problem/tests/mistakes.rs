@@ -6,8 +6,8 @@ use super::*;
 fn what_is_missing_altogether() {
     let expected = [
         "nothing acts on the plate; add [[boundary]]",
-        "the table [domain] is missing; add it with its keys `min`, `max`",
         "the table [discretization] is missing; add it with e.g. `level = 5`",
+        "the table [domain] is missing; add it with e.g. `min = [-1, -1]`, `max = [1, 1]`",
         "the table [material] is missing; add it with its keys `young`, `poisson`, `state`",
     ];
     assert_eq!(mistakes(""), expected.map(|message| format!("dir/plate.toml:1:1: {message}")));
