@@ -33,9 +33,10 @@ fn pressed_bodies_have_no_shear() {
         let bounds = Rect::new(vec2(-1.1, -1.2), vec2(1.3, 1.1));
         let domain = Domain { bounds, holes: vec![Hole::outside(points.clone())] };
         let cells = Cells::Grid([4 + random.below(5) as u32, 5]);
-        // rounding in slivers; functions of corners are integrated by rules that are not exact
+        // the basis keeps functions down to 3e-7 of the others, which multiplies rounding in
+        // slivers; functions of corners are integrated by rules that are not exact
         let (enrichment, tolerance) = match round % 2 {
-            0 => (Enrichment::None, 1e-8),
+            0 => (Enrichment::None, 1e-7),
             _ => (Enrichment::Williams, 1e-6),
         };
         let set =
