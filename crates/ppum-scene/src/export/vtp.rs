@@ -142,7 +142,7 @@ impl Lines {
     /// Adds the isolines that an image of the whole domain has by default.
     ///
     /// # Errors
-    /// See [`Input::isolines`].
+    /// What isolines of an image are refused for: see `Input::isolines`.
     pub fn add_isolines(
         &mut self,
         source: FieldSource<'_>,
