@@ -90,8 +90,10 @@ fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) ->
     let (holes, cracks) = (problem.domain.holes.len(), problem.cracks.len());
     let message = match condition.on {
         part @ BorderPart::Edge { edge, from, to } => {
+            // a symmetry beside the faces of a crack may have a part that lies in a hole
+            let is_needed = reaches_body(part, problem) || problem.is_exact(condition);
             bad_range(edge, [from, to], &problem.domain.bounds)
-                .or_else(|| (!reaches_body(part, problem)).then(|| NOTHING_THERE.to_owned()))?
+                .or_else(|| (!is_needed).then(|| NOTHING_THERE.to_owned()))?
         }
         BorderPart::Hole(hole) if hole >= holes => no_such("hole", hole, holes),
         BorderPart::Piece(piece) if piece >= problem.pieces.len() => {
