@@ -60,6 +60,7 @@ class BoundaryOptions(TypedDict, total=False):
     symmetry: Annotated[bool, _key("whether the normal displacement is 0, the other one free")]
     antisymmetry: Annotated[bool, _key("whether the tangential displacement is 0, the other one free")]
     value: Annotated[Value, _key("of a potential: u, or `exact`")]
+    exchange: Annotated[Value, _key("of a potential: the coefficient of exchange with surroundings of that value")]
     flux: Annotated[Value, _key("of a potential: the flux into the plate")]
 
 

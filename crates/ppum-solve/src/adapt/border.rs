@@ -48,15 +48,24 @@ impl BorderConditions {
         a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y
     }
 
-    /// Of each component whether its value is given, and that value or the traction (flux): zero
-    /// where nothing is said.
-    pub(super) fn given(&self, problem: &Problem, x: Vec2, normal: Vec2) -> ([bool; 2], [f64; 2]) {
+    /// Of each component whether its value is given, and that value or the traction (flux), of a
+    /// field with the values `u` where it yields: zero where nothing is said.
+    pub(super) fn given(
+        &self,
+        problem: &Problem,
+        (x, normal): (Vec2, Vec2),
+        u: [f64; 2],
+    ) -> ([bool; 2], [f64; 2]) {
         let (mut held, mut values) = ([false; 2], [0.0; 2]);
         for condition in self.conditions.iter().map(|&k| &problem.boundary[k]) {
-            let (own, given) = (condition.held(), condition.values(x, normal));
+            let (own, given) = (condition.fixed(), condition.values(x, normal));
+            let yields = condition.held().map(|held| held && condition.exchange.is_some());
             for k in 0..2 {
                 held[k] |= own[k];
-                values[k] += given[k];
+                values[k] += match yields[k] {
+                    true => condition.exchange_at(x) * (given[k] - u[k]),
+                    false => given[k],
+                };
             }
         }
         (held, values)

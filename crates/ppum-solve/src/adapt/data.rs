@@ -125,7 +125,7 @@ impl DataResidual<'_> {
             }
             let law = self.law.at(x);
             let flux = law.flux(&u.map(|jet| vec2(jet.x, jet.y)));
-            let (held, given) = part.given(self.problem, x, n);
+            let (held, given) = part.given(self.problem, (x, n), u.map(|u| u.v));
             let to_tip = tips.iter().map(|&tip| (x - tip).length()).fold(f64::INFINITY, f64::min);
             let width = (h / (2.0 * (p + 1.0))).min(to_tip);
             for i in 0..law.components() {

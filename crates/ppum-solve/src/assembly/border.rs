@@ -27,6 +27,13 @@
 //! 2003). Where β is much larger than elsewhere, the basis is made to see it:
 //! see [`StableBasis::damp`](crate::basis::StableBasis::damp).
 //!
+//! Where u yields to the values g of its surroundings, t(u) = h (g − u), there is no unknown
+//! traction, and no β:
+//!
+//! ```text
+//! exchange      H_(a)(b) = ∫_Γ h N_a N_b                                  K += H,   f += ∫ h g N_a
+//! ```
+//!
 //! If Γ is much shorter than the cell, that β is small: functions of the cell's size carry no
 //! traction through a short restraint, and β M would be a soft spring. So β is C h/ℓ² at least, C
 //! the modulus, h the size of the cell, ℓ the length of Γ in it: a spring C h/ℓ times as stiff as
@@ -41,6 +48,7 @@ use crate::linear::{EigenError, add_at, largest_eigenvalue};
 use crate::quadrature::EdgeRule;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
+use ppum::expression::Expression;
 use ppum::vec2::{Vec2, vec2};
 
 /// β in units of λ_max: below 1 the system is indefinite, 2 to 10 give the same error.
@@ -68,6 +76,8 @@ pub(crate) struct BorderPiece<'a> {
     pub(crate) own: Option<&'a [EdgeRule]>,
     /// Components whose value is given.
     pub(crate) held: [bool; 2],
+    /// The coefficient h with which the field yields to the values, if it does.
+    pub(crate) exchange: Option<&'a Expression>,
     /// True if all fields have these values.
     pub(crate) is_exact: bool,
     /// The given values; tractions where not held (zero where free).
@@ -97,6 +107,8 @@ pub(crate) struct Border<'a> {
     tractions: Vec<f64>,
     /// M = ∫ N_a N_b
     mass: Mat<f64>,
+    /// H = ∫ h N_a N_b, where there is an exchange.
+    exchange: Option<Mat<f64>>,
     /// p = ∫ N_a g_i
     value_load: Vec<f64>,
     /// q = ∫ t_i(N_b e_j) g_i
@@ -131,6 +143,7 @@ impl<'a> Border<'a> {
             consistency: zero(),
             tractions: Vec::new(),
             mass: zero(),
+            exchange: None,
             value_load: vec![0.0; unknowns],
             traction_load: vec![0.0; unknowns],
             length: 0.0,
@@ -147,6 +160,9 @@ impl<'a> Border<'a> {
         shapes: &mut Shapes,
         system: &mut CellSystem,
     ) {
+        if piece.exchange.is_some() {
+            return self.exchange(piece, evaluator, shapes, system);
+        }
         let own = piece.own.unwrap_or_default().iter().map(|rule| (rule, BorderTerms::Data));
         let terms = if piece.own.is_some() { BorderTerms::Stiffness } else { BorderTerms::Both };
         for (rule, terms) in piece.rules.iter().map(|rule| (rule, terms)).chain(own) {
@@ -168,6 +184,60 @@ impl<'a> Border<'a> {
                     self.give(&trace, piece, rule);
                 }
             }
+        }
+    }
+
+    /// Adds a piece where the field yields to the values: all that a function does there is the
+    /// traction −h N.
+    fn exchange(
+        &mut self,
+        piece: &BorderPiece<'_>,
+        evaluator: &mut BasisEvaluator<'_>,
+        shapes: &mut Shapes,
+        system: &mut CellSystem,
+    ) {
+        let coefficient = |x: Vec2| piece.exchange.map_or(0.0, |exchange| exchange.value(x));
+        for rule in piece.own.unwrap_or(&piece.rules) {
+            evaluator.evaluate_edge(rule, shapes);
+            let numbers = system.functions.numbers(&rule.patches);
+            shapes.scale(&rule.weights);
+            let h: Vec<f64> = rule.offsets.iter().map(|&o| coefficient(rule.anchor + o)).collect();
+            for i in (0..self.assembly.components()).filter(|&i| piece.held[i]) {
+                let mut trace = self.trace(i, rule, &numbers, shapes);
+                let values = trace.values;
+                trace.tractions =
+                    Mat::from_fn(values.nrows(), h.len(), |a, q| -h[q] * values[(a, q)]);
+                trace.traction_rows.clone_from(&trace.value_rows);
+                self.yield_to(&trace, piece, rule, &h, system);
+            }
+        }
+    }
+
+    /// Adds the points of a component that yields to H, to the load and to the reaction.
+    fn yield_to(
+        &mut self,
+        trace: &Trace<'_>,
+        piece: &BorderPiece<'_>,
+        rule: &EdgeRule,
+        h: &[f64],
+        system: &mut CellSystem,
+    ) {
+        let Trace { values, value_rows, tractions, .. } = trace;
+        let (n, minus) = (self.value_load.len(), product(*values, tractions.as_ref()));
+        let exchange = self.exchange.get_or_insert_with(|| Mat::zeros(n, n));
+        add_at(exchange, value_rows, value_rows, &(faer::Scale(-1.0) * minus));
+        let given = given(piece, rule, trace.component);
+        for (q, g) in given.iter().enumerate() {
+            for (k, &row) in value_rows.iter().enumerate() {
+                system.load[row] -= tractions[(k, q)] * g;
+            }
+        }
+        let given: Vec<f64> = given.iter().zip(h).map(|(g, h)| -h * g).collect();
+        let restraint = self.restraint(piece.condition);
+        for k in 0..piece.modes.count() {
+            let mode = mode(piece, rule, k, trace.component);
+            restraint.add(k, &mode, (tractions.as_ref(), value_rows), (*values, &[]));
+            restraint.give(k, &mode, &[], &given);
         }
     }
 
@@ -316,7 +386,11 @@ impl<'a> Border<'a> {
         stiffness: &mut Mat<f64>,
         system: &mut CellSystem,
     ) -> Result<(), EigenError> {
+        if let Some(exchange) = &self.exchange {
+            *stiffness += exchange;
+        }
         if self.length == 0.0 {
+            system.reactions = self.reactions(0.0);
             return Ok(());
         }
         let beta = self.penalty(stiffness, size)?;

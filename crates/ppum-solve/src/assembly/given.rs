@@ -62,7 +62,7 @@ impl<'p> Given<'p> {
     /// The conditions that give values, with the rules of the system.
     pub(crate) fn restraints(problem: &'p Problem) -> Self {
         let conditions = problem.boundary.iter().enumerate();
-        let holding = conditions.filter(|(_, condition)| condition.held().contains(&true));
+        let holding = conditions.filter(|(_, condition)| condition.fixed().contains(&true));
         Self {
             problem,
             source: None,
@@ -159,6 +159,7 @@ impl<'p> GivenCondition<'p> {
             rules,
             own: self.own.of(cell),
             held: self.condition.held(),
+            exchange: self.condition.exchange.as_ref(),
             is_exact: problem.is_exact(self.condition),
             values: &*self.values,
             condition: self.number,
@@ -201,12 +202,16 @@ fn add_border(
     });
 }
 
-/// True if all that is given on a piece of the border is finite, values that hold it among them.
+/// True if all that is given on a piece of the border is finite, values that hold it among them,
+/// and no coefficient of an exchange negative.
 fn is_finite(piece: &BorderPiece<'_>) -> bool {
     piece.own.unwrap_or(&piece.rules).iter().all(|rule| {
         let points = rule.offsets.iter().zip(&rule.normals);
         points.into_iter().all(|(&offset, &normal)| {
-            (piece.values)(rule.anchor + offset, normal).iter().all(|value| value.is_finite())
+            let x = rule.anchor + offset;
+            let exchange = piece.exchange.map_or(0.0, |exchange| exchange.value(x));
+            let values = (piece.values)(x, normal);
+            exchange >= 0.0 && values.iter().chain([&exchange]).all(|value| value.is_finite())
         })
     })
 }

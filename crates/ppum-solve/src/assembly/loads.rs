@@ -6,7 +6,7 @@
 //! divided until it resolves the formula. Where they agree the rule of the system stays, else the
 //! other one takes its place for this load.
 
-use crate::problem::{BorderPart, BoundaryCondition, Condition, Expression, Problem};
+use crate::problem::{BorderPart, BoundaryCondition, Expression, Problem};
 use crate::quadrature::{Doubt, EdgeRule, Face, Kink, Quadrature, Rule};
 use crate::smoothness::{Smoothness, box_of};
 use crate::space::Space;
@@ -149,13 +149,14 @@ pub(super) fn of_condition(
     condition: &BoundaryCondition,
     stage: &Stage<'_>,
 ) -> Result<LoadRules<EdgeRule>, Halt> {
-    let components = condition.components.iter().filter_map(|c| match c {
-        Condition::Free => None,
-        Condition::Dirichlet(g) | Condition::Neumann(g) => Some(g),
-    });
+    // of an exchange both h g and h are integrated
+    let values = |x, normal| match (condition.values(x, normal), condition.exchange_at(x)) {
+        (values, 0.0) => values,
+        ([value, _], h) => [h * value, h],
+    };
     let load = Load {
-        formulas: components.chain(&condition.pressure).collect(),
-        values: &|x, normal| condition.values(x, normal),
+        formulas: condition.formulas().collect(),
+        values: &values,
         rules: &|quadrature, cell| {
             let (rect, coverers) = (&space.partition().cell[cell], &space.coverers[cell]);
             border_rules(problem, condition.on, quadrature, rect, coverers)

@@ -253,7 +253,7 @@ fn scale_of_values(problem: &Problem) -> f64 {
                 rims.collect()
             }
         };
-        let held = condition.held();
+        let held = condition.fixed();
         // values, unlike pressures, do not depend on the normal
         let values = all.into_iter().map(|p| condition.values(p, Vec2::ZERO));
         let size = |v: [f64; 2]| [0, 1].map(|i| if held[i] { v[i].abs() } else { 0.0 });

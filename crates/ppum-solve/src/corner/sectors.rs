@@ -125,7 +125,7 @@ impl Surroundings<'_> {
                     continue;
                 }
                 let place = p + vec2(ray.angle.cos(), ray.angle.sin()) * beside;
-                let (held, load) = (condition.held(), condition.loads(place, normals[k]));
+                let (held, load) = (condition.fixed(), condition.loads(place, normals[k]));
                 let values = condition.values(place, normals[k]);
                 for i in 0..2 {
                     sector.held[k][i] |= held[i];

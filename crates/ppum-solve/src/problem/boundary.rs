@@ -219,6 +219,9 @@ pub struct BoundaryCondition {
     pub components: Vec<Condition>,
     /// A pressure p: the traction −p n, n pointing out of the material. It says all components.
     pub pressure: Option<Expression>,
+    /// A coefficient h > 0: values that are given are those of the surroundings, to which the field
+    /// yields, κ ∂u/∂n = h (g − u), n pointing out of the material.
+    pub exchange: Option<Expression>,
 }
 
 /// The condition on one component of the unknown field.
@@ -236,13 +239,13 @@ impl BoundaryCondition {
     /// Conditions on a part of the border, one per component.
     #[must_use]
     pub fn new(on: BorderPart, components: Vec<Condition>) -> Self {
-        Self { on, components, pressure: None }
+        Self { on, components, pressure: None, exchange: None }
     }
 
     /// A pressure on a part of the border of an elastic plate.
     #[must_use]
     pub fn pressure(on: BorderPart, pressure: Expression) -> Self {
-        Self { on, components: vec![Condition::Free; 2], pressure: Some(pressure) }
+        Self { pressure: Some(pressure), ..Self::new(on, vec![Condition::Free; 2]) }
     }
 
     /// Conditions on a whole edge.
@@ -254,6 +257,11 @@ impl BoundaryCondition {
     /// True if something is said of a component.
     pub(super) fn says(&self, component: usize) -> bool {
         self.pressure.is_some() || self.components[component] != Condition::Free
+    }
+
+    /// Of each component, whether the field has the value that is given: not with an exchange.
+    pub(crate) fn fixed(&self) -> [bool; 2] {
+        self.held().map(|is_held| is_held && self.exchange.is_none())
     }
 
     /// Of each component, whether its value is given.
@@ -270,7 +278,12 @@ impl BoundaryCondition {
             Condition::Neumann(given) | Condition::Dirichlet(given) => Some(given),
             Condition::Free => None,
         });
-        given.chain(&self.pressure)
+        given.chain(&self.pressure).chain(&self.exchange)
+    }
+
+    /// The coefficient h of the exchange at a point, zero if there is none.
+    pub(crate) fn exchange_at(&self, x: Vec2) -> f64 {
+        self.exchange.as_ref().map_or(0.0, |exchange| exchange.value(x))
     }
 
     /// The tractions (fluxes) at a point, zero where a value is given.

@@ -461,6 +461,8 @@ tables! {
         symmetry: Flag, only(Elasticity, &[]) => "On edges: the normal displacement is 0, the tangential one free.";
         antisymmetry: Flag, only(Elasticity, &[]) => "On edges: the tangential displacement is 0, the normal one free.";
         value: Either(&[Value, Word(exact)]), default("free"), only(Poisson, &["displacement"]) => "The value of u.";
+        exchange: Value, only(Poisson, &[]) =>
+            "A coefficient h > 0: `value` is that of the surroundings, κ ∂u/∂n = h (value − u).";
         flux: Value, default("free"), only(Poisson, &["traction"]) => "The flux κ ∂u/∂n into the plate, n outwards.";
     }
 

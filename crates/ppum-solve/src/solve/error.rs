@@ -26,7 +26,7 @@ pub enum SolveError {
     /// Its data are not finite near a known location.
     #[error(
         "the data of the problem are not finite, or too large to compute with, {0}: look at the formulas and tables \
-         of the material, the loads and what is given on the border"
+         of the material, the loads and what is given on the border (an `exchange` must not be negative)"
     )]
     Data(Around),
     /// Its data are not finite at an unknown location: an eigenvalue problem did not converge.

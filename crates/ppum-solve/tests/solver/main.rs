@@ -8,6 +8,7 @@ mod eigenstrain;
 mod estimate;
 mod estimator;
 mod examples;
+mod exchange;
 mod faces;
 mod formulas;
 mod goal;

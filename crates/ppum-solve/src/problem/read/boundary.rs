@@ -24,7 +24,8 @@ pub(super) fn boundary(
             return special(&section, on);
         }
         let components = conditions(&section, kind, exact);
-        Some(BoundaryCondition::new(on?, components?))
+        let exchange = exchange(&section);
+        Some(BoundaryCondition { exchange: exchange?, ..BoundaryCondition::new(on?, components?) })
     })
 }
 
@@ -57,6 +58,19 @@ fn special(section: &Section<'_>, on: Option<BorderPart>) -> Option<BoundaryCond
         false => Condition::Free,
     };
     Some(BoundaryCondition::new(on?, vec![condition(normal.x), condition(normal.y)]))
+}
+
+/// The coefficient of an exchange, if there is one.
+fn exchange(section: &Section<'_>) -> Option<Option<Expression>> {
+    let Some(value) = section.value("exchange") else { return Some(None) };
+    if !section.mentions("value") {
+        return value.error("needs the `value` of the surroundings; add it");
+    }
+    let exchange = Expression::read(&value)?;
+    if exchange.constant().is_some_and(|h| h <= 0.0) {
+        return value.error("must be positive; leave it out where nothing is exchanged");
+    }
+    Some(Some(exchange))
 }
 
 /// A part of the border: the name of an edge, or a table.
