@@ -296,3 +296,18 @@ fn curves_are_met_within_the_tolerance() {
         }
     }
 }
+
+/// The examples that are drawn have the bodies of their drawings, as problem files write them.
+#[test]
+fn examples_have_the_bodies_of_their_drawings() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let text = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    for (drawing, format, problem) in [
+        ("dog-bone.dxf", DrawingFormat::Dxf, text("dog-bone.toml")),
+        ("gear-tooth.svg", DrawingFormat::Svg, text("gear-tooth.toml")),
+    ] {
+        let written = imported(&text(drawing), format).problem_file("part", drawing);
+        let body = &written[written.find("[domain").unwrap()..written.find("# Material").unwrap()];
+        assert!(body.contains("arc") && problem.contains(body), "{drawing}: {body}");
+    }
+}

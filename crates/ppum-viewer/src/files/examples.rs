@@ -65,6 +65,8 @@ pub const ALL: [Example; 33] = [
     example!("quarter-plate", "A quarter of it, with symmetry"),
     example!("thermal-hot-spot", "A temperature alone"),
     example!("compact-tension", "A standard specimen, by its outline"),
+    example!("dog-bone", "A tensile bar, from a drawing"),
+    example!("gear-tooth", "A tooth, from a drawing"),
     example!("paper-centre-crack", "Figure 5 of the paper"),
     example!("paper-adaptive-1", "Figure 8: cells where the error is"),
     example!("paper-adaptive-2", "Figure 8 with quadratic functions"),
