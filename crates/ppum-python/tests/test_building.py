@@ -415,6 +415,23 @@ def test_all_that_a_dataset_holds(tmp_path):
     assert ppum.build(explicit).cracks[0].ends == ("tip", "tip")
 
 
+def test_given_strains_are_taken_off():
+    cover = ppum.Cover.uniform([(0, 0), (2, 2)], (4, 4))
+    fields = [ppum.Coefficients("displacement", {"one": np.zeros((16, 1, 2))})]
+    material = ppum.Elastic(2.0, 0.25, "plane-strain", eigenstrain=("x", "x", 0.0, "x"))
+    ds = ppum.build(ppum.State(cover, fields), equation=material)
+    # all three held: −E ε⁰/(1 − 2ν)
+    assert float(ds.field.at(0.7, 0.3)["sxx"]) == pytest.approx(-2.0 * 0.7 / 0.5, rel=1e-14)
+    assert float(ds.field.at(0.7, 0.3)["szz"]) == pytest.approx(-2.0 * 0.7 / 0.5, rel=1e-14)
+    swollen = ppum.Elastic(2.0, 0.25, "plane-strain", eigenstrain=(0.7, 0.7, 0.0, 0.7))
+    held = ppum.Problem(((0, 0), (2, 2)), swollen).discretization(cells=(2, 2), order=1)
+    for edge in ("left", "right", "bottom", "top"):
+        held = held.boundary(edge, displacement=[0, 0])
+    assert float(ppum.solve(held).field.at(0.7, 0.3)["sxx"]) == pytest.approx(-2.0 * 0.7 / 0.5, rel=1e-12)
+    with pytest.raises(ppum.BuildError, match="expansion"):
+        ppum.build(ppum.State(cover, fields), equation=ppum.Elastic(1.0, 0.3, expansion=1e-5))
+
+
 def test_outlines_are_holes_outside_of_a_polygon(tmp_path):
     cover = ppum.Cover.uniform([(0, 0), (2, 2)], (4, 4))
     outline = np.array([(0.1, 0.2), (1.9, 0.3), (1.0, 1.8)])

@@ -249,11 +249,15 @@ def _equation(equation: Elastic | Poisson | None) -> Arrays:
         return {"equation@kind": "none"}
     if isinstance(equation, Poisson):
         return {"equation@kind": "poisson", "equation@conductivity": _constant(equation.conductivity)}
+    if equation.expansion is not None:
+        raise BuildError("equation.expansion: a dataset has no temperature; give the strains α ΔT as `eigenstrain`")
+    strains = dict(zip(("xx", "yy", "xy", "zz"), equation.eigenstrain or (), strict=equation.eigenstrain is not None))
     return {
-        "equation@kind": "elasticity",
+        "equation@kind": "eigenstrain" if strains else "elasticity",
         "equation@young": _constant(equation.young),
         "equation@poisson": _constant(equation.poisson),
         "equation@state": equation.state,
+        **{f"equation@eigenstrain_{name}": _constant(value) for name, value in strains.items()},
     }
 
 

@@ -42,12 +42,14 @@ class Elastic:
         poisson: Poisson's ratio; a number or a formula.
         state: ``plane-strain`` or ``plane-stress``.
         expansion: Coefficient of thermal expansion, for ``problem.section("temperature", value=…)``.
+        eigenstrain: The given strains ε⁰_xx, ε⁰_yy, ε⁰_xy, ε⁰_zz that make no stress; numbers or formulas.
     """
 
     young: float | str
     poisson: float | str
     state: str = "plane-strain"
     expansion: float | str | None = None
+    eigenstrain: tuple[float | str, float | str, float | str, float | str] | None = None
 
 
 @dataclass(frozen=True)
@@ -102,6 +104,8 @@ class Problem:
             }
             if material.expansion is not None:
                 spec["material"]["expansion"] = material.expansion
+            if material.eigenstrain is not None:
+                spec["strain"] = dict(zip(("xx", "yy", "xy", "zz"), material.eigenstrain, strict=True))
         self._set(plain(spec), None, "problem", Path())
 
     def _set(self, spec: dict[str, Any], text: str | None, name: str, folder: Path) -> None:
