@@ -48,8 +48,20 @@ fn hole(u: &str, [ux, uy]: [&str; 2], h: &str) -> String {
     "[[hole]]\ncenter = [0.8, 0.45]\nradius = 0.2\n".to_owned() + &exchange("{ hole = 0 }", h, &g)
 }
 
-/// Fields that are polynomials are found, whatever the coefficient is; at a rim as far as circles
-/// are integrated.
+/// A crack both of whose faces exchange, too.
+fn crack(u: &str, [ux, uy]: [&str; 2], h: &str) -> String {
+    let on_face = |(face, sign): (&str, f64)| {
+        // out of the material above points (0.3, -1.1) of this length
+        let n = vec2(0.3, -1.1) * (sign / 1.3_f64.sqrt());
+        let g = format!("{u} + {KAPPA}*({ux}*({}) + {uy}*({}))/({h})", n.x, n.y);
+        exchange(&format!("{{ crack = 0, face = \"{face}\" }}"), h, &g)
+    };
+    let faces = [("above", 1.0), ("below", -1.0)].map(on_face).concat();
+    format!("[[crack]]\npoints = [[0.4, 0.3], [1.5, 0.6]]\n{faces}")
+}
+
+/// Fields that are polynomials are found, whatever the coefficient is; at rims and tips as far as
+/// loads there are integrated.
 #[test]
 fn polynomials_are_exact() {
     let mut random = Random(42);
@@ -68,7 +80,11 @@ fn polynomials_are_exact() {
                 vec2(b * y + 3.0 * c * (x * x - y * y) + 2.0 * x, b * x - 6.0 * c * x * y);
             ([value, 0.0], [gradient, Vec2::ZERO])
         };
-        let holes = [(String::new(), 0.0, 1e-10), (hole(&u, derivatives, &h), 0.04 * PI, 2e-6)];
+        let holes = [
+            (String::new(), 0.0, 1e-10),
+            (crack(&u, derivatives, &h), 0.0, 2e-6),
+            (hole(&u, derivatives, &h), 0.04 * PI, 2e-6),
+        ];
         for (hole, missing, bound) in holes {
             let solution = solved(&surrounded(&u, derivatives, &h, &(hole + &source), 3));
             let found = errors(&solution, &exact);

@@ -103,8 +103,13 @@ fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) ->
             format!("there is no hole {} with sides {} to {}", run.hole, run.from, run.to)
         }
         BorderPart::Crack { crack, .. } if crack >= cracks => no_such("crack", crack, cracks),
-        BorderPart::Crack { .. } if condition.held().contains(&true) => {
-            "the faces of a crack cannot be held; give them a traction or a pressure".to_owned()
+        BorderPart::Crack { .. } if condition.fixed().contains(&true) => {
+            let remedy = if problem.components() == 1 {
+                "flux or an exchange"
+            } else {
+                "traction or a pressure"
+            };
+            format!("the faces of a crack cannot be held; give them a {remedy}")
         }
         part if !reaches_body(part, problem) => NOTHING_THERE.to_owned(),
         _ => return None,
