@@ -5,14 +5,18 @@
 //! ∫ u·m_k dA = 0 over the piece, for each of its free modes m_k
 //! ```
 //!
-//! The condition couples all unknowns of a piece. So the system first gets a penalty on the
+//! Where points are held, u_i(x₀) = g_i takes the place of as many of these conditions, and those
+//! that stay are for the motions that the points leave.
+//!
+//! The conditions couple all unknowns of a piece. So the system first gets a penalty on the
 //! unknowns of one patch, which is exact for balanced loads whatever its size. Solutions for the
 //! same functionals as loads are the rigid-body modes themselves, in whatever functions, and they
 //! are subtracted.
 
 use crate::basis::Shapes;
-use crate::equilibrium::{BodyPieces, PerMode, Plate, RigidModes};
+use crate::equilibrium::{BodyPieces, PerMode, PieceConditions, Plate, RigidModes};
 use crate::linear::{BlockMatrix, LinearError, LinearSolver};
+use crate::problem::Support;
 use crate::quadrature::Rule;
 use faer::Mat;
 use faer::linalg::solvers::{DenseSolveCore, Solve};
@@ -85,6 +89,12 @@ impl<'p> FreeModes<'p> {
     }
 }
 
+/// A condition on fields: a functional of the unknowns and its value.
+struct Condition {
+    functional: Vec<f64>,
+    value: f64,
+}
+
 /// The free modes of all pieces and the functionals that fix them.
 pub(crate) struct Gauge {
     modes: Vec<Mode>,
@@ -92,6 +102,8 @@ pub(crate) struct Gauge {
     moments: Vec<Vec<f64>>,
     /// Of each piece that is free, the patch whose unknowns get the penalty.
     patches: Vec<usize>,
+    /// Conditions that take the place of moments that vanish; none where no point is held.
+    conditions: Vec<Condition>,
 }
 
 impl Gauge {
@@ -102,9 +114,43 @@ impl Gauge {
         moments: Vec<Vec<f64>>,
         matrix: &BlockMatrix,
     ) -> Self {
-        let mut gauge = Self { moments, modes, patches: Vec::new() };
+        let mut gauge = Self { moments, modes, patches: Vec::new(), conditions: Vec::new() };
         gauge.patches = (0..groups).map(|group| gauge.firmest(group, matrix)).collect();
         gauge
+    }
+
+    /// The gauge of a plate with supports.
+    pub(crate) fn with_supports(
+        mut self,
+        supports: &[Support],
+        pieces: &[PieceConditions],
+        values: &dyn Fn(Vec2) -> Vec<Vec<f64>>,
+    ) -> Self {
+        if supports.is_empty() {
+            return self;
+        }
+        let rows: Vec<_> = supports.iter().map(|support| values(support.at)).collect();
+        for (piece, conditions) in pieces.iter().enumerate() {
+            let held = conditions.held.iter().map(|&(number, component)| Condition {
+                functional: rows[number][component].clone(),
+                value: supports[number].displacement[component].unwrap_or(0.0),
+            });
+            self.conditions.extend(held);
+            let left = conditions.left.iter().map(|factors| self.moment(piece, factors));
+            let left: Vec<_> = left.collect();
+            self.conditions.extend(left);
+        }
+        self
+    }
+
+    /// A combination of the moments of a piece, which vanishes.
+    fn moment(&self, piece: usize, factors: &[f64]) -> Condition {
+        let own = self.modes.iter().zip(&self.moments).filter(|(mode, _)| mode.piece == piece);
+        let mut functional = vec![0.0; self.moments.first().map_or(0, Vec::len)];
+        for ((_, moments), factor) in own.zip(factors) {
+            functional.iter_mut().zip(moments).for_each(|(sum, m)| *sum += factor * m);
+        }
+        Condition { functional, value: 0.0 }
     }
 
     /// Number of free modes.
@@ -126,7 +172,8 @@ impl Gauge {
         }
     }
 
-    /// Subtracts the rigid-body modes that the penalty has left in a solution.
+    /// Replaces the rigid-body modes that the penalty has left in a solution by those of the
+    /// conditions.
     ///
     /// # Errors
     /// Those of the linear solver.
@@ -143,7 +190,11 @@ impl Gauge {
             Some(modes) => modes,
             None => self.rigid(solver, matrix)?,
         };
-        let parts = self.means(&rigid).partial_piv_lu().solve(self.means(&[&*solution]));
+        let (functionals, excess) = match self.conditions.is_empty() {
+            true => (self.means(&rigid), self.means(&[&*solution])),
+            false => (self.values(&rigid), self.excess(solution)),
+        };
+        let parts = functionals.partial_piv_lu().solve(excess);
         for (k, rigid) in rigid.iter().enumerate() {
             solution.iter_mut().zip(rigid).for_each(|(u, r)| *u -= parts[(k, 0)] * r);
         }
@@ -179,6 +230,19 @@ impl Gauge {
     fn means<U: AsRef<[f64]>>(&self, all: &[U]) -> Mat<f64> {
         let (rows, columns) = (self.moments.len(), all.len());
         Mat::from_fn(rows, columns, |l, k| dot(&self.moments[l], all[k].as_ref()))
+    }
+
+    /// The functionals of the conditions of some u, as [`Gauge::means`].
+    fn values(&self, all: &[Vec<f64>]) -> Mat<f64> {
+        let functional = |l: usize| &self.conditions[l].functional;
+        Mat::from_fn(self.conditions.len(), all.len(), |l, k| dot(functional(l), &all[k]))
+    }
+
+    /// What the functionals of a solution exceed their values by.
+    fn excess(&self, solution: &[f64]) -> Mat<f64> {
+        let excess =
+            |Condition { functional, value }: &Condition| dot(functional, solution) - value;
+        Mat::from_fn(self.conditions.len(), 1, |l, _| excess(&self.conditions[l]))
     }
 
     /// The functionals of one group on the unknowns of a patch.

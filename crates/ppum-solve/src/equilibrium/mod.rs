@@ -5,9 +5,12 @@ mod balance;
 mod pieces;
 mod plate;
 mod rigid;
+mod supports;
 
 pub(crate) use balance::Balance;
 pub use balance::UnbalancedError;
 pub(crate) use pieces::{BodyPieces, SegmentMesh, crossing};
 pub(crate) use plate::{Plate, PlateError};
 pub(crate) use rigid::{MODES, PerMode, RigidModes};
+pub(crate) use supports::PieceConditions;
+pub use supports::SupportError;

@@ -325,6 +325,7 @@ tables! {
         hole: Tables(&HOLE) => "A hole.";
         crack: Tables(&CRACK) => "A crack.";
         boundary: Tables(&BOUNDARY) => "Conditions on a part of the border.";
+        support: Tables(&SUPPORT), only(Elasticity, &[]) => "A point held against rigid motion.";
         body_force: Table(&BODY_FORCE), only(Elasticity, &["source"]) => "A force per unit area.";
         source: Table(&SOURCE), only(Poisson, &["body_force"]) => "A source.";
         exact: Table(&EXACT) => "The exact solution, for images of the error.";
@@ -476,6 +477,12 @@ tables! {
         piece: Text("name") => "The pieces of outline and rims with this name.";
         crack: Whole => "The faces of this crack.";
         face: Word(words::<Side>), default("both") => "Only the face that bounds the material on this side.";
+    }
+
+    static SUPPORT = "[[support]]", "" {
+        at: POINT, required("[0.0, 0.0]") => "The point, in the body or on its border, but on no crack.";
+        displacement: Components("[ux, uy]", &["free"]), default("[0, 0]") =>
+            "Each component is a number, or `\"free\"`.";
     }
 
     static BODY_FORCE = "[body_force]", "" {

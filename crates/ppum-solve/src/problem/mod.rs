@@ -56,6 +56,7 @@ mod solver;
 mod stations;
 mod stiffness;
 mod straight;
+mod support;
 mod symmetry;
 mod table_file;
 #[cfg(test)]
@@ -82,5 +83,6 @@ pub(crate) use restraint::restraint_words;
 pub use solver::{Solver, SolverKind};
 pub use stations::Station;
 pub(crate) use stiffness::{FREE_OF_LOCKING, STIFF, stiffness_ratio};
+pub use support::Support;
 pub use symmetry::Symmetry;
 pub use table_file::read_table;

@@ -19,6 +19,7 @@ use super::enrichment::LocalEnrichment;
 use super::growth::GrowthRule;
 use super::refinement::LocalRefinement;
 use super::solver::Solver;
+use super::support::Support;
 
 /// A problem with its discretisation.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +37,8 @@ pub struct Problem {
     pub pieces: Vec<Piece>,
     /// The conditions on the border.
     pub boundary: Vec<BoundaryCondition>,
+    /// Points that are held against rigid motion.
+    pub supports: Vec<Support>,
     /// The right-hand side f, one expression per component: body force or source.
     pub source: Vec<Expression>,
     /// The exact solution, one expression per component; empty if unknown.
@@ -100,6 +103,7 @@ impl Problem {
             cracks: Vec::new(),
             pieces: Vec::new(),
             boundary: Vec::new(),
+            supports: Vec::new(),
             exact: Vec::new(),
             quantities: Vec::new(),
             tables: Vec::new(),

@@ -3,7 +3,7 @@
 use super::SolveError;
 use super::clock::Clock;
 use super::discretised::Discretised;
-use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Gauge, System, slivers};
+use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Gauge, System, slivers, values_at};
 use crate::basis::StableBasis;
 use crate::equilibrium::Plate;
 use crate::intensity::{Sensitivity, sensitivities};
@@ -48,6 +48,9 @@ impl Assembled {
         let system = System::new(assembly, &given, functionals, &stage);
         let mut system = system.map_err(SolveError::of_data)?;
         let gauge = Gauge::new(free, std::mem::take(&mut system.moments), &system.matrix);
+        let values = |x| values_at(assembly, &system.matrix, (x, None));
+        let conditions = plate.conditions(&problem.supports)?;
+        let gauge = gauge.with_supports(&problem.supports, &conditions, &values);
         clock.lap(Phase::Assembly);
         let tips = tips.iter().map(Sensitivity::tip).collect();
         Ok(Self { plate, basis, system, gauge, tips })

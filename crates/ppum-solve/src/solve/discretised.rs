@@ -54,7 +54,9 @@ impl<'p> Discretised<'p> {
         let stage = Stage::uncounted(watcher, Phase::Basis)?;
         let given = Given::new(problem, space, &stage).map_err(SolveError::of_data)?;
         let balances = given.balance(space, &pieces, &stage).map_err(SolveError::of_data)?;
-        Ok((given, Plate::new(pieces, balances)?))
+        let plate = Plate::new(pieces, balances)?;
+        plate.conditions(&problem.supports)?;
+        Ok((given, plate))
     }
 }
 

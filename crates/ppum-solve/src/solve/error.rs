@@ -2,7 +2,7 @@
 
 use super::estimate::{Estimate, gibibytes};
 use crate::diagnostics::RecomputeError;
-use crate::equilibrium::{PlateError, UnbalancedError};
+use crate::equilibrium::{PlateError, SupportError, UnbalancedError};
 use crate::geometry::Around;
 use crate::linear::{EigenError, LinearError};
 use crate::problem::ProblemError;
@@ -41,6 +41,9 @@ pub enum SolveError {
     /// Loads on a piece without restraint are not in equilibrium.
     #[error(transparent)]
     Unbalanced(UnbalancedError),
+    /// A point that is held would take a force.
+    #[error(transparent)]
+    Support(#[from] SupportError),
     /// The factorisation failed at a patch.
     #[error("{around}: {error}")]
     Singular {

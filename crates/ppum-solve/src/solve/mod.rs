@@ -20,7 +20,7 @@ mod plan;
 mod solved;
 mod unknowns;
 
-pub use crate::equilibrium::UnbalancedError;
+pub use crate::equilibrium::{SupportError, UnbalancedError};
 pub use crate::geometry::Around;
 pub use crate::linear::{EigenError, LinearError, Spectrum};
 pub use error::SolveError;

@@ -37,6 +37,7 @@ mod rounding;
 mod slivers;
 #[path = "../studies/mod.rs"]
 mod studies;
+mod supports;
 mod tip_terms;
 mod visible;
 mod warnings;

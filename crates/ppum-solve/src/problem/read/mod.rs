@@ -9,6 +9,7 @@ mod discretization;
 mod enrichment;
 mod rim;
 mod steps;
+mod support;
 mod table;
 
 use std::collections::BTreeSet;
@@ -190,6 +191,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
         equation,
         pieces: body.pieces,
         boundary,
+        supports: support::supports(root),
         source,
         exact: exact.unwrap_or_default(),
         quantities,

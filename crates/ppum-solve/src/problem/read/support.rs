@@ -1,0 +1,21 @@
+//! The tables `[[support]]`.
+
+use super::super::document::{Read as _, Section, Value, all};
+use super::super::support::Support;
+
+/// The supports; none at all if one of them cannot be read, as the checks count them.
+pub(super) fn supports(root: &Section<'_>) -> Vec<Support> {
+    root.each("support", |section| {
+        let (at, given) = (section.require("at"), section.value("displacement"));
+        let displacement = given.map_or(Some([Some(0.0); 2]), |value| displacement(&value));
+        Some(Support { at: at?, displacement: displacement? })
+    })
+}
+
+fn displacement(value: &Value<'_>) -> Option<[Option<f64>; 2]> {
+    let component = |value: &Value<'_>| match value.as_text() {
+        Some("free") => Some(None),
+        _ => f64::read(value).map(Some),
+    };
+    all(value.array::<2>()?.iter().map(component))?.try_into().ok()
+}
