@@ -79,6 +79,7 @@ mod basis;
 mod corner;
 pub mod diagnostics;
 mod equilibrium;
+mod forces;
 mod geometry;
 pub mod growth;
 mod hierarchy;

@@ -210,6 +210,24 @@ class Problem:
         """
         return self.add("boundary", on=on, **options)
 
+    def force(self, at: ArrayLike, value: ArrayLike, face: str | None = None) -> Problem:
+        """One more force at a point; on a crack with the face that it acts on.
+
+        Example:
+            >>> plate.force((0, 1), (0.5, 0)).force((0, -1), (-0.5, 0)).check()
+            ()
+        """
+        return self.add("force", at=at, value=value, **({"face": face} if face else {}))
+
+    def support(self, at: ArrayLike, displacement: Iterable[float | str] = (0, 0)) -> Problem:
+        """One more point that is held against rigid motion; components may be ``free``.
+
+        Example:
+            >>> plate.support((0, 1)).support((0, -1), (0, "free")).check()
+            ()
+        """
+        return self.add("support", at=at, displacement=displacement)
+
     def quantity(self, name: str, formula: str, unit: str = "") -> Problem:
         """One more quantity with a name.
 

@@ -1,8 +1,10 @@
 //! The contribution of one leaf cell to the system, in the stable basis.
 //!
 //! ```text
-//! K = ∫_C ∇N·C·∇N        f = ∫_C N·b + ∇N·C ε⁰
+//! K = ∫_C ∇N·C·∇N        f = ∫_C N·b + ∇N·C (ε⁰ − ∇u_s)
 //! ```
+//!
+//! with the given strains ε⁰ and the known part u_s of the field.
 
 use super::Assembly;
 use super::border::{Border, BorderPiece};
@@ -15,7 +17,7 @@ use super::stiffness::Gradients;
 use crate::basis::{BasisEvaluator, Shapes};
 use crate::linear::EigenError;
 use crate::quadrature::Rule;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Vec2, vec2};
 
 /// Data given at a point: position → values, one per component.
 pub(crate) type Data<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
@@ -149,21 +151,42 @@ impl<'s> CellAssembler<'s> {
         self.shapes.add_loads(&loads, &numbers, self.assembly.components(), &mut system.load);
     }
 
-    /// Adds ∫ ∇N·C ε⁰ of the strains that are given at the points of the rule that was looked
-    /// at last.
+    /// Adds ∫ ∇N·C (ε⁰ − ∇u_s) of the strains that are given, and of the known part of the field,
+    /// at the points of the rule that was looked at last.
     fn prestress(&mut self, rule: &Rule, system: &mut CellSystem) {
         let law = self.assembly.law;
-        if !law.has_eigenstrain() {
+        let known = self.known_gradients(rule);
+        if !law.has_eigenstrain() && known.is_empty() {
             return;
         }
         self.evaluator.apply(&rule.patches, &mut self.shapes);
-        let points = rule.offsets.iter().zip(&rule.weights);
-        let stress = |(&o, &weight): (&Vec2, &f64)| {
-            law.at(rule.anchor + o).prestress().map(|row| row.map(|s| weight * s))
+        let points = rule.offsets.iter().zip(&rule.weights).enumerate();
+        let stress = |(q, (&o, &weight)): (usize, (&Vec2, &f64))| {
+            let gradient = known.get(q).unwrap_or(&[Vec2::ZERO; 2]);
+            law.at(rule.anchor + o).flux(gradient).map(|row| row.map(|s| -weight * s))
         };
         let stresses: Vec<[[f64; 2]; 2]> = points.map(stress).collect();
         let numbers = system.functions.numbers(&rule.patches);
         self.shapes.add_stresses(&stresses, &numbers, &mut system.load);
+    }
+
+    /// ∇u_s at the points of the rule that was looked at last; none if all of u_s is zero.
+    fn known_gradients(&self, rule: &Rule) -> Vec<[Vec2; 2]> {
+        let (space, plain) = (self.assembly.space, self.evaluator.plain());
+        let (mut first, mut sum) = (0, Vec::new());
+        for &patch in &rule.patches {
+            for known in space.known(patch as usize) {
+                sum.resize(plain.points, [Vec2::ZERO; 2]);
+                let row = (first + known.evaluated) * plain.points;
+                for (q, gradient) in sum.iter_mut().enumerate() {
+                    let slope = vec2(plain.dx[row + q], plain.dy[row + q]);
+                    let parts = gradient.iter_mut().zip(known.coefficients);
+                    parts.for_each(|(sum, c)| *sum = *sum + slope * c);
+                }
+            }
+            first += space.evaluated(patch as usize);
+        }
+        sum
     }
 
     /// Adds the points of the rule that was looked at last to a matrix of fields, or of functions

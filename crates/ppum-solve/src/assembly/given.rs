@@ -4,10 +4,11 @@
 use super::border::BorderPiece;
 use super::cell::SourceTerm;
 use super::loads::{LoadRules, border_rules, of_condition, of_source};
+use super::point::point_rule;
 use super::reaction::modes;
 use crate::equilibrium::{Balance, BodyPieces};
-use crate::problem::{BoundaryCondition, Problem};
-use crate::quadrature::{EdgeRule, Quadrature, Rule};
+use crate::problem::{BoundaryCondition, ForcePlace, Problem};
+use crate::quadrature::{EdgeRule, Face, Quadrature, Rule};
 use crate::report::Unresolved;
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
@@ -133,6 +134,11 @@ impl<'p> Given<'p> {
             },
             |_, part| sum.iter_mut().zip(&part).for_each(|(sum, part)| sum.add(part)),
         )?;
+        for force in &self.problem.forces {
+            let face = self.problem.place_of(force).ok().and_then(ForcePlace::face).map(Face::from);
+            let (_, rule) = point_rule(space, (force.at, face));
+            sum[pieces.of_border(&rule, 0)].add_load(force.at, &<[f64; 2]>::from(force.value), 1.0);
+        }
         Ok(sum)
     }
 

@@ -2,35 +2,50 @@
 
 use super::Assembly;
 use super::functions::CellFunctions;
-use crate::basis::{BasisEvaluator, Shapes};
+use crate::basis::{ShapeEvaluator, Shapes};
 use crate::linear::BlockMatrix;
 use crate::quadrature::{Doubt, EdgeRule, Face};
+use crate::space::Space;
 use ppum::vec2::Vec2;
 
-/// N(x) of each component for all unknowns, in the order of the matrix; on a face of a crack that
-/// of its side.
-pub(crate) fn values_at(
-    assembly: Assembly<'_>,
-    matrix: &BlockMatrix,
-    (x, face): (Vec2, Option<Face>),
-) -> Vec<Vec<f64>> {
-    let Assembly { space, basis, .. } = assembly;
-    let (partition, components) = (space.partition(), assembly.components());
+/// The rule of a point, which may lie on a face of a crack, in the cell that holds it.
+pub(super) fn point_rule(space: &Space<'_>, (x, face): (Vec2, Option<Face>)) -> (usize, EdgeRule) {
+    let partition = space.partition();
     let distance = |cell: &usize| partition.cell[*cell].distance(x);
-    let cell = (0..partition.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let functions = CellFunctions::new(&assembly, cell.unwrap_or(0));
+    let cell = (0..partition.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
     let holds = |patch: &&u32| partition.support(**patch as usize).contains(x);
     let rule = EdgeRule {
         anchor: x,
         offsets: vec![Vec2::ZERO],
         weights: vec![1.0],
         normals: vec![Vec2::ZERO],
-        patches: functions.patches.iter().filter(holds).copied().collect(),
+        patches: space.coverers[cell].iter().filter(holds).copied().collect(),
         face,
         doubt: Doubt::default(),
     };
-    let mut shapes = Shapes::default();
-    BasisEvaluator::new(space, basis).evaluate_edge(&rule, &mut shapes);
+    (cell, rule)
+}
+
+/// N(x) of each component for all unknowns, in the order of the matrix; on a face of a crack that
+/// of its side.
+pub(crate) fn values_at(
+    assembly: Assembly<'_>,
+    matrix: &BlockMatrix,
+    place: (Vec2, Option<Face>),
+) -> Vec<Vec<f64>> {
+    let Assembly { space, basis, .. } = assembly;
+    let components = assembly.components();
+    let (cell, rule) = point_rule(space, place);
+    let functions = CellFunctions::new(&assembly, cell);
+    let (mut plain, mut shapes) = (Shapes::default(), Shapes::default());
+    ShapeEvaluator::of_series(space).evaluate_edge(&rule, &mut plain);
+    let mut first = 0;
+    for &patch in &rule.patches {
+        // known functions may be infinite, and are in none of the basis
+        space.known(patch as usize).iter().for_each(|known| plain.clear(first + known.evaluated));
+        first += space.evaluated(patch as usize);
+    }
+    basis.apply(&rule.patches, &plain, &mut shapes);
     let of_component = |i: usize| {
         let mut part = vec![0.0; functions.len() * components];
         let unit = std::array::from_fn(|k| f64::from(u8::from(k == i)));

@@ -7,7 +7,7 @@ use super::tie::{self, tie};
 use super::transform::{CUT_OFF, FunctionCombinations, Transform};
 use super::williams::{fields, parts};
 use crate::linear::{EigenError, SymmetricEigen, inverse_root_diagonal, times};
-use crate::space::Space;
+use crate::space::{KnownFunction, Space};
 use faer::{Mat, MatRef};
 use std::borrow::Cow;
 
@@ -95,8 +95,10 @@ impl LocalBasis {
             return Ok(Self::of_fields(&held_fields(space, patch, measures, series)?, gram));
         }
         let series = parts(space, patch);
+        let known = known(space, patch);
         let n_series: usize = series.iter().map(|(_, rows)| rows.nrows()).sum();
-        let all: Vec<FunctionCombinations> = confined.iter().cloned().chain(series).collect();
+        let all: Vec<FunctionCombinations> =
+            confined.iter().cloned().chain(known).chain(series).collect();
         let rows = (!all.is_empty()).then(|| matrix(space.evaluated(patch), &all));
         let first = rows.as_ref().map_or(space.evaluated(patch), Mat::nrows) - n_series;
         let transform = transform(gram, rows.as_ref(), [space.n_polynomials(patch), first])?;
@@ -190,6 +192,12 @@ impl LocalBasis {
             .map(|i| times(self.matrix.as_ref(), &free[i * self.len()..(i + 1) * self.len()]))
             .collect()
     }
+}
+
+/// Functions whose coefficients are known: no combination of them has an unknown.
+fn known(space: &Space<'_>, patch: usize) -> Vec<FunctionCombinations> {
+    let part = |known: &KnownFunction| (known.evaluated..known.evaluated + 1, Mat::zeros(0, 1));
+    space.known(patch).iter().map(part).collect()
 }
 
 /// The transformation of a patch, of whose functions only some combinations may stay.

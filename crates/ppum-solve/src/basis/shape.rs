@@ -48,6 +48,14 @@ impl Shapes {
         self.multiply(&weights.iter().map(|w| w.sqrt()).collect::<Vec<_>>());
     }
 
+    /// Makes a function zero at all points.
+    pub(crate) fn clear(&mut self, function: usize) {
+        let range = function * self.points..(function + 1) * self.points;
+        for array in [&mut self.value, &mut self.dx, &mut self.dy] {
+            array[range.clone()].fill(0.0);
+        }
+    }
+
     /// Multiplies the columns by factors.
     pub(crate) fn multiply(&mut self, factors: &[f64]) {
         for array in [&mut self.value, &mut self.dx, &mut self.dy] {

@@ -2,8 +2,9 @@
 
 use super::material::jumps;
 use ppum::crack::{Crack, End, TipId};
-use ppum::dataset::Dataset;
+use ppum::dataset::{Dataset, Step};
 use ppum::domain::Domain;
+use ppum::function::{Frame, Function, FunctionKind};
 use ppum::segment::{self, Segment, gap};
 use ppum::vec2::{Rect, Vec2};
 
@@ -58,6 +59,8 @@ pub enum Obstacle {
     Crack(usize),
     /// An interface of two materials, on which the tip itself lies.
     Interface,
+    /// A force at a point.
+    Force,
 }
 
 impl Obstacle {
@@ -70,21 +73,40 @@ impl Obstacle {
             Self::Own => "the other end of its crack or a part that turns back".into(),
             Self::Crack(k) => format!("crack {k}"),
             Self::Interface => "an interface of two materials".into(),
+            Self::Force => "a force at a point".into(),
         }
     }
+}
+
+/// Beginning of the names of functions of forces at points.
+pub(crate) const OF_FORCE: &str = "force at";
+
+/// The points of forces whose fields are among the functions of a step.
+pub(crate) fn points_of_forces(functions: &[Function]) -> impl Iterator<Item = Vec2> {
+    functions.iter().filter_map(|function| match function.kind {
+        FunctionKind::Formula { frame: Frame::Fixed { origin, .. }, .. }
+            if function.name.starts_with(OF_FORCE) =>
+        {
+            Some(origin)
+        }
+        _ => None,
+    })
 }
 
 impl TipClearance {
     /// That of a tip on the border.
     pub(crate) const NONE: Self = Self { radius: 0.0, end: Obstacle::Border };
 
-    /// The clearance of a tip of a dataset's step with these cracks, in cells of the size `cell`.
-    pub(crate) fn new(dataset: &Dataset, cracks: &[Crack], tip: TipId, cell: f64) -> Self {
+    /// The clearance of a tip of a step of a dataset, in cells of the size `cell`.
+    pub(crate) fn new(dataset: &Dataset, step: &Step, tip: TipId, cell: f64) -> Self {
+        let cracks = &step.cracks;
         let p = cracks[tip.crack as usize].end_point(tip.end);
         let elastic = dataset.equation.elastic();
         let on_interface = elastic.is_some_and(|body| jumps(body, p, BESIDE * cell));
         let end = on_interface.then_some(Self { radius: 0.0, end: Obstacle::Interface });
-        Self::among_cracks(cracks, &dataset.domain, tip).with(end.into_iter())
+        let forces = points_of_forces(&step.functions)
+            .map(|at| Self { radius: (at - p).length(), end: Obstacle::Force });
+        Self::among_cracks(cracks, &dataset.domain, tip).with(end.into_iter().chain(forces))
     }
 
     /// The clearance without regard of materials.

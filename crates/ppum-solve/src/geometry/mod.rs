@@ -9,7 +9,9 @@ mod material;
 mod placed;
 
 pub use around::Around;
-pub(crate) use clearance::{AMPLE_CLEARANCE, bent_part, exceeds, from_tip, sure_side};
+pub(crate) use clearance::{
+    AMPLE_CLEARANCE, OF_FORCE, bent_part, exceeds, from_tip, points_of_forces, sure_side,
+};
 pub use clearance::{Obstacle, TipClearance};
 pub(crate) use clip::{
     clipped, distance, inside, length_inside, meets, rim_crossings, runs_of_rim, segment_inside,

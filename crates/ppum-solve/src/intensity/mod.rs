@@ -223,7 +223,7 @@ pub fn clearance(dataset: &Dataset, step: usize, tip: TipId) -> Option<TipCleara
     let step = dataset.steps.get(step).filter(|step| step.partition.boxes().has_cells())?;
     let crack = step.cracks.get(tip.crack as usize)?;
     let cell = cell_at(&step.partition.boxes().cell, crack.end_point(tip.end));
-    Some(TipClearance::new(dataset, &step.cracks, tip, cell))
+    Some(TipClearance::new(dataset, step, tip, cell))
 }
 
 /// The stress intensity factors at one tip by the discs inside a circle around it: the preferred
@@ -322,7 +322,7 @@ impl TipOutcome {
         let at = space.step().cracks[tip.crack as usize].end_point(tip.end);
         let cell = cell_at(&space.partition().cell, at);
         let clearance = if is_half_known(dataset, at, symmetry) {
-            TipClearance::new(dataset, &space.step().cracks, tip, cell)
+            TipClearance::new(dataset, space.step(), tip, cell)
         } else {
             TipClearance::NONE
         };

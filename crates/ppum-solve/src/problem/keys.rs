@@ -325,6 +325,7 @@ tables! {
         hole: Tables(&HOLE) => "A hole.";
         crack: Tables(&CRACK) => "A crack.";
         boundary: Tables(&BOUNDARY) => "Conditions on a part of the border.";
+        force: Tables(&FORCE), only(Elasticity, &[]) => "A force at a point.";
         support: Tables(&SUPPORT), only(Elasticity, &[]) => "A point held against rigid motion.";
         body_force: Table(&BODY_FORCE), only(Elasticity, &["source"]) => "A force per unit area.";
         source: Table(&SOURCE), only(Poisson, &["body_force"]) => "A source.";
@@ -477,6 +478,14 @@ tables! {
         piece: Text("name") => "The pieces of outline and rims with this name.";
         crack: Whole => "The faces of this crack.";
         face: Word(words::<Side>), default("both") => "Only the face that bounds the material on this side.";
+    }
+
+    static FORCE = "[[force]]", "" {
+        at: POINT, required("[0.0, 0.0]") =>
+            "The point, inside, on a straight part of the border, or on a crack; at no corner and no tip.";
+        value: Array(2, "numbers", "[fx, fy]", &Constant), required("[0.0, -1.0]") =>
+            "The force on the body, per unit of thickness.";
+        face: Word(words::<Side>) => "On a crack: the face that bounds the material on this side.";
     }
 
     static SUPPORT = "[[support]]", "" {

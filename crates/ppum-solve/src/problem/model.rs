@@ -19,7 +19,7 @@ use super::enrichment::LocalEnrichment;
 use super::growth::GrowthRule;
 use super::refinement::LocalRefinement;
 use super::solver::Solver;
-use super::support::Support;
+use super::support::{Force, Support};
 
 /// A problem with its discretisation.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +37,8 @@ pub struct Problem {
     pub pieces: Vec<Piece>,
     /// The conditions on the border.
     pub boundary: Vec<BoundaryCondition>,
+    /// Forces at points.
+    pub forces: Vec<Force>,
     /// Points that are held against rigid motion.
     pub supports: Vec<Support>,
     /// The right-hand side f, one expression per component: body force or source.
@@ -103,6 +105,7 @@ impl Problem {
             cracks: Vec::new(),
             pieces: Vec::new(),
             boundary: Vec::new(),
+            forces: Vec::new(),
             supports: Vec::new(),
             exact: Vec::new(),
             quantities: Vec::new(),

@@ -7,6 +7,7 @@ use ppum::domain::Hole;
 use ppum::vec2::{Vec2, vec2};
 
 use super::boundary::{BorderPart, BoundaryCondition};
+use super::force::ForcePlace;
 use super::model::Problem;
 
 /// A point of the border with what a condition says there.
@@ -24,7 +25,8 @@ pub struct Station {
 
 impl Problem {
     /// Points along the parts of the border that have conditions, about `spacing` apart, each in
-    /// the middle of its piece of the border, those in holes left out; nothing of a potential.
+    /// the middle of its piece of the border, those in holes left out, then the points of forces and
+    /// supports; nothing of a potential. The largest force counts as the largest traction.
     #[must_use]
     pub fn stations(&self, spacing: f64) -> Vec<Station> {
         if self.equation.elastic().is_none() {
@@ -40,7 +42,32 @@ impl Problem {
             };
             points.map(station).collect::<Vec<_>>()
         };
-        self.boundary.iter().flat_map(of).collect()
+        let mut all: Vec<_> = self.boundary.iter().flat_map(of).collect();
+        let largest = all.iter().map(|station| station.traction.length()).fold(0.0, f64::max);
+        all.extend(self.stations_of_forces(largest));
+        all.extend(self.supports.iter().map(|support| Station {
+            at: support.at,
+            outward: vec2(0.0, -1.0),
+            held: support.displacement.map(|value| value.is_some()),
+            traction: Vec2::ZERO,
+        }));
+        all
+    }
+
+    /// The points of forces, with arrows that end there but for those that pull at a border; the
+    /// largest is as large as a traction.
+    fn stations_of_forces(&self, traction: f64) -> impl Iterator<Item = Station> {
+        let largest = self.forces.iter().map(|force| force.value.length()).fold(0.0, f64::max);
+        let unit = if traction > 0.0 { traction / largest } else { 1.0 };
+        self.forces.iter().map(move |force| Station {
+            at: force.at,
+            outward: match self.place_of(force) {
+                Ok(ForcePlace::Border { inward, .. }) => -inward,
+                _ => -force.value.unit(),
+            },
+            held: [false; 2],
+            traction: force.value * unit,
+        })
     }
 
     /// Points of a part of the border with their normals out of the material.

@@ -1,6 +1,18 @@
-//! Points that are held.
+//! Points that are loaded or held.
 
+use ppum::crack::Side;
 use ppum::vec2::Vec2;
+
+/// A force at a point of an elastic body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Force {
+    /// The point: inside, on a straight part of the border, or on a crack, but at no corner or tip.
+    pub at: Vec2,
+    /// The force on the body \[S L, per unit thickness\].
+    pub value: Vec2,
+    /// On a crack, the side of the body on whose face the force acts.
+    pub face: Option<Side>,
+}
 
 /// A point that keeps a body, or a piece of one, from moving as a whole, and takes no force.
 ///

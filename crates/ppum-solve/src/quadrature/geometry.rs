@@ -24,6 +24,12 @@ pub(crate) struct Face {
     pub side: Side,
 }
 
+impl From<(SegmentId, Side)> for Face {
+    fn from((segment, side): (SegmentId, Side)) -> Self {
+        Self { segment, side }
+    }
+}
+
 impl Face {
     /// The faces of a crack on one side, one per segment.
     pub(crate) fn of(crack: &Crack, index: usize, side: Side) -> impl Iterator<Item = Self> {

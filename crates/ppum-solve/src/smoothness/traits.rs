@@ -123,7 +123,9 @@ impl<'s> Surroundings<'s> {
                 Behaviour::Constant => {}
                 Behaviour::Grows(growth) => traits.add_singular(axes.origin, growth),
                 Behaviour::Diverges => {
-                    traits.add_singular(axes.origin, DIVERGENT);
+                    if !declared.singular.contains(&Vec2::ZERO) {
+                        traits.add_singular(axes.origin, DIVERGENT);
+                    }
                     traits.divergent = Some(axes.origin);
                 }
             }

@@ -8,6 +8,8 @@ use crate::basis::StableBasis;
 use crate::equilibrium::Plate;
 use crate::intensity::{Sensitivity, sensitivities};
 use crate::law::Law;
+use crate::problem::ForcePlace;
+use crate::quadrature::Face;
 use crate::watched::Stage;
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
@@ -47,6 +49,7 @@ impl Assembled {
         let functionals = Functionals { free: &free, duals: &Duals::new(&tips, space) };
         let system = System::new(assembly, &given, functionals, &stage);
         let mut system = system.map_err(SolveError::of_data)?;
+        add_forces(assembly, &mut system);
         let gauge = Gauge::new(free, std::mem::take(&mut system.moments), &system.matrix);
         let values = |x| values_at(assembly, &system.matrix, (x, None));
         let conditions = plate.conditions(&problem.supports)?;
@@ -54,6 +57,17 @@ impl Assembled {
         clock.lap(Phase::Assembly);
         let tips = tips.iter().map(Sensitivity::tip).collect();
         Ok(Self { plate, basis, system, gauge, tips })
+    }
+}
+
+/// Adds F·N(x₀) of the forces at points to the load.
+fn add_forces(assembly: Assembly<'_>, system: &mut System) {
+    for force in &assembly.problem.forces {
+        let face = assembly.problem.place_of(force).ok().and_then(ForcePlace::face).map(Face::from);
+        let values = values_at(assembly, &system.matrix, (force.at, face));
+        for (values, factor) in values.iter().zip([force.value.x, force.value.y]) {
+            system.load.iter_mut().zip(values).for_each(|(load, value)| *load += factor * value);
+        }
     }
 }
 

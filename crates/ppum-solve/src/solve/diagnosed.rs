@@ -9,7 +9,9 @@ use crate::adapt::{Estimated, LocalFields, estimated};
 use crate::diagnostics::DiagnosedSolution;
 use crate::intensity::TipOutcome;
 use crate::law::Law;
+use crate::norms::energy;
 use crate::report::{SolverReport, StopReason, Unresolved};
+use crate::space::Space;
 use crate::watched::Stage;
 use ppum::dataset::{Attribute, Dataset, TipIntensity};
 use ppum::field::Field;
@@ -53,9 +55,14 @@ impl<'p> Diagnosed<'p> {
         let goal = Goal::new(&dual_tips, &space.partition().cell, &found);
         let factors = tips.iter_mut().filter_map(|outcome| outcome.factors.as_mut());
         factors.zip(&goal.errors).for_each(|(factors, error)| factors.error = Some(*error));
-        let Estimated { energy, squares, .. } = found;
-        report.energy = Some(energy);
-        report.whole_energy = problem.images().map(|images| images * energy);
+        let Estimated { mut energy, squares, .. } = found;
+        if problem.forces.is_empty() {
+            report.energy = Some(energy);
+            report.whole_energy = problem.images().map(|images| images * energy);
+        } else {
+            // that of the whole field is infinite
+            energy = energy_of_unknowns(dataset, space)?;
+        }
         clock.lap(Phase::Estimation);
         // nothing is a part of no energy, or of one that is rounding
         if energy > ROUNDING * energy_of_size(&field) {
@@ -122,6 +129,17 @@ impl<'p> Diagnosed<'p> {
 /// |(K_I, K_II)|
 fn size(tip: &TipIntensity) -> f64 {
     tip.k1.hypot(tip.k2)
+}
+
+/// The energy of a field without its known part.
+fn energy_of_unknowns(dataset: &Dataset, space: &Space<'_>) -> Result<f64, SolveError> {
+    let mut rest = dataset.clone();
+    for patch in 0..space.partition().len() {
+        for component in rest.steps[0].fields[0].coefficients_mut(patch) {
+            space.known(patch).iter().for_each(|known| component[known.stored] = 0.0);
+        }
+    }
+    Ok(energy(&Field::new(&rest, 0)?, space))
 }
 
 /// A modulus times the square of the largest coefficient.

@@ -3,6 +3,7 @@
 use super::SolveError;
 use crate::assembly::Given;
 use crate::equilibrium::{BodyPieces, Plate};
+use crate::forces::force_fields;
 use crate::problem::Problem;
 use crate::refine::n_crossed_twice;
 use crate::space::{Mesh, Space, SpaceError, discretise_on};
@@ -38,6 +39,12 @@ impl<'p> Discretised<'p> {
         dataset.check()?;
         stage.advance(0)?;
         let space = Space::of_problem(problem, step)?;
+        let bounds = &problem.domain.bounds;
+        if let Some(field) =
+            force_fields(problem).iter().find(|field| !field.fits(space.partition(), bounds))
+        {
+            return Err(SpaceError::Force { at: field.at(), room: field.room }.into());
+        }
         Ok(Self { problem, mesh, dataset, space, crossed_twice })
     }
 

@@ -7,6 +7,7 @@ use super::plan::Plan;
 use super::unknowns::Unknowns;
 use crate::intensity::{TipOutcome, intensities_under};
 use crate::report::{ASSEMBLY_SECONDS, SolverReport, Unresolved};
+use crate::space::Space;
 use faer::Mat;
 use ppum::dataset::{Attribute, FieldData, TipIntensity};
 use ppum::field::Field;
@@ -67,7 +68,8 @@ impl<'p> Solved<'p> {
             attribute("quadrature-points", system.points()),
             attribute(ASSEMBLY_SECONDS, system.seconds()),
         ]);
-        let local = basis.local_coefficients(&unknowns.all, components);
+        let mut local = basis.local_coefficients(&unknowns.all, components);
+        write_known(space, &mut step.fields[0], &mut local);
         let unresolved = std::mem::take(&mut system.unresolved);
         let (lonely, tips) = (basis.lonely, Vec::new());
         Self { plan, report, local, unresolved, lonely, dual_tips, tips }
@@ -109,6 +111,18 @@ fn report(assembled: &Assembled, solver: SolverReport, components: usize) -> Sol
 
 fn attribute(name: &str, values: Vec<f64>) -> Attribute {
     Attribute { name: name.into(), values }
+}
+
+/// Writes the coefficients that are known, also among those that the solver evaluates.
+fn write_known(space: &Space<'_>, data: &mut FieldData, local: &mut [Mat<f64>]) {
+    for (patch, local) in local.iter_mut().enumerate() {
+        for known in space.known(patch) {
+            for (i, component) in data.coefficients_mut(patch).enumerate() {
+                component[known.stored] = known.coefficients[i];
+                local[(i, known.evaluated)] = known.coefficients[i];
+            }
+        }
+    }
 }
 
 /// Writes coefficients that stand patch by patch and in each patch component by component.

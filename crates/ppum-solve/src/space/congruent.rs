@@ -144,6 +144,7 @@ impl<'d> Space<'d> {
             series: Vec::new(),
             in_series: Default::default(),
             held: Default::default(),
+            known: Default::default(),
             equation: self.equation,
             smoothness: Default::default(),
             orders: self.orders,

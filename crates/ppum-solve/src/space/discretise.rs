@@ -4,6 +4,7 @@ use super::enrichment::{Block, Enrichments};
 use super::error::SpaceError;
 use super::inspect::inspect;
 use super::mesh::Mesh;
+use crate::forces::force_fields;
 use crate::geometry::Placed;
 use crate::problem::Problem;
 use crate::problem::quantities::field_names;
@@ -42,6 +43,7 @@ pub(crate) fn discretise_on(
     let mut enrichments = Enrichments::new(problem);
     enrichments.add_interfaces(&partition, stage)?;
     enrichments.add_corners(&partition);
+    enrichments.add_forces(&partition);
     let mut blocks = Vec::with_capacity(partition.len());
     for (patch, raised) in raised.into_iter().enumerate() {
         stage.advance(0)?;
@@ -53,7 +55,9 @@ pub(crate) fn discretise_on(
     step.cracks.clone_from(&problem.cracks);
     step.functions = enrichments.table;
     step.attributes = attributes(&blocks);
-    inspect(&step, &problem.domain, &problem.tables)?;
+    let known =
+        force_fields(problem).into_iter().flat_map(|field| field.functions).collect::<Vec<_>>();
+    inspect(&step, &known, &problem.domain, &problem.tables)?;
     Ok(step)
 }
 

@@ -4,6 +4,8 @@ use super::inspect::InspectError;
 use crate::problem::OrderError;
 use crate::refine::RefineError;
 use ppum::progress::Cancelled;
+use ppum::text::trimmed;
+use ppum::vec2::Vec2;
 
 /// The space of a problem cannot be built.
 #[derive(Debug, thiserror::Error)]
@@ -21,6 +23,19 @@ pub enum SpaceError {
     /// A function that cannot be used.
     #[error(transparent)]
     Function(#[from] InspectError),
+    /// A force beside what its field cannot go on beyond.
+    #[error(
+        "the force at [{}, {}] is too near to something: its field goes as far as {}, to a tip or kink of its crack, \
+         to a held part of the border, or to what is behind the border, but the cells there are larger; divide them \
+         by [[refine]] with this point",
+        trimmed(at.x), trimmed(at.y), trimmed(*room)
+    )]
+    Force {
+        /// The point.
+        at: Vec2,
+        /// The distance.
+        room: f64,
+    },
     /// The watcher wanted the work to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -6,7 +6,7 @@ use ppum::dataset::Step;
 use ppum::domain::Domain;
 use ppum::formula::Table;
 use ppum::function::{
-    FunctionError, FunctionKind, FunctionTable, GROUP, LocalFunctions, Slot, WESTERGAARD,
+    Function, FunctionError, FunctionKind, FunctionTable, GROUP, LocalFunctions, Slot, WESTERGAARD,
 };
 use ppum::jet::Jet;
 use ppum::text::trimmed;
@@ -60,16 +60,19 @@ pub enum InspectError {
     },
 }
 
-/// Looks at all functions at some points of their patches.
+/// Looks at all functions but those that are known to have infinite energy, at some points of
+/// their patches.
 ///
 /// # Errors
 /// The first that is not finite, or that no patch has.
 pub(crate) fn inspect(
     step: &Step,
+    known: &[Function],
     domain: &Domain,
     tables: &[Arc<Table>],
 ) -> Result<(), InspectError> {
-    let own: Vec<_> = (0..).zip(&step.functions).filter(|(_, f)| is_own(&f.kind)).collect();
+    let own: Vec<_> =
+        (0..).zip(&step.functions).filter(|(_, f)| is_own(&f.kind) && !known.contains(f)).collect();
     if own.is_empty() {
         return Ok(());
     }
@@ -93,7 +96,7 @@ pub(crate) fn inspect(
             {
                 return Err(InspectError::Diverges { name: function.name.clone(), point });
             }
-            if is_own(&function.kind) {
+            if own.iter().any(|(own, _)| *own == index) {
                 look(&seen, index, &function.name, &part, domain)?;
             }
         }

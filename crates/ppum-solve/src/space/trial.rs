@@ -3,6 +3,7 @@
 use super::alike::Alike;
 use super::held::{HeldLine, held_lines};
 use super::inspect;
+use super::known::{KnownFunction, KnownFunctions, known_functions};
 use super::williams::{self, SeriesFunctions};
 use crate::problem::Problem;
 use crate::quadrature::{Orders, Quadrature, Rule};
@@ -54,6 +55,8 @@ pub struct Space<'d> {
     pub(super) in_series: BTreeSet<u32>,
     /// Of patches at edges with cracks, the lines on which a component is zero.
     pub(super) held: BTreeMap<u32, Vec<HeldLine>>,
+    /// Functions of patches whose coefficients are known: they have no unknowns.
+    pub(super) known: KnownFunctions,
     pub(super) equation: &'d Equation,
     pub(super) smoothness: Smoothness,
     pub(super) orders: Orders,
@@ -90,6 +93,8 @@ impl<'d> Space<'d> {
         let mut space = Self::on(Cow::Owned(step), domain, equation, tables)?;
         (space.series, space.in_series) = williams::series(problem, &space.step);
         space.held = held_lines(problem, space.partition());
+        let series = |patch| space.series(patch).to_vec();
+        space.known = known_functions(problem, &space.step, &series);
         if !problem.solver.kernels {
             let Step { functions, cracks, .. } = &*space.step;
             space.functions = FunctionTable::of_formulas(functions, cracks.len(), tables)?;
@@ -115,6 +120,7 @@ impl<'d> Space<'d> {
             series: Vec::new(),
             in_series: BTreeSet::new(),
             held: BTreeMap::new(),
+            known: KnownFunctions::new(),
             equation,
             orders: orders(partition, smoothness.degree()),
             rules: vec![OnceLock::new(); partition.len()],
@@ -122,6 +128,11 @@ impl<'d> Space<'d> {
             alike: OnceLock::new(),
             step,
         })
+    }
+
+    /// The functions of a patch whose coefficients are known.
+    pub(crate) fn known(&self, patch: usize) -> &[KnownFunction] {
+        self.known.get(&(patch as u32)).map_or(&[], Vec::as_slice)
     }
 
     /// The lines on which a component is zero that a patch sees.

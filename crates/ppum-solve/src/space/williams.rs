@@ -2,8 +2,9 @@
 //! them only.
 
 use crate::corner::{Corner, WedgeTerm, corners};
+use crate::forces::on_side;
 use crate::problem::{Problem, Symmetry};
-use ppum::crack::{Side, TipId};
+use ppum::crack::TipId;
 use ppum::dataset::{Equation, Step, monomials};
 use ppum::function::{Declared, Frame, Function, FunctionKind, GROUP, WESTERGAARD, native};
 use ppum::library::WEDGE;
@@ -151,15 +152,6 @@ pub(super) fn of_corner(corner: &Corner, equation: &Equation) -> Vec<(Vec<Functi
         (functions, Origin::Corner { at, bisector, term: *term })
     };
     wedge.terms.iter().map(group).collect()
-}
-
-/// A formula that is zero on the other side of a crack.
-fn on_side(text: &str, side: Option<(u32, Side)>) -> String {
-    match side {
-        None => text.into(),
-        Some((crack, Side::Above)) => format!("(1 + side({crack}))/2*{text}"),
-        Some((crack, Side::Below)) => format!("(1 - side({crack}))/2*{text}"),
-    }
 }
 
 fn of_patch(step: &Step, patch: usize, groups: &Groups) -> Vec<SeriesFunctions> {

@@ -10,6 +10,7 @@ mod estimator;
 mod examples;
 mod exchange;
 mod faces;
+mod forces;
 mod formulas;
 mod goal;
 mod graded;

@@ -29,7 +29,7 @@ use crate::geometry::Jumps;
 use boundary::check_boundary;
 use enrichment::{check_enrichments, too_wide};
 use refinement::check_refinements;
-use support::check_supports;
+use support::{check_forces, check_supports};
 use symmetry::check_symmetry;
 
 /// Most cells of a base cover.
@@ -80,6 +80,7 @@ pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
         found.extend(check_enrichments(problem));
         found.extend(check_boundary(problem));
         found.extend(check_symmetry(problem));
+        found.extend(check_forces(problem));
         found.extend(check_supports(problem));
     }
     found.extend(domain);

@@ -151,7 +151,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     };
     document.equation.set(kind);
     let root = &root.checked();
-    let loads = ["boundary", "body_force", "source", "temperature", "strain"];
+    let loads = ["boundary", "force", "body_force", "source", "temperature", "strain"];
     if !root.mentions_any(&loads) {
         root.error::<()>("nothing acts on the plate; add [[boundary]]");
     }
@@ -191,6 +191,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
         equation,
         pieces: body.pieces,
         boundary,
+        forces: support::forces(root),
         supports: support::supports(root),
         source,
         exact: exact.unwrap_or_default(),

@@ -1,7 +1,16 @@
-//! The tables `[[support]]`.
+//! The tables `[[force]]` and `[[support]]`.
 
 use super::super::document::{Read as _, Section, Value, all};
-use super::super::support::Support;
+use super::super::support::{Force, Support};
+
+/// The forces; none at all if one of them cannot be read, as the checks count them.
+pub(super) fn forces(root: &Section<'_>) -> Vec<Force> {
+    root.each("force", |section| {
+        let (at, value) = (section.require("at"), section.require("value"));
+        let face = section.optional("face");
+        Some(Force { at: at?, value: value?, face: face? })
+    })
+}
 
 /// The supports; none at all if one of them cannot be read, as the checks count them.
 pub(super) fn supports(root: &Section<'_>) -> Vec<Support> {

@@ -16,6 +16,7 @@ use std::sync::OnceLock;
 
 use super::williams::of_corner;
 use crate::corner::corners;
+use crate::forces::force_fields;
 use crate::geometry::{
     Jumps, Placed, around, distance, exceeds, inside, length_inside, segment_inside, wider,
 };
@@ -194,6 +195,15 @@ impl<'p> Enrichments<'p> {
                     self.push(functions, Patches::Listed(patches.clone()), Degree::Fixed(0));
                 }
             }
+        }
+    }
+
+    /// Gives patches of a partition the fields of forces.
+    pub(crate) fn add_forces(&mut self, partition: &BoxPartition) {
+        let bounds = self.problem.domain.bounds;
+        for field in force_fields(self.problem) {
+            let patches = Patches::Listed(field.patches(partition, &bounds));
+            self.push(field.functions, patches, Degree::Fixed(0));
         }
     }
 

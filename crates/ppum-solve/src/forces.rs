@@ -1,0 +1,132 @@
+//! The fields of forces at points, which are in the space with coefficients that are known.
+//!
+//! With z = r e^{iθ} from the point, Kolosov's constant κ and F = F_x + i F_y, in the body
+//! (Kelvin)
+//!
+//! ```text
+//! 2μ (u_x + i u_y) = (−2κ F ln r + F̄ e^{2iθ}) / (2π (1 + κ))
+//! ```
+//!
+//! and at a straight border (Flamant), θ from the normal into the body
+//!
+//! ```text
+//! 2μ (u_x + i u_y) = (−(κ + 1) F ln r − (κ − 1) i F θ + F̄ e^{2iθ}) / 2π
+//! ```
+//!
+//! With the functions of patches, u = u_s + w: u_s = Σ φ_i S of the patches near the point has no
+//! unknowns, and w is a field like any other under the loads F·v(x₀) − a(u_s, v). The energy of u_s
+//! is infinite and needed nowhere.
+
+use crate::geometry::OF_FORCE;
+use crate::problem::{Force, ForcePlace, Problem};
+use ppum::crack::Side;
+use ppum::dataset::{BoxPartition, Material};
+use ppum::function::{Declared, Frame, Function, FunctionKind};
+use ppum::vec2::{Rect, Vec2, vec2};
+use std::f64::consts::PI;
+
+/// The functions of the angle and the distance, the last at borders only.
+const TEXTS: [&str; 4] = ["log(r)", "(x^2 - y^2)/r^2", "2*x*y/r^2", "theta"];
+
+/// The field S of a force: functions with the coefficients of both components.
+pub(crate) struct ForceField {
+    at: Vec2,
+    /// Radius of the disc in which the field stands for what is not smooth.
+    pub(crate) room: f64,
+    pub(crate) functions: Vec<Function>,
+    /// Of each function, its coefficient in each component.
+    pub(crate) coefficients: Vec<[f64; 2]>,
+}
+
+/// The fields of the forces of a problem in order; of those whose place is no good there is none.
+pub(crate) fn force_fields(problem: &Problem) -> Vec<ForceField> {
+    let material = problem.equation.elastic().and_then(|elastic| elastic.uniform());
+    let field = |(number, force): (usize, &Force)| {
+        let place = problem.place_of(force).ok()?;
+        Some(ForceField::new((number, force), place, problem, material.as_ref()?))
+    };
+    problem.forces.iter().enumerate().filter_map(field).collect()
+}
+
+impl ForceField {
+    fn new(
+        (number, force): (usize, &Force),
+        place: ForcePlace,
+        problem: &Problem,
+        material: &Material,
+    ) -> Self {
+        let (axis, coefficients) = match place {
+            ForcePlace::Inside => (vec2(1.0, 0.0), kelvin(force.value, material)),
+            ForcePlace::Border { inward, .. } => (inward, flamant(force.value, inward, material)),
+        };
+        let side = place.face().map(|(segment, side)| (segment.crack, side));
+        let function = |(k, text): (usize, &&str)| Function {
+            name: format!("{OF_FORCE} [{}, {}], {}.{k}", force.at.x, force.at.y, number),
+            kind: FunctionKind::Formula {
+                text: on_side(&format!("({text})"), side),
+                frame: Frame::Fixed { origin: force.at, angle: axis.y.atan2(axis.x) },
+                parameters: Vec::new(),
+                declared: Declared { singular: vec![Vec2::ZERO], ..Declared::default() },
+            },
+        };
+        let functions = TEXTS.iter().take(coefficients.len()).enumerate().map(function).collect();
+        Self { at: force.at, room: problem.room_of(force, place), functions, coefficients }
+    }
+
+    /// The patches that have the field, ascending: those that hold the point, and those in the room.
+    pub(crate) fn patches(&self, partition: &BoxPartition, bounds: &Rect) -> Vec<u32> {
+        let has = |&k: &u32| {
+            let support = partition.support(k as usize);
+            support.contains(self.at) || self.has_room_for(&support.intersection(bounds))
+        };
+        (0..partition.len() as u32).filter(has).collect()
+    }
+
+    fn has_room_for(&self, part: &Rect) -> bool {
+        part.corners().iter().all(|p| (*p - self.at).length() < self.room)
+    }
+
+    /// True if the patches that hold the point have room.
+    pub(crate) fn fits(&self, partition: &BoxPartition, bounds: &Rect) -> bool {
+        let own = (0..partition.len()).map(|k| partition.support(k));
+        let mut own = own.filter(|support| support.contains(self.at));
+        own.all(|support| self.has_room_for(&support.intersection(bounds)))
+    }
+
+    /// The place of the force.
+    pub(crate) fn at(&self) -> Vec2 {
+        self.at
+    }
+}
+
+/// The coefficients of the functions in Kelvin's field, for each component.
+fn kelvin(Vec2 { x, y }: Vec2, material: &Material) -> Vec<[f64; 2]> {
+    let kappa = material.kolosov();
+    let unit = 1.0 / (4.0 * PI * material.mu() * (1.0 + kappa));
+    let all = [[-2.0 * kappa * x, -2.0 * kappa * y], [x, -y], [y, x]];
+    all.map(|pair| pair.map(|c| unit * c)).to_vec()
+}
+
+/// The same of Flamant's, with the normal into the body, from which the angle is measured.
+fn flamant(force: Vec2, inward: Vec2, material: &Material) -> Vec<[f64; 2]> {
+    let kappa = material.kolosov();
+    let unit = 1.0 / (4.0 * PI * material.mu());
+    let (x, y) = (force.dot(inward), force.dot(inward.left()));
+    let all = [
+        [-(kappa + 1.0) * x, -(kappa + 1.0) * y],
+        [x, -y],
+        [y, x],
+        [(kappa - 1.0) * y, -(kappa - 1.0) * x],
+    ];
+    let in_world = |[along, across]: [f64; 2]| inward * along + inward.left() * across;
+    all.map(|pair| in_world(pair) * unit).map(|c| [c.x, c.y]).to_vec()
+}
+
+/// A formula that is zero on the other side of a crack.
+pub(crate) fn on_side(text: &str, side: Option<(u32, Side)>) -> String {
+    match side {
+        None => text.into(),
+        Some((crack, Side::Above)) => format!("(1 + side({crack}))/2*{text}"),
+        Some((crack, Side::Below)) => format!("(1 - side({crack}))/2*{text}"),
+    }
+}

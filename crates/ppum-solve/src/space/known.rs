@@ -1,0 +1,67 @@
+//! Functions of patches whose coefficients are known: the fields of forces at points.
+
+use super::trial::block_size;
+use super::williams::SeriesFunctions;
+use crate::forces::force_fields;
+use crate::problem::Problem;
+use ppum::dataset::Step;
+use std::collections::BTreeMap;
+
+/// A function of a patch whose coefficients are known.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct KnownFunction {
+    /// Its number among the patch's functions as they are stored.
+    pub(crate) stored: usize,
+    /// Its number among those that the solver evaluates.
+    pub(crate) evaluated: usize,
+    /// The coefficient in each component.
+    pub(crate) coefficients: [f64; 2],
+}
+
+/// By the number of a patch.
+pub(crate) type KnownFunctions = BTreeMap<u32, Vec<KnownFunction>>;
+
+/// The functions of each patch whose coefficients are known.
+pub(crate) fn known_functions(
+    problem: &Problem,
+    step: &Step,
+    series: &dyn Fn(usize) -> Vec<SeriesFunctions>,
+) -> KnownFunctions {
+    let mut coefficients = BTreeMap::new();
+    for field in force_fields(problem) {
+        for (function, known) in field.functions.iter().zip(&field.coefficients) {
+            let number = step.functions.iter().position(|other| other == function);
+            coefficients.extend(number.map(|number| (number as u32, *known)));
+        }
+    }
+    let mut all = BTreeMap::new();
+    if coefficients.is_empty() {
+        return all;
+    }
+    for patch in 0..step.partition.len() {
+        let own = of_patch(step, patch, &coefficients, &series(patch));
+        if !own.is_empty() {
+            all.insert(patch as u32, own);
+        }
+    }
+    all
+}
+
+fn of_patch(
+    step: &Step,
+    patch: usize,
+    coefficients: &BTreeMap<u32, [f64; 2]>,
+    series: &[SeriesFunctions],
+) -> Vec<KnownFunction> {
+    let (data, mut stored, mut found) = (&step.fields[0], 0, Vec::new());
+    for block in data.blocks(patch) {
+        if let Some(&coefficients) = coefficients.get(&data.block_function[block]) {
+            let before = series.iter().filter(|series| series.functions.end <= stored);
+            let fewer = before.map(|series| series.functions.len() - series.evaluated());
+            let evaluated = stored - fewer.sum::<usize>();
+            found.push(KnownFunction { stored, evaluated, coefficients });
+        }
+        stored += block_size(data, block);
+    }
+    found
+}
