@@ -76,6 +76,7 @@
 mod adapt;
 mod assembly;
 mod basis;
+mod contact;
 mod corner;
 pub mod diagnostics;
 mod equilibrium;

@@ -48,6 +48,14 @@ pub struct SolverReport {
     pub free_modes: Option<f64>,
     /// Largest part of the loads on a piece that does not balance.
     pub imbalance: Option<f64>,
+    /// Systems that were solved until the faces that touch came to rest; zero where none do.
+    pub contact_steps: Option<f64>,
+    /// Part of the faces that may touch that is closed.
+    pub closed: Option<f64>,
+    /// Largest overlap of faces that may touch.
+    pub overlap: Option<f64>,
+    /// Largest tensile stress between closed faces.
+    pub tension: Option<f64>,
     /// Quadrature points of the system's integrals.
     pub quadrature_points: Option<f64>,
     /// Energy of the solution, ½ ∫ σ:ε or ½ ∫ κ |∇u|².
@@ -200,7 +208,7 @@ macro_rules! entries {
 }
 
 /// All numbers but the seconds, in the order of files.
-const ENTRIES: [ReportEntry; 22] = entries![
+const ENTRIES: [ReportEntry; 26] = entries![
     "crossed twice" => crossed_twice,
     "unknowns" => unknowns,
     "cut-off" => cut_off,
@@ -223,6 +231,10 @@ const ENTRIES: [ReportEntry; 22] = entries![
     "estimated error of factors" => factor_error,
     STOP => stop,
     "rounding" => rounding,
+    "contact steps" => contact_steps,
+    "closed faces" => closed,
+    "overlap of faces" => overlap,
+    "tension between faces" => tension,
 ];
 
 /// The record of the energy of the whole.

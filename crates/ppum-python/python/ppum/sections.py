@@ -42,13 +42,15 @@ class HoleOptions(TypedDict, total=False):
 
 
 class CrackOptions(TypedDict, total=False):
-    """A curve in place of points."""
+    """A curve in place of points, and what faces that touch do."""
 
     arc: Annotated[Table, _key("an arc of a circle: `ppum.arc`, or a table of problem files")]
     ellipse: Annotated[Table, _key("a part of an ellipse: `ppum.ellipse`, or a table of problem files")]
     spline: Annotated[ArrayLike, _key("points of a smooth curve, shape (n, 2)")]
     path: Annotated[Sequence[Table], _key("several curves, each from where the one before ends")]
     segments: Annotated[int, _key("the number of segments of each curve")]
+    contact: Annotated[bool, _key("whether its faces press on each other where they touch, instead of overlapping")]
+    friction: Annotated[float, _key("the coefficient of friction between faces that touch")]
 
 
 class BoundaryOptions(TypedDict, total=False):

@@ -3,6 +3,7 @@
 use super::border::BorderConditions;
 use super::span::unseen;
 use crate::assembly::border_rules;
+use crate::contact::FaceContact;
 use crate::law::Law;
 use crate::problem::Problem;
 use crate::quadrature::{EdgeRule, Quadrature, Rule};
@@ -115,6 +116,10 @@ impl DataResidual<'_> {
             Some(face) => (self.field.on(face.segment, rule.anchor), face.side),
             None => (self.field.at(rule.anchor), Side::Above),
         };
+        let contact = rule.face.and_then(|face| self.problem.contacts.get(&face.segment.crack));
+        let between = contact.map(|&friction| {
+            FaceContact { friction, size: h }.tractions(self.field, &self.law, rule)
+        });
         let mut sum = 0.0;
         for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
             let (mut u, x, n) = ([Jet::constant(0.0); 2], rule.anchor + offset, rule.normals[q]);
@@ -125,7 +130,10 @@ impl DataResidual<'_> {
             }
             let law = self.law.at(x);
             let flux = law.flux(&u.map(|jet| vec2(jet.x, jet.y)));
-            let (held, given) = part.given(self.problem, (x, n), u.map(|u| u.v));
+            let (held, mut given) = part.given(self.problem, (x, n), u.map(|u| u.v));
+            if let Some(between) = &between {
+                given = between[q].into();
+            }
             let to_tip = tips.iter().map(|&tip| (x - tip).length()).fold(f64::INFINITY, f64::min);
             let width = (h / (2.0 * (p + 1.0))).min(to_tip);
             for i in 0..law.components() {

@@ -12,6 +12,7 @@ mod border;
 mod cell;
 mod cell_matrix;
 mod cell_system;
+mod contact;
 mod dual;
 mod functions;
 mod gauge;
@@ -24,6 +25,7 @@ mod system;
 mod template;
 
 pub(crate) use cell::Functionals;
+pub(crate) use contact::{FaceContacts, FaceStress};
 pub(crate) use dual::Duals;
 pub(crate) use functions::Assembly;
 pub(crate) use gauge::{FreeModes, Gauge};

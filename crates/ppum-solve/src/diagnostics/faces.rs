@@ -26,7 +26,22 @@ pub(super) fn of_faces(
     }
     let symmetry = |k: usize| problem.and_then(|problem| problem.symmetry_of(k));
     let cracks = field.step.cracks.iter().enumerate();
-    cracks.filter_map(|(k, crack)| overlap((field, symmetry(k)), (k, crack), seats)).collect()
+    let remedy = |k: usize| remedy(problem, k as u32);
+    cracks
+        .filter_map(|(k, crack)| overlap((field, symmetry(k)), (k, crack), (seats, remedy(k))))
+        .collect()
+}
+
+/// What to do about faces of a crack that overlap.
+pub(super) fn remedy(problem: Option<&Problem>, crack: u32) -> &'static str {
+    match problem {
+        Some(problem) if problem.contacts.contains_key(&crack) => {
+            "use smaller cells along the crack"
+        }
+        _ => {
+            "let its faces touch (`contact = true`), give them a pressure, or leave out a crack that is pressed together"
+        }
+    }
 }
 
 /// Opening and strain at a point of a crack.
@@ -46,7 +61,7 @@ type FieldAtFaces<'a> = (&'a Field<'a>, Option<Symmetry>);
 fn overlap(
     field: FieldAtFaces<'_>,
     (index, crack): (usize, &Crack),
-    seats: &Places,
+    (seats, remedy): (&Places, &str),
 ) -> Option<Warning> {
     let places: Vec<FaceSample> =
         places(crack, index).filter_map(|p| FaceSample::new(field, p)).collect();
@@ -60,7 +75,7 @@ fn overlap(
     (worst.opening < limit).then(|| {
         let message = format!(
             "crack {index}: its faces overlap on {:.0} % of its length, most at {} by {}: the solution \
-             has no meaning near it; leave out a crack that is pressed together, or give its faces a pressure",
+             has no meaning near it; {remedy}",
             (100.0 * closed as f64 / places.len() as f64).max(1.0),
             seats.show(worst.at),
             short(-worst.opening)

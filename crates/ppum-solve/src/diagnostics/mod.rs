@@ -122,7 +122,7 @@ impl DiagnosedSolution<'_> {
         let mut warnings = Vec::new();
         let is_strained = !rounding.is_all();
         if is_strained {
-            warnings.extend(of_tips(tips, &field.step.cracks, &places));
+            warnings.extend(of_tips(self.problem, tips, &field.step.cracks, &places));
             warnings.extend(of_faces(field, self.problem, &places));
         }
         stage.advance(0)?;

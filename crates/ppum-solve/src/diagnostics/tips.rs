@@ -1,9 +1,11 @@
 //! Warnings about tips and their stress intensity factors.
 
 use super::curves::of_curve;
+use super::faces::remedy;
 use super::{LARGE_ERROR, kind, short, warning};
 use crate::geometry::AMPLE_CLEARANCE;
 use crate::intensity::{Obstacle, TipOutcome};
+use crate::problem::Problem;
 use ppum::crack::Crack;
 use ppum::dataset::{TipIntensity, Warning};
 use ppum::text::{Places, trimmed_to};
@@ -27,14 +29,19 @@ const NEAR_BORDER: f64 = 0.05;
 const LEAST_CELLS: f64 = 4.0;
 
 /// The warnings about the tips of a step, whose cracks these are.
-pub(super) fn of_tips(outcomes: &[TipOutcome], cracks: &[Crack], places: &Places) -> Vec<Warning> {
+pub(super) fn of_tips(
+    problem: Option<&Problem>,
+    outcomes: &[TipOutcome],
+    cracks: &[Crack],
+    places: &Places,
+) -> Vec<Warning> {
     let of_tip = |outcome: &TipOutcome| {
         let crack = &cracks[outcome.tip.crack as usize];
         let length = crack.length();
         let at = &places.show(outcome.at);
         let about_factors = match &outcome.factors {
             Some(factors) => [
-                negative(outcome, factors, at),
+                negative(problem, (outcome, at), factors),
                 spread(outcome, factors, at),
                 unresolved(outcome, at, &places.show(outcome.doubt.at)),
                 of_curve(outcome, factors, crack, at),
@@ -57,13 +64,18 @@ fn size(outcome: &TipOutcome, factors: &TipIntensity) -> f64 {
     factors.k1.hypot(factors.k2).max(NOTHING * outcome.strength)
 }
 
-fn negative(outcome: &TipOutcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
+fn negative(
+    problem: Option<&Problem>,
+    (outcome, at): (&TipOutcome, &str),
+    factors: &TipIntensity,
+) -> Option<Warning> {
     let k1 = factors.k1;
     let limit = -NOISE * size(outcome, factors);
     let message = format!(
         "tip {at}: K_I = {} is negative: the faces of the crack overlap there, and the solution has no \
-         meaning near it; leave out a crack that is pressed together, or give its faces a pressure",
-        short(k1)
+         meaning near it; {}",
+        short(k1),
+        remedy(problem, outcome.tip.crack)
     );
     (k1 < limit).then(|| warning(kind::NEGATIVE_K1, Some(outcome.at), [k1, limit], message))
 }

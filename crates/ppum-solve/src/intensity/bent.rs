@@ -1,6 +1,6 @@
 //! The part of the interaction integral that comes from the faces of the crack behind its kinks.
 
-use super::auxiliary::{Gradients, difference, stress, work};
+use super::auxiliary::{Auxiliary, Gradients, difference, stress, work};
 use super::course::CourseSegment;
 use super::integral::{Integrals, Interaction, cut_off, square, turned};
 use crate::quadrature::{EdgeRule, Face, Quadrature};
@@ -26,7 +26,7 @@ impl Interaction<'_> {
             let cell = &self.space.partition().cell[bend.cell];
             let coverers = &self.space.coverers[bend.cell];
             for rule in quadrature.part_of_face(cell, coverers, bend.ends, face) {
-                sums = sums.plus(self.along(&bend.part, face, &rule));
+                sums = sums.plus(self.along(bend, face, &rule));
                 sums.doubt.add(&rule.doubt);
             }
         }
@@ -34,28 +34,26 @@ impl Interaction<'_> {
     }
 
     /// The points of a rule on one face.
-    fn along(
-        &self,
-        part: &CourseSegment,
-        Face { segment, side }: Face,
-        rule: &EdgeRule,
-    ) -> Integrals {
-        let tip = self.course.on(part, rule.anchor);
+    fn along(&self, bend: &Bend, Face { segment, side }: Face, rule: &EdgeRule) -> Integrals {
+        let tip = self.course.on(&bend.part, rule.anchor);
+        let between = self.between(rule, bend.cell);
         let mut jets = vec![Jet::constant(0.0); 2 * rule.offsets.len()];
         let local = self.field.on(segment, rule.anchor);
         local.evaluate_over::<1>(&rule.offsets, side, &rule.patches, &mut jets);
         let mut sums = Integrals::default();
         let points = rule.offsets.iter().zip(&rule.weights).zip(&rule.normals);
-        for (((offset, &weight), normal), u) in points.zip(jets.chunks_exact(2)) {
+        for ((((offset, &weight), normal), u), t) in points.zip(jets.chunks_exact(2)).zip(between) {
             let point = tip.point([offset.x, offset.y], side);
             let (u, normal) = (self.gradient(u, tip.axis), turned(tip.axis, (*normal).into()));
-            let parts = self.auxiliary(&point).map(|a| -self.crossing(&u, &a.gradient, normal));
+            let parts = self.auxiliary(&point).map(|Auxiliary { gradient: [a, b], .. }| {
+                -self.crossing(&u, &[a, b], normal) - (t.x * a[0] + t.y * b[0])
+            });
             let part = |radius: f64| parts.map(|m| cut_off(square(&point), radius).0 * m);
             let modes = self.radii.map(part);
             let world = rule.anchor + *offset;
             let q = cut_off(square(&point), self.largest()).0;
-            let j =
-                q * self.energy_crossing(&u, normal, world, self.traction(side, world, tip.axis));
+            let traction = self.traction(side, world, tip.axis) + t;
+            let j = q * self.energy_crossing(&u, normal, world, traction);
             sums = sums.plus(Integrals { modes, j, ..Integrals::default() }.times(weight));
         }
         sums
@@ -68,7 +66,7 @@ impl Interaction<'_> {
         (0..2).map(|i| stress[i][1] * Vec2::from(u[i]).dot(along)).sum()
     }
 
-    /// The traction on a face in the tip's frame.
+    /// The traction of a load on a face in the tip's frame.
     fn traction(&self, side: Side, world: Vec2, axis: Vec2) -> Vec2 {
         let crack = self.course.tip().crack;
         self.loads.faces.map_or(Vec2::ZERO, |load| turned(axis, load(crack, side, world)))

@@ -1,7 +1,7 @@
 //! The course of a tip's own crack through the discs around it.
 
 use crate::geometry::from_tip;
-use ppum::crack::{Crack, End, LocalTip, TipId};
+use ppum::crack::{Crack, End, LocalTip, SegmentId, TipId};
 use ppum::vec2::Vec2;
 
 /// Ratio of the distances to the tip at the ends of a [piece](Course::pieces). Auxiliary fields are
@@ -84,6 +84,20 @@ impl Course {
             let to = reached(whole, points[0], self.radius);
             CourseSegment { local: local as u32, segment, ends: [whole[0], to], is_first: k == 0 }
         })
+    }
+
+    /// A point of the crack just behind the tip, with its segment.
+    pub(super) fn behind_tip(&self) -> (SegmentId, Vec2) {
+        let segment = self.first as u32 + if self.tip.end == End::Start { 0 } else { self.last() };
+        let mut from = from_tip(&self.crack, self.tip.end);
+        let (tip, next) = (from.next(), from.next());
+        let [tip, next] = [tip, next].map(|p| p.unwrap_or(self.center()));
+        (SegmentId { crack: self.tip.crack, segment }, tip + (next - tip) * FIRST)
+    }
+
+    /// The number of the last segment of the course.
+    fn last(&self) -> u32 {
+        self.crack.points.len() as u32 - 2
     }
 
     /// The pieces of a part between which its distance to the tip takes the given values, or

@@ -8,10 +8,11 @@ use super::course::Course;
 use super::faces::{Faces, pressed};
 use super::sensitivity::FACTORS;
 use super::slope::Slope;
+use crate::contact::FaceContact;
 use crate::geometry::{Placed, around};
 use crate::law::Law;
 use crate::problem::Symmetry;
-use crate::quadrature::{Disc, Doubt, Quadrature, Rule};
+use crate::quadrature::{Disc, Doubt, EdgeRule, Quadrature, Rule};
 use crate::space::Space;
 use crate::watched::Stage;
 use ppum::crack::{Side, TipId, TipPoint};
@@ -99,6 +100,8 @@ pub(super) struct Interaction<'a> {
     slope: Option<Slope<'a>>,
     /// σ_22 at the tip by the loads on its faces; none if these have a resultant there.
     pressed: Option<f64>,
+    /// Coulomb's coefficient of friction of the crack, if its faces may touch.
+    friction: Option<f64>,
     /// The symmetry to the axis of a field of which one half is in the body.
     half: Option<Symmetry>,
 }
@@ -127,10 +130,16 @@ impl<'a> Interaction<'a> {
         let shift = at_tip.filter(is_finite).unwrap_or_default();
         let half = loads.symmetry.and_then(|symmetry| symmetry(tip));
         let pressed = loads.faces.map_or(Some(0.0), |load| pressed(&course, load, half));
+        let friction = loads.friction.and_then(|friction| friction(tip.crack));
+        let touching = friction.map_or(0.0, |friction| {
+            let contact = FaceContact { friction, size: radii[0] };
+            contact.pressed(field, &law, course.behind_tip())
+        });
         Some(Self {
             field,
             space,
             law,
+            friction,
             material,
             body,
             course,
@@ -140,7 +149,7 @@ impl<'a> Interaction<'a> {
             radii,
             loads,
             slope,
-            pressed,
+            pressed: pressed.map(|pressed| pressed + touching),
             half,
         })
     }
@@ -162,7 +171,8 @@ impl<'a> Interaction<'a> {
     fn bends(&self, cells: &Placed<usize>) -> Vec<Bend> {
         let faces = self.faces();
         let mut all = Vec::new();
-        for part in self.course.parts().filter(|part| !part.is_first || faces.is_some()) {
+        let is_loaded = faces.is_some() || self.friction.is_some();
+        for part in self.course.parts().filter(|part| !part.is_first || is_loaded) {
             let loads = faces.as_ref().map_or_else(Vec::new, |faces| faces.breaks(&part));
             let at: Vec<f64> = loads.into_iter().chain(self.radii).collect();
             for ends in self.course.pieces(&part, &at) {
@@ -171,6 +181,18 @@ impl<'a> Interaction<'a> {
             }
         }
         all
+    }
+
+    /// What acts on a face of the crack at the points of a rule in a cell, between faces that touch,
+    /// in the tip's frame; zero at other tips.
+    pub(super) fn between(&self, rule: &EdgeRule, cell: usize) -> Vec<Vec2> {
+        let size = self.space.partition().cell[cell].size();
+        let tractions = self.friction.map(|friction| {
+            let contact = FaceContact { friction, size: size.x.max(size.y) };
+            contact.tractions(self.field, &self.law, rule)
+        });
+        let tractions = tractions.unwrap_or(vec![Vec2::ZERO; rule.offsets.len()]);
+        tractions.into_iter().map(|t| turned(self.axis, t.into())).collect()
     }
 
     fn faces(&self) -> Option<Faces<'_>> {

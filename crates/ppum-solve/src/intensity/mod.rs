@@ -34,6 +34,9 @@
 //! on that side. Nothing else may lie in the disc: the radii are chosen in the [`TipClearance`] of
 //! the tip.
 
+//! Faces that touch have the tractions that the field itself has there, evaluated at the points of
+//! the same rules as what kinks add; σ_22 at the tip is then the stress between them.
+//!
 //! T, the part of σ_11 at the tip that is finite, comes from the same integral with the field of a
 //! force 1 along the axis at the tip (Kfouri 1986): T = E′M + σ_22, where σ_22 is what the loads on
 //! the faces press the tip with. That field loads no face along the axis, and has no K. Loads with
@@ -102,6 +105,9 @@ pub type PointLoad<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
 /// The traction t on a face of a crack, given by its index, at a point.
 pub type FaceLoad<'a> = &'a (dyn Fn(u32, Side, Vec2) -> [f64; 2] + Sync);
 
+/// The coefficient of friction of a crack, given by its index, whose faces may touch; none of others.
+pub type FaceFriction<'a> = &'a (dyn Fn(u32) -> Option<f64> + Sync);
+
 /// The symmetry of the field at a tip on an edge; none at others.
 pub type TipSymmetry<'a> = &'a (dyn Fn(TipId) -> Option<Symmetry> + Sync);
 
@@ -112,6 +118,9 @@ pub struct Loads<'a> {
     pub force: Option<PointLoad<'a>>,
     /// Tractions on the faces of cracks, if there are any.
     pub faces: Option<FaceLoad<'a>>,
+    /// Friction of faces that may touch, if there are any. What acts between them is taken from the
+    /// field.
+    pub friction: Option<FaceFriction<'a>>,
     /// The symmetry of the field at tips on edges of the box, which have no factors without.
     pub symmetry: Option<TipSymmetry<'a>>,
 }
@@ -289,7 +298,9 @@ fn under<T>(problem: Option<&Problem>, factor: f64, find: impl FnOnce(Loads<'_>)
     let face = |crack: u32, side: Side, x: Vec2| {
         problem.map_or([0.0; 2], |problem| times(problem.face_load(crack as usize, side, x)))
     };
+    let friction = |crack: u32| problem.and_then(|problem| problem.contacts.get(&crack).copied());
     let loads = Loads {
+        friction: Some(&friction),
         force: problem.filter(|p| has_force(p)).map(|_| &force as PointLoad<'_>),
         faces: problem.filter(|p| p.loads_faces()).map(|_| &face as FaceLoad<'_>),
         symmetry: Some(&|tip| problem.and_then(|problem| problem.symmetry_at(tip))),

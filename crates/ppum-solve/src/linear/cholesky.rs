@@ -54,6 +54,14 @@ impl<'a> Cholesky<'a> {
         Self::of(Cow::Borrowed(matrix))
     }
 
+    /// Factorises a matrix that it keeps.
+    ///
+    /// # Errors
+    /// Those of [`Cholesky::new`].
+    pub(crate) fn owned(matrix: BlockMatrix) -> Result<Cholesky<'static>, LinearError> {
+        Cholesky::of(Cow::Owned(matrix))
+    }
+
     /// The same of a matrix that it may own.
     pub(super) fn of(matrix: Cow<'a, BlockMatrix>) -> Result<Self, LinearError> {
         let scale = inverse_root_diagonal(&matrix)?;

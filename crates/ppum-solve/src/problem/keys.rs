@@ -407,6 +407,11 @@ tables! {
         path: List("pieces such as { arc = { … } }", &Table(&PIECE)) =>
             "Instead: several of `points`, `arc`, `ellipse`, `spline`, each starting where the previous one ends.";
         segments: Whole, range(SEGMENTS), default("see [curves](#curves)") => "The number of segments of each curve.";
+        contact: Flag, default("false"), only(Elasticity, &[]) =>
+            "`true`: its faces press on each other where they touch, instead of overlapping; see "
+            "[contact](#contact).";
+        friction: Number, range(NOT_NEGATIVE), default("0"), only(Elasticity, &[]) =>
+            "Coulomb's coefficient μ of friction between faces that touch.";
     }
 
     /// A piece of a path.

@@ -1,5 +1,6 @@
 //! A problem as data.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -18,7 +19,7 @@ use super::discretization::{Discretization, Enrichment};
 use super::enrichment::LocalEnrichment;
 use super::growth::GrowthRule;
 use super::refinement::LocalRefinement;
-use super::solver::Solver;
+use super::solver::{Solver, SolverKind};
 use super::support::{Force, Support};
 
 /// A problem with its discretisation.
@@ -33,6 +34,9 @@ pub struct Problem {
     pub equation: Equation,
     /// The cracks.
     pub cracks: Vec<Crack>,
+    /// Of cracks whose faces may touch, by their numbers, Coulomb's coefficient μ ≥ 0 of friction.
+    /// Faces of the others may overlap.
+    pub contacts: BTreeMap<u32, f64>,
     /// Pieces of rims that have names, which conditions may be on.
     pub pieces: Vec<Piece>,
     /// The conditions on the border.
@@ -103,6 +107,7 @@ impl Problem {
             source: vec![Expression::number(0.0); equation.components()],
             equation,
             cracks: Vec::new(),
+            contacts: BTreeMap::new(),
             pieces: Vec::new(),
             boundary: Vec::new(),
             forces: Vec::new(),
@@ -147,6 +152,14 @@ impl Problem {
         self
     }
 
+    /// The problem with a crack, given by its number, whose faces may touch, with Coulomb's
+    /// coefficient μ ≥ 0 of friction.
+    #[must_use]
+    pub fn with_contact(mut self, crack: u32, friction: f64) -> Self {
+        self.contacts.insert(crack, friction);
+        self
+    }
+
     /// The problem with exact values given on a whole edge.
     #[must_use]
     pub fn with_exact_boundary(self, edge: Edge) -> Self {
@@ -166,6 +179,11 @@ impl Problem {
     pub fn with_growth(mut self, growth: GrowthRule) -> Self {
         self.growth = Some(growth);
         self
+    }
+
+    /// The linear solver: of levels, the coarser ones do not see faces that touch.
+    pub(crate) fn solver_kind(&self) -> SolverKind {
+        if self.contacts.is_empty() { self.solver.kind } else { SolverKind::Direct }
     }
 
     /// True if something acts on faces of cracks.

@@ -2,8 +2,11 @@
 
 use super::SolveError;
 use super::clock::Clock;
+use super::contact::check_pieces;
 use super::discretised::Discretised;
-use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Gauge, System, slivers, values_at};
+use crate::assembly::{
+    Assembly, Duals, FaceContacts, FreeModes, Functionals, Gauge, System, slivers, values_at,
+};
 use crate::basis::StableBasis;
 use crate::equilibrium::Plate;
 use crate::intensity::{Sensitivity, sensitivities};
@@ -21,6 +24,8 @@ pub(super) struct Assembled {
     pub(super) basis: StableBasis,
     pub(super) system: System,
     pub(super) gauge: Gauge,
+    /// The faces that may touch, whose terms are not in the system.
+    pub(super) contacts: FaceContacts,
     /// The tips whose factors are functionals of the system.
     pub(super) tips: Vec<Vec2>,
 }
@@ -50,13 +55,16 @@ impl Assembled {
         let system = System::new(assembly, &given, functionals, &stage);
         let mut system = system.map_err(SolveError::of_data)?;
         add_forces(assembly, &mut system);
+        let stage = Stage::uncounted(watcher, Phase::Assembly)?;
+        let contacts = FaceContacts::new(assembly, &stage).map_err(SolveError::of_data)?;
         let gauge = Gauge::new(free, std::mem::take(&mut system.moments), &system.matrix);
         let values = |x| values_at(assembly, &system.matrix, (x, None));
         let conditions = plate.conditions(&problem.supports)?;
         let gauge = gauge.with_supports(&problem.supports, &conditions, &values);
         clock.lap(Phase::Assembly);
         let tips = tips.iter().map(Sensitivity::tip).collect();
-        Ok(Self { plate, basis, system, gauge, tips })
+        check_pieces(problem, &plate, &gauge)?;
+        Ok(Self { plate, basis, system, gauge, contacts, tips })
     }
 }
 

@@ -76,6 +76,21 @@ pub enum SolveError {
         /// The memory \[bytes\].
         memory: u64,
     },
+    /// Faces that touch do not come to rest.
+    #[error(
+        "the faces that touch do not come to rest in {factors} systems: with much friction there may be several states, or \
+         none; use a smaller `friction`, or smaller cells at the crack"
+    )]
+    Contact {
+        /// Systems solved.
+        factors: usize,
+    },
+    /// A crack whose faces may touch cuts off a piece that nothing holds.
+    #[error(
+        "a crack with `contact = true` cuts off a piece of the plate that nothing else holds, so that its place is not \
+         known; hold each piece by displacements, or let the crack end inside the plate"
+    )]
+    LoosePiece,
     /// The watcher cancelled the work.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

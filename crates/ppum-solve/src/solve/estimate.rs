@@ -124,7 +124,7 @@ impl Estimate {
                 OperationCount { factor: fill.operations, ..work },
             )
         };
-        match problem.solver.kind {
+        match problem.solver_kind() {
             SolverKind::Direct => direct(),
             SolverKind::Auto | SolverKind::Multilevel if sizes.len() > TOO_MANY_TO_COUNT => {
                 multilevel()
@@ -161,7 +161,7 @@ impl Estimate {
         let work = OperationCount { assembly, ..OperationCount::default() };
         let direct = Self { unknowns, ..Self::new(patches, &[], nonzeros, nonzeros, work) };
         let multilevel = Self { unknowns, ..Self::multilevel(patches, &[], nonzeros, work) };
-        match problem.solver.kind {
+        match problem.solver_kind() {
             SolverKind::Direct => direct,
             SolverKind::Multilevel => multilevel,
             SolverKind::Auto if direct.memory < multilevel.memory => direct,
@@ -172,7 +172,7 @@ impl Estimate {
     /// The number of cells of a cover from which on a problem does not fit into a memory.
     pub(crate) fn most_cells(problem: &Problem, memory: u64) -> usize {
         let size = (least_size(problem) * problem.components()) as f64;
-        let bytes = match problem.solver.kind {
+        let bytes = match problem.solver_kind() {
             SolverKind::Direct => SYSTEM_BYTES + FACTOR_BYTES,
             SolverKind::Auto | SolverKind::Multilevel => LEVELS_BYTES,
         };

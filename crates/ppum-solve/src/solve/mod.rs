@@ -11,6 +11,7 @@
 mod adaptive;
 mod assembled;
 mod clock;
+mod contact;
 mod diagnosed;
 mod discretised;
 mod error;

@@ -2,6 +2,7 @@
 
 use super::SolveError;
 use super::assembled::Assembled;
+use super::contact::close;
 use super::discretised::Discretised;
 use super::estimate::Estimate;
 use crate::hierarchy::Finest;
@@ -45,16 +46,20 @@ impl Unknowns {
     fn of_kind(
         kind: LinearKind,
         Discretised { problem, mesh, space, .. }: &Discretised<'_>,
-        Assembled { plate, basis, system, gauge, .. }: &mut Assembled,
+        Assembled { plate, basis, system, gauge, contacts, .. }: &mut Assembled,
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
         let located = |error| located(error, space);
         let stage = Stage::new(watcher, Phase::Solution, 3)?;
         let goes_on = || stage.advance(0).is_ok();
         let free = gauge.loads(&system.matrix);
+        let mut contact_steps = None;
         let solver: Box<dyn LinearSolver + '_> = match kind {
             LinearKind::Direct => {
                 gauge.add_penalty(&mut system.matrix);
+                if !contacts.is_empty() {
+                    contact_steps = Some(close(contacts, system, &located, &stage)?);
+                }
                 Box::new(Cholesky::new(&system.matrix).map_err(located)?)
             }
             LinearKind::Multilevel => {
@@ -70,7 +75,12 @@ impl Unknowns {
         stage.advance(1)?;
         gauge.center(solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
         stage.advance(1)?;
-        let report = report(kind, solver, &solution);
+        let mut report = report(kind, solver, &solution);
+        if let Some(steps) = contact_steps {
+            let stresses = contacts.stresses(&system.matrix, &solution.unknowns);
+            report.contact_steps = Some(steps as f64);
+            contacts.report(&stresses, &mut report);
+        }
         let mut all = vec![solution.unknowns];
         if !system.duals.is_empty() {
             all.append(&mut solver.solve_roughly(&system.duals).map_err(located)?);

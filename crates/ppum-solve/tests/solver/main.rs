@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod awkward;
+mod contact;
 mod corners;
 mod curved;
 mod eigenstrain;

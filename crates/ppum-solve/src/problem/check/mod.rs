@@ -1,6 +1,7 @@
 //! Rules for the values of a problem, whether it was read from a file or built in code.
 
 mod boundary;
+mod contact;
 mod enrichment;
 mod refinement;
 mod support;
@@ -27,6 +28,7 @@ use super::scopes;
 use super::words::Words;
 use crate::geometry::Jumps;
 use boundary::check_boundary;
+use contact::check_contact;
 use enrichment::{check_enrichments, too_wide};
 use refinement::check_refinements;
 use support::{check_forces, check_supports};
@@ -82,6 +84,7 @@ pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
         found.extend(check_symmetry(problem));
         found.extend(check_forces(problem));
         found.extend(check_supports(problem));
+        found.extend(check_contact(problem));
     }
     found.extend(domain);
     found
@@ -121,6 +124,9 @@ fn numbers(problem: &Problem) -> Vec<(Key, f64)> {
         let radius = if let Region::Near(radius) = new.region { Some(radius) } else { None };
         all.extend(radius.map(|radius| (key.clone().name("radius"), radius)));
         all.extend(new.degree.map(|degree| (key.name("degree"), degree as f64)));
+    }
+    for (crack, friction) in &problem.contacts {
+        all.push((Key::new("crack").index(*crack as usize).name("friction"), *friction));
     }
     for (index, new) in problem.refinements.iter().enumerate() {
         let key = Key::new("refine").index(index);

@@ -163,7 +163,9 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     let discretization = plan.as_ref().and_then(discretization::discretization);
     let accuracy = plan.as_ref().and_then(|plan| plan.get("accuracy"));
     let solver = solver(root);
-    let cracks = root.each("crack", |section| curve::course(&section));
+    let cracks =
+        root.each("crack", |section| Some((curve::course(&section)?, friction(&section)?)));
+    let (cracks, frictions): (Vec<_>, Vec<_>) = cracks.into_iter().unzip();
     let body = rim::body(root, discretization.as_ref());
     let enrichments = root.each("enrichment", |new| enrichment::enrichment(&new, cracks.len()));
     let mut refinements = root.each("refine", |new| steps::refinement(&new));
@@ -187,6 +189,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     Some(Problem {
         title,
         cracks: cracks::with_ends(cracks, &domain),
+        contacts: (0..).zip(frictions).filter_map(|(k, mu)| Some((k, mu?))).collect(),
         domain,
         equation,
         pieces: body.pieces,
@@ -258,6 +261,15 @@ fn eigenstrain(root: &Section<'_>, expansion: Option<Expression>) -> Option<Box<
 /// The text of an expression that must be there; zero if it is missing or wrong.
 fn text_of(section: &Section<'_>, key: &str) -> String {
     section.require::<Expression>(key).map_or("0".to_owned(), |e| e.text().to_owned())
+}
+
+/// The coefficient of friction of a `[[crack]]`; none if its faces do not touch.
+fn friction(section: &Section<'_>) -> Option<Option<f64>> {
+    let (touches, friction) = (section.or("contact", false)?, section.optional("friction")?);
+    match section.value("friction") {
+        Some(value) if !touches => value.error("is for faces that touch; add `contact = true`"),
+        _ => Some(touches.then_some(friction.unwrap_or(0.0))),
+    }
 }
 
 fn source(root: &Section<'_>, kind: EquationKind) -> Vec<Expression> {

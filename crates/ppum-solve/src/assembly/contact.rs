@@ -1,0 +1,479 @@
+//! Faces of cracks that may touch: no overlap, no tension, Coulomb's law.
+//!
+//! On a crack with the normal m to its left and the tangent s, the jump \[u\] = u(above) − u(below)
+//! and the stresses σ_m = m·σ m, σ_s = s·σ m on its faces
+//!
+//! ```text
+//! [u]·m ≥ 0     σ_m ≤ 0     σ_m [u]·m = 0     |σ_s| ≤ −μ σ_m, and = with the sign of [u]·s where it slides
+//! ```
+//!
+//! With any β > 0 these are one equation for each direction d of m and s (Alart & Curnier 1991):
+//!
+//! ```text
+//! σ_d = clamp(P_d)     P_d = σ_d + β [u]·d     onto (−∞, 0] across, onto [−μ p, μ p] along, p = −clamp(P_m)
+//! ```
+//!
+//! Nitsche's method puts it into the weak form without new unknowns (Chouly, Hild & Renard 2015).
+//! In its symmetric form, and for known μ p, u is where
+//!
+//! ```text
+//! ½ a(u, u) − f(u) + Σ_d ∫ (H(P_d) − σ_d²)/(2β) ds     H′ = 2 clamp
+//! ```
+//!
+//! is least. That function has a continuous slope; it is convex if ∫ σ_d² ≤ λ a(u, u) with λ < β,
+//! and λ is known cell by cell, as on held borders (`border`). So there is one solution, and it does
+//! not hang on β: with that of the body, all terms with β vanish. At points where P_d is inside of
+//! its interval the term is that of Nitsche for a tie, at others that of a known traction c:
+//!
+//! ```text
+//! tied      K += (p pᵀ − σ σᵀ)/β     f −= (σ⁰ σ − σ⁰ p)/β
+//! loaded    K −= σ σᵀ/β              f −= (σ⁰ σ + c p)/β
+//! ```
+//!
+//! with the functions' σ_d and P_d as columns σ and p, and σ_d of the strains that are given, σ⁰. The
+//! stress is that of the side on which more of the cell lies: a sliver on the other one makes λ no
+//! larger.
+
+use super::Assembly;
+use super::cell::CellAssembler;
+use super::cell_matrix::CellMatrix;
+use super::functions::CellFunctions;
+use crate::basis::{BasisEvaluator, Shapes};
+use crate::linear::{BlockMatrix, EigenError, largest_eigenvalue, product, taken};
+use crate::quadrature::{EdgeRule, Face, Quadrature};
+use crate::report::SolverReport;
+use crate::watched::{Halt, Stage, in_batches};
+use faer::{Mat, MatRef};
+use ppum::crack::Side;
+use ppum::vec2::{Vec2, vec2};
+
+/// β in units of λ: what is left of the energy is a half beside a border that is held with its own
+/// terms, and three quarters elsewhere.
+const FACTOR: f64 = 4.0;
+
+/// All faces that may touch.
+#[derive(Default)]
+pub(crate) struct FaceContacts {
+    cells: Vec<ContactCell>,
+}
+
+/// The faces in one cell. Columns belong to a direction at a point, and carry the root of its
+/// weight.
+struct ContactCell {
+    patches: Vec<u32>,
+    /// The pairs of patches that overlap, by their places.
+    pairs: Vec<(usize, usize)>,
+    /// First unknown of each patch, and the number of all at the end.
+    first: Vec<usize>,
+    beta: f64,
+    /// σ_d of the cell's unknowns.
+    stresses: Mat<f64>,
+    /// P_d of the cell's unknowns.
+    projections: Mat<f64>,
+    rows: Vec<FaceRow>,
+}
+
+/// A direction at a point of a face.
+#[derive(Clone, Copy, Debug)]
+struct FaceRow {
+    weight: f64,
+    /// σ_d of the strains that are given, which the body lacks.
+    lacking: f64,
+    /// μ of the tangent, whose row follows that of the normal.
+    friction: Option<f64>,
+}
+
+/// σ_d and P_d of a field at a row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FaceStress {
+    stress: f64,
+    projection: f64,
+}
+
+/// What holds at a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum FaceState {
+    /// The faces are tied in this direction.
+    Tied,
+    /// The traction is known.
+    Loaded(f64),
+}
+
+impl FaceContacts {
+    /// The faces of a problem that may touch.
+    ///
+    /// # Errors
+    /// Data that are not finite, with their place; cancelled.
+    pub(crate) fn new(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
+        let (mut cells, space) = (Vec::new(), assembly.space);
+        let quadrature = space.quadrature(0);
+        let is_wanted = !assembly.problem.contacts.is_empty();
+        in_batches(
+            stage,
+            if is_wanted { assembly.n_cells() } else { 0 },
+            || CellAssembler::new(assembly, None),
+            |assembler, cell| {
+                let faces = faces(assembly, &quadrature, cell);
+                if faces.is_empty() {
+                    return Ok(None);
+                }
+                let rules = space.rules(&quadrature, cell);
+                let stiffness = assembler.stiffness(cell, &rules);
+                let part = ContactCell::new(assembly, cell, &faces, &stiffness);
+                part.map(Some).map_err(|_| Halt::at(space.partition().cell[cell]))
+            },
+            |_, cell| cells.extend(cell),
+        )?;
+        Ok(Self { cells })
+    }
+
+    /// True if no faces may touch.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.cells.is_empty()
+    }
+
+    /// The rows of all cells with their β.
+    fn rows(&self) -> impl Iterator<Item = (&FaceRow, f64)> {
+        self.cells.iter().flat_map(|cell| cell.rows.iter().map(|row| (row, cell.beta)))
+    }
+
+    /// The rows of normals, with their β and stresses.
+    fn normal<'a>(
+        &'a self,
+        stresses: &'a [FaceStress],
+    ) -> impl Iterator<Item = ((&'a FaceRow, f64), &'a FaceStress)> {
+        self.rows().zip(stresses).filter(|((row, _), _)| row.friction.is_none())
+    }
+
+    /// The stresses of a solution in the order of the matrix, row by row.
+    pub(crate) fn stresses(&self, matrix: &BlockMatrix, solution: &[f64]) -> Vec<FaceStress> {
+        self.cells.iter().flat_map(|cell| cell.stresses(matrix, solution)).collect()
+    }
+
+    /// True if no faces overlap by more than rounding leaves of a jump.
+    pub(crate) fn is_open(&self, stresses: &[FaceStress]) -> bool {
+        let openings = || self.normal(stresses).map(|((_, beta), at)| at.jump(beta));
+        let largest = openings().fold(0.0, |most: f64, g| most.max(g.abs()));
+        openings().all(|g| g >= -ROUNDING * largest)
+    }
+
+    /// The intervals onto which P_d is clamped at each row, by the pressures of a field.
+    pub(crate) fn intervals(&self, stresses: &[FaceStress]) -> Vec<[f64; 2]> {
+        let mut pressure = 0.0;
+        let interval = |((row, _), at): ((&FaceRow, f64), &FaceStress)| match row.friction {
+            None => {
+                pressure = (-at.projection).max(0.0);
+                [f64::NEG_INFINITY, 0.0]
+            }
+            Some(friction) => [-friction * pressure, friction * pressure],
+        };
+        self.rows().zip(stresses).map(interval).collect()
+    }
+
+    /// The states of faces that hold together.
+    pub(crate) fn tied(&self) -> Vec<FaceState> {
+        self.rows().map(|_| FaceState::Tied).collect()
+    }
+
+    /// The states where P_d is clamped onto these intervals.
+    pub(crate) fn states(stresses: &[FaceStress], intervals: &[[f64; 2]]) -> Vec<FaceState> {
+        stresses.iter().zip(intervals).map(|(at, interval)| at.state(*interval)).collect()
+    }
+
+    /// The system of states, from that without faces that touch.
+    pub(crate) fn system(
+        &self,
+        states: &[FaceState],
+        matrix: &BlockMatrix,
+        load: &[f64],
+    ) -> (BlockMatrix, Vec<f64>) {
+        let (mut matrix, mut load) = (matrix.clone(), load.to_vec());
+        let mut rest = states;
+        for cell in &self.cells {
+            let (own, tail) = rest.split_at(cell.rows.len());
+            cell.add(own, &mut matrix, &mut load);
+            rest = tail;
+        }
+        (matrix, load)
+    }
+
+    /// The derivative of the functional's part on the faces at a field plus `t` times another one,
+    /// along the other one.
+    pub(crate) fn slope(
+        &self,
+        intervals: &[[f64; 2]],
+        [at, along]: [&[FaceStress]; 2],
+        t: f64,
+    ) -> f64 {
+        let rows = self.rows().zip(intervals).zip(at.iter().zip(along));
+        let term = |(((row, beta), [low, high]), (at, along)): ((_, &[f64; 2]), _)| {
+            let (row, beta): (&FaceRow, f64) = (row, beta);
+            let (at, along): (&FaceStress, &FaceStress) = (at, along);
+            let projection = (at.projection + t * along.projection).clamp(*low, *high);
+            let stress = at.stress + t * along.stress;
+            row.weight / beta * (projection * along.projection - stress * along.stress)
+        };
+        rows.map(term).sum()
+    }
+
+    /// Writes into a report what a solution with these stresses makes of the faces.
+    pub(crate) fn report(&self, stresses: &[FaceStress], report: &mut SolverReport) {
+        let (mut length, mut closed, mut overlap, mut tension) = (0.0, 0.0, 0.0_f64, 0.0_f64);
+        for ((row, beta), at) in self.normal(stresses) {
+            length += row.weight;
+            overlap = overlap.max(-at.jump(beta));
+            if at.projection < 0.0 {
+                closed += row.weight;
+                tension = tension.max(at.stress);
+            }
+        }
+        report.closed = Some(closed / length);
+        report.overlap = Some(overlap);
+        report.tension = Some(tension);
+    }
+}
+
+/// Part of the largest jump by which faces overlap where rounding decides.
+const ROUNDING: f64 = 1e-12;
+
+impl FaceStress {
+    /// What remains without another one.
+    pub(crate) fn less(self, other: Self) -> Self {
+        Self { stress: self.stress - other.stress, projection: self.projection - other.projection }
+    }
+
+    /// \[u\]·d
+    fn jump(&self, beta: f64) -> f64 {
+        (self.projection - self.stress) / beta
+    }
+
+    /// What holds where P_d is clamped onto an interval.
+    fn state(&self, [low, high]: [f64; 2]) -> FaceState {
+        match self.projection {
+            p if p < low => FaceState::Loaded(low),
+            p if p >= high => FaceState::Loaded(high),
+            _ => FaceState::Tied,
+        }
+    }
+}
+
+impl FaceState {
+    /// True if the faces are tied.
+    pub(crate) fn is_tied(self) -> bool {
+        self == Self::Tied
+    }
+
+    /// σ_d at rows where the fields vanish, less that of given strains if it is not known.
+    fn constant(self, lacking: f64) -> f64 {
+        match self {
+            Self::Tied => -lacking,
+            Self::Loaded(traction) => traction,
+        }
+    }
+}
+
+impl ContactCell {
+    fn new(
+        assembly: Assembly<'_>,
+        cell: usize,
+        faces: &[EdgeRule],
+        stiffness: &CellMatrix,
+    ) -> Result<Self, EigenError> {
+        let functions = CellFunctions::new(&assembly, cell);
+        let trace = FaceTrace::new(assembly, cell, &functions, faces);
+        let pairs: Vec<_> = functions.pairs(&assembly).collect();
+        let [stresses, jumps] = [&trace.stresses, &trace.jumps].map(|columns| {
+            let n = functions.len() * assembly.components();
+            tied(
+                &assembly,
+                &functions,
+                MatRef::from_column_major_slice(columns, n, trace.rows.len()),
+            )
+        });
+        let (first, whole) = dense(&pairs, functions.patches.len(), stiffness);
+        let size = assembly.space.partition().cell[cell].size();
+        let least = trace.modulus / size.x.max(size.y);
+        let beta = least.max(FACTOR * largest_eigenvalue(whole.as_ref(), stresses.as_ref())?);
+        let projections = &stresses + faer::Scale(beta) * jumps;
+        let (patches, rows) = (functions.patches, trace.rows);
+        Ok(Self { patches, pairs, first, beta, stresses, projections, rows })
+    }
+
+    fn stresses(&self, matrix: &BlockMatrix, solution: &[f64]) -> Vec<FaceStress> {
+        let own = self.patches.iter().flat_map(|&p| &solution[matrix.unknowns(p as usize)]);
+        let own: Vec<f64> = own.copied().collect();
+        let at = |columns: &Mat<f64>, k: usize| {
+            columns.col_as_slice(k).iter().zip(&own).map(|(entry, u)| entry * u).sum::<f64>()
+        };
+        let of_row = |(k, row): (usize, &FaceRow)| {
+            let of = |columns| at(columns, k) / row.weight.sqrt() - row.lacking;
+            FaceStress { stress: of(&self.stresses), projection: of(&self.projections) }
+        };
+        self.rows.iter().enumerate().map(of_row).collect()
+    }
+
+    fn add(&self, states: &[FaceState], matrix: &mut BlockMatrix, load: &mut [f64]) {
+        let is_tied: Vec<usize> = (0..states.len()).filter(|&k| states[k].is_tied()).collect();
+        for &(k, l) in &self.pairs {
+            let [rows, columns] = [k, l].map(|k| (self.first[k]..self.first[k + 1]).collect());
+            let [rows, columns]: [Vec<usize>; 2] = [rows, columns];
+            let product = |all: &Mat<f64>, points: &[usize]| {
+                let [left, right] = [&rows, &columns].map(|rows| taken(all, rows, points));
+                product(left.as_ref(), right.transpose())
+            };
+            let every: Vec<usize> = (0..states.len()).collect();
+            let block = product(&self.projections, &is_tied) - product(&self.stresses, &every);
+            let block = faer::Scale(1.0 / self.beta) * block;
+            let [p, q] = [k, l].map(|k| self.patches[k] as usize);
+            matrix.add_block(p, q, block.as_ref());
+        }
+        for (k, (row, state)) in self.rows.iter().zip(states).enumerate() {
+            let root = row.weight.sqrt() / self.beta;
+            let [stress, projection] = [root * row.lacking, root * state.constant(row.lacking)];
+            let own = self.stresses.col_as_slice(k).iter().zip(self.projections.col_as_slice(k));
+            let places = self.patches.iter().flat_map(|&p| matrix.unknowns(p as usize));
+            for (place, (s, p)) in places.zip(own) {
+                load[place] -= stress * s + projection * p;
+            }
+        }
+    }
+}
+
+/// σ_d and \[u\]·d of the functions of a cell, all components free, a column for each row.
+struct FaceTrace {
+    stresses: Vec<f64>,
+    jumps: Vec<f64>,
+    rows: Vec<FaceRow>,
+    /// The largest modulus.
+    modulus: f64,
+}
+
+impl FaceTrace {
+    fn new(
+        assembly: Assembly<'_>,
+        cell: usize,
+        functions: &CellFunctions,
+        faces: &[EdgeRule],
+    ) -> Self {
+        let mut trace =
+            Self { stresses: Vec::new(), jumps: Vec::new(), rows: Vec::new(), modulus: 0.0 };
+        let mut evaluator = BasisEvaluator::new(assembly.space, assembly.basis);
+        let center = assembly.space.partition().cell[cell].center();
+        for rule in faces {
+            let [mut above, mut below] = [Shapes::default(), Shapes::default()];
+            evaluator.evaluate_edge(rule, &mut above);
+            evaluator.evaluate_edge(&other_side(rule), &mut below);
+            let numbers = functions.numbers(&rule.patches);
+            let n = functions.len() * assembly.components();
+            for q in 0..rule.offsets.len() {
+                let is_above = (center - rule.anchor - rule.offsets[q]).dot(rule.normals[q]) <= 0.0;
+                let stressed = if is_above { &above } else { &below };
+                let point =
+                    FacePoint { rule, q, numbers: &numbers, shapes: [&above, &below, stressed] };
+                trace.add(&assembly, &point, n);
+            }
+        }
+        trace
+    }
+
+    fn add(&mut self, assembly: &Assembly<'_>, point: &FacePoint<'_>, n: usize) {
+        let FacePoint { rule, q, .. } = *point;
+        let (law, normal) = (assembly.law.at(rule.anchor + rule.offsets[q]), -rule.normals[q]);
+        let friction =
+            rule.face.and_then(|face| assembly.problem.contacts.get(&face.segment.crack).copied());
+        let along = friction.filter(|mu| *mu > 0.0).map(|mu| (-normal.left(), Some(mu)));
+        self.modulus = self.modulus.max(law.modulus(0));
+        let weight = rule.weights[q];
+        for (d, friction) in [(normal, None)].into_iter().chain(along) {
+            let lacking = law.prestress().map(|row| row[0] * normal.x + row[1] * normal.y);
+            let lacking = d.x * lacking[0] + d.y * lacking[1];
+            self.rows.push(FaceRow { weight, lacking, friction });
+            let first = self.stresses.len();
+            self.stresses.resize(first + n, 0.0);
+            self.jumps.resize(first + n, 0.0);
+            point.visit(|place, j, jump, slope| {
+                let traction = |i: usize| law.traction(i, j, slope, normal);
+                self.stresses[first + place] =
+                    weight.sqrt() * (d.x * traction(0) + d.y * traction(1));
+                self.jumps[first + place] = weight.sqrt() * jump * [d.x, d.y][j];
+            });
+        }
+    }
+}
+
+/// A point of a face with the functions there: above, below, and on the side of the stress.
+struct FacePoint<'a> {
+    rule: &'a EdgeRule,
+    q: usize,
+    numbers: &'a [usize],
+    shapes: [&'a Shapes; 3],
+}
+
+impl FacePoint<'_> {
+    /// Calls `visit` with the place of each unknown (a, j) of the cell, j, the jump of N_a and its
+    /// slope on the side of the stress.
+    fn visit(&self, mut visit: impl FnMut(usize, usize, f64, Vec2)) {
+        let [above, below, stressed] = self.shapes;
+        for (a, &number) in self.numbers.iter().enumerate() {
+            let at = a * above.points + self.q;
+            let slope = vec2(stressed.dx[at], stressed.dy[at]);
+            for j in 0..2 {
+                visit(2 * number + j, j, above.value[at] - below.value[at], slope);
+            }
+        }
+    }
+}
+
+/// The same points on the other face.
+fn other_side(rule: &EdgeRule) -> EdgeRule {
+    let mut other = rule.clone();
+    other.face = rule.face.map(|face| Face { side: Side::Below, ..face });
+    other
+}
+
+/// The rules on the faces above in a cell, of the cracks that may touch. Of a crack along a border
+/// of cells it is the cell above.
+fn faces(assembly: Assembly<'_>, quadrature: &Quadrature<'_>, cell: usize) -> Vec<EdgeRule> {
+    let Assembly { problem, space, .. } = assembly;
+    let (rect, coverers) = (&space.partition().cell[cell], &space.coverers[cell]);
+    let touching = problem.contacts.keys().map(|&crack| crack as usize);
+    let all = touching.flat_map(|k| Face::of(&problem.cracks[k], k, Side::Above));
+    all.flat_map(|face| quadrature.face(rect, coverers, face)).collect()
+}
+
+/// Columns over the cell's functions in each component as columns over its unknowns.
+fn tied(assembly: &Assembly<'_>, functions: &CellFunctions, free: MatRef<'_, f64>) -> Mat<f64> {
+    let (free, columns) = (free.to_owned(), (0..free.ncols()).collect::<Vec<_>>());
+    let parts: Vec<Mat<f64>> = (0..functions.patches.len())
+        .map(|k| {
+            let own = taken(&free, &functions.free(k, assembly.components()), &columns);
+            let tie = assembly.basis.tie(functions.patches[k]);
+            tie.map(|tie| product(tie.as_ref(), own.as_ref())).unwrap_or(own)
+        })
+        .collect();
+    let mut all = Mat::zeros(parts.iter().map(Mat::nrows).sum(), free.ncols());
+    let mut first = 0;
+    for part in &parts {
+        all.subrows_mut(first, part.nrows()).copy_from(part);
+        first += part.nrows();
+    }
+    all
+}
+
+/// The first unknown of each of some patches, and a cell's matrix in full.
+fn dense(
+    pairs: &[(usize, usize)],
+    patches: usize,
+    stiffness: &CellMatrix,
+) -> (Vec<usize>, Mat<f64>) {
+    let mut first = vec![0];
+    (0..patches).for_each(|k| first.push(first[k] + stiffness.block(k, k).nrows()));
+    let mut whole = Mat::zeros(first[patches], first[patches]);
+    for &(k, l) in pairs {
+        let block = stiffness.block(k, l);
+        let (rows, columns) = (block.nrows(), block.ncols());
+        whole.submatrix_mut(first[k], first[l], rows, columns).copy_from(block);
+        whole.submatrix_mut(first[l], first[k], columns, rows).copy_from(block.transpose());
+    }
+    (first, whole)
+}

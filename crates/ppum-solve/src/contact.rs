@@ -1,0 +1,83 @@
+//! Tractions between faces that touch, of a field that is known.
+//!
+//! They are the mean stress of both faces where these are closed, which is where σ_m + β \[u\]·m is
+//! negative, as in the system (`assembly/contact.rs`); and nothing elsewhere. Any β serves, since
+//! one of the two vanishes: the modulus over the size of the cells.
+
+use crate::law::{Law, LawAt};
+use crate::quadrature::EdgeRule;
+use ppum::crack::{SegmentId, Side};
+use ppum::field::{Field, LocalField};
+use ppum::jet::Jet;
+use ppum::vec2::{Vec2, vec2};
+
+/// What decides whether faces are closed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FaceContact {
+    /// Coulomb's coefficient of friction.
+    pub(crate) friction: f64,
+    /// Size of the cells.
+    pub(crate) size: f64,
+}
+
+impl FaceContact {
+    /// The tractions at the points of a rule on a face of a crack that may touch; zero on others.
+    pub(crate) fn tractions(self, field: &Field<'_>, law: &Law<'_>, rule: &EdgeRule) -> Vec<Vec2> {
+        let Some(face) = rule.face else { return vec![Vec2::ZERO; rule.offsets.len()] };
+        let local = field.on(face.segment, rule.anchor);
+        let [above, below] = [Side::Above, Side::Below].map(|side| {
+            let mut jets = vec![Jet::constant(0.0); 2 * rule.offsets.len()];
+            local.evaluate_over::<1>(&rule.offsets, side, &rule.patches, &mut jets);
+            jets
+        });
+        let points = rule.offsets.iter().zip(&rule.normals);
+        let sides = above.chunks_exact(2).zip(below.chunks_exact(2));
+        let at = |((&offset, &normal), (above, below)): ((&Vec2, &Vec2), _)| {
+            self.traction(&law.at(rule.anchor + offset), [above, below], face.side, normal)
+        };
+        points.zip(sides).map(at).collect()
+    }
+
+    /// The normal stress between the faces at a point of a segment; zero where they are open.
+    pub(crate) fn pressed(
+        self,
+        field: &Field<'_>,
+        law: &Law<'_>,
+        (segment, at): (SegmentId, Vec2),
+    ) -> f64 {
+        let mut local: LocalField<'_> = field.on(segment, at);
+        let crack = &field.step.cracks[segment.crack as usize].points;
+        let k = segment.segment as usize;
+        let normal = (crack[k + 1] - crack[k]).unit().left();
+        let mut on = |side: Side| {
+            let mut u = [Jet::constant(0.0); 2];
+            local.evaluate::<1>(Vec2::ZERO, side, &mut u).then_some(u)
+        };
+        let (Some(above), Some(below)) = (on(Side::Above), on(Side::Below)) else { return 0.0 };
+        self.traction(&law.at(at), [&above, &below], Side::Below, normal).dot(normal)
+    }
+
+    /// The traction on one face with its normal out of the body there, of the fields on both.
+    fn traction(
+        self,
+        law: &LawAt,
+        [above, below]: [&[Jet<f64>]; 2],
+        side: Side,
+        normal: Vec2,
+    ) -> Vec2 {
+        let flux = |u: &[Jet<f64>]| law.flux(&[0, 1].map(|i| vec2(u[i].x, u[i].y)));
+        let [one, other] = [above, below].map(flux);
+        let on = |i: usize| {
+            0.5 * ((one[i][0] + other[i][0]) * normal.x + (one[i][1] + other[i][1]) * normal.y)
+        };
+        let traction = vec2(on(0), on(1));
+        let jump = vec2(above[0].v - below[0].v, above[1].v - below[1].v);
+        let opening = if side == Side::Below { jump.dot(normal) } else { -jump.dot(normal) };
+        let stress = traction.dot(normal);
+        match () {
+            () if !(stress + law.modulus(0) / self.size * opening < 0.0) => Vec2::ZERO,
+            () if self.friction > 0.0 => traction,
+            () => normal * stress,
+        }
+    }
+}

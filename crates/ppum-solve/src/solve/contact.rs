@@ -1,0 +1,146 @@
+//! Faces that touch: the states of their points by a semi-smooth Newton method.
+//!
+//! The system with the states that a field implies is the tangent there. Its solution is the next
+//! field, or where the functional of [`FaceContacts`] is least on the way to it. That is convex and
+//! quadratic piece by piece, so that without friction the states settle after finitely many steps,
+//! from any start; it is the end as well if two fields differ by rounding alone. With friction the
+//! bounds μ p are those of the field before, so that all systems are symmetric: a fixed point by
+//! contraction, unless μ is large.
+
+use super::SolveError;
+use crate::assembly::{FaceContacts, FaceStress, Gauge, System};
+use crate::equilibrium::Plate;
+use crate::linear::{BlockMatrix, Cholesky, LinearError, LinearSolver as _};
+use crate::problem::Problem;
+use crate::watched::Stage;
+
+/// Most factors that are made, and most fields that are looked at, before the states must have
+/// settled.
+const MOST_FACTORS: usize = 60;
+const MOST_FIELDS: usize = 300;
+
+/// Energy of the way to the next field, in parts of that of the field, up to which it is the same:
+/// what is left of the field is the root.
+const SMALL: f64 = 1e-14;
+
+/// Halvings of the way to the next field.
+const HALVINGS: usize = 40;
+
+/// Slope of the functional at the next field, in parts of that at the last, that is none.
+const FLAT: f64 = 1e-8;
+
+/// Adds the terms of faces that touch to the system, which has its gauge, and returns the number of
+/// factors that this took; zero where no faces overlap without, and the system stays as it is.
+///
+/// # Errors
+/// A system that cannot be solved, states that do not settle; cancelled.
+pub(super) fn close(
+    contacts: &FaceContacts,
+    System { matrix, load, .. }: &mut System,
+    located: &dyn Fn(LinearError) -> SolveError,
+    stage: &Stage<'_>,
+) -> Result<usize, SolveError> {
+    let factor = |matrix: BlockMatrix| {
+        stage.advance(0)?;
+        Cholesky::owned(matrix).map_err(located)
+    };
+    let open = factor(matrix.clone())?.solve(load).map_err(located)?.unknowns;
+    if contacts.is_open(&contacts.stresses(matrix, &open)) {
+        return Ok(0);
+    }
+    // faces that hold together have pressures of the size that they will have
+    let mut states = contacts.tied();
+    let (tangent, loads) = contacts.system(&states, matrix, load);
+    let mut solver = factor(tangent)?;
+    let mut field = solver.solve(&loads).map_err(located)?.unknowns;
+    let mut factors = 1;
+    for _ in 0..MOST_FIELDS {
+        let stresses = contacts.stresses(matrix, &field);
+        let intervals = contacts.intervals(&stresses);
+        let before = std::mem::replace(&mut states, FaceContacts::states(&stresses, &intervals));
+        let (tangent, loads) = contacts.system(&states, matrix, load);
+        let is_known = before.iter().zip(&states).all(|(a, b)| a.is_tied() == b.is_tied());
+        if !is_known && factors == MOST_FACTORS {
+            break;
+        }
+        if !is_known {
+            solver = factor(tangent.clone())?;
+            factors += 1;
+        }
+        let next = solver.solve(&loads).map_err(located)?.unknowns;
+        let way: Vec<f64> = next.iter().zip(&field).map(|(next, u)| next - u).collect();
+        let line = Line::new(contacts, (matrix, load), [&field, &way], &intervals);
+        if line.is_short() {
+            (*matrix, *load) = (tangent, loads);
+            return Ok(factors);
+        }
+        // on one piece of the functional the next field is where that is least
+        let part = if is_known { 1.0 } else { line.part() };
+        field.iter_mut().zip(&way).for_each(|(u, d)| *u += part * d);
+    }
+    Err(SolveError::Contact { factors })
+}
+
+/// The functional along the way from a field to the next.
+struct Line<'a> {
+    contacts: &'a FaceContacts,
+    intervals: &'a [[f64; 2]],
+    /// The stresses of the field, and of the way.
+    stresses: [Vec<FaceStress>; 2],
+    /// The slope without faces that touch, and its slope.
+    slopes: [f64; 2],
+    /// Twice the energy of the field without faces that touch.
+    energy: f64,
+}
+
+impl<'a> Line<'a> {
+    fn new(
+        contacts: &'a FaceContacts,
+        (matrix, load): (&BlockMatrix, &[f64]),
+        [field, way]: [&[f64]; 2],
+        intervals: &'a [[f64; 2]],
+    ) -> Self {
+        let zero = contacts.stresses(matrix, &vec![0.0; way.len()]);
+        let [at, along] = [field, way].map(|u| contacts.stresses(matrix, u));
+        let along = along.iter().zip(&zero).map(|(at, zero)| at.less(*zero)).collect();
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let [of_field, of_way] = [field, way].map(|u| matrix.multiply(u));
+        let slopes = [dot(&of_field, way) - dot(load, way), dot(&of_way, way)];
+        let energy = dot(&of_field, field);
+        Self { contacts, intervals, stresses: [at, along], slopes, energy }
+    }
+
+    /// The slope at a part of the way: at first minus twice the energy of the way.
+    fn slope(&self, t: f64) -> f64 {
+        let [at, along] = &self.stresses;
+        let [start, bend] = self.slopes;
+        start + t * bend + self.contacts.slope(self.intervals, [at, along], t)
+    }
+
+    /// True if the fields differ by nothing.
+    fn is_short(&self) -> bool {
+        self.slope(0.0).abs() <= SMALL * self.energy
+    }
+
+    /// The part of the way at which the functional is least; all of it if it still falls there.
+    fn part(&self) -> f64 {
+        if self.slope(1.0) <= FLAT * self.slope(0.0).abs() {
+            return 1.0;
+        }
+        let halve = |[low, high]: [f64; 2], _| {
+            let middle = 0.5 * (low + high);
+            if self.slope(middle) < 0.0 { [middle, high] } else { [low, middle] }
+        };
+        (0..HALVINGS).fold([0.0, 1.0], halve)[1]
+    }
+}
+
+/// Refuses cracks whose faces may touch and that cut off pieces of the plate that may move.
+pub(super) fn check_pieces(
+    problem: &Problem,
+    plate: &Plate,
+    gauge: &Gauge,
+) -> Result<(), SolveError> {
+    let is_loose = gauge.len() > 0 && plate.pieces.all().len() > 1;
+    if is_loose && !problem.contacts.is_empty() { Err(SolveError::LoosePiece) } else { Ok(()) }
+}

@@ -1,0 +1,289 @@
+//! Faces that touch, against closed forms and what must hold whatever the cells.
+
+use crate::studies::support::{parsed, quantity, record, solved};
+use ppum::dataset::{Dataset, Material, StressState, TipIntensity};
+use ppum::progress::unwatched;
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_solve::diagnostics::{kind, recompute};
+use ppum_solve::growth::series;
+use ppum_solve::problem::{
+    BorderPart, Cells, Condition, Discretization, Edge, GrowthRule, Order, Problem, SolverKind,
+};
+use ppum_solve::report::forget_times;
+use ppum_solve::solve::{SolveError, solve};
+use ppum_testkit::random::Random;
+use std::f64::consts::PI;
+
+const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+
+/// A stress that is the same everywhere.
+#[derive(Clone, Copy, Debug)]
+struct Stress {
+    xx: f64,
+    yy: f64,
+    xy: f64,
+}
+
+const PRESSURE: Stress = Stress { xx: -1.0, yy: -1.0, xy: 0.0 };
+const PRESSED_ALONG_Y: Stress = Stress { xx: 0.0, yy: -1.0, xy: 0.0 };
+
+impl Stress {
+    fn times(self, factor: f64) -> Self {
+        Self { xx: factor * self.xx, yy: factor * self.yy, xy: factor * self.xy }
+    }
+
+    /// The tractions on an edge.
+    fn on(self, edge: Edge) -> Vec<Condition> {
+        let n = edge.normal();
+        let t = [self.xx * n.x + self.xy * n.y, self.xy * n.x + self.yy * n.y];
+        t.map(|t| Condition::Neumann(t.into())).to_vec()
+    }
+}
+
+/// The points of a crack.
+type Line = Vec<[f64; 2]>;
+
+/// A free square plate under the tractions of a stress, with cracks.
+fn plate(half: f64, cells: u32, cracks: &[Line], stress: Stress) -> Problem {
+    let bounds = Rect::new(vec2(-half, -half), vec2(half, half));
+    let mut set = Discretization::new(Cells::Grid([cells, cells]));
+    set.order = Order::Uniform(2);
+    let problem = Problem::elasticity(bounds, MATERIAL, set);
+    let problem = cracks.iter().fold(problem, |problem, crack| problem.with_crack(crack));
+    let load = |problem: Problem, edge: Edge| problem.with_boundary(edge, stress.on(edge));
+    Edge::ALL.into_iter().fold(problem, load)
+}
+
+/// The problem with all faces touching.
+fn touching(problem: Problem, friction: f64) -> Problem {
+    let all = 0..problem.cracks.len() as u32;
+    all.fold(problem, |problem, crack| problem.with_contact(crack, friction))
+}
+
+fn slanted(degrees: f64) -> Line {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    vec![[-cos, -sin], [cos, sin]]
+}
+
+/// Cracks of all kinds: straight, on lines of cells, kinked, meeting, with a mouth.
+fn all_kinds(random: &mut Random) -> Vec<Vec<Line>> {
+    let mut near =
+        |x: f64, y: f64| [x + random.between(-0.05, 0.05), y + random.between(-0.05, 0.05)];
+    vec![
+        vec![vec![near(-0.5, 0.0), near(0.5, 0.0)]],
+        vec![vec![[-0.5, 0.0], [0.5, 0.0]]],
+        vec![vec![near(-0.6, -0.4), near(-0.1, 0.1), near(0.5, 0.2)]],
+        vec![vec![[-0.6, 0.1], [0.6, -0.2]], vec![[0.0, -0.05], near(0.2, -0.6)]],
+        vec![vec![[-1.0, 0.13], near(0.1, 0.3)]],
+    ]
+}
+
+/// The largest difference from a uniform stress at some points.
+fn difference(dataset: &Dataset, stress: Stress) -> f64 {
+    let mut random = Random(3);
+    let points = (0..20).map(|_| vec2(random.between(-0.9, 0.9), random.between(-0.9, 0.9)));
+    let all = points.flat_map(|at: Vec2| {
+        let [xx, yy, xy] = ["sxx", "syy", "sxy"].map(|name| quantity(dataset, name, at));
+        [xx - stress.xx, yy - stress.yy, xy - stress.xy]
+    });
+    all.fold(0.0, |most: f64, d| most.max(d.abs()))
+}
+
+fn tips(dataset: &Dataset) -> &[TipIntensity] {
+    &dataset.steps[0].intensities
+}
+
+/// The largest |K_II| of the tips.
+fn k2(dataset: &Dataset) -> f64 {
+    tips(dataset).iter().fold(0.0, |most: f64, tip| most.max(tip.k2.abs()))
+}
+
+/// Under pressure from all sides closed faces transmit what the whole body does, of whatever shape
+/// and wherever among the cells they are; K of both modes is zero, and T that of the body, too.
+#[test]
+fn pressed_faces_are_not_seen() {
+    for (k, cracks) in all_kinds(&mut Random(1)).iter().enumerate() {
+        for friction in [0.0, 0.4] {
+            let dataset = solved(&touching(plate(1.0, 9, cracks, PRESSURE), friction));
+            let found = difference(&dataset, PRESSURE);
+            assert!(found < 1e-8, "{k}: {found:e}");
+            let step = &dataset.steps[0];
+            assert!((record(step, "closed faces") - 1.0).abs() < 1e-9);
+            assert!(record(step, "overlap of faces") < 1e-9, "{k}");
+            for tip in tips(&dataset) {
+                assert!(tip.k1.hypot(tip.k2) < 1e-7, "{k}: {tip:?}");
+                let t = tip.t_stress.expect("T");
+                assert!((t + 1.0).abs() < 1e-6, "{k}: {t}");
+            }
+            assert!(step.warnings.iter().all(|warning| warning.kind != kind::FACES_OVERLAP));
+        }
+    }
+}
+
+/// What friction holds does not slide: any stress whose shear on the faces it carries.
+#[test]
+fn faces_with_much_friction_stick() {
+    let stress = Stress { xx: -0.4, yy: -1.0, xy: 0.2 };
+    let cracks = &all_kinds(&mut Random(2))[0];
+    let dataset = solved(&touching(plate(1.0, 9, cracks, stress), 0.9));
+    let found = difference(&dataset, stress);
+    assert!(found < 1e-8, "{found:e}");
+}
+
+/// Faces that do not overlap are not tied: the solution has the bits that it has without contact.
+#[test]
+fn open_cracks_are_as_without_contact() {
+    let stress = Stress { xx: 0.1, yy: 1.0, xy: 0.3 };
+    let free = plate(1.0, 9, &all_kinds(&mut Random(3))[0], stress);
+    let [free, touching] = [free.clone(), touching(free, 0.3)].map(|problem| solved(&problem));
+    let coefficients = |dataset: &Dataset| dataset.steps[0].fields[0].coefficients.clone();
+    assert_eq!(coefficients(&free), coefficients(&touching));
+    for (a, b) in tips(&free).iter().zip(tips(&touching)) {
+        assert!((a.k1 - b.k1).hypot(a.k2 - b.k2) < 1e-12 * a.k1);
+        let t = [a, b].map(|tip| tip.t_stress.expect("T"));
+        assert!((t[0] - t[1]).abs() < 1e-10);
+    }
+    let of_touching = &touching.steps[0];
+    assert_eq!(record(of_touching, "contact steps"), 0.0);
+    assert_eq!(record(of_touching, "closed faces"), 0.0);
+}
+
+/// K_II = σ √(πa) (sin β cos β − μ cos² β), a = 1, in a plate that is ten times as large, where
+/// factors are 1 % larger; K_I is zero, and J is what K_II releases.
+#[test]
+fn slanted_cracks_slide() {
+    let solved_at = |degrees: f64, friction: f64| {
+        solved(&touching(plate(10.0, 40, &[slanted(degrees)], PRESSED_ALONG_Y), friction))
+    };
+    for (degrees, friction) in [(45.0, 0.0), (60.0, 0.0), (45.0, 0.3), (60.0, 0.5)] {
+        let dataset = solved_at(degrees, friction);
+        let (sin, cos) = f64::to_radians(degrees).sin_cos();
+        let expected = PI.sqrt() * cos * (sin - friction * cos);
+        let modulus = MATERIAL.effective_young();
+        for tip in tips(&dataset) {
+            assert!((tip.k2 / -expected - 1.009).abs() < 4e-3, "{degrees}, {friction}: {tip:?}");
+            assert!(tip.k1.abs() < 1e-3 * expected, "{degrees}, {friction}: {tip:?}");
+            let released = tip.k2 * tip.k2 / modulus;
+            assert!((tip.j.expect("J") / released - 1.0).abs() < 2e-3, "{tip:?}");
+        }
+    }
+    // μ > tan β
+    assert!(k2(&solved_at(40.0, 0.9)) < 1e-8);
+}
+
+/// Twice the loads give twice the field, whichever way a crack runs; and a plate turned by a right
+/// angle has the factors that it had.
+#[test]
+fn states_do_not_depend_on_size_way_or_place() {
+    let crack: Line = vec![[-0.43, -0.31], [-0.05, 0.1], [0.52, 0.33]];
+    let stress = Stress { xx: -0.3, yy: -1.0, xy: 0.2 };
+    let factors = |crack: &[[f64; 2]], stress: Stress| {
+        let dataset = solved(&touching(plate(1.0, 11, &[crack.to_vec()], stress), 0.0));
+        assert!(record(&dataset.steps[0], "contact steps") > 0.0);
+        let mut all: Vec<_> = tips(&dataset).iter().map(|tip| (tip.k1, tip.k2)).collect();
+        all.sort_by(|a, b| a.1.total_cmp(&b.1));
+        all
+    };
+    let known = factors(&crack, stress);
+    let turned: Line = crack.iter().map(|[x, y]| [-y, *x]).collect();
+    let reversed: Line = crack.iter().rev().copied().collect();
+    let over = Stress { xx: stress.yy, yy: stress.xx, xy: -stress.xy };
+    let half: Vec<_> =
+        factors(&crack, stress.times(2.0)).iter().map(|(a, b)| (0.5 * a, 0.5 * b)).collect();
+    for other in [half, factors(&turned, over), factors(&reversed, stress)] {
+        for (a, b) in known.iter().zip(&other) {
+            assert!((a.0 - b.0).hypot(a.1 - b.1) < 1e-6, "{known:?} {other:?}");
+        }
+    }
+}
+
+/// A crack −a ≤ y ≤ a in a large plate that is bent, σ_xx = y, closes where y < −a/3: the open part
+/// is a crack of length 4a/3 under a/3 + s, with K_I = 0 at its closed end, s = −2a/3, and
+/// K_I = √(2πa/3) 2a/3 at the other.
+#[test]
+fn a_crack_in_bending_closes_on_a_third() {
+    let problem = parsed(
+        "title = \"Bent\"\n[domain]\nmin = [-5, -5]\nmax = [5, 5]\n\
+         [material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
+         [[crack]]\npoints = [[0, -1], [0, 1]]\ncontact = true\n\
+         [[boundary]]\non = \"left\"\ntraction = [\"-y\", 0]\n\
+         [[boundary]]\non = \"right\"\ntraction = [\"y\", 0]\n\
+         [discretization]\ncells = [41, 42]\norder = 2\n",
+    );
+    let dataset = solved(&problem);
+    let closed = record(&dataset.steps[0], "closed faces");
+    assert!((closed - 1.0 / 3.0).abs() < 0.03, "{closed}");
+    let [pressed, open] = [0, 1].map(|k| tips(&dataset)[k].k1);
+    let expected = (2.0 * PI / 3.0).sqrt() * 2.0 / 3.0;
+    assert!((open / expected - 1.0).abs() < 0.01, "{open} of {expected}");
+    assert!(pressed.abs() < 3e-3 * open, "{pressed}");
+    let (found, _) = recompute(&dataset, 0, Some(&problem), unwatched()).expect("factors");
+    let again = found[1].factors.as_ref().expect("factors");
+    assert_eq!(again.k1.to_bits(), open.to_bits());
+}
+
+/// What is closed carries pressure, what is open nothing: of several cracks each for itself, and the
+/// same however often it is solved.
+#[test]
+fn several_cracks_open_and_close() {
+    let cracks: [Line; 3] = [
+        vec![[-0.7, -0.5], [-0.3, -0.35]],
+        vec![[0.2, 0.5], [0.65, 0.55]],
+        vec![[-0.02, -0.2], [0.01, 0.25]],
+    ];
+    let stress = Stress { xx: 0.5, yy: -1.0, xy: 0.1 };
+    let problem = touching(plate(1.0, 16, &cracks, stress), 0.0);
+    let [first, mut again] = [0; 2].map(|_| solved(&problem));
+    let mut first = first;
+    [&mut first, &mut again].map(|dataset| forget_times(&mut dataset.steps[0]));
+    assert_eq!(first, again);
+    for tip in tips(&first) {
+        match tip.tip.crack {
+            2 => assert!(tip.k1 > 0.3, "{tip:?}"),
+            _ => assert!(tip.k1.abs() < 1e-3, "{tip:?}"),
+        }
+    }
+}
+
+/// Wings grow from the tips of a pressed crack, along the load, and open.
+#[test]
+fn pressed_cracks_grow_wings() {
+    let mut problem = touching(plate(4.0, 16, &[slanted(45.0)], PRESSED_ALONG_Y), 0.0);
+    problem.discretization.order = Order::Uniform(1);
+    let mut rule = GrowthRule::new(2);
+    rule.increment = Some(0.3);
+    let dataset = series(&problem.with_growth(rule), None, unwatched()).expect("a series");
+    assert_eq!(dataset.steps.len(), 3);
+    let last = &dataset.steps[2];
+    for tip in &last.intensities {
+        assert!(tip.k1 > 0.3 && tip.k2.abs() < 0.3 * tip.k1, "{tip:?}");
+    }
+    let points = &last.cracks[0].points;
+    let way = (points[0] - points[1]).unit();
+    assert!(way.y < -0.8, "{points:?}");
+}
+
+/// Each mistake is told at its key, with a remedy.
+#[test]
+fn contact_that_cannot_be() {
+    let problem = || touching(plate(1.0, 8, &[vec![[-0.4, 0.0], [0.4, 0.1]]], PRESSURE), 0.0);
+    let loaded = problem().with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
+    let mut multilevel = problem();
+    multilevel.solver.kind = SolverKind::Multilevel;
+    let mut half = problem();
+    half.cracks.clear();
+    let half = half.with_crack(&[[-1.0, -1.0], [0.1, -1.0]]);
+    for (problem, words) in [
+        (loaded, "boundary[4].on: the faces of this crack may touch"),
+        (multilevel, "solver.kind: faces that touch need the direct solver"),
+        (half, "crack[0].contact: one face alone"),
+        (problem().with_contact(3, 0.0), "crack[3].contact: there is no crack 3"),
+        (problem().with_contact(0, -1.0), "crack[0].friction: `friction` is -1"),
+    ] {
+        let error = problem.check().expect_err("a mistake").to_string();
+        assert!(error.contains(words), "{error}");
+    }
+    let cut = plate(1.0, 8, &[vec![[-1.0, 0.0], [1.0, 0.1]]], PRESSURE);
+    let error = solve(&touching(cut, 0.0), unwatched()).expect_err("pieces that are loose");
+    assert!(matches!(error, SolveError::LoosePiece), "{error}");
+}
