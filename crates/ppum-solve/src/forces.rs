@@ -63,7 +63,7 @@ impl ForceField {
         let function = |(k, text): (usize, &&str)| Function {
             name: format!("{OF_FORCE} [{}, {}], {}.{k}", force.at.x, force.at.y, number),
             kind: FunctionKind::Formula {
-                text: on_side(&format!("({text})"), side),
+                text: on_side(text, side),
                 frame: Frame::Fixed { origin: force.at, angle: axis.y.atan2(axis.x) },
                 parameters: Vec::new(),
                 declared: Declared { singular: vec![Vec2::ZERO], ..Declared::default() },
@@ -73,7 +73,8 @@ impl ForceField {
         Self { at: force.at, room: problem.room_of(force, place), functions, coefficients }
     }
 
-    /// The patches that have the field, ascending: those that hold the point, and those in the room.
+    /// The patches that have the field, ascending: those that hold the point, and those in
+    /// the room.
     pub(crate) fn patches(&self, partition: &BoxPartition, bounds: &Rect) -> Vec<u32> {
         let has = |&k: &u32| {
             let support = partition.support(k as usize);

@@ -87,6 +87,8 @@ impl<'s> CellAssembler<'s> {
             self.prestress(rule, &mut system);
         }
         system.add_functionals(&plain, self.assembly.basis, self.assembly.components());
+        system.known =
+            plain.moments.iter().map(|m| self.known_value(&plain.functions, m)).collect();
         for rule in source.and_then(|source| source.rules).unwrap_or_default() {
             self.evaluator.see(rule);
             self.load(rule, source.map(|source| source.values), &mut system);
@@ -133,6 +135,7 @@ impl<'s> CellAssembler<'s> {
         CellSystem {
             load: vec![0.0; unknowns],
             moments: zeros(self.functionals.map_or(0, |all| all.free.len())),
+            known: Vec::new(),
             duals: zeros(self.functionals.map_or(0, |all| all.duals.len())),
             penalty: 0.0,
             reactions: Vec::new(),
@@ -168,6 +171,20 @@ impl<'s> CellAssembler<'s> {
         let stresses: Vec<[[f64; 2]; 2]> = points.map(stress).collect();
         let numbers = system.functions.numbers(&rule.patches);
         self.shapes.add_stresses(&stresses, &numbers, &mut system.load);
+    }
+
+    /// The value of a functional of the plain functions for the known part of the field.
+    fn known_value(&self, functions: &CellFunctions, functional: &[f64]) -> f64 {
+        let Assembly { space, law, .. } = self.assembly;
+        let mut sum = 0.0;
+        for (k, &patch) in functions.patches.iter().enumerate() {
+            for known in space.known(patch as usize) {
+                let first = (functions.first[k] + known.evaluated) * law.components;
+                let parts = functional[first..].iter().zip(known.coefficients);
+                sum += parts.map(|(value, c)| value * c).sum::<f64>();
+            }
+        }
+        sum
     }
 
     /// ∇u_s at the points of the rule that was looked at last; none if all of u_s is zero.

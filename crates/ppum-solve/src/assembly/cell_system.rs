@@ -15,6 +15,8 @@ pub(crate) struct CellSystem {
     pub(crate) load: Vec<f64>,
     /// ∫ N·m of each free mode m.
     pub(crate) moments: Vec<Vec<f64>>,
+    /// ∫ u_s·m of each free mode m, of the known part of the field.
+    pub(crate) known: Vec<f64>,
     /// K(N) of both modes, if the cell is in a disc of a tip.
     pub(crate) duals: Vec<Vec<f64>>,
     /// Nitsche's β over λ + 2μ or the conductivity [1/L]; zero where no values are given.

@@ -13,6 +13,7 @@
 //! same functionals as loads are the rigid-body modes themselves, in whatever functions, and they
 //! are subtracted.
 
+use super::point::PointValues;
 use crate::basis::Shapes;
 use crate::equilibrium::{BodyPieces, PerMode, PieceConditions, Plate, RigidModes};
 use crate::linear::{BlockMatrix, LinearError, LinearSolver};
@@ -100,6 +101,8 @@ pub(crate) struct Gauge {
     modes: Vec<Mode>,
     /// Of each mode, ∫ N·m over its piece, in the order of the system.
     moments: Vec<Vec<f64>>,
+    /// Of each mode, ∫ u_s·m over its piece, of the known part of the field.
+    known: Vec<f64>,
     /// Of each piece that is free, the patch whose unknowns get the penalty.
     patches: Vec<usize>,
     /// Conditions that take the place of moments that vanish; none where no point is held.
@@ -108,13 +111,13 @@ pub(crate) struct Gauge {
 
 impl Gauge {
     /// The gauge of free modes with these moments, ∫ N·m over their pieces in the order of
-    /// the matrix.
+    /// the matrix, and those of the known part of the field.
     pub(crate) fn new(
         FreeModes { modes, groups, .. }: FreeModes<'_>,
-        moments: Vec<Vec<f64>>,
+        (moments, known): (Vec<Vec<f64>>, Vec<f64>),
         matrix: &BlockMatrix,
     ) -> Self {
-        let mut gauge = Self { moments, modes, patches: Vec::new(), conditions: Vec::new() };
+        let mut gauge = Self { moments, known, modes, patches: Vec::new(), conditions: Vec::new() };
         gauge.patches = (0..groups).map(|group| gauge.firmest(group, matrix)).collect();
         gauge
     }
@@ -124,7 +127,7 @@ impl Gauge {
         mut self,
         supports: &[Support],
         pieces: &[PieceConditions],
-        values: &dyn Fn(Vec2) -> Vec<Vec<f64>>,
+        values: &dyn Fn(Vec2) -> PointValues,
     ) -> Self {
         if supports.is_empty() {
             return self;
@@ -132,8 +135,9 @@ impl Gauge {
         let rows: Vec<_> = supports.iter().map(|support| values(support.at)).collect();
         for (piece, conditions) in pieces.iter().enumerate() {
             let held = conditions.held.iter().map(|&(number, component)| Condition {
-                functional: rows[number][component].clone(),
-                value: supports[number].displacement[component].unwrap_or(0.0),
+                functional: rows[number].functionals[component].clone(),
+                value: supports[number].displacement[component].unwrap_or(0.0)
+                    - rows[number].known[component],
             });
             self.conditions.extend(held);
             let left = conditions.left.iter().map(|factors| self.moment(piece, factors));
@@ -143,14 +147,17 @@ impl Gauge {
         self
     }
 
-    /// A combination of the moments of a piece, which vanishes.
+    /// A combination of the moments of a piece, which vanishes for the whole field.
     fn moment(&self, piece: usize, factors: &[f64]) -> Condition {
-        let own = self.modes.iter().zip(&self.moments).filter(|(mode, _)| mode.piece == piece);
-        let mut functional = vec![0.0; self.moments.first().map_or(0, Vec::len)];
-        for ((_, moments), factor) in own.zip(factors) {
-            functional.iter_mut().zip(moments).for_each(|(sum, m)| *sum += factor * m);
+        let own = (0..self.modes.len()).filter(|&k| self.modes[k].piece == piece);
+        let functional = vec![0.0; self.moments.first().map_or(0, Vec::len)];
+        let mut condition = Condition { functional, value: 0.0 };
+        for (k, factor) in own.zip(factors) {
+            let sums = condition.functional.iter_mut().zip(&self.moments[k]);
+            sums.for_each(|(sum, m)| *sum += factor * m);
+            condition.value -= factor * self.known[k];
         }
-        Condition { functional, value: 0.0 }
+        condition
     }
 
     /// Number of free modes.
@@ -191,7 +198,7 @@ impl Gauge {
             None => self.rigid(solver, matrix)?,
         };
         let (functionals, excess) = match self.conditions.is_empty() {
-            true => (self.means(&rigid), self.means(&[&*solution])),
+            true => (self.means(&rigid), self.means(&[&*solution]) + self.known_means()),
             false => (self.values(&rigid), self.excess(solution)),
         };
         let parts = functionals.partial_piv_lu().solve(excess);
@@ -230,6 +237,11 @@ impl Gauge {
     fn means<U: AsRef<[f64]>>(&self, all: &[U]) -> Mat<f64> {
         let (rows, columns) = (self.moments.len(), all.len());
         Mat::from_fn(rows, columns, |l, k| dot(&self.moments[l], all[k].as_ref()))
+    }
+
+    /// ∫ u_s·m_l, in a column.
+    fn known_means(&self) -> Mat<f64> {
+        Mat::from_fn(self.known.len(), 1, |l, _| self.known[l])
     }
 
     /// The functionals of the conditions of some u, as [`Gauge::means`].

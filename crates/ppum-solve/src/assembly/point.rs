@@ -26,23 +26,34 @@ pub(super) fn point_rule(space: &Space<'_>, (x, face): (Vec2, Option<Face>)) -> 
     (cell, rule)
 }
 
-/// N(x) of each component for all unknowns, in the order of the matrix; on a face of a crack that
-/// of its side.
+/// The values of a field at a point.
+pub(crate) struct PointValues {
+    /// N(x) of each component for all unknowns, in the order of the matrix.
+    pub(crate) functionals: Vec<Vec<f64>>,
+    /// The known part of the field, which may be infinite.
+    pub(crate) known: [f64; 2],
+}
+
+/// The values of a field at a point; on a face of a crack those of its side.
 pub(crate) fn values_at(
     assembly: Assembly<'_>,
     matrix: &BlockMatrix,
     place: (Vec2, Option<Face>),
-) -> Vec<Vec<f64>> {
+) -> PointValues {
     let Assembly { space, basis, .. } = assembly;
     let components = assembly.components();
     let (cell, rule) = point_rule(space, place);
     let functions = CellFunctions::new(&assembly, cell);
     let (mut plain, mut shapes) = (Shapes::default(), Shapes::default());
     ShapeEvaluator::of_series(space).evaluate_edge(&rule, &mut plain);
-    let mut first = 0;
+    let (mut first, mut sum) = (0, [0.0; 2]);
     for &patch in &rule.patches {
-        // known functions may be infinite, and are in none of the basis
-        space.known(patch as usize).iter().for_each(|known| plain.clear(first + known.evaluated));
+        for known in space.known(patch as usize) {
+            let (row, parts) = (first + known.evaluated, sum.iter_mut().zip(known.coefficients));
+            parts.for_each(|(sum, c)| *sum += c * plain.value[row]);
+            // it may be infinite, and is in none of the basis
+            plain.clear(row);
+        }
         first += space.evaluated(patch as usize);
     }
     basis.apply(&rule.patches, &plain, &mut shapes);
@@ -54,5 +65,5 @@ pub(crate) fn values_at(
         functions.add_to(basis, matrix, components, &part, &mut row);
         row
     };
-    (0..components).map(of_component).collect()
+    PointValues { functionals: (0..components).map(of_component).collect(), known: sum }
 }

@@ -26,6 +26,8 @@ pub(crate) struct System {
     pub(crate) load: Vec<f64>,
     /// ∫ N·m of each free mode m, in the same order.
     pub(crate) moments: Vec<Vec<f64>>,
+    /// ∫ u_s·m of the known part of the field.
+    pub(crate) known: Vec<f64>,
     /// K(N) of both modes summed over the tips, in the same order; none without tips.
     pub(crate) duals: Vec<Vec<f64>>,
     /// The largest Nitsche's β of a cell, times the cell's width over λ + 2μ or the conductivity.
@@ -205,6 +207,7 @@ impl System {
         Self {
             load: vec![0.0; matrix.n_unknowns()],
             moments: vec![vec![0.0; matrix.n_unknowns()]; free.len()],
+            known: vec![0.0; free.len()],
             duals: vec![vec![0.0; matrix.n_unknowns()]; duals.len()],
             matrix,
             nitsche: 0.0,
@@ -215,6 +218,7 @@ impl System {
     }
 
     fn add_functionals(&mut self, part: &CellSystem, assembly: &Assembly<'_>) {
+        self.known.iter_mut().zip(&part.known).for_each(|(sum, part)| *sum += part);
         let functionals = part.moments.iter().chain(&part.duals);
         for (sum, part_of) in self.moments.iter_mut().chain(&mut self.duals).zip(functionals) {
             let components = assembly.components();

@@ -125,9 +125,9 @@ impl Problem {
         Ok(normals)
     }
 
-    /// Distance from a force within which its field alone is not smooth: up to tips and kinks of the
-    /// crack that it acts on, to parts of the border where values are given, and to material behind
-    /// the border.
+    /// Distance from a force within which its field alone is not smooth: up to tips and kinks of
+    /// the crack that it acts on, to parts of the border where values are given, and to material
+    /// behind the border.
     pub(crate) fn room_of(&self, force: &Force, place: ForcePlace) -> f64 {
         let p = force.at;
         let held = self.boundary.iter().filter(|condition| condition.held().contains(&true));

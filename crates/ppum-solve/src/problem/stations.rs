@@ -25,8 +25,8 @@ pub struct Station {
 
 impl Problem {
     /// Points along the parts of the border that have conditions, about `spacing` apart, each in
-    /// the middle of its piece of the border, those in holes left out, then the points of forces and
-    /// supports; nothing of a potential. The largest force counts as the largest traction.
+    /// the middle of its piece of the border, those in holes left out, then the points of forces
+    /// and supports; nothing of a potential. The largest force counts as the largest traction.
     #[must_use]
     pub fn stations(&self, spacing: f64) -> Vec<Station> {
         if self.equation.elastic().is_none() {

@@ -57,7 +57,8 @@ impl Assembled {
         add_forces(assembly, &mut system);
         let stage = Stage::uncounted(watcher, Phase::Assembly)?;
         let contacts = FaceContacts::new(assembly, &stage).map_err(SolveError::of_data)?;
-        let gauge = Gauge::new(free, std::mem::take(&mut system.moments), &system.matrix);
+        let moments = (std::mem::take(&mut system.moments), system.known.clone());
+        let gauge = Gauge::new(free, moments, &system.matrix);
         let values = |x| values_at(assembly, &system.matrix, (x, None));
         let conditions = plate.conditions(&problem.supports)?;
         let gauge = gauge.with_supports(&problem.supports, &conditions, &values);
@@ -73,7 +74,7 @@ fn add_forces(assembly: Assembly<'_>, system: &mut System) {
     for force in &assembly.problem.forces {
         let face = assembly.problem.place_of(force).ok().and_then(ForcePlace::face).map(Face::from);
         let values = values_at(assembly, &system.matrix, (force.at, face));
-        for (values, factor) in values.iter().zip([force.value.x, force.value.y]) {
+        for (values, factor) in values.functionals.iter().zip([force.value.x, force.value.y]) {
             system.load.iter_mut().zip(values).for_each(|(load, value)| *load += factor * value);
         }
     }

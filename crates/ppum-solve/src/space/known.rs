@@ -1,10 +1,9 @@
 //! Functions of patches whose coefficients are known: the fields of forces at points.
 
-use super::trial::block_size;
 use super::williams::SeriesFunctions;
 use crate::forces::force_fields;
 use crate::problem::Problem;
-use ppum::dataset::Step;
+use ppum::dataset::{Step, monomials};
 use std::collections::BTreeMap;
 
 /// A function of a patch whose coefficients are known.
@@ -61,7 +60,7 @@ fn of_patch(
             let evaluated = stored - fewer.sum::<usize>();
             found.push(KnownFunction { stored, evaluated, coefficients });
         }
-        stored += block_size(data, block);
+        stored += monomials(data.block_degree[block].into());
     }
     found
 }

@@ -149,6 +149,45 @@ fn flamant_is_exact_up_to_the_point() {
     assert!(off < 1e-9, "{off:e}");
 }
 
+/// The same on a side of an outline that is turned by any angle.
+#[test]
+fn flamant_is_exact_on_slanted_sides() {
+    let mut random = Random(6);
+    let turn = random.between(0.2, 1.2);
+    let (x, y) = (vec2(turn.cos(), turn.sin()), vec2(turn.cos(), turn.sin()).left());
+    let corners = [[-1.0, -0.8], [1.0, -0.8], [0.9, 0.9], [-1.1, 0.7]].map(|[a, b]| x * a + y * b);
+    let at = corners[0] + (corners[1] - corners[0]) * random.between(0.3, 0.7);
+    let f = random.direction();
+    let [xx, yy, xy] = flamant(at, f);
+    let (mut outline, mut loads) = (String::new(), String::new());
+    for k in 0..4 {
+        let [a, b] = [corners[k], corners[(k + 1) % 4]];
+        outline += &format!(
+            "{{ points = [[{}, {}], [{}, {}]], name = \"side {k}\" }}, ",
+            a.x, a.y, b.x, b.y
+        );
+        let n = -(b - a).unit().left();
+        let traction = |a: &str, b: &str| format!("\"({})*({a}) + ({})*({b})\"", n.x, n.y);
+        if k > 0 {
+            let [tx, ty] = [traction(&xx, &xy), traction(&xy, &yy)];
+            loads += &format!(
+                "[[boundary]]\non = {{ piece = \"side {k}\" }}\ntraction = [{tx}, {ty}]\n"
+            );
+        }
+    }
+    let box_of = "min = [-1, -1]\nmax = [1, 1]\n";
+    let text = body(0.3, 2, 8, &(force(at, f, "") + &loads));
+    let text = text.replace(box_of, &format!("outline = {{ path = [{outline}] }}\n"));
+    let dataset = solved(&parsed(&text));
+    let mut near = |random: &mut Random| {
+        let angle = turn + random.between(0.1, PI - 0.1);
+        at + vec2(angle.cos(), angle.sin()) * 10f64.powf(random.between(-6.0, -0.5))
+    };
+    let off = difference(&mut random, &dataset, &[xx, yy, xy], &mut near);
+    println!("{off:.1e}");
+    assert!(off < 1e-8, "{off:e}");
+}
+
 /// K of forces that open a crack at any point of it, with the tractions of the infinite body.
 #[test]
 fn pairs_on_faces_have_the_factors_of_the_formula() {
@@ -288,4 +327,27 @@ fn forces_without_room_and_without_balance_are_refused() {
         let error = solve(&parsed(&body(0.3, 2, 4, &rest)), unwatched()).expect_err("refused");
         assert!(error.to_string().contains(expected), "{error}");
     }
+}
+
+/// The whole field has no mean, and is zero where a point is held.
+#[test]
+fn the_rigid_motion_is_that_of_the_whole_field() {
+    let mut random = Random(7);
+    let (at, f) = (vec2(0.2, -0.1), random.direction());
+    let loads = force(at, f, "") + &tractions(&EDGES, &kelvin(at, f, 0.3));
+    let of = |rest: &str| solved(&parsed(&body(0.3, 3, 6, &(loads.clone() + rest))));
+    let u =
+        |dataset: &Dataset, x: Vec2| vec2(quantity(dataset, "ux", x), quantity(dataset, "uy", x));
+    let p = vec2(-0.6, 0.7);
+    let held = of(&format!("[[support]]\nat = [{}, {}]\n", p.x, p.y));
+    assert!(u(&held, p).length() < 1e-10, "{:?}", u(&held, p));
+    // midpoints of squares
+    let plain = of("");
+    let n = 24;
+    let side = |k: i32| (f64::from(k) + 0.5) * 2.0 / f64::from(n) - 1.0;
+    let places = (0..n * n).map(|k| vec2(side(k % n), side(k / n)));
+    let sum = places.fold(Vec2::ZERO, |sum, x| sum + u(&plain, x));
+    let mean = sum / f64::from(n * n);
+    // the midpoint rule on cells of 1/12, of a field like ln r/10
+    assert!(mean.length() < 5e-3, "{mean:?}");
 }
