@@ -67,6 +67,7 @@ pub const ALL: [Example; 33] = [
     example!("compact-tension", "A standard specimen, by its outline"),
     example!("dog-bone", "A tensile bar, from a drawing"),
     example!("gear-tooth", "A tooth, from a drawing"),
+    example!("three-point-bending", "Forces at points on a beam"),
     example!("paper-centre-crack", "Figure 5 of the paper"),
     example!("paper-adaptive-1", "Figure 8: cells where the error is"),
     example!("paper-adaptive-2", "Figure 8 with quadratic functions"),
