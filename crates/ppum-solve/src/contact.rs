@@ -11,16 +11,16 @@ use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 
-/// What decides whether faces are closed.
+/// What decides what acts between faces.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FaceContact {
+pub(crate) struct ContactLaw {
     /// Coulomb's coefficient of friction.
     pub(crate) friction: f64,
     /// Size of the cells.
     pub(crate) size: f64,
 }
 
-impl FaceContact {
+impl ContactLaw {
     /// The tractions at the points of a rule on a face of a crack that may touch; zero on others.
     pub(crate) fn tractions(self, field: &Field<'_>, law: &Law<'_>, rule: &EdgeRule) -> Vec<Vec2> {
         let Some(face) = rule.face else { return vec![Vec2::ZERO; rule.offsets.len()] };

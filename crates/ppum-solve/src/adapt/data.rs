@@ -3,7 +3,7 @@
 use super::border::BorderConditions;
 use super::span::unseen;
 use crate::assembly::border_rules;
-use crate::contact::FaceContact;
+use crate::contact::ContactLaw;
 use crate::law::Law;
 use crate::problem::Problem;
 use crate::quadrature::{EdgeRule, Quadrature, Rule};
@@ -118,7 +118,7 @@ impl DataResidual<'_> {
         };
         let contact = rule.face.and_then(|face| self.problem.contacts.get(&face.segment.crack));
         let between = contact.map(|&friction| {
-            FaceContact { friction, size: h }.tractions(self.field, &self.law, rule)
+            ContactLaw { friction, size: h }.tractions(self.field, &self.law, rule)
         });
         let mut sum = 0.0;
         for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {

@@ -4,13 +4,15 @@
 //! and the stresses σ_m = m·σ m, σ_s = s·σ m on its faces
 //!
 //! ```text
-//! [u]·m ≥ 0     σ_m ≤ 0     σ_m [u]·m = 0     |σ_s| ≤ −μ σ_m, and = with the sign of [u]·s where it slides
+//! [u]·m ≥ 0     σ_m ≤ 0     σ_m [u]·m = 0
+//! |σ_s| ≤ −μ σ_m, and where they slide σ_s = −μ σ_m sign([u]·s)
 //! ```
 //!
 //! With any β > 0 these are one equation for each direction d of m and s (Alart & Curnier 1991):
 //!
 //! ```text
-//! σ_d = clamp(P_d)     P_d = σ_d + β [u]·d     onto (−∞, 0] across, onto [−μ p, μ p] along, p = −clamp(P_m)
+//! σ_d = clamp(P_d)     P_d = σ_d + β [u]·d
+//! onto (−∞, 0] across, onto [−μ p, μ p] along, p = −clamp(P_m)
 //! ```
 //!
 //! Nitsche's method puts it into the weak form without new unknowns (Chouly, Hild & Renard 2015).
@@ -21,8 +23,8 @@
 //! ```
 //!
 //! is least. That function has a continuous slope; it is convex if ∫ σ_d² ≤ λ a(u, u) with λ < β,
-//! and λ is known cell by cell, as on held borders (`border`). So there is one solution, and it does
-//! not hang on β: with that of the body, all terms with β vanish. At points where P_d is inside of
+//! and λ is known cell by cell, as on held borders (`border`). So there is one solution, and β does
+//! not matter: with that of the body, all terms with β vanish. At points where P_d is inside of
 //! its interval the term is that of Nitsche for a tie, at others that of a known traction c:
 //!
 //! ```text
@@ -30,9 +32,9 @@
 //! loaded    K −= σ σᵀ/β              f −= (σ⁰ σ + c p)/β
 //! ```
 //!
-//! with the functions' σ_d and P_d as columns σ and p, and σ_d of the strains that are given, σ⁰. The
-//! stress is that of the side on which more of the cell lies: a sliver on the other one makes λ no
-//! larger.
+//! with the functions' σ_d and P_d as columns σ and p, and σ_d of the strains that are given, σ⁰.
+//! The stress is that of the side on which more of the cell lies: a sliver on the other one makes λ
+//! no larger.
 
 use super::Assembly;
 use super::cell::CellAssembler;

@@ -8,7 +8,7 @@ use super::course::Course;
 use super::faces::{Faces, pressed};
 use super::sensitivity::FACTORS;
 use super::slope::Slope;
-use crate::contact::FaceContact;
+use crate::contact::ContactLaw;
 use crate::geometry::{Placed, around};
 use crate::law::Law;
 use crate::problem::Symmetry;
@@ -132,7 +132,7 @@ impl<'a> Interaction<'a> {
         let pressed = loads.faces.map_or(Some(0.0), |load| pressed(&course, load, half));
         let friction = loads.friction.and_then(|friction| friction(tip.crack));
         let touching = friction.map_or(0.0, |friction| {
-            let contact = FaceContact { friction, size: radii[0] };
+            let contact = ContactLaw { friction, size: radii[0] };
             contact.pressed(field, &law, course.behind_tip())
         });
         Some(Self {
@@ -183,12 +183,12 @@ impl<'a> Interaction<'a> {
         all
     }
 
-    /// What acts on a face of the crack at the points of a rule in a cell, between faces that touch,
-    /// in the tip's frame; zero at other tips.
+    /// The tractions between faces that touch, at the points of a rule on one face in a cell, in the
+    /// tip's frame; zero at other tips.
     pub(super) fn between(&self, rule: &EdgeRule, cell: usize) -> Vec<Vec2> {
         let size = self.space.partition().cell[cell].size();
         let tractions = self.friction.map(|friction| {
-            let contact = FaceContact { friction, size: size.x.max(size.y) };
+            let contact = ContactLaw { friction, size: size.x.max(size.y) };
             contact.tractions(self.field, &self.law, rule)
         });
         let tractions = tractions.unwrap_or(vec![Vec2::ZERO; rule.offsets.len()]);

@@ -105,7 +105,7 @@ pub type PointLoad<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
 /// The traction t on a face of a crack, given by its index, at a point.
 pub type FaceLoad<'a> = &'a (dyn Fn(u32, Side, Vec2) -> [f64; 2] + Sync);
 
-/// The coefficient of friction of a crack, given by its index, whose faces may touch; none of others.
+/// The coefficient of friction of a crack, given by its index, if its faces may touch.
 pub type FaceFriction<'a> = &'a (dyn Fn(u32) -> Option<f64> + Sync);
 
 /// The symmetry of the field at a tip on an edge; none at others.

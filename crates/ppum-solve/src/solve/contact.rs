@@ -3,9 +3,9 @@
 //! The system with the states that a field implies is the tangent there. Its solution is the next
 //! field, or where the functional of [`FaceContacts`] is least on the way to it. That is convex and
 //! quadratic piece by piece, so that without friction the states settle after finitely many steps,
-//! from any start; it is the end as well if two fields differ by rounding alone. With friction the
-//! bounds μ p are those of the field before, so that all systems are symmetric: a fixed point by
-//! contraction, unless μ is large.
+//! from any start; it is the end as well if two fields differ by rounding alone. With friction this
+//! is done with known bounds μ p, and then again with those of the field that was found, until that
+//! stays: a fixed point by contraction, unless μ is large. All systems are symmetric.
 
 use super::SolveError;
 use crate::assembly::{FaceContacts, FaceStress, Gauge, System};
@@ -16,7 +16,7 @@ use crate::watched::Stage;
 
 /// Most factors that are made, and most fields that are looked at, before the states must have
 /// settled.
-const MOST_FACTORS: usize = 60;
+const MOST_FACTORS: usize = 120;
 const MOST_FIELDS: usize = 300;
 
 /// Energy of the way to the next field, in parts of that of the field, up to which it is the same:
@@ -53,10 +53,10 @@ pub(super) fn close(
     let (tangent, loads) = contacts.system(&states, matrix, load);
     let mut solver = factor(tangent)?;
     let mut field = solver.solve(&loads).map_err(located)?.unknowns;
-    let mut factors = 1;
+    let mut intervals = contacts.intervals(&contacts.stresses(matrix, &field));
+    let (mut factors, mut is_renewed) = (1, false);
     for _ in 0..MOST_FIELDS {
         let stresses = contacts.stresses(matrix, &field);
-        let intervals = contacts.intervals(&stresses);
         let before = std::mem::replace(&mut states, FaceContacts::states(&stresses, &intervals));
         let (tangent, loads) = contacts.system(&states, matrix, load);
         let is_known = before.iter().zip(&states).all(|(a, b)| a.is_tied() == b.is_tied());
@@ -69,20 +69,25 @@ pub(super) fn close(
         }
         let next = solver.solve(&loads).map_err(located)?.unknowns;
         let way: Vec<f64> = next.iter().zip(&field).map(|(next, u)| next - u).collect();
-        let line = Line::new(contacts, (matrix, load), [&field, &way], &intervals);
+        let line = DescentLine::new(contacts, (matrix, load), [&field, &way], &intervals);
         if line.is_short() {
-            (*matrix, *load) = (tangent, loads);
-            return Ok(factors);
+            let renewed = contacts.intervals(&stresses);
+            if is_renewed || renewed == intervals {
+                (*matrix, *load) = (tangent, loads);
+                return Ok(factors);
+            }
+            (intervals, is_renewed) = (renewed, true);
+            continue;
         }
-        // on one piece of the functional the next field is where that is least
-        let part = if is_known { 1.0 } else { line.part() };
+        is_renewed = false;
+        let part = line.part();
         field.iter_mut().zip(&way).for_each(|(u, d)| *u += part * d);
     }
     Err(SolveError::Contact { factors })
 }
 
 /// The functional along the way from a field to the next.
-struct Line<'a> {
+struct DescentLine<'a> {
     contacts: &'a FaceContacts,
     intervals: &'a [[f64; 2]],
     /// The stresses of the field, and of the way.
@@ -93,7 +98,7 @@ struct Line<'a> {
     energy: f64,
 }
 
-impl<'a> Line<'a> {
+impl<'a> DescentLine<'a> {
     fn new(
         contacts: &'a FaceContacts,
         (matrix, load): (&BlockMatrix, &[f64]),

@@ -16,6 +16,9 @@ use std::f64::consts::PI;
 
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 
+/// Rounding of stresses at points, in the corner of a cell or near a tip.
+const AT_A_POINT: f64 = 1e-7;
+
 /// A stress that is the same everywhere.
 #[derive(Clone, Copy, Debug)]
 struct Stress {
@@ -106,8 +109,10 @@ fn pressed_faces_are_not_seen() {
         for friction in [0.0, 0.4] {
             let dataset = solved(&touching(plate(1.0, 9, cracks, PRESSURE), friction));
             let found = difference(&dataset, PRESSURE);
-            assert!(found < 1e-8, "{k}: {found:e}");
+            assert!(found < AT_A_POINT, "{k}: {found:e}");
             let step = &dataset.steps[0];
+            // ½ σ:ε on an area of 4, with ε = (1 + ν)(1 − 2ν) σ/E
+            assert!((record(step, "energy") / 2.08 - 1.0).abs() < 1e-9, "{k}");
             assert!((record(step, "closed faces") - 1.0).abs() < 1e-9);
             assert!(record(step, "overlap of faces") < 1e-9, "{k}");
             for tip in tips(&dataset) {
@@ -127,7 +132,7 @@ fn faces_with_much_friction_stick() {
     let cracks = &all_kinds(&mut Random(2))[0];
     let dataset = solved(&touching(plate(1.0, 9, cracks, stress), 0.9));
     let found = difference(&dataset, stress);
-    assert!(found < 1e-8, "{found:e}");
+    assert!(found < AT_A_POINT, "{found:e}");
 }
 
 /// Faces that do not overlap are not tied: the solution has the bits that it has without contact.
@@ -205,17 +210,18 @@ fn a_crack_in_bending_closes_on_a_third() {
     let problem = parsed(
         "title = \"Bent\"\n[domain]\nmin = [-5, -5]\nmax = [5, 5]\n\
          [material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
-         [[crack]]\npoints = [[0, -1], [0, 1]]\ncontact = true\n\
+         [[crack]]\npoints = [[0, -0.5], [0, 0.5]]\ncontact = true\n\
          [[boundary]]\non = \"left\"\ntraction = [\"-y\", 0]\n\
          [[boundary]]\non = \"right\"\ntraction = [\"y\", 0]\n\
-         [discretization]\ncells = [41, 42]\norder = 2\n",
+         [discretization]\ncells = [41, 42]\norder = 2\n\
+         [[refine]]\ncrack = 0\ndistance = 0.3\nsize = 0.07\n",
     );
     let dataset = solved(&problem);
     let closed = record(&dataset.steps[0], "closed faces");
     assert!((closed - 1.0 / 3.0).abs() < 0.03, "{closed}");
     let [pressed, open] = [0, 1].map(|k| tips(&dataset)[k].k1);
-    let expected = (2.0 * PI / 3.0).sqrt() * 2.0 / 3.0;
-    assert!((open / expected - 1.0).abs() < 0.01, "{open} of {expected}");
+    let expected = (PI / 3.0).sqrt() / 3.0;
+    assert!((open / expected - 1.0).abs() < 6e-3, "{open} of {expected}");
     assert!(pressed.abs() < 3e-3 * open, "{pressed}");
     let (found, _) = recompute(&dataset, 0, Some(&problem), unwatched()).expect("factors");
     let again = found[1].factors.as_ref().expect("factors");
@@ -235,7 +241,8 @@ fn several_cracks_open_and_close() {
     let problem = touching(plate(1.0, 16, &cracks, stress), 0.0);
     let [first, mut again] = [0; 2].map(|_| solved(&problem));
     let mut first = first;
-    [&mut first, &mut again].map(|dataset| forget_times(&mut dataset.steps[0]));
+    forget_times(&mut first.steps[0]);
+    forget_times(&mut again.steps[0]);
     assert_eq!(first, again);
     for tip in tips(&first) {
         match tip.tip.crack {
@@ -245,7 +252,7 @@ fn several_cracks_open_and_close() {
     }
 }
 
-/// Wings grow from the tips of a pressed crack, along the load, and open.
+/// Wings grow from the tips of a pressed crack, at 70.5° to it as K_II alone wants, and open.
 #[test]
 fn pressed_cracks_grow_wings() {
     let mut problem = touching(plate(4.0, 16, &[slanted(45.0)], PRESSED_ALONG_Y), 0.0);
@@ -254,13 +261,17 @@ fn pressed_cracks_grow_wings() {
     rule.increment = Some(0.3);
     let dataset = series(&problem.with_growth(rule), None, unwatched()).expect("a series");
     assert_eq!(dataset.steps.len(), 3);
-    let last = &dataset.steps[2];
-    for tip in &last.intensities {
-        assert!(tip.k1 > 0.3 && tip.k2.abs() < 0.3 * tip.k1, "{tip:?}");
+    assert!(dataset.steps[0].intensities.iter().all(|tip| tip.k1.abs() < 1e-3));
+    for tip in &dataset.steps[2].intensities {
+        assert!(tip.k1 > 0.3, "{tip:?}");
     }
-    let points = &last.cracks[0].points;
-    let way = (points[0] - points[1]).unit();
-    assert!(way.y < -0.8, "{points:?}");
+    for tip in &dataset.steps[0].intensities {
+        let angle = tip.growth_angle().expect("growth").abs().to_degrees();
+        assert!((angle - 70.53).abs() < 0.2, "{tip:?}");
+    }
+    let [corner, end] = [0, 2].map(|step: usize| dataset.steps[step].cracks[0].points[0]);
+    let wing = (end - corner).unit();
+    assert!(wing.y < -0.8, "{wing:?}");
 }
 
 /// Each mistake is told at its key, with a remedy.
@@ -283,7 +294,8 @@ fn contact_that_cannot_be() {
         let error = problem.check().expect_err("a mistake").to_string();
         assert!(error.contains(words), "{error}");
     }
-    let cut = plate(1.0, 8, &[vec![[-1.0, 0.0], [1.0, 0.1]]], PRESSURE);
+    let along = Stress { xx: -1.0, yy: 0.0, xy: 0.0 };
+    let cut = plate(1.0, 8, &[vec![[-1.0, 0.0], [1.0, 0.0]]], along);
     let error = solve(&touching(cut, 0.0), unwatched()).expect_err("pieces that are loose");
     assert!(matches!(error, SolveError::LoosePiece), "{error}");
 }

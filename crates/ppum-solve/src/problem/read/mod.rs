@@ -12,7 +12,7 @@ mod steps;
 mod support;
 mod table;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use ppum::dataset::{
@@ -166,6 +166,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     let cracks =
         root.each("crack", |section| Some((curve::course(&section)?, friction(&section)?)));
     let (cracks, frictions): (Vec<_>, Vec<_>) = cracks.into_iter().unzip();
+    let contacts = (0..).zip(frictions).filter_map(|(crack, friction)| Some((crack, friction?)));
     let body = rim::body(root, discretization.as_ref());
     let enrichments = root.each("enrichment", |new| enrichment::enrichment(&new, cracks.len()));
     let mut refinements = root.each("refine", |new| steps::refinement(&new));
@@ -189,7 +190,11 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     Some(Problem {
         title,
         cracks: cracks::with_ends(cracks, &domain),
-        contacts: (0..).zip(frictions).filter_map(|(k, mu)| Some((k, mu?))).collect(),
+        contacts: if kind == EquationKind::Elasticity {
+            contacts.collect()
+        } else {
+            BTreeMap::new()
+        },
         domain,
         equation,
         pieces: body.pieces,
