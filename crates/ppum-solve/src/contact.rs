@@ -74,8 +74,10 @@ impl ContactLaw {
         let jump = vec2(above[0].v - below[0].v, above[1].v - below[1].v);
         let opening = if side == Side::Below { jump.dot(normal) } else { -jump.dot(normal) };
         let stress = traction.dot(normal);
+        // false where there are no values
+        let is_closed = stress + law.modulus(0) / self.size * opening < 0.0;
         match () {
-            () if !(stress + law.modulus(0) / self.size * opening < 0.0) => Vec2::ZERO,
+            () if !is_closed => Vec2::ZERO,
             () if self.friction > 0.0 => traction,
             () => normal * stress,
         }

@@ -183,8 +183,8 @@ impl<'a> Interaction<'a> {
         all
     }
 
-    /// The tractions between faces that touch, at the points of a rule on one face in a cell, in the
-    /// tip's frame; zero at other tips.
+    /// The tractions between faces that touch, at the points of a rule on one face in a cell, in
+    /// the tip's frame; zero at other tips.
     pub(super) fn between(&self, rule: &EdgeRule, cell: usize) -> Vec<Vec2> {
         let size = self.space.partition().cell[cell].size();
         let tractions = self.friction.map(|friction| {
