@@ -228,8 +228,8 @@ fn a_crack_in_bending_closes_on_a_third() {
     assert_eq!(again.k1.to_bits(), open.to_bits());
 }
 
-/// What is closed carries pressure, what is open nothing: of several cracks each for itself, and the
-/// same however often it is solved.
+/// What is closed carries pressure, what is open nothing: of several cracks each for itself, with
+/// the same bits however often it is solved.
 #[test]
 fn several_cracks_open_and_close() {
     let cracks: [Line; 3] = [
