@@ -42,7 +42,7 @@ macro_rules! example {
 }
 
 /// All examples, those for a first look first.
-pub const ALL: [Example; 33] = [
+pub const ALL: [Example; 37] = [
     example!("centre-crack", "Held at the bottom, pulled at the top"),
     example!("edge-crack", "A strip in tension, K_I known"),
     example!("slanted-crack", "Both modes at 45°, K known"),
@@ -53,6 +53,7 @@ pub const ALL: [Example; 33] = [
     example!("two-holes-growth", "Cracks that bend towards holes"),
     example!("beam-three-holes", "Bent until the crack meets a hole"),
     example!("network-growth", "Ten cracks grow into a network"),
+    example!("pressed-crack", "Faces that slide, and wings that open"),
     example!("cracked-hole", "Pressure in a hole and a crack"),
     example!("square-hole", "Singular corners of 270°"),
     example!("plate-with-hole", "Kirsch's stress concentration of 3"),
