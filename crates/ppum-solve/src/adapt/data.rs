@@ -15,6 +15,10 @@ use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::PI;
 
+/// Part of a cell around a force within which borders are not looked at: its field is all there,
+/// with no tractions but those of the rounding of places, which have no bound.
+const AT_FORCE: f64 = 1e-6;
+
 /// The squares of what each cell misses of the data. Advances the stage by their number.
 ///
 /// # Errors
@@ -134,8 +138,14 @@ impl DataResidual<'_> {
             if let Some(between) = &between {
                 given = between[q].into();
             }
-            let to_tip = tips.iter().map(|&tip| (x - tip).length()).fold(f64::INFINITY, f64::min);
-            let width = (h / (2.0 * (p + 1.0))).min(to_tip);
+            let nearest = |p: f64, place: Vec2| p.min((x - place).length());
+            let to_tip = tips.iter().copied().fold(f64::INFINITY, nearest);
+            let forces = self.problem.forces.iter().map(|force| force.at);
+            let to_force = forces.fold(f64::INFINITY, nearest);
+            if to_force < AT_FORCE * h {
+                continue;
+            }
+            let width = (h / (2.0 * (p + 1.0))).min(to_tip).min(to_force);
             for i in 0..law.components() {
                 sum += weight
                     * if held[i] {

@@ -44,6 +44,9 @@ impl Problem {
     pub(crate) fn place_of(&self, force: &Force) -> Result<ForcePlace, String> {
         let Force { at: p, face: side, .. } = *force;
         let touch = touch(&self.domain.bounds);
+        if self.domain.holes.iter().any(|hole| is_on_curve(hole, p, touch)) {
+            return Err("lies on a curved part of the border; move it onto a straight one".into());
+        }
         if is_outside(&self.domain, p, touch) {
             return Err(
                 "lies outside of the body; move it into the body, or onto its border".into()
@@ -61,7 +64,7 @@ impl Problem {
             return Err("lies on no crack, so that `face` has no meaning; leave it out".into());
         }
         let mut normals: Vec<Vec2> = Vec::new();
-        for normal in edge_normals(&self.domain, p, touch).chain(self.rim_normals(p, touch)?) {
+        for normal in edge_normals(&self.domain, p, touch).chain(self.rim_normals(p, touch)) {
             if !normals.iter().any(|known| known.dot(normal) > PARALLEL) {
                 normals.push(normal);
             }
@@ -105,24 +108,18 @@ impl Problem {
     }
 
     /// The normals into the body of the sides of rims that a point lies on.
-    fn rim_normals(&self, p: Vec2, touch: f64) -> Result<Vec<Vec2>, String> {
+    fn rim_normals(&self, p: Vec2, touch: f64) -> Vec<Vec2> {
         let beside = BESIDE * self.domain.bounds.size().length();
         let mut normals = Vec::new();
         for hole in self.domain.holes.iter().filter(|hole| hole.rim_distance(p) <= touch) {
             let sides: Vec<_> = hole.sides().collect();
             let here = (0..sides.len()).filter(|&k| segment::distance(sides[k], p) <= touch);
-            let here: Vec<_> = here.collect();
-            if sides.is_empty() || here.iter().any(|&k| is_of_curve(&sides, k)) {
-                return Err(
-                    "lies on a curved part of the border; move it onto a straight one".into()
-                );
-            }
-            normals.extend(here.iter().map(|&k| {
+            normals.extend(here.map(|k| {
                 let left = (sides[k][1] - sides[k][0]).unit().left();
                 if hole.contains(p + left * beside) { -left } else { left }
             }));
         }
-        Ok(normals)
+        normals
     }
 
     /// Distance from a force within which its field alone is not smooth: up to tips and kinks of
@@ -175,13 +172,25 @@ fn edge_normals(domain: &Domain, p: Vec2, touch: f64) -> impl Iterator<Item = Ve
     Edge::ALL.into_iter().filter(on_edge).map(|edge| -edge.normal())
 }
 
-/// True if a side of a rim turns gently into the next or from the one before.
-fn is_of_curve(sides: &[[Vec2; 2]], k: usize) -> bool {
-    let n = sides.len();
-    let way = |k: usize| (sides[k % n][1] - sides[k % n][0]).unit();
-    let turn = |a: Vec2, b: Vec2| a.cross(b).atan2(a.dot(b)).abs();
-    let turns = [turn(way(k + n - 1), way(k)), turn(way(k), way(k + 1))];
-    turns.iter().any(|turn| (BESIDE..CURVE).contains(turn))
+/// True if a point lies on a curve that a part of a rim stands for: between the curve and its
+/// segments there is an eighth of their length times their turn.
+fn is_on_curve(hole: &Hole, p: Vec2, touch: f64) -> bool {
+    let sides: Vec<_> = hole.sides().collect();
+    let is_round = sides.is_empty() && hole.rim_distance(p) <= touch;
+    let pairs = (0..sides.len()).map(|k| [sides[k], sides[(k + 1) % sides.len()]]);
+    is_round || pairs.into_iter().any(|pair| is_at_bend(pair, p, touch))
+}
+
+/// The same of two segments that turn gently, as far as the shorter one reaches: straight sides
+/// may go on into curves.
+fn is_at_bend([[a, b], [_, c]]: [[Vec2; 2]; 2], p: Vec2, touch: f64) -> bool {
+    let (first, second) = (b - a, c - b);
+    let turn = first.cross(second).atan2(first.dot(second)).abs();
+    let reach = first.length().min(second.length());
+    let sagitta = (0.25 * turn * reach).max(touch);
+    (BESIDE..CURVE).contains(&turn)
+        && (p - b).length() <= reach + touch
+        && [[a, b], [b, c]].iter().any(|side| segment::distance(*side, p) <= sagitta)
 }
 
 /// Distance from a point in a direction to a segment that does not begin there.

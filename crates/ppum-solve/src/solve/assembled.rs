@@ -55,7 +55,6 @@ impl Assembled {
         let system = System::new(assembly, &given, functionals, &stage);
         let mut system = system.map_err(SolveError::of_data)?;
         add_forces(assembly, &mut system);
-        let stage = Stage::uncounted(watcher, Phase::Assembly)?;
         let contacts = FaceContacts::new(assembly, &stage).map_err(SolveError::of_data)?;
         let moments = (std::mem::take(&mut system.moments), system.known.clone());
         let gauge = Gauge::new(free, moments, &system.matrix);

@@ -1,14 +1,16 @@
 //! Forces at points: Kelvin's and Flamant's fields, pairs on the faces of a crack, and what must
 //! hold for any of them.
 
-use crate::studies::support::{parsed, quantity, solved};
+use crate::studies::support::{parsed, quantity, record, solved};
 use ppum::dataset::Dataset;
 use ppum::expression::Expression;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_solve::problem::Problem;
 use ppum_solve::solve::solve;
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
+use std::path::Path;
 
 const EDGES: [&str; 4] = ["left", "right", "bottom", "top"];
 
@@ -186,6 +188,66 @@ fn flamant_is_exact_on_slanted_sides() {
     let off = difference(&mut random, &dataset, &[xx, yy, xy], &mut near);
     println!("{off:.1e}");
     assert!(off < 1e-8, "{off:e}");
+}
+
+/// The estimated error does not see the rounding of places on slanted sides and faces: it is that
+/// of the body that is not turned.
+#[test]
+fn estimates_do_not_see_the_rounding_of_places() {
+    let mut random = Random(8);
+    let pulled = |angle: f64| {
+        let turned = |x: f64, y: f64| {
+            vec2(angle.cos(), angle.sin()) * x + vec2(-angle.sin(), angle.cos()) * y
+        };
+        let corners =
+            [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| turned(x, y));
+        let points = corners.map(|p| format!("[{}, {}]", p.x, p.y)).join(", ");
+        let ends = [-1.0, 1.0].map(|y| force(turned(0.25, y), turned(0.0, y), "")).concat();
+        let cracks = [turned(-0.6, 0.1), turned(0.1, 0.1)];
+        let crack = format!(
+            "[[crack]]\npoints = [[{}, {}], [{}, {}]]\n",
+            cracks[0].x, cracks[0].y, cracks[1].x, cracks[1].y
+        );
+        let at = (cracks[0] + cracks[1]) * 0.5;
+        let pair = force(at, turned(0.0, 1.0), "above") + &force(at, turned(0.0, -1.0), "below");
+        let text = body(0.3, 2, 12, &(ends + &crack + &pair));
+        let text = text.replace(
+            "min = [-1, -1]\nmax = [1, 1]",
+            &format!("outline = {{ points = [{points}] }}"),
+        );
+        record(&solved(&parsed(&text)).steps[0], "estimated error")
+    };
+    let upright = pulled(0.0);
+    for _ in 0..3 {
+        let angle = random.between(0.1, 1.4);
+        let turned = pulled(angle);
+        println!("{angle}: {turned:.2e} beside {upright:.2e}");
+        assert!((0.2..5.0).contains(&(turned / upright)));
+    }
+}
+
+/// On curves, whose segments lie beside them, forces are refused; on straight sides that go on
+/// into curves they are not.
+#[test]
+fn curves_are_known_by_their_segments() {
+    let stadium = "min = [-1, -1]\nmax = [1, 1]";
+    let outline = "outline = { path = [\n{ points = [[-1, -1], [1, -1]] },\n\
+                   { arc = { center = [1, 0], radius = 1, from = -90, to = 90 } },\n\
+                   { points = [[1, 1], [-1, 1]] },\n\
+                   { arc = { center = [-1, 0], radius = 1, from = 90, to = 270 } }] }";
+    let place = |at: Vec2| {
+        let forces = force(at, vec2(0.0, 1.0), "") + &force(-at, vec2(0.0, -1.0), "");
+        let text = body(0.3, 1, 12, &forces).replace(stadium, outline);
+        Problem::parse(&text, "stadium.toml", Path::new(""))
+    };
+    let mut random = Random(9);
+    for _ in 0..20 {
+        let angle = random.between(-1.5, 1.5);
+        let error = place(vec2(1.0 + angle.cos(), angle.sin())).expect_err("a curve");
+        assert!(error.to_string().contains("curved part of the border"), "{error}");
+        assert!(place(vec2(random.between(-0.9, 0.9), 1.0)).is_ok());
+        assert!(place(vec2(random.between(-0.9, 0.9), 0.97)).is_ok());
+    }
 }
 
 /// K of forces that open a crack at any point of it, with the tractions of the infinite body.
