@@ -16,6 +16,7 @@ const STYLE: &str = include_str!("../web/page.css");
 /// One text: the page gives its workers the function in the first file.
 const SCRIPT: &str = concat!(include_str!("../web/worker.js"), include_str!("../web/page.js"));
 /// The evaluator, as `tools/page.sh` compiles it.
+#[allow(clippy::large_include_file, reason = "each page holds it")]
 const EVALUATOR: &[u8] = include_bytes!("../evaluator.wasm.gz");
 
 /// Longest dataset of a page, in bytes: browsers hold no text of more than half a gigabyte.

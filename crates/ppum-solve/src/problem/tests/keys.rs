@@ -198,7 +198,12 @@ fn schema_text() -> String {
     root["then"] = json!(of_equation(&ROOT, poisson));
     root["else"] = json!(of_equation(&ROOT, elasticity));
     let definition = |(path, table): (&String, &&'static KeyTable)| {
-        format!("    \"{path}\": {}", table_schema(table, &names))
+        let mut schema = table_schema(table, &names);
+        if path == "domain" {
+            let ways = [["min", "max"].as_slice(), &["outline"]];
+            schema["anyOf"] = json!(ways.map(|keys| json!({ "required": keys })));
+        }
+        format!("    \"{path}\": {schema}")
     };
     let definitions = names.iter().filter(|(path, _)| path.as_str() != FILE).map(definition);
     let definitions = definitions.collect::<Vec<_>>().join(",\n");
