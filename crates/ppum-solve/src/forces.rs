@@ -28,11 +28,17 @@ use std::f64::consts::PI;
 /// The functions of the angle and the distance, the last at borders only.
 const TEXTS: [&str; 4] = ["log(r)", "(x^2 - y^2)/r^2", "2*x*y/r^2", "theta"];
 
+/// Distances to the next border or crack that a patch with the force may reach: what the border
+/// answers is beyond its polynomials where it is farther.
+const REACH: f64 = 3.0;
+
 /// The field S of a force: functions with the coefficients of both components.
 pub(crate) struct ForceField {
     at: Vec2,
     /// Radius of the disc in which the field stands for what is not smooth.
     pub(crate) room: f64,
+    /// Radius of the disc that the patches that hold the point must lie in.
+    pub(crate) reach: f64,
     pub(crate) functions: Vec<Function>,
     /// Of each function, its coefficient in each component.
     pub(crate) coefficients: Vec<[f64; 2]>,
@@ -70,7 +76,9 @@ impl ForceField {
             },
         };
         let functions = TEXTS.iter().take(coefficients.len()).enumerate().map(function).collect();
-        Self { at: force.at, room: problem.room_of(force, place), functions, coefficients }
+        let room = problem.room_of(force, place);
+        let reach = room.min(REACH * problem.next_to(force));
+        Self { at: force.at, room, reach, functions, coefficients }
     }
 
     /// The patches that have the field, ascending: those that hold the point, and those in
@@ -78,20 +86,21 @@ impl ForceField {
     pub(crate) fn patches(&self, partition: &BoxPartition, bounds: &Rect) -> Vec<u32> {
         let has = |&k: &u32| {
             let support = partition.support(k as usize);
-            support.contains(self.at) || self.has_room_for(&support.intersection(bounds))
+            support.contains(self.at) || self.is_near(&support.intersection(bounds), self.room)
         };
         (0..partition.len() as u32).filter(has).collect()
     }
 
-    fn has_room_for(&self, part: &Rect) -> bool {
-        part.corners().iter().all(|p| (*p - self.at).length() < self.room)
+    fn is_near(&self, part: &Rect, radius: f64) -> bool {
+        part.corners().iter().all(|p| (*p - self.at).length() < radius)
     }
 
-    /// True if the patches that hold the point have room.
+    /// True if the patches that hold the point have room, and are not much larger than the
+    /// distance to the next border.
     pub(crate) fn fits(&self, partition: &BoxPartition, bounds: &Rect) -> bool {
         let own = (0..partition.len()).map(|k| partition.support(k));
         let mut own = own.filter(|support| support.contains(self.at));
-        own.all(|support| self.has_room_for(&support.intersection(bounds)))
+        own.all(|support| self.is_near(&support.intersection(bounds), self.reach))
     }
 
     /// The place of the force.

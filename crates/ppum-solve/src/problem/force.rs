@@ -139,6 +139,20 @@ impl Problem {
         room
     }
 
+    /// Distance from a force to the nearest border or crack that it does not act on: the rest of
+    /// the field varies as fast there.
+    pub(crate) fn next_to(&self, force: &Force) -> f64 {
+        let (p, domain) = (force.at, &self.domain);
+        let to = |[a, b]: [Vec2; 2]| segment::distance([a, b], p);
+        let edges = Edge::ALL.into_iter().map(|edge| edge.depth(&domain.bounds, p));
+        let sides = domain.holes.iter().flat_map(Hole::sides).map(to);
+        let circles = domain.holes.iter().filter(|hole| hole.sides().next().is_none());
+        let circles = circles.map(|hole| hole.rim_distance(p));
+        let cracks = self.cracks.iter().flat_map(|crack| crack.points.windows(2));
+        let all = edges.chain(sides).chain(circles).chain(cracks.map(|s| to([s[0], s[1]])));
+        all.filter(|distance| *distance > touch(&domain.bounds)).fold(f64::INFINITY, f64::min)
+    }
+
     fn distance_to(&self, on: BorderPart, p: Vec2) -> f64 {
         let bounds = &self.domain.bounds;
         if let BorderPart::Edge { edge, from, to } = on {

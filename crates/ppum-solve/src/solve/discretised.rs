@@ -43,7 +43,7 @@ impl<'p> Discretised<'p> {
         if let Some(field) =
             force_fields(problem).iter().find(|field| !field.fits(space.partition(), bounds))
         {
-            return Err(SpaceError::Force { at: field.at(), room: field.room }.into());
+            return Err(SpaceError::Force { at: field.at(), reach: field.reach }.into());
         }
         Ok(Self { problem, mesh, dataset, space, crossed_twice })
     }

@@ -25,16 +25,15 @@ pub enum SpaceError {
     Function(#[from] InspectError),
     /// A force beside what its field cannot go on beyond.
     #[error(
-        "the force at [{}, {}] is too near to something: its field goes as far as {}, to a tip or kink of its crack, \
-         to a held part of the border, or to what is behind the border, but the cells there are larger; divide them \
-         by [[refine]] with this point",
-        trimmed(at.x), trimmed(at.y), trimmed(*room)
+        "the force at [{}, {}] is too near to a border, a crack or a tip for the cells there: patches may reach {} \
+         from it, but reach farther; divide the cells by [[refine]] with this point",
+        trimmed(at.x), trimmed(at.y), trimmed(*reach)
     )]
     Force {
         /// The point.
         at: Vec2,
-        /// The distance.
-        room: f64,
+        /// The distance that patches may reach.
+        reach: f64,
     },
     /// The watcher wanted the work to stop.
     #[error(transparent)]

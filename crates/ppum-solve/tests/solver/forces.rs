@@ -250,6 +250,36 @@ fn curves_are_known_by_their_segments() {
     }
 }
 
+/// A force beside a free edge needs cells as small as the distance; its tractions on the edge then
+/// fall with the cells.
+#[test]
+fn forces_beside_edges_need_small_cells() {
+    let mut random = Random(10);
+    let held = "[[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n";
+    for distance in [1e-3, 1e-2] {
+        let at = vec2(random.between(-0.5, 0.5), 1.0 - distance);
+        let rest = format!("{held}{}", force(at, random.direction(), ""));
+        let coarse = solve(&parsed(&body(0.3, 3, 8, &rest)), unwatched()).expect_err("large cells");
+        assert!(coarse.to_string().contains("[[refine]]"), "{coarse}");
+        let on_edge = |size: f64| {
+            let refine = format!(
+                "[[refine]]\ncenter = [{}, {}]\nradius = {}\nsize = {size}\n",
+                at.x,
+                at.y,
+                2.0 * distance
+            );
+            let dataset = solved(&parsed(&body(0.3, 3, 8, &(rest.clone() + &refine))));
+            let point = |k: i32| vec2(at.x + 0.1 * f64::from(k) * distance, 1.0);
+            let at = (-20..=20).map(|k| stresses(&dataset, point(k)));
+            at.fold(0.0f64, |m, s| m.max(s[1].abs()).max(s[2].abs())) * distance
+        };
+        let [wide, narrow] = [1.0, 0.25].map(|part| on_edge(part * distance));
+        println!("{distance}: {wide:.1e}, {narrow:.1e} of F/d");
+        // found: 5.6e-2, and a sixteenth with cells of a quarter; Kelvin's alone are 0.4
+        assert!(wide < 0.1 && narrow < wide / 8.0);
+    }
+}
+
 /// K of forces that open a crack at any point of it, with the tractions of the infinite body.
 #[test]
 fn pairs_on_faces_have_the_factors_of_the_formula() {
