@@ -642,11 +642,18 @@
   // --- series ----------------------------------------------------------------------------------
 
   let player = 0;
+  let asked = 0; // steps whose description is on its way
 
   async function stepTo(step) {
     if (!(step in about.loads)) return;
     scene.subject.step = step;
-    about = await workers[0].ask("describe", { step });
+    asked++;
+    try {
+      about = await workers[0].ask("describe", { step });
+    } finally {
+      asked--;
+    }
+    if (asked > 0) return;
     fill();
     redraw();
     look();
@@ -662,7 +669,7 @@
     at("play").setAttribute("aria-pressed", String(!isPlaying));
     at("play").textContent = isPlaying ? "Play" : "Stop";
     const next = () => {
-      if (!isBusy) stepTo((scene.subject.step + 1) % about.loads.length);
+      if (!isBusy && !asked) stepTo((scene.subject.step + 1) % about.loads.length);
     };
     if (!isPlaying) player = setInterval(next, 250);
   }
@@ -713,7 +720,9 @@
       get view() { return view; },
       get scene() { return scene; },
       get hover() { return hover; },
-      get isAtRest() { return !isBusy && !isDirty && !isReading && performance.now() - lastMove > 2 * REST; },
+      get isAtRest() {
+        return !(isBusy || isDirty || isReading || asked) && performance.now() - lastMove > 2 * REST;
+      },
       get pace() { return pace; },
       get workers() { return workers.length; },
       move,
