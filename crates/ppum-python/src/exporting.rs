@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
 use ppum::vec2::Vec2;
 use ppum_format::to_bytes;
 use ppum_page::{LARGEST, Start, View, html};
-use ppum_scene::export::vtkhdf::{self, ExportedStep};
+use ppum_scene::export::vtkhdf::{ExportedStep, MOST_BYTES, file};
 use ppum_scene::export::vtu::{About, write};
 use ppum_scene::export::{Accuracy, Array, ExportError, resolve};
 use ppum_scene::request::Request;
@@ -83,12 +83,6 @@ impl Triangles {
         self.step.mesh.is_complete
     }
 
-    /// The bytes of a `.vtkhdf` file.
-    fn vtkhdf<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = long(py, None, None, |_| vtkhdf::file(std::slice::from_ref(&self.step)))?;
-        Ok(PyBytes::new(py, &bytes.map_err(unwritable)?))
-    }
-
     /// The bytes of a `.vtu` file.
     fn vtu<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = long(py, None, None, |_| {
@@ -97,6 +91,20 @@ impl Triangles {
         })??;
         Ok(PyBytes::new(py, &bytes))
     }
+}
+
+/// The bytes of a `.vtkhdf` file with the triangles of some steps.
+#[pyfunction]
+pub(crate) fn vtkhdf(py: Python<'_>, steps: Vec<Py<Triangles>>) -> PyResult<Bound<'_, PyBytes>> {
+    let steps: Vec<_> = steps.iter().map(|triangles| &triangles.get().step).collect();
+    let bytes: usize = steps.iter().map(|step| step.mesh.bytes()).sum();
+    if bytes > MOST_BYTES {
+        let most = MOST_BYTES >> 30;
+        let words = "take a larger tolerance, or save steps one by one";
+        return Err(RenderError::new_err(format!("more than {most} GiB of triangles; {words}")));
+    }
+    let bytes = long(py, None, None, |_| file(&steps))?;
+    Ok(PyBytes::new(py, &bytes.map_err(unwritable)?))
 }
 
 /// Triangles that resolve arrays of a field to a tolerance; without names those that suit.
@@ -118,7 +126,7 @@ pub(crate) fn triangles(
     let mesh = long(py, None, progress, |watcher| resolve(field, &arrays, &accuracy, watcher))?;
     let about = About::of(this.owned.dataset(), field, hash);
     let mesh = mesh.map_err(unexported)?;
-    Ok(Triangles { step: ExportedStep { time: field.step.load, mesh, about } })
+    Ok(Triangles { step: ExportedStep { load: field.step.load, mesh, about } })
 }
 
 /// The page of a field, which shows first what is asked for, at a place if one is given.

@@ -36,7 +36,7 @@ mod _core {
     #[pymodule_export]
     use crate::dataset::{Dataset, from_bytes, read};
     #[pymodule_export]
-    use crate::exporting::{Triangles, page, triangles};
+    use crate::exporting::{Triangles, page, triangles, vtkhdf};
     #[pymodule_export]
     use crate::field::Field;
     #[pymodule_export]

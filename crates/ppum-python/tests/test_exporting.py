@@ -58,7 +58,29 @@ def test_files_are_those_of_the_program(ds, program, tmp_path):
     program("export", tmp_path / "plate.h5", "-o", tmp_path / "its.vtu", *asked)
     program("export", tmp_path / "plate.h5", "-o", tmp_path / "its.vtkhdf", *asked)
     for form in ("vtu", "vtkhdf"):
-        assert (tmp_path / f"ours.{form}").read_bytes() == (tmp_path / f"its.{form}").read_bytes()
+        ds.save(tmp_path / f"whole.{form}", ["uy", "displacement"], tolerance=0.01, order=2)
+        its = (tmp_path / f"its.{form}").read_bytes()
+        assert (tmp_path / f"ours.{form}").read_bytes() == its
+        assert (tmp_path / f"whole.{form}").read_bytes() == its
+
+
+def test_all_steps_are_saved(grown, program, tmp_path):
+    assert len(grown.steps) > 2
+    grown.save(tmp_path / "grown.h5")
+    grown.save(tmp_path / "ours.vtkhdf", ["uy"], tolerance=0.02)
+    program("export", tmp_path / "grown.h5", "-o", tmp_path / "its.vtkhdf", "-q", "uy", "--tolerance", "0.02")
+    assert (tmp_path / "ours.vtkhdf").read_bytes() == (tmp_path / "its.vtkhdf").read_bytes()
+    for name, options, error, words in [
+        ("grown.vtu", {}, ValueError, r"one step, this dataset has \d+; end its name in .vtkhdf"),
+        ("none/grown.vtkhdf", {}, FileNotFoundError, "none"),
+        ("grown.vtkhdf", {"tolerance": -1}, ValueError, "tolerance: -1"),
+        ("grown.vtkhdf", {"toleranze": 1}, TypeError, "did you mean `tolerance`"),
+        ("grown.h5", {"tolerance": 0.1}, TypeError, "tolerance: for names that end in .vtkhdf or .vtu"),
+        ("grown.h5", {"quantities": ["uy"]}, TypeError, "quantities: for names"),
+    ]:
+        with pytest.raises(error, match=words):
+            grown.save(tmp_path / name, **options)
+    assert not (tmp_path / "grown.vtkhdf").exists()
 
 
 def test_what_triangles_cannot_be_is_said(f):
@@ -79,7 +101,7 @@ def test_what_triangles_cannot_be_is_said(f):
             f.triangles(**options)
     with pytest.raises(ValueError, match="cannot draw 'stl': triangles are vtu or vtkhdf$"):
         mesh.save("plate.stl")
-    for end, maker in {"vtu": "triangles", "png": "figure", "gif": "animate", "csv": "line", "html": "to_html"}.items():
+    for end, maker in {"pvd": "triangles", "png": "figure", "gif": "animate", "csv": "line", "html": "to_html"}.items():
         with pytest.raises(ValueError, match=rf"end its name in \.h5; .*Field\.{maker}"):
             f.dataset.save(f"plate.{end}")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property, lru_cache, partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, Unpack
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
+from .exporting import TriangleOptions, save_triangles
 from .facts import (
     Advance,
     Crack,
@@ -276,14 +277,31 @@ class Dataset:
         """
         return self.steps[step].field.view(quantity, **options)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        quantities: Sequence[str] | None = None,
+        **options: Unpack[TriangleOptions],
+    ) -> None:
         """Writes a file. What was there stays until the new one is complete.
+
+        A name that ends in ``.vtkhdf``, or in ``.vtu`` if there is one step, is for programs that interpolate, such as
+        ParaView: the triangles of all steps, with the arguments of `Field.triangles`.
 
         Raises:
             OSError: The system refuses; `FileNotFoundError` where there is no such folder.
-            ValueError: A name of another kind of file, such as ``.vtu``.
+            ValueError: A name of another kind of file, such as ``.png``.
+            TypeError: Arguments of triangles for another file.
+
+        Example:
+            >>> ds.save("plate.vtkhdf", ["displacement"], tolerance=0.01)
         """
         path = Path(path)
+        if path.suffix.lower() in (".vtu", ".vtkhdf"):
+            return save_triangles(self, path, quantities, **options)
+        if quantities is not None or options:
+            given = ", ".join(["quantities"] * (quantities is not None) + [*options])
+            raise TypeError(f"{given}: for names that end in .vtkhdf or .vtu, not {path.name}")
         if remedy := _OTHER_FILES.get(path.suffix.lower()):
             raise ValueError(f"{path.name}: a dataset is an HDF5 file, end its name in .h5; {remedy}")
         self._core.save(path)
@@ -333,12 +351,12 @@ class Dataset:
 
 
 _PICTURES = "`Field.figure` draws pictures, `Field.animate` animations"
-_MESHES = "`Field.triangles` makes .vtu and .vtkhdf files"
+_MESHES = "`Dataset.save` makes .vtkhdf and .vtu files, with the triangles of `Field.triangles`"
 _TABLES = "`Field.line` and others make tables"
 #: Ends of the names of other files, and what makes these.
 _OTHER_FILES = {
     **dict.fromkeys((".png", ".svg", ".pdf", ".jpg", ".gif", ".apng"), _PICTURES),
-    **dict.fromkeys((".vtu", ".pvd", ".vtk", ".vtkhdf"), _MESHES),
+    **dict.fromkeys((".pvd", ".vtk", ".vtp"), _MESHES),
     **dict.fromkeys((".csv", ".npy", ".npz", ".txt"), _TABLES),
     **dict.fromkeys((".html", ".htm"), "`Field.to_html` makes pages"),
     **dict.fromkeys((".toml",), "`Problem.to_toml` is the text of a problem file"),

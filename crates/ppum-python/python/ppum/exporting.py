@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Unpack
+from typing import TYPE_CHECKING, Annotated, Any, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,16 +20,45 @@ from . import _core
 from .drawn import Drawn, folder_of, replace
 from .drawing import Drawing
 from .extras import needed
-from .options import takes
+from .options import Option, passes, takes
 from .styles import HtmlOptions
 from .views import SIZE
 
-__all__ = ["ArrayAccuracy", "Exporting", "Triangles"]
+if TYPE_CHECKING:
+    from .dataset import Dataset
+
+__all__ = ["ArrayAccuracy", "Exporting", "TriangleOptions", "Triangles", "save_triangles"]
 
 Floats = NDArray[np.float64]
 
 #: Degrees of the polynomials in triangles.
 ORDERS = range(1, 5)
+
+
+class TriangleOptions(TypedDict, total=False):
+    """How fine triangles are."""
+
+    tolerance: Annotated[
+        float, Option(1e-3, "largest difference from the field, in parts of the range of each array")
+    ]
+    tip_radius: Annotated[
+        float | None,
+        Option(
+            None,
+            "the radius about tips outside of which stresses are resolved; by default 1/200 of the longer side of the "
+            "domain. A smaller one means a larger range",
+        ),
+    ]
+    max_cells: Annotated[int, Option(1_000_000, "most triangles, of each step")]
+    order: Annotated[
+        int,
+        Option(
+            1,
+            "degree of the polynomials between the points of a triangle, 1 to 4; higher ones take fewer triangles for "
+            "fine tolerances",
+        ),
+    ]
+    progress: Annotated[Any, Option(None, "as in `render`")]
 
 
 @dataclass(frozen=True)
@@ -120,7 +149,7 @@ class Triangles(Drawn):
         return grid
 
     def _draw(self, form: str) -> bytes:
-        return self._core.vtu() if form == "vtu" else self._core.vtkhdf()
+        return self._core.vtu() if form == "vtu" else _core.vtkhdf([self._core])
 
     def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError("triangles cannot be pickled; pickle the field, or save them")
@@ -133,28 +162,15 @@ class Triangles(Drawn):
 class Exporting(Drawing):
     """What is made of a `Field` for others."""
 
+    @takes
     def triangles(
-        self,
-        quantities: Sequence[str] | None = None,
-        *,
-        tolerance: float = 1e-3,
-        tip_radius: float | None = None,
-        max_cells: int = 1_000_000,
-        order: int = 1,
-        progress: Any = None,
+        self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]
     ) -> Triangles:
         """Triangles for programs that interpolate, fine enough for a tolerance. Warns where the limit of triangles ends the work.
 
         Args:
             quantities: Quantities and formulas, ``displacement`` and ``stress`` among them; by default the displacement, the
                 stress tensor and von Mises' stress, of a potential itself and its gradient.
-            tolerance: Largest difference from the field, in parts of the range of each array.
-            tip_radius: The radius about tips outside of which stresses are resolved; by default 1/200 of the longer side of
-                the domain. A smaller one means a larger range.
-            max_cells: Most triangles.
-            order: Degree of the polynomials between the points of a triangle, 1 to 4; higher ones take fewer triangles for
-                fine tolerances.
-            progress: As in `render`.
 
         Raises:
             QuantityError: No quantity of the field.
@@ -165,32 +181,37 @@ class Exporting(Drawing):
             >>> f.triangles(["uy"], tolerance=0.01).accuracy["uy"].largest < 0.05
             True
         """
-        positive("tolerance", tolerance)
-        positive("tip_radius", tip_radius)
-        if order not in ORDERS:
-            raise ValueError(f"order: {order} is not one of 1, 2, 3 and 4")
+        return self._triangles(quantities, hash_of(self.dataset), options)
+
+    def _triangles(
+        self, quantities: Sequence[str] | None, hashed: str, options: TriangleOptions
+    ) -> Triangles:
+        for name in ("tolerance", "tip_radius"):
+            positive(name, options[name])
+        if options["order"] not in ORDERS:
+            raise ValueError(f"order: {options['order']} is not one of 1, 2, 3 and 4")
         if isinstance(quantities, str):
             raise TypeError(f"quantities: give a list, [{quantities!r}]")
         if quantities is not None and not quantities:
             raise ValueError("quantities: give one at least, or none for those that suit")
-        names = None if quantities is None else list(quantities)
-        hashed = hashlib.sha256(self.dataset.to_bytes()).hexdigest()
         made = _core.triangles(
-            self._core, names, float(tolerance), tip_radius, int(max_cells), order, hashed, progress
+            self._core,
+            None if quantities is None else list(quantities),
+            float(options["tolerance"]),
+            options["tip_radius"],
+            int(options["max_cells"]),
+            int(options["order"]),
+            hashed,
+            options["progress"],
         )
         if not made.is_complete():
-            text = f"the limit of {max_cells} triangles is reached and the tolerance is not"
-            warnings.warn(f"{text}; raise max_cells or tolerance", stacklevel=2)
+            text = f"the limit of {options['max_cells']} triangles is reached and the tolerance is not"
+            warnings.warn(f"{text}; raise max_cells or tolerance", stacklevel=4)
         return Triangles(made)
 
+    @passes
     def to_pyvista(
-        self,
-        quantities: Sequence[str] | None = None,
-        *,
-        tolerance: float = 1e-3,
-        tip_radius: float | None = None,
-        max_cells: int = 1_000_000,
-        order: int = 1,
+        self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]
     ) -> Any:
         """The field as a `pyvista.UnstructuredGrid`, to a tolerance: `triangles`, whose arguments these are.
 
@@ -198,10 +219,7 @@ class Exporting(Drawing):
             ImportError: The package pyvista is not installed.
         """
         needed("pyvista", "pyvista", "grids of PyVista")
-        made = self.triangles(
-            quantities, tolerance=tolerance, tip_radius=tip_radius, max_cells=max_cells, order=order
-        )
-        return made.to_pyvista()
+        return self.triangles(quantities, **options).to_pyvista()
 
     @takes
     def to_html(
@@ -240,6 +258,32 @@ class Exporting(Drawing):
             return page
         replace(target, page.encode())
         return None
+
+
+def hash_of(dataset: Dataset) -> str:
+    """SHA-256 of a dataset's file, in hexadecimal digits."""
+    return hashlib.sha256(dataset.to_bytes()).hexdigest()
+
+
+@takes
+def save_triangles(
+    dataset: Dataset,
+    path: Path,
+    quantities: Sequence[str] | None = None,
+    **options: Unpack[TriangleOptions],
+) -> None:
+    """Writes the triangles of all steps to a ``.vtkhdf`` file, or of the only one to a ``.vtu`` file: `Dataset.save`."""
+    steps = list(dataset.steps)
+    if path.suffix.lower() == ".vtu" and len(steps) > 1:
+        words = "end its name in .vtkhdf, or save `Field.triangles` of one"
+        raise ValueError(f"{path.name}: a .vtu file has one step, this dataset has {len(steps)}; {words}")
+    folder_of(path)
+    hashed = hash_of(dataset)
+    meshes = [step.field._triangles(quantities, hashed, options) for step in steps]
+    if path.suffix.lower() == ".vtu":
+        meshes[0].save(path)
+    else:
+        replace(path, _core.vtkhdf([mesh._core for mesh in meshes]))
 
 
 def positive(name: str, value: float | None) -> None:

@@ -94,6 +94,13 @@ pub struct Mesh {
     pub is_complete: bool,
 }
 
+/// The times that steps are shown at: their loads where these increase, else their numbers.
+#[must_use]
+pub fn times(loads: &[f64]) -> Vec<f64> {
+    let increase = loads.windows(2).all(|pair| pair[0] < pair[1]);
+    if increase { loads.to_vec() } else { (0..loads.len()).map(|step| step as f64).collect() }
+}
+
 impl Mesh {
     /// Bytes of memory, nearly.
     #[must_use]

@@ -7,15 +7,15 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use ppum_format::{ArrayValues, Hdf5File, WriteError};
 
-use super::Mesh;
 use super::lagrange::node_count;
 use super::vtu::{About, Numbers, accuracy, cell_type, texts};
+use super::{Mesh, times};
 
 /// The mesh of a step, and what is told of it.
 #[derive(Clone, Debug)]
 pub struct ExportedStep {
-    /// The time that it is shown at; times increase.
-    pub time: f64,
+    /// The load of the step.
+    pub load: f64,
     /// The mesh.
     pub mesh: Mesh,
     /// What is told beside it.
@@ -33,7 +33,7 @@ const VERSION: [i64; 2] = [2, 2];
 ///
 /// # Errors
 /// [`WriteError`]: a text that cannot be stored.
-pub fn file(steps: &[ExportedStep]) -> Result<Vec<u8>, WriteError> {
+pub fn file(steps: &[&ExportedStep]) -> Result<Vec<u8>, WriteError> {
     let mut grid = Grid { file: Hdf5File::default(), steps };
     grid.attribute("VTKHDF@Version", &[2], ArrayValues::I64(VERSION.to_vec()));
     grid.attribute("VTKHDF@Type", &[], ArrayValues::Text(vec!["UnstructuredGrid".to_owned()]));
@@ -50,7 +50,7 @@ const FIELD_DATA: [&str; 2] = ["VTKHDF/FieldData", "VTKHDF/Steps/FieldDataOffset
 
 struct Grid<'s> {
     file: Hdf5File,
-    steps: &'s [ExportedStep],
+    steps: &'s [&'s ExportedStep],
 }
 
 impl Grid<'_> {
@@ -81,8 +81,8 @@ impl Grid<'_> {
         }
         self.numbers("VTKHDF/Steps/NumberOfParts", vec![1; steps.len()], &[n]);
         self.numbers("VTKHDF/Steps/PartOffsets", (0..n as i64).collect(), &[n]);
-        let times = steps.iter().map(|step| step.time).collect();
-        self.file.insert("VTKHDF/Steps/Values", &[n], ArrayValues::F64(times));
+        let loads: Vec<_> = steps.iter().map(|step| step.load).collect();
+        self.file.insert("VTKHDF/Steps/Values", &[n], ArrayValues::F64(times(&loads)));
 
         let meshes = || steps.iter().map(|step| &step.mesh);
         let places = meshes().flat_map(|mesh| &mesh.points).flat_map(|p| [p.x, p.y, 0.0]);
@@ -133,7 +133,7 @@ impl Grid<'_> {
                     .flat_map(|(_, text)| text.into_bytes())
                     .collect()
             };
-            let parts: Vec<Vec<u8>> = steps.iter().map(text).collect();
+            let parts: Vec<Vec<u8>> = steps.iter().copied().map(text).collect();
             let bytes = parts.concat();
             let place = member(FIELD_DATA[0], name);
             self.file.insert(&place, &[bytes.len() as u64], ArrayValues::U8(bytes));
@@ -148,7 +148,7 @@ impl Grid<'_> {
                 let all = numbers_of(mesh, about).into_iter();
                 all.filter(|numbers| numbers.name == name).flat_map(|n| n.values).collect()
             };
-            let parts: Vec<Vec<f64>> = steps.iter().map(of_step).collect();
+            let parts: Vec<Vec<f64>> = steps.iter().copied().map(of_step).collect();
             self.rows(&member(FIELD_DATA[0], &name), width, parts.concat());
             self.add_sizes(&name, width, parts.iter().map(|part| part.len() / width));
         }

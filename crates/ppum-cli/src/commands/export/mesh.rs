@@ -14,6 +14,7 @@ use ppum_scene::export::vtp::{self, IsolineRequest, Lines};
 use ppum_scene::export::vtu::{self, About};
 use ppum_scene::export::{
     Accuracy, Array, ExportError, HIGHEST_ORDER, MeasuredAccuracy, Mesh, RANDOM_POINTS, resolve,
+    times,
 };
 use ppum_scene::overlays::Levels;
 use ppum_scene::scene::Scene;
@@ -141,15 +142,14 @@ impl Options {
         steps: Range<usize>,
         out: &mut Output,
     ) -> anyhow::Result<()> {
-        let times = times(job.dataset);
         let (mut meshes, mut bytes) = (Vec::new(), 0);
         for step in steps {
             let (mesh, about) = self.mesh(job, step)?;
             bytes += mesh.bytes();
             ensure!(bytes <= vtkhdf::MOST_BYTES, "{} meshes {TOO_LARGE}", meshes.len() + 1);
-            meshes.push(ExportedStep { time: times[step], mesh, about });
+            meshes.push(ExportedStep { load: job.dataset.steps[step].load, mesh, about });
         }
-        let file = vtkhdf::file(&meshes)?;
+        let file = vtkhdf::file(&meshes.iter().collect::<Vec<_>>())?;
         target::save(job.output, |out| out.write_all(&file))?;
         let (steps, size) = (count(meshes.len(), "step", "steps"), file.len() as f64 / 1e6);
         writeln!(out, "wrote {}: {steps}, {size:.1} MB", job.output.display())?;
@@ -171,7 +171,8 @@ impl Options {
             self.write_step(job, step, file, out)?;
         }
         let name = |file: &PathBuf| file.file_name().unwrap_or_default().to_string_lossy().into();
-        let listed: Vec<_> = times(job.dataset).into_iter().zip(files.iter().map(name)).collect();
+        let loads: Vec<_> = job.dataset.steps.iter().map(|step| step.load).collect();
+        let listed: Vec<_> = times(&loads).into_iter().zip(files.iter().map(name)).collect();
         target::save(job.output, |out| vtu::write_collection(out, &listed))?;
         let steps = count(files.len(), "step", "steps");
         Ok(writeln!(out, "wrote {}: {steps}", job.output.display())?)
@@ -253,13 +254,6 @@ fn arrays(field: &Field<'_>, quantities: Option<&str>) -> anyhow::Result<Vec<Arr
         None => Ok(Array::scalar(text, quantity(field, text)?)),
     };
     parts(list).into_iter().map(array).collect()
-}
-
-/// The loads of the steps where they increase, else the numbers of the steps.
-fn times(dataset: &Dataset) -> Vec<f64> {
-    let loads: Vec<f64> = dataset.steps.iter().map(|step| step.load).collect();
-    let increase = loads.windows(2).all(|pair| pair[0] < pair[1]);
-    if increase { loads } else { (0..loads.len()).map(|step| step as f64).collect() }
 }
 
 /// The error with the option that mends it.
