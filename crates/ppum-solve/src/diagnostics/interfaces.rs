@@ -25,7 +25,7 @@ const LARGE: f64 = 1e-3;
 /// The warnings about interfaces: for each cause one, at the worst place, its value the estimated
 /// relative error of the energy.
 pub(super) fn of_interfaces(field: &Field<'_>, dataset: &Dataset, places: &Places) -> Vec<Warning> {
-    let interfaces = Interfaces::new(&dataset.equation, &dataset.domain);
+    let interfaces = Interfaces::new(&dataset.equation, &dataset.domain, &field.step.cracks);
     if interfaces.all.is_empty() {
         return Vec::new();
     }
@@ -34,7 +34,7 @@ pub(super) fn of_interfaces(field: &Field<'_>, dataset: &Dataset, places: &Place
     let total: f64 = energies.iter().sum();
     let of_patch = |patch: usize| {
         let part = partition.support(patch).intersection(&dataset.domain.bounds);
-        let found = interfaces.trouble(&part, &field.step.cracks)?;
+        let found = interfaces.trouble(&part)?;
         let share = SHARE * found.contrast.powi(2) * energies[patch] / total;
         (!has_own(field, patch)).then_some((found, share))
     };

@@ -265,7 +265,7 @@ impl<'p> Wishes<'p> {
             graded: Placed::new(graded.into_iter().map(|graded| (graded.place(), graded))),
             ligaments: Placed::new(ligaments.into_iter().map(|lig| (lig.place(), lig))),
             interfaces: resolves_interfaces(problem)
-                .then(|| Interfaces::new(&problem.equation, &problem.domain)),
+                .then(|| Interfaces::new(&problem.equation, &problem.domain, &problem.cracks)),
             at_interfaces: lowest + AT_INTERFACES,
             most_cells: cells.len() + budget + budget / 2,
         }
@@ -281,8 +281,7 @@ impl<'p> Wishes<'p> {
     /// True if a patch holds a singular point of an interface.
     fn at_interface(&self, cell: &Rect) -> bool {
         let part = patch_of(cell, self.problem).intersection(&self.problem.domain.bounds);
-        let trouble = |all: &Interfaces<'_>| all.trouble(&part, &self.problem.cracks).is_some();
-        self.interfaces.as_ref().is_some_and(trouble)
+        self.interfaces.as_ref().is_some_and(|all| all.trouble(&part).is_some())
     }
 }
 

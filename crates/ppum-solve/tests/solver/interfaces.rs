@@ -118,25 +118,109 @@ fn disc_in_a_field(k: f64) -> Problem {
 }
 
 /// Rates in the energy norm. Cut patches are better than others, and the ring that they fill
-/// shrinks: of the rate p at each place, up to 0.35 are missing in the sum. Unresolved interfaces
-/// have the rate 1/2.
-fn assert_rate(problem: &Problem, order: usize) {
+/// shrinks: of the rate p at each place, a part is missing in the sum, up to 0.35 where the field
+/// varies everywhere. Unresolved interfaces have the rate 1/2.
+fn assert_rate(problem: &Problem, order: usize, missing: f64) {
     let (_, rate) = study(3, |level| error(&with(problem, order, level)));
-    let near = order as f64 - 0.35..order as f64 + 0.3;
+    let near = order as f64 - missing..order as f64 + 0.3;
     assert!(near.contains(&rate), "order {order}: rate {rate}");
 }
 
 #[test]
 fn rates_at_a_round_inclusion() {
-    assert_rate(&goodier(20.0, 0.2, "plane-strain"), 1);
-    assert_rate(&disc_in_a_field(20.0), 2);
+    assert_rate(&goodier(20.0, 0.2, "plane-strain"), 1, 0.35);
+    assert_rate(&disc_in_a_field(20.0), 2, 0.35);
 }
 
 #[test]
 #[ignore = "slow: curved interfaces on level 4 at the other orders"]
 fn rates_of_all_orders_at_a_round_inclusion() {
-    assert_rate(&goodier(20.0, 0.2, "plane-strain"), 2);
-    assert_rate(&disc_in_a_field(20.0), 3);
+    assert_rate(&goodier(20.0, 0.2, "plane-strain"), 2, 0.35);
+    assert_rate(&disc_in_a_field(20.0), 3, 0.35);
+}
+
+/// Only α jumps, across a slanted line d = 0 in the middle of cells: u = a max(d, 0) n with a = 2(λ
+/// + μ) [α]/(λ + 2μ) makes the tractions on it alike. Piecewise linear, so that nothing but
+/// rounding is left.
+#[test]
+fn a_jump_of_given_strains_across_a_line_is_exact() {
+    for (state, nu, order) in [("plane-strain", 0.3, 1), ("plane-stress", 0.2, 2)] {
+        let a = if state == "plane-strain" { (1.0 + nu) / (1.0 - nu) } else { 1.0 + nu };
+        let d = "0.6*x + 0.8*y - 0.1234";
+        let problem = held(
+            "elasticity",
+            &format!(
+                "young = 2\npoisson = {nu}\nstate = \"{state}\"\nexpansion = \"if({d} > 0, 1.5, 0.5)\"\n\
+                 [temperature]\nvalue = 1"
+            ),
+            "displacement",
+            &format!("[\"0.6*{a}*max({d}, 0)\", \"0.8*{a}*max({d}, 0)\"]"),
+        );
+        let error = error(&with(&problem, order, 2));
+        assert!(error < 1e-9, "{state}, order {order}: {error:.1e}");
+    }
+}
+
+/// A disc of radius R that is hotter than the plate around it: u = c r inside and c R²/r outside,
+/// c = (1 + ν) α ΔT/(2 (1 − ν)) in plane strain. All of this field, and of its error, is near the
+/// disc.
+fn hot_disc() -> Problem {
+    let (nu, alpha): (f64, f64) = (0.3, 0.5);
+    let c = 0.5 * (1.0 + nu) * alpha / (1.0 - nu);
+    let component = |v: &str| {
+        format!(
+            "\"let X = x - 0.05; let Y = y + 0.03; {c}*{v}*if(hypot(X, Y) < 0.6, 1, 0.36/(X^2 + Y^2))\""
+        )
+    };
+    held(
+        "elasticity",
+        &format!(
+            "young = 2\npoisson = {nu}\nstate = \"plane-strain\"\nexpansion = {alpha}\n[temperature]\n\
+             value = \"if(hypot(x - 0.05, y + 0.03) < 0.6, 1, 0)\""
+        ),
+        "displacement",
+        &format!("[{}, {}]", component("X"), component("Y")),
+    )
+}
+
+#[test]
+fn rates_at_a_hot_disc() {
+    assert_rate(&hot_disc(), 1, 0.45);
+}
+
+#[test]
+#[ignore = "slow: curved interfaces on level 4 at the other orders"]
+fn rates_of_all_orders_at_a_hot_disc() {
+    assert_rate(&hot_disc(), 2, 0.45);
+    assert_rate(&hot_disc(), 3, 0.45);
+}
+
+/// Given strains have kinks where they jump in the body, not where they bend, are nearly
+/// continuous, or jump across the faces of a crack.
+#[test]
+fn only_jumps_of_given_strains_are_interfaces() {
+    let of = |temperature: &str| {
+        let text = cracked("1", "0.3").text.expect("a text");
+        let text = text.replace("state", "expansion = 2\nstate");
+        space(&parsed(&format!("{text}[temperature]\nvalue = \"{temperature}\"\n")))
+    };
+    for smooth in [
+        "max(x, 0)",
+        "abs(y)*1e3",
+        "if(x > 0.1, x, 0.1)",
+        "if(x > -0.6 and x < 0.3 and y > 0.02, 1, 1)",
+    ] {
+        assert!(kinks(&of(smooth)).is_empty(), "{smooth}");
+    }
+    // the temperature at an insulated crack
+    let flux = "sqrt(hypot(x - 0.3, y - 0.02)*hypot(x + 0.6, y - 0.02))";
+    let insulated = format!(
+        "if(y > 0.02, 1, -1)*{flux}*abs(sin((atan2(y - 0.02, x - 0.3) + atan2(y - 0.02, x + 0.6))/2))"
+    );
+    assert!(kinks(&of(&insulated)).is_empty());
+    assert_eq!(kinks(&of("if(y > 0.3, 1, 0)")), ["kink at 0.3 - y = 0"]);
+    let parted = ["kink at 0.1 - x = 0", "kink at 0.1 - x = 0, side of crack 0"];
+    assert_eq!(kinks(&of("if(x > 0.1, 1, 1 + y)")), parted);
 }
 
 /// A plate with a crack and materials given by formulas.

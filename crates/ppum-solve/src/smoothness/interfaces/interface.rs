@@ -1,7 +1,8 @@
-//! The sets on which constants of the material may jump.
+//! The sets on which constants of the material and given strains may jump.
 
 use crate::law::Law;
 use crate::quadrature::LevelFunction;
+use ppum::crack::Crack;
 use ppum::dataset::Equation;
 use ppum::domain::Domain;
 use ppum::formula::{Formula, Kink, one_line};
@@ -15,12 +16,15 @@ pub(crate) const COMPARED: usize = 24;
 /// Part of a level function's size that is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// The sets on which constants of an equation may jump on a domain.
+/// The sets on which constants of an equation may jump in a cracked body.
 pub(crate) struct Interfaces<'e> {
     /// No two have proportional level functions.
     pub(crate) all: Vec<Interface>,
     pub(super) domain: &'e Domain,
+    pub(super) cracks: &'e [Crack],
     pub(super) law: Law<'e>,
+    /// The largest given strain, 0 if there is none.
+    pub(super) strain: f64,
 }
 
 /// A set on which a constant may jump: the zeros of a level function ψ.
@@ -37,7 +41,7 @@ pub(crate) struct Interface {
 
 impl<'e> Interfaces<'e> {
     /// Those of an equation.
-    pub(crate) fn new(equation: &'e Equation, domain: &'e Domain) -> Self {
+    pub(crate) fn new(equation: &'e Equation, domain: &'e Domain, cracks: &'e [Crack]) -> Self {
         let mut all: Vec<Interface> = Vec::new();
         let formulas = equation.constants().filter(|(_, e)| e.constant().is_none());
         let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
@@ -49,8 +53,26 @@ impl<'e> Interfaces<'e> {
                 all.push(new);
             }
         }
-        Self { all, domain, law: Law::new(equation) }
+        let law = Law::new(equation);
+        let strain = if all.is_empty() { 0.0 } else { largest_strain(&law, domain) };
+        Self { all, domain, cracks, law, strain }
     }
+}
+
+/// The largest entry of the given strains at points all over a body.
+fn largest_strain(law: &Law<'_>, domain: &Domain) -> f64 {
+    let points = points_of(&domain.bounds).filter(|p| domain.contains(*p));
+    let strains = points.filter_map(|p| law.eigenstrain(p));
+    let entries = strains.flat_map(|[x, y]| [x.x, x.y, y.x, y.y]);
+    entries.filter(|entry| entry.is_finite()).fold(0.0, |most, entry| most.max(entry.abs()))
+}
+
+/// Points all over a box, on no line that a user would choose.
+fn points_of(rect: &Rect) -> impl Iterator<Item = Vec2> {
+    let part = |k: usize| (k as f64 + 0.4142) / COMPARED as f64;
+    let (min, size) = (rect.min, rect.size());
+    let places = (0..COMPARED * COMPARED).map(|k| (k % COMPARED, k / COMPARED));
+    places.map(move |(i, j)| min + vec2(size.x * part(i), size.y * part(j)))
 }
 
 impl Interface {
@@ -96,12 +118,7 @@ fn along([a, b, c]: [f64; 3], near: Vec2) -> Frame {
 /// True if two functions are multiples of each other, as far as points all over a box tell: then
 /// they vanish at the same places.
 pub(crate) fn proportional(f: &dyn Fn(Vec2) -> f64, g: &dyn Fn(Vec2) -> f64, rect: &Rect) -> bool {
-    let part = |k: usize| (k as f64 + 0.4142) / COMPARED as f64;
-    let (min, size) = (rect.min, rect.size());
-    let points = (0..COMPARED * COMPARED)
-        .map(|k| (k % COMPARED, k / COMPARED))
-        .map(|(i, j)| min + vec2(size.x * part(i), size.y * part(j)));
-    let pairs: Vec<_> = points.map(|p| (f(p), g(p))).collect();
+    let pairs: Vec<_> = points_of(rect).map(|p| (f(p), g(p))).collect();
     let largest = pairs.iter().copied().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
     largest.is_some_and(|(a, b)| {
         let bound = ROUNDING * (a * b).abs();

@@ -1,4 +1,4 @@
-//! Interfaces: lines and curves across which constants of the material jump.
+//! Interfaces: lines and curves across which constants of the material, or given strains, jump.
 //!
 //! Displacements are continuous there; their gradients are not, so that tractions are. If ψ is a
 //! smooth function that vanishes on the interface and whose gradient does not, such a field is

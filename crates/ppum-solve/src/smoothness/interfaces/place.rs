@@ -3,6 +3,7 @@
 use super::interface::{Interface, Interfaces};
 use crate::geometry::inside;
 use crate::quadrature::may_meet;
+use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// Steps of the grid on which an interface is looked for. What is missed between them is a corner
@@ -27,7 +28,8 @@ pub(crate) struct InterfacePoint {
     pub(crate) at: Vec2,
     /// Unit normal, toward growing ψ.
     pub(crate) normal: Vec2,
-    /// Sum of the jumps of λ and 2μ (of κ) over the sum of both sides' moduli, between 0 and 1.
+    /// Sum of the jumps of λ and 2μ (of κ) over the sum of both sides' moduli, or the jump of the
+    /// given strains over the largest anywhere, if that is more; between 0 and 1.
     pub(crate) contrast: f64,
 }
 
@@ -48,15 +50,34 @@ impl Interfaces<'_> {
 
     fn place(&self, interface: &Interface, at: Vec2, beside: f64) -> Option<InterfacePoint> {
         let normal = interface.gradient(at).unit();
-        let sides = [-1.0, 1.0].map(|sign| self.law.coefficients(at + normal * (sign * beside)));
-        let [below, above] = sides;
+        let sides = [-1.0, 1.0].map(|sign| at + normal * (sign * beside));
+        let contrast = self.contrast_of_moduli(sides).max(self.contrast_of_strains(sides, at));
+        (contrast > LEAST_CONTRAST).then_some(InterfacePoint { at, normal, contrast })
+    }
+
+    fn contrast_of_moduli(&self, sides: [Vec2; 2]) -> f64 {
+        let [below, above] = sides.map(|p| self.law.coefficients(p));
         let (mut jump, mut sum) = (0.0, 0.0);
         for (k, weight) in [(0, 1.0), (1, 2.0)] {
             jump += weight * (above[k] - below[k]).abs();
             sum += weight * (above[k].abs() + below[k].abs());
         }
-        let contrast = jump / sum;
-        (contrast > LEAST_CONTRAST).then_some(InterfacePoint { at, normal, contrast })
+        jump / sum
+    }
+
+    /// None on a crack, whose faces need no kink to have gradients of their own.
+    fn contrast_of_strains(&self, sides: [Vec2; 2], at: Vec2) -> f64 {
+        let [Some(below), Some(above)] = sides.map(|p| self.law.eigenstrain(p)) else { return 0.0 };
+        let jumps = below.iter().zip(&above).map(|(below, above)| *above - *below);
+        let jump = jumps.fold(0.0_f64, |most, jump| most.max(jump.x.abs()).max(jump.y.abs()));
+        let beside = (sides[1] - sides[0]).length();
+        let is_seen = jump > LEAST_CONTRAST * self.strain && !self.is_on_crack(at, beside);
+        if is_seen { (jump / self.strain).min(1.0) } else { 0.0 }
+    }
+
+    fn is_on_crack(&self, p: Vec2, beside: f64) -> bool {
+        let segments = self.cracks.iter().flat_map(|crack| crack.points.windows(2));
+        segments.into_iter().any(|s| segment::distance([s[0], s[1]], p) <= beside)
     }
 }
 

@@ -67,7 +67,7 @@ type InterfaceRun = (usize, Vec<InterfacePoint>);
 impl Interfaces<'_> {
     /// The trouble with the interfaces in an open box inside the domain, if kinks do not
     /// resolve them.
-    pub(crate) fn trouble(&self, rect: &Rect, cracks: &[Crack]) -> Option<Trouble> {
+    pub(crate) fn trouble(&self, rect: &Rect) -> Option<Trouble> {
         let runs: Vec<InterfaceRun> = (0..self.all.len())
             .map(|index| (index, self.places(&self.all[index], rect)))
             .filter(|(_, places)| !places.is_empty())
@@ -80,7 +80,7 @@ impl Interfaces<'_> {
         let touch = TOUCH * rect.size().length();
         let many = (runs.len() > MOST).then(|| (Cause::Many, rect.center()));
         let at_border = || all().find(|point| self.at_border(point, touch)).map(|p| p.at);
-        let at_crack = || cracks.iter().find_map(|crack| at_crack(crack, all(), rect, touch));
+        let at_crack = || self.cracks.iter().find_map(|crack| at_crack(crack, all(), rect, touch));
         let (cause, at) = many
             .or_else(|| runs.iter().find_map(turn).map(|at| (Cause::Turn, at)))
             .or_else(|| self.corner(&runs, touch).map(|at| (Cause::Corner, at)))

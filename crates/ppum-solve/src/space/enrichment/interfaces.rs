@@ -1,7 +1,7 @@
 //! Kinks at the interfaces of materials: what no function of the problem's own has is added.
 
 use super::{Degree, Enrichments, Instance, Patch, Patches};
-use crate::problem::Enrichment;
+use crate::problem::{Enrichment, Problem};
 use crate::smoothness::{BESIDE, Interface, InterfacePoint, Interfaces, Probe};
 use crate::space::SpaceError;
 use crate::space::inspect::InspectError;
@@ -42,7 +42,8 @@ impl Enrichments<'_> {
         if !set.interfaces || set.enrichment == Enrichment::None {
             return Ok(());
         }
-        let interfaces = Interfaces::new(&self.problem.equation, &self.problem.domain);
+        let Problem { equation, domain, cracks, .. } = self.problem;
+        let interfaces = Interfaces::new(equation, domain, cracks);
         if interfaces.all.is_empty() {
             return Ok(());
         }
