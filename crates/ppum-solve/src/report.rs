@@ -58,7 +58,7 @@ pub struct SolverReport {
     pub tension: Option<f64>,
     /// Quadrature points of the system's integrals.
     pub quadrature_points: Option<f64>,
-    /// Energy of the solution, ½ ∫ σ:ε or ½ ∫ κ |∇u|².
+    /// Energy of the solution, ½ ∫ σ:ε or ½ ∫ κ |∇u|²; infinite with forces at points.
     pub energy: Option<f64>,
     /// Energy of the whole of which the plate with a crack on an edge is a half or a quarter.
     pub whole_energy: Option<f64>,

@@ -128,7 +128,8 @@ impl DiagnosedSolution<'_> {
         stage.advance(0)?;
         // an adaptation has looked for itself how small cells should be
         let guided = self.problem.filter(|problem| is_strained && problem.adaptivity.is_none());
-        if let Some((problem, energy)) = guided.zip(self.report.energy) {
+        let energy = self.report.energy.filter(|energy| energy.is_finite());
+        if let Some((problem, energy)) = guided.zip(energy) {
             warnings.extend(of_corners(problem, field, space, (energy, &places)));
         }
         stage.advance(0)?;

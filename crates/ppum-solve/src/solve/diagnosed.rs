@@ -60,8 +60,11 @@ impl<'p> Diagnosed<'p> {
             report.energy = Some(energy);
             report.whole_energy = problem.images().map(|images| images * energy);
         } else {
-            // that of the whole field is infinite
+            report.energy = Some(f64::INFINITY);
             energy = energy_of_unknowns(dataset, space)?;
+        }
+        if !energy.is_finite() {
+            return Err(SolveError::Overflow);
         }
         clock.lap(Phase::Estimation);
         // nothing is a part of no energy, or of one that is rounding

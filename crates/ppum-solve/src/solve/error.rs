@@ -76,6 +76,12 @@ pub enum SolveError {
         /// The memory \[bytes\].
         memory: u64,
     },
+    /// The energy of its solution is too large for a number.
+    #[error(
+        "the energy of the solution is too large for a number (it grows like the square of the loads): give lengths, \
+         material and loads in other units"
+    )]
+    Overflow,
     /// Faces that touch do not come to rest.
     #[error(
         "the faces that touch do not come to rest in {factors} systems: with much friction there may be several states, or \

@@ -4,12 +4,13 @@
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_solve::problem::{Cells, Discretization, Problem};
+use ppum_solve::problem::{Cells, Discretization, Edge, Problem};
+use ppum_solve::solve::solve;
 use ppum_solve::space::discretise;
 use ppum_testkit::exact::{CrackInPlane, ExactField};
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, TipProblem, held};
-use crate::studies::plates::pulled;
+use crate::studies::plates::{pulled, traction};
 use crate::studies::support::solved;
 
 /// Width of a cell when an edge of [−1, 1]² has twelve.
@@ -41,6 +42,26 @@ fn in_plane(domain: Rect, set: Discretization, a: Vec2, b: Vec2) -> (Problem, [f
     let field = field.with_remote([0.5, 1.0, 0.4]);
     let plate = Problem::elasticity(domain, MATERIAL, set).with_crack(&[a.into(), b.into()]);
     (held(plate, field.formulas()), field.intensities())
+}
+
+/// Loads scale solutions exactly, as long as energies are numbers; beyond it is said what to do.
+#[test]
+fn loads_of_any_size() {
+    let of = |load: f64| {
+        let plate = Problem::elasticity(SQUARE, MATERIAL, twelve())
+            .with_crack(&[[-0.3, 0.0], [0.2, 0.1]])
+            .with_boundary(Edge::Bottom, traction(0.0.into(), (-load).into()))
+            .with_boundary(Edge::Top, traction(0.0.into(), load.into()));
+        solve(&plate, unwatched())
+    };
+    let unit = of(1.0).expect("a solution");
+    let size = 2.0_f64.powi(400);
+    let large = of(size).expect("a solution");
+    for (a, b) in unit.steps[0].intensities.iter().zip(&large.steps[0].intensities) {
+        assert_eq!((a.k1 * size, a.k2 * size), (b.k1, b.k2));
+    }
+    let error = of(1e160).expect_err("too large an energy").to_string();
+    assert!(error.contains("in other units"), "{error}");
 }
 
 /// Down to a distance of nothing, where the tip is a mouth.

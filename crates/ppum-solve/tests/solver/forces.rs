@@ -330,6 +330,7 @@ fn work_is_reciprocal_and_reactions_bear_the_force() {
         let reaction = &dataset.steps[0].reactions[0].force;
         let rest = vec2(reaction[0], reaction[1]) + value;
         assert!(rest.length() < 1e-10, "{rest:?}");
+        assert_eq!(record(&dataset.steps[0], "energy"), f64::INFINITY);
     }
     let work = |k: usize| {
         let at = places[1 - k];
