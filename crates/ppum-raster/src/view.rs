@@ -119,6 +119,16 @@ impl View {
         Self::fit(Rect::new(a.min(b), a.max(b)), pixels)
     }
 
+    /// The view that shows what this one shows beyond lines x = a and y = b: pixel (i, j) has the
+    /// reflection of the centre of pixel (nx − 1 − i, j), (i, ny − 1 − j) or both. Offsets are
+    /// reflected exactly; the view's centre is rounded, but next to the lines, where 2a − x is a
+    /// number.
+    #[must_use]
+    pub fn reflected(&self, [x, y]: [Option<f64>; 2]) -> Self {
+        let beyond = |line: Option<f64>, at: f64| line.map_or(at, |line| 2.0 * line - at);
+        Self { center: vec2(beyond(x, self.center.x), beyond(y, self.center.y)), ..*self }
+    }
+
     /// The same picture magnified `factor` times around its centre.
     ///
     /// # Errors

@@ -12,7 +12,7 @@
 use ppum::crack::{SegmentId, Side};
 use ppum::field::{Field, LocalField};
 use ppum::progress::Watcher;
-use ppum::quantity::Quantity;
+use ppum::quantity::{Quantity, Reflection};
 use ppum::sides::Segments;
 use ppum::vec2::{Vec2, vec2};
 use ppum_raster::RenderError;
@@ -66,6 +66,25 @@ struct LatticePoint {
     point: Vec2,
 }
 
+impl Glyph<Vec2> {
+    /// The vector of the reflected field.
+    #[must_use]
+    pub fn reflected(self, reflection: &Reflection) -> Self {
+        Self { value: reflection.vector(self.value) * reflection.sign(), ..self }
+    }
+}
+
+impl Glyph<Principal> {
+    /// The principal stresses of the reflected field.
+    #[must_use]
+    pub fn reflected(self, reflection: &Reflection) -> Self {
+        let Principal { s1, s2, angle } = self.value;
+        let [s1, s2] = if reflection.is_odd { [-s2, -s1] } else { [s1, s2] };
+        let angle = reflection.direction().apply(angle);
+        Self { value: Principal { s1, s2, angle }, ..self }
+    }
+}
+
 impl<'f> Lattice<'f> {
     /// The lattice with a spacing in pixels, at least [`LEAST_SPACING`], on the undeformed plate.
     #[must_use]
@@ -75,6 +94,22 @@ impl<'f> Lattice<'f> {
             x.iter().map(|&x| vec2(x, y)).map(|at| LatticePoint { at, point: at }).collect()
         };
         Self { field, anchor: view.center, rows: y.iter().map(row).collect() }
+    }
+
+    /// The points of the same lattice beyond lines of symmetry, where the plate is that of the
+    /// [reflected](View::reflected) view.
+    #[must_use]
+    pub fn reflected(
+        field: &'f Field<'f>,
+        view: &View,
+        reflection: &Reflection,
+        spacing: f64,
+    ) -> Self {
+        let mut lattice = Self::new(field, view, spacing);
+        lattice.anchor = view.reflected(reflection.lines).center;
+        let places = lattice.rows.iter_mut().flatten();
+        places.for_each(|place| place.point = reflection.vector(place.at));
+        lattice
     }
 
     /// The lattice on the deformed plate, at rest in the deformed plane: the centres of the pixels

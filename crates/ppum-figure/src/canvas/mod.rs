@@ -195,6 +195,27 @@ impl Item {
     }
 }
 
+impl Item {
+    /// Lines and fills reflected in a page of a size, from left to right, from top to bottom or
+    /// both. Texts stay upright, with their point reflected; pictures and pages stay as they are.
+    #[must_use]
+    pub fn flipped(mut self, [across, down]: [bool; 2], size: [u32; 2]) -> Self {
+        let [width, height] = size.map(f64::from);
+        let flip = |p: &mut Vec2| {
+            p.x = if across { width - p.x } else { p.x };
+            p.y = if down { height - p.y } else { p.y };
+        };
+        match &mut self {
+            Self::Fill { outline: path, .. } | Self::Line { path, .. } => {
+                path.pieces.iter_mut().flatten().for_each(flip);
+            }
+            Self::Text(line) => flip(&mut line.at),
+            Self::Picture { .. } | Self::Inset { .. } => {}
+        }
+        self
+    }
+}
+
 impl Lettering {
     /// Text that starts at a point of its base line and reads to the right.
     #[must_use]

@@ -116,23 +116,40 @@ impl Problem {
         tips.find_map(|tip| self.symmetry_at(tip))
     }
 
+    /// True if the faces of cracks and symmetries of some kinds fill an edge.
+    fn is_along(&self, edge: Edge, is_of_kind: impl Fn(Symmetry) -> bool) -> bool {
+        let [from, to] = edge.range(&self.domain.bounds);
+        let of_condition = |condition: &BoundaryCondition| match condition.on {
+            BorderPart::Edge { edge: own, from, to } if own == edge => {
+                condition.symmetry().filter(|kind| is_of_kind(*kind)).map(|_| to - from)
+            }
+            _ => None,
+        };
+        let held: f64 = self.boundary.iter().filter_map(of_condition).sum();
+        let faces: f64 = self.faces_on(edge).map(|[from, to]| to - from).sum();
+        held + faces >= (to - from) - touch(&self.domain.bounds)
+    }
+
+    /// The edges beyond which the body may be mirrored: those that have one symmetry from corner to
+    /// corner, but for the faces of cracks. Of two opposite edges the left or the lower one.
+    #[must_use]
+    pub fn mirrors(&self) -> Vec<(Edge, Symmetry)> {
+        let symmetry = |edge: Edge| {
+            let kinds = [Symmetry::Symmetric, Symmetry::Antisymmetric].into_iter();
+            let mut kinds = kinds.filter(|kind| self.is_along(edge, |own| own == *kind));
+            let has_faces_alone = self.is_along(edge, |_| false);
+            kinds.next().filter(|_| !has_faces_alone).map(|kind| (edge, kind))
+        };
+        let pairs = [[Edge::Left, Edge::Right], [Edge::Bottom, Edge::Top]];
+        pairs.into_iter().filter_map(|pair| pair.into_iter().find_map(symmetry)).collect()
+    }
+
     /// The number of images of a plate with a crack on an edge that make the whole: 2 of a half, 4
     /// of a quarter. None of other plates.
     pub(crate) fn images(&self) -> Option<f64> {
         (0..self.cracks.len()).find(|&k| self.edge_of(k).is_some())?;
-        let is_mirror = |edge: &Edge| {
-            let [from, to] = edge.range(&self.domain.bounds);
-            let of_condition = |condition: &BoundaryCondition| match condition.on {
-                BorderPart::Edge { edge: own, from, to } if own == *edge => {
-                    condition.symmetry().map(|_| to - from)
-                }
-                _ => None,
-            };
-            let held: f64 = self.boundary.iter().filter_map(of_condition).sum();
-            let faces: f64 = self.faces_on(*edge).map(|[from, to]| to - from).sum();
-            held + faces >= (to - from) - touch(&self.domain.bounds)
-        };
         let pairs = [[Edge::Left, Edge::Right], [Edge::Bottom, Edge::Top]];
+        let is_mirror = |edge: &Edge| self.is_along(*edge, |_| true);
         let mirrored = pairs.into_iter().filter(|pair| pair.iter().any(is_mirror)).count();
         Some([1.0, 2.0, 4.0][mirrored])
     }

@@ -1,7 +1,9 @@
 //! Quantities given by formulas.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::reflected::Reflection;
 use super::sample::{Sample, Source};
 use crate::dataset::NamedQuantity;
 use crate::equation::{EIGENSTRAINS, Equation, Moduli, StressState};
@@ -59,6 +61,8 @@ pub struct QuantityFormula {
     /// Those of them that the field gives, with those that the test needs besides.
     of_field: Vec<(usize, Input)>,
     n_inputs: usize,
+    /// The field that it is a quantity of.
+    reflection: Reflection,
 }
 
 /// A formula that is no quantity.
@@ -185,15 +189,44 @@ impl QuantityFormula {
     /// # Errors
     /// The text is no formula of the vocabulary; the error points at the place.
     pub fn new(text: &str, vocabulary: &Vocabulary<'_>) -> Result<Self, QuantityFormulaError> {
+        Self::with(text, vocabulary, Reflection::NONE)
+    }
+
+    /// The formula of the field that has at Sx what this one has of the reflected field at x: in
+    /// the place of positions, components and derivatives stand those of the reflected field.
+    ///
+    /// # Errors
+    /// The text is no formula of the vocabulary.
+    pub(super) fn reflected(
+        &self,
+        vocabulary: &Vocabulary<'_>,
+        at: Reflection,
+    ) -> Result<Self, QuantityFormulaError> {
+        let own = vocabulary.named.iter().position(|named| Some(&named.name) == self.name.as_ref());
+        let named = &vocabulary.named[..own.unwrap_or(vocabulary.named.len())];
+        let formula = Self::with(self.formula.text(), &Vocabulary { named, ..*vocabulary }, at)?;
+        Ok(Self { name: self.name.clone(), unit: self.unit.clone(), ..formula })
+    }
+
+    fn with(
+        text: &str,
+        vocabulary: &Vocabulary<'_>,
+        reflection: Reflection,
+    ) -> Result<Self, QuantityFormulaError> {
         let inputs = vocabulary.inputs();
-        let texts: Vec<_> = vocabulary.definitions().collect();
+        let texts = vocabulary.definitions().map(|(name, text)| (name, Cow::Borrowed(text)));
+        let mut texts: Vec<_> = texts.collect();
+        let reflected = reflection.definitions(&inputs, &mut texts);
         let names: Vec<_> = inputs
             .iter()
             .map(|(name, _)| name.as_str())
             .chain(texts.iter().map(|(name, _)| name.as_str()))
             .collect();
-        let scope = Scope::new(&names)?.with_tables(vocabulary.tables)?;
-        let parse = |(_, text): &(String, &str)| Formula::parse(text, &scope);
+        let (scope, n_inputs) = (Scope::new(&names)?.with_tables(vocabulary.tables)?, names.len());
+        // given strains are known where the field is; all others are made of the reflected field
+        let given = vocabulary.equation.eigenstrains().count();
+        texts.splice(given..given, reflected);
+        let parse = |(_, text): &(String, Cow<'_, str>)| Formula::parse(text, &scope);
         let parsed = texts.iter().map(parse).collect::<Result<Vec<_>, FormulaError>>()?;
         let definitions: Vec<_> = texts
             .iter()
@@ -221,7 +254,8 @@ impl QuantityFormula {
             tested: FormulaJets::new(&[&formula, &test], 0)?,
             inputs: needed,
             of_field,
-            n_inputs: names.len(),
+            n_inputs,
+            reflection,
             formula,
         })
     }
@@ -341,10 +375,11 @@ impl<'a, T: Scalar> QuantityBlock<'a, T> {
     }
 }
 
-/// Formulas are equal when their texts and names are.
+/// Formulas are equal when their texts, names and fields are.
 impl PartialEq for QuantityFormula {
     fn eq(&self, other: &Self) -> bool {
-        (&self.name, &self.formula) == (&other.name, &other.formula)
+        (&self.name, &self.formula, self.reflection)
+            == (&other.name, &other.formula, other.reflection)
     }
 }
 

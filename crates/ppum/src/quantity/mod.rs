@@ -11,10 +11,12 @@ mod gradient;
 mod kinds;
 mod many;
 mod material;
+mod reflected;
 mod sample;
 mod tensors;
 
 pub use formula::{Input, QuantityBlock, QuantityFormula, QuantityFormulaError, Vocabulary};
 pub use gradient::{QuantityGradient, Slope};
 pub use kinds::{Axis, Quantity, QuantityError, available, names};
+pub use reflected::{Reflected, Reflection, ValueChange};
 pub use sample::{Sample, Source};
