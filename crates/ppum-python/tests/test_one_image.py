@@ -75,6 +75,7 @@ def requests(seed, count):
             },
             "deformed": deformed,
             "outline": chance.random() < 0.5,
+            "mirror": None if deformed else maybe("top:antisymmetric", "left,bottom"),
         }
 
 

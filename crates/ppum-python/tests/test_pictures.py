@@ -77,6 +77,7 @@ def test_what_is_said_of_a_figure_is_what_the_program_says(ds, f, program, tmp_p
         ("-q ux,s1 --part all,jump --ticks x=3 --ticks y=-1,0.5", {"quantity": ["ux", "s1"], "parts": ["all", "jump"], "ticks": {"x": 3, "y": [-1, 0.5]}}),
         ("--layout 1x1 --tip 1 --zoom 40 --overlay cracks,rings", {"layout": (1, 1), "tip": 1, "zoom": 40, "overlays": ["cracks", "rings"]}),
         ("--figure -q uy --ticks 3 --overlay supports,loads", {"quantity": "uy", "ticks": {"colorbar": 3}, "overlays": ["supports", "loads"]}),
+        ("--figure -q uy --mirror=left,top:antisymmetric", {"quantity": "uy", "mirror": "left,top:antisymmetric"}),
         ("--figure -q s1 --tip 0 --zoom 3 --deformed 0.1 --outline", {"quantity": "s1", "tip": 0, "zoom": 3, "deformed": 0.1, "outline": True}),
     ],
 )

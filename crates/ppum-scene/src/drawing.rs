@@ -16,10 +16,14 @@ use ppum_render::samples::{Means, Samples};
 use ppum_render::view::View;
 use rayon::prelude::*;
 
+use crate::mirror::MirrorLines;
+
 /// A view of the undeformed or the deformed body.
 pub enum BodyView<'f> {
     /// The plate as it was before it was loaded.
     Plate(View),
+    /// The plate as it was, and its images beyond lines of symmetry.
+    Mirrored(View, MirrorLines),
     /// The plate moved by its displacements.
     Moved(DeformedPoints<'f>),
 }
@@ -28,7 +32,7 @@ impl<'f> BodyView<'f> {
     /// The view.
     pub fn view(&self) -> &View {
         match self {
-            Self::Plate(view) => view,
+            Self::Plate(view) | Self::Mirrored(view, _) => view,
             Self::Moved(points) => &points.view.view,
         }
     }
@@ -36,14 +40,26 @@ impl<'f> BodyView<'f> {
     /// The deformed plate, if it is that.
     pub fn moved(&self) -> Option<&DeformedPoints<'f>> {
         match self {
-            Self::Plate(_) => None,
+            Self::Plate(_) | Self::Mirrored(..) => None,
             Self::Moved(points) => Some(points),
         }
     }
 
     /// The cracks where they are seen.
     pub fn cracks(&self, field: &Field<'_>) -> Vec<Crack> {
-        self.moved().map_or_else(|| field.step.cracks.clone(), |points| points.view.moved_cracks())
+        match self {
+            Self::Plate(_) => field.step.cracks.clone(),
+            Self::Mirrored(_, lines) => lines.cracks(&field.step.cracks),
+            Self::Moved(points) => points.view.moved_cracks(),
+        }
+    }
+
+    /// The lines of symmetry beyond which it is seen; none but of a mirrored body.
+    pub fn lines(&self) -> MirrorLines {
+        match self {
+            Self::Mirrored(_, lines) => *lines,
+            _ => MirrorLines::default(),
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use ppum::crack::Crack;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::progress::Watcher;
-use ppum::quantity::{Axis, Quantity};
+use ppum::quantity::{Axis, Quantity, Reflection};
 use ppum_figure::canvas::Item;
 use ppum_figure::figure::Design;
 use ppum_figure::levels;
@@ -19,7 +19,8 @@ use ppum_render::picture::Picture;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 
-use crate::drawing::{BodyView, RasterValues};
+use crate::drawing::{BodyView, DrawingInput, RasterValues};
+use crate::mirror::{self, MirrorImage, MirrorLines};
 use crate::notice::Notice;
 use crate::overlays::{Levels, Overlay, Overlays};
 use crate::stations::Stations;
@@ -61,16 +62,14 @@ impl Ground<'_> {
         &self,
         quantity: &Quantity,
         levels: &[f64],
+        lines: MirrorLines,
         watcher: &dyn Watcher,
     ) -> Result<Vec<Isoline>, RenderError> {
         let Self { field, picture: Picture { view, .. }, values, .. } = *self;
+        let job = (DrawingInput { field, view, quantity }, lines);
         match values {
-            RasterValues::Double(raster) => {
-                isolines(field, view, quantity, levels, raster, watcher)
-            }
-            RasterValues::Single(raster) => {
-                isolines(field, view, quantity, levels, raster, watcher)
-            }
+            RasterValues::Double(raster) => mirror::isolines(job, levels, raster, watcher),
+            RasterValues::Single(raster) => mirror::isolines(job, levels, raster, watcher),
         }
     }
 }
@@ -151,9 +150,11 @@ impl Overlays {
         }
         let scale = scale(ground.design, ground.picture.view.pixels);
         let layers = Layers::default();
-        let mut drawing = Drawing { overlays: self, ground, scale, watcher, layers };
+        let lines = seen.lines();
+        let images = lines.images(&ground.picture.view, &ground.field.domain.bounds);
+        let mut drawing = Drawing { overlays: self, ground, lines, images, scale, watcher, layers };
         match seen {
-            BodyView::Plate(_) => drawing.plate()?,
+            BodyView::Plate(_) | BodyView::Mirrored(..) => drawing.plate()?,
             BodyView::Moved(points) => drawing.moved(points, outline)?,
         }
         Ok(drawing.with_legend())
@@ -164,6 +165,9 @@ impl Overlays {
 struct Drawing<'a> {
     overlays: &'a Overlays,
     ground: Ground<'a>,
+    /// The lines at which the body is mirrored, and its images that are seen.
+    lines: MirrorLines,
+    images: Vec<MirrorImage>,
     scale: f64,
     watcher: &'a dyn Watcher,
     layers: Layers,
@@ -175,15 +179,18 @@ impl<'a> Drawing<'a> {
         let Ground { field, picture, .. } = self.ground;
         let view = &picture.view;
         let wanted = self.wanted();
-        let glyphs = self.glyphs(|spacing| Lattice::new(field, view, spacing))?;
+        let glyphs = self
+            .glyphs(|reflection, spacing| Lattice::reflected(field, view, reflection, spacing))?;
         let (mut centers, mut boxes) = (Vec::new(), Vec::new());
         let mut entries = Vec::new();
         if wanted.contains(&Overlay::Boxes) {
             (boxes, entries) = overlay::boxes(view, self.scale, field);
+            boxes.extend(self.reflected(|view| overlay::boxes(view, self.scale, field).0));
         }
         if wanted.contains(&Overlay::Centers) {
             // the same colours
             (centers, entries) = overlay::centers(view, self.scale, field);
+            centers.extend(self.reflected(|view| overlay::centers(view, self.scale, field).0));
         }
         self.layers.legend.extend(entries);
         self.isolines()?;
@@ -215,9 +222,42 @@ impl<'a> Drawing<'a> {
         wanted
     }
 
+    /// An overlay of the body and of its images.
     fn overlay(&self, wanted: Overlay, stations: &Stations) -> Vec<Item> {
         let Ground { field, picture, .. } = self.ground;
-        let (view, scale, step) = (&picture.view, self.scale, field.step);
+        let (view, scale) = (&picture.view, self.scale);
+        match wanted {
+            Overlay::Supports => overlay::supports(view, scale, &stations.supports),
+            Overlay::Loads => overlay::loads(view, scale, &stations.loads),
+            Overlay::Cracks => {
+                let edges = |view: &View| {
+                    let rims = overlay::rims(view, scale, &field.domain.holes);
+                    [rims, overlay::cuts(view, scale, field)].concat()
+                };
+                let cracks = self.lines.cracks(&field.step.cracks);
+                let cracks = overlay::cracks(view, scale, &cracks);
+                [edges(view), self.reflected(edges), cracks].concat()
+            }
+            wanted => {
+                let images = self.reflected(|view| self.of_cover(wanted, view));
+                [self.of_cover(wanted, view), images].concat()
+            }
+        }
+    }
+
+    /// What is drawn of the body in the reflected views, where its images are.
+    fn reflected(&self, draw: impl Fn(&View) -> Vec<Item>) -> Vec<Item> {
+        let of = |image: &MirrorImage| {
+            let (flips, size) = (image.flips(), image.view.pixels);
+            draw(&image.view).into_iter().map(move |item| item.flipped(flips, size))
+        };
+        self.images.iter().flat_map(of).collect()
+    }
+
+    /// An overlay of the cover.
+    fn of_cover(&self, wanted: Overlay, view: &View) -> Vec<Item> {
+        let (scale, field) = (self.scale, self.ground.field);
+        let step = field.step;
         match wanted {
             Overlay::Patches | Overlay::Cells if step.partition.mesh().is_some() => {
                 let mesh = step.partition.mesh().into_iter();
@@ -226,16 +266,8 @@ impl<'a> Drawing<'a> {
             Overlay::Patches => overlay::patches(view, scale, step.partition.boxes()),
             Overlay::Cells => overlay::cells(view, scale, step.partition.boxes()),
             Overlay::Points => overlay::points(view, scale, step.partition.boxes()),
-            Overlay::Boxes => overlay::boxes(view, self.scale, field).0,
-            Overlay::Centers => overlay::centers(view, self.scale, field).0,
             Overlay::Rings => overlay::rings(view, scale, &step.cracks, &step.intensities),
-            Overlay::Cracks => {
-                let rims = overlay::rims(view, scale, &field.domain.holes);
-                let cuts = overlay::cuts(view, scale, field);
-                [rims, cuts, overlay::cracks(view, scale, &step.cracks)].concat()
-            }
-            Overlay::Supports => overlay::supports(view, scale, &stations.supports),
-            Overlay::Loads => overlay::loads(view, scale, &stations.loads),
+            _ => Vec::new(),
         }
     }
 
@@ -248,7 +280,7 @@ impl<'a> Drawing<'a> {
         if outline {
             self.layers.items.extend(overlay::undeformed_outline(view, self.scale)?);
         }
-        let glyphs = self.glyphs(|spacing| Lattice::deformed(points, spacing))?;
+        let glyphs = self.glyphs(|_, spacing| Lattice::deformed(points, spacing))?;
         self.deformed_isolines(points)?;
         self.layers.items.extend(glyphs);
         let wanted = self.wanted();
@@ -264,9 +296,9 @@ impl<'a> Drawing<'a> {
 
     fn isolines(&mut self) -> Result<(), LayersError> {
         let Some((quantity, levels)) = self.levels() else { return Ok(()) };
-        let lines = self.ground.isolines(quantity, &levels, self.watcher)?;
+        let lines = self.ground.isolines(quantity, &levels, self.lines, self.watcher)?;
         let Ground { field, picture, .. } = self.ground;
-        let room = self.room(&picture.view, &field.step.cracks);
+        let room = self.room(&picture.view, &self.lines.cracks(&field.step.cracks));
         self.add_isolines(&picture.view, &lines, room);
         Ok(())
     }
@@ -321,16 +353,21 @@ impl<'a> Drawing<'a> {
         Some((quantity, self.ground.levels(wanted)))
     }
 
-    /// Arrows and crosses with what their lengths mean in the legend. `lattice` makes points with a
-    /// spacing.
+    /// Arrows and crosses with what their lengths mean in the legend. `lattice` makes points of an
+    /// image with a spacing.
     fn glyphs<'f>(
         &mut self,
-        lattice: impl Fn(f64) -> Lattice<'f>,
+        lattice: impl Fn(&Reflection, f64) -> Lattice<'f>,
     ) -> Result<Vec<Item>, LayersError> {
         let Ground { field, picture: Picture { view, .. }, .. } = self.ground;
         let mut items = Vec::new();
         if let Some(spacing) = self.overlays.crosses {
-            let found = lattice(spacing * self.scale).principal(self.watcher)?;
+            let mut found = Vec::new();
+            for reflection in self.reflections() {
+                let points = lattice(&reflection, spacing * self.scale);
+                let crosses = points.principal(self.watcher)?.into_iter();
+                found.extend(crosses.map(|cross| cross.reflected(&reflection)));
+            }
             self.notice_of_none(found.len(), Notice::NoCross);
             let (more, meaning) = overlay::crosses(view, self.scale, &found, spacing);
             items.extend(more);
@@ -341,7 +378,12 @@ impl<'a> Drawing<'a> {
                 2 => [Quantity::Component(0), Quantity::Component(1)],
                 _ => [Quantity::Derivative(0, Axis::X), Quantity::Derivative(0, Axis::Y)],
             };
-            let found = lattice(spacing * self.scale).vectors(&shown, self.watcher)?;
+            let mut found = Vec::new();
+            for reflection in self.reflections() {
+                let points = lattice(&reflection, spacing * self.scale);
+                let arrows = points.vectors(&shown, self.watcher)?.into_iter();
+                found.extend(arrows.map(|arrow| arrow.reflected(&reflection)));
+            }
             self.notice_of_none(found.len(), Notice::NoArrow);
             let (more, meaning) = overlay::arrows(view, self.scale, &found, spacing);
             items.extend(more);
@@ -350,16 +392,23 @@ impl<'a> Drawing<'a> {
         Ok(items)
     }
 
+    /// The body as it is, and its images.
+    fn reflections(&self) -> Vec<Reflection> {
+        let images = self.images.iter().map(|image| image.reflection);
+        [Reflection::NONE].into_iter().chain(images).collect()
+    }
+
     /// Points along the border with supports and loads; none if nobody asks for them.
     fn stations(&mut self) -> Stations {
         if !self.overlays.have_stations() {
             return Stations::default();
         }
         let spacing = SPACING * self.scale * self.ground.picture.view.pixel_size();
-        Stations::of(self.ground.dataset, spacing).unwrap_or_else(|notice| {
+        let stations = Stations::of(self.ground.dataset, spacing).unwrap_or_else(|notice| {
             self.layers.notices.push(notice);
             Stations::default()
-        })
+        });
+        stations.mirrored(&self.lines)
     }
 
     /// The layers, with their legend over them if it has room.

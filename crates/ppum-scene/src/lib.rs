@@ -25,6 +25,7 @@ pub mod help;
 pub mod layers;
 pub mod look;
 pub mod minus;
+pub mod mirror;
 pub mod moving;
 pub mod notice;
 pub mod overlays;

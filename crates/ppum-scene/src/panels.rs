@@ -120,13 +120,13 @@ impl<'a> PanelFigure<'a> {
         let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
         let grid = self.grid(&titled, &captions)?;
         let size = [grid.columns, grid.rows];
-        let aspect = request.place.aspect(source.field);
-        let design = request.design(source.field, Look::page(aspect, size), size);
+        let aspect = request.aspect(source);
+        let design = request.design(source, Look::page(aspect, size), size);
         let room = |design: &Design| panel_area(&titled, &captions, grid, design);
         let design = request.look.fitted(design, aspect, size, room)?;
         let room = room(&design)?;
         let placing = Placing::new(&request.place, extent(request, Some(&design), room), still)?;
-        let seen = placing.body(source, engine)?;
+        let seen = placing.body(source, &request.scene, engine)?;
         let shots = self.shots(&seen, &design, engine)?;
         let all: Vec<_> = shots.iter().zip(&labels).map(|(s, l)| s.panel(l.clone())).collect();
         let lacking = all.iter().filter(|panel| lacks_legend(panel, room, &design));
@@ -191,11 +191,11 @@ impl<'a> PanelFigure<'a> {
         if parts > 1 && count > parts {
             return Ok(of(parts));
         }
-        let field = self.sources[0].field;
-        let aspect = self.request.place.aspect(field);
+        let source = self.sources[0];
+        let aspect = self.request.aspect(source);
         let width = |grid: PanelGrid| {
             let parts = [grid.columns, grid.rows];
-            let mut design = self.request.design(field, DEFAULT_SIZE, parts);
+            let mut design = self.request.design(source, DEFAULT_SIZE, parts);
             if self.request.look.has_free_height() {
                 design.size[1] = (f64::from(design.size[0]) / SHAPE) as u32;
             }

@@ -133,13 +133,13 @@ impl Place {
         Some(Rect::new(a.min(b), a.max(b)))
     }
 
-    /// Width over height of what is to be seen; none if it is whatever the picture has room for.
+    /// Width over height of what is to be seen, of the whole picture those of a box; none if it is whatever the picture has room for.
     #[must_use]
-    pub fn aspect(&self, field: &Field<'_>) -> Option<f64> {
+    pub fn aspect(&self, whole: Rect) -> Option<f64> {
         if self.center.is_some() || self.tip.is_some() {
             return None;
         }
-        let size = self.window().unwrap_or(field.domain.bounds).size();
+        let size = self.window().unwrap_or(whole).size();
         Some(size.x / size.y)
     }
 
@@ -184,12 +184,17 @@ impl Place {
         self.tip.map(position).transpose()
     }
 
-    /// The view, which must show some of the domain.
+    /// The view, which must show some of a box, that of the domain or of its whole.
     ///
     /// # Errors
-    /// As [`Self::over`]; a view beside the domain.
-    pub fn seen(&self, field: &Field<'_>, extent: ImageExtent) -> Result<View, PlaceError> {
-        let view = self.over(field.domain.bounds, field, extent)?;
-        view.rect().overlaps(&field.domain.bounds).then_some(view).ok_or(PlaceError::Outside)
+    /// As [`Self::over`]; a view beside the box.
+    pub fn seen(
+        &self,
+        whole: Rect,
+        field: &Field<'_>,
+        extent: ImageExtent,
+    ) -> Result<View, PlaceError> {
+        let view = self.over(whole, field, extent)?;
+        view.rect().overlaps(&whole).then_some(view).ok_or(PlaceError::Outside)
     }
 }

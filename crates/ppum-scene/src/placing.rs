@@ -11,6 +11,7 @@ use crate::layers::scale;
 use crate::moving::{FrameView, Frames};
 use crate::place::{ImageExtent, Place, PlaceError};
 use crate::request::Request;
+use crate::scene::Scene;
 use crate::shot::{FieldSource, ShotError};
 
 /// Where plates are seen, one or those of a series.
@@ -59,10 +60,13 @@ impl<'a> Placing<'a> {
     pub fn body<'f>(
         &self,
         source: FieldSource<'f>,
+        scene: &Scene,
         engine: &Engine<'_>,
     ) -> Result<BodyView<'f>, ShotError> {
         let Some((factor, bounds)) = self.deformed else {
-            return Ok(BodyView::Plate(self.place.seen(source.field, self.extent)?));
+            let whole = source.lines(scene)?.whole(source.field.domain.bounds);
+            let view = self.place.seen(whole, source.field, self.extent)?;
+            return source.undeformed(scene, view);
         };
         engine.check_deformed()?;
         let view = self.moved(source, factor, bounds)?;
@@ -93,9 +97,9 @@ impl<E: From<ShotError>> FrameView<E> for Placing<'_> {
     fn seen<'f>(
         &self,
         source: FieldSource<'f>,
-        _: &Request,
+        request: &Request,
         engine: &Engine<'_>,
     ) -> Result<BodyView<'f>, E> {
-        Ok(self.body(source, engine)?)
+        Ok(self.body(source, &request.scene, engine)?)
     }
 }

@@ -14,6 +14,7 @@ use ppum_render::range::{Basis, ValueSpan};
 use ppum_render::raster::{Raster, Sample};
 
 use crate::drawing::{BodyView, Drawn, RasterValues};
+use crate::mirror;
 
 /// The range of what was drawn; one that has to be found with the extrema of the view, which are
 /// the true ones of the plate as it was, and those of the pixels of the deformed one.
@@ -43,6 +44,9 @@ fn extrema_of<T: Sample>(
     let search = |view| extrema(field, view, quantity, raster, watcher);
     match seen {
         BodyView::Plate(view) => search(view),
+        BodyView::Mirrored(view, lines) => {
+            mirror::extrema(field, (view, lines), quantity, raster, watcher)
+        }
         // nothing has moved
         BodyView::Moved(points) if points.view.factor() == 0.0 => search(&points.view.view),
         BodyView::Moved(points) => {

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::colors::Colors;
 use crate::deformed::Factor;
 use crate::drawing::Shown;
+use crate::mirror::Mirror;
 use crate::overlays::Overlays;
 
 /// What a picture shows. What is left out is chosen by the program: the last step, the whole field,
@@ -43,6 +44,14 @@ pub struct Scene {
     /// Draw the border of the undeformed body too, dashed
     #[cfg_attr(feature = "clap", arg(long, requires = "deformed"))]
     pub outline: bool,
+    /// Draw the whole of a half or quarter model, mirrored at the edges whose symmetry the dataset
+    /// knows (auto), or at these, `:antisymmetric` behind those of an antisymmetric field
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "auto|EDGE,…", num_args = 0..=1, require_equals = true),
+        arg(default_missing_value = "auto")
+    )]
+    pub mirror: Option<Mirror>,
 }
 
 impl Scene {

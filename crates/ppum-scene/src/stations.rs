@@ -1,8 +1,10 @@
 //! Supports and loads, as the problem file of a dataset has them.
 
 use ppum::dataset::Dataset;
+use ppum::quantity::Reflection;
 use ppum_figure::overlay::{Load, Support};
 
+use crate::mirror::MirrorLines;
 use crate::notice::Notice;
 
 /// Points along the border with supports and loads.
@@ -12,7 +14,39 @@ pub(crate) struct Stations {
     pub(crate) loads: Vec<Load>,
 }
 
+/// Distance from a line of symmetry, in parts of the body, on which a support lies on it.
+const ON_LINE: f64 = 1e-9;
+
 impl Stations {
+    /// Those of the whole of a body: its own and their reflections, without the supports along
+    /// lines of symmetry, which nothing holds there.
+    pub(crate) fn mirrored(mut self, lines: &MirrorLines) -> Self {
+        let (supports, loads) = (self.supports.clone(), self.loads.clone());
+        let holds = |reflection: &Reflection, support: &Support| {
+            let normal = support.outward;
+            let is_across = reflection.vector(normal) == normal * -1.0;
+            let way = reflection.point(support.at) - support.at;
+            !(is_across && way.length() <= ON_LINE * support.at.length().max(1.0))
+        };
+        let all: Vec<Reflection> = lines.reflections().collect();
+        let is_held = |support: &Support| all.iter().all(|one| holds(one, support));
+        self.supports.retain(is_held);
+        for one in &all {
+            let (supports, loads) = (supports.iter().filter(|s| is_held(s)), loads.iter());
+            self.supports.extend(supports.map(|support| Support {
+                at: one.point(support.at),
+                outward: one.vector(support.outward),
+                held: support.held,
+            }));
+            self.loads.extend(loads.map(|load| Load {
+                at: one.point(load.at),
+                outward: one.vector(load.outward),
+                traction: one.vector(load.traction) * one.sign(),
+            }));
+        }
+        self
+    }
+
     /// Those of a dataset's problem, about `spacing` apart.
     #[cfg(feature = "problem")]
     pub(crate) fn of(dataset: &Dataset, spacing: f64) -> Result<Self, Notice> {

@@ -37,6 +37,7 @@ impl<'a> Still<'a> {
     /// # Errors
     /// Fields that are no displacements.
     pub fn new(source: FieldSource<'a>, mut request: Request) -> Result<Self, ShotError> {
+        request.scene = source.settled(request.scene)?;
         if let Some(factor) = request.scene.deformed {
             request.scene.deformed = Some(Factor::Given(factor.number(&[source.field])?));
         }
@@ -50,7 +51,7 @@ impl<'a> Still<'a> {
     pub fn page(&self, engine: &Engine<'_>) -> Result<(Canvas, Shot), ShotError> {
         let Self { source, request } = self;
         let common = Common::new(self, request)?;
-        let seen = common.placing.body(*source, engine)?;
+        let seen = common.placing.body(*source, &request.scene, engine)?;
         page_seen(*source, request, &seen, common.design.as_ref(), engine)
     }
 }
@@ -71,8 +72,8 @@ impl<'a> Common<'a> {
     pub fn new<F: Frames>(frames: &F, request: &'a Request) -> Result<Self, F::Error> {
         let (mut design, mut aspect) = (Design::pixels(DEFAULT_SIZE), None);
         frames.with(0, &mut |source, request| {
-            design = request.design(source.field, DEFAULT_SIZE, [1, 1]);
-            aspect = request.place.aspect(source.field);
+            design = request.design(source, DEFAULT_SIZE, [1, 1]);
+            aspect = request.aspect(source);
             Ok(())
         })?;
         if request.figure {

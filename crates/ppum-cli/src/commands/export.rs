@@ -168,7 +168,8 @@ impl Args {
             return Ok(None);
         }
         let frame = ImageExtent { pixels: SHAPE, may_shrink: false, margin: 0.0 };
-        let ppum_render::view::View { center, width, pixels } = self.place.seen(field, frame)?;
+        let ppum_render::view::View { center, width, pixels } =
+            self.place.seen(field.domain.bounds, field, frame)?;
         Ok(Some(View { center: center.into(), width, pixels }))
     }
 }

@@ -66,6 +66,7 @@ Examples:
   ppum render plate.h5 -o lines.svg --figure --isolines auto --level-labels
   ppum render plate.h5 -o cross.png --figure --crosses -q hydrostatic --colormap vik
   ppum render plate.h5 -o moved.png --deformed auto --outline --figure
+  ppum render half.h5 -o whole.png --mirror --figure
   ppum render plate.h5 -o paper.pdf --figure --inches 3.4
   ppum render plate.h5 -o four.svg -q von-mises,ux,uy,syy --layout 2x2
   ppum render plate.h5 -o parts.png -q uy --part all,smooth,jump,tip --shared-range
@@ -344,6 +345,9 @@ mod tests {
             overlays: overlays(random),
             outline: deformed.is_some() && is(random),
             deformed,
+            mirror: maybe(random, |r| {
+                text(r, &["auto", "left,top:antisymmetric"]).parse().unwrap()
+            }),
         }
     }
 

@@ -9,7 +9,7 @@ const HIDDEN: [(&str, &str); 2] = [("VK_DRIVER_FILES", "none"), ("VK_ICD_FILENAM
 
 /// True if there is a graphics adapter that splats, a software one say. If there is none the test
 /// is skipped, unless `PPUM_REQUIRE_GPU` is set.
-fn has_adapter(lab: &Lab) -> bool {
+pub(crate) fn has_adapter(lab: &Lab) -> bool {
     let report = lab.json("info --gpu");
     let adapters = report["adapters"].as_array().unwrap();
     let found = adapters.iter().any(|row| row["splat"] == true);

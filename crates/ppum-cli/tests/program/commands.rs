@@ -80,6 +80,8 @@ fn scene(random: &mut Random) -> Scene {
         overlays: overlays(random, deformed.is_some()),
         deformed,
         outline: random.below(2) == 0,
+        // of a deformed plate the error is the same
+        mirror: (random.below(4) == 0).then(|| "left,top:antisymmetric".parse().unwrap()),
     }
 }
 

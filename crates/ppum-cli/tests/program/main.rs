@@ -21,6 +21,7 @@ mod info;
 mod meshes;
 mod messages;
 mod method;
+mod mirror;
 mod parts;
 mod plots;
 mod printable;

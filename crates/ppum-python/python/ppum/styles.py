@@ -82,6 +82,7 @@ class HtmlOptions(PlaceOptions, SceneOptions, total=False):
 class ImageOptions(SceneOptions, total=False):
     """What an image shows, and how it is computed."""
 
+    mirror: Annotated[bool | str, Option(False, more="``True`` is auto")]
     samples: Annotated[int, Option(1)]
     precision: Annotated[Literal["f64", "f32"] | None, Option(None)]
     blank: Annotated[bool, Option(False)]
@@ -248,6 +249,7 @@ def scene(asked: str | Sequence[str] | None, options: ColorOptions, found: str |
             },
             "deformed": None if deformed is None else str(deformed),
             "outline": bool(o.get("outline", False)),
+            "mirror": _mirror(o.get("mirror", False)),
             "samples": int(o.get("samples", 1)),
             "blank": bool(o.get("blank", False)),
             "labels": _labels(o.get("labels", {})),
@@ -255,6 +257,13 @@ def scene(asked: str | Sequence[str] | None, options: ColorOptions, found: str |
         },
         default=plain,
     )
+
+
+def _mirror(asked: bool | str) -> str | None:
+    """The edges at which a body is mirrored, as the libraries read them."""
+    if isinstance(asked, str):
+        return asked
+    return "auto" if asked else None
 
 
 def page(options: PageOptions) -> dict[str, Any]:

@@ -150,7 +150,7 @@ impl Lines {
         watcher: &dyn Watcher,
     ) -> Result<(), ShotError> {
         let extent = ImageExtent { pixels: DEFAULT_SIZE, may_shrink: false, margin: 0.0 };
-        let view = Place::default().seen(source.field, extent)?;
+        let view = Place::default().seen(source.field.domain.bounds, source.field, extent)?;
         let (seen, engine) = (BodyView::Plate(view), Engine::processor(watcher));
         let found = source.input(asked, &seen).isolines(levels, &Colors::default(), &engine)?;
         self.lines.extend(found.iter().map(|line| Feature {

@@ -89,12 +89,19 @@ pub trait Frames {
         Ok(found.factor())
     }
 
-    /// The request of them, with the factor of the deformed plate as a number.
+    /// The request of them, with the factor of the deformed plate as a number and with the edges
+    /// at which a body is mirrored.
     ///
     /// # Errors
-    /// As [`Self::factor`].
+    /// As [`Self::factor`] and [`FieldSource::lines`].
     fn settled(&self, request: &Request) -> Result<Request, Self::Error> {
         let mut request = request.clone();
+        if request.scene.mirror.is_some() && self.count() > 0 {
+            self.with(0, &mut |source, _| {
+                request.scene = source.settled(request.scene.clone()).map_err(ShotError::from)?;
+                Ok(())
+            })?;
+        }
         if let Some(factor) = request.scene.deformed {
             request.scene.deformed = Some(Factor::Given(self.factor(factor)?));
         }

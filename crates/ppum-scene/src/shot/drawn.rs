@@ -32,6 +32,8 @@ pub struct Shot {
     pub by: String,
     /// The number of pixels where the deformed plate lies over itself.
     pub overlaps: usize,
+    /// The edges at which the body is mirrored, if it is.
+    pub mirrored: Option<String>,
     /// How many times its displacement the plate is drawn with, if it is deformed.
     pub factor: Option<f64>,
     /// The title of the dataset, and of a series the number of the step and its load.
@@ -95,7 +97,8 @@ impl Shot {
                 ("ppum:load".to_owned(), format!("{load:?}")),
             ]
         });
-        factor.into_iter().chain(step.into_iter().flatten()).collect()
+        let mirrored = self.mirrored.clone().map(|edges| ("ppum:mirror".to_owned(), edges));
+        factor.into_iter().chain(mirrored).chain(step.into_iter().flatten()).collect()
     }
 }
 

@@ -9,6 +9,7 @@ use ppum_render::view::ViewError;
 use crate::colors::MapError;
 use crate::engine::EngineError;
 use crate::layers::LayersError;
+use crate::mirror::MirrorError;
 use crate::place::PlaceError;
 use crate::request::PanelsError;
 use crate::scene::ShownError;
@@ -38,6 +39,9 @@ pub enum ShotError {
     /// The deformed plate.
     #[error(transparent)]
     Deform(#[from] DeformError),
+    /// The whole of a half.
+    #[error(transparent)]
+    Mirror(#[from] MirrorError),
     /// The colour map.
     #[error(transparent)]
     Colormap(#[from] MapError),

@@ -17,6 +17,7 @@ use crate::drawing::{BodyView, DrawingInput, Drawn, Shown};
 use crate::engine::Engine;
 use crate::layers::{Ground, Layers};
 use crate::minus::{self, Minus, Side};
+use crate::mirror::{self, Mirror};
 use crate::notice::Notice;
 use crate::overlays::Levels;
 use crate::range;
@@ -69,6 +70,9 @@ impl<'a> Input<'a> {
             (None, BodyView::Plate(view), Shown::Cells(_, values)) => {
                 centers("values of cells are")?;
                 Drawn::of_cells(values, field, view)
+            }
+            (None, BodyView::Mirrored(view, lines), _) => {
+                mirror::draw(*self, (view, lines), samples, engine)?
             }
             (None, BodyView::Moved(points), shown) => {
                 centers("the deformed plate is")?;
@@ -171,6 +175,7 @@ impl<'a> Input<'a> {
             by: drawn.by.clone(),
             overlaps: drawn.overlap.len(),
             factor: self.seen.moved().map(|points| points.view.factor()),
+            mirrored: request.scene.mirror.as_ref().map(Mirror::to_string),
             dataset: (self.dataset.title.clone(), step.filter(|_| self.dataset.steps.len() > 1)),
         })
     }
@@ -198,7 +203,8 @@ impl<'a> Input<'a> {
             design: None,
             has_bar: false,
         };
-        Ok(ground.isolines(quantity, &ground.levels(wanted), engine.watcher)?)
+        let lines = self.seen.lines();
+        Ok(ground.isolines(quantity, &ground.levels(wanted), lines, engine.watcher)?)
     }
 
     fn layers(
@@ -213,9 +219,8 @@ impl<'a> Input<'a> {
         // isolines are found of one field, and between the centres of pixels
         let quantity = self.shown.quantity().filter(|_| self.left.is_none());
         let centers = match quantity {
-            Some(quantity) if drawn.opacity.is_some() && scene.overlays.isolines.is_some() => {
-                let job = DrawingInput { field, view: &drawn.view, quantity };
-                Some(engine.draw(job, Samples::CENTER)?)
+            Some(_) if drawn.opacity.is_some() && scene.overlays.isolines.is_some() => {
+                Some(self.values(Samples::CENTER, engine)?)
             }
             _ => None,
         };

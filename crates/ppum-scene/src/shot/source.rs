@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::text::trimmed;
+use ppum::vec2::Rect;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{Design, Labels};
 use ppum_render::deform::{DeformError, Deformation};
@@ -15,6 +16,7 @@ use crate::deformed::words;
 use crate::drawing::{BodyView, Shown};
 use crate::engine::Engine;
 use crate::minus::{Minus, Side};
+use crate::mirror::{MirrorError, MirrorLines};
 use crate::request::Request;
 use crate::scene::{Scene, ShownError, default_quantity, shown};
 
@@ -68,6 +70,47 @@ impl<'a> FieldSource<'a> {
         Input { dataset, field, shown: &asked.shown, name: &asked.name, seen, left }
     }
 
+    /// The lines at which it is mirrored; none if nobody asks for the whole.
+    ///
+    /// # Errors
+    /// A dataset that does not know its lines; what is not mirrored, the deformed plate
+    /// and differences.
+    pub fn lines(self, scene: &Scene) -> Result<MirrorLines, MirrorError> {
+        let Some(mirror) = &scene.mirror else { return Ok(MirrorLines::default()) };
+        match () {
+            () if self.left.is_some() => Err(MirrorError::Difference),
+            () if scene.deformed.is_some() => Err(MirrorError::Deformed),
+            () => {
+                let edges = mirror.edges(self.dataset)?;
+                Ok(MirrorLines::new(&edges, &self.field.domain.bounds))
+            }
+        }
+    }
+
+    /// The scene with the edges named at which it is mirrored.
+    ///
+    /// # Errors
+    /// As [`Self::lines`].
+    pub fn settled(self, scene: Scene) -> Result<Scene, MirrorError> {
+        self.lines(&scene)?;
+        let mirror = scene.mirror.as_ref().map(|mirror| mirror.settled(self.dataset));
+        Ok(Scene { mirror: mirror.transpose()?, ..scene })
+    }
+
+    /// The box of what a scene shows of it, the whole of a body that is mirrored.
+    #[must_use]
+    pub fn bounds(self, scene: &Scene) -> Rect {
+        self.lines(scene).unwrap_or_default().whole(self.field.domain.bounds)
+    }
+
+    /// What is seen of it in a view as it was before it was loaded.
+    pub(crate) fn undeformed(self, scene: &Scene, view: View) -> Result<BodyView<'a>, ShotError> {
+        Ok(match scene.mirror {
+            None => BodyView::Plate(view),
+            Some(_) => BodyView::Mirrored(view, self.lines(scene)?),
+        })
+    }
+
     /// What is seen of it in a view.
     pub(crate) fn seen(
         self,
@@ -77,7 +120,8 @@ impl<'a> FieldSource<'a> {
     ) -> Result<BodyView<'a>, ShotError> {
         let deformed = scene.deformed.filter(|_| self.left.is_none());
         let factor = deformed.map(|factor| factor.number(&[self.field])).transpose()?;
-        let Some(factor) = factor else { return Ok(BodyView::Plate(*view)) };
+        let Some(factor) = factor else { return self.undeformed(scene, *view) };
+        self.lines(scene)?;
         engine.check_deformed()?;
         Ok(BodyView::Moved(
             Deformation::new(self.field, factor)?.seen(view).points(engine.watcher)?,

@@ -56,7 +56,7 @@ impl Args {
         let layout = Layout::new(self, &field, &labels, &methods);
         check_page(layout.size())?;
         let frame = ImageExtent { pixels: layout.room()?, may_shrink: true, margin: 0.0 };
-        let view = self.place.seen(&field, frame)?;
+        let view = self.place.seen(field.domain.bounds, &field, frame)?;
         let job = measure::ComparisonInput { field: &field, view, quantity: &quantity, args: self };
         let found = threads::with(self.threads, || measure(job, &methods))??;
         let report = Report::new(&self.subject.file_name(), &asked.name, &view, &found);

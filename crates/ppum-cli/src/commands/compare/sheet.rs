@@ -49,7 +49,7 @@ impl Layout {
         labels: &Labels,
         methods: &[Option<Interpolation>],
     ) -> Self {
-        let aspect = args.place.aspect(field);
+        let aspect = args.place.aspect(field.domain.bounds);
         let is_long = aspect.is_some_and(|aspect| aspect > LONG);
         let panels = Shows::all(methods.len(), is_long);
         let [across, down] = match (methods.len(), is_long) {

@@ -1,0 +1,426 @@
+//! The whole of half and quarter models: `--mirror`.
+
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum_render::samples::Samples;
+use ppum_render::view::View;
+use ppum_scene::drawing::{Drawn, RasterValues};
+use ppum_scene::engine::Engine;
+use ppum_scene::overlays::{Levels, Overlay, Overlays};
+use ppum_scene::place::Place;
+use ppum_scene::request::Request;
+use ppum_scene::scene::Scene;
+use ppum_scene::shot::{Asked, FieldSource};
+use ppum_scene::still::{Common, Still};
+use ppum_testkit::random::Random;
+
+use crate::backend::has_adapter;
+use crate::{Lab, Png, sound};
+
+/// A plate with a crack from x = −0.5 to 0.5 and loads that are balanced, or a part of it: the one
+/// with y > 0, or with x > 0 too.
+fn plate([x, y]: [f64; 2], crack: f64, loads: &str, symmetries: &str, cells: [u32; 2]) -> String {
+    format!(
+        r#"
+title = "Plate"
+[domain]
+min = [{x:?}, {y:?}]
+max = [1.0, 1.5]
+[material]
+young = 2.0
+poisson = 0.3
+state = "plane-strain"
+[[crack]]
+points = [[{crack:?}, 0.0], [0.5, 0.0]]
+{loads}
+{symmetries}
+[discretization]
+cells = {cells:?}
+order = 5
+[[quantity]]
+name = "mine"
+formula = "ux*x^2 - y*sxy + exy"
+"#
+    )
+}
+
+fn boundary(edges: &[(&str, &str)]) -> String {
+    let one = |(on, what): &(&str, &str)| format!("[[boundary]]\non = \"{on}\"\n{what}\n");
+    edges.iter().map(one).collect()
+}
+
+/// The whole plate, a part of it, and the edges at which the part is mirrored.
+struct Case {
+    whole: String,
+    part: String,
+    edges: &'static str,
+}
+
+/// Plates that are pulled and opened, and plates that are sheared.
+fn cases() -> Vec<Case> {
+    let faces = "[[boundary]]\non = { crack = 0 }\npressure = 0.4\n";
+    let pulled = [("top", "traction = [0.0, 1.0]"), ("right", "traction = [0.3, 0.0]")];
+    let others = [("bottom", "traction = [0.0, -1.0]"), ("left", "traction = [-0.3, 0.0]")];
+    let sheared = [
+        ("top", "traction = [0.5, 0.0]"),
+        ("right", "traction = [0.0, 0.5]"),
+        ("left", "traction = [0.0, -0.5]"),
+    ];
+    let below = [("bottom", "traction = [-0.5, 0.0]")];
+    let whole = |loads: String| plate([-1.0, -1.5], -0.5, &loads, "", [8, 12]);
+    let (pull, shear) = (boundary(&pulled) + faces, boundary(&sheared));
+    let (symmetric, odd) = ("symmetry = true", "antisymmetry = true");
+    let half = |loads: &str, kind: &str| {
+        plate([-1.0, 0.0], -0.5, loads, &boundary(&[("bottom", kind)]), [8, 6])
+    };
+    let left = boundary(&others[1..]);
+    let both = boundary(&[("bottom", symmetric), ("left", symmetric)]);
+    vec![
+        Case {
+            whole: whole(pull.clone() + &boundary(&others)),
+            part: half(&(pull.clone() + &left), symmetric),
+            edges: "bottom",
+        },
+        Case {
+            whole: whole(shear.clone() + &boundary(&below)),
+            part: half(&shear, odd),
+            edges: "bottom:antisymmetric",
+        },
+        Case {
+            whole: whole(pull.clone() + &boundary(&others)),
+            part: plate([0.0, 0.0], 0.0, &pull, &both, [4, 6]),
+            edges: "left,bottom",
+        },
+    ]
+}
+
+fn solved(problem: &str) -> Dataset {
+    let lab = Lab::solved(problem);
+    ppum_format::read(&lab.path("plate.h5")).unwrap()
+}
+
+fn request(quantity: &str, mirror: Option<&str>, place: &Place, size: [u32; 2]) -> Request {
+    let scene = Scene {
+        quantity: Some(quantity.to_owned()),
+        mirror: mirror.map(|text| text.parse().unwrap()),
+        ..Scene::default()
+    };
+    let mut request = Request { place: place.clone(), ..scene.into() };
+    request.look.size = Some(size);
+    request
+}
+
+/// The values of an image.
+fn drawn(dataset: &Dataset, request: Request, samples: Samples) -> Drawn {
+    let field = Field::new(dataset, 0).unwrap();
+    let engine = Engine::default();
+    let still = Still::new(FieldSource::of(dataset, &field), request).unwrap();
+    let (source, request) = (still.source, &still.request);
+    let common = Common::new(&still, request).unwrap();
+    let seen = common.placing.body(source, &request.scene, &engine).unwrap();
+    let asked = Asked::new(&request.scene, source.field).unwrap();
+    source.input(&asked, &seen).values(samples, &engine).unwrap()
+}
+
+fn values(drawn: &Drawn) -> &[f64] {
+    let RasterValues::Double(raster) = &drawn.values else { panic!("double precision") };
+    &raster.values
+}
+
+fn centers(dataset: &Dataset, quantity: &str, mirror: Option<&str>, place: &Place) -> Vec<f64> {
+    let drawn = drawn(dataset, request(quantity, mirror, place, SIZE), Samples::CENTER);
+    values(&drawn).to_vec()
+}
+
+const SIZE: [u32; 2] = [101, 147];
+
+/// How many times as large the errors of a quarter may be: its crack is half as long, and so its
+/// zone of tip functions half as wide by default (decision 36).
+const QUARTER: f64 = 10.0;
+
+/// The mirrored part is the whole plate that was solved, at every pixel, at random places, for
+/// quantities of all kinds. What differs are the errors of both solutions at order 5: of 99 % of the
+/// pixels displacements by up to 6e-7 of their size and stresses by 2e-5, at the worst ones by 3e-6
+/// and 1e-4. The bounds are some five times as large.
+#[test]
+fn mirrored_parts_are_the_whole() {
+    let mut random = Random(71);
+    let names = [
+        "ux",
+        "uy",
+        "sxx",
+        "syy",
+        "sxy",
+        "von-mises",
+        "s1",
+        "s2",
+        "tresca",
+        "curl",
+        "duy_dx",
+        "energy",
+        "mine",
+        "ux*x + sxy*y - x^2*syy",
+        "max(s1, 0)*(y + 2*x)",
+        "direction",
+    ];
+    for Case { whole, part, edges } in cases() {
+        let [whole, part] = [whole, part].map(|problem| solved(&problem));
+        for name in names {
+            let (x, y) = (random.between(-0.6, 0.6), random.between(-1.0, 1.0));
+            let near = Place { center: Some([x, y]), width: Some(0.9), ..Place::default() };
+            for place in [Place::default(), near] {
+                let own = centers(&part, name, Some("auto"), &place);
+                let named = centers(&part, name, Some(edges), &place);
+                assert!(own.iter().zip(&named).all(|(a, b)| a.to_bits() == b.to_bits()));
+                let all = centers(&whole, name, None, &place);
+                let size = all.iter().copied().filter(|v| v.is_finite()).map(f64::abs);
+                let size = size.fold(0.0, f64::max);
+                let (mut apart, mut all_apart) = (0.0f64, Vec::new());
+                for (own, all) in own.iter().zip(&all) {
+                    assert_eq!(own.is_nan(), all.is_nan(), "{name}");
+                    let difference = (own - all).abs();
+                    let period = if name == "direction" { std::f64::consts::PI } else { 0.0 };
+                    let difference = difference.min((period - difference).abs());
+                    apart = apart.max(difference).max(0.0);
+                    all_apart.extend((!difference.is_nan()).then_some(difference));
+                }
+                all_apart.sort_by(f64::total_cmp);
+                let most = all_apart[all_apart.len() * 99 / 100];
+                println!("{edges} {name}: {:.1e}, of 99 % {:.1e}", apart / size, most / size);
+                let [bound, bound_of_most] = match name {
+                    "ux" | "uy" => [2e-5, 4e-6],
+                    // which has no limit where all stresses of antisymmetric fields are zero
+                    "direction" => [f64::INFINITY, 1e-4],
+                    _ => [1e-3, 1e-4],
+                };
+                let size = if edges == "left,bottom" { QUARTER * size } else { size };
+                assert!(apart < bound * size, "{edges} {name}: {apart} of {size}");
+                assert!(most < bound_of_most * size, "{edges} {name}: {most} of {size}");
+            }
+        }
+    }
+}
+
+/// A picture that is symmetric about the line has the same bits on both sides, but for the sign of
+/// odd quantities: the image is the body seen in the reflected view, and nothing is interpolated.
+/// At random columns, with odd and even numbers of rows, and a millionfold around the tip.
+#[test]
+fn both_halves_have_the_same_bits() {
+    let mut random = Random(72);
+    let of_symmetric = [
+        ("ux", 1.0),
+        ("uy", -1.0),
+        ("sxy", -1.0),
+        ("syy", 1.0),
+        ("von-mises", 1.0),
+        ("s1", 1.0),
+        ("curl", -1.0),
+        ("dux_dy", -1.0),
+        ("uy*y + ux*x", 1.0),
+        ("sxy*x^2", -1.0),
+        ("level", 1.0),
+    ];
+    let of_antisymmetric = [
+        ("ux", -1.0),
+        ("uy", 1.0),
+        ("sxy", 1.0),
+        ("syy", -1.0),
+        ("von-mises", 1.0),
+        ("curl", 1.0),
+        ("dux_dy", 1.0),
+        ("uy*y + ux*x", -1.0),
+        ("hydrostatic", -1.0),
+    ];
+    let both = [(0, &of_symmetric[..]), (1, &of_antisymmetric[..])];
+    for (case, names) in both {
+        let part = solved(&cases()[case].part);
+        for &(name, sign) in names {
+            let center = Some([random.between(-0.9, 0.9), 0.0]);
+            let wide = Place { center, width: Some(1.3), ..Place::default() };
+            let tip = Place { tip: Some(1), zoom: Some(1e6), ..Place::default() };
+            for place in [wide, tip] {
+                for rows in [40u32, 41] {
+                    let request = request(name, Some("auto"), &place, [60, rows]);
+                    let drawn = drawn(&part, request, Samples::CENTER);
+                    let row = |j: u32| &values(&drawn)[j as usize * 60..][..60];
+                    assert!(row(0).iter().any(|value| value.is_finite()));
+                    for j in 0..rows / 2 {
+                        for (above, below) in row(j).iter().zip(row(rows - 1 - j)) {
+                            let below = sign * below;
+                            let is_same = above.to_bits() == below.to_bits();
+                            assert!(
+                                is_same || *above == 0.0 && below == 0.0 || above.is_nan(),
+                                "{name} {place:?}, row {j} of {rows}: {above:e} and {below:e}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The mean of samples is that of the values at their places, also in pixels across the line.
+#[test]
+fn samples_are_of_both_halves() {
+    let part = solved(&cases()[0].part);
+    let place = Place { view: Some([-1.2, -0.9, 1.2, 0.8]), ..Place::default() };
+    let (side, [columns, rows]) = (3u32, [37u32, 29]);
+    for name in ["sxy", "uy*x + y"] {
+        let of = |size, samples| drawn(&part, request(name, Some("auto"), &place, size), samples);
+        let finer = of([side * columns, side * rows], Samples::CENTER);
+        let means = of([columns, rows], Samples::new(side as u8).unwrap());
+        assert_eq!(finer.view.width, means.view.width);
+        for (k, mean) in (0u32..).zip(values(&means)) {
+            let (i, j) = (side * (k % columns), side * (k / columns));
+            let places = (0..side).flat_map(|a| (0..side).map(move |b| (i + a, j + b)));
+            let finer = places.map(|(i, j)| values(&finer)[(j * side * columns + i) as usize]);
+            let inside: Vec<f64> = finer.filter(|value| value.is_finite()).collect();
+            let expected = inside.iter().sum::<f64>() / inside.len() as f64;
+            let rounding = 1e-14 * inside.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+            assert!(expected.is_nan() && mean.is_nan() || (mean - expected).abs() <= rounding);
+        }
+    }
+}
+
+/// The range of automatic colours is that of the whole plate, found with the extrema of the view.
+#[test]
+fn ranges_are_those_of_the_whole() {
+    for Case { whole, part, edges } in cases() {
+        let (whole, part) = (Lab::solved(&whole), Lab::solved(&part));
+        for name in ["ux", "uy", "sxy", "s2", "mine"] {
+            let command = |mirror: &str| {
+                format!("render plate.h5 -o a.png -q {name} --size 90x120 --range full {mirror}")
+            };
+            whole.run(&command(""));
+            part.run(&command(&format!("--mirror={edges}")));
+            let range = |lab: &Lab| -> Vec<f64> {
+                let png = Png::read(&lab.path("a.png"));
+                png.text("ppum:range").split(',').map(|end| end.trim().parse().unwrap()).collect()
+            };
+            let (own, all) = (range(&part), range(&whole));
+            let size = all[1] - all[0];
+            // the errors of both solutions
+            for (own, all) in own.iter().zip(&all) {
+                assert!((own - all).abs() < 1e-3 * size, "{edges} {name}: {own} and {all}");
+            }
+        }
+    }
+}
+
+/// Isolines of an even quantity are those of the upper half and their reflections, to the last bit,
+/// and arrows and supports, cracks and cells are drawn on both sides.
+#[test]
+fn overlays_are_mirrored() {
+    let part = solved(&cases()[0].part);
+    let field = Field::new(&part, 0).unwrap();
+    let mut request = request("syy", Some("bottom"), &Place::default(), [120, 180]);
+    request.scene.overlays.isolines = Some(Levels::At(vec![0.7, 1.3]));
+    let engine = Engine::default();
+    let still = Still::new(FieldSource::of(&part, &field), request).unwrap();
+    let common = Common::new(&still, &still.request).unwrap();
+    let seen = common.placing.body(still.source, &still.request.scene, &engine).unwrap();
+    let asked = Asked::new(&still.request.scene, &field).unwrap();
+    let levels = Levels::At(vec![0.7, 1.3]);
+    let input = still.source.input(&asked, &seen);
+    let lines = input.isolines(&levels, &still.request.scene.colors, &engine).unwrap();
+    let View { center, .. } = *seen.view();
+    assert_eq!(center.y, 0.0);
+    let (above, below): (Vec<_>, Vec<_>) =
+        lines.iter().partition(|line| line.points.iter().all(|p| p.y >= 0.0));
+    assert!(above.len() > 2 && above.len() == below.len());
+    for (above, below) in above.iter().zip(&below) {
+        let reflected = below.points.iter().rev().map(|p| [p.x, -p.y]);
+        assert!(above.points.iter().map(|p| [p.x, p.y]).eq(reflected));
+        assert_eq!(above.level, below.level);
+    }
+    let image = |shown: Vec<Overlay>| {
+        let overlays = Overlays { shown, ..Overlays::default() };
+        let mirror = Some("bottom".parse().unwrap());
+        let mut request = Request::from(Scene { overlays, mirror, ..Scene::default() });
+        request.look.size = Some([200, 300]);
+        Still::new(still.source, request).unwrap().page(&engine).unwrap().0.image()
+    };
+    for overlay in Overlay::ALL {
+        // supports and loads need room around the plate, which pictures without them lack
+        let below = if overlay == Overlay::Loads { Overlay::Supports } else { Overlay::Loads };
+        let is_outside = matches!(overlay, Overlay::Supports | Overlay::Loads);
+        let beside = if is_outside { vec![below] } else { Vec::new() };
+        let plain = image(beside.clone());
+        let image = image([vec![overlay], beside].concat());
+        let [columns, rows] = image.size;
+        let is_drawn = |i: u32, j: u32| match (image.pixel(i, j), plain.pixel(i, j)) {
+            ([.., 0], [.., 0]) => false,
+            (over, under) => over != under,
+        };
+        // legends stand on the right
+        let pixels = || (0..rows).flat_map(|j| (0..columns / 3).map(move |i| (i, j)));
+        let count = pixels().filter(|&(i, j)| is_drawn(i, j)).count();
+        let is_alone = |&(i, j): &(u32, u32)| is_drawn(i, j) != is_drawn(i, rows - 1 - j);
+        let alone = pixels().filter(is_alone).count();
+        println!("{overlay:?}: {count} pixels, {alone} on one side alone");
+        // the plate has no supports but those on its line, and no points
+        let is_empty = matches!(overlay, Overlay::Supports | Overlay::Points);
+        assert_eq!(count == 0, is_empty, "{overlay:?}");
+        // soft borders of lines differ by rounding
+        assert!(alone * 50 <= count, "{overlay:?}: {alone} of {count}");
+    }
+}
+
+/// The program draws the whole, says so in the file, and a card draws what the processor does.
+#[test]
+fn the_program_draws_the_whole() {
+    let lab = Lab::solved(&cases()[0].part);
+    lab.run("render plate.h5 -o half.png --size 64x48 --range 0,3");
+    lab.run("render plate.h5 -o a.png --mirror --size 64x96 --range 0,3");
+    let (half, whole) = (Png::read(&lab.path("half.png")), Png::read(&lab.path("a.png")));
+    assert_eq!(whole.text("ppum:mirror"), "bottom");
+    for j in 0..48 {
+        for i in 0..64 {
+            assert_eq!(whole.pixel(i, j), half.pixel(i, j));
+            assert_eq!(whole.pixel(i, 95 - j), half.pixel(i, j));
+        }
+    }
+    // panels, with a shared range; a figure with everything; a film of one step
+    lab.run("render plate.h5 -o a.svg --mirror -q ux,uy --shared-range");
+    lab.run(
+        "render plate.h5 -o a.png --mirror --figure --isolines auto --level-labels --arrows --crosses --overlay \
+         cells,supports,loads,rings",
+    );
+    lab.run("render plate.h5 -o a.gif --mirror --steps all --size 40x60");
+    if !has_adapter(&lab) {
+        return;
+    }
+    for options in ["-q sxy --range=-1,1", "-q ux*x+y*sxy --range=-1,1", "-q uy --range=-1,1"] {
+        let draw = |backend: &str| {
+            lab.run(&format!(
+                "render plate.h5 -o a.png --mirror {options} --backend {backend} --center 0.0123,0.0077 --width 1.6 \
+                 --size 120x90"
+            ));
+            Png::read(&lab.path("a.png"))
+        };
+        let (cpu, gpu) = (draw("cpu"), draw("gpu"));
+        assert!(gpu.text("ppum:backend").starts_with("gpu f32"));
+        let far = cpu.rgba.iter().zip(&gpu.rgba).filter(|(a, b)| a.abs_diff(**b) > 1).count();
+        // pixels at the ends of the range and on the crack
+        assert!(far * 250 <= cpu.rgba.len(), "{options}: {far}");
+    }
+}
+
+/// Where the dataset does not know its lines they are named, as of a plate that is no half.
+#[test]
+fn lines_are_named_where_nobody_knows_them() {
+    let lab = Lab::solved(&sound());
+    let complaint = lab.fail("render plate.h5 -o a.png --mirror");
+    assert!(complaint.contains("`bottom`"), "{complaint}");
+    lab.run("render plate.h5 -o a.png --mirror=right,top:antisymmetric -q uy --size 40x40");
+    for (wrong, remedy) in [
+        ("--mirror=left,right", "not both"),
+        ("--mirror=middle", "left, right, bottom or top"),
+        ("--mirror=bottom --deformed auto", "leave mirror or deformed out"),
+    ] {
+        let complaint = lab.fail(&format!("render plate.h5 -o a.png {wrong}"));
+        assert!(complaint.contains(remedy), "{complaint}");
+    }
+    lab.fail("export plate.h5 -o a.html --mirror");
+}

@@ -1,0 +1,167 @@
+//! Values of the whole: those of the body, and those of reflected views where it is not.
+
+use ppum::field::Field;
+use ppum::quantity::ValueChange;
+use ppum_render::RenderError;
+use ppum_render::raster::{Raster, Sample};
+use ppum_render::samples::{Means, Samples};
+use ppum_render::view::View;
+
+use super::{MirrorImage, MirrorLines};
+use crate::drawing::{BodyView, DrawingInput, Drawn, RasterValues, Shown};
+use crate::engine::Engine;
+use crate::shot::{Input, ShotError};
+
+/// Most samples of an image of the whole, all of which are held at once: 512 MiB.
+pub const MOST_SAMPLES: u64 = 1 << 26;
+
+/// Draws the whole, each value the mean of so many samples.
+pub(crate) fn draw(
+    input: Input<'_>,
+    (view, lines): (&View, &MirrorLines),
+    samples: Samples,
+    engine: &Engine<'_>,
+) -> Result<Drawn, ShotError> {
+    let Some(quantity) = input.shown.quantity().filter(|_| samples != Samples::CENTER) else {
+        return centers(input, (view, lines), samples, engine);
+    };
+    let finer = view.finer(samples.side())?;
+    let [columns, rows] = finer.pixels.map(u64::from);
+    if columns * rows > MOST_SAMPLES {
+        return Err(ShotError::Samples("mirrored images of so many pixels are"));
+    }
+    let drawn = centers(input, (&finer, lines), Samples::CENTER, engine)?;
+    let job = DrawingInput { field: input.field, view, quantity };
+    Ok(match &drawn.values {
+        RasterValues::Double(raster) => averaged(job, samples, raster, &drawn.by),
+        RasterValues::Single(raster) => averaged(job, samples, raster, &drawn.by),
+    })
+}
+
+fn averaged<T: Sample>(
+    job: DrawingInput<'_>,
+    samples: Samples,
+    finer: &Raster<T>,
+    by: &str,
+) -> Drawn
+where
+    RasterValues: From<Raster<T>>,
+{
+    Drawn::averaged(Means::of(job.field.domain, job.view, samples, finer), job, by)
+}
+
+/// The values at the centres of pixels.
+fn centers(
+    input: Input<'_>,
+    (view, lines): (&View, &MirrorLines),
+    samples: Samples,
+    engine: &Engine<'_>,
+) -> Result<Drawn, ShotError> {
+    let part = |view: &View, shown: &Shown| {
+        Input { shown, seen: &BodyView::Plate(*view), ..input }.values(samples, engine)
+    };
+    let mut whole = part(view, input.shown)?;
+    for image in lines.images(view, &input.field.domain.bounds) {
+        let (shown, change) = reflected(input.shown, &image, input.field)?;
+        whole.fill(part(&image.view, &shown)?, image.flips(), change);
+    }
+    Ok(whole)
+}
+
+/// What has the values of something that is shown in a mirrored part, and their change.
+fn reflected(
+    shown: &Shown,
+    image: &MirrorImage,
+    field: &Field<'_>,
+) -> Result<(Shown, ValueChange), RenderError> {
+    Ok(match shown {
+        Shown::Quantity(quantity) => {
+            let found = quantity.reflected(&image.reflection, field)?;
+            (Shown::Quantity(found.quantity), found.change)
+        }
+        cells @ Shown::Cells(..) => (cells.clone(), ValueChange::Same),
+    })
+}
+
+impl Drawn {
+    /// Takes the values of a reflected view where there are none.
+    fn fill(&mut self, part: Self, flips: [bool; 2], change: ValueChange) {
+        use RasterValues::{Double, Single};
+        let size = self.view.pixels;
+        match (&mut self.values, &part.values) {
+            (Double(own), Double(other)) => fill(own, &flipped(other, flips, change)),
+            (Single(own), Single(other)) => fill(own, &flipped(other, flips, change)),
+            (own, other) => {
+                let mut both = own.widened();
+                fill(&mut both, &flipped(&other.widened(), flips, change));
+                *own = Double(both);
+            }
+        }
+        let pixel = |pixel: u32| {
+            let [i, j] = flip([pixel % size[0], pixel / size[0]], size, flips);
+            j * size[0] + i
+        };
+        self.without.extend(part.without.into_iter().map(pixel));
+        let values = &self.values;
+        self.without.retain(|pixel| values.is_undefined(*pixel as usize));
+        self.without.sort_unstable();
+        self.without.dedup();
+    }
+}
+
+impl RasterValues {
+    fn widened(&self) -> Raster<f64> {
+        match self {
+            Self::Double(raster) => raster.clone(),
+            Self::Single(raster) => {
+                let values = raster.values.iter().map(|value| f64::from(*value)).collect();
+                Raster::new(raster.size, values)
+            }
+        }
+    }
+
+    fn is_undefined(&self, pixel: usize) -> bool {
+        match self {
+            Self::Double(raster) => raster.values[pixel].is_nan(),
+            Self::Single(raster) => raster.values[pixel].is_nan(),
+        }
+    }
+}
+
+fn flip([i, j]: [u32; 2], [columns, rows]: [u32; 2], [across, down]: [bool; 2]) -> [u32; 2] {
+    [if across { columns - 1 - i } else { i }, if down { rows - 1 - j } else { j }]
+}
+
+fn flipped<T: Sample>(raster: &Raster<T>, flips: [bool; 2], change: ValueChange) -> Raster<T> {
+    Raster::from_fn(raster.size, |i, j| {
+        let [i, j] = flip([i, j], raster.size, flips);
+        T::from_f64(change.apply(raster.value(i, j).into()))
+    })
+}
+
+fn fill<T: Sample>(own: &mut Raster<T>, other: &Raster<T>) {
+    for (value, other) in own.values.iter_mut().zip(&other.values) {
+        if (*value).into().is_nan() {
+            *value = *other;
+        }
+    }
+}
+
+/// Of values of the whole those of a mirrored part, as the body has them at the pixels of the
+/// reflected view; none outside of the body's box.
+pub(crate) fn restricted<T: Sample>(
+    whole: &Raster<T>,
+    image: &MirrorImage,
+    change: ValueChange,
+    field: &Field<'_>,
+) -> Raster<T> {
+    let mut values = flipped(whole, image.flips(), change);
+    let [columns, rows] = image.view.inside(&field.domain.bounds);
+    let width = values.size[0] as usize;
+    for (k, value) in values.values.iter_mut().enumerate() {
+        if !columns.contains(&(k % width)) || !rows.contains(&(k / width)) {
+            *value = T::from_f64(f64::NAN);
+        }
+    }
+    values
+}

@@ -1,0 +1,341 @@
+//! The whole of a body of which a dataset holds one half or a quarter.
+//!
+//! The body is mirrored at edges of the domain's box, and its field repeated beyond them,
+//! symmetric or antisymmetric ([`Reflection`]). An image of the whole has the pixels of the body
+//! itself, and where the body is not those of the reflected view: there the field is evaluated at
+//! the reflected centre of each pixel, so that nothing is interpolated.
+
+mod drawn;
+mod extrema;
+mod isolines;
+
+use std::fmt;
+use std::str::FromStr;
+
+use ppum::crack::Crack;
+use ppum::dataset::Dataset;
+use ppum::quantity::{Reflection, ValueChange};
+use ppum::vec2::Rect;
+use ppum_render::view::View;
+
+pub use drawn::MOST_SAMPLES;
+pub(crate) use drawn::{draw, restricted};
+pub(crate) use extrema::extrema;
+pub(crate) use isolines::isolines;
+
+/// What is asked of the whole: written `auto`, or as edges with commas between.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Mirror {
+    /// Beyond the edges whose symmetry the dataset knows.
+    Auto,
+    /// Beyond these, at most one of left and right and one of bottom and top.
+    Edges(Vec<MirrorEdge>),
+}
+
+/// An edge beyond which a body is mirrored: written `bottom`, or `bottom:antisymmetric`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MirrorEdge {
+    /// The edge.
+    pub edge: BoxEdge,
+    /// True for an antisymmetric field.
+    pub is_odd: bool,
+}
+
+/// An edge of the domain's box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BoxEdge {
+    /// x = min.
+    Left,
+    /// x = max.
+    Right,
+    /// y = min.
+    Bottom,
+    /// y = max.
+    Top,
+}
+
+/// The reason why the whole cannot be drawn.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MirrorError {
+    /// No symmetry that the dataset knows.
+    #[error(
+        "mirror: the dataset does not say which of its edges is a line of symmetry; name it, as \
+         `bottom`, `bottom,left` or `bottom:antisymmetric`"
+    )]
+    Unknown,
+    /// The deformed body.
+    #[error("mirror: the deformed body is not mirrored; leave mirror or deformed out")]
+    Deformed,
+    /// A difference.
+    #[error("mirror: differences are not mirrored; leave mirror out")]
+    Difference,
+}
+
+impl BoxEdge {
+    /// All of them with their names.
+    const NAMES: [(&str, Self); 4] = [
+        ("left", Self::Left),
+        ("right", Self::Right),
+        ("bottom", Self::Bottom),
+        ("top", Self::Top),
+    ];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, edge)| *edge == self).map_or("", |(name, _)| name)
+    }
+
+    /// 0 for lines x = a, 1 for y = b.
+    fn axis(self) -> usize {
+        usize::from(matches!(self, Self::Bottom | Self::Top))
+    }
+
+    fn line(self, bounds: &Rect) -> f64 {
+        match self {
+            Self::Left => bounds.min.x,
+            Self::Right => bounds.max.x,
+            Self::Bottom => bounds.min.y,
+            Self::Top => bounds.max.y,
+        }
+    }
+}
+
+/// The kinds of symmetry as they are written.
+const KINDS: [(&str, bool); 2] = [("symmetric", false), ("antisymmetric", true)];
+
+impl FromStr for Mirror {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        if text.trim() == "auto" {
+            return Ok(Self::Auto);
+        }
+        let edges: Vec<MirrorEdge> = text.split(',').map(str::parse).collect::<Result<_, _>>()?;
+        for (k, one) in edges.iter().enumerate() {
+            if let Some(other) = edges[..k].iter().find(|o| o.edge.axis() == one.edge.axis()) {
+                let names = [other, one].map(|edge| edge.edge.name());
+                return Err(format!("name one of `{}` and `{}`, not both", names[0], names[1]));
+            }
+        }
+        Ok(Self::Edges(edges))
+    }
+}
+
+impl FromStr for MirrorEdge {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let text = text.trim();
+        let (name, kind) = text.split_once(':').unwrap_or((text, KINDS[0].0));
+        let edge = BoxEdge::NAMES.iter().find(|(known, _)| *known == name.trim());
+        let kind = KINDS.iter().find(|(known, _)| *known == kind.trim());
+        match (edge, kind) {
+            (Some(&(_, edge)), Some(&(_, is_odd))) => Ok(Self { edge, is_odd }),
+            _ => Err(format!(
+                "`{text}` is no line of symmetry; write left, right, bottom or top, with \
+                 `:antisymmetric` behind it if the field is"
+            )),
+        }
+    }
+}
+
+impl fmt::Display for Mirror {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => f.write_str("auto"),
+            Self::Edges(edges) => {
+                let all: Vec<_> = edges.iter().map(MirrorEdge::to_string).collect();
+                f.write_str(&all.join(","))
+            }
+        }
+    }
+}
+
+impl fmt::Display for MirrorEdge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kind = if self.is_odd { ":antisymmetric" } else { "" };
+        write!(f, "{}{kind}", self.edge.name())
+    }
+}
+
+crate::written::as_text!(Mirror);
+
+impl Mirror {
+    /// The edges: as they are named, else those that the problem of the dataset knows.
+    ///
+    /// # Errors
+    /// None is named, and the dataset knows none.
+    pub fn edges(&self, dataset: &Dataset) -> Result<Vec<MirrorEdge>, MirrorError> {
+        let edges = match self {
+            Self::Auto => known(dataset),
+            Self::Edges(edges) => edges.clone(),
+        };
+        if edges.is_empty() { Err(MirrorError::Unknown) } else { Ok(edges) }
+    }
+
+    /// The request with the edges named.
+    ///
+    /// # Errors
+    /// As [`Self::edges`].
+    pub fn settled(&self, dataset: &Dataset) -> Result<Self, MirrorError> {
+        self.edges(dataset).map(Self::Edges)
+    }
+}
+
+/// The edges of a dataset's problem that have a symmetry.
+#[cfg(feature = "problem")]
+fn known(dataset: &Dataset) -> Vec<MirrorEdge> {
+    use ppum_solve::problem::{Edge, Problem, Symmetry};
+
+    let problem = Problem::of_dataset(dataset).ok().flatten();
+    let edges = problem.map(|problem| problem.mirrors()).unwrap_or_default();
+    let edge = |(edge, symmetry)| MirrorEdge {
+        edge: match edge {
+            Edge::Left => BoxEdge::Left,
+            Edge::Right => BoxEdge::Right,
+            Edge::Bottom => BoxEdge::Bottom,
+            Edge::Top => BoxEdge::Top,
+        },
+        is_odd: symmetry == Symmetry::Antisymmetric,
+    };
+    edges.into_iter().map(edge).collect()
+}
+
+/// Without the solver nobody reads problem files.
+#[cfg(not(feature = "problem"))]
+fn known(_: &Dataset) -> Vec<MirrorEdge> {
+    Vec::new()
+}
+
+/// The lines at which a body is mirrored.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MirrorLines {
+    /// x = a and y = b, each with whether the field is antisymmetric to it.
+    lines: [Option<(f64, bool)>; 2],
+}
+
+/// A mirrored part of the whole in an image.
+#[derive(Clone, Copy, Debug)]
+pub struct MirrorImage {
+    /// Its reflections.
+    pub reflection: Reflection,
+    /// The view of the body itself whose reflection it is.
+    pub view: View,
+}
+
+impl MirrorLines {
+    /// The lines through edges of a box.
+    #[must_use]
+    pub fn new(edges: &[MirrorEdge], bounds: &Rect) -> Self {
+        let mut lines = [None; 2];
+        for MirrorEdge { edge, is_odd } in edges {
+            lines[edge.axis()] = Some((edge.line(bounds), *is_odd));
+        }
+        Self { lines }
+    }
+
+    /// The reflections of the body: one for a half, three for a quarter.
+    pub fn reflections(&self) -> impl Iterator<Item = Reflection> {
+        let [x, y] = self.lines;
+        let of = |x: Option<(f64, bool)>, y: Option<(f64, bool)>| Reflection {
+            lines: [x, y].map(|line| line.map(|(at, _)| at)),
+            is_odd: [x, y].into_iter().flatten().filter(|(_, is_odd)| *is_odd).count() == 1,
+        };
+        let [only_x, only_y] = [x.map(|_| of(x, None)), y.map(|_| of(None, y))];
+        let both = x.and(y).map(|_| of(x, y));
+        [only_x, only_y, both].into_iter().flatten()
+    }
+
+    /// The reflections that a view shows of a body in a box.
+    pub fn images(&self, view: &View, bounds: &Rect) -> Vec<MirrorImage> {
+        let image = |reflection: Reflection| {
+            let view = view.reflected(reflection.lines);
+            MirrorImage { reflection, view }
+        };
+        let all = self.reflections().map(image);
+        all.filter(|image| image.view.rect().overlaps(bounds)).collect()
+    }
+
+    /// The box of the whole.
+    #[must_use]
+    pub fn whole(&self, bounds: Rect) -> Rect {
+        self.reflections().fold(bounds, |all, reflection| {
+            let [a, b] = [bounds.min, bounds.max].map(|p| reflection.point(p));
+            all.union(&Rect::new(a.min(b), a.max(b)))
+        })
+    }
+
+    /// The cracks of the whole, each once: those on a line are their own reflections.
+    #[must_use]
+    pub fn cracks(&self, cracks: &[Crack]) -> Vec<Crack> {
+        let mut all = cracks.to_vec();
+        for reflection in self.reflections() {
+            let reflected = |crack: &Crack| {
+                let points = crack.points.iter().map(|p| reflection.point(*p)).collect();
+                Crack { points, ..crack.clone() }
+            };
+            for crack in cracks.iter().map(reflected) {
+                if all.iter().all(|known| known.points != crack.points) {
+                    all.push(crack);
+                }
+            }
+        }
+        all
+    }
+}
+
+/// −1 where values of an image fall as those of the body rise, else 1.
+#[must_use]
+pub fn slope_sign(change: ValueChange) -> f64 {
+    match change {
+        ValueChange::Negated | ValueChange::Turned { is_reversed: true, .. } => -1.0,
+        _ => 1.0,
+    }
+}
+
+impl MirrorImage {
+    /// True for coordinates that are reflected.
+    #[must_use]
+    pub fn flips(&self) -> [bool; 2] {
+        self.reflection.lines.map(|line| line.is_some())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::vec2::vec2;
+
+    #[test]
+    fn mirrors_are_written_as_they_are_read() {
+        for text in
+            ["auto", "bottom", "left:antisymmetric", "top,right", "left,bottom:antisymmetric"]
+        {
+            assert_eq!(text.parse::<Mirror>().expect("a mirror").to_string(), text);
+        }
+        assert_eq!(" left : symmetric ".parse::<Mirror>().expect("a mirror").to_string(), "left");
+        for wrong in ["", "middle", "left,right", "bottom,bottom", "left:odd", "left,"] {
+            assert!(wrong.parse::<Mirror>().is_err(), "{wrong}");
+        }
+    }
+
+    /// A quarter is mirrored thrice; the field is antisymmetric where one of its symmetries is.
+    #[test]
+    fn a_quarter_makes_a_whole() {
+        let bounds = Rect::new(vec2(0.5, -1.0), vec2(2.0, 3.0));
+        let lines = |text: &str| match text.parse() {
+            Ok(Mirror::Edges(edges)) => MirrorLines::new(&edges, &bounds),
+            _ => panic!("edges"),
+        };
+        let quarter = lines("left,bottom:antisymmetric");
+        let odd: Vec<bool> = quarter.reflections().map(|reflection| reflection.is_odd).collect();
+        assert_eq!(odd, [false, true, true]);
+        let twice = lines("left:antisymmetric,bottom:antisymmetric");
+        assert_eq!(twice.reflections().map(|r| r.is_odd).collect::<Vec<_>>(), [true, true, false]);
+        assert_eq!(quarter.whole(bounds), Rect::new(vec2(-1.0, -5.0), vec2(2.0, 3.0)));
+        assert_eq!(lines("top").whole(bounds), Rect::new(vec2(0.5, -1.0), vec2(2.0, 7.0)));
+        assert_eq!(MirrorLines::default().whole(bounds), bounds);
+    }
+}
