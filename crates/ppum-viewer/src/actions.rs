@@ -46,6 +46,8 @@ pub enum Action {
     Deform,
     /// The deformed plate in motion.
     Swing,
+    /// The whole of a half or quarter model, on and off.
+    Mirror,
     /// Direct against resampled.
     Compare,
     /// Pin a probe at the pointer.
@@ -172,6 +174,7 @@ pub fn synonyms(action: Action) -> &'static str {
         Action::Quit => "exit leave close window",
         Action::Interface(_) => "zoom scale font size letters larger smaller interface",
         Action::Swing => "animate warp movie",
+        Action::Mirror => "mirror symmetry reflect",
         Action::Compare => "interpolation error sampling",
         Action::Probe | Action::Draw(Tool::Probe) => "value pick point query marker",
         Action::CircleForK => "sif stress intensity factor k1 k2 j integral energy release",
@@ -241,6 +244,7 @@ pub const ALL: &[ActionEntry] = &[
     entry(Action::Isolines, "Isolines", key(Key::I), "Over the picture"),
     entry(Action::Deform, "Deformed plate", key(Key::D), "Over the picture"),
     entry(Action::Swing, "Play the deformation", shift(Key::D), "Over the picture"),
+    entry(Action::Mirror, "Whole of a half or quarter model", None, "Over the picture"),
     entry(Action::Compare, "Direct against resampled", key(Key::C), "Over the picture"),
     entry(Action::Probe, "Pin a probe at the pointer", key(Key::P), "Reading"),
     entry(Action::CircleForK, "Circle around the nearest tip, for K", key(Key::K), "Reading"),

@@ -20,6 +20,7 @@ pub(crate) struct PageOrder {
 
 const NO_PICTURE: &str = "there is no picture yet";
 const NO_DIFFERENCE: &str = "a page is of one view: switch the difference off (Shift+V)";
+const NO_WHOLE: &str = "a page shows the part that was solved: switch `mirrored` off";
 const NO_SUBJECT: &str =
     "a page shows the whole field with the functions of its file: choose these";
 
@@ -32,6 +33,9 @@ impl PageOrder {
         let frame = stage.frame().ok_or(NO_PICTURE)?;
         if frame.left().is_some() {
             return Err(NO_DIFFERENCE.into());
+        }
+        if pane.scene.mirror.is_some() {
+            return Err(NO_WHOLE.into());
         }
         let mut scene = pane.scene.clone();
         if (Subject { step: scene.subject.step, ..Subject::default() }) != scene.subject {

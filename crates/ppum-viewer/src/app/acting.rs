@@ -9,6 +9,7 @@ use ppum_render::scale::Scale;
 use ppum_scene::colors::Colors;
 use ppum_scene::compare::Compare;
 use ppum_scene::deformed::Factor;
+use ppum_scene::mirror::Mirror;
 use ppum_scene::overlays::Levels;
 
 use crate::actions::Action;
@@ -127,6 +128,7 @@ impl Viewer {
                 stage.controls.swing = stage.controls.swing.is_none().then(|| Swing::new(now));
                 pane.scene.deformed = pane.scene.deformed.or(Some(Factor::Auto));
             }
+            Action::Mirror => toggle(&mut pane.scene.mirror, Mirror::Auto),
             Action::Compare => {
                 toggle(&mut pane.compare, Compare::default());
                 stage.controls.wants = pane.compare.map(|_| "Compare");

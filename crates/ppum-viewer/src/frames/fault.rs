@@ -9,6 +9,8 @@ pub enum Fault {
     Quantity,
     /// The deformation.
     Deformed,
+    /// The lines at which the plate is mirrored.
+    Mirror,
     /// Range, scale or map of the colours.
     Colors,
     /// Isolines, arrows, crosses.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ppum_render::view::View;
 use ppum_scene::drawing::{Drawn, Shown};
 use ppum_scene::minus::{self, Side};
+use ppum_scene::mirror::MirrorLines;
 
 use super::fault::Failure;
 use super::laid::Laid;
@@ -35,6 +36,8 @@ pub struct Frame {
     pub layers_view: View,
     /// How many times its displacement the plate is drawn with, if it is deformed.
     pub factor: Option<f64>,
+    /// The lines at which it is mirrored.
+    pub lines: MirrorLines,
     /// What resampling gives, if that was asked for; of an older view until it is there.
     pub other: Option<Arc<Other>>,
     /// True if nothing better will come.

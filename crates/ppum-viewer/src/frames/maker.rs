@@ -324,6 +324,7 @@ impl FrameMaker {
             layers,
             layers_view,
             factor: subject.factor,
+            lines: subject.lines,
             other,
             is_final: false,
             note,
@@ -346,7 +347,8 @@ impl FrameMaker {
     ) -> (Arc<Laid>, ppum_render::view::View, Option<Arc<Other>>) {
         let subject = &target.subject;
         let is_same = |frame: &&Arc<Frame>| {
-            Arc::ptr_eq(&frame.field, &subject.field.0) && frame.factor == subject.factor
+            let is_as_before = frame.factor == subject.factor && frame.lines == subject.lines;
+            Arc::ptr_eq(&frame.field, &subject.field.0) && is_as_before
         };
         let Some(newest) = self.newest.as_ref().filter(is_same) else {
             return (Arc::default(), wanted.view, None);

@@ -9,6 +9,7 @@ use ppum_render::resample::GridError;
 use ppum_scene::colors::MapError;
 use ppum_scene::layers::LayersError;
 use ppum_scene::scene::{ShownError, SubjectError};
+use ppum_scene::shot::ShotError;
 
 use super::{Failure, Fault};
 
@@ -77,6 +78,12 @@ impl MayCancel for ppum::field::FieldError {}
 impl MayCancel for RenderError {
     fn is_cancelled(&self) -> bool {
         matches!(self, Self::Cancelled(_))
+    }
+}
+
+impl MayCancel for ShotError {
+    fn is_cancelled(&self) -> bool {
+        matches!(self, Self::Render(error) if error.is_cancelled())
     }
 }
 

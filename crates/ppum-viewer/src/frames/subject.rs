@@ -9,7 +9,9 @@ use ppum_render::view::View;
 use ppum_scene::deformed::Factor;
 use ppum_scene::drawing::{BodyView, Shown, single_precision_error};
 use ppum_scene::minus::{self, Side};
+use ppum_scene::mirror::{Mirror, MirrorError, MirrorLines};
 use ppum_scene::scene::{self, default_quantity, shown};
+use ppum_scene::shot::FieldSource;
 use self_cell::self_cell;
 
 use super::memo::{Memo, Same};
@@ -24,6 +26,8 @@ pub(super) struct FrameSubject {
     pub(super) shown: Same<Shown>,
     /// How many times its displacement the plate is drawn with.
     pub(super) factor: Option<f64>,
+    /// The lines at which the plate is mirrored.
+    pub(super) lines: MirrorLines,
     /// What is subtracted.
     pub(super) minus: Option<Left>,
 }
@@ -39,6 +43,11 @@ impl FrameSubject {
     /// True if single precision shows the field.
     pub(super) fn bears_single(&self) -> bool {
         single_precision_error(self.field.0.field().step).is_none()
+    }
+
+    /// True for the whole of a half.
+    pub(super) fn is_mirrored(&self) -> bool {
+        self.lines != MirrorLines::default()
     }
 
     /// The two sides of a difference, if it is one.
@@ -85,6 +94,7 @@ pub(super) struct Subjects {
     pub(super) own: Fields,
     minus: Fields,
     factors: Memo<(Same<OwnedField>, Option<Factor>), Option<f64>>,
+    lines: Memo<(Same<OwnedField>, Option<Mirror>), MirrorLines>,
 }
 
 /// Why there is no difference on the deformed plate.
@@ -105,13 +115,29 @@ impl Subjects {
         let factor = self
             .factors
             .get_or(key, || number().map_err(StageEnd::at::<DeformError>(Fault::Deformed)))?;
+        let lines = self.lines(&field, wanted)?;
         if wanted.minus.is_none() {
             // what was subtracted before may have been closed
             self.minus = Fields::default();
         }
         let other = wanted.minus.as_ref().map(|minus| self.other(minus)).transpose();
         let minus = other.map_err(|stop| stop.of(Fault::Minus, "on the left: "))?;
-        Ok(FrameSubject { field: Same(field), shown: Same(shown), factor, minus })
+        Ok(FrameSubject { field: Same(field), shown: Same(shown), factor, lines, minus })
+    }
+
+    /// The lines at which a field is mirrored.
+    fn lines(&mut self, field: &Arc<OwnedField>, wanted: &Wanted) -> Result<MirrorLines, StageEnd> {
+        let scene = &wanted.scene;
+        let failed = |error: MirrorError| StageEnd::failed(Fault::Mirror, error.to_string());
+        match &scene.mirror {
+            None => return Ok(MirrorLines::default()),
+            Some(_) if wanted.minus.is_some() => return Err(failed(MirrorError::Difference)),
+            Some(_) if scene.deformed.is_some() => return Err(failed(MirrorError::Deformed)),
+            Some(_) => {}
+        }
+        let lines = || FieldSource::of(field.dataset(), field.field()).lines(scene);
+        let key = (Same::of(field), scene.mirror.clone());
+        self.lines.get_or(key, || lines().map_err(failed))
     }
 
     /// What is subtracted; a field that is looked at anyway is not made twice.
@@ -156,6 +182,7 @@ impl OwnedSeen {
     pub(super) fn new(target: &SubjectView, watcher: &dyn Watcher) -> Result<Self, DeformError> {
         let SubjectView { subject, view } = target;
         Both::try_new(Arc::clone(&subject.field.0), |field| match subject.factor {
+            None if subject.is_mirrored() => Ok(BodyView::Mirrored(*view, subject.lines)),
             None => Ok(BodyView::Plate(*view)),
             Some(factor) => {
                 let deformation = Deformation::new(field.field(), factor)?;

@@ -6,10 +6,13 @@ use std::time::Instant;
 use ppum::progress::Watcher;
 use ppum_render::RenderError;
 use ppum_render::resample::norms::Norms;
+use ppum_render::samples::Samples;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::deformed;
 use ppum_scene::drawing::{BodyView, Drawn, PROCESSOR, Shown};
+use ppum_scene::engine::Engine;
+use ppum_scene::shot::{Asked, FieldSource};
 
 use super::Fault;
 use super::memo::Memo;
@@ -62,8 +65,9 @@ impl ValueCache {
     pub(super) fn needs_rough(&self, target: &SubjectView, is_moving: bool) -> bool {
         let is_quick =
             self.pace.of(&target.subject).whole.is_some_and(|pace| is_quick(pace, &target.view));
-        // differences are the processor's
-        let has_card = self.renderer.has_card() && target.subject.minus.is_none();
+        // differences and mirrored plates are the processor's
+        let is_for_card = target.subject.minus.is_none() && !target.subject.is_mirrored();
+        let has_card = self.renderer.has_card() && is_for_card;
         !is_quick || is_moving && !has_card
     }
 
@@ -80,6 +84,7 @@ impl ValueCache {
         let FrameSubject { field, shown, factor, .. } = &target.subject;
         let drawn = match (&*shown.0, factor) {
             _ if target.subject.minus.is_some() => self.draw_minus(target, watcher)?,
+            _ if target.subject.is_mirrored() => self.draw_mirrored(target, watcher)?,
             (shown, Some(_)) => {
                 let seen = self.seen(target, watcher)?;
                 deform(seen.seen(), shown, watcher)?
@@ -96,6 +101,20 @@ impl ValueCache {
         let drawn = Arc::new(drawn);
         self.whole.set(target.clone(), Arc::clone(&drawn));
         Ok(drawn)
+    }
+
+    /// The whole of a half, by the processor.
+    fn draw_mirrored(
+        &mut self,
+        target: &SubjectView,
+        watcher: &dyn Watcher,
+    ) -> Result<Drawn, StageEnd> {
+        let (seen, owned) = (self.seen(target, watcher)?, &target.subject.field.0);
+        let source = FieldSource::of(owned.dataset(), owned.field());
+        let asked = Asked { shown: Shown::clone(&target.subject.shown.0), name: String::new() };
+        let input = source.input(&asked, seen.seen());
+        let drawn = input.values(Samples::CENTER, &Engine::processor(watcher));
+        drawn.map_err(StageEnd::at(Fault::Mirror))
     }
 
     fn draw_minus(
@@ -127,6 +146,10 @@ impl ValueCache {
                 let minus = subject.minus().expect("a subject with something to subtract");
                 minus.draw(view, watcher).map(|apart| apart.drawn)
             })?,
+            _ if target.subject.is_mirrored() => {
+                let coarse = SubjectView { view: coarse(&target.view), ..target.clone() };
+                self.draw_mirrored(&coarse, watcher)?
+            }
             (Shown::Quantity(quantity), None) => self.draw_soon(target, |subject, view| {
                 let field = subject.field.0.field();
                 if !subject.bears_single() {

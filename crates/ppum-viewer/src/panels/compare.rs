@@ -95,6 +95,9 @@ fn against_resampled(ui: &mut Ui, desk: &mut Desk<'_>) {
                     "The deformed plate is not compared: grids are of the plate as it was",
                 ));
             }
+            _ if pane.scene.mirror.is_some() => {
+                ui.label(note(ui, "The mirrored plate is not compared: grids are of the part"));
+            }
             Some(other) => measured(ui, other),
             None => {}
         }

@@ -4,6 +4,7 @@ use egui::{Slider, Ui};
 use ppum::text::trimmed_to;
 use ppum_scene::deformed::{Factor, words};
 use ppum_scene::help::tooltip;
+use ppum_scene::mirror::Mirror;
 
 use super::{failure, note};
 use crate::controls::Controls;
@@ -27,8 +28,18 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     if !is_possible {
         ui.weak("A potential has no displacements");
     }
+    mirror(ui, pane);
     factor_note(ui, stage);
     failure(ui, stage, Fault::Deformed);
+    failure(ui, stage, Fault::Mirror);
+}
+
+/// The whole of a half or quarter model.
+fn mirror(ui: &mut Ui, pane: &mut Pane) {
+    let mut is_on = pane.scene.mirror.is_some();
+    if ui.checkbox(&mut is_on, "mirrored").on_hover_text(tooltip("mirror")).changed() {
+        pane.scene.mirror = is_on.then_some(Mirror::Auto);
+    }
 }
 
 fn kinds(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {

@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use ppum::crack::{SegmentId, Side};
 use ppum::field::LocalField;
-use ppum::quantity::QuantityGradient;
+use ppum::quantity::{QuantityGradient, Reflection, ValueChange};
 use ppum::sides::Segments;
 use ppum::vec2::{Vec2, vec2};
 use ppum_scene::drawing::Shown;
+use ppum_scene::mirror::{MirrorLines, slope_sign};
 use ppum_scene::scene::default_quantity;
 
 use super::owner::Owner;
@@ -31,6 +32,9 @@ pub struct Probed {
     pub owner: Option<Owner>,
     /// The patches of a cover that cover it, with their φ.
     pub patches: Vec<(u32, f64)>,
+    /// True in an image of a plate that is mirrored: patch and tip are those at the point whose
+    /// image it is.
+    pub is_mirrored: bool,
 }
 
 /// Value and gradient, on one side of a crack.
@@ -93,10 +97,50 @@ pub struct Reader {
     text: String,
     /// What reads the values that are subtracted.
     left: Option<Box<Reader>>,
+    /// Of a plate that is mirrored, what reads the values in its images.
+    images: Vec<ImageReader>,
+    lines: MirrorLines,
     /// The quantity's name.
     pub name: String,
     /// Its unit; may be empty.
     pub unit: String,
+}
+
+/// What reads the values in an image of a plate that is mirrored.
+struct ImageReader {
+    reflection: Reflection,
+    /// What reads the values of the plate, and their change in the image.
+    reader: Reader,
+    change: ValueChange,
+}
+
+impl ImageReader {
+    fn new(reflection: Reflection, own: &Reader) -> Option<Self> {
+        let (shown, change) = match &own.shown {
+            Shown::Quantity(quantity) => {
+                let found = quantity.reflected(&reflection, own.field.field()).ok()?;
+                (Shown::Quantity(found.quantity), found.change)
+            }
+            cells @ Shown::Cells(..) => (cells.clone(), ValueChange::Same),
+        };
+        let reader = Reader::of(&own.field, &shown, &own.text);
+        Some(Self { reflection, reader, change })
+    }
+
+    /// The values at a point of the image; none outside of it.
+    fn read(&self, spot: &Spot) -> Option<Probed> {
+        let Self { reflection, reader, change } = self;
+        let there = reflection.point(spot.anchor());
+        let there = Spot::new(there, reflection.vector(spot.offset()));
+        let read = reader.read_own(&there);
+        let side = |sided: &Sided| Sided {
+            value: change.apply(sided.value),
+            gradient: reflection.vector(sided.gradient) * slope_sign(*change),
+            ..*sided
+        };
+        let sides = read.sides.iter().map(side).collect();
+        (!read.is_outside()).then_some(Probed { spot: *spot, sides, is_mirrored: true, ..read })
+    }
 }
 
 /// Most segments of cracks that are looked through for one that a point lies on.
@@ -106,7 +150,10 @@ impl Reader {
     /// What reads the values that a picture shows.
     #[must_use]
     pub fn new(frame: &Frame) -> Self {
-        let own = Self::of(&frame.field, &frame.shown, own_text(frame));
+        let mut own = Self::of(&frame.field, &frame.shown, own_text(frame));
+        let images = frame.lines.reflections().filter_map(|one| ImageReader::new(one, &own));
+        own.images = images.collect();
+        own.lines = frame.lines;
         let left = frame.subtracted.as_ref().map(|left| {
             let text = left_text(frame).unwrap_or_default();
             Box::new(Self::of(&left.field, &left.shown, text))
@@ -129,6 +176,8 @@ impl Reader {
             gradient: quantity.and_then(|quantity| QuantityGradient::new(quantity, field).ok()),
             text: text.to_owned(),
             left: None,
+            images: Vec::new(),
+            lines: MirrorLines::default(),
             name: text.to_owned(),
             unit: quantity.map_or("", |quantity| quantity.unit(field)).to_owned(),
         }
@@ -145,13 +194,19 @@ impl Reader {
             }
             _ => false,
         };
-        Arc::ptr_eq(&self.field, &frame.field) && self.text == own_text(frame) && is_same_left
+        let is_same_field = Arc::ptr_eq(&self.field, &frame.field) && self.lines == frame.lines;
+        is_same_field && self.text == own_text(frame) && is_same_left
     }
 
     /// The values at a point.
     #[must_use]
     pub fn read(&self, spot: &Spot) -> Probed {
-        let Some(left) = &self.left else { return self.read_own(spot) };
+        let Some(left) = &self.left else {
+            let own = self.read_own(spot);
+            let is_outside = own.is_outside();
+            let mut images = self.images.iter().filter(|_| is_outside);
+            return images.find_map(|image| image.read(spot)).unwrap_or(own);
+        };
         let [own, other] = [self, left].map(|reader| reader.own(spot));
         let mut read = left.read_own(&other);
         if let [Some(a), Some(b)] = [self.along(&own), left.along(&other)]
@@ -206,7 +261,8 @@ impl Reader {
         };
         let is_cover = field.step.partition.mesh().is_none();
         let patches = patches.iter().filter(|_| is_cover).map(phi).collect();
-        Probed { spot: *spot, tip, crack: on.map(|segment| segment.crack), sides, owner, patches }
+        let (spot, crack) = (*spot, on.map(|segment| segment.crack));
+        Probed { spot, tip, crack, sides, owner, patches, is_mirrored: false }
     }
 
     /// Value and gradient on a side; of a value of cells that of the point's own.

@@ -46,6 +46,7 @@ pub fn values_to(probed: &Probed, name: &str, unit: &str, digits: usize) -> Stri
             let jump = if jump == "not defined" { "none".into() } else { jump };
             format!("{name} = {} above, {} below, jump {jump}", of(above), of(below))
         }
+        [only] if probed.is_mirrored => format!("{name} = {}, mirrored", of(only)),
         [only] => match probed.tip {
             Some(tip) => format!("{name} = {} at tip {tip}", of(only)),
             None => format!("{name} = {}", of(only)),

@@ -49,6 +49,10 @@ fn leave(pane: &mut Pane, Failure { fault, message }: &Failure) -> Option<String
             scene.deformed.take()?;
             Some(format!("the plate cannot be deformed: {message}"))
         }
+        Fault::Mirror => {
+            scene.mirror.take()?;
+            Some(format!("the plate cannot be mirrored: {message}"))
+        }
         Fault::Colors => (scene.colors != Colors::default()).then(|| {
             scene.colors = Colors::default();
             format!("the colours cannot be those chosen: {message}. The default ones are")

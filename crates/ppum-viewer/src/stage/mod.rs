@@ -221,7 +221,8 @@ impl Stage {
     /// The way of resampling that is looked at: grids are of one field, and of the plate as it was.
     #[must_use]
     pub fn compared(&self, pane: &Pane) -> Option<Compare> {
-        pane.compare.filter(|_| pane.scene.deformed.is_none() && self.pair.minus().is_none())
+        let is_moved = pane.scene.deformed.is_some() || pane.scene.mirror.is_some();
+        pane.compare.filter(|_| !is_moved && self.pair.minus().is_none())
     }
 
     /// Chooses the patch that is clicked on, if one is to be chosen.
@@ -295,7 +296,15 @@ impl Stage {
         let known =
             known.filter(|(moved, _)| moved.field.dataset().domain.bounds == dataset.domain.bounds);
         let bounds = known.and_then(|(_, bounds)| bounds.as_ref().as_ref().ok());
-        bounds.copied().unwrap_or(dataset.domain.bounds)
+        bounds.copied().unwrap_or_else(|| self.plate(pane, dataset))
+    }
+
+    /// A box around the undeformed plate, the whole of one that is mirrored.
+    fn plate(&self, pane: &Pane, dataset: &Dataset) -> ppum::vec2::Rect {
+        let bounds = dataset.domain.bounds;
+        let frame = self.frames.newest().filter(|_| pane.scene.mirror.is_some());
+        let frame = frame.filter(|frame| frame.field.dataset().domain.bounds == bounds);
+        frame.map_or(bounds, |frame| frame.lines.whole(bounds))
     }
 
     /// True while a picture is on its way, or where it is to be.
@@ -373,7 +382,7 @@ impl Stage {
         let shift = ppum::vec2::vec2(right * view.width, up * view.height()) * PAN;
         let moved =
             VisibleRegion { center: (view.center + shift).into(), width: view.width / factor };
-        let place = bounded(moved, &opened.dataset.domain.bounds);
+        let place = bounded(moved, &self.plate(pane, &opened.dataset));
         self.is_at_the_end = place.width > moved.width;
         pane.place = Some(place);
     }
@@ -411,7 +420,7 @@ impl Stage {
             let by = ppum::vec2::vec2(-f64::from(delta.x), f64::from(delta.y));
             let center = view.center + by * (scale * view.pixel_size());
             let place = VisibleRegion { center: center.into(), width: view.width };
-            pane.place = Some(bounded(place, &dataset.domain.bounds));
+            pane.place = Some(bounded(place, &self.plate(pane, dataset)));
             self.flight = None;
         }
         if let Some(at) = response.hover_pos() {
@@ -422,7 +431,8 @@ impl Stage {
                     ppum::vec2::vec2(f64::from(at.x - rect.min.x), f64::from(at.y - rect.min.y))
                         * scale;
                 let offset = self.snapped(view, view.offset_at(pixel), scale);
-                let (place, is_at_the_end) = zoomed(view, offset, factor, &dataset.domain.bounds);
+                let plate = self.plate(pane, dataset);
+                let (place, is_at_the_end) = zoomed(view, offset, factor, &plate);
                 (pane.place, self.is_at_the_end) = (Some(place), is_at_the_end);
                 self.flight = None;
             }
