@@ -20,10 +20,11 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 
 use crate::drawing::{BodyView, DrawingInput, RasterValues};
-use crate::mirror::{self, MirrorImage, MirrorLines};
+use crate::mirror::{MirrorImage, MirrorLines};
 use crate::notice::Notice;
 use crate::overlays::{Levels, Overlay, Overlays};
 use crate::stations::Stations;
+use crate::whole;
 
 /// What overlays are drawn on.
 #[derive(Clone, Copy)]
@@ -68,8 +69,8 @@ impl Ground<'_> {
         let Self { field, picture: Picture { view, .. }, values, .. } = *self;
         let job = (DrawingInput { field, view, quantity }, lines);
         match values {
-            RasterValues::Double(raster) => mirror::isolines(job, levels, raster, watcher),
-            RasterValues::Single(raster) => mirror::isolines(job, levels, raster, watcher),
+            RasterValues::Double(raster) => whole::isolines(job, levels, raster, watcher),
+            RasterValues::Single(raster) => whole::isolines(job, levels, raster, watcher),
         }
     }
 }

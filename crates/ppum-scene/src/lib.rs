@@ -45,6 +45,7 @@ pub mod spot;
 mod stations;
 pub mod still;
 pub mod table;
+mod whole;
 mod written;
 
 #[cfg(test)]

@@ -120,8 +120,9 @@ impl<'a> PanelFigure<'a> {
         let captions: Vec<&str> = labels.iter().map(|labels| labels.title.as_str()).collect();
         let grid = self.grid(&titled, &captions)?;
         let size = [grid.columns, grid.rows];
-        let aspect = request.aspect(source);
-        let design = request.design(source, Look::page(aspect, size), size);
+        let whole = source.bounds(&request.scene);
+        let aspect = request.place.aspect(whole);
+        let design = request.design(whole, Look::page(aspect, size), size);
         let room = |design: &Design| panel_area(&titled, &captions, grid, design);
         let design = request.look.fitted(design, aspect, size, room)?;
         let room = room(&design)?;
@@ -191,11 +192,11 @@ impl<'a> PanelFigure<'a> {
         if parts > 1 && count > parts {
             return Ok(of(parts));
         }
-        let source = self.sources[0];
-        let aspect = self.request.aspect(source);
+        let whole = self.sources[0].bounds(&self.request.scene);
+        let aspect = self.request.place.aspect(whole);
         let width = |grid: PanelGrid| {
             let parts = [grid.columns, grid.rows];
-            let mut design = self.request.design(source, DEFAULT_SIZE, parts);
+            let mut design = self.request.design(whole, DEFAULT_SIZE, parts);
             if self.request.look.has_free_height() {
                 design.size[1] = (f64::from(design.size[0]) / SHAPE) as u32;
             }

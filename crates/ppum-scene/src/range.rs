@@ -14,7 +14,7 @@ use ppum_render::range::{Basis, ValueSpan};
 use ppum_render::raster::{Raster, Sample};
 
 use crate::drawing::{BodyView, Drawn, RasterValues};
-use crate::mirror;
+use crate::whole;
 
 /// The range of what was drawn; one that has to be found with the extrema of the view, which are
 /// the true ones of the plate as it was, and those of the pixels of the deformed one.
@@ -45,7 +45,7 @@ fn extrema_of<T: Sample>(
     match seen {
         BodyView::Plate(view) => search(view),
         BodyView::Mirrored(view, lines) => {
-            mirror::extrema(field, (view, lines), quantity, raster, watcher)
+            whole::extrema(field, (view, lines), quantity, raster, watcher)
         }
         // nothing has moved
         BodyView::Moved(points) if points.view.factor() == 0.0 => search(&points.view.view),

@@ -2,6 +2,7 @@
 //! `ppum render` is a field of [`Request`] or of what it holds, once for the command line, for
 //! JSON and for [`command`](crate::command).
 
+use ppum::vec2::Rect;
 use ppum_figure::figure::{BarPlace, Design, Labels};
 use ppum_render::samples::Samples;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
@@ -12,7 +13,6 @@ use crate::engine::{Backend, Precision};
 use crate::look::Look;
 use crate::place::Place;
 use crate::scene::Scene;
-use crate::shot::FieldSource;
 
 /// What an image shows, where, and how it is drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -165,18 +165,11 @@ impl Request {
         request
     }
 
-    /// Width over height of what is to be seen of a field; none if it is whatever the picture has
-    /// room for.
-    #[must_use]
-    pub fn aspect(&self, source: FieldSource<'_>) -> Option<f64> {
-        self.place.aspect(source.bounds(&self.scene))
-    }
-
-    /// The look of a figure, of a size unless another is given, with so many panels across
+    /// The look of a figure of a box, that of all that is shown, of a size unless another is given, with so many panels across
     /// and down.
     #[must_use]
-    pub fn design(&self, source: FieldSource<'_>, size: [u32; 2], panels: [u32; 2]) -> Design {
-        let design = self.look.design(self.aspect(source), size, panels);
+    pub fn design(&self, whole: Rect, size: [u32; 2], panels: [u32; 2]) -> Design {
+        let design = self.look.design(self.place.aspect(whole), size, panels);
         if self.blank { Design { bar: BarPlace::None, ..design } } else { design }
     }
 }

@@ -72,8 +72,8 @@ impl<'a> Common<'a> {
     pub fn new<F: Frames>(frames: &F, request: &'a Request) -> Result<Self, F::Error> {
         let (mut design, mut aspect) = (Design::pixels(DEFAULT_SIZE), None);
         frames.with(0, &mut |source, request| {
-            design = request.design(source, DEFAULT_SIZE, [1, 1]);
-            aspect = request.aspect(source);
+            design = request.design(source.bounds(&request.scene), DEFAULT_SIZE, [1, 1]);
+            aspect = request.place.aspect(source.bounds(&request.scene));
             Ok(())
         })?;
         if request.figure {

@@ -8,22 +8,25 @@ use ppum_render::image::Image;
 use ppum_render::isoline::Isoline;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::ValueSpan;
-use ppum_render::samples::Samples;
+use ppum_render::raster::{Raster, Sample};
+use ppum_render::samples::{Means, Samples};
+use ppum_render::view::View;
 
 use super::{Shot, ShotError};
 use crate::colors::Colors;
 use crate::deformed;
-use crate::drawing::{BodyView, DrawingInput, Drawn, Shown};
+use crate::drawing::{BodyView, DrawingInput, Drawn, RasterValues, Shown};
 use crate::engine::Engine;
 use crate::layers::{Ground, Layers};
 use crate::minus::{self, Minus, Side};
-use crate::mirror::{self, Mirror};
+use crate::mirror::{Mirror, MirrorLines};
 use crate::notice::Notice;
 use crate::overlays::Levels;
 use crate::range;
 use crate::request::Request;
 use crate::scene::Scene;
 use crate::shared::Coloring;
+use crate::whole;
 
 /// What a picture is made of: what is shown of a field, and where it is seen.
 #[derive(Clone, Copy)]
@@ -72,13 +75,43 @@ impl<'a> Input<'a> {
                 Drawn::of_cells(values, field, view)
             }
             (None, BodyView::Mirrored(view, lines), _) => {
-                mirror::draw(*self, (view, lines), samples, engine)?
+                self.whole((view, lines), samples, engine)?
             }
             (None, BodyView::Moved(points), shown) => {
                 centers("the deformed plate is")?;
                 engine.check_deformed()?;
                 deformed::draw(points, shown, engine.watcher)?
             }
+        })
+    }
+
+    /// The values of the whole of a body that is mirrored.
+    fn whole(
+        &self,
+        (view, lines): (&View, &MirrorLines),
+        samples: Samples,
+        engine: &Engine<'_>,
+    ) -> Result<Drawn, ShotError> {
+        let Self { field, shown, .. } = *self;
+        let centers = |view: &View, samples: Samples| {
+            whole::draw((field, shown), (view, lines), |view: &View, shown: &Shown| {
+                let seen = &BodyView::Plate(*view);
+                Input { shown, seen, ..*self }.values(samples, engine)
+            })
+        };
+        let Some(quantity) = shown.quantity().filter(|_| samples != Samples::CENTER) else {
+            return centers(view, samples);
+        };
+        let finer = view.finer(samples.side())?;
+        let [columns, rows] = finer.pixels.map(u64::from);
+        if columns * rows > MOST_SAMPLES {
+            return Err(ShotError::Samples("mirrored images of so many pixels are"));
+        }
+        let drawn = centers(&finer, Samples::CENTER)?;
+        let job = DrawingInput { field, view, quantity };
+        Ok(match &drawn.values {
+            RasterValues::Double(raster) => averaged(job, samples, raster, &drawn.by),
+            RasterValues::Single(raster) => averaged(job, samples, raster, &drawn.by),
         })
     }
 
@@ -230,6 +263,22 @@ impl<'a> Input<'a> {
         let layers = scene.overlays.layers(ground, self.seen, scene.outline, engine.watcher);
         Ok(layers.map_err(Box::new)?)
     }
+}
+
+/// Most samples of an image of the whole, all of which are held at once: 512 MiB.
+const MOST_SAMPLES: u64 = 1 << 26;
+
+/// The means over the pixels of an image of samples.
+fn averaged<T: Sample>(
+    job: DrawingInput<'_>,
+    samples: Samples,
+    finer: &Raster<T>,
+    by: &str,
+) -> Drawn
+where
+    RasterValues: From<Raster<T>>,
+{
+    Drawn::averaged(Means::of(job.field.domain, job.view, samples, finer), job, by)
 }
 
 /// Leaves out the colours: the plate is white.

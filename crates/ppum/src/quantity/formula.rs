@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::reflected::Reflection;
+use super::reflection::Reflection;
 use super::sample::{Sample, Source};
 use crate::dataset::NamedQuantity;
 use crate::equation::{EIGENSTRAINS, Equation, Moduli, StressState};
@@ -216,7 +216,7 @@ impl QuantityFormula {
         let inputs = vocabulary.inputs();
         let texts = vocabulary.definitions().map(|(name, text)| (name, Cow::Borrowed(text)));
         let mut texts: Vec<_> = texts.collect();
-        let reflected = reflection.definitions(&inputs, &mut texts);
+        let reflected = reflected(reflection, &inputs, &mut texts);
         let names: Vec<_> = inputs
             .iter()
             .map(|(name, _)| name.as_str())
@@ -320,6 +320,35 @@ impl QuantityFormula {
     }
 }
 
+/// Definitions of the inputs of formulas that are not as they were, and given strains with
+/// their signs.
+fn reflected<'a>(
+    at: Reflection,
+    inputs: &[(String, Input)],
+    texts: &mut [(String, Cow<'a, str>)],
+) -> Vec<(String, Cow<'a, str>)> {
+    if at == Reflection::NONE {
+        return Vec::new();
+    }
+    let [x, y] = at.axes();
+    for (name, text) in texts.iter_mut().filter(|(name, _)| EIGENSTRAINS.contains(&&**name)) {
+        let sign = if *name == EIGENSTRAINS[2] { x * y } else { 1.0 };
+        if sign * at.sign() < 0.0 {
+            *text = format!("-({text}\n)").into();
+        }
+    }
+    let count = inputs.iter().filter(|(_, input)| matches!(input, Input::Value(_))).count();
+    let text = |name: &str, input: Input| match input {
+        Input::X => at.lines[0].map(|line| format!("({:?}) - {name}", 2.0 * line)),
+        Input::Y => at.lines[1].map(|line| format!("({:?}) - {name}", 2.0 * line)),
+        input => input.reflected_sign(&at, count).filter(|s| *s < 0.0).map(|_| format!("-{name}")),
+    };
+    let changed = |(name, input): &(String, Input)| {
+        text(name, *input).map(|text| (name.clone(), Cow::Owned(text)))
+    };
+    inputs.iter().filter_map(changed).collect()
+}
+
 /// Points at which a quantity by formula is evaluated together, as many vectors as a [`Block`] has:
 /// so that what a step of the formula costs is shared. Give it the field input by input, run it,
 /// and take the values.
@@ -384,6 +413,17 @@ impl PartialEq for QuantityFormula {
 }
 
 impl Input {
+    /// The sign of an input of a formula; none of those that are as they were.
+    fn reflected_sign(self, at: &Reflection, count: usize) -> Option<f64> {
+        let [x, y] = at.axes();
+        Some(match self {
+            Self::Value(c) => at.of_component(c, count),
+            Self::SlopeX(c) => at.of_component(c, count) * x,
+            Self::SlopeY(c) => at.of_component(c, count) * y,
+            _ => return None,
+        })
+    }
+
     fn is_slope(self) -> bool {
         matches!(self, Self::SlopeX(_) | Self::SlopeY(_))
     }

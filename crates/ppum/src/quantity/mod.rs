@@ -12,11 +12,13 @@ mod kinds;
 mod many;
 mod material;
 mod reflected;
+mod reflection;
 mod sample;
 mod tensors;
 
 pub use formula::{Input, QuantityBlock, QuantityFormula, QuantityFormulaError, Vocabulary};
 pub use gradient::{QuantityGradient, Slope};
 pub use kinds::{Axis, Quantity, QuantityError, available, names};
-pub use reflected::{Reflected, Reflection, ValueChange};
+pub use reflected::Reflected;
+pub use reflection::{Reflection, ValueChange};
 pub use sample::{Sample, Source};

@@ -5,10 +5,6 @@
 //! itself, and where the body is not those of the reflected view: there the field is evaluated at
 //! the reflected centre of each pixel, so that nothing is interpolated.
 
-mod drawn;
-mod extrema;
-mod isolines;
-
 use std::fmt;
 use std::str::FromStr;
 
@@ -17,11 +13,6 @@ use ppum::dataset::Dataset;
 use ppum::quantity::{Reflection, ValueChange};
 use ppum::vec2::Rect;
 use ppum_render::view::View;
-
-pub use drawn::MOST_SAMPLES;
-pub(crate) use drawn::{draw, restricted};
-pub(crate) use extrema::extrema;
-pub(crate) use isolines::isolines;
 
 /// What is asked of the whole: written `auto`, or as edges with commas between.
 #[derive(Clone, Debug, PartialEq, Eq)]

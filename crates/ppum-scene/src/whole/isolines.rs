@@ -6,8 +6,9 @@ use ppum_render::RenderError;
 use ppum_render::isoline::{Isoline, isolines as isolines_of_body};
 use ppum_render::raster::{Raster, Sample};
 
-use super::{MirrorImage, MirrorLines, restricted, slope_sign};
+use super::drawn::restricted;
 use crate::drawing::DrawingInput;
+use crate::mirror::{MirrorImage, MirrorLines, slope_sign};
 
 /// The lines on which a quantity has one of some values, of a body and of its images, if it is
 /// mirrored. The values at the pixels are given.

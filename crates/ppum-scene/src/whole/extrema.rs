@@ -10,7 +10,8 @@ use ppum_render::extrema::{Extrema, Extremum, On, Singular, extrema as extrema_o
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
 
-use super::{MirrorImage, MirrorLines, restricted};
+use super::drawn::restricted;
+use crate::mirror::{MirrorImage, MirrorLines};
 
 /// Distance from a line of symmetry, in parts of the body, on which a place lies on it.
 const ON_LINE: f64 = 1e-12;

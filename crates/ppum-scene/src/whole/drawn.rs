@@ -4,65 +4,20 @@ use ppum::field::Field;
 use ppum::quantity::ValueChange;
 use ppum_render::RenderError;
 use ppum_render::raster::{Raster, Sample};
-use ppum_render::samples::{Means, Samples};
 use ppum_render::view::View;
 
-use super::{MirrorImage, MirrorLines};
-use crate::drawing::{BodyView, DrawingInput, Drawn, RasterValues, Shown};
-use crate::engine::Engine;
-use crate::shot::{Input, ShotError};
+use crate::drawing::{Drawn, RasterValues, Shown};
+use crate::mirror::{MirrorImage, MirrorLines};
 
-/// Most samples of an image of the whole, all of which are held at once: 512 MiB.
-pub const MOST_SAMPLES: u64 = 1 << 26;
-
-/// Draws the whole, each value the mean of so many samples.
-pub(crate) fn draw(
-    input: Input<'_>,
+/// Draws the whole at the centres of pixels; `part` draws the body in a view.
+pub(crate) fn draw<E: From<RenderError>>(
+    (field, shown): (&Field<'_>, &Shown),
     (view, lines): (&View, &MirrorLines),
-    samples: Samples,
-    engine: &Engine<'_>,
-) -> Result<Drawn, ShotError> {
-    let Some(quantity) = input.shown.quantity().filter(|_| samples != Samples::CENTER) else {
-        return centers(input, (view, lines), samples, engine);
-    };
-    let finer = view.finer(samples.side())?;
-    let [columns, rows] = finer.pixels.map(u64::from);
-    if columns * rows > MOST_SAMPLES {
-        return Err(ShotError::Samples("mirrored images of so many pixels are"));
-    }
-    let drawn = centers(input, (&finer, lines), Samples::CENTER, engine)?;
-    let job = DrawingInput { field: input.field, view, quantity };
-    Ok(match &drawn.values {
-        RasterValues::Double(raster) => averaged(job, samples, raster, &drawn.by),
-        RasterValues::Single(raster) => averaged(job, samples, raster, &drawn.by),
-    })
-}
-
-fn averaged<T: Sample>(
-    job: DrawingInput<'_>,
-    samples: Samples,
-    finer: &Raster<T>,
-    by: &str,
-) -> Drawn
-where
-    RasterValues: From<Raster<T>>,
-{
-    Drawn::averaged(Means::of(job.field.domain, job.view, samples, finer), job, by)
-}
-
-/// The values at the centres of pixels.
-fn centers(
-    input: Input<'_>,
-    (view, lines): (&View, &MirrorLines),
-    samples: Samples,
-    engine: &Engine<'_>,
-) -> Result<Drawn, ShotError> {
-    let part = |view: &View, shown: &Shown| {
-        Input { shown, seen: &BodyView::Plate(*view), ..input }.values(samples, engine)
-    };
-    let mut whole = part(view, input.shown)?;
-    for image in lines.images(view, &input.field.domain.bounds) {
-        let (shown, change) = reflected(input.shown, &image, input.field)?;
+    part: impl Fn(&View, &Shown) -> Result<Drawn, E>,
+) -> Result<Drawn, E> {
+    let mut whole = part(view, shown)?;
+    for image in lines.images(view, &field.domain.bounds) {
+        let (shown, change) = reflected(shown, &image, field)?;
         whole.fill(part(&image.view, &shown)?, image.flips(), change);
     }
     Ok(whole)

@@ -1,0 +1,10 @@
+//! What is drawn of the whole of a body that is [mirrored](crate::mirror): values, their extrema
+//! and isolines, made of those of the body and of its images.
+
+mod drawn;
+mod extrema;
+mod isolines;
+
+pub(crate) use drawn::draw;
+pub(crate) use extrema::extrema;
+pub(crate) use isolines::isolines;
