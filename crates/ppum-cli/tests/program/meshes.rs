@@ -1,5 +1,11 @@
 //! Fields on meshes, in the datasets that importers have made.
 
+use ppum::dataset::{Dataset, Equation, Material, StressState};
+use ppum::polynomial::PolynomialSpace;
+use ppum::vec2::{Vec2, vec2};
+use ppum_testkit::exact::{CrackInPlane, ExactField};
+use ppum_testkit::meshes::{Elements, Polynomial, field};
+
 use crate::{Lab, Png};
 
 /// A folder with one of them as `mesh.h5`.
@@ -51,4 +57,77 @@ fn cuts_are_where_the_field_jumps() {
 fn crosses_need_elasticity() {
     let complaint = lab("mfem-squares").fail("render mesh.h5 -o a.png --crosses");
     assert!(complaint.contains("which only elasticity has"), "{complaint}");
+}
+
+/// Quadratic triangles that interpolate the field of a crack of half length 0.75 in the plane; the
+/// crack lies on edges, whose nodes are doubled.
+fn cracked_plate() -> Dataset {
+    let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+    let exact = CrackInPlane::biaxial(material, Vec2::ZERO, vec2(1.0, 0.0), 0.75, 0.05);
+    let line = Polynomial::linear;
+    let elements =
+        Elements::tiles([16, 16], 1, &[line(-2.0, 4.0, 0.0), line(-2.0, 0.0, 4.0)], |_, _| true);
+    // the shares of the corners of the reference triangle
+    let (s, t) = (line(1.0 / 3.0, 2.0 / 3.0, 0.0), line(1.0 / 3.0, 0.0, 2.0 / 3.0));
+    let rest = line(1.0, 0.0, 0.0).plus(&s.plus(&t).times(&line(-1.0, 0.0, 0.0)));
+    let shares = [rest, s, t];
+    let corners = elements.mesh.shape[0].corners();
+    let parts = |component: usize| {
+        let of_patch = |patch: usize| {
+            let (center, _) = elements.mesh.image(patch, [0.0; 2]);
+            let value = |xi: [f64; 2]| {
+                let (p, _) = elements.mesh.image(patch, xi);
+                // on the crack from inside the element
+                exact.evaluate(p + (center - p) * 1e-12)[component].value
+            };
+            let mut sum = Polynomial::default();
+            let mut add = |shape: Polynomial, value: f64| {
+                sum = sum.plus(&shape.times(&line(value, 0.0, 0.0)));
+            };
+            for a in 0..3 {
+                let b = (a + 1) % 3;
+                let middle = [0, 1].map(|k| 0.5 * (corners[a][k] + corners[b][k]));
+                let twice = shares[a].times(&line(2.0, 0.0, 0.0)).plus(&line(-1.0, 0.0, 0.0));
+                add(shares[a].times(&twice), value(corners[a]));
+                let bubble = shares[a].times(&shares[b]).times(&line(4.0, 0.0, 0.0));
+                add(bubble, value(middle));
+            }
+            (PolynomialSpace::Total, 2, sum)
+        };
+        field("displacement", &(0..elements.mesh.len()).map(of_patch).collect::<Vec<_>>())
+    };
+    let [mut data, second] = [parts(0), parts(1)];
+    data.components = vec!["ux".into(), "uy".into()];
+    data.coefficients.extend(second.coefficients);
+    let mut dataset = elements.dataset(vec![data]);
+    dataset.equation = Equation::elasticity(material);
+    dataset
+}
+
+/// A finite element's plate with a crack between doubled nodes: drawn deformed, the crack is open,
+/// both faces are lines, the edges of elements move along, and pixels say the factor.
+#[test]
+fn plates_of_elements_are_drawn_deformed() {
+    let lab = Lab::new();
+    ppum_format::write(&cracked_plate(), &lab.path("mesh.h5")).unwrap();
+    lab.run("render mesh.h5 -o still.png --size 400x400 --range 0,1");
+    lab.run("render mesh.h5 -o moved.png --size 400x400 --range 0,1 --deformed 3");
+    let [still, moved] = ["still.png", "moved.png"].map(|file| Png::read(&lab.path(file)));
+    assert_eq!(moved.text("ppum:deformed"), "3");
+    // half the opening per half length is 0.05 (κ + 1)/(4 μ) = 0.0455, three times of it 10 pixels
+    let empty = |png: &Png, row: u32| png.pixel(200, row)[3] == 0;
+    let count = |png: &Png| (100..300).filter(|&row| empty(png, row)).count();
+    assert_eq!(count(&still), 0);
+    assert!((17..=22).contains(&count(&moved)), "{}", count(&moved));
+    // one dark line on either side of the opening, and nothing dark ahead of the tips
+    lab.run("render mesh.h5 -o lines.png --size 400x400 --range 0,1 --deformed 3 --overlay cracks");
+    let lines = Png::read(&lab.path("lines.png"));
+    let dark = |column: u32| {
+        let rows = (150..250).filter(|&row| lines.pixel(column, row)[3] == 255);
+        let rows = rows.filter(|&row| lines.pixel(column, row)[..3].iter().all(|c| *c < 60));
+        rows.count()
+    };
+    assert!(dark(200) >= 2 && dark(60) == 0 && dark(340) == 0, "{}", dark(200));
+    lab.run("render mesh.h5 -o figure.png --figure --deformed auto --overlay cells --outline");
+    lab.run("render mesh.h5 -o lines-of.png --deformed auto -q von-mises --isolines 8");
 }

@@ -16,11 +16,12 @@ const BEFORE: Rgba = [120, 120, 128, 255];
 /// Dashes and gaps of the undeformed border.
 const DASHES: [f64; 2] = [7.0, 5.0];
 
-/// The faces of all cracks where they have moved to.
+/// The faces of all cracks, and of the cuts of elements, where they have moved to.
 #[must_use]
 pub fn faces(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
     let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
-    let lines = view.faces_of(&cracks).into_iter().flatten().flatten().collect();
+    let faces = view.faces_of(&cracks).into_iter().flatten().flatten();
+    let lines = faces.chain(view.cut_faces()).collect();
     let pen = Pen::new(CRACK, 0.7 * CRACK_WIDTH * scale).with_halo(SEAM, SEAM_WIDTH * scale);
     vec![line(view, lines, pen)]
 }
@@ -44,7 +45,7 @@ pub fn undeformed_outline(view: &DeformedView<'_>, scale: f64) -> Result<Vec<Ite
     Ok(vec![line(&before, before.outline().into_iter().chain(above).collect(), pen)])
 }
 
-/// The borders of the cover's cells where they have moved to.
+/// The borders of the cover's cells, or the edges of elements, where they have moved to.
 #[must_use]
 pub fn deformed_cells(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
     let offset = |p: Vec2| p - view.anchor;
@@ -52,7 +53,8 @@ pub fn deformed_cells(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
     let sides: Vec<[Vec2; 3]> = (view.field().step.partition.boxes().cell.iter())
         .map(|c| [vec2(c.min.x, c.max.y), c.min, vec2(c.max.x, c.min.y)].map(offset))
         .collect();
-    let mut items = vec![line(view, view.paths(&sides), Pen::new(CELL, scale))];
+    let borders = view.paths(&sides).into_iter().chain(view.element_edges()).collect();
+    let mut items = vec![line(view, borders, Pen::new(CELL, scale))];
     items.extend(deformed_outline(view, scale));
     items
 }

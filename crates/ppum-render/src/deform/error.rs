@@ -16,11 +16,6 @@ pub enum DeformError {
     /// The field is no displacement.
     #[error("the field `{0}` is no displacement of the plane: nothing deforms")]
     NoDisplacement(String),
-    /// The patches are the elements of a mesh.
-    #[error(
-        "fields on meshes are drawn where their points are, not where they move to; leave the deformation out"
-    )]
-    Mesh,
     /// The factor is not finite, or larger than [`LARGEST_FACTOR`].
     #[error(
         "the displacement's factor is {0:?}; give a number of at most {LARGEST_FACTOR:?} in size"
@@ -50,9 +45,6 @@ pub enum DeformError {
 
 /// Refuses fields that are no displacements of the plane.
 pub(super) fn check(field: &Field<'_>) -> Result<(), DeformError> {
-    if field.step.partition.mesh().is_some() {
-        return Err(DeformError::Mesh);
-    }
     if field.equation.elastic().is_none() || field.components() != 2 {
         return Err(DeformError::NoDisplacement(field.data.name.clone()));
     }

@@ -1,11 +1,10 @@
 //! From a place in the deformed plane to the point of the plate.
 
-use ppum::domain::LocalDomain;
 use ppum::segment::closest_point;
 use ppum::vec2::{Rect, Vec2};
 
 use super::leaf::Leaf;
-use super::map::{DeformationMap, Image};
+use super::map::{Chart, Preimage};
 use super::{DeformedView, TOLERANCE};
 
 /// Most steps of Newton's method, and most halvings of one.
@@ -15,22 +14,13 @@ const HALVINGS: usize = 8;
 const THIN: f64 = 0.1;
 /// Between leaves, as seen from inside, there is less than this part of a pixel.
 const GAP: f64 = 1e-3;
-/// Rims of round holes lie behind the sides of pieces by less than this part of a pixel.
+/// Rims of round holes and curved cuts lie behind the sides of pieces by less than this part of a pixel.
 const BEHIND: f64 = 0.3;
-
-/// A point of a leaf that moves to a given place.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Preimage {
-    /// Offset from the anchor.
-    pub(super) offset: Vec2,
-    pub(super) image: Image,
-}
 
 /// The inverse of a deformation on one leaf.
 pub(super) struct Inverse<'a, 'f> {
     pub(super) view: &'a DeformedView<'f>,
     pub(super) leaf: &'a Leaf,
-    pub(super) domain: &'a LocalDomain,
 }
 
 impl Inverse<'_, '_> {
@@ -63,7 +53,7 @@ impl Inverse<'_, '_> {
 
     /// The point that moves to a place, if it lies in the leaf. Where the plate folds Newton's
     /// method is started at the corners too.
-    pub(super) fn find(&self, map: &mut DeformationMap<'_>, place: Vec2) -> Option<Preimage> {
+    pub(super) fn find<C: Chart>(&self, map: &mut C, place: Vec2) -> Option<Preimage> {
         let Leaf { corners, center, image, .. } = self.leaf;
         let start = image.pulled_back(place - image.at);
         let start = if start.is_finite() { *center + start } else { *center };
@@ -82,7 +72,7 @@ impl Inverse<'_, '_> {
         (part * self.view.view.pixel_size()).max(self.view.rounding())
     }
 
-    fn newton(&self, map: &mut DeformationMap<'_>, start: Vec2, place: Vec2) -> Option<Preimage> {
+    fn newton<C: Chart>(&self, map: &mut C, start: Vec2, place: Vec2) -> Option<Preimage> {
         let mut here = self.image(map, nearest(&self.leaf.corners, start))?;
         for _ in 0..STEPS {
             let miss = place - here.image.at;
@@ -110,9 +100,9 @@ impl Inverse<'_, '_> {
 
     /// A step of Newton's method inside the leaf, shortened until it leads nearer to the place;
     /// none if it cannot.
-    fn step(
+    fn step<C: Chart>(
         &self,
-        map: &mut DeformationMap<'_>,
+        map: &mut C,
         here: Preimage,
         step: Vec2,
         place: Vec2,
@@ -131,10 +121,11 @@ impl Inverse<'_, '_> {
         None
     }
 
-    /// A point of the plate between a piece's side and the round rim that it stands for.
-    fn behind_rim(
+    /// A point of the plate between a piece's side and the round rim, or curved cut, that it
+    /// stands for.
+    fn behind_rim<C: Chart>(
         &self,
-        map: &mut DeformationMap<'_>,
+        map: &mut C,
         mut here: Preimage,
         place: Vec2,
     ) -> Option<Preimage> {
@@ -148,14 +139,14 @@ impl Inverse<'_, '_> {
                 return None;
             }
             if miss.length() <= self.within(GAP) {
-                return self.domain.contains(here.offset).then_some(here);
+                return map.goes_on(self.leaf.center, here.offset).then_some(here);
             }
             here = self.image(map, here.offset + here.image.pulled_back(miss))?;
         }
         None
     }
 
-    fn image(&self, map: &mut DeformationMap<'_>, offset: Vec2) -> Option<Preimage> {
+    fn image<C: Chart>(&self, map: &mut C, offset: Vec2) -> Option<Preimage> {
         Some(Preimage { offset, image: map.image(self.view, offset)? })
     }
 }

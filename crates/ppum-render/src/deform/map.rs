@@ -34,6 +34,29 @@ impl Image {
     }
 }
 
+/// A point of the plate that moves to a given place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Preimage {
+    /// By the coordinates of its part of the plate; offset from the anchor in the end.
+    pub(super) offset: Vec2,
+    pub(super) image: Image,
+}
+
+/// A part of the plate by its own coordinates, and the places that its points move to.
+pub(super) trait Chart {
+    /// The image of a point, with its derivatives by the coordinates.
+    fn image(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<Image>;
+
+    /// The image of a point without its gradient; nothing where the field is not finite.
+    fn place(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<Vec2>;
+
+    /// True if the plate goes on from a point to another that lies just behind a side of its leaf.
+    fn goes_on(&mut self, from: Vec2, to: Vec2) -> bool;
+
+    /// A point by its offset from the anchor; nothing if it belongs to another part of the plate.
+    fn material(&mut self, found: Preimage) -> Option<Preimage>;
+}
+
 /// A displacement seen from an anchor, on the rims of the domain and just beyond them too.
 pub(super) struct DeformationMap<'f> {
     local: LocalField<'f>,
@@ -69,9 +92,19 @@ impl<'f> DeformationMap<'f> {
         if !self.evaluate::<1>(offset, Side::Above) {
             return None;
         }
-        let (s, [u, v]) = (view.factor(), [self.jets[0], self.jets[1]]);
-        let gradient = [vec2(1.0 + s * u.x, s * v.x), vec2(s * u.y, 1.0 + s * v.y)];
-        Some(Image { at: moved(view, offset, [u.v, v.v]), gradient })
+        let jets = [self.jets[0], self.jets[1]];
+        let at = moved(view, offset, jets.map(|jet| jet.v));
+        Some(Image { at, gradient: gradient(view, jets) })
+    }
+
+    /// The field as it is evaluated.
+    pub(super) fn local(&self) -> &LocalField<'f> {
+        &self.local
+    }
+
+    /// True if the plate has a point.
+    pub(super) fn contains(&self, offset: Vec2) -> bool {
+        self.local.contains(offset)
     }
 
     /// As [`LocalField::evaluate`], also where rounding has put a point of a rim outside the
@@ -85,8 +118,32 @@ impl<'f> DeformationMap<'f> {
     }
 }
 
+impl Chart for DeformationMap<'_> {
+    fn image(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<Image> {
+        Self::image(self, view, p)
+    }
+
+    fn place(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<Vec2> {
+        Self::place(self, view, p, Side::Above)
+    }
+
+    fn goes_on(&mut self, _: Vec2, to: Vec2) -> bool {
+        self.contains(to)
+    }
+
+    fn material(&mut self, found: Preimage) -> Option<Preimage> {
+        Some(found)
+    }
+}
+
+/// The columns of F = I + s ∇u.
+pub(super) fn gradient(view: &DeformedView<'_>, [u, v]: [Jet<f64>; 2]) -> [Vec2; 2] {
+    let s = view.factor();
+    [vec2(1.0 + s * u.x, s * v.x), vec2(s * u.y, 1.0 + s * v.y)]
+}
+
 /// shift + O + s (u − u(A))
-fn moved(view: &DeformedView<'_>, offset: Vec2, [x, y]: [f64; 2]) -> Vec2 {
+pub(super) fn moved(view: &DeformedView<'_>, offset: Vec2, [x, y]: [f64; 2]) -> Vec2 {
     let [x0, y0] = view.reference;
     view.shift + offset + vec2(x - x0, y - y0) * view.factor()
 }

@@ -17,6 +17,10 @@
 //! inverse and is found by Newton's method on the field itself, which does not leave the piece. So
 //! displacements like √r at a tip are as good as any others.
 //!
+//! Of a mesh the pieces are parts of the elements' reference shapes, cut by the level fields that
+//! cut the elements, and Newton's method stays on the polynomials of one element (module `chart`).
+//! So curved edges are exact, and elements that come apart leave gaps.
+//!
 //! Points are offsets from a material anchor A, images offsets from the view's centre c:
 //!
 //! ```text
@@ -28,6 +32,9 @@
 //! domain wide, where the plate that is seen lies within 10⁻¹⁶ of the tip.
 
 mod automatic;
+mod chart;
+mod cutter;
+mod edges;
 mod error;
 mod inverse;
 mod leaf;

@@ -91,9 +91,13 @@ impl DeformedView<'_> {
     }
 
     /// The image of the plate's border: of the box and of the rims of holes, where they bound
-    /// the plate.
+    /// the plate; of a mesh of the edges of elements without a neighbour, or that have come apart
+    /// from it by half a pixel.
     #[must_use]
     pub fn outline(&self) -> Paths {
+        if self.field().step.partition.mesh().is_some() {
+            return self.element_borders();
+        }
         let mut border = Border::new(self);
         let Rect { min, max } = self.field().domain.bounds;
         let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
@@ -114,7 +118,7 @@ impl DeformedView<'_> {
     }
 
     /// The image of a curve between two parameters that can be halved, in so many parts at least.
-    fn trace<P: Copy + PartialEq>(
+    pub(super) fn trace<P: Copy + PartialEq>(
         &self,
         ends: [P; 2],
         least: usize,

@@ -9,9 +9,11 @@ use ppum_raster::parts::Parts;
 use ppum_raster::raster::Raster;
 use rayon::prelude::*;
 
-use super::inverse::{Inverse, Preimage};
-use super::leaf::{Leaf, leaves};
-use super::map::DeformationMap;
+use super::chart::ElementChart;
+use super::cutter::leaves;
+use super::inverse::Inverse;
+use super::leaf::Leaf;
+use super::map::{Chart, DeformationMap, Preimage};
 use super::{DeformError, DeformedView};
 
 /// Rows of pixels that are worked on at once: what is found there is kept until it is sorted.
@@ -90,13 +92,17 @@ impl<'f> DeformedView<'f> {
         band: [u32; 2],
         parts: &Parts<'_>,
     ) -> Result<Vec<(u32, Preimage)>, DeformError> {
-        let domain = self.field().domain.at(self.anchor);
         let blocks = leaves.par_chunks(BLOCK).map_init(
             || DeformationMap::new(self.field(), self.anchor),
             |map, block| {
                 let mut found = Vec::new();
                 for leaf in block {
-                    Inverse { view: self, leaf, domain: &domain }.pixels(map, band, &mut found);
+                    let inverse = Inverse { view: self, leaf };
+                    if let Some(mut chart) = ElementChart::new(map, leaf.patch) {
+                        inverse.pixels(&mut chart, band, &mut found);
+                        continue;
+                    }
+                    inverse.pixels(map, band, &mut found);
                 }
                 parts.finish_one().map(|()| found)
             },
@@ -109,19 +115,19 @@ impl<'f> DeformedView<'f> {
 
     /// Without displacements every pixel is its own point.
     fn unmoved(&self, [from, to]: [u32; 2]) -> Vec<(u32, Preimage)> {
-        let domain = self.field().domain.at(self.anchor);
+        let map = DeformationMap::new(self.field(), self.anchor);
         let columns = self.view.pixels[0];
         let unit = [Vec2 { x: 1.0, y: 0.0 }, Vec2 { x: 0.0, y: 1.0 }];
-        let pixels = (from..to).flat_map(|j| (0..columns).map(move |i| (i, j)));
-        let points = pixels.filter_map(|(i, j)| {
+        let point = |(i, j): (u32, u32)| {
             let at = self.view.offset(i, j);
             let found = Preimage {
                 offset: at - self.shift,
                 image: super::map::Image { at, gradient: unit },
             };
-            domain.contains(found.offset).then_some((j * columns + i, found))
-        });
-        points.collect()
+            map.contains(found.offset).then_some((j * columns + i, found))
+        };
+        let row = |j| (0..columns).filter_map(|i| point((i, j))).collect::<Vec<_>>();
+        (from..to).into_par_iter().flat_map_iter(row).collect()
     }
 }
 
@@ -135,9 +141,9 @@ fn first(a: &Preimage, b: &Preimage) -> std::cmp::Ordering {
 
 impl Inverse<'_, '_> {
     /// Appends the points of the leaf at the pixels of some rows.
-    fn pixels(
+    fn pixels<C: Chart>(
         &self,
-        map: &mut DeformationMap<'_>,
+        map: &mut C,
         [from, to]: [u32; 2],
         found: &mut Vec<(u32, Preimage)>,
     ) {
@@ -149,7 +155,8 @@ impl Inverse<'_, '_> {
             for column in columns.clone() {
                 let place = view.offset(column, row);
                 if self.may_hold(place)
-                    && let Some(point) = self.find(map, place)
+                    && let Some(point) =
+                        self.find(map, place).and_then(|found| map.material(found))
                 {
                     found.push((row * view.pixels[0] + column, point));
                 }
@@ -248,6 +255,9 @@ impl<'f> DeformedPoints<'f> {
     /// If there is not one value per patch.
     #[must_use]
     pub fn cells(&self, values: &[f64]) -> DeformedRaster {
+        if self.view.field().step.partition.mesh().is_some() {
+            return self.elements(values);
+        }
         let (cells, anchor) = (&self.view.field().step.partition.boxes().cell, self.view.anchor);
         assert_eq!(values.len(), cells.len(), "one value per patch");
         let (tree, bounds) = (BoxTree::new(cells), self.view.field().domain.bounds);
@@ -271,6 +281,19 @@ impl<'f> DeformedPoints<'f> {
             seen.map_or(f64::NAN, |point| value(near, point.offset))
         };
         self.with_overlap(self.starts.par_windows(2).map_init(Vec::new, of_pixel).collect())
+    }
+
+    /// The picture of one value per element.
+    fn elements(&self, values: &[f64]) -> DeformedRaster {
+        let field = self.view.field();
+        assert_eq!(values.len(), field.step.partition.len(), "one value per patch");
+        let local = field.at(self.view.anchor);
+        let of_pixel = |pair: &[u32]| {
+            let seen = self.points[pair[0] as usize..pair[1] as usize].first();
+            let owner = seen.and_then(|point| local.owner(point.offset, Side::Above));
+            owner.map_or(f64::NAN, |patch| values[patch])
+        };
+        self.with_overlap(self.starts.par_windows(2).map(of_pixel).collect())
     }
 
     /// The picture of one value per pixel.

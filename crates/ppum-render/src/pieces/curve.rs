@@ -14,28 +14,51 @@ const SAMPLES: usize = 4;
 /// Most divisions in four, one inside the other.
 const DEPTH: usize = 4;
 
-/// The zeros of a formula of x and y. What shows no change of sign on corners, middles of sides and
-/// centroid of a polygon is not seen.
+/// A curve that meets a polygon's sides in two places nearer to each other than this part of the
+/// polygon touches a corner.
+const TOUCHING: f64 = 1e-9;
+
+/// A function whose zeros are a curve.
+pub(super) trait LevelFunction {
+    fn value(&self, p: Vec2) -> f64;
+
+    /// True if the field may jump or end on a chord with a middle.
+    fn is_face(&self, _middle: Vec2) -> bool {
+        true
+    }
+}
+
+/// A formula of x and y, of offsets from an anchor.
 #[derive(Debug)]
-pub(super) struct LevelCurve {
-    pub(super) level: Formula,
+pub(super) struct FormulaLevel {
+    pub(super) formula: Formula,
     pub(super) anchor: Vec2,
 }
 
-impl LevelCurve {
-    fn is_positive(&self, offset: Vec2) -> bool {
+impl LevelFunction for FormulaLevel {
+    fn value(&self, offset: Vec2) -> f64 {
         let p = self.anchor + offset;
-        self.level.evaluate(&[p.x, p.y]) > 0.0
+        self.formula.evaluate(&[p.x, p.y])
     }
+}
 
+/// The zeros of a function. What shows no change of sign on corners, middles of sides and centroid
+/// of a polygon is not seen.
+#[derive(Debug)]
+pub(super) struct LevelCurve<L> {
+    pub(super) level: L,
+}
+
+impl LevelCurve<FormulaLevel> {
     /// False if samples say that the curve stays away from a rectangle: their least value is more
     /// than neighbours differ.
     pub(super) fn may_meet(&self, rect: &Rect) -> bool {
         let step = rect.size() / (SAMPLES - 1) as f64;
         let value = |k: usize| {
             let (i, j) = (k % SAMPLES, k / SAMPLES);
-            let p = self.anchor + rect.min + vec2(step.x * i as f64, step.y * j as f64);
-            self.level.evaluate(&[p.x, p.y])
+            let FormulaLevel { formula, anchor } = &self.level;
+            let p = *anchor + rect.min + vec2(step.x * i as f64, step.y * j as f64);
+            formula.evaluate(&[p.x, p.y])
         };
         let values: Vec<f64> = (0..SAMPLES * SAMPLES).map(value).collect();
         let least = values.iter().fold(f64::INFINITY, |a, v| a.min(v.abs()));
@@ -43,6 +66,13 @@ impl LevelCurve {
             (0..values.len()).filter(|k| k % SAMPLES > 0).map(|k| [values[k - 1], values[k]]);
         let up = (SAMPLES..values.len()).map(|k| [values[k - SAMPLES], values[k]]);
         right.chain(up).any(|[a, b]| (a > 0.0) != (b > 0.0) || (a - b).abs() >= least)
+    }
+
+}
+
+impl<L: LevelFunction> LevelCurve<L> {
+    fn is_positive(&self, p: Vec2) -> bool {
+        self.level.value(p) > 0.0
     }
 
     /// The parts of a polygon on both sides.
@@ -61,9 +91,14 @@ impl LevelCurve {
             return;
         }
         if let [a, b] = crossings[..] {
+            if (b - a).length() <= TOUCHING * size(&polygon) {
+                parts.push(polygon);
+                return;
+            }
             let sagitta = self.sagitta(a, b);
             if sagitta <= SAGITTA * size(&polygon) || depth == 0 {
-                let cut = PolygonCut::chord(a, b, sagitta.max(f64::MIN_POSITIVE));
+                let is_face = self.level.is_face((a + b) * 0.5);
+                let cut = PolygonCut::chord([a, b], sagitta.max(f64::MIN_POSITIVE), is_face);
                 parts.extend(polygon.split(&cut, least).into_iter().flatten());
                 return;
             }

@@ -11,6 +11,9 @@ const SAME: f64 = 1e-7;
 /// The range of a face that is a whole line.
 const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
+/// The range of a line without faces.
+const NOWHERE: [f64; 2] = [f64::NAN; 2];
+
 /// Largest distance of a piece's straight side from the curve it stands for, in parts of the
 /// square's side.
 pub const SAGITTA: f64 = 0.01;
@@ -56,15 +59,16 @@ impl PolygonCut {
     }
 
     /// The chord between two points of a curve that stays within a distance of it.
-    pub(super) fn chord(a: Vec2, b: Vec2, sagitta: f64) -> Self {
+    pub(super) fn chord([a, b]: [Vec2; 2], sagitta: f64, is_face: bool) -> Self {
         let tangent = (b - a).unit();
-        let cut = Self::along(tangent, -tangent.cross(a), EVERYWHERE);
+        let range = if is_face { EVERYWHERE } else { NOWHERE };
+        let cut = Self::along(tangent, -tangent.cross(a), range);
         Self { is_interface: true, sagitta, ..cut }
     }
 
     /// A line in a direction through a point on which nothing happens.
     pub(super) fn through(p: Vec2, tangent: Vec2) -> Self {
-        Self::along(tangent, -tangent.cross(p), [f64::NAN; 2])
+        Self::along(tangent, -tangent.cross(p), NOWHERE)
     }
 
     /// The border of a box; the box is on the left.

@@ -17,6 +17,7 @@
 
 mod curve;
 mod cut;
+mod element;
 mod round;
 
 use ppum::box_tree::BoxTree;
@@ -27,9 +28,10 @@ use ppum::field::Field;
 use ppum::formula::Kink;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use curve::LevelCurve;
+use curve::{FormulaLevel, LevelCurve};
 pub use cut::SAGITTA;
 use cut::{Polygon, PolygonCut, centroid};
+pub use element::ElementCuts;
 use round::Round;
 
 /// Part of the way from a corner to its piece's centroid at which the corner's values are taken.
@@ -78,7 +80,7 @@ pub struct Pieces<'f> {
     round_tree: BoxTree,
     /// Straight interfaces, and the others.
     interfaces: Vec<PolygonCut>,
-    curves: Vec<LevelCurve>,
+    curves: Vec<LevelCurve<FormulaLevel>>,
 }
 
 impl<'f> Pieces<'f> {
@@ -125,7 +127,10 @@ impl<'f> Pieces<'f> {
     fn add_interface(&mut self, kink: Kink) {
         match kink.line() {
             Some(line) => self.interfaces.extend(PolygonCut::interface(line, self.anchor)),
-            None => self.curves.push(LevelCurve { level: kink.value, anchor: self.anchor }),
+            None => {
+                let level = FormulaLevel { formula: kink.value, anchor: self.anchor };
+                self.curves.push(LevelCurve { level });
+            }
         }
     }
 

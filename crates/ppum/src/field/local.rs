@@ -6,7 +6,7 @@ use crate::crack::{SegmentId, Side};
 use crate::domain::LocalDomain;
 use crate::function::{LocalFunctions, Slot};
 use crate::jet::Jet;
-use crate::mesh::LocalMesh;
+use crate::mesh::{ElementField, LocalMesh};
 use crate::polynomial::polynomial;
 use crate::vec2::{Vec2, vec2};
 use ppum_formula::real::Real;
@@ -120,6 +120,12 @@ impl<'f> LocalField<'f> {
     #[must_use]
     pub fn owner(&self, offset: Vec2, side: Side) -> Option<usize> {
         Some(self.mesh.as_ref()?.owner(offset, side)?.patch)
+    }
+
+    /// The field on one patch of a mesh; none of boxes, and of patches that there are not.
+    #[must_use]
+    pub fn element(&self, patch: usize) -> Option<ElementField<'_, 'f>> {
+        ElementField::new(self.mesh.as_ref()?, &self.functions, patch)
     }
 
     /// True where the field was evaluated in the domain: on a mesh values say so, since finding the

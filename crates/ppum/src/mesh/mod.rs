@@ -10,6 +10,7 @@
 //! A cut element is two patches with the same map and opposite clips: one where a level field is ≥
 //! 0, one where it is < 0.
 
+mod element;
 mod elements;
 mod evaluate;
 mod frame;
@@ -20,6 +21,7 @@ mod map;
 mod shape;
 mod taylor;
 
+pub use element::{ElementField, ElementPoint};
 pub use elements::{Clip, Mesh};
 pub(crate) use local::LocalMesh;
 pub use shape::Shape;

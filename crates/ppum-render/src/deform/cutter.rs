@@ -1,0 +1,269 @@
+//! What cuts the plate into pieces with nearly affine images: parts that are halved again and again.
+
+use ppum::domain::{Hole, LocalDomain};
+use ppum::function::FunctionKind;
+use ppum::mesh::Mesh;
+use ppum::progress::Watcher;
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_raster::parts::Parts;
+use rayon::prelude::*;
+
+use super::chart::ElementChart;
+use super::leaf::Leaf;
+use super::map::DeformationMap;
+use super::{DeformError, DeformedView};
+use crate::pieces::{INSET, Piece, Pieces};
+
+/// Squares are halved that often before it is asked what is seen of them: displacements vary little
+/// enough from one to the next.
+const LEVELS: usize = 5;
+/// The same of elements with polynomials alone of a degree below this one, and of others.
+const HIGH: u8 = 5;
+const LEVELS_OF_ELEMENTS: [usize; 2] = [0, 2];
+/// Most pieces in units of the picture's pixels, and at least; and in units of elements.
+const MOST: usize = 16;
+const MOST_AT_LEAST: usize = 1 << 20;
+const MOST_OF_ELEMENTS: usize = 4;
+
+/// Parts that are looked at before the watcher is asked.
+const BLOCK: usize = 32;
+
+/// All pieces of the plate that may be seen.
+pub(super) fn leaves(
+    view: &DeformedView<'_>,
+    watcher: &dyn Watcher,
+) -> Result<Vec<Leaf>, DeformError> {
+    match view.field().step.partition.mesh() {
+        Some(mesh) => halved(view, &ElementCutter { view, mesh, only_cut: false }, watcher),
+        None => halved(view, &SquareCutter::new(view), watcher),
+    }
+}
+
+/// The pieces of those elements that level fields or cracks cut.
+pub(super) fn leaves_of_cuts(
+    view: &DeformedView<'_>,
+    mesh: &Mesh,
+    watcher: &dyn Watcher,
+) -> Result<Vec<Leaf>, DeformError> {
+    halved(view, &ElementCutter { view, mesh, only_cut: true }, watcher)
+}
+
+/// What cuts the plate: first into parts, each of them into pieces, or into four smaller parts.
+trait Cutter: Sync {
+    type Part: Clone + PartialEq + Send + Sync;
+
+    fn parts(&self) -> Vec<Self::Part>;
+
+    /// The pieces of a part.
+    fn leaves(&self, map: &mut DeformationMap<'_>, part: &Self::Part) -> Vec<Leaf>;
+
+    fn quarters(part: &Self::Part) -> [Self::Part; 4];
+}
+
+/// The pieces that may be seen of all parts, halved as long as needed.
+fn halved<C: Cutter>(
+    view: &DeformedView<'_>,
+    cutter: &C,
+    watcher: &dyn Watcher,
+) -> Result<Vec<Leaf>, DeformError> {
+    let [columns, rows] = view.view.pixels.map(|n| n as usize);
+    let (mut left, mut found) = (cutter.parts(), Vec::new());
+    let most = MOST.saturating_mul(columns * rows).max(MOST_AT_LEAST);
+    let most = most.max(MOST_OF_ELEMENTS * left.len());
+    while !left.is_empty() {
+        let parts = Parts::start(watcher, left.len().div_ceil(BLOCK))?;
+        let blocks = left.par_chunks(BLOCK).map_init(
+            || DeformationMap::new(view.field(), view.anchor),
+            |map, block| {
+                let seen: Vec<_> = block.iter().map(|part| look(cutter, view, map, part)).collect();
+                parts.finish_one().map(|()| seen)
+            },
+        );
+        let blocks: Vec<Vec<Looked<C::Part>>> = blocks.collect::<Result<_, _>>()?;
+        left.clear();
+        for seen in blocks.into_iter().flatten() {
+            match seen {
+                Looked::Leaves(leaves) => found.extend(leaves),
+                Looked::Quarters(quarters) => left.extend(quarters),
+            }
+        }
+        if found.len() + left.len() > most {
+            return Err(DeformError::TooFolded(view.factor()));
+        }
+    }
+    Ok(found)
+}
+
+/// What became of a part.
+enum Looked<P> {
+    /// All its pieces that may be seen, if any.
+    Leaves(Vec<Leaf>),
+    /// It has to be halved.
+    Quarters([P; 4]),
+}
+
+fn look<C: Cutter>(
+    cutter: &C,
+    view: &DeformedView<'_>,
+    map: &mut DeformationMap<'_>,
+    part: &C::Part,
+) -> Looked<C::Part> {
+    let mut leaves = cutter.leaves(map, part);
+    leaves.retain(|leaf| leaf.may_be_seen(view));
+    // a part that rounding no longer halves is as small as can be
+    let quarters = C::quarters(part);
+    let is_smallest = quarters.contains(part);
+    if is_smallest || leaves.iter().all(|leaf| leaf.is_done(view)) {
+        return Looked::Leaves(leaves);
+    }
+    Looked::Quarters(quarters)
+}
+
+/// What cuts squares of offsets from the anchor.
+struct SquareCutter<'a, 'f> {
+    view: &'a DeformedView<'f>,
+    pieces: Pieces<'f>,
+    domain: LocalDomain,
+}
+
+impl<'a, 'f> SquareCutter<'a, 'f> {
+    fn new(view: &'a DeformedView<'f>) -> Self {
+        let field = view.field();
+        let pieces = Pieces::of_values(field, view.anchor);
+        Self { view, pieces, domain: field.domain.at(view.anchor) }
+    }
+
+    /// A square that nothing cuts, unless it lies in a hole.
+    fn whole(&self, square: &Rect) -> Option<Piece> {
+        let (min, max) = (square.min, square.max);
+        let corners = vec![min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
+        let is_inside = self.domain.contains(square.center());
+        is_inside.then(|| Piece { corners, faces: vec![false; 4], inset: INSET })
+    }
+}
+
+impl Cutter for SquareCutter<'_, '_> {
+    type Part = Rect;
+
+    fn parts(&self) -> Vec<Rect> {
+        let mut squares = vec![self.view.root()];
+        for _ in 0..LEVELS {
+            squares = squares.iter().flat_map(Self::quarters).collect();
+        }
+        squares
+    }
+
+    fn leaves(&self, map: &mut DeformationMap<'_>, square: &Rect) -> Vec<Leaf> {
+        if !self.pieces.may_cut(square) {
+            let whole = self.whole(square);
+            return whole.and_then(|p| Leaf::new(self.view, map, &p)).into_iter().collect();
+        }
+        let leaf = |piece: &Piece| {
+            let leaf = Leaf::new(self.view, map, piece)?;
+            Some(Leaf { at_rim: beside_round_rim(self.view, piece), ..leaf })
+        };
+        self.pieces.of(square).iter().filter_map(leaf).collect()
+    }
+
+    fn quarters(square: &Rect) -> [Rect; 4] {
+        let (min, middle, max) = (square.min, square.center(), square.max);
+        [
+            Rect::new(min, middle),
+            Rect::new(vec2(middle.x, min.y), vec2(max.x, middle.y)),
+            Rect::new(vec2(min.x, middle.y), vec2(middle.x, max.y)),
+            Rect::new(middle, max),
+        ]
+    }
+}
+
+/// True if a corner of a piece comes near the rim of a round hole.
+fn beside_round_rim(view: &DeformedView<'_>, piece: &Piece) -> bool {
+    let size = (piece.corners[0] - piece.center()).length();
+    let center = view.anchor + piece.center();
+    view.field()
+        .domain
+        .holes
+        .iter()
+        .any(|hole| matches!(hole, Hole::Circle { .. }) && hole.rim_distance(center) < 2.0 * size)
+}
+
+/// What cuts elements of a mesh by their own coordinates.
+struct ElementCutter<'a, 'f> {
+    view: &'a DeformedView<'f>,
+    mesh: &'a Mesh,
+    /// Only elements that are cut are looked at.
+    only_cut: bool,
+}
+
+/// A part of an element's reference shape: a triangle or a square.
+#[derive(Clone, Debug, PartialEq)]
+struct ElementPart {
+    patch: u32,
+    /// Counter-clockwise.
+    corners: Vec<Vec2>,
+}
+
+impl ElementCutter<'_, '_> {
+    /// How often an element is halved before it is asked what is seen of it.
+    fn levels(&self, patch: usize) -> usize {
+        let data = self.view.field().data;
+        let functions = &self.view.field().step.functions;
+        let is_plain = |block: usize| {
+            let function = &functions[data.block_function[block] as usize];
+            data.block_degree[block] < HIGH && function.kind == FunctionKind::One
+        };
+        let is_plain = self.mesh.map_degree[patch] < HIGH && data.blocks(patch).all(is_plain);
+        LEVELS_OF_ELEMENTS[usize::from(!is_plain)]
+    }
+}
+
+impl Cutter for ElementCutter<'_, '_> {
+    type Part = ElementPart;
+
+    fn parts(&self) -> Vec<ElementPart> {
+        let map = DeformationMap::new(self.view.field(), self.view.anchor);
+        let of_patch = |patch: u32| {
+            let chart = ElementChart::new(&map, patch);
+            let chart = chart.filter(|chart| !self.only_cut || chart.is_cut());
+            let whole = chart.map(|chart| ElementPart { patch, corners: chart.corners() });
+            let mut parts: Vec<_> = whole.into_iter().collect();
+            for _ in 0..self.levels(patch as usize) {
+                parts = parts.iter().flat_map(Self::quarters).collect();
+            }
+            parts
+        };
+        (0..self.mesh.len() as u32).flat_map(of_patch).collect()
+    }
+
+    fn leaves(&self, map: &mut DeformationMap<'_>, part: &ElementPart) -> Vec<Leaf> {
+        let ElementPart { patch, corners } = part;
+        let Some(mut chart) = ElementChart::new(map, *patch) else { return Vec::new() };
+        let may_bend = chart.may_bend(corners);
+        let pieces = chart.pieces(corners);
+        let leaf = |piece: &Piece| {
+            let leaf = Leaf::new(self.view, &mut chart, piece)?;
+            let faces = (0..piece.faces.len()).filter(|&k| piece.faces[k]);
+            let next = |k: usize| (k + 1) % leaf.images.len();
+            let faces = faces.map(|k| [leaf.images[k], leaf.images[next(k)]]).collect();
+            let at_rim = may_bend || piece.inset > INSET;
+            Some(Leaf { patch: *patch, at_rim, faces, ..leaf })
+        };
+        pieces.iter().filter_map(leaf).collect()
+    }
+
+    fn quarters(part: &ElementPart) -> [ElementPart; 4] {
+        let corners = &part.corners;
+        let middle = |k: usize| (corners[k] + corners[(k + 1) % corners.len()]) * 0.5;
+        let quarters = match corners[..] {
+            [a, b, c] => {
+                let [p, q, r] = [0, 1, 2].map(middle);
+                [vec![a, p, r], vec![p, b, q], vec![r, q, c], vec![p, q, r]]
+            }
+            _ => {
+                let center = (middle(0) + middle(2)) * 0.5;
+                [0, 1, 2, 3].map(|k| vec![corners[k], middle(k), center, middle((k + 3) % 4)])
+            }
+        };
+        quarters.map(|corners| ElementPart { patch: part.patch, corners })
+    }
+}

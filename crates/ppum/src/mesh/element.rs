@@ -1,0 +1,115 @@
+//! One element of a mesh by its own coordinate, whoever owns its points.
+//!
+//! What follows a field on one element, up to its edges and to the lines that cut it, must not ask
+//! for the owner of each point: on an edge that is another element, and beside it none.
+
+use std::borrow::Cow;
+
+use super::evaluate::At;
+use super::local::{LocalMesh, Seen};
+use super::map::Map;
+use crate::compensated::Pair;
+use crate::crack::Side;
+use crate::function::LocalFunctions;
+use crate::jet::Jet;
+use crate::vec2::{Vec2, vec2};
+
+/// The field of one patch of a mesh, seen from an anchor.
+///
+/// Points are given by δ = ξ − ξ₀, where ξ₀ is the ξ of the anchor in elements beside it, so that
+/// tiny offsets keep their digits, and 0 in all others. All is defined outside the reference shape
+/// and beyond clips too, by the same polynomials.
+#[derive(Debug)]
+pub struct ElementField<'m, 'f> {
+    mesh: &'m LocalMesh<'f>,
+    functions: &'m LocalFunctions<'f>,
+    seen: Seen<'m>,
+    map: Cow<'m, Map>,
+    /// M(δ) at the anchor.
+    from: [Pair; 2],
+}
+
+/// A point of an element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElementPoint {
+    /// Offset from the anchor.
+    pub offset: Vec2,
+    /// The columns of DM: the derivatives of the offset by the two coordinates.
+    pub columns: [Vec2; 2],
+}
+
+impl<'m, 'f> ElementField<'m, 'f> {
+    /// The field on a patch.
+    pub(crate) fn new(
+        mesh: &'m LocalMesh<'f>,
+        functions: &'m LocalFunctions<'f>,
+        patch: usize,
+    ) -> Option<Self> {
+        if patch >= mesh.mesh.len() {
+            return None;
+        }
+        let (near, from) = mesh.frame(patch);
+        let seen = (patch, near);
+        Some(Self { mesh, functions, seen, map: mesh.map_of(seen), from })
+    }
+
+    /// The index of the patch.
+    #[must_use]
+    pub fn patch(&self) -> usize {
+        self.seen.0
+    }
+
+    /// δ of the corners of the reference shape, counter-clockwise.
+    #[must_use]
+    pub fn corners(&self) -> Vec<Vec2> {
+        let [x, y] = self.reference();
+        let corners = self.mesh.mesh.shape[self.seen.0].corners();
+        corners.iter().map(|corner| vec2(corner[0] - x, corner[1] - y)).collect()
+    }
+
+    /// How far a point lies inside the reference shape, negative outside; see
+    /// [`Shape::margin`](super::Shape::margin).
+    #[must_use]
+    pub fn margin(&self, delta: Vec2) -> f64 {
+        self.mesh.mesh.shape[self.seen.0].margin(self.reference(), delta.into())
+    }
+
+    /// ξ₀
+    fn reference(&self) -> [f64; 2] {
+        self.seen.1.map_or([0.0; 2], |near| near.at)
+    }
+
+    /// The point of a coordinate.
+    #[must_use]
+    pub fn point(&self, delta: Vec2) -> ElementPoint {
+        let [x, y] = self.map.at::<f64, 1>(delta.into());
+        let part = |value: f64, from: Pair| (value - from.0) - from.1;
+        let offset = vec2(part(x.v, self.from[0]), part(y.v, self.from[1]));
+        ElementPoint { offset, columns: [vec2(x.x, y.x), vec2(x.y, y.y)] }
+    }
+
+    /// Evaluates all components with `D` derivatives in the world at a [point](Self::point). Where a
+    /// level field or the distance from a crack is zero, those of the given side.
+    ///
+    /// # Panics
+    /// If `out` is shorter than the number of components.
+    pub fn evaluate<const D: usize>(
+        &self,
+        (delta, offset): (Vec2, Vec2),
+        side: Side,
+        out: &mut [Jet<f64>],
+    ) {
+        let at = At { delta: delta.into(), offset: offset.into(), side };
+        let out = &mut out[..self.mesh.field.components()];
+        self.mesh.evaluate_at::<f64, D>((self.seen, &self.map), self.functions, &at, out);
+    }
+
+    /// The value of a level field of the step, by its index.
+    ///
+    /// # Panics
+    /// If clips and functions name no such level field.
+    #[must_use]
+    pub fn level(&self, field: usize, delta: Vec2) -> f64 {
+        self.mesh.level::<f64, 0>(self.seen, field, delta.into()).v
+    }
+}
