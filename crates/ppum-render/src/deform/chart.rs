@@ -57,18 +57,14 @@ impl<'m, 'f> ElementChart<'m, 'f> {
         }
     }
 
-    /// The reference shape, whatever cuts it.
-    pub(super) fn whole(&self) -> Piece {
-        uncut(&self.corners())
-    }
-
     /// True if a curved line may cut a part of the reference shape.
     pub(super) fn may_bend(&self, corners: &[Vec2]) -> bool {
         self.cuts.may_bend(&self.element, corners)
     }
 }
 
-fn uncut(corners: &[Vec2]) -> Piece {
+/// A part of the reference shape that nothing cuts.
+pub(super) fn uncut(corners: &[Vec2]) -> Piece {
     Piece { corners: corners.to_vec(), faces: vec![false; corners.len()], inset: INSET }
 }
 

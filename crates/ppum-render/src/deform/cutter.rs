@@ -8,9 +8,9 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_raster::parts::Parts;
 use rayon::prelude::*;
 
-use super::chart::ElementChart;
+use super::chart::{ElementChart, uncut};
 use super::leaf::Leaf;
-use super::map::DeformationMap;
+use super::map::{Chart, DeformationMap};
 use super::{DeformError, DeformedView};
 use crate::pieces::{INSET, Piece, Pieces};
 
@@ -55,7 +55,7 @@ trait Cutter: Sync {
     fn parts(&self) -> Vec<Self::Part>;
 
     /// The pieces of a part.
-    fn leaves(&self, map: &mut DeformationMap<'_>, part: &Self::Part) -> Vec<Leaf>;
+    fn cut(&self, map: &mut DeformationMap<'_>, part: &Self::Part) -> CutPart;
 
     fn quarters(part: &Self::Part) -> [Self::Part; 4];
 }
@@ -94,6 +94,14 @@ fn halved<C: Cutter>(
     Ok(found)
 }
 
+/// The pieces of a part of the plate.
+struct CutPart {
+    leaves: Vec<Leaf>,
+    /// True if a curve may cut the part in a way that its pieces do not show: it has to be halved,
+    /// whatever they are.
+    is_coarse: bool,
+}
+
 /// What became of a part.
 enum Looked<P> {
     /// All its pieces that may be seen, if any.
@@ -108,12 +116,13 @@ fn look<C: Cutter>(
     map: &mut DeformationMap<'_>,
     part: &C::Part,
 ) -> Looked<C::Part> {
-    let mut leaves = cutter.leaves(map, part);
+    let CutPart { mut leaves, is_coarse } = cutter.cut(map, part);
     leaves.retain(|leaf| leaf.may_be_seen(view));
     // a part that rounding no longer halves is as small as can be
     let quarters = C::quarters(part);
     let is_smallest = quarters.contains(part);
-    if is_smallest || leaves.iter().all(|leaf| leaf.is_done(view)) {
+    let is_done = || !is_coarse && leaves.iter().all(|leaf| leaf.is_done(view));
+    if is_smallest || is_done() {
         return Looked::Leaves(leaves);
     }
     Looked::Quarters(quarters)
@@ -153,16 +162,17 @@ impl Cutter for SquareCutter<'_, '_> {
         squares
     }
 
-    fn leaves(&self, map: &mut DeformationMap<'_>, square: &Rect) -> Vec<Leaf> {
+    fn cut(&self, map: &mut DeformationMap<'_>, square: &Rect) -> CutPart {
         if !self.pieces.may_cut(square) {
-            let whole = self.whole(square);
-            return whole.and_then(|p| Leaf::new(self.view, map, &p)).into_iter().collect();
+            let leaf = self.whole(square).and_then(|piece| Leaf::new(self.view, map, &piece));
+            return CutPart { leaves: leaf.into_iter().collect(), is_coarse: false };
         }
         let leaf = |piece: &Piece| {
             let leaf = Leaf::new(self.view, map, piece)?;
             Some(Leaf { at_rim: beside_round_rim(self.view, piece), ..leaf })
         };
-        self.pieces.of(square).iter().filter_map(leaf).collect()
+        let leaves = self.pieces.of(square).iter().filter_map(leaf).collect();
+        CutPart { leaves, is_coarse: false }
     }
 
     fn quarters(square: &Rect) -> [Rect; 4] {
@@ -185,6 +195,21 @@ fn beside_round_rim(view: &DeformedView<'_>, piece: &Piece) -> bool {
         .holes
         .iter()
         .any(|hole| matches!(hole, Hole::Circle { .. }) && hole.rim_distance(center) < 2.0 * size)
+}
+
+/// The images of the sides of a piece that are faces. Their ends lie on the curve, chords beside it.
+fn faces(
+    view: &DeformedView<'_>,
+    chart: &mut ElementChart<'_, '_>,
+    piece: &Piece,
+) -> Vec<[Vec2; 2]> {
+    let (center, corners) = (piece.center(), &piece.corners);
+    let mut place = |k: usize| {
+        let corner = corners[k % corners.len()];
+        chart.place(view, corner + (center - corner) * INSET)
+    };
+    let faces = (0..corners.len()).filter(|&k| piece.faces[k]);
+    faces.filter_map(|k| Some([place(k)?, place(k + 1)?])).collect()
 }
 
 /// What cuts elements of a mesh by their own coordinates.
@@ -235,20 +260,23 @@ impl Cutter for ElementCutter<'_, '_> {
         (0..self.mesh.len() as u32).flat_map(of_patch).collect()
     }
 
-    fn leaves(&self, map: &mut DeformationMap<'_>, part: &ElementPart) -> Vec<Leaf> {
+    fn cut(&self, map: &mut DeformationMap<'_>, part: &ElementPart) -> CutPart {
         let ElementPart { patch, corners } = part;
-        let Some(mut chart) = ElementChart::new(map, *patch) else { return Vec::new() };
+        let Some(mut chart) = ElementChart::new(map, *patch) else {
+            return CutPart { leaves: Vec::new(), is_coarse: false };
+        };
         let may_bend = chart.may_bend(corners);
+        let is_coarse = may_bend
+            && Leaf::new(self.view, &mut chart, &uncut(corners))
+                .is_some_and(|whole| whole.may_be_seen(self.view) && whole.is_coarse(self.view));
         let pieces = chart.pieces(corners);
         let leaf = |piece: &Piece| {
             let leaf = Leaf::new(self.view, &mut chart, piece)?;
-            let faces = (0..piece.faces.len()).filter(|&k| piece.faces[k]);
-            let next = |k: usize| (k + 1) % leaf.images.len();
-            let faces = faces.map(|k| [leaf.images[k], leaf.images[next(k)]]).collect();
+            let faces = faces(self.view, &mut chart, piece);
             let at_rim = may_bend || piece.inset > INSET;
             Some(Leaf { patch: *patch, at_rim, faces, ..leaf })
         };
-        pieces.iter().filter_map(leaf).collect()
+        CutPart { leaves: pieces.iter().filter_map(leaf).collect(), is_coarse }
     }
 
     fn quarters(part: &ElementPart) -> [ElementPart; 4] {

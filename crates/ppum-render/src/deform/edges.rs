@@ -5,7 +5,7 @@ use ppum::progress::unwatched;
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
-use super::chart::ElementChart;
+use super::chart::{ElementChart, uncut};
 use super::cutter::leaves_of_cuts;
 use super::leaf::Leaf;
 use super::map::{Chart, DeformationMap};
@@ -51,7 +51,7 @@ impl DeformedView<'_> {
             let [own, other] = maps;
             let Some(mut chart) = ElementChart::new(own, patch) else { return Paths::new() };
             let corners = chart.corners();
-            let whole = chart.whole();
+            let whole = uncut(&corners);
             let leaf = Leaf::new(self, &mut chart, &whole);
             if leaf.is_some_and(|leaf| !leaf.may_be_seen(self)) {
                 return Paths::new();

@@ -82,6 +82,14 @@ impl Leaf {
         size <= TINY || (size <= largest && self.bent <= BENT * view.view.pixel_size())
     }
 
+    /// True if the image is too large for a part that a curve may cut, by the gradient: corners may
+    /// lie on both sides of a jump.
+    pub(super) fn is_coarse(&self, view: &DeformedView<'_>) -> bool {
+        let reach = |&corner: &Vec2| self.image.carried(corner - self.center).length();
+        let size = 2.0 * self.corners.iter().map(reach).fold(0.0, f64::max);
+        size > LARGEST_AT_RIM * view.view.pixel_size()
+    }
+
     /// False if the image lies far from the picture.
     pub(super) fn may_be_seen(&self, view: &DeformedView<'_>) -> bool {
         let size = self.bounds.size();
