@@ -204,9 +204,12 @@ fn faces(
     piece: &Piece,
 ) -> Vec<[Vec2; 2]> {
     let (center, corners) = (piece.center(), &piece.corners);
+    // as near to the curve as is on the piece's side of it
     let mut place = |k: usize| {
         let corner = corners[k % corners.len()];
-        chart.place(view, corner + (center - corner) * INSET)
+        let inward = [INSET, piece.inset].map(|inset| corner + (center - corner) * inset);
+        let p = inward.into_iter().find(|&p| chart.goes_on(center, p))?;
+        chart.place(view, p)
     };
     let faces = (0..corners.len()).filter(|&k| piece.faces[k]);
     faces.filter_map(|k| Some([place(k)?, place(k + 1)?])).collect()

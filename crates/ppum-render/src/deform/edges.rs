@@ -15,6 +15,8 @@ use super::DeformedView;
 /// Way beyond an edge at which the neighbour is looked for, in parts of the element: more than
 /// what elements are thought to be larger by rounding.
 const BEYOND: f64 = 1e-8;
+/// Part of an edge that belongs to its ends, beyond which other elements may lie, or nothing.
+const AT_ENDS: f64 = 1e-6;
 /// Elements that are this far apart have come apart \[pixels\].
 const APART: f64 = 0.5;
 
@@ -51,13 +53,11 @@ impl DeformedView<'_> {
             let [own, other] = maps;
             let Some(mut chart) = ElementChart::new(own, patch) else { return Paths::new() };
             let corners = chart.corners();
-            let whole = uncut(&corners);
-            let leaf = Leaf::new(self, &mut chart, &whole);
+            let leaf = Leaf::new(self, &mut chart, &uncut(&corners));
             if leaf.is_some_and(|leaf| !leaf.may_be_seen(self)) {
                 return Paths::new();
             }
-            let mut edge =
-                Edge { view: self, chart, other, center: whole.center(), ends: [Vec2::ZERO; 2] };
+            let mut edge = Edge { view: self, chart, other, ends: [Vec2::ZERO; 2] };
             let of_edge = |k: usize| {
                 edge.ends = [corners[k], corners[(k + 1) % corners.len()]];
                 let half = |a: f64, b: f64| 0.5 * (a + b);
@@ -75,7 +75,7 @@ struct Edge<'a, 'm, 'f> {
     chart: ElementChart<'m, 'f>,
     /// The plate, for what lies beyond the edge.
     other: &'a mut DeformationMap<'f>,
-    center: Vec2,
+    /// Counter-clockwise about the element.
     ends: [Vec2; 2],
 }
 
@@ -94,8 +94,8 @@ impl Edge<'_, '_, '_> {
 
     /// True if there is nothing beyond the edge, or something that has moved elsewhere.
     fn is_border(&mut self, t: f64) -> bool {
-        let p = self.at(t);
-        let beyond = p + (p - self.center) * BEYOND;
+        let [a, b] = self.ends;
+        let beyond = self.at(0.5 + (t - 0.5) * (1.0 - AT_ENDS)) - (b - a).left() * BEYOND;
         let offset = self.chart.offset(beyond);
         let own = self.chart.place(self.view, beyond);
         let other = self.other.place(self.view, offset, Side::Above);
