@@ -3,9 +3,7 @@
 use std::f64::consts::PI;
 
 use ppum::crack::Side;
-use ppum::dataset::{
-    Dataset, Equation, FieldData, Material, Partition, Step, StressState,
-};
+use ppum::dataset::{Dataset, Equation, FieldData, Material, Partition, Step, StressState};
 use ppum::domain::Hole;
 use ppum::field::Field;
 use ppum::function::{Frame, FunctionKind};
@@ -415,7 +413,8 @@ fn faces_lie_on_the_level(points: &DeformedPoints<'_>, level: &Polynomial, by: [
         lengths[side] += (ends[1] - ends[0]).length();
     }
     // the line across the unit square, and the circle
-    let exact = if level.0.contains_key(&(2, 0)) { 0.6 * PI } else { vec2(1.0, 3.0 / 7.0).length() };
+    let exact =
+        if level.0.contains_key(&(2, 0)) { 0.6 * PI } else { vec2(1.0, 3.0 / 7.0).length() };
     // where a piece is thinner than its curve's chord is off, its side counts for the other face
     assert!(lengths.iter().all(|length| (length / exact - 1.0).abs() < 0.02), "{lengths:?}");
 }
@@ -475,9 +474,7 @@ fn nodes_are_whole_at_any_zoom() {
         let mut owners = std::collections::BTreeSet::new();
         let local = field.at(view.anchor);
         for (i, j) in pixels(&view.view) {
-            let [point] = points.at(i, j) else {
-                panic!("{width}: {i} {j} {:?}", points.at(i, j))
-            };
+            let [point] = points.at(i, j) else { panic!("{width}: {i} {j} {:?}", points.at(i, j)) };
             owners.extend(local.owner(point.offset, Side::Above));
         }
         assert!(owners.len() > 3, "{width}: {owners:?}");

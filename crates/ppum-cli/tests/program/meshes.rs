@@ -113,7 +113,7 @@ fn plates_of_elements_are_drawn_deformed() {
     lab.run("render mesh.h5 -o still.png --size 400x400 --range 0,1");
     lab.run("render mesh.h5 -o moved.png --size 400x400 --range 0,1 --deformed 3");
     let [still, moved] = ["still.png", "moved.png"].map(|file| Png::read(&lab.path(file)));
-    assert_eq!(moved.text("ppum:deformed"), "3");
+    assert_eq!(moved.text("ppum:deformed"), "3.0");
     // half the opening per half length is 0.05 (κ + 1)/(4 μ) = 0.0455, three times of it 10 pixels
     let empty = |png: &Png, row: u32| png.pixel(200, row)[3] == 0;
     let count = |png: &Png| (100..300).filter(|&row| empty(png, row)).count();

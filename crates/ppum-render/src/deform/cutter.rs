@@ -1,4 +1,5 @@
-//! What cuts the plate into pieces with nearly affine images: parts that are halved again and again.
+//! What cuts the plate into pieces with nearly affine images: parts that are halved again and
+//! again.
 
 use ppum::domain::{Hole, LocalDomain};
 use ppum::function::FunctionKind;
@@ -197,7 +198,8 @@ fn beside_round_rim(view: &DeformedView<'_>, piece: &Piece) -> bool {
         .any(|hole| matches!(hole, Hole::Circle { .. }) && hole.rim_distance(center) < 2.0 * size)
 }
 
-/// The images of the sides of a piece that are faces. Their ends lie on the curve, chords beside it.
+/// The images of the sides of a piece that are faces. Their ends lie on the curve, chords
+/// beside it.
 fn faces(
     view: &DeformedView<'_>,
     chart: &mut ElementChart<'_, '_>,

@@ -5,12 +5,12 @@ use ppum::progress::unwatched;
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
+use super::DeformedView;
 use super::chart::{ElementChart, uncut};
 use super::cutter::leaves_of_cuts;
 use super::leaf::Leaf;
 use super::map::{Chart, DeformationMap};
 use super::path::Paths;
-use super::DeformedView;
 
 /// Way beyond an edge at which the neighbour is looked for, in parts of the element: more than
 /// what elements are thought to be larger by rounding.

@@ -14,7 +14,8 @@ const HALVINGS: usize = 8;
 const THIN: f64 = 0.1;
 /// Between leaves, as seen from inside, there is less than this part of a pixel.
 const GAP: f64 = 1e-3;
-/// Rims of round holes and curved cuts lie behind the sides of pieces by less than this part of a pixel.
+/// Rims of round holes and curved cuts lie behind the sides of pieces by less than this part of
+/// a pixel.
 const BEHIND: f64 = 0.3;
 
 /// The inverse of a deformation on one leaf.

@@ -155,8 +155,7 @@ impl Inverse<'_, '_> {
             for column in columns.clone() {
                 let place = view.offset(column, row);
                 if self.may_hold(place)
-                    && let Some(point) =
-                        self.find(map, place).and_then(|found| map.material(found))
+                    && let Some(point) = self.find(map, place).and_then(|found| map.material(found))
                 {
                     found.push((row * view.pixels[0] + column, point));
                 }

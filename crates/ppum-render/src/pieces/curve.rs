@@ -67,7 +67,6 @@ impl LevelCurve<FormulaLevel> {
         let up = (SAMPLES..values.len()).map(|k| [values[k - SAMPLES], values[k]]);
         right.chain(up).any(|[a, b]| (a > 0.0) != (b > 0.0) || (a - b).abs() >= least)
     }
-
 }
 
 impl<L: LevelFunction> LevelCurve<L> {

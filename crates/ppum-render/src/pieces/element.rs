@@ -52,7 +52,12 @@ enum Face {
 impl ElementCuts {
     /// The cuts of a patch: of its clips, of the functions of its blocks, and the cracks.
     #[must_use]
-    pub fn new(field: &Field<'_>, mesh: &Mesh, element: &ElementField<'_, '_>, anchor: Vec2) -> Self {
+    pub fn new(
+        field: &Field<'_>,
+        mesh: &Mesh,
+        element: &ElementField<'_, '_>,
+        anchor: Vec2,
+    ) -> Self {
         let mut cuts = Self::default();
         let patch = element.patch();
         for clip in mesh.clips(patch) {
@@ -152,9 +157,8 @@ impl ElementCuts {
         if !self.keep(element, center) {
             return None;
         }
-        let is_face = |k: usize| {
-            polygon.sides[k].as_ref().is_some_and(|side| side.holds(polygon.middle(k)))
-        };
+        let is_face =
+            |k: usize| polygon.sides[k].as_ref().is_some_and(|side| side.holds(polygon.middle(k)));
         let faces = (0..polygon.corners.len()).map(is_face).collect();
         Some(Piece { faces, inset: polygon.inset(center, INSET), corners: polygon.corners })
     }
@@ -233,7 +237,8 @@ fn steepness(space: PolynomialSpace, degree: u8, coefficients: &[f64]) -> f64 {
 /// The half-width of a square around the centroid that holds all corners.
 fn radius(corners: &[Vec2]) -> f64 {
     let center = centroid(corners);
-    corners.iter().map(|&corner| (corner - center).max(center - corner)).fold(0.0, |most, way| {
-        way.x.max(way.y).max(most)
-    })
+    corners
+        .iter()
+        .map(|&corner| (corner - center).max(center - corner))
+        .fold(0.0, |most, way| way.x.max(way.y).max(most))
 }

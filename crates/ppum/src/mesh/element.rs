@@ -88,8 +88,8 @@ impl<'m, 'f> ElementField<'m, 'f> {
         ElementPoint { offset, columns: [vec2(x.x, y.x), vec2(x.y, y.y)] }
     }
 
-    /// Evaluates all components with `D` derivatives in the world at a [point](Self::point). Where a
-    /// level field or the distance from a crack is zero, those of the given side.
+    /// Evaluates all components with `D` derivatives in the world at a [point](Self::point). Where
+    /// a level field or the distance from a crack is zero, those of the given side.
     ///
     /// # Panics
     /// If `out` is shorter than the number of components.

@@ -120,19 +120,19 @@ impl<'f> LocalMesh<'f> {
     /// A patch as it is seen from the anchor, and M(δ) there.
     pub(super) fn frame(&self, patch: usize) -> (Option<&Near>, [Pair; 2]) {
         let near = self.near.get(&(patch as u32));
-        let from = near.map_or_else(|| self.from_origin(patch), |near| near.rest);
+        let from = near.map_or_else(|| self.anchor_from_origin(patch), |near| near.rest);
         (near, from)
     }
 
     /// anchor − origin
-    fn from_origin(&self, patch: usize) -> [Pair; 2] {
+    fn anchor_from_origin(&self, patch: usize) -> [Pair; 2] {
         let origin = self.mesh.origin[patch];
         [difference(self.anchor.x, origin.x), difference(self.anchor.y, origin.y)]
     }
 
     pub(super) fn candidate(&self, patch: u32) -> Candidate<'_> {
         let (k, near) = (patch as usize, self.near.get(&patch));
-        let from_origin = self.from_origin(k);
+        let from_origin = self.anchor_from_origin(k);
         let (reach, inverse) = (self.mesh.reach(k), Inverse::new(self.mesh.map(k)));
         let reach = Rect::new(reach.min - self.anchor, reach.max - self.anchor);
         Candidate { patch: k, near, inverse, from_origin, reach }

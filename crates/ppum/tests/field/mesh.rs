@@ -535,3 +535,60 @@ fn many_points_are_those_of_single_ones() {
     }
     assert!(inside > 3000 && outside > 200, "{inside} {outside}");
 }
+
+/// One element by its own coordinate, seen from inside and from afar: the map, the field with its
+/// gradient and the level field are their polynomials, beyond the edges and the clip too.
+#[test]
+fn one_element_by_its_coordinate() {
+    let mut random = Random(40);
+    for case in 0..40 {
+        let (shape, space) =
+            if case % 2 == 0 { (Shape::Triangle, Total) } else { (Shape::Square, Tensor) };
+        let map = random_map(&mut random, (shape, space, 2), 1.0, 0.3);
+        let mut elements = Elements::default();
+        elements.push(shape, space, 2, map.clone());
+        elements.mesh.clips = vec![Clip { field: 1, is_above: true }];
+        elements.mesh.clip_offsets = vec![0, 1];
+        let [p, level] = [3, 2].map(|degree| random_polynomial(&mut random, space, degree));
+        let fields = [("v", 3, &p), ("level", 2, &level)];
+        let fields = fields.map(|(name, degree, p)| field(name, &[(space, degree, p.clone())]));
+        let dataset = elements.dataset(fields.to_vec());
+        let field = compiled(&dataset);
+        let [inside, _] = elements.point(0, random_place(&mut random, shape));
+        for anchor in [inside, inside + vec2(30.0, -20.0)] {
+            let local = field.at(anchor);
+            assert!(local.element(1).is_none());
+            let element = local.element(0).expect("a patch");
+            let reference = Vec2::from(shape.corners()[0]) - element.corners()[0];
+            for _ in 0..20 {
+                let xi = random_place(&mut random, shape).map(|x| 1.05 * x);
+                let delta = Vec2::from(xi) - reference;
+                let point = element.point(delta);
+                let exact = map.each_ref().map(|p| p.at(xi.map(Double::from)).to_f64());
+                // the anchor is up to 40 away
+                assert!((anchor + point.offset - Vec2::from(exact)).length() < 1e-13);
+                let column = |order| {
+                    let slope = |p: &Polynomial| p.derivative(order).at(xi.map(Double::from));
+                    Vec2::from(map.each_ref().map(|p| slope(p).to_f64()))
+                };
+                let columns = [column([1, 0]), column([0, 1])];
+                let apart = [0, 1].map(|k| (columns[k] - point.columns[k]).length());
+                assert!(apart.iter().all(|d| *d < 1e-13), "{apart:?}");
+                let mut jets = [Jet::constant(0.0)];
+                element.evaluate::<1>((delta, point.offset), Side::Above, &mut jets);
+                let [v, x, y] = truth(&p, &map, xi);
+                // sums of 16 terms; gradients of maps whose determinants fall to a fourth
+                assert!((jets[0].v - v).abs() < 1e-13, "{} {v}", jets[0].v);
+                let gradient = vec2(jets[0].x, jets[0].y) - vec2(x, y);
+                assert!(gradient.length() < 1e-11 * (1.0 + x.abs() + y.abs()), "{gradient:?}");
+                let value = level.at(xi.map(Double::from)).to_f64();
+                assert!((element.level(1, delta) - value).abs() < 1e-13);
+                let margin = shape.margin(xi, [0.0; 2]);
+                assert!((element.margin(delta) - margin).abs() < 1e-14);
+            }
+        }
+    }
+    let boxes = Recipe::default().dataset();
+    let field = Field::new(&boxes, 0).expect("a field");
+    assert!(field.at(Vec2::ZERO).element(0).is_none());
+}
