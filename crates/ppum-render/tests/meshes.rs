@@ -1,4 +1,5 @@
 //! Deformed plates of fields on meshes: every element moves as its own polynomials say.
+#![allow(clippy::unwrap_used, reason = "a test may fail anywhere")]
 
 use std::f64::consts::PI;
 

@@ -45,7 +45,10 @@ impl DeformedView<'_> {
     }
 
     /// The images of edges as a place of each part of the way along them tells.
-    fn edges(&self, place: impl Fn(&mut Edge<'_, '_, '_>, f64) -> Option<Vec2> + Sync) -> Paths {
+    fn edges(
+        &self,
+        place: impl Fn(&mut ElementEdge<'_, '_, '_>, f64) -> Option<Vec2> + Sync,
+    ) -> Paths {
         let field = self.field();
         let count = field.step.partition.mesh().map_or(0, |mesh| mesh.len() as u32);
         let maps = || [(); 2].map(|()| DeformationMap::new(field, self.anchor));
@@ -57,7 +60,7 @@ impl DeformedView<'_> {
             if leaf.is_some_and(|leaf| !leaf.may_be_seen(self)) {
                 return Paths::new();
             }
-            let mut edge = Edge { view: self, chart, other, ends: [Vec2::ZERO; 2] };
+            let mut edge = ElementEdge { view: self, chart, other, ends: [Vec2::ZERO; 2] };
             let of_edge = |k: usize| {
                 edge.ends = [corners[k], corners[(k + 1) % corners.len()]];
                 let half = |a: f64, b: f64| 0.5 * (a + b);
@@ -70,7 +73,7 @@ impl DeformedView<'_> {
 }
 
 /// An edge of an element.
-struct Edge<'a, 'm, 'f> {
+struct ElementEdge<'a, 'm, 'f> {
     view: &'a DeformedView<'a>,
     chart: ElementChart<'m, 'f>,
     /// The plate, for what lies beyond the edge.
@@ -79,7 +82,7 @@ struct Edge<'a, 'm, 'f> {
     ends: [Vec2; 2],
 }
 
-impl Edge<'_, '_, '_> {
+impl ElementEdge<'_, '_, '_> {
     /// The point at a part of the way.
     fn at(&self, t: f64) -> Vec2 {
         let [a, b] = self.ends;
