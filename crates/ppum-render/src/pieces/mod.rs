@@ -210,14 +210,15 @@ impl<'f> Pieces<'f> {
         })
     }
 
-    /// True if the material differs on the two sides of an interface, as seen from as far as chords
-    /// of curves are from them.
+    /// True if the material or given strains differ on the two sides of an interface, as seen from
+    /// as far as chords of curves are from them.
     fn material_jumps(&self, cut: &PolygonCut, middle: Vec2, center: Vec2) -> bool {
         let inward = (center - middle) * (2.0 * INSET).max(cut.inset(center));
         let [a, b] = [inward, -inward].map(|step| {
             let at = middle + step;
             let moduli = self.equation.moduli(self.anchor, [at.x, at.y]);
-            [moduli.young, moduli.poisson, moduli.conductivity]
+            let [xx, yy, xy, zz] = moduli.eigenstrain;
+            [moduli.young, moduli.poisson, moduli.conductivity, xx, yy, xy, zz]
         });
         a.into_iter().zip(b).any(|(a, b)| (a - b).abs() > JUMP * (a.abs() + b.abs()))
     }
