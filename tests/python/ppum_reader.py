@@ -267,7 +267,8 @@ class Field:
 
     def read_quantities(self, file):
         """Formulas of quantities, in the order in which they are defined."""
-        library = {"elasticity": (["ux", "uy"], ELASTICITY), "eigenstrain": (["ux", "uy"], EIGENSTRAIN),
+        strained = ["ux", "uy"] + ["temperature"] * ("expansion" in self.constants)
+        library = {"elasticity": (["ux", "uy"], ELASTICITY), "eigenstrain": (strained, EIGENSTRAIN),
                    "poisson": (["u"], POISSON)}
         components, library = library.get(self.kind, ([], {}))
         library = library if components == self.components else {}
@@ -439,6 +440,9 @@ class Field:
         for component, (value, dx, dy) in zip(self.components, jets):
             values[component] = value
             slopes |= {f"d{component}_dx": dx, f"d{component}_dy": dy}
+        if {"expansion", "temperature"} <= set(values):
+            for direction in ["xx", "yy", "zz"][: 3 if self.state == "plane-strain" else 2]:
+                values[f"eigenstrain_{direction}"] += values["expansion"] * values["temperature"]
         values |= slopes
         of_slopes = set(slopes)
         for known, formula in (self.quantities | {name: self.quantity_named(name)}).items():

@@ -10,8 +10,9 @@ use std::sync::Arc;
 
 use ppum::crack::{Crack, CrackEnd};
 use ppum::dataset::{
-    Attribute, BoxPartition, Dataset, EIGENSTRAINS, Elasticity, Equation, FieldData, NamedQuantity,
-    Partition, Reaction, Record, Ring, Step, StressState, TipIntensity, Warning,
+    Attribute, BoxPartition, Dataset, EIGENSTRAINS, EXPANSION, Eigenstrain, Elasticity, Equation,
+    FieldData, NamedQuantity, Partition, Reaction, Record, Ring, Step, StressState, TipIntensity,
+    Warning,
 };
 use ppum::domain::{Domain, Hole};
 use ppum::expression::Expression;
@@ -192,7 +193,7 @@ fn equation(group: &GroupReader, scopes: &Option<Scopes>) -> Equation {
             group.refuse("conductivity", ObjectKind::Attribute, ELASTICITY);
             if kind == EquationKind::Elasticity {
                 let refuse = |name| group.refuse(name, ObjectKind::Attribute, ELASTICITY);
-                EIGENSTRAINS.into_iter().for_each(refuse);
+                EIGENSTRAINS.into_iter().chain([EXPANSION]).for_each(refuse);
             }
             Equation::Elasticity(Elasticity {
                 young: constant("young"),
@@ -200,8 +201,10 @@ fn equation(group: &GroupReader, scopes: &Option<Scopes>) -> Equation {
                 state: group
                     .attribute_word(STRESS_STATES, "state")
                     .unwrap_or(StressState::PlaneStrain),
-                eigenstrain: (kind == EquationKind::Eigenstrain)
-                    .then(|| Box::new(EIGENSTRAINS.map(constant))),
+                eigenstrain: (kind == EquationKind::Eigenstrain).then(|| {
+                    let expansion = group.has_attribute(EXPANSION).then(|| constant(EXPANSION));
+                    Box::new(Eigenstrain { strains: EIGENSTRAINS.map(constant), expansion })
+                }),
             })
         }
         Some(EquationKind::Poisson) => {

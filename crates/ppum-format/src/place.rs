@@ -31,6 +31,7 @@ const NAMES: &[(&str, &str, &str)] = &[
     ("equation", "eigenstrain_yy", "@eigenstrain_yy"),
     ("equation", "eigenstrain_xy", "@eigenstrain_xy"),
     ("equation", "eigenstrain_zz", "@eigenstrain_zz"),
+    ("equation", "expansion", "@expansion"),
     ("partition", "weight", "@weight_formula"),
     ("growth", "cycles", "@cycles"),
     ("functions", "origin", "frame_origin"),

@@ -376,7 +376,9 @@ impl<'a> Drawing<'a> {
         }
         if let Some(spacing) = self.overlays.arrows {
             let shown = match field.components() {
-                2 => [Quantity::Component(0), Quantity::Component(1)],
+                n if n == 2 || field.is_displacement() => {
+                    [Quantity::Component(0), Quantity::Component(1)]
+                }
                 _ => [Quantity::Derivative(0, Axis::X), Quantity::Derivative(0, Axis::Y)],
             };
             let mut found = Vec::new();

@@ -1,8 +1,10 @@
 //! The constitutive law as tensors: elasticity and Poisson share every line of the assembly.
 
+use crate::heat::{FacePoint, TemperatureField};
 use ppum::dataset::Equation;
 use ppum::equation::Moduli;
 use ppum::vec2::{Vec2, vec2};
+use std::sync::Arc;
 
 /// C\[i\]\[k\]\[j\]\[l\]
 type Tensor = [[[[f64; 2]; 2]; 2]; 2];
@@ -18,6 +20,8 @@ pub(crate) struct Law<'e> {
     /// Components of u.
     pub components: usize,
     equation: &'e Equation,
+    /// A temperature that strains the body, beside what the equation gives.
+    temperature: Option<Arc<TemperatureField<'e>>>,
     /// The terms' tensors.
     pub(crate) terms: Vec<LawAt>,
     uniform: bool,
@@ -31,36 +35,67 @@ impl<'e> Law<'e> {
     #[must_use]
     pub(crate) fn new(equation: &'e Equation) -> Self {
         let components = equation.components();
-        let mut law = Self { components, equation, terms: units(components), uniform: false };
+        let (terms, uniform, temperature) = (units(components), false, None);
+        let mut law = Self { components, equation, temperature, terms, uniform };
         if equation.has_uniform_material() {
             (law.terms, law.uniform) = (vec![law.linear_at(Vec2::ZERO)], true);
         }
         law
     }
 
+    /// The law of the same body, strained by a temperature if there is one.
+    #[must_use]
+    pub(crate) fn heated(self, temperature: Option<TemperatureField<'e>>) -> Self {
+        Self { temperature: temperature.map(Arc::new), ..self }
+    }
+
     /// The law at a point.
     #[must_use]
     pub(crate) fn at(&self, x: Vec2) -> LawAt {
+        self.on(x, None)
+    }
+
+    /// The law at a point, on the face of a crack if it lies on one.
+    #[must_use]
+    pub(crate) fn on(&self, x: Vec2, face: FacePoint) -> LawAt {
         let law = self.linear_at(x);
-        self.eigenstrain(x).map_or(law, |eigenstrain| LawAt { eigenstrain, ..law })
+        self.eigenstrain_on(x, face).map_or(law, |eigenstrain| LawAt { eigenstrain, ..law })
     }
 
     /// The strains ε⁰ that are given in the plane at a point, if any are.
     pub(crate) fn eigenstrain(&self, x: Vec2) -> Option<[Vec2; 2]> {
-        self.equation.elastic()?.eigenstrain.as_ref()?;
-        let [xx, yy, xy] = self.equation.moduli(x, [0.0, 0.0]).plane_eigenstrain();
+        self.eigenstrain_on(x, None)
+    }
+
+    /// These strains on the face of a crack, if the point lies on one.
+    pub(crate) fn eigenstrain_on(&self, x: Vec2, face: FacePoint) -> Option<[Vec2; 2]> {
+        let [xx, yy, xy] =
+            self.has_eigenstrain().then(|| self.moduli(x, face).plane_eigenstrain())?;
         Some([vec2(xx, xy), vec2(xy, yy)])
+    }
+
+    /// The derivative along `axis` of the strains that a temperature gives in the plane, zero
+    /// without one.
+    pub(crate) fn temperature_slope(&self, x: Vec2, axis: Vec2) -> [Vec2; 2] {
+        self.temperature.as_ref().map_or([Vec2::ZERO; 2], |heat| heat.strain_slope(x, axis))
     }
 
     /// True if strains are given.
     pub(crate) fn has_eigenstrain(&self) -> bool {
-        self.equation.eigenstrains().next().is_some()
+        self.temperature.is_some() || self.equation.eigenstrains().next().is_some()
     }
 
     /// E (ε⁰_zz)², twice the energy of the strain that the third direction does not take.
     pub(crate) fn energy_through(&self, x: Vec2) -> f64 {
-        let Moduli { young, eigenstrain: [.., zz], .. } = self.equation.moduli(x, [0.0, 0.0]);
+        let Moduli { young, eigenstrain: [.., zz], .. } = self.moduli(x, None);
         young * zz * zz
+    }
+
+    fn moduli(&self, x: Vec2, face: FacePoint) -> Moduli<f64> {
+        match &self.temperature {
+            Some(heat) => heat.moduli(x, face),
+            None => self.equation.moduli(x, [0.0, 0.0]),
+        }
     }
 
     /// The law at a point without given strains.

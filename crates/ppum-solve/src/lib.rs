@@ -70,7 +70,7 @@
 //! refine                                           covers
 //! corner          triangulation                    singular points of the border; triangles between segments
 //! equilibrium     problem         smoothness       watched
-//! geometry        law             linear           quadrature      report
+//! geometry        heat            law              linear          quadrature      report
 //! ```
 
 mod adapt;
@@ -83,6 +83,7 @@ mod equilibrium;
 mod forces;
 mod geometry;
 pub mod growth;
+mod heat;
 mod hierarchy;
 pub mod intensity;
 mod law;

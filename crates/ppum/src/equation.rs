@@ -31,14 +31,36 @@ pub struct Elasticity {
     pub poisson: Expression,
     /// Plane strain or plane stress.
     pub state: StressState,
-    /// The given strains ε⁰_xx, ε⁰_yy, ε⁰_xy and ε⁰_zz, α ΔT of a temperature, which make no
-    /// stress where the body takes them: σ = C(ε − ε⁰). ε⁰_zz has no effect in plane stress.
-    pub eigenstrain: Option<Box<[Expression; 4]>>,
+    /// Strains ε⁰ that make no stress where the body takes them: σ = C(ε − ε⁰).
+    pub eigenstrain: Option<Box<Eigenstrain>>,
+}
+
+/// Strains that are given, by formulas and by a temperature of the field.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Eigenstrain {
+    /// ε⁰_xx, ε⁰_yy, ε⁰_xy and ε⁰_zz, such as α ΔT of a temperature given by a formula. ε⁰_zz has
+    /// no effect in plane stress.
+    pub strains: [Expression; 4],
+    /// The coefficient α of thermal expansion, if the third component of the field is a change of
+    /// temperature T: it strains the body by α T in all directions, beside `strains`.
+    pub expansion: Option<Expression>,
+}
+
+impl From<[Expression; 4]> for Eigenstrain {
+    fn from(strains: [Expression; 4]) -> Self {
+        Self { strains, expansion: None }
+    }
 }
 
 /// The names of the given strains in files and in formulas.
 pub const EIGENSTRAINS: [&str; 4] =
     ["eigenstrain_xx", "eigenstrain_yy", "eigenstrain_xy", "eigenstrain_zz"];
+
+/// The name of the component that is a change of temperature.
+pub const TEMPERATURE: &str = "temperature";
+
+/// The name of the coefficient of thermal expansion in files and in formulas.
+pub const EXPANSION: &str = "expansion";
 
 impl Elasticity {
     /// The material at a point.
@@ -75,15 +97,23 @@ impl Equation {
         Self::Poisson { conductivity: conductivity.into() }
     }
 
-    /// Number of components of the unknown field: 2 for elasticity, 1 for Poisson, 0 without
-    /// an equation.
+    /// The names of the components of the field: ux and uy, and `temperature` of an elastic body
+    /// with a coefficient of expansion; u of Poisson's equation; none without an equation.
+    #[must_use]
+    pub fn component_names(&self) -> &'static [&'static str] {
+        match self {
+            Self::Elasticity(_) if self.expansion().is_some() => &["ux", "uy", TEMPERATURE],
+            Self::Elasticity(_) => &["ux", "uy"],
+            Self::Poisson { .. } => &["u"],
+            Self::None => &[],
+        }
+    }
+
+    /// Number of components of the field: 2 for elasticity, 3 with a temperature, 1 for Poisson, 0
+    /// without an equation.
     #[must_use]
     pub fn components(&self) -> usize {
-        match self {
-            Self::Elasticity(_) => 2,
-            Self::Poisson { .. } => 1,
-            Self::None => 0,
-        }
+        self.component_names().len()
     }
 
     /// The elastic body, if the equation has stresses.
@@ -96,20 +126,32 @@ impl Equation {
     }
 
     /// The expressions of the material constants with their names: `young` and `poisson`,
-    /// `conductivity`, or none; after them the given strains, if there are any.
+    /// `conductivity`, or none; after them the given strains and the coefficient of expansion, if
+    /// there are any.
     pub fn constants(&self) -> impl Iterator<Item = (&'static str, &Expression)> {
         let list = match self {
             Self::Elasticity(e) => [Some(("young", &e.young)), Some(("poisson", &e.poisson))],
             Self::Poisson { conductivity } => [Some(("conductivity", conductivity)), None],
             Self::None => [None, None],
         };
-        list.into_iter().flatten().chain(self.eigenstrains())
+        let expansion = self.expansion().map(|expansion| (EXPANSION, expansion));
+        list.into_iter().flatten().chain(self.eigenstrains()).chain(expansion)
     }
 
     /// The expressions of the given strains with their names.
     pub fn eigenstrains(&self) -> impl Iterator<Item = (&'static str, &Expression)> {
-        let given = self.elastic().and_then(|elastic| elastic.eigenstrain.as_deref());
+        let given = self.eigenstrain().map(|given| &given.strains);
         EIGENSTRAINS.into_iter().zip(given.into_iter().flatten())
+    }
+
+    /// The coefficient of thermal expansion of a body whose field has a temperature.
+    #[must_use]
+    pub fn expansion(&self) -> Option<&Expression> {
+        self.eigenstrain()?.expansion.as_ref()
+    }
+
+    fn eigenstrain(&self) -> Option<&Eigenstrain> {
+        self.elastic()?.eigenstrain.as_deref()
     }
 
     /// The mistake in the constants, if there is one: the name of the first that is impossible and
@@ -131,7 +173,9 @@ impl Equation {
     }
 
     fn mistake_at(&self, p: Vec2) -> Option<(&'static str, String)> {
-        let values = self.eigenstrains().map(|(name, expression)| (name, expression.value(p)));
+        let expansion = self.expansion().map(|expansion| (EXPANSION, expansion));
+        let given = self.eigenstrains().chain(expansion);
+        let values = given.map(|(name, expression)| (name, expression.value(p)));
         let infinite = values.into_iter().find(|(_, value)| !value.is_finite());
         if let Some((name, value)) = infinite {
             return Some((name, format!("is {value}, but must be finite")));
@@ -179,8 +223,10 @@ impl Equation {
                 match &e.eigenstrain {
                     None => moduli,
                     Some(given) => {
-                        let eigenstrain = given.each_ref().map(|e| e.values(anchor, offset));
-                        Moduli { eigenstrain, ..moduli }.in_state(e.state)
+                        let value = |e: &Expression| e.values(anchor, offset);
+                        let eigenstrain = given.strains.each_ref().map(value);
+                        let expansion = given.expansion.as_ref().map_or(moduli.expansion, value);
+                        Moduli { eigenstrain, expansion, ..moduli }.in_state(e.state)
                     }
                 }
             }
@@ -212,6 +258,10 @@ pub struct Moduli<R> {
     pub conductivity: R,
     /// ε⁰_xx, ε⁰_yy, ε⁰_xy and ε⁰_zz; the last is zero in plane stress, where it has no effect.
     pub eigenstrain: [R; 4],
+    /// α of a body whose field has a temperature.
+    pub expansion: R,
+    /// α of the third direction: zero in plane stress.
+    pub expansion_out: R,
 }
 
 impl<R: Real> Moduli<R> {
@@ -239,14 +289,28 @@ impl<R: Real> Moduli<R> {
             out_of_plane: zero,
             conductivity: zero,
             eigenstrain: [zero; 4],
+            expansion: zero,
+            expansion_out: zero,
         }
     }
 
     #[inline(always)]
     fn in_state(self, state: StressState) -> Self {
         let [xx, yy, xy, zz] = self.eigenstrain;
-        let zz = if state == StressState::PlaneStress { zz.lit(0.0) } else { zz };
-        Self { eigenstrain: [xx, yy, xy, zz], ..self }
+        let (zz, out) = match state {
+            StressState::PlaneStress => (zz.lit(0.0), zz.lit(0.0)),
+            StressState::PlaneStrain => (zz, self.expansion),
+        };
+        Self { eigenstrain: [xx, yy, xy, zz], expansion_out: out, ..self }
+    }
+
+    /// The moduli where a change of temperature T strains the body by α T beside what is given.
+    #[inline(always)]
+    #[must_use]
+    pub fn heated(&self, temperature: R) -> Self {
+        let [xx, yy, xy, zz] = self.eigenstrain;
+        let (plane, out) = (self.expansion * temperature, self.expansion_out * temperature);
+        Self { eigenstrain: [xx + plane, yy + plane, xy, zz + out], ..*self }
     }
 
     /// The strains in the plane under which σ_xx, σ_yy and σ_xy vanish: those given, and in plane

@@ -139,6 +139,11 @@ impl<'a> GroupReader<'a> {
         None
     }
 
+    /// True if the attribute is there.
+    pub(super) fn has_attribute(&self, name: &str) -> bool {
+        self.content.get(&key(&self.path, name, ObjectKind::Attribute)).is_some()
+    }
+
     /// True if the attribute is there and is a text.
     pub(super) fn has_text(&self, name: &str) -> bool {
         let array = self.content.get(&key(&self.path, name, ObjectKind::Attribute));

@@ -55,6 +55,29 @@ fn round_trip_is_exact_to_the_last_bit() {
     }
 }
 
+/// The temperature of a body is stored with its coefficient of expansion, and is not there without.
+#[test]
+fn temperatures_are_stored() {
+    let cases = ppum_testkit::fields::equations();
+    let heated = cases.iter().filter(|case| case.dataset.equation.expansion().is_some());
+    let mut count = 0;
+    for case in heated {
+        let back = from_bytes(to_bytes(&case.dataset).unwrap()).unwrap();
+        assert!(same(&case.dataset, &back));
+        let mut other = back.clone();
+        other.steps[0].fields[0].components[2] = "heat".into();
+        let error = to_bytes(&other).expect_err("another name").to_string();
+        assert!(error.contains("ux, uy, temperature"), "{error}");
+        let mut other = back;
+        let field = &mut other.steps[0].fields[0];
+        field.components.pop();
+        field.coefficients.pop();
+        assert!(to_bytes(&other).is_err());
+        count += 1;
+    }
+    assert_eq!(count, 2);
+}
+
 /// A file of the first version, as the program of that time wrote it: every patch has the functions
 /// one, side of a crack, √r sin(θ/2) of its tip and a wave, with the factors 2, 3, 5, 7.
 #[test]

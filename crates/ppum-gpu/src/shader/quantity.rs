@@ -47,7 +47,7 @@ pub(crate) fn quantity_wgsl(field: &Field<'_>, quantity: &Quantity) -> Result<St
         // of a single component there is no stress
         _ if components < 2 => returning("", "ppum_from_bits(0x7f800000u)"),
         _ if field.equation.elastic().is_some() => {
-            of_library(quantity, field, field.equation, &["ux", "uy"])?
+            of_library(quantity, field, field.equation, field.equation.component_names())?
         }
         _ => of_library(quantity, field, &solid(), &["ux", "uy"])?,
     })

@@ -250,7 +250,7 @@ def _equation(equation: Elastic | Poisson | None) -> Arrays:
     if isinstance(equation, Poisson):
         return {"equation@kind": "poisson", "equation@conductivity": _constant(equation.conductivity)}
     if equation.expansion is not None:
-        raise BuildError("equation.expansion: a dataset has no temperature; give the strains α ΔT as `eigenstrain`")
+        raise BuildError("equation.expansion: fields that are built have no temperature; give the strains α ΔT as `eigenstrain`")
     strains = dict(zip(("xx", "yy", "xy", "zz"), equation.eigenstrain or (), strict=equation.eigenstrain is not None))
     return {
         "equation@kind": "eigenstrain" if strains else "elasticity",

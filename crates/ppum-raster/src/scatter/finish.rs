@@ -83,7 +83,9 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                 self.scene.load_exact(pixel, shift, &mut exact, zero);
             }
             load::<R, D>(cell, jets, zero);
-            if matches!(source, Source::Values | Source::Partition) {
+            // a temperature is a value among derivatives
+            let has_values = C != 2 && source == Source::Gradient && components > 2;
+            if has_values || matches!(source, Source::Values | Source::Partition) {
                 for (jet, &shift) in jets.iter_mut().zip(&*shift) {
                     jet.v = jet.v + zero.lit(shift);
                 }

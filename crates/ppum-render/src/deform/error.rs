@@ -45,7 +45,7 @@ pub enum DeformError {
 
 /// Refuses fields that are no displacements of the plane.
 pub(super) fn check(field: &Field<'_>) -> Result<(), DeformError> {
-    if field.equation.elastic().is_none() || field.components() != 2 {
+    if !field.is_displacement() {
         return Err(DeformError::NoDisplacement(field.data.name.clone()));
     }
     Ok(())

@@ -226,7 +226,7 @@ fn two_materials(young: &str, strain: &str) -> Dataset {
         young,
         poisson,
         state: StressState::PlaneStrain,
-        eigenstrain: (strain != "0").then(|| Box::new(given())),
+        eigenstrain: (strain != "0").then(|| Box::new(given().into())),
     });
     dataset
 }

@@ -33,12 +33,16 @@ impl Array {
         let name = field.data.name.as_str();
         let mut all = match names[..] {
             [x, y] => vec![Self::of(field, name, &VECTOR, &[x, y, ""])?],
+            [x, y, temperature] if field.has_temperature() => vec![
+                Self::of(field, name, &VECTOR, &[x, y, ""])?,
+                Self::of(field, temperature, &[""], &[temperature])?,
+            ],
             _ => names
                 .iter()
                 .map(|name| Self::of(field, name, &[""], &[name]))
                 .collect::<Result<_, _>>()?,
         };
-        if field.equation.elastic().is_some() && names.len() == 2 {
+        if field.is_displacement() {
             all.push(Self::of(field, "stress", &TENSOR, &["sxx", "syy", "szz", "sxy", "", ""])?);
             all.push(Self::of(field, "von-mises", &[""], &["von-mises"])?);
         } else if let [only] = names[..] {

@@ -43,6 +43,8 @@ enum Equation {
         state: &'static str,
         #[serde(skip_serializing_if = "Option::is_none")]
         eigenstrain: Option<[Constant; 4]>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        expansion: Option<Constant>,
     },
     Poisson {
         conductivity: Constant,
@@ -155,7 +157,8 @@ impl Equation {
                 eigenstrain: material
                     .eigenstrain
                     .as_ref()
-                    .map(|given| given.each_ref().map(Constant::from)),
+                    .map(|given| given.strains.each_ref().map(Constant::from)),
+                expansion: equation.expansion().map(Constant::from),
             },
             dataset::Equation::Poisson { conductivity } => {
                 Self::Poisson { conductivity: conductivity.into() }
@@ -168,10 +171,12 @@ impl Equation {
 impl fmt::Display for Equation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Elasticity { young, poisson, state, eigenstrain } => {
+            Self::Elasticity { young, poisson, state, eigenstrain, expansion } => {
                 write!(f, "elasticity, E {young}, ν {poisson}, {state}")?;
                 let Some([xx, yy, xy, zz]) = eigenstrain else { return Ok(()) };
-                write!(f, ", given strains xx {xx}, yy {yy}, xy {xy}, zz {zz}")
+                write!(f, ", given strains xx {xx}, yy {yy}, xy {xy}, zz {zz}")?;
+                let Some(alpha) = expansion else { return Ok(()) };
+                write!(f, ", and those of the temperature with α {alpha}")
             }
             Self::Poisson { conductivity } => write!(f, "Poisson, κ {conductivity}"),
             Self::None => f.write_str("none"),

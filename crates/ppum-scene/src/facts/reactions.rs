@@ -35,6 +35,8 @@ pub fn reactions(dataset: &Dataset, step: &Step) -> Vec<Reaction> {
         let dataset::Reaction { on, held, force, moment } = reaction;
         let held = names.iter().zip(held).filter(|(_, held)| **held);
         let turns = force.len() > 1;
+        // a temperature, the third component, has no force
+        let force = &force[..force.len().min(2)];
         let center = restraint_center(on, &dataset.domain).filter(|_| turns);
         let moved = |center: Vec2| {
             let arm = about - center;

@@ -34,7 +34,7 @@ pub(super) fn table(
         .all()
         .iter()
         .zip(sides)
-        .flat_map(|(station, sides)| row(station, sides, quantities.len()))
+        .flat_map(|(station, sides)| row((field, station), sides, quantities.len()))
         .collect();
     let places = stations.all().iter().map(|station| station.place(Side::Above)).collect();
     let table = Table::new(columns(field, quantities), rows);
@@ -61,7 +61,7 @@ fn columns(field: &Field<'_>, quantities: &[(String, Quantity)]) -> Vec<Column> 
     }
     let components = &field.data.components;
     columns.extend(components.iter().map(|name| Column::new(&format!("jump_{name}"), unit)));
-    if components.len() == 2 {
+    if components.len() == 2 || field.is_displacement() {
         columns.extend(["opening", "sliding"].map(|name| Column::new(name, unit)));
     }
     columns
@@ -69,14 +69,19 @@ fn columns(field: &Field<'_>, quantities: &[(String, Quantity)]) -> Vec<Column> 
 
 /// Position, the quantities on both sides, the jumps of the components that follow them; normal to
 /// the crack and along it.
-fn row(station: &Station, (above, below): (&[f64], &[f64]), quantities: usize) -> Vec<f64> {
+fn row(
+    (field, station): (&Field<'_>, &Station),
+    (above, below): (&[f64], &[f64]),
+    quantities: usize,
+) -> Vec<f64> {
     let p = station.point();
     let pairs = || above.iter().zip(below);
     let jumps: Vec<f64> = pairs().skip(quantities).map(|(a, b)| a - b).collect();
     let mut row = vec![station.s, p.x, p.y];
     row.extend(pairs().take(quantities).flat_map(|(a, b)| [a, b]));
     row.extend(&jumps);
-    if let [x, y] = jumps[..] {
+    if let ([x, y], _) | ([x, y, _], true) = (&jumps[..], field.is_displacement()) {
+        let (x, y) = (*x, *y);
         row.extend(station.opening(Vec2::from([x, y])));
     }
     row

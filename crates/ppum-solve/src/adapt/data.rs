@@ -34,11 +34,12 @@ pub(super) fn unseen_data(
         problem,
         field,
         space,
-        law: Law::new(field.equation),
+        law: space.law(),
         quadrature: space.quadrature(0),
         border: BorderConditions::all(problem),
         has_source: problem.source.iter().any(|f| f.formula().constant().is_none()),
-        has_eigenstrain: problem.equation.eigenstrains().any(|(_, e)| e.constant().is_none()),
+        has_eigenstrain: space.temperature().is_some()
+            || problem.equation.eigenstrains().any(|(_, e)| e.constant().is_none()),
     };
     let mut squares = Vec::with_capacity(n);
     let work = |(): &mut (), cell: usize| Ok(data.in_cell(cell));
@@ -132,7 +133,7 @@ impl DataResidual<'_> {
                 // a place between patches, up to rounding
                 continue;
             }
-            let law = self.law.at(x);
+            let law = self.law.on(x, rule.face.map(|face| (face.segment, face.side)));
             let flux = law.flux(&u.map(|jet| vec2(jet.x, jet.y)));
             let (held, mut given) = part.given(self.problem, (x, n), u.map(|u| u.v));
             if let Some(between) = &between {

@@ -45,7 +45,7 @@ pub(super) fn disagreements(
     stage: &Stage<'_>,
 ) -> Result<(f64, Vec<Mat<f64>>), Halt> {
     let LocalFields { space, coefficients, .. } = fields;
-    let (law, quadrature) = (Law::new(space.equation()), space.quadrature(0));
+    let (law, quadrature) = (space.law(), space.quadrature(0));
     let n = coefficients.first().map_or(0, Mat::nrows) / law.components;
     let (mut energy, mut all) = (0.0, Vec::with_capacity(coefficients.len()));
     let start = || (ShapeEvaluator::of_series(space), Shapes::default());

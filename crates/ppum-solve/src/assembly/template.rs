@@ -111,7 +111,7 @@ mod tests {
     /// Calls `look` with the assembly of a problem.
     fn with_assembly(problem: &Problem, look: &mut dyn FnMut(Assembly<'_>)) {
         let step = discretise(problem, unwatched()).expect("a cover");
-        let space = &Space::of_problem(problem, step).expect("a space");
+        let space = &Space::of_problem(problem, step, None).expect("a space");
         let stage = Stage::uncounted(unwatched(), Phase::Basis).expect("nobody stops it");
         let basis = &StableBasis::new(space, &stage).expect("a basis");
         look(Assembly { problem, space, basis, law: &Law::new(&problem.equation) });

@@ -24,13 +24,17 @@ const LARGE: f64 = 1e-3;
 
 /// The warnings about interfaces: for each cause one, at the worst place, its value the estimated
 /// relative error of the energy.
-pub(super) fn of_interfaces(field: &Field<'_>, dataset: &Dataset, places: &Places) -> Vec<Warning> {
+pub(super) fn of_interfaces(
+    (field, law): (&Field<'_>, &Law<'_>),
+    dataset: &Dataset,
+    places: &Places,
+) -> Vec<Warning> {
     let interfaces = Interfaces::new(&dataset.equation, &dataset.domain, &field.step.cracks);
     if interfaces.all.is_empty() {
         return Vec::new();
     }
     let partition = field.step.partition.boxes();
-    let energies: Vec<f64> = (0..partition.len()).map(|cell| energy(field, cell)).collect();
+    let energies: Vec<f64> = (0..partition.len()).map(|cell| energy(field, law, cell)).collect();
     let total: f64 = energies.iter().sum();
     let of_patch = |patch: usize| {
         let part = partition.support(patch).intersection(&dataset.domain.bounds);
@@ -73,8 +77,8 @@ fn has_own(field: &Field<'_>, patch: usize) -> bool {
 }
 
 /// About the energy of a cell, what of it lies in the plate.
-fn energy(field: &Field<'_>, cell: usize) -> f64 {
-    let (rect, law) = (field.step.partition.boxes().cell[cell], Law::new(field.equation));
+fn energy(field: &Field<'_>, law: &Law<'_>, cell: usize) -> f64 {
+    let rect = field.step.partition.boxes().cell[cell];
     let (min, step) = (rect.min, rect.size() * (1.0 / LOOKS as f64));
     let at = |k: usize| {
         min + vec2(step.x * ((k % LOOKS) as f64 + 0.5), step.y * ((k / LOOKS) as f64 + 0.5))

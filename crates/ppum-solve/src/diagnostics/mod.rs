@@ -24,6 +24,7 @@ pub use warning::{
 };
 
 use crate::geometry::points_of_forces;
+use crate::heat::Temperature;
 use crate::intensity::{FACTORS_OF, TipOutcome, intensities_under};
 use crate::problem::Problem;
 use crate::report::{SolverReport, Unresolved};
@@ -91,10 +92,24 @@ pub fn recompute(
     problem: Option<&Problem>,
     watcher: &dyn Watcher,
 ) -> Result<(Vec<TipOutcome>, Vec<Warning>), RecomputeError> {
+    Field::new(dataset, step)?.on_cells(FACTORS_OF)?;
+    match Temperature::split(dataset, step)? {
+        Some((plain, heat)) => recompute_plain((&plain, 0), Some(heat), problem, watcher),
+        None => recompute_plain((dataset, step), None, problem, watcher),
+    }
+}
+
+/// The same of a displacement, in a body that a temperature may strain.
+fn recompute_plain(
+    (dataset, step): (&Dataset, usize),
+    heat: Option<Temperature>,
+    problem: Option<&Problem>,
+    watcher: &dyn Watcher,
+) -> Result<(Vec<TipOutcome>, Vec<Warning>), RecomputeError> {
     let field = Field::new(dataset, step)?;
-    field.on_cells(FACTORS_OF)?;
     let Dataset { domain, equation, tables, .. } = dataset;
     let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
+    heat.into_iter().for_each(|heat| space.heat(heat));
     let tips = intensities_under(problem, dataset, &field, &space, watcher)?;
     let report = &SolverReport::of(&field.step.history);
     let (field, space) = (&field, &space);
@@ -135,7 +150,8 @@ impl DiagnosedSolution<'_> {
         stage.advance(0)?;
         warnings.extend(of_rims(field, &dataset.domain.holes, &places));
         stage.advance(0)?;
-        warnings.extend(of_interfaces(field, dataset, &places));
+        let law = &space.law();
+        warnings.extend(of_interfaces((field, law), dataset, &places));
         warnings.extend(of_report(self.report, adaptivity, cutters));
         stage.advance(0)?;
         warnings.extend(of_digits(rounding, cutters, &places));
@@ -144,7 +160,7 @@ impl DiagnosedSolution<'_> {
         if points_of_forces(&field.step.functions).next().is_none() {
             warnings.extend(of_locking(field, space));
         }
-        warnings.extend(of_pressure(field));
+        warnings.extend(of_pressure(field, law));
         warnings.extend(of_quadrature(self.unresolved, &places));
         Ok(Diagnosis { warnings, rounding: rounding.largest })
     }

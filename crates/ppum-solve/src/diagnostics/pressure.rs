@@ -42,14 +42,13 @@ struct Oscillation {
 }
 
 /// The warning about pressure that oscillates.
-pub(super) fn of_pressure(field: &Field<'_>) -> Option<Warning> {
+pub(super) fn of_pressure(field: &Field<'_>, law: &Law<'_>) -> Option<Warning> {
     if stiffness_ratio(field.equation, field.domain) <= STIFF {
         return None;
     }
     let n_cells = field.step.partition.len();
-    let law = Law::new(field.equation);
     let cells: Vec<usize> = (0..n_cells).step_by(n_cells.div_ceil(CELLS).max(1)).collect();
-    let of_cell = |&cell: &usize| oscillation(field, &law, cell);
+    let of_cell = |&cell: &usize| oscillation(field, law, cell);
     let all: Vec<Oscillation> = cells.par_iter().filter_map(of_cell).collect();
     let part = (typical_tail(&all)? / mean_stress(&all)).sqrt();
     let message = format!(

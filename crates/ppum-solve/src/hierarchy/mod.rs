@@ -93,7 +93,7 @@ impl Finest<'_> {
     ) -> Result<(FinerLevel<'_>, BlockMatrix), Trouble> {
         let problem = self.problem;
         let step = discretise_on(problem, mesh, stage)?;
-        let space = Space::of_problem(problem, step).map_err(|_| Trouble::TooCoarse)?;
+        let space = Space::of_problem(problem, step, None).map_err(|_| Trouble::TooCoarse)?;
         let mut basis = StableBasis::new(&space, stage)?;
         let law = &Law::new(&problem.equation);
         let found = slivers(Assembly { problem, space: &space, basis: &basis, law }, stage)?;

@@ -3,6 +3,7 @@
 use super::auxiliary::{Auxiliary, Gradients, difference, stress, work};
 use super::course::CourseSegment;
 use super::integral::{Integrals, Interaction, cut_off, square, turned};
+use crate::heat::FacePoint;
 use crate::quadrature::{EdgeRule, Face, Quadrature};
 use ppum::crack::{SegmentId, Side};
 use ppum::jet::Jet;
@@ -53,7 +54,8 @@ impl Interaction<'_> {
             let world = rule.anchor + *offset;
             let q = cut_off(square(&point), self.largest()).0;
             let traction = self.traction(side, world, tip.axis) + t;
-            let j = q * self.energy_crossing(&u, normal, world, traction);
+            let face = Some((segment, side));
+            let j = q * self.energy_crossing(&u, normal, (world, face), traction);
             sums = sums.plus(Integrals { modes, j, ..Integrals::default() }.times(weight));
         }
         sums
@@ -73,8 +75,14 @@ impl Interaction<'_> {
     }
 
     /// E_j n_j = W n_1 − t_i u_i,1
-    fn energy_crossing(&self, u: &Gradients, normal: Vec2, world: Vec2, traction: Vec2) -> f64 {
-        let elastic = difference(u, &self.eigenstrain(world));
+    fn energy_crossing(
+        &self,
+        u: &Gradients,
+        normal: Vec2,
+        (world, face): (Vec2, FacePoint),
+        traction: Vec2,
+    ) -> f64 {
+        let elastic = difference(u, &self.eigenstrain(world, face));
         let energy = 0.5 * work(&stress(self.lame(world), &elastic), &elastic);
         energy * normal.x - traction.dot(vec2(u[0][0], u[1][0]))
     }

@@ -10,6 +10,7 @@ use super::sensitivity::FACTORS;
 use super::slope::Slope;
 use crate::contact::ContactLaw;
 use crate::geometry::{Placed, around};
+use crate::heat::FacePoint;
 use crate::law::Law;
 use crate::problem::Symmetry;
 use crate::quadrature::{Disc, Doubt, EdgeRule, Quadrature, Rule};
@@ -119,11 +120,12 @@ impl<'a> Interaction<'a> {
         let crack = &field.step.cracks[tip.crack as usize];
         let course = Course::new(crack, tip, radii[RINGS - 1]);
         let center = course.center();
-        let law = Law::new(field.equation);
+        let law = space.law();
         let elastic = field.equation.elastic()?;
         let material = elastic.at(center);
         let body = Body::new(&material);
-        let slope = Slope::new(elastic, center, radii[RINGS - 1]);
+        let expansion = space.temperature().and_then(|heat| heat.equation().expansion());
+        let slope = Slope::new(elastic, expansion, center, radii[RINGS - 1]);
         let axis = crack.growth_direction(tip.end);
         let at_tip = law.eigenstrain(center).map(|given| tensor_in_frame(&given, axis));
         let is_finite = |given: &Gradients| given.as_flattened().iter().all(|e| e.is_finite());
@@ -264,7 +266,8 @@ impl<'a> Interaction<'a> {
     /// tip's frame.
     pub(super) fn local(&self, world: Vec2) -> Local {
         let force = self.loads.force.map_or(Vec2::ZERO, |force| turned(self.axis, force(world)));
-        Local { lame: self.lame(world), force: force.into(), eigenstrain: self.eigenstrain(world) }
+        let eigenstrain = self.eigenstrain(world, None);
+        Local { lame: self.lame(world), force: force.into(), eigenstrain }
     }
 
     /// ∇u of the jets at a point without the strains given at the tip, in its frame.
@@ -273,8 +276,9 @@ impl<'a> Interaction<'a> {
     }
 
     /// The strains given at a point without those at the tip, in its frame.
-    pub(super) fn eigenstrain(&self, world: Vec2) -> Gradients {
-        let given = self.law.eigenstrain(world).map(|given| tensor_in_frame(&given, self.axis));
+    pub(super) fn eigenstrain(&self, world: Vec2, face: FacePoint) -> Gradients {
+        let given = self.law.eigenstrain_on(world, face);
+        let given = given.map(|given| tensor_in_frame(&given, self.axis));
         given.map_or([[0.0; 2]; 2], |given| difference(&given, &self.shift))
     }
 
@@ -283,9 +287,13 @@ impl<'a> Interaction<'a> {
     pub(super) fn energy_source(&self, world: Vec2, local: &Local, u: &Gradients) -> f64 {
         let elastic = difference(u, &local.eigenstrain);
         let graded = self.slope.as_ref().map_or(0.0, |slope| {
-            let strained = slope.eigenstrain(world, self.axis).map_or(0.0, |along| {
-                work(&stress(local.lame, &elastic), &tensor_in_frame(&along, self.axis))
-            });
+            let heated = self.law.temperature_slope(world, self.axis);
+            let along = slope.eigenstrain(world, self.axis).unwrap_or_default();
+            let along = [0, 1].map(|j| heated[j] + along[j]);
+            let strained = match self.law.has_eigenstrain() {
+                true => work(&stress(local.lame, &elastic), &tensor_in_frame(&along, self.axis)),
+                false => 0.0,
+            };
             slope.energy(world, self.axis, &elastic) - strained
         });
         graded + local.force[0] * u[0][0] + local.force[1] * u[1][0]

@@ -72,6 +72,7 @@ mod slope;
 
 use crate::geometry::{AMPLE_CLEARANCE, interface_distance};
 pub use crate::geometry::{Obstacle, TipClearance};
+use crate::heat::Temperature;
 use crate::problem::{Edge, Problem, Symmetry};
 pub use crate::quadrature::Doubt;
 use crate::space::Space;
@@ -163,7 +164,8 @@ impl TipOutcome {
 }
 
 /// The stress intensity factors of all tips of a step, each at three radii chosen in the tip's
-/// [`TipClearance`]; none at all unless the field is a displacement.
+/// [`TipClearance`]; none at all unless the field is a displacement without a temperature, of which
+/// [`recompute`](crate::diagnostics::recompute) finds them.
 ///
 /// The field is evaluated in the cells that meet the discs, for all tips in parallel; the values do
 /// not depend on the number of threads.
@@ -180,7 +182,7 @@ pub fn intensities(
     loads: Loads<'_>,
     watcher: &dyn Watcher,
 ) -> Result<Vec<TipOutcome>, Cancelled> {
-    if dataset.equation.elastic().is_none() || field.components() != dataset.equation.components() {
+    if !field.is_displacement() || field.has_temperature() {
         return Ok(Vec::new());
     }
     let stage = Stage::uncounted(watcher, Phase::Intensity)?;
@@ -257,16 +259,31 @@ pub fn on_circle(
     if radius > clear.radius {
         return Err(CircleError::Disturbed(clear));
     }
+    match Temperature::split(dataset, step)? {
+        Some((plain, heat)) => on_plain((&plain, 0), Some(heat), (tip, radius), problem, watcher),
+        None => on_plain((dataset, step), None, (tip, radius), problem, watcher),
+    }
+}
+
+/// The same of a displacement, in a body that a temperature may strain.
+fn on_plain(
+    (dataset, step): (&Dataset, usize),
+    heat: Option<Temperature>,
+    (tip, radius): (TipId, f64),
+    problem: Option<&Problem>,
+    watcher: &dyn Watcher,
+) -> Result<TipIntensity, CircleError> {
     let field = Field::new(dataset, step)?;
     let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
     if !is_half_known(dataset, at, problem.and_then(|problem| problem.symmetry_at(tip))) {
         return Err(CircleError::Disturbed(TipClearance::NONE));
     }
     let Dataset { domain, equation, tables, .. } = dataset;
-    if equation.elastic().is_none() || field.components() != equation.components() {
+    if !field.is_displacement() {
         return Err(CircleError::NoDisplacement);
     }
     let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
+    heat.into_iter().for_each(|heat| space.heat(heat));
     let radii = RADII.map(|part| part / RADII[RINGS - 1] * radius);
     let found = under(problem, field.step.load, |loads| {
         let integral = Interaction::new(&field, &space, tip, radii, loads);

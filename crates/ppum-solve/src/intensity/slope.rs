@@ -2,7 +2,7 @@
 
 use super::auxiliary::Gradients;
 use crate::geometry::{eigenstrain_jumps, interface_distance};
-use ppum::dataset::{Elasticity, StressState};
+use ppum::dataset::{Eigenstrain, Elasticity, StressState};
 use ppum::expression::Expression;
 use ppum::formula::FormulaJets;
 use ppum::vec2::{Vec2, vec2};
@@ -17,12 +17,18 @@ pub(super) struct Slope<'a> {
 }
 
 impl<'a> Slope<'a> {
-    /// The variation in a disc. None if the material or a given strain jumps there: the energy that
+    /// The variation in a disc. None if the material, a given strain or the coefficient of
+    /// expansion by a temperature jumps there: the energy that
     /// crosses an interface is no integral over the disc. None if formulas are too large to be
     /// differentiated.
-    pub(super) fn new(body: &'a Elasticity, center: Vec2, radius: f64) -> Option<Self> {
+    pub(super) fn new(
+        body: &'a Elasticity,
+        expansion: Option<&Expression>,
+        center: Vec2,
+        radius: f64,
+    ) -> Option<Self> {
         if interface_distance(body, center, radius).is_some()
-            || eigenstrain_jumps(body, center, radius)
+            || eigenstrain_jumps(body, expansion, center, radius)
         {
             return None;
         }
@@ -32,7 +38,9 @@ impl<'a> Slope<'a> {
         };
         let eigenstrain = match body.eigenstrain.as_deref() {
             None => None,
-            Some([xx, yy, xy, zz]) => Some([jets(xx)?, jets(yy)?, jets(xy)?, jets(zz)?]),
+            Some(Eigenstrain { strains: [xx, yy, xy, zz], .. }) => {
+                Some([jets(xx)?, jets(yy)?, jets(xy)?, jets(zz)?])
+            }
         };
         Some(Self { body, constants: [jets(&body.young)?, jets(&body.poisson)?], eigenstrain })
     }
@@ -59,7 +67,7 @@ impl<'a> Slope<'a> {
             StressState::PlaneStress => 0.0,
             StressState::PlaneStrain => {
                 let slope = along(self.constants[1].as_ref(), at, axis);
-                self.body.poisson.value(at) * zz + slope * given[3].value(at)
+                self.body.poisson.value(at) * zz + slope * given.strains[3].value(at)
             }
         };
         Some([vec2(xx + through, xy), vec2(xy, yy + through)])

@@ -21,10 +21,15 @@ use super::report::Report;
 use super::scopes;
 use super::words::{EquationKind, Words, words};
 
+/// Longest problem file, in bytes: a hundred thousand cracks take some.
+pub const MAX_LENGTH: u64 = 16 << 20;
+
 /// A text that is read, and what was found in it that decides how the rest is read.
 pub(super) struct Document<'a> {
     pub(super) report: Report<'a>,
     pub(super) source: FileSource<'a>,
+    /// True of the problem of a temperature.
+    pub(super) is_heat: bool,
     /// None if the file does not say it as it should.
     pub(super) equation: Cell<Option<EquationKind>>,
     /// Tables of its formulas.
@@ -48,6 +53,7 @@ impl<'a> Document<'a> {
         Self {
             report: Report::new(file, text),
             source,
+            is_heat: false,
             equation: Cell::new(None),
             tables: OnceCell::new(),
             scope: OnceCell::new(),

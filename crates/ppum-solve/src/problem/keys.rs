@@ -374,8 +374,11 @@ tables! {
     }
 
     static TEMPERATURE = "[temperature]", "" {
-        value: Value, required("\"100*y\"") =>
+        value: Value, example("\"100*y\"") =>
             "The change of temperature ΔT since there was no stress; it strains the body by α ΔT in all directions.";
+        problem: Text("text"), example("\"heat.toml\"") =>
+            "Instead: the problem file of Poisson's equation whose solution ΔT is, on the same body with the same "
+            "cracks; or its text, of several lines.";
     }
 
     static STRAIN = "[strain]", "" {

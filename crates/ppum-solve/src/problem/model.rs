@@ -32,6 +32,8 @@ pub struct Problem {
     pub domain: Domain,
     /// The equation with its material.
     pub equation: Equation,
+    /// The temperature that strains the body, if another problem gives it.
+    pub temperature: Option<SolvedTemperature>,
     /// The cracks.
     pub cracks: Vec<Crack>,
     /// Of cracks whose faces may touch, by their numbers, Coulomb's coefficient μ ≥ 0 of friction.
@@ -71,6 +73,19 @@ pub struct Problem {
     pub files: Vec<PathBuf>,
 }
 
+/// A change of temperature T, the solution of Poisson's equation on the same body with the same
+/// cracks, which strains the body by α T in all directions.
+///
+/// Of its problem conditions, sources, conductivity and functions count. It is solved on the cells
+/// of the elastic problem with the polynomials of that, anew for each of its steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolvedTemperature {
+    /// The problem of the temperature.
+    pub problem: Box<Problem>,
+    /// The coefficient α of thermal expansion.
+    pub expansion: Expression,
+}
+
 impl Problem {
     /// True if tips have Williams' series, and corners theirs: where the material varies they have
     /// other ones.
@@ -106,6 +121,7 @@ impl Problem {
             domain,
             source: vec![Expression::number(0.0); equation.components()],
             equation,
+            temperature: None,
             cracks: Vec::new(),
             contacts: BTreeMap::new(),
             pieces: Vec::new(),

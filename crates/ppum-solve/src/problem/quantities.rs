@@ -12,11 +12,12 @@ use super::model::Problem;
 
 /// Name of the field of an equation, and names of its components.
 pub(crate) fn field_names(equation: &Equation) -> (&'static str, &'static [&'static str]) {
-    match equation {
-        Equation::Elasticity(_) => ("displacement", &["ux", "uy"]),
-        Equation::Poisson { .. } => ("potential", &["u"]),
-        Equation::None => ("field", &[]),
-    }
+    let name = match equation {
+        Equation::Elasticity(_) => "displacement",
+        Equation::Poisson { .. } => "potential",
+        Equation::None => "field",
+    };
+    (name, equation.component_names())
 }
 
 fn components(equation: &Equation) -> Vec<String> {
@@ -46,7 +47,8 @@ pub(super) fn check_quantities(problem: &Problem) -> Vec<MistakeAt> {
 
 /// The key of a quantity that is wrong, and why.
 fn broken(problem: &Problem, index: usize) -> Option<(&'static str, String)> {
-    let Problem { equation, tables, quantities, .. } = problem;
+    let (Problem { tables, quantities, .. }, equation) = (problem, problem.dataset_equation());
+    let equation = &*equation;
     let (earlier, quantity) = (&quantities[..index], &quantities[index]);
     if let Some(message) = bad_name(&quantity.name, equation, earlier) {
         return Some(("name", message));

@@ -45,7 +45,7 @@ impl Assembled {
         let field = Field::new(dataset, 0)?;
         let symmetry = |tip| problem.symmetry_at(tip);
         let tips = sensitivities(dataset, &field, space, &symmetry);
-        let law = &Law::new(&problem.equation);
+        let law = &space.law();
         let basis = stable_basis(discretised, law, watcher)?;
         clock.lap(Phase::Basis);
         let assembly = Assembly { problem, space, basis: &basis, law };

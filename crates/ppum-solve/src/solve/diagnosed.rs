@@ -125,7 +125,14 @@ impl<'p> Diagnosed<'p> {
         step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
         step.warnings = diagnosis.warnings;
         step.history = report.records();
-        Ok(dataset)
+        match space.temperature() {
+            Some(temperature) => {
+                let dataset = temperature.joined(dataset, &problem.quantities);
+                dataset.check()?;
+                Ok(dataset)
+            }
+            None => Ok(dataset),
+        }
     }
 }
 

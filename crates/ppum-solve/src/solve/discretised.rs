@@ -38,7 +38,9 @@ impl<'p> Discretised<'p> {
         let dataset = dataset(problem, step.clone());
         dataset.check()?;
         stage.advance(0)?;
-        let space = Space::of_problem(problem, step)?;
+        let heat = problem.heat().map(|heat| discretise_on(&heat, &mesh, stage));
+        let heat = heat.transpose().map_err(|error| SolveError::of_heat(error.into()))?;
+        let space = Space::of_problem(problem, step, heat.as_ref())?;
         let bounds = &problem.domain.bounds;
         if let Some(field) =
             force_fields(problem).iter().find(|field| !field.fits(space.partition(), bounds))
@@ -73,7 +75,10 @@ fn dataset(problem: &Problem, step: Step) -> Dataset {
     dataset.title.clone_from(&problem.title);
     dataset.program = concat!("ppum ", env!("CARGO_PKG_VERSION")).into();
     dataset.problem.clone_from(&problem.text);
-    dataset.quantities.clone_from(&problem.quantities);
+    // those of a temperature have no meaning before it is known
+    if problem.temperature.is_none() {
+        dataset.quantities.clone_from(&problem.quantities);
+    }
     dataset.tables.clone_from(&problem.tables);
     dataset
 }

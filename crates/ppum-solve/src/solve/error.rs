@@ -44,6 +44,9 @@ pub enum SolveError {
     /// A point that is held would take a force.
     #[error(transparent)]
     Support(#[from] SupportError),
+    /// The temperature cannot be found.
+    #[error("the temperature: {0}")]
+    Temperature(Box<SolveError>),
     /// The factorisation failed at a patch.
     #[error("{around}: {error}")]
     Singular {
@@ -109,6 +112,14 @@ impl SolveError {
         match halt {
             Halt::Cancelled(cancelled) => cancelled.into(),
             Halt::NotFinite(around) => Self::Data(around),
+        }
+    }
+
+    /// The error of the problem of a temperature.
+    pub(super) fn of_heat(error: Self) -> Self {
+        match error {
+            Self::Cancelled(cancelled) => cancelled.into(),
+            error => Self::Temperature(Box::new(error)),
         }
     }
 

@@ -96,7 +96,26 @@ impl<'p> Plan<'p> {
     /// # Errors
     /// Loads without restraint, data that are not finite; cancelled.
     pub fn check(&self, watcher: &dyn Watcher) -> Result<(), SolveError> {
+        if let Some(heat) = self.problem().heat() {
+            self.of_heat(&heat, watcher)?.check(watcher).map_err(SolveError::of_heat)?;
+        }
         self.discretised.loaded(watcher).map(drop)
+    }
+}
+
+impl Plan<'_> {
+    /// The plan of the problem of a temperature on the cells of this one.
+    ///
+    /// # Errors
+    /// See [`SolveError`].
+    pub(super) fn of_heat<'h>(
+        &self,
+        heat: &'h Problem,
+        watcher: &dyn Watcher,
+    ) -> Result<Plan<'h>, SolveError> {
+        let stage = Stage::uncounted(watcher, Phase::Cover)?;
+        let mesh = self.discretised.mesh.clone();
+        Plan::on(heat, mesh, self.memory, (Clock::new(), &stage)).map_err(SolveError::of_heat)
     }
 }
 

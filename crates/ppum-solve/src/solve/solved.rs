@@ -5,6 +5,7 @@ use super::assembled::Assembled;
 use super::discretised::Discretised;
 use super::plan::Plan;
 use super::unknowns::Unknowns;
+use crate::heat::Temperature;
 use crate::intensity::{TipOutcome, intensities_under};
 use crate::report::{ASSEMBLY_SECONDS, SolverReport, Unresolved};
 use crate::space::Space;
@@ -39,6 +40,9 @@ impl<'p> Solved<'p> {
     /// # Errors
     /// See [`SolveError`].
     pub(super) fn new(mut plan: Plan<'p>, watcher: &dyn Watcher) -> Result<Self, SolveError> {
+        if let Some(temperature) = temperature(&plan, watcher)? {
+            plan.discretised.space.heat(temperature);
+        }
         let Plan { discretised, estimate, clock, .. } = &mut plan;
         let mut assembled = Assembled::new(discretised, clock, watcher)?;
         let unknowns = Unknowns::new(discretised, &mut assembled, estimate, watcher)?;
@@ -79,6 +83,16 @@ impl<'p> Solved<'p> {
     pub(super) fn factors(&self) -> Vec<TipIntensity> {
         self.tips.iter().filter_map(|outcome| outcome.factors.clone()).collect()
     }
+}
+
+/// The temperature that strains the body, if another problem gives it: solved on the same cells.
+fn temperature(plan: &Plan<'_>, watcher: &dyn Watcher) -> Result<Option<Temperature>, SolveError> {
+    let problem = plan.problem();
+    let Some(heat) = problem.heat() else { return Ok(None) };
+    let solved =
+        Solved::new(plan.of_heat(&heat, watcher)?, watcher).map_err(SolveError::of_heat)?;
+    let (heat, equation) = (solved.plan.discretised.dataset, problem.dataset_equation());
+    Ok(Some(Temperature::new(heat, equation.into_owned())?))
 }
 
 /// The report of a linear solver, with the numbers of the system.

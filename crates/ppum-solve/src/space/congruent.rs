@@ -146,6 +146,7 @@ impl<'d> Space<'d> {
             held: Default::default(),
             known: Default::default(),
             equation: self.equation,
+            temperature: OnceLock::new(),
             smoothness: Default::default(),
             orders: self.orders,
             rules: Vec::new(),

@@ -5,6 +5,8 @@ use super::held::{HeldLine, held_lines};
 use super::inspect;
 use super::known::{KnownFunction, KnownFunctions, known_functions};
 use super::williams::{self, SeriesFunctions};
+use crate::heat::{Temperature, joined};
+use crate::law::Law;
 use crate::problem::Problem;
 use crate::quadrature::{Orders, Quadrature, Rule};
 use crate::smoothness::Smoothness;
@@ -58,6 +60,8 @@ pub struct Space<'d> {
     /// Functions of patches whose coefficients are known: they have no unknowns.
     pub(super) known: KnownFunctions,
     pub(super) equation: &'d Equation,
+    /// The temperature that strains the body, once it is known.
+    pub(super) temperature: OnceLock<Temperature>,
     pub(super) smoothness: Smoothness,
     pub(super) orders: Orders,
     /// Of each cell, its rules once they are made; none of cells that are alike.
@@ -80,17 +84,22 @@ impl<'d> Space<'d> {
         equation: &'d Equation,
         tables: &[Arc<Table>],
     ) -> Result<Self, FunctionError> {
-        Self::on(Cow::Borrowed(step), domain, equation, tables)
+        Self::on(Cow::Borrowed(step), None, domain, (equation, tables))
     }
 
     /// The walks over a step of a problem, with formulas in place of kernels where the problem
-    /// wants that.
+    /// wants that. Where a temperature strains the body, quadrature resolves the functions of its
+    /// step, `heat`, too.
     ///
     /// # Errors
-    /// A function of the step that does not compile.
-    pub(crate) fn of_problem(problem: &'d Problem, step: Step) -> Result<Self, FunctionError> {
+    /// A function of a step that does not compile.
+    pub(crate) fn of_problem(
+        problem: &'d Problem,
+        step: Step,
+        heat: Option<&Step>,
+    ) -> Result<Self, FunctionError> {
         let Problem { domain, equation, tables, .. } = problem;
-        let mut space = Self::on(Cow::Owned(step), domain, equation, tables)?;
+        let mut space = Self::on(Cow::Owned(step), heat, domain, (equation, tables))?;
         (space.series, space.in_series) = williams::series(problem, &space.step);
         space.held = held_lines(problem, space.partition());
         let series = |patch| space.series(patch).to_vec();
@@ -104,13 +113,16 @@ impl<'d> Space<'d> {
 
     fn on(
         step: Cow<'d, Step>,
+        heat: Option<&Step>,
         domain: &'d Domain,
-        equation: &'d Equation,
-        tables: &[Arc<Table>],
+        (equation, tables): (&'d Equation, &[Arc<Table>]),
     ) -> Result<Self, FunctionError> {
         let (partition, data) = (step.partition.boxes(), &step.fields[0]);
         let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
-        let smoothness = Smoothness::new(&step, data, equation, tables)?;
+        let smoothness = match heat.map(|heat| joined(&step, heat)) {
+            Some(both) => Smoothness::new(&both, &both.fields[0], equation, tables)?,
+            None => Smoothness::new(&step, data, equation, tables)?,
+        };
         Ok(Self {
             holes: &domain.holes,
             functions: FunctionTable::new(&step.functions, step.cracks.len(), tables)?,
@@ -122,12 +134,28 @@ impl<'d> Space<'d> {
             held: BTreeMap::new(),
             known: KnownFunctions::new(),
             equation,
+            temperature: OnceLock::new(),
             orders: orders(partition, smoothness.degree()),
             rules: vec![OnceLock::new(); partition.len()],
             smoothness,
             alike: OnceLock::new(),
             step,
         })
+    }
+
+    /// Takes a temperature that strains the body; the first one stays.
+    pub(crate) fn heat(&self, temperature: Temperature) {
+        self.temperature.get_or_init(|| temperature);
+    }
+
+    /// The temperature that strains the body, if one does and is known.
+    pub(crate) fn temperature(&self) -> Option<&Temperature> {
+        self.temperature.get()
+    }
+
+    /// The law of the equation in a body that the temperature strains.
+    pub(crate) fn law(&self) -> Law<'_> {
+        Law::new(self.equation).heated(self.temperature().map(Temperature::field))
     }
 
     /// The functions of a patch whose coefficients are known.

@@ -10,23 +10,23 @@ use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 use std::path::Path;
 
-const STATES: [&str; 2] = ["plane-stress", "plane-strain"];
+pub(super) const STATES: [&str; 2] = ["plane-stress", "plane-strain"];
 
 /// A body [−1, 1]² with a crack, its material, and the rest of a problem.
 #[derive(Clone)]
-struct Body {
-    young: f64,
-    poisson: f64,
-    alpha: f64,
-    state: &'static str,
-    crack: [Vec2; 2],
+pub(super) struct Body {
+    pub(super) young: f64,
+    pub(super) poisson: f64,
+    pub(super) alpha: f64,
+    pub(super) state: &'static str,
+    pub(super) crack: [Vec2; 2],
     /// Lengths are this many times as long.
-    scale: f64,
-    order: usize,
+    pub(super) scale: f64,
+    pub(super) order: usize,
 }
 
 impl Body {
-    fn random(random: &mut Random, state: &'static str) -> Self {
+    pub(super) fn random(random: &mut Random, state: &'static str) -> Self {
         let angle = random.between(-1.0, 1.0);
         let (middle, way) = (vec2(random.between(-0.2, 0.2), 0.1), vec2(angle.cos(), angle.sin()));
         let half = random.between(0.25, 0.4);
@@ -42,7 +42,7 @@ impl Body {
     }
 
     /// λ + 2μ, λ, and what a temperature of one takes away from σ_xx and σ_yy.
-    fn moduli(&self) -> [f64; 3] {
+    pub(super) fn moduli(&self) -> [f64; 3] {
         let (e, nu) = (self.young, self.poisson);
         let mu = e / (2.0 * (1.0 + nu));
         let is_stress = self.state == "plane-stress";
@@ -52,7 +52,7 @@ impl Body {
         [lambda + 2.0 * mu, lambda, 2.0 * (lambda + mu) * alpha]
     }
 
-    fn problem(&self, rest: &str) -> Problem {
+    pub(super) fn problem(&self, rest: &str) -> Problem {
         parsed(&self.text(rest))
     }
 
@@ -67,16 +67,16 @@ impl Body {
         )
     }
 
-    fn solved(&self, rest: &str) -> Dataset {
+    pub(super) fn solved(&self, rest: &str) -> Dataset {
         solved(&self.problem(rest))
     }
 }
 
-fn temperature(text: &str) -> String {
+pub(super) fn temperature(text: &str) -> String {
     format!("[temperature]\nvalue = \"{text}\"\n")
 }
 
-const EDGES: [&str; 4] = ["left", "right", "bottom", "top"];
+pub(super) const EDGES: [&str; 4] = ["left", "right", "bottom", "top"];
 
 /// All edges held where a formula says.
 fn held(ux: &str) -> String {
@@ -85,7 +85,7 @@ fn held(ux: &str) -> String {
 }
 
 /// K_I, K_II, T and √(J E′) of the tips.
-fn factors(dataset: &Dataset, body: &Body) -> Vec<[f64; 4]> {
+pub(super) fn factors(dataset: &Dataset, body: &Body) -> Vec<[f64; 4]> {
     let nu = body.poisson;
     let modulus = body.young / if body.state == "plane-stress" { 1.0 } else { 1.0 - nu * nu };
     let of_tip = |tip: &TipIntensity| {
@@ -98,7 +98,7 @@ fn factors(dataset: &Dataset, body: &Body) -> Vec<[f64; 4]> {
 }
 
 /// The largest differences of K, of T and of √J.
-fn difference(a: &[[f64; 4]], b: &[[f64; 4]]) -> [f64; 3] {
+pub(super) fn difference(a: &[[f64; 4]], b: &[[f64; 4]]) -> [f64; 3] {
     let largest = |from: usize, to: usize| {
         let pairs = a.iter().zip(b).flat_map(|(a, b)| a[from..to].iter().zip(&b[from..to]));
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
@@ -106,11 +106,11 @@ fn difference(a: &[[f64; 4]], b: &[[f64; 4]]) -> [f64; 3] {
     [largest(0, 2), largest(2, 3), largest(3, 4)]
 }
 
-fn size(factors: &[[f64; 4]]) -> f64 {
+pub(super) fn size(factors: &[[f64; 4]]) -> f64 {
     factors.iter().map(|[k1, k2, ..]| k1.hypot(*k2)).fold(0.0, f64::max)
 }
 
-fn check(what: &str, found: &[f64], bounds: &[f64]) {
+pub(super) fn check(what: &str, found: &[f64], bounds: &[f64]) {
     println!("{what}: {found:?}, below {bounds:?}");
     assert!(found.iter().zip(bounds).all(|(found, bound)| found < bound), "{what}: {found:?}");
 }
@@ -230,7 +230,7 @@ fn superposition_of_the_uncracked_body() {
 }
 
 /// A cracked body under a temperature that no closed form is known of, and under a load.
-const WAVES: &str = "sin(2*x + y) + 0.5*cos(3*y - x)";
+pub(super) const WAVES: &str = "sin(2*x + y) + 0.5*cos(3*y - x)";
 
 /// Loads and temperatures add up; a body n times as large has √n times K; that of a crack whose
 /// points are listed backwards is the same, and so is that of a body turned by a right angle.

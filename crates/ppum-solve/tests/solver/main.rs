@@ -17,6 +17,7 @@ mod goal;
 mod graded;
 mod growth;
 mod halves;
+mod heat;
 mod holes;
 mod incompressible;
 mod intensity;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ppum::crack::{Crack, CrackEnd};
-use ppum::dataset::{Dataset, Material, StressState};
+use ppum::dataset::{Dataset, Eigenstrain, Material, StressState};
 use ppum::domain::Hole;
 use ppum::equation::{Elasticity, Equation};
 use ppum::expression::Expression;
@@ -172,6 +172,19 @@ const ELASTIC: &str = "von-mises; ux; duy_dx; duy_dy; magnitude; gradient; energ
     divergence; curl; exx; eyy; exy; sxx; syy; sxy; szz; tresca; s1; s2; direction; hydrostatic; phi:23; \
     sqrt(sxx^2 + 3*sxy^2) - 2*ux; if(x > 0.7, s1, s2)";
 
+/// Those of a body that a temperature strains.
+const HEATED: [&str; 9] = [
+    "von-mises",
+    "temperature",
+    "sxx",
+    "szz",
+    "energy",
+    "direction",
+    "magnitude",
+    "gradient",
+    "s1 - elastic_xx",
+];
+
 /// Equations, materials, holes, and quantities of all kinds.
 #[must_use]
 pub fn equations() -> Vec<Case> {
@@ -185,6 +198,19 @@ pub fn equations() -> Vec<Case> {
     });
     let stress = Material { young: 1.0, poisson: 0.35, state: StressState::PlaneStress };
     let one = Recipe { components: 1, ..coarse.clone() };
+    let three = Recipe { components: 3, ..coarse.clone() };
+    let heated = |state| {
+        let strains = ["0.1*x", "-0.2", "0.3*y", "0.25"].map(expression);
+        let expansion = Some(expression("0.5 + 0.25*y"));
+        let eigenstrain = Some(Box::new(Eigenstrain { strains, expansion }));
+        let (young, poisson) = (1.5.into(), 0.3.into());
+        let equation = Equation::Elasticity(Elasticity { young, poisson, state, eigenstrain });
+        move |d: &mut Dataset| {
+            let names = equation.component_names().iter().map(|&name| name.to_owned());
+            d.steps[0].fields[0].components = names.collect();
+            d.equation = equation.clone();
+        }
+    };
     let conductivity = expression("1 + 0.5*sin(3*x)");
     vec![
         Case::new("all quantities", &coarse, &elastic).with_windows(vec![whole([89, 67])]),
@@ -194,6 +220,10 @@ pub fn equations() -> Vec<Case> {
             .with(|d| d.equation = regions),
         Case::new("Poisson", &one, &["energy", "u"])
             .with(|d| d.equation = Equation::Poisson { conductivity }),
+        Case::new("temperature in plane strain", &three, &HEATED)
+            .with(heated(StressState::PlaneStrain)),
+        Case::new("temperature in plane stress", &three, &HEATED)
+            .with(heated(StressState::PlaneStress)),
         Case::new("holes", &coarse, &["von-mises", "ux"]).with(|d| d.domain.holes = holes()),
         Case::new("outline", &coarse, &["von-mises", "ux"]).with(|d| d.domain.holes = outlined()),
     ]

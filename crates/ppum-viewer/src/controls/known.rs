@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use ppum::equation::TEMPERATURE;
 use ppum::field::Field;
 use ppum::formula::function_names;
 use ppum::quantity::{Quantity, Vocabulary, names};
@@ -103,6 +104,7 @@ fn meaning_of_phi() -> String {
 /// Symbol and meaning.
 fn about(quantity: &Quantity, components: &[String]) -> String {
     let meaning = match quantity {
+        Quantity::Component(2) if components[2] == TEMPERATURE => "temperature",
         Quantity::Component(_) if components.len() > 1 => "displacement",
         Quantity::Component(_) => "potential",
         Quantity::Magnitude => "size of the field",

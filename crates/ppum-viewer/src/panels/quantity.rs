@@ -12,6 +12,7 @@ use crate::frames::Fault;
 use crate::shapes::plain;
 use crate::widgets::chooser::named;
 use crate::widgets::editor::{EditedText, TextDiagnostic};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Shows it.
@@ -86,5 +87,5 @@ fn formula_of(name: &str, field: Option<&OwnedField>) -> Option<String> {
     let is_name = matches!(shown(name, field), Ok(Shown::Quantity(quantity))
         if !matches!(&quantity, Quantity::Formula(formula) if formula.label() != name));
     let vocabulary = ppum::quantity::Vocabulary::of(field);
-    vocabulary.definition(name).filter(|_| is_name).map(str::to_owned)
+    vocabulary.definition(name).filter(|_| is_name).map(Cow::into_owned)
 }

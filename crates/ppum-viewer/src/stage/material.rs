@@ -74,11 +74,11 @@ struct Moved {
 }
 
 fn map(local: &mut LocalField<'_>, offset: Vec2, factor: f64) -> Option<Moved> {
-    let mut jets = [Jet::constant(0.0); 2];
-    if local.field.components() != 2 || !local.evaluate::<1>(offset, Side::Above, &mut jets) {
+    let mut jets = [Jet::constant(0.0); 3];
+    if !local.field.is_displacement() || !local.evaluate::<1>(offset, Side::Above, &mut jets) {
         return None;
     }
-    let [u, v] = jets;
+    let [u, v, _] = jets;
     let shift = vec2(u.v, v.v) * factor;
     let columns = [vec2(1.0 + factor * u.x, factor * v.x), vec2(factor * u.y, 1.0 + factor * v.y)];
     shift.is_finite().then_some(Moved { shift, columns })

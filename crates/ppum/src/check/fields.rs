@@ -51,6 +51,10 @@ fn check_components(field: &FieldData, equation: &Equation) -> Checked {
     let is_unknown = field.name == "displacement" || field.name == "potential";
     if is_unknown && *equation != Equation::None {
         check_length("components", components, equation.components(), "those of the equation")?;
+        let names = equation.component_names();
+        require(equation.expansion().is_none() || field.components == names, "components", || {
+            format!("of a body with `expansion` they are {}", names.join(", "))
+        })?;
     }
     Ok(())
 }

@@ -21,7 +21,9 @@ use std::sync::Arc;
 
 use crate::crack::Crack;
 use crate::domain::Domain;
-pub use crate::equation::{EIGENSTRAINS, Elasticity, Equation, Material, StressState};
+pub use crate::equation::{
+    EIGENSTRAINS, EXPANSION, Eigenstrain, Elasticity, Equation, Material, StressState, TEMPERATURE,
+};
 use crate::function::{Function, FunctionKind};
 pub use crate::growth::{Advance, Fate, Growth, GrowthStop};
 use ppum_formula::Table;

@@ -138,6 +138,18 @@ impl<'d> Field<'d> {
         self.data.coefficients.len()
     }
 
+    /// True if the field is the displacement of an elastic body, maybe with its temperature.
+    #[must_use]
+    pub fn is_displacement(&self) -> bool {
+        self.equation.elastic().is_some() && self.components() == self.equation.components()
+    }
+
+    /// True if the field is a displacement with a temperature as its third component.
+    #[must_use]
+    pub fn has_temperature(&self) -> bool {
+        self.is_displacement() && self.equation.expansion().is_some()
+    }
+
     /// True if the exact solution is known.
     #[must_use]
     pub fn has_exact(&self) -> bool {

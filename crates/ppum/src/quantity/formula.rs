@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::reflection::Reflection;
 use super::sample::{Sample, Source};
 use crate::dataset::NamedQuantity;
-use crate::equation::{EIGENSTRAINS, Equation, Moduli, StressState};
+use crate::equation::{EIGENSTRAINS, EXPANSION, Equation, Moduli, StressState, TEMPERATURE};
 use crate::field::Field;
 use crate::library::{Definition, EIGENSTRAIN, ELASTICITY, POISSON, STRAINS};
 use ppum_formula::real::{Real, Scalar};
@@ -45,7 +45,8 @@ impl<'a> Vocabulary<'a> {
 ///
 /// It may use the position `x`, `y`; the components and derivatives of the field, `ux`, `dux_dx`,
 /// …; the constants of the equation, `young`, `poisson`, `mu`, `lambda`, `out_of_plane` (= σ_zz /
-/// (σ_xx + σ_yy)) or `conductivity`; the [given strains](crate::equation::EIGENSTRAINS); the
+/// (σ_xx + σ_yy)) or `conductivity`; the [given strains](crate::equation::EIGENSTRAINS), and
+/// `expansion` where the field has a temperature; the
 /// [library's](crate::library::ELASTICITY) quantities, `-` in names written as `_`; the dataset's
 /// named quantities and tables.
 #[derive(Clone, Debug)]
@@ -139,6 +140,13 @@ impl<'a> Vocabulary<'a> {
         known
     }
 
+    /// Number of the first components that are a vector, 2 or 0; the others are potentials.
+    pub(super) fn vector(&self) -> usize {
+        let is_heated = self.equation.expansion().is_some()
+            && self.components == self.equation.component_names();
+        if self.components.len() == 2 || is_heated { 2 } else { 0 }
+    }
+
     /// All names that formulas may use, but for those of the language.
     pub fn names(&self) -> impl Iterator<Item = String> {
         let inputs = self.inputs().into_iter().map(|(name, _)| name);
@@ -153,33 +161,48 @@ impl<'a> Vocabulary<'a> {
 
     /// The text behind the name of a quantity of the library or of the dataset, with `-` or `_`.
     #[must_use]
-    pub fn definition(&self, name: &str) -> Option<&'a str> {
+    pub fn definition(&self, name: &str) -> Option<Cow<'a, str>> {
         let name = name.replace('-', "_");
         self.definitions().find(|(known, _)| *known == name).map(|(_, text)| text)
     }
 
     /// The quantities of the library and of the dataset: names and texts.
-    fn definitions(&self) -> impl Iterator<Item = (String, &'a str)> {
-        let is_plane = matches!(self.components, [x, y] if x == "ux" && y == "uy");
+    fn definitions(&self) -> impl Iterator<Item = (String, Cow<'a, str>)> {
+        let is_solution = self.components == self.equation.component_names();
         let library: [&[Definition]; 2] = match self.equation {
-            Equation::Elasticity(body) if is_plane && body.eigenstrain.is_some() => {
+            _ if !is_solution => [&[], &[]],
+            Equation::Elasticity(body) if body.eigenstrain.is_some() => {
                 [&ELASTICITY[..STRAINS], &EIGENSTRAIN]
             }
-            Equation::Elasticity(_) if is_plane => [&ELASTICITY, &[]],
-            Equation::Poisson { .. } if self.components == ["u"] => [&POISSON, &[]],
-            _ => [&[], &[]],
+            Equation::Elasticity(_) => [&ELASTICITY, &[]],
+            Equation::Poisson { .. } => [&POISSON, &[]],
+            Equation::None => [&[], &[]],
         };
-        let state = self.equation.elastic().map(|body| body.state);
-        let has_effect =
-            move |name: &str| name != EIGENSTRAINS[3] || state != Some(StressState::PlaneStress);
-        let given = self
-            .equation
-            .eigenstrains()
-            .map(move |(name, e)| (name.to_owned(), if has_effect(name) { e.text() } else { "0" }));
         let library = library.into_iter().flatten();
-        let library = given.chain(library.map(|&(name, text)| (name.to_owned(), text)));
-        let named = self.named.iter().map(|q| (q.name.replace('-', "_"), q.text.as_str()));
-        library.chain(named)
+        let library = library.map(|&(name, text)| (name.to_owned(), text.into()));
+        let named = self.named.iter().map(|q| (q.name.replace('-', "_"), q.text.as_str().into()));
+        self.given(is_solution).chain(library).chain(named)
+    }
+
+    /// The coefficient of expansion and the given strains; those by a temperature are strains of
+    /// the solution alone, which has one.
+    fn given(&self, is_solution: bool) -> impl Iterator<Item = (String, Cow<'a, str>)> {
+        let expansion = self.equation.expansion().filter(|_| is_solution);
+        let state = self.equation.elastic().map(|body| body.state);
+        let text = move |name: &str, text: &'a str| -> Cow<'a, str> {
+            match expansion {
+                _ if name == EIGENSTRAINS[3] && state == Some(StressState::PlaneStress) => {
+                    "0".into()
+                }
+                Some(_) if name != EIGENSTRAINS[2] => {
+                    format!("{text} + {EXPANSION}*{TEMPERATURE}").into()
+                }
+                _ => text.into(),
+            }
+        };
+        let strains = self.equation.eigenstrains();
+        let strains = strains.map(move |(name, e)| (name.to_owned(), text(name, e.text())));
+        expansion.map(|e| (EXPANSION.to_owned(), e.text().into())).into_iter().chain(strains)
     }
 }
 
@@ -214,9 +237,8 @@ impl QuantityFormula {
         reflection: Reflection,
     ) -> Result<Self, QuantityFormulaError> {
         let inputs = vocabulary.inputs();
-        let texts = vocabulary.definitions().map(|(name, text)| (name, Cow::Borrowed(text)));
-        let mut texts: Vec<_> = texts.collect();
-        let reflected = reflected(reflection, &inputs, &mut texts);
+        let mut texts: Vec<_> = vocabulary.definitions().collect();
+        let reflected = reflected(reflection, &inputs, vocabulary.vector(), &mut texts);
         let names: Vec<_> = inputs
             .iter()
             .map(|(name, _)| name.as_str())
@@ -224,7 +246,8 @@ impl QuantityFormula {
             .collect();
         let (scope, n_inputs) = (Scope::new(&names)?.with_tables(vocabulary.tables)?, names.len());
         // given strains are known where the field is; all others are made of the reflected field
-        let given = vocabulary.equation.eigenstrains().count();
+        let is_given = |name: &str| name == EXPANSION || EIGENSTRAINS.contains(&name);
+        let given = texts.iter().take_while(|(name, _)| is_given(name)).count();
         texts.splice(given..given, reflected);
         let parse = |(_, text): &(String, Cow<'_, str>)| Formula::parse(text, &scope);
         let parsed = texts.iter().map(parse).collect::<Result<Vec<_>, FormulaError>>()?;
@@ -325,6 +348,7 @@ impl QuantityFormula {
 fn reflected<'a>(
     at: Reflection,
     inputs: &[(String, Input)],
+    vector: usize,
     texts: &mut [(String, Cow<'a, str>)],
 ) -> Vec<(String, Cow<'a, str>)> {
     if at == Reflection::NONE {
@@ -337,11 +361,10 @@ fn reflected<'a>(
             *text = format!("-({text}\n)").into();
         }
     }
-    let count = inputs.iter().filter(|(_, input)| matches!(input, Input::Value(_))).count();
     let text = |name: &str, input: Input| match input {
         Input::X => at.lines[0].map(|line| format!("({:?}) - {name}", 2.0 * line)),
         Input::Y => at.lines[1].map(|line| format!("({:?}) - {name}", 2.0 * line)),
-        input => input.reflected_sign(&at, count).filter(|s| *s < 0.0).map(|_| format!("-{name}")),
+        input => input.reflected_sign(&at, vector).filter(|s| *s < 0.0).map(|_| format!("-{name}")),
     };
     let changed = |(name, input): &(String, Input)| {
         text(name, *input).map(|text| (name.clone(), Cow::Owned(text)))
@@ -414,12 +437,12 @@ impl PartialEq for QuantityFormula {
 
 impl Input {
     /// The sign of an input of a formula; none of those that are as they were.
-    fn reflected_sign(self, at: &Reflection, count: usize) -> Option<f64> {
+    fn reflected_sign(self, at: &Reflection, vector: usize) -> Option<f64> {
         let [x, y] = at.axes();
         Some(match self {
-            Self::Value(c) => at.of_component(c, count),
-            Self::SlopeX(c) => at.of_component(c, count) * x,
-            Self::SlopeY(c) => at.of_component(c, count) * y,
+            Self::Value(c) => at.of_component(c, vector),
+            Self::SlopeX(c) => at.of_component(c, vector) * x,
+            Self::SlopeY(c) => at.of_component(c, vector) * y,
             _ => return None,
         })
     }

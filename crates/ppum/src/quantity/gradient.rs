@@ -233,8 +233,12 @@ impl Rule {
 
 /// A built-in quantity of strains as the formula of its text.
 fn text(quantity: &Quantity, field: &Field<'_>) -> Result<QuantityFormula, QuantityFormulaError> {
-    let names: &[&str] = if field.components() == 1 { &["u"] } else { &["ux", "uy"] };
-    let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
+    let names = match field.components() {
+        1 => &["u"][..],
+        3 if field.has_temperature() => field.equation.component_names(),
+        _ => &["ux", "uy"],
+    };
+    let names: Vec<String> = names.iter().map(|&name: &&str| name.to_owned()).collect();
     let vocabulary = Vocabulary { components: &names, named: &[], ..Vocabulary::of(field) };
     let text = match quantity {
         Quantity::EnergyDensity => "energy".to_owned(),

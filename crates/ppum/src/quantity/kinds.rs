@@ -7,7 +7,7 @@ use super::sample::{Sample, Source};
 use super::tensors::Strain;
 use crate::crack::Side;
 use crate::dataset::NamedQuantity;
-use crate::equation::{Equation, Moduli};
+use crate::equation::{Equation, Moduli, TEMPERATURE};
 use crate::field::{Field, LocalField};
 use crate::jet::Jet;
 use crate::text::hint;
@@ -144,7 +144,14 @@ pub fn names(equation: &Equation, components: &[String]) -> Vec<(String, Quantit
     }
     let solves = components.len() == equation.components();
     let elastic: &[_] = if solves && equation.elastic().is_some() { &ELASTIC } else { &[] };
-    let general = GENERAL.iter().filter(|(_, q)| solves || *q != Q::EnergyDensity);
+    // a temperature is no part of a size: of a field with one, sizes are formulas of the library
+    let has_sizes = !solves || equation.expansion().is_none();
+    let has = |quantity: &Quantity| match quantity {
+        Q::EnergyDensity => solves,
+        Q::Magnitude | Q::GradientNorm => has_sizes,
+        _ => true,
+    };
+    let general = GENERAL.iter().filter(|(_, quantity)| has(quantity));
     all.extend(general.chain(elastic).map(|(name, q)| ((*name).to_owned(), q.clone())));
     all
 }
@@ -155,12 +162,14 @@ pub fn names(equation: &Equation, components: &[String]) -> Vec<(String, Quantit
 pub fn available(field: &Field<'_>) -> Vec<String> {
     let all = names(field.equation, &field.data.components);
     let usable = all.into_iter().filter(|(_, quantity)| quantity.check(field).is_ok());
+    let usable = usable.map(|(name, _)| name);
+    let sizes = ["magnitude", "gradient"].into_iter().filter(|_| field.has_temperature());
     let named = field
         .quantities
         .iter()
         .map(|quantity| quantity.name.clone())
         .filter(|name| Quantity::parse(name, field).is_ok());
-    usable.map(|(name, _)| name).chain(named).chain(["phi:N".into()]).collect()
+    usable.chain(sizes.map(str::to_owned)).chain(named).chain(["phi:N".into()]).collect()
 }
 
 impl QuantityError {
@@ -250,6 +259,7 @@ impl Quantity {
                 square * square.lit(0.5) * at.moduli.conductivity
             }
             _ if u.len() < 2 => u[0].v.lit(f64::NAN),
+            _ if u.len() > 2 => self.of_strain(&at.moduli.heated(u[2].v), &Strain::new(u)),
             _ => self.of_strain(&at.moduli, &Strain::new(u)),
         };
         at.apart(R::select(value.ge(value), value, value.lit(f64::INFINITY)))
@@ -338,6 +348,7 @@ impl Quantity {
     pub fn symbol(&self, components: &[String]) -> String {
         let component = |c: u8| match components {
             [only] => only.clone(),
+            [.., last] if c == 2 && last == TEMPERATURE => "T".into(),
             _ => format!("u_{{{}}}", ["x", "y", "z"].get(c as usize).unwrap_or(&"?")),
         };
         let pair =

@@ -46,6 +46,8 @@ impl MaterialGradient {
             out_of_plane: zero,
             conductivity: zero,
             eigenstrain: [zero; 4],
+            expansion: zero,
+            expansion_out: zero,
         };
         let Some(law) = &self.law else { return Moduli { conductivity: of(0), ..none } };
         let (young, poisson) = (of(0), of(1));

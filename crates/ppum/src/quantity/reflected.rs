@@ -40,7 +40,8 @@ impl Quantity {
         field: &Field<'_>,
     ) -> Result<Reflected, QuantityError> {
         use Quantity as Q;
-        let ([x, y], sign, count) = (at.axes(), at.sign(), field.components());
+        let ([x, y], sign) = (at.axes(), at.sign());
+        let vector = Vocabulary::of(field).vector();
         let mixed = |a: Axis, b: Axis| if a == b { sign } else { sign * x * y };
         let sign = match self {
             Q::Formula(formula) => {
@@ -52,9 +53,9 @@ impl Quantity {
             Q::PrincipalDirection => {
                 return Ok(Reflected { quantity: self.clone(), change: at.direction() });
             }
-            Q::Component(c) => at.of_component(usize::from(*c), count),
-            Q::Derivative(c, Axis::X) => at.of_component(usize::from(*c), count) * x,
-            Q::Derivative(c, Axis::Y) => at.of_component(usize::from(*c), count) * y,
+            Q::Component(c) => at.of_component(usize::from(*c), vector),
+            Q::Derivative(c, Axis::X) => at.of_component(usize::from(*c), vector) * x,
+            Q::Derivative(c, Axis::Y) => at.of_component(usize::from(*c), vector) * y,
             Q::Curl => sign * x * y,
             Q::Strain(a, b) | Q::Stress(a, b) => mixed(*a, *b),
             Q::Divergence | Q::StressOut | Q::Principal1 | Q::Principal2 | Q::Hydrostatic => sign,
@@ -76,7 +77,7 @@ mod tests {
 
     use super::*;
     use crate::dataset::{Dataset, NamedQuantity};
-    use crate::equation::{Elasticity, Equation, StressState};
+    use crate::equation::{Eigenstrain, Elasticity, Equation, StressState};
     use crate::expression::Expression;
     use crate::jet::Jet;
     use crate::quantity::{Sample, Source, available};
@@ -96,27 +97,32 @@ mod tests {
     }
 
     /// The equation of the reflected body: its constants and given strains at x are those at Sx.
-    fn elastic(has_strains: bool, at: &Reflection) -> Equation {
+    fn elastic(has_strains: bool, is_heated: bool, at: &Reflection) -> Equation {
         let ([x, y], sign) = (at.axes(), at.sign());
         let texts = [("0.01*X", 1.0), ("0.02*Y - 0.1", 1.0), ("0.03 + X*Y", x * y), ("X", 1.0)];
-        let given = texts.map(|(text, s)| expression(text, at, s * sign));
+        let strains = texts.map(|(text, s)| expression(text, at, s * sign));
+        let expansion = is_heated.then(|| expression("0.4 + 0.1*X", at, 1.0));
         Equation::Elasticity(Elasticity {
             young: expression("1.7 + 0.2*X", at, 1.0),
             poisson: expression("0.3 - 0.1*Y", at, 1.0),
             state: StressState::PlaneStrain,
-            eigenstrain: has_strains.then(|| Box::new(given)),
+            eigenstrain: has_strains.then(|| Box::new(Eigenstrain { strains, expansion })),
         })
     }
 
     fn dataset(equation: Equation, components: usize) -> Dataset {
         let mut dataset = Recipe { components, ..Recipe::random(3) }.dataset();
         dataset.equation = equation;
+        if components == 3 {
+            dataset.steps[0].fields[0].components =
+                ["ux", "uy", "temperature"].map(String::from).into();
+        }
         let named = |name: &str, text: &str| NamedQuantity {
             name: name.to_owned(),
             text: text.to_owned(),
             unit: String::new(),
         };
-        let first = if components == 2 { "ux*x - duy_dx" } else { "u*x - du_dx" };
+        let first = if components > 1 { "ux*x - duy_dx" } else { "u*x - du_dx" };
         dataset.quantities = vec![named("mine", first), named("both", "mine*y + 3*mine^2")];
         dataset
     }
@@ -133,7 +139,7 @@ mod tests {
     fn continued(at: &Reflection, jets: &[Jet<f64>]) -> Vec<Jet<f64>> {
         let ([x, y], sign) = (at.axes(), at.sign());
         let of = |(c, u): (usize, &Jet<f64>)| {
-            let s = if jets.len() == 2 { sign * [x, y][c] } else { sign };
+            let s = if jets.len() > 1 && c < 2 { sign * [x, y][c] } else { sign };
             Jet { v: s * u.v, x: s * x * u.x, y: s * y * u.y, ..Jet::constant(0.0) }
         };
         jets.iter().enumerate().map(of).collect()
@@ -158,15 +164,15 @@ mod tests {
         let mut random = Random(0x3b11_70c5_9e4d_2a86);
         let elastic_texts =
             ["von_mises + x*sxy*y", "s1 - 2*s2*x", "exx*x^2 + curl", "max(ux, y) # of x", "mine*x"];
-        for case in 0..3 {
+        for (case, count) in [2, 2, 1, 3].into_iter().enumerate() {
             let equation = |at: &Reflection| match case {
                 2 => Equation::poisson(2.5),
-                _ => elastic(case == 1, at),
+                _ => elastic(case > 0, case == 3, at),
             };
-            let count = if case == 2 { 1 } else { 2 };
             let more: &[&str] = match case {
                 0 => &elastic_texts,
                 1 => &["eigenstrain_xy*x + sxy", "sxx - y*tresca + both", "elastic_xy*ux"],
+                3 => &["temperature*x + sxx", "expansion*temperature - exx", "dtemperature_dx*uy"],
                 _ => &["u*x + du_dy*y", "energy*x", "both - mine*y"],
             };
             let body = dataset(equation(&Reflection::NONE), count);

@@ -95,9 +95,10 @@ impl Reflection {
         }
     }
 
-    /// The sign of a component of a field: two are those of a vector, others are potentials.
-    pub(super) fn of_component(&self, component: usize, count: usize) -> f64 {
-        let axis = if count == 2 { self.axes()[component] } else { 1.0 };
+    /// The sign of a component of a field whose first so many, two or none, are a vector; the
+    /// others are potentials.
+    pub(super) fn of_component(&self, component: usize, vector: usize) -> f64 {
+        let axis = if component < vector { self.axes()[component] } else { 1.0 };
         self.sign() * axis
     }
 }

@@ -78,7 +78,8 @@ fn compare(equation: &Equation, components: &[&str], definitions: &[Definition],
         let native = known.iter().find(|(known, _)| known.replace('-', "_") == *name);
         let (_, native) = native.expect("a kernel stands in for every formula");
         for jets in gradients() {
-            let jets = &jets[..components.len()];
+            let temperature = Jet { x: 0.5, y: -2.0, ..Jet::constant(0.75) };
+            let jets = &[jets[0], jets[1], temperature][..components.len()];
             let (anchor, offset) = (Vec2::ZERO, [0.25, -0.5]);
             let moduli = equation.moduli(anchor, offset);
             let at = Sample { anchor, offset, moduli, jets, exact: &[] };
@@ -121,9 +122,15 @@ fn quantities_and_their_formulas() {
     for state in [StressState::PlaneStrain, StressState::PlaneStress] {
         let material = Material { young: 2.0, poisson: 0.3, state };
         compare(&Equation::elasticity(material), &["ux", "uy"], &ELASTICITY, 0.0);
-        let eigenstrain = Some(Box::new(["0.3 + x", "-0.2", "y/4", "0.1*x"].map(expression)));
-        let body = Elasticity { eigenstrain, ..material.into() };
-        compare(&Equation::Elasticity(body), &["ux", "uy"], &EIGENSTRAIN[3..], 1.0);
+        let strains = ["0.3 + x", "-0.2", "y/4", "0.1*x"].map(expression);
+        let eigenstrain = Some(Box::new(strains.into()));
+        let mut body = Elasticity { eigenstrain, ..material.into() };
+        compare(&Equation::Elasticity(body.clone()), &["ux", "uy"], &EIGENSTRAIN[3..], 1.0);
+        if let Some(given) = &mut body.eigenstrain {
+            given.expansion = Some(expression("0.5 - y"));
+        }
+        let heated = Equation::Elasticity(body);
+        compare(&heated, heated.component_names(), &EIGENSTRAIN[3..], 1.0);
     }
     compare(&Equation::poisson(1.5), &["u"], &POISSON, 0.0);
 }

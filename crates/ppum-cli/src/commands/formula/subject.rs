@@ -224,7 +224,7 @@ impl Question<'_> {
         let vocabulary = Vocabulary { tables: &tables, ..*vocabulary };
         let name = self.given.name().unwrap_or_default();
         let definition = vocabulary.definition(name);
-        let text = definition.unwrap_or(&self.given.text);
+        let text = definition.as_deref().unwrap_or(&self.given.text);
         let quantity = match QuantityFormula::new(text, &vocabulary) {
             Err(_)
                 if Quantity::from_name(name, vocabulary.equation, vocabulary.components)

@@ -7,7 +7,7 @@ mod refinement;
 mod support;
 mod symmetry;
 
-use ppum::dataset::{EIGENSTRAINS, Equation};
+use ppum::dataset::{EIGENSTRAINS, EXPANSION, Equation};
 use ppum::domain::{Domain, Hole};
 use ppum::expression::Expression;
 use ppum::text::trimmed;
@@ -62,7 +62,7 @@ impl Problem {
 /// All rules broken by a problem. The later ones are judged only in a domain that is one.
 pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
     let mut found: Vec<_> =
-        check_equation(&problem.equation, &problem.domain).into_iter().collect();
+        check_equation(&problem.dataset_equation(), &problem.domain).into_iter().collect();
     found.extend(check_components(problem));
     found.extend(numbers(problem).into_iter().filter_map(|(key, value)| key.out_of_range(value)));
     found.extend(check_cells(&problem.discretization.cells));
@@ -186,11 +186,23 @@ fn check_combinations(problem: &Problem) -> Vec<MistakeAt> {
                 .to_owned(),
         ),
         (
-            is_critical && problem.equation.eigenstrains().next().is_some(),
+            is_critical && problem.dataset_equation().eigenstrains().next().is_some(),
             "growth.load",
             "`load = \"critical\"` multiplies the loads by a factor, but not temperatures and given strains; leave it \
              out, or leave [temperature] and [strain] out"
                 .to_owned(),
+        ),
+        (
+            problem.temperature.is_some() && !problem.contacts.is_empty(),
+            "temperature.problem",
+            "a temperature that is solved for jumps across cracks whose faces touch; leave `contact` out, or give the \
+             temperature by a formula"
+                .to_owned(),
+        ),
+        (
+            problem.temperature.is_some() && !problem.exact.is_empty(),
+            "exact",
+            "an exact solution cannot be given beside a temperature that is solved for; leave [exact] out".to_owned(),
         ),
         (
             growth.is_some() && problem.equation.elastic().is_none(),
@@ -287,7 +299,7 @@ fn check_tables(problem: &Problem) -> Option<MistakeAt> {
 
 fn check_equation(equation: &Equation, domain: &Domain) -> Option<MistakeAt> {
     let (name, message) = equation.mistake(domain)?;
-    if EIGENSTRAINS.contains(&name) {
+    if EIGENSTRAINS.contains(&name) || name == EXPANSION {
         let message = format!("`{name}` {message}; correct [temperature] or [strain]");
         return Some(Key::of("material.expansion").mistake(message));
     }

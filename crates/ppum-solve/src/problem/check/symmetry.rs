@@ -114,12 +114,16 @@ fn bad_whole(problem: &Problem) -> Option<(Key, String)> {
         return Some((Key::new("material"), message.to_owned()));
     }
     let given = problem.equation.elastic().and_then(|body| body.eigenstrain.as_deref());
-    let is_sheared = given.is_some_and(|[_, _, xy, _]| xy.constant() != Some(0.0));
+    let is_sheared = given.is_some_and(|given| given.strains[2].constant() != Some(0.0));
     let slides = (0..problem.cracks.len()).any(is_antisymmetric);
     if given.is_some() && (is_sheared || slides) {
         let message = "temperatures and given strains have the symmetry of a crack on an edge only with `symmetry = \
                        true` and without [strain] `xy`; model the whole plate";
         return Some((Key::of("material.expansion"), message.to_owned()));
+    }
+    if problem.temperature.is_some() {
+        let message = "a temperature that is solved for cannot be had with a crack on an edge; model the whole plate";
+        return Some((Key::of("temperature.problem"), message.to_owned()));
     }
     if !problem.enrichments.is_empty() {
         let message = "user-defined functions do not satisfy the symmetry of an edge with a crack; leave \

@@ -11,6 +11,7 @@ mod rim;
 mod steps;
 mod support;
 mod table;
+mod temperature;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -28,7 +29,7 @@ use super::boundary::BorderPart;
 use super::check::mistakes;
 use super::cracks;
 use super::discretization::Order;
-use super::document::{Document, FileSource, Read as _, Section, Value, all};
+use super::document::{Document, FileSource, MAX_LENGTH, Read as _, Section, Value, all};
 use super::error::{Location, Mistake, ProblemError};
 use super::keys::ROOT;
 use super::model::Problem;
@@ -38,9 +39,7 @@ use super::report::Report;
 use super::solver::Solver;
 use super::stiffness::default_order;
 use super::words::EquationKind;
-
-/// Longest problem file, in bytes: a hundred thousand cracks take some.
-pub const MAX_LENGTH: u64 = 16 << 20;
+use crate::heat::without_expansion;
 
 impl Problem {
     /// Reads a problem file of at most [`MAX_LENGTH`] bytes. Paths in it are relative to its
@@ -90,7 +89,17 @@ impl Problem {
 }
 
 fn read(text: &str, file: &str, source: FileSource<'_>) -> Result<Problem, ProblemError> {
-    let document = Document::new(file, text, source);
+    read_document(text, file, Document::new(file, text, source))
+}
+
+/// Reads the problem of a temperature.
+fn read_heat(text: &str, file: &str, source: FileSource<'_>) -> Result<Problem, ProblemError> {
+    let mut document = Document::new(file, text, source);
+    document.is_heat = true;
+    read_document(text, file, document)
+}
+
+fn read_document(text: &str, file: &str, document: Document<'_>) -> Result<Problem, ProblemError> {
     let (table, errors) = DeTable::parse_recoverable(text);
     report_syntax(&document.report, &errors);
     let problem = if errors.is_empty() { problem(&document, table.get_ref()) } else { None };
@@ -108,8 +117,9 @@ fn read(text: &str, file: &str, source: FileSource<'_>) -> Result<Problem, Probl
         title => title.to_owned(),
     };
     // mistakes are about the vertices of the file
+    let text = Some(temperature::with_text(text, table.get_ref(), &problem));
     let cracks = cracks::settled(problem.cracks, &problem.domain);
-    let problem = Problem { title, cracks, text: Some(text.to_owned()), files, ..problem };
+    let problem = Problem { title, cracks, text, files, ..problem };
     Ok(problem.with_free_faces())
 }
 
@@ -182,6 +192,9 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
         refinements.retain(|new| !matches!(new.place, RefinementRegion::Crack(_)));
     }
     let domain = Domain { bounds: body.bounds?, holes: body.holes? };
+    let cracks = cracks::with_ends(cracks, &domain);
+    let temperature = temperature::solved(root, &equation, (&domain, &cracks), &read_heat);
+    let equation = without_expansion(equation);
     let mut discretization = discretization?;
     if !plan?.mentions("order") {
         let first = accuracy.map_or(0, Adaptivity::first_order);
@@ -189,7 +202,8 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     }
     Some(Problem {
         title,
-        cracks: cracks::with_ends(cracks, &domain),
+        cracks,
+        temperature,
         contacts: if kind == EquationKind::Elasticity {
             contacts.collect()
         } else {
@@ -231,41 +245,8 @@ fn equation(root: &Section<'_>, kind: EquationKind) -> Equation {
             .as_ref()
             .and_then(|s| s.require("state"))
             .unwrap_or(StressState::PlaneStress),
-        eigenstrain: eigenstrain(root, section.and_then(|s| s.get("expansion"))),
+        eigenstrain: temperature::eigenstrain(root, section.and_then(|s| s.get("expansion"))),
     })
-}
-
-/// ε⁰ = α ΔT I + what is given beside; none if nothing is.
-fn eigenstrain(root: &Section<'_>, expansion: Option<Expression>) -> Option<Box<[Expression; 4]>> {
-    let temperature = root.section("temperature");
-    let given = root.section("strain");
-    if temperature.is_none() && given.is_none() {
-        return None;
-    }
-    let swelling = temperature.as_ref().map(|section| match &expansion {
-        Some(alpha) => format!("({})*({})", alpha.text(), text_of(section, "value")),
-        None => {
-            let message = "`expansion` is missing in [material]; a change of temperature strains the body by it";
-            section.error::<()>(message);
-            "0".to_owned()
-        }
-    });
-    let component = |name: &'static str| {
-        let beside = given.as_ref().filter(|section| section.mentions(name));
-        let beside = beside.map(|section| text_of(section, name));
-        let parts = swelling.iter().filter(|_| name != "xy").chain(&beside);
-        let parts: Vec<&str> = parts.map(String::as_str).collect();
-        let text = if parts.is_empty() { "0".to_owned() } else { parts.join(" + ") };
-        // the parts are formulas, so that their sum is one but for its size
-        Expression::parse_in(&text, root.document.scope()?).ok()
-    };
-    let all = ["xx", "yy", "xy", "zz"].map(|name| component(name).unwrap_or(0.0.into()));
-    Some(Box::new(all))
-}
-
-/// The text of an expression that must be there; zero if it is missing or wrong.
-fn text_of(section: &Section<'_>, key: &str) -> String {
-    section.require::<Expression>(key).map_or("0".to_owned(), |e| e.text().to_owned())
 }
 
 /// The coefficient of friction of a `[[crack]]`; none if its faces do not touch.

@@ -5,6 +5,7 @@ use crate::quadrature::LevelFunction;
 use ppum::crack::Crack;
 use ppum::dataset::Equation;
 use ppum::domain::Domain;
+use ppum::expression::Expression;
 use ppum::formula::{Formula, Kink, one_line};
 use ppum::function::Frame;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -23,8 +24,10 @@ pub(crate) struct Interfaces<'e> {
     pub(super) domain: &'e Domain,
     pub(super) cracks: &'e [Crack],
     pub(super) law: Law<'e>,
-    /// The largest given strain, 0 if there is none.
-    pub(super) strain: f64,
+    /// The coefficient of expansion by a temperature of the field.
+    expansion: Option<&'e Expression>,
+    /// The largest of what [`given`](Self::given) has, 0 without any.
+    pub(super) largest: [f64; 2],
 }
 
 /// A set on which a constant may jump: the zeros of a level function ψ.
@@ -53,18 +56,29 @@ impl<'e> Interfaces<'e> {
                 all.push(new);
             }
         }
-        let law = Law::new(equation);
-        let strain = if all.is_empty() { 0.0 } else { largest_strain(&law, domain) };
-        Self { all, domain, cracks, law, strain }
+        let (law, expansion) = (Law::new(equation), equation.expansion());
+        let new = Self { all, domain, cracks, law, expansion, largest: [0.0; 2] };
+        if new.all.is_empty() { new } else { Self { largest: new.largest_given(), ..new } }
     }
-}
 
-/// The largest entry of the given strains at points all over a body.
-fn largest_strain(law: &Law<'_>, domain: &Domain) -> f64 {
-    let points = points_of(&domain.bounds).filter(|p| domain.contains(*p));
-    let strains = points.filter_map(|p| law.eigenstrain(p));
-    let entries = strains.flat_map(|[x, y]| [x.x, x.y, y.x, y.y]);
-    entries.filter(|entry| entry.is_finite()).fold(0.0, |most, entry| most.max(entry.abs()))
+    /// The entries of the given strains, and the coefficient of expansion by a temperature of
+    /// the field.
+    pub(super) fn given(&self, p: Vec2) -> [[f64; 4]; 2] {
+        let [x, y] = self.law.eigenstrain(p).unwrap_or([Vec2::ZERO; 2]);
+        let expansion = self.expansion.map_or(0.0, |expansion| expansion.value(p));
+        [[x.x, x.y, y.x, y.y], [expansion, 0.0, 0.0, 0.0]]
+    }
+
+    /// The largest of them at points all over the body.
+    fn largest_given(&self) -> [f64; 2] {
+        let points = points_of(&self.domain.bounds).filter(|p| self.domain.contains(*p));
+        points.map(|p| self.given(p)).fold([0.0; 2], |most, given| {
+            std::array::from_fn(|k| {
+                let finite = given[k].iter().filter(|entry| entry.is_finite());
+                finite.fold(most[k], |most: f64, entry| most.max(entry.abs()))
+            })
+        })
+    }
 }
 
 /// Points all over a box, on no line that a user would choose.

@@ -29,7 +29,7 @@ pub(crate) struct InterfacePoint {
     /// Unit normal, toward growing ψ.
     pub(crate) normal: Vec2,
     /// Sum of the jumps of λ and 2μ (of κ) over the sum of both sides' moduli, or the jump of the
-    /// given strains over the largest anywhere, if that is more; between 0 and 1.
+    /// given strains, or of α, over the largest anywhere, if that is more; between 0 and 1.
     pub(crate) contrast: f64,
 }
 
@@ -51,7 +51,7 @@ impl Interfaces<'_> {
     fn place(&self, interface: &Interface, at: Vec2, beside: f64) -> Option<InterfacePoint> {
         let normal = interface.gradient(at).unit();
         let sides = [-1.0, 1.0].map(|sign| at + normal * (sign * beside));
-        let contrast = self.contrast_of_moduli(sides).max(self.contrast_of_strains(sides, at));
+        let contrast = self.contrast_of_moduli(sides).max(self.contrast_of_given(sides, at));
         (contrast > LEAST_CONTRAST).then_some(InterfacePoint { at, normal, contrast })
     }
 
@@ -66,13 +66,16 @@ impl Interfaces<'_> {
     }
 
     /// None on a crack, whose faces need no kink to have gradients of their own.
-    fn contrast_of_strains(&self, sides: [Vec2; 2], at: Vec2) -> f64 {
-        let [Some(below), Some(above)] = sides.map(|p| self.law.eigenstrain(p)) else { return 0.0 };
-        let jumps = below.iter().zip(&above).map(|(below, above)| *above - *below);
-        let jump = jumps.fold(0.0_f64, |most, jump| most.max(jump.x.abs()).max(jump.y.abs()));
+    fn contrast_of_given(&self, sides: [Vec2; 2], at: Vec2) -> f64 {
+        let [below, above] = sides.map(|p| self.given(p));
+        let contrast = |k: usize| {
+            let jumps = below[k].iter().zip(&above[k]).map(|(below, above)| (above - below).abs());
+            let jump = jumps.fold(0.0, f64::max);
+            if jump > LEAST_CONTRAST * self.largest[k] { jump / self.largest[k] } else { 0.0 }
+        };
+        let contrast = contrast(0).max(contrast(1)).min(1.0);
         let beside = (sides[1] - sides[0]).length();
-        let is_seen = jump > LEAST_CONTRAST * self.strain && !self.is_on_crack(at, beside);
-        if is_seen { (jump / self.strain).min(1.0) } else { 0.0 }
+        if contrast > 0.0 && self.is_on_crack(at, beside) { 0.0 } else { contrast }
     }
 
     fn is_on_crack(&self, p: Vec2, beside: f64) -> bool {

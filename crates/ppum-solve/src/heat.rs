@@ -1,0 +1,231 @@
+//! A temperature that strains an elastic body, the solution of a heat problem on the same cover.
+//!
+//! In a dataset displacement and temperature are one field, (ux, uy, T). While a problem is solved
+//! they are two: the temperature is known before the system of the displacement is assembled, whose
+//! strains ε⁰ = α T I + … it gives. Their local spaces have the same patches but functions of their
+//! own; in the joint field a block is of zeros in the components that do not have it.
+
+use ppum::crack::{SegmentId, Side};
+use ppum::dataset::{
+    Dataset, Eigenstrain, Elasticity, Equation, FieldData, NamedQuantity, Reaction, Step,
+    TEMPERATURE,
+};
+use ppum::equation::Moduli;
+use ppum::expression::Expression;
+use ppum::field::{Field, FieldError};
+use ppum::formula::FormulaJets;
+use ppum::function::Function;
+use ppum::jet::Jet;
+use ppum::vec2::{Vec2, vec2};
+
+/// Components of a displacement.
+const DISPLACEMENT: usize = 2;
+
+/// The face of a crack that a point lies on.
+pub(crate) type FacePoint = Option<(SegmentId, Side)>;
+
+/// A temperature that is known, and the body that it strains.
+#[derive(Debug)]
+pub(crate) struct Temperature {
+    /// The temperature as the first field of the only step.
+    heat: Dataset,
+    /// The equation of the body, with the coefficient α of expansion.
+    equation: Equation,
+}
+
+impl Temperature {
+    /// A temperature, the first field of a dataset's only step, in a body with an equation that has
+    /// a coefficient of expansion.
+    ///
+    /// # Errors
+    /// A field that does not compile.
+    pub(crate) fn new(heat: Dataset, equation: Equation) -> Result<Self, FieldError> {
+        Field::new(&heat, 0)?;
+        Ok(Self { heat, equation })
+    }
+
+    /// The temperature, ready to be evaluated.
+    pub(crate) fn field(&self) -> TemperatureField<'_> {
+        let field = Field::new(&self.heat, 0).expect("it was compiled when it was made");
+        let slope = |e: &Expression| FormulaJets::new(&[e.formula()], 1).ok();
+        let body = self.equation.elastic();
+        let slopes = [self.equation.expansion(), body.map(|body| &body.poisson)]
+            .map(|e| e.filter(|e| e.constant().is_none()).and_then(slope));
+        TemperatureField { field, equation: &self.equation, slopes }
+    }
+
+    /// The equation of the body, with the coefficient of expansion.
+    pub(crate) fn equation(&self) -> &Equation {
+        &self.equation
+    }
+
+    /// The dataset of displacement and temperature, with quantities of both.
+    pub(crate) fn joined(&self, mut plain: Dataset, quantities: &[NamedQuantity]) -> Dataset {
+        let step = &mut plain.steps[0];
+        *step = joined(step, &self.heat.steps[0]);
+        for Reaction { held, force, .. } in &mut step.reactions {
+            held.push(false);
+            force.push(0.0);
+        }
+        plain.equation = self.equation.clone();
+        plain.quantities = quantities.to_vec();
+        plain
+    }
+
+    /// The displacement and the temperature of a step of a joint dataset, each as the only step of
+    /// a dataset; none if the step has no temperature.
+    ///
+    /// # Errors
+    /// A field that does not compile.
+    pub(crate) fn split(
+        dataset: &Dataset,
+        step: usize,
+    ) -> Result<Option<(Dataset, Self)>, FieldError> {
+        if !Field::new(dataset, step)?.has_temperature() {
+            return Ok(None);
+        }
+        let step = &dataset.steps[step];
+        let part = |name: &str, components: std::ops::Range<usize>, equation: Equation| {
+            let mut part = Dataset::new(dataset.domain.clone(), equation);
+            part.tables.clone_from(&dataset.tables);
+            let mut step = step.clone();
+            let field = &mut step.fields[0];
+            field.name = name.to_owned();
+            field.components = field.components[components.clone()].to_vec();
+            field.coefficients = field.coefficients[components].to_vec();
+            field.exact.clear();
+            step.fields.truncate(1);
+            step.reactions.clear();
+            part.with_step(step)
+        };
+        let plain =
+            part("displacement", 0..DISPLACEMENT, without_expansion(dataset.equation.clone()));
+        let heat = part(TEMPERATURE, DISPLACEMENT..DISPLACEMENT + 1, Equation::None);
+        Ok(Some((plain, Self::new(heat, dataset.equation.clone())?)))
+    }
+}
+
+/// The equation of a body whose field has a temperature that strains it by a coefficient.
+pub(crate) fn with_expansion(equation: &Equation, expansion: &Expression) -> Equation {
+    let mut equation = equation.clone();
+    if let Equation::Elasticity(Elasticity { eigenstrain, .. }) = &mut equation {
+        let zeros = || Box::new(Eigenstrain::from([0.0; 4].map(Expression::number)));
+        eigenstrain.get_or_insert_with(zeros).expansion = Some(expansion.clone());
+    }
+    equation
+}
+
+/// The same equation without the temperature.
+pub(crate) fn without_expansion(mut equation: Equation) -> Equation {
+    if equation.expansion().is_none() {
+        return equation;
+    }
+    if let Equation::Elasticity(Elasticity { eigenstrain, .. }) = &mut equation {
+        let is_given =
+            |given: &Eigenstrain| given.strains.iter().any(|e| e.constant() != Some(0.0));
+        *eigenstrain = eigenstrain.take().filter(|given| is_given(given));
+        eigenstrain.iter_mut().for_each(|given| given.expansion = None);
+    }
+    equation
+}
+
+/// A step of a displacement with that of a temperature on the same patches as a third component.
+pub(crate) fn joined(plain: &Step, heat: &Step) -> Step {
+    let mut step = plain.clone();
+    let numbers = heat.functions.iter().map(|new| number_of(&mut step.functions, new)).collect();
+    step.fields[0] = joined_fields(&plain.fields[0], &heat.fields[0], numbers);
+    step
+}
+
+/// The number of a function in a table, to which it is added if it is not there.
+fn number_of(table: &mut Vec<Function>, new: &Function) -> u32 {
+    let known = table.iter().position(|function| function.kind == new.kind);
+    known.unwrap_or_else(|| {
+        table.push(new.clone());
+        table.len() - 1
+    }) as u32
+}
+
+/// Displacement and temperature as one field. `numbers` has the numbers of the temperature's
+/// functions in the joint table.
+fn joined_fields(plain: &FieldData, heat: &FieldData, numbers: Vec<u32>) -> FieldData {
+    let mut joined = FieldData::new(&plain.name, &["ux", "uy", TEMPERATURE]);
+    joined.unit.clone_from(&plain.unit);
+    for patch in 0..plain.patch_blocks.len() - 1 {
+        let mut blocks: Vec<(u32, u8)> =
+            plain.blocks(patch).map(|b| (plain.block_function[b], plain.block_degree[b])).collect();
+        let mut places = Vec::new();
+        for b in heat.blocks(patch) {
+            let new = (numbers[heat.block_function[b] as usize], heat.block_degree[b]);
+            let known = (0..blocks.len()).find(|k| blocks[*k] == new && !places.contains(k));
+            places.push(known.unwrap_or(blocks.len()));
+            blocks.extend(known.is_none().then_some(new));
+        }
+        joined.push_patch(&blocks);
+        let first = joined.blocks(patch).start;
+        for (place, block) in (first..).zip(plain.blocks(patch)) {
+            (0..DISPLACEMENT).for_each(|c| copy(&mut joined, (place, c), plain, (block, c)));
+        }
+        for (place, block) in places.into_iter().zip(heat.blocks(patch)) {
+            copy(&mut joined, (first + place, DISPLACEMENT), heat, (block, 0));
+        }
+    }
+    joined
+}
+
+/// Copies the coefficients of a block and component.
+fn copy(to: &mut FieldData, (place, c): (usize, usize), from: &FieldData, at: (usize, usize)) {
+    let coefficients = from.block_coefficients(at.0, at.1);
+    let start = to.block_offset[place] as usize;
+    to.coefficients[c][start..start + coefficients.len()].copy_from_slice(coefficients);
+}
+
+/// A temperature that can be evaluated, and the body that it strains.
+#[derive(Debug)]
+pub(crate) struct TemperatureField<'t> {
+    field: Field<'t>,
+    equation: &'t Equation,
+    /// α and ν with their first derivatives; none of a constant.
+    slopes: [Option<FormulaJets>; 2],
+}
+
+impl TemperatureField<'_> {
+    /// T with `D` derivatives at a point, on a face if it lies on one. NaN where no patch lies.
+    fn jet<const D: usize>(&self, x: Vec2, face: FacePoint) -> Jet<f64> {
+        let (mut patches, mut jets) = (Vec::new(), [Jet::constant(f64::NAN)]);
+        // also where rounding has put a point of a rim outside the domain
+        self.field.tree.query_point(x, &mut patches);
+        let (local, side) = match face {
+            Some((segment, side)) => (self.field.on(segment, x), side),
+            None => (self.field.at(x), Side::Above),
+        };
+        if !patches.is_empty() {
+            local.over_patches::<f64, D>([0.0; 2], side, &patches, &mut jets);
+        }
+        jets[0]
+    }
+
+    /// The moduli of the body at a point, with the strains of the temperature.
+    pub(crate) fn moduli(&self, x: Vec2, face: FacePoint) -> Moduli<f64> {
+        self.equation.moduli(x, [0.0; 2]).heated(self.jet::<0>(x, face).v)
+    }
+
+    /// The derivative along `axis` of the strains in the plane that the temperature gives,
+    /// (1 + ν) α T in plane strain and α T in plane stress.
+    pub(crate) fn strain_slope(&self, x: Vec2, axis: Vec2) -> [Vec2; 2] {
+        let along = |jets: &Option<FormulaJets>| {
+            jets.as_ref().map_or(0.0, |jets| {
+                let mut out = [0.0; 3];
+                jets.evaluate(&[x.x, x.y], &mut Vec::new(), &mut out);
+                out[1] * axis.x + out[2] * axis.y
+            })
+        };
+        let Moduli { expansion, expansion_out, out_of_plane, .. } =
+            self.equation.moduli(x, [0.0; 2]);
+        let [of_expansion, of_poisson] = self.slopes.each_ref().map(along);
+        let t = self.jet::<1>(x, None);
+        let slope = expansion * (t.x * axis.x + t.y * axis.y) + of_expansion * t.v;
+        let strain = slope * (1.0 + out_of_plane) + of_poisson * expansion_out * t.v;
+        [vec2(strain, 0.0), vec2(0.0, strain)]
+    }
+}

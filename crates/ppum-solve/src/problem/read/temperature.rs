@@ -1,0 +1,156 @@
+//! `[temperature]` and `[strain]`: what strains a body without stress.
+
+use std::path::Path;
+
+use ppum::crack::Crack;
+use ppum::dataset::{Eigenstrain, Equation};
+use ppum::domain::Domain;
+use ppum::expression::Expression;
+use toml::de::DeTable;
+
+use super::super::cracks;
+use super::super::document::{FileSource, MAX_LENGTH, Section, Value};
+use super::super::error::ProblemError;
+use super::super::model::{Problem, SolvedTemperature};
+
+/// Reads the problem of a text, of the file of a name.
+type Reader<'r> = &'r dyn Fn(&str, &str, FileSource<'_>) -> Result<Problem, ProblemError>;
+
+/// ε⁰ = α ΔT I + what is given beside; none if nothing is. A temperature that another problem gives
+/// leaves α.
+pub(super) fn eigenstrain(
+    root: &Section<'_>,
+    expansion: Option<Expression>,
+) -> Option<Box<Eigenstrain>> {
+    let temperature = root.section("temperature");
+    let given = root.section("strain");
+    if temperature.is_none() && given.is_none() {
+        return None;
+    }
+    if let Some(section) = temperature.as_ref().filter(|_| expansion.is_none()) {
+        let message =
+            "`expansion` is missing in [material]; a change of temperature strains the body by it";
+        section.error::<()>(message);
+    }
+    let is_solved = |section: &&Section<'_>| section.mentions("problem");
+    let alpha = expansion.clone().unwrap_or(0.0.into());
+    let formula = temperature.as_ref().filter(|section| !is_solved(section));
+    let swelling =
+        formula.map(|section| format!("({})*({})", alpha.text(), text_of(section, "value")));
+    let component = |name: &'static str| {
+        let beside = given.as_ref().filter(|section| section.mentions(name));
+        let beside = beside.map(|section| text_of(section, name));
+        let parts = swelling.iter().filter(|_| name != "xy").chain(&beside);
+        let parts: Vec<&str> = parts.map(String::as_str).collect();
+        let text = if parts.is_empty() { "0".to_owned() } else { parts.join(" + ") };
+        // the parts are formulas, so that their sum is one but for its size
+        Expression::parse_in(&text, root.document.scope()?).ok()
+    };
+    let strains = ["xx", "yy", "xy", "zz"].map(|name| component(name).unwrap_or(0.0.into()));
+    let expansion = temperature.as_ref().filter(is_solved).map(|_| alpha);
+    Some(Box::new(Eigenstrain { strains, expansion }))
+}
+
+/// The text of an expression that must be there; zero if it is missing or wrong.
+fn text_of(section: &Section<'_>, key: &str) -> String {
+    section.require::<Expression>(key).map_or("0".to_owned(), |e| e.text().to_owned())
+}
+
+/// The temperature of a body that another problem gives, if one does.
+pub(super) fn solved(
+    root: &Section<'_>,
+    equation: &Equation,
+    body: (&Domain, &[Crack]),
+    read: Reader<'_>,
+) -> Option<SolvedTemperature> {
+    let expansion = equation.expansion()?.clone();
+    let section = root.section("temperature")?;
+    if let Some(value) = section.value("value") {
+        return value.error("contradicts `problem`; give one of them");
+    }
+    let value = section.value("problem")?;
+    if root.document.is_heat {
+        return value.error("is in the problem of a temperature, which has none itself");
+    }
+    let found = problem_of(&value, value.text()?, read)?;
+    let problem = found.map_err(|error| value.add(error.mistakes().to_vec())).ok()?;
+    // the tables of a dataset are those of its whole problem
+    let has_tables =
+        matches!(root.document.source, FileSource::Folder(_)) && !problem.tables.is_empty();
+    match mistake(&problem, has_tables, body) {
+        Some(message) => value.error(message),
+        None => {
+            // what a file and the text of a dataset need not have in common
+            let (title, files, tables) = (String::new(), Vec::new(), Vec::new());
+            let text = problem.text.as_ref().map(|text| format!("{}\n", text.trim_end()));
+            let problem = Box::new(Problem { title, files, tables, text, ..problem });
+            Some(SolvedTemperature { problem, expansion })
+        }
+    }
+}
+
+/// The problem of a text of several lines, or of the file of that name.
+fn problem_of(
+    value: &Value<'_>,
+    text: &str,
+    read: Reader<'_>,
+) -> Option<Result<Problem, ProblemError>> {
+    let source = value.document.source;
+    if text.contains('\n') {
+        return Some(read(text, "[temperature] problem", source));
+    }
+    let FileSource::Folder(folder) = source else {
+        return value
+            .error("is the name of a file, but of the text of a dataset the problem is a part");
+    };
+    let path = value.file(folder)?;
+    let text = ppum_file::text(&path, MAX_LENGTH);
+    let text = text.map_err(|error| value.error::<()>(&format!("cannot be read: {error}"))).ok()?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let problem = read(&text, &path.display().to_string(), FileSource::Folder(folder));
+    let files = problem.iter().flat_map(|problem| problem.files.iter().cloned());
+    value.document.files.borrow_mut().extend(files);
+    Some(problem)
+}
+
+/// What is wrong with the problem of a temperature in a body with cracks.
+fn mistake(
+    problem: &Problem,
+    has_tables: bool,
+    (domain, cracks): (&Domain, &[Crack]),
+) -> Option<&'static str> {
+    let paths = |cracks: &[Crack]| cracks.iter().map(|c| c.points.clone()).collect::<Vec<_>>();
+    match problem {
+        Problem { equation: Equation::Poisson { .. }, .. } if has_tables => Some(
+            "has a [[table]], which the problem of a temperature cannot; write its formulas without",
+        ),
+        Problem { equation: Equation::Poisson { .. }, .. } if problem.domain != *domain => Some(
+            "has another body; copy [domain] and [[hole]] from this file, and with an outline [discretization]",
+        ),
+        Problem { equation: Equation::Poisson { .. }, .. } => {
+            let own = cracks::settled(cracks.to_vec(), domain);
+            let is_other = paths(&problem.cracks) != paths(&own);
+            is_other.then_some("has other cracks; copy all [[crack]] from this file")
+        }
+        _ => {
+            Some("must be one of Poisson's equation; write `kind = \"poisson\"` in its [equation]")
+        }
+    }
+}
+
+/// The text of a problem with that of its temperature's in place of the name of its file.
+pub(super) fn with_text(text: &str, document: &DeTable<'_>, problem: &Problem) -> String {
+    let heat = problem.temperature.as_ref().and_then(|heat| heat.problem.text.as_ref());
+    let section = document.get("temperature").and_then(|section| section.get_ref().as_table());
+    let value = section.and_then(|section| section.get("problem"));
+    match (heat, value) {
+        (Some(heat), Some(value))
+            if !value.get_ref().as_str().is_some_and(|v| v.contains('\n')) =>
+        {
+            let heat = heat.replace('\\', "\\\\").replace('"', "\\\"");
+            let (before, after) = (&text[..value.span().start], &text[value.span().end..]);
+            format!("{before}\"\"\"\n{heat}\"\"\"{after}")
+        }
+        _ => text.to_owned(),
+    }
+}
