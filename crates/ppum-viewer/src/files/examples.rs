@@ -17,7 +17,7 @@ pub struct Example {
     pub about: &'static str,
     /// The problem.
     pub text: &'static str,
-    /// A file of numbers that it reads, with its name.
+    /// Another file that it reads, with its name.
     pub numbers: Option<(&'static str, &'static str)>,
 }
 
@@ -42,7 +42,7 @@ macro_rules! example {
 }
 
 /// All examples, those for a first look first.
-pub const ALL: [Example; 37] = [
+pub const ALL: [Example; 39] = [
     example!("centre-crack", "Held at the bottom, pulled at the top"),
     example!("edge-crack", "A strip in tension, K_I known"),
     example!("slanted-crack", "Both modes at 45°, K known"),
@@ -65,6 +65,14 @@ pub const ALL: [Example; 37] = [
     example!("centre-crack-tension", "The reference case for K_I"),
     example!("quarter-plate", "A quarter of it, with symmetry"),
     example!("thermal-hot-spot", "A temperature alone"),
+    Example {
+        numbers: Some((
+            "insulated-crack-heat.toml",
+            include_str!("../../../../examples/insulated-crack-heat.toml"),
+        )),
+        ..example!("insulated-crack", "Heat that flows around a crack")
+    },
+    example!("insulated-crack-heat", "The temperature around it"),
     example!("compact-tension", "A standard specimen, by its outline"),
     example!("dog-bone", "A tensile bar, from a drawing"),
     example!("gear-tooth", "A tooth, from a drawing"),
