@@ -18,9 +18,8 @@ pub(super) struct Slope<'a> {
 
 impl<'a> Slope<'a> {
     /// The variation in a disc. None if the material, a given strain or the coefficient of
-    /// expansion by a temperature jumps there: the energy that
-    /// crosses an interface is no integral over the disc. None if formulas are too large to be
-    /// differentiated.
+    /// expansion by a temperature jumps there: the energy that crosses an interface is no integral
+    /// over the disc. None if formulas are too large to be differentiated.
     pub(super) fn new(
         body: &'a Elasticity,
         expansion: Option<&Expression>,
@@ -110,7 +109,7 @@ mod tests {
                 .map(|text| text.parse().expect("a formula"));
             let body = Elasticity { young, poisson, state, eigenstrain: None };
             let (at, axis) = (vec2(0.3, 0.2), vec2(0.6, 0.8));
-            let slope = Slope::new(&body, at, 0.1).expect("no jump");
+            let slope = Slope::new(&body, None, at, 0.1).expect("no jump");
             let u = [[0.3, -0.2], [0.5, 0.7]];
             let energy = |p: Vec2| {
                 let material = body.at(p);
@@ -130,7 +129,7 @@ mod tests {
         let [young, poisson] = ["if(y > 0.3, 2, 1)", "0.3"].map(|t| t.parse().expect("a formula"));
         let state = StressState::PlaneStrain;
         let body = Elasticity { young, poisson, state, eigenstrain: None };
-        assert!(Slope::new(&body, vec2(0.0, 0.0), 0.2).is_some());
-        assert!(Slope::new(&body, vec2(0.0, 0.0), 0.4).is_none());
+        assert!(Slope::new(&body, None, vec2(0.0, 0.0), 0.2).is_some());
+        assert!(Slope::new(&body, None, vec2(0.0, 0.0), 0.4).is_none());
     }
 }

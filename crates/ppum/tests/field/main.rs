@@ -17,6 +17,7 @@ mod library;
 mod mesh;
 mod mesh_checks;
 mod partition;
+mod reflected;
 mod replace;
 mod reproduction;
 mod sample;
