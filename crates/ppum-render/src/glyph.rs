@@ -57,6 +57,9 @@ pub struct Lattice<'f> {
     rows: Vec<Vec<LatticePoint>>,
 }
 
+/// Distance from a line of symmetry \[pixels\] that is rounding.
+const ON_LINE: f64 = 1e-6;
+
 /// A position in the view, and the point of the body that is there.
 #[derive(Clone, Copy, Debug)]
 struct LatticePoint {
@@ -97,7 +100,7 @@ impl<'f> Lattice<'f> {
     }
 
     /// The points of the same lattice beyond lines of symmetry, where the plate is that of the
-    /// [reflected](View::reflected) view.
+    /// [reflected](View::reflected) view; points on the lines are the body's own.
     #[must_use]
     pub fn reflected(
         field: &'f Field<'f>,
@@ -107,8 +110,14 @@ impl<'f> Lattice<'f> {
     ) -> Self {
         let mut lattice = Self::new(field, view, spacing);
         lattice.anchor = view.reflected(reflection.lines).center;
-        let places = lattice.rows.iter_mut().flatten();
-        places.for_each(|place| place.point = reflection.vector(place.at));
+        let near = ON_LINE * view.pixel_size();
+        let is_on = |line: Option<f64>, x: f64| line.is_some_and(|line| (x - line).abs() <= near);
+        let [x, y] = reflection.lines;
+        let is_own = |p: Vec2| is_on(x, p.x) || is_on(y, p.y);
+        for row in &mut lattice.rows {
+            row.retain(|place| !is_own(view.center + place.at));
+            row.iter_mut().for_each(|place| place.point = reflection.vector(place.at));
+        }
         lattice
     }
 

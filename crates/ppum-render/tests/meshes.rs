@@ -317,6 +317,23 @@ fn elements_come_apart_and_overlap() {
     assert!(gaps > 1000 && overlaps > 1000, "{gaps} {overlaps}");
 }
 
+/// Where the plate has gone is known wherever the view is.
+#[test]
+fn bounds_follow_the_plate() {
+    let (elements, _) = Elements::quadtree(&mut Random(3), 5, 1, &identity());
+    let dataset = displaced(&elements, |_| [5.0, 1.0].map(|c| polynomial(&[c, 0.0, 0.0])));
+    let (field, bounds) = (Field::new(&dataset, 0).unwrap(), dataset.domain.bounds);
+    let view = View::fit(bounds, [300, 300]).unwrap();
+    for factor in [0.0, 1.0, -7.0] {
+        let seen = Deformation::new(&field, factor).unwrap().seen(&view);
+        let found = seen.element_bounds().expect("a mesh");
+        let shift = vec2(5.0, 1.0) * factor;
+        let apart =
+            (found.min - bounds.min - shift).length() + (found.max - bounds.max - shift).length();
+        assert!(apart < 1e-12, "{found:?}");
+    }
+}
+
 /// Continuous displacements: the outline is the border, whatever hangs.
 #[test]
 fn the_outline_is_the_border_alone() {

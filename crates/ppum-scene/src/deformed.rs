@@ -9,6 +9,7 @@ use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::deform::{DeformError, Deformation, DeformedPoints, automatic_factor};
 use ppum_render::raster::Raster;
+use ppum_render::view::View;
 
 use crate::drawing::{Drawn, PROCESSOR, Shown};
 
@@ -67,15 +68,28 @@ impl Factor {
 pub fn bounds(field: &Field<'_>, factor: f64, with_outline: bool) -> Result<Rect, DeformError> {
     let deformation = Deformation::new(field, factor)?;
     let whole = field.domain.bounds;
-    let view = ppum_render::view::View::fit(whole, [256, 256])?;
-    let outline = deformation.seen(&view).outline();
+    let mut view = View::fit(whole, [256, 256])?;
+    // edges of elements are drawn where they are seen
+    if let Some(elements) = deformation.seen(&view).element_bounds() {
+        view = View::fit(grown(elements.union(&whole), BEYOND), [256, 256])?;
+    }
+    let seen = deformation.seen(&view);
+    let lines = [seen.outline(), seen.cut_faces()];
     let place = |offset: &Vec2| view.center + *offset;
-    let all = outline.iter().flatten().map(place).map(|p| Rect::new(p, p));
+    let all = lines.iter().flatten().flatten().map(place).map(|p| Rect::new(p, p));
     let moved = all.reduce(|a, b| a.union(&b)).unwrap_or(whole);
     let shown = if with_outline { moved.union(&whole) } else { moved };
-    let room = shown.size() * ROOM;
-    Ok(Rect::new(shown.min - room, shown.max + room))
+    Ok(grown(shown, ROOM))
 }
+
+/// A box with room around it, in parts of its size.
+fn grown(Rect { min, max }: Rect, part: f64) -> Rect {
+    let room = (max - min) * part;
+    Rect::new(min - room, max + room)
+}
+
+/// Room around what is known of the places of a mesh's elements, for what bends between them.
+const BEYOND: f64 = 0.25;
 
 /// Room around the plate, in parts of its size: the outline is known to a tenth of a pixel of a
 /// small picture.

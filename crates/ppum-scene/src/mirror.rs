@@ -10,8 +10,9 @@ use std::str::FromStr;
 
 use ppum::crack::Crack;
 use ppum::dataset::Dataset;
+use ppum::domain::Domain;
 use ppum::quantity::{Reflection, ValueChange};
-use ppum::vec2::Rect;
+use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::view::View;
 
 /// What is asked of the whole: written `auto`, or as edges with commas between.
@@ -55,6 +56,12 @@ pub enum MirrorError {
          `bottom`, `bottom,left` or `bottom:antisymmetric`"
     )]
     Unknown,
+    /// An edge of the box that the body does not reach.
+    #[error(
+        "mirror: the body does not reach the {0} edge of its box; lines of symmetry are edges of `min` and `max`, which \
+         an outline may cross"
+    )]
+    Away(&'static str),
     /// The deformed body.
     #[error("mirror: the deformed body is not mirrored; leave mirror or deformed out")]
     Deformed,
@@ -83,6 +90,21 @@ impl BoxEdge {
         usize::from(matches!(self, Self::Bottom | Self::Top))
     }
 
+    /// True if some point just inside the edge is in the body.
+    fn is_reached_by(self, domain: &Domain) -> bool {
+        let Rect { min, max } = domain.bounds;
+        let inside = Rect::new(min + (max - min) * INSIDE, max - (max - min) * INSIDE);
+        let part = |k: u32| (f64::from(k) + 0.5) / f64::from(LOOKS);
+        let along = |k: u32| min + vec2((max.x - min.x) * part(k), (max.y - min.y) * part(k));
+        let point = |p: Vec2| match self {
+            Self::Left => vec2(inside.min.x, p.y),
+            Self::Right => vec2(inside.max.x, p.y),
+            Self::Bottom => vec2(p.x, inside.min.y),
+            Self::Top => vec2(p.x, inside.max.y),
+        };
+        (0..LOOKS).any(|k| domain.contains(point(along(k))))
+    }
+
     fn line(self, bounds: &Rect) -> f64 {
         match self {
             Self::Left => bounds.min.x,
@@ -92,6 +114,10 @@ impl BoxEdge {
         }
     }
 }
+
+/// Points along an edge at which the body is looked for, and their way into the box in parts of it.
+const LOOKS: u32 = 1024;
+const INSIDE: f64 = 1e-9;
 
 /// The kinds of symmetry as they are written.
 const KINDS: [(&str, bool); 2] = [("symmetric", false), ("antisymmetric", true)];
@@ -163,7 +189,12 @@ impl Mirror {
             Self::Auto => known(dataset),
             Self::Edges(edges) => edges.clone(),
         };
-        if edges.is_empty() { Err(MirrorError::Unknown) } else { Ok(edges) }
+        let away = edges.iter().find(|line| !line.edge.is_reached_by(&dataset.domain));
+        match away {
+            Some(line) => Err(MirrorError::Away(line.edge.name())),
+            None if edges.is_empty() => Err(MirrorError::Unknown),
+            None => Ok(edges),
+        }
     }
 
     /// The request with the edges named.

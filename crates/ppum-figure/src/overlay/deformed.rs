@@ -42,7 +42,8 @@ pub fn undeformed_outline(view: &DeformedView<'_>, scale: f64) -> Result<Vec<Ite
     let above = before.faces_of(&cracks).into_iter().flat_map(|[above, _]| above);
     let [dash, gap] = DASHES.map(|length| length * scale);
     let pen = Pen::new(BEFORE, RIM_WIDTH * scale).dashed(dash, gap);
-    Ok(vec![line(&before, before.outline().into_iter().chain(above).collect(), pen)])
+    let lines = before.outline().into_iter().chain(above).chain(before.cut_faces());
+    Ok(vec![line(&before, lines.collect(), pen)])
 }
 
 /// The borders of the cover's cells, or the edges of elements, where they have moved to.

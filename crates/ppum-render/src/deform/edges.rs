@@ -2,7 +2,7 @@
 
 use ppum::crack::Side;
 use ppum::progress::unwatched;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Rect, Vec2};
 use rayon::prelude::*;
 
 use super::DeformedView;
@@ -17,6 +17,8 @@ use super::path::Paths;
 const BEYOND: f64 = 1e-8;
 /// Part of an edge that belongs to its ends, beyond which other elements may lie, or nothing.
 const AT_ENDS: f64 = 1e-6;
+/// Places on an edge, in parts of it, that tell where its element is.
+const LOOKS: [f64; 3] = [0.0, 1.0 / 3.0, 2.0 / 3.0];
 /// Elements that are this far apart have come apart \[pixels\].
 const APART: f64 = 0.5;
 
@@ -34,6 +36,23 @@ impl DeformedView<'_> {
             let place = edge.place(t)?;
             edge.is_border(t).then_some(place)
         })
+    }
+
+    /// A box around the images of some points of every element of a mesh, wherever the view is;
+    /// none of boxes. It nearly holds the plate.
+    #[must_use]
+    pub fn element_bounds(&self) -> Option<Rect> {
+        let count = self.field().step.partition.mesh()?.len() as u32;
+        let map = DeformationMap::new(self.field(), self.anchor);
+        let of_patch = |patch: u32| {
+            let mut chart = ElementChart::new(&map, patch)?;
+            let corners = chart.corners();
+            let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+            let points = edges.flat_map(|(a, b)| LOOKS.map(|t| *a + (*b - *a) * t));
+            let places = points.filter_map(|p| chart.place(self, p)).map(|p| self.view.center + p);
+            places.map(|p| Rect::new(p, p)).reduce(|a, b| a.union(&b))
+        };
+        (0..count).filter_map(of_patch).reduce(|a, b| a.union(&b))
     }
 
     /// The faces of the cuts of a mesh's elements; none of boxes.

@@ -33,6 +33,9 @@ pub enum ShotError {
     /// Means of samples where there are none.
     #[error("samples: {0} drawn at the centres of pixels; leave samples out")]
     Samples(&'static str),
+    /// Means of more samples of the whole of a half than memory is meant for.
+    #[error("samples: mirrored images hold all samples at once; take fewer, or a smaller size")]
+    MirroredSamples,
     /// A frame of an animation with more pixels than memory is meant for.
     #[error("frames of {}x{} pixels do not fit into memory; choose a smaller size", .0[0], .0[1])]
     TooLarge([u32; 2]),

@@ -105,7 +105,7 @@ impl<'a> Input<'a> {
         let finer = view.finer(samples.side())?;
         let [columns, rows] = finer.pixels.map(u64::from);
         if columns * rows > MOST_SAMPLES {
-            return Err(ShotError::Samples("mirrored images of so many pixels are"));
+            return Err(ShotError::MirroredSamples);
         }
         let drawn = centers(&finer, Samples::CENTER)?;
         let job = DrawingInput { field, view, quantity };
