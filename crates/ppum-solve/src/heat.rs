@@ -190,6 +190,11 @@ pub(crate) struct TemperatureField<'t> {
 }
 
 impl TemperatureField<'_> {
+    /// The coefficient of expansion.
+    pub(crate) fn expansion(&self) -> Option<&Expression> {
+        self.equation.expansion()
+    }
+
     /// T with `D` derivatives at a point, on a face if it lies on one. NaN where no patch lies.
     fn jet<const D: usize>(&self, x: Vec2, face: FacePoint) -> Jet<f64> {
         let (mut patches, mut jets) = (Vec::new(), [Jet::constant(f64::NAN)]);

@@ -3,6 +3,7 @@
 use crate::heat::{FacePoint, TemperatureField};
 use ppum::dataset::Equation;
 use ppum::equation::Moduli;
+use ppum::expression::Expression;
 use ppum::vec2::{Vec2, vec2};
 use std::sync::Arc;
 
@@ -47,6 +48,11 @@ impl<'e> Law<'e> {
     #[must_use]
     pub(crate) fn heated(self, temperature: Option<TemperatureField<'e>>) -> Self {
         Self { temperature: temperature.map(Arc::new), ..self }
+    }
+
+    /// The coefficient of expansion by a temperature that is solved for.
+    pub(crate) fn expansion(&self) -> Option<&Expression> {
+        self.temperature.as_ref()?.expansion()
     }
 
     /// The law at a point.

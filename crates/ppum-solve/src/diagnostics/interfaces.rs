@@ -29,7 +29,8 @@ pub(super) fn of_interfaces(
     dataset: &Dataset,
     places: &Places,
 ) -> Vec<Warning> {
-    let interfaces = Interfaces::new(&dataset.equation, &dataset.domain, &field.step.cracks);
+    let interfaces =
+        Interfaces::new((&dataset.equation, law.expansion()), &dataset.domain, &field.step.cracks);
     if interfaces.all.is_empty() {
         return Vec::new();
     }

@@ -27,6 +27,11 @@ impl Problem {
         }
     }
 
+    /// The equation, and the coefficient of expansion by a temperature that is solved for.
+    pub(crate) fn constants(&self) -> (&Equation, Option<&Expression>) {
+        (&self.equation, self.temperature.as_ref().map(|heat| &heat.expansion))
+    }
+
     /// The problem of the temperature in the body as it is now, discretised as this one.
     pub(crate) fn heat(&self) -> Option<Self> {
         let heat = (*self.temperature.as_ref()?.problem).clone();

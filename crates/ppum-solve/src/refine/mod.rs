@@ -265,7 +265,7 @@ impl<'p> Wishes<'p> {
             graded: Placed::new(graded.into_iter().map(|graded| (graded.place(), graded))),
             ligaments: Placed::new(ligaments.into_iter().map(|lig| (lig.place(), lig))),
             interfaces: resolves_interfaces(problem)
-                .then(|| Interfaces::new(&problem.equation, &problem.domain, &problem.cracks)),
+                .then(|| Interfaces::new(problem.constants(), &problem.domain, &problem.cracks)),
             at_interfaces: lowest + AT_INTERFACES,
             most_cells: cells.len() + budget + budget / 2,
         }

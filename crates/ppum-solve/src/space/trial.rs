@@ -99,6 +99,8 @@ impl<'d> Space<'d> {
         heat: Option<&Step>,
     ) -> Result<Self, FunctionError> {
         let Problem { domain, equation, tables, .. } = problem;
+        let body = problem.dataset_equation();
+        let heat = heat.map(|heat| (heat, &*body));
         let mut space = Self::on(Cow::Owned(step), heat, domain, (equation, tables))?;
         (space.series, space.in_series) = williams::series(problem, &space.step);
         space.held = held_lines(problem, space.partition());
@@ -113,14 +115,14 @@ impl<'d> Space<'d> {
 
     fn on(
         step: Cow<'d, Step>,
-        heat: Option<&Step>,
+        heat: Option<(&Step, &Equation)>,
         domain: &'d Domain,
         (equation, tables): (&'d Equation, &[Arc<Table>]),
     ) -> Result<Self, FunctionError> {
         let (partition, data) = (step.partition.boxes(), &step.fields[0]);
         let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
-        let smoothness = match heat.map(|heat| joined(&step, heat)) {
-            Some(both) => Smoothness::new(&both, &both.fields[0], equation, tables)?,
+        let smoothness = match heat.map(|(heat, body)| (joined(&step, heat), body)) {
+            Some((both, body)) => Smoothness::new(&both, &both.fields[0], body, tables)?,
             None => Smoothness::new(&step, data, equation, tables)?,
         };
         Ok(Self {

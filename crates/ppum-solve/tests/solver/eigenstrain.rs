@@ -56,7 +56,7 @@ impl Body {
         parsed(&self.text(rest))
     }
 
-    fn text(&self, rest: &str) -> String {
+    pub(super) fn text(&self, rest: &str) -> String {
         let Self { young, poisson, alpha, state, crack: [a, b], scale, order } = self;
         let [a, b] = [*a * *scale, *b * *scale];
         format!(

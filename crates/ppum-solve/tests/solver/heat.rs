@@ -283,6 +283,30 @@ fn cracks_grow_in_their_own_temperature() {
     }
 }
 
+/// Where α jumps, kinks, cells and quadrature are those of a temperature by formula.
+#[test]
+fn expansion_that_jumps_is_resolved() {
+    let body = Body::random(&mut Random(31), STATES[1]);
+    let jump = format!("expansion = \"if(y > 0.13 + 0.1*x, {}, 0.5)\"", body.alpha);
+    let of = |rest: &str| {
+        let text = body.text(rest).replace(&format!("expansion = {}", body.alpha), &jump);
+        solved(&parsed(&text))
+    };
+    let [given, found] = [temperature("2"), heated(&body, &on_edges("2"))].map(|rest| of(&rest));
+    let steps = [&given, &found].map(|dataset| &dataset.steps[0]);
+    let [kinks, cells] = [
+        steps.map(|step| step.functions.iter().filter(|f| f.name.starts_with("kink at")).count()),
+        steps.map(|step| step.partition.len()),
+    ];
+    assert!(kinks[0] > 0 && kinks[0] == kinks[1] && cells[0] == cells[1], "{kinks:?} {cells:?}");
+    let [a, b] = steps.map(|step| &step.intensities);
+    let size = a.iter().map(|tip| tip.k1.hypot(tip.k2)).fold(0.0, f64::max);
+    for (a, b) in a.iter().zip(b) {
+        let apart = (a.k1 - b.k1).hypot(a.k2 - b.k2);
+        assert!(apart < 1e-7 * size, "{apart:.1e} of {size}");
+    }
+}
+
 /// What has no meaning is refused, with its place.
 #[test]
 fn refused_temperatures() {

@@ -43,11 +43,16 @@ pub(crate) struct Interface {
 }
 
 impl<'e> Interfaces<'e> {
-    /// Those of an equation.
-    pub(crate) fn new(equation: &'e Equation, domain: &'e Domain, cracks: &'e [Crack]) -> Self {
+    /// Those of an equation, and of a coefficient of expansion by a temperature that is solved for.
+    pub(crate) fn new(
+        (equation, expansion): (&'e Equation, Option<&'e Expression>),
+        domain: &'e Domain,
+        cracks: &'e [Crack],
+    ) -> Self {
         let mut all: Vec<Interface> = Vec::new();
-        let formulas = equation.constants().filter(|(_, e)| e.constant().is_none());
-        let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
+        let constants = equation.constants().map(|(_, expression)| expression).chain(expansion);
+        let formulas = constants.filter(|expression| expression.constant().is_none());
+        let kinks = formulas.flat_map(|expression| expression.formula().kinks());
         for new in kinks.filter_map(|kink| Interface::new(&kink, &domain.bounds)) {
             let is_new = |known: &Interface| {
                 !proportional(&|p| known.value(p), &|p| new.value(p), &domain.bounds)
@@ -56,7 +61,7 @@ impl<'e> Interfaces<'e> {
                 all.push(new);
             }
         }
-        let (law, expansion) = (Law::new(equation), equation.expansion());
+        let law = Law::new(equation);
         let new = Self { all, domain, cracks, law, expansion, largest: [0.0; 2] };
         if new.all.is_empty() { new } else { Self { largest: new.largest_given(), ..new } }
     }

@@ -42,8 +42,8 @@ impl Enrichments<'_> {
         if !set.interfaces || set.enrichment == Enrichment::None {
             return Ok(());
         }
-        let Problem { equation, domain, cracks, .. } = self.problem;
-        let interfaces = Interfaces::new(equation, domain, cracks);
+        let Problem { domain, cracks, .. } = self.problem;
+        let interfaces = Interfaces::new(self.problem.constants(), domain, cracks);
         if interfaces.all.is_empty() {
             return Ok(());
         }
