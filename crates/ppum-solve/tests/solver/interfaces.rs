@@ -139,9 +139,9 @@ fn rates_of_all_orders_at_a_round_inclusion() {
     assert_rate(&disc_in_a_field(20.0), 3, 0.35);
 }
 
-/// Only α jumps, across a slanted line d = 0 in the middle of cells: u = a max(d, 0) n with a = 2(λ
-/// + μ) [α]/(λ + 2μ) makes the tractions on it alike. Piecewise linear, so that nothing but
-/// rounding is left.
+/// Only α jumps, across a slanted line d = 0 in the middle of cells. The tractions on its sides are
+/// alike for u = a max(d, 0) n with a (λ + 2μ) = 2(λ + μ) times the jump. That is piecewise linear,
+/// so that nothing but rounding is left.
 #[test]
 fn a_jump_of_given_strains_across_a_line_is_exact() {
     for (state, nu, order) in [("plane-strain", 0.3, 1), ("plane-stress", 0.2, 2)] {

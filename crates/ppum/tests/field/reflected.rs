@@ -7,7 +7,7 @@ use ppum::equation::{Eigenstrain, Elasticity, Equation, StressState};
 use ppum::expression::Expression;
 use ppum::field::Field;
 use ppum::jet::Jet;
-use ppum::quantity::{Quantity, Reflection, Sample, Source, available};
+use ppum::quantity::{Quantity, Reflection, Sample, Source, ValueChange, available};
 use ppum::vec2::{Vec2, vec2};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::Recipe;

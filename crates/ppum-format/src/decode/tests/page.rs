@@ -5,6 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::mesh;
 use crate::content::Content;
 use crate::{checksum, encode, everything};
+use ppum::dataset::{Dataset, Equation};
+use ppum::expression::Expression;
 
 const PAGE: &str = include_str!("../../../../../FORMAT.md");
 
@@ -83,7 +85,19 @@ fn of_files() -> Types {
     };
     (0..12).for_each(|seed| add(encode::content(&everything::dataset(seed)).expect("valid")));
     add(encode::content(&mesh::dataset()).expect("valid"));
+    heated().iter().for_each(|dataset| add(encode::content(dataset).expect("valid")));
     types
+}
+
+/// Bodies that a temperature strains, by a coefficient that is a number, and by a formula.
+fn heated() -> Vec<Dataset> {
+    let all = ppum_testkit::fields::equations().into_iter().map(|case| case.dataset);
+    let mut heated: Vec<Dataset> = all.filter(|d| d.equation.expansion().is_some()).collect();
+    let Some(Equation::Elasticity(body)) = heated.first_mut().map(|d| &mut d.equation) else {
+        panic!("a body that a temperature strains")
+    };
+    body.eigenstrain.as_mut().expect("strains").expansion = Some(Expression::number(0.5));
+    heated
 }
 
 #[test]
