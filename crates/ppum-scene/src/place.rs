@@ -133,7 +133,8 @@ impl Place {
         Some(Rect::new(a.min(b), a.max(b)))
     }
 
-    /// Width over height of what is to be seen, of the whole picture those of a box; none if it is whatever the picture has room for.
+    /// Width over height of what is to be seen, of the whole picture those of a box; none if it is
+    /// whatever the picture has room for.
     #[must_use]
     pub fn aspect(&self, whole: Rect) -> Option<f64> {
         if self.center.is_some() || self.tip.is_some() {

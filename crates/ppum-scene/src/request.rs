@@ -165,8 +165,8 @@ impl Request {
         request
     }
 
-    /// The look of a figure of a box, that of all that is shown, of a size unless another is given, with so many panels across
-    /// and down.
+    /// The look of a figure of a box, that of all that is shown, of a size unless another is given,
+    /// with so many panels across and down.
     #[must_use]
     pub fn design(&self, whole: Rect, size: [u32; 2], panels: [u32; 2]) -> Design {
         let design = self.look.design(self.place.aspect(whole), size, panels);

@@ -114,8 +114,8 @@ fn plates_of_elements_are_drawn_deformed() {
     lab.run("render mesh.h5 -o moved.png --size 400x400 --range 0,1 --deformed 3");
     let [still, moved] = ["still.png", "moved.png"].map(|file| Png::read(&lab.path(file)));
     assert_eq!(moved.text("ppum:deformed"), "3.0");
-    // the crack opens by 2 · 0.75 · 0.05 (κ + 1)/(4 μ) = 0.1365 in the middle, three times of it are
-    // 36 pixels of a picture 4.5 wide
+    // the crack opens by 2 · 0.75 · 0.05 (κ + 1)/(4 μ) = 0.1365 in the middle, three times of it
+    // are 36 pixels of a picture 4.5 wide
     let empty = |png: &Png, row: u32| png.pixel(200, row)[3] == 0;
     let count = |png: &Png| (100..300).filter(|&row| empty(png, row)).count();
     assert_eq!(count(&still), 0);

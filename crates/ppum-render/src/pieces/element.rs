@@ -13,7 +13,7 @@ use ppum::vec2::Vec2;
 
 use super::curve::{LevelCurve, LevelFunction};
 use super::cut::{Polygon, centroid};
-use super::{INSET, Piece, SHORTEST};
+use super::piece::{INSET, Piece, SHORTEST};
 
 /// What cuts one patch of a mesh.
 #[derive(Debug, Default)]

@@ -18,6 +18,7 @@
 mod curve;
 mod cut;
 mod element;
+mod piece;
 mod round;
 
 use ppum::box_tree::BoxTree;
@@ -32,10 +33,9 @@ use curve::{FormulaLevel, LevelCurve};
 pub use cut::SAGITTA;
 use cut::{Polygon, PolygonCut, centroid};
 pub use element::ElementCuts;
+use piece::SHORTEST;
+pub use piece::{INSET, Piece};
 use round::Round;
-
-/// Part of the way from a corner to its piece's centroid at which the corner's values are taken.
-pub const INSET: f64 = 1e-6;
 
 /// Squares with more lines in them than this are divided into four, again and again, up to
 /// [`DEPTH`] times: the lines of a corner with many sides do not all cut all pieces then.
@@ -45,25 +45,6 @@ const DEPTH: usize = 6;
 /// Parts that a cut leaves thinner than this part of the square are dropped: nobody sees them, and
 /// points could not be told to be inside them.
 const SLIVER: f64 = 1e-5;
-
-/// Sides shorter than this part of the square are what rounding leaves where several lines meet in
-/// a point: they are none.
-const SHORTEST: f64 = 1e-9;
-
-/// A convex part of a square, wholly on one side of everything that a field jumps on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
-    /// Offsets from the anchor, counter-clockwise; three or more. Some may lie between their
-    /// neighbours: a tip is a corner.
-    pub corners: Vec<Vec2>,
-    /// For the side from each corner to the next whether the field may jump there or ends: a face
-    /// of a crack, a rim, an interface. The others lead on to a neighbour, in this square or
-    /// the next.
-    pub faces: Vec<bool>,
-    /// Part of the way to the centroid for what is seen from inside: [`INSET`], or more at chords
-    /// of curves.
-    pub inset: f64,
-}
 
 /// What a field may jump on, as seen from an anchor, ready to cut squares.
 #[derive(Debug)]
@@ -247,20 +228,6 @@ impl<'f> Pieces<'f> {
 
 /// Relative difference of the moduli on two sides above which a material jumps.
 const JUMP: f64 = 1e-4;
-
-impl Piece {
-    /// The mean of the corners: inside, and well away from all sides.
-    #[must_use]
-    pub fn center(&self) -> Vec2 {
-        centroid(&self.corners)
-    }
-
-    /// A point of the piece as it is seen from inside: moved by [`INSET`] of its way to the centre.
-    #[must_use]
-    pub fn seen_from_inside(&self, point: Vec2) -> Vec2 {
-        point + (self.center() - point) * self.inset
-    }
-}
 
 fn quarters(square: &Rect) -> [Rect; 4] {
     let (min, middle, max) = (square.min, square.center(), square.max);
