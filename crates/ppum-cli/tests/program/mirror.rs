@@ -140,8 +140,8 @@ const QUARTER: f64 = 10.0;
 
 /// The mirrored part is the whole plate that was solved, at every pixel, at random places, for
 /// quantities of all kinds. What differs are the errors of both solutions at order 5: of 99 % of
-/// the pixels displacements by up to 6e-7 of their size and stresses by 2e-5, at the worst ones by 3e-6
-/// and 1e-4. The bounds are some five times as large.
+/// the pixels displacements by up to 6e-7 of their size and stresses by 2e-5, at the worst ones by
+/// 3e-6 and 1e-4. The bounds are some five times as large.
 #[test]
 fn mirrored_parts_are_the_whole() {
     let mut random = Random(71);
