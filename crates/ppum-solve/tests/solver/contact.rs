@@ -228,6 +228,29 @@ fn a_crack_in_bending_closes_on_a_third() {
     assert_eq!(again.k1.to_bits(), open.to_bits());
 }
 
+/// A slanted crack closes in part. The references are hp finite elements whose faces are held
+/// together up to the place where K_I of the open part is zero (orders 6 and 8): nothing is shared.
+#[test]
+fn a_slanted_crack_closes_in_part() {
+    let problem = parsed(
+        "[domain]\nmin = [-2, -2]\nmax = [2, 2]\n\
+         [material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
+         [[crack]]\npoints = [[-0.7, -0.15], [0.6, 0.2]]\ncontact = true\n\
+         [[boundary]]\non = \"top\"\ntraction = [0, \"x\"]\n\
+         [[boundary]]\non = \"bottom\"\ntraction = [0, \"-x\"]\n\
+         [discretization]\ncells = [20, 20]\norder = 2\n",
+    );
+    let dataset = solved(&problem);
+    let closed = record(&dataset.steps[0], "closed faces");
+    assert!((closed - 0.373_063_9).abs() < 0.02, "{closed}");
+    let known = [(0.0, -0.138_437_4), (0.438_409_0, 0.099_565_3)];
+    for (tip, (k1, k2)) in tips(&dataset).iter().zip(known) {
+        let apart = (tip.k1 - k1).hypot(tip.k2 - k2);
+        let estimate = tip.error.expect("an estimate");
+        assert!(apart < 3e-4 * f64::hypot(k1, k2) && apart < 3.0 * estimate, "{tip:?}");
+    }
+}
+
 /// What is closed carries pressure, what is open nothing: of several cracks each for itself, with
 /// the same bits however often it is solved.
 #[test]
