@@ -213,8 +213,9 @@ the same beam with a crack of length 1.5 at x = −5. In the published drawings,
 −5 passes close to the lowest hole and ends in the middle one. So does the crack from x = −6, which passes the lowest\n\
 hole at a distance. Here the crack from x = −6 agrees; the one from x = −5 passes as close to the lowest hole, but then\n\
 passes the middle one on its right, at a distance of 0.2, with either order and increment. Another program gives the\n\
-same factors there, see below the table. Force and supports as pressures 0.2 wide, or supports that hold the border,\n\
-change the first direction by 0.1° at most. Distances to rims are those of the whole path; 0 means that it ends there.";
+same factors there, see below the table. Forces at points in place of pressures 0.2 wide move the path from x = −6 by\n\
+1e-4 at most; supports that hold the border change the first direction by 0.1°. Distances to rims are those of the\n\
+whole path; 0 means that it ends there.";
 
 /// The factors of the path from x = −5 at its 23rd increment, replaced by nine segments: hp finite
 /// elements of order 6.
