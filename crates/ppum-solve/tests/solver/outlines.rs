@@ -9,6 +9,7 @@ use ppum_solve::problem::{
 };
 use ppum_testkit::random::Random;
 use std::f64::consts::TAU;
+use std::path::Path;
 
 const MATERIAL: Material = Material { young: 2.0, poisson: 0.3, state: StressState::PlaneStress };
 
@@ -237,5 +238,20 @@ fn smooth_data_on_curves_do_not_jump() {
         let dataset = solved(&parsed(&text));
         let told: Vec<_> = dataset.steps[0].warnings.iter().map(|w| &w.message).collect();
         assert!(!told.iter().any(|message| message.contains("jump")), "{what}: {told:?}");
+    }
+}
+
+/// The compact tension specimen of `examples/` with W = B = P = 1 beside the polynomial of ASTM
+/// E399, which is good to 0.5 %.
+#[test]
+fn the_compact_specimen_agrees_with_its_standard() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/compact-tension.toml");
+    let text = std::fs::read_to_string(file).expect("the example");
+    for a in [0.3, 0.4, 0.5, 0.6, 0.7_f64] {
+        let k1 = factors(&solved(&parsed(&text.replace("[0.5, 0]", &format!("[{a}, 0]")))))[0];
+        let row = [-5.6, 14.72, -13.32, 4.64, 0.886];
+        let polynomial = row.into_iter().reduce(|sum, c| sum * a + c).expect("numbers");
+        let standard = (2.0 + a) / (1.0 - a).powf(1.5) * polynomial;
+        assert!((k1 / standard - 1.0).abs() < 5e-3, "a/W = {a}: {k1} and {standard}");
     }
 }
