@@ -428,8 +428,26 @@ def test_given_strains_are_taken_off():
     for edge in ("left", "right", "bottom", "top"):
         held = held.boundary(edge, displacement=[0, 0])
     assert float(ppum.solve(held).field.at(0.7, 0.3)["sxx"]) == pytest.approx(-2.0 * 0.7 / 0.5, rel=1e-12)
-    with pytest.raises(ppum.BuildError, match="expansion"):
-        ppum.build(ppum.State(cover, fields), equation=ppum.Elastic(1.0, 0.3, expansion=1e-5))
+
+
+def test_temperatures_are_components(tmp_path):
+    cover = ppum.Cover.uniform([(0, 0), (2, 2)], (4, 4))
+    rng = np.random.default_rng(5)
+    blocks = {"one": rng.normal(size=(16, 3, 3))}
+    material = ppum.Elastic(2.0, 0.25, "plane-stress", expansion="0.5 + x", eigenstrain=(0.1, "y", 0.0, 0.0))
+    ds = ppum.build(ppum.State(cover, ppum.Coefficients("displacement", blocks)), equation=material)
+    assert ds.field.components == ("ux", "uy", "temperature")
+    ds.save(tmp_path / "heated.h5")
+    at = ppum.open(tmp_path / "heated.h5").field.at(0.7, 0.3)
+    names = ("exx", "eyy", "temperature", "sxx", "eigenstrain_xx", "eigenstrain_yy")
+    exx, eyy, t, sxx, xx, yy = (float(at[name]) for name in names)
+    assert [xx, yy] == pytest.approx([0.1 + 1.2 * t, 0.3 + 1.2 * t], rel=1e-14)
+    assert sxx == pytest.approx(2.0 / (1 - 0.0625) * (exx - xx + 0.25 * (eyy - yy)), rel=1e-12)
+    plain = ppum.Elastic(2.0, 0.25, expansion=1e-5)
+    only = ppum.build(ppum.State(cover, ppum.Coefficients("displacement", blocks)), equation=plain)
+    assert float(only.field.at(0.7, 0.3)["eigenstrain_xy"]) == 0.0
+    with pytest.raises(ppum.BuildError, match="temperature"):
+        ppum.build(ppum.State(cover, ppum.Coefficients("displacement", {"one": np.zeros((16, 1, 2))})), equation=plain)
 
 
 def test_outlines_are_holes_outside_of_a_polygon(tmp_path):

@@ -249,15 +249,15 @@ def _equation(equation: Elastic | Poisson | None) -> Arrays:
         return {"equation@kind": "none"}
     if isinstance(equation, Poisson):
         return {"equation@kind": "poisson", "equation@conductivity": _constant(equation.conductivity)}
-    if equation.expansion is not None:
-        raise BuildError("equation.expansion: fields that are built have no temperature; give the strains α ΔT as `eigenstrain`")
-    strains = dict(zip(("xx", "yy", "xy", "zz"), equation.eigenstrain or (), strict=equation.eigenstrain is not None))
+    given = equation.eigenstrain if equation.eigenstrain is not None or equation.expansion is None else (0.0,) * 4
+    strains = dict(zip(("xx", "yy", "xy", "zz"), given or (), strict=given is not None))
     return {
         "equation@kind": "eigenstrain" if strains else "elasticity",
         "equation@young": _constant(equation.young),
         "equation@poisson": _constant(equation.poisson),
         "equation@state": equation.state,
         **{f"equation@eigenstrain_{name}": _constant(value) for name, value in strains.items()},
+        **({} if equation.expansion is None else {"equation@expansion": _constant(equation.expansion)}),
     }
 
 
@@ -371,7 +371,10 @@ def _field(
     if unknown is not None and given.name != unknown:
         raise BuildError(f"{place}: is the first field, which the equation calls {unknown!r}; name it so")
     count = len(blocks.coefficients)
-    names = list(given.components or _names(given.name, count))
+    is_heated = isinstance(equation, Elastic) and equation.expansion is not None
+    if is_heated and count != 3:
+        raise BuildError(f"{place}.blocks: have {count} components; with `expansion` they are ux, uy and the temperature")
+    names = list(given.components or (["ux", "uy", "temperature"] if is_heated else _names(given.name, count)))
     if len(names) != count:
         raise BuildError(f"{place}.components: has {len(names)} names, but the blocks have {count} components")
     arrays = {"@name": given.name, "@unit": given.unit, "components": names, **blocks.arrays()}

@@ -41,7 +41,8 @@ class Elastic:
         young: Young's modulus, a stress; a number or a formula of x and y.
         poisson: Poisson's ratio; a number or a formula.
         state: ``plane-strain`` or ``plane-stress``.
-        expansion: Coefficient of thermal expansion, for ``problem.section("temperature", value=…)`` or ``problem="heat.toml"``.
+        expansion: Coefficient of thermal expansion, for ``problem.section("temperature", value=…)`` or ``problem="heat.toml"``;
+            in `build` for a temperature that is the third component of the field.
         eigenstrain: The given strains ε⁰_xx, ε⁰_yy, ε⁰_xy, ε⁰_zz that make no stress; numbers or formulas.
     """
 
