@@ -3,7 +3,7 @@
 
 use super::border::BorderPiece;
 use super::cell::SourceTerm;
-use super::loads::{LoadRules, border_rules, of_condition, of_source};
+use super::loads::{LoadRules, border_rules, of_condition, of_source, unresolved_strains};
 use super::point::point_rule;
 use super::reaction::modes;
 use crate::equilibrium::{Balance, BodyPieces};
@@ -24,6 +24,8 @@ pub(crate) struct Given<'p> {
     source: Option<Values<'p>>,
     source_rules: LoadRules<Rule>,
     conditions: Vec<GivenCondition<'p>>,
+    /// Of given strains that are not resolved, the error and its place.
+    strains: Vec<(f64, Vec2)>,
 }
 
 /// A boundary condition with its data as a function of position and normal.
@@ -57,6 +59,7 @@ impl<'p> Given<'p> {
             source: has_source.then(|| Box::new(source) as Values<'p>),
             source_rules: of_source(problem, space, stage)?,
             conditions: conditions.map(given).collect::<Result<_, Halt>>()?,
+            strains: unresolved_strains(problem, space, stage)?,
         })
     }
 
@@ -71,6 +74,7 @@ impl<'p> Given<'p> {
             conditions: holding
                 .map(|(k, c)| GivenCondition::new(k, c, LoadRules::default()))
                 .collect(),
+            strains: Vec::new(),
         }
     }
 
@@ -142,7 +146,7 @@ impl<'p> Given<'p> {
         Ok(sum)
     }
 
-    /// The loads and data that their own rules do not resolve.
+    /// The loads, given strains and data that no rules resolve.
     pub(crate) fn unresolved(&self) -> Vec<Unresolved> {
         let unresolved = |what: String, (error, at)| Unresolved { load: Some(what), error, at };
         let name = if self.problem.components() == 1 { "the source" } else { "the body force" };
@@ -151,7 +155,9 @@ impl<'p> Given<'p> {
             let what = format!("what is given on {}", self.problem.words_of(given.condition.on));
             given.own.doubt().map(|doubt| unresolved(what, doubt))
         };
-        inside.into_iter().chain(self.conditions.iter().filter_map(of_given)).collect()
+        let of_strain = |doubt: &_| unresolved("a given strain".into(), *doubt);
+        let inside = inside.into_iter().chain(self.strains.iter().map(of_strain));
+        inside.chain(self.conditions.iter().filter_map(of_given)).collect()
     }
 }
 

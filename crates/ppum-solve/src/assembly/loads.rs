@@ -142,6 +142,33 @@ pub(super) fn of_source(
     load.rules_on(space, stage)
 }
 
+/// Of each given strain that no rule resolves, the estimated error of its integral as a part of its
+/// magnitude, and the place. The system keeps its own rules.
+pub(super) fn unresolved_strains(
+    problem: &Problem,
+    space: &Space<'_>,
+    stage: &Stage<'_>,
+) -> Result<Vec<(f64, Vec2)>, Halt> {
+    let mut strains: Vec<&Expression> = Vec::new();
+    for (_, strain) in problem.equation.eigenstrains() {
+        // a temperature gives the same one in all directions
+        if !strains.iter().any(|known| known.text() == strain.text()) {
+            strains.push(strain);
+        }
+    }
+    let doubt = |&strain: &&Expression| {
+        let rules = Load {
+            formulas: vec![strain],
+            values: &|x, _| [strain.value(x), 0.0],
+            rules: &|quadrature, cell| {
+                quadrature.cell(&space.partition().cell[cell], &space.coverers[cell])
+            },
+        };
+        Ok(rules.rules_on(space, stage)?.doubt())
+    };
+    strains.iter().filter_map(|strain| doubt(strain).transpose()).collect()
+}
+
 /// The rules of the data of a condition.
 pub(super) fn of_condition(
     problem: &Problem,

@@ -76,7 +76,7 @@ pub enum LinearError {
     },
     /// A right-hand side that is not finite.
     #[error(
-        "the load is not finite there; look at the tractions, body forces and given displacements"
+        "the load is not finite there; look at the tractions, body forces, given displacements and strains"
     )]
     LoadNotFinite {
         /// The patch.

@@ -4,7 +4,7 @@ use crate::studies::support::{parsed, quantity, record, solved};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
-use ppum_solve::diagnostics::recompute;
+use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::problem::Problem;
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
@@ -319,6 +319,31 @@ fn strains_that_jump_across_a_crack() {
         let (off, told) = ((a.k1 - b.k1).hypot(a.k2 - b.k2), a.error.expect("an estimate"));
         println!("{size} {off:.1e} {told:.1e}");
         assert!(off < 3.0 * told && told < 0.02 * size, "{off} {told}");
+    }
+}
+
+/// Strains that cannot be integrated are told with their place, and those that can are not.
+#[test]
+fn strains_with_poles() {
+    let body = Body { order: 2, ..Body::random(&mut Random(76), STATES[1]) };
+    let of = |text: &str| {
+        let dataset = body.solved(&temperature(text));
+        let all = dataset.steps[0].warnings.iter();
+        all.filter(|w| w.kind == kind::LOAD).cloned().collect::<Vec<_>>()
+    };
+    let at = vec2(0.51, -0.62);
+    let r = format!("hypot(x - {}, y + {})", at.x, -at.y);
+    for exponent in [1.5, 1.9] {
+        let text = format!("{r}^(-{exponent})");
+        let found = of(&text);
+        assert_eq!(found.len(), 1, "{text}: {found:?}");
+        println!("{}", found[0].message);
+        let place = found[0].at.expect("a place");
+        assert!((place - at).length() < 0.05, "{place:?}");
+        assert!(found[0].message.starts_with("a given strain "), "{}", found[0].message);
+    }
+    for text in [WAVES.to_owned(), format!("if({r} < 0.2, 1, 2)"), format!("sqrt({r})")] {
+        assert!(of(&text).is_empty(), "{text}: {:?}", of(&text));
     }
 }
 
