@@ -154,6 +154,13 @@ impl Equation {
         self.elastic()?.eigenstrain.as_deref()
     }
 
+    /// Sets the given strains to zero; those of a temperature of the field stay.
+    pub(crate) fn clear_eigenstrains(&mut self) {
+        if let Self::Elasticity(Elasticity { eigenstrain: Some(given), .. }) = self {
+            given.strains = [0.0; 4].map(Expression::number);
+        }
+    }
+
     /// The mistake in the constants, if there is one: the name of the first that is impossible and
     /// why. Constants are looked at once, formulas at the points of a grid
     /// that lie in the domain.

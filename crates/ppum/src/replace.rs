@@ -71,7 +71,8 @@ pub enum ReplaceError {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Replacements {
     /// The part of the step's first field that takes its place,
-    /// see [`FieldData::part`](crate::dataset::FieldData::part).
+    /// see [`FieldData::part`](crate::dataset::FieldData::part). Given strains belong to the smooth
+    /// part, so that the stresses of the parts of all kinds add up to those of the field.
     pub part: Option<Part>,
     /// Functions by name or number, and formulas in their place, see [`Step::replace_function`].
     pub functions: Vec<(String, String)>,
@@ -108,10 +109,14 @@ impl Replacements {
     /// # Errors
     /// The first change that cannot be made; those before it are made.
     pub fn apply(&self, dataset: &mut Dataset, step: usize) -> Result<(), ReplacementsError> {
-        let Dataset { steps, tables, .. } = dataset;
+        let Dataset { steps, tables, equation, .. } = dataset;
         let Some(step) = steps.get_mut(step) else { return Ok(()) };
         if let (Some(part), Some(field)) = (self.part, step.fields.first_mut()) {
             *field = field.part(part, &step.functions).map_err(ReplacementsError::Part)?;
+            // σ = C ε − C ε⁰, and the constant must occur once in the sum of the parts
+            if part != Part::Smooth {
+                equation.clear_eigenstrains();
+            }
         }
         for (index, (which, text)) in self.functions.iter().enumerate() {
             step.replace_function(which, text, tables).map_err(|error| {

@@ -2,7 +2,9 @@
 
 use crate::studies::support::{parsed, quantity, record, solved};
 use ppum::dataset::{Dataset, TipIntensity};
+use ppum::decompose::KINDS;
 use ppum::progress::unwatched;
+use ppum::replace::Replacements;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::problem::Problem;
@@ -344,6 +346,38 @@ fn strains_with_poles() {
     }
     for text in [WAVES.to_owned(), format!("if({r} < 0.2, 1, 2)"), format!("sqrt({r})")] {
         assert!(of(&text).is_empty(), "{text}: {:?}", of(&text));
+    }
+}
+
+/// Stresses of the parts of a field add up to those of the whole: the given strains belong to the
+/// smooth part. A temperature that is solved for has parts itself.
+#[test]
+fn stresses_of_parts() {
+    let mut random = Random(77);
+    let body = Body { order: 2, ..Body::random(&mut random, STATES[1]) };
+    let given = "[strain]\nxy = \"0.3*y\"\nzz = 0.4\n";
+    let heat = super::heat::heated(&body, &super::heat::on_edges("1 + x*y"));
+    for rest in [temperature(WAVES) + given, heat + given] {
+        let whole = body.solved(&rest);
+        let parts = KINDS.map(|part| {
+            let mut dataset = whole.clone();
+            let part = Some(part);
+            let taken = Replacements { part, ..Replacements::default() }.apply(&mut dataset, 0);
+            taken.ok().map(|()| dataset)
+        });
+        let parts: Vec<Dataset> = parts.into_iter().flatten().collect();
+        assert!(parts.len() >= 3, "{}", parts.len());
+        for _ in 0..20 {
+            let p = random.point(&whole.domain.bounds);
+            for name in ["sxx", "syy", "sxy", "szz", "eigenstrain_xx"] {
+                let values = parts.iter().map(|part| quantity(part, name, p));
+                let (sum, size) =
+                    values.fold((0.0, 0.0), |(sum, size), v| (sum + v, size + f64::abs(v)));
+                let expected = quantity(&whole, name, p);
+                // some hundred operations with terms of the sizes of the parts
+                assert!((sum - expected).abs() <= 1e-11 * size, "{name} {sum} {expected}");
+            }
+        }
     }
 }
 

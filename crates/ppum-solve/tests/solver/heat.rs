@@ -28,12 +28,12 @@ fn heat_text(body: &Body, conditions: &str) -> String {
 }
 
 /// The section that takes its temperature from there.
-fn heated(body: &Body, conditions: &str) -> String {
+pub(super) fn heated(body: &Body, conditions: &str) -> String {
     format!("[temperature]\nproblem = '''\n{}'''\n", heat_text(body, conditions))
 }
 
 /// Temperatures on all edges.
-fn on_edges(value: &str) -> String {
+pub(super) fn on_edges(value: &str) -> String {
     let edge = |on| format!("[[boundary]]\non = \"{on}\"\nvalue = \"{value}\"\n");
     EDGES.map(edge).concat()
 }
