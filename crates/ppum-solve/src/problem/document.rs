@@ -310,6 +310,14 @@ impl<'a> Value<'a> {
         self.item.span().start
     }
 
+    /// The file, the line and the column at which the value's text begins.
+    pub(super) fn start_of_text(&self) -> (&'a str, usize, usize) {
+        let report = &self.document.report;
+        let raw = report.text.get(self.item.span()).unwrap_or_default();
+        let (line, column) = report.position(self.offset() + quotes(raw).unwrap_or(0));
+        (report.file, line, column)
+    }
+
     fn expected<T>(&self, what: &str) -> Option<T> {
         self.error(&format!("must be {what}, found {}", kind(self.item.get_ref())))
     }

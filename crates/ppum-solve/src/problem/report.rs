@@ -7,10 +7,12 @@ use super::error::{Location, Mistake};
 
 /// Collects mistakes; shared by all sections and values of a document.
 pub(super) struct Report<'a> {
-    file: &'a str,
+    pub(super) file: &'a str,
     pub(super) text: &'a str,
     /// Bytes at which the lines of the text begin: files may have as many mistakes as lines.
     lines: Vec<usize>,
+    /// Line and column of the file at which the text begins, from 1.
+    start: (usize, usize),
     /// With the offset in the text, by which they are sorted in the end.
     mistakes: RefCell<Vec<(usize, Mistake)>>,
 }
@@ -19,7 +21,12 @@ impl<'a> Report<'a> {
     pub(super) fn new(file: &'a str, text: &'a str) -> Self {
         let starts = text.match_indices('\n').map(|(newline, _)| newline + 1);
         let lines = iter::once(0).chain(starts).collect();
-        Self { file, text, lines, mistakes: RefCell::default() }
+        Self { file, text, lines, start: (1, 1), mistakes: RefCell::default() }
+    }
+
+    /// Takes the text for a part of the file, which begins at a line and column.
+    pub(super) fn begins_at(&mut self, line: usize, column: usize) {
+        self.start = (line, column);
     }
 
     /// Reports a mistake at a byte of the text.
@@ -34,11 +41,13 @@ impl<'a> Report<'a> {
         self.mistakes.borrow_mut().push((offset, mistake));
     }
 
-    /// Line and column in characters, from 1, of a byte of the text.
+    /// Line and column in characters, from 1, of a byte of the text in the file.
     pub(super) fn position(&self, offset: usize) -> (usize, usize) {
         let line = self.lines.partition_point(|start| *start <= offset);
         let before = self.text.get(self.lines[line - 1]..offset).unwrap_or_default();
-        (line, before.chars().count() + 1)
+        let column = before.chars().count() + 1;
+        let (first, indent) = self.start;
+        (first + line - 1, if line == 1 { indent + column - 1 } else { column })
     }
 
     /// The mistakes in the order of the text.
@@ -46,7 +55,7 @@ impl<'a> Report<'a> {
         let mut mistakes = self.mistakes.into_inner();
         mistakes.sort_by_key(|(offset, _)| *offset);
         // of a curve each vertex has the place of all
-        mistakes.dedup_by(|a, b| a.0 == b.0 && a.1.message == b.1.message);
+        mistakes.dedup();
         mistakes.into_iter().map(|(_, mistake)| mistake).collect()
     }
 }

@@ -252,6 +252,60 @@ fn datasets_are_complete() {
     assert_eq!(warnings.iter().map(|w| w.kind.clone()).collect::<Vec<_>>(), kinds(&dataset));
 }
 
+/// Files that the file of a temperature names need not be there once the body is solved, and its
+/// text is in the dataset as it is written.
+#[test]
+fn datasets_need_no_files() {
+    let body = Body { order: 1, ..Body::random(&mut Random(181), STATES[0]) };
+    let folder = tempfile::tempdir().expect("a folder");
+    let heat = heat_text(&body, &on_edges("x")).replace("level = 1", "points = \"p.csv\"");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text);
+    write("heat.toml", &heat).and(write("p.csv", "0.1,0.2\n-0.5,0.3\n")).expect("written");
+    let text = body.text("[temperature]\nproblem = \"heat.toml\"\n");
+    let problem = Problem::parse(&text, "body.toml", folder.path()).expect("a problem");
+    assert_eq!(problem.files.len(), 2, "{:?}", problem.files);
+    let dataset = solved(&problem);
+    drop(folder);
+    assert!(dataset.problem.as_ref().expect("a text").contains("value = \"x\"\n"));
+    let again = again_problem(&dataset);
+    let (tips, _) = recompute(&dataset, 0, Some(&again), unwatched()).expect("a step");
+    let again: Vec<_> = tips.into_iter().filter_map(|tip| tip.factors).collect();
+    assert_eq!(again.len(), 2);
+    for (known, again) in dataset.steps[0].intensities.iter().zip(again) {
+        assert_eq!(TipIntensity { error: None, ..known.clone() }, again);
+    }
+}
+
+/// Mistakes have the places at which whoever wrote the file finds them.
+#[test]
+fn places_of_mistakes() {
+    let body = Body::random(&mut Random(182), STATES[0]);
+    let mistake = "value = \"x +\"\n";
+    let wrong = on_edges("x").replacen("value = \"x\"\n", mistake, 2);
+    let quotes = [("'''", "'''"), ("'''\n", "'''"), ("\"\"\"\n", "\"\"\"")];
+    for (open, close) in quotes {
+        let heat = heat_text(&body, &wrong);
+        let heat = if close == "'''" { heat } else { heat.replace('"', "\\\"") };
+        let text = body.text(&format!("[temperature]\nproblem = {open}{heat}{close}\n"));
+        let error = Problem::parse(&text, "body.toml", Path::new("")).expect_err("a mistake");
+        let places: Vec<_> = error.mistakes().iter().map(|m| m.location.to_string()).collect();
+        let lines = text.lines().enumerate().filter(|(_, line)| line.contains("x +"));
+        let expected: Vec<_> = lines.map(|(n, _)| format!("body.toml:{}:13", n + 1)).collect();
+        assert_eq!(expected.len(), 2);
+        assert_eq!(places, expected, "{error}");
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("heat.toml");
+    std::fs::write(&file, heat_text(&body, &wrong)).expect("written");
+    let text = body.text("[temperature]\nproblem = \"heat.toml\"\n");
+    let error = Problem::parse(&text, "body.toml", folder.path()).expect_err("a mistake");
+    let lines = heat_text(&body, &wrong);
+    let lines = lines.lines().enumerate().filter(|(_, line)| line.contains("x +"));
+    let expected = lines.map(|(n, _)| format!("{}:{}:13", file.display(), n + 1));
+    let places = error.mistakes().iter().map(|m| m.location.to_string());
+    assert_eq!(places.collect::<Vec<_>>(), expected.collect::<Vec<_>>(), "{error}");
+}
+
 fn again_problem(dataset: &Dataset) -> Problem {
     Problem::of_dataset(dataset).expect("a problem").expect("a text")
 }
@@ -319,7 +373,6 @@ fn refused_temperatures() {
     };
     let good = heated(&body, &on_edges("x"));
     wrong(&good.replace("\"poisson\"", "\"elasticity\""), "", "material");
-    wrong(&good.replace("level = 1", "lewel = 1"), "", "[temperature] problem:");
     wrong(&good.replace("[-1, -1]", "[-2, -1]"), "", "another body");
     let [a, b] = body.crack;
     let longer = Body { crack: [a, b + (b - a) * 0.01], ..body.clone() };
@@ -333,4 +386,11 @@ fn refused_temperatures() {
     let critical = "[growth]\nsteps = 2\nload = \"critical\"\ntoughness = 1\n";
     wrong(&good, critical, "temperatures");
     wrong(&good, "[exact]\ndisplacement = [0, 0]\n", "exact");
+    let held = "[[boundary]]\non = \"top\"\ndisplacement = [0, 0]\n";
+    let alpha = format!("expansion = {}", body.alpha);
+    for section in [good, temperature("x")] {
+        let text = body.text(&(section + held)).replace(&alpha, "expansion = \"1e-3*foo\"");
+        let error = Problem::parse(&text, "body.toml", Path::new("")).expect_err("a mistake");
+        assert!(error.mistakes().len() == 1 && error.to_string().contains("foo"), "{error}");
+    }
 }

@@ -69,10 +69,12 @@ fn cells(section: &Section<'_>) -> Option<Cells> {
                 let found = points::read(&points.file(folder)?);
                 found.map(Cells::Points).map_err(|mistakes| points.add(mistakes)).ok()
             }
-            FileSource::Stored(dataset) => dataset
-                .steps
-                .first()
-                .map(|step| Cells::Points(step.partition.boxes().points.clone())),
+            FileSource::Stored(dataset) => {
+                let points = dataset.steps.first()?.partition.boxes().points.clone();
+                // a temperature is solved for on the cells of its body, which may have none
+                let is_other = section.document.is_heat && points.is_empty();
+                Some(if is_other { Cells::Level(0) } else { Cells::Points(points) })
+            }
         },
         // the steps to an accuracy begin somewhere
         [] if section.mentions("accuracy") => {

@@ -92,9 +92,14 @@ fn read(text: &str, file: &str, source: FileSource<'_>) -> Result<Problem, Probl
     read_document(text, file, Document::new(file, text, source))
 }
 
-/// Reads the problem of a temperature.
-fn read_heat(text: &str, file: &str, source: FileSource<'_>) -> Result<Problem, ProblemError> {
+/// Reads the problem of a temperature from a text that begins at a line and column of a file.
+fn read_heat(
+    text: &str,
+    (file, line, column): (&str, usize, usize),
+    source: FileSource<'_>,
+) -> Result<Problem, ProblemError> {
     let mut document = Document::new(file, text, source);
+    document.report.begins_at(line, column);
     document.is_heat = true;
     read_document(text, file, document)
 }
@@ -245,7 +250,7 @@ fn equation(root: &Section<'_>, kind: EquationKind) -> Equation {
             .as_ref()
             .and_then(|s| s.require("state"))
             .unwrap_or(StressState::PlaneStress),
-        eigenstrain: temperature::eigenstrain(root, section.and_then(|s| s.get("expansion"))),
+        eigenstrain: temperature::eigenstrain(root, section.as_ref()),
     })
 }
 

@@ -13,27 +13,30 @@ use super::super::document::{FileSource, MAX_LENGTH, Section, Value};
 use super::super::error::ProblemError;
 use super::super::model::{Problem, SolvedTemperature};
 
-/// Reads the problem of a text, of the file of a name.
-type Reader<'r> = &'r dyn Fn(&str, &str, FileSource<'_>) -> Result<Problem, ProblemError>;
+/// Reads the problem of a text that begins at a line and column of a file.
+type Reader<'r> =
+    &'r dyn Fn(&str, (&str, usize, usize), FileSource<'_>) -> Result<Problem, ProblemError>;
 
 /// ε⁰ = α ΔT I + what is given beside; none if nothing is. A temperature that another problem gives
 /// leaves α.
 pub(super) fn eigenstrain(
     root: &Section<'_>,
-    expansion: Option<Expression>,
+    material: Option<&Section<'_>>,
 ) -> Option<Box<Eigenstrain>> {
     let temperature = root.section("temperature");
     let given = root.section("strain");
     if temperature.is_none() && given.is_none() {
         return None;
     }
-    if let Some(section) = temperature.as_ref().filter(|_| expansion.is_none()) {
+    let is_missing = material.is_none_or(|material| !material.mentions("expansion"));
+    if let Some(section) = temperature.as_ref().filter(|_| is_missing) {
         let message =
             "`expansion` is missing in [material]; a change of temperature strains the body by it";
         section.error::<()>(message);
     }
     let is_solved = |section: &&Section<'_>| section.mentions("problem");
-    let alpha = expansion.clone().unwrap_or(0.0.into());
+    let alpha: Option<Expression> = material.and_then(|material| material.get("expansion"));
+    let alpha = alpha.unwrap_or(0.0.into());
     let formula = temperature.as_ref().filter(|section| !is_solved(section));
     let swelling =
         formula.map(|section| format!("({})*({})", alpha.text(), text_of(section, "value")));
@@ -97,7 +100,7 @@ fn problem_of(
 ) -> Option<Result<Problem, ProblemError>> {
     let source = value.document.source;
     if text.contains('\n') {
-        return Some(read(text, "[temperature] problem", source));
+        return Some(read(text, value.start_of_text(), source));
     }
     let FileSource::Folder(folder) = source else {
         return value
@@ -107,7 +110,8 @@ fn problem_of(
     let text = ppum_file::text(&path, MAX_LENGTH);
     let text = text.map_err(|error| value.error::<()>(&format!("cannot be read: {error}"))).ok()?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let problem = read(&text, &path.display().to_string(), FileSource::Folder(folder));
+    let name = path.display().to_string();
+    let problem = read(&text, (&name, 1, 1), FileSource::Folder(folder));
     let files = problem.iter().flat_map(|problem| problem.files.iter().cloned());
     value.document.files.borrow_mut().extend(files);
     Some(problem)
@@ -147,10 +151,19 @@ pub(super) fn with_text(text: &str, document: &DeTable<'_>, problem: &Problem) -
         (Some(heat), Some(value))
             if !value.get_ref().as_str().is_some_and(|v| v.contains('\n')) =>
         {
-            let heat = heat.replace('\\', "\\\\").replace('"', "\\\"");
             let (before, after) = (&text[..value.span().start], &text[value.span().end..]);
-            format!("{before}\"\"\"\n{heat}\"\"\"{after}")
+            format!("{before}{}{after}", quoted(heat))
         }
         _ => text.to_owned(),
     }
+}
+
+/// A text of several lines in quotes: as it is, so that its formulas can be read, if no quotes in it
+/// forbid that.
+fn quoted(text: &str) -> String {
+    if text.contains("'''") {
+        let text = text.replace('\\', "\\\\").replace('"', "\\\"");
+        return format!("\"\"\"\n{text}\"\"\"");
+    }
+    format!("'''\n{text}'''")
 }
