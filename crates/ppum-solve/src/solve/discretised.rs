@@ -19,6 +19,8 @@ pub(super) struct Discretised<'p> {
     pub(super) dataset: Dataset,
     /// The space of its step: the only one from here to the last warning.
     pub(super) space: Space<'p>,
+    /// The step of a temperature that is solved for on the same mesh.
+    pub(super) heat: Option<Step>,
     /// Number of patches that a crack or rim crosses twice.
     pub(super) crossed_twice: usize,
 }
@@ -47,7 +49,7 @@ impl<'p> Discretised<'p> {
         {
             return Err(SpaceError::Force { at: field.at(), reach: field.reach }.into());
         }
-        Ok(Self { problem, mesh, dataset, space, crossed_twice })
+        Ok(Self { problem, mesh, dataset, space, heat, crossed_twice })
     }
 
     /// The data of the problem, and the plate that they act on.

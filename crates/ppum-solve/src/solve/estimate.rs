@@ -30,6 +30,9 @@ const BESIDE: f64 = 0.4;
 /// Memory of any solution: the program, the work on cells.
 const FIXED_BYTES: f64 = 3e7;
 
+/// Bytes of a coefficient of a solution.
+const COEFFICIENT_BYTES: f64 = 8.0;
+
 /// Values of a patch beside its blocks.
 const PATCH_BYTES: f64 = 1_500.0;
 
@@ -131,6 +134,16 @@ impl Estimate {
             }
             SolverKind::Auto => direct().or(multilevel(), memory),
             SolverKind::Multilevel => Self { falls_back: direct().fits(memory), ..multilevel() },
+        }
+    }
+
+    /// The estimate of this solution after another one, of which the coefficients are kept.
+    pub(super) fn after(self, first: &Self) -> Self {
+        let kept = COEFFICIENT_BYTES * first.unknowns + PATCH_BYTES * first.patches;
+        Self {
+            memory: (self.memory + kept).max(first.memory),
+            seconds: self.seconds + first.seconds,
+            ..self
         }
     }
 

@@ -5,7 +5,7 @@ use super::clock::Clock;
 use super::discretised::Discretised;
 use super::estimate::Estimate;
 use crate::problem::Problem;
-use crate::space::Mesh;
+use crate::space::{Mesh, Space};
 use crate::watched::Stage;
 use ppum::dataset::Dataset;
 use ppum::progress::{Phase, Watcher};
@@ -66,9 +66,8 @@ impl<'p> Plan<'p> {
         memory: Option<u64>,
         (mut clock, stage): (Clock, &Stage<'_>),
     ) -> Result<Self, SolveError> {
-        let discretised = Discretised::new(problem, mesh, stage)?;
-        let estimate = Estimate::of_space(problem, &discretised.space, memory);
-        let estimate = fits(estimate, memory)?;
+        let mut discretised = Discretised::new(problem, mesh, stage)?;
+        let estimate = fits(estimate(&mut discretised, memory)?, memory)?;
         clock.lap(Phase::Cover);
         Ok(Self { discretised, memory, estimate, clock })
     }
@@ -117,6 +116,18 @@ impl Plan<'_> {
         let mesh = self.discretised.mesh.clone();
         Plan::on(heat, mesh, self.memory, (Clock::new(), &stage)).map_err(SolveError::of_heat)
     }
+}
+
+/// The estimate of a solution, and of the temperature that is solved for before it.
+fn estimate(
+    discretised: &mut Discretised<'_>,
+    memory: Option<u64>,
+) -> Result<Estimate, SolveError> {
+    let Discretised { problem, space, heat, .. } = discretised;
+    let own = Estimate::of_space(problem, space, memory);
+    let Some((heat, step)) = problem.heat().zip(heat.take()) else { return Ok(own) };
+    let space = Space::of_problem(&heat, step, None)?;
+    Ok(own.after(&Estimate::of_space(&heat, &space, memory)))
 }
 
 /// The estimate, if what it needs is there.

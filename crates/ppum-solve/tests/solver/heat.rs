@@ -12,6 +12,7 @@ use ppum_solve::diagnostics::recompute;
 use ppum_solve::growth::series;
 use ppum_solve::intensity::on_circle;
 use ppum_solve::problem::Problem;
+use ppum_solve::solve::Plan;
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -304,6 +305,30 @@ fn places_of_mistakes() {
     let expected = lines.map(|(n, _)| format!("{}:{}:13", file.display(), n + 1));
     let places = error.mistakes().iter().map(|m| m.location.to_string());
     assert_eq!(places.collect::<Vec<_>>(), expected.collect::<Vec<_>>(), "{error}");
+}
+
+/// The estimate of the effort has that of the temperature in it.
+#[test]
+fn estimates_include_the_temperature() {
+    let body = Body::random(&mut Random(183), STATES[0]);
+    let estimate =
+        |problem: &Problem| *Plan::new(problem, None, unwatched()).expect("a plan").estimate();
+    // a temperature of many more functions than the displacement has
+    let function =
+        |k| format!("[[enrichment]]\nfunction = \"sin({k}*x)\"\nwhere = \"x < 9\"\ndegree = 3\n");
+    let functions: String = (1..12).map(function).collect();
+    for (extra, is_larger) in [("", false), (functions.as_str(), true)] {
+        let conditions = waves(WAVES) + extra;
+        let both = estimate(&body.problem(&heated(&body, &conditions)));
+        let plain = estimate(&body.problem(&temperature(WAVES)));
+        let heat = heat_text(&body, &conditions).replace("level = 1", "cells = [6, 6]\norder = 3");
+        let heat = estimate(&parsed(&heat));
+        assert_eq!(both.unknowns, plain.unknowns);
+        assert!((both.seconds - plain.seconds - heat.seconds).abs() < 1e-12 * both.seconds);
+        assert_eq!(heat.memory > plain.memory, is_larger, "{heat} {plain}");
+        assert!(both.memory >= heat.memory && both.memory > plain.memory, "{both}");
+        assert!(both.memory < heat.memory + plain.memory, "{both}");
+    }
 }
 
 fn again_problem(dataset: &Dataset) -> Problem {
