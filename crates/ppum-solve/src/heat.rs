@@ -5,6 +5,7 @@
 //! strains ε⁰ = α T I + … it gives. Their local spaces have the same patches but functions of their
 //! own; in the joint field a block is of zeros in the components that do not have it.
 
+use crate::report::{SolverReport, Unresolved};
 use ppum::crack::{SegmentId, Side};
 use ppum::dataset::{
     Dataset, Eigenstrain, Elasticity, Equation, FieldData, NamedQuantity, Reaction, Step,
@@ -31,6 +32,10 @@ pub(crate) struct Temperature {
     heat: Dataset,
     /// The equation of the body, with the coefficient α of expansion.
     equation: Equation,
+    /// What its solution tells beside the field; nothing of a temperature that is stored.
+    pub(crate) report: SolverReport,
+    /// Integrands of its system that were not resolved.
+    pub(crate) unresolved: Vec<Unresolved>,
 }
 
 impl Temperature {
@@ -41,7 +46,23 @@ impl Temperature {
     /// A field that does not compile.
     pub(crate) fn new(heat: Dataset, equation: Equation) -> Result<Self, FieldError> {
         Field::new(&heat, 0)?;
-        Ok(Self { heat, equation })
+        let (report, unresolved) = (SolverReport::default(), Vec::new());
+        Ok(Self { heat, equation, report, unresolved })
+    }
+
+    /// The temperature as the solution of its own problem, which has an equation of one component.
+    pub(crate) fn potential(&self, equation: &Equation) -> Dataset {
+        let mut dataset = self.heat.clone();
+        let field = &mut dataset.steps[0].fields[0];
+        "potential".clone_into(&mut field.name);
+        field.components = equation.component_names().iter().map(|&name| name.into()).collect();
+        dataset.equation = equation.clone();
+        dataset
+    }
+
+    /// The temperature with what its solution tells beside the field.
+    pub(crate) fn with_report(self, report: SolverReport, unresolved: Vec<Unresolved>) -> Self {
+        Self { report, unresolved, ..self }
     }
 
     /// The temperature, ready to be evaluated.

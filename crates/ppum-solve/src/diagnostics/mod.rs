@@ -26,6 +26,7 @@ pub use warning::{
 use crate::geometry::points_of_forces;
 use crate::heat::Temperature;
 use crate::intensity::{FACTORS_OF, TipOutcome, intensities_under};
+use crate::norms::energy;
 use crate::problem::Problem;
 use crate::report::{SolverReport, Unresolved};
 use crate::space::Space;
@@ -162,7 +163,33 @@ impl DiagnosedSolution<'_> {
         }
         warnings.extend(of_pressure(field, law));
         warnings.extend(of_quadrature(self.unresolved, &places));
+        warnings.extend(self.of_temperature(&warnings, watcher)?);
         Ok(Diagnosis { warnings, rounding: rounding.largest })
+    }
+
+    /// The warnings about the temperature that strains the body, if it is solved for; without those
+    /// about the cells, which are `known` of the body.
+    fn of_temperature(
+        &self,
+        known: &[Warning],
+        watcher: &dyn Watcher,
+    ) -> Result<Vec<Warning>, RecomputeError> {
+        let problem = self.problem.and_then(Problem::heat);
+        let Some((heat, problem)) = self.space.temperature().zip(problem) else {
+            return Ok(Vec::new());
+        };
+        let dataset = &heat.potential(&problem.equation);
+        let field = &Field::new(dataset, 0)?;
+        let Dataset { domain, equation, tables, .. } = dataset;
+        let space = &Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
+        let report = &SolverReport { energy: Some(energy(field, space)), ..heat.report.clone() };
+        let (problem, unresolved) = (Some(&problem), heat.unresolved.as_slice());
+        let case =
+            DiagnosedSolution { dataset, step: 0, field, space, problem, report, unresolved };
+        let found = case.diagnose(&[], watcher)?.warnings.into_iter();
+        // its values strain the body; what digits its gradient has does not matter
+        let found = found.filter(|new| new.kind != kind::DIGITS && !known.contains(new));
+        Ok(found.map(of_heat).collect())
     }
 }
 
@@ -175,6 +202,13 @@ fn of_locking(field: &Field<'_>, space: &Space<'_>) -> Option<Warning> {
         short((1e4 * lost).round() / 1e2)
     );
     (lost > LARGE_LOCKING).then(|| warning(kind::LOCKING, None, [lost, LARGE_LOCKING], message))
+}
+
+/// The warning about a temperature that is solved for, in a dataset of the body that it strains.
+fn of_heat(found: Warning) -> Warning {
+    let kind = format!("temperature-{}", found.kind);
+    let message = format!("the temperature: {}", found.message);
+    Warning { kind, message, ..found }
 }
 
 /// The warnings about what quadrature does not resolve.

@@ -91,8 +91,10 @@ fn temperature(plan: &Plan<'_>, watcher: &dyn Watcher) -> Result<Option<Temperat
     let Some(heat) = problem.heat() else { return Ok(None) };
     let solved =
         Solved::new(plan.of_heat(&heat, watcher)?, watcher).map_err(SolveError::of_heat)?;
-    let (heat, equation) = (solved.plan.discretised.dataset, problem.dataset_equation());
-    Ok(Some(Temperature::new(heat, equation.into_owned())?))
+    let Solved { plan, report, unresolved, .. } = solved;
+    let equation = problem.dataset_equation().into_owned();
+    let temperature = Temperature::new(plan.discretised.dataset, equation)?;
+    Ok(Some(temperature.with_report(report, unresolved)))
 }
 
 /// The report of a linear solver, with the numbers of the system.

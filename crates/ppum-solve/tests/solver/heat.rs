@@ -5,10 +5,10 @@ use super::eigenstrain::{
     Body, EDGES, STATES, WAVES, check, difference, factors, size, temperature,
 };
 use crate::studies::support::{parsed, quantity, record, solved};
-use ppum::dataset::{Dataset, TipIntensity};
+use ppum::dataset::{Dataset, TipIntensity, Warning};
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
-use ppum_solve::diagnostics::recompute;
+use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::growth::series;
 use ppum_solve::intensity::on_circle;
 use ppum_solve::problem::Problem;
@@ -251,6 +251,50 @@ fn datasets_are_complete() {
         dataset.steps[0].warnings.iter().map(|w| w.kind.clone()).collect::<Vec<_>>()
     };
     assert_eq!(warnings.iter().map(|w| w.kind.clone()).collect::<Vec<_>>(), kinds(&dataset));
+}
+
+/// Warnings of the temperature's own problem are among those of the body, marked, and found again.
+#[test]
+fn warnings_of_the_temperature() {
+    let body = Body { order: 2, ..Body::random(&mut Random(179), STATES[0]) };
+    let jump = on_edges("0").replacen("\"0\"", "1", 1);
+    let spike = "[source]\nvalue = \"hypot(x - 0.51, y + 0.52)^(-1.5)\"\n";
+    let alone = heat_text(&body, &(jump.clone() + spike));
+    let alone = solved(&parsed(&alone.replace("level = 1", "cells = [6, 6]\norder = 2")));
+    let problem = body.problem(&heated(&body, &(jump + spike)));
+    let dataset = solved(&problem);
+    let of_heat = |warnings: &[Warning]| -> Vec<Warning> {
+        let marked = warnings.iter().filter(|w| w.kind.starts_with("temperature-"));
+        marked.cloned().collect()
+    };
+    let found = of_heat(&dataset.steps[0].warnings);
+    let expected: Vec<_> =
+        alone.steps[0].warnings.iter().map(|w| (&w.kind, w.at, w.value)).collect();
+    assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
+    for kind in [kind::SINGULAR_POINT, kind::LOAD] {
+        assert!(expected.iter().any(|(known, ..)| *known == kind), "{kind}: {expected:?}");
+    }
+    for (found, (kind, at, value)) in found.iter().zip(expected) {
+        println!("{}", found.message);
+        assert_eq!((found.kind.strip_prefix("temperature-"), found.at), (Some(kind.as_str()), at));
+        assert!((found.value / value - 1.0).abs() < 1e-9, "{} {value}", found.value);
+        assert!(found.message.starts_with("the temperature: "), "{}", found.message);
+    }
+    let (_, again) = recompute(&dataset, 0, Some(&problem), unwatched()).expect("a step");
+    // a dataset does not hold what quadrature left open
+    let expected: Vec<_> = found.iter().filter(|w| !w.kind.ends_with(kind::LOAD)).collect();
+    assert_eq!(of_heat(&again).iter().collect::<Vec<_>>(), expected);
+}
+
+/// A good problem of a temperature has no warnings, whatever digits its gradient has.
+#[test]
+fn good_temperatures_are_silent() {
+    let body = Body { order: 2, ..Body::random(&mut Random(180), STATES[1]) };
+    for text in ["2", "1 + x"] {
+        let dataset = body.solved(&heated(&body, &on_edges(text)));
+        let warnings = &dataset.steps[0].warnings;
+        assert!(warnings.iter().all(|w| !w.kind.starts_with("temperature-")), "{warnings:?}");
+    }
 }
 
 /// Files that the file of a temperature names need not be there once the body is solved, and its
