@@ -158,8 +158,8 @@ pub(super) fn with_text(text: &str, document: &DeTable<'_>, problem: &Problem) -
     }
 }
 
-/// A text of several lines in quotes: as it is, so that its formulas can be read, if no quotes in it
-/// forbid that.
+/// A text of several lines in quotes: as it is, so that its formulas can be read, unless it has
+/// such quotes itself.
 fn quoted(text: &str) -> String {
     if text.contains("'''") {
         let text = text.replace('\\', "\\\\").replace('"', "\\\"");
