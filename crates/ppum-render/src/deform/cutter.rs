@@ -13,7 +13,7 @@ use super::chart::{ElementChart, uncut};
 use super::leaf::Leaf;
 use super::map::{Chart, DeformationMap};
 use super::{DeformError, DeformedView};
-use crate::pieces::{INSET, Piece, Pieces};
+use crate::pieces::{INSET, Piece, Pieces, quarters};
 
 /// Squares are halved that often before it is asked what is seen of them: displacements vary little
 /// enough from one to the next.
@@ -177,13 +177,7 @@ impl Cutter for SquareCutter<'_, '_> {
     }
 
     fn quarters(square: &Rect) -> [Rect; 4] {
-        let (min, middle, max) = (square.min, square.center(), square.max);
-        [
-            Rect::new(min, middle),
-            Rect::new(vec2(middle.x, min.y), vec2(max.x, middle.y)),
-            Rect::new(vec2(min.x, middle.y), vec2(middle.x, max.y)),
-            Rect::new(middle, max),
-        ]
+        quarters(square)
     }
 }
 

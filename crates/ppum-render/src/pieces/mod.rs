@@ -229,7 +229,8 @@ impl<'f> Pieces<'f> {
 /// Relative difference of the moduli on two sides above which a material jumps.
 const JUMP: f64 = 1e-4;
 
-fn quarters(square: &Rect) -> [Rect; 4] {
+/// The four squares of half its side.
+pub(crate) fn quarters(square: &Rect) -> [Rect; 4] {
     let (min, middle, max) = (square.min, square.center(), square.max);
     [
         Rect::new(min, middle),
