@@ -3,7 +3,7 @@
 use ppum::progress::Watcher;
 use ppum_gpu::{AdapterChoice, AdapterInfo, Gpu, GpuError, RenderError, Renderer};
 use ppum_render::raster::Raster;
-use ppum_render::samples::{Means, Samples};
+use ppum_render::samples::{Means, SampleImage, Samples};
 use ppum_scene::drawing::{DrawingInput, Drawn};
 use ppum_scene::engine::{CardError, Device, DrawOnCard, Method};
 
@@ -42,7 +42,9 @@ fn draw(
     if samples == Samples::CENTER {
         return Ok(Drawn::new(raster, job.field, job.view, &by));
     }
-    Ok(Drawn::averaged(Means::of(field.domain, view, samples, &raster), job, &by))
+    let undefined = raster.undefined(field.domain, &finer);
+    let image = SampleImage { raster: &raster, undefined: &undefined };
+    Ok(Drawn::averaged(Means::of(view, quantity, samples, image), job, &by))
 }
 
 fn drawn(

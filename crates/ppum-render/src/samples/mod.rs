@@ -13,6 +13,8 @@
 //! midpoint rule, exact for linear fields; means are of *values*, not of colours, so a colour bar
 //! still tells what a colour means. Further:
 //!
+//! - the mean of directions, which are angles up to π, is that of the doubled angles as vectors:
+//!   ½ atan2(Σ sin 2θ_k, Σ cos 2θ_k);
 //! - samples of the plate without a value, as formulas have them, do not count; where no sample has
 //!   one the pixel has none;
 //! - a value is infinite at points, as stresses are at a tip, which have no area: it does not count
@@ -26,7 +28,6 @@
 use std::num::NonZeroU8;
 use std::str::FromStr;
 
-use ppum::domain::{Domain, LocalDomain};
 use ppum::field::{Field, LocalField};
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
@@ -99,17 +100,32 @@ pub struct Means<T = f64> {
     pub samples: Samples,
 }
 
+/// An image of the [finer](View::finer) view, as any renderer draws it.
+#[derive(Clone, Copy, Debug)]
+pub struct SampleImage<'a, T> {
+    /// The values.
+    pub raster: &'a Raster<T>,
+    /// The pixels of the body without a value, rising, by their place row by row.
+    pub undefined: &'a [u32],
+}
+
 impl<T: Sample> Means<T> {
-    /// The means of a picture of the [finer](View::finer) view, as any renderer draws it.
+    /// The means of a quantity over the pixels of a view, from an image of its samples.
     ///
     /// # Panics
-    /// If the picture does not have the pixels of that view.
+    /// If the image does not have the pixels of the finer view.
     #[must_use]
-    pub fn of(domain: &Domain, view: &View, samples: Samples, finer: &Raster<T>) -> Self {
-        assert_eq!(finer.size, view.pixels.map(|n| n * samples.side()), "a picture of samples");
-        let inside = Inside::Domain(domain.at(view.center));
-        let mut gathered = Gathered::new(inside, view, samples);
-        gathered.add(&finer.values);
+    pub fn of(
+        view: &View,
+        quantity: &Quantity,
+        samples: Samples,
+        image: SampleImage<'_, T>,
+    ) -> Self {
+        let size = view.pixels.map(|n| n * samples.side());
+        assert_eq!(image.raster.size, size, "an image of samples");
+        let inside = Inside::Pixels { sorted: image.undefined, columns: size[0] };
+        let mut gathered = Gathered::new(inside, view, quantity, samples);
+        gathered.add(&image.raster.values);
         gathered.finish()
     }
 
@@ -143,11 +159,8 @@ pub fn means<T: Sample>(
     watcher: &dyn Watcher,
 ) -> Result<Means<T>, RenderError> {
     let finer = view.finer(samples.side())?;
-    let inside = match field.step.partition.mesh() {
-        Some(_) => Inside::Mesh(field.at(view.center)),
-        None => Inside::Domain(field.domain.at(view.center)),
-    };
-    let mut gathered = Gathered::new(inside, view, samples);
+    let inside = Inside::Field(field.at(view.center));
+    let mut gathered = Gathered::new(inside, view, quantity, samples);
     let (rows, mut add) = (rows(&finer, samples), |values: Vec<T>| gathered.add(&values));
     render_strips::<T>(field, &finer, quantity, rows, watcher, &mut add)?;
     Ok(gathered.finish())
@@ -166,17 +179,22 @@ fn rows(finer: &View, samples: Samples) -> u32 {
     least * (HELD / finer.pixels[0] / least).max(1)
 }
 
-/// What counts as the plate: its domain, or the elements of a mesh.
+/// Which samples without a value lie in the body.
 enum Inside<'f> {
-    Domain(LocalDomain),
-    Mesh(LocalField<'f>),
+    /// Those at points of the field's domain, or of its elements.
+    Field(LocalField<'f>),
+    /// Those of these pixels of the finer view, which has so many columns.
+    Pixels { sorted: &'f [u32], columns: u32 },
 }
 
 impl Inside<'_> {
-    fn contains(&self, offset: Vec2) -> bool {
+    /// True for the sample of a column and row, at an offset from the view's centre.
+    fn contains(&self, [column, row]: [u32; 2], offset: Vec2) -> bool {
         match self {
-            Self::Domain(domain) => domain.contains(offset),
-            Self::Mesh(local) => local.contains(offset),
+            Self::Field(local) => local.contains(offset),
+            Self::Pixels { sorted, columns } => {
+                sorted.binary_search(&(row * columns + column)).is_ok()
+            }
         }
     }
 }
@@ -186,6 +204,8 @@ struct Gathered<'v, T> {
     view: &'v View,
     samples: Samples,
     inside_of: Inside<'v>,
+    /// True for angles of directions, which are the same after a turn by π.
+    is_direction: bool,
     /// Offsets of the columns of samples.
     xs: Vec<f64>,
     finer: View,
@@ -194,10 +214,12 @@ struct Gathered<'v, T> {
 }
 
 impl<'v, T: Sample> Gathered<'v, T> {
-    fn new(inside_of: Inside<'v>, view: &'v View, samples: Samples) -> Self {
+    fn new(inside_of: Inside<'v>, view: &'v View, quantity: &Quantity, samples: Samples) -> Self {
+        let is_direction = *quantity == Quantity::PrincipalDirection;
         let finer = View { pixels: view.pixels.map(|n| n * samples.side()), ..*view };
         let xs = (0..finer.pixels[0]).map(|column| finer.column_offset(column)).collect();
-        Self { view, samples, inside_of, xs, finer, values: Vec::new(), inside: Vec::new() }
+        let (values, inside) = (Vec::new(), Vec::new());
+        Self { view, samples, inside_of, is_direction, xs, finer, values, inside }
     }
 
     /// Adds the next rows of samples, whole rows of pixels.
@@ -214,14 +236,16 @@ impl<'v, T: Sample> Gathered<'v, T> {
     /// Mean and number of samples of the plate, of each pixel of a row.
     fn line(&self, row: u32, samples: &[T]) -> Vec<(T, u16)> {
         let (columns, side) = (self.xs.len(), self.samples.side() as usize);
-        let y = |k: usize| self.finer.row_offset(row * self.samples.side() + k as u32);
-        let ys: Vec<f64> = (0..side).map(y).collect();
+        let first_row = row * self.samples.side();
+        let rows: Vec<(u32, f64)> =
+            (first_row..).take(side).map(|row| (row, self.finer.row_offset(row))).collect();
         let pixel = |first: usize| {
-            let mut mean = Mean::default();
-            for (line, &y) in samples.chunks_exact(columns).zip(&ys) {
+            let mut mean = Mean { is_direction: self.is_direction, ..Mean::default() };
+            for (line, &(row, y)) in samples.chunks_exact(columns).zip(&rows) {
                 let values = line[first..first + side].iter().zip(&self.xs[first..]);
-                for (&value, &x) in values {
-                    mean.add(value.into(), || self.inside_of.contains([x, y].into()));
+                for (column, (&value, &x)) in (first as u32..).zip(values) {
+                    let is_inside = || self.inside_of.contains([column, row], [x, y].into());
+                    mean.add(value.into(), is_inside);
                 }
             }
             (T::from_f64(mean.value()), mean.inside)
@@ -239,6 +263,9 @@ impl<'v, T: Sample> Gathered<'v, T> {
 #[derive(Default)]
 struct Mean {
     finite: f64,
+    /// Sums of the cosines and sines of doubled angles.
+    doubled: [f64; 2],
+    is_direction: bool,
     count: u16,
     infinite: f64,
     is_infinite: bool,
@@ -250,6 +277,10 @@ impl Mean {
         if value.is_finite() {
             self.finite += value;
             self.count += 1;
+            if self.is_direction {
+                let (sine, cosine) = (2.0 * value).sin_cos();
+                self.doubled = [self.doubled[0] + cosine, self.doubled[1] + sine];
+            }
         } else if !value.is_nan() {
             self.infinite += value;
             self.is_infinite = true;
@@ -261,6 +292,7 @@ impl Mean {
         match self.count {
             0 if self.is_infinite => self.infinite,
             0 => f64::NAN,
+            2.. if self.is_direction => 0.5 * self.doubled[1].atan2(self.doubled[0]),
             n => self.finite / f64::from(n),
         }
     }

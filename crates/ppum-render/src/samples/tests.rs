@@ -1,5 +1,7 @@
 //! Means against closed forms, the exact share of pixels, and the reference evaluation.
 
+use std::f64::consts::PI;
+
 use super::*;
 use ppum::dataset::Dataset;
 use ppum::domain::Hole;
@@ -102,9 +104,9 @@ fn one_sample_is_the_centre() {
 fn strips_change_nothing() {
     let dataset = Recipe::random(7).dataset();
     let field = Field::new(&dataset, 0).expect("a field");
-    let quantity = Quantity::parse("von-mises", &field).expect("a quantity");
     let view = View::new(vec2(0.8, 0.2), 1.5, [61, 45]).expect("a view");
-    for n in [3, 4] {
+    for (name, n) in [("von-mises", 3), ("von-mises", 4), ("direction", 2)] {
+        let quantity = Quantity::parse(name, &field).expect("a quantity");
         let finer = view.finer(n.into()).expect("a view");
         let whole = render::<f64>(&field, &finer, &quantity, unwatched()).expect("a picture");
         for rows in [1, 16, 40, 96, 1000] {
@@ -119,8 +121,10 @@ fn strips_change_nothing() {
             assert_eq!(count, finer.pixels[1].div_ceil(height));
             assert_eq!(bits(&Raster::new(finer.pixels, all)), bits(&whole), "{rows}");
         }
-        let at_once = Means::of(field.domain, &view, samples(n), &whole);
-        let found = means_of::<f64>(&dataset, &view, "von-mises", n);
+        let undefined = whole.undefined(field.domain, &finer);
+        let image = SampleImage { raster: &whole, undefined: &undefined };
+        let at_once = Means::of(&view, &quantity, samples(n), image);
+        let found = means_of::<f64>(&dataset, &view, name, n);
         assert_eq!(bits(&found.raster), bits(&at_once.raster));
         assert_eq!(found.inside, at_once.inside);
     }
@@ -222,4 +226,31 @@ fn means_do_not_depend_on_threads() {
     };
     let (one, three) = (on(1), on(3));
     assert_eq!((bits(&one.raster), one.inside), (bits(&three.raster), three.inside));
+}
+
+/// An angle θ of a direction is the same as θ + π, so directions about any angle, also about the y
+/// axis where θ jumps, have a mean no farther from it than they are.
+#[test]
+fn directions_have_a_mean_direction() {
+    let mut random = Random(83);
+    for _ in 0..50 {
+        let (center, spread) = (random.between(-4.0, 4.0), random.between(0.0, 0.7));
+        let view = inner([3, 2]);
+        let wrapped = |angle: f64| angle - PI * ((angle / PI) - 0.5).ceil();
+        let finer =
+            Raster::from_fn([12, 8], |_, _| wrapped(center + random.between(-spread, spread)));
+        let image = SampleImage { raster: &finer, undefined: &[] };
+        let found = Means::of(&view, &Quantity::PrincipalDirection, samples(4), image);
+        for mean in &found.raster.values {
+            assert!(mean.abs() <= PI / 2.0);
+            assert!(wrapped(mean - center).abs() <= spread + 1e-12, "{mean} about {center}");
+        }
+        // turned together directions keep their mean
+        let turned = Raster::from_fn([12, 8], |i, j| wrapped(finer.value(i, j) + 1.0));
+        let image = SampleImage { raster: &turned, undefined: &[] };
+        let turned = Means::of(&view, &Quantity::PrincipalDirection, samples(4), image);
+        for (mean, turned) in found.raster.values.iter().zip(&turned.raster.values) {
+            assert!(wrapped(turned - mean - 1.0).abs() < 1e-12);
+        }
+    }
 }

@@ -9,7 +9,7 @@ use ppum_render::isoline::Isoline;
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::ValueSpan;
 use ppum_render::raster::{Raster, Sample};
-use ppum_render::samples::{Means, Samples};
+use ppum_render::samples::{Means, SampleImage, Samples};
 use ppum_render::view::View;
 
 use super::{Shot, ShotError};
@@ -110,8 +110,8 @@ impl<'a> Input<'a> {
         let drawn = centers(&finer, Samples::CENTER)?;
         let job = DrawingInput { field, view, quantity };
         Ok(match &drawn.values {
-            RasterValues::Double(raster) => averaged(job, samples, raster, &drawn.by),
-            RasterValues::Single(raster) => averaged(job, samples, raster, &drawn.by),
+            RasterValues::Double(raster) => averaged(job, samples, raster, &drawn),
+            RasterValues::Single(raster) => averaged(job, samples, raster, &drawn),
         })
     }
 
@@ -268,17 +268,18 @@ impl<'a> Input<'a> {
 /// Most samples of an image of the whole, all of which are held at once: 512 MiB.
 const MOST_SAMPLES: u64 = 1 << 26;
 
-/// The means over the pixels of an image of samples.
+/// The means over the pixels of an image of samples, whose values are given.
 fn averaged<T: Sample>(
     job: DrawingInput<'_>,
     samples: Samples,
-    finer: &Raster<T>,
-    by: &str,
+    raster: &Raster<T>,
+    Drawn { without, by, .. }: &Drawn,
 ) -> Drawn
 where
     RasterValues: From<Raster<T>>,
 {
-    Drawn::averaged(Means::of(job.field.domain, job.view, samples, finer), job, by)
+    let image = SampleImage { raster, undefined: without };
+    Drawn::averaged(Means::of(job.view, job.quantity, samples, image), job, by)
 }
 
 /// Leaves out the colours: the plate is white.
