@@ -7,6 +7,7 @@ use ppum_render::isoline::{Isoline, isolines as isolines_of_body};
 use ppum_render::raster::{Raster, Sample};
 
 use super::drawn::restricted;
+use super::zero_line;
 use crate::drawing::DrawingInput;
 use crate::mirror::{MirrorImage, MirrorLines, slope_sign};
 
@@ -35,6 +36,9 @@ pub(crate) fn isolines<T: Sample>(
             let line = |line: Isoline| reflected_line(line, level, &image, reflected.change);
             all.extend(found.into_iter().map(line));
         }
+    }
+    if levels.contains(&0.0) {
+        zero_line::complete(field, (view, &lines), quantity, &mut all)?;
     }
     Ok(all)
 }

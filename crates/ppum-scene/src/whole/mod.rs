@@ -4,6 +4,7 @@
 mod drawn;
 mod extrema;
 mod isolines;
+mod zero_line;
 
 pub(crate) use drawn::draw;
 pub(crate) use extrema::extrema;
