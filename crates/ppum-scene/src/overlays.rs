@@ -85,7 +85,7 @@ pub enum Overlay {
     Rings,
     /// Cracks with their tips, rims of holes, and lines along which elements are cut.
     Cracks,
-    /// Supports of the plate, as its problem file has them.
+    /// Supports of the plate and exchanges of a potential, as its problem file has them.
     Supports,
     /// Loads on the plate, as its problem file has them.
     Loads,

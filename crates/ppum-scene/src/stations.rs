@@ -36,7 +36,7 @@ impl Stations {
             self.supports.extend(supports.map(|support| Support {
                 at: one.point(support.at),
                 outward: one.vector(support.outward),
-                held: support.held,
+                ..*support
             }));
             self.loads.extend(loads.map(|load| Load {
                 at: one.point(load.at),
@@ -55,10 +55,16 @@ impl Stations {
 
         let problem = Problem::of_dataset(dataset).map_err(|_| Notice::UnreadableProblem)?;
         let stations = problem.ok_or(Notice::NoProblem)?.stations(spacing);
-        let support = |&Station { at, outward, held, .. }: &Station| Support { at, outward, held };
+        let support = |&Station { at, outward, held, exchanges, .. }: &Station| Support {
+            at,
+            outward,
+            held,
+            yields: exchanges,
+        };
         let load =
             |&Station { at, outward, traction, .. }: &Station| Load { at, outward, traction };
-        let held = stations.iter().filter(|station| station.held != [false; 2]);
+        let held =
+            stations.iter().filter(|station| station.exchanges || station.held != [false; 2]);
         let loaded = stations.iter().filter(|station| station.traction != Vec2::ZERO);
         Ok(Self { supports: held.map(support).collect(), loads: loaded.map(load).collect() })
     }

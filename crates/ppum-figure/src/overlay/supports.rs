@@ -15,6 +15,8 @@ pub struct Support {
     pub outward: Vec2,
     /// The components that are held, x and y.
     pub held: [bool; 2],
+    /// True where the field yields to a value of the surroundings, as heat of a cooled surface.
+    pub yields: bool,
 }
 
 /// A point of the border with a load.
@@ -44,13 +46,18 @@ const SHORTEST: f64 = 2.0;
 
 /// Supports as triangles whose tips touch the border. One on a hatched line holds both components;
 /// one that stands on rollers holds the component along its own axis alone, and lies across the
-/// border where that is its tangent.
+/// border where that is its tangent. Springs from the border to a hatched line yield.
 #[must_use]
 pub fn supports(view: &View, scale: f64, supports: &[Support]) -> Vec<Item> {
     let (mut bodies, mut lines) = (Path::default(), Path::default());
     for support in supports {
         let at = view.pixel(support.at);
         match support.held {
+            _ if support.yields => {
+                let axis = on_page(support.outward);
+                let end = spring(&mut lines, at, axis, scale);
+                hatched(&mut lines, end, axis, scale);
+            }
             [true, true] => {
                 let axis = on_page(nearest_axis(support.outward));
                 let end = triangle(&mut bodies, at, axis, scale);
@@ -123,6 +130,16 @@ fn triangle(bodies: &mut Path, at: Vec2, axis: Vec2, scale: f64) -> Vec2 {
     base
 }
 
+/// A spring from a point along an axis, to its far end.
+fn spring(lines: &mut Path, at: Vec2, axis: Vec2, scale: f64) -> Vec2 {
+    let (length, across) = (1.5 * TRIANGLE * scale, axis.left() * (0.3 * TRIANGLE * scale));
+    let sides = [0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 0.0, 0.0];
+    let last = (sides.len() - 1) as f64;
+    let point = |(k, side): (usize, f64)| at + axis * (length * k as f64 / last) + across * side;
+    lines.pieces.push(sides.into_iter().enumerate().map(point).collect());
+    at + axis * length
+}
+
 /// A straight line under a support.
 fn ground(lines: &mut Path, middle: Vec2, axis: Vec2, scale: f64) {
     let across = axis.left() * (0.75 * TRIANGLE * scale);
@@ -165,8 +182,9 @@ mod tests {
             (vec2(-1.0, 0.2), vec2(-1.0, 0.0)),
         ] {
             let border = view().pixel(at).dot(vec2(outward.x, -outward.y));
-            for held in [[true, true], [outward.x != 0.0, outward.y != 0.0]] {
-                let items = supports(&view(), 1.0, &[Support { at, outward, held }]);
+            let kinds = [([true, true], false), ([outward.x != 0.0, outward.y != 0.0], false)];
+            for (held, yields) in kinds.into_iter().chain([([false; 2], true)]) {
+                let items = supports(&view(), 1.0, &[Support { at, outward, held, yields }]);
                 let points = path_points(&items);
                 assert!(points.len() > 4);
                 for p in points {
@@ -174,7 +192,8 @@ mod tests {
                 }
             }
         }
-        let free = Support { at: vec2(0.0, 1.0), outward: vec2(0.0, 1.0), held: [false; 2] };
+        let (at, outward) = (vec2(0.0, 1.0), vec2(0.0, 1.0));
+        let free = Support { at, outward, held: [false; 2], yields: false };
         assert!(path_points(&supports(&view(), 1.0, &[free])).is_empty());
     }
 

@@ -180,7 +180,8 @@ fn tips_of(field: &Field<'_>) -> impl Iterator<Item = Feature> {
 fn stations(dataset: &Dataset, spacing: f64) -> impl Iterator<Item = Feature> {
     let Stations { supports, loads } = Stations::of(dataset, spacing).unwrap_or_default();
     let feature = |kind, at| Feature { kind, points: vec![at] };
-    let supports = supports.into_iter().map(move |s| feature(FeatureKind::Support(s.held), s.at));
+    let supports = supports.into_iter().filter(|s| !s.yields);
+    let supports = supports.map(move |s| feature(FeatureKind::Support(s.held), s.at));
     supports.chain(loads.into_iter().map(move |l| feature(FeatureKind::Load(l.traction), l.at)))
 }
 

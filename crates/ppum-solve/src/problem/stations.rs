@@ -19,6 +19,8 @@ pub struct Station {
     pub outward: Vec2,
     /// Of each component, x and y, whether its value is given.
     pub held: [bool; 2],
+    /// True for a potential that yields to the value of its surroundings, an exchange.
+    pub exchanges: bool,
     /// Traction on the plate, zero in components that are held: force per area.
     pub traction: Vec2,
 }
@@ -26,29 +28,30 @@ pub struct Station {
 impl Problem {
     /// Points along the parts of the border that have conditions, about `spacing` apart, each in
     /// the middle of its piece of the border, those in holes left out, then the points of forces
-    /// and supports; nothing of a potential. The largest force counts as the largest traction.
+    /// and supports; of a potential the parts with an exchange alone. The largest force counts as the largest traction.
     #[must_use]
     pub fn stations(&self, spacing: f64) -> Vec<Station> {
-        if self.equation.elastic().is_none() {
-            return Vec::new();
-        }
         let of = |condition: &BoundaryCondition| {
             let points = self.points_of(condition.on, spacing).into_iter();
             let station = |(at, outward)| Station {
                 at,
                 outward,
-                held: condition.held(),
+                held: condition.fixed(),
+                exchanges: condition.exchange.is_some(),
                 traction: condition.loads(at, outward).into(),
             };
             points.map(station).collect::<Vec<_>>()
         };
-        let mut all: Vec<_> = self.boundary.iter().flat_map(of).collect();
+        let is_elastic = self.equation.elastic().is_some();
+        let shown = self.boundary.iter().filter(|one| is_elastic || one.exchange.is_some());
+        let mut all: Vec<_> = shown.flat_map(of).collect();
         let largest = all.iter().map(|station| station.traction.length()).fold(0.0, f64::max);
         all.extend(self.stations_of_forces(largest));
         all.extend(self.supports.iter().map(|support| Station {
             at: support.at,
             outward: vec2(0.0, -1.0),
             held: support.displacement.map(|value| value.is_some()),
+            exchanges: false,
             traction: Vec2::ZERO,
         }));
         all
@@ -66,6 +69,7 @@ impl Problem {
                 _ => -force.value.unit(),
             },
             held: [false; 2],
+            exchanges: false,
             traction: force.value * unit,
         })
     }
@@ -186,6 +190,21 @@ mod tests {
         let held = stations("on = \"left\"\ndisplacement = [0.0, \"free\"]", 10.0);
         assert_eq!((held.len(), held[0].at, held[0].held), (1, vec2(-1.0, 0.0), [true, false]));
         assert_eq!(held[0].traction, Vec2::ZERO);
+    }
+
+    /// Of a potential the parts that exchange are shown, and neither given values nor fluxes.
+    #[test]
+    fn exchanges_of_a_potential_are_shown() {
+        let text = "[equation]\nkind = \"poisson\"\n[domain]\nmin = [0.0, 0.0]\nmax = [2.0, 1.0]\n[discretization]\n\
+                    level = 2\n[[boundary]]\non = \"top\"\nvalue = 2.0\nexchange = 3.0\n[[boundary]]\n\
+                    on = \"left\"\nvalue = 1.0\n[[boundary]]\non = \"right\"\nflux = 1.0\n";
+        let problem = Problem::parse(text, "test", Path::new("")).expect("a problem");
+        let found = problem.stations(0.5);
+        assert_eq!(found.iter().map(|s| s.at.x).collect::<Vec<_>>(), [0.25, 0.75, 1.25, 1.75]);
+        for station in found {
+            assert!(station.exchanges && station.held == [false; 2]);
+            assert_eq!((station.outward, station.traction), (vec2(0.0, 1.0), Vec2::ZERO));
+        }
     }
 
     /// Normals point out of the material and tractions of a pressure into it, on rims and faces

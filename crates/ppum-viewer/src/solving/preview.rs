@@ -35,10 +35,16 @@ impl Preview {
     pub fn new(problem: &Problem) -> Self {
         let size = problem.domain.bounds.size();
         let stations = problem.stations(SPACING * size.x.max(size.y));
-        let support = |&Station { at, outward, held, .. }: &Station| Support { at, outward, held };
+        let support = |&Station { at, outward, held, exchanges, .. }: &Station| Support {
+            at,
+            outward,
+            held,
+            yields: exchanges,
+        };
         let load =
             |&Station { at, outward, traction, .. }: &Station| Load { at, outward, traction };
-        let held = stations.iter().filter(|station| station.held != [false; 2]);
+        let held =
+            stations.iter().filter(|station| station.exchanges || station.held != [false; 2]);
         let loaded = stations.iter().filter(|station| station.traction != Vec2::ZERO);
         let mut domain = problem.domain.clone();
         domain.holes.truncate(MOST);
