@@ -122,9 +122,10 @@ impl<'f> Lattice<'f> {
     }
 
     /// The lattice on the deformed plate, at rest in the deformed plane: the centres of the pixels
-    /// that its points lie in, and the points of the plate that are seen there.
+    /// that its points lie in, and the points of the plate that are seen there. Of an image of the
+    /// plate, which is that of the reflected view, the places are reflected back.
     #[must_use]
-    pub fn deformed(points: &DeformedPoints<'f>, spacing: f64) -> Self {
+    pub fn deformed(points: &DeformedPoints<'f>, reflection: &Reflection, spacing: f64) -> Self {
         let view = &points.view.view;
         let [x, y] = lines(view, spacing);
         let place = |x: f64, y: f64| {
@@ -132,7 +133,7 @@ impl<'f> Lattice<'f> {
             let last = view.pixels.map(|n| n - 1);
             let [i, j] = [(i as u32).min(last[0]), (j as u32).min(last[1])];
             let point = points.at(i, j).first()?.offset;
-            Some(LatticePoint { at: view.offset(i, j), point })
+            Some(LatticePoint { at: reflection.vector(view.offset(i, j)), point })
         };
         let row = |&y: &f64| x.iter().filter_map(|&x| place(x, y)).collect();
         let rows = y.iter().map(row).collect();

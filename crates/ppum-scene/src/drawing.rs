@@ -5,6 +5,7 @@ use ppum::dataset::Step;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::text::trimmed_to;
+use ppum::vec2::Rect;
 use ppum_render::cells;
 use ppum_render::deform::DeformedPoints;
 use ppum_render::extrema::Extrema;
@@ -16,7 +17,8 @@ use ppum_render::samples::{Means, Samples};
 use ppum_render::view::View;
 use rayon::prelude::*;
 
-use crate::mirror::MirrorLines;
+use crate::mirror::{MirrorImage, MirrorLines};
+use crate::moved_body::MovedBody;
 
 /// A view of the undeformed or the deformed body.
 pub enum BodyView<'f> {
@@ -24,8 +26,8 @@ pub enum BodyView<'f> {
     Plate(View),
     /// The plate as it was, and its images beyond lines of symmetry.
     Mirrored(View, MirrorLines),
-    /// The plate moved by its displacements.
-    Moved(DeformedPoints<'f>),
+    /// The body moved by its displacements, and its images.
+    Moved(MovedBody<'f>),
 }
 
 impl<'f> BodyView<'f> {
@@ -33,7 +35,7 @@ impl<'f> BodyView<'f> {
     pub fn view(&self) -> &View {
         match self {
             Self::Plate(view) | Self::Mirrored(view, _) => view,
-            Self::Moved(points) => &points.view.view,
+            Self::Moved(body) => &body.own.view.view,
         }
     }
 
@@ -41,7 +43,7 @@ impl<'f> BodyView<'f> {
     pub fn moved(&self) -> Option<&DeformedPoints<'f>> {
         match self {
             Self::Plate(_) | Self::Mirrored(..) => None,
-            Self::Moved(points) => Some(points),
+            Self::Moved(body) => Some(&body.own),
         }
     }
 
@@ -50,15 +52,25 @@ impl<'f> BodyView<'f> {
         match self {
             Self::Plate(_) => field.step.cracks.clone(),
             Self::Mirrored(_, lines) => lines.cracks(&field.step.cracks),
-            Self::Moved(points) => points.view.moved_cracks(),
+            Self::Moved(body) => body.cracks(),
+        }
+    }
+
+    /// The images that are seen of a body in a box.
+    pub fn images(&self, bounds: &Rect) -> Vec<MirrorImage> {
+        match self {
+            Self::Plate(_) => Vec::new(),
+            Self::Mirrored(view, lines) => lines.images(view, bounds),
+            Self::Moved(body) => body.images.iter().map(|one| one.image).collect(),
         }
     }
 
     /// The lines of symmetry beyond which it is seen; none but of a mirrored body.
     pub fn lines(&self) -> MirrorLines {
         match self {
+            Self::Plate(_) => MirrorLines::default(),
             Self::Mirrored(_, lines) => *lines,
-            _ => MirrorLines::default(),
+            Self::Moved(body) => body.lines,
         }
     }
 }

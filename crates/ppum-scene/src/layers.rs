@@ -12,15 +12,15 @@ use ppum_figure::overlay::{self, LegendEntry, Room};
 use ppum_figure::ticks::Notation;
 use ppum_render::RenderError;
 use ppum_render::cells;
-use ppum_render::deform::{DeformError, DeformedPoints};
+use ppum_render::deform::{DeformError, DeformedView};
 use ppum_render::glyph::Lattice;
-use ppum_render::isoline::{Isoline, isolines};
+use ppum_render::isoline::Isoline;
 use ppum_render::picture::Picture;
-use ppum_render::scatter::render;
 use ppum_render::view::View;
 
 use crate::drawing::{BodyView, DrawingInput, RasterValues};
 use crate::mirror::{MirrorImage, MirrorLines};
+use crate::moved_body::{MovedBody, MovedImage};
 use crate::notice::Notice;
 use crate::overlays::{Levels, Overlay, Overlays};
 use crate::stations::Stations;
@@ -152,11 +152,11 @@ impl Overlays {
         let scale = scale(ground.design, ground.picture.view.pixels);
         let layers = Layers::default();
         let lines = seen.lines();
-        let images = lines.images(&ground.picture.view, &ground.field.domain.bounds);
+        let images = seen.images(&ground.field.domain.bounds);
         let mut drawing = Drawing { overlays: self, ground, lines, images, scale, watcher, layers };
         match seen {
             BodyView::Plate(_) | BodyView::Mirrored(..) => drawing.plate()?,
-            BodyView::Moved(points) => drawing.moved(points, outline)?,
+            BodyView::Moved(body) => drawing.moved(body, outline)?,
         }
         Ok(drawing.with_legend())
     }
@@ -273,24 +273,33 @@ impl<'a> Drawing<'a> {
     }
 
     /// Draws over the deformed plate.
-    fn moved(&mut self, points: &DeformedPoints<'_>, outline: bool) -> Result<(), LayersError> {
+    fn moved(&mut self, body: &MovedBody<'_>, outline: bool) -> Result<(), LayersError> {
         if let Some(overlay) = self.overlays.undeformable() {
             return Err(LayersError::Deformed(overlay));
         }
-        let view = &points.view;
+        let (scale, mirrors) = (self.scale, self.lines.at());
         if outline {
-            self.layers.items.extend(overlay::undeformed_outline(view, self.scale)?);
+            let items = of_parts(body, |view| overlay::undeformed_outline(view, mirrors, scale))?;
+            self.layers.items.extend(items);
         }
-        let glyphs = self.glyphs(|_, spacing| Lattice::deformed(points, spacing))?;
-        self.deformed_isolines(points)?;
+        let glyphs = self.glyphs(|reflection, spacing| {
+            let image = body.images.iter().find(|one| one.image.reflection == *reflection);
+            let points = image.map_or(&body.own, |image| &image.points);
+            Lattice::deformed(points, reflection, spacing)
+        })?;
+        self.deformed_isolines(body)?;
         self.layers.items.extend(glyphs);
         let wanted = self.wanted();
         if wanted.contains(&Overlay::Cells) {
-            self.layers.items.extend(overlay::deformed_cells(view, self.scale));
+            let cells = |view: &DeformedView<'_>| overlay::deformed_cells(view, mirrors, scale);
+            self.layers.items.extend(of_parts(body, |view| Ok(cells(view)))?);
         }
         if wanted.contains(&Overlay::Cracks) {
-            self.layers.items.extend(overlay::deformed_outline(view, self.scale));
-            self.layers.items.extend(overlay::faces(view, self.scale));
+            let edges = |view: &DeformedView<'_>| {
+                let outline = overlay::deformed_outline(view, mirrors, scale);
+                [outline, overlay::faces(view, scale)].concat()
+            };
+            self.layers.items.extend(of_parts(body, |view| Ok(edges(view)))?);
         }
         Ok(())
     }
@@ -305,14 +314,12 @@ impl<'a> Drawing<'a> {
     }
 
     /// Isolines of the plate as it was, where they have moved to.
-    fn deformed_isolines(&mut self, points: &DeformedPoints<'_>) -> Result<(), LayersError> {
+    fn deformed_isolines(&mut self, body: &MovedBody<'_>) -> Result<(), LayersError> {
         let Some((quantity, levels)) = self.levels() else { return Ok(()) };
-        let Some(view) = points.material_view() else { return Ok(()) };
-        let field = self.ground.field;
-        let raster = render::<f64>(field, &view, quantity, self.watcher)?;
-        let lines = isolines(field, &view, quantity, &levels, &raster, self.watcher)?;
-        let lines = overlay::carried(&points.view, &lines);
-        let view = &points.view.view;
+        let Some(lines) = whole::moved_isolines(body, quantity, &levels, self.watcher)? else {
+            return Ok(());
+        };
+        let view = &body.own.view.view;
         // cracks have opened, or closed: nothing can be said of their lines
         let room = self.room(view, &[]);
         self.add_isolines(view, &lines, room);
@@ -424,4 +431,17 @@ impl<'a> Drawing<'a> {
         layers.items.extend(inside);
         layers
     }
+}
+
+/// What is drawn of the deformed body and, flipped, of its images.
+fn of_parts(
+    body: &MovedBody<'_>,
+    draw: impl Fn(&DeformedView<'_>) -> Result<Vec<Item>, DeformError>,
+) -> Result<Vec<Item>, DeformError> {
+    let mut items = draw(&body.own.view)?;
+    for MovedImage { image, points } in &body.images {
+        let (flips, size) = (image.flips(), image.view.pixels);
+        items.extend(draw(&points.view)?.into_iter().map(|item| item.flipped(flips, size)));
+    }
+    Ok(items)
 }

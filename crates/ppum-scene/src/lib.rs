@@ -26,6 +26,7 @@ pub mod layers;
 pub mod look;
 pub mod minus;
 pub mod mirror;
+pub mod moved_body;
 pub mod moving;
 pub mod notice;
 pub mod overlays;

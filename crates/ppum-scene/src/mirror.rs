@@ -62,8 +62,11 @@ pub enum MirrorError {
          an outline may cross"
     )]
     Away(&'static str),
-    /// The deformed body.
-    #[error("mirror: the deformed body is not mirrored; leave mirror or deformed out")]
+    /// The deformed body in the window.
+    #[error(
+        "mirror: the window does not mirror the deformed body, `ppum render` does; leave mirror or \
+         deformed out"
+    )]
     Deformed,
     /// A difference.
     #[error("mirror: differences are not mirrored; leave mirror out")]
@@ -256,6 +259,12 @@ impl MirrorLines {
             lines[edge.axis()] = Some((edge.line(bounds), *is_odd));
         }
         Self { lines }
+    }
+
+    /// The lines x = a and y = b.
+    #[must_use]
+    pub fn at(&self) -> [Option<f64>; 2] {
+        self.lines.map(|line| line.map(|(at, _)| at))
     }
 
     /// The reflections of the body: one for a half, three for a quarter.

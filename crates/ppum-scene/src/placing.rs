@@ -68,9 +68,7 @@ impl<'a> Placing<'a> {
             let view = self.place.seen(whole, source.field, self.extent)?;
             return source.undeformed(scene, view);
         };
-        engine.check_deformed()?;
-        let view = self.moved(source, factor, bounds)?;
-        Ok(BodyView::Moved(view.points(engine.watcher)?))
+        source.moved(scene, &self.moved(source, factor, bounds)?, engine)
     }
 
     /// The view of a deformed plate. Windows are places of the deformed plane; that around a tip

@@ -14,6 +14,7 @@ use ppum_render::range::{Basis, ValueSpan};
 use ppum_render::raster::{Raster, Sample};
 
 use crate::drawing::{BodyView, Drawn, RasterValues};
+use crate::mirror::MirrorLines;
 use crate::whole;
 
 /// The range of what was drawn; one that has to be found with the extrema of the view, which are
@@ -41,19 +42,17 @@ fn extrema_of<T: Sample>(
     raster: &Raster<T>,
     watcher: &dyn Watcher,
 ) -> Result<Option<Extrema>, RenderError> {
-    let search = |view| extrema(field, view, quantity, raster, watcher);
-    match seen {
-        BodyView::Plate(view) => search(view),
-        BodyView::Mirrored(view, lines) => {
-            whole::extrema(field, (view, lines), quantity, raster, watcher)
-        }
-        // nothing has moved
-        BodyView::Moved(points) if points.view.factor() == 0.0 => search(&points.view.view),
-        BodyView::Moved(points) => {
-            let (field, view) = (points.view.field(), &points.view.view);
-            let known = Extrema::of_constant(field, view, quantity, raster);
+    let (view, lines) = (seen.view(), seen.lines());
+    let is_whole = lines == MirrorLines::default();
+    match seen.moved() {
+        // something has moved
+        Some(points) if points.view.factor() != 0.0 => {
+            let constant = || Extrema::of_constant(field, view, quantity, raster);
+            let known = is_whole.then(constant).flatten();
             Ok(known.or_else(|| Extrema::of_pixels(raster, view)))
         }
+        _ if is_whole => extrema(field, view, quantity, raster, watcher),
+        _ => whole::extrema(field, (view, &lines), quantity, raster, watcher),
     }
 }
 

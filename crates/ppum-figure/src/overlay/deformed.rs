@@ -26,29 +26,39 @@ pub fn faces(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
     vec![line(view, lines, pen)]
 }
 
-/// The border of the plate and the rims of its holes where they have moved to.
+/// The border of the plate and the rims of its holes where they have moved to, but for sides of its
+/// box on the lines x = a and y = b at which it is mirrored.
 #[must_use]
-pub fn deformed_outline(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
-    vec![line(view, view.outline(), Pen::new(CRACK, RIM_WIDTH * scale))]
+pub fn deformed_outline(
+    view: &DeformedView<'_>,
+    mirrors: [Option<f64>; 2],
+    scale: f64,
+) -> Vec<Item> {
+    vec![line(view, view.outline_beside(mirrors), Pen::new(CRACK, RIM_WIDTH * scale))]
 }
 
-/// The border of the plate, the rims and the cracks where they are without displacement, dashed.
+/// The border of the plate, the rims and the cracks where they are without displacement, dashed, but
+/// for sides on lines at which it is mirrored.
 ///
 /// # Errors
 /// As [`Deformation::new`].
-pub fn undeformed_outline(view: &DeformedView<'_>, scale: f64) -> Result<Vec<Item>, DeformError> {
+pub fn undeformed_outline(
+    view: &DeformedView<'_>,
+    mirrors: [Option<f64>; 2],
+    scale: f64,
+) -> Result<Vec<Item>, DeformError> {
     let before = Deformation::new(view.field(), 0.0)?.seen(&view.view);
     let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
     let above = before.faces_of(&cracks).into_iter().flat_map(|[above, _]| above);
     let [dash, gap] = DASHES.map(|length| length * scale);
     let pen = Pen::new(BEFORE, RIM_WIDTH * scale).dashed(dash, gap);
-    let lines = before.outline().into_iter().chain(above).chain(before.cut_faces());
+    let lines = before.outline_beside(mirrors).into_iter().chain(above).chain(before.cut_faces());
     Ok(vec![line(&before, lines.collect(), pen)])
 }
 
 /// The borders of the cover's cells, or the edges of elements, where they have moved to.
 #[must_use]
-pub fn deformed_cells(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
+pub fn deformed_cells(view: &DeformedView<'_>, mirrors: [Option<f64>; 2], scale: f64) -> Vec<Item> {
     let offset = |p: Vec2| p - view.anchor;
     // the border of a cell on the right or above is that of its neighbour, or of the plate
     let sides: Vec<[Vec2; 3]> = (view.field().step.partition.boxes().cell.iter())
@@ -56,7 +66,7 @@ pub fn deformed_cells(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
         .collect();
     let borders = view.paths(&sides).into_iter().chain(view.element_edges()).collect();
     let mut items = vec![line(view, borders, Pen::new(CELL, scale))];
-    items.extend(deformed_outline(view, scale));
+    items.extend(deformed_outline(view, mirrors, scale));
     items
 }
 
@@ -129,9 +139,12 @@ mod tests {
         let moved = View { center: view.center + vec2(0.5, -0.25), ..view };
         let draw = |factor: f64, view: &View| {
             let seen = Deformation::new(&field, factor).unwrap().seen(view);
-            let items =
-                [deformed_outline(&seen, 1.0), deformed_cells(&seen, 1.0), faces(&seen, 1.0)]
-                    .concat();
+            let items = [
+                deformed_outline(&seen, [None; 2], 1.0),
+                deformed_cells(&seen, [None; 2], 1.0),
+                faces(&seen, 1.0),
+            ]
+            .concat();
             on([255; 4], view, items)
         };
         let [before, after] = [draw(0.0, &view), draw(2.0, &moved)];
@@ -145,7 +158,7 @@ mod tests {
         assert!(before.pixel(x, y)[0] < 90, "{:?}", before.pixel(x, y));
         assert!(before.rgba.chunks(4).filter(|p| p[0] > 250).count() > 10_000);
         let seen = Deformation::new(&field, 2.0).unwrap().seen(&moved);
-        let outline = on([255; 4], &moved, undeformed_outline(&seen, 1.0).unwrap());
+        let outline = on([255; 4], &moved, undeformed_outline(&seen, [None; 2], 1.0).unwrap());
         let grey = outline.rgba.chunks(4).filter(|p| p[0] < 200).count();
         assert!(grey > 50, "{grey}");
     }

@@ -95,13 +95,24 @@ impl DeformedView<'_> {
     /// from it by half a pixel.
     #[must_use]
     pub fn outline(&self) -> Paths {
+        self.outline_beside([None; 2])
+    }
+
+    /// The image of the plate's border without the sides of its box on lines x = a and y = b, at
+    /// which it is mirrored. Of a mesh these are drawn.
+    #[must_use]
+    pub fn outline_beside(&self, [x, y]: [Option<f64>; 2]) -> Paths {
         if self.field().step.partition.mesh().is_some() {
             return self.element_borders();
         }
         let mut border = Border::new(self);
         let Rect { min, max } = self.field().domain.bounds;
         let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
-        let mut all = border.polygon(&corners, 1.0);
+        let is_on = |a: Vec2, b: Vec2| {
+            let is_at = |line: Option<f64>, a: f64, b: f64| line == Some(a) && a == b;
+            is_at(x, a.x, b.x) || is_at(y, a.y, b.y)
+        };
+        let mut all = border.sides(&corners, 1.0, |a, b| !is_on(a, b));
         for hole in &self.field().domain.holes {
             all.extend(match hole {
                 Hole::Circle { center, radius } => border.circle(*center, *radius),
@@ -258,9 +269,22 @@ impl<'a, 'f> Border<'a, 'f> {
 
     /// The sides of a polygon; the plate lies on the left of them, or on the right if `left` is −1.
     fn polygon(&mut self, corners: &[Vec2], left: f64) -> Paths {
+        self.sides(corners, left, |_, _| true)
+    }
+
+    /// Some of the sides of a polygon.
+    fn sides(
+        &mut self,
+        corners: &[Vec2],
+        left: f64,
+        is_drawn: impl Fn(Vec2, Vec2) -> bool,
+    ) -> Paths {
         let (view, mut paths) = (self.view, Joined::new(self.view));
         for (k, &a) in corners.iter().enumerate() {
             let b = corners[(k + 1) % corners.len()];
+            if !is_drawn(a, b) {
+                continue;
+            }
             let inward = (b - a).unit().left() * left;
             let ends = [a - view.anchor, b - view.anchor];
             paths.add(view.line(ends, &mut |o| self.place(o, inward)));

@@ -8,7 +8,7 @@ use ppum_render::animation::AnimationError;
 use ppum_render::deform::AutomaticFactor;
 use ppum_render::view::View;
 
-use crate::deformed::{self, Factor};
+use crate::deformed::Factor;
 use crate::drawing::BodyView;
 use crate::engine::Engine;
 use crate::request::Request;
@@ -111,17 +111,16 @@ pub trait Frames {
     /// The box that shows the plate in all frames.
     ///
     /// # Errors
-    /// As [`deformed::bounds`].
+    /// A field that is no displacement, or a factor that is too large.
     fn bounds(&self) -> Result<Option<Rect>, Self::Error> {
         let mut all: Option<Rect> = None;
-        self.each(&mut |FieldSource { field, .. }, Request { scene, .. }| {
+        self.each(&mut |source, Request { scene, .. }| {
+            let field = source.field;
             let bounds = match scene.deformed {
                 None => field.domain.bounds,
                 Some(factor) => {
-                    let factor = factor.number(&[field]);
-                    factor
-                        .and_then(|factor| deformed::bounds(field, factor, scene.outline))
-                        .map_err(ShotError::from)?
+                    let factor = factor.number(&[field]).map_err(ShotError::from)?;
+                    source.moved_bounds(scene, factor)?
                 }
             };
             all = Some(all.map_or(bounds, |all| all.union(&bounds)));

@@ -14,7 +14,6 @@ use ppum_render::view::View;
 
 use super::{Shot, ShotError};
 use crate::colors::Colors;
-use crate::deformed;
 use crate::drawing::{BodyView, DrawingInput, Drawn, RasterValues, Shown};
 use crate::engine::Engine;
 use crate::layers::{Ground, Layers};
@@ -77,10 +76,10 @@ impl<'a> Input<'a> {
             (None, BodyView::Mirrored(view, lines), _) => {
                 self.whole((view, lines), samples, engine)?
             }
-            (None, BodyView::Moved(points), shown) => {
+            (None, BodyView::Moved(body), shown) => {
                 centers("the deformed plate is")?;
                 engine.check_deformed()?;
-                deformed::draw(points, shown, engine.watcher)?
+                whole::draw_moved::<ShotError>(body, (field, shown), engine.watcher)?
             }
         })
     }

@@ -8,15 +8,16 @@ use ppum::text::trimmed;
 use ppum::vec2::Rect;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{Design, Labels};
-use ppum_render::deform::{DeformError, Deformation};
+use ppum_render::deform::{DeformError, Deformation, DeformedView};
 use ppum_render::view::View;
 
 use super::{Input, Shot, ShotError};
-use crate::deformed::words;
+use crate::deformed::{self, words};
 use crate::drawing::{BodyView, Shown};
 use crate::engine::Engine;
 use crate::minus::{Minus, Side};
 use crate::mirror::{MirrorError, MirrorLines};
+use crate::moved_body::{MovedBody, whole_box};
 use crate::request::Request;
 use crate::scene::{Scene, ShownError, default_quantity, shown};
 
@@ -73,13 +74,11 @@ impl<'a> FieldSource<'a> {
     /// The lines at which it is mirrored; none if nobody asks for the whole.
     ///
     /// # Errors
-    /// A dataset that does not know its lines; what is not mirrored, the deformed plate
-    /// and differences.
+    /// A dataset that does not know its lines; differences, which are not mirrored.
     pub fn lines(self, scene: &Scene) -> Result<MirrorLines, MirrorError> {
         let Some(mirror) = &scene.mirror else { return Ok(MirrorLines::default()) };
         match () {
             () if self.left.is_some() => Err(MirrorError::Difference),
-            () if scene.deformed.is_some() => Err(MirrorError::Deformed),
             () => {
                 let edges = mirror.edges(self.dataset)?;
                 Ok(MirrorLines::new(&edges, &self.field.domain.bounds))
@@ -121,11 +120,26 @@ impl<'a> FieldSource<'a> {
         let deformed = scene.deformed.filter(|_| self.left.is_none());
         let factor = deformed.map(|factor| factor.number(&[self.field])).transpose()?;
         let Some(factor) = factor else { return self.undeformed(scene, *view) };
-        self.lines(scene)?;
+        self.moved(scene, &Deformation::new(self.field, factor)?.seen(view), engine)
+    }
+
+    /// What is seen of it in a view of the deformed plane.
+    pub(crate) fn moved(
+        self,
+        scene: &Scene,
+        view: &DeformedView<'a>,
+        engine: &Engine<'_>,
+    ) -> Result<BodyView<'a>, ShotError> {
+        let lines = self.lines(scene)?;
         engine.check_deformed()?;
-        Ok(BodyView::Moved(
-            Deformation::new(self.field, factor)?.seen(view).points(engine.watcher)?,
-        ))
+        Ok(BodyView::Moved(MovedBody::new(view, lines, engine.watcher)?))
+    }
+
+    /// A box around all that a scene shows of it, deformed by a factor.
+    pub(crate) fn moved_bounds(self, scene: &Scene, factor: f64) -> Result<Rect, ShotError> {
+        let lines = self.lines(scene)?;
+        let bounds = |sign: f64| deformed::bounds(self.field, sign * factor, scene.outline);
+        Ok(whole_box(&lines, bounds)?)
     }
 
     /// The labels of a figure: those that are asked for, else the words for what is shown; with the

@@ -18,13 +18,13 @@ pub(crate) fn draw<E: From<RenderError>>(
     let mut whole = part(view, shown)?;
     for image in lines.images(view, &field.domain.bounds) {
         let (shown, change) = reflected(shown, &image, field)?;
-        whole.fill(part(&image.view, &shown)?, image.flips(), change);
+        whole.fill(part(&image.view, &shown)?.flipped(image.flips(), change));
     }
     Ok(whole)
 }
 
 /// What has the values of something that is shown in a mirrored part, and their change.
-fn reflected(
+pub(super) fn reflected(
     shown: &Shown,
     image: &MirrorImage,
     field: &Field<'_>,
@@ -39,24 +39,48 @@ fn reflected(
 }
 
 impl Drawn {
-    /// Takes the values of a reflected view where there are none.
-    fn fill(&mut self, part: Self, flips: [bool; 2], change: ValueChange) {
+    /// The image of what is drawn in the reflected view.
+    pub(super) fn flipped(mut self, flips: [bool; 2], change: ValueChange) -> Self {
         use RasterValues::{Double, Single};
+        self.values = match &self.values {
+            Double(raster) => Double(flipped(raster, flips, change)),
+            Single(raster) => Single(flipped(raster, flips, change)),
+        };
         let size = self.view.pixels;
+        for pixel in self.without.iter_mut().chain(&mut self.overlap) {
+            let [i, j] = flip([*pixel % size[0], *pixel / size[0]], size, flips);
+            *pixel = j * size[0] + i;
+        }
+        self
+    }
+
+    /// The columns and rows at which both have values.
+    pub(super) fn pixels_with<'a>(
+        &'a self,
+        other: &'a Self,
+    ) -> impl Iterator<Item = [u32; 2]> + 'a {
+        let [columns, rows] = self.view.pixels;
+        let all = (0..rows).flat_map(move |j| (0..columns).map(move |i| [i, j]));
+        all.filter(move |[i, j]| {
+            let pixel = (j * columns + i) as usize;
+            !self.values.is_undefined(pixel) && !other.values.is_undefined(pixel)
+        })
+    }
+
+    /// Takes the values of an image where there are none.
+    pub(super) fn fill(&mut self, part: Self) {
+        use RasterValues::{Double, Single};
         match (&mut self.values, &part.values) {
-            (Double(own), Double(other)) => fill(own, &flipped(other, flips, change)),
-            (Single(own), Single(other)) => fill(own, &flipped(other, flips, change)),
+            (Double(own), Double(other)) => fill(own, other),
+            (Single(own), Single(other)) => fill(own, other),
             (own, other) => {
                 let mut both = own.widened();
-                fill(&mut both, &flipped(&other.widened(), flips, change));
+                fill(&mut both, &other.widened());
                 *own = Double(both);
             }
         }
-        let pixel = |pixel: u32| {
-            let [i, j] = flip([pixel % size[0], pixel / size[0]], size, flips);
-            j * size[0] + i
-        };
-        self.without.extend(part.without.into_iter().map(pixel));
+        self.overlap.extend(part.overlap);
+        self.without.extend(part.without);
         let values = &self.values;
         self.without.retain(|pixel| values.is_undefined(*pixel as usize));
         self.without.sort_unstable();

@@ -44,7 +44,12 @@ pub(crate) fn isolines<T: Sample>(
 }
 
 /// A line of the body as one of an image; larger values stay on the left.
-fn reflected_line(line: Isoline, level: f64, image: &MirrorImage, change: ValueChange) -> Isoline {
+pub(super) fn reflected_line(
+    line: Isoline,
+    level: f64,
+    image: &MirrorImage,
+    change: ValueChange,
+) -> Isoline {
     let mut points = line.points;
     points.iter_mut().for_each(|p| *p = image.reflection.vector(*p));
     let [across, down] = image.flips();

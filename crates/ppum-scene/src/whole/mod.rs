@@ -4,8 +4,10 @@
 mod drawn;
 mod extrema;
 mod isolines;
+mod moved;
 mod zero_line;
 
 pub(crate) use drawn::draw;
 pub(crate) use extrema::extrema;
 pub(crate) use isolines::isolines;
+pub(crate) use moved::{draw_moved, moved_isolines};

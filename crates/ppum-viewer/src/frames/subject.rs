@@ -186,7 +186,8 @@ impl OwnedSeen {
             None => Ok(BodyView::Plate(*view)),
             Some(factor) => {
                 let deformation = Deformation::new(field.field(), factor)?;
-                deformation.seen(view).points(watcher).map(BodyView::Moved)
+                let points = deformation.seen(view).points(watcher)?;
+                Ok(BodyView::Moved(points.into()))
             }
         })
         .map(Self)
