@@ -307,9 +307,9 @@ fn samples_are_of_both_halves() {
     }
 }
 
-/// An odd quantity is zero on its line of symmetry, and there its isoline runs, as in the whole plate
-/// that was solved, up to the crack's tips and not along its faces; even quantities have none,
-/// though they may be zero there. Larger values lie on its left.
+/// An odd quantity is zero on its line of symmetry, and there its isoline runs, as in the whole
+/// plate that was solved, up to the crack's tips and not along its faces; even quantities have
+/// none, though they may be zero there. Larger values lie on its left.
 #[test]
 fn odd_quantities_are_zero_on_their_line() {
     let all = cases();

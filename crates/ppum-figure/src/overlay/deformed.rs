@@ -37,8 +37,8 @@ pub fn deformed_outline(
     vec![line(view, view.outline_beside(mirrors), Pen::new(CRACK, RIM_WIDTH * scale))]
 }
 
-/// The border of the plate, the rims and the cracks where they are without displacement, dashed, but
-/// for sides on lines at which it is mirrored.
+/// The border of the plate, the rims and the cracks where they are without displacement, dashed,
+/// but for sides on lines at which it is mirrored.
 ///
 /// # Errors
 /// As [`Deformation::new`].

@@ -28,7 +28,8 @@ pub struct Station {
 impl Problem {
     /// Points along the parts of the border that have conditions, about `spacing` apart, each in
     /// the middle of its piece of the border, those in holes left out, then the points of forces
-    /// and supports; of a potential the parts with an exchange alone. The largest force counts as the largest traction.
+    /// and supports; of a potential the parts with an exchange alone. The largest force counts as
+    /// the largest traction.
     #[must_use]
     pub fn stations(&self, spacing: f64) -> Vec<Station> {
         let of = |condition: &BoundaryCondition| {
