@@ -134,6 +134,13 @@ fn extend(crack: &mut Crack, row: &Advance) {
     }
 }
 
+/// The factors of a crack whose faces may touch, which has no negative K_I; none if nothing but their
+/// error is left, as where the faces stick.
+fn pressed(factors: &TipIntensity) -> Option<TipIntensity> {
+    let open = TipIntensity { k1: factors.k1.max(0.0), ..factors.clone() };
+    (open.k1.hypot(open.k2) > open.error.unwrap_or(0.0)).then_some(open)
+}
+
 impl<'a> Driven<'a> {
     fn new(
         problem: &Problem,
@@ -145,7 +152,10 @@ impl<'a> Driven<'a> {
         let crack = &problem.cracks[tip.crack as usize];
         let (at, along) = (crack.end_point(tip.end), crack.growth_direction(tip.end));
         let factors = factors.iter().find(|found| found.tip == tip);
-        let kink = factors.and_then(|factors| kink(rule.criterion, factors));
+        let kink = factors.and_then(|factors| match problem.contacts.get(&tip.crack) {
+            Some(_) => kink(rule.criterion, &pressed(factors)?),
+            None => kink(rule.criterion, factors),
+        });
         let fate = match (factors, kink) {
             (None, _) => Fate::Unknown,
             (_, None) => Fate::Closed,

@@ -1,7 +1,7 @@
 //! Faces that touch, against closed forms and what must hold whatever the cells.
 
 use crate::studies::support::{parsed, quantity, record, solved};
-use ppum::dataset::{Dataset, Material, StressState, TipIntensity};
+use ppum::dataset::{Dataset, Fate, Material, StressState, TipIntensity};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::diagnostics::{kind, recompute};
@@ -295,6 +295,30 @@ fn pressed_cracks_grow_wings() {
     let [corner, end] = [0, 2].map(|step: usize| dataset.steps[step].cracks[0].points[0]);
     let wing = (end - corner).unit();
     assert!(wing.y < -0.8, "{wing:?}");
+}
+
+/// On coarse cells K_I of a closed tip is below zero by its error, which ends no growth; faces that
+/// stick have factors of rounding, by which nothing grows.
+#[test]
+fn closed_tips_grow_by_what_slides_alone() {
+    let fates = |friction: f64| {
+        let text = format!(
+            "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n\
+             [material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
+             [[crack]]\npoints = [[-0.35, -0.35], [0.35, 0.35]]\ncontact = true\nfriction = {friction}\n\
+             [[boundary]]\non = \"top\"\ntraction = [0, -1]\n\
+             [[boundary]]\non = \"bottom\"\ntraction = [0, 1]\n\
+             [discretization]\ncells = [8, 8]\nenrichment = \"zone\"\n[growth]\nsteps = 1\nincrement = 0.1\n"
+        );
+        let dataset = series(&parsed(&text), None, unwatched()).expect("a series");
+        let growth = dataset.steps[0].growth.as_ref().expect("growth");
+        let negative = tips(&dataset).iter().filter(|tip| tip.k1 < 0.0).count();
+        (growth.tips.iter().map(|row| row.fate).collect::<Vec<_>>(), negative)
+    };
+    let (slides, negative) = fates(0.2);
+    assert_eq!(slides, [Fate::Grows; 2]);
+    assert!(negative > 0, "the cells are no longer too coarse for this test");
+    assert_eq!(fates(2.0).0, [Fate::Closed; 2]);
 }
 
 /// Each mistake is told at its key, with a remedy.

@@ -105,11 +105,13 @@ impl TipIntensity {
     /// in which a crack in a brittle material grows (Erdogan & Sih 1963), in [−70.53°, 70.53°] as
     /// radians: 2 arctan(−2 K_II / (K_I + √(K_I² + 8 K_II²))).
     ///
-    /// None where K_I is negative, so that the faces overlap, or where there are no factors.
+    /// None where K_I is negative by more than its error, so that the faces overlap, or where there
+    /// are no factors.
     #[must_use]
     pub fn growth_angle(&self) -> Option<f64> {
         let (k1, k2) = (self.k1, self.k2);
-        let opens = k1 >= -NOISE * k1.hypot(k2) && k1.hypot(k2) > 0.0;
+        let error = (NOISE * k1.hypot(k2)).max(self.error.unwrap_or(0.0));
+        let opens = k1 >= -error && k1.hypot(k2) > 0.0;
         let k1 = k1.max(0.0);
         let root = k1.hypot(8f64.sqrt() * k2);
         opens.then(|| 2.0 * (-2.0 * k2).atan2(k1 + root))

@@ -23,7 +23,9 @@ pub(super) fn check_forces(problem: &Problem) -> Vec<MistakeAt> {
     let places = problem.forces.iter().enumerate().filter_map(|(index, force)| {
         let message = match problem.place_of(force) {
             Ok(place) if problem.room_of(force, place) <= touch => {
-                "lies where the displacement is given, which takes the force; move it, or leave it out".into()
+                "lies where the displacement, or a component of it, is given; move it, leave it out, or model the whole of a \
+                 symmetric body"
+                    .into()
             }
             place => place.err()?,
         };
