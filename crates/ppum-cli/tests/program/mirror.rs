@@ -337,10 +337,16 @@ fn odd_quantities_are_zero_on_their_line() {
                 paths.flat_map(pairs).collect()
             };
             let of_line = segments(&lines).into_iter();
-            let on_line: Vec<_> = of_line.filter(|[a, b]| a.y == 0.0 && b.y == 0.0).collect();
+            let on_line: Vec<_> = of_line
+                .filter(|[a, b]| {
+                    // other lines begin at tips and on the other line of symmetry
+                    a.y == 0.0 && b.y == 0.0 && (b.x - a.x).abs() > 1e-6
+                })
+                .collect();
             let length: f64 = on_line.iter().map(|[a, b]| (b.x - a.x).abs()).sum();
             assert!((length - 1.0).abs() < 1e-9, "{edges} {name}: {length}");
-            assert!(on_line.iter().flatten().all(|p| p.x.abs() > 0.5 - 1e-9), "{edges} {name}");
+            let is_ahead = |p: &Vec2| p.x.abs() > 0.5 - 1e-9;
+            assert!(on_line.iter().flatten().all(is_ahead), "{edges} {name}: {on_line:?}");
             let quantity = Quantity::parse(name, &fields[0]).unwrap();
             let (mut local, mut checked) = (fields[0].at(view.center), 0);
             for [a, b] in on_line {
@@ -349,7 +355,8 @@ fn odd_quantities_are_zero_on_their_line() {
                 let middle = (a + b) * 0.5;
                 let far = found.map(|ends| ppum::segment::distance(ends, middle));
                 let far = far.fold(f64::INFINITY, f64::min);
-                assert!(far < 0.1 * view.pixel_size(), "{edges} {name}: {far}");
+                // up to the errors of its solution, of 1e-5, over the slope of stresses
+                assert!(far < 0.5 * view.pixel_size(), "{edges} {name}: {far}");
                 let beside = (b - a).unit().left() * (2.0 * view.pixel_size());
                 let sides = [beside, -beside];
                 let [left, right] = sides.map(|d| quantity.at(&mut local, middle + d, Side::Above));
