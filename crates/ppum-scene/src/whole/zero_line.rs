@@ -156,15 +156,32 @@ impl SymmetryLine<'_> {
 
     /// Whether values beside the line are positive in the body; none outside of it and on cracks.
     fn sign(&self, local: &mut LocalField<'_>, along: f64) -> Option<bool> {
-        let inside = self.folded(self.point(along, NEAR * self.view.pixel_size()));
+        let inside = self.point(along, NEAR * self.view.pixel_size());
         let on_line = self.folded(self.point(along, 0.0));
-        let value = self.quantity.at(local, inside, Side::Above);
+        let value = self.value(local, inside)?;
         let is_drawn = local.contains(on_line) && !self.is_on_crack(on_line) && !value.is_nan();
         is_drawn.then_some(value > 0.0)
     }
 
+    /// The value at a point of the body or of its image at the other line; none of a formula that
+    /// is too large.
+    fn value(&self, local: &mut LocalField<'_>, p: Vec2) -> Option<f64> {
+        let at = self.folded(p);
+        let Some(other) = self.beyond(p) else {
+            return Some(self.quantity.at(local, at, Side::Above));
+        };
+        let image = self.quantity.reflected(&other, self.field).ok()?;
+        Some(image.change.apply(image.quantity.at(local, at, Side::Above)))
+    }
+
     /// The point of the body whose reflection at the other line a point is.
     fn folded(&self, p: Vec2) -> Vec2 {
+        let center = self.view.center;
+        self.beyond(p).map_or(p, |other| other.point(center + p) - center)
+    }
+
+    /// The reflection at the other line, of a point that lies beyond it.
+    fn beyond(&self, p: Vec2) -> Option<Reflection> {
         let (bounds, center) = (self.field.domain.bounds, self.view.center);
         let is_upright = self.is_upright();
         let is_beside = |at: Vec2| match is_upright {
@@ -175,10 +192,7 @@ impl SymmetryLine<'_> {
             let [x, y] = one.lines.map(|line| line.is_some());
             if is_upright { y && !x } else { x && !y }
         });
-        match other.filter(|_| is_beside(center + p)) {
-            Some(other) => other.point(center + p) - center,
-            None => p,
-        }
+        other.filter(|_| is_beside(center + p))
     }
 
     /// True on cracks that lie along the line.
