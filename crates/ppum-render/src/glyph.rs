@@ -311,7 +311,7 @@ mod tests {
             let (factor, quantities) = (0.1, displacement(&field));
             let seen = Deformation::new(&field, factor).expect("elastic").seen(&view);
             let points = seen.points(unwatched()).expect("points");
-            let lattice = Lattice::deformed(&points, SPACING);
+            let lattice = Lattice::deformed(&points, &Reflection::NONE, SPACING);
             let arrows = lattice.vectors(&quantities, unwatched()).expect("arrows");
             assert!(arrows.len() > 60, "{}", arrows.len());
             for arrow in &arrows {

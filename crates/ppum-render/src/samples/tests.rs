@@ -237,8 +237,9 @@ fn directions_have_a_mean_direction() {
         let (center, spread) = (random.between(-4.0, 4.0), random.between(0.0, 0.7));
         let view = inner([3, 2]);
         let wrapped = |angle: f64| angle - PI * ((angle / PI) - 0.5).ceil();
-        let finer =
-            Raster::from_fn([12, 8], |_, _| wrapped(center + random.between(-spread, spread)));
+        let mut angle = || wrapped(center + random.between(-spread, spread));
+        let angles: Vec<f64> = (0..96).map(|_| angle()).collect();
+        let finer = Raster::from_fn([12, 8], |i, j| angles[(12 * j + i) as usize]);
         let image = SampleImage { raster: &finer, undefined: &[] };
         let found = Means::of(&view, &Quantity::PrincipalDirection, samples(4), image);
         for mean in &found.raster.values {

@@ -17,7 +17,7 @@ pub(super) const LARGE_SPREAD: f64 = 0.01;
 /// Part of |K| that K_I may be negative by where it should be zero.
 const NOISE: f64 = 1e-3;
 
-/// Estimated errors of K that K_I of closed faces may be negative by, since estimates are no bounds.
+/// Estimated errors of K that K_I of closed faces may be negative by: estimates are no bounds.
 const CLOSED: f64 = 3.0;
 
 /// Part of the [strength](TipOutcome::strength) below which factors are rounding and

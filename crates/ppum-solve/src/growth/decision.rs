@@ -134,8 +134,8 @@ fn extend(crack: &mut Crack, row: &Advance) {
     }
 }
 
-/// The factors of a crack whose faces may touch, which has no negative K_I; none if nothing but their
-/// error is left, as where the faces stick.
+/// The factors of a crack whose faces may touch, which has no negative K_I; none if nothing but
+/// their error is left, as where the faces stick.
 fn pressed(factors: &TipIntensity) -> Option<TipIntensity> {
     let open = TipIntensity { k1: factors.k1.max(0.0), ..factors.clone() };
     (open.k1.hypot(open.k2) > open.error.unwrap_or(0.0)).then_some(open)

@@ -163,9 +163,9 @@ fn a_jump_of_given_strains_across_a_line_is_exact() {
 
 /// A disc of radius R that is hotter than the plate around it: u = c r inside and c R²/r outside,
 /// c = (1 + ν) α ΔT/(2 (1 − ν)) in plane strain. All of this field, and of its error, is near the
-/// disc, so that more of the rate is missing: of order 3 on levels 3, 4 and 5 it is 2.54 and 2.53 in
-/// all, 3.2 and 3.3 in the half of the ring inside, 2.8 in the other, and 1.6 and 2.3 in what the
-/// ring of 1.5 cells leaves.
+/// disc, so that more of the rate is missing: of order 3 on levels 3, 4 and 5 it is 2.54 and 2.53
+/// in all, 3.2 and 3.3 in the half of the ring inside, 2.8 in the other, and 1.6 and 2.3 in what
+/// the ring of 1.5 cells leaves.
 fn hot_disc() -> Problem {
     let (nu, alpha): (f64, f64) = (0.3, 0.5);
     let c = 0.5 * (1.0 + nu) * alpha / (1.0 - nu);
