@@ -319,7 +319,7 @@ fn odd_quantities_are_zero_on_their_line() {
         (&all[2], &["sxy", "uy"], &["uy*y"]),
     ];
     for (Case { whole, part, edges }, odd, even) in cases {
-        let [whole, part] = [whole, part].map(|problem| solved(&problem));
+        let [whole, part] = [whole, part].map(|problem| solved(problem));
         let fields = [&whole, &part].map(|dataset| Field::new(dataset, 0).unwrap());
         let draw = |dataset: usize, name: &str| {
             let mirror = Some(*edges).filter(|_| dataset == 1);

@@ -159,7 +159,7 @@ pub fn means<T: Sample>(
     watcher: &dyn Watcher,
 ) -> Result<Means<T>, RenderError> {
     let finer = view.finer(samples.side())?;
-    let inside = Inside::Field(field.at(view.center));
+    let inside = Inside::Field(Box::new(field.at(view.center)));
     let mut gathered = Gathered::new(inside, view, quantity, samples);
     let (rows, mut add) = (rows(&finer, samples), |values: Vec<T>| gathered.add(&values));
     render_strips::<T>(field, &finer, quantity, rows, watcher, &mut add)?;
@@ -182,7 +182,7 @@ fn rows(finer: &View, samples: Samples) -> u32 {
 /// Which samples without a value lie in the body.
 enum Inside<'f> {
     /// Those at points of the field's domain, or of its elements.
-    Field(LocalField<'f>),
+    Field(Box<LocalField<'f>>),
     /// Those of these pixels of the finer view, which has so many columns.
     Pixels { sorted: &'f [u32], columns: u32 },
 }
