@@ -43,6 +43,7 @@ __all__ = [
     "solve",
     "told",
     "triangles",
+    "vtkhdf",
 ]
 
 VERSION: Final[str]
