@@ -230,9 +230,16 @@ impl Equation {
                 match &e.eigenstrain {
                     None => moduli,
                     Some(given) => {
-                        let value = |e: &Expression| e.values(anchor, offset);
-                        let eigenstrain = given.strains.each_ref().map(value);
-                        let expansion = given.expansion.as_ref().map_or(moduli.expansion, value);
+                        // neither `map` nor closures of vectors, which may not be inlined
+                        let [xx, yy, xy, zz] = &given.strains;
+                        let xx = xx.values(anchor, offset);
+                        let yy = yy.values(anchor, offset);
+                        let xy = xy.values(anchor, offset);
+                        let eigenstrain = [xx, yy, xy, zz.values(anchor, offset)];
+                        let expansion = match &given.expansion {
+                            Some(expansion) => expansion.values(anchor, offset),
+                            None => moduli.expansion,
+                        };
                         Moduli { eigenstrain, expansion, ..moduli }.in_state(e.state)
                     }
                 }
