@@ -94,7 +94,7 @@ def test_h5py_reads_and_the_checksum_agrees():
     for path in files():
         with h5py.File(path) as file:
             assert text(file.attrs["format"]) == "ppum"
-            assert list(file.attrs["format_version"]) == [1, 6]
+            assert list(file.attrs["format_version"]) == [1, 7]
             assert text(file.attrs["title"]) == f"Übung {int(path.stem)}"
             assert is_right(file)
             assert counts_attributes(file)
@@ -468,7 +468,7 @@ def test_the_program_reads_what_h5py_writes():
         assert status == 0, message
         with h5py.File(copy, "a") as target:
             target["steps/0000/from-the-future"] = np.arange(3.0)
-            target.attrs["format_version"] = np.array([1, 7], dtype="u4")
+            target.attrs["format_version"] = np.array([1, 8], dtype="u4")
             seal(target)
         status, _, message = fixture("same", original, copy)
         assert status == 0, message

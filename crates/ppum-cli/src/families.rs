@@ -171,7 +171,7 @@ type FormulaParts<'f> = (&'f str, &'f Frame, &'f [(String, f64)], &'f Declared);
 
 fn parts(kind: &FunctionKind) -> Option<FormulaParts<'_>> {
     match kind {
-        FunctionKind::Formula { text, frame, parameters, declared } => {
+        FunctionKind::Formula { text, frame, parameters, declared, .. } => {
             Some((text, frame, parameters, declared))
         }
         _ => None,
@@ -243,7 +243,7 @@ impl<'f> FunctionFamily<'f> {
 #[cfg(test)]
 mod tests {
     use ppum::crack::{End, TipId};
-    use ppum::function::WESTERGAARD;
+    use ppum::function::{Role, WESTERGAARD};
     use ppum::vec2::vec2;
 
     use super::*;
@@ -331,6 +331,7 @@ mod tests {
             frame: Frame::Fixed { origin: vec2(x, 0.5), angle: 1.5 },
             parameters: vec![("lambda".into(), 0.5)],
             declared: Declared::default(),
+            role: Role::Corner,
         };
         let all = [
             function("corner 1 at [1, 0.5]", corner("r^lambda", 1.0)),

@@ -11,7 +11,7 @@ use ppum::dataset::{
 };
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
-use ppum::function::{Cut, Frame, Function, FunctionKind};
+use ppum::function::{Cut, Declared, Frame, Function, FunctionKind, Role};
 use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::{Rect, Vec2};
 use ppum::weight::WeightFunction;
@@ -268,6 +268,7 @@ struct Row<'a> {
     kinks: &'a [[Vec2; 2]],
     singular: &'a [Vec2],
     levels: [i64; 2],
+    role: String,
 }
 
 impl<'a> Row<'a> {
@@ -285,6 +286,7 @@ impl<'a> Row<'a> {
             kinks: &[],
             singular: &[],
             levels: NO_LEVELS,
+            role: String::new(),
         }
     }
 
@@ -298,11 +300,11 @@ impl<'a> Row<'a> {
                 Ok(Self { levels: [-1, i64::from(*field)], ..Self::new("level") })
             }
             FunctionKind::Component { cuts } => Ok(Self { cuts, ..Self::new("component") }),
-            FunctionKind::Formula { text, frame, parameters, declared } => {
-                let (kinks, singular) = (&declared.kinks, &declared.singular);
-                let row =
-                    Self { formula: text, parameters, kinks, singular, ..Self::new("formula") };
-                row.in_frame(frame, group)
+            FunctionKind::Formula { text, frame, parameters, declared, role } => {
+                let Declared { kinks, singular } = declared;
+                let role = group.word(&Role::NAMES, *role, "role")?;
+                let row = Self { formula: text, parameters, role, ..Self::new("formula") };
+                Self { kinks, singular, ..row }.in_frame(frame, group)
             }
             _ => Err(group.unknown("kind")),
         }
@@ -343,6 +345,9 @@ fn functions(group: &mut GroupWriter, functions: &[Function]) -> Written {
     group.vector("parameter_value", parameters().map(|(_, value)| *value));
     if rows.iter().any(|r| r.levels != NO_LEVELS) {
         group.array("levels", Array::rows(rows.iter().map(|r| r.levels)));
+    }
+    if rows.iter().any(|r| !r.role.is_empty()) {
+        group.vector("role", rows.iter().map(|r| r.role.clone()));
     }
     cuts(group, &rows);
     declared(group, &rows);

@@ -17,11 +17,10 @@
 //! unknowns, and w is a field like any other under the loads F·v(x₀) − a(u_s, v). The energy of u_s
 //! is infinite and needed nowhere.
 
-use crate::geometry::OF_FORCE;
 use crate::problem::{Force, ForcePlace, Problem};
 use ppum::crack::Side;
 use ppum::dataset::{BoxPartition, Material};
-use ppum::function::{Declared, Frame, Function, FunctionKind};
+use ppum::function::{Declared, Frame, Function, FunctionKind, Role};
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::PI;
 
@@ -67,12 +66,13 @@ impl ForceField {
         };
         let side = place.face().map(|(segment, side)| (segment.crack, side));
         let function = |(k, text): (usize, &&str)| Function {
-            name: format!("{OF_FORCE} [{}, {}], {}.{k}", force.at.x, force.at.y, number),
+            name: format!("force at [{}, {}], {number}.{k}", force.at.x, force.at.y),
             kind: FunctionKind::Formula {
                 text: on_side(text, side),
                 frame: Frame::Fixed { origin: force.at, angle: axis.y.atan2(axis.x) },
                 parameters: Vec::new(),
                 declared: Declared { singular: vec![Vec2::ZERO], ..Declared::default() },
+                role: Role::Force,
             },
         };
         let functions = TEXTS.iter().take(coefficients.len()).enumerate().map(function).collect();

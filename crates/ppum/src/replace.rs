@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::dataset::{Dataset, Step};
 use crate::decompose::{Part, PartError};
-use crate::function::{Declared, Frame, Function, FunctionKind, function_scope};
+use crate::function::{Declared, Frame, Function, FunctionKind, Role, function_scope};
 use crate::library::WEIGHTS;
 use crate::text::hint;
 use crate::weight::{WeightError, WeightFunction};
@@ -256,12 +256,12 @@ impl FunctionKind {
         }
     }
 
-    /// Changes the text of a formula. What was declared of the old one holds no more.
+    /// Changes the text of a formula. What the old one stood for and declared holds no more.
     fn set_formula(&mut self, new: &str) {
         match self {
-            Self::Formula { text, declared, .. } => {
+            Self::Formula { text, declared, role, .. } => {
                 new.clone_into(text);
-                *declared = Declared::default();
+                (*declared, *role) = (Declared::default(), Role::User);
             }
             _ => {
                 *self = Self::formula(new, Frame::World);

@@ -137,7 +137,7 @@ fn formulas_are_told() {
     assert!(step["quantities"].as_array().unwrap().contains(&json!("stretch")));
     let functions = step["functions"].as_array().unwrap();
     let corner = functions.iter().find(|f| f["name"] == "corner 2 at [0.5, 0.75]").unwrap();
-    let expected = "blocks declared formula frame kind name parameters";
+    let expected = "blocks declared formula frame kind name parameters role";
     assert_eq!(keys(corner).join(" "), expected);
     assert_eq!(corner["formula"], "r^lambda*sin(lambda*theta)");
     assert_eq!(corner["frame"], json!({ "kind": "fixed", "origin": [0.5, 0.75], "angle": 0.0 }));
@@ -145,6 +145,7 @@ fn formulas_are_told() {
     assert_eq!(corner["declared"], json!({ "kinks": [], "singular": [[0.0, 0.0]] }));
     let tip = functions.iter().find(|f| f["name"] == "westergaard 1 of crack 0 end").unwrap();
     assert_eq!(tip["frame"], json!({ "kind": "tip", "crack": 0, "end": "end" }));
+    assert_eq!([&tip["role"], &corner["role"]], ["tip", "user"]);
     let text = lab.run("info plate.h5");
     for part in [
         "E table(modulus, x)",

@@ -1,7 +1,7 @@
 //! The function table.
 
 use ppum::crack::{SegmentId, TipId};
-use ppum::function::{Cut, Declared, Frame, Function, FunctionKind, Part};
+use ppum::function::{Cut, Declared, Frame, Function, FunctionKind, Part, Role, native};
 use ppum::vec2::{Vec2, vec2};
 
 use super::group::GroupReader;
@@ -52,6 +52,8 @@ struct Columns {
     cuts: Vec<Vec<Cut>>,
     declared: Vec<Declared>,
     levels: Vec<[i64; 2]>,
+    /// None in files of versions before 1.7.
+    role: Option<Vec<String>>,
 }
 
 /// The columns with a row for each function.
@@ -73,9 +75,10 @@ pub(super) fn functions(group: &GroupReader) -> Vec<Function> {
         cuts: cuts(group, n),
         declared: declared(group, n),
         levels: levels(group, n),
+        role: group.holds("role", ObjectKind::Dataset).then(|| group.column("role", n)),
     };
     let function = |(k, (name, word)): (usize, (String, String))| {
-        let kind = columns.function_kind(group, k, &word).unwrap_or(FunctionKind::One);
+        let kind = columns.function_kind(group, (k, &name), &word).unwrap_or(FunctionKind::One);
         Function { name, kind }
     };
     names.into_iter().zip(kinds).enumerate().map(function).collect()
@@ -156,7 +159,12 @@ impl Columns {
     /// Takes the row of a function out of the columns. What its kind does not use must be left
     /// there as nothing: a row that says more than its kind was damaged, or written for
     /// another kind.
-    fn function_kind(&mut self, group: &GroupReader, k: usize, word: &str) -> Option<FunctionKind> {
+    fn function_kind(
+        &mut self,
+        group: &GroupReader,
+        (k, name): (usize, &str),
+        word: &str,
+    ) -> Option<FunctionKind> {
         let function = match group.word(KINDS, word, "kind")? {
             FunctionTag::One => FunctionKind::One,
             FunctionTag::Side => FunctionKind::Side { crack: self.take_crack(group, k) },
@@ -164,12 +172,16 @@ impl Columns {
             FunctionTag::Component => {
                 FunctionKind::Component { cuts: std::mem::take(&mut self.cuts[k]) }
             }
-            FunctionTag::Formula => FunctionKind::Formula {
-                frame: self.take_frame(group, k)?,
-                text: std::mem::take(&mut self.formula[k]),
-                parameters: std::mem::take(&mut self.parameters[k]),
-                declared: std::mem::take(&mut self.declared[k]),
-            },
+            FunctionTag::Formula => {
+                let frame = self.take_frame(group, k)?;
+                FunctionKind::Formula {
+                    frame,
+                    role: self.take_role(group, (k, name), frame)?,
+                    text: std::mem::take(&mut self.formula[k]),
+                    parameters: std::mem::take(&mut self.parameters[k]),
+                    declared: std::mem::take(&mut self.declared[k]),
+                }
+            }
         };
         if let Some((name, nothing)) = self.left_over(k) {
             let mistake =
@@ -194,6 +206,7 @@ impl Columns {
             ("cut_offsets", self.cuts[k].is_empty(), "no cuts"),
             ("kink_offsets", kinks.is_empty(), "no kinks"),
             ("levels", self.levels[k] == NO_LEVELS, "-1, -1"),
+            ("role", self.role.as_ref().is_none_or(|r| r[k].is_empty()), "an empty text"),
             ("singular_offsets", singular.is_empty(), "no singular points"),
         ]
         .into_iter()
@@ -218,6 +231,18 @@ impl Columns {
         })
     }
 
+    fn take_role(
+        &mut self,
+        group: &GroupReader,
+        (k, name): (usize, &str),
+        frame: Frame,
+    ) -> Option<Role> {
+        match &mut self.role {
+            Some(words) => group.word(&Role::NAMES, &std::mem::take(&mut words[k]), "role"),
+            None => Some(role_by_name(name, &self.formula[k], frame, &self.parameters[k])),
+        }
+    }
+
     fn take_level(&mut self, group: &GroupReader, k: usize, column: usize) -> u32 {
         let field = std::mem::replace(&mut self.levels[k][column], -1);
         u32::try_from(field).unwrap_or_else(|_| {
@@ -235,5 +260,31 @@ impl Columns {
             group.error("crack", format!("function {k} has no crack ({crack})"));
             0
         })
+    }
+}
+
+/// The role of a formula in a file of a version before 1.7, whose writers told it by names alone.
+pub(super) fn role_by_name(
+    name: &str,
+    text: &str,
+    frame: Frame,
+    parameters: &[(String, f64)],
+) -> Role {
+    let is_of_corner = |Vec2 { x, y }: Vec2| match parameters {
+        [(parameter, exponent)] if parameter == "lambda" => {
+            name == format!("r^{exponent:.3} at [{x}, {y}]")
+        }
+        _ => false,
+    };
+    match frame {
+        Frame::Tip(_) if native(text, frame).is_some() => Role::Tip,
+        Frame::Fixed { origin, .. } if is_of_corner(origin) => Role::Corner,
+        Frame::Fixed { origin: Vec2 { x, y }, .. }
+            if name.starts_with(&format!("force at [{x}, {y}], ")) =>
+        {
+            Role::Force
+        }
+        _ if name.starts_with("kink at ") && name.contains(" = 0") => Role::Interface,
+        _ => Role::User,
     }
 }

@@ -9,6 +9,8 @@ use std::sync::LazyLock;
 use super::*;
 use crate::content::ArrayValues;
 use crate::{checksum, encode, everything};
+use ppum::crack::{End, TipId};
+use ppum::function::{Frame, Role, WESTERGAARD};
 
 fn content() -> Content {
     static CONTENT: LazyLock<Content> =
@@ -31,7 +33,7 @@ fn complaint(content: Content) -> Option<String> {
 fn a_missing_item_is_named() {
     let optional = ["problem", "@format", "@format_version"];
     let of_tips = ["intensities/t_stress", "intensities/j", "intensities/error"];
-    let results = [&["exact", "growth@cycles"], &of_tips[..]].concat();
+    let results = [&["exact", "growth@cycles", "functions/role"], &of_tips[..]].concat();
     for key in content().keys() {
         let mut damaged = content();
         damaged.remove(key);
@@ -104,7 +106,8 @@ fn unknown_words_are_named() {
         let (group, name) = key.split_once('@').unwrap();
         assert!(error.contains(group) && error.contains(name) && error.contains(word), "{error}");
     }
-    let step = ["cracks/ends", "functions/kind", "functions/frame", "intensities/end"];
+    let step =
+        ["cracks/ends", "functions/kind", "functions/frame", "functions/role", "intensities/end"];
     let keys = step.map(|key| format!("steps/0000/{key}")).into_iter();
     for key in keys.chain(["domain/holes/kind".into()]) {
         let mut damaged = content();
@@ -318,17 +321,55 @@ fn cuts_that_are_none_are_named() {
     }
 }
 
-/// A file of version 1.0 is written again as it was, but for the version.
+/// A file of version 1.0 is written again as it was, but for the version and the roles of formulas.
 #[test]
-fn plain_files_differ_from_version_1_0_in_the_version_alone() {
+fn plain_files_differ_from_version_1_0_in_version_and_roles_alone() {
     let bytes = include_bytes!("../../tests/data/version-1.0.h5").to_vec();
     let mut old = crate::hdf5::from_bytes(&bytes).expect("an HDF5 file");
     checksum::verify(&old).expect("undamaged");
     checksum::remove(&mut old);
     let mut new = encode::content(&dataset(&old).expect("a dataset")).expect("valid");
     assert_eq!(old.remove("@format_version"), Some(Array::vector([1u32, 0])));
-    assert_eq!(new.remove("@format_version"), Some(Array::vector([1u32, 6])));
+    assert_eq!(new.remove("@format_version"), Some(Array::vector([1u32, 7])));
+    let roles = new.remove("steps/0000/functions/role").map(|roles| roles.values);
+    let Some(ArrayValues::Text(roles)) = roles else { panic!("{roles:?}") };
+    assert_eq!(roles, ["", "", "tip", "user"]);
     assert_eq!(old, new);
+}
+
+/// Solvers before 1.7 told by the names of functions what they stand for; no other name does.
+#[test]
+fn names_give_the_roles_in_older_files() {
+    let fixed = Frame::Fixed { origin: vec2(0.5, -1.25), angle: 0.3 };
+    let tip = Frame::Tip(TipId { crack: 0, end: End::Start });
+    let lambda = Some(0.544_83);
+    let rows = [
+        ("westergaard 2 of crack 0 start", WESTERGAARD[1], tip, None, Role::Tip),
+        ("any", WESTERGAARD[0], tip, None, Role::Tip),
+        ("westergaard 1 of crack 0 start", "sqrt(r)", tip, None, Role::User),
+        ("force at [0.5, -1.25], 3.0", "log(r)", fixed, None, Role::Force),
+        ("force at [0.5, -1.25], 3.0", "log(r)", Frame::World, None, Role::User),
+        ("force at bolt at [0.5, -1.25]", "log(r)", fixed, None, Role::User),
+        ("r^0.545 at [0.5, -1.25]", "r^lambda*cos(lambda*theta)", fixed, lambda, Role::Corner),
+        ("r^0.545 at [0.5, -1.25]", "r^0.545", fixed, None, Role::User),
+        ("r^0.6 at [0.5, -1.25]", "r^lambda*cos(lambda*theta)", fixed, lambda, Role::User),
+        ("kink at 0.1 - x = 0, side of crack 2", "abs(x)", Frame::World, None, Role::Interface),
+        ("kink at bolt", "abs(x)", Frame::World, None, Role::User),
+        ("x*y", "x*y", Frame::World, None, Role::User),
+    ];
+    for (name, text, frame, lambda, role) in rows {
+        let parameters: Vec<_> =
+            lambda.map(|value| ("lambda".to_owned(), value)).into_iter().collect();
+        assert_eq!(functions::role_by_name(name, text, frame, &parameters), role, "{name}");
+    }
+    let mut older = content();
+    older.retain(|key, _| !key.ends_with("functions/role"));
+    let roles = |content: &Content| -> Vec<_> {
+        let steps = dataset(content).expect("a dataset").steps;
+        steps[0].functions.iter().filter_map(|function| function.kind.role()).collect()
+    };
+    assert!(roles(&content()).contains(&Role::Force) && roles(&older).contains(&Role::Tip));
+    assert!(roles(&older).iter().all(|role| [Role::Tip, Role::User].contains(role)));
 }
 
 /// What is not known of a tip is NaN beside what is known of others, and not there where

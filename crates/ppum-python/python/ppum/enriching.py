@@ -56,6 +56,7 @@ class Formula:
         parameters: Constants that the formula may use, by name.
         kinks: Segments x0, y0, x1, y1 in the frame across which it or a derivative jumps; values do not depend on them.
         singular: Points in the frame where it or a derivative is infinite; values do not depend on them.
+        role: What it stands for: ``tip``, ``corner``, ``force``, ``interface`` or ``user``; values do not depend on it.
 
     Example:
         >>> ppum.Formula("r^a*sin(a*theta)", tip=(0, "last"), parameters={"a": 0.7}).tip
@@ -70,6 +71,7 @@ class Formula:
     parameters: Mapping[str, float] = field(default_factory=dict)
     kinks: ArrayLike = ()
     singular: ArrayLike = ()
+    role: str = "user"
 
 
 Function = Jump | Component | Level | Formula | str
@@ -91,7 +93,7 @@ def tip_functions(crack: int = 0, end: str = "last") -> dict[str, Formula]:
         >>> list(ppum.tip_functions(0, "last"))[0]
         'sqrt(r) cos of crack 0 last'
     """
-    return {f"{name} of crack {crack} {end}": Formula(text, (crack, end)) for name, text in _TIP.items()}
+    return {f"{name} of crack {crack} {end}": Formula(text, (crack, end), role="tip") for name, text in _TIP.items()}
 
 
 def columns(
@@ -111,6 +113,8 @@ def columns(
             arrays[name] = np.concatenate([row[name] for row in known])
     if any(row["levels"] != (-1, -1) for row in known):
         arrays["levels"] = [row["levels"] for row in known]
+    if any(row["role"] for row in known):
+        arrays["role"] = [row["role"] for row in known]
     return arrays
 
 
@@ -125,7 +129,7 @@ def _row(
         "name": name, "kind": "one", "crack": -1, "formula": "", "frame": "", "frame_end": "",
         "frame_origin": (0.0, 0.0), "frame_angle": 0.0, "parameters": {},
         "cuts": np.empty((0, 4), np.int64), "kinks": np.empty((0, 4)), "singular": np.empty((0, 2)),
-        "levels": (-1, -1),
+        "levels": (-1, -1), "role": "",
     }  # fmt: skip
     if isinstance(function, str):
         function = Formula(function)
@@ -145,6 +149,7 @@ def _row(
 def _frame(place: str, f: Formula, cracks: Sequence[int], fields: Sequence[str]) -> dict[str, Any]:
     row: dict[str, Any] = {
         "frame": "world",
+        "role": f.role,
         "parameters": {str(k): float(numbers(f"{place}.parameters[{k!r}]", v)) for k, v in f.parameters.items()},
         "kinks": rows(f"{place}.kinks", f.kinks, 4),
         "singular": rows(f"{place}.singular", f.singular, 2),

@@ -22,7 +22,7 @@ TYPES = {
 #: Arrays of texts, also if they are empty.
 TEXTS = {
     "components", "end", "ends", "exact", "fate", "formula", "frame", "frame_end", "kind", "message", "name", "on",
-    "parameter_name", "unit",
+    "parameter_name", "role", "unit",
 }  # fmt: skip
 
 

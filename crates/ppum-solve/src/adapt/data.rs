@@ -94,10 +94,11 @@ impl DataResidual<'_> {
 
     /// (d/(π p))² ∫ |f − Π f|² / C with the cell's diagonal d and the best polynomial Π f of a
     /// degree below the order p: of order 1 the bound of Payne and Weinberger (1960) for what the
-    /// rest of the source does to the energy. Nothing is said of cells with functions of the user's
-    /// own: they are there to see what polynomials do not.
+    /// rest of the source does to the energy. Nothing is said of cells with user-defined functions:
+    /// they are there to see what polynomials do not.
     fn of_source(&self, cell: usize, rect: &Rect, order: usize) -> f64 {
-        if self.space.coverers[cell].iter().any(|&patch| self.space.has_own_functions(patch)) {
+        let mut patches = self.space.coverers[cell].iter();
+        if patches.any(|&patch| self.space.has_user_functions(patch as usize)) {
             return 0.0;
         }
         let rules = self.space.rules(&self.quadrature, cell);

@@ -1,16 +1,15 @@
 //! Warnings about interfaces of materials that the local spaces do not resolve.
 
 use super::{kind, short, warning};
+use crate::law::Law;
 use crate::smoothness::{Cause, Interfaces, Trouble};
+use crate::space::Space;
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Warning};
 use ppum::field::Field;
-use ppum::function::{FunctionKind, WESTERGAARD};
 use ppum::jet::Jet;
 use ppum::text::Places;
 use ppum::vec2::{Vec2, vec2};
-
-use crate::law::Law;
 
 /// Points in each direction of a cell at which its energy is looked at.
 const LOOKS: usize = 4;
@@ -26,7 +25,7 @@ const LARGE: f64 = 1e-3;
 /// relative error of the energy.
 pub(super) fn of_interfaces(
     (field, law): (&Field<'_>, &Law<'_>),
-    dataset: &Dataset,
+    (dataset, space): (&Dataset, &Space<'_>),
     places: &Places,
 ) -> Vec<Warning> {
     let interfaces =
@@ -37,11 +36,12 @@ pub(super) fn of_interfaces(
     let partition = field.step.partition.boxes();
     let energies: Vec<f64> = (0..partition.len()).map(|cell| energy(field, law, cell)).collect();
     let total: f64 = energies.iter().sum();
+    // user-defined functions are taken for what is needed there
     let of_patch = |patch: usize| {
         let part = partition.support(patch).intersection(&dataset.domain.bounds);
         let found = interfaces.trouble(&part)?;
         let share = SHARE * found.contrast.powi(2) * energies[patch] / total;
-        (!has_own(field, patch)).then_some((found, share))
+        (!space.has_user_functions(patch)).then_some((found, share))
     };
     let all: Vec<_> = (0..partition.len()).filter_map(of_patch).collect();
     let causes = [Cause::Many, Cause::Turn, Cause::Corner, Cause::Border, Cause::Crack];
@@ -61,19 +61,6 @@ fn of_cause(cause: Cause, all: &[(Trouble, f64)], places: &Places) -> Option<War
             short(value)
         );
         warning(kind::INTERFACE, Some(worst.at), [value, LARGE], message)
-    })
-}
-
-/// True if a patch has functions of the problem's own: they are taken for what is needed there.
-fn has_own(field: &Field<'_>, patch: usize) -> bool {
-    let data = &field.step.fields[0];
-    let mut kinds = data.blocks(patch).map(|b| {
-        let function = &field.step.functions[data.block_function[b] as usize];
-        (&function.kind, function.name.starts_with(crate::space::KINK))
-    });
-    kinds.any(|(kind, is_kink)| match kind {
-        FunctionKind::Formula { text, .. } => !is_kink && !WESTERGAARD.contains(&text.as_str()),
-        _ => false,
     })
 }
 

@@ -152,7 +152,7 @@ impl DiagnosedSolution<'_> {
         warnings.extend(of_rims(field, &dataset.domain.holes, &places));
         stage.advance(0)?;
         let law = &space.law();
-        warnings.extend(of_interfaces((field, law), dataset, &places));
+        warnings.extend(of_interfaces((field, law), (dataset, space), &places));
         warnings.extend(of_report(self.report, adaptivity, cutters));
         stage.advance(0)?;
         warnings.extend(of_digits(rounding, cutters, &places));

@@ -4,7 +4,7 @@ use super::material::jumps;
 use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::{Dataset, Step};
 use ppum::domain::Domain;
-use ppum::function::{Frame, Function, FunctionKind};
+use ppum::function::{Frame, Function, FunctionKind, Role};
 use ppum::segment::{self, Segment, gap};
 use ppum::vec2::{Rect, Vec2};
 
@@ -78,15 +78,10 @@ impl Obstacle {
     }
 }
 
-/// Beginning of the names of functions of forces at points.
-pub(crate) const OF_FORCE: &str = "force at";
-
 /// The points of forces whose fields are among the functions of a step.
 pub(crate) fn points_of_forces(functions: &[Function]) -> impl Iterator<Item = Vec2> {
     functions.iter().filter_map(|function| match function.kind {
-        FunctionKind::Formula { frame: Frame::Fixed { origin, .. }, .. }
-            if function.name.starts_with(OF_FORCE) =>
-        {
+        FunctionKind::Formula { frame: Frame::Fixed { origin, .. }, role: Role::Force, .. } => {
             Some(origin)
         }
         _ => None,

@@ -10,7 +10,7 @@ mod placed;
 
 pub use around::Around;
 pub(crate) use clearance::{
-    AMPLE_CLEARANCE, OF_FORCE, bent_part, exceeds, from_tip, points_of_forces, sure_side,
+    AMPLE_CLEARANCE, bent_part, exceeds, from_tip, points_of_forces, sure_side,
 };
 pub use clearance::{Obstacle, TipClearance};
 pub(crate) use clip::{

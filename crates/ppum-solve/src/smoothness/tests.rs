@@ -3,7 +3,7 @@ use super::traits::{Surroundings, Traits, traits_of_coefficient};
 use crate::quadrature::{Growth, Kink, Singular};
 use ppum::crack::{Crack, CrackEnd, End, TipId};
 use ppum::formula::{Formula, Scope, Table};
-use ppum::function::{Declared, Frame, Function, FunctionKind, WESTERGAARD};
+use ppum::function::{Declared, Frame, Function, FunctionKind, Role, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -169,6 +169,7 @@ fn declared_places() {
         frame: Frame::Fixed { origin: vec2(1.0, 0.0), angle: std::f64::consts::FRAC_PI_2 },
         parameters: Vec::new(),
         declared,
+        role: Role::User,
     };
     let function = Function { name: "declared".into(), kind };
     let found = surroundings().traits(&function).expect("a function");

@@ -9,8 +9,7 @@ use ppum::dataset::{BoxPartition, Step};
 use ppum::expression::Expression;
 use ppum::formula::{self, Formula, Table};
 use ppum::function::{
-    CompileError, Declared, Frame, Function, FunctionError, FunctionKind, WESTERGAARD,
-    function_scope,
+    CompileError, Declared, Frame, Function, FunctionError, FunctionKind, function_scope, native,
 };
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::PI;
@@ -71,13 +70,11 @@ impl<'s> Surroundings<'s> {
 
     pub(super) fn traits(&self, function: &Function) -> Result<Traits, FunctionError> {
         match &function.kind {
-            FunctionKind::Formula { text, frame: frame @ Frame::Tip(_), .. }
-                if WESTERGAARD.contains(&text.as_str()) =>
-            {
+            FunctionKind::Formula { text, frame, .. } if native(text, *frame).is_some() => {
                 let singular = vec![Singular::tip(self.axes(*frame).origin)];
                 Ok(Traits { singular, ..Traits::default() })
             }
-            FunctionKind::Formula { text, frame, parameters, declared } => {
+            FunctionKind::Formula { text, frame, parameters, declared, .. } => {
                 let error = |source: CompileError| FunctionError {
                     index: 0,
                     name: function.name.clone(),

@@ -142,7 +142,6 @@ impl<'d> Space<'d> {
             sizes: (0..n).map(size).collect(),
             shifts: vec![0.0; n],
             series: Vec::new(),
-            in_series: Default::default(),
             held: Default::default(),
             known: Default::default(),
             equation: self.equation,

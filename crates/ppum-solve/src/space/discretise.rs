@@ -4,7 +4,6 @@ use super::enrichment::{Block, Enrichments};
 use super::error::SpaceError;
 use super::inspect::inspect;
 use super::mesh::Mesh;
-use crate::forces::force_fields;
 use crate::geometry::Placed;
 use crate::problem::Problem;
 use crate::problem::quantities::field_names;
@@ -55,9 +54,7 @@ pub(crate) fn discretise_on(
     step.cracks.clone_from(&problem.cracks);
     step.functions = enrichments.table;
     step.attributes = attributes(&blocks);
-    let known =
-        force_fields(problem).into_iter().flat_map(|field| field.functions).collect::<Vec<_>>();
-    inspect(&step, &known, &problem.domain, &problem.tables)?;
+    inspect(&step, &problem.domain, &problem.tables)?;
     Ok(step)
 }
 

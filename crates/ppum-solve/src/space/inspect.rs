@@ -5,9 +5,7 @@ use ppum::crack::Side;
 use ppum::dataset::Step;
 use ppum::domain::Domain;
 use ppum::formula::Table;
-use ppum::function::{
-    Function, FunctionError, FunctionKind, FunctionTable, GROUP, LocalFunctions, Slot, WESTERGAARD,
-};
+use ppum::function::{Function, FunctionError, FunctionTable, GROUP, LocalFunctions, Role, Slot};
 use ppum::jet::Jet;
 use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -60,19 +58,17 @@ pub enum InspectError {
     },
 }
 
-/// Looks at all functions but those that are known to have infinite energy, at some points of
-/// their patches.
+/// Looks at all user-defined functions, at some points of their patches.
 ///
 /// # Errors
 /// The first that is not finite, or that no patch has.
 pub(crate) fn inspect(
     step: &Step,
-    known: &[Function],
     domain: &Domain,
     tables: &[Arc<Table>],
 ) -> Result<(), InspectError> {
-    let own: Vec<_> =
-        (0..).zip(&step.functions).filter(|(_, f)| is_own(&f.kind) && !known.contains(f)).collect();
+    let is_own = |(_, f): &(u32, &Function)| f.kind.role() == Some(Role::User);
+    let own: Vec<_> = (0..).zip(&step.functions).filter(is_own).collect();
     if own.is_empty() {
         return Ok(());
     }
@@ -102,12 +98,6 @@ pub(crate) fn inspect(
         }
     }
     Ok(())
-}
-
-/// True for functions that are not built in.
-pub(super) fn is_own(kind: &FunctionKind) -> bool {
-    let FunctionKind::Formula { text, .. } = kind else { return false };
-    !WESTERGAARD.contains(&text.as_str())
 }
 
 fn look(

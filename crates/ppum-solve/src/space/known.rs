@@ -4,6 +4,7 @@ use super::williams::SeriesFunctions;
 use crate::forces::force_fields;
 use crate::problem::Problem;
 use ppum::dataset::{Step, monomials};
+use ppum::function::{Function, Role};
 use std::collections::BTreeMap;
 
 /// A function of a patch whose coefficients are known.
@@ -26,13 +27,11 @@ pub(crate) fn known_functions(
     step: &Step,
     series: &dyn Fn(usize) -> Vec<SeriesFunctions>,
 ) -> KnownFunctions {
-    let mut coefficients = BTreeMap::new();
-    for field in force_fields(problem) {
-        for (function, known) in field.functions.iter().zip(&field.coefficients) {
-            let number = step.functions.iter().position(|other| other == function);
-            coefficients.extend(number.map(|number| (number as u32, *known)));
-        }
-    }
+    // in the table they have the order of the forces
+    let is_of_force = |(_, f): &(u32, &Function)| f.kind.role() == Some(Role::Force);
+    let numbers = (0..).zip(&step.functions).filter(is_of_force).map(|(number, _)| number);
+    let known = force_fields(problem).into_iter().flat_map(|field| field.coefficients);
+    let coefficients: BTreeMap<u32, [f64; 2]> = numbers.zip(known).collect();
     let mut all = BTreeMap::new();
     if coefficients.is_empty() {
         return all;

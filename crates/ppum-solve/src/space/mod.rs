@@ -17,7 +17,6 @@ pub use crate::refine::RefineError;
 pub(crate) use alike::Member;
 pub use discretise::discretise;
 pub(crate) use discretise::discretise_on;
-pub(crate) use enrichment::KINK;
 pub use error::SpaceError;
 pub(crate) use held::HeldLine;
 pub use inspect::InspectError;

@@ -2,7 +2,6 @@
 
 use super::alike::Alike;
 use super::held::{HeldLine, held_lines};
-use super::inspect;
 use super::known::{KnownFunction, KnownFunctions, known_functions};
 use super::williams::{self, SeriesFunctions};
 use crate::heat::{Temperature, joined};
@@ -15,9 +14,9 @@ use ppum::crack::{LocalCrack, Side};
 use ppum::dataset::{BoxPartition, Equation, FieldData, Step, monomials};
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
-use ppum::function::{FunctionError, FunctionKind, FunctionTable};
+use ppum::function::{FunctionError, FunctionKind, FunctionTable, Role};
 use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -53,8 +52,6 @@ pub struct Space<'d> {
     /// Of each patch, those functions that stand for the series of tips and corners; empty if there
     /// are none anywhere.
     pub(super) series: Vec<Vec<SeriesFunctions>>,
-    /// The functions of the table that they are made of.
-    pub(super) in_series: BTreeSet<u32>,
     /// Of patches at edges with cracks, the lines on which a component is zero.
     pub(super) held: BTreeMap<u32, Vec<HeldLine>>,
     /// Functions of patches whose coefficients are known: they have no unknowns.
@@ -102,7 +99,7 @@ impl<'d> Space<'d> {
         let body = problem.dataset_equation();
         let heat = heat.map(|heat| (heat, &*body));
         let mut space = Self::on(Cow::Owned(step), heat, domain, (equation, tables))?;
-        (space.series, space.in_series) = williams::series(problem, &space.step);
+        space.series = williams::series(problem, &space.step);
         space.held = held_lines(problem, space.partition());
         let series = |patch| space.series(patch).to_vec();
         space.known = known_functions(problem, &space.step, &series);
@@ -132,7 +129,6 @@ impl<'d> Space<'d> {
             sizes: (0..partition.len()).map(size).collect(),
             shifts: shifts(&step, data),
             series: Vec::new(),
-            in_series: BTreeSet::new(),
             held: BTreeMap::new(),
             known: KnownFunctions::new(),
             equation,
@@ -236,12 +232,11 @@ impl<'d> Space<'d> {
         self.smoothness.degree()
     }
 
-    /// True if a patch has functions that are not built in.
-    pub(crate) fn has_own_functions(&self, patch: u32) -> bool {
-        let functions = &self.step().functions;
-        let is_own =
-            |f: u32| !self.in_series.contains(&f) && inspect::is_own(&functions[f as usize].kind);
-        self.data().blocks(patch as usize).any(|b| is_own(self.data().block_function[b]))
+    /// True if a patch has user-defined functions.
+    pub(crate) fn has_user_functions(&self, patch: usize) -> bool {
+        let (data, functions) = (self.data(), &self.step().functions);
+        let role = |b: usize| functions[data.block_function[b] as usize].kind.role();
+        data.blocks(patch).any(|b| role(b) == Some(Role::User))
     }
 
     /// Degree of the polynomials of a patch.

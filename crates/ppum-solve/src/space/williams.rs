@@ -6,7 +6,7 @@ use crate::forces::on_side;
 use crate::problem::{Problem, Symmetry};
 use ppum::crack::TipId;
 use ppum::dataset::{Equation, Step, monomials};
-use ppum::function::{Declared, Frame, Function, FunctionKind, GROUP, WESTERGAARD, native};
+use ppum::function::{Declared, Frame, Function, FunctionKind, GROUP, Role, WESTERGAARD};
 use ppum::library::WEDGE;
 use ppum::vec2::Vec2;
 use std::collections::{BTreeMap, BTreeSet};
@@ -76,16 +76,14 @@ impl SeriesFunctions {
     }
 }
 
-/// The series of all patches of a problem's step, and the functions of its table that they are made
-/// of; none where the material varies, as terms are others then.
-pub(super) fn series(problem: &Problem, step: &Step) -> (Vec<Vec<SeriesFunctions>>, BTreeSet<u32>) {
+/// The series of all patches of a problem's step; none where the material varies, as terms are
+/// others then.
+pub(super) fn series(problem: &Problem, step: &Step) -> Vec<Vec<SeriesFunctions>> {
     if !problem.has_series() {
-        return (Vec::new(), BTreeSet::new());
+        return Vec::new();
     }
     let groups = groups(problem, step);
-    let functions = groups.iter().flat_map(|(first, (_, n))| *first..*first + *n as u32);
-    let all = (0..step.partition.len()).map(|patch| of_patch(step, patch, &groups));
-    (all.collect(), functions.collect())
+    (0..step.partition.len()).map(|patch| of_patch(step, patch, &groups)).collect()
 }
 
 /// By its first function in the table, the origin of each group of functions, and their number.
@@ -94,51 +92,47 @@ type Groups = BTreeMap<u32, (Origin, usize)>;
 fn groups(problem: &Problem, step: &Step) -> Groups {
     let mut groups = of_tips(problem, step);
     // to look for corners takes a second where rims have thousands of vertices
-    if !step.functions.iter().any(|function| function.name.starts_with(OF_CORNER)) {
+    if !step.functions.iter().any(|function| function.kind.role() == Some(Role::Corner)) {
         return groups;
     }
     for (functions, origin) in
         corners(problem).iter().flat_map(|corner| of_corner(corner, &problem.equation))
     {
         // none if no patch has them
-        if let Some(first) = step.functions.iter().position(|f| *f == functions[0]) {
+        if let Some(first) = step.functions.iter().position(|f| f.kind == functions[0].kind) {
             groups.insert(first as u32, (origin, functions.len()));
         }
     }
     groups
 }
 
-/// The functions of each tip that are built in: those of the problem's own come later in the table.
+/// The built-in functions of each tip.
 fn of_tips(problem: &Problem, step: &Step) -> Groups {
-    let mut known = Vec::new();
-    let tip = |kind: &FunctionKind| match kind {
-        FunctionKind::Formula { text, frame, .. } => native(text, *frame),
+    let mut known = BTreeSet::new();
+    let mut first = |kind: &FunctionKind| match *kind {
+        FunctionKind::Formula { frame: Frame::Tip(tip), role: Role::Tip, .. } => {
+            let origin = Origin::Tip(tip, problem.symmetry_at(tip));
+            known.insert(tip).then_some((origin, WESTERGAARD.len()))
+        }
         _ => None,
-    };
-    let mut first = |kind: &FunctionKind| {
-        let (tip, _) = tip(kind).filter(|(tip, k)| *k == 0 && !known.contains(tip))?;
-        known.push(tip);
-        Some((Origin::Tip(tip, problem.symmetry_at(tip)), WESTERGAARD.len()))
     };
     let all = (0..).zip(&step.functions);
     all.filter_map(|(index, function)| Some((index, first(&function.kind)?))).collect()
 }
-
-/// Beginning of the names of functions of corners.
-const OF_CORNER: &str = "r^";
 
 /// The functions of a corner, in groups: one for each of its fields.
 pub(super) fn of_corner(corner: &Corner, equation: &Equation) -> Vec<(Vec<Function>, Origin)> {
     let Some(wedge) = &corner.wedge else { return Vec::new() };
     let frame = Frame::Fixed { origin: corner.at, angle: wedge.bisector };
     let function = |term: &WedgeTerm, text: &str| Function {
-        name: format!("{OF_CORNER}{:.3} at [{}, {}]", term.exponent, corner.at.x, corner.at.y),
+        name: format!("r^{:.3} at [{}, {}]", term.exponent, corner.at.x, corner.at.y),
         kind: FunctionKind::Formula {
             text: on_side(text, wedge.side),
             frame,
             parameters: vec![("lambda".into(), term.exponent)],
             // known, so that quadrature need not look for it
             declared: Declared { singular: vec![Vec2::ZERO], ..Declared::default() },
+            role: Role::Corner,
         },
     };
     let texts = |term: &WedgeTerm| match (equation, term.symmetry) {

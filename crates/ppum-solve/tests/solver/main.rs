@@ -27,6 +27,7 @@ mod kernels;
 mod kinked;
 mod loads;
 mod multilevel;
+mod names;
 mod outlines;
 mod physics;
 mod pieces;

@@ -4,7 +4,7 @@ use crate::random::Random;
 use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd, TipId, tips};
 use ppum::dataset::{BoxPartition, MAX_DEGREE};
-use ppum::function::{Declared, Frame, FunctionKind, WESTERGAARD};
+use ppum::function::{Declared, Frame, FunctionKind, Role, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
@@ -133,6 +133,7 @@ impl Recipe {
             frame,
             parameters: vec![("a".to_owned(), 1.5)],
             declared: Declared::default(),
+            role: Role::User,
         };
         let frame = Frame::Fixed { origin: vec2(0.9, 0.1), angle: random.between(-3.0, 3.0) };
         Self {

@@ -172,7 +172,7 @@ mod tests {
     fn function(text: &str) -> FunctionKind {
         let parameters = vec![("a".to_owned(), 2.0)];
         let (text, declared) = (text.to_owned(), Declared::default());
-        FunctionKind::Formula { text, frame: Frame::World, parameters, declared }
+        FunctionKind::Formula { text, frame: Frame::World, parameters, declared, role: Role::User }
     }
 
     fn body(young: &str, tables: &[Arc<Table>]) -> Equation {

@@ -46,7 +46,43 @@ pub enum FunctionKind {
         parameters: Vec<(String, f64)>,
         /// Lines and points where it is not smooth, beside those the formula itself shows.
         declared: Declared,
+        /// What it stands for.
+        role: Role,
     },
+}
+
+/// What a formula stands for in a field. Values do not depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Role {
+    /// The singular field of a crack tip.
+    Tip,
+    /// A term r^λ of the field at a corner.
+    Corner,
+    /// The field of a force at a point.
+    Force,
+    /// The kink at an interface of two materials.
+    Interface,
+    /// A user-defined function.
+    #[default]
+    User,
+}
+
+impl Role {
+    /// All roles with their names in files and reports.
+    pub const NAMES: [(Self, &'static str); 5] = [
+        (Self::Tip, "tip"),
+        (Self::Corner, "corner"),
+        (Self::Force, "force"),
+        (Self::Interface, "interface"),
+        (Self::User, "user"),
+    ];
+
+    /// Its name, e.g. `tip`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(role, _)| *role == self).map_or("user", |(_, name)| name)
+    }
 }
 
 impl FunctionKind {
@@ -60,11 +96,20 @@ impl FunctionKind {
         frame.into_iter().flatten().chain(sign)
     }
 
-    /// A formula without parameters and declarations.
+    /// What a formula stands for; none of other kinds.
+    #[must_use]
+    pub fn role(&self) -> Option<Role> {
+        match self {
+            Self::Formula { role, .. } => Some(*role),
+            _ => None,
+        }
+    }
+
+    /// A user-defined formula without parameters and declarations.
     #[must_use]
     pub fn formula(text: &str, frame: Frame) -> Self {
         let (text, parameters, declared) = (text.to_owned(), Vec::new(), Declared::default());
-        Self::Formula { text, frame, parameters, declared }
+        Self::Formula { text, frame, parameters, declared, role: Role::User }
     }
 }
 

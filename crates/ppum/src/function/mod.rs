@@ -10,7 +10,7 @@ mod westergaard;
 pub use crate::library::WESTERGAARD;
 pub use formulas::GROUP;
 pub use indicator::{Cut, Part};
-pub use kinds::{Declared, Frame, Function, FunctionKind};
+pub use kinds::{Declared, Frame, Function, FunctionKind, Role};
 pub(crate) use table::LevelUse;
 pub use table::{
     CompileError, FunctionError, FunctionTable, LocalFunctions, Slot, at_tip, function_scope,

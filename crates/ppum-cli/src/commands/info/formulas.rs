@@ -28,6 +28,7 @@ pub(super) struct FunctionRow {
 #[derive(Debug, Serialize)]
 struct FormulaRow {
     formula: String,
+    role: &'static str,
     frame: FrameRow,
     parameters: Vec<Parameter>,
     declared: DeclaredRow,
@@ -81,9 +82,10 @@ impl FunctionRow {
                 cuts = Some(of.iter().map(cut).collect());
                 "component"
             }
-            FunctionKind::Formula { text, frame, parameters, declared } => {
+            FunctionKind::Formula { text, frame, parameters, declared, role } => {
                 formula = Some(FormulaRow {
                     formula: text.clone(),
+                    role: role.name(),
                     frame: FrameRow::new(frame),
                     parameters: self::parameters(parameters),
                     declared: DeclaredRow::new(declared),

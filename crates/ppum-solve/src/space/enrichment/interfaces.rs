@@ -8,7 +8,7 @@ use crate::space::inspect::InspectError;
 use crate::watched::Stage;
 use ppum::crack::{Crack, LocalCrack, Side};
 use ppum::dataset::BoxPartition;
-use ppum::function::{Frame, Function, FunctionError, FunctionKind};
+use ppum::function::{Declared, Frame, Function, FunctionError, FunctionKind, Role};
 use ppum::progress::Cancelled;
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
@@ -16,9 +16,6 @@ use std::sync::Arc;
 
 /// Change of a gradient across an interface, relative to its size, that is a kink.
 const BENT: f64 = 1e-3;
-
-/// Beginning of the names of the functions.
-pub(crate) const KINK: &str = "kink at";
 
 /// Distance of a point to an interface, in parts of a patch, that is rounding.
 const ON: f64 = 1e-9;
@@ -153,8 +150,10 @@ fn parts(crack: &Crack, places: &[InterfacePoint]) -> bool {
 fn kink(interface: &Interface, crack: Option<usize>) -> Function {
     let (text, name) = (&interface.text, interface.name());
     let (text, name) = match crack {
-        None => (text.clone(), format!("{KINK} {name}")),
-        Some(k) => (format!("side({k})*{text}"), format!("{KINK} {name}, side of crack {k}")),
+        None => (text.clone(), format!("kink at {name}")),
+        Some(k) => (format!("side({k})*{text}"), format!("kink at {name}, side of crack {k}")),
     };
-    Function { name, kind: FunctionKind::formula(&text, interface.frame) }
+    let (frame, parameters, declared) = (interface.frame, Vec::new(), Declared::default());
+    let role = Role::Interface;
+    Function { name, kind: FunctionKind::Formula { text, frame, parameters, declared, role } }
 }

@@ -25,7 +25,7 @@ use ppum::crack::{Crack, End, SegmentId, TipId, tips};
 use ppum::dataset::BoxPartition;
 use ppum::domain::Hole;
 use ppum::expression::Expression;
-use ppum::function::{Cut, Frame, Function, FunctionKind, WESTERGAARD};
+use ppum::function::{Cut, Frame, Function, FunctionKind, Role, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// Shortest part of a crack or segment inside a patch, in half-sizes of the patch, that counts as a
@@ -124,7 +124,7 @@ impl<'p> Enrichments<'p> {
             all.add_jumps();
         }
         if let Some(at_tips) = westergaard(mode) {
-            all.add(&at_tips);
+            all.add(&at_tips, Role::Tip);
         }
         match mode {
             Enrichment::AdditiveOnly => all.extend_along_cracks(),
@@ -134,7 +134,7 @@ impl<'p> Enrichments<'p> {
             _ => {}
         }
         let first = all.instances.len();
-        problem.enrichments.iter().for_each(|own| all.add(own));
+        problem.enrichments.iter().for_each(|own| all.add(own, Role::User));
         all.own = first..all.instances.len();
         all
     }
@@ -150,7 +150,7 @@ impl<'p> Enrichments<'p> {
         self.jumps = Some(Jumps::new(cracks, domain, touch(&domain.bounds)));
     }
 
-    fn add(&mut self, new: &LocalEnrichment) {
+    fn add(&mut self, new: &LocalEnrichment, role: Role) {
         for zone in zones(self.problem, new.site) {
             let patches = match (&new.region, zone.shape) {
                 (Region::Where(condition), _) => Patches::Where(condition.clone()),
@@ -159,7 +159,7 @@ impl<'p> Enrichments<'p> {
                 (_, None) => Patches::All,
             };
             let degree = new.degree.map_or(zone.degree, |degree| Degree::Fixed(degree as u8));
-            self.push(functions(new, &zone), patches, degree);
+            self.push(functions(new, &zone, role), patches, degree);
         }
     }
 
@@ -372,7 +372,7 @@ fn at_tip(problem: &Problem, tip: TipId) -> EnrichmentZone {
     }
 }
 
-fn functions(new: &LocalEnrichment, zone: &EnrichmentZone) -> Vec<Function> {
+fn functions(new: &LocalEnrichment, zone: &EnrichmentZone, role: Role) -> Vec<Function> {
     let name = |k: usize, text: &str| match (new.name.as_str(), new.functions.len()) {
         ("", _) => format!("{text}{}", zone.name),
         (name, 1) => format!("{name}{}", zone.name),
@@ -385,6 +385,7 @@ fn functions(new: &LocalEnrichment, zone: &EnrichmentZone) -> Vec<Function> {
             frame: zone.frame,
             parameters: new.parameters.clone(),
             declared: new.declared.clone(),
+            role,
         },
     };
     new.functions.iter().enumerate().map(function).collect()
@@ -463,6 +464,5 @@ impl<'p> Patch<'p> {
 }
 
 mod interfaces;
-pub(crate) use interfaces::KINK;
 #[cfg(test)]
 mod tests;

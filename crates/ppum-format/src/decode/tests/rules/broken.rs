@@ -246,6 +246,12 @@ pub(super) const RULES: &[Rule] = &[
         &["functions/formula", "of the kind `side` does not use it"],
     ),
     (
+        "only formulas have a role",
+        FULL,
+        |c| set_function(c, "side", "", "role", "user".to_owned()),
+        &["functions/role", "does not use it: expected an empty text"],
+    ),
+    (
         "only formulas have a frame",
         FULL,
         |c| set_function(c, "one", "", "frame", "world".to_owned()),
