@@ -152,7 +152,7 @@ impl Overlays {
         let scale = scale(ground.design, ground.picture.view.pixels);
         let layers = Layers::default();
         let lines = seen.lines();
-        let images = seen.images(&ground.field.domain.bounds);
+        let images = seen.images(&ground.field.domain.body_bounds());
         let mut drawing = Drawing { overlays: self, ground, lines, images, scale, watcher, layers };
         match seen {
             BodyView::Plate(_) | BodyView::Mirrored(..) => drawing.plate()?,

@@ -1,6 +1,6 @@
 //! The whole of a body of which a dataset holds one half or a quarter.
 //!
-//! The body is mirrored at edges of the domain's box, and its field repeated beyond them,
+//! The body is mirrored at edges of the box around it, and its field repeated beyond them,
 //! symmetric or antisymmetric ([`Reflection`]). An image of the whole has the pixels of the body
 //! itself, and where the body is not those of the reflected view: there the field is evaluated at
 //! the reflected centre of each pixel, so that nothing is interpolated.
@@ -33,7 +33,7 @@ pub struct MirrorEdge {
     pub is_odd: bool,
 }
 
-/// An edge of the domain's box.
+/// An edge of the box around the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BoxEdge {
     /// x = min.
@@ -58,8 +58,7 @@ pub enum MirrorError {
     Unknown,
     /// An edge of the box that the body does not reach.
     #[error(
-        "mirror: the body does not reach the {0} edge of its box; lines of symmetry are edges of `min` and `max`, which \
-         an outline may cross"
+        "mirror: the body does not reach the {0} edge of its box; lines of symmetry are edges of the box around the body"
     )]
     Away(&'static str),
     /// The deformed body in the window.
@@ -95,7 +94,7 @@ impl BoxEdge {
 
     /// True if some point just inside the edge is in the body.
     fn is_reached_by(self, domain: &Domain) -> bool {
-        let Rect { min, max } = domain.bounds;
+        let Rect { min, max } = domain.body_bounds();
         let inside = Rect::new(min + (max - min) * INSIDE, max - (max - min) * INSIDE);
         let part = |k: u32| (f64::from(k) + 0.5) / f64::from(LOOKS);
         let along = |k: u32| min + vec2((max.x - min.x) * part(k), (max.y - min.y) * part(k));

@@ -36,6 +36,7 @@ impl Stations {
             self.supports.extend(supports.map(|support| Support {
                 at: one.point(support.at),
                 outward: one.vector(support.outward),
+                axis: support.axis.map(|axis| one.vector(axis)),
                 ..*support
             }));
             self.loads.extend(loads.map(|load| Load {
@@ -55,10 +56,11 @@ impl Stations {
 
         let problem = Problem::of_dataset(dataset).map_err(|_| Notice::UnreadableProblem)?;
         let stations = problem.ok_or(Notice::NoProblem)?.stations(spacing);
-        let support = |&Station { at, outward, held, exchanges, .. }: &Station| Support {
+        let support = |&Station { at, outward, held, axis, exchanges, .. }: &Station| Support {
             at,
             outward,
             held,
+            axis,
             yields: exchanges,
         };
         let load =

@@ -71,6 +71,13 @@ impl Domain {
         self.holes.iter().position(Hole::is_outside)
     }
 
+    /// The box around the body: what the bounds and that of the outline have in common.
+    #[must_use]
+    pub fn body_bounds(&self) -> Rect {
+        let outline = self.outline().map(|outline| self.holes[outline].rim_bounds());
+        outline.map_or(self.bounds, |outline| outline.intersection(&self.bounds))
+    }
+
     /// True if `p` lies in the closed box and in no hole.
     #[must_use]
     pub fn contains(&self, p: Vec2) -> bool {

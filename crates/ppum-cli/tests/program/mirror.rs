@@ -556,6 +556,54 @@ fn the_program_draws_the_whole() {
     }
 }
 
+/// Straight sides of an outline are lines of symmetry: of a quarter of a ring all four have the same
+/// pixels.
+#[test]
+fn quarters_of_rings_are_mirrored() {
+    let lab = Lab::solved(
+        r#"
+[domain]
+outline = { path = [
+  { points = [[1, 0], [2, 0]], name = "side" },
+  { arc = { center = [0, 0], radius = 2, from = 0, to = 90 } },
+  { points = [[0, 2], [0, 1]], name = "side of the other" },
+  { arc = { center = [0, 0], radius = 1, from = 90, to = 0 }, name = "bore" },
+] }
+[material]
+young = 1.0
+poisson = 0.3
+state = "plane-strain"
+[[boundary]]
+on = { piece = "side" }
+symmetry = true
+[[boundary]]
+on = { piece = "side of the other" }
+symmetry = true
+[[boundary]]
+on = { piece = "bore" }
+pressure = "1 + 0.3*cos(2*atan2(y, x))"
+[discretization]
+cells = [9, 9]
+order = 3
+"#,
+    );
+    lab.run(
+        "render plate.h5 -o a.png -q energy --mirror --backend cpu --center 0,0 --width 4.4 --size 88x88",
+    );
+    let png = Png::read(&lab.path("a.png"));
+    assert_eq!(png.text("ppum:mirror"), "left,bottom");
+    let drawn = (0..88).flat_map(|i| (0..88).map(move |j| (i, j)));
+    let in_body = |&(i, j): &(u32, u32)| {
+        let [x, y] = [i, j].map(|k| 0.05 * (f64::from(k) - 43.5));
+        (1.05..1.95).contains(&x.hypot(y))
+    };
+    for (i, j) in drawn.filter(in_body) {
+        let pixel = png.pixel(i, j);
+        assert!(pixel[3] == 255, "{i}, {j}");
+        assert_eq!([png.pixel(87 - i, j), png.pixel(i, 87 - j)], [pixel; 2], "{i}, {j}");
+    }
+}
+
 /// Where the dataset does not know its lines they are named, as of a plate that is no half.
 #[test]
 fn lines_are_named_where_nobody_knows_them() {

@@ -15,6 +15,8 @@ pub struct Support {
     pub outward: Vec2,
     /// The components that are held, x and y.
     pub held: [bool; 2],
+    /// The direction that alone is held, where it is neither that of x nor of y.
+    pub axis: Option<Vec2>,
     /// True where the field yields to a value of the surroundings, as heat of a cooled surface.
     pub yields: bool,
 }
@@ -52,20 +54,24 @@ pub fn supports(view: &View, scale: f64, supports: &[Support]) -> Vec<Item> {
     let (mut bodies, mut lines) = (Path::default(), Path::default());
     for support in supports {
         let at = view.pixel(support.at);
-        match support.held {
+        let rolling = match support.held {
+            [true, false] => Some(vec2(1.0, 0.0)),
+            [false, true] => Some(vec2(0.0, 1.0)),
+            _ => support.axis,
+        };
+        match rolling {
             _ if support.yields => {
                 let axis = on_page(support.outward);
                 let end = spring(&mut lines, at, axis, scale);
                 hatched(&mut lines, end, axis, scale);
             }
-            [true, true] => {
+            None if support.held == [true; 2] => {
                 let axis = on_page(nearest_axis(support.outward));
                 let end = triangle(&mut bodies, at, axis, scale);
                 hatched(&mut lines, end, axis, scale);
             }
-            [false, false] => {}
-            [x, _] => {
-                let axis = if x { vec2(1.0, 0.0) } else { vec2(0.0, 1.0) };
+            None => {}
+            Some(axis) => {
                 let sign = if axis.dot(support.outward) < 0.0 { -1.0 } else { 1.0 };
                 let axis = on_page(axis * sign);
                 let end = triangle(&mut bodies, at, axis, scale);
@@ -184,7 +190,8 @@ mod tests {
             let border = view().pixel(at).dot(vec2(outward.x, -outward.y));
             let kinds = [([true, true], false), ([outward.x != 0.0, outward.y != 0.0], false)];
             for (held, yields) in kinds.into_iter().chain([([false; 2], true)]) {
-                let items = supports(&view(), 1.0, &[Support { at, outward, held, yields }]);
+                let items =
+                    supports(&view(), 1.0, &[Support { at, outward, held, axis: None, yields }]);
                 let points = path_points(&items);
                 assert!(points.len() > 4);
                 for p in points {
@@ -193,7 +200,7 @@ mod tests {
             }
         }
         let (at, outward) = (vec2(0.0, 1.0), vec2(0.0, 1.0));
-        let free = Support { at, outward, held: [false; 2], yields: false };
+        let free = Support { at, outward, held: [false; 2], axis: None, yields: false };
         assert!(path_points(&supports(&view(), 1.0, &[free])).is_empty());
     }
 

@@ -81,7 +81,7 @@ impl<'a> FieldSource<'a> {
             () if self.left.is_some() => Err(MirrorError::Difference),
             () => {
                 let edges = mirror.edges(self.dataset)?;
-                Ok(MirrorLines::new(&edges, &self.field.domain.bounds))
+                Ok(MirrorLines::new(&edges, &self.dataset.domain.body_bounds()))
             }
         }
     }

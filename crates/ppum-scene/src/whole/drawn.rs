@@ -16,7 +16,7 @@ pub(crate) fn draw<E: From<RenderError>>(
     part: impl Fn(&View, &Shown) -> Result<Drawn, E>,
 ) -> Result<Drawn, E> {
     let mut whole = part(view, shown)?;
-    for image in lines.images(view, &field.domain.bounds) {
+    for image in lines.images(view, &field.domain.body_bounds()) {
         let (shown, change) = reflected(shown, &image, field)?;
         whole.fill(part(&image.view, &shown)?.flipped(image.flips(), change));
     }
@@ -135,7 +135,7 @@ pub(crate) fn restricted<T: Sample>(
     field: &Field<'_>,
 ) -> Raster<T> {
     let mut values = flipped(whole, image.flips(), change);
-    let [columns, rows] = image.view.inside(&field.domain.bounds);
+    let [columns, rows] = image.view.inside(&field.domain.body_bounds());
     let width = values.size[0] as usize;
     for (k, value) in values.values.iter_mut().enumerate() {
         if !columns.contains(&(k % width)) || !rows.contains(&(k / width)) {

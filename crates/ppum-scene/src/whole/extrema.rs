@@ -28,7 +28,7 @@ pub(crate) fn extrema<T: Sample>(
 ) -> Result<Option<Extrema>, RenderError> {
     let mut all: Option<Extrema> = None;
     let own = MirrorImage { reflection: Reflection::NONE, view: *view };
-    for image in [own].into_iter().chain(lines.images(view, &field.domain.bounds)) {
+    for image in [own].into_iter().chain(lines.images(view, &field.domain.body_bounds())) {
         let reflected = quantity.reflected(&image.reflection, field)?;
         if matches!(reflected.change, ValueChange::Turned { is_quarter: true, .. }) {
             return Ok(Extrema::of_pixels(raster, view));

@@ -25,7 +25,7 @@ pub(crate) fn isolines<T: Sample>(
     }
     let own = MirrorImage { reflection: Reflection::NONE, view: *view };
     let mut all = Vec::new();
-    for image in [own].into_iter().chain(lines.images(view, &field.domain.bounds)) {
+    for image in [own].into_iter().chain(lines.images(view, &field.domain.body_bounds())) {
         let reflected = quantity.reflected(&image.reflection, field)?;
         let part = restricted(raster, &image, reflected.change, field);
         // one level after the other: each keeps its number, however it is rounded

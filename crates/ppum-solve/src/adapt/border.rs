@@ -2,9 +2,9 @@
 //! speaks of among them.
 
 use crate::geometry::around;
-use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem, SideRun};
+use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem, SideRun, in_plane};
 use ppum::crack::Side;
-use ppum::vec2::{Rect, Vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 
 /// A part of the border with the conditions on it, by their numbers.
 pub(super) struct BorderConditions {
@@ -48,17 +48,23 @@ impl BorderConditions {
         a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y
     }
 
-    /// Of each component whether its value is given, and that value or the traction (flux), of a
-    /// field with the values `u` where it yields: zero where nothing is said.
+    /// Of each component whether its value is given, the directions of components, and that value
+    /// or the traction (flux) in the plane, of a field with the values `u` where it yields: zero
+    /// where nothing is said.
     pub(super) fn given(
         &self,
         problem: &Problem,
         (x, normal): (Vec2, Vec2),
         u: [f64; 2],
-    ) -> ([bool; 2], [f64; 2]) {
+    ) -> ([bool; 2], [Vec2; 2], [f64; 2]) {
         let (mut held, mut values) = ([false; 2], [0.0; 2]);
+        let mut axes = [vec2(1.0, 0.0), vec2(0.0, 1.0)];
         for condition in self.conditions.iter().map(|&k| &problem.boundary[k]) {
-            let (own, given) = (condition.fixed(), condition.values(x, normal));
+            let own = condition.fixed();
+            let given = in_plane(condition.values(x, normal), condition.axes());
+            if own.contains(&true) {
+                axes = condition.axes();
+            }
             let yields = condition.held().map(|held| held && condition.exchange.is_some());
             for k in 0..2 {
                 held[k] |= own[k];
@@ -68,7 +74,7 @@ impl BorderConditions {
                 };
             }
         }
-        (held, values)
+        (held, axes, values)
     }
 }
 

@@ -136,7 +136,7 @@ impl DataResidual<'_> {
             }
             let law = self.law.on(x, rule.face.map(|face| (face.segment, face.side)));
             let flux = law.flux(&u.map(|jet| vec2(jet.x, jet.y)));
-            let (held, mut given) = part.given(self.problem, (x, n), u.map(|u| u.v));
+            let (held, axes, mut given) = part.given(self.problem, (x, n), u.map(|u| u.v));
             if let Some(between) = &between {
                 given = between[q].into();
             }
@@ -148,13 +148,14 @@ impl DataResidual<'_> {
                 continue;
             }
             let width = (h / (2.0 * (p + 1.0))).min(to_tip).min(to_force);
+            let missed = [0, 1].map(|i| u[i].v - given[i]);
+            let excess = [0, 1].map(|i| flux[i][0] * n.x + flux[i][1] * n.y - given[i]);
             for i in 0..law.components() {
                 sum += weight
                     * if held[i] {
-                        law.modulus(i) * (p * p + 1.0) / h * (u[i].v - given[i]).powi(2)
+                        law.modulus(i) * (p * p + 1.0) / h * axes[i].dot(missed.into()).powi(2)
                     } else {
-                        let traction = flux[i][0] * n.x + flux[i][1] * n.y;
-                        width / law.modulus(i) * (traction - given[i]).powi(2)
+                        width / law.modulus(i) * axes[i].dot(excess.into()).powi(2)
                     };
             }
         }

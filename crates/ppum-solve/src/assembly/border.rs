@@ -45,6 +45,7 @@ use super::reaction::{CellReaction, Restraint};
 use crate::basis::{BasisEvaluator, Shapes};
 use crate::equilibrium::RigidModes;
 use crate::linear::{EigenError, add_at, largest_eigenvalue};
+use crate::problem::in_plane;
 use crate::quadrature::EdgeRule;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
@@ -76,11 +77,13 @@ pub(crate) struct BorderPiece<'a> {
     pub(crate) own: Option<&'a [EdgeRule]>,
     /// Components whose value is given.
     pub(crate) held: [bool; 2],
+    /// The directions of the components.
+    pub(crate) axes: [Vec2; 2],
     /// The coefficient h with which the field yields to the values, if it does.
     pub(crate) exchange: Option<&'a Expression>,
     /// True if all fields have these values.
     pub(crate) is_exact: bool,
-    /// The given values; tractions where not held (zero where free).
+    /// The given values along the axes; tractions where not held (zero where free).
     pub(crate) values: BorderData<'a>,
     /// Number of the condition.
     pub(crate) condition: usize,
@@ -92,7 +95,7 @@ impl BorderPiece<'_> {
     /// The given tractions (fluxes) at a place with its normal, zero where a value is given.
     pub(crate) fn loads(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
         let values = (self.values)(x, normal);
-        [0, 1].map(|k| if self.held[k] { 0.0 } else { values[k] })
+        in_plane([0, 1].map(|k| if self.held[k] { 0.0 } else { values[k] }), self.axes)
     }
 }
 
@@ -123,11 +126,13 @@ pub(crate) struct Border<'a> {
 
 /// The functions of a cell at the points of a rule, as one held component i sees them. All carry
 /// the roots of the weights, so that products of rows are integrals.
-struct Trace<'s> {
+struct Trace {
     component: usize,
-    /// N_a [functions × points].
-    values: MatRef<'s, f64>,
-    /// The unknowns (a, i) of these rows.
+    /// The direction d of the component.
+    axis: Vec2,
+    /// N_a d_j [functions · components with d_j ≠ 0 × points].
+    values: Mat<f64>,
+    /// The unknowns (a, j) of these rows.
     value_rows: Vec<usize>,
     /// t_i(N_a e_j) [functions · components × points].
     tractions: Mat<f64>,
@@ -173,7 +178,7 @@ impl<'a> Border<'a> {
             }
             shapes.scale(&rule.weights);
             for i in (0..self.assembly.components()).filter(|&i| piece.held[i]) {
-                let trace = self.trace(i, rule, &numbers, shapes);
+                let trace = self.trace((i, piece.axes[i]), rule, &numbers, shapes);
                 if terms != BorderTerms::Data {
                     self.react(&trace, piece, rule);
                 }
@@ -203,8 +208,8 @@ impl<'a> Border<'a> {
             shapes.scale(&rule.weights);
             let h: Vec<f64> = rule.offsets.iter().map(|&o| coefficient(rule.anchor + o)).collect();
             for i in (0..self.assembly.components()).filter(|&i| piece.held[i]) {
-                let mut trace = self.trace(i, rule, &numbers, shapes);
-                let values = trace.values;
+                let mut trace = self.trace((i, piece.axes[i]), rule, &numbers, shapes);
+                let values = &trace.values;
                 trace.tractions =
                     Mat::from_fn(values.nrows(), h.len(), |a, q| -h[q] * values[(a, q)]);
                 trace.traction_rows.clone_from(&trace.value_rows);
@@ -216,14 +221,15 @@ impl<'a> Border<'a> {
     /// Adds the points of a component that yields to H, to the load and to the reaction.
     fn yield_to(
         &mut self,
-        trace: &Trace<'_>,
+        trace: &Trace,
         piece: &BorderPiece<'_>,
         rule: &EdgeRule,
         h: &[f64],
         system: &mut CellSystem,
     ) {
         let Trace { values, value_rows, tractions, .. } = trace;
-        let (n, minus) = (self.value_load.len(), product(*values, tractions.as_ref()));
+        let values = values.as_ref();
+        let (n, minus) = (self.value_load.len(), product(values, tractions.as_ref()));
         let exchange = self.exchange.get_or_insert_with(|| Mat::zeros(n, n));
         add_at(exchange, value_rows, value_rows, &(faer::Scale(-1.0) * minus));
         let given = given(piece, rule, trace.component);
@@ -235,8 +241,8 @@ impl<'a> Border<'a> {
         let given: Vec<f64> = given.iter().zip(h).map(|(g, h)| -h * g).collect();
         let restraint = self.restraint(piece.condition);
         for k in 0..piece.modes.count() {
-            let mode = mode(piece, rule, k, trace.component);
-            restraint.add(k, &mode, (tractions.as_ref(), value_rows), (*values, &[]));
+            let mode = mode(piece, rule, k, trace.axis);
+            restraint.add(k, &mode, (tractions.as_ref(), value_rows), (values, &[]));
             restraint.give(k, &mode, &[], &given);
         }
     }
@@ -252,58 +258,68 @@ impl<'a> Border<'a> {
     ) {
         let points = rule.offsets.iter().zip(&rule.normals).zip(&rule.weights);
         let at = |((&o, &normal), &weight): ((&Vec2, &Vec2), &f64)| {
-            let (x, loads) = (rule.anchor + o, piece.loads(rule.anchor + o, normal));
+            let (x, values) = (rule.anchor + o, (piece.values)(rule.anchor + o, normal));
             // the traction of the unknown, C ε n − C ε⁰ n, stands where a value is held
-            let lacking = self.lacking(x, normal);
-            [0, 1].map(|i| weight * if piece.held[i] { -lacking[i] } else { loads[i] })
+            let lacking = piece.axes.map(|axis| axis.dot(self.lacking(x, normal)));
+            let load = |i: usize| weight * if piece.held[i] { -lacking[i] } else { values[i] };
+            in_plane([0, 1].map(load), piece.axes)
         };
         let loads: Vec<[f64; 2]> = points.map(at).collect();
         shapes.add_loads(&loads, numbers, self.assembly.components(), load);
     }
 
     /// C ε⁰ n
-    fn lacking(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
+    fn lacking(&self, x: Vec2, normal: Vec2) -> Vec2 {
         let law = self.assembly.law;
         let stress = law.eigenstrain(x).map_or([[0.0; 2]; 2], |_| law.at(x).prestress());
-        stress.map(|row| row[0] * normal.x + row[1] * normal.y)
+        stress.map(|row| row[0] * normal.x + row[1] * normal.y).into()
     }
 
     /// The functions as component i sees them; shapes carry the roots of the weights.
-    fn trace<'s>(
+    fn trace(
         &self,
-        i: usize,
+        (component, axis): (usize, Vec2),
         rule: &EdgeRule,
         numbers: &[usize],
-        shapes: &'s Shapes,
-    ) -> Trace<'s> {
+        shapes: &Shapes,
+    ) -> Trace {
         let c = self.assembly.components();
+        let parts = parts_of(axis);
+        let row = |a: usize, q: usize| shapes.value[a * shapes.points + q];
         Trace {
-            component: i,
-            values: shapes.rows(&shapes.value, 0..shapes.functions),
-            value_rows: numbers.iter().map(|a| a * c + i).collect(),
-            tractions: self.tractions(i, rule, shapes),
+            component,
+            axis,
+            values: Mat::from_fn(shapes.functions * parts.len(), shapes.points, |k, q| {
+                parts[k % parts.len()].1 * row(k / parts.len(), q)
+            }),
+            value_rows: numbers
+                .iter()
+                .flat_map(|a| parts.iter().map(move |(j, _)| a * c + j))
+                .collect(),
+            tractions: self.tractions(&parts, rule, shapes),
             traction_rows: numbers.iter().flat_map(|a| (0..c).map(move |j| a * c + j)).collect(),
         }
     }
 
-    /// t_i(N_a e_j), rows (a, j), columns points.
-    fn tractions(&self, i: usize, rule: &EdgeRule, shapes: &Shapes) -> Mat<f64> {
+    /// t_i(N_a e_j), rows (a, j), columns points, for a component with these parts.
+    fn tractions(&self, parts: &[(usize, f64)], rule: &EdgeRule, shapes: &Shapes) -> Mat<f64> {
         let (c, law) = (self.assembly.components(), self.assembly.law);
         let laws: Vec<_> = rule.offsets.iter().map(|&o| law.at(rule.anchor + o)).collect();
         Mat::from_fn(shapes.functions * c, shapes.points, |row, q| {
             let at = (row / c) * shapes.points + q;
-            laws[q].traction(i, row % c, vec2(shapes.dx[at], shapes.dy[at]), rule.normals[q])
+            let (d, n) = (vec2(shapes.dx[at], shapes.dy[at]), rule.normals[q]);
+            parts.iter().map(|&(i, part)| part * laws[q].traction(i, row % c, d, n)).sum()
         })
     }
 
     /// Adds the points of a component whose value is given to the matrices M, C, B, and to length
     /// and modulus of Γ.
-    fn hold(&mut self, trace: &Trace<'_>, rule: &EdgeRule) {
+    fn hold(&mut self, trace: &Trace, rule: &EdgeRule) {
         self.measure(trace.component, rule);
         let Trace { values, value_rows, tractions, traction_rows, .. } = trace;
-        let tractions = tractions.as_ref();
-        add_at(&mut self.mass, value_rows, value_rows, &product(*values, *values));
-        add_at(&mut self.consistency, value_rows, traction_rows, &product(*values, tractions));
+        let (values, tractions) = (values.as_ref(), tractions.as_ref());
+        add_at(&mut self.mass, value_rows, value_rows, &product(values, values));
+        add_at(&mut self.consistency, value_rows, traction_rows, &product(values, tractions));
         for column in tractions.col_iter() {
             let first = self.tractions.len();
             self.tractions.resize(first + self.value_load.len(), 0.0);
@@ -313,13 +329,13 @@ impl<'a> Border<'a> {
     }
 
     /// Adds the same points to the integrals of the restraint's reaction.
-    fn react(&mut self, trace: &Trace<'_>, piece: &BorderPiece<'_>, rule: &EdgeRule) {
+    fn react(&mut self, trace: &Trace, piece: &BorderPiece<'_>, rule: &EdgeRule) {
         let Trace { values, value_rows, tractions, traction_rows, .. } = trace;
-        let tractions = tractions.as_ref();
+        let (values, tractions) = (values.as_ref(), tractions.as_ref());
         let restraint = self.restraint(piece.condition);
         for k in 0..piece.modes.count() {
-            let mode = mode(piece, rule, k, trace.component);
-            restraint.add(k, &mode, (tractions, traction_rows), (*values, value_rows));
+            let mode = mode(piece, rule, k, trace.axis);
+            restraint.add(k, &mode, (tractions, traction_rows), (values, value_rows));
         }
     }
 
@@ -334,7 +350,7 @@ impl<'a> Border<'a> {
     }
 
     /// Adds the values that are given for a component to p and q, and to the restraint's reaction.
-    fn give(&mut self, trace: &Trace<'_>, piece: &BorderPiece<'_>, rule: &EdgeRule) {
+    fn give(&mut self, trace: &Trace, piece: &BorderPiece<'_>, rule: &EdgeRule) {
         let Trace { values, value_rows, tractions, traction_rows, .. } = trace;
         let given = given(piece, rule, trace.component);
         for (q, g) in given.iter().enumerate() {
@@ -347,12 +363,12 @@ impl<'a> Border<'a> {
         }
         let points = rule.offsets.iter().zip(&rule.normals).zip(&rule.weights);
         let lacking = |((&o, &normal), w): ((&Vec2, &Vec2), &f64)| {
-            self.lacking(rule.anchor + o, normal)[trace.component] * w.sqrt()
+            self.lacking(rule.anchor + o, normal).dot(trace.axis) * w.sqrt()
         };
         let lacking: Vec<f64> = points.map(lacking).collect();
         let restraint = self.restraint(piece.condition);
         for k in 0..piece.modes.count() {
-            restraint.give(k, &mode(piece, rule, k, trace.component), &given, &lacking);
+            restraint.give(k, &mode(piece, rule, k, trace.axis), &given, &lacking);
         }
     }
 
@@ -428,8 +444,16 @@ fn given(piece: &BorderPiece<'_>, rule: &EdgeRule, i: usize) -> Vec<f64> {
     points.map(value).collect()
 }
 
-/// Component i of the k-th rigid-body mode at the points of a rule, times the roots of the weights.
-fn mode(piece: &BorderPiece<'_>, rule: &EdgeRule, k: usize, i: usize) -> Vec<f64> {
+/// The part along an axis of the k-th rigid-body mode at the points of a rule, times the roots of
+/// the weights.
+fn mode(piece: &BorderPiece<'_>, rule: &EdgeRule, k: usize, axis: Vec2) -> Vec<f64> {
     let points = rule.offsets.iter().zip(&rule.weights);
-    points.map(|(&o, w)| piece.modes.at(rule.anchor + o)[k][i] * w.sqrt()).collect()
+    let along = |x: Vec2| axis.dot(piece.modes.at(x)[k].into());
+    points.map(|(&o, w)| along(rule.anchor + o) * w.sqrt()).collect()
+}
+
+/// The coordinates of a direction that are not zero, with their numbers.
+fn parts_of(axis: Vec2) -> Vec<(usize, f64)> {
+    let all = <[f64; 2]>::from(axis).into_iter().enumerate();
+    all.filter(|(_, part)| *part != 0.0).collect()
 }

@@ -7,7 +7,7 @@ use super::loads::{LoadRules, border_rules, of_condition, of_source, unresolved_
 use super::point::point_rule;
 use super::reaction::modes;
 use crate::equilibrium::{Balance, BodyPieces};
-use crate::problem::{BoundaryCondition, ForcePlace, Problem};
+use crate::problem::{BoundaryCondition, ForcePlace, Problem, held_directions};
 use crate::quadrature::{EdgeRule, Face, Quadrature, Rule};
 use crate::report::Unresolved;
 use crate::space::Space;
@@ -28,7 +28,7 @@ pub(crate) struct Given<'p> {
     strains: Vec<(f64, Vec2)>,
 }
 
-/// A boundary condition with its data as a function of position and normal.
+/// A boundary condition with its data along its axes as a function of position and normal.
 struct GivenCondition<'p> {
     number: usize,
     condition: &'p BoundaryCondition,
@@ -171,6 +171,7 @@ impl<'p> GivenCondition<'p> {
             rules,
             own: self.own.of(cell),
             held: self.condition.held(),
+            axes: self.condition.axes(),
             exchange: self.condition.exchange.as_ref(),
             is_exact: problem.is_exact(self.condition),
             values: &*self.values,
@@ -208,7 +209,9 @@ fn add_border(
             }
         }
     };
-    points(&piece.rules, &mut |at, x, _, weight| sum[at].add_held(x, piece.held, weight));
+    points(&piece.rules, &mut |at, x, _, weight| {
+        sum[at].add_held(x, held_directions(piece.held, piece.axes), weight);
+    });
     points(piece.own.unwrap_or(&piece.rules), &mut |at, x, normal, weight| {
         sum[at].add_load(x, &piece.loads(x, normal)[..components], weight);
     });

@@ -132,7 +132,7 @@ impl Reactions {
         let holding = problem.boundary.iter().zip(sums).filter(|(c, _)| c.held().contains(&true));
         let reaction = |(condition, sum): (&BoundaryCondition, PerMode)| Reaction {
             on: restraint_words(condition.on, &problem.domain, &problem.pieces),
-            held: condition.held()[..components].to_vec(),
+            held: condition.coordinates_of(condition.held())[..components].to_vec(),
             force: sum[..components].to_vec(),
             moment: sum[2],
         };

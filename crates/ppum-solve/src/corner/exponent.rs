@@ -103,7 +103,8 @@ fn zeros(sector: &Sector, kappa: f64, right: f64) -> usize {
 /// Rows: two conditions on each ray; columns: Re A, Im A, Re B, Im B.
 fn determinant(sector: &Sector, kappa: f64, lambda: c64) -> c64 {
     let angles = [sector.from, sector.from + sector.opening];
-    let rows = [0, 1].map(|k| conditions(sector.held[k], kappa, lambda, angles[k]));
+    let rows =
+        [0, 1].map(|k| conditions((sector.held[k], sector.axes[k]), kappa, lambda, angles[k]));
     let minor = |rows: &[[c64; 4]; 2], a: usize, b: usize| {
         rows[0][a] * rows[1][b] - rows[0][b] * rows[1][a]
     };
@@ -118,11 +119,20 @@ fn determinant(sector: &Sector, kappa: f64, lambda: c64) -> c64 {
 }
 
 /// The two conditions on a ray: of each component the displacement where it is held, else the
-/// traction, which belongs to the other component of i F.
-fn conditions(held: [bool; 2], kappa: f64, lambda: c64, angle: f64) -> [[c64; 4]; 2] {
+/// traction, that of −i F.
+fn conditions(
+    (held, axes): ([bool; 2], [Vec2; 2]),
+    kappa: f64,
+    lambda: c64,
+    angle: f64,
+) -> [[c64; 4]; 2] {
     let displacement = fields(lambda, angle, c64::new(kappa, 0.0), -1.0);
     let force = fields(lambda, angle, c64::new(1.0, 0.0), 1.0);
-    [0, 1].map(|i| if held[i] { displacement[i] } else { force[1 - i] })
+    let sum = |[a, b]: &[[c64; 4]; 2], x: f64, y: f64| std::array::from_fn(|j| a[j] * x + b[j] * y);
+    [0, 1].map(|i| match held[i] {
+        true => sum(&displacement, axes[i].x, axes[i].y),
+        false => sum(&force, -axes[i].y, axes[i].x),
+    })
 }
 
 /// Real and imaginary part of s A e^{iλθ} + t (λ Ā e^{i(2−λ)θ} + B̄ e^{−iλθ}), continued to

@@ -269,7 +269,9 @@ fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> Nature {
     };
     match problem.cracks.iter().position(inner) {
         Some(crack) => Nature::Kink(crack),
-        None if sector.held[0] == sector.held[1] => Nature::Corner,
+        None if (sector.held[0], sector.axes[0]) == (sector.held[1], sector.axes[1]) => {
+            Nature::Corner
+        }
         None => Nature::Support,
     }
 }

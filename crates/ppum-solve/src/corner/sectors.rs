@@ -22,6 +22,8 @@ pub(super) struct Sector {
     pub(super) opening: f64,
     /// On each ray, of each component whether its value is given.
     pub(super) held: [[bool; 2]; 2],
+    /// On each ray, the directions of the components.
+    pub(super) axes: [[Vec2; 2]; 2],
     /// On each ray, the traction (the flux) at the point.
     pub(super) load: [[f64; 2]; 2],
     /// On each ray, the given values at the point.
@@ -117,7 +119,8 @@ impl Surroundings<'_> {
         let (from, to) = (rays[0].angle, rays[1].angle);
         let opening = (to - from).rem_euclid(TAU);
         let (held, load, value) = Default::default();
-        let mut sector = Sector { from, opening, held, load, value };
+        let axes = [[vec2(1.0, 0.0), vec2(0.0, 1.0)]; 2];
+        let mut sector = Sector { from, opening, held, axes, load, value };
         let normals = sector.normals();
         for (k, ray) in rays.into_iter().enumerate() {
             for condition in &self.problem.boundary {
@@ -127,6 +130,9 @@ impl Surroundings<'_> {
                 let place = p + vec2(ray.angle.cos(), ray.angle.sin()) * beside;
                 let (held, load) = (condition.fixed(), condition.loads(place, normals[k]));
                 let values = condition.values(place, normals[k]);
+                if held.contains(&true) {
+                    sector.axes[k] = condition.axes();
+                }
                 for i in 0..2 {
                     sector.held[k][i] |= held[i];
                     sector.load[k][i] += load[i];

@@ -8,12 +8,30 @@ use std::f64::consts::PI;
 const BOUNDS: Rect = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
 const FREE: [bool; 2] = [false; 2];
 const HELD: [bool; 2] = [true; 2];
+const AXES: [[Vec2; 2]; 2] = [[vec2(1.0, 0.0), vec2(0.0, 1.0)]; 2];
 
 fn wedge(from: f64, opening: f64, held: [[bool; 2]; 2], kappa: f64) -> f64 {
     smallest(
-        &Sector { from, opening, held, load: [[0.0; 2]; 2], value: [[0.0; 2]; 2] },
+        &Sector { from, opening, held, axes: AXES, load: [[0.0; 2]; 2], value: [[0.0; 2]; 2] },
         Constants::Elastic(kappa),
     )
+}
+
+/// A wedge that can slide along a ray, whichever way that is, is a half of a free one.
+#[test]
+fn wedges_on_smooth_walls_are_halves() {
+    let mut random = Random(5);
+    for _ in 0..20 {
+        let (from, opening) = (random.between(-3.0, 3.0), random.between(1.7, 3.1));
+        let (wall, kappa) = (vec2(from.cos(), from.sin()).left(), random.between(1.2, 2.6));
+        let held = [[true, false], FREE];
+        let axes = [[wall, wall.left()], AXES[1]];
+        let sector =
+            Sector { from, opening, held, axes, load: [[0.0; 2]; 2], value: [[0.0; 2]; 2] };
+        let half = smallest(&sector, Constants::Elastic(kappa));
+        let whole = wedge(from, 2.0 * opening, [FREE; 2], kappa);
+        assert!((half - whole).abs() < 2e-4, "{from}, {opening}: {half}, {whole}");
+    }
 }
 
 /// The smallest root in (lo, 1) of a real function that changes its sign there.

@@ -98,13 +98,17 @@ impl Balance {
         self.magnitude += weight * values.iter().map(|v| v.abs()).sum::<f64>();
     }
 
-    /// Adds a point where values of some components are given.
-    pub(crate) fn add_held(&mut self, x: Vec2, held: [bool; 2], weight: f64) {
-        let modes = self.modes.at(x);
-        for (row, a) in self.held.iter_mut().zip(&modes) {
-            for (entry, b) in row.iter_mut().zip(&modes) {
-                let products = (0..2).filter(|&i| held[i]).map(|i| a[i] * b[i]);
-                *entry += weight * products.sum::<f64>();
+    /// Adds a point where values along some directions are given.
+    pub(crate) fn add_held(
+        &mut self,
+        x: Vec2,
+        held: impl Iterator<Item = Vec2> + Clone,
+        weight: f64,
+    ) {
+        let modes = self.modes.at(x).map(Vec2::from);
+        for (row, a) in self.held.iter_mut().zip(modes) {
+            for (entry, b) in row.iter_mut().zip(modes) {
+                *entry += weight * held.clone().map(|d| a.dot(d) * b.dot(d)).sum::<f64>();
             }
         }
     }

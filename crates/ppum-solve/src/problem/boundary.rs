@@ -3,6 +3,7 @@
 use std::fmt;
 
 use ppum::crack::Side;
+use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::vec2::{Rect, Vec2, vec2};
 
@@ -184,6 +185,11 @@ pub struct SideRun {
 }
 
 impl SideRun {
+    /// Its sides, of its hole.
+    pub(super) fn sides(self, hole: &Hole) -> impl Iterator<Item = [Vec2; 2]> + '_ {
+        hole.sides().take(self.to).skip(self.from)
+    }
+
     /// True if a side of a hole belongs to it.
     pub(crate) fn holds(self, hole: usize, side: usize) -> bool {
         self.hole == hole && (self.from..self.to).contains(&side)
@@ -217,6 +223,9 @@ pub struct BoundaryCondition {
     pub on: BorderPart,
     /// One condition per component of the unknown field.
     pub components: Vec<Condition>,
+    /// The unit vector along which the first component is; the second is along that to its left.
+    /// It is that of x but for a symmetry to an oblique line.
+    pub axis: Vec2,
     /// A pressure p: the traction −p n, n pointing out of the material. It says all components.
     pub pressure: Option<Expression>,
     /// A coefficient h > 0: values that are given are those of the surroundings, to which the field
@@ -239,7 +248,7 @@ impl BoundaryCondition {
     /// Conditions on a part of the border, one per component.
     #[must_use]
     pub fn new(on: BorderPart, components: Vec<Condition>) -> Self {
-        Self { on, components, pressure: None, exchange: None }
+        Self { on, components, axis: vec2(1.0, 0.0), pressure: None, exchange: None }
     }
 
     /// A pressure on a part of the border of an elastic plate.
@@ -254,9 +263,29 @@ impl BoundaryCondition {
         Self::new(BorderPart::edge(edge, domain), components)
     }
 
-    /// True if something is said of a component.
+    /// True if something is said of a component; along oblique axes it is of both.
     pub(super) fn says(&self, component: usize) -> bool {
-        self.pressure.is_some() || self.components[component] != Condition::Free
+        let is_free = self.components[component] == Condition::Free;
+        self.pressure.is_some() || !is_free || self.is_oblique()
+    }
+
+    fn is_oblique(&self) -> bool {
+        self.axis.y != 0.0
+    }
+
+    /// The direction along which a value is given, if it is oblique.
+    pub(crate) fn oblique_axis(&self) -> Option<Vec2> {
+        held_directions(self.fixed(), self.axes()).next().filter(|_| self.is_oblique())
+    }
+
+    /// The directions of the components.
+    pub(crate) fn axes(&self) -> [Vec2; 2] {
+        [self.axis, self.axis.left()]
+    }
+
+    /// Of x and y, whether something is held along a direction that has a part along them.
+    pub(crate) fn coordinates_of(&self, held: [bool; 2]) -> [bool; 2] {
+        if self.is_oblique() { [held.contains(&true); 2] } else { held }
     }
 
     /// Of each component, whether the field has the value that is given: not with an exchange.
@@ -289,11 +318,11 @@ impl BoundaryCondition {
     /// The tractions (fluxes) at a point, zero where a value is given.
     pub(crate) fn loads(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
         let (held, values) = (self.held(), self.values(x, normal));
-        [0, 1].map(|k| if held[k] { 0.0 } else { values[k] })
+        in_plane([0, 1].map(|k| if held[k] { 0.0 } else { values[k] }), self.axes())
     }
 
-    /// The given values and tractions (fluxes) at a point with the normal out of the material, zero
-    /// where nothing is said.
+    /// The given values and tractions (fluxes), along the axes, at a point with the normal out of
+    /// the material; zero where nothing is said.
     pub(crate) fn values(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
         if let Some(pressure) = &self.pressure {
             return (-normal * pressure.value(x)).into();
@@ -307,4 +336,17 @@ impl BoundaryCondition {
         }
         values
     }
+}
+
+/// The vector of components along axes.
+pub(crate) fn in_plane([first, second]: [f64; 2], axes: [Vec2; 2]) -> [f64; 2] {
+    (axes[0] * first + axes[1] * second).into()
+}
+
+/// The axes along which values are given.
+pub(crate) fn held_directions(
+    held: [bool; 2],
+    axes: [Vec2; 2],
+) -> impl Iterator<Item = Vec2> + Clone {
+    axes.into_iter().zip(held).filter(|(_, is_held)| *is_held).map(|(axis, _)| axis)
 }

@@ -343,7 +343,7 @@ tables! {
     static DOMAIN = "[domain]", "" {
         min: POINT, example("[-1.0, -1.0]") => "Lower left corner; required without `outline`.";
         max: POINT, example("[1.0, 1.0]") => "Upper right corner; larger than `min` in both directions.";
-        outline: Table(&OUTLINE) => "The outline of the body; `min` and `max` may be left out then.";
+        outline: Table(&OUTLINE) => "The outline of the body. With `min` and `max`, which may be left out then, the body is what it and the box have in common.";
     }
 
     /// A closed curve around the body.
@@ -468,8 +468,8 @@ tables! {
         traction: Components("[tx, ty]", &["free"]), default("free"), only(Elasticity, &["flux"]) =>
             "The traction σ n, n outwards; each component is a value, or `\"free\"`.";
         pressure: Value, only(Elasticity, &[]) => "A pressure p, that is, the traction −p n.";
-        symmetry: Flag, only(Elasticity, &[]) => "On edges: the normal displacement is 0, the tangential one free.";
-        antisymmetry: Flag, only(Elasticity, &[]) => "On edges: the tangential displacement is 0, the normal one free.";
+        symmetry: Flag, only(Elasticity, &[]) => "On straight parts of the border: the normal displacement is 0, the tangential one free.";
+        antisymmetry: Flag, only(Elasticity, &[]) => "On straight parts of the border: the tangential displacement is 0, the normal one free.";
         value: Either(&[Value, Word(exact)]), default("free"), only(Poisson, &["displacement"]) => "The value of u.";
         exchange: Value, only(Poisson, &[]) =>
             "A coefficient h > 0: `value` is that of the surroundings, κ ∂u/∂n = h (value − u).";

@@ -67,6 +67,7 @@ mod words;
 
 pub use adaptivity::{AdaptKind, Adaptivity, Keep};
 pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge, Piece, SideRun};
+pub(crate) use boundary::{held_directions, in_plane};
 pub(crate) use cracks::touch;
 pub use cracks::{crack, cracks};
 pub use curve::Spline;

@@ -17,8 +17,10 @@ pub struct Station {
     pub at: Vec2,
     /// Unit normal out of the material.
     pub outward: Vec2,
-    /// Of each component, x and y, whether its value is given.
+    /// Of each component, x and y, whether its value is given, or that along `axis`.
     pub held: [bool; 2],
+    /// The direction that alone is held, where it is neither that of x nor of y.
+    pub axis: Option<Vec2>,
     /// True for a potential that yields to the value of its surroundings, an exchange.
     pub exchanges: bool,
     /// Traction on the plate, zero in components that are held: force per area.
@@ -37,7 +39,8 @@ impl Problem {
             let station = |(at, outward)| Station {
                 at,
                 outward,
-                held: condition.fixed(),
+                held: condition.coordinates_of(condition.fixed()),
+                axis: condition.oblique_axis(),
                 exchanges: condition.exchange.is_some(),
                 traction: condition.loads(at, outward).into(),
             };
@@ -52,6 +55,7 @@ impl Problem {
             at: support.at,
             outward: vec2(0.0, -1.0),
             held: support.displacement.map(|value| value.is_some()),
+            axis: None,
             exchanges: false,
             traction: Vec2::ZERO,
         }));
@@ -70,6 +74,7 @@ impl Problem {
                 _ => -force.value.unit(),
             },
             held: [false; 2],
+            axis: None,
             exchanges: false,
             traction: force.value * unit,
         })

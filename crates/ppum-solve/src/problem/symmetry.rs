@@ -11,6 +11,7 @@
 //! of the crack between two corners of the box is a tip, the one at a corner a mouth.
 
 use ppum::crack::TipId;
+use ppum::vec2::{Rect, Vec2};
 
 use super::boundary::{BorderPart, BoundaryCondition, Condition, Edge};
 use super::cracks::{edge_along, touch};
@@ -26,9 +27,29 @@ pub enum Symmetry {
 }
 
 impl BoundaryCondition {
+    /// A symmetry, or an antisymmetry, to a straight part of the border with this normal.
+    #[must_use]
+    pub fn symmetry_on(on: BorderPart, normal: Vec2, symmetry: Symmetry) -> Self {
+        let is_oblique = normal.x != 0.0 && normal.y != 0.0;
+        let is_across = is_oblique || normal.x != 0.0;
+        let condition = |across: bool| match across == (symmetry == Symmetry::Symmetric) {
+            true => Condition::Dirichlet(0.0.into()),
+            false => Condition::Free,
+        };
+        let new = Self::new(on, vec![condition(is_across), condition(!is_across)]);
+        Self { axis: if is_oblique { normal } else { new.axis }, ..new }
+    }
+
     /// The symmetry to its edge that it says; none of other conditions.
     pub(crate) fn symmetry(&self) -> Option<Symmetry> {
-        let BorderPart::Edge { edge, .. } = self.on else { return None };
+        match self.on {
+            BorderPart::Edge { edge, .. } => self.symmetry_to(edge.normal()),
+            _ => None,
+        }
+    }
+
+    /// The symmetry to a line with this normal that it says, where it holds.
+    fn symmetry_to(&self, normal: Vec2) -> Option<Symmetry> {
         let [x, y] = self.components.as_slice() else { return None };
         let is_zero = |condition: &Condition| match condition {
             Condition::Dirichlet(g) => g.constant() == Some(0.0),
@@ -38,7 +59,8 @@ impl BoundaryCondition {
             Condition::Neumann(t) => t.constant() == Some(0.0),
             condition => *condition == Condition::Free,
         };
-        let [across, along] = if edge.normal().x == 0.0 { [y, x] } else { [x, y] };
+        let [first, second] = self.axes().map(|axis| axis.dot(normal).abs());
+        let [across, along] = if second > first { [y, x] } else { [x, y] };
         match () {
             () if is_zero(across) && is_free(along) => Some(Symmetry::Symmetric),
             () if is_free(across) && is_zero(along) => Some(Symmetry::Antisymmetric),
@@ -130,15 +152,41 @@ impl Problem {
         held + faces >= (to - from) - touch(&self.domain.bounds)
     }
 
-    /// The edges beyond which the body may be mirrored: those that have one symmetry from corner to
-    /// corner, but for the faces of cracks. Of two opposite edges the left or the lower one.
+    /// The symmetry that all sides of the outline on a line along an edge have.
+    fn symmetry_of_sides(&self, edge: Edge, line: f64) -> Option<Symmetry> {
+        let (touch, normal) = (touch(&self.domain.bounds), edge.normal());
+        let hole = self.domain.outline()?;
+        let is_on = |p: &Vec2| (normal.dot(*p) - line).abs() <= touch;
+        let sides = self.domain.holes[hole].sides().enumerate();
+        let on_line = sides.filter(|(_, ends)| ends.iter().all(is_on)).map(|(side, _)| side);
+        let symmetry = |side: usize| {
+            let here = self.boundary.iter().filter(|one| self.is_on(one.on, hole, side));
+            here.filter_map(|one| one.symmetry_to(normal)).next()
+        };
+        let mut all = on_line.map(symmetry);
+        let first = all.next()??;
+        all.all(|other| other == Some(first)).then_some(first)
+    }
+
+    /// The edges of the box around the body beyond which it may be mirrored: those that have one
+    /// symmetry from corner to corner, but for the faces of cracks. Of two opposite edges the left
+    /// or the lower one.
     #[must_use]
     pub fn mirrors(&self) -> Vec<(Edge, Symmetry)> {
-        let symmetry = |edge: Edge| {
+        let body = self.domain.body_bounds();
+        let of_box = |edge: Edge| {
             let kinds = [Symmetry::Symmetric, Symmetry::Antisymmetric].into_iter();
             let mut kinds = kinds.filter(|kind| self.is_along(edge, |own| own == *kind));
             let has_faces_alone = self.is_along(edge, |_| false);
-            kinds.next().filter(|_| !has_faces_alone).map(|kind| (edge, kind))
+            kinds.next().filter(|_| !has_faces_alone)
+        };
+        let symmetry = |edge: Edge| {
+            let line = |around: &Rect| edge.normal().dot(edge.point(around, 0.0));
+            let kind = match line(&body) == line(&self.domain.bounds) {
+                true => of_box(edge),
+                false => self.symmetry_of_sides(edge, line(&body)),
+            };
+            kind.map(|kind| (edge, kind))
         };
         let pairs = [[Edge::Left, Edge::Right], [Edge::Bottom, Edge::Top]];
         pairs.into_iter().filter_map(|pair| pair.into_iter().find_map(symmetry)).collect()

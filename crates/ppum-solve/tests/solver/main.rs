@@ -38,6 +38,7 @@ mod reactions;
 mod refined;
 mod rims;
 mod rounding;
+mod sides;
 mod slivers;
 #[path = "../studies/mod.rs"]
 mod studies;

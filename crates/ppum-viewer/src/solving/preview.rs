@@ -35,10 +35,11 @@ impl Preview {
     pub fn new(problem: &Problem) -> Self {
         let size = problem.domain.bounds.size();
         let stations = problem.stations(SPACING * size.x.max(size.y));
-        let support = |&Station { at, outward, held, exchanges, .. }: &Station| Support {
+        let support = |&Station { at, outward, held, axis, exchanges, .. }: &Station| Support {
             at,
             outward,
             held,
+            axis,
             yields: exchanges,
         };
         let load =

@@ -2,11 +2,13 @@
 
 use ppum::domain::Hole;
 use ppum::expression::Expression;
-use ppum::vec2::{Rect, vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::super::boundary::{BorderPart, BoundaryCondition, Condition, Edge, OUTLINE};
+use super::super::cracks::touch;
 use super::super::document::{Read as _, Section, Value, all};
 use super::super::key::no_such;
+use super::super::symmetry::Symmetry;
 use super::super::words::EquationKind;
 use super::rim::Body;
 
@@ -21,7 +23,7 @@ pub(super) fn boundary(
     root.each("boundary", |section| {
         let on = section.required("on").and_then(|value| part(&value, body));
         if section.mentions_any(&SPECIAL) {
-            return special(&section, on);
+            return special(&section, on, body);
         }
         let components = conditions(&section, kind, exact);
         let exchange = exchange(&section);
@@ -33,7 +35,11 @@ pub(super) fn boundary(
 const SPECIAL: [&str; 3] = ["pressure", "symmetry", "antisymmetry"];
 
 /// A pressure, symmetry or antisymmetry, which say all components.
-fn special(section: &Section<'_>, on: Option<BorderPart>) -> Option<BoundaryCondition> {
+fn special(
+    section: &Section<'_>,
+    on: Option<BorderPart>,
+    body: &Body,
+) -> Option<BoundaryCondition> {
     let [pressure, symmetry, antisymmetry] = SPECIAL;
     let given = section.given(&[pressure, symmetry, antisymmetry, "displacement", "traction"]);
     if let [(_, first), (second, _), ..] = &given[..] {
@@ -49,15 +55,31 @@ fn special(section: &Section<'_>, on: Option<BorderPart>) -> Option<BoundaryCond
     if !bool::read(&value)? {
         return value.error("is false, which says nothing; leave this [[boundary]] out");
     }
-    let BorderPart::Edge { edge, .. } = on? else {
-        return value.error("is for edges of the domain; give a displacement or a traction here");
+    let Some(normal) = normal(on?, body) else {
+        return value.error(
+            "is for edges and for pieces of outlines and holes that are straight; divide this one, or give a \
+             displacement or a traction here",
+        );
     };
-    let normal = edge.normal();
-    let condition = |across: f64| match (across != 0.0) == is_symmetric {
-        true => Condition::Dirichlet(0.0.into()),
-        false => Condition::Free,
+    let kind = if is_symmetric { Symmetry::Symmetric } else { Symmetry::Antisymmetric };
+    Some(BoundaryCondition::symmetry_on(on?, normal, kind))
+}
+
+/// The normal of a part of the border all of which has one direction; that of an axis, if rounding
+/// is all that they differ by.
+fn normal(on: BorderPart, body: &Body) -> Option<Vec2> {
+    let piece = match on {
+        BorderPart::Edge { edge, .. } => return Some(edge.normal()),
+        BorderPart::Piece(piece) => &body.pieces[piece],
+        _ => return None,
     };
-    Some(BoundaryCondition::new(on?, vec![condition(normal.x), condition(normal.y)]))
+    let holes = body.holes.as_ref()?;
+    let sides = || piece.runs.iter().flat_map(|run| run.sides(&holes[run.hole]));
+    let along = || sides().map(|[a, b]| b - a);
+    let longest = along().max_by(|a, b| a.length().total_cmp(&b.length()))?;
+    let touch = touch(&holes[piece.runs[0].hole].rim_bounds());
+    let is_normal = |normal: &Vec2| along().all(|way| normal.dot(way).abs() <= touch);
+    [vec2(1.0, 0.0), vec2(0.0, 1.0), longest.unit().left()].into_iter().find(is_normal)
 }
 
 /// The coefficient of an exchange, if there is one.
