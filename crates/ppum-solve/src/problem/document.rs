@@ -35,6 +35,8 @@ pub(super) struct Document<'a> {
     /// Tables of its formulas.
     pub(super) tables: OnceCell<Vec<Arc<Table>>>,
     scope: OnceCell<Option<Scope>>,
+    /// Keys of the file that are meant by others: what is said under those has no place by key.
+    pub(super) misnamed: RefCell<Vec<&'static str>>,
     /// Files that the text names, as far as they were asked for.
     pub(super) files: RefCell<Vec<PathBuf>>,
 }
@@ -57,6 +59,7 @@ impl<'a> Document<'a> {
             equation: Cell::new(None),
             tables: OnceCell::new(),
             scope: OnceCell::new(),
+            misnamed: RefCell::default(),
             files: RefCell::default(),
         }
     }
@@ -79,8 +82,11 @@ pub(super) struct Section<'a> {
     table: &'a DeTable<'a>,
     /// Place at which something is said to be missing.
     offset: usize,
-    /// Keys that were meant by those that are not known.
+    /// Keys that were meant by those of the other equation.
     meant: Vec<&'static str>,
+    /// Keys that were meant by those that are not known, and what these say: it is read as if their
+    /// names were right, so that no other mistake seems to follow.
+    misnamed: Vec<(&'static str, &'a Spanned<DeValue<'a>>)>,
 }
 
 impl<'a> Section<'a> {
@@ -91,40 +97,46 @@ impl<'a> Section<'a> {
         table: &'a DeTable<'a>,
         offset: usize,
     ) -> Self {
-        Self { document, keys, table, offset, meant: Vec::new() }
+        Self { document, keys, table, offset, meant: Vec::new(), misnamed: Vec::new() }
     }
 
     /// Reports every key that is not known, or of another equation.
     pub(super) fn checked(mut self) -> Self {
         let equation = self.document.equation.get();
-        for key in self.table.keys() {
+        for (key, item) in self.table.iter() {
             let name = key.get_ref().as_ref();
             let row = self.keys.row(name);
             if self.keys.keys.is_empty() || row.is_some_and(|row| row.fits(equation)) {
                 continue;
             }
-            let (message, meant) = match row.and_then(|row| row.equation) {
-                Some((_, instead)) => (misplaced(instead), instead.to_vec()),
-                None => self.unknown(name),
+            let message = match row.and_then(|row| row.equation) {
+                Some((_, instead)) => {
+                    self.meant.extend(instead);
+                    misplaced(instead)
+                }
+                None => {
+                    let (message, meant) = self.unknown(name);
+                    self.misnamed.extend(meant.map(|key| (key, item)));
+                    message
+                }
             };
             let section = self.keys.name;
             let what = if row.is_some() { "" } else { "unknown key " };
             self.document
                 .report
                 .at(key.span().start, format!("{what}`{name}` in {section}{message}"));
-            self.meant.extend(meant);
         }
         self
     }
 
     /// What to say of a key that is not known, and the one that was meant.
-    fn unknown(&self, name: &str) -> (String, Vec<&'static str>) {
+    fn unknown(&self, name: &str) -> (String, Option<&'static str>) {
         let equation = self.document.equation.get();
         let rows = self.keys.keys.iter().filter(|row| row.fits(equation));
         let known: Vec<_> = rows.map(|row| row.name).collect();
         match nearest(name, known.iter().copied()) {
-            Some(near) => (format!("; did you mean `{near}`?"), vec![near]),
-            None => (format!("; known are {}", known.join(", ")), Vec::new()),
+            Some(near) => (format!("; did you mean `{near}`?"), Some(near)),
+            None => (format!("; known are {}", known.join(", ")), None),
         }
     }
 
@@ -136,7 +148,9 @@ impl<'a> Section<'a> {
 
     /// True if the key is there, or meant by one that is.
     pub(super) fn mentions(&self, key: &str) -> bool {
-        self.table.contains_key(key) || self.meant.contains(&key)
+        self.table.contains_key(key)
+            || self.meant.contains(&key)
+            || self.misnamed(key).next().is_some()
     }
 
     /// True if one of the keys is mentioned.
@@ -151,8 +165,19 @@ impl<'a> Section<'a> {
 
     /// The value of a key that may be absent.
     pub(super) fn value(&self, key: &str) -> Option<Value<'a>> {
-        let item = self.table.get(key)?;
+        let item = self.table.get(key).or_else(|| self.misnamed(key).next())?;
         Some(self.named(key, item))
+    }
+
+    /// What is said under keys by which this one is meant.
+    fn misnamed(&self, key: &str) -> impl Iterator<Item = &'a Spanned<DeValue<'a>>> {
+        let meant = self.misnamed.iter().filter(move |(meant, _)| *meant == key);
+        meant.map(|(_, item)| *item)
+    }
+
+    /// The keys that are meant by others.
+    pub(super) fn misnamed_keys(&self) -> Vec<&'static str> {
+        self.misnamed.iter().map(|(key, _)| *key).collect()
     }
 
     fn named(&self, key: &str, item: &'a Spanned<DeValue<'a>>) -> Value<'a> {
@@ -242,7 +267,12 @@ impl<'a> Section<'a> {
 
     /// The tables `[[key]]`; none if absent.
     pub(super) fn sections(&self, key: &str) -> Vec<Section<'a>> {
-        let Some(value) = self.value(key) else { return Vec::new() };
+        let all = self.table.get(key).into_iter().chain(self.misnamed(key));
+        all.flat_map(|item| self.sections_of(key, item)).collect()
+    }
+
+    fn sections_of(&self, key: &str, item: &'a Spanned<DeValue<'a>>) -> Vec<Section<'a>> {
+        let value = self.named(key, item);
         let items = value.item.get_ref().as_array().map(|_| value.elements());
         let tables = items.filter(|items| items.iter().all(|item| item.item.get_ref().is_table()));
         if tables.is_none() {

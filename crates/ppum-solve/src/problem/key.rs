@@ -70,6 +70,11 @@ impl Key {
         found
     }
 
+    /// True if it leads into one of some tables of the file.
+    pub(super) fn is_in_any(&self, tables: &[&str]) -> bool {
+        matches!(self.0.first(), Some(KeySegment::Name(name)) if tables.contains(name))
+    }
+
     /// The bytes of the value; those of the deepest value on the way that exists if it does not.
     pub(super) fn span(&self, root: &DeTable<'_>) -> Range<usize> {
         let mut steps = self.0.iter();

@@ -109,7 +109,7 @@ fn read_document(text: &str, file: &str, document: Document<'_>) -> Result<Probl
     report_syntax(&document.report, &errors);
     let problem = if errors.is_empty() { problem(&document, table.get_ref()) } else { None };
     if let Some(problem) = &problem {
-        report_violations(&document.report, table.get_ref(), problem);
+        report_violations(&document, table.get_ref(), problem);
     }
     let files = document.files.take();
     let mistakes = document.report.into_findings();
@@ -148,8 +148,13 @@ fn report_syntax(report: &Report<'_>, errors: &[toml::de::Error]) {
     }
 }
 
-fn report_violations(report: &Report<'_>, document: &DeTable<'_>, problem: &Problem) {
-    for mistake in mistakes(problem) {
+fn report_violations(
+    Document { report, misnamed, .. }: &Document<'_>,
+    document: &DeTable<'_>,
+    problem: &Problem,
+) {
+    let misnamed = misnamed.borrow();
+    for mistake in mistakes(problem).into_iter().filter(|one| !one.key.is_in_any(&misnamed)) {
         let other = mistake.other.map_or(String::new(), |key| {
             let (line, _) = report.position(key.span(document).start);
             format!(" (the other is on line {line})")
@@ -166,6 +171,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     };
     document.equation.set(kind);
     let root = &root.checked();
+    document.misnamed.replace(root.misnamed_keys());
     let loads = ["boundary", "force", "body_force", "source", "temperature", "strain"];
     if !root.mentions_any(&loads) {
         root.error::<()>("nothing acts on the plate; add [[boundary]]");

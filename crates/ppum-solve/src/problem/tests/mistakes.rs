@@ -28,6 +28,39 @@ fn all_mistakes_at_once_in_the_order_of_the_file() {
     assert_eq!(places, expected.map(|place| format!("dir/plate.toml:{place}")));
 }
 
+/// A table whose name is wrong is read as the one that is meant: nothing else seems to be missing.
+#[test]
+fn wrong_names_of_tables_are_the_only_mistakes() {
+    let table = "[[table]]\nname = \"k\"\nx = [0, 1]\nvalues = [0, 1]\n";
+    let text = format!(
+        "{table}[domain]\nmin = [0, 0]\nmax = [1, 2]\n[material]\nyoung = \"table(k, x)\"\n\
+         poisson = 0.3\nstate = \"plane-strain\"\n[[crack]]\npoints = [[0.2, 1.5], [0.4, 1.5]]\n\
+         [discretization]\nlevel = 3\n[[hole]]\ncenter = [0.5, 0.5]\nradius = 0.1\n\
+         [[boundary]]\non = {{ crack = 0 }}\npressure = 1\n[[boundary]]\non = {{ hole = 0 }}\n\
+         pressure = 1\n[[boundary]]\non = \"bottom\"\nsymmetry = true\n"
+    );
+    assert_eq!(mistakes(&text), [""; 0]);
+    let wrong = [
+        ("[[table", "[[tabel"),
+        ("[domain", "[domian"),
+        ("[material", "[materiel"),
+        ("[[crack", "[[crak"),
+        ("[discretization", "[discretisation"),
+        ("[[hole", "[[hol"),
+        ("[[boundary", "[[boundry"),
+    ];
+    for (right, wrong) in wrong {
+        let found = mistakes(&edited(&text, right, wrong));
+        assert!(found.len() == 1 && found[0].contains("did you mean"), "{found:?}");
+    }
+    let edge = "[[crack]]\npoints = [[0, 0], [0.5, 0]]\n[[boundry]]\non = \"bottom\"\nsymmetry = true\n\
+                [[boundary]]\non = \"top\"\ntraction = [0, 1]\n";
+    let plain = edited(&text, "\"table(k, x)\"", "1");
+    let plain = plain.split("[[crack]]").next().expect("a beginning").to_owned() + edge;
+    let found = mistakes(&(plain + "[discretization]\nlevel = 3\n"));
+    assert!(found.len() == 1 && found[0].contains("did you mean `boundary`?"), "{found:?}");
+}
+
 #[test]
 fn no_toml() {
     for (text, places) in [
