@@ -27,6 +27,12 @@ pub enum ImportError {
         /// The largest number.
         most: usize,
     },
+    /// A mesh of lines alone, which are no border.
+    #[error(
+        "the mesh has no triangles or quadrilaterals, and its lines are no border: {0}; save it with its \
+         surfaces: a Physical Surface, or Mesh.SaveAll = 1"
+    )]
+    Faceless(Box<ImportError>),
     /// No curve at all.
     #[error("the file has no curves that can be read{}{}", on_layers(.layers), left(.notices))]
     Empty {

@@ -55,6 +55,8 @@ enum Made {
 #[derive(Default)]
 struct Geometry {
     variables: BTreeMap<String, f64>,
+    /// Variables whose values are not read, with their lines.
+    unread: BTreeMap<String, SourceLine>,
     points: BTreeMap<i64, Vec2>,
     curves: BTreeMap<i64, (Made, SourceLine)>,
     names: BTreeMap<i64, String>,
@@ -189,7 +191,9 @@ impl Geometry {
                 match self.number(statement.value, source) {
                     Ok(value) => drop(self.variables.insert(kind.to_owned(), value)),
                     Err(_) => {
-                        self.sketch.leave(format!("{kind} = {}", start_of(statement.value)), source)
+                        self.sketch
+                            .leave(format!("{kind} = {}", start_of(statement.value)), source);
+                        self.unread.insert(kind.to_owned(), source);
                     }
                 }
                 Ok(())
@@ -298,8 +302,28 @@ impl Geometry {
         let text = text.trim();
         let number = text.parse().ok().or_else(|| self.evaluated(text));
         number.filter(|value: &f64| value.is_finite()).ok_or_else(|| {
-            ImportError::syntax(source, format!("`{}` is no number; write one", start_of(text)))
+            let name = words(text).into_iter().find_map(|word| self.unread.get_key_value(word));
+            let message = match name {
+                Some((name, defined)) => {
+                    format!("the value of `{name}` in {defined} is not read; write a number there")
+                }
+                None => format!("`{}` is no number; write one", start_of(text)),
+            };
+            ImportError::syntax(source, message)
         })
+    }
+
+    /// The values of names that Gmsh reserves for the next free number of a point or a curve.
+    /// Surfaces are not read, so that their numbers are free.
+    fn reserved(&self, name: &str) -> Option<f64> {
+        let next = |last: Option<&i64>| last.map_or(1, |last| last + 1) as f64;
+        let (point, curve) = (self.points.keys().next_back(), self.curves.keys().next_back());
+        match name {
+            "newp" => Some(next(point)),
+            "newc" | "newl" | "newreg" => Some(next(curve)),
+            "newll" | "newcl" | "news" | "newsl" | "newv" => Some(1.0),
+            _ => None,
+        }
     }
 
     /// The value of a formula, with the variables' values for their names; Gmsh's functions begin
@@ -307,7 +331,7 @@ impl Geometry {
     fn evaluated(&self, text: &str) -> Option<f64> {
         let mut formula = String::new();
         for word in words(text) {
-            match self.variables.get(word) {
+            match self.variables.get(word).copied().or_else(|| self.reserved(word)) {
                 Some(value) => formula += &format!("({value:?})"),
                 None if is_name(word) => formula += &word.to_lowercase(),
                 None => formula += word,

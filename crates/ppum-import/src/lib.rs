@@ -105,5 +105,10 @@ pub fn read(
         DrawingFormat::Geo => geo::read(&text),
     }?;
     sketch.keep(&options.layers)?;
-    assemble::assemble(sketch, options.tolerance.clamp(1e-12, 1e-2))
+    let is_faceless = sketch.is_mesh_without_faces;
+    let assembled = assemble::assemble(sketch, options.tolerance.clamp(1e-12, 1e-2));
+    assembled.map_err(|error| match is_faceless {
+        true => ImportError::Faceless(Box::new(error)),
+        false => error,
+    })
 }

@@ -96,7 +96,7 @@ pub(crate) fn read(text: &str) -> Result<Sketch, ImportError> {
             "$PhysicalNames" => mesh.read_names(&mut words)?,
             "$Entities" => mesh.read_entities(&mut words)?,
             "$Nodes" if mesh.is_blocked() => mesh.read_node_blocks(&mut words)?,
-            "$Nodes" => mesh.read_nodes(&mut words)?,
+            "$Nodes" | "$ParametricNodes" => mesh.read_nodes(&mut words)?,
             "$Elements" if mesh.is_blocked() => mesh.read_element_blocks(&mut words)?,
             "$Elements" => mesh.read_elements(&mut words)?,
             _ => {}
@@ -281,6 +281,7 @@ impl GmshMesh {
             return Err(ImportError::syntax(SourceLine::new(edge.line), message));
         }
         let is_mesh = !self.edges.is_empty();
+        self.sketch.is_mesh_without_faces = !is_mesh;
         let inner: Vec<_> =
             self.lines.iter().filter(|(edge, _)| counts.get(&key(edge)) != Some(&1)).collect();
         let mut curves: Vec<_> = self

@@ -45,6 +45,8 @@ pub(crate) struct Sketch {
     pub(crate) about: Option<String>,
     /// True if names are layers, which need not tell the sides of a body apart.
     pub(crate) is_layered: bool,
+    /// True for a mesh that has lines alone.
+    pub(crate) is_mesh_without_faces: bool,
     /// How far curves of the problem file are from those of the drawing.
     fit: Option<String>,
     /// What is to be said of lines: how often, and the first one.

@@ -4,8 +4,11 @@ mod drawn;
 mod number;
 mod path;
 mod shape;
+mod viewport;
 
-use ppum::vec2::vec2;
+use std::collections::HashMap;
+
+use ppum::vec2::{Vec2, vec2};
 use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::affine::PlaneMap;
@@ -13,22 +16,34 @@ use crate::error::ImportError;
 use crate::sketch::{NamedCurve, Sketch};
 use crate::source::SourceLine;
 use drawn::SvgCurve;
+use viewport::Viewport;
 
-/// Most nodes of a file.
+/// Most nodes of a file, and most elements that are drawn, those of each `<use>` counted.
 const MOST_NODES: u32 = 1 << 22;
+
+/// How deep `<use>` may stand in what another one draws.
+const DEEPEST_USE: usize = 32;
 
 /// Elements whose content is not drawn where it stands.
 const NOT_DRAWN: [&str; 8] =
     ["defs", "symbol", "clipPath", "mask", "marker", "pattern", "metadata", "style"];
 
 /// Elements that draw nothing by themselves.
-const SILENT: [&str; 8] = ["svg", "g", "a", "switch", "title", "desc", "namedview", "script"];
+const SILENT: [&str; 9] =
+    ["svg", "symbol", "g", "a", "switch", "title", "desc", "namedview", "script"];
 
 /// What an element inherits.
 #[derive(Clone)]
-struct Inherited {
+struct Inherited<'a, 'input> {
     map: PlaneMap,
     name: Option<String>,
+    is_visible: bool,
+    /// Width and height of the view box, of which percentages are parts.
+    view: Vec2,
+    /// The `<use>` elements that draw this one.
+    uses: usize,
+    /// The `<use>` that draws this element, whose label and size precede its own.
+    used_by: Option<Node<'a, 'input>>,
 }
 
 pub(crate) fn read(text: &str) -> Result<Sketch, ImportError> {
@@ -44,15 +59,23 @@ pub(crate) fn read(text: &str) -> Result<Sketch, ImportError> {
         let message = format!("the file is <{}>, not <svg>", root.tag_name().name());
         return Err(ImportError::syntax(SourceLine::new(1), message));
     }
-    let mut reader = SvgReader { lines: line_starts(text), sketch: Sketch::layered() };
-    reader.read(root)?;
-    reader.turn_up(root)?;
+    let elements = root.descendants().filter_map(|node| Some((node.attribute("id")?, node)));
+    let mut reader = SvgReader {
+        lines: line_starts(text),
+        by_id: elements.collect(),
+        sketch: Sketch::layered(),
+    };
+    let viewport = Viewport::of_page(root)
+        .map_err(|message| ImportError::syntax(reader.source(root), message))?;
+    reader.read(root, viewport.size())?;
+    reader.turn_up(root, &viewport);
     Ok(reader.sketch)
 }
 
-struct SvgReader {
+struct SvgReader<'a, 'input> {
     /// The byte at which each line begins.
     lines: Vec<usize>,
+    by_id: HashMap<&'a str, Node<'a, 'input>>,
     sketch: Sketch,
 }
 
@@ -60,54 +83,101 @@ fn line_starts(text: &str) -> Vec<usize> {
     [0].into_iter().chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect()
 }
 
-impl SvgReader {
+impl<'a, 'input> SvgReader<'a, 'input> {
     fn source(&self, node: Node<'_, '_>) -> SourceLine {
         SourceLine::new(self.lines.partition_point(|start| *start <= node.range().start))
     }
 
-    /// All elements, in the order of the file.
-    fn read(&mut self, root: Node<'_, '_>) -> Result<(), ImportError> {
-        let mut open = vec![(root, Inherited { map: PlaneMap::IDENTITY, name: None })];
+    /// All elements, in the order of the file; those of a `<use>` in its place.
+    fn read(&mut self, root: Node<'a, 'input>, view: Vec2) -> Result<(), ImportError> {
+        let page = Inherited {
+            map: PlaneMap::IDENTITY,
+            name: None,
+            is_visible: true,
+            view,
+            uses: 0,
+            used_by: None,
+        };
+        let (mut open, mut count) = (vec![(root, page)], 0);
         while let Some((node, inherited)) = open.pop() {
+            count += 1;
+            if count > MOST_NODES {
+                return Err(ImportError::TooMany { what: "elements", most: MOST_NODES as usize });
+            }
+            self.note_style_sheet(node);
             let tag = node.tag_name().name();
-            if !node.is_element() || NOT_DRAWN.contains(&tag) {
+            let is_used = tag == "symbol" && inherited.used_by.is_some();
+            if !node.is_element() || (NOT_DRAWN.contains(&tag) && !is_used) {
                 continue;
             }
             let source = self.source(node);
-            if is_hidden(node) {
+            if property(node, "display") == Some("none") {
                 self.sketch.leave(format!("<{tag}> that is not displayed"), source);
                 continue;
             }
-            let map = number::transform(node.attribute("transform").unwrap_or_default())
-                .ok_or_else(|| {
-                    ImportError::syntax(source, "`transform` is not as SVG says; repair the file")
-                })?;
-            let name = label(node).or(inherited.name);
-            let own = Inherited { map: inherited.map.after(&map), name };
+            let syntax = |message: String| ImportError::syntax(source, message);
+            let own = inherited.inner(node).map_err(syntax)?;
             self.element(node, &own, source)?;
+            if tag == "use" {
+                open.extend(self.used(node, &own).map_err(syntax)?);
+            }
             open.extend(node.children().rev().map(|child| (child, own.clone())));
         }
         Ok(())
+    }
+
+    /// The element that a `<use>` draws, shifted.
+    fn used(
+        &mut self,
+        node: Node<'a, 'input>,
+        own: &Inherited<'a, 'input>,
+    ) -> Result<Option<(Node<'a, 'input>, Inherited<'a, 'input>)>, String> {
+        let href = node.attributes().find(|attribute| attribute.name() == "href");
+        let id = href.map(|href| href.value().trim().trim_start_matches('#'));
+        let Some(target) = id.and_then(|id| self.by_id.get(id)) else {
+            let name = id.unwrap_or_default();
+            self.sketch.leave(format!("<use> of `{name}`, which is not there"), self.source(node));
+            return Ok(None);
+        };
+        if own.uses == DEEPEST_USE {
+            return Err(format!("<use> draws itself, or stands {DEEPEST_USE} deep; remove it"));
+        }
+        let [x, y] = shape::lengths(node, own.view, ["x", "y"])?;
+        let map = own.map.after(&PlaneMap::shifting(vec2(x, y)));
+        let inherited = Inherited { map, uses: own.uses + 1, used_by: Some(node), ..own.clone() };
+        Ok(Some((*target, inherited)))
+    }
+
+    /// Remembers a style sheet that may hide elements, as sheets are not read.
+    fn note_style_sheet(&mut self, node: Node<'_, '_>) {
+        let sheet = node.text().unwrap_or_default();
+        let hides = ["display", "visibility"].iter().any(|property| sheet.contains(property));
+        if node.tag_name().name() == "style" && hides {
+            let what = "<style>, which may hide elements: set `display` at the elements themselves";
+            self.sketch.leave(what, self.source(node));
+        }
     }
 
     /// The curves of one element.
     fn element(
         &mut self,
         node: Node<'_, '_>,
-        own: &Inherited,
+        own: &Inherited<'_, '_>,
         source: SourceLine,
     ) -> Result<(), ImportError> {
         let tag = node.tag_name().name();
-        let Some(curves) =
-            shape::curves(node).map_err(|message| ImportError::syntax(source, message))?
+        let Some(curves) = shape::curves(node, own.view)
+            .map_err(|message| ImportError::syntax(source, message))?
         else {
-            let is_nested = tag == "svg" && node.parent_element().is_some();
-            if !SILENT.contains(&tag) || is_nested {
-                let rest = if is_nested { " in <svg>: its own view box is ignored" } else { "" };
-                self.sketch.leave(format!("<{tag}>{rest}"), source);
+            if !SILENT.contains(&tag) && tag != "use" {
+                self.sketch.leave(format!("<{tag}>"), source);
             }
             return Ok(());
         };
+        if !own.is_visible {
+            self.sketch.leave(format!("<{tag}> that is not visible"), source);
+            return Ok(());
+        }
         for curve in curves {
             let name = own.name.clone();
             match curve {
@@ -123,39 +193,56 @@ impl SvgReader {
     }
 
     /// Turns the y axis up, with the lower edge of the page at 0 if it is known; tells the unit.
-    fn turn_up(&mut self, root: Node<'_, '_>) -> Result<(), ImportError> {
-        let error = || {
-            ImportError::syntax(
-                SourceLine::new(1),
-                "`viewBox` is not four numbers; repair the file",
-            )
-        };
-        let view = root
-            .attribute("viewBox")
-            .map(|text| number::numbers(text).ok_or_else(error))
-            .transpose()?;
-        let [width, height] =
-            ["width", "height"].map(|key| root.attribute(key).and_then(number::length));
-        let bottom = match view.as_deref() {
-            Some([_, y, _, height]) => y + height,
-            Some(_) => return Err(error()),
-            None => height.unwrap_or(0.0),
-        };
-        self.sketch.map(&PlaneMap { shift: vec2(0.0, bottom), ..PlaneMap::scaling(1.0, -1.0) });
+    fn turn_up(&mut self, root: Node<'_, '_>, page: &Viewport) {
+        let shift = vec2(0.0, page.bottom());
+        self.sketch.map(&PlaneMap { shift, ..PlaneMap::scaling(1.0, -1.0) });
         let physical = root.attribute("width").and_then(number::millimetres);
-        let user = view.as_ref().map(|view| view[2]).or(width);
-        if let (Some(physical), Some(user)) = (physical, user.filter(|user| *user > 0.0)) {
+        let user = page.size().x;
+        if let Some(physical) = physical.filter(|_| user > 0.0) {
             self.sketch.about =
                 Some(format!("Lengths are in user units of {:.6} mm.", physical / user));
         }
-        Ok(())
     }
 }
 
-/// True for elements that are not displayed.
-fn is_hidden(node: Node<'_, '_>) -> bool {
-    let style: String = node.attribute("style").unwrap_or_default().split_whitespace().collect();
-    node.attribute("display") == Some("none") || style.contains("display:none")
+impl Inherited<'_, '_> {
+    /// What the children of an element inherit, and what holds for itself.
+    fn inner(&self, node: Node<'_, '_>) -> Result<Self, String> {
+        let own = number::transform(node.attribute("transform").unwrap_or_default())
+            .ok_or("`transform` is not as SVG says; repair the file")?;
+        let mut map = self.map.after(&own);
+        let mut view = self.view;
+        let is_nested = node.tag_name().name() == "svg" && node.parent_element().is_some();
+        if is_nested || node.tag_name().name() == "symbol" {
+            let viewport = Viewport::nested(node, self.used_by, self.view)?;
+            (map, view) = (map.after(&viewport.map()), viewport.size());
+        }
+        Ok(Self {
+            map,
+            name: self
+                .used_by
+                .and_then(label)
+                .or_else(|| label(node))
+                .or_else(|| self.name.clone()),
+            is_visible: match property(node, "visibility") {
+                Some("visible") => true,
+                Some("hidden" | "collapse") => false,
+                _ => self.is_visible,
+            },
+            view,
+            uses: self.uses,
+            used_by: None,
+        })
+    }
+}
+
+/// A property of an element by its own style or attribute.
+fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
+    let style = node.attribute("style").unwrap_or_default();
+    let declarations = style.split(';').filter_map(|declaration| declaration.split_once(':'));
+    let declared = declarations.filter(|(key, _)| key.trim() == name).last();
+    let value = declared.map(|(_, value)| value).or_else(|| node.attribute(name))?;
+    Some(value.trim().trim_end_matches("!important").trim_end())
 }
 
 /// The label of an element, or its identifier, if that is no name that a program made.

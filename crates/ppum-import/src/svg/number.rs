@@ -43,8 +43,8 @@ pub(super) fn numbers(text: &str) -> Option<Vec<f64>> {
     Some(all)
 }
 
-/// Pixels of a length, 96 by inch; nothing for percentages and units of fonts.
-pub(super) fn length(text: &str) -> Option<f64> {
+/// Pixels of a length, 96 by inch, or a percentage of a whole length; nothing for units of fonts.
+pub(super) fn length(text: &str, whole: f64) -> Option<f64> {
     let (mut rest, by_inch) = (text, 96.0);
     let number = take(&mut rest)?;
     let factor = match rest.trim() {
@@ -54,6 +54,7 @@ pub(super) fn length(text: &str) -> Option<f64> {
         "mm" => by_inch / 25.4,
         "pt" => by_inch / 72.0,
         "pc" => by_inch / 6.0,
+        "%" => 0.01 * whole,
         _ => return None,
     };
     Some(number * factor)
@@ -62,7 +63,7 @@ pub(super) fn length(text: &str) -> Option<f64> {
 /// Millimetres of a length that has a unit of the world.
 pub(super) fn millimetres(text: &str) -> Option<f64> {
     let has_unit = ["in", "cm", "mm", "pt", "pc"].iter().any(|unit| text.trim().ends_with(unit));
-    has_unit.then(|| length(text)).flatten().map(|pixels| pixels * 25.4 / 96.0)
+    has_unit.then(|| length(text, 0.0)).flatten().map(|pixels| pixels * 25.4 / 96.0)
 }
 
 /// The map of a `transform`.

@@ -1,6 +1,6 @@
 //! Curves of the basic shapes of SVG.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, TAU};
 
 use ppum::vec2::{Vec2, vec2};
 use roxmltree::Node;
@@ -9,63 +9,71 @@ use super::drawn::SvgCurve;
 use super::{number, path};
 use crate::curve::{EllipseArc, PlaneCurve};
 
-/// The curves of an element; nothing if it is none that draws. Errors are sentences.
-pub(super) fn curves(node: Node<'_, '_>) -> Result<Option<Vec<SvgCurve>>, String> {
-    let element = Attributes(node);
+/// The curves of an element; nothing if it is none that draws. Percentages are parts of the sides
+/// of the view box. Errors are sentences.
+pub(super) fn curves(node: Node<'_, '_>, view: Vec2) -> Result<Option<Vec<SvgCurve>>, String> {
     let curves = match node.tag_name().name() {
         "path" => path::curves(node.attribute("d").unwrap_or_default())?,
         "line" => {
-            let [x1, y1, x2, y2] = element.lengths(["x1", "y1", "x2", "y2"])?;
+            let [x1, y1, x2, y2] = lengths(node, view, ["x1", "y1", "x2", "y2"])?;
             vec![SvgCurve::polyline(vec![vec2(x1, y1), vec2(x2, y2)])]
         }
-        "polyline" => polyline(element.points()?),
+        "polyline" => polyline(points(node)?),
         "polygon" => {
-            let mut points = element.points()?;
+            let mut points = points(node)?;
             points.extend(points.first().copied());
             polyline(points)
         }
         "circle" => {
-            let [x, y, r] = element.lengths(["cx", "cy", "r"])?;
+            let [x, y, r] = lengths(node, view, ["cx", "cy", "r"])?;
             ellipse(vec2(x, y), vec2(r, r))
         }
         "ellipse" => {
-            let [x, y, rx, ry] = element.lengths(["cx", "cy", "rx", "ry"])?;
+            let [x, y, rx, ry] = lengths(node, view, ["cx", "cy", "rx", "ry"])?;
             ellipse(vec2(x, y), vec2(rx, ry))
         }
-        "rect" => rect(&element)?,
+        "rect" => rect(node, view)?,
         _ => return Ok(None),
     };
     Ok(Some(curves))
 }
 
-/// The attributes of an element.
-struct Attributes<'a, 'input>(Node<'a, 'input>);
-
-impl Attributes<'_, '_> {
-    /// Lengths in user units, 0 if they are missing.
-    fn lengths<const N: usize>(&self, keys: [&str; N]) -> Result<[f64; N], String> {
-        let mut all = [0.0; N];
-        for (value, key) in all.iter_mut().zip(keys) {
-            if let Some(text) = self.0.attribute(key) {
-                *value = number::length(text).ok_or_else(|| {
-                    format!("`{key}` is no length in user units or px; write a number")
-                })?;
-            }
+/// Lengths in user units, 0 if they are missing.
+pub(super) fn lengths<const N: usize>(
+    node: Node<'_, '_>,
+    view: Vec2,
+    keys: [&str; N],
+) -> Result<[f64; N], String> {
+    let mut all = [0.0; N];
+    for (value, key) in all.iter_mut().zip(keys) {
+        if let Some(text) = node.attribute(key).filter(|text| text.trim() != "auto") {
+            *value = number::length(text, whole(key, view)).ok_or_else(|| {
+                format!("`{key}` is no length in user units, px or %; write a number")
+            })?;
         }
-        Ok(all)
     }
+    Ok(all)
+}
 
-    fn points(&self) -> Result<Vec<Vec2>, String> {
-        let all = number::numbers(self.0.attribute("points").unwrap_or_default());
-        let all = all.filter(|all| all.len().is_multiple_of(2));
-        let mut points: Vec<_> = all
-            .ok_or("`points` are not pairs of numbers; repair them")?
-            .chunks(2)
-            .map(|pair| vec2(pair[0], pair[1]))
-            .collect();
-        points.dedup();
-        Ok(points)
+/// The length of which percentages of an attribute are parts (SVG 2, section 8.9).
+fn whole(key: &str, view: Vec2) -> f64 {
+    match key {
+        "x" | "x1" | "x2" | "cx" | "rx" | "width" => view.x,
+        "y" | "y1" | "y2" | "cy" | "ry" | "height" => view.y,
+        _ => view.length() * FRAC_1_SQRT_2,
     }
+}
+
+fn points(node: Node<'_, '_>) -> Result<Vec<Vec2>, String> {
+    let all = number::numbers(node.attribute("points").unwrap_or_default());
+    let all = all.filter(|all| all.len().is_multiple_of(2));
+    let mut points: Vec<_> = all
+        .ok_or("`points` are not pairs of numbers; repair them")?
+        .chunks(2)
+        .map(|pair| vec2(pair[0], pair[1]))
+        .collect();
+    points.dedup();
+    Ok(points)
 }
 
 /// A polyline, if it has two points.
@@ -81,10 +89,10 @@ fn ellipse(center: Vec2, radii: Vec2) -> Vec<SvgCurve> {
 }
 
 /// A rectangle, whose corners may be quarters of ellipses.
-fn rect(element: &Attributes<'_, '_>) -> Result<Vec<SvgCurve>, String> {
+fn rect(node: Node<'_, '_>, view: Vec2) -> Result<Vec<SvgCurve>, String> {
     let [x, y, width, height, rx, ry] =
-        element.lengths(["x", "y", "width", "height", "rx", "ry"])?;
-    let has = |key: &str| element.0.has_attribute(key);
+        lengths(node, view, ["x", "y", "width", "height", "rx", "ry"])?;
+    let has = |key: &str| node.has_attribute(key);
     let rx = (if has("rx") { rx } else { ry }).min(0.5 * width).max(0.0);
     let ry = (if has("ry") { ry } else { rx }).min(0.5 * height).max(0.0);
     let (low, high) = (vec2(x, y), vec2(x + width, y + height));

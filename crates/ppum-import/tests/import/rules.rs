@@ -61,7 +61,9 @@ fn errors_name_places_and_remedies() {
         ("<path d='M 0 0 L 1 nan'/>", "line 2: the path is wrong after `L`"),
         ("<path d='M 0 0 L 1e300 1e300'/>", "line 2: has numbers that are not finite"),
         ("<g transform='rotate(x)'/>", "line 2: `transform`"),
-        ("<rect width='10%' height='4'/>", "line 2: `width` is no length"),
+        ("<rect width='10em' height='4'/>", "line 2: `width` is no length"),
+        ("<svg viewBox='0 0 1'/>", "line 2: `viewBox` is not four numbers"),
+        ("<g id='a'><use href='#a'/></g>", "line 2: <use> draws itself"),
         ("<g>", "is no XML"),
     ];
     for (elements, message) in cases {
@@ -122,7 +124,10 @@ fn unread_things_are_named() {
     let drawing = svg(&(SQUARE.to_owned() + "<text>a</text>\n<text>b</text>\n<use/>")).unwrap();
     assert_eq!(
         drawing.notices,
-        ["line 3: not read: <text>, and 1 more", "line 5: not read: <use>"]
+        [
+            "line 3: not read: <text>, and 1 more",
+            "line 5: not read: <use> of ``, which is not there"
+        ]
     );
     let square = "8 a 90 4 70 1 10 0 20 0 10 1 20 0 10 1 20 1 10 0 20 1";
     let drawing = dxf(&format!(
@@ -174,6 +179,149 @@ fn blocks_are_inserted() {
         text.contains("name = \"plate-4\"") && text.contains("center = [12, 5]\nradius = 1\n"),
         "{text}"
     );
+}
+
+/// Elements that are not displayed, not visible or not there are no holes, and each is named.
+#[test]
+fn hidden_elements_are_left_out() {
+    let circle = |attributes: &str| format!("<circle cx='5' cy='5' r='1' {attributes}/>");
+    let group = |attributes: &str, inner: &str| format!("<g {attributes}>{}</g>", circle(inner));
+    let hidden = [
+        circle("visibility='hidden'"),
+        circle("visibility='collapse'"),
+        circle("style='fill:red; visibility : hidden'"),
+        circle("style='visibility:hidden !important'"),
+        circle("style='visibility:hidden' visibility='visible'"),
+        circle("display='none'"),
+        circle("style='display:none'"),
+        group("visibility='hidden'", ""),
+        group("visibility='hidden'", "visibility='inherit'"),
+        group("display='none'", "visibility='visible' display='inline'"),
+        "<use href='#nothing'/>".to_owned(),
+    ];
+    for element in hidden {
+        let drawing = svg(&(SQUARE.to_owned() + &element)).unwrap();
+        assert_eq!((drawing.holes.len(), drawing.notices.len()), (0, 1), "{element}");
+        assert!(drawing.notices[0].starts_with("line 3: not read: <"), "{:?}", drawing.notices);
+    }
+    let shown = [
+        circle("visibility='visible'"),
+        circle("style='visibility:visible' visibility='hidden'"),
+        group("visibility='hidden'", "visibility='visible'"),
+        group("style='x-display:none'", ""),
+    ];
+    for element in shown {
+        let drawing = svg(&(SQUARE.to_owned() + &element)).unwrap();
+        assert_eq!((drawing.holes.len(), drawing.notices.len()), (1, 0), "{element}");
+    }
+    let sheet = "<style>.a { display: none }</style>";
+    let notices = svg(&(SQUARE.to_owned() + sheet)).unwrap().notices;
+    assert!(notices[0].contains("<style>, which may hide elements"), "{notices:?}");
+}
+
+/// What stands once and is used, is a part of the page or stands in a view of its own draws the
+/// same as what is written out.
+#[test]
+fn uses_views_and_percentages_draw_what_they_stand_for() {
+    let hole = "<path d='M 4 4 h 2 v 1 a 1 0.5 0 0 1 -2 0 z'/>";
+    let cases = [
+        (
+            format!("<defs><g id='h'>{hole}</g></defs><use href='#h' x='1' y='2'/>"),
+            format!("<g transform='translate(1 2)'>{hole}</g>"),
+        ),
+        (
+            "<circle id='c' cx='3' cy='3' r='1'/><use xlink:href='#c' xmlns:xlink='http://www.w3.org/1999/xlink' transform='scale(0.5)' x='10'/>".to_owned(),
+            "<circle cx='3' cy='3' r='1'/><circle cx='6.5' cy='1.5' r='0.5'/>".to_owned(),
+        ),
+        (
+            format!("<symbol id='s' viewBox='4 4 2 4'>{hole}</symbol><use href='#s' x='5' y='1' width='3' height='2'/>"),
+            format!("<g transform='translate(6 1) scale(0.5) translate(-4 -4)'>{hole}</g>"),
+        ),
+        (
+            "<g id='g'><use href='#r'/></g><defs><rect id='r' x='2' y='2' width='1' height='1'/></defs><use href='#g' x='3'/>".to_owned(),
+            "<rect x='2' y='2' width='1' height='1'/><rect x='5' y='2' width='1' height='1'/>".to_owned(),
+        ),
+        (
+            "<rect x='10%' y='20%' width='30%' height='40%'/><circle cx='80%' cy='50%' r='10%'/>".to_owned(),
+            "<rect x='1' y='2' width='3' height='4'/><circle cx='8' cy='5' r='1'/>".to_owned(),
+        ),
+        (
+            format!("<svg x='1' y='1' width='50%' height='8' viewBox='0 0 10 10' preserveAspectRatio='xMinYMax'>{hole}<rect width='20%' height='20%'/></svg>"),
+            format!("<g transform='translate(1 4) scale(0.5)'>{hole}<rect width='2' height='2'/></g>"),
+        ),
+        (
+            format!("<svg width='5' height='8' viewBox='0 0 10 10' preserveAspectRatio='none'>{hole}</svg>"),
+            format!("<g transform='scale(0.5 0.8)'>{hole}</g>"),
+        ),
+        (
+            format!("<svg x='2' width='4' height='8' viewBox='3 3 4 4' preserveAspectRatio='xMidYMid slice'>{hole}</svg>"),
+            format!("<g transform='translate(0 0) scale(2) translate(-3 -3)'>{hole}</g>"),
+        ),
+    ];
+    let rectangle = "<rect x='-20' y='-20' width='60' height='60'/>";
+    for (short, long) in cases {
+        let [short_body, long_body] =
+            [&short, &long].map(|elements| svg(&(rectangle.to_owned() + elements)).unwrap());
+        assert_eq!(short_body.notices, long_body.notices, "{short}");
+        let points = |body: &BodyDrawing| -> Vec<_> {
+            body.holes.iter().flat_map(|hole| hole.flattened()).collect()
+        };
+        let [a, b] = [points(&short_body), points(&long_body)];
+        assert_eq!(a.len(), b.len(), "{short}");
+        let distance = a.iter().zip(&b).map(|(p, q)| (*p - *q).length()).fold(0.0, f64::max);
+        assert!(distance < 1e-13, "{short}: {distance}");
+    }
+}
+
+/// A use is named by its own label, and by what it draws if it has none.
+#[test]
+fn names_of_uses() {
+    let text = "<defs><circle id='hole' cx='2' cy='2' r='1'/></defs><use href='#hole'/><use id='bolt' href='#hole' x='4'/>";
+    let names: Vec<_> = svg(&(SQUARE.to_owned() + text))
+        .unwrap()
+        .holes
+        .iter()
+        .map(|hole| hole.curves[0].name.clone().unwrap())
+        .collect();
+    assert_eq!(names, ["hole", "bolt"]);
+}
+
+/// Nodes with parameters are nodes; a mesh without faces is a border only if its lines close.
+#[test]
+fn meshes_with_parameters_or_lines_alone() {
+    let nodes = ["0 0", "1 0", "1 1", "0 1"];
+    let mesh = |kind: &str, parameters: &str, elements: &[&str]| {
+        let nodes = nodes.iter().enumerate();
+        let nodes: String =
+            nodes.map(|(k, at)| format!("{} {at} 0 {parameters}\n", k + 1)).collect();
+        let text = format!(
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n${kind}\n4\n{nodes}$End{kind}\n$Elements\n{}\n{}\n$EndElements\n",
+            elements.len(),
+            elements.join("\n")
+        );
+        read(text.as_bytes(), DrawingFormat::Msh, &ImportOptions::default())
+    };
+    let quadrilateral = ["1 3 2 0 1 1 2 3 4"];
+    let plain = mesh("Nodes", "", &quadrilateral).unwrap();
+    assert_eq!(mesh("ParametricNodes", "2 7 0.5 0.5", &quadrilateral).unwrap(), plain);
+    let lines = ["1 1 2 1 1 1 2", "2 1 2 2 2 2 3", "3 1 2 3 3 3 4", "4 1 2 4 4 4 1"];
+    assert_eq!(mesh("Nodes", "", &lines).unwrap().outline.flattened().len(), 5);
+    let error = mesh("Nodes", "", &lines[..3]).unwrap_err().to_string();
+    assert!(
+        error.contains("no triangles or quadrilaterals") && error.contains("SaveAll"),
+        "{error}"
+    );
+}
+
+/// Gmsh's next free numbers are read; a variable that cannot be read is named where it is set.
+#[test]
+fn variables_of_geometries() {
+    let text = "p = newp; Point(p) = {0, 0}; q = newp;\nPoint(q) = {2, 0}; Point(newp) = {2, 1}; Point(q + 2) = {0, 1};\n\
+                l = newl; Line(l) = {p, q}; Line(newc) = {q, 3}; Line(newreg) = {3, 4, 1}; s = news; Curve Loop(newll) = {1:3};";
+    let drawing = geo(text).unwrap();
+    assert_eq!((drawing.outline.flattened().len(), drawing.notices.len()), (5, 0));
+    let error = geo("a = 1;\nb = Point{1};\nPoint(a + b) = {0, 0};").unwrap_err().to_string();
+    assert!(error.contains("line 3: the value of `b` in line 2 is not read"), "{error}");
 }
 
 /// Circles in groups that are squeezed are ellipses; round corners are arcs.
