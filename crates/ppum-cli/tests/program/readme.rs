@@ -60,8 +60,8 @@ fn functions_are_formulas() {
     let ([problem], [_, commands]) = (blocks(TOUR, "toml"), blocks(TOUR, "sh"));
     lab.write("materials.toml", problem);
     follow(&lab, commands);
-    assert!(lab.path("safety.png").is_file());
-    let values = lab.json("probe materials.h5 --at 0.5,0.5 -q safety,von-mises");
+    assert!(lab.path("utilization.png").is_file());
+    let values = lab.json("probe materials.h5 --at 0.5,0.5 -q utilization,von-mises");
     let value = |name: &str| values["points"][0]["values"][name].as_f64().unwrap();
-    assert!((value("safety") * value("von-mises") / 240.0 - 1.0).abs() < 1e-14);
+    assert!((2.4 * value("utilization") / value("von-mises") - 1.0).abs() < 1e-14);
 }

@@ -228,7 +228,7 @@ class Exporting(Drawing):
         quantity: str | None = None,
         **options: Unpack[HtmlOptions],
     ) -> str | None:
-        """A page that shows and explores the field exactly in any browser: one file, without network and server.
+        """A page that shows and explores the field exactly in a browser of 2024 or later: one file, without network and server.
 
         Options say what is seen first; people change it in the page.
 

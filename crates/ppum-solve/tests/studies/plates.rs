@@ -140,7 +140,7 @@ pub(crate) fn centre_crack(a: f64, height: f64, value: f64) -> Plate {
     let domain = Rect::new(vec2(-1.0, -height), vec2(1.0, height));
     let cells = [8, (8.0 * height) as u32];
     Plate {
-        name: format!("a/W = {a}, H/W = {height}"),
+        name: format!("centre crack, a/W = {a}, H/W = {height}"),
         problem: pulled(domain, cells, &[&[[-a, 0.0], [a, 0.0]]]),
         covers: Covers::Grid(cells),
         scale: root(a),
@@ -182,7 +182,7 @@ pub(crate) fn edge_cracks() -> Vec<Plate> {
         let domain = Rect::new(vec2(0.0, -height), vec2(1.0, height));
         let cells = [8, (16.0 * height) as u32];
         Plate {
-            name: format!("a/W = {a}, H/W = {height}"),
+            name: format!("edge crack, a/W = {a}, H/W = {height}"),
             problem: pulled(domain, cells, &[&[[0.0, 0.0], [a, 0.0]]]),
             covers: Covers::Grid(cells),
             scale: root(a),
@@ -201,7 +201,7 @@ pub(crate) fn slanted_cracks() -> Vec<Plate> {
             let cells = [8, 16];
             let crack = [[-0.5 * c, -0.5 * s], [0.5 * c, 0.5 * s]];
             Plate {
-                name: format!("{degrees}°"),
+                name: format!("slanted crack, {degrees}°"),
                 problem: pulled(domain, cells, &[&crack]),
                 covers: Covers::Grid(cells),
                 scale: root(0.5),
@@ -225,7 +225,7 @@ pub(crate) fn end_shear_at(poisson: f64, [first, second]: [f64; 2]) -> Plate {
     let clamp = || Condition::Dirichlet(Expression::number(0.0));
     let set = Discretization::new(Cells::Grid(cells));
     Plate {
-        name: format!("ν = {poisson}"),
+        name: format!("end shear, ν = {poisson}"),
         problem: Problem::elasticity(domain, material, set)
             .with_crack(&[[0.0, 8.0], [3.5, 8.0]])
             .with_boundary(Edge::Bottom, vec![clamp(), clamp()])

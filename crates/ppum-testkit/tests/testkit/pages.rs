@@ -1,5 +1,7 @@
-//! The links between the pages of the project lead somewhere, and what is read has short lines.
+//! The links between the pages of the project lead somewhere, what they say of commands, versions
+//! and files is so, and what is read has short lines.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -49,6 +51,82 @@ fn links_lead_to_files() {
         }
     }
     assert!(count > 30, "{count} links in {} pages", all.len());
+}
+
+/// The text of a file of the project.
+fn text(path: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Both commands of the set-up stand in the README as commands, and the checks of a change run the
+/// tests by the second one as it stands there.
+#[test]
+fn set_up_commands_are_run_as_they_stand() {
+    let (readme, checks) = (text("README.md"), text(".ci/run"));
+    for command in ["cargo run --release -- demo", "cargo test --release"] {
+        assert!(readme.contains(&format!("\n    {command}\n")), "README.md lacks {command}");
+    }
+    assert!(checks.contains("\ncargo test --release 2>&1 | tee"), ".ci/run lacks the second one");
+    assert!(readme.contains("(.ci/run)"), "README.md names the checks");
+}
+
+/// A row of a table is cited by its label, so in tables of plates each row has its own.
+#[test]
+fn plates_of_the_validation_have_labels_of_their_own() {
+    let page = text("docs/validation.md");
+    let mut lines = page.lines();
+    let mut plates = 0;
+    while let Some(head) = lines.find(|line| line.starts_with("| plate |")) {
+        let columns = if head.starts_with("| plate | factor |") { 2 } else { 1 };
+        let rows = lines.by_ref().take_while(|line| line.starts_with('|'));
+        let labels: Vec<Vec<_>> =
+            rows.map(|row| row.split('|').skip(1).take(columns).collect()).collect();
+        let unique: BTreeSet<_> = labels.iter().collect();
+        assert_eq!(unique.len(), labels.len(), "{head}: {labels:?}");
+        plates += labels.len();
+    }
+    assert!(plates > 20, "{plates} plates");
+}
+
+/// The table of errors of the examples is of one level below that of their files, as it says.
+#[test]
+fn levels_of_examples_are_those_of_their_files() {
+    let page = text("examples/README.md");
+    let mut lines = page.lines().skip_while(|line| !line.starts_with("| file | level |"));
+    let rows: Vec<_> = lines.by_ref().skip(2).take_while(|line| line.starts_with('|')).collect();
+    assert!(rows.len() > 3, "{rows:?}");
+    for row in rows {
+        let cells: Vec<_> = row.split('|').map(str::trim).collect();
+        let file = text(&format!("examples/{}.toml", cells[1]));
+        let level = file.lines().find_map(|line| line.strip_prefix("level = "));
+        let coarser = level.and_then(|level| level.parse::<u32>().ok()).map(|level| level - 1);
+        assert_eq!(coarser.map(|level| level.to_string()).as_deref(), Some(cells[2]), "{row}");
+    }
+}
+
+/// Pages by hand, in the guides of writers, name no version that FORMAT.md does not have.
+#[test]
+fn versions_of_written_files_are_those_of_the_format() {
+    let format = text("FORMAT.md");
+    let current = format.split("version 1.").nth(1).expect("the version of the format");
+    let digits = |text: &str| -> u32 {
+        text.chars().take_while(char::is_ascii_digit).collect::<String>().parse().expect("a number")
+    };
+    let (current, guide) = (digits(current), text("docs/writing.md"));
+    let written: Vec<_> =
+        guide.split("\"format_version\"").chain(guide.split("format_version=")).collect();
+    let minors: Vec<_> =
+        written.iter().filter_map(|place| place.split("1, ").nth(1)).map(digits).collect();
+    assert!(minors.len() >= 2 && minors.iter().all(|minor| *minor <= current), "{minors:?}");
+}
+
+/// Pages need a browser of 2024 or later (docs/page.md).
+#[test]
+fn no_page_promises_any_browser() {
+    for (path, text) in texts(&["md", "py"]) {
+        assert!(!text.contains("any browser"), "{}", path.display());
+    }
 }
 
 /// The numbers of the lines outside of code and tables that `is_prose` takes and that are longer.

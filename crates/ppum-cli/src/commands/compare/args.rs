@@ -20,7 +20,11 @@ use crate::threads;
 /// them at the pixels. The picture shows the field, what each method makes of it, and
 /// the differences.
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(
+    after_help = EXAMPLES,
+    mut_arg("quantity", |argument| argument.help(QUANTITY)),
+    mut_arg("part", |argument| argument.help(PART)),
+)]
 pub(crate) struct Args {
     #[command(flatten)]
     pub(super) subject: QuantityArgs,
@@ -54,6 +58,12 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", value_parser = threads::number)]
     pub(super) threads: Option<NonZeroUsize>,
 }
+
+const QUANTITY: &str = "Quantity, see `ppum info`, or a formula of quantities, or @FILE with one \
+     [default: von-mises; for Poisson problems u]";
+
+const PART: &str =
+    "Only a part of the field: smooth, jump, tip, other (of corners, of one's own), or patch:N";
 
 const EXAMPLES: &str = "\
 Examples:
