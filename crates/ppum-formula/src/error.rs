@@ -67,6 +67,11 @@ pub enum Mistake {
     NameTaken,
     /// A `let` uses the name it defines.
     SelfReference,
+    /// A name with a module before it, as in `np.sqrt`.
+    Module {
+        /// The name in formulas.
+        instead: String,
+    },
     /// Digits that are no number, or a number too large for double precision.
     InvalidNumber,
     /// `a < b < c`.
@@ -136,6 +141,9 @@ impl Mistake {
                 format!(
                     "{quoted} is used in its own definition; choose another name for the new value"
                 )
+            }
+            Self::Module { instead } => {
+                format!("{quoted}: names have no module before them; write `{instead}`")
             }
             Self::InvalidNumber => format!("{quoted} is not a number of double precision"),
             Self::ChainedComparison => {

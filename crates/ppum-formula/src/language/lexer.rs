@@ -1,6 +1,7 @@
 //! Text → tokens.
 
 use crate::error::{FormulaError, Mistake, TextSpan};
+use crate::library::foreign;
 
 /// A piece of the text that the grammar knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,6 +128,7 @@ impl Lexer<'_> {
         };
         if first.is_ascii_alphabetic() || first == '_' {
             let length = length_while(self.rest(), |c| c.is_ascii_alphanumeric() || c == '_');
+            self.refuse_module(length)?;
             let kind = word(&self.rest()[..length]);
             return Ok(self.take(kind, length));
         }
@@ -141,6 +143,19 @@ impl Lexer<'_> {
         let span = TextSpan { start: self.position, end: self.position + length };
         self.position = span.end;
         Token { kind, span }
+    }
+
+    /// Refuses a name of other languages with the module that it is from, as in `np.sqrt`.
+    fn refuse_module(&self, length: usize) -> Result<(), FormulaError> {
+        let in_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let name = self.rest()[length..].strip_prefix('.').unwrap_or_default();
+        if !name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') {
+            return Ok(());
+        }
+        let whole = length_while(self.rest(), |c| in_name(c) || c == '.');
+        let name = self.rest()[..whole].rsplit('.').find(|part| !part.is_empty()).unwrap_or(name);
+        let instead = foreign(name).unwrap_or(name).to_owned();
+        Err(self.error(whole, Mistake::Module { instead }))
     }
 
     /// Digits with at most one point, then at most one exponent.

@@ -12,6 +12,10 @@ fn unexpected(expected: &'static str) -> Mistake {
     Mistake::Unexpected { expected }
 }
 
+fn module(instead: &str) -> Mistake {
+    Mistake::Module { instead: instead.to_owned() }
+}
+
 fn arguments(expected: usize, given: usize, suggestion: Option<&'static str>) -> Mistake {
     Mistake::ArgumentCount { expected, given, suggestion }
 }
@@ -73,6 +77,9 @@ fn places_and_problems() {
         ("let pi = 3; pi", 1, 5, "pi", Mistake::NameTaken),
         ("let a = 1; let a = 2; a", 1, 16, "a", Mistake::NameTaken),
         ("let a = a + 1; a", 1, 9, "a", Mistake::SelfReference),
+        ("1 + np.sqrt(r)", 1, 5, "np.sqrt", module("sqrt")),
+        ("numpy.arctan2(y, x)", 1, 1, "numpy.arctan2", module("atan2")),
+        ("2*math.pi", 1, 3, "math.pi", module("pi")),
         ("1e + x", 1, 1, "1e", Mistake::InvalidNumber),
         ("x + 1e999", 1, 5, "1e999", Mistake::InvalidNumber),
         ("if(0 < x < 1, 1, 0)", 1, 10, "<", Mistake::ChainedComparison),
