@@ -275,7 +275,7 @@ const CELLS: [&str; 2] = ["cell", "level"];
 
 fn boxes(group: &GroupReader, scopes: &Option<Scopes>) -> BoxPartition {
     let n = group.rows_of(&["center", "half", "origin", "scale", "cell", "level", "point"]);
-    let has_cells = CELLS.iter().any(|name| group.holds(name, ObjectKind::Dataset));
+    let has_cells = has_cells(group);
     let point = group.column::<i64>("point", n);
     BoxPartition {
         weight: weight(group, scopes).unwrap_or(WeightFunction::Linear),
@@ -288,6 +288,19 @@ fn boxes(group: &GroupReader, scopes: &Option<Scopes>) -> BoxPartition {
         point: point.into_iter().map(|p| point_index(group, p)).collect(),
         points: group.points("points"),
     }
+}
+
+/// True if there are cells; an error if there is one of their arrays without the other.
+fn has_cells(group: &GroupReader) -> bool {
+    let [cell, level] = CELLS.map(|name| group.holds(name, ObjectKind::Dataset));
+    if cell != level {
+        let [missing, other] = if level { CELLS } else { [CELLS[1], CELLS[0]] };
+        group.error(
+            missing,
+            format!("is missing; a cover without cells has no `{other}` either, leave it out too"),
+        );
+    }
+    cell && level
 }
 
 fn cells(group: &GroupReader, rows: usize) -> Vec<Rect> {
