@@ -26,6 +26,8 @@ class Double:
     @staticmethod
     def call(name, *arguments):
         with np.errstate(all="ignore"):
+            # names that numpy has had before 2
+            name = name.replace("a", "arc", 1) if name.startswith(("asin", "acos", "atan")) else name
             return float(getattr(np, name)(*map(np.float64, arguments)))
 
     @staticmethod

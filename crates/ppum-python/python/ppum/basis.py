@@ -13,13 +13,15 @@ import warnings
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import comb
+from numbers import Integral
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .checking import numbers, rows, short
 from .blocks import DEGREES, MAX_DEGREE, exponents
-from .cover import Cover, numbers, rows
+from .cover import Cover
 from .errors import BuildError
 
 __all__ = ["Basis", "bernstein", "chebyshev", "fit", "lagrange", "legendre", "monomials", "reframe"]
@@ -65,11 +67,10 @@ class Basis:
     def convert(self, coefficients: ArrayLike, axis: int = 1) -> Floats:
         """The coefficients of monomials: `axis` has those of the basis, the others are kept. A condition number above
         1e6 is told as a warning."""
-        given = numbers("coefficients", coefficients)
-        if given.shape[axis] != len(self.indices):
-            raise BuildError(
-                f"coefficients: has the shape {given.shape}, expected {len(self.indices)} on axis {axis}: {self}"
-            )
+        given, count = numbers("coefficients", coefficients), len(self.indices)
+        if not -given.ndim <= axis < given.ndim or given.shape[axis] != count:
+            one = "; give axis=0 for those of one patch" if given.shape[:1] == (count,) else ""
+            raise BuildError(f"coefficients: has the shape {given.shape}, expected {count} on axis {axis}: {self}{one}")
         if self.condition > LARGE:
             digits = np.log10(self.condition)
             told = f"the condition number of the conversion is {self.condition:.1e}: up to {digits:.0f} digits are lost"
@@ -118,7 +119,7 @@ def bernstein(degree: int, order: Any = "tensor", interval: tuple[float, float] 
 
 def lagrange(nodes: ArrayLike, order: Any = "tensor", interval: tuple[float, float] = (-1, 1)) -> Basis:
     """Lagrange polynomials of nodes, the same in both directions: values at the nodes are the coefficients."""
-    at = [Fraction(float(v)) for v in numbers("nodes", nodes)]
+    at = [Fraction(v) for v in numbers("nodes", nodes).reshape(-1).tolist()]
     if len(set(at)) < len(at):
         raise BuildError("nodes: two are equal; leave one out")
     _bounded(len(at) - 1)
@@ -155,7 +156,7 @@ def reframe(
     if given.ndim not in (2, 3) or given.shape[1] not in DEGREES:
         raise BuildError(f"coefficients: has the shape {given.shape}, expected (n, m) or (n, m, c), m = (d + 1)(d + 2)/2")
     old, size, new, new_size = (
-        np.broadcast_to(numbers(name, values), (len(given), 2)).astype(np.longdouble)
+        _points(name, values, len(given)).astype(np.longdouble)
         for name, values in zip(("origin", "scale", "new_origin", "new_scale"), (origin, scale, new_origin, new_scale))
     )
     shift, factor = (new - old) / size, new_size / size
@@ -167,6 +168,14 @@ def reframe(
                 x = comb(a, i) * shift[:, 0] ** (a - i) * factor[:, 0] ** i
                 matrix[:, j, k] = x * comb(b, l) * shift[:, 1] ** (b - l) * factor[:, 1] ** l
     return np.asarray(np.einsum("njk,nk...->nj...", matrix, given.astype(np.longdouble)), float)
+
+
+def _points(name: str, values: ArrayLike, count: int) -> Floats:
+    """A point for each patch, or one for all."""
+    array = numbers(name, values)
+    if array.shape not in ((2,), (count, 2)):
+        raise BuildError(f"{name}: has the shape {array.shape}, expected ({count}, 2), or (2,) for all patches")
+    return np.broadcast_to(array, (count, 2))
 
 
 def fit(
@@ -188,6 +197,8 @@ def fit(
         >>> ppum.basis.fit(cover, 2, lambda patch, x, y: x * y).shape
         (4, 6)
     """
+    if not isinstance(cover, Cover):
+        raise BuildError(f"cover: is {type(cover).__name__}; give a ppum.Cover")
     count = _bounded(degree) + 3
     nodes = np.cos(np.pi * (np.arange(count) + 0.5) / count)
     xi, eta = (a.reshape(-1) for a in np.meshgrid(nodes, nodes))
@@ -222,9 +233,9 @@ def _sampled(
 
 def _bounded(degree: int) -> int:
     """The degree, asked before exact arithmetic makes long work of it."""
-    if not 0 <= degree <= MAX_DEGREE:
-        raise BuildError(f"degree: is {degree}, expected 0 to {MAX_DEGREE}")
-    return degree
+    if not isinstance(degree, Integral) or not 0 <= degree <= MAX_DEGREE:
+        raise BuildError(f"degree: is {short(degree)}, expected 0 to {MAX_DEGREE}")
+    return int(degree)
 
 
 def _recurrent(degree: int, factors: Callable[[int], tuple[Fraction, Fraction]]) -> list[Poly]:
@@ -239,9 +250,10 @@ def _recurrent(degree: int, factors: Callable[[int], tuple[Fraction, Fraction]])
 
 
 def _basis(polynomials: Sequence[Poly], order: Any, interval: tuple[float, float]) -> Basis:
-    low, high = (Fraction(float(v)) for v in interval)
-    if low == high:
-        raise BuildError(f"interval: {interval} has no length")
+    ends = numbers("interval", interval)
+    if ends.shape != (2,) or ends[0] == ends[1]:
+        raise BuildError(f"interval: {short(interval)} has no length; give two ends, such as (-1, 1)")
+    low, high = map(Fraction, ends.tolist())
     moved = [_composed(p, (low + high) / 2, (high - low) / 2) for p in polynomials]
     return Basis(moved, moved, _order(order, len(polynomials) - 1))
 
@@ -257,7 +269,7 @@ def _order(order: Any, degree: int) -> Sequence[tuple[int, int]]:
     if not isinstance(order, str):
         return [(int(i), int(j)) for i, j in rows("order", order, 2)]
     if order not in known:
-        raise BuildError(f"order: {order!r} is none of {', '.join(known)}, and no pairs (i, j)")
+        raise BuildError(f"order: {short(order)} is none of {', '.join(known)}, and no pairs (i, j)")
     return known[order]
 
 

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .checking import Ragged, gathered, index, known, real, sequence, short
 from .errors import BuildError
 
 Floats = NDArray[np.float64]
-Block = NDArray[Any] | Sequence[ArrayLike | None] | Mapping[int, ArrayLike]
+Block = NDArray[Any] | Sequence[ArrayLike | None] | Mapping[int, ArrayLike] | Ragged
 
 MAX_DEGREE = 8
 #: Degree of a polynomial by the number of its coefficients: of total degree, and of a tensor product.
@@ -83,7 +84,6 @@ def _merged(parts: list[_Part], functions: list[int], patches: int) -> Blocks:
     order = np.lexsort((function, patch))
     sizes, starts = sizes[order], starts[order]
     offsets = np.cumsum(sizes) - sizes
-    gather = np.repeat(starts - offsets, sizes) + np.arange(sizes.sum())
     values = np.concatenate([part.values for part in parts])
     return Blocks(
         patch_blocks=np.searchsorted(patch[order], np.arange(patches + 1)),
@@ -91,27 +91,31 @@ def _merged(parts: list[_Part], functions: list[int], patches: int) -> Blocks:
         block_degree=np.concatenate([part.degrees for part in parts])[order],
         block_offset=offsets,
         block_space=np.concatenate([part.tensor for part in parts])[order],
-        coefficients=values[gather].T,
+        coefficients=values[gathered(starts, sizes)].T,
     )
 
 
-def _part(place: str, block: Block, tensor: NDArray[np.bool_]) -> _Part:
+def _part(place: str, block: Any, tensor: NDArray[np.bool_]) -> _Part:
     patches = len(tensor)
-    if isinstance(block, np.ndarray) and block.dtype != object:
-        return _dense(place, block, tensor)
     if isinstance(block, Mapping):
         given = sorted((_patch(place, k, patches), values) for k, values in block.items())
-    elif len(block) == patches:
-        given = [(k, values) for k, values in enumerate(block) if values is not None]
-    else:
+        return _listed(place, given, tensor)
+    if not isinstance(block, Ragged) and hasattr(block, "__array__") and getattr(block, "dtype", None) != object:
+        return _dense(place, known(place, block), tensor)
+    if not isinstance(block, Ragged):
+        block = sequence(place, block, "an array for each patch")
+    if len(block) != patches:
         raise BuildError(f"{place}: has {len(block)} entries, but the cover has {patches} patches; give one for each")
-    return _ragged(place, given, tensor)
+    if isinstance(block, Ragged):
+        return _made(place, np.arange(patches), block, tensor)
+    return _listed(place, ((k, values) for k, values in enumerate(block) if values is not None), tensor)
 
 
 def _patch(place: str, number: Any, patches: int) -> int:
-    if not 0 <= int(number) < patches or int(number) != number:
-        raise BuildError(f"{place}[{number}]: there is no such patch; the cover has {patches}, counted from 0")
-    return int(number)
+    found = index(number, patches)
+    if found is None:
+        raise BuildError(f"{place}[{short(number)}]: there is no such patch; the cover has {patches}, counted from 0")
+    return found
 
 
 def _dense(place: str, block: NDArray[Any], tensor: NDArray[np.bool_]) -> _Part:
@@ -122,20 +126,14 @@ def _dense(place: str, block: NDArray[Any], tensor: NDArray[np.bool_]) -> _Part:
             "a row of m coefficients for each patch, of c components"
         )
     size = block.shape[1]
-    of, sizes = np.arange(patches), np.full(patches, size)
-    found = degrees(place, sizes, tensor)
-    values = block.reshape(patches * size, -1).astype(float)
-    _finite(place, values, of, sizes)
-    return _Part(of, sizes, found, tensor, values)
+    values = Ragged(block.reshape(patches * size, -1).astype(float), np.full(patches, size))
+    return _made(place, np.arange(patches), values, tensor, is_dense=True)
 
 
-def _ragged(place: str, given: Iterable[tuple[int, Any]], tensor: NDArray[np.bool_]) -> _Part:
+def _listed(place: str, given: Iterable[tuple[int, Any]], tensor: NDArray[np.bool_]) -> _Part:
     patches, rows = [], []
     for patch, values in given:
-        try:
-            row = np.asarray(values, float)
-        except (TypeError, ValueError) as error:
-            raise BuildError(f"{place}[{patch}]: is no array of numbers ({error})") from None
+        row = real(f"{place}[{patch}]", values)
         if row.ndim not in (1, 2):
             raise BuildError(f"{place}[{patch}]: has the shape {row.shape}, expected (m,) or (m, c)")
         patches.append(patch)
@@ -146,10 +144,15 @@ def _ragged(place: str, given: Iterable[tuple[int, Any]], tensor: NDArray[np.boo
     if not rows:
         raise BuildError(f"{place}: has no coefficients on any patch; leave it out")
     sizes = np.array([len(row) for row in rows])
-    values, of = np.concatenate(rows), np.array(patches)
-    found = degrees(place, sizes, tensor[of], of)
-    _finite(place, values, of, sizes)
-    return _Part(of, sizes, found, tensor[of], values)
+    return _made(place, np.array(patches), Ragged(np.concatenate(rows), sizes), tensor)
+
+
+def _made(
+    place: str, patches: NDArray[np.int64], rows: Ragged, tensor: NDArray[np.bool_], is_dense: bool = False
+) -> _Part:
+    found = degrees(place, rows.sizes, tensor[patches], None if is_dense else patches)
+    _finite(place, rows.values, patches, rows.sizes)
+    return _Part(patches, rows.sizes, found, tensor[patches], rows.values)
 
 
 def degrees(

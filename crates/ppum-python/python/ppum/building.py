@@ -2,27 +2,34 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _core
+from .checking import mapping, real, rows, scalar, sequence, text
 from .blocks import Block, Blocks, arranged
-from .cover import Cover, numbers, rows
-from .mesh import Mesh
+from .cover import Cover
 from .dataset import Crack, Dataset, Hole
 from .enriching import Function, columns
-from .errors import BuildError
+from .errors import BuildError, QuantityError
+from .heading import Arrays, components_of, crack_arrays, listed, of_state, shared
+from .mesh import Mesh
 from .packing import packed
+from .places import in_arguments
 from .problem import Elastic, Poisson
 from .verifying import Reference, verified
 
 __all__ = ["Coefficients", "State", "arrays", "build", "from_arrays"]
 
-Arrays = dict[str, Any]
+TAKEN = "has a meaning in formulas already"
+#: Values of patches that each field has.
+OF_PATCHES = ("level", "element", "order", "blocks", "functions")
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +113,7 @@ def build(
         program: Name and version of the code that the arrays come from.
         equation: The material, if there are to be stresses or energy: then the first field is ``displacement`` or
             ``potential``. Without one there are values, derivatives and the dataset's own quantities.
-        holes: Holes of the domain: `ppum.Hole` with `center` and `radius`, or with `points`, the others None.
+        holes: Holes of the domain: `ppum.Hole` with `center` and `radius`, or with `points`.
         tables: Data that formulas read, by name: (x, values), or (x, y, values) with a row of values for each y.
         quantities: Formulas of components and derivatives by name, or pairs of formula and unit.
         tolerance: Largest difference from `Coefficients.verify` that is no error, in parts of the largest value.
@@ -121,9 +128,15 @@ def build(
     named = arrays(
         states, title=title, program=program, equation=equation, holes=holes, tables=tables, quantities=quantities
     )
-    made, records = from_arrays(named), dict[str, Any]()
-    for k, state in enumerate([states] if isinstance(states, State) else states):
-        found = verified(_Evaluated(made, named, k), state, tolerance)
+    series, records = _series(states), dict[str, Any]()
+    try:
+        made = from_arrays(named)
+    except BuildError as error:
+        raise BuildError(in_arguments(str(error), named, len(series) > 1)) from None
+    for k, state in enumerate(series):
+        with of_state(k, len(series)):
+            _check_attributes(state, made.steps[k].field)
+            found = verified(_Evaluated(made, named, k), state, scalar("tolerance", tolerance))
         records |= _history(f"steps/{k:04}/history", found)
     return from_arrays(named | records) if records else made
 
@@ -147,14 +160,21 @@ def arrays(
         >>> made["steps/0000/partition/map"].tolist()
         [[1.3333333333333333, 0.0], [0.0, 0.6666666666666666]]
     """
-    series = [states] if isinstance(states, State) else list(states)
+    series = _series(states)
+    holes = listed("holes", holes, Hole, "ppum.Hole(center, radius)")
+    named = shared(series, title, program, equation, holes, tables, quantities)
+    for k, state in enumerate(series):
+        with of_state(k, len(series)):
+            named |= _step(f"steps/{k:04}", state, equation, holes)
+            _check_names(f"steps/{k:04}/fields", named, equation)
+    return named
+
+
+def _series(states: Any) -> list[State]:
+    series: list[State] = [states] if isinstance(states, State) else listed("states", states, State, "ppum.State(cover, fields)")
     if not series:
         raise BuildError("states: a dataset needs at least one step")
-    named = _head(series, title, program, equation, holes)
-    named |= _tables(tables or {}) | _quantities(quantities or {})
-    for k, state in enumerate(series):
-        named |= _step(f"steps/{k:04}", state, equation, holes)
-    return named
+    return series
 
 
 def from_arrays(arrays: Mapping[str, Any]) -> Dataset:
@@ -174,7 +194,8 @@ def from_arrays(arrays: Mapping[str, Any]) -> Dataset:
         ppum.BuildError: @program: is missing
         ...
     """
-    return Dataset(_core.build([packed(path, value) for path, value in arrays.items()]))
+    named = mapping("arrays", arrays, "arrays, such as those of `ppum.arrays`")
+    return Dataset(_core.build([packed(path, value) for path, value in named.items()]))
 
 
 class _Evaluated:
@@ -198,107 +219,24 @@ class _Evaluated:
         return from_arrays(moved | {"equation@kind": "none", "steps/0000/fields/0000@name": name}).field
 
 
-def _head(
-    series: Sequence[State],
-    title: str,
-    program: str,
-    equation: Elastic | Poisson | None,
-    holes: Sequence[Hole],
-) -> Arrays:
-    low, high = domain = series[0].cover.domain
-    for k, state in enumerate(series):
-        if not np.array_equal(state.cover.domain, domain):
-            raise BuildError(f"states[{k}].cover.domain: differs from that of states[0]; a series has one domain")
-    arrays = {
-        "@title": title,
-        "@program": program or f"ppum {_core.VERSION}, arrays",
-        "domain@min": low,
-        "domain@max": high,
-        "domain@kind": _domain(series[0].cover, holes),
-    }
-    return arrays | (_holes(holes) if holes else {}) | _equation(equation)
-
-
-def _domain(cover: Cover | Mesh, holes: Sequence[Hole]) -> str:
-    if isinstance(cover, Mesh):
-        if holes:
-            raise BuildError("holes: the domain of a mesh is what its elements cover; leave them out")
-        return "mesh"
-    return "box-with-holes" if holes else "box"
-
-
-def _holes(holes: Sequence[Hole]) -> Arrays:
-    points = [
-        rows(f"holes[{k}].points", hole.points, 2)
-        if hole.points is not None
-        else rows(f"holes[{k}].center", [hole.center or (np.nan, np.nan)], 2)
-        for k, hole in enumerate(holes)
-    ]
-    return {
-        "domain/holes/kind": [
-            "circle" if h.points is None else "outside" if h.is_outside else "polygon" for h in holes
-        ],
-        "domain/holes/points": np.concatenate(points),
-        "domain/holes/offsets": np.cumsum([0, *map(len, points)]),
-        "domain/holes/radius": [float(h.radius or 0) for h in holes],
-    }
-
-
-def _equation(equation: Elastic | Poisson | None) -> Arrays:
-    if equation is None:
-        return {"equation@kind": "none"}
-    if isinstance(equation, Poisson):
-        return {"equation@kind": "poisson", "equation@conductivity": _constant(equation.conductivity)}
-    given = equation.eigenstrain if equation.eigenstrain is not None or equation.expansion is None else (0.0,) * 4
-    strains = dict(zip(("xx", "yy", "xy", "zz"), given or (), strict=given is not None))
-    return {
-        "equation@kind": "eigenstrain" if strains else "elasticity",
-        "equation@young": _constant(equation.young),
-        "equation@poisson": _constant(equation.poisson),
-        "equation@state": equation.state,
-        **{f"equation@eigenstrain_{name}": _constant(value) for name, value in strains.items()},
-        **({} if equation.expansion is None else {"equation@expansion": _constant(equation.expansion)}),
-    }
-
-
-def _constant(value: float | str) -> float | str:
-    return value if isinstance(value, str) else float(value)
-
-
-def _tables(tables: Mapping[str, Sequence[ArrayLike]]) -> Arrays:
-    arrays: Arrays = {}
-    for k, (name, given) in enumerate(tables.items()):
-        if len(given) not in (2, 3):
-            raise BuildError(f"tables[{name!r}]: has {len(given)} arrays; give (x, values) or (x, y, values)")
-        path = f"tables/{k:04}"
-        arrays[f"{path}@name"] = name
-        for key, values in zip(("x", "values") if len(given) == 2 else ("x", "y", "values"), given):
-            arrays[f"{path}/{key}"] = numbers(f"tables[{name!r}].{key}", values)
-    return arrays
-
-
-def _quantities(quantities: Mapping[str, str | tuple[str, str]]) -> Arrays:
-    if not quantities:
-        return {}
-    pairs = [(q, "") if isinstance(q, str) else q for q in quantities.values()]
-    formula, unit = ([pair[k] for pair in pairs] for k in (0, 1))
-    return {"quantities/name": list(quantities), "quantities/formula": formula, "quantities/unit": unit}
-
-
 def _step(path: str, state: State, equation: Elastic | Poisson | None, holes: Sequence[Hole]) -> Arrays:
     cover = state.cover
-    fields = [state.fields] if isinstance(state.fields, Coefficients) else list(state.fields)
+    fields = state.fields
+    if isinstance(fields, Coefficients):
+        fields = [fields]
+    fields = listed("fields", fields, Coefficients, "ppum.Coefficients(name, blocks)")
     if not fields:
-        raise BuildError("fields: a step needs at least one field")
+        raise BuildError("fields: a step needs at least one field; give ppum.Coefficients(name, blocks)")
     cracks = [
-        rows(f"cracks[{k}]", c.points if isinstance(c, Crack) else c, 2) for k, c in enumerate(state.cracks)
+        rows(f"cracks[{k}]", c.points if isinstance(c, Crack) else c, 2)
+        for k, c in enumerate(sequence("cracks", state.cracks, "cracks, each its points"))
     ]
     functions: dict[str, Any] = {"one": None}
-    if "one" in state.functions:
+    if "one" in mapping("functions", state.functions, "functions"):
         raise BuildError("functions['one']: is the function 1 already; give yours another name")
     functions |= state.functions
     names = [one.name for one in fields]
-    group = {"@load": float(state.load), **_partition(cover, names), **_cracks(state, cracks, holes)}
+    group = {"@load": scalar("load", state.load), **_partition(cover, names), **crack_arrays(state, cracks, holes)}
     segments = [len(points) - 1 for points in cracks]
     group |= {f"functions/{k}": v for k, v in columns(functions, segments, names).items()}
     for k, one in enumerate(fields):
@@ -317,88 +255,109 @@ def _partition(cover: Cover | Mesh, fields: Sequence[str]) -> Arrays:
     return arrays | ({} if named else {"partition@weight_formula": cover.weight})
 
 
-def _cracks(state: State, cracks: Sequence[NDArray[np.float64]], holes: Sequence[Hole]) -> Arrays:
-    for k, points in enumerate(cracks):
-        if len(points) < 2:
-            raise BuildError(f"cracks[{k}]: has {len(points)} points; a crack needs two or more")
-        same = np.flatnonzero((points[1:] == points[:-1]).all(axis=1))
-        if len(same):
-            raise BuildError(f"cracks[{k}][{same[0] + 1}]: is the point before it; leave one out")
-    ends = [
-        list(given.ends) if isinstance(given, Crack) else _ends(k, cracks, state.cover, holes)
-        for k, given in enumerate(state.cracks)
-    ]
-    return {
-        "cracks/points": np.concatenate([np.empty((0, 2)), *cracks]),
-        "cracks/offsets": np.cumsum([0, *map(len, cracks)]),
-        "cracks/ends": np.array(ends, object).reshape(-1, 2),
-    }
-
-
-def _ends(
-    crack: int, cracks: Sequence[NDArray[np.float64]], cover: Cover | Mesh, holes: Sequence[Hole]
-) -> list[str]:
-    (x0, y0), (x1, y1) = cover.domain.tolist()
-    border = [np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)])]
-    border += [np.concatenate([h.points, h.points[:1]]) for h in holes if h.points is not None]
-    near = 1e-9 * max(x1 - x0, y1 - y0)
-    others = [points for k, points in enumerate(cracks) if k != crack]
-
-    def kind(p: NDArray[np.float64]) -> str:
-        rims = [abs(np.hypot(*(p - np.array(h.center))) - (h.radius or 0)) for h in holes if h.center]
-        if min([_distance(p, line) for line in border] + rims) <= near:
-            return "mouth"
-        return "junction" if any(_distance(p, line) <= near for line in others) else "tip"
-
-    return [kind(cracks[crack][0]), kind(cracks[crack][-1])]
-
-
-def _distance(p: NDArray[np.float64], line: NDArray[np.float64]) -> float:
-    """From a point to a polyline."""
-    start, along = line[:-1], np.diff(line, axis=0)
-    t = np.clip(((p - start) * along).sum(axis=1) / (along**2).sum(axis=1), 0, 1)
-    return float(np.hypot(*(start + t[:, None] * along - p).T).min())
-
-
 def _field(
     given: Coefficients, cover: Cover | Mesh, functions: list[str], equation: Elastic | Poisson | None
 ) -> Arrays:
-    place = f"fields[{given.name!r}]"
-    spaces = dict.fromkeys(given.blocks, given.space) if isinstance(given.space, str) else given.space
+    place = f"fields[{text('fields.name', given.name)!r}]"
+    given_blocks = mapping(f"{place}.blocks", given.blocks, "arrays, such as {'one': array}")
+    one_space = dict.fromkeys(given_blocks, given.space) if isinstance(given.space, str) else given.space
+    spaces = mapping(f"{place}.space", one_space, "words, or one for all")
     tensor = {name: cover.in_space(f"{place}.space", spaces.get(name, "shape")) for name in given.blocks}
     blocks: Blocks = arranged(place, given.blocks, tensor, functions)
-    unknown = None if equation is None else ("potential" if isinstance(equation, Poisson) else "displacement")
-    if unknown is not None and given.name != unknown:
-        raise BuildError(f"{place}: is the first field, which the equation calls {unknown!r}; name it so")
-    count = len(blocks.coefficients)
-    is_heated = isinstance(equation, Elastic) and equation.expansion is not None
-    if is_heated and count != 3:
-        raise BuildError(f"{place}.blocks: have {count} components; with `expansion` they are ux, uy and the temperature")
-    names = list(given.components or (["ux", "uy", "temperature"] if is_heated else _names(given.name, count)))
+    names = _components(place, given, len(blocks.coefficients), equation)
+    arrays = {"@name": given.name, "@unit": text(f"{place}.unit", given.unit), "components": names, **blocks.arrays()}
+    exact = [text(f"{place}.exact[{k}]", f) for k, f in enumerate(sequence(f"{place}.exact", given.exact, "formulas"))]
+    return arrays | ({"exact": exact} if exact else {})
+
+
+def _components(place: str, given: Coefficients, count: int, equation: Elastic | Poisson | None) -> list[str]:
+    """The names of the components, as many as the blocks have, and as the equation wants them."""
+    wanted = components_of(equation)
+    if equation is not None:
+        unknown = "potential" if isinstance(equation, Poisson) else "displacement"
+        if given.name != unknown:
+            raise BuildError(f"{place}: is the first field, which the equation calls {unknown!r}; name it so")
+        if count != len(wanted):
+            raise BuildError(
+                f"{place}.blocks: have {count} components, but the equation has {len(wanted)}, {', '.join(wanted)}; "
+                "leave out others, or leave out `equation`"
+            )
+    names = wanted or _names(given.name, count)
+    if given.components is not None:
+        given_names = enumerate(sequence(f"{place}.components", given.components, "names"))
+        names = [text(f"{place}.components[{k}]", name) for k, name in given_names]
     if len(names) != count:
         raise BuildError(f"{place}.components: has {len(names)} names, but the blocks have {count} components")
-    arrays = {"@name": given.name, "@unit": given.unit, "components": names, **blocks.arrays()}
-    return arrays | ({"exact": list(given.exact)} if given.exact else {})
+    return names
 
 
 def _names(name: str, count: int) -> list[str]:
     if name == "displacement" and count == 2:
         return ["ux", "uy"]
-    if count == 1:
-        return ["u" if name == "potential" else name]
-    return [f"{name}{k}" for k in range(count)]
+    if name == "potential" and count == 1:
+        return ["u"]
+    # formulas have letters, digits and `_` alone
+    base = re.sub(r"\W", "_", name, flags=re.ASCII)
+    base = f"_{base}" if base[:1].isdigit() else base
+    return [base] if count == 1 else [f"{base}{k}" for k in range(count)]
+
+
+def _check_names(group: str, arrays: Arrays, equation: Elastic | Poisson | None) -> None:
+    """Refuses components' names that formulas cannot have for them."""
+    fields = [key.removesuffix("/components") for key in arrays if key.startswith(group) and key.endswith("/components")]
+    for path, k, name in ((f, k, name) for f in fields for k, name in enumerate(arrays[f"{f}/components"])):
+        if wrong := _unfit(name, _nameless(type(equation).__name__)):
+            raise BuildError(
+                f"fields[{arrays[f'{path}@name']!r}].components[{k}]: {name!r} {wrong}; give another one, of letters, digits "
+                "and `_`, by components=[…]"
+            )
+
+
+def _unfit(name: str, field: Any) -> str | None:
+    """Why formulas of a field without names cannot have this name."""
+    try:
+        field._core.check(f"let {name} = 1; {name}")
+    except QuantityError as error:
+        return TAKEN if "already has a meaning" in str(error) else "is no name that formulas can have"
+    return TAKEN if name in field.quantities else None
+
+
+@lru_cache
+def _nameless(equation: str) -> Any:
+    """A field of an equation whose components have names that nobody gives: in its formulas all others are free."""
+    materials: dict[str, Elastic | Poisson] = {"Elastic": Elastic(1.0, 0.0), "Poisson": Poisson(1.0)}
+    material = materials.get(equation)
+    count, name = (2, "displacement") if equation == "Elastic" else (1, "potential")
+    field = Coefficients(name, {"one": np.zeros((1, 1, count))}, [f"__{k}" for k in range(count)])
+    state = State(Cover.uniform([(0, 0), (1, 1)], (1, 1)), field)
+    return from_arrays(shared([state], "", "", material, ()) | _step("steps/0000", state, material, ())).field
 
 
 def _attributes(attributes: Mapping[str, ArrayLike], patches: int) -> Arrays:
-    if not attributes:
+    if not mapping("attributes", attributes, "arrays"):
         return {}
-    for name, values in attributes.items():
-        if np.shape(values) != (patches,):
-            raise BuildError(f"attributes[{name!r}]: has the shape {np.shape(values)}, expected ({patches},)")
-    return {
-        "attributes/name": list(attributes),
-        "attributes/values": np.array(list(attributes.values()), float),
-    }
+    values = [real(f"attributes[{name!r}]", given) for name, given in attributes.items()]
+    for name, given in zip(attributes, values):
+        if given.shape != (patches,):
+            raise BuildError(f"attributes[{name!r}]: has the shape {given.shape}, expected ({patches},)")
+    return {"attributes/name": list(attributes), "attributes/values": np.array(values)}
+
+
+def _check_attributes(state: State, field: Any) -> None:
+    """Refuses attributes that are never shown, since their names are those of something else."""
+    for name in state.attributes:
+        is_quantity = name in OF_PATCHES
+        if not is_quantity:
+            try:
+                field._core.check(name)
+                is_quantity = True
+            except QuantityError:
+                pass
+        if is_quantity:
+            raise BuildError(
+                f"attributes[{name!r}]: is the name of a quantity, which would be shown in its place; give another, such "
+                f"as {f'my {name}'!r}"
+            )
 
 
 def _history(path: str, found: Mapping[str, float]) -> Arrays:

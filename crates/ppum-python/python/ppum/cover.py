@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from .checking import column, integers, numbers, positive, repeated, rows, scalar
 from .errors import BuildError
 
 __all__ = ["Cover"]
@@ -49,6 +51,9 @@ class Cover:
         True
     """
 
+    #: What places polynomials, in the words of messages.
+    FRAME = "origin and scale of ξ, the weight"
+
     def __init__(
         self,
         domain: ArrayLike,
@@ -74,6 +79,11 @@ class Cover:
             raise BuildError("center: a cover needs at least one patch")
         self.half = positive("half", rows("half", half, 2, n))
         _look(self.center, self.half, self.domain)
+        if not isinstance(weight, str):
+            raise BuildError(
+                f"weight: is {type(weight).__name__}; give {', '.join(map(repr, BREAKPOINTS))}, or a formula of t as text, "
+                "such as '(1 - t)^2'"
+            )
         self.weight = weight
         known = BREAKPOINTS.get(weight, ())
         self.breakpoints = numbers("breakpoints", known if breakpoints is None else breakpoints)
@@ -82,8 +92,8 @@ class Cover:
         if cell is None and level is not None:
             raise BuildError("level: is that of cells; give the cells too, or leave it out")
         self.cell = None if cell is None else rows("cell", cell, 4, n)
-        self.level = None if cell is None else _column("level", 0 if level is None else level, n, np.uint8)
-        self.points, self.point = rows("points", points, 2), _column("point", point, n, np.int64)
+        self.level = None if cell is None else column("level", 0 if level is None else level, n, np.uint8)
+        self.points, self.point = rows("points", points, 2), column("point", point, n, np.int64)
         for array in vars(self).values():
             if isinstance(array, np.ndarray):
                 array.flags.writeable = False
@@ -99,12 +109,12 @@ class Cover:
             >>> ppum.Cover.uniform([(0, 0), (1, 1)], cells=(8, 8), overlap=1.5).half[0].tolist()
             [0.09375, 0.09375]
         """
-        (x0, y0), (x1, y1) = rows("domain", domain, 2, 2)
+        (x0, y0), (x1, y1) = rows("domain", domain, 2, 2).tolist()
         if not (x0 < x1 and y0 < y1):
             raise BuildError(f"domain: {(x0, y0)} is not left of and below {(x1, y1)}; give the lower left corner first")
-        nx, ny = cells
+        nx, ny = integers("cells", cells, 2)
         if min(nx, ny) < 1:
-            raise BuildError(f"cells: {cells} has no cells; give the numbers of columns and rows")
+            raise BuildError(f"cells: {(nx, ny)} has no cells; give the numbers of columns and rows")
         if nx * ny > MOST_PATCHES:
             raise BuildError(f"cells: {nx} × {ny} cells are {nx * ny:,} patches, of at most {MOST_PATCHES:,}; give fewer")
         x, y = np.linspace(x0, x1, nx + 1), np.linspace(y0, y1, ny + 1)
@@ -123,7 +133,7 @@ class Cover:
     ) -> Cover:
         """The cover of cells that tile the domain, such as the leaves of a quadtree: shape (n, 4), rows x_min, y_min,
         x_max, y_max. A support is its cell enlarged by `overlap`."""
-        if not 1.01 <= overlap <= 1.99:
+        if not 1.01 <= scalar("overlap", overlap) <= 1.99:
             raise BuildError(f"overlap: {overlap} is not in 1.01 to 1.99; give the factor from cells to supports")
         boxes = rows("cell", cell, 4)
         size = positive("cell", boxes[:, 2:] - boxes[:, :2])
@@ -149,8 +159,11 @@ class Cover:
         low, high = rows("domain", domain, 2, 2).tolist()
         of = rows("points", points, 2)
         given = [(float(x), float(y)) for x, y in of]
+        nx, ny = integers("cells", cells, 2)
+        if min(nx, ny) < 1 or nx * ny > MOST_PATCHES:
+            raise BuildError(f"cells: {(nx, ny)} is no grid; give the numbers of columns and rows")
         try:
-            cell, level, point = _core.scattered((*low, *high), cells, given)
+            cell, level, point = _core.scattered((*low, *high), (nx, ny), given)
         except ValueError as error:
             raise BuildError(f"points: {error}") from None
         return cls.from_cells(
@@ -160,7 +173,7 @@ class Cover:
     def in_space(self, place: str, space: str | Sequence[str]) -> NDArray[np.bool_]:
         """True for the patches on which polynomials of a space are tensor products: none."""
         if space not in ("shape", "total"):
-            raise BuildError(f"{place}: {space!r} is for meshes; polynomials on covers are of total degree")
+            raise BuildError(f"{place}: {space!r} is for meshes; polynomials on covers are of total degree, give 'total'")
         return np.zeros(len(self), bool)
 
     def arrays(self, fields: Sequence[str] = ()) -> dict[str, Any]:
@@ -168,6 +181,10 @@ class Cover:
         names = ("center", "half", "origin", "scale", "cell", "level", "points", "point")
         given = {name: getattr(self, name) for name in names}
         return {"weight_breakpoints": self.breakpoints} | {k: v for k, v in given.items() if v is not None}
+
+    def around(self, points: Floats) -> list[int]:
+        """The patches whose supports hold some of the points."""
+        return sorted({k for p in points for k in np.flatnonzero((np.abs(p - self.center) < self.half).all(axis=1)).tolist()})
 
     def spread(self, random: np.random.Generator, count: int) -> Floats:
         """Random points of the supports, which are taken in turn."""
@@ -183,54 +200,10 @@ class Cover:
         return f"<ppum.Cover, {count} patch{'' if count == 1 else 'es'}, {self.weight}>"
 
 
-def rows(name: str, values: ArrayLike, columns: int, count: int | None = None) -> Floats:
-    """A copy of an array of finite numbers of the shape (count, columns)."""
-    array = numbers(name, values)
-    wanted = f"({'n' if count is None else count}, {columns})"
-    if array.size == 0 and not count:
-        return np.empty((0, columns))
-    if array.ndim != 2 or array.shape[1] != columns or count not in (None, len(array)):
-        raise BuildError(f"{name}: has the shape {array.shape}, expected {wanted}")
-    return array
-
-
-def numbers(name: str, values: ArrayLike) -> Floats:
-    """A copy of an array of finite numbers."""
-    try:
-        array = np.array(values, float)
-    except (TypeError, ValueError) as error:
-        raise BuildError(f"{name}: is no array of numbers ({error})") from None
-    wrong = np.argwhere(~np.isfinite(array))
-    if len(wrong):
-        place = f"{name}{''.join(f'[{k}]' for k in wrong[0])}"
-        raise BuildError(f"{place}: is {array[tuple(wrong[0])]}; give finite numbers")
-    return array
-
-
-def positive(name: str, array: Floats) -> Floats:
-    """The array, of which all numbers are positive."""
-    wrong = np.argwhere(array <= 0)
-    if len(wrong):
-        row, column = wrong[0]
-        raise BuildError(f"{name}[{row}]: the extent {array[row, column]} in {'xy'[column]} must be positive")
-    return array
-
-
-def _column(name: str, values: ArrayLike, count: int, kind: type) -> NDArray[Any]:
-    array = np.asarray(values)
-    if array.ndim == 0:
-        array = np.full(count, array)
-    if array.shape != (count,):
-        raise BuildError(f"{name}: has the shape {array.shape}, expected ({count},), one entry per patch")
-    whole: NDArray[Any] = array.astype(kind)
-    wrong = np.flatnonzero(whole != array)
-    if len(wrong):
-        raise BuildError(f"{name}[{wrong[0]}]: is {array[wrong[0]]}; give whole numbers of the type {np.dtype(kind)}")
-    return whole
-
-
 def _look(center: Floats, half: Floats, domain: Floats) -> None:
-    """Each support reaches into the domain."""
+    """Each support reaches into the domain, and is there once."""
+    for k, first in repeated(np.column_stack([center, half]) + 0.0)[:1]:
+        warnings.warn(f"center[{k}]: the support is that of patch {first} again; is a patch there twice?", stacklevel=4)
     outside = np.flatnonzero(((center + half <= domain[0]) | (center - half >= domain[1])).any(axis=1))
     if len(outside):
         k = outside[0]

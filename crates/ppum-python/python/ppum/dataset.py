@@ -179,6 +179,8 @@ class Dataset:
     """
 
     def __init__(self, core: _core.Dataset) -> None:
+        if not isinstance(core, _core.Dataset):
+            raise TypeError(f"a dataset is not made of {type(core).__name__}: `ppum.open` opens files, `ppum.build` takes arrays")
         self._core = core
         # a field holds the data of its step, which those of a file need not
         most = KEPT if core.is_stored() else None
@@ -201,7 +203,8 @@ class Dataset:
 
     @property
     def equation(self) -> str:
-        """``elasticity`` or ``poisson``."""
+        """``elasticity``, ``eigenstrain`` (elasticity with given strains or a temperature), ``poisson``, or ``none``, of
+        fields without an equation."""
         return str(self._facts["equation"]["kind"])
 
     @property

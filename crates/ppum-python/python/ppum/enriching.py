@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .cover import numbers, rows
+from .checking import index, numbers, rows, scalar, sequence, short
 from .errors import BuildError
 
 __all__ = ["Component", "Formula", "Jump", "Level", "tip_functions"]
@@ -49,8 +49,8 @@ class Formula:
 
     Attributes:
         text: The formula, e.g. ``sqrt(r)*cos(theta/2)``; ``table(name, x)`` reads a table of the dataset.
-        tip: Crack and end, ``start`` or ``last``: the frame has its origin there, x points in the direction of growth,
-            and theta jumps on the crack.
+        tip: Crack and end, ``start`` or ``end`` as `Tip.end` has them: the frame has its origin there, x points in the
+            direction of growth, and theta jumps on the crack.
         origin, angle: A fixed frame: its origin, and the angle of its x axis.
         levels: On meshes, names of the level fields ψ and φ that are x and y; theta jumps where φ = 0, ψ < 0.
         parameters: Constants that the formula may use, by name.
@@ -59,8 +59,8 @@ class Formula:
         role: What it stands for: ``tip``, ``corner``, ``force``, ``interface`` or ``user``; values do not depend on it.
 
     Example:
-        >>> ppum.Formula("r^a*sin(a*theta)", tip=(0, "last"), parameters={"a": 0.7}).tip
-        (0, 'last')
+        >>> ppum.Formula("r^a*sin(a*theta)", tip=(0, "end"), parameters={"a": 0.7}).tip
+        (0, 'end')
     """
 
     text: str
@@ -76,6 +76,9 @@ class Formula:
 
 Function = Jump | Component | Level | Formula | str
 
+#: The ends of a crack in the file format; `last` is taken too.
+ENDS = {"start": "start", "end": "last", "last": "last"}
+
 #: The square-root functions of a crack tip, r and theta in its frame.
 _TIP = {
     "sqrt(r) cos": "sqrt(r)*cos(theta/2)",
@@ -85,14 +88,17 @@ _TIP = {
 }
 
 
-def tip_functions(crack: int = 0, end: str = "last") -> dict[str, Formula]:
+def tip_functions(crack: int = 0, end: str = "end") -> dict[str, Formula]:
     """The four functions √r cos θ/2, √r sin θ/2, √r sin θ sin θ/2, √r sin θ cos θ/2 of a crack tip, by names that tell
-    the tip.
+    the tip; `end` is ``start`` or ``end``, as `Tip.end` has it.
 
     Example:
-        >>> list(ppum.tip_functions(0, "last"))[0]
-        'sqrt(r) cos of crack 0 last'
+        >>> list(ppum.tip_functions(0, "end"))[0]
+        'sqrt(r) cos of crack 0 end'
     """
+    if str(end) not in ENDS:
+        raise BuildError(f"end: {short(end)} is no end of a crack; give 'start' or 'end'")
+    end = "end" if end == "last" else end
     return {f"{name} of crack {crack} {end}": Formula(text, (crack, end), role="tip") for name, text in _TIP.items()}
 
 
@@ -147,29 +153,39 @@ def _row(
 
 
 def _frame(place: str, f: Formula, cracks: Sequence[int], fields: Sequence[str]) -> dict[str, Any]:
+    if not isinstance(f.text, str):
+        raise BuildError(f"{place}.text: is {type(f.text).__name__}; give a formula as text, such as 'sqrt(r)*cos(theta/2)'")
+    if not isinstance(f.parameters, Mapping):
+        raise BuildError(f"{place}.parameters: is {type(f.parameters).__name__}; give a dictionary of names and numbers")
     row: dict[str, Any] = {
         "frame": "world",
         "role": f.role,
-        "parameters": {str(k): float(numbers(f"{place}.parameters[{k!r}]", v)) for k, v in f.parameters.items()},
+        "parameters": {str(k): scalar(f"{place}.parameters[{k!r}]", v) for k, v in f.parameters.items()},
         "kinks": rows(f"{place}.kinks", f.kinks, 4),
         "singular": rows(f"{place}.singular", f.singular, 2),
     }
-    frames = [f.tip is not None, f.levels is not None, f.origin is not None or bool(f.angle)]
+    angle = scalar(f"{place}.angle", f.angle)
+    frames = [f.tip is not None, f.levels is not None, f.origin is not None or bool(angle)]
     if sum(frames) > 1:
         raise BuildError(f"{place}: has several frames; leave out all but one of `tip`, `levels`, or `origin` and `angle`")
     if f.levels is not None:
-        levels = tuple(level_field(f"{place}.levels", name, fields) for name in f.levels)
+        names = sequence(f"{place}.levels", f.levels, "two level fields")
+        if len(names) != 2:
+            raise BuildError(f"{place}.levels: has {len(names)} names; give two, of ψ and φ")
+        levels = tuple(level_field(f"{place}.levels", name, fields) for name in names)
         return row | {"frame": "levels", "levels": levels}
     if f.tip is not None:
-        crack, end = f.tip
-        if end not in ("start", "last"):
-            raise BuildError(f"{place}.tip: the end {end!r} is neither 'start' nor 'last'")
-        return row | {"frame": "tip", "frame_end": end, "crack": _crack(f"{place}.tip", crack, cracks)}
-    if f.origin is not None or f.angle:
+        crack, end = [*sequence(f"{place}.tip", f.tip, "crack and end"), "", ""][:2]
+        if len(list(f.tip)) != 2 or str(end) not in ENDS:
+            raise BuildError(f"{place}.tip: {short(f.tip)} is no tip; give the number of a crack, and 'start' or 'end'")
+        return row | {"frame": "tip", "frame_end": ENDS[str(end)], "crack": _crack(f"{place}.tip", crack, cracks)}
+    if f.origin is not None or angle:
         origin = numbers(f"{place}.origin", (0, 0) if f.origin is None else f.origin)
         if origin.shape != (2,):
             raise BuildError(f"{place}.origin: has the shape {origin.shape}, expected (2,): a point")
-        row |= {"frame": "fixed", "frame_origin": tuple(origin), "frame_angle": float(f.angle)}
+        if not abs(angle) <= 2 * np.pi:
+            raise BuildError(f"{place}.angle: {angle:g} is more than a turn; angles are in radians, see math.radians")
+        row |= {"frame": "fixed", "frame_origin": tuple(origin), "frame_angle": angle}
     return row
 
 
@@ -177,19 +193,23 @@ def level_field(place: str, name: str, fields: Sequence[str]) -> int:
     """The number of a level field."""
     if name not in fields[1:]:
         known = ", ".join(map(repr, fields[1:])) or "none"
-        raise BuildError(f"{place}: names {name!r}, which is no field after the first; there are {known}")
+        raise BuildError(f"{place}: names {short(name)}, which is no field after the first; there are {known}")
     return list(fields).index(name)
 
 
 def _crack(place: str, crack: int, cracks: Sequence[int]) -> int:
-    if not 0 <= crack < len(cracks):
+    found = index(crack, len(cracks))
+    if found is None:
         count = f"there {'is 1 crack' if len(cracks) == 1 else f'are {len(cracks)} cracks'}"
-        raise BuildError(f"{place}: names crack {crack}, but {count}, counted from 0")
-    return int(crack)
+        raise BuildError(f"{place}: names crack {short(crack)}, but {count}, counted from 0")
+    return found
 
 
 def _cuts(place: str, component: Component, cracks: Sequence[int]) -> NDArray[np.int64]:
-    cuts = rows(f"{place}.cuts", component.cuts, 4).astype(np.int64)
+    given = rows(f"{place}.cuts", component.cuts, 4)
+    cuts = given.astype(np.int64)
+    if (cuts != given).any():
+        raise BuildError(f"{place}.cuts: expected whole numbers, rows of crack, segment, left and right")
     for k, (crack, segment, *_) in enumerate(cuts.tolist()):
         count = cracks[_crack(f"{place}.cuts[{k}]", crack, cracks)]
         if not 0 <= segment < count:

@@ -60,9 +60,9 @@ class Hole:
     With `is_outside` it is all that is outside of the polygon, which is the outline of the body.
     """
 
-    center: Point | None
-    radius: float | None
-    points: NDArray[np.float64] | None
+    center: Point | None = None
+    radius: float | None = None
+    points: NDArray[np.float64] | None = None
     is_outside: bool = False
 
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .checking import Ragged, index, integers, known, numbers, repeated, rows, sequence, short
 from .blocks import MAX_DEGREE, degrees, exponents
-from .cover import numbers, rows
 from .enriching import level_field
 from .errors import BuildError
-from .interpolating import CORNERS, SQUARE, TRIANGLE, interpolated, lattice, vandermonde
+from .interpolating import CORNERS, SQUARE, TRIANGLE, Powers, interpolated, lattice, vandermonde
 
 __all__ = ["Mesh"]
 
@@ -46,11 +46,14 @@ class Mesh:
         (<ppum.Mesh, 2 triangles>, [[0.0, 0.0], [1.0, 1.0]])
     """
 
+    #: What places polynomials, in the words of messages.
+    FRAME = "the map, the space"
+
     def __init__(
         self,
         shape: str | ArrayLike,
         origin: ArrayLike,
-        map: NDArray[Any] | Sequence[ArrayLike],
+        map: NDArray[Any] | Sequence[ArrayLike] | Ragged,
         *,
         space: str | Sequence[str] = "shape",
         element: ArrayLike | None = None,
@@ -63,11 +66,11 @@ class Mesh:
         self.shape = _shapes(shape, n)
         self.map = _maps(map, n)
         self.tensor = self.in_space("space", space)
-        sizes = np.array([len(c) + 1 for c in self.map])
-        self.degree = degrees("map", sizes, self.tensor, np.arange(n), least=1)
-        _orientation(self.map, self.degree, self.tensor)
+        self.degree = degrees("map", self.map.sizes + 1, self.tensor, np.arange(n), least=1)
+        self._orientation()
         self.element = np.arange(n) if element is None else _elements(element, n)
-        self.clips = _clips(clips or {}, n)
+        self.clips = _clips({} if clips is None else clips, n)
+        self._repetition()
         self.domain = np.array(self._box())
 
     @classmethod
@@ -104,11 +107,14 @@ class Mesh:
     @staticmethod
     def lattice(shape: str, order: int) -> Floats:
         """Reference places of equally spaced nodes, row by row from below, in a row from the left: shape (k, 2)."""
-        return lattice(int(_shapes(shape, 1)[0]), order)
+        (count,) = integers("order", [order], 1)
+        if not 1 <= count <= MAX_DEGREE:
+            raise BuildError(f"order: is {count}, expected 1 to {MAX_DEGREE}")
+        return lattice(int(_shapes(shape, 1)[0]), count)
 
     def in_space(self, place: str, space: str | Sequence[str]) -> NDArray[np.bool_]:
         """True for the patches on which polynomials of a space are tensor products."""
-        words = [space] * len(self) if isinstance(space, str) else list(space)
+        words = [space] * len(self) if isinstance(space, str) else [*map(str, sequence(place, space, "words"))]
         known = {"total": (False, False), "tensor": (True, True), "shape": (False, True)}
         unknown = [word for word in words if word not in known]
         if unknown or len(words) != len(self):
@@ -119,7 +125,7 @@ class Mesh:
     def places(self, patch: int, xi: ArrayLike) -> Floats:
         """The points that reference places (k, 2) of a patch have."""
         powers = exponents(int(self.degree[patch]), bool(self.tensor[patch]))[1:]
-        result: Floats = self.origin[patch] + vandermonde(np.asarray(xi, float), powers) @ self.map[patch]
+        result: Floats = self.origin[patch] + vandermonde(rows("xi", xi, 2), powers) @ self.map[patch]
         return result
 
     def arrays(self, fields: Sequence[str] = ()) -> dict[str, Any]:
@@ -131,7 +137,7 @@ class Mesh:
             "map_degree": self.degree,
             "map_space": self.tensor.astype(np.uint8),
             "map_offset": starts,
-            "map": np.concatenate(shared).T,
+            "map": shared.T,
             "element": self.element,
         }
         if any(self.clips):
@@ -140,6 +146,14 @@ class Mesh:
             arrays["clip_field"], arrays["clip_side"] = np.array(clips, int).T
         return arrays
 
+    def around(self, points: Floats) -> list[int]:
+        """The patches that can hold some of the points: their boxes do."""
+        found: set[int] = set()
+        for of, _, c in self._alike():
+            reach = np.abs(c).sum(axis=1)
+            found.update(k for p in points for k in of[(np.abs(p - self.origin[of]) <= reach).all(axis=1)].tolist())
+        return sorted(found)
+
     def spread(self, random: np.random.Generator, count: int) -> Floats:
         """Random points of the patches, which are taken in turn; those of cut elements on either side."""
         points = []
@@ -147,26 +161,59 @@ class Mesh:
             points.append(self.places(patch, _anywhere(random, int(self.shape[patch]))))
         return np.concatenate(points)
 
-    def _shared(self) -> tuple[list[int], list[Floats]]:
+    def _alike(self) -> Iterator[tuple[NDArray[np.int64], Powers, Floats]]:
+        """Patches whose maps have the same powers, these, and the coefficients (k, m, 2)."""
+        kinds = 2 * self.degree + self.tensor
+        for kind in np.unique(kinds).tolist():
+            of = np.flatnonzero(kinds == kind)
+            powers = exponents(kind // 2, bool(kind % 2))[1:]
+            yield of, powers, self.map.at(of).values.reshape(len(of), len(powers), 2)
+
+    def _orientation(self) -> None:
+        """Refuses elements that are flipped or flat at ξ = 0."""
+        for of, powers, c in self._alike():
+            x, y = c[:, powers.index((1, 0))].T, c[:, powers.index((0, 1))].T
+            wrong = of[~(x[0] * y[1] > x[1] * y[0])]
+            if len(wrong):
+                raise BuildError(
+                    f"map[{wrong[0]}]: the element is flipped or flat; its nodes must go counter-clockwise, around it"
+                )
+
+    def _repetition(self) -> None:
+        """Refuses an element that is there twice, but for sides of a cut."""
+        for of, _, c in self._alike():
+            rows = np.column_stack([self.shape[of], self.origin[of], c.reshape(len(of), -1)]) + 0.0
+            for k, first in repeated(rows):
+                patch, other = int(of[k]), int(of[first])
+                if self.clips[patch] == self.clips[other]:
+                    raise BuildError(
+                        f"map[{patch}]: the element is that of patch {other}; leave one out, or give both the sides of a "
+                        "cut by `clips`"
+                    )
+
+    def _shared(self) -> tuple[NDArray[np.int64], Floats]:
         """First columns of the patches' maps, and the maps; both sides of a cut share theirs."""
-        starts, known, shared, end = [], {}, [], 0
-        for k, c in enumerate(self.map):
-            key = int(self.element[k]), c.tobytes()
-            if key not in known:
-                known[key], end = end, end + len(c)
-                shared.append(c)
-            starts.append(known[key])
-        return starts, shared
+        own, known = np.arange(len(self)), dict[Any, int]()
+        _, which, counts = np.unique(self.element, return_inverse=True, return_counts=True)
+        for k in np.flatnonzero(counts[which] > 1).tolist():
+            own[k] = known.setdefault((int(self.element[k]), self.map[k].tobytes()), k)
+        kept = np.flatnonzero(own == np.arange(len(self)))
+        shared = self.map.at(kept)
+        return shared.starts[np.searchsorted(kept, own)], shared.values
 
     def _box(self) -> list[Floats]:
         """Lower left and upper right corner of the images of all borders."""
-        corners = [self.places(k, CORNERS[shape]) for k, shape in enumerate(self.shape.tolist())]
-        box = [np.concatenate(corners).min(axis=0), np.concatenate(corners).max(axis=0)]
-        for k in np.flatnonzero(self.degree > 1).tolist():
-            reach = np.abs(self.map[k]).sum(axis=0)
-            if (self.origin[k] - reach < box[0]).any() or (self.origin[k] + reach > box[1]).any():
-                ends = [self.places(k, places) for places in self._turning(k)]
-                box = [np.min([box[0], *(e.min(axis=0) for e in ends)], 0), np.max([box[1], *(e.max(axis=0) for e in ends)], 0)]
+        box = [np.full(2, np.inf), np.full(2, -np.inf)]
+        for of, powers, c in self._alike():
+            for shape in np.unique(self.shape[of]).tolist():
+                those = self.shape[of] == shape
+                images = self.origin[of][those][:, None] + vandermonde(CORNERS[shape], powers) @ c[those]
+                box = _around(box, images.reshape(-1, 2))
+        for of, _, c in self._alike():
+            reach = np.abs(c).sum(axis=1)
+            beyond = (self.origin[of] - reach < box[0]) | (self.origin[of] + reach > box[1])
+            for k in of[beyond.any(axis=1) & (self.degree[of] > 1)].tolist():
+                box = _around(box, np.concatenate([self.places(k, places) for places in self._turning(k)]))
         return box
 
     def _turning(self, patch: int) -> list[Floats]:
@@ -189,6 +236,11 @@ class Mesh:
         return f"<ppum.Mesh, {', '.join(words)}{f', {cut} cut' if cut else ''}>"
 
 
+def _around(box: list[Floats], points: Floats) -> list[Floats]:
+    """The box that holds points too."""
+    return [np.minimum(box[0], points.min(axis=0)), np.maximum(box[1], points.max(axis=0))]
+
+
 def _extremes(at: Floats, values: Floats) -> Floats:
     """Where a polynomial, by its values, has no slope."""
     slope = np.polynomial.Polynomial.fit(at, values, len(at) - 1).deriv()
@@ -201,30 +253,30 @@ SHAPES = {"triangle": TRIANGLE, "square": SQUARE}
 
 
 def _shapes(shape: str | ArrayLike, n: int) -> NDArray[np.int64]:
-    given = np.array(shape if not isinstance(shape, str) else [shape] * n)
-    if given.dtype.kind in "OUS":
-        unknown = [word for word in given.reshape(-1).tolist() if word not in SHAPES]
+    given: Any = [shape] * n if isinstance(shape, str) else sequence("shape", shape, "words")
+    if any(isinstance(word, str) for word in given):
+        unknown = [word for word in given if word not in SHAPES]
         if unknown:
             raise BuildError(f"shape: {unknown[0]!r} is neither 'triangle' nor 'square'")
-        given = np.array([SHAPES[word] for word in given.reshape(-1).tolist()])
+        given = [SHAPES[word] for word in given]
+    given = known("shape", given)
     if given.shape != (n,) or not np.isin(given, (TRIANGLE, SQUARE)).all():
         raise BuildError(f"shape: expected {n} entries, 'triangle' or 'square' for each patch")
-    return given.astype(np.int64)
+    return np.asarray(given, np.int64)
 
 
-def _maps(map: NDArray[Any] | Sequence[ArrayLike], n: int) -> list[Floats]:
-    if len(map) != n:
-        raise BuildError(f"map: has {len(map)} entries, but there are {n} origins; give one for each patch")
-    return [np.ascontiguousarray(rows(f"map[{k}]", c, 2)) for k, c in enumerate(map)]
-
-
-def _orientation(maps: list[Floats], degree: NDArray[np.int64], tensor: NDArray[np.bool_]) -> None:
-    """Refuses elements that are flipped or flat at ξ = 0."""
-    for k, (c, d, is_tensor) in enumerate(zip(maps, degree.tolist(), tensor.tolist())):
-        powers = exponents(d, is_tensor)[1:]
-        x, y = c[powers.index((1, 0))], c[powers.index((0, 1))]
-        if not x[0] * y[1] > x[1] * y[0]:
-            raise BuildError(f"map[{k}]: the element is flipped or flat; its nodes must go counter-clockwise")
+def _maps(map: Any, n: int) -> Ragged:
+    if isinstance(map, Ragged):
+        return map
+    if not hasattr(map, "__len__") or len(map) != n:
+        count = f"has {len(map)} entries" if hasattr(map, "__len__") else f"is {type(map).__name__}"
+        raise BuildError(f"map: {count}, but there are {n} origins; give one for each patch")
+    if isinstance(map, np.ndarray) and map.ndim == 3:
+        if map.shape[2] != 2:
+            raise BuildError(f"map: has the shape {map.shape}, expected ({n}, m, 2)")
+        return Ragged.joined([numbers("map", map)])
+    parts = [rows(f"map[{k}]", c, 2) for k, c in enumerate(map)]
+    return Ragged(np.concatenate(parts), np.array([len(part) for part in parts]))
 
 
 def _kind(shape: tuple[int, ...], count: int) -> tuple[int, int]:
@@ -240,19 +292,23 @@ def _kind(shape: tuple[int, ...], count: int) -> tuple[int, int]:
 
 
 def _elements(element: ArrayLike, n: int) -> NDArray[np.int64]:
-    given = np.asarray(element)
+    given = known("element", element)
     if given.shape != (n,) or given.dtype.kind not in "iu" or (given < 0).any():
         raise BuildError(f"element: expected {n} whole numbers, one for each patch")
     return given.astype(np.int64)
 
 
 def _clips(clips: Mapping[int, Sequence[Clip]], n: int) -> list[list[Clip]]:
+    if not isinstance(clips, Mapping):
+        raise BuildError(f"clips: is {type(clips).__name__}; give a dictionary by the number of the patch")
     for patch, of in clips.items():
-        if not 0 <= patch < n:
-            raise BuildError(f"clips[{patch}]: there is no such patch; the mesh has {n}, counted from 0")
-        for k, (_, side) in enumerate(of):
-            if side not in (1, -1):
-                raise BuildError(f"clips[{patch}][{k}]: the side {side!r} is neither 1 (≥ 0) nor -1 (< 0)")
+        if index(patch, n) is None:
+            raise BuildError(f"clips[{short(patch)}]: there is no such patch; the mesh has {n}, counted from 0")
+        for k, clip in enumerate(sequence(f"clips[{patch}]", of, "pairs of a level field and a side")):
+            if not isinstance(clip, (tuple, list)) or len(clip) != 2:
+                raise BuildError(f"clips[{patch}][{k}]: is {short(clip)}; give pairs of a level field and a side, such as ('phi', 1)")
+            if clip[1] not in (1, -1):
+                raise BuildError(f"clips[{patch}][{k}]: the side {clip[1]!r} is neither 1 (≥ 0) nor -1 (< 0)")
     return [list(clips.get(patch, ())) for patch in range(n)]
 
 

@@ -171,14 +171,19 @@ def _check(name: str, kind: Any, value: Any) -> None:
         raise TypeError(f"{name}: a dictionary of {keys} is needed, not {value!r}")
     atoms = list(_atoms(kind))
     words = [atom for atom in atoms if isinstance(atom, str)]
-    if str in atoms or not words and set(atoms) - _PLAIN.keys():
+    if str in atoms or set(atoms) - _PLAIN.keys() - set(words):
         return
     for part in value if isinstance(value, (list, tuple, set, frozenset, np.ndarray)) else [value]:
         if isinstance(part, str) and words:
             one_of(name, part, words, " or a number" if float in atoms else "")
-        elif not any(isinstance(part, _PLAIN.get(atom, ())) for atom in atoms) and not words:
-            needed = " or ".join(_CALLED[atom] for atom in atoms)
+        elif not any(_fits(part, atom) for atom in atoms):
+            needed = " or ".join(_CALLED.get(atom, repr(atom)) for atom in atoms)
             raise TypeError(f"{name}: {needed} is needed, not {part!r}")
+
+
+def _fits(value: Any, atom: Any) -> bool:
+    """Truth values are numbers of Python, but no numbers that are meant."""
+    return isinstance(value, _PLAIN.get(atom, ())) and (atom is bool or not isinstance(value, bool))
 
 
 #: What values of a type may be.

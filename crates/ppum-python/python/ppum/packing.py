@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .checking import known
 from .errors import BuildError
 
 #: Types of arrays that are not f64 or texts, by the last part of their paths.
@@ -33,9 +34,7 @@ def packed(path: str, value: Any) -> tuple[str, list[int], NDArray[Any] | list[s
     if name in TEXTS or "@" not in name and _is_text(value) or isinstance(value, str):
         return _texts(path, value)
     kind = TYPES.get("/".join(parts[-2:])) or TYPES.get(name, "f8")
-    given = np.asarray(value)
-    if given.dtype.kind not in "buif":
-        raise BuildError(f"{path}: is of the type {given.dtype}, expected numbers of the type {kind}")
+    given = known(path, value)
     with np.errstate(invalid="ignore", over="ignore"):
         array = np.ascontiguousarray(given, kind)
     wrong = np.argwhere(array != given) if kind != "f8" else np.empty((0, 0))
@@ -47,12 +46,15 @@ def packed(path: str, value: Any) -> tuple[str, list[int], NDArray[Any] | list[s
 
 
 def _is_text(value: Any) -> bool:
-    return np.asarray(value).dtype.kind in "US"
+    try:
+        return np.asarray(value).dtype.kind in "US"
+    except ValueError:
+        return False
 
 
 def _texts(path: str, value: Any) -> tuple[str, list[int], list[str]]:
     array = np.asarray(value, object)
-    texts = [v.decode() if isinstance(v, bytes) else v for v in array.reshape(-1).tolist()]
+    texts = [v.decode(errors="replace") if isinstance(v, bytes) else v for v in array.reshape(-1).tolist()]
     for k, text in enumerate(texts):
         if not isinstance(text, str):
             raise BuildError(f"{path}[{k}]: is {text!r}, expected a text")

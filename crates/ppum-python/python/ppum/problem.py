@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from .dataset import Dataset
+from .checking import real
 from .errors import Finding, ProblemError
 from .options import takes
 from .sections import (
@@ -184,7 +185,7 @@ class Problem:
             True
         """
         if len(points) == 1 and np.ndim(plain(points[0])) == 2:
-            points = tuple(np.asarray(points[0]))
+            points = tuple(real("points", points[0]))
         return self.add("crack", **({"points": points} if points else {}), **options)
 
     @takes

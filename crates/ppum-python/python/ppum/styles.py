@@ -231,7 +231,7 @@ def scene(asked: str | Sequence[str] | None, options: ColorOptions, found: str |
                 "shared_range": bool(o.get("shared_range", False)),
             },
             "colors": {
-                "colormap": None if cmap is None else os.fspath(cmap),
+                "colormap": None if cmap is None else _colormap(cmap),
                 "range": found if isinstance(found, str) else ",".join(map(_written, found)),
                 "scale": o.get("norm", "linear"),
                 "contrast": bool(o.get("contrast", False)),
@@ -257,6 +257,15 @@ def scene(asked: str | Sequence[str] | None, options: ColorOptions, found: str |
         },
         default=plain,
     )
+
+
+def _colormap(cmap: Any) -> str:
+    if not isinstance(cmap, (str, os.PathLike)):
+        raise TypeError(
+            f"cmap: a name such as 'viridis', or the path of a table of colours, is needed, not {type(cmap).__name__}; maps of "
+            "matplotlib are for `Field.plot`"
+        )
+    return str(os.fspath(cmap))
 
 
 def _mirror(asked: bool | str) -> str | None:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .checking import numbers, real, short
 from .errors import BuildError
 
 if TYPE_CHECKING:
@@ -46,33 +47,82 @@ def _compared(given: Coefficients, field: Any, state: State, tolerance: float) -
         x, y = _points(state, field).T
         wanted = given.verify(x.copy(), y.copy())
     else:
-        points, wanted = given.verify  # type: ignore[misc]
+        if not isinstance(given.verify, (tuple, list)) or len(given.verify) != 2:
+            raise BuildError(f"{place}: is {short(given.verify)}; give a function of x and y, or a pair of points and values")
+        points, wanted = given.verify
         x, y = _given(place, points).T
     values = field.evaluate(x, y, names)
     outside = np.flatnonzero(np.isnan(values).any(axis=1))
     if len(outside):
         k = outside[0]
         raise BuildError(f"{place}[{k}]: the field has no value at ({x[k]:g}, {y[k]:g}); give points of the domain")
-    return _difference(place, given.name, (x, y), values, _shaped(place, wanted, values.shape), tolerance)
-
-
-def _difference(
-    place: str, name: str, at: tuple[Floats, Floats], values: Floats, wanted: Floats, tolerance: float
-) -> float:
+    wanted = _shaped(place, wanted, values.shape)
     scale = float(np.abs(wanted).max()) or 1.0
     differences = np.abs(values - wanted).max(axis=1) / scale
     k = int(np.argmax(differences))
     worst, count = float(differences[k]), len(values)
     if not worst <= tolerance:
-        share = np.mean(~(differences <= tolerance))
+        wrong = ~(differences <= tolerance)
         raise BuildError(
-            f"{place}: at ({at[0][k]:.6g}, {at[1][k]:.6g}) the arrays give {_short(values[k])}, verify "
+            f"{place}: at ({x[k]:.6g}, {y[k]:.6g}) the arrays give {_short(values[k])}, verify "
             f"{_short(wanted[k])}: a difference of {worst:.1e} of the largest value, and more than {tolerance:g} at "
-            f"{share:.0%} of {count} points. Look at the order of the coefficients (1, ξ, η, ξ², ξη, η², …), origin and "
-            "scale of ξ, the weight, and the order of the patches"
+            f"{np.mean(wrong):.0%} of {count} points. {_remedy(given, field, state, (x, y), wrong)}"
         )
-    print(f"verified: field {name!r} at {count} points, largest difference {worst:.1e} of its largest value")
+    print(f"verified: field {given.name!r} at {count} points, largest difference {worst:.1e} of its largest value")
     return worst
+
+
+#: What goes wrong with functions.
+OF_FUNCTIONS = (
+    "its formula and parameters, its frame (origin, end of the crack, angle in radians), the branch of theta, the sign and "
+    "the factor of a jump, which is +1 on the left of the crack and -1 on its right"
+)
+
+
+def _remedy(
+    given: Coefficients, field: Any, state: State, at: tuple[Floats, Floats], wrong: NDArray[np.bool_]
+) -> str:
+    """What may be the reason for differences at some of the points."""
+    if isinstance(given.verify, Sampled):
+        return (
+            "The field is not a polynomial of this degree on elements; interpolate it into L2, a discontinuous space, of a "
+            "degree up to 8, or give the degree by order="
+        )
+    functions = [name for name in given.blocks if name != "one"]
+    touched = {name: _touched(field, name, at) for name in functions}
+    near = [name for name, where in touched.items() if where[wrong].all() and not where.all()]
+    if near and not wrong.all():
+        least = min(int(touched[name].sum()) for name in near)
+        named = [name for name in near if touched[name].sum() == least]
+        patches = state.cover.around(np.column_stack(at)[wrong])
+        return (
+            f"All these points are on patches with {' and '.join(map(repr, named))}, such as {_few(patches, given, named)}: look at "
+            f"{OF_FUNCTIONS}"
+        )
+    others = f"; and of {', '.join(map(repr, functions))} at {OF_FUNCTIONS}" if functions else ""
+    return f"Look at the order of the coefficients (1, ξ, η, ξ², ξη, η², …), {state.cover.FRAME}, and the order of the patches{others}"
+
+
+def _touched(field: Any, function: str, at: tuple[Floats, Floats]) -> NDArray[np.bool_]:
+    """True for points where a function is a part of the field."""
+    names = field._core.components()
+    with_, without = (f.evaluate(*at, names) for f in (field, field.with_function({function: "0"})))
+    different: NDArray[np.bool_] = (with_ != without).any(axis=1)
+    return different
+
+
+def _few(patches: Sequence[int], given: Coefficients, functions: Sequence[str]) -> str:
+    """Some of the patches that have a function."""
+    blocks = [given.blocks[name] for name in functions]
+    having = [k for k in patches if all(k in b if isinstance(b, Mapping) else b[k] is not None for b in blocks)]
+    return ", ".join(map(str, having[:5])) + (", …" if len(having) > 5 else "")
+
+
+class Sampled(NamedTuple):
+    """Points and a library's own values there, for `Coefficients.verify`."""
+
+    points: Floats
+    values: Floats
 
 
 def _short(values: Floats) -> str:
@@ -80,14 +130,14 @@ def _short(values: Floats) -> str:
 
 
 def _given(place: str, points: ArrayLike) -> Floats:
-    array = np.asarray(points, float)
+    array = numbers(f"{place}[0]", points)
     if array.ndim != 2 or array.shape[1] != 2 or not len(array):
-        raise BuildError(f"{place}: the points have the shape {array.shape}, expected (k, 2)")
+        raise BuildError(f"{place}[0]: has the shape {array.shape}, expected (k, 2): points")
     return array
 
 
 def _shaped(place: str, wanted: ArrayLike, shape: tuple[int, int]) -> Floats:
-    array = np.asarray(wanted, float)
+    array = real(place, wanted)
     if array.shape == shape[:1] and shape[1] == 1:
         array = array[:, None]
     if array.shape != shape:

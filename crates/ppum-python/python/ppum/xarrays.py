@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .extras import needed
-from .values import math_text
+from .values import floats, math_text
 
 if TYPE_CHECKING:
     from .field import Field
@@ -78,7 +78,7 @@ def _axis(name: str, count: int | None, given: ArrayLike | None, low: float, hig
         raise ValueError(f"give n{name} or {name}, one of them")
     if count is not None:
         return np.linspace(low, high, count)
-    axis = np.asarray(given, dtype=np.float64)
+    axis = floats(given)  # type: ignore[arg-type]
     if axis.ndim != 1:
         raise ValueError(f"{name}: coordinates of a grid are a list of numbers")
     return axis

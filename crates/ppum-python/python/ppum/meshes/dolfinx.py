@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..checking import real
 from ..building import State
 from ..dataset import Dataset
 from ..errors import BuildError
 from ..extras import needed
 from ..interpolating import SQUARE, TRIANGLE
-from .importing import Floats, Group, Labels, Places, Sampler, built, compared, real, smooth, to_unit
+from .importing import Floats, Group, Labels, Places, Sampler, built, compared, smooth, to_unit
 
 __all__ = ["from_dolfinx", "state"]
 
@@ -81,10 +83,9 @@ def _cells(mesh: Any) -> int:
     return int(mesh.topology.index_map(2).size_local)
 
 
-def _nodes(mesh: Any) -> list[Any]:
-    """Numbers of each cell's nodes."""
-    dofs = mesh.geometry.dofmap
-    return [dofs.links(k) if hasattr(dofs, "links") else dofs[k] for k in range(_cells(mesh))]
+def _rows(mesh: Any, table: Any) -> NDArray[np.int64]:
+    """The numbers that each cell has, which early versions have in an adjacency list."""
+    return np.asarray(getattr(table, "array", table), np.int64).reshape(_cells(mesh), -1)
 
 
 def sampler(u: Any, evaluate: bool) -> Sampler:
@@ -93,20 +94,21 @@ def sampler(u: Any, evaluate: bool) -> Sampler:
     mesh, block = space.mesh, int(space.dofmap.bs)
     name = getattr(mesh.topology, "cell_name", None)
     shape = SHAPES[name() if name else mesh.ufl_cell().cellname()]
-    dofs = np.array([space.dofmap.cell_dofs(k) for k in range(_cells(mesh))])
-    coordinates = [np.ascontiguousarray(mesh.geometry.x[nodes][:, :2]) for nodes in _nodes(mesh)]
-    values = real("DOLFINx", u.x.array).reshape(-1, block)[dofs]
+    coordinates = mesh.geometry.x[_rows(mesh, mesh.geometry.dofmap)][..., :2]
+    values = real("u", u.x.array).reshape(-1, block)[_rows(mesh, space.dofmap.list)]
 
     def evaluated(points: Floats) -> Floats:
         flat = np.zeros((points.shape[0] * points.shape[1], 3))
         flat[:, :2] = points.reshape(-1, 2)
         cells = np.repeat(np.arange(len(points), dtype=np.int32), points.shape[1])
-        return real("DOLFINx", u.eval(flat, cells)).reshape(*points.shape[:2], block)
+        return real("u", u.eval(flat, cells)).reshape(*points.shape[:2], block)
 
     def sample(places: Places) -> list[Group]:
         at = to_unit(shape, places[shape])
-        to_world = _geometry_map(mesh).push_forward
-        points = np.array([to_world(at, nodes) for nodes in coordinates])
+        # maps are linear in the nodes
+        to_world, count = _geometry_map(mesh).push_forward, coordinates.shape[1]
+        map_ = [to_world(at, np.ascontiguousarray(np.outer(row, [1.0, 0.0])))[:, 0] for row in np.eye(count)]
+        points = np.einsum("jk,njc->nkc", map_, coordinates)
         table = np.asarray(element.tabulate(0, at))[0].reshape(len(at), -1)
         found = evaluated(points) if evaluate else np.einsum("kd,ndc->nkc", table, values)
         return [Group(shape, np.arange(len(values)), points, found, places[shape])]

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..checking import real
 from ..blocks import MAX_DEGREE, exponents
 from ..building import Coefficients, State
 from ..dataset import Dataset
@@ -79,11 +80,13 @@ def from_getfem(
 
 def state(mf: Any, u: Any, crack: Crack | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
     """The state of `from_getfem`."""
-    source = _Source(mf, np.asarray(u, float).ravel(), crack)
+    if not hasattr(mf, "linked_mesh"):
+        raise BuildError(f"mf: is {type(mf).__name__}; give a MeshFem of GetFEM")
+    source = _Source(mf, real("u", u).ravel(), crack)
     elements = Elements(source.sample, source.order, source.geometry)
     known = compared(source.evaluate, verify, source.off)
     if known is not None:
-        known = known[0], known[1][:, : source.count]
+        known = known._replace(values=known.values[:, : source.count])
     smooth = elements.polynomials(source.order, source.columns(0))
     if crack is None:
         return State(elements.mesh(), labelled(labels, {"one": smooth}, known))
@@ -95,7 +98,7 @@ def state(mf: Any, u: Any, crack: Crack | None = None, *, labels: Labels = Label
     for k, text in enumerate(crack.functions if crack.tip else ()):
         found = elements.polynomials(source.hats, source.columns(k + 1))
         functions[f"tip {k}"] = Formula(text, levels=("psi", "phi"))
-        blocks[f"tip {k}"] = {int(patch): found[patch] for patch in enriched}
+        blocks[f"tip {k}"] = {patch: found[patch] for patch in enriched.tolist()}
     levels = [
         Coefficients(level, {"one": elements.polynomials(source.level, slice(at, at + 1))})
         for level, at in source.levels()
@@ -105,6 +108,30 @@ def state(mf: Any, u: Any, crack: Crack | None = None, *, labels: Labels = Label
 
 def _library() -> Any:
     return needed("getfem", "python3-getfem", "fields of GetFEM", "apt install")
+
+
+class _Space:
+    """What is known of a MeshFem's cells, asked for once: the elements' kinds, and the degrees of freedom."""
+
+    def __init__(self, mf: Any, cells: NDArray[np.int64]) -> None:
+        self.fems, self.kinds = _several(mf.fem(cells))
+        dofs, self._starts = (np.ravel(part).astype(np.int64) for part in mf.basic_dof_from_cvid(cells))
+        self._dofs = dofs
+
+    def dofs(self, k: int) -> NDArray[np.int64]:
+        """Those of the cell with this place in the list."""
+        return self._dofs[self._starts[k] : self._starts[k + 1]]
+
+    def order(self, shapes: NDArray[np.int64]) -> int:
+        """The highest degree of the elements."""
+        pairs = np.unique(np.column_stack([self.kinds, shapes]), axis=0).tolist()
+        return max(_degree(self.fems[kind], shape) for kind, shape in pairs)
+
+
+def _several(found: tuple[Any, Any]) -> tuple[list[Any], NDArray[np.int64]]:
+    """The objects that cells have, and which one each has; GetFEM gives a single object without a list."""
+    objects, which = found
+    return list(objects) if isinstance(objects, (list, tuple)) else [objects], np.ravel(which).astype(np.int64)
 
 
 class _Source:
@@ -118,31 +145,34 @@ class _Source:
         if len(u) != mf.nb_basic_dof():
             raise BuildError(f"u: has {len(u)} entries, but mf has {int(mf.nb_basic_dof())} basic degrees of freedom")
         self.count, self.base = int(mf.qdim()), crack.base if crack else mf
-        self.cells = [int(k) for k in self.mesh.cvid()]
-        self.shape = {k: _shape(self._map(k)) for k in self.cells}
-        self.order = self._order(self.base)
-        self.geometry = max(_geometry(self._map(k), shape) for k, shape in self.shape.items())
+        numbers = np.ravel(self.mesh.cvid()).astype(np.int64)
+        self.cells = numbers.tolist()
+        self.place = {cell: k for k, cell in enumerate(self.cells)}
+        self.maps, self.kinds = _several(self.mesh.geotrans(numbers))
+        nodes, starts = self.mesh.pts_from_cvid(numbers)
+        self.nodes, self.starts = np.asarray(nodes).T, np.ravel(starts).astype(np.int64)
+        shapes = np.array([_shape(one) for one in self.maps])[self.kinds]
+        self.shape = dict(zip(self.cells, shapes.tolist()))
+        self.spaces: dict[int, _Space] = {}
+        self.order = self._space(self.base).order(shapes)
+        self.geometry = max(_geometry(one, _shape(one)) for one in self.maps)
         self.tables: dict[tuple[str, bytes], Floats] = {}
         self.parts = self._parts(crack) if crack else [(k, 0, self._dofs(mf, k)) for k in self.cells]
         tip = crack.tip if crack else None
         self.near = set(map(int, tip[1])) if tip else set()
-        self.hats = self._order(tip[0]) if tip else 0
-        self.level = self._order(crack.levelset.mf()) if crack else 0
+        self.hats = self._space(tip[0]).order(shapes) if tip else 0
+        self.level = self._space(crack.levelset.mf()).order(shapes) if crack else 0
         # of the patches, in the order of `sample`
         self.sides: list[int] = []
         self.enriched: list[bool] = []
 
-    def _map(self, cell: int) -> Any:
-        return self.mesh.geotrans(np.array([cell]))[0]
-
-    def _fem(self, mf: Any, cell: int) -> Any:
-        return mf.fem(np.array([cell]))[0]
+    def _space(self, mf: Any) -> _Space:
+        if mf.id not in self.spaces:
+            self.spaces[mf.id] = _Space(mf, np.array(self.cells))
+        return self.spaces[mf.id]
 
     def _dofs(self, mf: Any, cell: int) -> NDArray[np.int64]:
-        return np.asarray(mf.basic_dof_from_cvid(np.array([cell]))[0], np.int64)
-
-    def _order(self, mf: Any) -> int:
-        return max(_degree(self._fem(mf, k), shape) for k, shape in self.shape.items())
+        return self._space(mf).dofs(self.place[cell])
 
     def columns(self, part: int) -> slice:
         """Columns of the smooth part, 0, or of a tip function."""
@@ -157,15 +187,24 @@ class _Source:
 
     def table(self, mf: Any, cell: int, at: Floats) -> Floats:
         """Shape functions of a cell at places of GetFEM's element, (k, functions)."""
-        fem = self._fem(mf, cell)
+        space = self._space(mf)
+        fem = space.fems[space.kinds[self.place[cell]]]
         key = fem.char(), at.tobytes()
         if key not in self.tables:
             self.tables[key] = np.array([np.ravel(fem.base_value(place)) for place in at])
         return self.tables[key]
 
-    def points(self, cell: int, at: Floats) -> Floats:
-        nodes = self.mesh.pts_from_cvid(np.array([cell]))[0]
-        return np.asarray(self._map(cell).transform(nodes, at.T)).T
+    def points(self, cells: Sequence[int], at: Floats) -> Floats:
+        """The points of places in cells, (n, k, 2); maps are linear in the nodes."""
+        of = np.array([self.place[cell] for cell in cells])
+        found = np.empty((len(of), len(at), 2))
+        for kind in np.unique(self.kinds[of]).tolist():
+            map_, those = self.maps[kind], np.flatnonzero(self.kinds[of] == kind)
+            count = int(map_.nbpts())
+            table = [np.asarray(map_.transform(np.outer([1.0, 0.0], row), at.T))[0] for row in np.eye(count)]
+            nodes = self.nodes[self.starts[of[those]][:, None] + np.arange(count)]
+            found[those] = np.einsum("jk,njc->nkc", table, nodes)
+        return found
 
     def sample(self, places: Places) -> list[Group]:
         self.sides, self.enriched, groups = [], [], []
@@ -173,21 +212,29 @@ class _Source:
             at = to_unit(shape, places[shape])
             parts = [part for part in self.parts if self.shape[part[0]] == shape]
             if parts:
-                points = np.array([self.points(cell, at) for cell, *_ in parts])
-                values = np.array([self._values(cell, dofs, at) for cell, _, dofs in parts])
-                groups.append(Group(shape, np.array([k for k, *_ in parts]), points, values, places[shape]))
+                cells = [cell for cell, *_ in parts]
+                values = self._smooth(cells, [dofs for *_, dofs in parts], at)
+                if self.crack:
+                    values = np.concatenate([values, [self._others(cell, at) for cell in cells]], axis=2)
+                groups.append(Group(shape, np.array(cells), self.points(cells, at), values, places[shape]))
                 self.sides += [side for _, side, _ in parts]
-                self.enriched += [bool(self._vertices(cell)) for cell, *_ in parts]
+                self.enriched += [bool(self._vertices(cell)) for cell in cells]
         return groups
 
-    def _values(self, cell: int, dofs: NDArray[np.int64], at: Floats) -> Floats:
-        """All columns on a patch; `dofs` are those of the smooth part."""
-        smooth = self.u[dofs].reshape(-1, self.count)
-        columns = [self.table(self.base, cell, at) @ smooth]
-        if self.crack is None:
-            return columns[0]
-        if self.crack.tip:
-            columns += self._tips(cell, at)
+    def _smooth(self, cells: Sequence[int], dofs: Sequence[NDArray[np.int64]], at: Floats) -> Floats:
+        """The smooth part by its degrees of freedom on each patch, (n, k, c)."""
+        kinds = self._space(self.base).kinds[[self.place[cell] for cell in cells]]
+        found = np.empty((len(cells), len(at), self.count))
+        for kind in np.unique(kinds).tolist():
+            of = np.flatnonzero(kinds == kind)
+            own = self.u[np.array([dofs[k] for k in of.tolist()])].reshape(len(of), -1, self.count)
+            found[of] = np.einsum("kd,ndc->nkc", self.table(self.base, cells[of[0]], at), own)
+        return found
+
+    def _others(self, cell: int, at: Floats) -> Floats:
+        """The columns of tip functions and of level sets on a patch."""
+        assert self.crack
+        columns = self._tips(cell, at) if self.crack.tip else []
         levelset = self.crack.levelset
         of = self._dofs(levelset.mf(), cell)
         table = self.table(levelset.mf(), cell, at)
@@ -249,7 +296,7 @@ class _Source:
                 k = int(np.argmax(side * level))
                 if side * level[k] > 1e-13:
                     asked.append((cell, side))
-                    points.append(self.points(cell, at[k : k + 1])[0])
+                    points.append(self.points([cell], at[k : k + 1])[0, 0])
         if not asked:
             return {}
         matrix = _library().asm("interpolation matrix", crack.jump, np.array(points).T)

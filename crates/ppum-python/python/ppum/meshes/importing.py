@@ -9,12 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..checking import Ragged
 from ..blocks import MAX_DEGREE, exponents
 from ..building import Coefficients, State, build
 from ..dataset import Dataset
 from ..errors import BuildError
 from ..interpolating import SQUARE, TRIANGLE, interpolated, nodes
 from ..mesh import Clip, Mesh
+from ..verifying import Sampled
 
 Floats = NDArray[np.float64]
 #: Reference places of each shape, (k, 2).
@@ -68,58 +70,68 @@ class Elements:
         self.order = np.argsort(np.concatenate([group.elements for group in self.groups]), kind="stable")
         # libraries that sort an element's nodes by their numbers have some that go clockwise
         self.turned: list[NDArray[np.bool_]] = []
-        self.maps = [part for group in self.groups for part in self._maps(group, max(geometry, 1))]
+        parts = [self._maps(group, max(geometry, 1)) for group in self.groups]
+        self.spaces = np.concatenate([space for space, *_ in parts])
+        self.origins = np.concatenate([origin for *_, origin in parts])
+        maps = [found for _, found, _ in parts]
+        self.maps = Ragged(np.concatenate([m.values for m in maps]), np.concatenate([m.sizes for m in maps]))
 
-    def _maps(self, group: Group, geometry: int) -> list[tuple[str, Floats]]:
-        """Space and coefficients of each map, of the least degree that it has."""
+    def _maps(self, group: Group, geometry: int) -> tuple[NDArray[np.str_], Ragged, Floats]:
+        """Space, coefficients and constants of each map, of the least degree that it has."""
         geometry = min(geometry, group.order)
         powers = exponents(geometry, group.shape == SQUARE)
         found = interpolated(group.points, group.places, powers)
         x, y = found[:, powers.index((1, 0))].T, found[:, powers.index((0, 1))].T
         self.turned.append(x[0] * y[1] < x[1] * y[0])
-        return [_least(c, powers, geometry, group.shape) for c in _turned(found, powers, self.turned[-1])]
+        found = _turned(found, powers, self.turned[-1])
+        return *_least(found[:, 1:], powers[1:], geometry, group.shape), found[:, 0]
 
     def mesh(self, patches: Sequence[int] | None = None, clips: Mapping[int, Sequence[Clip]] | None = None) -> Mesh:
         """The mesh of the elements with these places in their order, by default of all."""
         order = self.order if patches is None else self.order[list(patches)]
         shapes = np.concatenate([np.full(len(group.elements), group.shape) for group in self.groups])
         numbers = np.concatenate([group.elements for group in self.groups])
-        parts = [self.maps[k] for k in order]
         return Mesh(
             shapes[order],
-            np.array([c[0] for _, c in parts]),
-            [c[1:] for _, c in parts],
-            space=[space for space, _ in parts],
+            self.origins[order],
+            self.maps.at(order),
+            space=self.spaces[order].tolist(),
             element=numbers[order],
             clips=clips,
         )
 
-    def polynomials(self, order: int, columns: slice = slice(None)) -> list[Floats]:
+    def polynomials(self, order: int, columns: slice = slice(None)) -> Ragged:
         """Coefficients (m, c) on each element, of total degree on triangles and tensor products on squares."""
-        parts: list[Floats] = []
+        parts = []
         for group, turned in zip(self.groups, self.turned):
             powers = exponents(min(order, group.order), group.shape == SQUARE)
             found = interpolated(group.values[:, :, columns], group.places, powers)
-            parts += [*_turned(found, powers, turned)]
-        return [parts[k] for k in self.order]
+            parts.append(_turned(found, powers, turned))
+        return Ragged.joined(parts).at(self.order)
 
 
 def _turned(found: Floats, powers: Sequence[tuple[int, int]], turned: NDArray[np.bool_]) -> Floats:
     """The coefficients with ξ and η exchanged on some elements, so that their nodes go counter-clockwise."""
+    if not turned.any():
+        return found
     exchanged = [powers.index((j, i)) for i, j in powers]
     return np.where(turned[:, None, None], found[:, exchanged], found)
 
 
-def _least(c: Floats, powers: Sequence[tuple[int, int]], degree: int, shape: int) -> tuple[str, Floats]:
-    """Space and coefficients of a map without the higher powers that are rounding."""
-    largest = np.abs(c[1:]).max()
-    candidates = [(1, False), *((d, shape == SQUARE) for d in range(1, degree + 1))]
-    for d, tensor in candidates:
-        kept = exponents(d, tensor)
+def _least(c: Floats, powers: Sequence[tuple[int, int]], degree: int, shape: int) -> tuple[NDArray[np.str_], Ragged]:
+    """Spaces and coefficients of maps without the higher powers that are rounding."""
+    largest = STRAIGHT * np.abs(c).max(axis=(1, 2))
+    spaces, left = np.full(len(c), "tensor"), np.arange(len(c))
+    parts, of = [], []
+    for d, tensor in [(1, False), *((d, shape == SQUARE) for d in range(1, degree + 1))]:
+        kept = exponents(d, tensor)[1:]
         beyond = [k for k, power in enumerate(powers) if power not in kept]
-        if not beyond or np.abs(c[beyond]).max() <= STRAIGHT * largest:
-            return "tensor" if tensor else "total", c[[powers.index(power) for power in kept]]
-    raise AssertionError("the last candidate keeps all powers")
+        fits = (np.abs(c[left][:, beyond]) <= largest[left, None, None]).all(axis=(1, 2))
+        parts.append(c[left[fits]][:, [powers.index(power) for power in kept]])
+        of.append(left[fits])
+        spaces[left[fits]] = "tensor" if tensor else "total"
+        left = left[~fits]
+    return spaces, Ragged.joined(parts).at(np.argsort(np.concatenate(of)))
 
 
 def checked(order: int) -> int:
@@ -129,25 +141,25 @@ def checked(order: int) -> int:
     return order
 
 
-def compared(
-    sampler: Sampler, count: int, keep: Callable[[Floats], Any] | None = None
-) -> tuple[Floats, Floats] | None:
+def compared(sampler: Sampler, count: int, keep: Callable[[Floats], Any] | None = None) -> Sampled | None:
     """At most `count` random points and the library's own values there; `keep` takes values of shape (k, c) and says which
     points are left."""
     if count <= 0:
         return None
     random = np.random.default_rng(SEED)
-    elements = sum(len(group.elements) for group in sampler({k: random_places(random, k, 1) for k in (0, 1)}))
+    groups = sampler({shape: random_places(random, shape, 1) for shape in (TRIANGLE, SQUARE)})
+    elements = sum(len(group.elements) for group in groups)
     if not elements:
         raise BuildError("mesh: there are no triangles and quadrilaterals, of VTK the kinds 5, 9, 22, 23, 28, 69 and 70")
-    each = -(-count // elements)
-    groups = sampler({shape: random_places(random, shape, each) for shape in (TRIANGLE, SQUARE)})
+    if elements < count:
+        each = -(-count // elements)
+        groups = sampler({shape: random_places(random, shape, each) for shape in (TRIANGLE, SQUARE)})
     points = np.concatenate([group.points.reshape(-1, 2) for group in groups])
-    values = np.concatenate([group.values.reshape(len(group.values) * each, -1) for group in groups])
+    values = np.concatenate([group.values.reshape(len(group.points[0]) * len(group.points), -1) for group in groups])
     chosen = random.permutation(len(points))[:count]
     points, values = points[chosen], values[chosen]
     kept = np.ones(len(points), bool) if keep is None else keep(values)
-    return points[kept], values[kept]
+    return Sampled(points[kept], values[kept])
 
 
 def random_places(random: np.random.Generator, shape: int, count: int) -> Floats:
@@ -158,14 +170,14 @@ def random_places(random: np.random.Generator, shape: int, count: int) -> Floats
 
 
 def smooth(
-    sampler: Sampler, labels: Labels, order: int, geometry: int, verify: tuple[Floats, Floats] | None
+    sampler: Sampler, labels: Labels, order: int, geometry: int, verify: Sampled | None
 ) -> State:
     """The state of a field that is one polynomial on each element; `verify` are points and values of the library."""
     elements = Elements(sampler, order, geometry)
     return State(elements.mesh(), labelled(labels, {"one": elements.polynomials(order)}, verify))
 
 
-def labelled(labels: Labels, blocks: Mapping[str, Any], verify: tuple[Floats, Floats] | None) -> Coefficients:
+def labelled(labels: Labels, blocks: Mapping[str, Any], verify: Sampled | None) -> Coefficients:
     """A field of blocks with its labels."""
     return Coefficients(labels.name, blocks, components=labels.components, unit=labels.unit, verify=verify)
 
@@ -183,10 +195,3 @@ def from_unit(shape: int, places: Floats) -> Floats:
 def to_unit(shape: int, places: Floats) -> Floats:
     """Our places in the triangle (0, 0), (1, 0), (0, 1) or the square [0, 1]²."""
     return (places + 1) / 2 if shape == SQUARE else (places + 0.5) / 1.5
-
-
-def real(library: str, values: NDArray[Any]) -> Floats:
-    """Values, which are no complex numbers."""
-    if np.iscomplexobj(values):
-        raise BuildError(f"the field of {library} is complex; give its real or its imaginary part")
-    return np.asarray(values, float)

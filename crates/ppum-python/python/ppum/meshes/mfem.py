@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..checking import real
 from ..building import State
 from ..dataset import Dataset
 from ..errors import BuildError
 from ..extras import needed
 from ..interpolating import SQUARE, TRIANGLE
-from .importing import Floats, Group, Labels, Places, Sampler, built, compared, smooth, to_unit
+from .importing import SEED, Floats, Group, Labels, Places, Sampler, built, compared, smooth, to_unit
 
 __all__ = ["from_mfem", "state"]
 
@@ -41,6 +44,8 @@ def from_mfem(
 
 def state(gf: Any, order: int | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
     """The state of `from_mfem`."""
+    if not hasattr(gf, "FESpace"):
+        raise BuildError(f"gf: is {type(gf).__name__}; give a GridFunction of MFEM")
     space = gf.FESpace()
     mesh = space.GetMesh()
     if mesh.Dimension() != 2 or mesh.SpaceDimension() != 2:
@@ -48,14 +53,104 @@ def state(gf: Any, order: int | None = None, *, labels: Labels = Labels("u"), ve
     curve = mesh.GetNodes()
     geometry = int(curve.FESpace().GetMaxElementOrder()) if curve is not None else 1
     order = int(space.GetMaxElementOrder()) if order is None else order
-    sample = sampler(gf, mesh)
-    return smooth(sample, labels, order, geometry, compared(sample, verify))
+    return smooth(sampler(gf, mesh), labels, order, geometry, compared(evaluator(gf, mesh, verify), verify))
+
+
+def _shapes(mesh: Any) -> NDArray[np.int64]:
+    mfem = _library()
+    shapes = {mfem.Geometry.TRIANGLE: TRIANGLE, mfem.Geometry.SQUARE: SQUARE}
+    return np.array([shapes[mesh.GetElementGeometry(k)] for k in range(mesh.GetNE())])
+
+
+def _library() -> Any:
+    return needed("mfem.ser", "mfem", "fields of MFEM")
 
 
 def sampler(gf: Any, mesh: Any) -> Sampler:
-    mfem = needed("mfem.ser", "mfem", "fields of MFEM")
-    shapes = {mfem.Geometry.TRIANGLE: TRIANGLE, mfem.Geometry.SQUARE: SQUARE}
-    shape = np.array([shapes[mesh.GetElementGeometry(k)] for k in range(mesh.GetNE())])
+    """Values by the degrees of freedom where these are values, else by the evaluation of MFEM."""
+    fields = [gf] if mesh.GetNodes() is None else [gf, mesh.GetNodes()]
+    elements = [(field.FESpace(), field.FESpace().GetFE(0)) for field in fields if mesh.GetNE()]
+    is_plain = [e.GetMapType() == e.VALUE and e.GetRangeType() == e.SCALAR and s.GetNURBSext() is None for s, e in elements]
+    if not all(is_plain):
+        return evaluator(gf, mesh)
+    shape, values = _shapes(mesh), _tabulated(gf)
+    points = _straight(mesh) if mesh.GetNodes() is None else _tabulated(mesh.GetNodes())
+
+    def sample(places: Places) -> list[Group]:
+        groups = []
+        for k in (TRIANGLE, SQUARE):
+            elements, at = np.flatnonzero(shape == k), to_unit(k, places[k])
+            if len(elements):
+                groups.append(Group(k, elements, points(elements, at), values(elements, at), places[k]))
+        return groups
+
+    return sample
+
+
+#: Values (n, k, c) of elements of one shape at places (k, 2).
+Values = Callable[[NDArray[np.int64], Floats], Floats]
+
+
+def _tabulated(gf: Any) -> Values:
+    """Degrees of freedom times shape functions, for elements with as many of them at once."""
+    space, data, count = gf.FESpace(), real("gf", gf.GetDataArray()), int(gf.VectorDim())
+    by_component = space.GetOrdering() == _library().Ordering.byNODES
+    data = data.reshape(count, -1).T if by_component else data.reshape(-1, count)
+    dofs, starts = _dofs(space)
+
+    def values(elements: NDArray[np.int64], at: Floats) -> Floats:
+        sizes = np.diff(starts)[elements]
+        found = np.empty((len(elements), len(at), count))
+        for size in np.unique(sizes):
+            of = np.flatnonzero(sizes == size)
+            table = _table(space.GetFE(int(elements[of[0]])), at)
+            own = dofs[starts[elements[of]][:, None] + np.arange(size)]
+            # a negative number is that of a function with the other sign
+            signed = np.where(own[..., None] < 0, -data[-1 - own], data[own])
+            found[of] = np.einsum("kd,ndc->nkc", table, signed)
+        return found
+
+    return values
+
+
+def _dofs(space: Any) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The elements' degrees of freedom, one element after the other, and where each begins."""
+    table, array = space.GetElementToDofTable(), _library().intArray
+    dofs = array((table.GetJ(), table.Size_of_connections())).GetDataArray()
+    starts = array((table.GetI(), table.Size() + 1)).GetDataArray()
+    return dofs.astype(np.int64), starts.astype(np.int64)
+
+
+def _table(element: Any, at: Floats) -> Floats:
+    """Shape functions at places, (k, functions)."""
+    shapes, rows = _library().Vector(element.GetDof()), []
+    for place in _rule(at):
+        element.CalcShape(place, shapes)
+        rows.append(shapes.GetDataArray().copy())
+    return np.array(rows)
+
+
+def _straight(mesh: Any) -> Values:
+    """Points of straight elements by their vertices."""
+    mfem, corners = _library(), np.array([mesh.GetVertexArray(k)[:2] for k in range(mesh.GetNV())])
+    linear = mfem.H1_FECollection(1, 2)
+    vertices, starts = _dofs(mfem.FiniteElementSpace(mesh, linear))
+
+    def points(elements: NDArray[np.int64], at: Floats) -> Floats:
+        x, y = at.T
+        count = int(starts[elements[0] + 1] - starts[elements[0]])
+        table = [1 - x - y, x, y] if count == 3 else [(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y]
+        own = corners[vertices[starts[elements][:, None] + np.arange(count)]]
+        found: Floats = np.einsum("dk,ndc->nkc", np.array(table), own)
+        return found
+
+    return points
+
+
+def evaluator(gf: Any, mesh: Any, most: int | None = None) -> Sampler:
+    """Points and values by the evaluation of MFEM, on all elements or on so many random ones."""
+    shape = _shapes(mesh)
+    chosen = np.sort(np.random.default_rng(SEED).permutation(len(shape))[:most])
     # a space of vectors is not the same as a vector of spaces
     count = int(gf.VectorDim())
 
@@ -64,14 +159,14 @@ def sampler(gf: Any, mesh: Any) -> Sampler:
         for place in rule:
             transformation.SetIntPoint(place)
             points.append([float(v) for v in transformation.Transform(place)])
-            values.append(_value(mfem, gf, element, place, count))
+            values.append(_value(gf, element, place, count))
         return np.array(points)[:, :2], np.array(values)
 
     def sample(places: Places) -> list[Group]:
         groups = []
         for k in (TRIANGLE, SQUARE):
-            elements = np.flatnonzero(shape == k)
-            rule = _rule(mfem, to_unit(k, places[k]))
+            elements = chosen[shape[chosen] == k]
+            rule = _rule(to_unit(k, places[k]))
             found = [at(int(element), rule) for element in elements]
             if found:
                 points, values = (np.array(part) for part in zip(*found))
@@ -81,17 +176,17 @@ def sampler(gf: Any, mesh: Any) -> Sampler:
     return sample
 
 
-def _rule(mfem: Any, places: Floats) -> list[Any]:
+def _rule(places: Floats) -> list[Any]:
     rule = []
     for x, y in places.tolist():
-        rule.append(mfem.IntegrationPoint())
+        rule.append(_library().IntegrationPoint())
         rule[-1].Set2(x, y)
     return rule
 
 
-def _value(mfem: Any, gf: Any, element: int, place: Any, count: int) -> list[float]:
+def _value(gf: Any, element: int, place: Any, count: int) -> list[float]:
     if count == 1:
         return [float(gf.GetValue(element, place))]
-    vector = mfem.Vector(count)
+    vector = _library().Vector(count)
     gf.GetVectorValue(element, place, vector)
     return [float(vector[k]) for k in range(count)]

@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from ..checking import real
 from ..dataset import Dataset
 from ..building import State
 from ..errors import BuildError
 from ..extras import needed
 from ..interpolating import SQUARE, TRIANGLE
-from .importing import Group, Labels, Places, Sampler, built, compared, real, smooth, to_unit
+from .importing import Group, Labels, Places, Sampler, built, compared, smooth, to_unit
 
 __all__ = ["from_ngsolve", "state"]
 
@@ -56,6 +57,11 @@ def state(
 
 def mesh_of(gf: Any, mesh: Any) -> Any:
     """The mesh of a field, in two dimensions."""
+    if not callable(gf):
+        raise BuildError(f"gf: is {type(gf).__name__}; give a GridFunction or a CoefficientFunction of NGSolve")
+    # a vector has as many dimensions as components, a compound field one
+    if int(gf.dim) < len(getattr(gf, "components", ())):
+        raise BuildError("gf: is compound; give one of its parts, such as gf.components[0]")
     if mesh is None:
         if not hasattr(gf, "space"):
             raise BuildError("mesh: a CoefficientFunction knows no mesh; give mesh=")
@@ -85,7 +91,7 @@ def sampler(mesh: Any, fields: list[Any]) -> Sampler:
         }
         mapped = mesh.MapToAllElements(rules, ngs.VOL)
         points = np.asarray(ngs.CF((ngs.x, ngs.y))(mapped))
-        values = np.hstack([real("NGSolve", field(mapped)).reshape(len(points), -1) for field in fields])
+        values = np.hstack([real("gf", field(mapped)).reshape(len(points), -1) for field in fields])
         # points stand element by element
         of = np.repeat(shape, [len(places[k]) for k in shape])
         present = [k for k in (TRIANGLE, SQUARE) if (shape == k).any()]

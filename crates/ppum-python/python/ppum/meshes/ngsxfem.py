@@ -9,6 +9,7 @@ import numpy as np
 from ..building import Coefficients, State
 from ..dataset import Dataset
 from ..extras import needed
+from ..verifying import Sampled
 from .importing import Elements, Floats, Labels, built, compared, labelled
 from .ngsolve import mesh_of, order_of, sampler
 
@@ -67,8 +68,8 @@ def state(
     of = [element for element, *_ in patches]
     known = compared(sides, verify, _off)
     blocks = {"one": [fields[side][element] for element, side, _ in patches]}
-    field = labelled(labels, blocks, known and _halves(*known, count))
-    levels = Coefficients("level", {"one": [level[element] for element in of]})
+    field = labelled(labels, blocks, known and _halves(known, count))
+    levels = Coefficients("level", {"one": level.at(of)})
     return State(elements.mesh(of, clips), [field, levels])
 
 
@@ -90,7 +91,7 @@ def _off(values: Floats) -> Any:
     return level > CLOSE * level.max()
 
 
-def _halves(points: Floats, values: Floats, count: int) -> tuple[Floats, Floats]:
+def _halves(known: Sampled, count: int) -> Sampled:
     """The values of the side on which each point lies."""
-    upper = values[:, -1:] > 0
-    return points, np.where(upper, values[:, count : 2 * count], values[:, :count])
+    lower, upper = known.values[:, :count], known.values[:, count : 2 * count]
+    return known._replace(values=np.where(known.values[:, -1:] > 0, upper, lower))

@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from ..checking import real
 from ..building import State
 from ..dataset import Dataset
 from ..errors import BuildError
 from ..extras import needed
 from ..interpolating import SQUARE, TRIANGLE
-from .importing import Floats, Group, Labels, Places, Sampler, built, compared, real, smooth, to_unit
+from .importing import Floats, Group, Labels, Places, Sampler, built, compared, smooth, to_unit
 
 __all__ = ["from_skfem", "state"]
 
@@ -66,8 +67,18 @@ def _degree(element: Any, shape: int) -> int:
     return (degree + 1) // 2 if shape == SQUARE else degree
 
 
+def _dofs(basis: Any, u: Any) -> Floats:
+    """The degrees of freedom, as many as the basis has."""
+    values = real("u", u)
+    if values.shape != (basis.N,):
+        raise BuildError(
+            f"u: has the shape {values.shape}, but the basis has {int(basis.N)} degrees of freedom; give both of one basis"
+        )
+    return values
+
+
 def sampler(basis: Any, u: Any) -> Sampler:
-    shape, dofs = shape_of(basis.mesh), real("scikit-fem", np.asarray(u))[basis.element_dofs]
+    shape, dofs = shape_of(basis.mesh), _dofs(basis, u)[basis.element_dofs]
 
     def values(at: Floats) -> Floats:
         total: Any = 0.0

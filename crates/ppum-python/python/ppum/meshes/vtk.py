@@ -5,17 +5,21 @@ from __future__ import annotations
 import importlib.util
 import os
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..checking import numbers, sequence
 from ..blocks import MAX_DEGREE, exponents
-from ..building import State
+from ..building import Coefficients, State
 from ..dataset import Dataset
 from ..errors import BuildError
 from ..extras import needed
+from ..heading import components_of
 from ..interpolating import SQUARE, TRIANGLE
+from ..verifying import Sampled
 from .importing import SEED, Floats, Group, Labels, Places, built, compared, from_unit, smooth, to_unit
 
 __all__ = ["from_meshio", "from_vtu", "meshio_state", "vtu_state"]
@@ -31,13 +35,26 @@ NAMES = {
 PASSED_OVER = {1, 2, 3, 4, 21, 68}
 SERENDIPITY = 23
 
-Cells = list[tuple[int, NDArray[np.int64]]]
+@dataclass(frozen=True)
+class Kind:
+    """Cells of one of VTK's types with one number of nodes.
+
+    Attributes:
+        type: VTK's number.
+        cells: The cells' numbers, (n,).
+        nodes: Their nodes, (n, k).
+    """
+
+    type: int
+    cells: NDArray[np.int64]
+    nodes: NDArray[np.int64]
 
 
 def from_vtu(
     path: str | os.PathLike[str],
     data: str | None = None,
     *,
+    columns: Sequence[int] | None = None,
     name: str | None = None,
     components: list[str] | None = None,
     unit: str = "",
@@ -50,10 +67,13 @@ def from_vtu(
     Args:
         path: The file.
         data: Name of the point data; may be left out if there is one array.
+        columns: The numbers of the data's columns that are the components, from 0; by default all, but the third one of a
+            vector where that is zero, since VTK's vectors have three.
         name: Of the field, by default that of the data.
         components, unit, verify, options: As of `from_ngsolve`. Without vtk the dataset is compared at nodes.
     """
-    made = vtu_state(path, data, labels=Labels(name or "", components, unit), verify=verify)
+    made = vtu_state(path, data, columns=columns, labels=Labels(name or "", components, unit), verify=verify)
+    _check_columns(made, options.get("equation"))
     return built(made, "VTK file", os.path.basename(os.fspath(path)), options)
 
 
@@ -61,6 +81,7 @@ def from_meshio(
     mesh: Any,
     data: str | None = None,
     *,
+    columns: Sequence[int] | None = None,
     name: str | None = None,
     components: list[str] | None = None,
     unit: str = "",
@@ -73,47 +94,102 @@ def from_meshio(
     Args:
         mesh: A `meshio.Mesh`.
         data: Name of the point data; may be left out if there is one array.
-        name, components, unit, options: As of `from_vtu`.
+        columns, name, components, unit, options: As of `from_vtu`.
         verify: Number of nodes at which the dataset is compared; meshio evaluates no fields.
     """
     version = needed("meshio", "meshio", "meshes of meshio").__version__
-    made = meshio_state(mesh, data, labels=Labels(name or "", components, unit), verify=verify)
+    made = meshio_state(mesh, data, columns=columns, labels=Labels(name or "", components, unit), verify=verify)
+    _check_columns(made, options.get("equation"))
     return built(made, "meshio", version, options)
 
 
 def vtu_state(
-    path: str | os.PathLike[str], data: str | None = None, *, labels: Labels = Labels(""), verify: int = 1000
+    path: str | os.PathLike[str],
+    data: str | None = None,
+    *,
+    columns: Sequence[int] | None = None,
+    labels: Labels = Labels(""),
+    verify: int = 1000,
 ) -> State:
     """The state of `from_vtu`."""
+    if not isinstance(path, (str, os.PathLike)):
+        raise BuildError(f"path: is {type(path).__name__}; give the path of a file .vtu or .vtkhdf")
     if importlib.util.find_spec("vtk") is None and not os.fspath(path).endswith(".vtkhdf"):
-        return meshio_state(_meshio_file(path), data, labels=labels, verify=verify)
+        mesh = needed("meshio", "vtk", "files of VTK").read(path)
+        return meshio_state(mesh, data, columns=columns, labels=labels, verify=verify)
     grid = _grid(path)
     arrays = grid.GetPointData()
-    known = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
+    known = [arrays.GetAbstractArray(k).GetName() for k in range(arrays.GetNumberOfArrays())]
     chosen = _chosen(data, known)
-    support = needed("vtk.util.numpy_support", "vtk", "files of VTK")
-    points = np.asarray(support.vtk_to_numpy(grid.GetPoints().GetData()), float)
-    values = np.asarray(support.vtk_to_numpy(arrays.GetArray(chosen)), float)
-    cells = _cells_of(grid)
-    reference = compared(lambda places: _interpolated(grid, cells, points, values, places), verify)
-    return _state(points, cells, values, _named(labels, chosen), reference)
+    points = _numpy(grid.GetPoints().GetData())
+    if arrays.GetArray(chosen) is None:
+        raise BuildError(f"data: {chosen!r} has texts; give one of numbers")
+    values = _values(chosen, _numpy(arrays.GetArray(chosen)), labels, columns)
+    kinds = _kinds_of(grid)
+    reference = compared(lambda places: _interpolated(grid, kinds, points, values, places), verify)
+    return _state(points, kinds, values, _named(labels, chosen), reference)
 
 
-def meshio_state(mesh: Any, data: str | None = None, *, labels: Labels = Labels(""), verify: int = 1000) -> State:
+def meshio_state(
+    mesh: Any,
+    data: str | None = None,
+    *,
+    columns: Sequence[int] | None = None,
+    labels: Labels = Labels(""),
+    verify: int = 1000,
+) -> State:
     """The state of `from_meshio`."""
+    if not hasattr(mesh, "point_data"):
+        raise BuildError(f"mesh: is {type(mesh).__name__}; give a meshio.Mesh, as by meshio.read(path)")
     chosen = _chosen(data, list(mesh.point_data))
-    points, values = np.asarray(mesh.points, float), np.asarray(mesh.point_data[chosen], float)
-    cells: Cells = []
-    for part in mesh.cells:
-        cells += [(NAMES.get(part.type, -1), np.asarray(nodes, int)) for nodes in part.data]
+    points, values = numbers("mesh.points", mesh.points), _values(chosen, mesh.point_data[chosen], labels, columns)
     unknown = [part.type for part in mesh.cells if part.type not in NAMES and part.dim == 2]
     if unknown:
         raise BuildError(f"mesh: has cells of the type {unknown[0]}; there are {', '.join(NAMES)}")
-    return _state(points, cells, values, _named(labels, chosen), _at_nodes(points, cells, values, verify))
+    kinds, first = [], 0
+    for part in mesh.cells:
+        if part.type in NAMES:
+            nodes = np.asarray(part.data, int)
+            kinds.append(Kind(NAMES[part.type], first + np.arange(len(nodes)), nodes))
+        first += len(part.data)
+    _check_nodes(kinds, len(points))
+    return _state(points, kinds, values, _named(labels, chosen), _at_nodes(points, kinds, values, verify))
 
 
-def _meshio_file(path: str | os.PathLike[str]) -> Any:
-    return needed("meshio", "vtk", "files of VTK").read(path)
+def _values(name: str, given: Any, labels: Labels, columns: Sequence[int] | None) -> Floats:
+    """The columns of point data that are the components, (n, c)."""
+    place = f"data {name!r}"
+    values = numbers(place, given)
+    values = values.reshape(len(values), -1)
+    count = values.shape[1]
+    if columns is None:
+        is_plane = count == 3 and not values[:, 2].any() and len(labels.components or ()) != 3
+        return values[:, :2] if is_plane else values
+    chosen = [int(k) for k in sequence("columns", columns, "numbers")]
+    if not chosen or not all(0 <= k < count for k in chosen):
+        raise BuildError(f"columns: {columns!r}, but {place} has {count} columns, counted from 0")
+    return values[:, chosen]
+
+
+def _check_columns(made: State, equation: Any) -> None:
+    """Refuses data with more or fewer columns than the equation has components."""
+    wanted, field = components_of(equation), made.fields
+    assert isinstance(field, Coefficients)
+    count = field.blocks["one"].values.shape[1]  # type: ignore[union-attr]
+    if wanted and count != len(wanted):
+        raise BuildError(
+            f"data: has {count} columns, but the equation has {len(wanted)} components, {', '.join(wanted)}; choose by "
+            f"columns={list(range(len(wanted)))}"
+        )
+
+
+def _check_nodes(kinds: Sequence[Kind], count: int) -> None:
+    """Refuses numbers of nodes that there are not."""
+    for kind in kinds:
+        wrong = ((kind.nodes < 0) | (kind.nodes >= count)).any(axis=1)
+        if wrong.any():
+            k = int(np.flatnonzero(wrong)[0])
+            raise BuildError(f"cells[{kind.cells[k]}]: has the nodes {kind.nodes[k].tolist()}, but there are {count} points, from 0")
 
 
 def _named(labels: Labels, data: str) -> Labels:
@@ -126,60 +202,76 @@ def _chosen(data: str | None, known: Sequence[str]) -> str:
         return known[0]
     if data not in known:
         asked = "several arrays" if data is None else f"no point data {data!r}"
-        raise BuildError(f"data: there are {asked}; give one of {', '.join(map(repr, known)) or 'none'}")
+        asked = asked if known else "no point data; interpolate data of cells to the points"
+        raise BuildError(f"data: there are {asked}" + (f"; give one of {', '.join(map(repr, known))}" if known else ""))
     return str(data)
 
 
 def _grid(path: str | os.PathLike[str]) -> Any:
     """The unstructured grid of a file."""
-    vtk = needed("vtk", "vtk", "files of VTK")
+    vtk, name = needed("vtk", "vtk", "files of VTK"), os.fspath(path)
     if not os.path.exists(path):
-        raise FileNotFoundError(f"{os.fspath(path)}: there is no such file")
-    reader = vtk.vtkHDFReader() if os.fspath(path).endswith(".vtkhdf") else vtk.vtkXMLUnstructuredGridReader()
-    reader.SetFileName(os.fspath(path))
-    reader.Update()
+        raise FileNotFoundError(f"{name}: there is no such file")
+    if not name.endswith((".vtu", ".vtkhdf")):
+        raise BuildError(f"{name}: ends in neither .vtu nor .vtkhdf; save it as an unstructured grid, as ParaView does")
+    reader = vtk.vtkHDFReader() if name.endswith(".vtkhdf") else vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(name)
+    before = vtk.vtkLogger.GetCurrentVerbosityCutoff()
+    vtk.vtkLogger.SetStderrVerbosity(vtk.vtkLogger.VERBOSITY_OFF)
+    try:
+        reader.Update()
+    finally:
+        vtk.vtkLogger.SetStderrVerbosity(before)
     grid = reader.GetOutputDataObject(0)
     if grid is None or not grid.IsA("vtkUnstructuredGrid") or not grid.GetNumberOfCells():
-        raise BuildError(f"{os.fspath(path)}: holds no unstructured grid with cells")
+        raise BuildError(f"{name}: holds no unstructured grid with cells; save one, as ParaView does")
     return grid
 
 
-def _cells_of(grid: Any) -> Cells:
-    cells: Cells = []
-    for k in range(grid.GetNumberOfCells()):
-        nodes = grid.GetCell(k).GetPointIds()
-        cells.append((grid.GetCellType(k), np.array([nodes.GetId(i) for i in range(nodes.GetNumberOfIds())])))
-    return cells
+def _numpy(array: Any) -> NDArray[Any]:
+    support = needed("vtk.util.numpy_support", "vtk", "files of VTK")
+    return np.asarray(support.vtk_to_numpy(array))
 
 
-def _state(points: Floats, cells: Cells, values: Floats, labels: Labels, verify: tuple[Floats, Floats] | None) -> State:
+def _kinds_of(grid: Any) -> list[Kind]:
+    cells = grid.GetCells()
+    starts, nodes = _numpy(cells.GetOffsetsArray()), _numpy(cells.GetConnectivityArray())
+    types, counts = np.array([grid.GetCellType(k) for k in range(grid.GetNumberOfCells())]), np.diff(starts)
+    kinds = []
+    for type_, count in np.unique(np.column_stack([types, counts]), axis=0).tolist():
+        of = np.flatnonzero((types == type_) & (counts == count))
+        kinds.append(Kind(type_, of, nodes[starts[of][:, None] + np.arange(count)]))
+    return kinds
+
+
+def _state(points: Floats, kinds: Sequence[Kind], values: Floats, labels: Labels, verify: Sampled | None) -> State:
     """The state of nodes and their values."""
     if np.ptp(points[:, 2:]) if points.shape[1] > 2 else 0:
-        raise BuildError("points: do not lie in a plane z = constant")
-    groups = _groups(points, cells, values.reshape(len(values), -1))
+        raise BuildError("points: do not lie in a plane z = constant; give a mesh of the x-y plane")
+    groups = [_group(kind, points, values) for kind in _plane(kinds)]
     order = max(group.order for group in groups)
     return smooth(lambda _: groups, labels, order, order, verify)
 
 
-def _groups(points: Floats, cells: Cells, values: Floats) -> list[Group]:
-    """Cells with the same nodes together."""
-    kinds: dict[tuple[int, int], list[int]] = {}
-    for k, (kind, nodes) in enumerate(cells):
-        if kind in CELLS:
-            kinds.setdefault((kind, len(nodes)), []).append(k)
-        elif kind not in PASSED_OVER and kind >= 0:
-            raise BuildError(f"cells[{k}]: is of VTK's type {kind}; there are {', '.join(map(str, CELLS))}")
-    if not kinds:
-        raise BuildError("cells: there are no triangles or quadrilaterals")
-    groups = []
-    for (kind, count), of in kinds.items():
-        shape, order = _order(kind, count, of[0])
-        nodes = np.array([cells[k][1] for k in of])
-        at, data = points[nodes][:, :, :2], values[nodes]
-        if kind == SERENDIPITY:
-            at, data = _with_centre(at), _with_centre(data)
-        groups.append(Group(shape, np.array(of), at, data, from_unit(shape, places_of(shape, order)), order))
-    return groups
+def _plane(kinds: Sequence[Kind]) -> list[Kind]:
+    """The cells that are areas."""
+    for kind in kinds:
+        if kind.type not in CELLS and kind.type not in PASSED_OVER:
+            raise BuildError(
+                f"cells[{kind.cells[0]}]: is of VTK's type {kind.type}; there are {', '.join(map(str, CELLS))}"
+            )
+    areas = [kind for kind in kinds if kind.type in CELLS]
+    if not areas:
+        raise BuildError("cells: there are no triangles or quadrilaterals; give a mesh of the x-y plane")
+    return areas
+
+
+def _group(kind: Kind, points: Floats, values: Floats) -> Group:
+    shape, order = _order(kind.type, kind.nodes.shape[1], int(kind.cells[0]))
+    at, data = points[kind.nodes][:, :, :2], values[kind.nodes]
+    if kind.type == SERENDIPITY:
+        at, data = _with_centre(at), _with_centre(data)
+    return Group(shape, kind.cells, at, data, from_unit(shape, places_of(shape, order)), order)
 
 
 def _order(kind: int, count: int, cell: int) -> tuple[int, int]:
@@ -222,16 +314,15 @@ def _triangle(n: int) -> list[tuple[int, int]]:
     return [(0, 0), (n, 0), (0, n)] + edges + inside
 
 
-def _interpolated(grid: Any, cells: Cells, points: Floats, values: Floats, places: Places) -> list[Group]:
+def _interpolated(grid: Any, kinds: Sequence[Kind], points: Floats, values: Floats, places: Places) -> list[Group]:
     """VTK's own interpolation in each cell at places."""
-    data, groups = values.reshape(len(values), -1), []
-    for shape in (TRIANGLE, SQUARE):
-        of = [k for k, (kind, _) in enumerate(cells) if kind in CELLS and CELLS[kind][0] == shape]
-        tables = [_weights(grid.GetCell(k), to_unit(shape, places[shape])) for k in of]
-        if of:
-            at = np.array([w @ points[cells[k][1], :2] for k, w in zip(of, tables)])
-            found = np.array([w @ data[cells[k][1]] for k, w in zip(of, tables)])
-            groups.append(Group(shape, np.array(of), at, found, places[shape]))
+    groups = []
+    for kind in _plane(kinds):
+        shape = CELLS[kind.type][0]
+        # the cells of a kind have the same shape functions
+        table = _weights(grid.GetCell(int(kind.cells[0])), to_unit(shape, places[shape]))
+        at, found = (np.einsum("kj,njc->nkc", table, array[kind.nodes]) for array in (points[:, :2], values))
+        groups.append(Group(shape, kind.cells, at, found, places[shape]))
     return groups
 
 
@@ -245,9 +336,9 @@ def _weights(cell: Any, places: Floats) -> Floats:
     return np.array(rows)
 
 
-def _at_nodes(points: Floats, cells: Cells, values: Floats, count: int) -> tuple[Floats, Floats] | None:
+def _at_nodes(points: Floats, kinds: Sequence[Kind], values: Floats, count: int) -> Sampled | None:
     """Values of the file at nodes that stand at no other's place."""
-    used = np.unique(np.concatenate([nodes for kind, nodes in cells if kind in CELLS] or [np.empty(0, int)]))
+    used = np.unique(np.concatenate([kind.nodes.reshape(-1) for kind in kinds if kind.type in CELLS] or [np.empty(0, int)]))
     _, first, repeated = np.unique(points[used][:, :2], axis=0, return_index=True, return_counts=True)
     alone = np.random.default_rng(SEED).permutation(used[first[repeated == 1]])[:count]
-    return (points[alone, :2], values[alone].reshape(len(alone), -1)) if len(alone) else None
+    return Sampled(points[alone, :2], values[alone].reshape(len(alone), -1)) if len(alone) else None
