@@ -194,6 +194,26 @@ def test_options_that_are_no_switches():
         ppum.Dataset("plate.h5")
 
 
+def test_complex_numbers_have_no_meaning_elsewhere():
+    """In problems, points, views and curves."""
+    empty, field = ppum.Problem(((0, 0), (2, 1)), ppum.Elastic(1.0, 0.3)), ppum.build(state()).field
+    points = np.array([(0.5, 0.5), (1.0, 0.5)])
+    masked = np.ma.array(points, mask=[(0, 0), (1, 0)])
+    for use, said in (
+        (lambda: empty.crack(points * 1j), r"^points\[0\]\[0\]: is complex; give real"),
+        (lambda: empty.crack(masked), r"^points\[1\]\[0\]: is NoneType"),
+        (lambda: empty.hole(center=(1j, 0.5), radius=0.1), r"^hole\[0\].center\[0\]: is complex"),
+        (lambda: empty.boundary("top", traction=(0, 1j)), r"^boundary\[0\].traction\[1\]: is complex"),
+        (lambda: ppum.Problem(((0, 0), (2, 1)), ppum.Elastic(1j, 0.3)), r"^material.young: is complex"),
+        (lambda: field.circle((0.5, 0.5), 1j), r"^curve.circle.radius: is complex"),
+        (lambda: field.render("u", view=ppum.View((1j, 0), 1)), "real numbers, not complex128"),
+        (lambda: field.at([1j], 0.5).u, "real numbers, not complex128"),
+        (lambda: field.grid(x=[1j], y=[0.5]), "real numbers, not complex128"),
+    ):
+        with pytest.raises(TypeError, match=said):
+            use()
+
+
 def triangles(n, function):
     """What a library gives of n × n × 2 bent triangles."""
     i, j = (a.ravel() for a in np.meshgrid(np.arange(n), np.arange(n)))

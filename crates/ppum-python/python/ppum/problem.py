@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from .dataset import Dataset
-from .checking import real
 from .errors import Finding, ProblemError
 from .options import takes
 from .sections import (
@@ -184,8 +183,8 @@ class Problem:
             >>> one == plate.crack(np.array([[-0.9, -1.5], [-0.6, -1.5]]))
             True
         """
-        if len(points) == 1 and np.ndim(plain(points[0])) == 2:
-            points = tuple(real("points", points[0]))
+        if len(points) == 1 and np.ndim(plain(points[0], "points")) == 2:
+            points = tuple(np.asarray(points[0]))
         return self.add("crack", **({"points": points} if points else {}), **options)
 
     @takes

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 from numpy.typing import ArrayLike
 
 from .fieldcore import FieldCore
+from .toml import plain
 from .values import SideName, degrees, pair
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ class Sampling(FieldCore):
     def _curve(self, along: Any, num: int, quantities: Sequence[str] | None) -> Any:
         from .xarrays import curve
 
-        return curve(self, json.dumps(along), num, self._names(quantities))
+        return curve(self, json.dumps(plain(along, "curve")), num, self._names(quantities))
 
     def grid(
         self,

@@ -11,21 +11,21 @@ import numpy as np
 __all__ = ["plain", "written"]
 
 
-def plain(value: Any) -> Any:
-    """Values that TOML has; frozen data are copied."""
+def plain(value: Any, place: str = "a problem") -> Any:
+    """Values that TOML has; frozen data are copied. `place` is that of the value, for messages."""
     if isinstance(value, Mapping):
-        return {str(k): plain(v) for k, v in value.items() if v is not None}
+        return {str(k): plain(v, f"{place}.{k}".removeprefix("a problem.")) for k, v in value.items() if v is not None}
     if isinstance(value, np.ndarray):
-        return plain(value.tolist())
+        return plain(value.tolist(), place)
     if isinstance(value, np.generic):
-        return value.item()
+        return plain(value.item(), place)
     if isinstance(value, (bool, int, float, str)):
         return value
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if isinstance(value, Iterable):
-        return [plain(v) for v in value]
-    raise TypeError(f"a problem is made of numbers, texts, lists and dictionaries, not of {type(value).__name__}")
+        return [plain(v, f"{place}[{k}]") for k, v in enumerate(value)]
+    raise TypeError(f"{place}: is {type(value).__name__}; give real numbers, texts, lists or dictionaries")
 
 
 def written(spec: Mapping[str, Any]) -> tuple[str, list[str]]:

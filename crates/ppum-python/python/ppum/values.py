@@ -159,7 +159,10 @@ def floats(values: ArrayLike) -> Floats:
     """An array of float64, one number after the other where that is so already; no copy where it need not be."""
     if isinstance(values, np.ma.MaskedArray):
         values = np.ma.filled(values.astype(np.float64), np.nan)
-    array = np.asarray(values)
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"coordinates are no array of numbers ({error})") from None
     if array.dtype.kind not in "fiub":
         raise TypeError(f"coordinates are real numbers, not {array.dtype}")
     return np.asarray(array, dtype=np.float64)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from .errors import RenderError
 from .options import Option
+from .values import floats, pair
 
 __all__ = ["SIZE", "PlaceOptions", "PixelOptions", "Spot", "View", "place", "pixels", "spot", "view_of"]
 
@@ -50,7 +51,7 @@ class View:
 
     @property
     def _spot(self) -> Spot:
-        return (float(self.center[0]), float(self.center[1])), float(self.width)
+        return pair(self.center), float(floats(self.width))
 
 
 class PlaceOptions(TypedDict, total=False):
