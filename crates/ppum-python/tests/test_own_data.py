@@ -57,6 +57,11 @@ def test_hints_name_functions_and_patches():
         assert set(map(int, named)) <= set(NEAR)
     with pytest.raises(ppum.BuildError, match=r"angle: 45 is more than a turn; angles are in radians"):
         ppum.build(with_corner(ppum.Formula(CORNER, origin=TIP, angle=45)))
+    # a Heaviside function, taken for a jump
+    blocks, crack = {"one": ONE, "across": {k: [0.5] for k in NEAR}}, [[(0, 0.5), (2, 0.5)]]
+    jump = state(blocks=blocks, functions={"across": ppum.Jump(0)}, cracks=crack, verify=lambda x, y: 1 + 0 * x)
+    with pytest.raises(ppum.BuildError, match=r"on patches with 'across', .* look at the direction of its crack.*\(1 \+ jump\)/2$"):
+        ppum.build(jump)
     # everywhere wrong: the polynomials are, and the function may be
     with pytest.raises(ppum.BuildError, match=r"Look at the order of the coefficients.*; and of 'corner' at"):
         ppum.build(with_corner(ppum.Formula(CORNER, origin=TIP), lambda x, y: enriched(x, y) + x))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .checking import numbers, real, short
+from .enriching import Jump
 from .errors import BuildError
 
 if TYPE_CHECKING:
@@ -73,10 +74,8 @@ def _compared(given: Coefficients, field: Any, state: State, tolerance: float) -
 
 
 #: What goes wrong with functions.
-OF_FUNCTIONS = (
-    "its formula and parameters, its frame (origin, end of the crack, angle in radians), the branch of theta, the sign and "
-    "the factor of a jump, which is +1 on the left of the crack and -1 on its right"
-)
+OF_JUMPS = "the direction of its crack, on whose left it is +1 and on whose right -1, and factors: H is (1 + jump)/2"
+OF_OTHERS = "its formula and parameters, its frame (origin, end of the crack, angle in radians), and the branch of theta"
 
 
 def _remedy(
@@ -97,10 +96,16 @@ def _remedy(
         patches = state.cover.around(np.column_stack(at)[wrong])
         return (
             f"All these points are on patches with {' and '.join(map(repr, named))}, such as {_few(patches, given, named)}: look at "
-            f"{OF_FUNCTIONS}"
+            f"{_looks(state, named)}"
         )
-    others = f"; and of {', '.join(map(repr, functions))} at {OF_FUNCTIONS}" if functions else ""
+    others = f"; and of {', '.join(map(repr, functions))} at {_looks(state, functions)}" if functions else ""
     return f"Look at the order of the coefficients (1, ξ, η, ξ², ξη, η², …), {state.cover.FRAME}, and the order of the patches{others}"
+
+
+def _looks(state: State, names: Sequence[str]) -> str:
+    """What to look at for some functions."""
+    jumps = [isinstance(state.functions[name], Jump) for name in names]
+    return "; ".join([OF_JUMPS] * any(jumps) + [OF_OTHERS] * (not all(jumps)))
 
 
 def _touched(field: Any, function: str, at: tuple[Floats, Floats]) -> NDArray[np.bool_]:
