@@ -341,4 +341,5 @@ def test_fields_of_mfem_by_their_degrees_of_freedom():
 def test_nothing_is_warned_of_without_reason():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        ppum.build([state(load=1.0), state(load=2.0)])
+        ds = ppum.build(state(load=k, verify=lambda x, y: 1 + 0 * x) for k in (1.0, 2.0))
+    assert len(ds.steps) == 2 and all("verified u" in step.history for step in ds.steps)

@@ -125,17 +125,18 @@ def build(
     `Coefficients.verify` is compared at 1000 random points, spread over the patches, and at 100 points close to both
     sides of each crack. The largest difference is printed, and kept in `Step.history`, as ``verified NAME``.
     """
-    named = arrays(
-        states, title=title, program=program, equation=equation, holes=holes, tables=tables, quantities=quantities
-    )
     series, records = _series(states), dict[str, Any]()
+    named = arrays(
+        series, title=title, program=program, equation=equation, holes=holes, tables=tables, quantities=quantities
+    )
     try:
         made = from_arrays(named)
     except BuildError as error:
         raise BuildError(in_arguments(str(error), named, len(series) > 1)) from None
     for k, state in enumerate(series):
         with of_state(k, len(series)):
-            _check_attributes(state, made.steps[k].field)
+            if state.attributes:
+                _check_attributes(state, made.steps[k].field)
             found = verified(_Evaluated(made, named, k), state, scalar("tolerance", tolerance))
         records |= _history(f"steps/{k:04}/history", found)
     return from_arrays(named | records) if records else made
