@@ -172,7 +172,8 @@ def arrays(
 
 
 def _series(states: Any) -> list[State]:
-    series: list[State] = [states] if isinstance(states, State) else listed("states", states, State, "ppum.State(cover, fields)")
+    given = [states] if isinstance(states, State) else states
+    series: list[State] = listed("states", given, State, "ppum.State(cover, fields)")
     if not series:
         raise BuildError("states: a dataset needs at least one step")
     return series
@@ -263,6 +264,8 @@ def _field(
     given_blocks = mapping(f"{place}.blocks", given.blocks, "arrays, such as {'one': array}")
     one_space = dict.fromkeys(given_blocks, given.space) if isinstance(given.space, str) else given.space
     spaces = mapping(f"{place}.space", one_space, "words, or one for all")
+    if unknown := sorted(spaces.keys() - given_blocks.keys()):
+        raise BuildError(f"{place}.space[{unknown[0]!r}]: there are blocks of {', '.join(given_blocks)} alone")
     tensor = {name: cover.in_space(f"{place}.space", spaces.get(name, "shape")) for name in given.blocks}
     blocks: Blocks = arranged(place, given.blocks, tensor, functions)
     names = _components(place, given, len(blocks.coefficients), equation)

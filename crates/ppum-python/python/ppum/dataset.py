@@ -180,7 +180,8 @@ class Dataset:
 
     def __init__(self, core: _core.Dataset) -> None:
         if not isinstance(core, _core.Dataset):
-            raise TypeError(f"a dataset is not made of {type(core).__name__}: `ppum.open` opens files, `ppum.build` takes arrays")
+            kind = type(core).__name__
+            raise TypeError(f"a dataset is not made of {kind}: `ppum.open` opens files, `ppum.build` takes arrays")
         self._core = core
         # a field holds the data of its step, which those of a file need not
         most = KEPT if core.is_stored() else None

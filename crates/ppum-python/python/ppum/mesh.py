@@ -141,7 +141,8 @@ class Mesh:
             "element": self.element,
         }
         if any(self.clips):
-            clips = [(level_field(f"clips[{k}]", name, fields), side > 0) for k, of in enumerate(self.clips) for name, side in of]
+            pairs = [(k, name, side) for k, of in enumerate(self.clips) for name, side in of]
+            clips = [(level_field(f"cover.clips[{k}]", name, fields), side > 0) for k, name, side in pairs]
             arrays["clip_offsets"] = np.cumsum([0, *(len(of) for of in self.clips)])
             arrays["clip_field"], arrays["clip_side"] = np.array(clips, int).T
         return arrays
@@ -306,7 +307,8 @@ def _clips(clips: Mapping[int, Sequence[Clip]], n: int) -> list[list[Clip]]:
             raise BuildError(f"clips[{short(patch)}]: there is no such patch; the mesh has {n}, counted from 0")
         for k, clip in enumerate(sequence(f"clips[{patch}]", of, "pairs of a level field and a side")):
             if not isinstance(clip, (tuple, list)) or len(clip) != 2:
-                raise BuildError(f"clips[{patch}][{k}]: is {short(clip)}; give pairs of a level field and a side, such as ('phi', 1)")
+                remedy = "give pairs of a level field and a side, such as ('phi', 1)"
+                raise BuildError(f"clips[{patch}][{k}]: is {short(clip)}; {remedy}")
             if clip[1] not in (1, -1):
                 raise BuildError(f"clips[{patch}][{k}]: the side {clip[1]!r} is neither 1 (≥ 0) nor -1 (< 0)")
     return [list(clips.get(patch, ())) for patch in range(n)]

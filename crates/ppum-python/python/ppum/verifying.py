@@ -95,11 +95,14 @@ def _remedy(
         named = [name for name in near if touched[name].sum() == least]
         patches = state.cover.around(np.column_stack(at)[wrong])
         return (
-            f"All these points are on patches with {' and '.join(map(repr, named))}, such as {_few(patches, given, named)}: look at "
-            f"{_looks(state, named)}"
+            f"All these points are on patches with {' and '.join(map(repr, named))}, such as "
+            f"{_few(patches, given, named)}: look at {_looks(state, named)}"
         )
     others = f"; and of {', '.join(map(repr, functions))} at {_looks(state, functions)}" if functions else ""
-    return f"Look at the order of the coefficients (1, ξ, η, ξ², ξη, η², …), {state.cover.FRAME}, and the order of the patches{others}"
+    return (
+        f"Look at the order of the coefficients (1, ξ, η, ξ², ξη, η², …), {state.cover.FRAME}, and the order of the "
+        f"patches{others}"
+    )
 
 
 def _looks(state: State, names: Sequence[str]) -> str:

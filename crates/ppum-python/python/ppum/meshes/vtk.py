@@ -189,7 +189,8 @@ def _check_nodes(kinds: Sequence[Kind], count: int) -> None:
         wrong = ((kind.nodes < 0) | (kind.nodes >= count)).any(axis=1)
         if wrong.any():
             k = int(np.flatnonzero(wrong)[0])
-            raise BuildError(f"cells[{kind.cells[k]}]: has the nodes {kind.nodes[k].tolist()}, but there are {count} points, from 0")
+            nodes = kind.nodes[k].tolist()
+            raise BuildError(f"cells[{kind.cells[k]}]: has the nodes {nodes}, but there are {count} points, from 0")
 
 
 def _named(labels: Labels, data: str) -> Labels:
