@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .checking import numbers, real, short
-from .enriching import Jump
+from .enriching import Component, Formula, Jump, Level
 from .errors import BuildError
 
 if TYPE_CHECKING:
@@ -73,9 +73,13 @@ def _compared(given: Coefficients, field: Any, state: State, tolerance: float) -
     return worst
 
 
-#: What goes wrong with functions.
-OF_JUMPS = "the direction of its crack, on whose left it is +1 and on whose right -1, and factors: H is (1 + jump)/2"
-OF_OTHERS = "its formula and parameters, its frame (origin, end of the crack, angle in radians), and the branch of theta"
+#: What goes wrong with functions, by their kinds.
+LOOKS = {
+    Jump: "the direction of its crack, on whose left it is +1 and on whose right -1, and factors: H is (1 + jump)/2",
+    Level: "the sign of its level field, +1 where that is ≥ 0, and factors: H is (1 + level)/2",
+    Component: "its cuts, left before right, with -1 for outside and -2 for inside",
+    Formula: "its formula and parameters, its frame (origin, end of the crack, angle in radians), and the branch of theta",
+}
 
 
 def _remedy(
@@ -107,8 +111,8 @@ def _remedy(
 
 def _looks(state: State, names: Sequence[str]) -> str:
     """What to look at for some functions."""
-    jumps = [isinstance(state.functions[name], Jump) for name in names]
-    return "; ".join([OF_JUMPS] * any(jumps) + [OF_OTHERS] * (not all(jumps)))
+    kinds = {type(state.functions[name]) for name in names}
+    return "; ".join(look for kind, look in LOOKS.items() if kind in kinds or kind is Formula and str in kinds)
 
 
 def _touched(field: Any, function: str, at: tuple[Floats, Floats]) -> NDArray[np.bool_]:
