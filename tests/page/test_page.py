@@ -270,8 +270,72 @@ def test_touch():
     columns = page.pixels()[0]
     assert columns == round(2 * page.box()[2]), "as many pixels as the screen has"
     assert page.run("document.documentElement.scrollWidth <= innerWidth"), "nothing lies beside the screen"
+    small = """[...document.querySelectorAll("button, select, input[type=text], input[type=range], label.check, summary")]
+      .map(element => [element.id || element.textContent.trim(), element.getBoundingClientRect()])
+      .filter(([, {width, height}]) => height > 0 && (width < 40 || height < 40)).map(([name]) => name)"""
+    assert page.run(small) == [], "fingers find all controls"
     compared(page)
     seen(page, "touch")
+
+
+def chosen(page, identifier, value):
+    """Sets a control, a check box by True or False."""
+    name = "checked" if isinstance(value, bool) else "value"
+    page.run(
+        f"(control => {{ control.{name} = {json.dumps(value)}; control.dispatchEvent(new Event('change')); }})"
+        f"(document.getElementById({json.dumps(identifier)}))"
+    )
+    page.rest()
+
+
+def test_what_is_no_range_is_said():
+    page = opened(export("range.html", "plate.h5"))
+    before = page.pixels()[2]
+    chosen(page, "from", "1e9")
+    chosen(page, "to", "2")
+    assert "less than" in page.text("range-error")
+    assert page.run("page.scene.colors.range") == "auto"
+    assert page.run("['from', 'to', 'range'].map(id => document.getElementById(id).value)") == ["1e9", "2", "fixed"]
+    assert page.pixels()[2] == before
+    chosen(page, "to", "")
+    assert "two numbers" in page.text("range-error")
+    chosen(page, "to", "2")
+    chosen(page, "from", "1")
+    assert page.run("page.scene.colors.range") == "1,2" and page.run("document.getElementById('range-error').hidden")
+    compared(page)
+    chosen(page, "from", "4")
+    chosen(page, "range", "auto")
+    assert page.run("page.scene.colors.range") == "auto" and page.run("document.getElementById('range-error').hidden")
+    assert page.pixels()[2] == before
+
+
+def test_what_cannot_be_drawn_is_said():
+    page = opened(export("nothing.html", "plate.h5"))
+    for formula in ("1/0", "log(ux)"):
+        chosen(page, "formula", formula)
+        warned = subprocess.run(
+            [PPUM, "render", "plate.h5", "-o", "nothing.png", "-q", formula], capture_output=True, text=True, cwd=FOLDER
+        )
+        words = warned.stderr.split("warning: ")[1].split(" at ")[0].split(" in ")[0].strip()
+        assert words in page.text("message"), (words, page.text("message"))
+        seen(page, f"notice-{formula[0]}")
+    chosen(page, "formula", "ux")
+    assert not page.text("message")
+
+
+def test_overlays_of_the_export_can_be_switched_off():
+    page = opened(export("overlays.html", "plate.h5", "--overlay", "boxes,rings", "--arrows", "--crosses=50"))
+    compared(page)
+    seen(page, "overlays")
+    for name in ("boxes", "rings", "arrows", "crosses"):
+        for value in (False, True, False):
+            before = page.pixels()[2]
+            chosen(page, name, value)
+            assert page.pixels()[2] != before, name
+            compared(page)
+    assert page.run("page.scene.overlays.shown") == ["cracks"]
+    plain = opened(export("plain.html", "plate.h5"))
+    assert not plain.run("['boxes', 'arrows'].some(id => document.getElementById(id))")
 
 
 def test_hostile_texts_are_texts():

@@ -186,10 +186,10 @@
         const coarseness = Math.ceil(Math.sqrt((canvas.width * canvas.height * pace) / PATIENCE));
         const key = key_of(frame(1));
         if (coarseness > 1 && key !== known) await image(frame(coarseness), () => false);
-        if (!isDirty) await image(frame(1), () => isDirty);
-        fail("");
+        const legend = isDirty ? null : await image(frame(1), () => isDirty);
+        say(legend?.notices.join("\n") ?? "", true);
       } catch (error) {
-        fail(error.message);
+        report(error);
       }
     }
     isBusy = false;
@@ -213,6 +213,7 @@
     if (strips && frame.keeps_range) pace = (performance.now() - begin) / (pixels.length / 4);
     show(frame, new ImageData(pixels, ...frame.view.pixels));
     describe(legend);
+    return legend;
   }
 
   // The values of all rows; each worker takes the next strip when it has finished one.
@@ -294,7 +295,7 @@
     }));
     placeTicks();
     at("bar").title = legend.sentence;
-    at("about").textContent = [legend.sentence, ...legend.notices].join(". ");
+    at("about").textContent = legend.sentence;
     if (at("range").value !== "fixed") {
       [at("from").value, at("to").value] = range.map(value => String(Number(value.toPrecision(6))));
     }
@@ -318,12 +319,13 @@
     at("scale-label").textContent = Number(length.toPrecision(1)).toString();
   }
 
-  function fail(reason) {
-    at("message").textContent = reason;
-    at("message").hidden = !reason;
+  function say(text, isNote = false) {
+    at("message").textContent = text;
+    at("message").hidden = !text;
+    at("message").classList.toggle("note", isNote);
   }
 
-  const report = error => fail(error.message);
+  const report = error => say(error.message);
 
   // --- reading values --------------------------------------------------------------------------
 
@@ -556,9 +558,11 @@
     at("reversed").checked = map.endsWith("_r");
     at("colormap").value = map.replace(/_r$/, "");
     at("color-scale").value = colors.scale;
-    const isNamed = ["auto", "full"].includes(colors.range);
-    at("range").value = isNamed ? colors.range : "fixed";
-    if (!isNamed && !colors.range.includes("%")) [at("from").value, at("to").value] = colors.range.split(",");
+    if (at("range-error").hidden) {
+      const isNamed = ["auto", "full"].includes(colors.range);
+      at("range").value = isNamed ? colors.range : "fixed";
+      if (!isNamed && !colors.range.includes("%")) [at("from").value, at("to").value] = colors.range.split(",");
+    }
     at("cracks").checked = overlays.shown.includes("cracks");
     at("cells").checked = overlays.shown.includes("cells");
     at("isolines").checked = overlays.isolines !== null;
@@ -591,13 +595,22 @@
   change("colormap", map);
   change("reversed", map);
   change("color-scale", ({ value }) => { scene.colors.scale = value; });
+  // What is no range stays as it was typed, and the image as it is.
+  const refuseRange = reason => {
+    for (const id of ["from", "to"]) at(id).setAttribute("aria-invalid", String(Boolean(reason)));
+    at("range-error").textContent = reason;
+    at("range-error").hidden = !reason;
+    if (reason) at("range").value = "fixed";
+  };
   const range = () => {
-    const numbers = [at("from"), at("to")].map(input => Number(input.value));
-    const isRange = numbers.every(Number.isFinite) && numbers[0] < numbers[1];
-    for (const id of ["from", "to"]) at(id).setAttribute("aria-invalid", String(!isRange));
+    const numbers = [at("from"), at("to")].map(({ value }) => (value.trim() ? Number(value) : NaN));
+    const isRange = numbers[0] < numbers[1] && numbers.every(Number.isFinite);
+    const reason = numbers.every(Number.isFinite) ? "From has to be less than To." : "Give two numbers.";
+    refuseRange(isRange ? "" : reason);
     if (isRange) scene.colors.range = numbers.join(",");
   };
   change("range", ({ value }) => {
+    refuseRange("");
     if (value === "fixed") range();
     else scene.colors.range = value;
   });
@@ -614,6 +627,17 @@
   };
   change("isolines", levels);
   change("levels", levels);
+  // Overlays that `ppum export` switched on and that have no check box yet.
+  const spacing = { arrows: scene.overlays.arrows, crosses: scene.overlays.crosses };
+  const distance = ({ id, checked }) => { scene.overlays[id] = checked ? spacing[id] : null; };
+  for (const id of [...scene.overlays.shown, ...Object.keys(spacing).filter(name => spacing[name])]) {
+    if (at(id)) continue;
+    const input = Object.assign(document.createElement("input"), { id, type: "checkbox", checked: true });
+    const label = Object.assign(document.createElement("label"), { className: "check" });
+    label.append(input, ` ${id[0].toUpperCase()}${id.slice(1)}`);
+    at("levels").parentElement.before(label);
+    change(id, id in spacing ? distance : overlay);
+  }
   change("tip", ({ value }) => { if (value !== "") goTo(Number(value)); });
 
   at("controls").addEventListener("submit", event => event.preventDefault());
