@@ -21,7 +21,8 @@ from ppum_meshes import Mesh, block
 
 
 def text(value):
-    """A string of the file, fixed or variable in length."""
+    """A string of the file, fixed or variable in length, alone or in an array."""
+    value = value[0] if isinstance(value, np.ndarray) else value
     return value.decode() if isinstance(value, bytes) else str(value)
 
 

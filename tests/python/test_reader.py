@@ -236,6 +236,27 @@ def test_the_smallest_file_of_the_page():
         assert abs(program(path, [((x, 0.4), (0.0, 0.0), 1)], "u")[0][0] - x) < 1e-12
 
 
+def test_scalars_may_be_arrays_of_one_element():
+    """As h5py writes a list of one text or number."""
+    path = smallest()
+    exact = program(path, [((0.3, 0.4), (0.0, 0.0), 1)], "u")
+    with h5py.File(path, "a") as file:
+        groups = [file]
+        file.visititems(lambda _, node: groups.append(node))
+        for attributes in (group.attrs for group in groups):
+            for name, value in list(attributes.items()):
+                if np.ndim(value) == 0:
+                    kind = h5py.string_dtype() if isinstance(value, str) else None
+                    attributes[name] = np.array([value], dtype=kind)
+        assert file.attrs["format"].shape == file["steps/0000"].attrs["load"].shape == (1,)
+        seal(file)
+    checked = run("check", path)
+    assert checked.returncode == 0, checked
+    assert program(path, [((0.3, 0.4), (0.0, 0.0), 1)], "u") == exact
+    with h5py.File(path) as file:
+        assert Field(file).evaluate(0.3, 0.4)
+
+
 def test_all_errors_are_listed():
     path = smallest()
     with h5py.File(path, "a") as file:

@@ -131,7 +131,7 @@ fn check(content: &Content, scope: &Scope) -> Result<(), ReadError> {
     let (group, name) = scope.place();
     content.holds(group, name, ObjectKind::Attribute)?;
     let Some(stored) = content.get(&scope.key()) else { return Ok(()) };
-    let (ArrayValues::Text(stored), []) = (&stored.values, stored.shape.as_slice()) else {
+    let (ArrayValues::Text(stored), [] | [1]) = (&stored.values, stored.shape.as_slice()) else {
         let mistake = "expected a string of 64 hexadecimal digits";
         return Err(ReadError::object(&scope.key(), mistake));
     };

@@ -21,7 +21,7 @@ use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::{WeightError, WeightFunction};
 
-use crate::content::{Array, Content, Element, ObjectKind, step_path};
+use crate::content::{ArrayValues, Content, Element, ObjectKind, step_path};
 use crate::error::ReadError;
 use crate::limits::FORMAT_VERSION;
 use crate::names::{
@@ -39,7 +39,8 @@ type Read<T> = Result<T, ReadError>;
 
 /// The minor version, if this is a dataset and of a major version that can be read here.
 pub(crate) fn check_version(content: &Content) -> Read<u32> {
-    if content.get("@format") != Some(&Array::scalar("ppum".to_owned())) {
+    let name = ArrayValues::Text(vec!["ppum".to_owned()]);
+    if content.get("@format").is_none_or(|array| array.values != name) {
         return Err(ReadError::NotADataset);
     }
     let version = |group: &GroupReader| group.version();

@@ -158,8 +158,12 @@ impl<'a> GroupReader<'a> {
         self.one(name, ObjectKind::Attribute).unwrap_or_default()
     }
 
+    /// A scalar, which other writers make an array of one element.
     fn one<T: Element>(&self, name: &str, form: ObjectKind) -> Option<T> {
-        let value = self.look::<T>(name, form, &[])?.first();
+        let found = self.content.get(&key(&self.path, name, form));
+        let single = [Extent::Is(1)];
+        let shape = if found.is_some_and(|array| array.shape == [1]) { &single[..] } else { &[] };
+        let value = self.look::<T>(name, form, shape)?.first();
         if value.is_none() {
             self.report(ReadError::object(&key(&self.path, name, form), "is empty"));
         }

@@ -7,7 +7,7 @@ mod rules;
 use std::sync::LazyLock;
 
 use super::*;
-use crate::content::ArrayValues;
+use crate::content::Array;
 use crate::{checksum, encode, everything};
 use ppum::crack::{End, TipId};
 use ppum::function::{Frame, Role, WESTERGAARD};
@@ -86,9 +86,26 @@ fn a_wrong_type_or_rank_is_named() {
         damaged.get_mut(key).unwrap().values = ArrayValues::Other("complex".into());
         assert_eq!(complaint(damaged).as_ref(), Some(key));
         let mut damaged = content();
-        damaged.get_mut(key).unwrap().shape.push(1);
+        let shape = &mut damaged.get_mut(key).unwrap().shape;
+        shape.extend([1].repeat(if shape.is_empty() { 2 } else { 1 }));
         assert_eq!(complaint(damaged).as_ref(), Some(key));
     }
+}
+
+/// As h5py writes a list of one text or number.
+#[test]
+fn scalars_may_be_arrays_of_one_element() {
+    let widen = |content: &mut Content| {
+        let scalars = content.values_mut().filter(|array| array.shape.is_empty());
+        scalars.map(|array| array.shape.push(1)).count()
+    };
+    let mut single = content();
+    checksum::remove(&mut single);
+    assert!(widen(&mut single) > 30);
+    checksum::seal(&mut single);
+    assert!(widen(&mut single) > 0, "the checksum too");
+    checksum::verify(&single).unwrap();
+    assert_eq!(dataset(&single).unwrap(), dataset(&content()).unwrap());
 }
 
 #[test]
@@ -254,7 +271,7 @@ fn constants_and_breakpoints_have_ranges() {
     let constant = |array| complaint_after(|c| put(c, "equation@young", array));
     assert!(constant(Array::scalar(f64::NAN)).contains("equation@young: is NaN"));
     assert!(constant(text("y/0")).contains("equation@young: is"));
-    assert!(constant(Array::vector([1.0])).starts_with("equation@young: has shape"));
+    assert!(constant(Array::vector([1.0, 2.0])).starts_with("equation@young: has shape [2]"));
     for t in [-1.0, 1.0, f64::NAN] {
         let message = complaint_after(|c| {
             put(c, "steps/0000/partition/weight_breakpoints", Array::vector([t]));
