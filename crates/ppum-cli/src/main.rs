@@ -1,7 +1,7 @@
 //! The `ppum` program: arguments and messages, nothing else.
 //!
 //! Results go to standard output, everything else to standard error. The exit status is 0 only when
-//! the work was done.
+//! the work was done; 3 if a mesh was written that does not keep its tolerance.
 // what is shown goes through `output`, which escapes it
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
@@ -34,6 +34,7 @@ mod warnings;
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
+use commands::export::mesh::ToleranceMissed;
 use output::{Output, show, tell};
 
 /// A window is open for days, and gives memory back.
@@ -62,6 +63,7 @@ fn run(command: &cli::Command) -> ExitCode {
     };
     match panics::guarded(work) {
         Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.is::<ToleranceMissed>() => ExitCode::from(3),
         Err(error) => {
             report(&error);
             ExitCode::FAILURE

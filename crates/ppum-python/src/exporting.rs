@@ -73,9 +73,14 @@ impl Triangles {
         self.step.mesh.arrays.iter().map(facts).collect()
     }
 
-    /// The radius about singular points within which the tolerance does not hold.
-    fn radius(&self) -> f64 {
-        self.step.mesh.radius
+    /// The radii about singular points within which the tolerance does not hold.
+    fn radii<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.step.mesh.radii)
+    }
+
+    /// In words that the tolerance is not kept, if it is not.
+    fn complaint(&self) -> Option<String> {
+        self.step.mesh.complaint()
     }
 
     /// False if the limit of triangles ended the work.
@@ -118,11 +123,12 @@ pub(crate) fn triangles(
     radius: Option<f64>,
     most: usize,
     order: u8,
+    average: bool,
     hash: String,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Triangles> {
     let (field, arrays) = (this.owned.field(), this.arrays(names)?);
-    let accuracy = Accuracy { tolerance, radius, cells: most, order };
+    let accuracy = Accuracy { tolerance, radius, cells: most, order, average };
     let mesh = long(py, None, progress, |watcher| resolve(field, &arrays, &accuracy, watcher))?;
     let about = About::of(this.owned.dataset(), field, hash);
     let mesh = mesh.map_err(unexported)?;

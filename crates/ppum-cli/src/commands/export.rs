@@ -1,6 +1,6 @@
 //! `ppum export`: a page to explore a dataset in a browser, a mesh for other programs.
 
-mod mesh;
+pub(crate) mod mesh;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,8 @@ use crate::target;
 ///
 /// A mesh, .vtu, has triangles that resolve the quantities to a tolerance, and points with the
 /// values of both sides on cracks. The file and the command tell the largest difference from the
-/// field, measured at random points. Of a series .vtkhdf has all steps in one file, .pvd lists a
+/// field, measured at random points; if it is more than the tolerance allows, the exit status is 3.
+/// Of a series .vtkhdf has all steps in one file, .pvd lists a
 /// .vtu file for each. A .vtp file has cracks, tips with their K, the border, supports, loads and,
 /// with --isolines, those of a quantity as lines and points.
 #[derive(Debug, clap::Args)]

@@ -74,3 +74,39 @@ fn what_pages_do_not_have_is_refused() {
     }
     assert!(!lab.files().iter().any(|name| name.ends_with(".html")));
 }
+
+/// A mesh that does not keep its tolerance is written; a warning has what is allowed and what was
+/// found, and the exit status says so to programs.
+#[test]
+fn tolerances_that_are_not_kept_have_their_own_status() {
+    let lab = Lab::solved(CRACKED);
+    for file in ["plate.vtu", "plate.vtkhdf", "plate.pvd"] {
+        lab.run(&format!("export plate.h5 -o {file} --tolerance 0.1"));
+        std::fs::remove_file(lab.path(file)).unwrap();
+        let mut missed = lab.command(&format!(
+            "export plate.h5 -o {file} -q ux,stress --tolerance 1e-7 --max-cells 4000"
+        ));
+        let output = missed.output().unwrap();
+        assert_eq!(output.status.code(), Some(3), "{file}");
+        let told = String::from_utf8(output.stderr).unwrap();
+        let words = "warning: the limit of 4000 triangles is reached, and the tolerance is not kept: ux";
+        assert!(told.starts_with(words), "{told}");
+        assert!(told.contains("; stress differs by up to ") && told.contains(" is allowed"), "{told}");
+        assert!(told.ends_with("; raise --max-cells or --tolerance\n") && told.lines().count() == 1);
+        assert!(lab.path(file).exists() && String::from_utf8(output.stdout).unwrap().contains("% within"));
+    }
+}
+
+#[test]
+fn averages_take_fewer_points() {
+    let lab = Lab::solved(CRACKED);
+    let told = lab.run("export plate.h5 -o plate.vtu --tolerance 0.05");
+    let averaged = lab.run("export plate.h5 -o plate.vtu --tolerance 0.05 --average");
+    let points = |text: &str| -> usize {
+        let line = text.lines().find(|line| line.ends_with(" points")).unwrap();
+        line.rsplit(' ').nth(1).unwrap().parse().unwrap()
+    };
+    assert!(2 * points(&averaged) < points(&told), "{told}{averaged}");
+    let complaint = lab.fail("export plate.h5 -o page.html --average");
+    assert!(complaint.contains("--average is for meshes"), "{complaint}");
+}

@@ -45,8 +45,9 @@ class TriangleOptions(TypedDict, total=False):
         float | None,
         Option(
             None,
-            "the radius about tips outside of which stresses are resolved; by default 1/200 of the longer side of the "
-            "domain. A smaller one means a larger range",
+            "the radius about tips outside of which stresses are resolved; by default 1/50 of the crack, of half of it if "
+            "both ends are tips, or of the distance from other borders and cracks if that is less. A smaller one means a "
+            "larger range",
         ),
     ]
     max_cells: Annotated[int, Option(1_000_000, "most triangles, of each step")]
@@ -56,6 +57,14 @@ class TriangleOptions(TypedDict, total=False):
             1,
             "degree of the polynomials between the points of a triangle, 1 to 4; higher ones take fewer triangles for "
             "fine tolerances",
+        ),
+    ]
+    average: Annotated[
+        bool,
+        Option(
+            False,
+            "average where stresses jump between patches or elements, so that triangles share their points but for cracks "
+            "and interfaces",
         ),
     ]
     progress: Annotated[Any, Option(None, "as in `render`")]
@@ -95,7 +104,7 @@ class Triangles(Drawn):
             XX, YY, ZZ, XY, YZ, XZ.
         accuracy: How well each of them is resolved.
         singular: Points where arrays are infinite: shape (k, 2).
-        tip_radius: The tolerance of such arrays holds outside of this radius about them.
+        tip_radii: The tolerance of such arrays holds outside of these radii about them: shape (k,).
         is_complete: Whether the work was not ended by the limit of triangles.
 
     Example:
@@ -113,7 +122,7 @@ class Triangles(Drawn):
         self.points = core.points()
         self.cells = core.cells()
         self.singular = core.singular()
-        self.tip_radius = core.radius()
+        self.tip_radii = core.radii()
         self.is_complete = core.is_complete()
 
     @cached_property
@@ -166,7 +175,7 @@ class Exporting(Drawing):
     def triangles(
         self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]
     ) -> Triangles:
-        """Triangles for programs that interpolate, fine enough for a tolerance. Warns where the limit of triangles ends the work.
+        """Triangles for programs that interpolate, fine enough for a tolerance. Warns where the tolerance is not kept.
 
         Args:
             quantities: Quantities and formulas, ``displacement`` and ``stress`` among them; by default the displacement, the
@@ -201,12 +210,13 @@ class Exporting(Drawing):
             options["tip_radius"],
             int(options["max_cells"]),
             int(options["order"]),
+            bool(options["average"]),
             hashed,
             options["progress"],
         )
-        if not made.is_complete():
-            text = f"the limit of {options['max_cells']} triangles is reached and the tolerance is not"
-            warnings.warn(f"{text}; raise max_cells or tolerance", stacklevel=4)
+        if text := made.complaint():
+            remedy = "" if made.is_complete() else "; raise max_cells or tolerance"
+            warnings.warn(text + remedy, stacklevel=4)
         return Triangles(made)
 
     @passes

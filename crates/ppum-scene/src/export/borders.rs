@@ -45,6 +45,8 @@ pub(super) struct BorderKind {
     pub(super) kink: bool,
     /// True for lines in patches and of the material.
     pub(super) is_line: bool,
+    /// True for lines on which the material changes.
+    pub(super) is_interface: bool,
 }
 
 /// The lines in patches and of the material that are wanted.
@@ -67,11 +69,17 @@ impl BorderKind {
         self.crack.is_some() || self.kink
     }
 
+    /// True if the jump belongs to the body, not to the approximation, and no mean makes sense.
+    pub(super) fn is_physical(self) -> bool {
+        self.crack.is_some() || self.is_interface
+    }
+
     pub(super) fn and(self, other: Self) -> Self {
         Self {
             crack: self.crack.or(other.crack),
             kink: self.kink || other.kink,
             is_line: self.is_line || other.is_line,
+            is_interface: self.is_interface || other.is_interface,
         }
     }
 }
@@ -102,12 +110,12 @@ fn inner_lines(field: &Field<'_>, bounds: &Rect, lines: LineRequest) -> Vec<Bord
     if lines.order > 1 {
         places.extend(jumps(weight, 2));
     }
-    let line = |kink| {
-        let kind = BorderKind { crack: None, kink, is_line: true };
+    let line = |kink, is_interface| {
+        let kind = BorderKind { crack: None, kink, is_line: true, is_interface };
         move |ends| Border { ends, kind }
     };
-    let in_patches = patch_lines(field, bounds, &places).into_iter().map(line(kink));
-    in_patches.chain(interfaces(field).into_iter().map(line(lines.jumps))).collect()
+    let in_patches = patch_lines(field, bounds, &places).into_iter().map(line(kink, false));
+    in_patches.chain(interfaces(field).into_iter().map(line(lines.jumps, true))).collect()
 }
 
 pub(super) fn longest(bounds: &Rect) -> f64 {
@@ -201,7 +209,7 @@ fn around(center: Vec2, radius: f64) -> Vec<Vec2> {
     (0..SIDES).map(corner).collect()
 }
 
-fn outline(bounds: &Rect) -> [[Vec2; 2]; 4] {
+pub(super) fn outline(bounds: &Rect) -> [[Vec2; 2]; 4] {
     let (lo, hi) = (bounds.min, bounds.max);
     let corners = [lo, vec2(hi.x, lo.y), hi, vec2(lo.x, hi.y)];
     [0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]])

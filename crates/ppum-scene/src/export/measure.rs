@@ -23,12 +23,17 @@ pub(super) struct Measurement {
 }
 
 impl Refined<'_, '_> {
-    /// Measures at points that follow from a seed.
-    pub(super) fn measure(&self, seed: u64) -> Measurement {
+    /// Measures at points that follow from a seed, with values that are evaluated anew or those at
+    /// the points of `cells`.
+    pub(super) fn measure(&self, seed: u64, cells: Option<&[u32]>) -> Measurement {
         let (width, allowed) = (self.columns.len(), self.allowed());
         let at = self.random_points(seed);
         let exact = self.exact(&at);
-        let nodes = self.nodes(&at.iter().map(|(t, _)| *t).collect::<Vec<_>>());
+        let triangles: Vec<u32> = at.iter().map(|(t, _)| *t).collect();
+        let nodes = match cells {
+            Some(cells) => self.stored(cells, &triangles),
+            None => self.nodes(&triangles),
+        };
         let rows = exact.par_chunks(width).zip(nodes.par_chunks(self.cell.nodes.len() * width));
         let difference = |(at, (exact, nodes))| self.differences(at, exact, nodes);
         let differences: Vec<Vec<f64>> = at.par_iter().zip(rows).map(difference).collect();
@@ -48,6 +53,13 @@ impl Refined<'_, '_> {
         found.failed.sort_unstable();
         found.failed.dedup();
         found
+    }
+
+    /// Rows of all nodes of each triangle as they are stored.
+    fn stored(&self, cells: &[u32], triangles: &[u32]) -> Vec<f64> {
+        let (width, size) = (self.columns.len(), self.cell.nodes.len());
+        let points = triangles.iter().flat_map(|&t| &cells[t as usize * size..][..size]);
+        points.flat_map(|&point| &self.values[point as usize * width..][..width]).copied().collect()
     }
 
     /// Differences at a place; −1 where nothing is claimed of a column.

@@ -11,6 +11,7 @@
 //! outside of a radius, R, in which it is loosened as R/r down to R/100.
 
 mod arrays;
+mod average;
 mod borders;
 mod lagrange;
 mod measure;
@@ -27,6 +28,7 @@ use ppum::field::Field;
 use ppum::progress::{Cancelled, Watcher};
 use ppum::sample::Place;
 use ppum::segment;
+use ppum::text::short;
 use ppum::vec2::Vec2;
 use ppum_solve::triangulation::NotFinite;
 
@@ -45,27 +47,26 @@ pub struct Accuracy {
     /// Largest difference in parts of the range of an array, outside of singular points; positive.
     pub tolerance: f64,
     /// The radius about singular points within which infinite quantities are not resolved; by
-    /// default [`RADIUS`] of the longer side of the domain.
+    /// default a fiftieth of the crack's length or of the distance from other borders.
     pub radius: Option<f64>,
     /// Most triangles.
     pub cells: usize,
     /// The degree of the polynomials in triangles, 1 to [`HIGHEST_ORDER`].
     pub order: u8,
+    /// True if triangles share their points where quantities jump, with the mean of their values,
+    /// but for cracks and interfaces of the material.
+    pub average: bool,
 }
 
 impl Default for Accuracy {
     fn default() -> Self {
-        Self { tolerance: 1e-3, radius: None, cells: 1_000_000, order: 1 }
+        Self { tolerance: 1e-3, radius: None, cells: 1_000_000, order: 1, average: false }
     }
 }
 
 /// The highest order of triangles: polynomials between equidistant nodes oscillate with their
 /// degree.
 pub const HIGHEST_ORDER: u8 = 4;
-
-/// The default radius about singular points, in parts of the longer side of the domain: the values
-/// there make the range, which grows as R^−½ and loosens the tolerance elsewhere.
-pub const RADIUS: f64 = 0.005;
 
 /// Measurements that may each be followed by more refinement, where they find a difference that
 /// refinement has not seen.
@@ -86,8 +87,8 @@ pub struct Mesh {
     pub arrays: Vec<MeasuredAccuracy>,
     /// Points at which quantities are infinite.
     pub singular: Vec<Vec2>,
-    /// The tolerance of infinite quantities holds outside of this radius about them.
-    pub radius: f64,
+    /// The tolerance of infinite quantities holds outside of these radii about them.
+    pub radii: Vec<f64>,
     /// What was asked for.
     pub accuracy: Accuracy,
     /// False if the limit of triangles ended the refinement.
@@ -102,6 +103,24 @@ pub fn times(loads: &[f64]) -> Vec<f64> {
 }
 
 impl Mesh {
+    /// In words, with what is allowed and what was found, that the tolerance is not kept; `None` if
+    /// it is.
+    #[must_use]
+    pub fn complaint(&self) -> Option<String> {
+        let numbers = |m: &MeasuredAccuracy| {
+            let [found, allowed] = [m.unaveraged, m.allowed].map(short);
+            format!("{} differs by up to {found}, {allowed} is allowed", m.array.name)
+        };
+        let missed = self.arrays.iter().filter(|m| !m.is_kept());
+        let missed: Vec<String> = missed.map(numbers).collect();
+        let limit = match self.is_complete {
+            true => String::new(),
+            false => format!("the limit of {} triangles is reached, and ", self.accuracy.cells),
+        };
+        let text = format!("{limit}the tolerance is not kept: {}", missed.join("; "));
+        (!missed.is_empty()).then_some(text)
+    }
+
     /// Bytes of memory, nearly.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -150,8 +169,18 @@ pub struct MeasuredAccuracy {
     pub largest: f64,
     /// Share of these points that are within the tolerance.
     pub share: f64,
+    /// The largest difference before values were averaged.
+    pub unaveraged: f64,
     /// True if the array is infinite at a singular point.
     pub is_singular: bool,
+}
+
+impl MeasuredAccuracy {
+    /// True if no difference is larger than allowed; what averages add does not count.
+    #[must_use]
+    pub fn is_kept(&self) -> bool {
+        self.unaveraged <= self.allowed
+    }
 }
 
 /// A field that cannot be exported.
@@ -208,8 +237,8 @@ pub fn resolve(
     if !(1..=HIGHEST_ORDER).contains(&accuracy.order) {
         return Err(ExportError::Order(accuracy.order));
     }
-    let (radius, longest) = (radius(field, accuracy), longest(&field.domain.bounds));
-    if radius >= longest {
+    let longest = longest(&field.domain.bounds);
+    if let Some(radius) = accuracy.radius.filter(|&radius| radius >= longest) {
         return Err(ExportError::Radius { radius, longest });
     }
     let columns = Columns::new(arrays);
@@ -217,8 +246,9 @@ pub fn resolve(
         field,
         mesh: begin(field, LineRequest { jumps: columns.any_jumps(), order: accuracy.order })?,
         values: Vec::new(),
-        singular: Singular::new(field, &columns, radius),
+        singular: Singular::new(field, &columns, accuracy.radius),
         ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; columns.len()],
+        differences: Vec::new(),
         limits: Limits { tolerance: accuracy.tolerance, cells: accuracy.cells },
         columns: &columns,
         cell: Lagrange::new(accuracy.order),
@@ -229,10 +259,6 @@ pub fn resolve(
     }
     let is_complete = refined.run(watcher)?;
     Ok(refined.finished(arrays, accuracy, is_complete))
-}
-
-fn radius(field: &Field<'_>, accuracy: &Accuracy) -> f64 {
-    accuracy.radius.unwrap_or(RADIUS * longest(&field.domain.bounds))
 }
 
 /// The triangles between all borders. Without lines in patches, cells have points too: the field
@@ -267,7 +293,7 @@ impl Refined<'_, '_> {
             if !self.refine(fresh, watcher)? {
                 return Ok(false);
             }
-            let failed = self.measure(round).failed;
+            let failed = self.measure(round, None).failed;
             match self.bisect(&failed) {
                 Some(changed) if !changed.is_empty() => fresh = changed,
                 Some(_) => break,
@@ -279,11 +305,19 @@ impl Refined<'_, '_> {
 
     /// The mesh, measured at points that have not been used before.
     fn finished(mut self, arrays: &[Array], accuracy: &Accuracy, is_complete: bool) -> Mesh {
-        let cells = self.mesh.add_nodes(&self.cell);
+        let mut cells = self.mesh.add_nodes(&self.cell);
         self.evaluate_new();
         self.fill(&cells);
-        let found = self.measure(ROUNDS);
         let allowed = self.allowed();
+        let torn = self.measure(ROUNDS, Some(&cells));
+        let together = accuracy.average.then(|| self.mesh.together(&cells, &self.cell));
+        let found = match &together {
+            Some(together) => {
+                self.average(together);
+                self.measure(ROUNDS, Some(&cells))
+            }
+            None => torn.clone(),
+        };
         let measured = |(number, array): (usize, &Array)| {
             let of: Vec<usize> =
                 (0..allowed.len()).filter(|&c| self.columns.array[c] == number).collect();
@@ -296,17 +330,22 @@ impl Refined<'_, '_> {
                 allowed: most(&|c| allowed[c]),
                 largest: most(&|c| found.largest[c]),
                 share: 1.0 - most(&|c| 1.0 - found.share[c]),
+                unaveraged: most(&|c| torn.largest[c]),
                 is_singular: of.iter().any(|&c| self.singular.columns[c]),
             }
         };
+        let measured = arrays.iter().enumerate().map(measured).collect();
+        if let Some(together) = together {
+            self.share_points(&together, &mut cells);
+        }
         Mesh {
-            arrays: arrays.iter().enumerate().map(measured).collect(),
+            arrays: measured,
             points: self.mesh.points.iter().map(|point| point.position).collect(),
             places: self.mesh.points.iter().map(|point| point.place).collect(),
             cells,
             values: self.values,
             singular: self.singular.points,
-            radius: self.singular.radius,
+            radii: self.singular.radii,
             accuracy: *accuracy,
             is_complete,
         }

@@ -28,6 +28,13 @@ const FINEST: f64 = 64.0 * f64::EPSILON;
 /// Tolerances are no finer than this part of the largest value: rounding.
 const ROUNDING: f64 = 1e-13;
 
+/// Triangles are divided in order of their differences: at a time those with more than this part of
+/// the largest one, and no more than one in so many of the triangles that may still be added, but
+/// for the last few. Which these are does not depend on the tolerance.
+const WORST: f64 = 0.5;
+const SHARE: usize = 8;
+const LAST: usize = 64;
+
 /// Places, or triangles, that a thread takes at a time.
 const CHUNK: usize = 1024;
 
@@ -54,27 +61,58 @@ pub(super) struct Refined<'a, 'd> {
     pub(super) singular: Singular,
     /// Smallest and largest value of each column that was seen outside of singular points.
     pub(super) ranges: Vec<[f64; 2]>,
+    /// For each triangle the largest difference at its tests in parts of the ranges of arrays; zero
+    /// if it is rounding or the triangle is not divided.
+    pub(super) differences: Vec<f64>,
     pub(super) limits: Limits,
 }
 
+/// The size of the values of a column's array.
+#[derive(Clone, Copy, Debug)]
+struct Scale {
+    range: f64,
+    /// Differences up to this are rounding.
+    rounding: f64,
+}
+
 impl Refined<'_, '_> {
-    /// Refines the given triangles and all that come of them. False if the limit of cells is met.
+    /// Refines the given triangles, which are new or have changed, and all that come of them and
+    /// are left of others, the largest differences first. False if the limit of cells is met.
     pub(super) fn refine(
         &mut self,
         mut fresh: Vec<u32>,
         watcher: &dyn Watcher,
     ) -> Result<bool, Cancelled> {
-        while !fresh.is_empty() {
+        loop {
             watcher.report(Progress::new(
                 Phase::Evaluation,
                 self.mesh.triangles.len(),
                 self.limits.cells,
             ))?;
-            let coarse = self.coarse(&fresh);
-            let Some(changed) = self.bisect(&coarse) else { return Ok(false) };
+            self.test(&fresh);
+            let worst = self.worst();
+            if worst.is_empty() {
+                return Ok(true);
+            }
+            let Some(changed) = self.bisect(&worst) else { return Ok(false) };
             fresh = changed;
         }
-        Ok(true)
+    }
+
+    /// The triangles to divide next, the largest difference first.
+    fn worst(&self) -> Vec<u32> {
+        let largest = self.differences.iter().copied().fold(0.0, f64::max);
+        let margin = MARGINS[usize::from(self.cell.order > 1)];
+        // infinite differences are more than any part of them
+        let least = (WORST * largest).min(f64::MAX).max(margin * self.limits.tolerance);
+        let is_worst = |t: &u32| self.differences[*t as usize] > least;
+        let mut worst: Vec<u32> =
+            (0..self.differences.len() as u32).into_par_iter().filter(is_worst).collect();
+        let difference = |t: u32| self.differences[t as usize];
+        worst.sort_by(|&a, &b| difference(b).total_cmp(&difference(a)).then(a.cmp(&b)));
+        let left = self.limits.cells.saturating_sub(self.mesh.triangles.len());
+        worst.truncate((left / SHARE).max(LAST));
+        worst
     }
 
     /// Divides triangles; those that have changed, in order. None if the limit of cells is met.
@@ -141,41 +179,49 @@ impl Refined<'_, '_> {
         all
     }
 
-    /// The triangles among the given ones in which interpolation is not good enough.
-    fn coarse(&mut self, fresh: &[u32]) -> Vec<u32> {
+    /// Compares interpolation with the field at the tests of triangles.
+    fn test(&mut self, triangles: &[u32]) {
         let (width, tests) = (self.columns.len(), self.cell.tests.clone());
-        let mut coarse = Vec::new();
-        for part in fresh.chunks(TESTS / tests.len()) {
+        self.differences.resize(self.mesh.triangles.len(), 0.0);
+        for part in triangles.chunks(TESTS / tests.len()) {
             let at: Vec<_> =
                 part.iter().flat_map(|&t| tests.iter().map(move |b| (t, *b))).collect();
             let exact = self.exact(&at);
             for (&(t, b), row) in at.iter().zip(exact.chunks(width)) {
                 self.widen(self.position(t, b), row);
             }
-            let (allowed, nodes) = (self.allowed(), self.nodes(part));
+            let (scales, nodes) = (self.scales(), self.nodes(part));
             let rows = exact.par_chunks(tests.len() * width);
-            let is_coarse: Vec<bool> = part
+            let differences: Vec<f64> = part
                 .par_iter()
                 .zip(nodes.par_chunks(self.cell.nodes.len() * width))
                 .zip(rows)
-                .map(|((&t, nodes), rows)| self.is_coarse((t, nodes), rows, &allowed))
+                .map(|((&t, nodes), rows)| self.largest_difference((t, nodes), rows, &scales))
                 .collect();
-            coarse.extend(part.iter().zip(is_coarse).filter_map(|(&t, is)| is.then_some(t)));
+            for (&t, difference) in part.iter().zip(differences) {
+                self.differences[t as usize] = difference;
+            }
         }
-        coarse
     }
 
-    /// True if exact rows at the tests of a triangle differ from interpolation between its nodes.
-    fn is_coarse(&self, (triangle, nodes): (u32, &[f64]), rows: &[f64], allowed: &[f64]) -> bool {
+    /// The largest difference of exact rows at the tests of a triangle from interpolation between
+    /// its nodes.
+    fn largest_difference(
+        &self,
+        (triangle, nodes): (u32, &[f64]),
+        rows: &[f64],
+        scales: &[Scale],
+    ) -> f64 {
+        if !self.may_divide(triangle) {
+            return 0.0;
+        }
         let tests = self.cell.tests.iter().zip(&self.cell.at_tests);
-        let mut tests = tests.zip(rows.chunks(self.columns.len()));
-        let margin = MARGINS[usize::from(self.cell.order > 1)];
-        let differs = |((at, weights), exact): ((&Weights, &Vec<f64>), &[f64])| {
+        let tests = tests.zip(rows.chunks(self.columns.len()));
+        let differences = tests.map(|((at, weights), exact)| {
             let at = self.position(triangle, *at);
-            let excess = self.excess(at, exact, &self.interpolated(nodes, weights), allowed);
-            excess > margin
-        };
-        self.may_divide(triangle) && tests.any(differs)
+            self.difference(at, exact, &self.interpolated(nodes, weights), scales)
+        });
+        differences.fold(0.0, f64::max)
     }
 
     /// Exact rows at places inside triangles, given by barycentric coordinates.
@@ -197,34 +243,40 @@ impl Refined<'_, '_> {
         (0..width).map(|c| rows().map(|(weight, row)| weight * row[c]).sum()).collect()
     }
 
-    /// Largest difference of two rows in parts of what is allowed.
-    fn excess(&self, at: Vec2, exact: &[f64], interpolated: &[f64], allowed: &[f64]) -> f64 {
+    /// Largest difference of two rows in parts of the ranges, less near singular points.
+    fn difference(&self, at: Vec2, exact: &[f64], interpolated: &[f64], scales: &[Scale]) -> f64 {
         let loosened = self.singular.loosened(at);
-        let excess = |c: usize| {
+        let margin = MARGINS[usize::from(self.cell.order > 1)];
+        let part = |c: usize| {
             let factor = if self.singular.columns[c] { loosened } else { 1.0 };
             let difference = (exact[c] - interpolated[c]).abs();
-            match factor.is_infinite() || (exact[c].is_nan() && interpolated[c].is_nan()) {
+            let is_nowhere = exact[c].is_nan() && interpolated[c].is_nan();
+            let Scale { range, rounding } = scales[c];
+            match factor.is_infinite() || is_nowhere || difference <= margin * rounding * factor {
                 true => 0.0,
-                false => or_infinite(difference / (allowed[c] * factor)),
+                false => or_infinite(difference / (range * factor)),
             }
         };
-        (0..allowed.len()).map(excess).fold(0.0, f64::max)
+        (0..scales.len()).map(part).fold(0.0, f64::max)
     }
 
     /// The tolerance of each column.
     pub(super) fn allowed(&self) -> Vec<f64> {
-        let range = |[low, high]: [f64; 2]| if low <= high { high - low } else { 0.0 };
-        let size =
-            |[low, high]: [f64; 2]| if low <= high { low.abs().max(high.abs()) } else { 0.0 };
-        let of_array = |number: usize, of: &dyn Fn([f64; 2]) -> f64| {
-            let same = self.columns.array.iter().zip(&self.ranges).filter(|(a, _)| **a == number);
-            same.map(|(_, r)| of(*r)).fold(0.0, f64::max)
+        let allowed = |s: &Scale| (self.limits.tolerance * s.range).max(s.rounding);
+        self.scales().iter().map(allowed).collect()
+    }
+
+    fn scales(&self) -> Vec<Scale> {
+        let is_seen = |[low, high]: &[f64; 2]| low <= high;
+        let scale = |&array: &usize| {
+            let same = self.columns.array.iter().zip(&self.ranges).filter(|(a, _)| **a == array);
+            let seen: Vec<[f64; 2]> = same.map(|(_, r)| *r).filter(is_seen).collect();
+            let most = |of: fn(&[f64; 2]) -> f64| seen.iter().map(of).fold(0.0, f64::max);
+            let size = most(|[low, high]| low.abs().max(high.abs()));
+            let rounding = (ROUNDING * size).max(f64::MIN_POSITIVE);
+            Scale { range: most(|[low, high]| high - low), rounding }
         };
-        let allowed = |&array: &usize| {
-            let rounding = (ROUNDING * of_array(array, &size)).max(f64::MIN_POSITIVE);
-            (self.limits.tolerance * of_array(array, &range)).max(rounding)
-        };
-        self.columns.array.iter().map(allowed).collect()
+        self.columns.array.iter().map(scale).collect()
     }
 
     fn widen(&mut self, at: Vec2, row: &[f64]) {

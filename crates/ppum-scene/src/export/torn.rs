@@ -7,6 +7,7 @@
 //! half of the smallest one that the beginning has.
 
 mod begin;
+mod forest;
 mod nodes;
 
 use ppum::crack::{SegmentId, Side};

@@ -147,7 +147,7 @@ fn attributes<Q>(components: &[(&str, Option<Q>)]) -> String {
 }
 
 /// What a mesh is accurate to.
-pub(super) fn accuracy(mesh: &Mesh) -> [Numbers; 8] {
+pub(super) fn accuracy(mesh: &Mesh) -> [Numbers; 9] {
     let of = |value: fn(&MeasuredAccuracy) -> f64| mesh.arrays.iter().map(value).collect();
     let singular = mesh.singular.iter().flat_map(|p| [p.x, p.y, 0.0]).collect();
     [
@@ -157,7 +157,8 @@ pub(super) fn accuracy(mesh: &Mesh) -> [Numbers; 8] {
         Numbers::new("largest_difference", 1, of(|a| a.largest)),
         Numbers::new("share_within", 1, of(|a| a.share)),
         Numbers::new("random_points", 1, vec![RANDOM_POINTS as f64]),
-        Numbers::new("singular_radius", 1, vec![mesh.radius]),
+        Numbers::new("averaged", 1, vec![f64::from(u8::from(mesh.accuracy.average))]),
+        Numbers::new("singular_radius", 1, mesh.radii.clone()),
         Numbers::new("singular_points", 3, singular),
     ]
 }

@@ -37,7 +37,8 @@ pub(crate) struct Options {
     #[arg(long, value_name = "T", value_parser = positive)]
     tolerance: Option<f64>,
     /// Radius about tips outside of which a mesh resolves quantities that are infinite there
-    /// [default: 1/200 of the longer side of the domain]
+    /// [default: 1/50 of the crack, of half of it if both ends are tips, or of the distance from
+    /// other borders and cracks if that is less]
     #[arg(long, value_name = "R", value_parser = positive)]
     tip_radius: Option<f64>,
     /// Most triangles of a mesh [default: 1000000]
@@ -47,6 +48,10 @@ pub(crate) struct Options {
     /// triangles for fine tolerances [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=i64::from(HIGHEST_ORDER)))]
     order: Option<u8>,
+    /// Average where stresses jump between patches or elements, so that a mesh is in one piece but
+    /// for cracks and interfaces
+    #[arg(long)]
+    average: bool,
 }
 
 impl Options {
@@ -57,6 +62,7 @@ impl Options {
             ("--tip-radius", self.tip_radius.is_some()),
             ("--max-cells", self.max_cells.is_some()),
             ("--order", self.order.is_some()),
+            ("--average", self.average),
         ];
         match given.into_iter().find(|(_, is_given)| *is_given) {
             Some((option, _)) => {
@@ -73,6 +79,7 @@ impl Options {
             radius: self.tip_radius,
             cells: self.max_cells.map_or(default.cells, |cells| cells as usize),
             order: self.order.unwrap_or(default.order),
+            average: self.average,
         }
     }
 }
@@ -132,7 +139,7 @@ impl Options {
             ensure!(!is_idle, "--quantity: lines have one for --isolines alone; end -o in .vtu");
             return write_lines(job, step, out);
         }
-        self.write_step(job, step, job.output, out)
+        status(self.write_step(job, step, job.output, out)?)
     }
 
     /// Writes the meshes of some steps to one file.
@@ -153,7 +160,11 @@ impl Options {
         target::save(job.output, |out| out.write_all(&file))?;
         let (steps, size) = (count(meshes.len(), "step", "steps"), file.len() as f64 / 1e6);
         writeln!(out, "wrote {}: {steps}, {size:.1} MB", job.output.display())?;
-        meshes.iter().try_for_each(|step| self.tell_mesh(&step.mesh, out))
+        let mut is_kept = true;
+        for step in &meshes {
+            is_kept &= tell_mesh(&step.mesh, out)?;
+        }
+        status(is_kept)
     }
 
     /// Writes the meshes of all steps and their list; `inputs` are not replaced.
@@ -167,29 +178,32 @@ impl Options {
         files
             .iter()
             .try_for_each(|f| target::check(f, target::FileKind::Export, inputs.clone()))?;
+        let mut is_kept = true;
         for (step, file) in files.iter().enumerate() {
-            self.write_step(job, step, file, out)?;
+            is_kept &= self.write_step(job, step, file, out)?;
         }
         let name = |file: &PathBuf| file.file_name().unwrap_or_default().to_string_lossy().into();
         let loads: Vec<_> = job.dataset.steps.iter().map(|step| step.load).collect();
         let listed: Vec<_> = times(&loads).into_iter().zip(files.iter().map(name)).collect();
         target::save(job.output, |out| vtu::write_collection(out, &listed))?;
         let steps = count(files.len(), "step", "steps");
-        Ok(writeln!(out, "wrote {}: {steps}", job.output.display())?)
+        writeln!(out, "wrote {}: {steps}", job.output.display())?;
+        status(is_kept)
     }
 
+    /// Writes the mesh of a step; false if it does not keep the tolerance.
     fn write_step(
         &self,
         job: &Job<'_>,
         step: usize,
         file: &Path,
         out: &mut Output,
-    ) -> anyhow::Result<()> {
+    ) -> anyhow::Result<bool> {
         let (mesh, about) = self.mesh(job, step)?;
         target::save(file, |out| vtu::write(out, &mesh, &about))?;
         let size = file.metadata().map_or(0, |found| found.len()) as f64 / 1e6;
         writeln!(out, "wrote {}: {size:.1} MB", file.display())?;
-        self.tell_mesh(&mesh, out)
+        tell_mesh(&mesh, out)
     }
 
     fn mesh(&self, job: &Job<'_>, step: usize) -> anyhow::Result<(Mesh, About)> {
@@ -198,22 +212,37 @@ impl Options {
         let mesh = resolve(&field, &arrays, &self.accuracy(), &Bar::new()).map_err(explained)?;
         Ok((mesh, About::of(job.dataset, &field, job.hash.to_owned())))
     }
+}
 
-    /// The size of a mesh, and how well it resolves the field.
-    fn tell_mesh(&self, mesh: &Mesh, out: &mut Output) -> anyhow::Result<()> {
-        writeln!(out, "  {} triangles, {} points", mesh.triangles().len(), mesh.points.len())?;
-        for measured in &mesh.arrays {
-            writeln!(out, "  {}", summary(mesh, measured))?;
-        }
-        if !mesh.is_complete {
-            tell(&format!(
-                "the limit of {} triangles is reached and the tolerance is not: what is measured \
-                 is above; raise --max-cells or --tolerance",
-                mesh.accuracy.cells
-            ));
-        }
-        Ok(())
+/// Prints the size of a mesh, and how well it resolves the field. False, with a warning, if it does
+/// not keep the tolerance.
+fn tell_mesh(mesh: &Mesh, out: &mut Output) -> anyhow::Result<bool> {
+    writeln!(out, "  {} triangles, {} points", mesh.triangles().len(), mesh.points.len())?;
+    for measured in &mesh.arrays {
+        writeln!(out, "  {}", summary(mesh, measured))?;
     }
+    let complaint = mesh.complaint();
+    if let Some(text) = &complaint {
+        let remedy = if mesh.is_complete { "" } else { "; raise --max-cells or --tolerance" };
+        tell(&format!("warning: {text}{remedy}"));
+    }
+    Ok(complaint.is_none())
+}
+
+/// A file is written that does not keep its tolerance; a warning has told the differences.
+#[derive(Debug)]
+pub(crate) struct ToleranceMissed;
+
+impl std::error::Error for ToleranceMissed {}
+
+impl std::fmt::Display for ToleranceMissed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("the tolerance is not kept")
+    }
+}
+
+fn status(is_kept: bool) -> anyhow::Result<()> {
+    if is_kept { Ok(()) } else { Err(ToleranceMissed.into()) }
 }
 
 /// Writes the cracks, the tips, the border and isolines of a step.
@@ -283,9 +312,10 @@ pub(super) fn hash(bytes: &[u8]) -> String {
 fn summary(mesh: &Mesh, measured: &MeasuredAccuracy) -> String {
     let MeasuredAccuracy { array, allowed, largest, share, is_singular, .. } = measured;
     let mut text = format!(
-        "{}: allowed {}, largest difference at {RANDOM_POINTS} random points {}",
+        "{}: allowed {}, largest difference{} at {RANDOM_POINTS} random points {}",
         array.name,
         short(*allowed),
+        if mesh.accuracy.average { " of averages" } else { "" },
         short(*largest)
     );
     if *share < 1.0 {
@@ -293,7 +323,10 @@ fn summary(mesh: &Mesh, measured: &MeasuredAccuracy) -> String {
     }
     if *is_singular {
         let points = count(mesh.singular.len(), "point", "points");
-        text += &format!(", outside of {} about {points} where it is infinite", short(mesh.radius));
+        let extreme = |of: fn(f64, f64) -> f64| mesh.radii.iter().copied().reduce(of);
+        let [least, most] = [f64::min, f64::max].map(|of| short(extreme(of).unwrap_or_default()));
+        let radii = if least == most { most } else { format!("{least} to {most}") };
+        text += &format!(", outside of {radii} about {points} where it is infinite");
     }
     text
 }

@@ -10,6 +10,7 @@ use ppum::vec2::Vec2;
 use ppum_solve::triangulation::{NotFinite, Triangulation, triangulate};
 
 use super::super::borders::{Border, BorderKind};
+use super::forest::Forest;
 use super::{INSET, NONE, Torn, TornPoint, Triangle, centroid, on_crack};
 
 /// The kinds of edges, by their ends in ascending order.
@@ -43,8 +44,8 @@ impl<'d> Torn<'d> {
 
     /// Gives each vertex a point for each of its sectors.
     fn tear(&mut self, vertices: &[Vec2]) {
-        let by_cracks = Sectors::new(&self.triangles, |kind| kind.crack.is_some());
-        let all = Sectors::new(&self.triangles, BorderKind::is_torn);
+        let by_cracks = sectors(&self.triangles, |kind| kind.crack.is_some());
+        let all = sectors(&self.triangles, BorderKind::is_torn);
         let at = self.incidence(vertices.len());
         let sides = self.sides(&by_cracks, vertices);
         let mut points = Vec::new();
@@ -113,7 +114,7 @@ impl<'d> Torn<'d> {
     }
 
     /// The side of the crack that each sector between cracks is on.
-    fn sides(&self, sectors: &Sectors, vertices: &[Vec2]) -> Vec<Option<Side>> {
+    fn sides(&self, sectors: &Forest, vertices: &[Vec2]) -> Vec<Option<Side>> {
         let mut sides = vec![None; 3 * self.triangles.len()];
         for (t, triangle) in self.triangles.iter().enumerate() {
             for (k, kind) in triangle.kinds.iter().enumerate() {
@@ -145,41 +146,25 @@ impl Incident {
     }
 }
 
-/// Corners of triangles that no border parts at their vertex, as a forest.
-struct Sectors(Vec<u32>);
-
-impl Sectors {
-    /// Joins the corners at both ends of all edges that are not torn.
-    fn new(triangles: &[Triangle], is_torn: impl Fn(BorderKind) -> bool) -> Self {
-        let mut all = Self((0..3 * triangles.len() as u32).collect());
-        for (t, triangle) in triangles.iter().enumerate() {
-            for k in 0..3 {
-                let other = triangle.neighbours[k];
-                if other == NONE || is_torn(triangle.kinds[k]) {
-                    continue;
-                }
-                let across = &triangles[other as usize].corners;
-                for end in [k, (k + 1) % 3] {
-                    let same = across.iter().position(|&v| v == triangle.corners[end]);
-                    let same = same.expect("neighbours share the ends of their edge");
-                    all.join(3 * t + end, 3 * other as usize + same);
-                }
+/// Corners of triangles that no border parts at their vertex: joined at both ends of all edges that
+/// are not torn.
+fn sectors(triangles: &[Triangle], is_torn: impl Fn(BorderKind) -> bool) -> Forest {
+    let mut all = Forest::new(3 * triangles.len());
+    for (t, triangle) in triangles.iter().enumerate() {
+        for k in 0..3 {
+            let other = triangle.neighbours[k];
+            if other == NONE || is_torn(triangle.kinds[k]) {
+                continue;
+            }
+            let across = &triangles[other as usize].corners;
+            for end in [k, (k + 1) % 3] {
+                let same = across.iter().position(|&v| v == triangle.corners[end]);
+                let same = same.expect("neighbours share the ends of their edge");
+                all.join(3 * t + end, 3 * other as usize + same);
             }
         }
-        all
     }
-
-    fn root(&self, mut corner: usize) -> usize {
-        while self.0[corner] as usize != corner {
-            corner = self.0[corner] as usize;
-        }
-        corner
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b)] = a.min(b) as u32;
-    }
+    all
 }
 
 fn kinds(borders: &[Border], found: &Triangulation) -> Kinds {

@@ -3,6 +3,7 @@
 use ppum::vec2::Vec2;
 
 use super::super::lagrange::Lagrange;
+use super::forest::Forest;
 use super::{Torn, TornPoint};
 
 impl Torn<'_> {
@@ -41,6 +42,29 @@ impl Torn<'_> {
             }
         }
         numbers
+    }
+
+    /// For each point the first one at its place that neither a crack nor an interface parts from
+    /// it; `cells` are the points of all triangles.
+    pub(in super::super) fn together(&self, cells: &[u32], cell: &Lagrange) -> Vec<usize> {
+        let on_edge = |t: u32, edge: usize| {
+            let (own, inner) = (&cells[t as usize * cell.nodes.len()..], cell.order as usize - 1);
+            let between = own[3 + edge * inner..][..inner].iter();
+            let all = [&own[edge]].into_iter().chain(between).chain([&own[(edge + 1) % 3]]);
+            all.map(|&point| point as usize).collect::<Vec<_>>()
+        };
+        let mut all = Forest::new(self.points.len());
+        for (t, triangle) in (0..).zip(&self.triangles) {
+            for edge in 0..3 {
+                let other = triangle.neighbours[edge];
+                if other < t && !triangle.kinds[edge].is_physical() {
+                    let across = on_edge(other, self.edge_to(other, t));
+                    let pairs = on_edge(t, edge).into_iter().zip(across.into_iter().rev());
+                    pairs.for_each(|(a, b)| all.join(a, b));
+                }
+            }
+        }
+        (0..self.points.len()).map(|point| all.root(point)).collect()
     }
 
     /// Where the node of an edge is among those of a neighbour before, whose edge runs the other
