@@ -83,8 +83,14 @@ def test_all_steps_are_saved(grown, program, tmp_path):
     assert not (tmp_path / "grown.vtkhdf").exists()
 
 
+def test_averages_share_points(f):
+    torn, mesh = (f.triangles(tolerance=0.05, average=average) for average in (False, True))
+    assert len(mesh.cells) == len(torn.cells) and 2 * len(mesh.points) < len(torn.points)
+    assert mesh.tip_radii.shape == (len(mesh.singular),) and mesh.accuracy["stress"].largest > torn.accuracy["stress"].largest
+
+
 def test_what_triangles_cannot_be_is_said(f):
-    with pytest.warns(UserWarning, match="raise max_cells"):
+    with pytest.warns(UserWarning, match="not kept: uy differs by up to .* is allowed; raise max_cells"):
         mesh = f.triangles(["uy"], tolerance=1e-6, max_cells=6000)
     assert not mesh.is_complete and len(mesh.cells) <= 6000
     for options, error, words in [

@@ -89,11 +89,20 @@ fn tolerances_that_are_not_kept_have_their_own_status() {
         let output = missed.output().unwrap();
         assert_eq!(output.status.code(), Some(3), "{file}");
         let told = String::from_utf8(output.stderr).unwrap();
-        let words = "warning: the limit of 4000 triangles is reached, and the tolerance is not kept: ux";
+        let words =
+            "warning: the limit of 4000 triangles is reached, and the tolerance is not kept: ux";
         assert!(told.starts_with(words), "{told}");
-        assert!(told.contains("; stress differs by up to ") && told.contains(" is allowed"), "{told}");
-        assert!(told.ends_with("; raise --max-cells or --tolerance\n") && told.lines().count() == 1);
-        assert!(lab.path(file).exists() && String::from_utf8(output.stdout).unwrap().contains("% within"));
+        assert!(
+            told.contains("; stress differs by up to ") && told.contains(" is allowed"),
+            "{told}"
+        );
+        assert!(
+            told.ends_with("; raise --max-cells or --tolerance\n") && told.lines().count() == 1
+        );
+        assert!(
+            lab.path(file).exists()
+                && String::from_utf8(output.stdout).unwrap().contains("% within")
+        );
     }
 }
 

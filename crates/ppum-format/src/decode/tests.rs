@@ -105,7 +105,9 @@ fn scalars_may_be_arrays_of_one_element() {
     checksum::seal(&mut single);
     assert!(widen(&mut single) > 0, "the checksum too");
     checksum::verify(&single).unwrap();
-    assert_eq!(dataset(&single).unwrap(), dataset(&content()).unwrap());
+    // numbers that are NaN are not equal to themselves
+    let text = |content: &Content| format!("{:?}", dataset(content).unwrap());
+    assert!(text(&single) == text(&content()));
 }
 
 #[test]

@@ -183,7 +183,7 @@ class Exporting(Drawing):
 
         Raises:
             QuantityError: No quantity of the field.
-            RenderError: More triangles are needed along cracks and borders alone; a dataset of elements.
+            RenderError: More triangles are needed along cracks and borders alone.
             ValueError: A number that is not positive, no such order, no quantities.
 
         Example:

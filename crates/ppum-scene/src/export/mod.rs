@@ -13,7 +13,9 @@
 mod arrays;
 mod average;
 mod borders;
+mod elements;
 mod lagrange;
+mod level_tips;
 mod measure;
 mod refine;
 mod singular;
@@ -39,7 +41,7 @@ use lagrange::{Lagrange, node_count};
 pub use measure::RANDOM_POINTS;
 use refine::{Limits, Refined};
 use singular::Singular;
-use torn::Torn;
+use torn::{Torn, TornPoint};
 
 /// What a mesh has to resolve, and what it may cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,8 +71,9 @@ impl Default for Accuracy {
 pub const HIGHEST_ORDER: u8 = 4;
 
 /// Measurements that may each be followed by more refinement, where they find a difference that
-/// refinement has not seen.
-const ROUNDS: u64 = 6;
+/// refinement has not seen; so many in a row that find none end them.
+const ROUNDS: u64 = 12;
+const QUIET_ROUNDS: u64 = 3;
 
 /// A mesh that resolves a field.
 #[derive(Clone, Debug)]
@@ -187,11 +190,6 @@ impl MeasuredAccuracy {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// The patches are elements of a mesh.
-    #[error(
-        "the patches are the elements of a mesh, and triangles are made for covers alone; export them from the program that made them"
-    )]
-    Elements,
     /// A coordinate is not finite.
     #[error(transparent)]
     NotFinite(#[from] NotFinite),
@@ -231,9 +229,6 @@ pub fn resolve(
     accuracy: &Accuracy,
     watcher: &dyn Watcher,
 ) -> Result<Mesh, ExportError> {
-    if field.step.partition.mesh().is_some() {
-        return Err(ExportError::Elements);
-    }
     if !(1..=HIGHEST_ORDER).contains(&accuracy.order) {
         return Err(ExportError::Order(accuracy.order));
     }
@@ -257,13 +252,17 @@ pub fn resolve(
     if needed > accuracy.cells {
         return Err(ExportError::Cells { needed, limit: accuracy.cells });
     }
+    refined.add_level_tips(accuracy.radius);
     let is_complete = refined.run(watcher)?;
     Ok(refined.finished(arrays, accuracy, is_complete))
 }
 
-/// The triangles between all borders. Without lines in patches, cells have points too: the field
-/// varies on their scale.
+/// The triangles between all borders, or of all elements. Without lines in patches, cells have
+/// points too: the field varies on their scale.
 fn begin<'d>(field: &Field<'d>, lines: LineRequest) -> Result<Torn<'d>, NotFinite> {
+    if let Some(mesh) = field.step.partition.mesh() {
+        return Ok(Torn::of_elements(field, mesh));
+    }
     let domain = with_polygons(field.domain);
     let all = borders(field, &domain, lines);
     let has_lines = all.iter().any(|border| border.kind.is_line);
@@ -289,16 +288,18 @@ impl Refined<'_, '_> {
     fn run(&mut self, watcher: &dyn Watcher) -> Result<bool, Cancelled> {
         self.evaluate_new();
         let mut fresh = (0..self.mesh.triangles.len() as u32).collect();
+        let mut quiet = 0;
         for round in 0..ROUNDS {
             if !self.refine(fresh, watcher)? {
                 return Ok(false);
             }
             let failed = self.measure(round, None).failed;
-            match self.bisect(&failed) {
-                Some(changed) if !changed.is_empty() => fresh = changed,
-                Some(_) => break,
-                None => return Ok(false),
+            quiet = if failed.is_empty() { quiet + 1 } else { 0 };
+            if quiet == QUIET_ROUNDS {
+                break;
             }
+            let Some(changed) = self.bisect(&failed) else { return Ok(false) };
+            fresh = changed;
         }
         Ok(true)
     }
@@ -310,7 +311,7 @@ impl Refined<'_, '_> {
         self.fill(&cells);
         let allowed = self.allowed();
         let torn = self.measure(ROUNDS, Some(&cells));
-        let together = accuracy.average.then(|| self.mesh.together(&cells, &self.cell));
+        let together = accuracy.average.then(|| self.together(&cells));
         let found = match &together {
             Some(together) => {
                 self.average(together);
@@ -341,7 +342,7 @@ impl Refined<'_, '_> {
         Mesh {
             arrays: measured,
             points: self.mesh.points.iter().map(|point| point.position).collect(),
-            places: self.mesh.points.iter().map(|point| point.place).collect(),
+            places: self.mesh.points.iter().map(TornPoint::place).collect(),
             cells,
             values: self.values,
             singular: self.singular.points,

@@ -8,9 +8,10 @@ use rayon::prelude::*;
 
 use super::arrays::Columns;
 use super::borders;
+use super::elements::{ElementPlace, evaluate_elements};
 use super::lagrange::{Lagrange, Weights};
 use super::singular::Singular;
-use super::torn::{Torn, TornPoint};
+use super::torn::{Seen, Torn, TornPoint};
 
 /// Part of the tolerance that is allowed at tests: elsewhere it may be a little more, and in large
 /// triangles of higher order, of which tests see a smaller part, more than that.
@@ -69,7 +70,7 @@ pub(super) struct Refined<'a, 'd> {
 
 /// The size of the values of a column's array.
 #[derive(Clone, Copy, Debug)]
-struct Scale {
+struct ValueScale {
     range: f64,
     /// Differences up to this are rounding.
     rounding: f64,
@@ -151,11 +152,23 @@ impl Refined<'_, '_> {
     /// Exact rows at points of the mesh.
     fn rows(&self, new: &[TornPoint]) -> Vec<f64> {
         let width = self.columns.len();
-        let inside: Vec<Place> = new.iter().map(|point| point.inside).collect();
+        let (mut inside, mut apart, mut places, mut elements) = (vec![], vec![], vec![], vec![]);
+        for (k, point) in new.iter().enumerate() {
+            match point.seen {
+                Seen::Element(place) => elements.push(place),
+                Seen::Plane { place, inside: seen } => {
+                    inside.push(seen);
+                    if place != seen {
+                        apart.push(k);
+                        places.push(place);
+                    }
+                }
+            }
+        }
+        if !elements.is_empty() {
+            return evaluate_elements(self.field, &self.columns.quantities, &elements);
+        }
         let mut rows = evaluate(self.field, self.columns, &inside);
-        let is_apart = |k: &usize| new[*k].place != new[*k].inside;
-        let apart: Vec<usize> = (0..new.len()).filter(is_apart).collect();
-        let places: Vec<Place> = apart.iter().map(|&k| new[k].place).collect();
         let exact = evaluate(self.field, self.columns, &places);
         for (&k, exact) in apart.iter().zip(exact.chunks(width)) {
             let row = &mut rows[k * width..][..width];
@@ -210,7 +223,7 @@ impl Refined<'_, '_> {
         &self,
         (triangle, nodes): (u32, &[f64]),
         rows: &[f64],
-        scales: &[Scale],
+        scales: &[ValueScale],
     ) -> f64 {
         if !self.may_divide(triangle) {
             return 0.0;
@@ -221,19 +234,24 @@ impl Refined<'_, '_> {
             let at = self.position(triangle, *at);
             self.difference(at, exact, &self.interpolated(nodes, weights), scales)
         });
-        differences.fold(0.0, f64::max)
+        differences.fold(self.mesh.deviation(triangle, &self.cell), f64::max)
     }
 
     /// Exact rows at places inside triangles, given by barycentric coordinates.
     pub(super) fn exact(&self, at: &[(u32, Weights)]) -> Vec<f64> {
+        if self.field.step.partition.mesh().is_some() {
+            let place =
+                |(t, b): &(u32, Weights)| self.mesh.element_place(*t, *b, self.position(*t, *b));
+            let places: Vec<ElementPlace> = at.par_iter().filter_map(place).collect();
+            return evaluate_elements(self.field, &self.columns.quantities, &places);
+        }
         let place = |(t, b): &(u32, Weights)| self.mesh.place(self.position(*t, *b));
         let places: Vec<Place> = at.par_iter().map(place).collect();
         evaluate(self.field, self.columns, &places)
     }
 
-    pub(super) fn position(&self, triangle: u32, [_, q, r]: Weights) -> Vec2 {
-        let [a, b, c] = self.mesh.corners(triangle);
-        a + ((b - a) * q + (c - a) * r)
+    pub(super) fn position(&self, triangle: u32, at: Weights) -> Vec2 {
+        self.mesh.position(triangle, at, &self.cell)
     }
 
     /// The row at a place with these weights of nodes.
@@ -244,14 +262,20 @@ impl Refined<'_, '_> {
     }
 
     /// Largest difference of two rows in parts of the ranges, less near singular points.
-    fn difference(&self, at: Vec2, exact: &[f64], interpolated: &[f64], scales: &[Scale]) -> f64 {
+    fn difference(
+        &self,
+        at: Vec2,
+        exact: &[f64],
+        interpolated: &[f64],
+        scales: &[ValueScale],
+    ) -> f64 {
         let loosened = self.singular.loosened(at);
         let margin = MARGINS[usize::from(self.cell.order > 1)];
         let part = |c: usize| {
             let factor = if self.singular.columns[c] { loosened } else { 1.0 };
             let difference = (exact[c] - interpolated[c]).abs();
             let is_nowhere = exact[c].is_nan() && interpolated[c].is_nan();
-            let Scale { range, rounding } = scales[c];
+            let ValueScale { range, rounding } = scales[c];
             match factor.is_infinite() || is_nowhere || difference <= margin * rounding * factor {
                 true => 0.0,
                 false => or_infinite(difference / (range * factor)),
@@ -262,11 +286,11 @@ impl Refined<'_, '_> {
 
     /// The tolerance of each column.
     pub(super) fn allowed(&self) -> Vec<f64> {
-        let allowed = |s: &Scale| (self.limits.tolerance * s.range).max(s.rounding);
+        let allowed = |s: &ValueScale| (self.limits.tolerance * s.range).max(s.rounding);
         self.scales().iter().map(allowed).collect()
     }
 
-    fn scales(&self) -> Vec<Scale> {
+    fn scales(&self) -> Vec<ValueScale> {
         let is_seen = |[low, high]: &[f64; 2]| low <= high;
         let scale = |&array: &usize| {
             let same = self.columns.array.iter().zip(&self.ranges).filter(|(a, _)| **a == array);
@@ -274,7 +298,7 @@ impl Refined<'_, '_> {
             let most = |of: fn(&[f64; 2]) -> f64| seen.iter().map(of).fold(0.0, f64::max);
             let size = most(|[low, high]| low.abs().max(high.abs()));
             let rounding = (ROUNDING * size).max(f64::MIN_POSITIVE);
-            Scale { range: most(|[low, high]| high - low), rounding }
+            ValueScale { range: most(|[low, high]| high - low), rounding }
         };
         self.columns.array.iter().map(scale).collect()
     }

@@ -17,6 +17,8 @@ use ppum_testkit::synthetic::{Recipe, crack, kinked};
 use super::vtp::{Feature, FeatureKind, Lines};
 use super::*;
 
+mod elements;
+
 /// Radius about tips, and tolerance.
 const RADIUS: f64 = 0.03;
 const TOLERANCE: f64 = 0.02;
@@ -200,6 +202,13 @@ fn check_accuracy(mesh: &Mesh, field: &Field<'_>, seed: u64) {
     assert!(looked > 1000);
 }
 
+/// Barycentric coordinates of a random point.
+fn weights_of(random: &mut Random) -> [f64; 3] {
+    let [p, q] = [(); 2].map(|()| random.unit());
+    let [p, q] = if p + q > 1.0 { [1.0 - p, 1.0 - q] } else { [p, q] };
+    [1.0 - p - q, p, q]
+}
+
 /// Barycentric coordinates of a point of a triangle.
 fn weights([a, b, c]: [Vec2; 3], p: Vec2) -> Option<[f64; 3]> {
     let whole = area([a, b, c]);
@@ -351,9 +360,9 @@ fn cracks_that_meet_part_triangles() {
     }
 }
 
-/// A limit that is too low is refused; one that ends the refinement is spent where the difference is
-/// largest: a smaller tolerance with the same limit is resolved no worse, and the mesh says what it
-/// has reached.
+/// A limit that is too low is refused; one that ends the refinement is spent where the difference
+/// is largest: a smaller tolerance with the same limit is resolved no worse, and the mesh says what
+/// it has reached.
 #[test]
 fn limits_are_spent_on_the_largest_differences() {
     for seed in 0..4 {
@@ -411,8 +420,8 @@ fn radii_follow_the_crack() {
     assert_eq!(near, [0.005, 0.005]);
 }
 
-/// With averages a mesh is in one piece, its border that of the body and the faces of cracks; values
-/// differ by the jumps, which does not count against the tolerance.
+/// With averages a mesh is in one piece, its border that of the body and the faces of cracks;
+/// values differ by the jumps, which does not count against the tolerance.
 #[test]
 fn averages_join_triangles() {
     for order in [1, 3] {
@@ -425,7 +434,7 @@ fn averages_join_triangles() {
         let accuracy = Accuracy { average: true, ..accuracy };
         let mesh = resolve(&field, &arrays, &accuracy, unwatched()).unwrap();
         assert_eq!(mesh.cells.len(), torn.cells.len());
-        assert!(mesh.points.len() * 2 < torn.points.len());
+        assert!(mesh.points.len() * 4 < torn.points.len() * 3);
         let same = |(a, b): (&u32, &u32)| mesh.points[*a as usize] == torn.points[*b as usize];
         assert!(mesh.cells.iter().zip(&torn.cells).all(same));
         let mut owners: BTreeMap<[u32; 2], usize> = BTreeMap::new();
@@ -447,7 +456,9 @@ fn averages_join_triangles() {
         for (mean, own) in mesh.arrays.iter().zip(&torn.arrays) {
             assert_eq!((mean.unaveraged, mean.is_kept()), (own.largest, own.is_kept()));
             let is_continuous = own.array.name == "displacement";
-            assert_eq!(mean.largest > own.largest, !is_continuous, "{}", own.array.name);
+            // means of equal numbers have a rounding
+            let is_larger = mean.largest > 1.001 * own.largest;
+            assert_eq!(is_larger, !is_continuous, "{}", own.array.name);
         }
         check_jumps(&mesh, &field);
     }

@@ -5,16 +5,22 @@
 //! edge, together with the neighbour across it, which is divided at its own longest edge first if
 //! that is another one (Rivara, 1984): no vertex ever lies inside an edge, and angles stay above
 //! half of the smallest one that the beginning has.
+//!
+//! Of the elements of a mesh each patch has points of its own (`of_elements`).
 
 mod begin;
 mod forest;
 mod nodes;
+mod of_elements;
 
 use ppum::crack::{SegmentId, Side};
+use ppum::field::Field;
 use ppum::sample::{Place, Seats};
 use ppum::vec2::Vec2;
 
 use super::borders::BorderKind;
+use super::elements::{ElementPlace, Elements, weighted};
+use super::lagrange::{Lagrange, Weights};
 
 /// Part of the way to the centroid of a triangle at which its corner is seen from inside.
 pub(super) use ppum_render::pieces::INSET;
@@ -28,14 +34,40 @@ pub(super) struct TornPoint {
     /// The vertex.
     pub(super) position: Vec2,
     /// Where values of the field are taken.
-    pub(super) place: Place,
-    /// Where quantities are taken that jump across kinks: in the sector if a kink ends it.
-    pub(super) inside: Place,
+    pub(super) seen: Seen,
+}
+
+/// Where values of the field are taken.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Seen {
+    /// In the plane.
+    Plane {
+        /// The place.
+        place: Place,
+        /// Where quantities are taken that jump across kinks: in the sector if a kink ends it.
+        inside: Place,
+    },
+    /// In an element of a mesh.
+    Element(ElementPlace),
 }
 
 impl TornPoint {
     fn new(position: Vec2, place: Place) -> Self {
-        Self { position, place, inside: place }
+        Self { position, seen: Seen::Plane { place, inside: place } }
+    }
+
+    /// The place in the plane.
+    pub(super) fn place(&self) -> Place {
+        match self.seen {
+            Seen::Plane { place, .. } => place,
+            Seen::Element(_) => Place {
+                point: self.position,
+                anchor: self.position,
+                offset: Vec2::ZERO,
+                on: None,
+                side: Side::Above,
+            },
+        }
     }
 }
 
@@ -66,8 +98,21 @@ impl Triangle {
 pub(super) struct Torn<'d> {
     seats: Seats<'d>,
     cracks: &'d [ppum::crack::Crack],
+    elements: Option<Elements<'d>>,
     pub(super) points: Vec<TornPoint>,
     pub(super) triangles: Vec<Triangle>,
+}
+
+impl<'d> Torn<'d> {
+    fn empty(field: &Field<'d>) -> Self {
+        Self {
+            seats: Seats::new(field),
+            cracks: &field.step.cracks,
+            elements: None,
+            points: Vec::new(),
+            triangles: Vec::new(),
+        }
+    }
 }
 
 impl Torn<'_> {
@@ -79,6 +124,17 @@ impl Torn<'_> {
     pub(super) fn corners(&self, triangle: u32) -> [Vec2; 3] {
         let corners = self.triangles[triangle as usize].corners;
         corners.map(|corner| self.points[corner as usize].position)
+    }
+
+    /// A point of a triangle, interpolated between its nodes as values are.
+    pub(super) fn position(&self, triangle: u32, b: Weights, cell: &Lagrange) -> Vec2 {
+        if cell.order == 1 || self.elements.is_none() {
+            return weighted(self.corners(triangle), b);
+        }
+        let inner = self.inner_nodes(triangle, cell).map(|point| point.position);
+        let nodes = self.corners(triangle).into_iter().chain(inner);
+        let weights = cell.weights(b);
+        nodes.zip(weights).fold(Vec2::ZERO, |sum, (node, weight)| sum + node * weight)
     }
 
     /// A place inside a triangle, a part of the way from a corner to the centroid.
@@ -129,6 +185,8 @@ impl Torn<'_> {
         }
         let across = self.edge_to(other, triangle);
         let beyond = if kind.is_torn() { self.add_middle(middle, other, across) } else { point };
+        // those of two elements may differ by rounding, and edges are compared by their ends
+        self.points[beyond as usize].position = self.points[point as usize].position;
         let new = self.split(triangle, edge, point, changed);
         let new_other = self.split(other, across, beyond, changed);
         self.join((triangle, new_other), (new, other));
@@ -140,7 +198,8 @@ impl Torn<'_> {
     }
 
     fn add_middle(&mut self, middle: Vec2, triangle: u32, edge: usize) -> u32 {
-        self.points.push(self.on_edge(middle, triangle, edge));
+        let of_element = self.element_middle(triangle, edge);
+        self.points.push(of_element.unwrap_or_else(|| self.on_edge(middle, triangle, edge)));
         self.points.len() as u32 - 1
     }
 
@@ -153,11 +212,8 @@ impl Torn<'_> {
             Some(segment) => on_crack(segment, point, self.side(segment, along)),
             None => self.place(point),
         };
-        let mut seen = TornPoint::new(point, place);
-        if kind.kink {
-            seen.inside = self.seen_from_inside(point, corners, INSET);
-        }
-        seen
+        let inside = if kind.kink { self.seen_from_inside(point, corners, INSET) } else { place };
+        TornPoint { position: point, seen: Seen::Plane { place, inside } }
     }
 
     /// The side of a crack that a triangle is on, from the direction of its edge.

@@ -11,6 +11,7 @@ use ppum::progress::Watcher;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::borders::{Border, LineRequest, SAME, borders, longest, with_polygons};
+use super::torn::Torn;
 use super::vtu::{About, array, flat, numbers, write_texts};
 use crate::colors::Colors;
 use crate::drawing::BodyView;
@@ -57,6 +58,8 @@ pub enum FeatureKind {
     Support([bool; 2]),
     /// A point with a traction.
     Load(Vec2),
+    /// A line along which elements of a mesh are cut.
+    Cut,
 }
 
 impl FeatureKind {
@@ -69,6 +72,7 @@ impl FeatureKind {
             Self::Isoline(_) => 3,
             Self::Support(_) => 4,
             Self::Load(_) => 5,
+            Self::Cut => 6,
         }
     }
 
@@ -136,7 +140,16 @@ impl Lines {
             points: ends.to_vec(),
         };
         let points = tips_of(field).chain(stations(dataset, SPACING * longest(bounds))).collect();
-        Self { points, lines: of_body.map(segment).collect() }
+        let lines = of_body.map(segment);
+        let Some(mesh) = field.step.partition.mesh() else {
+            return Self { points, lines: lines.collect() };
+        };
+        let of_elements = Torn::of_elements(field, mesh).element_lines(field).into_iter();
+        let kind = |is_cut| if is_cut { FeatureKind::Cut } else { FeatureKind::Border };
+        let of_elements =
+            of_elements.map(|(is_cut, points)| Feature { kind: kind(is_cut), points });
+        let cracks = lines.filter(|line| matches!(line.kind, FeatureKind::Crack(_)));
+        Self { points, lines: cracks.chain(of_elements).collect() }
     }
 
     /// Adds the isolines that an image of the whole domain has by default.

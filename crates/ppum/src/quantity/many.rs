@@ -35,6 +35,37 @@ impl Quantity {
         rows
     }
 
+    /// Several quantities at points of one patch of a mesh, given by their δ, whoever owns them: a
+    /// row for each point; see [`ElementField`](crate::mesh::ElementField). NaN of a cover.
+    #[must_use]
+    pub fn on_element(
+        quantities: &[Self],
+        local: &mut LocalField<'_>,
+        patch: usize,
+        points: &[Vec2],
+    ) -> Vec<f64> {
+        let components = local.field.components();
+        let mut jets = vec![Jet::NAN; points.len() * components];
+        let mut offsets = vec![Vec2::ZERO; points.len()];
+        if let Some(element) = local.element(patch) {
+            let has_gradient = quantities.iter().any(|q| q.source() == Source::Gradient);
+            for ((&point, offset), jets) in
+                points.iter().zip(&mut offsets).zip(jets.chunks_mut(components))
+            {
+                *offset = element.point(point).offset;
+                match has_gradient {
+                    true => element.evaluate::<1>((point, *offset), Side::Above, jets),
+                    false => element.evaluate::<0>((point, *offset), Side::Above, jets),
+                }
+            }
+        }
+        let mut rows = Vec::with_capacity(points.len() * quantities.len());
+        for (&offset, jets) in offsets.iter().zip(jets.chunks(components)) {
+            rows.extend(quantities.iter().map(|quantity| quantity.of_jets(local, offset, jets)));
+        }
+        rows
+    }
+
     /// A quantity of a field on a mesh at the points of a grid, row by row; NaN outside, and of a
     /// cover everywhere.
     #[must_use]

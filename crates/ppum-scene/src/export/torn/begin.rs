@@ -5,16 +5,16 @@ use std::collections::HashMap;
 use ppum::crack::{SegmentId, Side};
 use ppum::domain::Domain;
 use ppum::field::Field;
-use ppum::sample::{Place, Seats};
+use ppum::sample::Place;
 use ppum::vec2::Vec2;
 use ppum_solve::triangulation::{NotFinite, Triangulation, triangulate};
 
 use super::super::borders::{Border, BorderKind};
 use super::forest::Forest;
-use super::{INSET, NONE, Torn, TornPoint, Triangle, centroid, on_crack};
+use super::{INSET, NONE, Seen, Torn, TornPoint, Triangle, centroid, on_crack};
 
 /// The kinds of edges, by their ends in ascending order.
-type Kinds = HashMap<[u32; 2], BorderKind>;
+pub(super) type Kinds = HashMap<[u32; 2], BorderKind>;
 
 impl<'d> Torn<'d> {
     /// Triangles between borders, with more points inside; what lies outside of the domain is
@@ -32,12 +32,8 @@ impl<'d> Torn<'d> {
         let is_inside = |t: &[u32; 3]| domain.contains(centroid(t.map(at)));
         let inside: Vec<_> = found.triangles.iter().copied().filter(is_inside).collect();
         found.triangles = inside;
-        let mut mesh = Self {
-            seats: Seats::new(field),
-            cracks: &field.step.cracks,
-            points: Vec::new(),
-            triangles: linked(&found.triangles, &kinds),
-        };
+        let mut mesh = Self::empty(field);
+        mesh.triangles = linked(&found.triangles, &kinds);
         mesh.tear(&found.points);
         Ok(mesh)
     }
@@ -85,11 +81,8 @@ impl<'d> Torn<'d> {
             ([a, b], Some(side)) if a.crack == b.crack => on_crack((*a).min(*b), vertex, side),
             _ => inside(),
         };
-        let mut point = TornPoint::new(vertex, place);
-        if at.kink {
-            point.inside = inside();
-        }
-        point
+        let inside = if at.kink { inside() } else { place };
+        TornPoint { position: vertex, seen: Seen::Plane { place, inside } }
     }
 
     /// A point that one segment ends at or passes; a tip has one side.
@@ -148,7 +141,7 @@ impl Incident {
 
 /// Corners of triangles that no border parts at their vertex: joined at both ends of all edges that
 /// are not torn.
-fn sectors(triangles: &[Triangle], is_torn: impl Fn(BorderKind) -> bool) -> Forest {
+pub(super) fn sectors(triangles: &[Triangle], is_torn: impl Fn(BorderKind) -> bool) -> Forest {
     let mut all = Forest::new(3 * triangles.len());
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {
@@ -183,7 +176,7 @@ fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
 }
 
 /// Triangles that know their neighbours; their corners are vertices still.
-fn linked(triangles: &[[u32; 3]], kinds: &Kinds) -> Vec<Triangle> {
+pub(super) fn linked(triangles: &[[u32; 3]], kinds: &Kinds) -> Vec<Triangle> {
     let mut owners: HashMap<[u32; 2], u32> = HashMap::new();
     let edge = |corners: &[u32; 3], k: usize| [corners[k], corners[(k + 1) % 3]];
     for (t, corners) in (0..).zip(triangles) {

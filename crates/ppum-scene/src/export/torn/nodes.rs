@@ -18,6 +18,9 @@ impl Torn<'_> {
 
     fn node(&self, triangle: u32, node: [u8; 3], order: u8) -> TornPoint {
         let part = |i: u8| f64::from(i) / f64::from(order);
+        if let Some(point) = self.element_point(triangle, node.map(part)) {
+            return point;
+        }
         let [a, b, c] = self.corners(triangle);
         let Some(opposite) = node.iter().position(|i| *i == 0) else {
             let point = a + ((b - a) * part(node[1]) + (c - a) * part(node[2]));
@@ -45,8 +48,13 @@ impl Torn<'_> {
     }
 
     /// For each point the first one at its place that neither a crack nor an interface parts from
-    /// it; `cells` are the points of all triangles.
-    pub(in super::super) fn together(&self, cells: &[u32], cell: &Lagrange) -> Vec<usize> {
+    /// it, and that agrees with it; `cells` are the points of all triangles.
+    pub(in super::super) fn together(
+        &self,
+        cells: &[u32],
+        cell: &Lagrange,
+        agree: &dyn Fn(usize, usize) -> bool,
+    ) -> Vec<usize> {
         let on_edge = |t: u32, edge: usize| {
             let (own, inner) = (&cells[t as usize * cell.nodes.len()..], cell.order as usize - 1);
             let between = own[3 + edge * inner..][..inner].iter();
@@ -60,7 +68,7 @@ impl Torn<'_> {
                 if other < t && !triangle.kinds[edge].is_physical() {
                     let across = on_edge(other, self.edge_to(other, t));
                     let pairs = on_edge(t, edge).into_iter().zip(across.into_iter().rev());
-                    pairs.for_each(|(a, b)| all.join(a, b));
+                    pairs.filter(|(a, b)| agree(*a, *b)).for_each(|(a, b)| all.join(a, b));
                 }
             }
         }
