@@ -76,6 +76,8 @@ pub enum Action {
     Close,
     /// Write the dataset to a file that is chosen.
     SaveDataset,
+    /// The same of a view, by its number.
+    SaveDatasetOf(usize),
     /// Write a page of what is seen to a file that is chosen.
     ExportPage,
     /// Write the session to its file; to one that is chosen if it has none.
@@ -94,6 +96,12 @@ pub enum Action {
     SaveProblemAs,
     /// Close the problem's text.
     CloseProblem,
+    /// Take a changed text that was put aside, by its number.
+    TakeText(usize),
+    /// No longer keep one.
+    DiscardText(usize),
+    /// The text of the problem whose solution is shown.
+    ShowText,
     /// One view, or two side by side.
     Split,
     /// The difference of two views on and off.

@@ -1,7 +1,7 @@
 //! All that a person chooses: what is looked at, where, and how. Plain data that is compared,
 //! undone, kept and written.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::view::{View, ViewError};
@@ -57,6 +57,50 @@ pub struct ProblemDraft {
     pub folder: Option<PathBuf>,
     /// The text.
     pub text: String,
+    /// The text as its file has it, or as an example or a dataset gave it.
+    pub original: Option<String>,
+}
+
+impl ProblemDraft {
+    /// The text of an example or a dataset, which nobody has changed yet.
+    #[must_use]
+    pub fn unchanged(text: String) -> Self {
+        Self { original: Some(text.clone()), text, ..Self::default() }
+    }
+
+    /// True if no file, example or dataset has the text as it is.
+    #[must_use]
+    pub fn is_changed(&self) -> bool {
+        self.original.as_ref() != Some(&self.text)
+    }
+
+    /// The name of its file, or its title.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let file = self.path.as_deref().and_then(Path::file_name);
+        let title = || title(&self.text).unwrap_or("a text without a title").to_owned();
+        file.map_or_else(title, |name| name.to_string_lossy().into_owned())
+    }
+
+    /// True if both are states of one problem: of one file, or, without a file, of one text that
+    /// was changed.
+    #[must_use]
+    pub fn is_same_problem(&self, other: &Self) -> bool {
+        if let (Some(path), Some(other)) = (&self.path, &other.path) {
+            return path == other;
+        }
+        let states = |draft: &Self| [Some(draft.text.clone()), draft.original.clone()];
+        let theirs = states(other);
+        states(self).iter().any(|text| text.is_some() && theirs.contains(text))
+    }
+}
+
+/// The title that the text of a problem gives, whatever mistakes are in it.
+#[must_use]
+pub fn title(text: &str) -> Option<&str> {
+    let value = |line| str::trim_start(line).strip_prefix("title")?.trim_start().strip_prefix('=');
+    let quoted = text.lines().find_map(value)?.trim_start().strip_prefix('"')?;
+    quoted.split('"').next().filter(|title| !title.is_empty())
 }
 
 /// One view.

@@ -99,6 +99,13 @@ impl Start {
             }
             None => None,
         };
+        // the changed text of the last time is shown again, or put aside
+        let text = last.as_ref().and_then(|last| last.draft.clone());
+        match text {
+            Some(text) if is_given => viewer.files.put_aside(text),
+            Some(text) => viewer.files.release(&text),
+            None => {}
+        }
         let session = match (self.session, last) {
             (Some(session), _) => Some(session),
             (None, Some(last)) if is_given => Some(last.look()),

@@ -14,6 +14,7 @@ use crate::actions;
 use crate::desk::Desk;
 use crate::fonts::fonts;
 use crate::frames::{Backend, Minus};
+use crate::page::PageOrder;
 use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::panels::{self, help, top};
@@ -42,6 +43,8 @@ pub struct Viewer {
     parting: parting::Question,
     /// The dataset that is to make place for the solution that is computed.
     replaced: Option<Arc<Dataset>>,
+    /// The page that is written once its name is chosen.
+    page: Option<PageOrder>,
     /// Files that were read and are not shown yet.
     waiting: std::collections::VecDeque<crate::files::read::Arrived>,
     pub(crate) palette: Option<Palette>,
@@ -83,6 +86,7 @@ impl Viewer {
             solving: crate::solving::Solving::new(ctx),
             parting: parting::Question::default(),
             replaced: None,
+            page: None,
             waiting: std::collections::VecDeque::new(),
             palette: None,
             exporter: None,
@@ -97,12 +101,15 @@ impl Viewer {
     pub fn open(&mut self, path: Option<PathBuf>, dataset: Arc<Dataset>) {
         let active = self.session.active;
         self.session.panes[active].file.clone_from(&path);
-        self.stages[active].opened = Some(Opened { path, dataset });
+        self.stages[active].opened = Some(Opened::new(path, dataset));
     }
 
     /// Shows the window once.
     pub fn show(&mut self, ui: &mut Ui) {
         self.work(ui);
+        if self.session.drawer == Some(DrawerPage::Problem) {
+            self.follow_dataset();
+        }
         let mut actions = actions::pressed(ui.ctx());
         help::take(ui.ctx(), &mut self.has_help, &mut actions);
         let active = self.session.active;

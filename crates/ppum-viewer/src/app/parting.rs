@@ -1,5 +1,5 @@
-//! Closing a dataset or the window, or opening something in its place: not without a word where a
-//! solution would be lost that no file has.
+//! Closing a dataset or the window, or opening something in its place: not without a question where
+//! something would be lost that no file has.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -8,12 +8,12 @@ use egui::{Context, Id, Key, Modal, Modifiers, Ui, ViewportCommand};
 use ppum::dataset::Dataset;
 
 use crate::app::Viewer;
-use crate::files::examples;
 use crate::files::read::{Arrived, Content, Why};
+use crate::session::ProblemDraft;
 use crate::stage::Opened;
 
 /// What is closed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum Parting {
     /// The dataset of a pane.
     Pane(usize),
@@ -26,29 +26,54 @@ pub enum Parting {
     /// What the active view shows, for the solution of the problem that is written, or of an
     /// example, by its number.
     Solve(Option<usize>),
+    /// A changed text that was put aside.
+    Text(ProblemDraft),
 }
 
 /// How far one has come with it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Debug, Default)]
 pub(super) enum Question {
     /// Nothing is to be closed.
     #[default]
     None,
-    /// What becomes of a pane's solution, or of the one that is computed, is asked.
-    Asked(Parting, Loss),
-    /// It is being saved; what was to be closed is closed then.
-    Saving(Parting, usize),
+    /// What becomes of all that would be lost is asked.
+    Asked(Parting, Vec<Loss>),
+    /// A part of it is being saved; what was to be closed is closed then.
+    Saving(Parting, Vec<Loss>),
     /// The window closes, whatever is lost.
     LetGo,
 }
 
-/// What would be lost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Something that would be lost.
+#[derive(Clone, Debug)]
 pub(super) enum Loss {
-    /// The solution of a pane.
-    Solution(usize),
-    /// The work of a solver.
-    Work,
+    /// The solution of a view, and what it is called.
+    Solution(Arc<Dataset>, String),
+    /// The work of a solver on a problem of this name.
+    Work(String),
+    /// The changes of a text.
+    Text(ProblemDraft),
+}
+
+impl PartialEq for Loss {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Solution(dataset, _), Self::Solution(other, _)) => Arc::ptr_eq(dataset, other),
+            (Self::Work(name), Self::Work(other)) => name == other,
+            (Self::Text(text), Self::Text(other)) => text == other,
+            _ => false,
+        }
+    }
+}
+
+impl Loss {
+    fn sentence(&self) -> String {
+        match self {
+            Self::Solution(_, name) => format!("The solution {name} is not saved."),
+            Self::Work(name) => format!("{name} is being solved."),
+            Self::Text(draft) => format!("The changes in {} are not saved.", draft.name()),
+        }
+    }
 }
 
 /// What is answered.
@@ -71,10 +96,11 @@ fn is_let_go() -> Id {
 impl Viewer {
     /// Closes something, or asks first.
     pub(crate) fn part(&mut self, ctx: &Context, parting: Parting) {
-        match self.lost_with(parting) {
-            Some(loss) => self.parting = Question::Asked(parting, loss),
-            None => self.close_at_last(ctx, parting),
+        let losses = self.losses(&parting);
+        if losses.is_empty() {
+            return self.close_at_last(ctx, parting);
         }
+        self.parting = Question::Asked(parting, losses);
     }
 
     fn close_at_last(&mut self, ctx: &Context, parting: Parting) {
@@ -97,6 +123,7 @@ impl Viewer {
                 self.replaced = opened.map(|opened| Arc::clone(&opened.dataset));
                 self.solve(example);
             }
+            Parting::Text(draft) => self.files.release(&draft),
             Parting::Window => {
                 self.parting = Question::LetGo;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
@@ -112,7 +139,7 @@ impl Viewer {
     /// Shows what was read, one after the other, or asks first.
     pub(super) fn let_in(&mut self, ctx: &Context) {
         self.waiting.extend(self.files.arrived());
-        while self.parting == Question::None && !self.waiting.is_empty() {
+        while !self.is_asking() && !self.waiting.is_empty() {
             self.part(ctx, Parting::Arrival);
         }
     }
@@ -131,168 +158,226 @@ impl Viewer {
         }
     }
 
-    /// What would be lost, if anything would.
-    fn lost_with(&self, parting: Parting) -> Option<Loss> {
-        let solution = self.solution_lost_with(parting).map(Loss::Solution);
-        solution.or(self.is_still_solving(parting).then_some(Loss::Work))
+    /// All that would be lost.
+    fn losses(&self, parting: &Parting) -> Vec<Loss> {
+        let mut losses = self.lost_solutions(parting);
+        losses.extend(self.lost_work(parting));
+        losses.extend(self.lost_texts(parting));
+        losses
     }
 
-    /// True if the solver works, and would not any more, or for nobody.
-    fn is_still_solving(&self, parting: Parting) -> bool {
-        let Some(running) = self.solving.running() else { return false };
-        match parting {
+    /// The work of the solver, if it would not go on, or for nobody.
+    fn lost_work(&self, parting: &Parting) -> Option<Loss> {
+        let running = self.solving.running()?;
+        let is_lost = match parting {
             Parting::Window | Parting::Solve(_) => true,
-            Parting::Pane(pane) => running.pane() == pane,
-            Parting::View(back) => self.takes_view(back) && running.pane() == 1,
-            Parting::Arrival => false,
-        }
+            Parting::Pane(pane) => running.pane() == *pane,
+            Parting::View(back) => self.takes_view(*back) && running.pane() == 1,
+            Parting::Arrival | Parting::Text(_) => false,
+        };
+        is_lost.then(|| Loss::Work(running.problem().name()))
+    }
+
+    /// Changed texts outlast the window, unless it can keep nothing.
+    fn lost_texts(&self, parting: &Parting) -> Vec<Loss> {
+        let texts = match parting {
+            Parting::Text(draft) => self.files.texts().iter().filter(|t| *t == draft).collect(),
+            Parting::Window if !self.files.can_keep() => self.changed_texts(),
+            _ => Vec::new(),
+        };
+        texts.into_iter().cloned().map(Loss::Text).collect()
+    }
+
+    /// The texts that are not as their files have them: that which is written, and those that were
+    /// put aside.
+    fn changed_texts(&self) -> Vec<&ProblemDraft> {
+        let draft = self.session.draft.iter().filter(|draft| draft.is_changed());
+        draft.chain(self.files.texts()).collect()
     }
 
     /// True if something is asked, or the answer was that all may be lost.
     #[must_use]
     pub fn is_asking(&self) -> bool {
-        self.parting != Question::None
+        !matches!(self.parting, Question::None)
+    }
+
+    /// What a view shows.
+    pub(super) fn opened(&self, pane: usize) -> Option<&Opened> {
+        self.stages.get(pane)?.opened.as_ref()
     }
 
     /// True if a dataset of a view has no file and cannot be had again at once, as examples of one
     /// step can.
     #[must_use]
     pub fn is_unsaved(&self, pane: usize) -> bool {
-        self.stages.get(pane).and_then(|stage| stage.opened.as_ref()).is_some_and(is_unsaved)
+        self.opened(pane).is_some_and(Opened::is_unsaved)
     }
 
     /// True if the dataset of a view is to make place for the solution that is computed: that was
     /// asked for.
     #[must_use]
     pub fn is_given_up(&self, pane: usize) -> bool {
-        let opened = self.stages.get(pane).and_then(|stage| stage.opened.as_ref());
-        let is_it =
-            |replaced: &Arc<Dataset>| opened.is_some_and(|o| Arc::ptr_eq(replaced, &o.dataset));
+        let is_it = |replaced: &Arc<Dataset>| {
+            self.opened(pane).is_some_and(|opened| Arc::ptr_eq(replaced, &opened.dataset))
+        };
         self.replaced.as_ref().is_some_and(is_it)
     }
 
-    /// The view for a solution: that for which it was computed, another one if a solution has come
-    /// there meanwhile.
-    pub(super) fn free_pane(&mut self, ctx: &Context, pane: usize) -> usize {
+    /// The view for a solution: that for which it was computed, the other one if something would be
+    /// lost there that was not given up, or was for more than the steps before a stop.
+    pub(super) fn free_pane(&mut self, ctx: &Context, pane: usize, is_complete: bool) -> usize {
         let pane = pane.min(self.stages.len() - 1);
-        let is_meant = self.is_given_up(pane);
+        let is_given_up = self.is_given_up(pane);
         self.replaced = None;
-        if is_meant || !self.is_unsaved(pane) || self.is_twice(pane) {
+        let is_free = |viewer: &Self, pane| !viewer.is_unsaved(pane) || viewer.is_twice(pane);
+        if is_free(self, pane) || (is_given_up && is_complete) {
             return pane;
         }
         if self.stages.len() == 1 {
             self.split(ctx);
         }
-        1 - pane
+        if is_given_up && !is_free(self, 1 - pane) { pane } else { 1 - pane }
     }
 
-    /// A pane whose solution would be lost.
-    fn solution_lost_with(&self, parting: Parting) -> Option<usize> {
-        let mut panes = match parting {
+    /// The solutions of views that would be lost.
+    fn lost_solutions(&self, parting: &Parting) -> Vec<Loss> {
+        let active = self.session.active;
+        let panes = match *parting {
             Parting::Window => 0..self.stages.len(),
             Parting::Pane(pane) => pane..pane + 1,
             Parting::View(back) if self.takes_view(back) => 1..2,
-            Parting::View(_) => 0..0,
             // who changes a problem and solves it again, many times, wants the new solution
-            Parting::Solve(None) => 0..0,
-            Parting::Solve(Some(_)) => self.session.active..self.session.active + 1,
+            Parting::Solve(None) if self.is_solved_again(active) => 0..0,
+            Parting::Solve(_) => active..active + 1,
             Parting::Arrival => self.waiting.front().map_or(0..0, |first| self.taken_by(first)),
+            Parting::View(_) | Parting::Text(_) => 0..0,
         };
         // of one dataset in two views one may go
         let is_one = panes.len() == 1;
-        panes.find(|pane| self.is_unsaved(*pane) && !(is_one && self.is_twice(*pane)))
+        let mut losses = Vec::new();
+        for pane in panes.filter(|pane| !(is_one && self.is_twice(*pane))) {
+            let Some(opened) = self.opened(pane).filter(|opened| opened.is_unsaved()) else {
+                continue;
+            };
+            let name = format!("{}{}", opened.name(), self.side(pane));
+            let loss = Loss::Solution(Arc::clone(&opened.dataset), name);
+            if !losses.contains(&loss) {
+                losses.push(loss);
+            }
+        }
+        losses
+    }
+
+    /// True if the problem that is written is that whose solution a view shows.
+    fn is_solved_again(&self, pane: usize) -> bool {
+        // without a text that of the solution itself is solved
+        let Some(draft) = &self.session.draft else { return true };
+        let shown = self.opened(pane).and_then(Opened::problem);
+        shown.is_some_and(|shown| shown.is_same_problem(draft))
+    }
+
+    /// Where a view is, if there are two of different datasets.
+    fn side(&self, pane: usize) -> &'static str {
+        match pane {
+            _ if self.stages.len() == 1 || self.is_twice(pane) => "",
+            0 => " on the left",
+            _ => " on the right",
+        }
     }
 
     /// True if the other view has the same dataset.
     fn is_twice(&self, pane: usize) -> bool {
-        let dataset = |pane: usize| {
-            let opened = self.stages.get(pane)?.opened.as_ref()?;
-            Some(Arc::as_ptr(&opened.dataset))
-        };
+        let dataset = |pane: usize| Some(Arc::as_ptr(&self.opened(pane)?.dataset));
         (0..self.stages.len()).any(|other| other != pane && dataset(other) == dataset(pane))
     }
 
-    /// Keeps a window open that is about to close where a solution would be lost, and shows
+    /// Keeps a window open that is about to close where something would be lost, and shows
     /// the question.
     pub(super) fn ask_before_parting(&mut self, ui: &Ui) {
         let ctx = ui.ctx();
         let is_closing = ctx.input(|input| input.viewport().close_requested());
-        let is_free = self.parting == Question::LetGo
+        let is_free = matches!(self.parting, Question::LetGo)
             || ctx.data(|data| data.get_temp(is_let_go())).unwrap_or(false);
-        if is_closing
-            && !is_free
-            && let Some(loss) = self.lost_with(Parting::Window)
-        {
-            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.parting = Question::Asked(Parting::Window, loss);
+        if is_closing && !is_free {
+            let losses = self.losses(&Parting::Window);
+            if !losses.is_empty() {
+                ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+                self.parting = Question::Asked(Parting::Window, losses);
+            }
         }
-        let Question::Asked(parting, loss) = self.parting else { return };
-        if loss == Loss::Work && !self.is_still_solving(parting) {
-            // it has ended while one thought about it, and its solution may be asked for
+        let Question::Asked(parting, losses) = &self.parting else { return };
+        let (parting, losses) = (parting.clone(), losses.clone());
+        if self.losses(&parting) != losses {
+            // a solver has ended while one thought about it, and its solution may be asked for
             return self.part(ctx, parting);
         }
-        match (ask(ui, parting, loss), loss) {
-            (Some(Answer::Save), Loss::Solution(pane)) => {
-                self.parting = Question::Saving(parting, pane);
-                self.ask_dataset(pane);
-            }
-            (Some(Answer::Close), Loss::Solution(_)) if self.is_still_solving(parting) => {
-                self.parting = Question::Asked(parting, Loss::Work);
-            }
-            (Some(Answer::Close | Answer::Save), _) => self.close_at_last(ctx, parting),
-            (Some(Answer::Back), _) => {
-                self.parting = Question::None;
-                if parting == Parting::Arrival {
-                    self.waiting.pop_front();
-                }
-            }
-            (None, _) => {}
+        match ask(ui, &parting, &losses, &self.kept_texts(&parting)) {
+            Some(Answer::Save) => self.save_first(parting, losses),
+            Some(Answer::Close) => self.close_at_last(ctx, parting),
+            Some(Answer::Back) => self.stay(&parting),
+            None => {}
         }
     }
 
-    /// Closes what was to be closed once its solution is saved; if it was not after all,
-    /// everything stays.
-    pub(super) fn leave_when_saved(&mut self, ctx: &Context) {
-        let Question::Saving(parting, pane) = self.parting else { return };
-        if self.files.is_saving() {
-            return;
-        }
+    /// Nothing is closed after all.
+    fn stay(&mut self, parting: &Parting) {
         self.parting = Question::None;
-        if self.lost_with(parting) != Some(Loss::Solution(pane)) {
-            self.part(ctx, parting);
-        } else if parting == Parting::Arrival {
+        if matches!(parting, Parting::Arrival) {
             self.waiting.pop_front();
         }
     }
-}
 
-/// True if no file has a dataset, and it is none of the examples either, which can be had again
-/// at once unless they are solved in many steps.
-fn is_unsaved(opened: &Opened) -> bool {
-    let (text, steps) = (opened.dataset.problem.as_deref(), opened.dataset.steps.len());
-    let is_example = examples::ALL.iter().any(|example| Some(example.text) == text);
-    opened.path.is_none() && (steps > 1 || !is_example)
-}
+    /// Tells which changed texts the window keeps when it closes.
+    fn kept_texts(&self, parting: &Parting) -> String {
+        if !matches!(parting, Parting::Window) || !self.files.can_keep() {
+            return String::new();
+        }
+        let names: Vec<_> = self.changed_texts().iter().map(|draft| draft.name()).collect();
+        match names.len() {
+            0 => String::new(),
+            _ => format!("Changed texts are kept for the next time: {}.", names.join(", ")),
+        }
+    }
 
-const UNSAVED: &str = "The solution is not saved.";
-const SOLVING: &str = "A problem is being solved.";
+    /// Saves the first of what would be lost.
+    fn save_first(&mut self, parting: Parting, losses: Vec<Loss>) {
+        let first = losses.iter().find(|loss| !matches!(loss, Loss::Work(_))).cloned();
+        self.parting = Question::Saving(parting, losses);
+        match first {
+            Some(Loss::Solution(dataset, _)) => self.ask_dataset(&dataset),
+            Some(Loss::Text(draft)) => self.save_text(draft),
+            Some(Loss::Work(_)) | None => {}
+        }
+    }
+
+    /// Goes on with what was to be closed once a part of it is saved; if nothing was after all,
+    /// everything stays.
+    pub(super) fn leave_when_saved(&mut self, ctx: &Context) {
+        let Question::Saving(parting, losses) = &self.parting else { return };
+        if self.files.is_saving() {
+            return;
+        }
+        let (parting, is_same) = (parting.clone(), self.losses(parting) == *losses);
+        if is_same { self.stay(&parting) } else { self.part(ctx, parting) }
+    }
+}
 
 /// Shows the question; what is answered.
-fn ask(ui: &Ui, parting: Parting, loss: Loss) -> Option<Answer> {
-    let (text, save, without) = match (loss, parting) {
-        (Loss::Work, Parting::Solve(_)) => (SOLVING, None, "Stop and solve this one"),
-        (Loss::Work, _) => (SOLVING, None, "Stop and close"),
-        (_, Parting::Arrival) => (UNSAVED, Some("Save…"), "Open without saving"),
-        (_, Parting::Solve(_)) => (UNSAVED, Some("Save…"), "Solve without saving"),
-        _ => (UNSAVED, Some("Save…"), "Close without saving"),
-    };
+fn ask(ui: &Ui, parting: &Parting, losses: &[Loss], kept: &str) -> Option<Answer> {
+    let can_save = losses.iter().any(|loss| !matches!(loss, Loss::Work(_)));
+    let save = can_save.then_some(("Save…", Answer::Save));
+    let without = without_saving(parting, losses);
+    let others = [(without.as_str(), Answer::Close), ("Back", Answer::Back)];
     let mut answer = None;
     let shown = Modal::new(Id::unique("parting")).show(ui.ctx(), |ui| {
-        ui.label(text);
+        for loss in losses {
+            ui.label(loss.sentence());
+        }
+        if !kept.is_empty() {
+            ui.weak(kept);
+        }
         ui.add_space(8.0);
         ui.horizontal_wrapped(|ui| {
-            let save = save.map(|name| (name, Answer::Save));
-            let others = [(without, Answer::Close), ("Back", Answer::Back)];
             for (name, meant) in save.into_iter().chain(others) {
                 if ui.button(name).clicked() {
                     answer = Some(meant);
@@ -302,4 +387,21 @@ fn ask(ui: &Ui, parting: Parting, loss: Loss) -> Option<Answer> {
     });
     let escape = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
     answer.or_else(|| (escape || shown.should_close()).then_some(Answer::Back))
+}
+
+/// What is done if nothing is saved.
+fn without_saving(parting: &Parting, losses: &[Loss]) -> String {
+    let is_stopped = losses.iter().any(|loss| matches!(loss, Loss::Work(_)));
+    let verb = match parting {
+        Parting::Text(_) => return "Discard the changes".into(),
+        Parting::Arrival => "open",
+        Parting::Solve(_) => "solve",
+        Parting::Pane(_) | Parting::Window | Parting::View(_) => "close",
+    };
+    match (is_stopped, losses.len()) {
+        (true, 1) if verb == "solve" => "Stop and solve this one".into(),
+        (true, 1) => format!("Stop and {verb}"),
+        (true, _) => format!("Stop, and {verb} without saving"),
+        (false, _) => format!("{}{} without saving", verb[..1].to_uppercase(), &verb[1..]),
+    }
 }

@@ -16,11 +16,10 @@ use crate::files::read::{Arrived, Content, Why};
 use crate::files::watch::{Stamp, stamp};
 use crate::files::{SavedFile, Written, name, session_file};
 use crate::page::PageOrder;
-use crate::panels::drawer::problem::editor_id;
 use crate::plate;
 use crate::player;
 use crate::session::{DrawerPage, Pane, ProblemDraft, Session};
-use crate::solving::Solved;
+use crate::solving::{Solved, editor_id};
 use crate::stage::{Opened, Stage};
 use crate::undo::Undo;
 
@@ -29,6 +28,9 @@ impl Viewer {
     pub(crate) fn work(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         self.take_dropped(ui);
+        if !self.files.is_saving() {
+            self.page = None;
+        }
         if let Some(rect) = ctx.input(|input| input.viewport().inner_rect) {
             self.files.kept.size = Some(rect.size().into());
         }
@@ -61,8 +63,7 @@ impl Viewer {
             let path = stage.opened.as_ref().and_then(|opened| opened.path.clone());
             let path = path.unwrap_or_default();
             for text in stage.told.drain(..) {
-                let name = name(&path);
-                let name = if name.is_empty() { "the solution" } else { &name };
+                let name = stage.opened.as_ref().map_or_else(String::new, Opened::name);
                 self.files.tell_too(&path, &format!("{name}: {text}"));
             }
         }
@@ -87,6 +88,7 @@ impl Viewer {
 
     /// Shows a session: reads its files, and tells which are missing.
     pub fn take_session(&mut self, ctx: &egui::Context, session: Session) {
+        self.shelve();
         self.session = session;
         self.session.mend();
         self.stages = self.session.panes.iter().map(|_| Stage::new(ctx, self.backend)).collect();
@@ -97,7 +99,7 @@ impl Viewer {
                 self.files.open(path, number, Why::Restored);
             }
         }
-        self.solving.begin(None, None);
+        self.solving.begin(None);
         if let Some(path) = self.session.draft.as_ref().and_then(|draft| draft.path.as_ref()) {
             self.files.open(path, 0, Why::Restored);
         }
@@ -105,6 +107,10 @@ impl Viewer {
 
     /// Keeps all that is to be remembered; the window closes.
     pub fn leave(&mut self) {
+        // another window may keep its session in the place of this one
+        if let Some(draft) = self.session.draft.clone() {
+            self.files.put_aside(draft);
+        }
         self.files.finish(&self.session);
     }
 
@@ -116,8 +122,9 @@ impl Viewer {
             Action::Open => self.files.ask(Purpose::Open(active), file.as_deref()),
             Action::OpenBeside => self.files.ask(Purpose::Open(1), file.as_deref()),
             Action::Close => self.part(ctx, Parting::Pane(active)),
-            Action::SaveDataset => self.ask_dataset(active),
-            Action::ExportPage => self.ask_page(active, file),
+            Action::SaveDataset => self.ask_dataset_of(active),
+            Action::SaveDatasetOf(pane) => self.ask_dataset_of(pane),
+            Action::ExportPage => self.ask_page(active),
             // who writes the problem means the problem
             Action::SaveSession if ctx.memory(|m| m.has_focus(editor_id())) => self.save_problem(),
             Action::SaveSession => match self.files.session.clone() {
@@ -125,59 +132,63 @@ impl Viewer {
                 None => self.ask_session(),
             },
             Action::SaveSessionAs => self.ask_session(),
-            Action::Solve => self.part(ctx, Parting::Solve(None)),
+            Action::Solve => {
+                self.follow_dataset();
+                self.part(ctx, Parting::Solve(None));
+            }
             Action::Example(number) => self.part(ctx, Parting::Solve(Some(number))),
             Action::CancelSolving => self.solving.cancel(),
             Action::SaveProblem => self.save_problem(),
-            Action::SaveProblemAs => self.ask_problem(),
+            Action::SaveProblemAs => {
+                if let Some(draft) = self.session.draft.clone() {
+                    self.ask_problem(draft);
+                }
+            }
             Action::CloseProblem => {
                 self.shelve();
-                self.session.draft = None;
                 self.session.drawer = None;
             }
+            Action::TakeText(number) => self.take_text(number),
+            Action::DiscardText(number) => {
+                if let Some(draft) = self.files.texts().get(number).cloned() {
+                    self.part(ctx, Parting::Text(draft));
+                }
+            }
+            Action::ShowText => self.show_text_of(active),
             _ => {}
         }
     }
 
-    /// Asks for the name of a dataset's file: its own, or that of the problem.
-    pub(crate) fn ask_dataset(&mut self, pane: usize) {
-        if self.stages[pane].opened.is_none() {
-            return self.files.tell(Path::new(""), NOTHING_TO_SAVE, true);
+    /// Asks for the name of the file of what a view shows.
+    fn ask_dataset_of(&mut self, pane: usize) {
+        match self.opened(pane).map(|opened| Arc::clone(&opened.dataset)) {
+            Some(dataset) => self.ask_dataset(&dataset),
+            None => self.files.tell(Path::new(""), NOTHING_TO_SAVE, true),
         }
-        let file = self.session.panes[pane].file.clone();
-        let near = file.or_else(|| self.name_of_solution(pane));
-        self.files.ask(Purpose::SaveDataset(pane), near.as_deref());
     }
 
-    /// The name of the file that a solution may have: that of its problem, beside it.
-    fn name_of_solution(&self, pane: usize) -> Option<PathBuf> {
-        let dataset = &self.stages[pane].opened.as_ref()?.dataset;
-        let text = dataset.problem.as_deref()?;
-        let draft = self.session.draft.as_ref().and_then(|draft| draft.path.clone());
-        let example = examples::ALL.iter().find(|example| example.text == text);
-        let title = || plain_name(&dataset.title).map(PathBuf::from);
-        let name = draft.or(example.map(|example| example.name.into())).or_else(title)?;
-        let name = name.with_extension("h5");
-        Some(self.files.folder_near(None).join(name))
+    /// Asks for the name of a dataset's file: its own, or that of its problem.
+    pub(super) fn ask_dataset(&mut self, dataset: &Arc<Dataset>) {
+        let mut all = self.stages.iter().filter_map(|stage| stage.opened.as_ref());
+        let opened = all.find(|opened| Arc::ptr_eq(&opened.dataset, dataset));
+        let folder = self.files.folder_near(None);
+        let near = opened.and_then(|opened| opened.proposed_name(&folder));
+        self.files.ask(Purpose::SaveDataset(Arc::clone(dataset)), near.as_deref());
     }
 
-    /// Asks for the name of a page; what keeps it from being written is told first.
-    fn ask_page(&mut self, pane: usize, file: Option<PathBuf>) {
-        if let Err(reason) = PageOrder::new(&self.session.panes[pane], &self.stages[pane]) {
-            return self.files.tell(Path::new(""), format!("no page is exported: {reason}"), true);
+    /// Asks for the name of a page of what is seen now; what keeps it from being written is told.
+    fn ask_page(&mut self, pane: usize) {
+        match PageOrder::new(&self.session.panes[pane], &self.stages[pane]) {
+            Ok(order) => self.page = Some(order),
+            Err(reason) => {
+                let told = format!("no page is exported: {reason}");
+                return self.files.tell(Path::new(""), told, true);
+            }
         }
-        let near = file.or_else(|| self.name_of_solution(pane));
+        let folder = self.files.folder_near(None);
+        let near = self.opened(pane).and_then(|opened| opened.proposed_name(&folder));
         let near = near.map(|near| near.with_extension("html"));
-        self.files.ask(Purpose::ExportPage(pane), near.as_deref());
-    }
-
-    fn export_page(&mut self, path: PathBuf, pane: usize) {
-        let shown = self.session.panes.get(pane).zip(self.stages.get(pane));
-        let order = shown.ok_or_else(|| NOTHING_TO_SAVE.to_owned());
-        match order.and_then(|(pane, stage)| PageOrder::new(pane, stage)) {
-            Ok(order) => self.files.write(path, SavedFile::Page, move |path| order.write(path)),
-            Err(reason) => self.files.tell(&path, reason, true),
-        }
+        self.files.ask(Purpose::ExportPage, near.as_deref());
     }
 
     fn ask_session(&mut self) {
@@ -188,15 +199,22 @@ impl Viewer {
         self.files.ask(Purpose::SaveSession, near.as_deref());
     }
 
-    fn ask_problem(&mut self) {
-        let near = self.session.draft.as_ref().and_then(|draft| draft.path.clone());
-        self.files.ask(Purpose::SaveProblem, near.as_deref());
+    fn ask_problem(&mut self, draft: ProblemDraft) {
+        let near = draft.path.clone();
+        self.files.ask(Purpose::SaveProblem(draft), near.as_deref());
     }
 
     fn save_problem(&mut self) {
-        match self.session.draft.as_ref().and_then(|draft| draft.path.clone()) {
-            Some(path) => self.write_problem(path),
-            None => self.ask_problem(),
+        if let Some(draft) = self.session.draft.clone() {
+            self.save_text(draft);
+        }
+    }
+
+    /// Writes a text into its file, or asks for the name of one.
+    pub(super) fn save_text(&mut self, draft: ProblemDraft) {
+        match draft.path.clone() {
+            Some(path) => self.write_problem(path, draft),
+            None => self.ask_problem(draft),
         }
     }
 
@@ -207,14 +225,6 @@ impl Viewer {
             && !self.take_example(example)
         {
             return;
-        }
-        let (_, stage) = (&self.session, &self.stages[self.session.active]);
-        let dataset = stage.opened.as_ref().map(|opened| Arc::clone(&opened.dataset));
-        if self.session.draft.is_none()
-            && let Some(text) = dataset.as_ref().and_then(|dataset| dataset.problem.clone())
-        {
-            self.solving.begin(Some(text.clone()), dataset);
-            self.session.draft = Some(ProblemDraft { text, ..ProblemDraft::default() });
         }
         self.session.drawer = Some(DrawerPage::Problem);
         if let Some(draft) = &self.session.draft {
@@ -228,10 +238,8 @@ impl Viewer {
         let own = self.files.folder().map_or_else(std::env::temp_dir, Path::to_owned);
         match example.folder(&own) {
             Ok(folder) => {
-                self.shelve();
-                let text = example.text.to_owned();
-                self.solving.begin(Some(text.clone()), None);
-                self.session.draft = Some(ProblemDraft { path: None, folder, text });
+                let text = ProblemDraft::unchanged(example.text.to_owned());
+                self.begin_text(ProblemDraft { folder, ..text }, None);
                 true
             }
             Err(error) => {
@@ -241,10 +249,60 @@ impl Viewer {
         }
     }
 
-    /// A changed text that makes place for another one can be had back.
+    /// A text is written from now on; if the one before was changed, it is put aside.
+    fn begin_text(&mut self, draft: ProblemDraft, origin: Option<Arc<Dataset>>) {
+        self.shelve();
+        self.solving.begin(origin);
+        self.session.draft = Some(draft);
+        self.session.drawer = Some(DrawerPage::Problem);
+    }
+
+    /// Takes the text away; a changed one is put aside.
     fn shelve(&mut self) {
-        if let Some(draft) = self.session.draft.clone().filter(|d| self.solving.is_changed(d)) {
-            self.solving.before = Some(draft);
+        if let Some(draft) = self.session.draft.take() {
+            self.files.put_aside(draft);
+        }
+    }
+
+    /// Takes a text that was put aside, by its number.
+    fn take_text(&mut self, number: usize) {
+        let Some(draft) = self.files.texts().get(number).cloned() else { return };
+        self.files.release(&draft);
+        // its file may have changed since
+        if let Some(path) = &draft.path {
+            self.files.open(path, 0, Why::Restored);
+        }
+        self.begin_text(draft, None);
+    }
+
+    /// Shows the text of the problem that a view shows the solution of.
+    fn show_text_of(&mut self, pane: usize) {
+        let Some(dataset) = self.opened(pane).map(|opened| Arc::clone(&opened.dataset)) else {
+            return;
+        };
+        if let Some(text) = dataset.problem.clone() {
+            self.begin_text(ProblemDraft::unchanged(text), Some(dataset));
+        }
+    }
+
+    /// Shows the text of what the active view shows, unless there is one that was opened, changed
+    /// or is being solved.
+    pub(super) fn follow_dataset(&mut self) {
+        let is_free = |draft: &ProblemDraft| {
+            let is_of_dataset = self.solving.origin.is_some() && !draft.is_changed();
+            is_of_dataset && self.solving.running().is_none()
+        };
+        let active = self.session.active;
+        let Some(dataset) = self.opened(active).map(|opened| Arc::clone(&opened.dataset)) else {
+            return;
+        };
+        match &self.session.draft {
+            Some(draft) if !is_free(draft) => {}
+            Some(draft) if dataset.problem.as_ref() == Some(&draft.text) => {
+                self.solving.origin = Some(dataset);
+            }
+            _ if dataset.problem.is_some() => self.show_text_of(active),
+            _ => self.session.draft = None,
         }
     }
 
@@ -267,11 +325,9 @@ impl Viewer {
         }
     }
 
-    fn write_problem(&mut self, path: PathBuf) {
-        if let Some(draft) = &self.session.draft {
-            self.solving.saving = Some(draft.text.clone());
-            self.files.write_text(path, SavedFile::Problem, draft.text.clone());
-        }
+    fn write_problem(&mut self, path: PathBuf, draft: ProblemDraft) {
+        let text = draft.text.clone();
+        self.files.write_text(path, SavedFile::Problem(draft), text);
     }
 
     /// Opens or writes the file that was chosen.
@@ -279,42 +335,55 @@ impl Viewer {
         match purpose {
             Purpose::Open(pane) => self.open_file(ctx, &path, pane),
             Purpose::SaveSession => self.write_session(path),
-            Purpose::SaveProblem => self.write_problem(path),
-            Purpose::ExportPage(pane) => self.export_page(path, pane),
-            Purpose::SaveDataset(pane) => {
-                let opened = self.stages.get(pane).and_then(|stage| stage.opened.as_ref());
-                match opened.map(|opened| Arc::clone(&opened.dataset)) {
-                    Some(dataset) => self.files.write_dataset(path, pane, dataset),
-                    None => self.files.tell(&path, NOTHING_TO_SAVE, true),
+            Purpose::SaveProblem(draft) => self.write_problem(path, draft),
+            Purpose::ExportPage => {
+                if let Some(page) = self.page.take() {
+                    self.files.write(path, SavedFile::Page, move |path| page.write(path));
                 }
             }
+            Purpose::SaveDataset(dataset) => self.files.write_dataset(path, dataset),
         }
     }
 
     /// Something was written: it has a file now.
     fn wrote(&mut self, Written { path, what }: Written) {
         match what {
-            SavedFile::Dataset(number, dataset) => {
-                let panes = self.session.panes.iter_mut().zip(&mut self.stages).enumerate();
-                for (other, (pane, stage)) in panes {
-                    let Some(opened) = &mut stage.opened else { continue };
-                    // what was solved meanwhile has no file
-                    let is_it = Arc::ptr_eq(&opened.dataset, &dataset);
-                    if is_it && (other == number || opened.path.is_none()) {
-                        (pane.file, opened.path) = (Some(path.clone()), Some(path.clone()));
-                    }
-                }
-            }
+            SavedFile::Dataset(dataset) => self.note_dataset_file(&dataset, &path),
             SavedFile::Session => self.files.session = Some(path.clone()),
             SavedFile::Page => return,
-            SavedFile::Problem => {
-                self.solving.on_disk = self.solving.saving.take();
-                if let Some(draft) = &mut self.session.draft {
-                    (draft.path, draft.folder) = (Some(path.clone()), None);
-                }
-            }
+            SavedFile::Problem(written) => self.note_problem_file(&written, &path),
         }
         self.files.remember(&path);
+    }
+
+    /// A dataset is in a file now: the views that show it are of that file; one that showed what
+    /// was there before reads it again.
+    fn note_dataset_file(&mut self, dataset: &Arc<Dataset>, path: &Path) {
+        let panes = self.session.panes.iter_mut().zip(&mut self.stages);
+        for (number, (pane, stage)) in panes.enumerate() {
+            let Some(opened) = &mut stage.opened else { continue };
+            if Arc::ptr_eq(&opened.dataset, dataset) {
+                (pane.file, opened.path) = (Some(path.to_owned()), Some(path.to_owned()));
+            } else if pane.file.as_deref() == Some(path) {
+                self.files.open(path, number, Why::Changed);
+            }
+        }
+    }
+
+    /// The text of a problem is in a file now: that which is written, or one that was put aside.
+    fn note_problem_file(&mut self, written: &ProblemDraft, path: &Path) {
+        for opened in self.stages.iter_mut().filter_map(|stage| stage.opened.as_mut()) {
+            opened.note_problem_file(written, path);
+        }
+        let was_aside = self.files.texts().contains(written);
+        self.files.release(written);
+        let Some(draft) = &mut self.session.draft else { return };
+        if !was_aside && draft.is_same_problem(written) {
+            (draft.path, draft.folder) = (Some(path.to_owned()), None);
+        }
+        if draft.path.as_deref() == Some(path) {
+            draft.original = Some(written.text.clone());
+        }
     }
 
     /// Shows what was read; what cannot be read is told beside its name, and harms nothing.
@@ -407,35 +476,26 @@ impl Viewer {
             stage.show_whole(pane);
         }
         stage.told.extend(player::mend(pane, &dataset));
-        stage.take(pane, Opened { path: Some(path), dataset });
+        stage.take(pane, Opened::new(Some(path), dataset));
     }
 
     /// The text of a problem that was opened, or has changed on disk.
     fn take_problem(&mut self, path: PathBuf, text: String, why: Why) {
-        let is_changed =
-            self.session.draft.as_ref().is_some_and(|draft| self.solving.is_changed(draft));
-        match why {
-            Why::Restored => self.solving.on_disk = Some(text),
-            Why::Changed if is_changed => {
-                self.solving.on_disk = Some(text);
-                let name = name(&path);
-                let text = format!(
-                    "{name} has changed, and so has the text here: save this one over it, or open it again"
-                );
-                self.files.tell(&path, text, true);
-            }
-            Why::Changed => {
-                self.solving.on_disk = Some(text.clone());
-                if let Some(draft) = &mut self.session.draft {
-                    draft.text = text;
-                }
-            }
-            Why::Opened => {
-                self.shelve();
-                self.solving.begin(Some(text.clone()), None);
-                self.session.draft = Some(ProblemDraft { path: Some(path), folder: None, text });
-                self.session.drawer = Some(DrawerPage::Problem);
-            }
+        if why == Why::Opened {
+            let draft = ProblemDraft { path: Some(path), ..ProblemDraft::unchanged(text) };
+            return self.begin_text(draft, None);
+        }
+        let Some(draft) = &mut self.session.draft else { return };
+        let is_changed = draft.is_changed();
+        let before = draft.original.replace(text.clone());
+        if !is_changed {
+            draft.text = text;
+        } else if before.is_some_and(|before| before != text) && draft.text != text {
+            let name = name(&path);
+            let text = format!(
+                "{name} has changed, and so has the text here: save this one over it, or open it again"
+            );
+            self.files.tell(&path, text, true);
         }
     }
 
@@ -457,13 +517,14 @@ impl Viewer {
     }
 
     /// Shows what was solved; the view is kept if the plate has the same place.
-    fn show_solved(&mut self, ctx: &egui::Context, Solved { pane, dataset }: Solved) {
-        let number = self.free_pane(ctx, pane);
+    fn show_solved(&mut self, ctx: &egui::Context, solved: Solved) {
+        let Solved { pane, dataset, solution } = solved;
+        let number = self.free_pane(ctx, pane, solution.is_complete());
         let (pane, stage) = (&mut self.session.panes[number], &mut self.stages[number]);
         pane.file = None;
         // what was a series may be one step now
         let _ = player::mend(pane, &dataset);
-        stage.take(pane, Opened { path: None, dataset });
+        stage.take(pane, Opened { path: None, dataset, solution: Some(Arc::new(solution)) });
     }
 
     /// Files that were dropped: the first in the active pane, another one beside it.
@@ -481,13 +542,6 @@ impl Viewer {
 }
 
 const NOTHING_TO_SAVE: &str = "Nothing is saved: this view shows no dataset. Choose the view that shows it by a click, or solve the problem first";
-
-/// A name for a file: the letters and digits of a title.
-fn plain_name(title: &str) -> Option<String> {
-    let words = title.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let name: String = words.collect::<Vec<_>>().join("-").chars().take(60).collect();
-    (!name.is_empty()).then_some(name)
-}
 
 /// Words over the whole window while a file is dragged over it.
 fn hint(ui: &Ui) {

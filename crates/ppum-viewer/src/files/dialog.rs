@@ -4,57 +4,61 @@
 use std::env;
 use std::fs;
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
+use std::sync::Arc;
 
 use egui::{Align2, Key, Modifiers, ScrollArea, TextEdit, Ui, Window};
+use ppum::dataset::Dataset;
 
 use super::read::has_extension;
 use super::session_file;
 use crate::job::Job;
 use crate::replacing::{self, Replacing};
+use crate::session::ProblemDraft;
 use crate::widgets::note_folder;
 
-/// What a file is chosen for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What a file is chosen for. What is to be written is held: whatever is shown when the name is
+/// given, this is what gets the name.
+#[derive(Clone, Debug)]
 pub enum Purpose {
     /// To open it in a pane.
     Open(usize),
     /// To write the session.
     SaveSession,
-    /// To write the dataset of a pane.
-    SaveDataset(usize),
-    /// To write the problem's text.
-    SaveProblem,
-    /// To write a page of what a pane shows.
-    ExportPage(usize),
+    /// To write a dataset.
+    SaveDataset(Arc<Dataset>),
+    /// To write the text of a problem.
+    SaveProblem(ProblemDraft),
+    /// To write a page.
+    ExportPage,
 }
 
 impl Purpose {
     /// The heading.
     #[must_use]
-    pub fn title(self) -> &'static str {
+    pub fn title(&self) -> &'static str {
         match self {
             Self::Open(0) => "Open a file",
             Self::Open(_) => "Open a file on the right",
             Self::SaveSession => "Save the session",
             Self::SaveDataset(_) => "Save the dataset",
-            Self::SaveProblem => "Save the problem",
-            Self::ExportPage(_) => "Export a page for browsers",
+            Self::SaveProblem(_) => "Save the problem",
+            Self::ExportPage => "Export a page for browsers",
         }
     }
 
     /// The ends of the names of files that fit, the usual one first.
     #[must_use]
-    pub fn extensions(self) -> &'static [&'static str] {
+    pub fn extensions(&self) -> &'static [&'static str] {
         match self {
             Self::Open(_) => &["h5", "toml", session_file::EXTENSION, "hdf5"],
             Self::SaveSession => &[session_file::EXTENSION],
             Self::SaveDataset(_) => &["h5"],
-            Self::SaveProblem => &["toml"],
-            Self::ExportPage(_) => &["html"],
+            Self::SaveProblem(_) => &["toml"],
+            Self::ExportPage => &["html"],
         }
     }
 
-    fn is_open(self) -> bool {
+    fn is_open(&self) -> bool {
         matches!(self, Self::Open(_))
     }
 }
@@ -97,8 +101,8 @@ impl Dialog {
 
     /// What the file is chosen for.
     #[must_use]
-    pub fn purpose(&self) -> Purpose {
-        self.purpose
+    pub fn purpose(&self) -> &Purpose {
+        &self.purpose
     }
 
     /// Shows it: `Some(None)` once it is closed, with a file if one was chosen.

@@ -94,8 +94,7 @@ impl Example {
     /// Its title.
     #[must_use]
     pub fn title(&self) -> &'static str {
-        let line = self.text.lines().find_map(|line| line.strip_prefix("title = \""));
-        line.map_or(self.name, |title| title.trim_end_matches('"'))
+        crate::session::title(self.text).unwrap_or(self.name)
     }
 
     /// What its problem describes: plate, holes, cracks, supports and loads. A file of numbers is

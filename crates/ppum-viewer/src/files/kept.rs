@@ -54,25 +54,33 @@ impl WindowState {
     }
 }
 
-/// The session of the last time; an error in words if a file is there that is none. That file may
-/// be of a newer program, and hold a text that no other has: it is set aside, since the session of
-/// today takes its name.
+/// The session of the last time; an error in words if a file is there that is none.
 ///
 /// # Errors
 /// What is wrong with the file, and where it is now.
 pub fn last_session(folder: &Path) -> Result<Option<Session>, String> {
-    let Ok(text) = ppum_file::text(&folder.join(LAST), MAX_LENGTH) else { return Ok(None) };
-    session_file::parse(&text, folder).map(Some).map_err(|error| {
-        let kept = set_aside(folder);
-        format!("what was open the last time cannot be read: {error}{kept}")
-    })
+    let parse = |text: &str| session_file::parse(text, folder).map_err(|error| error.to_string());
+    read_kept(folder, LAST, parse)
+        .map_err(|error| format!("what was open the last time cannot be read: {error}"))
 }
 
-/// Gives a session that cannot be read a name of its own; where it is now.
-fn set_aside(folder: &Path) -> String {
-    let names = (1..).map(|k| format!("unreadable-{k}.ppum-session"));
+/// Reads a file of the folder, if it is there. One that means nothing may be of a newer program,
+/// and hold a text that no other has: it is set aside, since the next file takes its name.
+pub(super) fn read_kept<T>(
+    folder: &Path,
+    name: &str,
+    parse: impl FnOnce(&str) -> Result<T, String>,
+) -> Result<Option<T>, String> {
+    let Ok(text) = ppum_file::text(&folder.join(name), MAX_LENGTH) else { return Ok(None) };
+    parse(&text).map(Some).map_err(|error| format!("{error}{}", set_aside(folder, name)))
+}
+
+/// Gives a file that cannot be read a name of its own; where it is now.
+fn set_aside(folder: &Path, name: &str) -> String {
+    let end = Path::new(name).extension().unwrap_or_default().to_string_lossy();
+    let names = (1..).map(|k| format!("unreadable-{k}.{end}"));
     let free = names.map(|name| folder.join(name)).find(|path| !path.exists());
-    let moved = free.filter(|path| std::fs::rename(folder.join(LAST), path).is_ok());
+    let moved = free.filter(|path| std::fs::rename(folder.join(name), path).is_ok());
     moved.map_or_else(String::new, |path| format!("; it is kept as {}", path.display()))
 }
 

@@ -5,6 +5,7 @@ pub mod examples;
 pub mod kept;
 pub mod read;
 pub mod session_file;
+mod texts;
 pub mod watch;
 
 use std::path::{Path, PathBuf};
@@ -15,10 +16,11 @@ use egui::Ui;
 use ppum::dataset::Dataset;
 
 use crate::job::Job;
-use crate::session::Session;
+use crate::session::{ProblemDraft, Session};
 use dialog::{Dialog, Purpose};
 use kept::WindowState;
 use read::{Arrived, Reading, Why};
+use texts::Texts;
 use watch::{Stamp, Watch};
 
 /// Something that is told about a file until it is closed or no longer true.
@@ -45,6 +47,8 @@ pub struct Files {
     pub previews: examples::Previews,
     /// The file of the session, once it has one.
     pub session: Option<PathBuf>,
+    /// Changed texts that have made place for others.
+    texts: Texts,
     folder: Option<PathBuf>,
     readings: Vec<Reading>,
     writings: Vec<Writing>,
@@ -72,12 +76,12 @@ struct Writing {
 /// The contents of a file that is saved.
 #[derive(Clone, Debug)]
 pub enum SavedFile {
-    /// The dataset of a pane.
-    Dataset(usize, Arc<Dataset>),
+    /// A dataset.
+    Dataset(Arc<Dataset>),
     /// The session.
     Session,
-    /// The problem's text.
-    Problem,
+    /// The text of a problem.
+    Problem(ProblemDraft),
     /// A page.
     Page,
 }
@@ -99,9 +103,11 @@ impl Files {
     #[must_use]
     pub fn new(ctx: &egui::Context, folder: Option<PathBuf>) -> Self {
         let kept = folder.as_deref().map(WindowState::read).unwrap_or_default();
-        Self {
+        let texts = folder.as_deref().map_or_else(|| Ok(Texts::default()), Texts::read);
+        let mut files = Self {
             notes: Vec::new(),
             kept,
+            texts: Texts::default(),
             previews: examples::Previews::default(),
             session: None,
             folder,
@@ -115,7 +121,39 @@ impl Files {
             dialog: None,
             watch: Watch::new(ctx),
             ctx: ctx.clone(),
+        };
+        match texts {
+            Ok(texts) => files.texts = texts,
+            Err(error) => files.tell(Path::new(""), error, true),
         }
+        files
+    }
+
+    /// Changed texts that have made place for others, the newest last.
+    #[must_use]
+    pub fn texts(&self) -> &[ProblemDraft] {
+        &self.texts.all
+    }
+
+    /// Keeps a text that makes place for another one, if it is changed.
+    pub fn put_aside(&mut self, draft: ProblemDraft) {
+        if draft.is_changed() && !self.texts.all.contains(&draft) {
+            self.texts.all.push(draft);
+            self.is_kept = false;
+        }
+    }
+
+    /// No longer keeps a text: it is shown, saved or not wanted.
+    pub fn release(&mut self, draft: &ProblemDraft) {
+        let before = self.texts.all.len();
+        self.texts.all.retain(|text| text != draft);
+        self.is_kept &= self.texts.all.len() == before;
+    }
+
+    /// True if all that is remembered outlasts the window.
+    #[must_use]
+    pub fn can_keep(&self) -> bool {
+        self.folder.is_some() && !self.is_forgetful
     }
 
     /// Begins to read a file for a pane.
@@ -188,10 +226,11 @@ impl Files {
     fn keep_now(&mut self, session: &Session) {
         let Some(folder) = self.folder.clone() else { return };
         (self.is_kept, self.last, self.since) = (true, Some(session.clone()), Instant::now());
-        let (kept, session) = (self.kept.clone(), session.clone());
+        let (kept, session, texts) = (self.kept.clone(), session.clone(), self.texts.update());
         self.keeping = Some(Job::start(&self.ctx, move |_| {
-            let written = kept.write(&folder);
-            written.and(kept::keep_session(&session, &folder))
+            kept.write(&folder)?;
+            texts.write(&folder)?;
+            kept::keep_session(&session, &folder)
         }));
     }
 
@@ -305,7 +344,7 @@ impl Files {
     pub fn show(&mut self, ui: &Ui) -> Option<(Purpose, PathBuf)> {
         let dialog = self.dialog.as_mut()?;
         let done = dialog.show(ui)?;
-        let purpose = dialog.purpose();
+        let purpose = dialog.purpose().clone();
         self.dialog = None;
         Some((purpose, done?))
     }
@@ -331,8 +370,8 @@ impl Files {
     }
 
     /// Writes a dataset in the background.
-    pub fn write_dataset(&mut self, path: PathBuf, pane: usize, dataset: Arc<Dataset>) {
-        self.write(path, SavedFile::Dataset(pane, Arc::clone(&dataset)), move |path| {
+    pub fn write_dataset(&mut self, path: PathBuf, dataset: Arc<Dataset>) {
+        self.write(path, SavedFile::Dataset(Arc::clone(&dataset)), move |path| {
             ppum_format::write(&dataset, path).map_err(|error| error.to_string())
         });
     }

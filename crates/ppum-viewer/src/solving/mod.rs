@@ -55,6 +55,15 @@ pub enum SolutionOutcome {
     Failed(String),
 }
 
+/// How a dataset was computed in this window.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// The problem, as it was when its solution began.
+    pub problem: ProblemDraft,
+    /// The way the computation has ended.
+    pub outcome: SolutionOutcome,
+}
+
 /// A dataset that was computed for a pane.
 #[derive(Clone, Debug)]
 pub struct Solved {
@@ -62,17 +71,13 @@ pub struct Solved {
     pub pane: usize,
     /// The dataset.
     pub dataset: Arc<Dataset>,
+    /// How it was computed.
+    pub solution: Solution,
 }
 
 /// The problem that is written, and the solution that is computed.
 #[derive(Debug)]
 pub struct Solving {
-    /// The text as its file has it.
-    pub on_disk: Option<String>,
-    /// The text that is being written to its file.
-    pub saving: Option<String>,
-    /// A changed text that has made place for another one.
-    pub before: Option<ProblemDraft>,
     /// The dataset that the text came from: it holds the tables and points that the text names.
     pub origin: Option<Arc<Dataset>>,
     /// The way the last solution has ended.
@@ -91,6 +96,7 @@ pub struct Solving {
 #[derive(Debug)]
 pub struct Running {
     pane: usize,
+    problem: ProblemDraft,
     start: Instant,
     told: Arc<Mutex<SolutionProgress>>,
     job: Job<Result<SolvedDataset, Stopped>>,
@@ -143,6 +149,12 @@ pub const PHASES: [Phase; 6] = [
     Phase::Estimation,
 ];
 
+/// The name of the editor of the text among all widgets.
+#[must_use]
+pub fn editor_id() -> egui::Id {
+    egui::Id::unique("text of the problem")
+}
+
 /// The number of a phase among all.
 pub(crate) fn phase_number(phase: Phase) -> usize {
     PHASES.iter().position(|known| *known == phase).unwrap_or(0)
@@ -153,9 +165,6 @@ impl Solving {
     #[must_use]
     pub fn new(ctx: &egui::Context) -> Self {
         Self {
-            on_disk: None,
-            saving: None,
-            before: None,
             origin: None,
             outcome: None,
             wanted: None,
@@ -167,16 +176,15 @@ impl Solving {
         }
     }
 
-    /// Another text is written from now on.
-    pub fn begin(&mut self, on_disk: Option<String>, origin: Option<Arc<Dataset>>) {
-        (self.on_disk, self.origin) = (on_disk, origin);
+    /// Another text is written from now on; one that came from a dataset finds there what it names.
+    pub fn begin(&mut self, origin: Option<Arc<Dataset>>) {
+        self.origin = origin;
         (self.outcome, self.checked, self.checking) = (None, None, None);
-    }
-
-    /// True if the text is not as its file has it.
-    #[must_use]
-    pub fn is_changed(&self, draft: &ProblemDraft) -> bool {
-        self.on_disk.as_ref().is_none_or(|text| *text != draft.text)
+        // what is taken back in one text is no state of another
+        if let Some(mut state) = egui::text_edit::TextEditState::load(&self.ctx, editor_id()) {
+            state.clear_undoer();
+            state.store(&self.ctx, editor_id());
+        }
     }
 
     /// Looks for mistakes in the background whenever the text is another one.
@@ -230,7 +238,8 @@ impl Solving {
             on_own_threads(|| solve(&text, &source, memory, &follower))?
         });
         self.outcome = None;
-        self.running = Some(Running { pane, start: Instant::now(), told, job });
+        let (problem, start) = (draft.clone(), Instant::now());
+        self.running = Some(Running { pane, problem, start, told, job });
     }
 
     /// Stops the solution that is being computed.
@@ -262,24 +271,30 @@ impl Solving {
 
     /// The dataset that was computed since.
     pub fn poll(&mut self) -> Option<Solved> {
-        let running = self.running.as_ref()?;
-        let outcome = running.job.poll()?;
-        let (seconds, pane) = (running.seconds(), running.pane);
-        self.running = None;
-        match outcome.map_err(Stopped::Failed).flatten() {
+        let ended = self.running.as_ref()?.job.poll()?;
+        let running = self.running.take()?;
+        let (outcome, dataset) = match ended.map_err(Stopped::Failed).flatten() {
             Ok(SolvedDataset { dataset, stopped: None }) => {
-                self.outcome = Some(SolutionOutcome::Solved(seconds, warnings_of(&dataset)));
-                Some(Solved { pane, dataset: Arc::new(dataset) })
+                let warnings = warnings_of(&dataset);
+                (SolutionOutcome::Solved(running.seconds(), warnings), Some(dataset))
             }
             Ok(SolvedDataset { dataset, stopped: Some(stopped) }) => {
-                self.outcome = Some(stopped.outcome(dataset.steps.len()));
-                Some(Solved { pane, dataset: Arc::new(dataset) })
+                (stopped.outcome(dataset.steps.len()), Some(dataset))
             }
-            Err(stopped) => {
-                self.outcome = Some(stopped.outcome(0));
-                None
-            }
-        }
+            Err(stopped) => (stopped.outcome(0), None),
+        };
+        self.outcome = Some(outcome.clone());
+        let Running { pane, problem, .. } = running;
+        let solution = Solution { problem, outcome };
+        dataset.map(|dataset| Solved { pane, dataset: Arc::new(dataset), solution })
+    }
+}
+
+impl Solution {
+    /// True if it is all that was to be computed: not the steps before a stop or an error.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        matches!(self.outcome, SolutionOutcome::Solved(..))
     }
 }
 
@@ -308,6 +323,12 @@ fn warnings_of(dataset: &Dataset) -> Vec<String> {
 }
 
 impl Running {
+    /// The problem that is solved.
+    #[must_use]
+    pub fn problem(&self) -> &ProblemDraft {
+        &self.problem
+    }
+
     /// The view that it is for.
     #[must_use]
     pub fn pane(&self) -> usize {

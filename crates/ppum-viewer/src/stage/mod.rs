@@ -8,6 +8,7 @@ pub mod flight;
 pub mod locator;
 mod marks;
 pub mod material;
+mod opened;
 mod pipeline;
 pub mod pixels;
 pub mod readout;
@@ -17,7 +18,6 @@ mod solids;
 pub mod texture;
 pub mod tools;
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::{Color32, PointerButton, Rect, Sense, Ui, vec2};
@@ -45,17 +45,9 @@ use against::Against;
 use difference::Pair;
 use flight::Flight;
 use locator::Locator;
+pub use opened::Opened;
 use sight::Sight;
 use texture::{Sheet, Texture};
-
-/// A dataset that is open.
-#[derive(Clone, Debug)]
-pub struct Opened {
-    /// Its file, if it came from one.
-    pub path: Option<PathBuf>,
-    /// The dataset.
-    pub dataset: Arc<Dataset>,
-}
 
 /// One view: its dataset, its pictures, and what the mouse does in it.
 pub struct Stage {
@@ -316,7 +308,7 @@ impl Stage {
     /// What is shown in a few words: `plate.h5 · step 3 · syy`.
     #[must_use]
     pub fn named(&self, pane: &Pane) -> Option<String> {
-        let Opened { path, dataset } = self.opened.as_ref()?;
+        let Opened { path, dataset, .. } = self.opened.as_ref()?;
         let file = path.as_deref().and_then(std::path::Path::file_name);
         let name = file.map_or(dataset.title.clone(), |name| name.to_string_lossy().into_owned());
         let step = pane.scene.subject.step_of(dataset);

@@ -200,14 +200,14 @@ fn a_dataset_is_saved_and_read_back() {
     let dataset = Arc::new(named("Solved"));
     lab.state().open(None, Arc::clone(&dataset));
     let path = lab.path("saved.h5");
-    lab.state().files.write_dataset(path.clone(), 0, dataset);
+    lab.state().files.write_dataset(path.clone(), dataset);
     lab.settle();
     assert_eq!(lab.state().session.panes[0].file, Some(path.clone()));
     assert_eq!(ppum_format::read(&path).expect("a dataset"), *lab.dataset(0).expect("open"));
     // into a folder that is not there
     let nowhere = lab.path("nowhere/saved.h5");
     let dataset = lab.dataset(0).expect("open");
-    lab.state().files.write_dataset(nowhere, 0, dataset);
+    lab.state().files.write_dataset(nowhere, dataset);
     lab.settle();
     assert!(lab.notes().contains("cannot be written"), "{}", lab.notes());
     assert_eq!(lab.state().session.panes[0].file, Some(path));

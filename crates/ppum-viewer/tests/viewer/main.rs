@@ -12,6 +12,7 @@ mod frames;
 mod hands;
 mod kit;
 mod lab;
+mod losses;
 mod manners;
 mod meshes;
 mod minus;

@@ -97,6 +97,7 @@ fn session(random: &mut Random) -> Session {
         path: some(r, |r| format!("/data/deep/{}.toml", r.below(9)).into()),
         folder: some(r, |_| "/elsewhere".into()),
         text: words(r),
+        original: some(r, words),
     };
     Session {
         active: random.below(panes.len()),

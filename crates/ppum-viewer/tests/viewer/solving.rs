@@ -179,7 +179,7 @@ fn a_series_is_stopped() {
     let steps = lab.dataset(0).expect("some of it is solved").steps.len();
     assert_eq!(lab.state().solving.outcome, Some(SolutionOutcome::Cancelled(steps)));
     assert!(steps >= 3, "{steps}");
-    lab.window.get_by_label(&format!("Cancelled. The {steps} steps before are shown."));
+    lab.window.get_by_label(&format!("Cancelled; the {steps} steps before are shown, not saved."));
 }
 
 #[test]
@@ -267,8 +267,8 @@ fn no_text_is_lost() {
     fs::write(&other, text(2)).expect("written");
     lab.open(&other);
     assert_eq!(*draft(&mut lab), text(2));
-    lab.window.get_by_label("Back to the text before").click();
-    lab.window.step();
+    lab.window.get_by_label("Back to plate.toml *").click();
+    lab.window.run_steps(2);
     assert_eq!(*draft(&mut lab), mine);
     // nor by the end of the day
     lab.reopen(Start::default());
@@ -328,7 +328,7 @@ fn a_solution_that_is_not_finite_is_none() {
         other => panic!("{other:?}"),
     }
     assert!(Arc::ptr_eq(&before, &lab.dataset(0).expect("it stays")));
-    lab.window.get_by_label("What is shown is not saved.");
+    lab.window.get_by_label_contains(", not saved.");
     lab.window.get_by_label("Save the dataset…").click();
     lab.window.run_steps(3);
     // under the name of its problem
@@ -337,10 +337,11 @@ fn a_solution_that_is_not_finite_is_none() {
     lab.settle();
     let saved = ppum_format::read(&lab.path("plate.h5")).expect("a dataset");
     assert_eq!(saved, *before, "{}", lab.notes());
-    assert!(lab.window.query_by_label("What is shown is not saved.").is_none());
+    assert!(lab.window.query_by_label_contains("not saved.").is_none());
+    assert!(lab.window.query_by_label("Save the dataset…").is_none());
 }
 
-const UNSAVED: &str = "The solution is not saved.";
+const UNSAVED: &str = "The solution “Centre crack in a square plate” is not saved.";
 
 /// Asks the window to close, as its cross does; true if it does.
 fn closes(lab: &mut Lab) -> bool {

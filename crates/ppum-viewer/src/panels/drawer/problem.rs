@@ -1,6 +1,7 @@
 //! The problem: its text with the mistakes in it, and its solution.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use egui::text::{CCursor, CCursorRange};
 use egui::{
@@ -16,25 +17,27 @@ use crate::session::ProblemDraft;
 use crate::shapes;
 use crate::solving::marks::HighlightStyle;
 use crate::solving::preview::Preview;
-use crate::solving::{Mark, PHASES, Running, SolutionOutcome, Solving, phase_number};
-use crate::widgets::button;
+use crate::solving::{Mark, PHASES, Running, SolutionOutcome, Solving, editor_id, phase_number};
+use crate::stage::Stage;
+use crate::widgets::{button, elided};
 
 /// Longest text that is written in a window: every picture lays all of it out.
 pub const MAX_LENGTH: usize = 200_000;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
-    take_from_dataset(desk);
-    let Some(draft) = desk.session.draft.take() else {
-        ui.label("This dataset holds no problem.");
+    let Some(mut draft) = desk.session.draft.take() else {
+        let has_dataset = desk.active().1.opened.is_some();
+        let empty =
+            if has_dataset { "This dataset holds no problem." } else { "No problem is open." };
+        ui.label(empty);
         ui.horizontal(|ui| {
             if ui.button("Open a problem file…").clicked() {
                 desk.actions.push(Action::Open);
             }
         });
-        return;
+        return texts_aside(ui, desk);
     };
-    let mut draft = draft;
     desk.solving.check(&draft);
     let room = ui.available_size();
     let is_wide = room.x > 640.0;
@@ -45,9 +48,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         ui.allocate_ui(vec2(width, height), |ui| editor(ui, &mut draft, desk.solving));
         ui.vertical(|ui| {
             ui.set_width(beside);
-            ScrollArea::vertical()
-                .id_salt("told")
-                .show(ui, |ui| solution_panel(ui, &mut draft, desk));
+            ScrollArea::vertical().id_salt("told").show(ui, |ui| solution_panel(ui, &draft, desk));
         });
     };
     if is_wide {
@@ -56,18 +57,6 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         ui.vertical(both);
     }
     desk.session.draft = Some(draft);
-}
-
-/// Without a text the dataset's own is shown.
-fn take_from_dataset(desk: &mut Desk<'_>) {
-    let (_, stage) = desk.active();
-    let Some(dataset) = stage.opened.as_ref().map(|opened| opened.dataset.clone()) else { return };
-    if desk.session.draft.is_none()
-        && let Some(text) = dataset.problem.clone()
-    {
-        desk.solving.begin(Some(text.clone()), Some(dataset));
-        desk.session.draft = Some(ProblemDraft { text, ..ProblemDraft::default() });
-    }
 }
 
 /// The text with the numbers of its lines.
@@ -122,12 +111,6 @@ fn suggestions(query: &CompletionQuery<'_>) -> Vec<Suggestion> {
     all.filter(fits).map(Suggestion::new).collect()
 }
 
-/// The name of the editor among all widgets.
-#[must_use]
-pub fn editor_id() -> egui::Id {
-    egui::Id::unique("text of the problem")
-}
-
 /// The numbers of the rows that are seen.
 fn numbers(ui: &Ui, shown: &egui::text_edit::TextEditOutput, font: &FontId, gutter: f32) {
     let clip = ui.clip_rect();
@@ -171,13 +154,9 @@ fn still_there(before: &str, now: &str, marks: &[Mark]) -> Vec<Mark> {
 }
 
 /// Buttons for the text, and the state of its solution.
-fn solution_panel(ui: &mut Ui, draft: &mut ProblemDraft, desk: &mut Desk<'_>) {
+fn solution_panel(ui: &mut Ui, draft: &ProblemDraft, desk: &mut Desk<'_>) {
     buttons(ui, draft, desk);
-    if desk.solving.before.is_some() && ui.button("Back to the text before").clicked() {
-        let before = desk.solving.before.take();
-        *draft = before.unwrap_or_default();
-        desk.solving.begin(None, None);
-    }
+    texts_aside(ui, desk);
     if let Some(running) = desk.solving.running() {
         progress(ui, running);
     }
@@ -185,52 +164,122 @@ fn solution_panel(ui: &mut Ui, draft: &mut ProblemDraft, desk: &mut Desk<'_>) {
     if let Some(checked) = &checked {
         mistakes(ui, &checked.marks, desk.solving);
     }
-    let is_solved = matches!(desk.solving.outcome, Some(SolutionOutcome::Solved(..)));
-    let opened = &desk.active().1.opened;
-    let (can_save, opened) = (opened.is_some(), opened.as_ref());
-    let is_unsaved = opened.is_some_and(|opened| opened.path.is_none());
-    let opened_text = opened.and_then(|opened| opened.dataset.problem.clone());
-    match &desk.solving.outcome {
-        None => {}
-        Some(SolutionOutcome::Cancelled(0)) => {
-            ui.label("Cancelled. What was there before is still shown.");
-        }
-        Some(SolutionOutcome::Cancelled(steps)) => {
-            ui.horizontal_wrapped(|ui| {
-                ui.label(format!("Cancelled. The {steps} steps before are shown."));
-                save(ui, can_save, desk.actions);
-            });
-        }
-        Some(SolutionOutcome::Failed(error)) => {
-            ui.colored_label(ui.visuals().error_fg_color, error);
-        }
-        Some(SolutionOutcome::Solved(seconds, warnings)) => {
-            ui.horizontal_wrapped(|ui| {
-                ui.label(format!("Solved in {} s.", trimmed((10.0 * seconds).round() / 10.0)));
-                save(ui, can_save, desk.actions);
-            });
-            for warning in warnings {
-                ui.colored_label(ui.visuals().warn_fg_color, format!("⚠ {warning}"));
-            }
-        }
-    }
-    if is_unsaved && !is_solved {
+    failure(ui, desk);
+    solutions(ui, desk);
+    let opened = desk.active().1.opened.as_ref();
+    let solved = opened.and_then(|opened| opened.dataset.problem.as_ref());
+    if solved.is_some_and(|text| *text != draft.text) {
         ui.horizontal_wrapped(|ui| {
-            ui.label("What is shown is not saved.");
-            save(ui, can_save, desk.actions);
+            ui.label("What is shown was solved from another text.");
+            if ui.button("Show that text").clicked() {
+                desk.actions.push(Action::ShowText);
+            }
         });
-    }
-    if is_of_another_text(draft, opened_text) {
-        ui.label("What is shown was solved from another text.");
     }
     if let Some(preview) = checked.as_ref().and_then(|checked| checked.preview.as_deref()) {
         show_preview(ui, preview);
     }
 }
 
-/// True if a dataset holds the text of a problem that is not the one that is written.
-fn is_of_another_text(draft: &ProblemDraft, solved: Option<String>) -> bool {
-    solved.is_some_and(|text| text != draft.text)
+/// Changed texts that have made place for others.
+fn texts_aside(ui: &mut Ui, desk: &mut Desk<'_>) {
+    for (number, text) in desk.files.texts().iter().enumerate() {
+        ui.horizontal(|ui| {
+            let name = format!("Back to {} *", elided(&text.name(), LONGEST_NAME));
+            let hint =
+                "A changed text that made place for another one; it is kept when the window closes";
+            if ui.button(name).on_hover_text(hint).clicked() {
+                desk.actions.push(Action::TakeText(number));
+            }
+            if button(ui, "✗", "Discard these changes").clicked() {
+                desk.actions.push(Action::DiscardText(number));
+            }
+        });
+    }
+}
+
+/// Letters of a name that fit beside a button.
+const LONGEST_NAME: usize = 28;
+
+/// Why the last solution has left nothing.
+fn failure(ui: &mut Ui, desk: &Desk<'_>) {
+    let Some(outcome) = &desk.solving.outcome else { return };
+    let mut shown = desk.stages.iter().filter_map(|stage| stage.opened.as_ref()?.solution.as_ref());
+    if shown.any(|solution| solution.outcome == *outcome) {
+        // it is told of what is shown
+        return;
+    }
+    match outcome {
+        SolutionOutcome::Cancelled(_) => {
+            ui.label("Cancelled. What was there before is still shown.");
+        }
+        SolutionOutcome::Failed(error) => {
+            ui.colored_label(ui.visuals().error_fg_color, error);
+        }
+        SolutionOutcome::Solved(..) => {}
+    }
+}
+
+/// What is shown, if it was solved here or no file has it: each solution has its own button, which
+/// goes once it is saved.
+fn solutions(ui: &mut Ui, desk: &mut Desk<'_>) {
+    let are_two = desk.stages.len() > 1;
+    for (pane, stage) in desk.stages.iter().enumerate() {
+        let Some(opened) = &stage.opened else { continue };
+        let is_same = |other: &Stage| {
+            other.opened.as_ref().is_some_and(|o| Arc::ptr_eq(&o.dataset, &opened.dataset))
+        };
+        let outcome = opened.solution.as_ref().map(|solution| &solution.outcome);
+        if desk.stages[..pane].iter().any(is_same) {
+            continue;
+        }
+        if opened.path.is_some() && (outcome.is_none() || pane != desk.session.active) {
+            continue;
+        }
+        let place = match pane {
+            _ if !are_two => String::new(),
+            0 => format!("On the left, {}: ", opened.name()),
+            _ => format!("On the right, {}: ", opened.name()),
+        };
+        ui.horizontal_wrapped(|ui| {
+            ui.label(sentence(&place, outcome, opened.path.is_none()));
+            if opened.path.is_none() && ui.button("Save the dataset…").clicked() {
+                desk.actions.push(Action::SaveDatasetOf(pane));
+            }
+        });
+        match outcome {
+            Some(SolutionOutcome::Solved(_, warnings)) => {
+                for warning in warnings {
+                    ui.colored_label(ui.visuals().warn_fg_color, format!("⚠ {warning}"));
+                }
+            }
+            Some(SolutionOutcome::Failed(error)) => {
+                ui.colored_label(ui.visuals().error_fg_color, error);
+            }
+            Some(SolutionOutcome::Cancelled(_)) | None => {}
+        }
+    }
+}
+
+/// How a solution has ended, and whether it is saved.
+fn sentence(place: &str, outcome: Option<&SolutionOutcome>, is_unsaved: bool) -> String {
+    let ended = match outcome {
+        Some(SolutionOutcome::Solved(seconds, _)) => {
+            format!("solved in {} s", trimmed((10.0 * seconds).round() / 10.0))
+        }
+        Some(SolutionOutcome::Cancelled(steps)) => {
+            format!("cancelled; the {steps} steps before are shown")
+        }
+        Some(SolutionOutcome::Failed(_)) => "the steps before an error are shown".into(),
+        None => String::new(),
+    };
+    let saved = if is_unsaved { "not saved" } else { "" };
+    let parts: Vec<_> = [ended.as_str(), saved].into_iter().filter(|p| !p.is_empty()).collect();
+    let text = parts.join(", ");
+    match place {
+        "" => format!("{}{}.", text[..1].to_uppercase(), &text[1..]),
+        _ => format!("{place}{text}."),
+    }
 }
 
 /// What the text describes: plate, holes, cracks, supports and loads.
@@ -245,12 +294,6 @@ fn show_preview(ui: &mut Ui, preview: &Preview) {
     shapes::draw(&ui.painter_at(rect), shapes::Placed::new(rect.min, 1.0), &items);
 }
 
-fn save(ui: &mut Ui, can_save: bool, actions: &mut Vec<Action>) {
-    if can_save && ui.button("Save the dataset…").clicked() {
-        actions.push(Action::SaveDataset);
-    }
-}
-
 fn buttons(ui: &mut Ui, draft: &ProblemDraft, desk: &mut Desk<'_>) {
     ui.horizontal_wrapped(|ui| {
         let is_running = desk.solving.running().is_some();
@@ -258,7 +301,7 @@ fn buttons(ui: &mut Ui, draft: &ProblemDraft, desk: &mut Desk<'_>) {
         if solve.on_hover_text("Ctrl+Enter").clicked() {
             desk.actions.push(Action::Solve);
         }
-        let is_changed = desk.solving.is_changed(draft);
+        let is_changed = draft.is_changed();
         let can_save = draft.path.is_some() && is_changed;
         if ui
             .add_enabled(can_save, egui::Button::new("Save"))

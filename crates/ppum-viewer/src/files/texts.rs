@@ -1,0 +1,56 @@
+//! Changed texts of problems that have made place for others: the window keeps them for the next
+//! time, beside those that another window has put aside meanwhile.
+
+use std::path::Path;
+
+use super::kept::{read_kept, replace};
+use crate::session::ProblemDraft;
+
+const FILE: &str = "texts.json";
+
+/// The texts that a window has put aside.
+#[derive(Debug, Default)]
+pub(super) struct Texts {
+    /// All of them, the newest last.
+    pub(super) all: Vec<ProblemDraft>,
+    /// Those that the file had from this window.
+    written: Vec<ProblemDraft>,
+}
+
+/// The texts that are to be in the file from now on.
+pub(super) struct TextsUpdate {
+    all: Vec<ProblemDraft>,
+    before: Vec<ProblemDraft>,
+}
+
+impl Texts {
+    /// The texts that are kept in a folder.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and where it is now.
+    pub(super) fn read(folder: &Path) -> Result<Self, String> {
+        let parse = |text: &str| serde_json::from_str(text).map_err(|error| error.to_string());
+        let read: Result<Option<Vec<ProblemDraft>>, String> = read_kept(folder, FILE, parse);
+        let told = |error| format!("changed texts of the last time cannot be read: {error}");
+        let all = read.map_err(told)?.unwrap_or_default();
+        Ok(Self { written: all.clone(), all })
+    }
+
+    /// What is to be written.
+    pub(super) fn update(&mut self) -> TextsUpdate {
+        let before = std::mem::replace(&mut self.written, self.all.clone());
+        TextsUpdate { all: self.all.clone(), before }
+    }
+}
+
+impl TextsUpdate {
+    /// Writes the texts into a folder. Those that another window has put there stay.
+    pub(super) fn write(self, folder: &Path) -> std::io::Result<()> {
+        let there = Texts::read(folder).unwrap_or_default().all;
+        let foreign = there.into_iter().filter(|text| !self.before.contains(text));
+        let mut all: Vec<_> = foreign.filter(|text| !self.all.contains(text)).collect();
+        all.extend(self.all);
+        let text = serde_json::to_string_pretty(&all).map_err(std::io::Error::other)?;
+        replace(&folder.join(FILE), &text)
+    }
+}
