@@ -2,6 +2,7 @@
 
 mod acting;
 pub mod parting;
+mod problems;
 mod work;
 
 use std::path::PathBuf;

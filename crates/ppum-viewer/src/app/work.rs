@@ -11,14 +11,13 @@ use crate::actions::Action;
 use crate::app::Viewer;
 use crate::app::parting::Parting;
 use crate::files::dialog::Purpose;
-use crate::files::examples::{self, Example};
 use crate::files::read::{Arrived, Content, Why};
 use crate::files::watch::{Stamp, stamp};
 use crate::files::{SavedFile, Written, name, session_file};
 use crate::page::PageOrder;
 use crate::plate;
 use crate::player;
-use crate::session::{DrawerPage, Pane, ProblemDraft, Session};
+use crate::session::{Pane, Session};
 use crate::solving::{Solved, editor_id};
 use crate::stage::{Opened, Stage};
 use crate::undo::Undo;
@@ -199,113 +198,6 @@ impl Viewer {
         self.files.ask(Purpose::SaveSession, near.as_deref());
     }
 
-    fn ask_problem(&mut self, draft: ProblemDraft) {
-        let near = draft.path.clone();
-        self.files.ask(Purpose::SaveProblem(draft), near.as_deref());
-    }
-
-    fn save_problem(&mut self) {
-        if let Some(draft) = self.session.draft.clone() {
-            self.save_text(draft);
-        }
-    }
-
-    /// Writes a text into its file, or asks for the name of one.
-    pub(super) fn save_text(&mut self, draft: ProblemDraft) {
-        match draft.path.clone() {
-            Some(path) => self.write_problem(path, draft),
-            None => self.ask_problem(draft),
-        }
-    }
-
-    /// Solves the problem of the text, or an example in its place; what the active view shows makes
-    /// place for the solution.
-    pub(super) fn solve(&mut self, example: Option<usize>) {
-        if let Some(example) = example.and_then(|k| examples::ALL.get(k))
-            && !self.take_example(example)
-        {
-            return;
-        }
-        self.session.drawer = Some(DrawerPage::Problem);
-        if let Some(draft) = &self.session.draft {
-            self.solving.solve(draft, self.session.active);
-        }
-    }
-
-    /// Takes the text of an example, with the files that it names in a folder; tells it if these
-    /// cannot be put there.
-    fn take_example(&mut self, example: &Example) -> bool {
-        let own = self.files.folder().map_or_else(std::env::temp_dir, Path::to_owned);
-        match example.folder(&own) {
-            Ok(folder) => {
-                let text = ProblemDraft::unchanged(example.text.to_owned());
-                self.begin_text(ProblemDraft { folder, ..text }, None);
-                true
-            }
-            Err(error) => {
-                self.files.tell(&own, format!("the example cannot be put there: {error}"), true);
-                false
-            }
-        }
-    }
-
-    /// A text is written from now on; if the one before was changed, it is put aside.
-    fn begin_text(&mut self, draft: ProblemDraft, origin: Option<Arc<Dataset>>) {
-        self.shelve();
-        self.solving.begin(origin);
-        self.session.draft = Some(draft);
-        self.session.drawer = Some(DrawerPage::Problem);
-    }
-
-    /// Takes the text away; a changed one is put aside.
-    fn shelve(&mut self) {
-        if let Some(draft) = self.session.draft.take() {
-            self.files.put_aside(draft);
-        }
-    }
-
-    /// Takes a text that was put aside, by its number.
-    fn take_text(&mut self, number: usize) {
-        let Some(draft) = self.files.texts().get(number).cloned() else { return };
-        self.files.release(&draft);
-        // its file may have changed since
-        if let Some(path) = &draft.path {
-            self.files.open(path, 0, Why::Restored);
-        }
-        self.begin_text(draft, None);
-    }
-
-    /// Shows the text of the problem that a view shows the solution of.
-    fn show_text_of(&mut self, pane: usize) {
-        let Some(dataset) = self.opened(pane).map(|opened| Arc::clone(&opened.dataset)) else {
-            return;
-        };
-        if let Some(text) = dataset.problem.clone() {
-            self.begin_text(ProblemDraft::unchanged(text), Some(dataset));
-        }
-    }
-
-    /// Shows the text of what the active view shows, unless there is one that was opened, changed
-    /// or is being solved.
-    pub(super) fn follow_dataset(&mut self) {
-        let is_free = |draft: &ProblemDraft| {
-            let is_of_dataset = self.solving.origin.is_some() && !draft.is_changed();
-            is_of_dataset && self.solving.running().is_none()
-        };
-        let active = self.session.active;
-        let Some(dataset) = self.opened(active).map(|opened| Arc::clone(&opened.dataset)) else {
-            return;
-        };
-        match &self.session.draft {
-            Some(draft) if !is_free(draft) => {}
-            Some(draft) if dataset.problem.as_ref() == Some(&draft.text) => {
-                self.solving.origin = Some(dataset);
-            }
-            _ if dataset.problem.is_some() => self.show_text_of(active),
-            _ => self.session.draft = None,
-        }
-    }
-
     /// Closes a dataset; of two panes the one.
     pub fn close(&mut self, pane: usize) {
         self.player.is_playing = false;
@@ -323,11 +215,6 @@ impl Viewer {
             Ok(text) => self.files.write_text(path, SavedFile::Session, text),
             Err(error) => self.files.tell(&path, error.to_string(), true),
         }
-    }
-
-    fn write_problem(&mut self, path: PathBuf, draft: ProblemDraft) {
-        let text = draft.text.clone();
-        self.files.write_text(path, SavedFile::Problem(draft), text);
     }
 
     /// Opens or writes the file that was chosen.
@@ -367,22 +254,6 @@ impl Viewer {
             } else if pane.file.as_deref() == Some(path) {
                 self.files.open(path, number, Why::Changed);
             }
-        }
-    }
-
-    /// The text of a problem is in a file now: that which is written, or one that was put aside.
-    fn note_problem_file(&mut self, written: &ProblemDraft, path: &Path) {
-        for opened in self.stages.iter_mut().filter_map(|stage| stage.opened.as_mut()) {
-            opened.note_problem_file(written, path);
-        }
-        let was_aside = self.files.texts().contains(written);
-        self.files.release(written);
-        let Some(draft) = &mut self.session.draft else { return };
-        if !was_aside && draft.is_same_problem(written) {
-            (draft.path, draft.folder) = (Some(path.to_owned()), None);
-        }
-        if draft.path.as_deref() == Some(path) {
-            draft.original = Some(written.text.clone());
         }
     }
 
@@ -477,26 +348,6 @@ impl Viewer {
         }
         stage.told.extend(player::mend(pane, &dataset));
         stage.take(pane, Opened::new(Some(path), dataset));
-    }
-
-    /// The text of a problem that was opened, or has changed on disk.
-    fn take_problem(&mut self, path: PathBuf, text: String, why: Why) {
-        if why == Why::Opened {
-            let draft = ProblemDraft { path: Some(path), ..ProblemDraft::unchanged(text) };
-            return self.begin_text(draft, None);
-        }
-        let Some(draft) = &mut self.session.draft else { return };
-        let is_changed = draft.is_changed();
-        let before = draft.original.replace(text.clone());
-        if !is_changed {
-            draft.text = text;
-        } else if before.is_some_and(|before| before != text) && draft.text != text {
-            let name = name(&path);
-            let text = format!(
-                "{name} has changed, and so has the text here: save this one over it, or open it again"
-            );
-            self.files.tell(&path, text, true);
-        }
     }
 
     /// Reads a file again that has changed; of one that vanished the last state stays.

@@ -54,3 +54,28 @@ impl TextsUpdate {
         replace(&folder.join(FILE), &text)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two windows at once: none takes away what the other one has put there.
+    #[test]
+    fn windows_keep_each_others_texts() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let draft = |text: &str| ProblemDraft { text: text.into(), ..ProblemDraft::default() };
+        let read = || Texts::read(folder.path()).expect("readable");
+        let write = |texts: &mut Texts| texts.update().write(folder.path()).expect("written");
+        let [mut one, mut other] = [read(), read()];
+        one.all.push(draft("one"));
+        write(&mut one);
+        other.all.push(draft("other"));
+        write(&mut other);
+        write(&mut one);
+        assert_eq!(read().all, [draft("other"), draft("one")]);
+        one.all.clear();
+        write(&mut one);
+        write(&mut other);
+        assert_eq!(read().all, [draft("other")]);
+    }
+}

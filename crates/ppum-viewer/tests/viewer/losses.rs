@@ -66,7 +66,8 @@ fn solve(lab: &mut Lab) -> Arc<Dataset> {
 
 fn click(lab: &mut Lab, label: &str) {
     lab.window.run_steps(2);
-    lab.window.get_by_label(label).click();
+    // it may lie below the fold
+    lab.window.get_by_label(label).click_accesskit();
     lab.window.run_steps(3);
 }
 
@@ -385,7 +386,7 @@ fn changed_texts_outlast_the_window() {
     let discard = |lab: &mut Lab| {
         lab.window.run_steps(2);
         let all: Vec<_> = lab.window.query_all_by_label("Discard these changes").collect();
-        all[0].click();
+        all[0].click_accesskit();
         lab.window.run_steps(3);
         assert!(has(lab, "The changes in Two.toml are not saved."));
     };
@@ -467,7 +468,7 @@ fn each_solution_is_saved_as_itself() {
         lab.window.run_steps(2);
         let lines: Vec<_> = lab.window.query_all_by_label("Save the dataset…").collect();
         assert_eq!(lines.len(), number + 1, "one goes when its solution is saved");
-        lines[number].click();
+        lines[number].click_accesskit();
         lab.window.run_steps(3);
         // what is done meanwhile changes nothing
         lab.state().session.active = number;

@@ -553,7 +553,8 @@ fn what_is_opened_takes_the_place_of_a_solution_only_if_that_is_meant() {
         let opened = viewer.stages[0].opened.as_ref();
         opened.is_some_and(|opened| opened.path.as_ref() == Some(&other))
     });
-    assert_eq!(ppum_format::read(&lab.path("again.h5")).expect("a dataset"), *solved);
+    // under the name of its own problem
+    assert_eq!(ppum_format::read(&lab.path("plate.h5")).expect("a dataset"), *solved);
     // or not
     lab.window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
     lab.window.step();

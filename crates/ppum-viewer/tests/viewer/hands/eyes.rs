@@ -8,6 +8,7 @@ use ppum::dataset::Dataset;
 use ppum_testkit::processor::thread_time;
 use ppum_viewer::Viewer;
 use ppum_viewer::frames::Fault;
+use ppum_viewer::session::ProblemDraft;
 
 use crate::lab::Lab;
 
@@ -22,6 +23,8 @@ pub(super) struct Eyes {
     /// Views with solutions that no file had when they were last seen, but for those that were
     /// given up.
     unsaved: Vec<(usize, Weak<Dataset>)>,
+    /// Changed texts when they were last seen: that which is written, and those put aside.
+    texts: Vec<ProblemDraft>,
     /// True if a problem was being solved, and if something was asked.
     was_solving: bool,
     was_asking: bool,
@@ -49,6 +52,7 @@ impl Eyes {
             memory: Vec::new(),
             frames: 0,
             unsaved,
+            texts: Vec::new(),
             was_solving,
             was_asking,
         }
@@ -74,6 +78,7 @@ impl Eyes {
             let is_ours = failure.is_some_and(|failure| failure.fault == Fault::Program);
             assert!(!is_ours, "{doing}: {:?}", viewer.session);
         }
+        self.look_for_lost_texts(viewer, doing);
         self.look_for_losses(viewer, doing);
         self.check_panics();
     }
@@ -99,7 +104,21 @@ impl Eyes {
         (self.was_solving, self.was_asking) = (solving.running().is_some(), viewer.is_asking());
     }
 
-    /// The window is closed, and everything with it.
+    /// No changed text goes, not even with the window, unless that was asked for.
+    fn look_for_lost_texts(&mut self, viewer: &Viewer, doing: &str) {
+        let front = viewer.session.draft.as_ref();
+        let all: Vec<_> = front.into_iter().chain(viewer.files.texts()).collect();
+        let is_there = |before: &ProblemDraft| {
+            // what is written goes on
+            let is_written = front.is_some_and(|draft| draft.is_same_problem(before));
+            is_written || all.iter().any(|draft| draft.text == before.text)
+        };
+        let is_lost = !self.was_asking && !self.texts.iter().all(is_there);
+        assert!(!is_lost, "{doing}: a changed text is lost");
+        self.texts = all.into_iter().filter(|draft| draft.is_changed()).cloned().collect();
+    }
+
+    /// The window is closed, and all solutions with it.
     pub(super) fn forget(&mut self) {
         (self.unsaved, self.was_solving) = (Vec::new(), false);
     }

@@ -1,0 +1,164 @@
+//! The text of the problem that is written: where it comes from, what it makes place for, and the
+//! file that it gets.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use ppum::dataset::Dataset;
+
+use crate::app::Viewer;
+use crate::files::dialog::Purpose;
+use crate::files::examples::{self, Example};
+use crate::files::read::Why;
+use crate::files::{SavedFile, name};
+use crate::session::{DrawerPage, ProblemDraft};
+
+impl Viewer {
+    pub(super) fn ask_problem(&mut self, draft: ProblemDraft) {
+        let near = draft.path.clone();
+        self.files.ask(Purpose::SaveProblem(draft), near.as_deref());
+    }
+
+    pub(super) fn save_problem(&mut self) {
+        if let Some(draft) = self.session.draft.clone() {
+            self.save_text(draft);
+        }
+    }
+
+    /// Writes a text into its file, or asks for the name of one.
+    pub(super) fn save_text(&mut self, draft: ProblemDraft) {
+        match draft.path.clone() {
+            Some(path) => self.write_problem(path, draft),
+            None => self.ask_problem(draft),
+        }
+    }
+
+    /// Solves the problem of the text, or an example in its place; what the active view shows makes
+    /// place for the solution.
+    pub(super) fn solve(&mut self, example: Option<usize>) {
+        if let Some(example) = example.and_then(|k| examples::ALL.get(k))
+            && !self.take_example(example)
+        {
+            return;
+        }
+        self.session.drawer = Some(DrawerPage::Problem);
+        if let Some(draft) = &self.session.draft {
+            self.solving.solve(draft, self.session.active);
+        }
+    }
+
+    /// Takes the text of an example, with the files that it names in a folder; tells it if these
+    /// cannot be put there.
+    fn take_example(&mut self, example: &Example) -> bool {
+        let own = self.files.folder().map_or_else(std::env::temp_dir, Path::to_owned);
+        match example.folder(&own) {
+            Ok(folder) => {
+                let text = ProblemDraft::unchanged(example.text.to_owned());
+                self.begin_text(ProblemDraft { folder, ..text }, None);
+                true
+            }
+            Err(error) => {
+                self.files.tell(&own, format!("the example cannot be put there: {error}"), true);
+                false
+            }
+        }
+    }
+
+    /// A text is written from now on; if the one before was changed, it is put aside.
+    fn begin_text(&mut self, draft: ProblemDraft, origin: Option<Arc<Dataset>>) {
+        self.shelve();
+        self.solving.begin(origin);
+        self.session.draft = Some(draft);
+        self.session.drawer = Some(DrawerPage::Problem);
+    }
+
+    /// Takes the text away; a changed one is put aside.
+    pub(super) fn shelve(&mut self) {
+        if let Some(draft) = self.session.draft.take() {
+            self.files.put_aside(draft);
+        }
+    }
+
+    /// Takes a text that was put aside, by its number.
+    pub(super) fn take_text(&mut self, number: usize) {
+        let Some(draft) = self.files.texts().get(number).cloned() else { return };
+        self.files.release(&draft);
+        // its file may have changed since
+        if let Some(path) = &draft.path {
+            self.files.open(path, 0, Why::Restored);
+        }
+        self.begin_text(draft, None);
+    }
+
+    /// Shows the text of the problem that a view shows the solution of.
+    pub(super) fn show_text_of(&mut self, pane: usize) {
+        let Some(dataset) = self.opened(pane).map(|opened| Arc::clone(&opened.dataset)) else {
+            return;
+        };
+        if let Some(text) = dataset.problem.clone() {
+            self.begin_text(ProblemDraft::unchanged(text), Some(dataset));
+        }
+    }
+
+    /// Shows the text of what the active view shows, unless there is one that was opened, changed
+    /// or is being solved.
+    pub(super) fn follow_dataset(&mut self) {
+        let is_free = |draft: &ProblemDraft| {
+            let is_of_dataset = self.solving.origin.is_some() && draft.path.is_none();
+            is_of_dataset && !draft.is_changed() && self.solving.running().is_none()
+        };
+        let active = self.session.active;
+        let Some(dataset) = self.opened(active).map(|opened| Arc::clone(&opened.dataset)) else {
+            return;
+        };
+        match &self.session.draft {
+            Some(draft) if !is_free(draft) => {}
+            Some(draft) if dataset.problem.as_ref() == Some(&draft.text) => {
+                self.solving.origin = Some(dataset);
+            }
+            _ if dataset.problem.is_some() => self.show_text_of(active),
+            _ => self.session.draft = None,
+        }
+    }
+
+    pub(super) fn write_problem(&mut self, path: PathBuf, draft: ProblemDraft) {
+        let text = draft.text.clone();
+        self.files.write_text(path, SavedFile::Problem(draft), text);
+    }
+
+    /// The text of a problem is in a file now: that which is written, or one that was put aside.
+    pub(super) fn note_problem_file(&mut self, written: &ProblemDraft, path: &Path) {
+        for opened in self.stages.iter_mut().filter_map(|stage| stage.opened.as_mut()) {
+            opened.note_problem_file(written, path);
+        }
+        let was_aside = self.files.texts().contains(written);
+        self.files.release(written);
+        let Some(draft) = &mut self.session.draft else { return };
+        if !was_aside && draft.is_same_problem(written) {
+            (draft.path, draft.folder) = (Some(path.to_owned()), None);
+        }
+        if draft.path.as_deref() == Some(path) {
+            draft.original = Some(written.text.clone());
+        }
+    }
+
+    /// The text of a problem that was opened, or has changed on disk.
+    pub(super) fn take_problem(&mut self, path: PathBuf, text: String, why: Why) {
+        if why == Why::Opened {
+            let draft = ProblemDraft { path: Some(path), ..ProblemDraft::unchanged(text) };
+            return self.begin_text(draft, None);
+        }
+        let Some(draft) = &mut self.session.draft else { return };
+        let is_changed = draft.is_changed();
+        let before = draft.original.replace(text.clone());
+        if !is_changed {
+            draft.text = text;
+        } else if before.is_some_and(|before| before != text) && draft.text != text {
+            let name = name(&path);
+            let text = format!(
+                "{name} has changed, and so has the text here: save this one over it, or open it again"
+            );
+            self.files.tell(&path, text, true);
+        }
+    }
+}
