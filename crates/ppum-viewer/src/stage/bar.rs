@@ -110,9 +110,8 @@ pub fn show(
     }
     standing.extrema(ui, grip.extrema(frame));
     standing.edit(ui, grip, colors);
-    for sided in hover.iter().flat_map(|probed| &probed.sides) {
-        standing.follow(ui, sided.value);
-    }
+    let values = hover.iter().flat_map(|probed| &probed.sides).map(|sided| sided.value);
+    standing.follow(ui, values);
 }
 
 /// Shows the bar of the difference to a resampled picture, where that is seen: beside the other
@@ -356,24 +355,32 @@ impl<'a> Standing<'a> {
         self.height(position) + beyond
     }
 
-    /// A tick at the value below the pointer, with the value.
-    fn follow(&self, ui: &Ui, found: f64) {
-        if found.is_nan() || self.has_classes() {
+    /// Ticks at the values below the pointer, with the values: those of two faces that are near
+    /// stand one above the other.
+    fn follow(&self, ui: &Ui, values: impl Iterator<Item = f64>) {
+        if self.has_classes() {
             return;
         }
-        let at = self.height(self.norm().position(found).clamp(0.0, 1.0));
         let ends = [self.norm().min(), self.norm().max()];
-        let text = number(found, digits(ends, 4));
+        let tick = |value: f64| {
+            let at = self.height(self.norm().position(value).clamp(0.0, 1.0));
+            (at, number(value, digits(ends, 4)))
+        };
+        let mut ticks: Vec<_> = values.filter(|value| !value.is_nan()).map(tick).collect();
+        ticks.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ticks.dedup_by(|a, b| a.1 == b.1);
+        let heights: Vec<f32> = ticks.iter().map(|(at, _)| *at).collect();
         let ink = ui.visuals().strong_text_color();
-        let font = FontId::proportional(12.0);
-        let galley = ui.painter().layout_no_wrap(text, font, ink);
         let left = self.corner.x - MARK - 4.0;
-        let rect = Align2::RIGHT_CENTER.anchor_size(pos2(left - 4.0, at), galley.size());
-        ui.painter().rect_filled(rect.expand(3.0), 3.0, ui.visuals().panel_fill);
-        ui.painter().galley(rect.min, galley, ink);
-        let colored = self.colored();
-        let line = Stroke::new(1.5, contrast(ui));
-        ui.painter().hline(left..=colored.right(), at, line);
+        for ((at, text), beside) in ticks.into_iter().zip(apart(&heights, ROW)) {
+            let font = FontId::proportional(12.0);
+            let galley = ui.painter().layout_no_wrap(text, font, ink);
+            let rect = Align2::RIGHT_CENTER.anchor_size(pos2(left - 4.0, beside), galley.size());
+            ui.painter().rect_filled(rect.expand(3.0), 3.0, ui.visuals().panel_fill);
+            ui.painter().galley(rect.min, galley, ink);
+            let line = Stroke::new(1.5, contrast(ui));
+            ui.painter().hline(left..=self.colored().right(), at, line);
+        }
     }
 
     /// The number of an end, while it is written.
@@ -407,6 +414,19 @@ impl<'a> Standing<'a> {
         ends[edited.end] = parse(&edited.text).ok_or("write a finite number")?;
         set(colors, ends, edited.end)
     }
+}
+
+/// Height of the number of a tick, with its ground \[points\].
+const ROW: f32 = 20.0;
+
+/// Heights in ascending order that are at least `gap` from one another, around the same middle.
+fn apart(heights: &[f32], gap: f32) -> Vec<f32> {
+    let (Some(first), Some(last)) = (heights.first(), heights.last()) else { return Vec::new() };
+    let spaces = (heights.len() - 1) as f32;
+    let is_apart = heights.windows(2).all(|pair| pair[1] - pair[0] >= gap);
+    let top = 0.5 * (first + last - spaces * gap);
+    let spread = |(k, at): (usize, &f32)| if is_apart { *at } else { top + k as f32 * gap };
+    heights.iter().enumerate().map(spread).collect()
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -458,4 +478,17 @@ fn short(end: f64, [min, max]: [f64; 2]) -> f64 {
     let step = 10f64.powi(((max - min) / 1000.0).log10().floor() as i32);
     let rounded = format!("{:.12e}", (end / step).round() * step).parse().unwrap_or(end);
     if f64::is_finite(rounded) { rounded } else { end }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_that_are_near_stand_one_above_the_other() {
+        assert_eq!(apart(&[], 20.0), []);
+        assert_eq!(apart(&[7.0], 20.0), [7.0]);
+        assert_eq!(apart(&[100.0, 102.0], 20.0), [91.0, 111.0]);
+        assert_eq!(apart(&[100.0, 160.0], 20.0), [100.0, 160.0]);
+    }
 }
