@@ -12,6 +12,7 @@ use ppum_render::extrema::{Extrema, Extremum, On, SingularKind, extrema};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{Basis, ValueSpan};
 use ppum_render::raster::{Raster, Sample};
+use ppum_render::scale::Scale;
 
 use crate::drawing::{BodyView, Drawn, RasterValues};
 use crate::mirror::MirrorLines;
@@ -71,6 +72,10 @@ pub struct Telling<'a> {
     size: f64,
 }
 
+/// Why a picture has one colour on a logarithmic scale.
+const NOT_POSITIVE: &str =
+    "; no value is positive, and a logarithmic scale has one colour for them: symlog has more";
+
 /// Views narrower than this part of the plate have their places told from their centre.
 const DEEP: f64 = 1e-3;
 
@@ -113,10 +118,10 @@ impl<'a> Telling<'a> {
                 format!("colours from {from} to {to}{}", basis(span.basis))
             }
         };
-        match &span.values {
-            Some(values) => format!("{colors}; {}", self.values(values, picture.view.width)),
-            None => colors,
-        }
+        let Some(values) = &span.values else { return colors };
+        let is_below = norm.scale() == Scale::Log && values.max.value <= 0.0;
+        let why = if is_below { NOT_POSITIVE } else { "" };
+        format!("{colors}; {}{why}", self.values(values, picture.view.width))
     }
 
     fn values(&self, values: &Extrema, width: f64) -> String {

@@ -61,6 +61,12 @@ impl Whole {
         }
     }
 
+    /// True if it is the range of so many steps.
+    #[must_use]
+    pub fn is_of(&self, steps: &Steps<usize>) -> bool {
+        self.total == steps.len()
+    }
+
     /// The progress of the search as text.
     #[must_use]
     pub fn progress_text(&self) -> String {

@@ -1,7 +1,9 @@
 //! The player of a series in the bar at the top of the window.
 
-use egui::{DragValue, Slider, Ui};
+use egui::{DragValue, Label, RichText, Slider, Ui};
+use ppum::dataset::Step;
 use ppum::text::trimmed;
+use ppum_scene::facts::Growth;
 
 use crate::actions::Action;
 use crate::desk::Desk;
@@ -22,11 +24,13 @@ fn row(ui: &mut Ui, desk: &mut Desk<'_>) {
     let steps = &opened.dataset.steps;
     let subject = &mut desk.session.panes[active].scene.subject;
     let last = steps.len() - 1;
+    let stop = steps[last].growth.as_ref().and_then(|growth| growth.stop);
     let mut step = subject.step_of(&opened.dataset).min(last);
     if button(ui, "◀", "Step before").clicked() {
         desk.actions.push(Action::Step(-1));
     }
-    ui.spacing_mut().slider_width = (ui.available_width() - REST).clamp(60.0, 600.0);
+    let rest = if stop.is_some() { REST + REASON } else { REST };
+    ui.spacing_mut().slider_width = (ui.available_width() - rest).clamp(60.0, 600.0);
     let slider = ui.add(Slider::new(&mut step, 0..=last).show_value(false));
     slider.widget_info(|| {
         let text = format!("Step {step} of {last}");
@@ -54,7 +58,23 @@ fn row(ui: &mut Ui, desk: &mut Desk<'_>) {
     if looping.clicked() {
         desk.player.is_looping = !desk.player.is_looping;
     }
+    if let Some(stop) = stop.filter(|_| step == last) {
+        let text = RichText::new(format!("Growth ends: {}", stop.words()));
+        ui.add(Label::new(text.strong()).truncate()).on_hover_text(ends(steps));
+    }
 }
 
-/// Width of the controls other than the slider \[points\].
+/// What the tips of the last steps do, the last one with tips included.
+fn ends(steps: &[Step]) -> String {
+    let told = |(number, step): (usize, &Step)| {
+        let lines = Growth::new(step.growth.as_ref()?).lines();
+        Some(format!("step {number}: {}", lines.join("; ")))
+    };
+    let first = steps.len().saturating_sub(2);
+    let told: Vec<_> = steps.iter().enumerate().skip(first).filter_map(told).collect();
+    told.join("\n")
+}
+
+/// Width of the controls other than the slider, and of the reason why growth ends \[points\].
 const REST: f32 = 330.0;
+const REASON: f32 = 200.0;

@@ -1,6 +1,8 @@
 //! The range of the colours: found, of the whole plate, fixed.
 
-use egui::{DragValue, RichText, Ui};
+use std::ops::Range as Steps;
+
+use egui::{Button, DragValue, Response, RichText, TextStyle, Ui};
 use ppum::text::trimmed_to;
 use ppum_render::range::Range;
 use ppum_scene::colors::Colors;
@@ -114,23 +116,36 @@ fn mirror(colors: &mut Colors) {
 fn whole(ui: &mut Ui, pane: &Pane, stage: &mut Stage) {
     let Some(opened) = &stage.opened else { return };
     let controls = &mut stage.controls;
-    if let Some(whole) = &controls.whole {
-        ui.spinner();
-        if ui.button("stop").on_hover_text(whole.progress_text()).clicked() {
-            controls.whole = None;
-        }
-        return;
-    }
     let count = opened.dataset.steps.len();
     let step = pane.scene.subject.step_of(&opened.dataset);
     let here = ("whole plate", "Finds the range of the whole plate and fixes it", step..step + 1);
     let all = ("all steps", "Finds the range of the plate at all steps and fixes it", 0..count);
     for (name, meaning, steps) in [here, all].into_iter().take(count.min(2)) {
-        if ui.button(name).on_hover_text(meaning).clicked() {
-            let shown = (&pane.scene, stage.pair.minus().cloned());
-            let whole = Whole::new(ui.ctx(), &opened.dataset, shown, steps);
-            controls.whole = Some(whole);
-            controls.refused = None;
+        let button = range_button(ui, name, controls.whole.as_ref(), &steps);
+        if !button.on_hover_text(meaning).clicked() {
+            continue;
         }
+        controls.refused = None;
+        controls.whole = match controls.whole {
+            Some(_) => None,
+            None => {
+                let shown = (&pane.scene, stage.pair.minus().cloned());
+                Some(Whole::new(ui.ctx(), &opened.dataset, shown, steps))
+            }
+        };
     }
+}
+
+/// The button of a search for a range: while that works it stops it, and is as large as before, so
+/// that nothing moves.
+fn range_button(ui: &mut Ui, name: &str, whole: Option<&Whole>, steps: &Steps<usize>) -> Response {
+    let Some(whole) = whole else { return ui.button(name) };
+    let font = TextStyle::Button.resolve(ui.style());
+    let color = ui.visuals().text_color();
+    let text = ui.painter().layout_no_wrap(name.to_owned(), font, color).size();
+    let size = text + 2.0 * ui.spacing().button_padding;
+    let is_this = whole.is_of(steps);
+    let label = if is_this { "stop" } else { name };
+    let response = ui.add_enabled(is_this, Button::new(label).min_size(size));
+    response.on_hover_text(whole.progress_text())
 }

@@ -78,7 +78,8 @@ fn patches(ui: &mut Ui, desk: &mut Desk<'_>) {
 fn numbers(ui: &mut Ui, step: &Step, height: f32) {
     let (times, numbers): (Vec<_>, Vec<_>) = step.history.iter().partition(|r| r.unit == "s");
     ScrollArea::vertical().id_salt("numbers").max_height(height).show(ui, |ui| {
-        Grid::new("history").num_columns(2).striped(true).show(ui, |ui| {
+        let grid = Grid::new("history").num_columns(2).striped(true);
+        grid.max_col_width(WIDEST).show(ui, |ui| {
             let mut row = |name: &str, value: String| {
                 ui.label(name);
                 ui.monospace(value);
@@ -103,6 +104,9 @@ fn numbers(ui: &mut Ui, step: &Step, height: f32) {
         });
     });
 }
+
+/// Width of a column of words, which are wrapped in it \[points\].
+const WIDEST: f32 = 240.0;
 
 /// What one looks for first.
 const FIRST: [&str; 4] = ["unknowns", "estimated error", "estimated error of factors", STOP];
