@@ -186,6 +186,17 @@ pub(crate) fn fitted(text: &str, size: f64, room: f64) -> String {
     })
 }
 
+/// The text, or as many of its first words as fit with an ellipsis; of one word, its beginning and
+/// its end.
+#[must_use]
+pub(crate) fn abbreviated(text: &str, size: f64, room: f64) -> String {
+    let ends = text.match_indices(' ').map(|(end, _)| end);
+    let short = |end: usize| format!("{}…", text[..end].trim_end());
+    let fits = |text: &String| width(text, size) <= room;
+    let mut words = [text.to_owned()].into_iter().chain(ends.rev().map(short));
+    words.find(fits).unwrap_or_else(|| squeezed(text, size, room))
+}
+
 /// The text, or as much of its beginning and its end as fits with an ellipsis between.
 #[must_use]
 pub(crate) fn squeezed(text: &str, size: f64, room: f64) -> String {

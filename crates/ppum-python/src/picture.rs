@@ -11,7 +11,7 @@ use ppum_figure::figure::{Labels, bare};
 use ppum_figure::form::PageFormat;
 use ppum_figure::ticks;
 use ppum_render::colormap::{Colormap, NAMES};
-use ppum_render::extrema::{Extremum, On, extrema};
+use ppum_render::extrema::{Extremum, On, Region, extrema};
 use ppum_render::png::{Text, encode_quickly};
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
@@ -342,11 +342,9 @@ pub(crate) fn extrema_in(
         return Err(RenderError::new_err(format!("`{name}` is a value of cells: look at them")));
     };
     let field = this.owned.field();
-    let found = |watcher: &dyn Watcher| {
-        let raster = f64::render(field, &view, &quantity, watcher)?;
-        extrema(field, &view, &quantity, &raster, watcher)
-    };
+    let Some(region) = Region::seen(field, &view) else { return Ok(None) };
+    let found = |watcher: &dyn Watcher| extrema(field, &region, &quantity, watcher);
     let found = long(py, None, None, found)?.map_err(rendering)?;
-    let facts = |of| ExtremumFacts::new(of, view.center);
+    let facts = |of| ExtremumFacts::new(of, region.anchor);
     Ok(found.map(|found| (facts(found.min), facts(found.max))))
 }

@@ -182,7 +182,7 @@ def test_empty_rows_of_a_layout_are_told(f):
     figure = f.figure(["ux", "uy", "sxx"], layout=(2, 2), size=(700, 900))
     figure.png()
     assert figure.warnings == ()
-    with pytest.warns(UserWarning, match="the layout 2x2 leaves rows or columns of the page empty: it has 1 image"):
+    with pytest.warns(UserWarning, match="the layout 2x2 has rows or columns that 1 image does not fill"):
         f.figure("ux", layout=(2, 2), size=(700, 900)).png()
 
 

@@ -207,7 +207,8 @@ impl Picture {
             ("ppum:scale", norm.scale().to_string()),
             ("ppum:colormap", self.colormap.name.clone()),
         ];
-        let known = self.span.values.as_ref().map(|values| ("ppum:extrema", values.to_string()));
+        let seen = |values: Extrema| values.seen_from(self.view.center).to_string();
+        let known = self.span.values.clone().map(|values| ("ppum:extrema", seen(values)));
         let basis = ("ppum:range-basis", self.span.basis.to_string());
         let entries = entries.into_iter().chain([basis]).chain(known);
         entries.map(|(key, text)| (key.to_owned(), text)).collect()

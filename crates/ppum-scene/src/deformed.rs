@@ -8,6 +8,7 @@ use ppum::progress::Watcher;
 use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::deform::{DeformError, Deformation, DeformedPoints, automatic_factor};
+use ppum_render::extrema::Region;
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
 
@@ -61,11 +62,19 @@ impl Factor {
     }
 }
 
-/// A box around the deformed plate, and around the undeformed one if its border is drawn.
+/// A box around the deformed plate, and around the undeformed one if its border is drawn, with
+/// some room around it.
 ///
 /// # Errors
 /// A field that is no displacement, or a factor that is too large.
 pub fn bounds(field: &Field<'_>, factor: f64, with_outline: bool) -> Result<Rect, DeformError> {
+    let moved = moved_box(field, factor)?;
+    let shown = if with_outline { moved.union(&field.domain.bounds) } else { moved };
+    Ok(grown(shown, ROOM))
+}
+
+/// The box of the deformed body.
+fn moved_box(field: &Field<'_>, factor: f64) -> Result<Rect, DeformError> {
     let deformation = Deformation::new(field, factor)?;
     let whole = field.domain.bounds;
     let mut view = View::fit(whole, [256, 256])?;
@@ -77,9 +86,24 @@ pub fn bounds(field: &Field<'_>, factor: f64, with_outline: bool) -> Result<Rect
     let lines = [seen.outline(), seen.cut_faces()];
     let place = |offset: &Vec2| view.center + *offset;
     let all = lines.iter().flatten().flatten().map(place).map(|p| Rect::new(p, p));
-    let moved = all.reduce(|a, b| a.union(&b)).unwrap_or(whole);
-    let shown = if with_outline { moved.union(&whole) } else { moved };
-    Ok(grown(shown, ROOM))
+    Ok(all.reduce(|a, b| a.union(&b)).unwrap_or(whole))
+}
+
+/// The part of the undeformed body that a view of the deformed one shows: the whole body, or the
+/// smallest rectangle that holds all points that are seen. `None` if nothing is.
+///
+/// # Errors
+/// A field that is no displacement.
+pub(crate) fn region(points: &DeformedPoints<'_>) -> Result<Option<Region>, DeformError> {
+    let (seen, field) = (&points.view, points.view.field());
+    if seen.factor() == 0.0 {
+        return Ok(Region::seen(field, &seen.view));
+    }
+    let (window, body) = (seen.view.rect(), moved_box(field, seen.factor())?);
+    if window.contains(body.min) && window.contains(body.max) {
+        return Ok(Some(Region::whole(field)));
+    }
+    Ok(points.material_box().and_then(|rect| Region::new(field, seen.anchor, rect)))
 }
 
 /// A box with room around it, in parts of its size.

@@ -68,10 +68,17 @@ impl Ground<'_> {
     ) -> Result<Vec<Isoline>, RenderError> {
         let Self { field, picture: Picture { view, .. }, values, .. } = *self;
         let job = (DrawingInput { field, view, quantity }, lines);
-        match values {
+        whole::between_ends(levels, self.ends(), |levels| match values {
             RasterValues::Double(raster) => whole::isolines(job, levels, raster, watcher),
             RasterValues::Single(raster) => whole::isolines(job, levels, raster, watcher),
-        }
+        })
+    }
+
+    /// The ends of the values, those of the pixels if no others are known, and of the colours.
+    fn ends(&self) -> ([f64; 2], [f64; 2]) {
+        let Picture { span, normalization: norm, .. } = self.picture;
+        let known = span.values.as_ref().map(|values| [values.min.value, values.max.value]);
+        (known.unwrap_or_else(|| self.values.ends()), [norm.min(), norm.max()])
     }
 }
 
@@ -316,9 +323,10 @@ impl<'a> Drawing<'a> {
     /// Isolines of the plate as it was, where they have moved to.
     fn deformed_isolines(&mut self, body: &MovedBody<'_>) -> Result<(), LayersError> {
         let Some((quantity, levels)) = self.levels() else { return Ok(()) };
-        let Some(lines) = whole::moved_isolines(body, quantity, &levels, self.watcher)? else {
-            return Ok(());
-        };
+        let watcher = self.watcher;
+        let lines = whole::between_ends(&levels, self.ground.ends(), |levels| {
+            whole::moved_isolines(body, quantity, levels, watcher)
+        })?;
         let view = &body.own.view.view;
         // cracks have opened, or closed: nothing can be said of their lines
         let room = self.room(view, &[]);

@@ -88,10 +88,10 @@ impl fmt::Display for Notice {
                 return write!(f, "`{name}` has no finite value in the picture");
             }
             Self::EmptyPanels([columns, rows], count) => {
-                let images = if *count == 1 { "image" } else { "images" };
+                let images = if *count == 1 { "image does" } else { "images do" };
                 return write!(
                     f,
-                    "the layout {columns}x{rows} leaves rows or columns of the page empty: it has {count} {images}"
+                    "the layout {columns}x{rows} has rows or columns that {count} {images} not fill; they are left out"
                 );
             }
             Self::NoLegend(entries) => {

@@ -133,18 +133,12 @@ impl<'a> PanelFigure<'a> {
         let lacking = all.iter().filter(|panel| lacks_legend(panel, room, &design));
         lacking.for_each(|panel| tell_legend(&panel.legend, engine));
         let page = panels(&titled, &all, grid, &design)?;
-        self.tell_empty(grid, engine);
+        if let Some(layout) = request.panels.layout.filter(|given| *given != size) {
+            engine.tell(Notice::EmptyPanels(layout, self.contents.len()));
+        }
         let names = self.contents.iter().step_by(self.sources.len());
         let names = names.map(|content| content.asked.name.as_str()).collect::<Vec<_>>().join(", ");
         Ok(DrawnPanels { page, shots, labels, names, is_shared: self.is_shared() })
-    }
-
-    /// Tells of rows and columns that no panel is in.
-    fn tell_empty(&self, grid: PanelGrid, engine: &Engine<'_>) {
-        let (count, columns) = (self.contents.len(), grid.columns as usize);
-        if columns > count || grid.rows as usize > count.div_ceil(columns) {
-            engine.tell(Notice::EmptyPanels([grid.columns, grid.rows], count));
-        }
     }
 
     fn is_shared(&self) -> bool {
@@ -175,18 +169,19 @@ impl<'a> PanelFigure<'a> {
         shots.map(shot).collect()
     }
 
-    /// The arrangement: as given; else a row for each of several quantities of several parts, or
+    /// The arrangement: as given, but without rows and columns that no panel is in; else a row for each of several quantities of several parts, or
     /// that with the largest pictures.
     fn grid(&self, title: &str, captions: &[&str]) -> Result<PanelGrid, ShotError> {
         let (count, parts) = (captions.len(), self.sources.len());
         let sized = |size| PanelGrid { shared_bar: self.is_shared(), ..PanelGrid::new(size) };
         let of = |columns: usize| sized([columns as u32, count.div_ceil(columns) as u32]);
         if let Some(layout) = self.request.panels.layout {
-            let grid = sized(layout);
             return match layout {
                 [0, _] | [_, 0] => Err(PanelsError::Empty.into()),
-                _ if count > grid.cells() => Err(PanelsError::Few { layout, count }.into()),
-                _ => Ok(grid),
+                _ if count > sized(layout).cells() => {
+                    Err(PanelsError::Few { layout, count }.into())
+                }
+                [columns, _] => Ok(of(count.min(columns as usize))),
             };
         }
         if parts > 1 && count > parts {

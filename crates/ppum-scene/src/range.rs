@@ -8,18 +8,20 @@ use ppum::quantity::Quantity;
 use ppum::text::{Places, apart, beside, trimmed};
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::RenderError;
-use ppum_render::extrema::{Extrema, Extremum, On, SingularKind, extrema};
+use ppum_render::extrema::{Extrema, Extremum, On, SingularKind};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{Basis, ValueSpan};
-use ppum_render::raster::{Raster, Sample};
 use ppum_render::scale::Scale;
 
-use crate::drawing::{BodyView, Drawn, RasterValues};
-use crate::mirror::MirrorLines;
+use crate::drawing::{BodyView, Drawn};
 use crate::whole;
 
-/// The range of what was drawn; one that has to be found with the extrema of the view, which are
-/// the true ones of the plate as it was, and those of the pixels of the deformed one.
+/// The range of what was drawn; one that has to be found with the extrema of what is seen of the
+/// body. These are the same whether it is deformed or not, and their places are those of the
+/// undeformed body.
+///
+/// # Errors
+/// A quantity that the field does not have, a watcher that stops the search.
 pub fn value_span(
     field: &Field<'_>,
     seen: &BodyView<'_>,
@@ -28,33 +30,13 @@ pub fn value_span(
     style: &Style,
     watcher: &dyn Watcher,
 ) -> Result<ValueSpan, RenderError> {
-    let extrema = match &drawn.values {
-        _ if !style.range.is_found() => None,
-        RasterValues::Double(raster) => extrema_of(field, seen, quantity, raster, watcher)?,
-        RasterValues::Single(raster) => extrema_of(field, seen, quantity, raster, watcher)?,
-    };
-    Ok(drawn.span(style, extrema))
-}
-
-fn extrema_of<T: Sample>(
-    field: &Field<'_>,
-    seen: &BodyView<'_>,
-    quantity: &Quantity,
-    raster: &Raster<T>,
-    watcher: &dyn Watcher,
-) -> Result<Option<Extrema>, RenderError> {
-    let (view, lines) = (seen.view(), seen.lines());
-    let is_whole = lines == MirrorLines::default();
-    match seen.moved() {
-        // something has moved
-        Some(points) if points.view.factor() != 0.0 => {
-            let constant = || Extrema::of_constant(field, view, quantity, raster);
-            let known = is_whole.then(constant).flatten();
-            Ok(known.or_else(|| Extrema::of_pixels(raster, view)))
-        }
-        _ if is_whole => extrema(field, view, quantity, raster, watcher),
-        _ => whole::extrema(field, (view, &lines), quantity, raster, watcher),
+    if !style.range.is_found() {
+        return Ok(drawn.span(style, None));
     }
+    // a deformed body that is drawn has displacements
+    let regions = seen.regions(field).unwrap_or_default();
+    let parts = (regions.as_slice(), &seen.lines());
+    Ok(drawn.span(style, whole::extrema(field, parts, quantity, watcher)?))
 }
 
 /// Writes places of a dataset, whichever step they are of.
@@ -70,6 +52,8 @@ pub struct Telling<'a> {
     cracks: &'a [Crack],
     /// Size of the plate.
     size: f64,
+    /// The hole that is its outline, if it has one.
+    outline: Option<usize>,
 }
 
 /// Why a picture has one colour on a logarithmic scale.
@@ -90,8 +74,8 @@ impl<'a> Telling<'a> {
     /// there are many cracks.
     #[must_use]
     pub fn with(places: Places, field: &'a Field<'_>) -> Self {
-        let size = field.domain.bounds.size();
-        Self { places, cracks: &field.step.cracks, size: size.x.max(size.y) }
+        let (size, outline) = (field.domain.bounds.size(), field.domain.outline());
+        Self { places, cracks: &field.step.cracks, size: size.x.max(size.y), outline }
     }
 
     /// What colours mean, and between which values all others lie: `colours from 0 to 2.7 (robust);
@@ -172,6 +156,9 @@ impl<'a> Telling<'a> {
         match kind {
             SingularKind::Tip(tip) => format!("tip {}", self.number(tip)),
             SingularKind::Kink(crack) => format!("a kink of crack {crack}"),
+            SingularKind::Corner(hole) if Some(hole) == self.outline => {
+                "a corner of the outline".into()
+            }
             SingularKind::Corner(hole) => format!("a corner of hole {hole}"),
             SingularKind::Origin => "the origin of a function".into(),
         }

@@ -11,6 +11,7 @@ mod demo;
 mod determinism;
 mod errors;
 mod export;
+mod extrema;
 mod figures;
 mod files;
 mod formula;

@@ -9,7 +9,7 @@ use ppum_testkit::meshes::{Elements, Polynomial, field};
 use crate::{Lab, Png};
 
 /// A folder with one of them as `mesh.h5`.
-fn lab(name: &str) -> Lab {
+pub(super) fn lab(name: &str) -> Lab {
     let lab = Lab::new();
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/python/fixtures");
     std::fs::copy(format!("{folder}/{name}.h5"), lab.path("mesh.h5")).unwrap();
@@ -61,7 +61,7 @@ fn crosses_need_elasticity() {
 
 /// Quadratic triangles that interpolate the field of a crack of half length 0.75 in the plane; the
 /// crack lies on edges, whose nodes are doubled.
-fn cracked_plate() -> Dataset {
+pub(super) fn cracked_plate() -> Dataset {
     let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
     let exact = CrackInPlane::biaxial(material, Vec2::ZERO, vec2(1.0, 0.0), 0.75, 0.05);
     let line = Polynomial::linear;

@@ -72,7 +72,7 @@ fn tips_make_ranges_robust_and_are_told() {
     let (told, _) = lab.ranged("--size 200x150 -q uy");
     assert!(!told.contains("robust") && !told.contains('∞'), "{told}");
     let (told, _) = lab.ranged("--size 200x150 -q syy --deformed auto");
-    assert!(told.contains("values of pixels from "), "{told}");
+    assert!(told.contains(" (robust); values from ") && told.contains("∞ at tip 0 ("), "{told}");
     // bars say it, upright and lying, of one panel and of several
     for look in [
         "--figure",

@@ -12,6 +12,12 @@ use ppum_render::picture::Picture;
 /// Least distances of labelled ticks, across and along the direction of reading.
 const TICK_DISTANCE: [f64; 2] = [72.0, 44.0];
 
+/// The smallest size of a label that is too long for its axis, in parts of that of others.
+const SMALLEST: f64 = 0.7;
+
+/// Part of the room that smaller letters take: widths are rounded.
+const WITHIN: f64 = 0.999;
+
 /// An axis or the bar: its ticks, what is written along it, and how wide its tick labels are.
 pub(super) struct FigureAxis {
     pub(super) ticks: Ticks,
@@ -26,18 +32,21 @@ impl FigureAxis {
         Self { label: label.to_owned(), name, widest: widest(&ticks, scale), ticks }
     }
 
-    /// The label, shortened if there is less room \[pixels\]: its name in the middle, to half of
-    /// the room at least, and the number behind that at its end, for the power of ten and the unit,
-    /// which are cut last.
-    pub(super) fn fitted(&self, size: f64, room: f64) -> String {
+    /// The label and its size, for a size that it has where it fits into some room \[pixels\].
+    /// Where its name, the power of ten and the unit do not fit, letters are smaller, down to
+    /// [`SMALLEST`]; then words of the name give way, to half of the room at least, and last the
+    /// power of ten and the unit. Digits of the number behind the name have what is left.
+    pub(super) fn fitted(&self, size: f64, room: f64) -> (String, f64) {
         let (name, rest) = self.label.split_at(self.name);
-        let kept = (room - text::width(rest, size)).max(0.5 * room);
-        let name = text::squeezed(name, size, kept);
         let (number, measure) = rest.split_at(rest.find(" [").unwrap_or(rest.len()));
+        let least = text::width(name, size) + text::width(measure, size);
+        let size = if least > room { size * (WITHIN * room / least).max(SMALLEST) } else { size };
+        let kept = (room - text::width(measure, size)).max(0.5 * room);
+        let name = text::abbreviated(name, size, kept);
         let room = room - text::width(&name, size);
         let measure = text::fitted(measure, size, room);
         let number = text::fitted(number, size, room - text::width(&measure, size));
-        format!("{name}{number}{measure}")
+        (format!("{name}{number}{measure}"), size)
     }
 }
 
@@ -171,11 +180,12 @@ mod tests {
         let (ticks, name) = (Ticks { exponent: -4, ..Ticks::default() }, "x + ".repeat(99));
         let label = axis_label(&name, &ticks, "mm");
         let axis = FigureAxis::new(ticks, &label, name.len(), 1.0);
-        let label = axis.fitted(12.0, 200.0);
+        let (label, size) = axis.fitted(12.0, 200.0);
         assert!(label.starts_with("x + ") && label.ends_with(" [×10⁻⁴ mm]"), "{label}");
-        assert!(label.contains('…') && text::width(&label, 12.0) <= 200.0, "{label}");
-        assert!(text::width(&axis.fitted(12.0, 20.0), 12.0) <= 20.0);
-        assert_eq!(axis.fitted(12.0, 1e6), axis.label);
+        assert!(label.contains('…') && text::width(&label, size) <= 200.0, "{label}");
+        let (label, size) = axis.fitted(12.0, 20.0);
+        assert!(text::width(&label, size) <= 20.0);
+        assert_eq!(axis.fitted(12.0, 1e6), (axis.label, 12.0));
     }
 
     /// A tip has a place of many digits, which give way to the power of ten that ticks are in.
@@ -185,12 +195,36 @@ mod tests {
         let axis = FigureAxis::new(ticks.clone(), &axis_label("y", &ticks, "mm"), 1, 1.0);
         let mut shown = 0;
         for room in [120.0, 150.0, 180.0, 210.0] {
-            let label = axis.fitted(14.0, room);
+            let (label, size) = axis.fitted(14.0, room);
             assert!(label.starts_with('y') && label.ends_with("… [×10⁻¹² mm]"), "{label}");
-            assert!(text::width(&label, 14.0) <= room && label.len() >= shown, "{label}");
+            assert!(text::width(&label, size) <= room && label.len() >= shown, "{label}");
+            assert_eq!(size, 14.0);
             shown = label.len();
         }
-        assert!(axis.fitted(14.0, 210.0).starts_with("y − 0.3"), "{}", axis.fitted(14.0, 210.0));
+        assert!(axis.fitted(14.0, 210.0).0.starts_with("y − 0.3"));
+    }
+
+    /// In a figure of 2 to 5 cm the power of ten and the words of a name stay whole: letters are
+    /// smaller first, then whole words are left out.
+    #[test]
+    fn narrow_labels_shrink_before_they_are_shortened() {
+        let of = |name: &str, exponent: i32| {
+            let ticks = Ticks { exponent, ..Ticks::default() };
+            FigureAxis::new(ticks.clone(), &axis_label(name, &ticks, ""), name.len(), 1.0)
+        };
+        for room in 55..400 {
+            let room = f64::from(room);
+            for (name, exponent) in [("y", -12), ("von Mises stress", 6), ("von Mises stress", 0)] {
+                let axis = of(name, exponent);
+                let (label, size) = axis.fitted(14.0, room);
+                assert!(text::width(&label, size) <= room + 1e-9, "{label}");
+                let full = text::width(&axis.label, 14.0);
+                assert!(label == axis.label || SMALLEST * full > room, "{label} {room}");
+                assert_eq!(size == 14.0, full <= room, "{label} {room}");
+            }
+        }
+        let (label, _) = of("von Mises stress", 6).fitted(14.0, 110.0);
+        assert!(["von… [×10⁶]", "von Mises… [×10⁶]"].contains(&label.as_str()), "{label}");
     }
 
     /// Whatever the lengths of name and unit, both begin in the label, and a power of ten is whole.
@@ -204,8 +238,8 @@ mod tests {
             let label = axis_label(&name, &ticks, &unit);
             let axis = FigureAxis::new(ticks, &label, name.len(), 1.0);
             let room = random.between(160.0, 600.0);
-            let found = axis.fitted(14.0, room);
-            assert!(text::width(&found, 14.0) <= room + 1e-3, "{found}");
+            let (found, size) = axis.fitted(14.0, room);
+            assert!(text::width(&found, size) <= room + 1e-3, "{found}");
             assert!(found.starts_with('n') && found.contains(" [×10⁻⁴"), "{found}");
             let whole = text::width(&name, 14.0) <= 0.5 * room;
             assert!(!whole || found.starts_with(&name), "{found}");

@@ -286,13 +286,13 @@ impl Placed<'_> {
     }
 
     fn label(&self, ink: &mut Ink, end: f64, room: f64) {
-        let label = self.bar.axis.fitted(LABEL_TEXT * ink.scale, room);
+        let (label, size) = self.bar.axis.fitted(LABEL_TEXT, room / ink.scale);
         let base = end + (LABEL_GAP + LABEL_TEXT * CAP_HEIGHT) * ink.scale;
         let at = self.point(0.5 * self.bar.length, base);
         if self.bar.is_upright {
-            ink.upwards(&label, LABEL_TEXT, at);
+            ink.upwards(&label, size, at);
         } else {
-            ink.text(&label, LABEL_TEXT, at, Align::Middle);
+            ink.text(&label, size, at, Align::Middle);
         }
     }
 }

@@ -78,7 +78,7 @@ impl<'a> Sheet<'a> {
         if let Some(bar) = &self.bar {
             let end = bounds(&ink.items)[1];
             let max = if bar.is_upright { beside } else { max };
-            draw_bar(bar, &mut ink, [min, max], end, self.room);
+            draw_bar(bar, &mut ink, [min, max], end, [self.label_room(), self.room[1]]);
         }
         if let Some(legend) = &self.legend {
             let top = bounds(&ink.items)[0].y;
@@ -107,6 +107,13 @@ impl<'a> Sheet<'a> {
         Vec2::from(self.panel.picture.image.size.map(f64::from))
     }
 
+    /// The longest label across: it may reach as far beyond the picture as the page is free right of
+    /// it.
+    fn label_room(&self) -> f64 {
+        let beyond = if self.design.bar == BarPlace::Right { 0.0 } else { RIGHT - MARGIN };
+        self.room[0] + 2.0 * beyond * self.design.scale()
+    }
+
     fn draw_x_axis(&self, ink: &mut Ink, min: Vec2, max: Vec2) {
         let (scale, stroke) = (ink.scale, ink.stroke);
         let top = max.y + stroke;
@@ -122,9 +129,9 @@ impl<'a> Sheet<'a> {
             ink.rect(vec2(left, top), vec2(left + stroke, top + TICK * scale));
             ink.text(&tick.label, TICK_TEXT, vec2(place, base), Align::Middle);
         }
-        let label = self.x.fitted(LABEL_TEXT * scale, self.room[0]);
+        let (label, size) = self.x.fitted(LABEL_TEXT, self.label_room() / scale);
         let at = vec2(middle, base + (LABEL_GAP + LABEL_TEXT * CAP_HEIGHT) * scale);
-        ink.text(&label, LABEL_TEXT, at, Align::Middle);
+        ink.text(&label, size, at, Align::Middle);
     }
 
     fn draw_y_axis(&self, ink: &mut Ink, min: Vec2, max: Vec2) {
@@ -142,9 +149,9 @@ impl<'a> Sheet<'a> {
             ink.rect(vec2(right - TICK * scale, top), vec2(right, top + stroke));
             ink.at_height(&tick.label, vec2(end, place), Align::End);
         }
-        let label = self.y.fitted(LABEL_TEXT * scale, self.room[1]);
+        let (label, size) = self.y.fitted(LABEL_TEXT, self.room[1] / scale);
         let base = end - self.y.widest - LABEL_GAP * scale;
-        ink.upwards(&label, LABEL_TEXT, vec2(base, middle));
+        ink.upwards(&label, size, vec2(base, middle));
     }
 }
 

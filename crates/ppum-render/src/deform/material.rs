@@ -1,6 +1,6 @@
 //! The part of the undeformed plate that a picture of the deformed one shows.
 
-use ppum::vec2::Vec2;
+use ppum::vec2::Rect;
 use ppum_raster::view::View;
 
 use super::DeformedPoints;
@@ -11,6 +11,14 @@ const MOST: f64 = 4.0;
 const STRETCHED: f64 = 0.05;
 
 impl DeformedPoints<'_> {
+    /// The smallest rectangle of offsets from the anchor that holds all points that are seen; none
+    /// if nothing is.
+    #[must_use]
+    pub fn material_box(&self) -> Option<Rect> {
+        let boxes = self.points.iter().map(|p| Rect::new(p.offset, p.offset));
+        boxes.reduce(|a, b| a.union(&b))
+    }
+
     /// A view of the undeformed plate that holds all points that are seen, in the middle the
     /// anchor; its pixels as small as the picture's are on the plate, where that needs no more than
     /// four times as many. None if nothing is seen.
@@ -20,8 +28,7 @@ impl DeformedPoints<'_> {
     /// the domain is 10⁻²⁰ wide is no rounding.
     #[must_use]
     pub fn material_view(&self) -> Option<View> {
-        let size = self.points.iter().map(|p| p.offset);
-        let half = size.fold(Vec2::ZERO, |most, o| most.max(o.max(-o)));
+        let half = self.material_box().map(|rect| rect.max.max(-rect.min))?;
         let pixels = self.view.view.pixels.map(f64::from);
         let step = self.step().filter(|_| half.x.min(half.y) > 0.0)?;
         let by_area = (half.x * half.y / (MOST * pixels[0] * pixels[1])).sqrt();

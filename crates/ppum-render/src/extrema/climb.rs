@@ -4,7 +4,7 @@ use ppum::crack::Side;
 use ppum::field::LocalField;
 use ppum::quantity::QuantityGradient;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::raster::Raster;
 use rayon::prelude::*;
 
 use super::curves::{Promise, best_first};
@@ -38,15 +38,15 @@ const ROUNDS: usize = 2000;
 /// The pixels that are not below (for the sign −1 above) any of their neighbours, and the height
 /// that there may be around them if it rises as it does from the lowest neighbour; the most
 /// promising first, at most so many.
-pub(super) fn starts<T: Sample>(
-    raster: &Raster<T>,
-    sign: f64,
-    most: usize,
-) -> Vec<Promise<[u32; 2]>> {
+pub(super) fn starts(raster: &Raster, sign: f64, most: usize) -> Vec<Promise<[u32; 2]>> {
     let [columns, rows] = raster.size;
-    let value = |i: u32, j: u32| finite(sign * raster.value(i, j).into());
-    let in_row = |j: u32| raster.row(j).iter().map(|&v| finite(sign * v.into()));
+    let value = |i: u32, j: u32| finite(sign * raster.value(i, j));
+    let in_row = |j: u32| raster.row(j).iter().map(|&v| finite(sign * v));
     let highest = (0..rows).flat_map(in_row).fold(f64::NEG_INFINITY, f64::max);
+    let first = (0..rows).find_map(|j| {
+        let i = (0..columns).find(|&i| value(i, j) == highest)?;
+        Some([i, j])
+    });
     let top = |i: u32, j: u32| {
         let here = value(i, j);
         let around = (j.saturating_sub(1)..(j + 2).min(rows))
@@ -59,7 +59,8 @@ pub(super) fn starts<T: Sample>(
             }
             least = least.min(there);
         }
-        let promise = here + (here - least);
+        // what is told is no less than any place
+        let promise = if first == Some([i, j]) { f64::INFINITY } else { here + (here - least) };
         (promise > highest || here == highest).then_some((promise, [i, j]))
     };
     let found =

@@ -112,9 +112,10 @@ pub(super) fn boundary_curves(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> V
             let range = [ends[0], ends[1]].map(|end| s.tangent.dot(end - anchor));
             let foot = s.tangent.left() * -s.distance;
             let id = SegmentId { crack: index, segment };
+            let normal = s.tangent.left();
             let faces = |ends| {
-                [Side::Above, Side::Below]
-                    .map(|side| BoundaryCurve::straight(ends, Vec2::ZERO, On::Face(id, side)))
+                [(Side::Above, normal), (Side::Below, -normal)]
+                    .map(|(side, toward)| BoundaryCurve::straight(ends, toward, On::Face(id, side)))
             };
             curves.extend(clipped(foot, s.tangent, range, rect).into_iter().flat_map(faces));
         }
@@ -265,7 +266,7 @@ pub(super) fn part(sample: usize, samples: usize) -> f64 {
 pub(super) fn tops(sampled: &[Vec<f64>], sign: f64, most: usize) -> Vec<Promise<[usize; 2]>> {
     let heights = || sampled.iter().flatten().map(|value| sign * value);
     let highest = heights().fold(f64::NEG_INFINITY, f64::max);
-    let mut found = Vec::new();
+    let (mut found, mut is_first) = (Vec::new(), true);
     for (curve, values) in sampled.iter().enumerate() {
         let height = |k: usize| sign * values[k];
         for k in 0..values.len() {
@@ -273,7 +274,11 @@ pub(super) fn tops(sampled: &[Vec<f64>], sign: f64, most: usize) -> Vec<Promise<
             if here.is_nan() || around.iter().any(|there| *there > here) {
                 continue;
             }
-            let promise = 2.0 * here - around.into_iter().fold(here, f64::min);
+            let mut promise = 2.0 * here - around.into_iter().fold(here, f64::min);
+            if here == highest && is_first {
+                // what is told is no less than any sample
+                (promise, is_first) = (f64::INFINITY, false);
+            }
             if promise > highest || here == highest {
                 found.push((promise, [curve, k]));
             }

@@ -2,9 +2,15 @@
 //!
 //! σ_xx of a bar in tension is zero, and what a file holds of it is what its digits leave: drawn
 //! over the whole colour map it looks like a field. A quantity q of the values u and gradients ∇u
-//! has parts (∂q/∂u) |u| and (∂q/∂∇u) |∇u|, with the mean sizes of u and ∇u in the plate; they
+//! has parts (∂q/∂u) |u| and (∂q/∂∇u) |∇u|, with the mean sizes of u and ∇u in the body; they
 //! cancel down to [`BORNE`] times the relative rounding error that the solver tells of its
 //! stresses. What differs by less differs by nothing.
+//!
+//! The gradient of a body that only moves is rounding itself: of terms of the size |u|/L, with the
+//! size L of the body. With these in place of |∇u| the parts cancel to [`BORNE`] times the rounding
+//! of their evaluation.
+
+use std::ops::Range;
 
 use ppum::crack::Side;
 use ppum::field::Field;
@@ -28,35 +34,37 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// beside rounding.
 const STEP: f64 = 1e-6;
 
-/// The one value of a quantity, zero if it is that but for rounding, and the size of its parts;
-/// none of a quantity that varies, or does not depend on the field, and of those of the partition
-/// or of errors, which are looked at for their last digits.
+/// Part of its parts by which a quantity may differ somewhere that has one value elsewhere.
+const PART: f64 = 1e-3;
+
+/// The one value of a quantity, zero if it is that but for rounding, and by how much it may differ
+/// from it somewhere; none of a quantity that varies, or does not depend on the field, and of those
+/// of the partition or of errors, which are looked at for their last digits.
 pub(super) fn value(field: &Field<'_>, quantity: &Quantity) -> Option<[f64; 2]> {
     if !matches!(quantity.source(), Source::Values | Source::Gradient) {
         return None;
     }
     let found = samples(field);
-    let mean = |size: fn(&Jet<f64>) -> f64| {
-        let of = |(_, u): &(Vec2, Vec<Jet<f64>>)| u.iter().map(size).sum::<f64>().sqrt();
-        found.iter().map(of).sum::<f64>() / found.len() as f64
-    };
-    let sizes = [mean(|u| u.v * u.v), mean(|u| u.x * u.x + u.y * u.y)];
+    let (sizes, moved) = (sizes(field, &found), motions(field, &found));
     let known = field.step.history.iter().find(|record| record.name == "rounding");
-    let borne = BORNE * known.map_or(ROUNDING, |record| record.value.max(ROUNDING));
-    let (mut low, mut high, mut parts) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
+    let rounding = known.map_or(ROUNDING, |record| record.value.max(ROUNDING));
+    let (mut low, mut high, mut parts) = (f64::INFINITY, f64::NEG_INFINITY, [0.0_f64; 2]);
     for (at, u) in &found {
         let value = of_jets(field, quantity, *at, u);
         (low, high) = (low.min(value), high.max(value));
-        parts = parts.max(size_of_parts(field, quantity, *at, u, sizes));
+        let here = [&sizes, &moved].map(|sizes| size_of_parts(field, quantity, *at, u, sizes));
+        parts = [parts[0].max(here[0]), parts[1].max(here[1])];
         // infinite and NaN differ too
-        let is_even = high - low <= borne * parts;
+        let is_even = high - low <= BORNE * (rounding * parts[0]).max(ROUNDING * parts[1]);
         if !is_even {
             return None;
         }
     }
-    let value = 0.5 * (low + high);
-    let value = if value.abs() <= borne * parts { 0.0 } else { value };
-    (value.is_finite() && parts > 0.0).then_some([value, parts])
+    let (value, motion) = (0.5 * (low + high), BORNE * ROUNDING * parts[1]);
+    let is_zero = value.abs() <= motion.max(BORNE * rounding * parts[0]);
+    let value = if is_zero { 0.0 } else { value };
+    (value.is_finite() && parts[0].max(parts[1]) > 0.0)
+        .then(|| [value, motion.max(PART * parts[0])])
 }
 
 /// The field at places all over the plate.
@@ -76,17 +84,53 @@ fn samples(field: &Field<'_>) -> Vec<(Vec2, Vec<Jet<f64>>)> {
     found
 }
 
-/// Σ |∂q/∂u_c| |u| + Σ |∂q/∂(∇u_c)| |∇u|, by differences.
+/// The mean sizes of u and ∇u, of all components together.
+fn sizes(field: &Field<'_>, samples: &[(Vec2, Vec<Jet<f64>>)]) -> Vec<[f64; 2]> {
+    let all = 0..field.components();
+    let sizes = [mean(samples, &all, |u| u.v * u.v), mean(samples, &all, gradient)];
+    all.map(|_| sizes).collect()
+}
+
+/// The mean size of u, and that over the size of the body: of both components of a displacement
+/// together, and of each other component.
+fn motions(field: &Field<'_>, samples: &[(Vec2, Vec<Jet<f64>>)]) -> Vec<[f64; 2]> {
+    let (bounds, vector) =
+        (field.domain.bounds.size(), if field.is_displacement() { 2 } else { 0 });
+    let of_component = |c: usize| {
+        let together = if c < vector { 0..vector } else { c..c + 1 };
+        let value = mean(samples, &together, |u| u.v * u.v);
+        [value, value / bounds.x.max(bounds.y)]
+    };
+    (0..field.components()).map(of_component).collect()
+}
+
+fn gradient(u: &Jet<f64>) -> f64 {
+    u.x * u.x + u.y * u.y
+}
+
+/// The mean root of the sum of some squares over components.
+fn mean(
+    samples: &[(Vec2, Vec<Jet<f64>>)],
+    components: &Range<usize>,
+    square: fn(&Jet<f64>) -> f64,
+) -> f64 {
+    let size = |(_, u): &(Vec2, Vec<Jet<f64>>)| {
+        u[components.clone()].iter().map(square).sum::<f64>().sqrt()
+    };
+    samples.iter().map(size).sum::<f64>() / samples.len() as f64
+}
+
+/// Σ |∂q/∂u_c| |u| + Σ |∂q/∂(∇u_c)| |∇u|, with some sizes of u and ∇u, by differences.
 fn size_of_parts(
     field: &Field<'_>,
     quantity: &Quantity,
     at: Vec2,
     u: &[Jet<f64>],
-    [values, gradients]: [f64; 2],
+    sizes: &[[f64; 2]],
 ) -> f64 {
     let (value, mut moved) = (of_jets(field, quantity, at, u), u.to_vec());
     let mut all = 0.0;
-    for c in 0..u.len() {
+    for (c, &[values, gradients]) in sizes.iter().enumerate() {
         for (k, size) in [values, gradients, gradients].into_iter().enumerate() {
             let by = STEP * size;
             let Jet { v, x, y, .. } = &mut moved[c];

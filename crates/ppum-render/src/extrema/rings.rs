@@ -50,9 +50,9 @@ impl Search<'_, '_> {
     /// The places around a point that are not below their neighbours nearer and farther, nor below
     /// both beside them: one of these may lie on the other side of a crack.
     fn around(&self, point: Vec2, places: usize, sign: f64) -> Vec<Promise<(Vec2, f64)>> {
-        let mut local = self.field.at(self.view.center);
+        let mut local = self.field.at(self.region.anchor);
         let at = |ring: usize, place: usize| {
-            let r = FIRST * HIDDEN * WIDER.powi(ring as i32) * self.view.pixel_size();
+            let r = FIRST * HIDDEN * WIDER.powi(ring as i32) * self.pixel;
             let angle = (place as f64 + 0.4142) / places as f64 * std::f64::consts::TAU;
             (point + vec2(angle.cos(), angle.sin()) * r, SCALE * r)
         };

@@ -1,12 +1,17 @@
 //! Singular points in a view: where a quantity grows without bound.
 
-use ppum::crack::{Side, TipId, tips};
+use std::collections::BTreeSet;
+
+use ppum::crack::{Crack, Side, TipId, tips};
 use ppum::domain::Hole;
 use ppum::field::Field;
 use ppum::function::{Frame, FunctionKind};
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
+
+use super::poles::smallest_patch;
+use super::region::Region;
 
 /// Radii, in parts of the smallest patch there or of what is seen, between which a quantity is seen
 /// to grow.
@@ -38,87 +43,83 @@ pub enum SingularKind {
     Tip(TipId),
     /// A vertex inside a crack of this index.
     Kink(u32),
-    /// A re-entrant corner: of the polygonal hole of this index. Stresses of the exact solution are
-    /// infinite there; those of the represented field only if it has functions for it.
+    /// A corner of the polygonal hole or outline of this index, at which a function is singular.
     Corner(usize),
     /// The origin of an enrichment's frame.
     Origin,
 }
 
-/// Evaluations that it takes to look at a point.
-pub(super) const LOOK: usize = 2 * DIRECTIONS as usize;
-
-/// The singular points among the given ones: those in which a quantity is infinite, as seen in a
-/// rectangle of offsets from an anchor, and all re-entrant corners of holes.
-pub(super) fn grown(
+/// The points in a region in which a quantity is not finite because a function of the field is
+/// singular there; those towards which it does not grow, with a factor that is zero but for
+/// rounding, too.
+pub(super) fn singular_points(
     field: &Field<'_>,
-    anchor: Vec2,
-    rect: &Rect,
+    region: &Region,
     quantity: &Quantity,
-    points: Vec<(Vec2, SingularKind)>,
 ) -> Vec<Singular> {
-    let looked = points.into_par_iter().map(|(p, kind)| {
-        let rect = Rect::new(rect.min - (p - anchor), rect.max - (p - anchor));
-        let [min_infinite, max_infinite] = grows(field, p, &rect, quantity);
-        Singular { offset: p - anchor, kind, max_infinite, min_infinite }
+    let Region { anchor, rect } = *region;
+    let points: Vec<_> = known_points(field).into_iter().collect();
+    let looked = points.into_par_iter().filter_map(|p| {
+        let offset = p - anchor;
+        let is_singular = rect.contains(offset) && {
+            let mut local = field.at(p);
+            local.contains(Vec2::ZERO)
+                && !quantity.at(&mut local, Vec2::ZERO, Side::Above).is_finite()
+        };
+        is_singular.then(|| {
+            let rect = Rect::new(rect.min - offset, rect.max - offset);
+            let [min_infinite, max_infinite] = grows(field, p, &rect, quantity);
+            Singular { offset, kind: kind(field, p), max_infinite, min_infinite }
+        })
     });
-    let is_corner = |kind| matches!(kind, SingularKind::Corner(_));
-    looked.filter(|p| p.max_infinite || p.min_infinite || is_corner(p.kind)).collect()
+    looked.collect()
 }
 
-/// The points in a rectangle of offsets from an anchor that may be singular.
-pub(super) fn candidates(
-    field: &Field<'_>,
-    anchor: Vec2,
-    rect: &Rect,
-) -> Vec<(Vec2, SingularKind)> {
-    let mut all = tips_kinks_and_corners(field);
-    all.retain(|(p, _)| rect.contains(*p - anchor));
-    for function in &field.step.functions {
-        if let FunctionKind::Formula { frame: Frame::Fixed { origin, .. }, .. } = function.kind
-            && rect.contains(origin - anchor)
-            && all.iter().all(|(known, _)| *known != origin)
-        {
-            all.push((origin, SingularKind::Origin));
-        }
-    }
-    all
-}
-
-/// Tips, kinks and corners.
-fn tips_kinks_and_corners(field: &Field<'_>) -> Vec<(Vec2, SingularKind)> {
+/// The points that a step knows to be singular if any are: tips, origins of the frames of formulas,
+/// and points that functions declare; each once, in their order.
+fn known_points(field: &Field<'_>) -> Vec<Vec2> {
     let cracks = &field.step.cracks;
-    let tip = |id: TipId| (cracks[id.crack as usize].end_point(id.end), SingularKind::Tip(id));
-    let mut all: Vec<_> = tips(cracks).map(tip).collect();
-    for (index, crack) in (0..).zip(cracks) {
-        let inner = &crack.points[1..crack.points.len() - 1];
-        all.extend(inner.iter().map(|&p| (p, SingularKind::Kink(index))));
+    let tip = |id: TipId| cracks[id.crack as usize].end_point(id.end);
+    let mut all: Vec<Vec2> = tips(cracks).map(tip).collect();
+    for function in &field.step.functions {
+        let FunctionKind::Formula { frame, declared, .. } = &function.kind else { continue };
+        let (origin, axis) = match *frame {
+            Frame::Fixed { origin, angle } => (origin, vec2(angle.cos(), angle.sin())),
+            Frame::Tip(id) => (tip(id), cracks[id.crack as usize].growth_direction(id.end)),
+            Frame::World => (Vec2::ZERO, vec2(1.0, 0.0)),
+            // places of an element's level fields are known to the element alone
+            _ => continue,
+        };
+        let place = |p: &Vec2| origin + axis * p.x + axis.left() * p.y;
+        all.push(origin);
+        all.extend(declared.singular.iter().map(place));
     }
-    for (index, hole) in field.domain.holes.iter().enumerate() {
-        all.extend(corners(hole).into_iter().map(|p| (p, SingularKind::Corner(index))));
-    }
+    let mut known = BTreeSet::new();
+    all.retain(|p| known.insert([p.x.to_bits(), p.y.to_bits()]));
     all
 }
 
-/// The corners of a polygon that are re-entrant for what is around it.
-fn corners(hole: &Hole) -> Vec<Vec2> {
-    let sides: Vec<_> = hole.sides().collect();
-    let turns = |k: usize| {
-        let (before, after) = (sides[(k + sides.len() - 1) % sides.len()], sides[k]);
-        hole.orientation() * (before[1] - before[0]).cross(after[1] - after[0]) > 0.0
-    };
-    (0..sides.len()).filter(|&k| turns(k)).map(|k| sides[k][0]).collect()
+/// What a singular point is.
+fn kind(field: &Field<'_>, p: Vec2) -> SingularKind {
+    let cracks = &field.step.cracks;
+    let is_tip = |id: &TipId| cracks[id.crack as usize].end_point(id.end) == p;
+    if let Some(id) = tips(cracks).find(is_tip) {
+        return SingularKind::Tip(id);
+    }
+    let is_inside = |crack: &Crack| crack.points[1..crack.points.len() - 1].contains(&p);
+    if let Some((index, _)) = (0..).zip(cracks).find(|(_, crack)| is_inside(crack)) {
+        return SingularKind::Kink(index);
+    }
+    let has_corner = |hole: &Hole| hole.sides().any(|[a, _]| a == p);
+    let corner = field.domain.holes.iter().position(has_corner);
+    corner.map_or(SingularKind::Origin, SingularKind::Corner)
 }
 
 /// Whether a quantity falls to −∞ and grows to +∞ towards a point, as seen in a rectangle
 /// around it.
 fn grows(field: &Field<'_>, p: Vec2, rect: &Rect, quantity: &Quantity) -> [bool; 2] {
-    let mut patches = Vec::new();
-    field.tree.query_point(p, &mut patches);
-    let half = patches.iter().map(|&k| field.step.partition.half(k as usize));
-    let sizes = half.map(|half| half.x.min(half.y));
     let reach = -rect.min.min(-rect.max);
-    let size = sizes.fold(reach.x.max(reach.y), f64::min);
+    let size = reach.x.max(reach.y).min(smallest_patch(field, p));
     let mut local = field.at(p);
     let mut range = |r: f64| {
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];

@@ -1,7 +1,7 @@
 //! The range of values that the colours span: chosen, or found from the values.
 //!
-//! The *automatic range* spans the [extrema](crate::extrema::extrema) of the view where they are
-//! known and finite: the true ones, whatever the number of pixels. Stresses grow like r^(−1/2)
+//! The *automatic range* spans the [extrema](crate::extrema::extrema) of what is seen where they
+//! are known and finite: those of the field, whatever the number of pixels. Stresses grow like r^(−1/2)
 //! towards a tip, so with a tip in the view the largest value of a raster says how near a pixel's
 //! centre happens to be and nothing about the field. There, and where no extrema are known, the
 //! range is *robust*: it looks at the finite values' quantiles at 0.5 % and 99.5 %. An extreme
@@ -25,9 +25,9 @@ use std::fmt;
 use std::str::FromStr;
 
 use ppum::text::exact;
-use ppum_raster::raster::{Raster, Sample, Statistics};
+use ppum_raster::raster::{Raster, Sample};
 
-use crate::extrema::{Extrema, Extremum, Singular};
+use crate::extrema::Extrema;
 use crate::scale::{Normalization, Scale};
 
 /// The range of values that the colours should span.
@@ -198,7 +198,7 @@ impl ValueSpan {
 
     fn with(self, other: &Self) -> Self {
         let values = match (self.values, &other.values) {
-            (Some(a), Some(b)) => Some(a.with(b)),
+            (Some(a), Some(b)) => Some(a.united(b)),
             // the extrema of some pictures are not those of all
             _ => None,
         };
@@ -209,25 +209,6 @@ impl ValueSpan {
             _ => Basis::Pixels,
         };
         Self { min: self.min.min(other.min), max: self.max.max(other.max), basis, values }
-    }
-}
-
-impl Extrema {
-    /// Those of both.
-    fn with(self, other: &Self) -> Self {
-        let away = other.center - self.center;
-        let moved = |e: Extremum| Extremum { offset: e.offset + away, ..e };
-        let lower = |a: Extremum, b: Extremum| if b.value < a.value { moved(b) } else { a };
-        let upper = |a: Extremum, b: Extremum| if b.value > a.value { moved(b) } else { a };
-        let (mut singular, center) = (self.singular, self.center);
-        for point in &other.singular {
-            let point = Singular { offset: point.offset + away, ..*point };
-            if !singular.contains(&point) {
-                singular.push(point);
-            }
-        }
-        let (min, max) = (lower(self.min, other.min), upper(self.max, other.max));
-        Self { center, min, max, singular }
     }
 }
 
@@ -252,7 +233,7 @@ impl Range {
         self.span(scale, symmetric, raster, None).normalization(scale)
     }
 
-    /// The range of a raster's values; `values` are the extrema of the view where they are known,
+    /// The range of a raster's values; `values` are the extrema of what is seen where they are known,
     /// and `symmetric` asks for a range around zero where one that is found contains zero.
     #[must_use]
     pub fn span<T: Sample>(
@@ -356,13 +337,11 @@ impl<T: Sample> RangeInput<'_, T> {
         both.unwrap_or_default()
     }
 
-    /// Extrema and extreme pixels together, if extrema are known and nothing is infinite.
+    /// The extrema, if they are known and finite: those of the field, whatever a raster of it says.
     fn extremes(&self) -> Bounds {
         let values =
             self.values.filter(|values| !values.is_of_pixels() && !values.is_infinite())?;
-        let Statistics { infinite, min, max, .. } = self.raster.statistics();
-        let (lowest, highest) = (values.min.value, values.max.value);
-        (infinite == 0).then(|| (within(min.min(lowest)), within(max.max(highest))))
+        Some((within(values.min.value), within(values.max.value)))
     }
 
     fn full(&self) -> (Basis, Bounds) {
@@ -371,9 +350,7 @@ impl<T: Sample> RangeInput<'_, T> {
         });
         let [min, max] = self.usable_extrema();
         let basis = if min.is_some() && max.is_some() { Basis::All } else { Basis::Pixels };
-        let bounds = pixels.map(|(low, high)| {
-            (min.map_or(low, |min| min.min(low)), max.map_or(high, |max| max.max(high)))
-        });
+        let bounds = pixels.map(|(low, high)| (min.unwrap_or(low), max.unwrap_or(high)));
         (basis, bounds)
     }
 

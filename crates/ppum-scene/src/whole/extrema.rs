@@ -1,81 +1,84 @@
-//! Extreme values of the whole: the least and the largest of those of the body and its images.
+//! Extreme values of what is seen of a body and of its images.
 
 use ppum::crack::{SegmentId, Side};
 use ppum::field::Field;
 use ppum::progress::Watcher;
-use ppum::quantity::{Quantity, Reflection, ValueChange};
+use ppum::quantity::{Quantity, Reflected, Reflection, ValueChange};
 use ppum::vec2::Vec2;
 use ppum_render::RenderError;
-use ppum_render::extrema::{Extrema, Extremum, On, Singular, extrema as extrema_of_body};
-use ppum_render::raster::{Raster, Sample};
-use ppum_render::view::View;
+use ppum_render::extrema::{Extrema, Extremum, On, Region, Singular, extrema as extrema_of_body};
 
-use super::drawn::restricted;
-use crate::mirror::{MirrorImage, MirrorLines};
+use crate::mirror::MirrorLines;
 
 /// Distance from a line of symmetry, in parts of the body, on which a place lies on it.
 const ON_LINE: f64 = 1e-12;
 
-/// Minimum and maximum of a quantity over what a view shows of the whole, whose values at the
-/// pixels are given. Of the direction of σ₁, turned in the images of antisymmetric fields, they
-/// are those of the pixels.
-pub(crate) fn extrema<T: Sample>(
+/// The direction of σ₂, in (−π/2, π/2].
+const SECOND_DIRECTION: &str = "if(direction > 0, direction - pi/2, direction + pi/2)";
+
+/// Minimum and maximum of a quantity over parts of a body and of its images, which lie beyond some
+/// lines: each part by the reflection that makes it of the body. Places are those of the
+/// undeformed body and its images.
+pub(crate) fn extrema(
     field: &Field<'_>,
-    (view, lines): (&View, &MirrorLines),
+    (parts, lines): (&[(Reflection, Region)], &MirrorLines),
     quantity: &Quantity,
-    raster: &Raster<T>,
     watcher: &dyn Watcher,
 ) -> Result<Option<Extrema>, RenderError> {
+    let mut known: Vec<(Quantity, Region, Option<Extrema>)> = Vec::new();
     let mut all: Option<Extrema> = None;
-    let own = MirrorImage { reflection: Reflection::NONE, view: *view };
-    for image in [own].into_iter().chain(lines.images(view, &field.domain.body_bounds())) {
-        let reflected = quantity.reflected(&image.reflection, field)?;
-        if matches!(reflected.change, ValueChange::Turned { is_quarter: true, .. }) {
-            return Ok(Extrema::of_pixels(raster, view));
-        }
-        let part = restricted(raster, &image, reflected.change, field);
-        let found = extrema_of_body(field, &image.view, &reflected.quantity, &part, watcher)?;
-        let whole = Whole { field, lines, reflection: &image.reflection, center: view.center };
-        if let Some(found) = found {
-            let found = whole.extrema(found, reflected.change);
+    for (reflection, region) in parts {
+        let Reflected { quantity, change } =
+            unturned(quantity.reflected(reflection, field)?, field)?;
+        let is_same = |one: &&(Quantity, Region, _)| one.0 == quantity && one.1 == *region;
+        let found = match known.iter().find(is_same) {
+            Some((_, _, found)) => found.clone(),
+            None => extrema_of_body(field, region, &quantity, watcher)?,
+        };
+        let image = Image { field, lines, reflection };
+        if let Some(found) = found.clone().map(|found| image.extrema(found, change)) {
             all = Some(match all {
-                Some(all) => united(all, found),
+                Some(all) => all.united(&found),
                 None => found,
             });
         }
+        known.push((quantity, *region, found));
     }
     Ok(all)
 }
 
-fn united(all: Extrema, other: Extrema) -> Extrema {
-    let min = if other.min.value < all.min.value { other.min } else { all.min };
-    let max = if other.max.value > all.max.value { other.max } else { all.max };
-    // what is constant in each half need not be so in the whole
-    let place = |extremum: Extremum| match extremum.on {
-        On::Everywhere if min.value != max.value => Extremum { on: On::Inside, ..extremum },
-        _ => extremum,
-    };
-    let (min, max) = (place(min), place(max));
-    Extrema { center: all.center, min, max, singular: [all.singular, other.singular].concat() }
+/// The same values by a quantity whose change keeps or reverses the order of values, but for the
+/// ends of angles.
+fn unturned(reflected: Reflected, field: &Field<'_>) -> Result<Reflected, RenderError> {
+    Ok(match reflected.change {
+        ValueChange::Turned { is_reversed, is_quarter } => Reflected {
+            quantity: match is_quarter {
+                true => Quantity::parse(SECOND_DIRECTION, field)?,
+                false => reflected.quantity,
+            },
+            change: if is_reversed { ValueChange::Negated } else { ValueChange::Same },
+        },
+        _ => reflected,
+    })
 }
 
-/// The whole, where an image of the body lies in it.
-struct Whole<'a> {
+/// An image of the body.
+struct Image<'a> {
     field: &'a Field<'a>,
     lines: &'a MirrorLines,
     reflection: &'a Reflection,
-    center: Vec2,
 }
 
-impl Whole<'_> {
+impl Image<'_> {
     /// Extreme values of the body as those of the image.
     fn extrema(&self, found: Extrema, change: ValueChange) -> Extrema {
-        let Extrema { min, max, singular, .. } = found;
+        let Extrema { center, min, max, singular } = found;
+        let center = self.reflection.point(center);
         let is_negated = change == ValueChange::Negated;
         let [least, most] = if is_negated { [max, min] } else { [min, max] };
         let sign = |extremum: Extremum| {
             let value = if is_negated { -extremum.value } else { extremum.value };
-            self.extremum(Extremum { value, ..extremum })
+            self.extremum(Extremum { value, ..extremum }, center)
         };
         let point = |point: Singular| {
             let (max, min) = (point.max_infinite, point.min_infinite);
@@ -84,14 +87,14 @@ impl Whole<'_> {
             Singular { offset, max_infinite, min_infinite, ..point }
         };
         let singular = singular.into_iter().map(point).collect();
-        Extrema { center: self.center, min: sign(least), max: sign(most), singular }
+        Extrema { center, min: sign(least), max: sign(most), singular }
     }
 
-    fn extremum(&self, found: Extremum) -> Extremum {
+    fn extremum(&self, found: Extremum, center: Vec2) -> Extremum {
         let offset = self.reflection.vector(found.offset);
         let on = match found.on {
             On::Face(segment, side) => On::Face(segment, self.side(segment, side)),
-            On::Border if self.is_on_line(self.center + offset) => On::Inside,
+            On::Border if self.is_on_line(center + offset) => On::Inside,
             on => on,
         };
         Extremum { offset, on, ..found }

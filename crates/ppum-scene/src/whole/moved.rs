@@ -38,14 +38,14 @@ pub(crate) fn draw_moved<E: From<RenderError> + From<DeformError>>(
     Ok(whole)
 }
 
-/// Isolines of the deformed body and its images; nothing if no point of them is seen.
+/// Isolines of the deformed body and its images.
 pub(crate) fn moved_isolines(
     body: &MovedBody<'_>,
     quantity: &Quantity,
     levels: &[f64],
     watcher: &dyn Watcher,
-) -> Result<Option<Vec<Isoline>>, RenderError> {
-    let mut all = None;
+) -> Result<Vec<Isoline>, RenderError> {
+    let mut all = Vec::new();
     // one level after the other: each keeps its number, however it is rounded
     let levels: Vec<&[f64]> = match body.images.is_empty() {
         true => vec![levels],
@@ -57,7 +57,6 @@ pub(crate) fn moved_isolines(
         let found = quantity.reflected(&reflection, field)?;
         let raster = render::<f64>(field, &view, &found.quantity, watcher)?;
         let image = MirrorImage { reflection, view };
-        let all: &mut Vec<Isoline> = all.get_or_insert_default();
         for levels in &levels {
             let there: Vec<f64> = levels.iter().map(|&level| found.change.apply(level)).collect();
             let lines = isolines(field, &view, &found.quantity, &there, &raster, watcher)?;

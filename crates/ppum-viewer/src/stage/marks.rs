@@ -150,11 +150,11 @@ fn lettered(painter: &Painter, at: Pos2, align: Align2, text: &str) {
     painter.galley(rect.min, galley, INK);
 }
 
-/// The places of the least and the greatest value of the view.
+/// The places of the least and the greatest value of what is seen of the body.
 fn extrema(painter: &Painter, sight: &Sight, frame: &Arc<Frame>) {
     let Some(found) = &frame.picture.span.values else { return };
     let mark = |extremum: &Extremum, sign: &str, align: Align2| {
-        if let Some(at) = sight.picture(found.center, extremum.offset) {
+        if let Some(at) = sight.position(&Spot::new(found.center, extremum.offset)) {
             painter.circle(at, 4.0, HALO, Stroke::new(2.0, INK));
             let text = format!("{sign} {}", words::value(extremum.value, ""));
             let shift = if align == Align2::LEFT_BOTTOM { -5.0 } else { 5.0 };

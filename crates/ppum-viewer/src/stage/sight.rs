@@ -78,13 +78,6 @@ impl Sight {
             .then(|| self.window(at))
     }
 
-    /// The position of a place in the picture, whatever part of the plate has moved there.
-    #[must_use]
-    pub fn picture(&self, center: Vec2, offset: Vec2) -> Option<Pos2> {
-        let plain = Self { view: self.view, rect: self.rect, moved: None };
-        plain.position(&Spot::new(center, offset))
-    }
-
     fn window(&self, at: Vec2) -> Pos2 {
         pos2(self.rect.min.x + at.x as f32, self.rect.min.y + at.y as f32)
     }

@@ -7,17 +7,12 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::text::Places;
 use ppum::vec2::Vec2;
-use ppum_render::extrema::{Extremum, On, Singular, SingularKind, extrema};
-use ppum_render::scatter::render;
-use ppum_render::view::View;
+use ppum_render::extrema::{Extremum, On, Region, Singular, SingularKind, extrema};
 use serde::Serialize;
 
 use crate::number::Number;
 use crate::progress::Bar;
 use ppum_scene::range::{value, words};
-
-/// Pixels of the picture that the search begins from: peaks narrower than one of them are not seen.
-const PIXELS: [u32; 2] = [1024, 1024];
 
 /// The extrema of a quantity.
 #[derive(Debug, Serialize)]
@@ -54,19 +49,16 @@ struct Point {
 impl Report {
     /// Finds them.
     pub(super) fn new(field: &Field<'_>, name: &str, quantity: &Quantity) -> anyhow::Result<Self> {
-        let view = View::hug(field.domain.bounds, PIXELS)?;
-        let raster = render::<f64>(field, &view, quantity, &Bar::new())?;
-        let found = extrema(field, &view, quantity, &raster, &Bar::new())?;
+        let found = extrema(field, &Region::whole(field), quantity, &Bar::new())?;
         let found = found.with_context(|| format!("{name}: is nowhere defined"))?;
-        let place = |offset: Vec2| (view.center + offset).into();
+        let place = |offset: Vec2| (found.center + offset).into();
         let row = |extremum: &Extremum| Row::new(extremum, place(extremum.offset));
-        let is_infinite = |s: &&Singular| s.max_infinite || s.min_infinite;
         let point = |s: &Singular| Point { kind: kind(s.kind), at: place(s.offset) };
         Ok(Self {
             quantity: name.to_owned(),
             min: row(&found.min),
             max: row(&found.max),
-            singular: found.singular.iter().filter(is_infinite).map(point).collect(),
+            singular: found.singular.iter().map(point).collect(),
         })
     }
 
