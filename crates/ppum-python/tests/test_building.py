@@ -210,8 +210,13 @@ def test_boxes_that_do_not_tile(tmp_path, program, capsys):
     assert f"{evaluate(np.array([0.7]), np.array([0.4]))[0]:.6f}"[:8] in program("probe", path, "--at", "0.7,0.4")
     capsys.readouterr()
     ds.field.figure(overlays=["patches", "centers", "cells"]).save(tmp_path / "boxes.png")
-    with pytest.raises(ppum.PpumError, match="`order` is a value of cells, and this cover has none"):
-        ds.field.render("order")
+    weight = lambda t: np.where(t < 1 / 3, 1 - 3 * t**2, 1.5 * np.maximum(1 - t, 0) ** 2)
+    t = np.abs(np.stack([x, y], -1)[:, :, None] - cover.center) / cover.half
+    owner = weight(t).prod(axis=-1).argmax(axis=-1)
+    mine = ppum.State(cover, ppum.Coefficients("u", blocks), attributes={"mine": np.arange(len(cover)) ** 2.0})
+    assert (ppum.build(mine).field.render("mine", size=(80, 40)) == owner**2.0).mean() > 0.999, "but for ties"
+    with pytest.raises(ppum.PpumError, match="`level` is that of cells, and this cover has none"):
+        ds.field.render("level")
     with pytest.raises(ppum.PpumError, match="no cells"):
         ds.field.resampled("u", method="cells")
 

@@ -57,6 +57,26 @@ def test_a_field_from_elsewhere_has_factors(ds, tmp_path):
         assert np.allclose(numbers(found), numbers(stored) * [2, 2, 2, 4, 4], rtol=1e-9)
 
 
+def test_boxes_without_cells_have_factors(ds, program, tmp_path):
+    """The same field without its cells has the same factors, and so it has in the program."""
+    h5py = pytest.importorskip("h5py")
+    path = tmp_path / "boxes.h5"
+    ds.save(path)
+    with h5py.File(path, "r+") as file:
+        file.visititems(lambda _, thing: [thing.attrs.__delitem__(n) for n in list(thing.attrs) if "sha256" in n] and None)
+        for name in [n for n in file.attrs if "sha256" in n]:
+            del file.attrs[name]
+        for name in ("cell", "level", "point"):
+            if name in file["steps/0000/partition"]:
+                del file["steps/0000/partition"][name]
+    other = ppum.open(path)
+    assert other.cover.cell is None
+    found = other.field.intensities()
+    assert np.allclose([numbers(tip) for tip in found], [numbers(tip) for tip in ds.tips], rtol=1e-7)
+    theirs = json.loads(program("sif", path, "--recompute", "--json"))["tips"]
+    assert np.allclose([tip["k1"] for tip in theirs], [tip.k1 for tip in found], rtol=1e-12)
+
+
 def test_steps_of_a_series(grown):
     for step in grown.steps:
         for found, stored in zip(step.field.intensities(), step.tips, strict=True):

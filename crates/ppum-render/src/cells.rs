@@ -1,4 +1,5 @@
-//! Values of patches as pictures: each pixel has that of the cell its centre lies in.
+//! Values of patches as pictures: each pixel has that of the cell, the element, or without these the
+//! patch with the largest φ, that its centre lies in.
 
 use ppum::crack::Side;
 use ppum::field::Field;
@@ -45,25 +46,26 @@ pub fn values(field: &Field<'_>, name: &str) -> Option<Vec<f64>> {
     })
 }
 
-/// True if patches have cells, or are elements: else no picture shows their values, since patches
-/// overlap.
+/// True if patches have cells, or are elements: else they only overlap.
 #[must_use]
 pub fn exist(field: &Field<'_>) -> bool {
     let partition = &field.step.partition;
     partition.mesh().is_some() || partition.boxes().has_cells()
 }
 
-/// The names that [`values`] knows for a field; none without [cells](exist).
+/// The names that [`values`] knows for a field.
 #[must_use]
 pub fn names(field: &Field<'_>) -> Vec<String> {
-    if !exist(field) {
-        return Vec::new();
-    }
     let attributes = field.step.attributes.iter().map(|attribute| attribute.name.as_str());
     let is_own = |name: &str| OWN.iter().any(|(own, _)| *own == name);
     let other = attributes.filter(|name| !is_own(name));
-    let missing = if field.step.partition.mesh().is_some() { "level" } else { "element" };
-    let own = OWN.iter().map(|(name, _)| *name).filter(|name| *name != missing);
+    let partition = &field.step.partition;
+    let is_known = |name: &&str| match *name {
+        "level" => partition.boxes().has_cells(),
+        "element" => partition.mesh().is_some(),
+        _ => true,
+    };
+    let own = OWN.iter().map(|(name, _)| *name).filter(is_known);
     own.chain(other).map(str::to_owned).collect()
 }
 
@@ -74,15 +76,16 @@ pub fn label(name: &str) -> &str {
 }
 
 /// The picture of one value per patch, NaN outside the domain and where there is no cell. Borders
-/// belong to the right and upper cell.
+/// belong to the right and upper cell. Of a cover without cells a point has the value of the patch
+/// whose φ is largest there.
 ///
 /// # Panics
 /// If there is not one value per patch.
 #[must_use]
 pub fn raster(field: &Field<'_>, values: &[f64], view: &View) -> Raster {
     assert_eq!(values.len(), field.step.partition.len(), "one value per patch");
-    if field.step.partition.mesh().is_some() {
-        return of_elements(field, values, view);
+    if !field.step.partition.boxes().has_cells() {
+        return of_owners(field, values, view);
     }
     let cells = &field.step.partition.boxes().cell;
     let (domain, last) = (field.domain.at(view.center), field.domain.bounds.max - view.center);
@@ -102,8 +105,8 @@ pub fn raster(field: &Field<'_>, values: &[f64], view: &View) -> Raster {
     raster
 }
 
-/// The picture of one value per element, NaN outside.
-pub(crate) fn of_elements(field: &Field<'_>, values: &[f64], view: &View) -> Raster {
+/// The picture of one value per element, or per patch without a cell, NaN outside.
+pub(crate) fn of_owners(field: &Field<'_>, values: &[f64], view: &View) -> Raster {
     let local = field.at(view.center);
     let [columns, rows] = view.pixels.map(|n| n as usize);
     let value = |k: usize| {
@@ -165,6 +168,31 @@ mod tests {
                     value == expected || value.is_nan() && expected.is_nan(),
                     "{p:?} {value} {expected}"
                 );
+            }
+        }
+    }
+
+    /// Without cells a point has the value of the patch with the largest φ, on the deformed body of
+    /// a field that does not move, too.
+    #[test]
+    fn largest_patches_own_points_without_cells() {
+        let mut dataset = dataset();
+        let boxes = dataset.steps[0].partition.boxes_mut().expect("boxes");
+        (boxes.cell, boxes.level) = (Vec::new(), Vec::new());
+        boxes.half.iter_mut().enumerate().for_each(|(i, half)| *half = *half * [1.0, 1.3][i % 2]);
+        let field = Field::new(&dataset, 0).expect("a field");
+        assert_eq!(names(&field), ["order", "blocks", "functions", "number"]);
+        let numbers = values(&field, "number").expect("the attribute");
+        let view = View::window(-0.5, -0.5, 4.5, 4.5, [50, 50]).unwrap();
+        let found = raster(&field, &numbers, &view);
+        for (i, j) in (0..50).flat_map(|i| (0..50).map(move |j| (i, j))) {
+            let (mut local, offset) = (field.at(view.center), view.offset(i, j));
+            let phi = |patch| Some((local.partition_function::<0>(patch, offset)?.v, patch));
+            let all: Vec<_> = (0..numbers.len()).filter_map(phi).collect();
+            let most = all.iter().fold(0.0f64, |most, (phi, _)| most.max(*phi));
+            match all.iter().find(|(phi, _)| *phi == most && most > 0.0) {
+                Some((_, patch)) => assert_eq!(found.value(i, j), numbers[*patch], "{i} {j}"),
+                None => assert!(found.value(i, j).is_nan(), "{i} {j}"),
             }
         }
     }

@@ -236,11 +236,14 @@ pub enum ShownError {
         /// The names there are.
         known: String,
     },
-    /// A value of cells, of a cover without.
+    /// The level of cells, of a cover without.
     #[error(
-        "`{0}` is a value of cells, and this cover has none: its patches overlap and have no cells"
+        "`level` is that of cells, and this cover has none: its patches overlap; there are {known}"
     )]
-    NoCells(String),
+    NoCells {
+        /// The names of values that there are.
+        known: String,
+    },
     /// Neither a quantity nor a value of cells.
     #[error("{error}; of cells {cells}")]
     Unknown {
@@ -279,13 +282,9 @@ pub fn shown(text: &str, field: &Field<'_>) -> Result<Shown, ShownError> {
 /// The values of cells with a name; none if there is nothing of the name.
 fn of_cells(name: &str, field: &Field<'_>) -> Option<Result<Shown, ShownError>> {
     if name == "level" && !cells::exist(field) {
-        return Some(Err(ShownError::NoCells(name.into())));
+        return Some(Err(ShownError::NoCells { known: cells::names(field).join(", ") }));
     }
-    let values = cells::values(field, name)?;
-    Some(match cells::exist(field) {
-        true => Ok(Shown::Cells(name.into(), values)),
-        false => Err(ShownError::NoCells(name.into())),
-    })
+    Some(Ok(Shown::Cells(name.into(), cells::values(field, name)?)))
 }
 
 /// The error for an unknown quantity, with the names of values of cells.

@@ -98,9 +98,12 @@ impl ForceField {
     /// True if the patches that hold the point have room, and are not much larger than the
     /// distance to the next border.
     pub(crate) fn fits(&self, partition: &BoxPartition, bounds: &Rect) -> bool {
-        let own = (0..partition.len()).map(|k| partition.support(k));
-        let mut own = own.filter(|support| support.contains(self.at));
-        own.all(|support| self.is_near(&support.intersection(bounds), self.reach))
+        (0..partition.len()).all(|k| self.fits_in(&partition.support(k), bounds))
+    }
+
+    /// The same of one patch, which need not hold the point.
+    pub(crate) fn fits_in(&self, support: &Rect, bounds: &Rect) -> bool {
+        !support.contains(self.at) || self.is_near(&support.intersection(bounds), self.reach)
     }
 
     /// The place of the force.

@@ -248,14 +248,15 @@ impl<'f> DeformedPoints<'f> {
     }
 
     /// The picture of one value per patch: each pixel has that of the cell in which its point lies,
-    /// NaN where there is no cell. Borders belong to the right and upper cell.
+    /// NaN where there is no cell. Borders belong to the right and upper cell. Without cells the
+    /// patch with the largest φ takes the place of the cell.
     ///
     /// # Panics
     /// If there is not one value per patch.
     #[must_use]
     pub fn cells(&self, values: &[f64]) -> DeformedRaster {
-        if self.view.field().step.partition.mesh().is_some() {
-            return self.elements(values);
+        if !self.view.field().step.partition.boxes().has_cells() {
+            return self.owners(values);
         }
         let (cells, anchor) = (&self.view.field().step.partition.boxes().cell, self.view.anchor);
         assert_eq!(values.len(), cells.len(), "one value per patch");
@@ -282,8 +283,8 @@ impl<'f> DeformedPoints<'f> {
         self.with_overlap(self.starts.par_windows(2).map_init(Vec::new, of_pixel).collect())
     }
 
-    /// The picture of one value per element.
-    fn elements(&self, values: &[f64]) -> DeformedRaster {
+    /// The picture of one value per element, or per patch without a cell.
+    fn owners(&self, values: &[f64]) -> DeformedRaster {
         let field = self.view.field();
         assert_eq!(values.len(), field.step.partition.len(), "one value per patch");
         let local = field.at(self.view.anchor);

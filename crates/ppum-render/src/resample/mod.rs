@@ -31,7 +31,7 @@ use ppum_raster::raster::Raster;
 use ppum_raster::view::View;
 use rayon::prelude::*;
 
-use crate::cells::{exist, of_elements};
+use crate::cells::{exist, of_owners};
 pub use interpolation::{Interpolation, UnknownInterpolation};
 use stencil::Stencil;
 
@@ -225,7 +225,7 @@ pub fn cells(
     });
     let values = values.collect::<Result<Vec<_>, _>>()?;
     if partition.mesh().is_some() {
-        return Ok(of_elements(field, &values, view));
+        return Ok(of_owners(field, &values, view));
     }
     let tree = BoxTree::new(cells);
     let corner = field.domain.bounds.max;

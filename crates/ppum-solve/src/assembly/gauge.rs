@@ -6,16 +6,18 @@
 //! ```
 //!
 //! Where points are held, u_i(x₀) = g_i takes the place of as many of these conditions, and those
-//! that stay are for the motions that the points leave.
+//! that stay are for the motions that the points leave. Of pieces that touch, the free motions are
+//! those of several pieces together ([`Motion`]).
 //!
 //! The conditions couple all unknowns of a piece. So the system first gets a penalty on the
-//! unknowns of one patch, which is exact for balanced loads whatever its size. Solutions for the
-//! same functionals as loads are the rigid-body modes themselves, in whatever functions, and they
-//! are subtracted.
+//! unknowns of one patch, which is exact for balanced loads whatever its size: of a motion of
+//! several pieces one of the first that moves. Solutions for the same functionals as loads are the
+//! rigid motions themselves, in whatever functions, and they are subtracted.
 
 use super::point::PointValues;
+use super::spring::{Holder, PieceMoments, Spring};
 use crate::basis::Shapes;
-use crate::equilibrium::{BodyPieces, PerMode, PieceConditions, Plate, RigidModes};
+use crate::equilibrium::{Balance, Motion, PerMode, PieceConditions, Plate, RigidModes};
 use crate::linear::{BlockMatrix, LinearError, LinearSolver};
 use crate::problem::Support;
 use crate::quadrature::Rule;
@@ -29,34 +31,28 @@ struct Mode {
     piece: usize,
     modes: RigidModes,
     mode: PerMode,
-    /// Index in [`Gauge::patches`].
-    group: usize,
 }
 
 /// The free modes of all pieces.
 pub(crate) struct FreeModes<'p> {
-    pieces: &'p BodyPieces,
+    plate: &'p Plate,
     modes: Vec<Mode>,
-    /// Number of pieces that are free.
-    groups: usize,
 }
 
 impl<'p> FreeModes<'p> {
     /// The free modes of a plate.
     pub(crate) fn new(plate: &'p Plate) -> Self {
-        let (mut modes, mut groups) = (Vec::new(), 0);
-        for (piece, (balance, free)) in plate.balances.iter().zip(&plate.free).enumerate() {
-            let of_piece =
-                |&mode: &PerMode| Mode { piece, modes: balance.modes, mode, group: groups };
-            modes.extend(free.iter().map(of_piece));
-            groups += usize::from(!free.is_empty());
-        }
-        Self { pieces: &plate.pieces, modes, groups }
+        let pieces = plate.balances.iter().zip(&plate.free).enumerate();
+        let of_piece = |(piece, (balance, free)): (usize, (&Balance, &'p Vec<PerMode>))| {
+            let modes = balance.modes;
+            free.iter().map(move |&mode| Mode { piece, modes, mode })
+        };
+        Self { plate, modes: pieces.flat_map(of_piece).collect() }
     }
 
     /// No free modes, on the same pieces: their functionals are not wanted.
     pub(crate) fn none(plate: &'p Plate) -> Self {
-        Self { pieces: &plate.pieces, modes: Vec::new(), groups: 0 }
+        Self { plate, modes: Vec::new() }
     }
 
     /// Number of free modes.
@@ -77,7 +73,8 @@ impl<'p> FreeModes<'p> {
         if self.modes.is_empty() {
             return;
         }
-        let place = |&offset: &Vec2| (rule.anchor + offset, self.pieces.of(rule.anchor + offset));
+        let pieces = &self.plate.pieces;
+        let place = |&offset: &Vec2| (rule.anchor + offset, pieces.of(rule.anchor + offset));
         let places: Vec<(Vec2, usize)> = rule.offsets.iter().map(place).collect();
         for (part, mode) in parts.iter_mut().zip(&self.modes) {
             let load = |(&(x, piece), weight): (&(Vec2, usize), &f64)| {
@@ -96,15 +93,21 @@ struct Condition {
     value: f64,
 }
 
-/// The free modes of all pieces and the functionals that fix them.
+/// Stiffness of the spring that holds pieces while it is looked for where they touch, in parts of
+/// the penalty. What is found does not depend on it.
+const SOFT: f64 = 1e-6;
+
+/// The free motions of all pieces and the functionals that fix them.
 pub(crate) struct Gauge {
-    modes: Vec<Mode>,
-    /// Of each mode, ∫ N·m over its piece, in the order of the system.
+    motions: Vec<Motion>,
+    /// Of each motion, ∫ N·m over its pieces, in the order of the system.
     moments: Vec<Vec<f64>>,
-    /// Of each mode, ∫ u_s·m over its piece, of the known part of the field.
+    /// Of each motion, ∫ u_s·m over its pieces, of the known part of the field.
     known: Vec<f64>,
-    /// Of each piece that is free, the patch whose unknowns get the penalty.
-    patches: Vec<usize>,
+    /// Of each motion, what gets the penalty.
+    holders: Vec<Holder>,
+    /// The same of all modes of pieces that touch others.
+    of_touching: Vec<Holder>,
     /// Conditions that take the place of moments that vanish; none where no point is held.
     conditions: Vec<Condition>,
 }
@@ -113,43 +116,66 @@ impl Gauge {
     /// The gauge of free modes with these moments, ∫ N·m over their pieces in the order of
     /// the matrix, and those of the known part of the field.
     pub(crate) fn new(
-        FreeModes { modes, groups, .. }: FreeModes<'_>,
+        FreeModes { plate, modes }: FreeModes<'_>,
         (moments, known): (Vec<Vec<f64>>, Vec<f64>),
         matrix: &BlockMatrix,
     ) -> Self {
-        let mut gauge = Self { moments, known, modes, patches: Vec::new(), conditions: Vec::new() };
-        gauge.patches = (0..groups).map(|group| gauge.firmest(group, matrix)).collect();
-        gauge
+        let motions = plate.motions.clone();
+        let factors = Mat::from_fn(modes.len(), motions.len(), |mode, k| motions[k].factors[mode]);
+        let known_of = |k: usize| known.iter().zip(&motions[k].factors).map(|(m, f)| m * f).sum();
+        let (mut holders, mut of_touching) = (Vec::new(), Vec::new());
+        for group in &plate.groups {
+            for &piece in group.iter().filter(|&&piece| !plate.free[piece].is_empty()) {
+                let (first, n) = (plate.first_mode(piece), plate.free[piece].len());
+                let of_piece = PieceMoments { moments: &moments[first..first + n], matrix };
+                let patch = of_piece.firmest();
+                let own = motions.iter().filter(|motion| motion.lead == piece);
+                holders.extend(own.map(|motion| of_piece.holder(patch, &motion.factors[first..])));
+                if group.len() > 1 {
+                    let unit =
+                        |k: usize| Vec::from_iter((0..n).map(|j| f64::from(u8::from(j == k))));
+                    of_touching.extend((0..n).map(|k| of_piece.holder(patch, &unit(k))));
+                }
+            }
+        }
+        Self {
+            moments: combined(&moments, &factors),
+            known: (0..motions.len()).map(known_of).collect(),
+            motions,
+            holders,
+            of_touching,
+            conditions: Vec::new(),
+        }
     }
 
     /// The gauge of a plate with supports.
     pub(crate) fn with_supports(
         mut self,
         supports: &[Support],
-        pieces: &[PieceConditions],
+        groups: &[PieceConditions],
         values: &dyn Fn(Vec2) -> PointValues,
     ) -> Self {
         if supports.is_empty() {
             return self;
         }
         let rows: Vec<_> = supports.iter().map(|support| values(support.at)).collect();
-        for (piece, conditions) in pieces.iter().enumerate() {
+        for (group, conditions) in groups.iter().enumerate() {
             let held = conditions.held.iter().map(|&(number, component)| Condition {
                 functional: rows[number].functionals[component].clone(),
                 value: supports[number].displacement[component].unwrap_or(0.0)
                     - rows[number].known[component],
             });
             self.conditions.extend(held);
-            let left = conditions.left.iter().map(|factors| self.moment(piece, factors));
+            let left = conditions.left.iter().map(|factors| self.moment(group, factors));
             let left: Vec<_> = left.collect();
             self.conditions.extend(left);
         }
         self
     }
 
-    /// A combination of the moments of a piece, which vanishes for the whole field.
-    fn moment(&self, piece: usize, factors: &[f64]) -> Condition {
-        let own = (0..self.modes.len()).filter(|&k| self.modes[k].piece == piece);
+    /// A combination of the moments of a group of pieces, which vanishes for the whole field.
+    fn moment(&self, group: usize, factors: &[f64]) -> Condition {
+        let own = (0..self.motions.len()).filter(|&k| self.motions[k].group == group);
         let functional = vec![0.0; self.moments.first().map_or(0, Vec::len)];
         let mut condition = Condition { functional, value: 0.0 };
         for (k, factor) in own.zip(factors) {
@@ -160,23 +186,19 @@ impl Gauge {
         condition
     }
 
-    /// Number of free modes.
+    /// Number of free motions.
     pub(crate) fn len(&self) -> usize {
-        self.modes.len()
+        self.motions.len()
     }
 
     /// Adds γ Σ_k r_k r_kᵀ, r_k the part of a functional on the unknowns of one patch.
     pub(crate) fn add_penalty(&self, matrix: &mut BlockMatrix) {
-        for (group, &patch) in self.patches.iter().enumerate() {
-            let rows: Vec<_> = self.parts(group, patch, matrix).collect();
-            let length = rows.iter().copied().flatten().fold(0.0f64, |m, v| m.max(v * v));
-            let stiffness = matrix.block(patch, patch).expect("a patch is coupled to itself");
-            let n = stiffness.nrows();
-            let gamma = (0..n).map(|k| stiffness[(k, k)]).fold(0.0, f64::max) / length;
-            let entry = |a, b| gamma * rows.iter().map(|r| r[a] * r[b]).sum::<f64>();
-            let block = Mat::from_fn(n, n, entry);
-            matrix.add_block(patch, patch, block.as_ref());
-        }
+        Spring::new(&self.holders, 1.0, matrix).add_to(matrix);
+    }
+
+    /// The spring for pieces that others hold where they touch; nothing where none do.
+    pub(crate) fn spring(&self, matrix: &BlockMatrix) -> Spring {
+        Spring::new(&self.of_touching, SOFT, matrix)
     }
 
     /// Replaces the rigid-body modes that the penalty has left in a solution by those of the
@@ -190,7 +212,7 @@ impl Gauge {
         matrix: &BlockMatrix,
         solution: &mut [f64],
     ) -> Result<(), LinearError> {
-        if self.modes.is_empty() {
+        if self.motions.is_empty() {
             return Ok(());
         }
         let rigid = match solver.kernel() {
@@ -224,13 +246,12 @@ impl Gauge {
 
     /// The functionals of the penalty as right-hand sides: their solutions are rigid-body modes.
     pub(crate) fn loads(&self, matrix: &BlockMatrix) -> Vec<Vec<f64>> {
-        let load = |(mode, moments): (&Mode, &Vec<f64>)| {
-            let mut load = vec![0.0; moments.len()];
-            let range = matrix.unknowns(self.patches[mode.group]);
-            load[range.clone()].copy_from_slice(&moments[range]);
+        let load = |holder: &Holder| {
+            let mut load = vec![0.0; matrix.n_unknowns()];
+            load[matrix.unknowns(holder.patch)].copy_from_slice(&holder.functional);
             load
         };
-        self.modes.iter().zip(&self.moments).map(load).collect()
+        self.holders.iter().map(load).collect()
     }
 
     /// ∫ u·m_l of some u: a row for each mode, a column for each u.
@@ -256,29 +277,6 @@ impl Gauge {
             |Condition { functional, value }: &Condition| dot(functional, solution) - value;
         Mat::from_fn(self.conditions.len(), 1, |l, _| excess(&self.conditions[l]))
     }
-
-    /// The functionals of one group on the unknowns of a patch.
-    fn parts<'g>(
-        &'g self,
-        group: usize,
-        patch: usize,
-        matrix: &BlockMatrix,
-    ) -> impl Iterator<Item = &'g [f64]> {
-        let range = matrix.unknowns(patch);
-        let all = self.modes.iter().zip(&self.moments);
-        all.filter(move |(mode, _)| mode.group == group)
-            .map(move |(_, moments)| &moments[range.clone()])
-    }
-
-    /// The patch on which the modes of a group are largest and least alike.
-    fn firmest(&self, group: usize, matrix: &BlockMatrix) -> usize {
-        let volume = |patch: usize| {
-            let rows: Vec<_> = self.parts(group, patch, matrix).collect();
-            Mat::from_fn(rows.len(), rows.len(), |k, l| dot(rows[k], rows[l])).determinant()
-        };
-        let all = (0..matrix.n_blocks()).map(|patch| (patch, volume(patch)));
-        all.fold((0, 0.0), |best, new| if new.1 > best.1 { new } else { best }).0
-    }
 }
 
 /// Combinations of vectors, with the factors of each in a column.
@@ -287,7 +285,7 @@ fn combined(vectors: &[Vec<f64>], factors: &Mat<f64>) -> Vec<Vec<f64>> {
         vectors.iter().enumerate().map(|(j, vector)| factors[(j, k)] * vector[row]).sum()
     };
     let rows = vectors.first().map_or(0, Vec::len);
-    (0..vectors.len()).map(|k| (0..rows).map(|row| entry(k, row)).collect()).collect()
+    (0..factors.ncols()).map(|k| (0..rows).map(|row| entry(k, row)).collect()).collect()
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -20,12 +20,13 @@ mod given;
 mod loads;
 mod point;
 mod reaction;
+mod spring;
 mod stiffness;
 mod system;
 mod template;
 
 pub(crate) use cell::Functionals;
-pub(crate) use contact::{FaceContacts, FaceStress};
+pub(crate) use contact::{FaceContacts, FaceState, FaceStress};
 pub(crate) use dual::Duals;
 pub(crate) use functions::Assembly;
 pub(crate) use gauge::{FreeModes, Gauge};

@@ -13,12 +13,13 @@ mod sectors;
 mod wedge;
 
 use crate::geometry::{rim_crossings, sure_side};
-use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem, touch};
+use crate::problem::{BorderPart, BoundaryCondition, Problem, touch};
 use crate::quadrature::{sign_changes, tame};
 use crate::smoothness::levels_of_data;
 use exponent::{Constants, smallest};
 use ppum::crack::{Crack, LocalCrack, Side, tips};
 use ppum::domain::Hole;
+use ppum::formula::Formula;
 use ppum::vec2::{Rect, Vec2, vec2};
 use sectors::{LOOK, Sector, Surroundings};
 use std::f64::consts::TAU;
@@ -174,7 +175,7 @@ fn with_functions(problem: &Problem, mut corners: Vec<Corner>) -> Vec<Corner> {
 const UNFIT: f64 = 1e-4;
 
 /// Turn, its sine, up to which a vertex of a rim follows a curve.
-const BEND: f64 = 0.1;
+const BEND: f64 = 0.3;
 
 /// True if no uniform stress (gradient) has the loads of a sector's two rays: t₁ = σ n₁ and t₂ = σ
 /// n₂ need n₂·t₁ = n₁·t₂, on a straight border t₁ = t₂. Any two fluxes fit but on a
@@ -282,9 +283,9 @@ fn places(problem: &Problem) -> Vec<Vec2> {
     let mut all = bounds.corners().to_vec();
     for condition in &problem.boundary {
         if let BorderPart::Edge { edge, from, to } = condition.on {
-            let inner = jumps(condition, edge, [from, to], bounds);
-            all.extend(inner.chain([from, to]).map(|s| edge.point(bounds, s)));
+            all.extend([from, to].map(|s| edge.point(bounds, s)));
         }
+        all.extend(jumps(condition, problem));
     }
     let holes = &problem.domain.holes;
     all.extend(holes.iter().flat_map(Hole::sides).map(|[a, _]| a));
@@ -299,21 +300,53 @@ fn places(problem: &Problem) -> Vec<Vec2> {
     all
 }
 
-/// Places at which the data of a condition on an edge may jump, in the edge's own coordinate.
-fn jumps<'c>(
-    condition: &'c BoundaryCondition,
-    edge: Edge,
-    [from, to]: [f64; 2],
-    bounds: &'c Rect,
-) -> impl Iterator<Item = f64> + 'c {
-    let levels = condition.formulas().flat_map(levels_of_data);
-    levels.flat_map(move |level| {
-        let value = |s: f64| {
-            let p = edge.point(bounds, s);
-            tame(level.evaluate(&[p.x, p.y]))
+/// A part of the border that is smooth: its points by a coordinate, and the ends of that.
+type BorderCurve<'p> = (Box<dyn Fn(f64) -> Vec2 + 'p>, [f64; 2]);
+
+/// Places at which the data of a condition may jump.
+fn jumps(condition: &BoundaryCondition, problem: &Problem) -> Vec<Vec2> {
+    let levels: Vec<_> = condition.formulas().flat_map(levels_of_data).collect();
+    if levels.is_empty() {
+        return Vec::new();
+    }
+    let on_curve = |(at, [from, to]): BorderCurve<'_>| {
+        let of_level = |level: &Formula| {
+            let value = |s: f64| tame(level.evaluate(&<[f64; 2]>::from(at(s))));
+            sign_changes(&value, from, to)
         };
-        sign_changes(&value, from, to)
-    })
+        levels.iter().flat_map(of_level).map(&at).collect::<Vec<_>>()
+    };
+    curves(condition.on, problem).into_iter().flat_map(on_curve).collect()
+}
+
+/// The edges, circles and segments that a part of the border consists of.
+fn curves(part: BorderPart, problem: &Problem) -> Vec<BorderCurve<'_>> {
+    let straight =
+        |[a, b]: [Vec2; 2]| -> BorderCurve<'_> { (Box::new(move |s| a + (b - a) * s), [0.0, 1.0]) };
+    match part {
+        BorderPart::Edge { edge, from, to } => {
+            let bounds = &problem.domain.bounds;
+            vec![(Box::new(move |s| edge.point(bounds, s)), [from, to])]
+        }
+        BorderPart::Crack { crack, .. } => {
+            problem.cracks[crack].points.windows(2).map(|s| straight([s[0], s[1]])).collect()
+        }
+        _ => {
+            let holes = problem.domain.holes.iter().enumerate();
+            let of_hole = |(k, hole): (usize, &Hole)| match *hole {
+                Hole::Circle { center, radius } => {
+                    let is_on = problem.is_on(part, k, 0);
+                    let at = move |angle: f64| center + vec2(angle.cos(), angle.sin()) * radius;
+                    is_on.then(|| (Box::new(at) as Box<_>, [0.0, TAU])).into_iter().collect()
+                }
+                Hole::Polygon { .. } => {
+                    let own = hole.sides().enumerate().filter(|(s, _)| problem.is_on(part, k, *s));
+                    own.map(|(_, ends)| straight(ends)).collect::<Vec<_>>()
+                }
+            };
+            holes.flat_map(of_hole).collect()
+        }
+    }
 }
 
 /// Vertices of a crack that are no tips.

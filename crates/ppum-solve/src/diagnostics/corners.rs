@@ -1,6 +1,6 @@
 //! Warnings about singular points of the border that the cells do not resolve.
 
-use super::{kind, short, warning};
+use super::{kind, short, smaller_cells, warning};
 use crate::corner::{Corner, Nature, corners};
 use crate::norms::energy_of;
 use crate::problem::Problem;
@@ -40,7 +40,7 @@ pub(super) fn of_corners(
             touching.iter().map(|&c| cells[c].size()).fold(0.0f64, |m, s| m.max(s.x.max(s.y)));
         let share = energy_of(field, space, &touching) / energy;
         let missed = MISSED * corner.weakness().powi(2) * share;
-        (missed > LARGE_MISS).then(|| unresolved(corner, (size, missed), places))
+        (missed > LARGE_MISS).then(|| unresolved(corner, (size, missed), problem, places))
     };
     corners(problem).iter().filter_map(of_corner).collect()
 }
@@ -70,15 +70,21 @@ fn infinite(corner: &Corner, places: &Places) -> Warning {
     warning(kind::SINGULAR_POINT, Some(corner.at), [1.0, LARGE_MISS], message)
 }
 
-fn unresolved(corner: &Corner, (size, missed): (f64, f64), places: &Places) -> Warning {
+fn unresolved(
+    corner: &Corner,
+    (size, missed): (f64, f64),
+    problem: &Problem,
+    places: &Places,
+) -> Warning {
     let message = format!(
         "{}: stresses are infinite at {} (displacements grow like {}), and cells {} wide miss about {} % of the \
-         energy there; use smaller cells, and leave out `refine = false`",
+         energy there; {}",
         places.show(corner.at),
         corner.nature.name(),
         growth(corner),
         short(size),
-        short((1e3 * missed).round() / 10.0)
+        short((1e3 * missed).round() / 10.0),
+        smaller_cells(Some(problem), "`center` and `radius`")
     );
     warning(kind::SINGULAR_POINT, Some(corner.at), [missed, LARGE_MISS], message)
 }

@@ -9,6 +9,7 @@
 
 use super::faces::SAMPLES;
 use crate::geometry::TipClearance;
+use crate::intensity::with_cells;
 use crate::problem::Problem;
 use crate::smoothness::COMPARED;
 use ppum::box_tree::BoxTree;
@@ -81,7 +82,8 @@ pub fn check_effort(
     step: usize,
     problem: Option<&Problem>,
 ) -> Result<(), EffortError> {
-    let step = &dataset.steps[step];
+    let (cells, number) = with_cells(dataset, step);
+    let (dataset, step) = (&*cells, &cells.steps[number]);
     let table = FunctionTable::new(&step.functions, step.cracks.len(), &dataset.tables)?;
     let count = Count { dataset, step, data: &step.fields[0], table };
     let operations = count.operations(problem);
@@ -172,6 +174,9 @@ impl Count<'_> {
 
     /// The patches that meet each cell, as many as may be and no more.
     fn neighbours(&self) -> Vec<Vec<u32>> {
+        if self.step.partition.mesh().is_some() {
+            return (0..self.step.partition.len() as u32).map(|patch| vec![patch]).collect();
+        }
         let partition = self.step.partition.boxes();
         let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
         let (tree, mut pairs) = (BoxTree::new(&supports), 0);
@@ -195,7 +200,7 @@ impl Count<'_> {
         let work: Vec<_> = neighbours.iter().map(|patches| self.work(patches, &declared)).collect();
         let once: f64 = work.iter().map(|(work, _)| work).sum();
         let mut sum = PLACES * once + self.crack_places() * once / work.len().max(1) as f64;
-        let cells = BoxTree::new(&self.step.partition.boxes().cell);
+        let cells = BoxTree::new(&self.step.partition.cells());
         for tip in tips(&self.step.cracks) {
             let work = self.cells_of(tip, &cells).into_iter().map(|cell| work[cell as usize]);
             sum += work.map(|(work, kinks)| self.points(kinks) * work).sum::<f64>();

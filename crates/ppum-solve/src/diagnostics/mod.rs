@@ -25,7 +25,7 @@ pub use warning::{
 
 use crate::geometry::points_of_forces;
 use crate::heat::Temperature;
-use crate::intensity::{FACTORS_OF, TipOutcome, intensities_under};
+use crate::intensity::{TipOutcome, intensities_under, with_cells};
 use crate::norms::energy;
 use crate::problem::Problem;
 use crate::report::{SolverReport, Unresolved};
@@ -44,7 +44,7 @@ use pressure::of_pressure;
 use report::{Cutters, of_report};
 use rims::of_rims;
 use tips::of_tips;
-use warning::{short, warning};
+use warning::{short, smaller_cells, warning};
 
 /// A solution that is to be diagnosed.
 pub(crate) struct DiagnosedSolution<'a> {
@@ -93,16 +93,21 @@ pub fn recompute(
     problem: Option<&Problem>,
     watcher: &dyn Watcher,
 ) -> Result<(Vec<TipOutcome>, Vec<Warning>), RecomputeError> {
-    Field::new(dataset, step)?.on_cells(FACTORS_OF)?;
+    Field::new(dataset, step)?;
+    let has_cells = dataset.steps[step].partition.boxes().has_cells();
+    let (cells, number) = with_cells(dataset, step);
+    let (dataset, step) = (&*cells, number);
     match Temperature::split(dataset, step)? {
-        Some((plain, heat)) => recompute_plain((&plain, 0), Some(heat), problem, watcher),
-        None => recompute_plain((dataset, step), None, problem, watcher),
+        Some((plain, heat)) => {
+            recompute_plain((&plain, 0, has_cells), Some(heat), problem, watcher)
+        }
+        None => recompute_plain((dataset, step, has_cells), None, problem, watcher),
     }
 }
 
 /// The same of a displacement, in a body that a temperature may strain.
 fn recompute_plain(
-    (dataset, step): (&Dataset, usize),
+    (dataset, step, has_cells): (&Dataset, usize, bool),
     heat: Option<Temperature>,
     problem: Option<&Problem>,
     watcher: &dyn Watcher,
@@ -112,6 +117,12 @@ fn recompute_plain(
     let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
     heat.into_iter().for_each(|heat| space.heat(heat));
     let tips = intensities_under(problem, dataset, &field, &space, watcher)?;
+    // what else is warned of is found cell by cell
+    if !has_cells {
+        let places = Places::new(&domain.bounds, &field.step.cracks);
+        let warnings = of_tips(problem, &tips, &field.step.cracks, &places);
+        return Ok((tips, warnings));
+    }
     let report = &SolverReport::of(&field.step.history);
     let (field, space) = (&field, &space);
     let case = DiagnosedSolution { dataset, step, field, space, problem, report, unresolved: &[] };
@@ -149,7 +160,7 @@ impl DiagnosedSolution<'_> {
             warnings.extend(of_corners(problem, field, space, (energy, &places)));
         }
         stage.advance(0)?;
-        warnings.extend(of_rims(field, &dataset.domain.holes, &places));
+        warnings.extend(of_rims(field, &dataset.domain.holes, self.problem, &places));
         stage.advance(0)?;
         let law = &space.law();
         warnings.extend(of_interfaces((field, law), (dataset, space), &places));

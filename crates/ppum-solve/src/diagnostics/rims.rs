@@ -1,7 +1,8 @@
 //! The warning about cells that are too large for the stress at the rim of a hole.
 
-use super::{kind, short, warning};
+use super::{kind, short, smaller_cells, warning};
 use crate::geometry::{Placed, wider};
+use crate::problem::Problem;
 use crate::refine::{coarsest, rim_error};
 use ppum::dataset::Warning;
 use ppum::domain::Hole;
@@ -23,7 +24,12 @@ struct Coarse {
 }
 
 /// The warning about the worst hole, and how many are nearly as bad.
-pub(super) fn of_rims(field: &Field<'_>, holes: &[Hole], places: &Places) -> Option<Warning> {
+pub(super) fn of_rims(
+    field: &Field<'_>,
+    holes: &[Hole],
+    problem: Option<&Problem>,
+    places: &Places,
+) -> Option<Warning> {
     if holes.is_empty() {
         return None;
     }
@@ -46,18 +52,21 @@ pub(super) fn of_rims(field: &Field<'_>, holes: &[Hole], places: &Places) -> Opt
         |a: &Coarse, b: &Coarse| a.error.total_cmp(&b.error).then(a.part.total_cmp(&b.part));
     let worst = all.into_iter().filter(|coarse| coarse.error > LARGE).max_by(by_error)?;
     let at = partition.cell[worst.cell as usize].center();
-    let message = message(&worst, &holes[worst.hole], count, &places.show(at));
+    let place = places.show(at);
+    let message = message(&worst, &holes[worst.hole], problem, (count, &place));
     Some(warning(kind::COARSE_HOLE, Some(at), [worst.error, LARGE], message))
 }
 
-fn message(worst: &Coarse, shape: &Hole, count: usize, at: &str) -> String {
+fn message(
+    worst: &Coarse,
+    shape: &Hole,
+    problem: Option<&Problem>,
+    (count, at): (usize, &str),
+) -> String {
     let Coarse { hole, part, error, .. } = worst;
-    let (place, remedy) = match shape.is_outside() {
-        true => ("the outline".to_owned(), "[[refine]] with `center` and `radius`".to_owned()),
-        false => (
-            format!("the rim of hole {hole}, counted from 0"),
-            format!("[[refine]] with `hole = {hole}`"),
-        ),
+    let (place, keys) = match shape.is_outside() {
+        true => ("the outline".to_owned(), "`center` and `radius`".to_owned()),
+        false => (format!("the rim of hole {hole}, counted from 0"), format!("`hole = {hole}`")),
     };
     let others = match count {
         1 => String::new(),
@@ -67,9 +76,9 @@ fn message(worst: &Coarse, shape: &Hole, count: usize, at: &str) -> String {
     format!(
         "the cells at {place}{others}, are too large for the stress there: the worst, \
          around {at}, is {} of the radius of curvature long, and stresses are off by up to about {} % of the \
-         largest; use smaller cells there ({remedy}), a higher `order`, and leave out \
-         `refine = false`",
+         largest; {}, or a higher `order`",
         short((1e3 * part).round() / 1e3),
-        short((1e3 * error).round() / 10.0)
+        short((1e3 * error).round() / 10.0),
+        smaller_cells(problem, &keys)
     )
 }

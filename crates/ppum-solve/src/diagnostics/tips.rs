@@ -55,7 +55,7 @@ pub(super) fn of_tips(
             little_room(outcome, at),
             near_interface(outcome, at),
             near_border(outcome, length, at),
-            coarse(outcome, length, at),
+            coarse(problem, outcome, length, at),
         ];
         about_factors.into_iter().chain(about_place).flatten()
     };
@@ -176,13 +176,20 @@ fn near_border(outcome: &TipOutcome, length: f64, at: &str) -> Option<Warning> {
     })
 }
 
-fn coarse(outcome: &TipOutcome, length: f64, at: &str) -> Option<Warning> {
+fn coarse(
+    problem: Option<&Problem>,
+    outcome: &TipOutcome,
+    length: f64,
+    at: &str,
+) -> Option<Warning> {
+    let is_off = problem.is_some_and(|problem| !problem.discretization.refine);
     let cells = length / outcome.cell;
     (cells < LEAST_CELLS).then(|| {
         let message = format!(
-            "tip {at}: its crack is only {} cells long; use cells of at most {} there, or `refine = true`",
+            "tip {at}: its crack is only {} cells long; use cells of at most {} there{}",
             short((100.0 * cells).round() / 100.0),
-            short(length / LEAST_CELLS)
+            short(length / LEAST_CELLS),
+            if is_off { ", or leave out `refine = false`" } else { "" }
         );
         warning(kind::COARSE, Some(outcome.at), [cells, LEAST_CELLS], message)
     })

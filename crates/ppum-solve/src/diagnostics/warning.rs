@@ -1,5 +1,6 @@
 //! The kinds of warnings and the bounds that they pass.
 
+use crate::problem::Problem;
 use ppum::dataset::Warning;
 use ppum::text::trimmed_to;
 use ppum::vec2::Vec2;
@@ -91,4 +92,14 @@ pub(super) fn warning(
 /// Five digits, without zeros at the end.
 pub(super) fn short(value: f64) -> String {
     trimmed_to(value, 5)
+}
+
+/// The key that makes cells smaller at a place: the one of the file that keeps them large, or
+/// [[refine]] with the keys of the place.
+pub(super) fn smaller_cells(problem: Option<&Problem>, keys: &str) -> String {
+    let is_off = problem.is_some_and(|problem| !problem.discretization.refine);
+    match is_off {
+        true => "use smaller cells there (leave out `refine = false`)".into(),
+        false => format!("use smaller cells there ([[refine]] with {keys})"),
+    }
 }

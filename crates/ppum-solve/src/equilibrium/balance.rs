@@ -10,10 +10,7 @@ use ppum::vec2::{Vec2, vec2};
 use std::fmt;
 
 /// Part of the largest eigenvalue below which a mode counts as free.
-const FREE: f64 = 1e-10;
-
-/// Part of the loads' magnitude that may remain unbalanced: quadrature of the data, not more.
-const BALANCE: f64 = 1e-6;
+pub(super) const FREE: f64 = 1e-10;
 
 /// Loads that move a piece of the plate which nothing holds against them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,8 +23,12 @@ pub struct UnbalancedError {
     pub moment: Option<f64>,
     /// Point the moment is about.
     pub about: Vec2,
-    /// ∫ of the magnitude of all loads on the piece.
+    /// ∫ of the magnitude of all loads, on the piece and on what it touches.
     pub magnitude: f64,
+    /// The largest coefficient of friction, if the piece has faces that touch others.
+    pub friction: Option<f64>,
+    /// True if points of the body are held, which take no forces.
+    pub has_supports: bool,
 }
 
 impl std::error::Error for UnbalancedError {}
@@ -44,7 +45,24 @@ impl fmt::Display for UnbalancedError {
             }
             None => write!(f, "the loads")?,
         }
-        write!(f, " do not balance and nothing holds the plate against them: ")?;
+        match self.friction {
+            None if self.has_supports => write!(
+                f,
+                " do not balance, and a [[support]] takes no force, it only fixes a rigid motion: "
+            )?,
+            None => write!(f, " do not balance and nothing holds the plate against them: ")?,
+            Some(0.0) => write!(
+                f,
+                " do not balance, so that it slides or falls away: faces that touch take pressure alone, no tension \
+                 and without `friction` no shear: "
+            )?,
+            Some(friction) => write!(
+                f,
+                " do not balance, so that it slides or falls away: faces that touch take no tension, and shear up to \
+                 {} times the pressure: ",
+                trimmed(friction)
+            )?,
+        }
         let [fx, fy, x, y] = [self.force.x, self.force.y, self.about.x, self.about.y].map(trimmed);
         match self.moment.map(trimmed) {
             Some(moment) => {
@@ -55,11 +73,15 @@ impl fmt::Display for UnbalancedError {
             }
             None => write!(f, "a flow of {fx} remains")?,
         }
-        let remedy = match self.moment {
-            Some(_) => {
-                "hold a component of the displacement on an edge of it, or balance the tractions"
+        let remedy = match (self.moment, self.friction) {
+            (Some(_), None) => {
+                "hold a component of the displacement on an edge of it by [[boundary]], or balance the loads"
             }
-            None => "give values on an edge of it, or balance the fluxes",
+            (Some(_), Some(_)) => {
+                "hold a component of the displacement on an edge of it by [[boundary]], balance the loads on it, or \
+                 give more `friction`"
+            }
+            (None, _) => "give values on an edge of it, or balance the fluxes",
         };
         write!(f, " of loads of {} in all; {remedy}", trimmed(self.magnitude))
     }
@@ -75,7 +97,7 @@ pub(crate) struct Balance {
     /// Work of body forces and tractions on the rigid-body modes.
     resultant: PerMode,
     /// ∫ of the loads' magnitude on the border and inside.
-    magnitude: f64,
+    pub(crate) magnitude: f64,
 }
 
 impl Balance {
@@ -141,44 +163,30 @@ impl Balance {
         Ok(free.map(mode).collect())
     }
 
-    /// The loads' remaining work on free modes, as a part of their magnitude.
-    pub(crate) fn imbalance(&self, free: &[PerMode]) -> f64 {
-        let remaining = self.remaining(free).iter().fold(0.0f64, |m, r| m.max(r.abs()));
-        if remaining > 0.0 { remaining / self.magnitude } else { 0.0 }
+    /// The work of the loads on each free mode.
+    pub(crate) fn works(&self, free: &[PerMode]) -> impl Iterator<Item = f64> {
+        free.iter().map(move |mode| mode.iter().zip(&self.resultant).map(|(m, r)| m * r).sum())
     }
 
-    /// Checks that the loads do no work on the free modes.
-    ///
-    /// # Errors
-    /// Loads that do; `piece` is a point of the piece, if there are several.
-    pub(crate) fn check(
+    /// The error of a resultant that remains; `piece` is a point of the piece, if there are several.
+    pub(crate) fn error(
         &self,
-        free: &[PerMode],
+        remaining: PerMode,
+        magnitude: f64,
         piece: Option<Vec2>,
-    ) -> Result<(), UnbalancedError> {
-        if self.imbalance(free) <= BALANCE {
-            return Ok(());
-        }
+    ) -> UnbalancedError {
         // what is balanced but for rounding is zero
-        let [x, y, turn] = self.remaining(free).map(|part| beside(part, self.magnitude));
+        let [x, y, turn] = remaining.map(|part| beside(part, magnitude));
         let RigidModes { center, size, .. } = self.modes;
         let shown = |p: Vec2| vec2(beside(p.x, size), beside(p.y, size));
-        Err(UnbalancedError {
+        UnbalancedError {
             piece: piece.map(shown),
             force: vec2(x, y),
             moment: (self.modes.count() > 1).then_some(turn * size),
             about: shown(center),
-            magnitude: self.magnitude,
-        })
-    }
-
-    /// The part of the resultant that free modes see.
-    fn remaining(&self, free: &[PerMode]) -> PerMode {
-        let mut sum = [0.0; MODES];
-        for mode in free {
-            let work: f64 = mode.iter().zip(&self.resultant).map(|(m, r)| m * r).sum();
-            sum.iter_mut().zip(mode).for_each(|(sum, m)| *sum += work * m);
+            magnitude,
+            friction: None,
+            has_supports: false,
         }
-        sum
     }
 }

@@ -6,6 +6,7 @@ mod pieces;
 mod plate;
 mod rigid;
 mod supports;
+mod touching;
 
 pub(crate) use balance::Balance;
 pub use balance::UnbalancedError;
@@ -14,3 +15,4 @@ pub(crate) use plate::{Plate, PlateError};
 pub(crate) use rigid::{MODES, PerMode, RigidModes};
 pub(crate) use supports::PieceConditions;
 pub use supports::SupportError;
+pub(crate) use touching::Motion;

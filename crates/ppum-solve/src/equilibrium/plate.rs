@@ -1,17 +1,26 @@
 //! The pieces of a plate, what loads them and what holds them.
 
 use super::balance::{Balance, UnbalancedError};
-use super::pieces::{BodyPiece, BodyPieces};
+use super::pieces::BodyPieces;
 use super::rigid::PerMode;
+use super::touching::{Motion, RigidPieces, Touch, TouchingPieces, first_mode, groups, touches};
 use crate::linear::EigenError;
+use crate::problem::Problem;
+use ppum::vec2::Vec2;
 
-/// A plate in equilibrium, piece by piece.
+/// A plate in equilibrium, piece by piece, or as pieces that touch hold each other.
 pub(crate) struct Plate {
     pub(crate) pieces: BodyPieces,
     /// Restraints and loads of each piece.
     pub(crate) balances: Vec<Balance>,
-    /// The rigid-body modes of each piece that nothing holds.
+    /// The rigid-body modes of each piece that what is given on the border does not hold.
     pub(crate) free: Vec<Vec<PerMode>>,
+    /// The pieces that touch each other, group by group; most are alone.
+    pub(crate) groups: Vec<Vec<usize>>,
+    /// The rigid motions that faces which touch do not hold either, group by group.
+    pub(crate) motions: Vec<Motion>,
+    /// Largest part of the loads on a group that does not balance.
+    imbalance: f64,
 }
 
 /// A plate without equilibrium.
@@ -29,22 +38,57 @@ impl Plate {
     /// The plate of pieces with their balances.
     ///
     /// # Errors
-    /// Loads that do work on free modes, data that are not finite.
-    pub(crate) fn new(pieces: BodyPieces, balances: Vec<Balance>) -> Result<Self, PlateError> {
-        let several = pieces.all().len() > 1;
-        let of_piece = |(balance, piece): (&Balance, &BodyPiece)| {
-            let free = balance.free()?;
-            balance.check(&free, several.then_some(piece.inside))?;
-            Ok(free)
-        };
-        let free =
-            balances.iter().zip(pieces.all()).map(of_piece).collect::<Result<_, PlateError>>()?;
-        Ok(Self { pieces, balances, free })
+    /// Loads that nothing holds, data that are not finite.
+    pub(crate) fn new(
+        pieces: BodyPieces,
+        balances: Vec<Balance>,
+        problem: &Problem,
+    ) -> Result<Self, PlateError> {
+        let free = balances.iter().map(Balance::free).collect::<Result<_, _>>()?;
+        let touches = touches(&pieces, &problem.contacts);
+        let (groups, motions) = (groups(&pieces, &touches), Vec::new());
+        let mut plate = Self { pieces, balances, free, groups, motions, imbalance: 0.0 };
+        for group in 0..plate.groups.len() {
+            plate.add_group(group, &touches, !problem.supports.is_empty())?;
+        }
+        Ok(plate)
+    }
+
+    fn add_group(
+        &mut self,
+        group: usize,
+        touches: &[Touch],
+        has_supports: bool,
+    ) -> Result<(), PlateError> {
+        let Self { pieces, balances, free, .. } = &*self;
+        let plate = RigidPieces { pieces, balances, free };
+        let touching = TouchingPieces::new(plate, &self.groups[group], touches);
+        let imbalance =
+            touching.imbalance().map_err(|error| UnbalancedError { has_supports, ..error })?;
+        let motions = touching.motions(group)?;
+        self.imbalance = self.imbalance.max(imbalance);
+        self.motions.extend(motions);
+        Ok(())
     }
 
     /// Largest part of the loads on a piece that does not balance.
     pub(crate) fn imbalance(&self) -> f64 {
-        let pieces = self.balances.iter().zip(&self.free);
-        pieces.map(|(balance, free)| balance.imbalance(free)).fold(0.0, f64::max)
+        self.imbalance
+    }
+
+    /// The number of the first free mode of a piece among those of all.
+    pub(crate) fn first_mode(&self, piece: usize) -> usize {
+        first_mode(&self.free, piece)
+    }
+
+    /// The displacement of a point of a piece in a motion.
+    pub(super) fn moved(&self, motion: &Motion, piece: usize, x: Vec2) -> [f64; 2] {
+        let factors = &motion.factors[self.first_mode(piece)..];
+        let mut sum = [0.0; 2];
+        for (factor, mode) in factors.iter().zip(&self.free[piece]) {
+            let moved = self.balances[piece].modes.combined(mode, x);
+            sum.iter_mut().zip(moved).for_each(|(sum, u)| *sum += factor * u);
+        }
+        sum
     }
 }

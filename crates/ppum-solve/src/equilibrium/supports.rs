@@ -5,6 +5,7 @@
 //! that cannot move any more would take a force.
 
 use super::plate::Plate;
+use super::touching::Motion;
 use crate::problem::Support;
 use ppum::text::trimmed;
 use ppum::vec2::Vec2;
@@ -32,8 +33,8 @@ impl std::fmt::Display for SupportError {
         if self.restrained {
             return write!(
                 f,
-                "what is given on the border keeps the body from moving in {component} there; make this component \
-                 \"free\", or leave the [[support]] out"
+                "what is given on the border, or a face that touches, keeps the body from moving in {component} \
+                 there; make this component \"free\", or leave the [[support]] out"
             );
         }
         write!(
@@ -44,17 +45,18 @@ impl std::fmt::Display for SupportError {
     }
 }
 
-/// The conditions that fix the free modes of a piece, each a combination of those modes or the
-/// component of a support.
+/// The conditions that fix the free motions of pieces that touch, each a combination of those
+/// motions or the component of a support.
 pub(crate) struct PieceConditions {
     /// The components that are held, by the numbers of the supports.
     pub(crate) held: Vec<(usize, usize)>,
-    /// For the motions that supports leave, their factors of the free modes.
+    /// For the motions that supports leave, their factors of the free motions.
     pub(crate) left: Vec<Vec<f64>>,
 }
 
 impl Plate {
-    /// The conditions on each piece; those of pieces without supports are one for each free mode.
+    /// The conditions on each group of pieces that touch; those of groups without supports are one
+    /// for each free motion.
     ///
     /// # Errors
     /// A support that would take a force.
@@ -62,24 +64,25 @@ impl Plate {
         &self,
         supports: &[Support],
     ) -> Result<Vec<PieceConditions>, SupportError> {
-        let pieces = 0..self.free.len();
-        pieces.map(|piece| self.conditions_on(piece, supports)).collect()
+        let groups = 0..self.groups.len();
+        groups.map(|group| self.conditions_on(group, supports)).collect()
     }
 
     fn conditions_on(
         &self,
-        piece: usize,
+        group: usize,
         supports: &[Support],
     ) -> Result<PieceConditions, SupportError> {
-        let free = &self.free[piece];
+        let free: Vec<_> = self.motions.iter().filter(|motion| motion.group == group).collect();
         let (mut held, mut fixed) = (Vec::new(), Vec::new());
         for (number, support) in supports.iter().enumerate() {
-            if self.pieces.of(support.at) != piece {
+            let piece = self.pieces.of(support.at);
+            if !self.groups[group].contains(&piece) {
                 continue;
             }
-            let moved = |mode| self.balances[piece].modes.combined(mode, support.at);
+            let moved = |motion: &&Motion| self.moved(motion, piece, support.at);
             for component in (0..2).filter(|&i| support.displacement[i].is_some()) {
-                let row: Vec<f64> = free.iter().map(|mode| moved(mode)[component]).collect();
+                let row: Vec<f64> = free.iter().map(|motion| moved(motion)[component]).collect();
                 let restrained = length(&row) < STILL;
                 let error = SupportError { at: support.at, component, restrained };
                 fixed.push(independent(row, &fixed).ok_or(error)?);

@@ -34,15 +34,29 @@ impl Interaction<'_> {
         sums
     }
 
-    /// The points of a rule on one face.
+    /// The points of a rule on one face in a cell.
     fn along(&self, bend: &Bend, Face { segment, side }: Face, rule: &EdgeRule) -> Integrals {
-        let tip = self.course.on(&bend.part, rule.anchor);
         let between = self.between(rule, bend.cell);
         let mut jets = vec![Jet::constant(0.0); 2 * rule.offsets.len()];
         let local = self.field.on(segment, rule.anchor);
         local.evaluate_over::<1>(&rule.offsets, side, &rule.patches, &mut jets);
+        self.on_face(&bend.part, rule, &jets, &between)
+    }
+
+    /// The points of a rule on one face, with the field there, and the tractions between faces that
+    /// touch; none if there are not any.
+    pub(super) fn on_face(
+        &self,
+        part: &CourseSegment,
+        rule: &EdgeRule,
+        jets: &[Jet<f64>],
+        between: &[Vec2],
+    ) -> Integrals {
+        let Some(Face { segment, side }) = rule.face else { return Integrals::default() };
+        let tip = self.course.on(part, rule.anchor);
         let mut sums = Integrals::default();
         let points = rule.offsets.iter().zip(&rule.weights).zip(&rule.normals);
+        let between = between.iter().copied().chain(std::iter::repeat(Vec2::ZERO));
         for ((((offset, &weight), normal), u), t) in points.zip(jets.chunks_exact(2)).zip(between) {
             let point = tip.point([offset.x, offset.y], side);
             let (u, normal) = (self.gradient(u, tip.axis), turned(tip.axis, (*normal).into()));

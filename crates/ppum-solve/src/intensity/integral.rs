@@ -4,7 +4,7 @@ use super::Loads;
 use super::auxiliary::{Auxiliary, Body, Gradients, difference, stress, work};
 use super::bent::Bend;
 use super::block::{Local, PointBlock};
-use super::course::Course;
+use super::course::{Course, CourseSegment};
 use super::faces::{Faces, pressed};
 use super::sensitivity::FACTORS;
 use super::slope::Slope;
@@ -171,16 +171,22 @@ impl<'a> Interaction<'a> {
     /// The pieces of the crack that are not along the axis, or loaded, in all cells that they
     /// may meet.
     fn bends(&self, cells: &Placed<usize>) -> Vec<Bend> {
+        let in_cells = |(part, ends): (CourseSegment, [Vec2; 2])| {
+            let near = cells.near(&around(&ends));
+            near.map(move |&cell| Bend { part, ends, cell }).collect::<Vec<_>>()
+        };
+        self.pieces_of_faces().into_iter().flat_map(in_cells).collect()
+    }
+
+    /// The pieces of the crack that are not along the axis, or loaded.
+    pub(super) fn pieces_of_faces(&self) -> Vec<(CourseSegment, [Vec2; 2])> {
         let faces = self.faces();
         let mut all = Vec::new();
         let is_loaded = faces.is_some() || self.friction.is_some();
         for part in self.course.parts().filter(|part| !part.is_first || is_loaded) {
             let loads = faces.as_ref().map_or_else(Vec::new, |faces| faces.breaks(&part));
             let at: Vec<f64> = loads.into_iter().chain(self.radii).collect();
-            for ends in self.course.pieces(&part, &at) {
-                let near = cells.near(&around(&ends));
-                all.extend(near.map(|&cell| Bend { part, ends, cell }));
-            }
+            all.extend(self.course.pieces(&part, &at).into_iter().map(|ends| (part, ends)));
         }
         all
     }
@@ -353,6 +359,8 @@ const BATCH: usize = 1 << 14;
 enum TipRegion {
     Cell(usize, usize),
     Bend(usize, Bend),
+    /// All elements of a mesh.
+    Mesh(usize),
 }
 
 /// The integrals around all tips, each over its discs: tips × cells in parallel, sums in order.
@@ -366,6 +374,9 @@ pub(super) fn integrate_tips<'a>(
 ) -> Result<Vec<TipIntegrals>, Cancelled> {
     let near = Placed::new(space.partition().cell.iter().copied().zip(0..));
     let of_tip = |(k, tip): (usize, &Interaction<'_>)| {
+        if tip.is_on_mesh() {
+            return vec![TipRegion::Mesh(k)];
+        }
         let of_cells = tip.cells(&near).map(|c| TipRegion::Cell(k, c));
         of_cells.chain(tip.bends(&near).into_iter().map(|bend| TipRegion::Bend(k, bend))).collect()
     };
@@ -387,9 +398,11 @@ pub(super) fn integrate_tips<'a>(
             break;
         }
         let part = |seen: &mut Option<LocalField<'a>>, work: &TipRegion| {
-            stage.advance(1).map(|()| match work {
+            stage.advance(1)?;
+            Ok::<_, Cancelled>(match work {
                 TipRegion::Cell(k, c) => (*k, tips[*k].cell(&quadrature, seen, *c)),
                 TipRegion::Bend(k, bend) => (*k, tips[*k].bend(&finer, bend)),
+                TipRegion::Mesh(k) => (*k, tips[*k].mesh(&stage)?),
             })
         };
         let parts: Vec<_> = batch.par_iter().map_init(|| None, part).collect();
@@ -413,6 +426,23 @@ impl Integrals {
     pub(super) fn times(self, weight: f64) -> Self {
         let modes = self.modes.map(|modes| modes.map(|m| weight * m));
         Self { modes, j: weight * self.j, energy: weight * self.energy, doubt: self.doubt }
+    }
+}
+
+impl Integrals {
+    /// The sizes of the integrals.
+    pub(super) fn sizes(&self) -> Self {
+        let modes = self.modes.map(|modes| modes.map(f64::abs));
+        Self { modes, j: self.j.abs(), energy: self.energy.abs(), doubt: Doubt::default() }
+    }
+
+    /// The largest ratio to sizes of the same kind.
+    pub(super) fn part_of(&self, sizes: &Self) -> f64 {
+        let all = |of: &Self| {
+            of.modes.as_flattened().iter().copied().chain([of.j, of.energy]).collect::<Vec<_>>()
+        };
+        let ratios = all(self).into_iter().zip(all(sizes)).filter(|(_, size)| *size > 0.0);
+        ratios.map(|(part, size)| part.abs() / size).fold(0.0, f64::max)
     }
 }
 

@@ -64,9 +64,13 @@
 mod auxiliary;
 mod bent;
 mod block;
+mod border;
+mod cells;
 mod course;
+mod elements;
 mod faces;
 mod integral;
+mod resolve;
 mod sensitivity;
 mod slope;
 
@@ -77,6 +81,8 @@ use crate::problem::{Edge, Problem, Symmetry};
 pub use crate::quadrature::Doubt;
 use crate::space::Space;
 use crate::watched::Stage;
+use border::border_distance;
+pub(crate) use cells::with_cells;
 use integral::{Interaction, RINGS, integrate_tips};
 use ppum::crack::{Side, TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
@@ -96,9 +102,6 @@ const RADII: [f64; RINGS] = [0.5, 0.7, 0.9];
 /// fifth on, but by 4 % at a tenth of a cell, where the spread of the radii may say a tenth of
 /// that: the error is that of the field, which cells larger than the clearance do not resolve.
 const LEAST_CLEARANCE: f64 = 0.5;
-
-/// The words for what is found here.
-pub(crate) const FACTORS_OF: &str = "stress intensity factors";
 
 /// A load per area at a point: the body force b.
 pub type PointLoad<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
@@ -188,7 +191,7 @@ pub fn intensities(
     let stage = Stage::uncounted(watcher, Phase::Intensity)?;
     let symmetry = |tip| loads.symmetry.and_then(|symmetry| symmetry(tip));
     let outcome =
-        |tip| stage.advance(0).map(|()| TipOutcome::new(dataset, space, (tip, symmetry(tip))));
+        |tip| stage.advance(0).map(|()| TipOutcome::new(dataset, field, (tip, symmetry(tip))));
     let mut tips = tips(&field.step.cracks).map(outcome).collect::<Result<Vec<_>, _>>()?;
     let wanted: Vec<_> = tips.iter_mut().filter(|outcome| outcome.has_room()).collect();
     let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.clearance.radius)));
@@ -231,10 +234,21 @@ pub enum CircleError {
 /// such tip.
 #[must_use]
 pub fn clearance(dataset: &Dataset, step: usize, tip: TipId) -> Option<TipClearance> {
-    let step = dataset.steps.get(step).filter(|step| step.partition.boxes().has_cells())?;
-    let crack = step.cracks.get(tip.crack as usize)?;
-    let cell = cell_at(&step.partition.boxes().cell, crack.end_point(tip.end));
-    Some(TipClearance::new(dataset, step, tip, cell))
+    let field = Field::new(dataset, step).ok()?;
+    let crack = field.step.cracks.get(tip.crack as usize)?;
+    let cell = cell_at(&field.step.partition.cells(), crack.end_point(tip.end));
+    Some(clearance_in(dataset, &field, tip, cell))
+}
+
+/// The clearance of a tip in cells of a size; of a mesh without what is outside of it.
+fn clearance_in(dataset: &Dataset, field: &Field<'_>, tip: TipId, cell: f64) -> TipClearance {
+    let clear = TipClearance::new(dataset, field.step, tip, cell);
+    if field.step.partition.mesh().is_none() {
+        return clear;
+    }
+    let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
+    let radius = border_distance(field, at, clear.radius);
+    if radius < clear.radius { TipClearance { radius, end: Obstacle::Border } } else { clear }
 }
 
 /// The stress intensity factors at one tip by the discs inside a circle around it: the preferred
@@ -251,7 +265,9 @@ pub fn on_circle(
     problem: Option<&Problem>,
     watcher: &dyn Watcher,
 ) -> Result<TipIntensity, CircleError> {
-    Field::new(dataset, step)?.on_cells(FACTORS_OF)?;
+    let (dataset, step) = with_cells(dataset, step);
+    let dataset = &*dataset;
+    Field::new(dataset, step)?;
     let clear = clearance(dataset, step, tip).ok_or(CircleError::NoTip)?;
     if !(radius > 0.0 && radius.is_finite()) {
         return Err(CircleError::Radius);
@@ -344,13 +360,13 @@ fn cell_at(cells: &[Rect], at: Vec2) -> f64 {
 impl TipOutcome {
     fn new(
         dataset: &Dataset,
-        space: &Space<'_>,
+        field: &Field<'_>,
         (tip, symmetry): (TipId, Option<Symmetry>),
     ) -> Self {
-        let at = space.step().cracks[tip.crack as usize].end_point(tip.end);
-        let cell = cell_at(&space.partition().cell, at);
+        let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
+        let cell = cell_at(&field.step.partition.cells(), at);
         let clearance = if is_half_known(dataset, at, symmetry) {
-            TipClearance::new(dataset, space.step(), tip, cell)
+            clearance_in(dataset, field, tip, cell)
         } else {
             TipClearance::NONE
         };

@@ -42,7 +42,7 @@ pub(crate) fn sensitivities<'a>(
         Interaction::new(field, space, outcome.tip, radii, loads)
     };
     let outcomes =
-        tips(&field.step.cracks).map(|tip| TipOutcome::new(dataset, space, (tip, symmetry(tip))));
+        tips(&field.step.cracks).map(|tip| TipOutcome::new(dataset, field, (tip, symmetry(tip))));
     outcomes.filter(TipOutcome::has_room).filter_map(of_tip).map(Sensitivity).collect()
 }
 

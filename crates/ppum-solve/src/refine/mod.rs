@@ -11,6 +11,7 @@
 //! - No patch is crossed twice by the rim of a polygon, down to a part of its size: it has no
 //!   functions of their own for the two sides. Cracks may cross it and each other as they like, up
 //!   to what [`Jumps`] can look at.
+//! - Patches at forces reach no farther than the fields of these ([`ForceField`]).
 //! - Three cells lie across what is left between a hole and its neighbours.
 //!
 //! Enrichment does the rest at tips, and at corners that turn inwards between free sides: grading
@@ -23,6 +24,7 @@ mod ligament;
 mod rim;
 
 use crate::corner::corners;
+use crate::forces::{ForceField, force_fields};
 use crate::geometry::{
     AMPLE_CLEARANCE, Jumps, Placed, TipClearance, around, bent_part, exceeds, interface_distance,
     rim_crossings, runs_of_rim, wider,
@@ -153,6 +155,7 @@ pub(crate) fn cover(
     let rims = Rims::new(problem);
     let bounds = &problem.domain.bounds;
     let jumps = Jumps::new(&problem.cracks, &problem.domain, touch(bounds));
+    let forces = force_fields(problem);
     let must = |cell: &Rect| {
         let patch = patch_of(cell, problem);
         needs.asks(cell, &patch)
@@ -171,7 +174,11 @@ pub(crate) fn cover(
         // who is to stop asks for nothing
         let asks = |cell: Rect, level: u8| {
             let goes_on = stage.advance(0).is_ok();
-            goes_on && (must(&cell) || affordable && wishes.asks(&cell, level))
+            let of_force = |force: &ForceField| !force.fits_in(&patch_of(&cell, problem), bounds);
+            goes_on
+                && (must(&cell)
+                    || forces.iter().any(of_force)
+                    || affordable && wishes.asks(&cell, level))
         };
         let divided = cover.refine(asks)?;
         stage.advance(0)?;

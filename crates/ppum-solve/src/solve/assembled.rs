@@ -2,7 +2,6 @@
 
 use super::SolveError;
 use super::clock::Clock;
-use super::contact::check_pieces;
 use super::discretised::Discretised;
 use crate::assembly::{
     Assembly, Duals, FaceContacts, FreeModes, Functionals, Gauge, System, slivers, values_at,
@@ -63,7 +62,6 @@ impl Assembled {
         let gauge = gauge.with_supports(&problem.supports, &conditions, &values);
         clock.lap(Phase::Assembly);
         let tips = tips.iter().map(Sensitivity::tip).collect();
-        check_pieces(problem, &plate, &gauge)?;
         Ok(Self { plate, basis, system, gauge, contacts, tips })
     }
 }

@@ -6,12 +6,14 @@
 //! from any start; it is the end as well if two fields differ by rounding alone. With friction this
 //! is done with known bounds μ p, and then again with those of the field that was found, until that
 //! stays: a fixed point by contraction, unless μ is large. All systems are symmetric.
+//!
+//! Pieces that only faces hold are loose in systems in which too few of these touch. So a soft
+//! spring keeps them where the last field has them (Rockafellar's proximal point method, 1976),
+//! which does nothing at the end.
 
 use super::SolveError;
-use crate::assembly::{FaceContacts, FaceStress, Gauge, System};
-use crate::equilibrium::Plate;
+use crate::assembly::{FaceContacts, FaceState, FaceStress, Gauge, System};
 use crate::linear::{BlockMatrix, Cholesky, LinearError, LinearSolver as _};
-use crate::problem::Problem;
 use crate::watched::Stage;
 
 /// Most factors that are made, and most fields that are looked at, before the states must have
@@ -36,6 +38,7 @@ const FLAT: f64 = 1e-8;
 /// A system that cannot be solved, states that do not settle; cancelled.
 pub(super) fn close(
     contacts: &FaceContacts,
+    gauge: &Gauge,
     System { matrix, load, .. }: &mut System,
     located: &dyn Fn(LinearError) -> SolveError,
     stage: &Stage<'_>,
@@ -44,13 +47,22 @@ pub(super) fn close(
         stage.advance(0)?;
         Cholesky::owned(matrix).map_err(located)
     };
-    let open = factor(matrix.clone())?.solve(load).map_err(located)?.unknowns;
-    if contacts.is_open(&contacts.stresses(matrix, &open)) {
-        return Ok(0);
+    let spring = gauge.spring(matrix);
+    if spring.is_empty() {
+        let open = factor(matrix.clone())?.solve(load).map_err(located)?.unknowns;
+        if contacts.is_open(&contacts.stresses(matrix, &open)) {
+            return Ok(0);
+        }
     }
+    let system = |states: &[FaceState], matrix: &BlockMatrix, load: &[f64], field: &[f64]| {
+        let (mut tangent, mut loads) = contacts.system(states, matrix, load);
+        spring.add_to(&mut tangent);
+        spring.add_load(matrix, field, &mut loads);
+        (tangent, loads)
+    };
     // faces that hold together have pressures of the size that they will have
     let mut states = contacts.tied();
-    let (tangent, loads) = contacts.system(&states, matrix, load);
+    let (tangent, loads) = system(&states, matrix, load, &vec![0.0; load.len()]);
     let mut solver = factor(tangent)?;
     let mut field = solver.solve(&loads).map_err(located)?.unknowns;
     let mut intervals = contacts.intervals(&contacts.stresses(matrix, &field));
@@ -58,7 +70,7 @@ pub(super) fn close(
     for _ in 0..MOST_FIELDS {
         let stresses = contacts.stresses(matrix, &field);
         let before = std::mem::replace(&mut states, FaceContacts::states(&stresses, &intervals));
-        let (tangent, loads) = contacts.system(&states, matrix, load);
+        let (tangent, loads) = system(&states, matrix, load, &field);
         let is_known = before.iter().zip(&states).all(|(a, b)| a.is_tied() == b.is_tied());
         if !is_known && factors == MOST_FACTORS {
             break;
@@ -73,7 +85,7 @@ pub(super) fn close(
         if line.is_short() {
             let renewed = contacts.intervals(&stresses);
             if is_renewed || renewed == intervals {
-                (*matrix, *load) = (tangent, loads);
+                (*matrix, *load) = contacts.system(&states, matrix, load);
                 return Ok(factors);
             }
             (intervals, is_renewed) = (renewed, true);
@@ -138,14 +150,4 @@ impl<'a> DescentLine<'a> {
         };
         (0..HALVINGS).fold([0.0, 1.0], halve)[1]
     }
-}
-
-/// Refuses cracks whose faces may touch and that cut off pieces of the plate that may move.
-pub(super) fn check_pieces(
-    problem: &Problem,
-    plate: &Plate,
-    gauge: &Gauge,
-) -> Result<(), SolveError> {
-    let is_loose = gauge.len() > 0 && plate.pieces.all().len() > 1;
-    if is_loose && !problem.contacts.is_empty() { Err(SolveError::LoosePiece) } else { Ok(()) }
 }

@@ -47,7 +47,9 @@ impl<'p> Discretised<'p> {
         if let Some(field) =
             force_fields(problem).iter().find(|field| !field.fits(space.partition(), bounds))
         {
-            return Err(SpaceError::Force { at: field.at(), reach: field.reach }.into());
+            let (at, reach) = (field.at(), field.reach);
+            let is_refined = problem.discretization.refine;
+            return Err(SpaceError::Force { at, reach, is_refined }.into());
         }
         Ok(Self { problem, mesh, dataset, space, heat, crossed_twice })
     }
@@ -65,7 +67,7 @@ impl<'p> Discretised<'p> {
         let stage = Stage::uncounted(watcher, Phase::Basis)?;
         let given = Given::new(problem, space, &stage).map_err(SolveError::of_data)?;
         let balances = given.balance(space, &pieces, &stage).map_err(SolveError::of_data)?;
-        let plate = Plate::new(pieces, balances)?;
+        let plate = Plate::new(pieces, balances, problem)?;
         plate.conditions(&problem.supports)?;
         Ok((given, plate))
     }

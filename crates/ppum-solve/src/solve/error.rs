@@ -94,12 +94,6 @@ pub enum SolveError {
         /// Systems solved.
         factors: usize,
     },
-    /// A crack whose faces may touch cuts off a piece that nothing holds.
-    #[error(
-        "a crack with `contact = true` cuts off a piece of the plate that nothing else holds, so that its place is not \
-         known; hold each piece by displacements, or let the crack end inside the plate"
-    )]
-    LoosePiece,
     /// The watcher cancelled the work.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

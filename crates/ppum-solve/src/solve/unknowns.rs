@@ -58,7 +58,7 @@ impl Unknowns {
             LinearKind::Direct => {
                 gauge.add_penalty(&mut system.matrix);
                 if !contacts.is_empty() {
-                    contact_steps = Some(close(contacts, system, &located, &stage)?);
+                    contact_steps = Some(close(contacts, gauge, system, &located, &stage)?);
                 }
                 Box::new(Cholesky::new(&system.matrix).map_err(located)?)
             }

@@ -26,14 +26,20 @@ pub enum SpaceError {
     /// A force beside what its field cannot go on beyond.
     #[error(
         "the force at [{}, {}] is too near to a border, a crack or a tip for the cells there: patches may reach {} \
-         from it, but reach farther; divide the cells by [[refine]] with this point",
-        trimmed(at.x), trimmed(at.y), trimmed(*reach)
+         from it, but reach farther; {}",
+        trimmed(at.x), trimmed(at.y), trimmed(*reach),
+        match is_refined {
+            true => "move it away from there",
+            false => "leave out `refine = false`, or divide the cells there by [[refine]]",
+        }
     )]
     Force {
         /// The point.
         at: Vec2,
         /// The distance that patches may reach.
         reach: f64,
+        /// True if cells were divided as far as they may be.
+        is_refined: bool,
     },
     /// The watcher wanted the work to stop.
     #[error(transparent)]

@@ -120,6 +120,8 @@ impl<'d> Space<'d> {
         let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
         let smoothness = match heat.map(|(heat, body)| (joined(&step, heat), body)) {
             Some((both, body)) => Smoothness::new(&both, &both.fields[0], body, tables)?,
+            // elements are integrated by their own coordinates
+            None if step.partition.mesh().is_some() => Smoothness::default(),
             None => Smoothness::new(&step, data, equation, tables)?,
         };
         Ok(Self {
@@ -300,6 +302,9 @@ fn coverers(partition: &BoxPartition) -> Vec<Vec<u32>> {
 /// The numbers of Gauss points that polynomials of a degree and the partition's weights need.
 fn orders(partition: &BoxPartition, degree: usize) -> Orders {
     let BoxPartition { weight, half, cell, .. } = partition;
+    if half.is_empty() {
+        return Orders::uniform(degree + 1);
+    }
     let value = |xi: f64| {
         let [value, slope, _] = weight.spline(xi);
         [value, slope]
@@ -318,10 +323,7 @@ fn shifts(step: &Step, data: &FieldData) -> Vec<f64> {
         .kind
     {
         FunctionKind::Side { crack } => {
-            let seen = LocalCrack::new(
-                &step.cracks[*crack as usize],
-                step.partition.boxes().center[patch],
-            );
+            let seen = LocalCrack::new(&step.cracks[*crack as usize], step.partition.center(patch));
             seen.side([0.0, 0.0], Side::Above)
         }
         _ => 0.0,

@@ -8,6 +8,7 @@ use ppum_solve::diagnostics::{kind, recompute};
 use ppum_solve::growth::series;
 use ppum_solve::problem::{
     BorderPart, Cells, Condition, Discretization, Edge, GrowthRule, Order, Problem, SolverKind,
+    Support,
 };
 use ppum_solve::report::forget_times;
 use ppum_solve::solve::{SolveError, solve};
@@ -342,8 +343,104 @@ fn contact_that_cannot_be() {
         let error = problem.check().expect_err("a mistake").to_string();
         assert!(error.contains(words), "{error}");
     }
-    let along = Stress { xx: -1.0, yy: 0.0, xy: 0.0 };
-    let cut = plate(1.0, 8, &[vec![[-1.0, 0.0], [1.0, 0.0]]], along);
-    let error = solve(&touching(cut, 0.0), unwatched()).expect_err("pieces that are loose");
-    assert!(matches!(error, SolveError::LoosePiece), "{error}");
+}
+
+/// The part of a line through a point that lies in the plate [−1, 1]².
+fn cut(degrees: f64, [x, y]: [f64; 2]) -> Line {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let end = |sign: f64| {
+        let room =
+            |d: f64, at: f64| if d == 0.0 { f64::INFINITY } else { ((d.signum() - at) / d).abs() };
+        let t = room(sign * cos, x).min(room(sign * sin, y));
+        [x + sign * t * cos, y + sign * t * sin].map(|c| c.clamp(-1.0, 1.0))
+    };
+    vec![end(-1.0), end(1.0)]
+}
+
+/// Pieces that nothing but others holds stand under pressure from all sides with no friction, under
+/// any stress whose shear friction carries, and where nothing presses: as the whole body.
+#[test]
+fn pieces_hold_each_other_where_they_touch() {
+    let mut random = Random(4);
+    let mut through = || [random.between(-0.2, 0.2), random.between(-0.2, 0.2)];
+    let mut cases = vec![
+        (vec![cut(0.0, through())], PRESSED_ALONG_Y, 0.0),
+        (vec![cut(0.0, through())], Stress { xx: -1.0, yy: 0.0, xy: 0.0 }, 0.0),
+        (vec![cut(30.0, through()), cut(110.0, through())], PRESSURE, 0.0),
+        (vec![cut(0.0, [0.0, -0.4]), cut(0.0, [0.0, 0.3])], PRESSED_ALONG_Y, 0.0),
+        (vec![vec![[-1.0, 0.1], [-0.2, 0.3], [0.3, -0.2], [1.0, 0.0]]], PRESSURE, 0.0),
+    ];
+    for degrees in [-35.0, -12.0, 5.0, 20.0, 35.0] {
+        cases.push((vec![cut(degrees, through())], PRESSURE, 0.0));
+        cases.push((vec![cut(degrees, through())], PRESSED_ALONG_Y, 0.8));
+        let slanted = Stress { xx: -0.7, yy: -1.0, xy: 0.1 };
+        cases.push((vec![cut(degrees + 90.0, through())], slanted, 0.8));
+    }
+    for (cracks, stress, friction) in cases {
+        let dataset = solved(&touching(plate(1.0, 9, &cracks, stress), friction));
+        let found = difference(&dataset, stress);
+        assert!(found < AT_A_POINT, "{cracks:?}, {stress:?}, {friction}: {found:e}");
+        let step = &dataset.steps[0];
+        assert!(record(step, "overlap of faces") < AT_A_POINT, "{cracks:?}");
+        if stress.yy < 0.0 {
+            assert!((record(step, "closed faces") - 1.0).abs() < 1e-9, "{cracks:?}");
+        }
+    }
+}
+
+/// Pressed along y, faces at an angle β slide unless μ > tan β: the error names a piece and the
+/// force that moves it, at the angle of friction to the faces but for what turns it. Tension takes
+/// pieces apart.
+#[test]
+fn pieces_that_slide_away_are_told() {
+    for (degrees, stress, friction) in [
+        (20.0, PRESSED_ALONG_Y, 0.0),
+        (-20.0, PRESSED_ALONG_Y, 0.3),
+        (35.0, PRESSED_ALONG_Y, 0.69),
+        (0.0, PRESSED_ALONG_Y.times(-1.0), 0.5),
+    ] {
+        let problem = touching(plate(1.0, 9, &[cut(degrees, [0.0, 0.0])], stress), friction);
+        let error = solve(&problem, unwatched()).expect_err("a piece that moves");
+        let SolveError::Unbalanced(told) = error else { panic!("{error}") };
+        assert_eq!(told.friction, Some(friction));
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let inside = told.piece.expect("a piece");
+        let is_above = inside.y * cos > inside.x * sin;
+        // what moves goes along the faces, or off them
+        let (along, off) = (vec2(cos, sin), vec2(-sin, cos) * if is_above { 1.0 } else { -1.0 });
+        let force = told.force.unit();
+        let turned = (off.dot(force)).atan2(along.dot(force).abs());
+        let expected = if stress.yy > 0.0 { PI / 2.0 } else { friction.atan() };
+        assert!((turned - expected).abs() < 0.06, "{degrees}, {friction}: {told}");
+        assert!(stress.yy > 0.0 || force.x * degrees > 0.0, "{degrees}, {friction}: {told}");
+        let text = told.to_string();
+        assert!(text.contains("slides or falls away") && text.contains("[[boundary]]"), "{text}");
+    }
+}
+
+/// Supports fix the motions that faces leave, and each of them only once.
+#[test]
+fn supports_of_pieces_that_touch() {
+    let pressed = |supports: &[Support]| {
+        let mut problem = touching(plate(1.0, 9, &[cut(0.0, [0.0, 0.1])], PRESSED_ALONG_Y), 0.0);
+        problem.supports = supports.to_vec();
+        problem
+    };
+    let at = |x: f64, y: f64, displacement: [Option<f64>; 2]| Support {
+        displacement,
+        ..Support::new(vec2(x, y))
+    };
+    let whole = [at(-1.0, -1.0, [Some(0.0); 2]), at(1.0, -1.0, [None, Some(0.0)])];
+    let slides = at(0.0, 0.6, [Some(0.25), None]);
+    let dataset = solved(&pressed(&[whole[0], whole[1], slides]));
+    assert!(difference(&dataset, PRESSED_ALONG_Y) < AT_A_POINT);
+    for (name, at, expected) in
+        [("ux", vec2(0.0, 0.6), 0.25), ("ux", vec2(-1.0, -1.0), 0.0), ("uy", vec2(1.0, -1.0), 0.0)]
+    {
+        assert!((quantity(&dataset, name, at) - expected).abs() < 1e-10, "{name}");
+    }
+    let error =
+        solve(&pressed(&[whole[0], whole[1], at(0.0, 0.6, [None, Some(0.0)])]), unwatched());
+    let error = error.expect_err("the faces hold this");
+    assert!(matches!(error, SolveError::Support(_)), "{error}");
 }

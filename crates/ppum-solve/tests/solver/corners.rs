@@ -8,6 +8,7 @@ use crate::studies::support::parsed;
 use ppum::crack::End;
 use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
+use ppum::vec2::vec2;
 use ppum_solve::problem::Problem;
 use ppum_solve::solve::{Plan, solve};
 use ppum_solve::space::discretise;
@@ -227,6 +228,42 @@ fn ligaments_beside_round_holes_are_resolved() {
     // 0.15 left on one side, 0.19 on another: 0.6 and 0.76 of a cell of the base cover
     let ligaments = "[[hole]]\ncenter = [-0.4, 0.36]\nradius = 0.45\n";
     assert_near(&solved(&format!("{PULLED}{ligaments}")), 4.33068214, &[]);
+}
+
+/// Where loads begin and end on arcs, on the sides of polygons and on faces, by pieces or by a
+/// formula, cells are as small as at the ends of loads on edges, and nothing is warned of.
+#[test]
+fn ends_of_loads_are_refined_on_rims() {
+    let material = "[material]\nyoung = 1\npoisson = 0.25\nstate = \"plane-stress\"\n";
+    let arc = |from: i32, to: i32, name: &str| {
+        format!("{{ arc = {{ center = [0, 0], radius = 1, from = {from}, to = {to} }}{name} }}")
+    };
+    let head = ", name = \"head\"";
+    let pieces = [arc(87, 93, head), arc(93, 267, ""), arc(267, 273, head), arc(-87, 87, "")];
+    let disc = format!("[domain.outline]\npath = [{}]\n{material}", pieces.join(", "));
+    let square = format!("[domain]\nmin = [-1, -1]\nmax = [1, 1]\n{material}");
+    let hole = format!(
+        "{square}[[hole]]\npoints = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]]\n"
+    );
+    let circle = format!("{square}[[hole]]\ncenter = [0, 0]\nradius = 0.5\n");
+    let crack = format!("{square}[[crack]]\npoints = [[-0.6, 0], [0.6, 0]]\n");
+    let (sin, cos) = f64::to_radians(87.0).sin_cos();
+    let at_0_1 = "pressure = \"if(abs(x) < 0.1, 1, 0)\"";
+    for (body, on, given, place) in [
+        (&disc, "{ piece = \"head\" }", "pressure = 1", vec2(cos, sin)),
+        (&hole, "{ hole = 0 }", at_0_1, vec2(0.1, 0.5)),
+        (&circle, "{ hole = 0 }", at_0_1, vec2(-0.1, 0.24f64.sqrt())),
+        (&crack, "{ crack = 0 }", at_0_1, vec2(0.1, 0.0)),
+    ] {
+        let text = format!("{body}[[boundary]]\non = {on}\n{given}\n[discretization]\nlevel = 3\n");
+        let dataset = crate::studies::support::solved(&parsed(&text));
+        let cells = &dataset.steps[0].partition.boxes().cell;
+        let there = cells.iter().filter(|cell| cell.distance(place) < 1e-6);
+        let size = there.map(|cell| cell.size().x).fold(0.0, f64::max);
+        assert!(size > 0.0 && size < 0.02, "{on}: {size}");
+        let told = dataset.steps[0].warnings.iter().find(|w| w.kind == "singular-point");
+        assert!(told.is_none(), "{on}: {told:?}");
+    }
 }
 
 /// A warning tells what cells that may not be refined miss, and where: within a factor of four.

@@ -12,6 +12,7 @@ mod examples;
 mod exchange;
 mod faces;
 mod forces;
+mod foreign;
 mod formulas;
 mod goal;
 mod graded;

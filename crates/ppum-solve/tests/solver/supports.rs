@@ -110,8 +110,8 @@ fn supports_that_would_take_forces_are_refused() {
     for (rest, expected) in [
         (
             hold + &support(vec2(0.5, 0.5), all),
-            "the support at [0.5, 0.5] would take a force: what is given on the border keeps the body from moving in \
-             x there; make this component \"free\", or leave the [[support]] out",
+            "the support at [0.5, 0.5] would take a force: what is given on the border, or a face that touches, keeps \
+             the body from moving in x there; make this component \"free\", or leave the [[support]] out",
         ),
         (
             support(vec2(0.5, 0.5), all) + &support(vec2(0.5, -0.5), all),
@@ -125,4 +125,6 @@ fn supports_that_would_take_forces_are_refused() {
     let unbalanced = "[body_force]\nvalue = [0, -1]\n".to_owned() + &support(Vec2::ZERO, all);
     let error = solve(&parsed(&body(&unbalanced)), unwatched()).expect_err("a force").to_string();
     assert!(error.contains("a force of (0, -4)"), "{error}");
+    assert!(error.contains("a [[support]] takes no force"), "{error}");
+    assert!(error.contains("by [[boundary]], or balance the loads"), "{error}");
 }

@@ -62,7 +62,8 @@ fn choices(field: &Field<'_>) -> Vec<Choice> {
     let mut all: Vec<Choice> = named.chain(usable).chain([phi]).collect();
     let of_cells = cells::names(field).into_iter().map(|name| {
         let is_taken = all.iter().any(|choice| choice.value == name);
-        let about = format!("{}, of each cell", cells::label(&name));
+        let of = if cells::exist(field) { "cell" } else { "patch" };
+        let about = format!("{}, of each {of}", cells::label(&name));
         let value = if is_taken { format!("{OF_PATCHES}{name}") } else { name };
         Choice { value, about, group: "Values of cells" }
     });

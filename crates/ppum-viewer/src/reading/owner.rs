@@ -68,12 +68,8 @@ impl Owner {
             }
             None if partition.boxes().has_cells() => in_cell(field, point, patches),
             None => {
-                let mut phi = |patch: u32| {
-                    local.partition_function::<0>(patch as usize, offset).map_or(0.0, |jet| jet.v)
-                };
-                let all: Vec<_> = patches.iter().map(|&patch| (phi(patch), patch)).collect();
-                let largest = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-                largest.map(|(_, patch)| Self::Box { patch })
+                let patch = local.owner(offset, Side::Above)?;
+                Some(Self::Box { patch: patch as u32 })
             }
         }
     }

@@ -116,10 +116,23 @@ impl<'f> LocalField<'f> {
         true
     }
 
-    /// The patch of the element that owns a point; `None` outside, and of boxes.
+    /// The patch of the element that owns a point, or of boxes the one whose φ is largest there,
+    /// the first of several; `None` outside.
     #[must_use]
     pub fn owner(&self, offset: Vec2, side: Side) -> Option<usize> {
-        Some(self.mesh.as_ref()?.owner(offset, side)?.patch)
+        if let Some(mesh) = &self.mesh {
+            return Some(mesh.owner(offset, side)?.patch);
+        }
+        if !self.domain.contains(offset) {
+            return None;
+        }
+        let mut patches = Vec::new();
+        self.field.tree.query_point(self.anchor + offset, &mut patches);
+        patches.sort_unstable();
+        let weight =
+            |patch: u32| self.partition_weight::<f64, 0>(patch as usize, [offset.x, offset.y]).v;
+        let all = patches.into_iter().map(|patch| (weight(patch), patch as usize));
+        all.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, patch)| patch)
     }
 
     /// The field on one patch of a mesh; none of boxes, and of patches that there are not.

@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 
 use super::evaluate::At;
-use super::local::{LocalMesh, Seen};
+use super::local::{LocalMesh, Location, Seen};
 use super::map::Map;
 use crate::compensated::Pair;
 use crate::crack::Side;
@@ -102,6 +102,14 @@ impl<'m, 'f> ElementField<'m, 'f> {
         let at = At { delta: delta.into(), offset: offset.into(), side };
         let out = &mut out[..self.mesh.field.components()];
         self.mesh.evaluate_at::<f64, D>((self.seen, &self.map), self.functions, &at, out);
+    }
+
+    /// True if the clips of the patch hold at a coordinate; where a level field is zero, if they do
+    /// on the given side.
+    #[must_use]
+    pub fn is_kept(&self, delta: Vec2, side: Side) -> bool {
+        let (patch, near) = self.seen;
+        self.mesh.is_kept(&Location { patch, delta: delta.into(), near }, side)
     }
 
     /// The value of a level field of the step, by its index.

@@ -173,6 +173,29 @@ impl BodyPieces {
     }
 }
 
+/// An edge along a crack, with the pieces above and below it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SharedEdge {
+    pub(super) ends: [Vec2; 2],
+    pub(super) pieces: [usize; 2],
+}
+
+impl BodyPieces {
+    /// The edges along a crack that different pieces share, in its direction.
+    pub(super) fn shared_edges(&self, crack: usize) -> Vec<SharedEdge> {
+        let Some(PieceMap { mesh, piece_of, along }) = self.map() else { return Vec::new() };
+        let shared = |&[from, to]: &[FixedVertexHandle; 2]| {
+            let edge = mesh.get_edge_from_neighbors(from, to)?;
+            let [above, below] = [edge, edge.rev()]
+                .map(|edge| edge.face().as_inner().and_then(|triangle| piece_of[index(&triangle)]));
+            let ends = [from, to].map(|v| from_unit(&self.bounds, mesh.vertex(v).position()));
+            let pieces = [above?, below?];
+            (pieces[0] != pieces[1]).then_some(SharedEdge { ends, pieces })
+        };
+        along[crack].iter().flatten().filter_map(shared).collect()
+    }
+}
+
 impl BodyPiece {
     fn of_box(bounds: &Rect) -> Self {
         let center = bounds.center();

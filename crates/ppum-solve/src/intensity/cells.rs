@@ -1,0 +1,55 @@
+//! Cells to integrate over, for covers that come from none.
+
+use ppum::box_tree::BoxTree;
+use ppum::cover::{Cover, CoverError};
+use ppum::dataset::{BoxPartition, Dataset, Partition};
+use ppum::vec2::{Rect, Vec2};
+use std::borrow::Cow;
+
+/// Size of the cells in supports of the patches there.
+const PART: f64 = 0.75;
+
+/// Most divisions of a cell, and cells for each patch.
+const DEEPEST: u8 = 16;
+const MOST: usize = 16;
+
+/// A dataset with the step, and its number there, with cells to integrate over if its patches are
+/// boxes that have none. They are not those of the patches: nothing else may look at them.
+pub(crate) fn with_cells(dataset: &Dataset, step: usize) -> (Cow<'_, Dataset>, usize) {
+    let boxes = dataset.steps.get(step).map(|step| &step.partition);
+    let Some(Partition::Boxes(boxes)) = boxes.filter(|boxes| !boxes.is_empty()) else {
+        return (Cow::Borrowed(dataset), step);
+    };
+    if boxes.has_cells() {
+        return (Cow::Borrowed(dataset), step);
+    }
+    let cell = cells(boxes, dataset.domain.bounds).unwrap_or(vec![dataset.domain.bounds]);
+    let mut copy = dataset.clone();
+    copy.steps = vec![dataset.steps[step].clone()];
+    copy.steps[0].partition = BoxPartition { cell, ..boxes.clone() }.into();
+    (Cow::Owned(copy), 0)
+}
+
+/// Cells that tile the domain and are a little smaller than the patches that they meet.
+fn cells(boxes: &BoxPartition, domain: Rect) -> Result<Vec<Rect>, CoverError> {
+    let supports: Vec<Rect> = (0..boxes.len()).map(|patch| boxes.support(patch)).collect();
+    let (tree, size) = (BoxTree::new(&supports), domain.size());
+    let shorter = size.x.min(size.y);
+    let roots = [size.x, size.y].map(|side| (side / shorter).round().clamp(1.0, 1024.0) as u32);
+    let mut cover = Cover::grid(domain, roots)?;
+    let mut near = Vec::new();
+    for _ in 0..DEEPEST {
+        let divided = cover.refine(|cell, _| {
+            near.clear();
+            tree.query_box(&cell, &mut near);
+            near.iter().any(|&patch| {
+                let Vec2 { x, y } = supports[patch as usize].size() * PART;
+                cell.size().x > x || cell.size().y > y
+            })
+        })?;
+        if divided == 0 || cover.n_cells() > MOST * boxes.len() {
+            break;
+        }
+    }
+    Ok(cover.cells().into_iter().map(|(cell, _)| cell).collect())
+}
