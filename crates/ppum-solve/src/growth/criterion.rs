@@ -10,10 +10,18 @@
 //! 29, 465). Of the criteria one asks for k_II = 0, one for the largest k_I² + k_II², and one looks
 //! at the stress before the kink only. They agree where K_II = 0, and so on the smooth part of
 //! every path.
+//!
+//! An increment of the length a adds G_I(θ) T √a and G_II(θ) T √a to the factors. With
+//! G_II ≈ −√(8/π) θ this is Cotterell & Rice's (1980, Int. J. Fract. 16, 155) result for small
+//! turns: where T < 0 an increment that turns by θ = −2 K_II / K_I ends with
+//! K_II = −½ c θ K_I, c = 2 √(8a/π) |T| / K_I. The next one would turn back by −c θ, so that paths
+//! swing, with growing angles if c > 1.32: the history of turns, whose memory is
+//! √(n + 1) − √n, stands in their recursion. [`Drive::ahead`] turns by θ / (1 + c) instead, for
+//! which K_II at the end of the increment vanishes.
 
 use crate::problem::Criterion;
 use ppum::dataset::TipIntensity;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_2_PI, PI};
 
 /// The direction of growth and the factor that drives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,20 +42,83 @@ const WIDEST: f64 = 1.4;
 /// Angles are those of the criterion's closed form to the last digits; the functions of kinks that
 /// two of the criteria rest on are right to 1e-5 up to 80°.
 pub fn kink(criterion: Criterion, factors: &TipIntensity) -> Option<Kink> {
-    let hoop = factors.growth_angle()?;
-    let k = [factors.k1.max(0.0), factors.k2];
-    let angle = match criterion {
-        _ if k[1] == 0.0 => 0.0,
-        Criterion::Hoop => hoop,
-        Criterion::LocalSymmetry => root(k[1], |angle| after(angle, k)[1]),
-        Criterion::Energy => root(k[1], |angle| slope_of_release(angle, k)),
-    };
-    let strength = match criterion {
-        Criterion::Hoop => hoop_strength(angle, k),
-        Criterion::LocalSymmetry => after(angle, k)[0],
-        Criterion::Energy => after(angle, k)[0].hypot(after(angle, k)[1]),
-    };
-    Some(Kink { angle, strength })
+    Drive::new(criterion, factors).map(|drive| drive.kink)
+}
+
+/// What drives a tip, and where to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drive {
+    criterion: Criterion,
+    /// K_I, which is not negative, and K_II.
+    k: [f64; 2],
+    /// T where it is negative, so that it turns the crack back; else zero.
+    t_stress: f64,
+    /// The kink of a vanishing increment.
+    pub(super) kink: Kink,
+}
+
+/// The turn of an increment: at its start, and then evenly along its arc.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Turn {
+    pub(super) at_start: f64,
+    pub(super) along: f64,
+}
+
+impl Drive {
+    /// What drives a tip with these factors, if anything does.
+    pub(super) fn new(criterion: Criterion, factors: &TipIntensity) -> Option<Self> {
+        let hoop = factors.growth_angle()?;
+        let k = [factors.k1.max(0.0), factors.k2];
+        let angle = match criterion {
+            _ if k[1] == 0.0 => 0.0,
+            Criterion::Hoop => hoop,
+            _ => root(-WIDEST * k[1].signum(), |angle| sliding(criterion, angle, k)),
+        };
+        let strength = match criterion {
+            Criterion::Hoop => hoop_strength(angle, k),
+            Criterion::LocalSymmetry => after(angle, k)[0],
+            Criterion::Energy => after(angle, k)[0].hypot(after(angle, k)[1]),
+        };
+        let t_stress = factors.t_stress.unwrap_or(0.0).min(0.0);
+        Some(Self { criterion, k, t_stress, kink: Kink { angle, strength } })
+    }
+
+    /// The turn of an increment at whose end the criterion goes straight on: along an arc behind
+    /// the kink if it need not turn by more than `most`, and by a smaller kink beyond that. Where T
+    /// is not negative it is the kink alone.
+    pub(super) fn ahead(&self, length: f64, most: f64) -> Turn {
+        let Kink { angle, strength } = self.kink;
+        let stress = self.t_stress * length.sqrt();
+        if stress == 0.0 || angle == 0.0 {
+            return Turn { at_start: angle, along: 0.0 };
+        }
+        // K_II of an arc of the curvature κ: ½ κ a K_I − √(2/π) T ∫ κ s / √(a − s) ds
+        let stiffness = 0.5 * strength - 4.0 / 3.0 * FRAC_2_PI.sqrt() * stress;
+        let at_end = |angle| sliding(self.criterion, angle, self.k) + turned_back(angle) * stress;
+        let along = -turned_back(angle) * stress / stiffness;
+        if along.abs() <= most {
+            return Turn { at_start: angle, along };
+        }
+        let along = most.copysign(along);
+        Turn { at_start: root(angle, |angle| at_end(angle) + along * stiffness), along }
+    }
+}
+
+/// What a criterion wants to vanish, in units of K_II, which it is without a kink.
+fn sliding(criterion: Criterion, angle: f64, k: [f64; 2]) -> f64 {
+    match criterion {
+        Criterion::Hoop => hoop_sliding(angle, k),
+        Criterion::LocalSymmetry => after(angle, k)[1],
+        Criterion::Energy => {
+            let [k1, k2] = after(angle, k);
+            -slope_of_release(angle, k) / k1.hypot(k2)
+        }
+    }
+}
+
+/// √(2πr) σ_rθ at an angle, which vanishes where the hoop stress is largest.
+fn hoop_sliding(angle: f64, [k1, k2]: [f64; 2]) -> f64 {
+    0.5 * (0.5 * angle).cos() * (k1 * angle.sin() + k2 * (3.0 * angle.cos() - 1.0))
 }
 
 /// √(2πr) σ_θθ at an angle.
@@ -68,10 +139,10 @@ fn slope_of_release(angle: f64, [k1, k2]: [f64; 2]) -> f64 {
     each[0] + each[1]
 }
 
-/// The one zero of a function between the direction of the crack and the widest kink, on the side
-/// to which a K_II of this sign turns it: bisection to the last digit.
-fn root(k2: f64, value: impl Fn(f64) -> f64) -> f64 {
-    let (mut near, mut far) = (0.0, -WIDEST * k2.signum());
+/// The one zero of a function between the direction of the crack and an angle: bisection to the
+/// last digit.
+fn root(mut far: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let mut near = 0.0;
     // at the direction of the crack the function may vanish, too
     let sign = -value(far).signum();
     loop {
@@ -140,6 +211,24 @@ fn kinked(angle: f64) -> [[[f64; 2]; 2]; 2] {
     ];
     let m = angle / PI;
     [[even(&f11, m), odd(&f12, m)], [odd(&f21, m), even(&f22, m)]]
+}
+
+/// G_II: K_II that a straight increment of unit length under T = 1 gets beside that of its kink.
+fn turned_back(angle: f64) -> f64 {
+    let root = (2.0 * PI).sqrt();
+    let coefficients = [
+        -2.0 * root,
+        12.0 * root,
+        -59.565_733,
+        61.174_444,
+        -39.902_49,
+        15.622_2,
+        3.034_3,
+        -12.781,
+        9.69,
+        6.62,
+    ];
+    odd(&coefficients, angle / PI)[0]
 }
 
 /// Σ c_k m^2k, and its derivative by the angle.

@@ -1,6 +1,6 @@
 //! What the tips of a solved step do next: who grows, how far, and where to.
 
-use super::criterion::{Kink, kink};
+use super::criterion::{Drive, Turn};
 use super::path::{Arc, way};
 use crate::problem::{GrowthRule, LoadControl, Problem, cracks};
 use ppum::crack::{Crack, End, TipId, tips};
@@ -13,7 +13,7 @@ use ppum::vec2::Vec2;
 const TOGETHER: f64 = 1e-2;
 
 /// Turn in radians from which on a change of direction is a kink, and not a part of a smooth path.
-const SHARP: f64 = 0.1;
+pub(super) const SHARP: f64 = 0.1;
 
 /// Largest turn of an arc: paths that turn faster are not resolved by their increments.
 const LARGEST_TURN: f64 = 0.35;
@@ -26,6 +26,9 @@ const CHOSEN_TURN: f64 = 0.1;
 const CHOSEN: f64 = 0.25;
 const OF_PLATE: f64 = 0.02;
 const LEAST_CHOSEN: f64 = 0.125;
+
+/// Halvings of a chosen first increment, down to the least.
+const HALVINGS: usize = 3;
 
 /// Part of an increment from which on growth that is due is made.
 const DUE: f64 = 0.5;
@@ -43,7 +46,7 @@ struct Driven<'a> {
     at: Vec2,
     /// The angle of the crack's direction to the x axis.
     axis: f64,
-    kink: Option<Kink>,
+    drive: Option<Drive>,
     fate: Fate,
     /// None if none is given: it grows however small K is.
     toughness: Option<f64>,
@@ -135,10 +138,13 @@ fn extend(crack: &mut Crack, row: &Advance) {
 }
 
 /// The factors of a crack whose faces may touch, which has no negative K_I; none if nothing but
-/// their error is left, as where the faces stick.
+/// their error is left, as where the faces stick. Where they are closed T does not act on free
+/// faces: under pressure from all sides it turns nothing.
 fn pressed(factors: &TipIntensity) -> Option<TipIntensity> {
-    let open = TipIntensity { k1: factors.k1.max(0.0), ..factors.clone() };
-    (open.k1.hypot(open.k2) > open.error.unwrap_or(0.0)).then_some(open)
+    let error = factors.error.unwrap_or(0.0);
+    let t_stress = factors.t_stress.filter(|_| factors.k1 > error);
+    let open = TipIntensity { k1: factors.k1.max(0.0), t_stress, ..factors.clone() };
+    (open.k1.hypot(open.k2) > error).then_some(open)
 }
 
 impl<'a> Driven<'a> {
@@ -152,11 +158,11 @@ impl<'a> Driven<'a> {
         let crack = &problem.cracks[tip.crack as usize];
         let (at, along) = (crack.end_point(tip.end), crack.growth_direction(tip.end));
         let factors = factors.iter().find(|found| found.tip == tip);
-        let kink = factors.and_then(|factors| match problem.contacts.get(&tip.crack) {
-            Some(_) => kink(rule.criterion, &pressed(factors)?),
-            None => kink(rule.criterion, factors),
+        let drive = factors.and_then(|factors| match problem.contacts.get(&tip.crack) {
+            Some(_) => Drive::new(rule.criterion, &pressed(factors)?),
+            None => Drive::new(rule.criterion, factors),
         });
-        let fate = match (factors, kink) {
+        let fate = match (factors, drive) {
             (None, _) => Fate::Unknown,
             (_, None) => Fate::Closed,
             _ => Fate::Grows,
@@ -164,7 +170,7 @@ impl<'a> Driven<'a> {
         let toughness = rule.toughness.as_ref().map(|toughness| toughness.value(at));
         let before = before.and_then(|growth| growth.tips.iter().find(|row| row.tip == tip));
         let axis = along.y.atan2(along.x);
-        Self { tip, at, axis, kink, fate, toughness, before, share: 0.0 }
+        Self { tip, at, axis, drive, fate, toughness, before, share: 0.0 }
     }
 
     /// Asks whether the toughness at the tip is one, if there is any.
@@ -175,25 +181,48 @@ impl<'a> Driven<'a> {
     }
 
     fn strength(&self) -> f64 {
-        self.kink.map_or(f64::NAN, |kink| kink.strength)
+        self.drive.map_or(f64::NAN, |drive| drive.kink.strength)
     }
 
-    /// The direction in which the crack goes on.
-    fn direction(&self) -> f64 {
-        turned(0.0, self.axis + self.kink.map_or(0.0, |kink| kink.angle))
+    /// The turn that the criterion asks for without looking ahead.
+    fn angle(&self) -> f64 {
+        self.drive.map_or(0.0, |drive| drive.kink.angle)
+    }
+
+    /// What the tip did after the step before, if it has grown before.
+    fn last(&self) -> Option<&'a Advance> {
+        self.before.filter(|row| row.length > 0.0)
+    }
+
+    /// Direction and curvature of the next increment. The first one kinks in full, and its arc
+    /// turns back; later ones turn less at once, so that errors do not swing.
+    fn heading(&self, length: f64) -> (f64, f64) {
+        let is_first = self.before.is_none_or(|row| row.extension + row.length == 0.0);
+        let most = if is_first { LARGEST_TURN } else { 0.0 };
+        let none = Turn { at_start: 0.0, along: 0.0 };
+        let Turn { at_start, along } = self.drive.map_or(none, |drive| drive.ahead(length, most));
+        let direction = turned(0.0, self.axis + at_start);
+        let bound = LARGEST_TURN / length;
+        (direction, (along / length + self.curvature(direction)).clamp(-bound, bound))
     }
 
     /// The curvature of the path: half of it how the direction has changed along the last
     /// increment, half what it was taken for there. The change alone would answer errors of the
     /// last direction with larger ones of the next, and paths would swing. Behind a kink nothing is
-    /// known of it yet.
-    fn curvature(&self) -> f64 {
-        let is_smooth = self.kink.is_some_and(|kink| kink.angle.abs() < SHARP);
-        let before = self.before.filter(|row| is_smooth && row.length > 0.0);
-        before.map_or(0.0, |row| {
-            let found = turned(row.direction, self.direction()) / row.length;
+    /// known of it yet, and the arc that follows a kink has turned back already.
+    fn curvature(&self, direction: f64) -> f64 {
+        let is_smooth = self.angle().abs() < SHARP;
+        let known = |row: &&Advance| is_smooth && (row.extension > 0.0 || row.curvature == 0.0);
+        self.last().filter(known).map_or(0.0, |row| {
+            let found = turned(row.direction, direction) / row.length;
             0.5 * (found + row.curvature)
         })
+    }
+
+    /// How much the path turns in an increment beyond its first kink.
+    fn turn(&self, length: f64) -> f64 {
+        let at_start = self.last().map_or(0.0, |_| self.angle().abs());
+        at_start + length * self.heading(length).1.abs()
     }
 
     /// What the tip does, if the tip that grows most does so by `increment`.
@@ -218,8 +247,7 @@ impl<'a> Driven<'a> {
             row.fate = Fate::Waits;
             return row;
         }
-        let bound = LARGEST_TURN / row.due;
-        (row.direction, row.curvature) = (self.direction(), self.curvature().clamp(-bound, bound));
+        (row.direction, row.curvature) = self.heading(row.due);
         let length = std::mem::replace(&mut row.due, 0.0);
         go(problem, cracks, length, &mut row);
         row
@@ -299,7 +327,8 @@ fn share(rule: &GrowthRule, driven: &mut [Driven<'_>], load: f64) {
 }
 
 /// The length of the largest increment: the one given, or one that the cracks and the plate allow
-/// and the paths do not turn much on.
+/// and the paths do not turn much on. It follows the turns of the last one by a factor of at most
+/// two, since what a path has turned before acts on it as far as it was long.
 fn increment(problem: &Problem, rule: &GrowthRule, driven: &[Driven<'_>]) -> f64 {
     if let Some(increment) = rule.increment {
         return increment;
@@ -308,9 +337,15 @@ fn increment(problem: &Problem, rule: &GrowthRule, driven: &[Driven<'_>]) -> f64
     let with_tips = problem.cracks.iter().filter(|crack| crack.tips().next().is_some());
     let shortest = with_tips.map(Crack::length).fold(f64::INFINITY, f64::min);
     let largest = (CHOSEN * shortest).min(OF_PLATE * size.x.min(size.y));
-    let growing = driven.iter().filter(|tip| tip.share > 0.0);
-    let sharpest = growing.map(|tip| tip.curvature().abs()).fold(0.0, f64::max);
-    largest.min(CHOSEN_TURN / sharpest).max(LEAST_CHOSEN * largest)
+    let growing = || driven.iter().filter(|tip| tip.share > 0.0);
+    let turn = |length: f64| growing().map(|tip| tip.turn(length)).fold(0.0, f64::max);
+    let halve = |length, _| if turn(length) > CHOSEN_TURN { 0.5 * length } else { length };
+    let last = growing().filter_map(Driven::last).map(|row| row.length).reduce(f64::max);
+    let chosen = match last {
+        Some(last) => last * (CHOSEN_TURN / turn(last)).clamp(0.5, 2.0),
+        None => (0..HALVINGS).fold(largest, halve),
+    };
+    chosen.max(LEAST_CHOSEN * largest).min(largest)
 }
 
 /// Load cycles up to this step: those of the steps before, and those of the last increment of the

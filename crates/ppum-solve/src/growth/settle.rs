@@ -3,9 +3,12 @@
 //! Turning the end of an arc by δ changes K_II there by ½ δ K_I to first order (Cotterell & Rice
 //! 1980), and so the angle θ ≈ −2 K_II / K_I that the criterion asks for by −δ: the curvature
 //! changes by θ over the length of the arc.
+//!
+//! By the other criteria arcs stay as they are, and a path that kinks again behind its first kink
+//! is told.
 
 use super::criterion::kink;
-use super::decision::{bent, grown};
+use super::decision::{SHARP, bent, grown};
 use super::step::{Before, GrowthSeries};
 use crate::problem::Criterion;
 use crate::solve::{Plan, SolveError};
@@ -30,17 +33,18 @@ pub(super) fn settled(
     watcher: &dyn Watcher,
 ) -> Result<(Vec<Crack>, Dataset), SolveError> {
     let cracks = plan.problem().cracks.clone();
-    let (Some(Before { problem: base, growth }), Criterion::LocalSymmetry) =
-        (before, series.rule.criterion)
-    else {
+    let Some(Before { problem: base, growth }) = before else {
         return Ok((cracks, plan.solve(watcher)?));
     };
+    if series.rule.criterion != Criterion::LocalSymmetry {
+        return Ok((cracks, warned(plan.solve(watcher)?, growth, SHARP)));
+    }
     let (mut growth, mut problem) = (growth.clone(), plan.problem().clone());
     let mut tried = plan.attempt(watcher, &|factors| is_settled(&growth, factors))?;
     let mut known = Vec::new();
     for round in 1.. {
         let factors = match tried {
-            Ok(dataset) => return Ok((problem.cracks, warned(dataset, &growth))),
+            Ok(dataset) => return Ok((problem.cracks, warned(dataset, &growth, SYMMETRIC))),
             Err(factors) => factors,
         };
         let found: Vec<_> = angles(&growth, &factors).map(Bend::new).collect();
@@ -51,7 +55,7 @@ pub(super) fn settled(
         let Ok(plan) = series.plan(&bent, watcher) else {
             // what it led to cannot be solved: the arcs stay as they were
             let dataset = Plan::new(&problem, series.memory, watcher)?.solve(watcher)?;
-            return Ok((problem.cracks, warned(dataset, &growth)));
+            return Ok((problem.cracks, warned(dataset, &growth, SYMMETRIC)));
         };
         // arcs that turn as much as they may do not change any more
         let is_last = round == ROUNDS || next == growth;
@@ -62,27 +66,36 @@ pub(super) fn settled(
     unreachable!("the last round takes what it finds")
 }
 
-/// A step with a warning for each arc that is not bent as it should be.
-fn warned(mut dataset: Dataset, growth: &Growth) -> Dataset {
+/// A step with a warning for each arc behind which the path would turn by more than a limit.
+fn warned(mut dataset: Dataset, growth: &Growth, limit: f64) -> Dataset {
     let step = &mut dataset.steps[0];
-    let left = angles(growth, &step.intensities).filter(|(_, angle)| angle.abs() > SYMMETRIC);
-    let left: Vec<_> = left.filter_map(|(row, _)| unsettled(row, &step.intensities)).collect();
+    let left = angles(growth, &step.intensities).filter(|(_, angle)| angle.abs() > limit);
+    let told = |(row, _): (&Advance, f64)| unsettled(row, &step.intensities, limit);
+    let left: Vec<_> = left.filter_map(told).collect();
     step.warnings.extend(left);
     dataset
 }
 
-fn unsettled(row: &Advance, factors: &[TipIntensity]) -> Option<Warning> {
+fn unsettled(row: &Advance, factors: &[TipIntensity], limit: f64) -> Option<Warning> {
     let (factors, &at) = (factors.iter().find(|found| found.tip == row.tip)?, row.path.last()?);
     let ratio = (factors.k2 / factors.k1).abs();
+    let problem = if limit == SYMMETRIC {
+        "the last arc could not be bent until K_II = 0 at its tip"
+    } else {
+        "the increments do not resolve the path, which should not kink again at its tip"
+    };
     let message = format!(
-        "the last arc could not be bent until K_II = 0 at its tip ({}, {}): K_II is {:.1e} of K_I; with smaller \
-         increments paths turn less in each",
+        "{problem} ({}, {}): K_II is {ratio:.1e} of K_I; with smaller increments paths turn less in each",
         trimmed(at.x),
         trimmed(at.y),
-        ratio
     );
-    let (kind, limit) = ("growth".to_owned(), 0.5 * SYMMETRIC);
-    Some(Warning { kind, at: Some(at), value: ratio, limit, message })
+    Some(Warning {
+        kind: "growth".to_owned(),
+        at: Some(at),
+        value: ratio,
+        limit: 0.5 * limit,
+        message,
+    })
 }
 
 /// A curvature and the angle that was found with it.
