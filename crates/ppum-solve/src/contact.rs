@@ -20,10 +20,34 @@ pub(crate) struct ContactLaw {
     pub(crate) size: f64,
 }
 
+/// What acts on a face at a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ContactState {
+    /// The traction on the face.
+    pub(crate) traction: Vec2,
+    /// The opening of faces that are closed, the overlap of others: zero of an exact field.
+    pub(crate) gap: f64,
+}
+
+impl ContactState {
+    /// Of a point with nothing behind it.
+    const OPEN: Self = Self { traction: Vec2::ZERO, gap: 0.0 };
+}
+
 impl ContactLaw {
     /// The tractions at the points of a rule on a face of a crack that may touch; zero on others.
     pub(crate) fn tractions(self, field: &Field<'_>, law: &Law<'_>, rule: &EdgeRule) -> Vec<Vec2> {
-        let Some(face) = rule.face else { return vec![Vec2::ZERO; rule.offsets.len()] };
+        self.states(field, law, rule).into_iter().map(|state| state.traction).collect()
+    }
+
+    /// The same with what the opening should not be.
+    pub(crate) fn states(
+        self,
+        field: &Field<'_>,
+        law: &Law<'_>,
+        rule: &EdgeRule,
+    ) -> Vec<ContactState> {
+        let Some(face) = rule.face else { return vec![ContactState::OPEN; rule.offsets.len()] };
         let local = field.on(face.segment, rule.anchor);
         let [above, below] = [Side::Above, Side::Below].map(|side| {
             let mut jets = vec![Jet::constant(0.0); 2 * rule.offsets.len()];
@@ -33,7 +57,7 @@ impl ContactLaw {
         let points = rule.offsets.iter().zip(&rule.normals);
         let sides = above.chunks_exact(2).zip(below.chunks_exact(2));
         let at = |((&offset, &normal), (above, below)): ((&Vec2, &Vec2), _)| {
-            self.traction(&law.at(rule.anchor + offset), [above, below], face.side, normal)
+            self.state(&law.at(rule.anchor + offset), [above, below], face.side, normal)
         };
         points.zip(sides).map(at).collect()
     }
@@ -54,17 +78,17 @@ impl ContactLaw {
             local.evaluate::<1>(Vec2::ZERO, side, &mut u).then_some(u)
         };
         let (Some(above), Some(below)) = (on(Side::Above), on(Side::Below)) else { return 0.0 };
-        self.traction(&law.at(at), [&above, &below], Side::Below, normal).dot(normal)
+        self.state(&law.at(at), [&above, &below], Side::Below, normal).traction.dot(normal)
     }
 
-    /// The traction on one face with its normal out of the body there, of the fields on both.
-    fn traction(
+    /// The state of one face with its normal out of the body there, of the fields on both.
+    fn state(
         self,
         law: &LawAt,
         [above, below]: [&[Jet<f64>]; 2],
         side: Side,
         normal: Vec2,
-    ) -> Vec2 {
+    ) -> ContactState {
         let flux = |u: &[Jet<f64>]| law.flux(&[0, 1].map(|i| vec2(u[i].x, u[i].y)));
         let [one, other] = [above, below].map(flux);
         let on = |i: usize| {
@@ -76,10 +100,11 @@ impl ContactLaw {
         let stress = traction.dot(normal);
         // false where there are no values
         let is_closed = stress + law.modulus(0) / self.size * opening < 0.0;
-        match () {
+        let traction = match () {
             () if !is_closed => Vec2::ZERO,
             () if self.friction > 0.0 => traction,
             () => normal * stress,
-        }
+        };
+        ContactState { traction, gap: if is_closed { opening } else { opening.min(0.0) } }
     }
 }

@@ -147,6 +147,8 @@ pub enum StopReason {
     Memory,
     /// No cell that is to be improved can be divided, and no order raised.
     Limits,
+    /// The segments that stand for a curved crack err by more than is wanted.
+    Segments,
 }
 
 impl StopReason {
@@ -159,6 +161,7 @@ impl StopReason {
             Self::Unknowns => "max_unknowns",
             Self::Memory => "memory",
             Self::Limits => "limits",
+            Self::Segments => "segments",
         }
     }
 }
@@ -188,7 +191,8 @@ impl TryFrom<f64> for StopReason {
     type Error = f64;
 
     fn try_from(number: f64) -> Result<Self, f64> {
-        let all = [Self::Tolerance, Self::Steps, Self::Unknowns, Self::Memory, Self::Limits];
+        use StopReason::{Limits, Memory, Segments, Steps, Tolerance, Unknowns};
+        let all = [Tolerance, Steps, Unknowns, Memory, Limits, Segments];
         all.into_iter().find(|reason| f64::from(*reason) == number).ok_or(number)
     }
 }

@@ -10,10 +10,10 @@ use crate::studies::support::solved;
 use anyhow::Context as _;
 use ppum_figure::form::PageFormat;
 use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve, plot};
-use ppum_solve::problem::{AdaptKind, Adaptivity, Cells, Order, Problem};
+use ppum_solve::problem::{AdaptKind, Adaptivity, Cells, Problem};
 
-/// Errors of factors below this part are those of the references, which have six digits.
-const KNOWN: f64 = 3e-6;
+/// What `tests/random/estimates.py` writes.
+const ESTIMATES: &str = include_str!("../../../../tests/random/estimates.md");
 
 pub(crate) fn write(page: &mut Page) -> anyhow::Result<()> {
     estimates(page);
@@ -30,30 +30,7 @@ fn spread(mut all: Vec<f64>) -> [f64; 3] {
 
 fn estimates(page: &mut Page) {
     page.add("## Estimated errors of K");
-    page.add(
-        "Effectivity is the estimated error over the error. It is given for every tip of the plates above whose K is known and\n\
-         differs from the reference in the reference's digits, on the coarse and the middle cover.",
-    );
-    page.head(&["p", "tips", "errors", "effectivity: least", "median", "largest"]);
-    for order in 1..=3 {
-        let found: Vec<_> = plates().iter().flat_map(|plate| effectivities(plate, order)).collect();
-        let [least, median, most] = spread(found.iter().map(|(_, e)| *e).collect());
-        let [smallest, _, largest] = spread(found.iter().map(|(error, _)| *error).collect());
-        let errors = format!("{} to {}", error(largest), error(smallest));
-        let numbers = [least, median, most].map(|e| format!("{e:.2}"));
-        page.row(
-            &[vec![order.to_string(), found.len().to_string(), errors], numbers.to_vec()].concat(),
-        );
-    }
-}
-
-/// Relative errors of the tips of a plate on its covers, and effectivities.
-fn effectivities(plate: &Plate, order: usize) -> Vec<(f64, f64)> {
-    let mut plate = plate.clone();
-    plate.problem.discretization.order = Order::Uniform(order);
-    let of_cover = |level: u32| errors_of_factors(&plate, &plate.solve(level).dataset);
-    let all = (0..2).flat_map(of_cover).map(|[size, e, found]| (e / size, found / e));
-    all.filter(|(error, _)| *error > KNOWN).collect()
+    page.add(ESTIMATES.trim_end());
 }
 
 fn accuracies(page: &mut Page) {

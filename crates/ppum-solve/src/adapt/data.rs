@@ -19,6 +19,15 @@ use std::f64::consts::PI;
 /// with no tractions but those of the rounding of places, which have no bound.
 const AT_FORCE: f64 = 1e-6;
 
+/// The squares of what a cell misses.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Unseen {
+    /// Of all data.
+    pub(super) all: f64,
+    /// Of what faces that touch owe each other, which is a part of it.
+    pub(super) contact: f64,
+}
+
 /// The squares of what each cell misses of the data. Advances the stage by their number.
 ///
 /// # Errors
@@ -28,7 +37,7 @@ pub(super) fn unseen_data(
     field: &Field<'_>,
     space: &Space<'_>,
     stage: &Stage<'_>,
-) -> Result<Vec<f64>, Halt> {
+) -> Result<Vec<Unseen>, Halt> {
     let n = space.partition().len();
     let data = DataResidual {
         problem,
@@ -61,17 +70,17 @@ struct DataResidual<'a> {
 }
 
 impl DataResidual<'_> {
-    fn in_cell(&self, cell: usize) -> f64 {
+    fn in_cell(&self, cell: usize) -> Unseen {
         let (rect, order) = (&self.space.partition().cell[cell], self.space.order(cell));
-        let near = self.border.iter().filter(|part| part.may_meet(rect));
-        let on_border = near.map(|part| {
+        let mut unseen = Unseen::default();
+        for part in self.border.iter().filter(|part| part.may_meet(rect)) {
             let coverers = &self.space.coverers[cell];
             let rules = border_rules(self.problem, part.on, &self.quadrature, rect, coverers);
-            rules.iter().map(|rule| self.on_border(part, rule, rect, order)).sum::<f64>()
-        });
-        let on_border: f64 = on_border.sum();
+            rules.iter().for_each(|rule| self.on_border(part, rule, (rect, order), &mut unseen));
+        }
         let inside = if self.has_source { self.of_source(cell, rect, order) } else { 0.0 };
-        on_border + inside + self.of_eigenstrain(cell, rect, order)
+        unseen.all += inside + self.of_eigenstrain(cell, rect, order);
+        unseen
     }
 
     /// ∫ |C ε⁰ − Π C ε⁰|² / C with the best polynomials of a degree below the order p, which the
@@ -108,14 +117,15 @@ impl DataResidual<'_> {
         d * d * unseen(&places, order, &mut values) / self.law.at(rect.center()).modulus(0)
     }
 
-    /// The squares of what the field misses of the tractions and values at the points of a rule.
+    /// Adds the squares of what the field misses of the tractions and values at the points of a
+    /// rule.
     fn on_border(
         &self,
         part: &BorderConditions,
         rule: &EdgeRule,
-        rect: &Rect,
-        order: usize,
-    ) -> f64 {
+        (rect, order): (&Rect, usize),
+        unseen: &mut Unseen,
+    ) {
         let h = rect.size().x.max(rect.size().y);
         let (p, tips) = (order as f64, self.tips(rule));
         let (local, side) = match rule.face {
@@ -123,9 +133,8 @@ impl DataResidual<'_> {
             None => (self.field.at(rule.anchor), Side::Above),
         };
         let contact = rule.face.and_then(|face| self.problem.contacts.get(&face.segment.crack));
-        let between = contact.map(|&friction| {
-            ContactLaw { friction, size: h }.tractions(self.field, &self.law, rule)
-        });
+        let between = contact
+            .map(|&friction| ContactLaw { friction, size: h }.states(self.field, &self.law, rule));
         let mut sum = 0.0;
         for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
             let (mut u, x, n) = ([Jet::constant(0.0); 2], rule.anchor + offset, rule.normals[q]);
@@ -138,7 +147,10 @@ impl DataResidual<'_> {
             let flux = law.flux(&u.map(|jet| vec2(jet.x, jet.y)));
             let (held, axes, mut given) = part.given(self.problem, (x, n), u.map(|u| u.v));
             if let Some(between) = &between {
-                given = between[q].into();
+                let state = between[q];
+                given = state.traction.into();
+                // each face has a half of what is between them
+                sum += 0.5 * weight * law.modulus(0) * (p * p + 1.0) / h * state.gap.powi(2);
             }
             let nearest = |p: f64, place: Vec2| p.min((x - place).length());
             let to_tip = tips.iter().copied().fold(f64::INFINITY, nearest);
@@ -159,7 +171,9 @@ impl DataResidual<'_> {
                     };
             }
         }
-        sum
+        unseen.all += sum;
+        let is_open = between.is_none_or(|states| states.iter().all(|state| state.gap == 0.0));
+        unseen.contact += if is_open { 0.0 } else { sum };
     }
 
     /// The tips of the crack whose face a rule lies on: the tractions of tip functions one by one

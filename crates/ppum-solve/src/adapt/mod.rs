@@ -6,7 +6,7 @@
 //! ∫_{C_j} Σ_i s_i φ_i |ε(u_i) − ε(u)|²_C      the local fields do not agree
 //! (d/(π p))² ∫_{C_j} |f − Π f|² / C           the source has what polynomials do not
 //! h/(2p + 2) ∫_Γ |t − σ(u) n|² / C            the traction on the border is not the one given
-//! (p² + 1)/h ∫_Γ C |u − g|²                   nor is the value
+//! (p² + 1)/h ∫_Γ C |u − g|²                   nor is the value, or the gap of faces that are closed
 //! ```
 //!
 //! None of it is a bound. Fields that are smooth have errors of 0.4 to 1.1 η, those with singular
@@ -40,8 +40,8 @@ pub(crate) struct Estimated {
     pub(crate) energy: f64,
     /// The squares η_j².
     pub(crate) squares: Vec<f64>,
-    /// The parts of the squares that stand for what cells do not see of the data.
-    pub(crate) unseen: Vec<f64>,
+    /// The parts of the squares that stand for what faces that touch owe each other.
+    pub(crate) contact: Vec<f64>,
     /// The products of the disagreements of the field and of all dual fields: a row for each
     /// of them.
     pub(crate) products: Vec<Mat<f64>>,
@@ -60,6 +60,8 @@ pub(crate) fn estimated(
 ) -> Result<Estimated, Halt> {
     let (energy, products) = disagreements(local, stage)?;
     let unseen = unseen_data(problem, field, local.space, stage)?;
-    let squares = products.iter().zip(&unseen).map(|(own, unseen)| own[(0, 0)] + unseen).collect();
-    Ok(Estimated { energy, squares, unseen, products })
+    let squares =
+        products.iter().zip(&unseen).map(|(own, unseen)| own[(0, 0)] + unseen.all).collect();
+    let contact = unseen.iter().map(|unseen| unseen.contact).collect();
+    Ok(Estimated { energy, squares, contact, products })
 }

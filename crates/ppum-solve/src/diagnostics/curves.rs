@@ -1,8 +1,9 @@
-//! T of cracks that are curves to their user, and polylines here.
+//! K and T of cracks that are curves to their user, and polylines here.
 //!
-//! K of a polyline along a curve is that of the curve but for squares of its turns, T is not: a
-//! kink of angle α at the distance s from a tip changes T there by −c α K_II / √s, to first order,
-//! and a curve is the sum of its kinks. What a polyline lacks of it,
+//! K of a polyline with turns α is off by a part of up to 7e-3 α^(3/2), which is added to its
+//! estimated error. T is off by more: a kink of angle α at the distance s from a tip changes T
+//! there by −c α K_II / √s, to first order, and a curve is the sum of its kinks. What a polyline
+//! lacks of it,
 //!
 //! ```text
 //! T_curve − T = −c K_II ( Σ α_k / √s_k − ∫ κ / √s ds )
@@ -19,6 +20,9 @@ use ppum::vec2::Vec2;
 
 /// c, measured on arcs of 16 to 256 segments, some along their tangents and some inscribed, to 2 %.
 const PER_KINK: f64 = 0.66;
+
+/// Error of K over |K| α^(3/2), see docs/decisions/0018.
+const PER_TURN: f64 = 7e-3;
 
 /// Vertices behind a tip that are looked at.
 const VERTICES: usize = 4;
@@ -38,7 +42,7 @@ pub(super) fn of_curve(
     at: &str,
 ) -> Option<Warning> {
     let t = factors.t_stress?;
-    let lacking = -PER_KINK * factors.k2 * unevenness(crack, outcome.tip.end)?;
+    let lacking = -PER_KINK * factors.k2 * TipTurns::new(crack, outcome.tip.end)?.unevenness();
     let part = lacking.abs() * crack.length().sqrt() / factors.k1.hypot(factors.k2);
     let message = format!(
         "tip {at}: if the crack is meant as a curve there, its T is about {}; the one told, {}, is that of the straight segments, \
@@ -49,31 +53,54 @@ pub(super) fn of_curve(
     (part > LARGE_T).then(|| warning(kind::CURVE, Some(outcome.at), [part, LARGE_T], message))
 }
 
-/// Σ α_k / √s_k − ∫ κ / √s ds from a tip on, if its crack turns evenly there.
-fn unevenness(crack: &Crack, end: End) -> Option<f64> {
-    let mut points = crack.points.clone();
-    if end == End::Start {
-        points.reverse();
+/// The part of |K| that K of a tip may be off by, if its crack may be meant as a curve.
+pub(crate) fn error_of_segments(crack: &Crack, end: End) -> f64 {
+    TipTurns::new(crack, end).map_or(0.0, |turns| PER_TURN * turns.largest().powf(1.5))
+}
+
+/// The turns at the vertices behind a tip of a crack that turns evenly there, and their distances
+/// from it along the crack; the nearest first.
+struct TipTurns {
+    turns: [f64; VERTICES],
+    distances: [f64; VERTICES],
+    /// Length of the segment before the last vertex.
+    width: f64,
+}
+
+impl TipTurns {
+    /// None of a crack that does not turn evenly.
+    fn new(crack: &Crack, end: End) -> Option<Self> {
+        let mut points = crack.points.clone();
+        if end == End::Start {
+            points.reverse();
+        }
+        let points = points.last_chunk::<{ VERTICES + 2 }>()?;
+        let sides: Vec<Vec2> = points.windows(2).map(|p| p[1] - p[0]).collect();
+        // from the tip backwards
+        let turn = |k: usize| {
+            let [before, after] = [VERTICES - 1 - k, VERTICES - k].map(|side| sides[side]);
+            before.cross(after).atan2(before.dot(after))
+        };
+        let turns: [f64; VERTICES] = std::array::from_fn(turn);
+        let distances = std::array::from_fn(|k| length(&sides[VERTICES - k..]));
+        let part = |t: &f64| t / turns[VERTICES - 1];
+        let is_even = |t: &f64| part(t) > 1.0 / ALIKE && part(t) < ALIKE && t.abs() < LARGE_TURN;
+        turns.iter().all(is_even).then_some(Self { turns, distances, width: sides[1].length() })
     }
-    let points = points.last_chunk::<{ VERTICES + 2 }>()?;
-    let sides: Vec<Vec2> = points.windows(2).map(|p| p[1] - p[0]).collect();
-    let turn = |k: usize| {
-        let [before, after] = [sides[k], sides[k + 1]];
-        before.cross(after).atan2(before.dot(after))
-    };
-    // from the tip backwards
-    let turns: Vec<f64> = (0..VERTICES).rev().map(turn).collect();
-    let distances: Vec<f64> = (0..VERTICES).rev().map(|k| length(&sides[k + 1..])).collect();
-    let last = VERTICES - 1;
-    let is_even = |t: &f64| t / turns[last] > 1.0 / ALIKE && t / turns[last] < ALIKE;
-    if !turns.iter().all(|t| is_even(t) && t.abs() < LARGE_TURN) {
-        return None;
+
+    fn largest(&self) -> f64 {
+        self.turns.iter().fold(0.0, |most, turn| turn.abs().max(most))
     }
-    let near = turns.iter().zip(&distances).take(last).map(|(t, s)| t / s.sqrt());
-    let (far, width) = (distances[last].sqrt(), sides[1].length());
-    let curvature = turns[last] / width;
-    let tail = turns[last] / (2.0 * far) * (1.0 + width / (12.0 * far * far));
-    Some(near.sum::<f64>() + tail - 2.0 * curvature * far)
+
+    /// Σ α_k / √s_k − ∫ κ / √s ds from the tip on.
+    fn unevenness(&self) -> f64 {
+        let Self { turns, distances, width } = self;
+        let last = VERTICES - 1;
+        let near = turns.iter().zip(distances).take(last).map(|(t, s)| t / s.sqrt());
+        let (far, curvature) = (distances[last].sqrt(), turns[last] / width);
+        let tail = turns[last] / (2.0 * far) * (1.0 + width / (12.0 * far * far));
+        near.sum::<f64>() + tail - 2.0 * curvature * far
+    }
 }
 
 fn length(sides: &[Vec2]) -> f64 {
@@ -104,8 +131,8 @@ mod tests {
         let dataset = solve(&problem, unwatched()).expect("a solution");
         let step = &dataset.steps[0];
         let factors = &step.intensities[0];
-        let lacking = unevenness(&step.cracks[0], factors.tip.end).expect("a curve");
-        [factors.t_stress.expect("T"), -PER_KINK * factors.k2 * lacking]
+        let turns = TipTurns::new(&step.cracks[0], factors.tip.end).expect("a curve");
+        [factors.t_stress.expect("T"), -PER_KINK * factors.k2 * turns.unevenness()]
     }
 
     /// Polylines along tangents and inscribed ones, coarse and fine: their T differ by 40 %, those
@@ -139,8 +166,8 @@ mod tests {
             Crack { points, ends: [ppum::crack::CrackEnd::Tip; 2] }
         };
         for y in [[0.0; 6], [0.0, 0.0, 0.0, 0.0, 0.0, 0.2], [0.0, 0.1, 0.0, 0.1, 0.0, 0.1]] {
-            assert_eq!(unevenness(&crack(y), End::Last), None, "{y:?}");
+            assert!(TipTurns::new(&crack(y), End::Last).is_none(), "{y:?}");
         }
-        assert!(unevenness(&crack([0.0, 0.01, 0.04, 0.09, 0.16, 0.25]), End::Last).is_some());
+        assert!(error_of_segments(&crack([0.0, 0.01, 0.04, 0.09, 0.16, 0.25]), End::Last) > 0.0);
     }
 }

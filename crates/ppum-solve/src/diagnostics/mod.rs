@@ -18,6 +18,7 @@ mod rims;
 mod tips;
 mod warning;
 
+pub(crate) use curves::error_of_segments;
 pub use digits::{FEW_DIGITS, Rounding, rounding};
 pub use warning::{
     LARGE_CUT_OFF, LARGE_ERROR, LARGE_IMBALANCE, LARGE_LOCKING, LARGE_NITSCHE, LARGE_RESIDUAL, kind,

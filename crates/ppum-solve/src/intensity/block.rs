@@ -1,7 +1,9 @@
 //! The integrands of the interaction integral at the points of a rule, on lanes.
 
 use super::auxiliary::{Auxiliary, Gradients, difference, stress, work};
-use super::integral::{Integrals, Interaction, MODES, RINGS, cut_off, in_frame, square};
+use super::integral::{
+    Integrals, Interaction, MODES, RINGS, cut_off, flat_cut_off, in_frame, square,
+};
 use super::sensitivity::{FACTORS, Kernel};
 use ppum::crack::{LocalTip, Side, TipPoint};
 use ppum::jet::Jet;
@@ -286,7 +288,7 @@ impl Kernels<'_> {
         let (lame, force) = self.block.locals(first, zero);
         let point = self.block.points(first, zero);
         let auxiliary = tip.body.fields::<R, D>(&point);
-        let (q, slope) = cut_off(square(&point), tip.radii[RINGS - 1]);
+        let (q, slope) = flat_cut_off(square(&point), tip.radii[RINGS - 1]);
         let halves = tip.halves().map(|halves| zero.lit(0.5 * tip.modulus() * halves));
         let mut densities = [[[zero; FACTORS]; 2]; 2];
         for (component, of_component) in densities.iter_mut().enumerate() {

@@ -462,6 +462,17 @@ pub(super) fn cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
     (base * power, square.lit(-2.0 * f64::from(CUT_OFF_POWER) * inverse) * power)
 }
 
+/// q and q′(r)/r of the functionals that have dual solutions, q = (1 − r⁴/R⁴)⁴: it is flatter at the
+/// tip than [`cut_off`], see [`Sensitivity`](super::Sensitivity).
+#[inline(always)]
+pub(super) fn flat_cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
+    let inverse = (radius * radius).recip();
+    let part = square * square.lit(inverse);
+    let base = (square.lit(1.0) - part * part).max(square.lit(0.0));
+    let third = base * base * base;
+    (base * third, square.lit(-16.0 * inverse) * part * third)
+}
+
 /// A vector in a frame with the given x axis.
 pub(super) fn turned(axis: Vec2, vector: [f64; 2]) -> Vec2 {
     let vector = Vec2::from(vector);

@@ -4,7 +4,9 @@
 //! K_m = ∫ G_m : ∇u dA + …      G_m : ∇u = E′/2 (P_j q_,j + (σ − σ_tip) : εᵃ_,1 q)
 //! ```
 //!
-//! with the integrand of the interaction integral over the largest disc, which is linear in ∇u. The
+//! with the integrand of the interaction integral over the largest disc, which is linear in ∇u. Its
+//! cut-off q is flatter at the tip than that of the factors: their dual solutions go there like
+//! (1 − q) r^(−1/2), which the space does not have, and 1 − q ~ r⁴ leaves less of it than r². The
 //! body force and the loads on faces add numbers that no error of the field changes. What faces
 //! behind kinks add is left out: it is small beside the rest.
 

@@ -2,7 +2,7 @@
 
 use super::SolveError;
 use super::clock::Clock;
-use super::diagnosed::Diagnosed;
+use super::diagnosed::{Diagnosed, GoalError};
 use super::discretised::Discretised;
 use super::plan::{Plan, most_cells};
 use super::solved::Solved;
@@ -73,13 +73,21 @@ impl<'p> Diagnosed<'p> {
         watcher: &dyn Watcher,
     ) -> Result<Next<'p>, SolveError> {
         let error = self.report.estimated_error.unwrap_or(0.0);
-        let (of_goal, parts) = self.goal();
-        let wanted = [(set.tolerance, error), (set.accuracy, of_goal)];
+        let GoalError { of_cells, of_segments, cells: parts } = self.goal();
+        // cells take nothing of what segments err by
+        let is_out_of_reach = set.accuracy.is_some_and(|most| of_segments >= most);
+        let of_goal = match is_out_of_reach {
+            true => (Some(of_segments), of_cells),
+            false => (set.accuracy, of_cells + of_segments),
+        };
+        let wanted = [(set.tolerance, error), of_goal];
         let mut wanted =
             wanted.into_iter().filter_map(|(most, error)| Some(error <= most?)).peekable();
         let is_enough = wanted.peek().is_some() && wanted.all(|reached| reached);
         if error == 0.0 || is_enough {
-            return Ok(Next::Stop(StopReason::Tolerance));
+            let is_reached = error == 0.0 || !is_out_of_reach;
+            let stop = if is_reached { StopReason::Tolerance } else { StopReason::Segments };
+            return Ok(Next::Stop(stop));
         }
         if step >= set.steps {
             return Ok(Next::Stop(StopReason::Steps));

@@ -6,7 +6,7 @@ use super::goal::Goal;
 use super::plan::Plan;
 use super::solved::Solved;
 use crate::adapt::{Estimated, LocalFields, estimated};
-use crate::diagnostics::DiagnosedSolution;
+use crate::diagnostics::{DiagnosedSolution, error_of_segments};
 use crate::intensity::TipOutcome;
 use crate::law::Law;
 use crate::norms::energy;
@@ -38,6 +38,17 @@ pub(super) struct Diagnosed<'p> {
     goal: Goal,
 }
 
+/// The largest estimated error of the factors of a tip, as a part of their size; without tips that
+/// of the energy.
+pub(super) struct GoalError {
+    /// What better cells take away.
+    pub(super) of_cells: f64,
+    /// What is due to the straight segments of curved cracks.
+    pub(super) of_segments: f64,
+    /// Of each cell its part in the sum of all.
+    pub(super) cells: Vec<f64>,
+}
+
 impl<'p> Diagnosed<'p> {
     /// Finds the energy and the estimated errors of a solution and its factors.
     ///
@@ -54,7 +65,10 @@ impl<'p> Diagnosed<'p> {
         let found = estimated(problem, &field, fields, &stage).map_err(SolveError::of_data)?;
         let goal = Goal::new(&dual_tips, &space.partition().cell, &found);
         let factors = tips.iter_mut().filter_map(|outcome| outcome.factors.as_mut());
-        factors.zip(&goal.errors).for_each(|(factors, error)| factors.error = Some(*error));
+        for (factors, error) in factors.zip(&goal.errors) {
+            let of_segments = of_segments(dataset, factors);
+            factors.error = Some(error + of_segments * size(factors));
+        }
         let Estimated { mut energy, squares, .. } = found;
         if problem.forces.is_empty() {
             report.energy = Some(energy);
@@ -74,25 +88,32 @@ impl<'p> Diagnosed<'p> {
         }
         let mut diagnosed = Self { plan, report, unresolved, squares, tips, goal };
         if !diagnosed.goal.errors.is_empty() {
-            diagnosed.report.factor_error = Some(diagnosed.goal().0);
+            let GoalError { of_cells, of_segments, .. } = diagnosed.goal();
+            diagnosed.report.factor_error = Some(of_cells + of_segments);
         }
         Ok(diagnosed)
     }
 
-    /// The largest estimated error of the factors of a tip, as a part of their size, and of each
-    /// cell its part in the sum of all; without tips those of the energy.
-    pub(super) fn goal(&self) -> (f64, Vec<f64>) {
+    /// The estimated error that an accuracy bounds.
+    pub(super) fn goal(&self) -> GoalError {
         let with_factors = self.tips.iter().filter_map(|o| Some((o.strength, o.factors.as_ref()?)));
         let (strengths, sizes): (Vec<_>, Vec<_>) =
             with_factors.map(|(strength, factors)| (strength, size(factors))).unzip();
         let largest = strengths.into_iter().fold(0.0, f64::max);
         if largest == 0.0 {
-            return (self.report.estimated_error.unwrap_or(0.0).powi(2), self.squares.clone());
+            let of_cells = self.report.estimated_error.unwrap_or(0.0).powi(2);
+            return GoalError { of_cells, of_segments: 0.0, cells: self.squares.clone() };
         }
         let relative = |tip: usize, error: f64| error / sizes[tip].max(NOTHING * largest);
         let errors = self.goal.errors.iter().enumerate().map(|(tip, error)| relative(tip, *error));
         let cells = self.goal.cells.iter().map(|(tip, part)| relative(*tip, *part));
-        (errors.fold(0.0, f64::max), cells.collect())
+        let dataset = &self.plan.discretised.dataset;
+        let factors = self.tips.iter().filter_map(|outcome| outcome.factors.as_ref());
+        GoalError {
+            of_cells: errors.fold(0.0, f64::max),
+            of_segments: factors.map(|found| of_segments(dataset, found)).fold(0.0, f64::max),
+            cells: cells.collect(),
+        }
     }
 
     /// The dataset of a solution with its stress intensity factors, its diagnosis and its report;
@@ -134,6 +155,12 @@ impl<'p> Diagnosed<'p> {
             None => Ok(dataset),
         }
     }
+}
+
+/// The part of the factors of a tip that the segments of its crack may err by.
+fn of_segments(dataset: &Dataset, factors: &TipIntensity) -> f64 {
+    let tip = factors.tip;
+    error_of_segments(&dataset.steps[0].cracks[tip.crack as usize], tip.end)
 }
 
 /// |(K_I, K_II)|

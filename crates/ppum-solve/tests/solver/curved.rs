@@ -80,6 +80,18 @@ fn assert_division_does_not_show(range: [f64; 2]) {
     }
 }
 
+/// An accuracy that the segments of an arc do not allow is not reached, which is told.
+#[test]
+fn segments_bound_accuracies() {
+    let crack = arc([0.0, 0.0], 1.0, [30.0, 130.0], "segments = 16");
+    let problem = plate(2.0, 3, [0.4, 1.0], &format!("accuracy = 1e-5\norder = 3\n{crack}"));
+    let dataset = solved(&problem);
+    let warnings = dataset.steps[0].warnings.iter();
+    let found: Vec<_> = warnings.filter(|warning| warning.kind == kind::TOLERANCE).collect();
+    assert!(found.len() == 1 && found[0].message.contains("`segments`"), "{found:?}");
+    assert!(found[0].value > 1e-5);
+}
+
 #[test]
 fn the_division_does_not_show() {
     assert_division_does_not_show([30.0, 130.0]);
