@@ -11,7 +11,7 @@ use ppum_figure::figure::{Labels, bare};
 use ppum_figure::form::PageFormat;
 use ppum_figure::ticks;
 use ppum_render::colormap::{Colormap, NAMES};
-use ppum_render::extrema::{Extremum, On, Region, extrema};
+use ppum_render::extrema::{BodyRegion, Extremum, On, extrema};
 use ppum_render::png::{Text, encode_quickly};
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::view::View;
@@ -342,7 +342,7 @@ pub(crate) fn extrema_in(
         return Err(RenderError::new_err(format!("`{name}` is a value of cells: look at them")));
     };
     let field = this.owned.field();
-    let Some(region) = Region::seen(field, &view) else { return Ok(None) };
+    let Some(region) = BodyRegion::seen(field, &view) else { return Ok(None) };
     let found = |watcher: &dyn Watcher| extrema(field, &region, &quantity, watcher);
     let found = long(py, None, None, found)?.map_err(rendering)?;
     let facts = |of| ExtremumFacts::new(of, region.anchor);

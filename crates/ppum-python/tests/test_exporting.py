@@ -86,7 +86,7 @@ def test_all_steps_are_saved(grown, program, tmp_path):
 def test_averages_share_points(f):
     torn, mesh = (f.triangles(tolerance=0.05, average=average) for average in (False, True))
     assert len(mesh.cells) == len(torn.cells) and 2 * len(mesh.points) < len(torn.points)
-    assert mesh.tip_radii.shape == (len(mesh.singular),) and mesh.accuracy["stress"].largest > torn.accuracy["stress"].largest
+    assert mesh.tip_radii.shape == (len(mesh.singular),) and mesh.accuracy["stress"].largest >= torn.accuracy["stress"].largest
 
 
 def test_what_triangles_cannot_be_is_said(f):

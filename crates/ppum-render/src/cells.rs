@@ -1,5 +1,5 @@
-//! Values of patches as pictures: each pixel has that of the cell, the element, or without these the
-//! patch with the largest φ, that its centre lies in.
+//! Values of patches as pictures: each pixel has that of the cell, the element, or without these
+//! the patch with the largest φ, that its centre lies in.
 
 use ppum::crack::Side;
 use ppum::field::Field;

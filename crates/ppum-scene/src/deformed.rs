@@ -5,14 +5,15 @@ use std::str::FromStr;
 
 use ppum::field::Field;
 use ppum::progress::Watcher;
+use ppum::quantity::Reflection;
 use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::deform::{DeformError, Deformation, DeformedPoints, automatic_factor};
-use ppum_render::extrema::Region;
+use ppum_render::extrema::BodyRegion;
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
 
-use crate::drawing::{Drawn, PROCESSOR, Shown};
+use crate::drawing::{BodyView, Drawn, PROCESSOR, Shown};
 
 /// How many times its displacement a plate is drawn with: written as a number, or `auto`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,16 +95,40 @@ fn moved_box(field: &Field<'_>, factor: f64) -> Result<Rect, DeformError> {
 ///
 /// # Errors
 /// A field that is no displacement.
-pub(crate) fn region(points: &DeformedPoints<'_>) -> Result<Option<Region>, DeformError> {
+pub(crate) fn region(points: &DeformedPoints<'_>) -> Result<Option<BodyRegion>, DeformError> {
     let (seen, field) = (&points.view, points.view.field());
     if seen.factor() == 0.0 {
-        return Ok(Region::seen(field, &seen.view));
+        return Ok(BodyRegion::seen(field, &seen.view));
     }
     let (window, body) = (seen.view.rect(), moved_box(field, seen.factor())?);
     if window.contains(body.min) && window.contains(body.max) {
-        return Ok(Some(Region::whole(field)));
+        return Ok(Some(BodyRegion::whole(field)));
     }
-    Ok(points.material_box().and_then(|rect| Region::new(field, seen.anchor, rect)))
+    Ok(points.material_box().and_then(|rect| BodyRegion::new(field, seen.anchor, rect)))
+}
+
+impl BodyView<'_> {
+    /// The parts of the undeformed body that are seen, of its images by their reflections.
+    ///
+    /// # Errors
+    /// A field that is no displacement.
+    pub(crate) fn regions(
+        &self,
+        field: &Field<'_>,
+    ) -> Result<Vec<(Reflection, BodyRegion)>, DeformError> {
+        let Self::Moved(body) = self else {
+            let images = self.images(&field.domain.body_bounds()).into_iter();
+            let views = images.map(|image| (image.reflection, image.view));
+            let all = [(Reflection::NONE, *self.view())].into_iter().chain(views);
+            let regions = all.filter_map(|(by, view)| Some((by, BodyRegion::seen(field, &view)?)));
+            return Ok(regions.collect());
+        };
+        let regions = body.parts().map(|(by, points)| {
+            let region = region(points)?;
+            Ok(region.map(|region| (by, region)))
+        });
+        regions.filter_map(Result::transpose).collect()
+    }
 }
 
 /// A box with room around it, in parts of its size.

@@ -3,12 +3,12 @@
 use ppum::crack::Crack;
 use ppum::dataset::Step;
 use ppum::field::Field;
-use ppum::quantity::{Quantity, Reflection};
+use ppum::quantity::Quantity;
 use ppum::text::trimmed_to;
 use ppum::vec2::Rect;
 use ppum_render::cells;
-use ppum_render::deform::{DeformError, DeformedPoints};
-use ppum_render::extrema::{Extrema, Region};
+use ppum_render::deform::DeformedPoints;
+use ppum_render::extrema::Extrema;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{RangeError, ValueSpan};
@@ -17,7 +17,6 @@ use ppum_render::samples::{Means, Samples};
 use ppum_render::view::View;
 use rayon::prelude::*;
 
-use crate::deformed;
 use crate::mirror::{MirrorImage, MirrorLines};
 use crate::moved_body::MovedBody;
 
@@ -64,28 +63,6 @@ impl<'f> BodyView<'f> {
             Self::Mirrored(view, lines) => lines.images(view, bounds),
             Self::Moved(body) => body.images.iter().map(|one| one.image).collect(),
         }
-    }
-
-    /// The parts of the undeformed body that are seen, of its images by their reflections.
-    ///
-    /// # Errors
-    /// A field that is no displacement.
-    pub(crate) fn regions(
-        &self,
-        field: &Field<'_>,
-    ) -> Result<Vec<(Reflection, Region)>, DeformError> {
-        let Self::Moved(body) = self else {
-            let images = self.images(&field.domain.body_bounds()).into_iter();
-            let views = images.map(|image| (image.reflection, image.view));
-            let all = [(Reflection::NONE, *self.view())].into_iter().chain(views);
-            let regions = all.filter_map(|(by, view)| Some((by, Region::seen(field, &view)?)));
-            return Ok(regions.collect());
-        };
-        let regions = body.parts().map(|(by, points)| {
-            let region = deformed::region(points)?;
-            Ok(region.map(|region| (by, region)))
-        });
-        regions.filter_map(Result::transpose).collect()
     }
 
     /// The lines of symmetry beyond which it is seen; none but of a mirrored body.

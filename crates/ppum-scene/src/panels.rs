@@ -169,8 +169,8 @@ impl<'a> PanelFigure<'a> {
         shots.map(shot).collect()
     }
 
-    /// The arrangement: as given, but without rows and columns that no panel is in; else a row for each of several quantities of several parts, or
-    /// that with the largest pictures.
+    /// The arrangement: as given, but without rows and columns that no panel is in; else a row for
+    /// each of several quantities of several parts, or that with the largest pictures.
     fn grid(&self, title: &str, captions: &[&str]) -> Result<PanelGrid, ShotError> {
         let (count, parts) = (captions.len(), self.sources.len());
         let sized = |size| PanelGrid { shared_bar: self.is_shared(), ..PanelGrid::new(size) };

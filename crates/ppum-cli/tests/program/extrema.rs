@@ -87,7 +87,7 @@ impl Lab {
     fn near(&self, quantity: &str, [x, y]: [f64; 2]) -> Vec<f64> {
         let mut points = String::new();
         for k in 0..=12 {
-            let (sin, cos) = (f64::from(k) * 0.5236).sin_cos();
+            let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_6).sin_cos();
             let r = if k == 12 { 0.0 } else { 1e-9 };
             writeln!(points, "{:?},{:?}", x + r * cos, y + r * sin).unwrap();
         }

@@ -556,8 +556,8 @@ fn the_program_draws_the_whole() {
     }
 }
 
-/// Straight sides of an outline are lines of symmetry: of a quarter of a ring all four have the same
-/// pixels.
+/// Straight sides of an outline are lines of symmetry: of a quarter of a ring all four have the
+/// same pixels.
 #[test]
 fn quarters_of_rings_are_mirrored() {
     let lab = Lab::solved(

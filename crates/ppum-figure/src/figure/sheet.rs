@@ -107,8 +107,8 @@ impl<'a> Sheet<'a> {
         Vec2::from(self.panel.picture.image.size.map(f64::from))
     }
 
-    /// The longest label across: it may reach as far beyond the picture as the page is free right of
-    /// it.
+    /// The longest label across: it may reach as far beyond the picture as the page is free right
+    /// of it.
     fn label_room(&self) -> f64 {
         let beyond = if self.design.bar == BarPlace::Right { 0.0 } else { RIGHT - MARGIN };
         self.room[0] + 2.0 * beyond * self.design.scale()

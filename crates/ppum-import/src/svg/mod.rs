@@ -239,8 +239,8 @@ impl Inherited<'_, '_> {
 /// A property of an element by its own style or attribute.
 fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
     let style = node.attribute("style").unwrap_or_default();
-    let declarations = style.split(';').filter_map(|declaration| declaration.split_once(':'));
-    let declared = declarations.filter(|(key, _)| key.trim() == name).last();
+    let mut declarations = style.split(';').filter_map(|declaration| declaration.split_once(':'));
+    let declared = declarations.rfind(|(key, _)| key.trim() == name);
     let value = declared.map(|(_, value)| value).or_else(|| node.attribute(name))?;
     Some(value.trim().trim_end_matches("!important").trim_end())
 }

@@ -19,11 +19,11 @@ const CELLS: usize = 1 << 13;
 const PLACES: [f64; 3] = [-0.4, 0.03, 0.4];
 
 /// A place and the scale of the steps from it.
-type Start = (Vec2, f64);
+type ClimbStart = (Vec2, f64);
 
 impl Search<'_, '_> {
     /// The best place of each small cell, the most promising cells first.
-    pub(super) fn in_small_cells(&self, sign: f64) -> Vec<Promise<Start>> {
+    pub(super) fn in_small_cells(&self, sign: f64) -> Vec<Promise<ClimbStart>> {
         let cells = self.field.step.partition.cells();
         let is_small = |cell: &&Rect| {
             let size = cell.size();
@@ -50,7 +50,7 @@ impl Search<'_, '_> {
         local: &mut LocalField<'_>,
         cell: &Rect,
         sign: f64,
-    ) -> Option<Promise<Start>> {
+    ) -> Option<Promise<ClimbStart>> {
         let cell = self.local(cell);
         let (center, size) = (cell.center(), cell.size());
         let (mut best, mut least) = (None, f64::INFINITY);

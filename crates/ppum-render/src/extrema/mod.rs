@@ -2,7 +2,7 @@
 //! places.
 //!
 //! The largest value of a raster says how near a pixel's centre happens to be to a peak. So an
-//! image shows no extrema of its own: they belong to the [region](Region) of the body that it
+//! image shows no extrema of its own: they belong to the [region](BodyRegion) of the body that it
 //! shows. A search begins at the places of a grid that depends on the region alone, and in cells
 //! that are smaller than its squares: Newton's method on the exact [gradient](QuantityGradient)
 //! where the quantity is smooth, with a Hessian by differences of it, and a search in turning
@@ -57,7 +57,7 @@ use rayon::prelude::*;
 use climb::Climber;
 use curves::{BoundaryCurve, Promise};
 pub use on::On;
-pub use region::Region;
+pub use region::BodyRegion;
 pub use singular::{Singular, SingularKind};
 
 /// Pixels and samples of boundaries from which the search begins, at most, and how many of them
@@ -198,7 +198,7 @@ impl Extrema {
 /// The quantity has no meaning for the field; the watcher stops the call.
 pub fn extrema(
     field: &Field<'_>,
-    region: &Region,
+    region: &BodyRegion,
     quantity: &Quantity,
     watcher: &dyn Watcher,
 ) -> Result<Option<Extrema>, RenderError> {
@@ -239,7 +239,7 @@ pub fn extrema(
 /// constant or zero within the digits that the file bears.
 fn constant(
     field: &Field<'_>,
-    region: &Region,
+    region: &BodyRegion,
     quantity: &Quantity,
     raster: &Raster,
 ) -> Option<Extrema> {
@@ -255,8 +255,8 @@ fn constant(
 }
 
 /// The boundaries on which an extremum may lie; of too many every second, third … one.
-fn boundaries(field: &Field<'_>, region: &Region, pixel: f64) -> Vec<BoundaryCurve> {
-    let Region { anchor, rect } = region;
+fn boundaries(field: &Field<'_>, region: &BodyRegion, pixel: f64) -> Vec<BoundaryCurve> {
+    let BodyRegion { anchor, rect } = region;
     let mut curves = curves::boundary_curves(field, *anchor, rect);
     let bent = bent::bent_interfaces(field, *anchor, rect, pixel);
     curves.extend(bent.into_iter().map(|bent| BoundaryCurve::bent(bent, On::Interface)));
@@ -292,7 +292,7 @@ fn affordable(field: &Field<'_>) -> usize {
 /// What a search needs.
 struct Search<'a, 'f> {
     field: &'a Field<'f>,
-    region: Region,
+    region: BodyRegion,
     /// The side of the squares of the grid.
     pixel: f64,
     slope: &'a QuantityGradient,
@@ -435,8 +435,8 @@ impl Search<'_, '_> {
     }
 }
 
-/// The largest (smallest for the sign −1) of some values, the first of equal ones; one inside has to
-/// exceed others by more than rounding, so that what lies on a boundary is not found beside it.
+/// The largest (smallest for the sign −1) of some values, the first of equal ones; one inside has
+/// to exceed others by more than rounding, so that what lies on a boundary is not found beside it.
 fn largest(all: impl Iterator<Item = Extremum>, sign: f64) -> Option<Extremum> {
     let exceeds = |a: &Extremum, b: &Extremum| {
         let least = if a.on == On::Inside { EQUAL * b.value.abs() } else { 0.0 };

@@ -1,9 +1,9 @@
 //! Poles: places where a quantity is infinite though no function of the field is, as 1/x is.
 
 use ppum::crack::Side;
-use ppum::field::Field;
 use ppum::vec2::{Vec2, vec2};
 
+use super::region::smallest_patch;
 use super::{Extremum, Search};
 
 /// Radii of circles around a place, in parts of a pixel or of the smallest patch there.
@@ -39,12 +39,4 @@ impl Search<'_, '_> {
         sizes.sort_by(f64::total_cmp);
         sizes.get(sizes.len() / 2).copied().unwrap_or(f64::NAN)
     }
-}
-
-/// Half the size of the smallest patch around a point, the scale on which the field varies there.
-pub(super) fn smallest_patch(field: &Field<'_>, p: Vec2) -> f64 {
-    let mut patches = Vec::new();
-    field.tree.query_point(p, &mut patches);
-    let half = patches.iter().map(|&k| field.step.partition.half(k as usize));
-    half.map(|half| half.x.min(half.y)).fold(f64::INFINITY, f64::min)
 }

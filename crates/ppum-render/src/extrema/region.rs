@@ -16,14 +16,14 @@ const MOVED: f64 = 1e-3;
 
 /// A part of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Region {
+pub struct BodyRegion {
     /// The point from which places are counted.
     pub anchor: Vec2,
     /// A rectangle of offsets from it.
     pub rect: Rect,
 }
 
-impl Region {
+impl BodyRegion {
     /// The whole body.
     #[must_use]
     pub fn whole(field: &Field<'_>) -> Self {
@@ -73,4 +73,12 @@ impl Region {
         let pixels = [columns as u32, rows as u32];
         Some(View { center, width: columns * pixel, pixels })
     }
+}
+
+/// Half the size of the smallest patch around a point, the scale on which the field varies there.
+pub(super) fn smallest_patch(field: &Field<'_>, p: Vec2) -> f64 {
+    let mut patches = Vec::new();
+    field.tree.query_point(p, &mut patches);
+    let half = patches.iter().map(|&k| field.step.partition.half(k as usize));
+    half.map(|half| half.x.min(half.y)).fold(f64::INFINITY, f64::min)
 }

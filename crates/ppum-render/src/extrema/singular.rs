@@ -10,8 +10,7 @@ use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
-use super::poles::smallest_patch;
-use super::region::Region;
+use super::region::{BodyRegion, smallest_patch};
 
 /// Radii, in parts of the smallest patch there or of what is seen, between which a quantity is seen
 /// to grow.
@@ -54,10 +53,10 @@ pub enum SingularKind {
 /// rounding, too.
 pub(super) fn singular_points(
     field: &Field<'_>,
-    region: &Region,
+    region: &BodyRegion,
     quantity: &Quantity,
 ) -> Vec<Singular> {
-    let Region { anchor, rect } = *region;
+    let BodyRegion { anchor, rect } = *region;
     let points: Vec<_> = known_points(field).into_iter().collect();
     let looked = points.into_par_iter().filter_map(|p| {
         let offset = p - anchor;

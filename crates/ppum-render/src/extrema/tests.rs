@@ -15,14 +15,14 @@ const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressSta
 
 fn extrema_of(field: &Field<'_>, view: &View, text: &str) -> Extrema {
     let quantity = Quantity::parse(text, field).expect("a quantity");
-    let region = Region::seen(field, view).expect("a part of the body");
+    let region = BodyRegion::seen(field, view).expect("a part of the body");
     let found = extrema(field, &region, &quantity, unwatched()).expect("a search");
     found.expect("values")
 }
 
 /// The distance of the places from which a search in what a view shows begins.
 fn pixel_of(field: &Field<'_>, view: &View) -> f64 {
-    Region::seen(field, view).and_then(|region| region.grid()).expect("a grid").pixel_size()
+    BodyRegion::seen(field, view).and_then(|region| region.grid()).expect("a grid").pixel_size()
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn a_peak_inside_and_a_corner() {
     assert!(all.singular.is_empty());
     // outside there is nothing
     let outside = View::new(vec2(9.0, 9.0), 1.0, [8, 8]).expect("a view");
-    assert_eq!(Region::seen(&field, &outside), None);
+    assert_eq!(BodyRegion::seen(&field, &outside), None);
 }
 
 /// Smooth random fields, and stresses that jump on borders of patches: nothing on a dense grid is
@@ -409,7 +409,7 @@ fn extremes_along_curves() {
 fn poles_are_infinite() {
     let dataset = Recipe { cracks: vec![], ..Recipe::default() }.dataset();
     let field = Field::new(&dataset, 0).expect("a field");
-    let region = Region::whole(&field);
+    let region = BodyRegion::whole(&field);
     let grid = region.grid().expect("a grid");
     let (x, column) = (grid.center.x + 0.3 * grid.pixel_size(), grid.center + grid.offset(7, 11));
     let inf = f64::INFINITY;

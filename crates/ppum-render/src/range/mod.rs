@@ -1,10 +1,10 @@
 //! The range of values that the colours span: chosen, or found from the values.
 //!
 //! The *automatic range* spans the [extrema](crate::extrema::extrema) of what is seen where they
-//! are known and finite: those of the field, whatever the number of pixels. Stresses grow like r^(−1/2)
-//! towards a tip, so with a tip in the view the largest value of a raster says how near a pixel's
-//! centre happens to be and nothing about the field. There, and where no extrema are known, the
-//! range is *robust*: it looks at the finite values' quantiles at 0.5 % and 99.5 %. An extreme
+//! are known and finite: those of the field, whatever the number of pixels. Stresses grow like
+//! r^(−1/2) towards a tip, so with a tip in the view the largest value of a raster says how near a
+//! pixel's centre happens to be and nothing about the field. There, and where no extrema are known,
+//! the range is *robust*: it looks at the finite values' quantiles at 0.5 % and 99.5 %. An extreme
 //! value bounds the range if it lies at most a fifth of the quantiles' span outside them, else the
 //! quantile does, and what is outside is drawn in the colours below and above. On a logarithmic
 //! scale the same is done with the logarithms of the positive values. Further:
@@ -233,8 +233,8 @@ impl Range {
         self.span(scale, symmetric, raster, None).normalization(scale)
     }
 
-    /// The range of a raster's values; `values` are the extrema of what is seen where they are known,
-    /// and `symmetric` asks for a range around zero where one that is found contains zero.
+    /// The range of a raster's values; `values` are the extrema of what is seen where they are
+    /// known, and `symmetric` asks for a range around zero where one that is found contains zero.
     #[must_use]
     pub fn span<T: Sample>(
         &self,

@@ -14,7 +14,7 @@ use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Recipe, opening, polynomial};
 
 use super::*;
-use crate::extrema::{Extremum, On, Region, SingularKind, extrema};
+use crate::extrema::{BodyRegion, Extremum, On, SingularKind, extrema};
 
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 
@@ -155,7 +155,7 @@ fn spanned(dataset: &Dataset, view: &View, text: &str, range: Range, scale: Scal
     let field = Field::new(dataset, 0).unwrap();
     let quantity = Quantity::parse(text, &field).unwrap();
     let raster = f64::render(&field, view, &quantity, unwatched()).unwrap();
-    let region = Region::seen(&field, view).unwrap();
+    let region = BodyRegion::seen(&field, view).unwrap();
     let values = extrema(&field, &region, &quantity, unwatched()).unwrap();
     range.span(scale, false, &raster, values)
 }

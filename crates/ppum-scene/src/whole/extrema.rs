@@ -6,7 +6,9 @@ use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, Reflected, Reflection, ValueChange};
 use ppum::vec2::Vec2;
 use ppum_render::RenderError;
-use ppum_render::extrema::{Extrema, Extremum, On, Region, Singular, extrema as extrema_of_body};
+use ppum_render::extrema::{
+    BodyRegion, Extrema, Extremum, On, Singular, extrema as extrema_of_body,
+};
 
 use crate::mirror::MirrorLines;
 
@@ -21,16 +23,16 @@ const SECOND_DIRECTION: &str = "if(direction > 0, direction - pi/2, direction + 
 /// undeformed body and its images.
 pub(crate) fn extrema(
     field: &Field<'_>,
-    (parts, lines): (&[(Reflection, Region)], &MirrorLines),
+    (parts, lines): (&[(Reflection, BodyRegion)], &MirrorLines),
     quantity: &Quantity,
     watcher: &dyn Watcher,
 ) -> Result<Option<Extrema>, RenderError> {
-    let mut known: Vec<(Quantity, Region, Option<Extrema>)> = Vec::new();
+    let mut known: Vec<(Quantity, BodyRegion, Option<Extrema>)> = Vec::new();
     let mut all: Option<Extrema> = None;
     for (reflection, region) in parts {
         let Reflected { quantity, change } =
             unturned(quantity.reflected(reflection, field)?, field)?;
-        let is_same = |one: &&(Quantity, Region, _)| one.0 == quantity && one.1 == *region;
+        let is_same = |one: &&(Quantity, BodyRegion, _)| one.0 == quantity && one.1 == *region;
         let found = match known.iter().find(is_same) {
             Some((_, _, found)) => found.clone(),
             None => extrema_of_body(field, region, &quantity, watcher)?,

@@ -11,8 +11,8 @@ use ppum_render::isoline::Isoline;
 /// What values are rounded by, in parts of the largest one.
 const ROUNDING: f64 = 1e-9;
 
-/// Finds lines of levels, by the values' ends and the ends of their colours. Each line has the level
-/// that was asked for.
+/// Finds lines of levels, by the values' ends and the ends of their colours. Each line has the
+/// level that was asked for.
 pub(crate) fn between_ends<E>(
     levels: &[f64],
     (values, colors): ([f64; 2], [f64; 2]),

@@ -168,7 +168,8 @@ impl Balance {
         free.iter().map(move |mode| mode.iter().zip(&self.resultant).map(|(m, r)| m * r).sum())
     }
 
-    /// The error of a resultant that remains; `piece` is a point of the piece, if there are several.
+    /// The error of a resultant that remains; `piece` is a point of the piece, if there are
+    /// several.
     pub(crate) fn error(
         &self,
         remaining: PerMode,

@@ -177,8 +177,8 @@ impl Interaction<'_> {
         let depths: Vec<f64> = offsets.iter().map(|p| along.cross(*p - from)).collect();
         let size = depths.iter().fold(0.0f64, |m, d| m.max(d.abs()));
         let is_beyond = |sign: f64| depths.iter().any(|depth| sign * depth > SAME * size);
-        if !(is_beyond(1.0) && is_beyond(-1.0)) || !bounds(&offsets).overlaps(&bounds(&[from, to]))
-        {
+        let is_near = bounds(&offsets).overlaps(&bounds(&[from, to]));
+        if !(is_beyond(1.0) && is_beyond(-1.0) && is_near) {
             return vec![polygon];
         }
         [1.0, -1.0].map(|sign| clipped(&polygon, &depths, sign)).to_vec()

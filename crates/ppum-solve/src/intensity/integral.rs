@@ -462,8 +462,8 @@ pub(super) fn cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
     (base * power, square.lit(-2.0 * f64::from(CUT_OFF_POWER) * inverse) * power)
 }
 
-/// q and q′(r)/r of the functionals that have dual solutions, q = (1 − r⁴/R⁴)⁴: it is flatter at the
-/// tip than [`cut_off`], see [`Sensitivity`](super::Sensitivity).
+/// q and q′(r)/r of the functionals that have dual solutions, q = (1 − r⁴/R⁴)⁴: it is flatter at
+/// the tip than [`cut_off`], see [`Sensitivity`](super::Sensitivity).
 #[inline(always)]
 pub(super) fn flat_cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
     let inverse = (radius * radius).recip();

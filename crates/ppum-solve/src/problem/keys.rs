@@ -530,7 +530,7 @@ tables! {
             "divided and orders raised until the estimated error is that small. No cells need be given: the first "
             "cover has level 2, below 1e-3 level 3, with automatic refinement. The keys of "
             "[`[adaptivity]`](#adaptivity) set the bounds, by default 30 steps and 100,000 unknowns; the warning "
-            "`tolerance` says if a bound is reached first.";
+            "`tolerance` says if a bound is reached first, or if the segments of a [curved crack](#curves) err by more.";
         refine: Flag, default("true") =>
             "Refine the cells where the field needs it: around tips, where a tip has little clearance, where the rim "
             "of a polygon would cross a patch twice, towards [singular points](#singular-points), at round holes and "
@@ -648,8 +648,8 @@ tables! {
             "the end of the increment, or that in which most energy is released.";
         increment: Constant, range(POSITIVE), default("automatic"), remedy("leave it out to have it chosen") =>
             "Length by which the fastest tip grows in a step. By default a quarter of the shortest crack that has a "
-            "tip, at most 1/50 of the plate's shorter side; where paths turn, the length over which they turn by 0.1 "
-            "(5.7°), but not less than an eighth of that.";
+            "tip, at most 1/50 of the plate's shorter side, but less where paths turn by more than 0.1 (5.7°) in it, "
+            "down to an eighth of that; from one step to the next it changes by a factor of two at most.";
         toughness: Value, range(POSITIVE), default("none") =>
             "K_c > 0 at a point: a tip whose strength is less stays. Without it every tip advances. A formula that is "
             "not positive and finite at a tip is an error in the first step; later it ends the series.";

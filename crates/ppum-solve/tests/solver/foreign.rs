@@ -9,7 +9,7 @@ use ppum::dataset::{
     BoxPartition, Dataset, Equation, FieldData, Material, Step, StressState, TipIntensity, Warning,
 };
 use ppum::domain::Domain;
-use ppum::function::{Frame, FunctionKind};
+use ppum::function::{Frame, FunctionKind, Role};
 use ppum::polynomial::PolynomialSpace::Total;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -70,8 +70,8 @@ fn step(mut step: Step, crack: Crack) -> Step {
     step = step.with_function("one", FunctionKind::One);
     for text in TEXTS {
         let (frame, declared) = (Frame::Tip(TIP), Default::default());
-        let kind =
-            FunctionKind::Formula { text: text.into(), frame, parameters: Vec::new(), declared };
+        let (parameters, role) = (Vec::new(), Role::Tip);
+        let kind = FunctionKind::Formula { text: text.into(), frame, parameters, declared, role };
         step = step.with_function(text, kind);
     }
     step.cracks.push(crack);
@@ -91,7 +91,10 @@ fn factors(dataset: &Dataset) -> (TipIntensity, Vec<Warning>) {
 
 fn assert_exact(name: &str, dataset: &Dataset, tolerance: f64) {
     let (found, warnings) = factors(dataset);
-    let told: Vec<_> = warnings.iter().filter(|warning| warning.kind != kind::COARSE).collect();
+    // the field is that of the tip, so that few elements in a disc cost no digits
+    let of_size = [kind::COARSE, kind::LITTLE_ROOM];
+    let told: Vec<_> =
+        warnings.iter().filter(|one| !of_size.contains(&one.kind.as_str())).collect();
     assert!(told.is_empty(), "{name}: {told:?}");
     let size = K[0].hypot(K[1]);
     let error = (found.k1 - K[0]).hypot(found.k2 - K[1]) / size;
@@ -147,7 +150,8 @@ fn tips_on_boxes_without_cells() {
     }
 }
 
-/// What is integrated does not depend on the cells: a solution has the same factors without its own.
+/// What is integrated does not depend on the cells: a solution has the same factors without its
+/// own.
 #[test]
 fn solutions_without_their_cells() {
     let square = Rect::around(Vec2::ZERO, vec2(1.0, 1.0));
@@ -178,8 +182,8 @@ struct Plate {
 }
 
 impl Plate {
-    /// The plate turned by an angle, after (x, y) ↦ (x + bend y², y + bend x y), in n × n squares, some
-    /// or all of which are cut into triangles.
+    /// The plate turned by an angle, after (x, y) ↦ (x + bend y², y + bend x y), in n × n squares,
+    /// some or all of which are cut into triangles.
     fn new(n: i32, angle: f64, bend: f64, is_cut: impl Fn(i32, i32) -> bool) -> Self {
         let (x, y) = (Polynomial::linear(-1.0, 2.0, 0.0), Polynomial::linear(-1.0, 0.0, 2.0));
         let bent = Polynomial::linear(bend, 0.0, 0.0);

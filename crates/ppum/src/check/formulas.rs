@@ -159,7 +159,7 @@ mod tests {
     use crate::check::tests::dataset;
     use crate::equation::{Elasticity, Equation, StressState};
     use crate::expression::Expression;
-    use crate::function::{Declared, Frame, Function, FunctionKind};
+    use crate::function::{Declared, Frame, Function, FunctionKind, Role};
 
     fn table(name: &str) -> Arc<Table> {
         Arc::new(Table::curve(name, vec![0.0, 1.0], vec![1.0, 2.0]).expect("a table"))

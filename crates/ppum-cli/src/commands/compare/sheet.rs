@@ -8,7 +8,7 @@ use ppum::field::Field;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{Design, FigureError, Labels, Panel, PanelGrid, panel_area, panels};
 use ppum_figure::overlay;
-use ppum_render::extrema::{Region, extrema};
+use ppum_render::extrema::{BodyRegion, extrema};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::Range;
 use ppum_render::raster::Raster;
@@ -150,7 +150,7 @@ impl Shows {
 /// The direct image; its automatic range is found from the true extrema.
 fn direct(raster: &Raster, job: ComparisonInput<'_>, style: &Style) -> anyhow::Result<Picture> {
     let ComparisonInput { field, view, quantity, .. } = job;
-    let values = match Region::seen(field, &view).filter(|_| style.range.is_found()) {
+    let values = match BodyRegion::seen(field, &view).filter(|_| style.range.is_found()) {
         Some(region) => extrema(field, &region, quantity, &Bar::new())?,
         None => None,
     };

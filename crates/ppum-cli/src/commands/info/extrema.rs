@@ -7,7 +7,7 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::text::Places;
 use ppum::vec2::Vec2;
-use ppum_render::extrema::{Extremum, On, Region, Singular, SingularKind, extrema};
+use ppum_render::extrema::{BodyRegion, Extremum, On, Singular, SingularKind, extrema};
 use serde::Serialize;
 
 use crate::number::Number;
@@ -49,7 +49,7 @@ struct Point {
 impl Report {
     /// Finds them.
     pub(super) fn new(field: &Field<'_>, name: &str, quantity: &Quantity) -> anyhow::Result<Self> {
-        let found = extrema(field, &Region::whole(field), quantity, &Bar::new())?;
+        let found = extrema(field, &BodyRegion::whole(field), quantity, &Bar::new())?;
         let found = found.with_context(|| format!("{name}: is nowhere defined"))?;
         let place = |offset: Vec2| (found.center + offset).into();
         let row = |extremum: &Extremum| Row::new(extremum, place(extremum.offset));

@@ -71,7 +71,8 @@ impl Page<'_> {
         self.lines("history", step.other_history.iter().cloned())?;
         self.lines("growth", results.growth.iter().flat_map(Growth::lines))?;
         self.lines("quantities", wrapped(&step.quantities).into_iter())?;
-        self.lines("of cells", wrapped(&step.cell_values).into_iter())?;
+        let owners = if step.cells > 0 { "of cells" } else { "of patches" };
+        self.lines(owners, wrapped(&step.cell_values).into_iter())?;
         if let Some(solver) = &results.solver {
             solver.write(self.0)?;
         }

@@ -31,7 +31,7 @@ fn all_mistakes_at_once_in_the_order_of_the_file() {
 /// A table whose name is wrong is read as the one that is meant: nothing else seems to be missing.
 #[test]
 fn wrong_names_of_tables_are_the_only_mistakes() {
-    let table = "[[table]]\nname = \"k\"\nx = [0, 1]\nvalues = [0, 1]\n";
+    let table = "[[table]]\nname = \"k\"\nx = [0, 1]\nvalues = [1, 2]\n";
     let text = format!(
         "{table}[domain]\nmin = [0, 0]\nmax = [1, 2]\n[material]\nyoung = \"table(k, x)\"\n\
          poisson = 0.3\nstate = \"plane-strain\"\n[[crack]]\npoints = [[0.2, 1.5], [0.4, 1.5]]\n\
@@ -39,7 +39,7 @@ fn wrong_names_of_tables_are_the_only_mistakes() {
          [[boundary]]\non = {{ crack = 0 }}\npressure = 1\n[[boundary]]\non = {{ hole = 0 }}\n\
          pressure = 1\n[[boundary]]\non = \"bottom\"\nsymmetry = true\n"
     );
-    assert_eq!(mistakes(&text), [""; 0]);
+    good(&text);
     let wrong = [
         ("[[table", "[[tabel"),
         ("[domain", "[domian"),
@@ -50,7 +50,7 @@ fn wrong_names_of_tables_are_the_only_mistakes() {
         ("[[boundary", "[[boundry"),
     ];
     for (right, wrong) in wrong {
-        let found = mistakes(&edited(&text, right, wrong));
+        let found = mistakes(&text.replacen(right, wrong, 1));
         assert!(found.len() == 1 && found[0].contains("did you mean"), "{found:?}");
     }
     let edge = "[[crack]]\npoints = [[0, 0], [0.5, 0]]\n[[boundry]]\non = \"bottom\"\nsymmetry = true\n\
