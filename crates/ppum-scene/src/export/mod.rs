@@ -72,7 +72,7 @@ pub const HIGHEST_ORDER: u8 = 4;
 
 /// Measurements that may each be followed by more refinement, where they find a difference that
 /// refinement has not seen; so many in a row that find none end them.
-const ROUNDS: u64 = 12;
+const ROUNDS: u64 = 32;
 const QUIET_ROUNDS: u64 = 3;
 
 /// A mesh that resolves a field.
