@@ -15,8 +15,8 @@
 //! be missed, or not followed to its end.
 //!
 //! Only places are refined that may still hold the extremum by what their neighbours say, and
-//! boundaries have so many samples together that their evaluation is [`affordable`]: many
-//! boundaries are sampled less densely, and of [`CURVES`] and more some are passed over. Of a
+//! boundaries have so many samples together that their evaluation is affordable: many
+//! boundaries are sampled less densely, and of 32,768 and more some are passed over. Of a
 //! formula whose derivatives are too large the places of the grid decide, [`On::Pixel`].
 //!
 //! A quantity that has one value all over the body, but for rounding, has it
@@ -27,7 +27,7 @@
 //! with which sign, is seen in how it grows towards the point; then the extremum is infinite, and
 //! its place is the point. Values next to such a point, within a thousandth of a square, are left
 //! out: there the last digits of the field decide. Besides, an extremum is infinite if the value at
-//! a place of the grid is, or if the search ends at a [pole](poles), as of 1/x. Elsewhere it is a
+//! a place of the grid is, or if the search ends at a pole, as of 1/x. Elsewhere it is a
 //! number that the quantity has at the place.
 
 mod bent;

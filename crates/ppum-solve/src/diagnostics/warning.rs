@@ -95,7 +95,7 @@ pub(super) fn short(value: f64) -> String {
 }
 
 /// The key that makes cells smaller at a place: the one of the file that keeps them large, or
-/// [[refine]] with the keys of the place.
+/// `[[refine]]` with the keys of the place.
 pub(super) fn smaller_cells(problem: Option<&Problem>, keys: &str) -> String {
     let is_off = problem.is_some_and(|problem| !problem.discretization.refine);
     match is_off {
