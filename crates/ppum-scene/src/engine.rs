@@ -110,7 +110,7 @@ fn no_card(
     _: Method,
     _: &dyn Watcher,
 ) -> Result<Drawn, CardError> {
-    let reason = "no graphics adapter: this program was built without graphics cards; the backend cpu needs none";
+    let reason = "no graphics adapter: this program was built without graphics cards; leave the backend out, or use `--backend cpu`";
     Err(CardError { message: reason.to_owned(), is_normal: true })
 }
 
