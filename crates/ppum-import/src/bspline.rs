@@ -1,7 +1,7 @@
 //! B-splines and Bézier curves, made splines of the problem file as finely as a tolerance asks.
 
+use ppum::spline::Spline;
 use ppum::vec2::Vec2;
-use ppum_solve::problem::Spline;
 
 use crate::affine::PlaneMap;
 use crate::curve::PlaneCurve;

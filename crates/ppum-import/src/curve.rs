@@ -1,7 +1,7 @@
 //! Curves of a drawing that the problem file knows: polylines, arcs of ellipses, splines.
 
+use ppum::spline::Spline;
 use ppum::vec2::{Vec2, vec2};
-use ppum_solve::problem::Spline;
 
 use crate::affine::PlaneMap;
 

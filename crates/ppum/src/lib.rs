@@ -160,6 +160,7 @@ pub mod replace;
 pub mod sample;
 pub mod segment;
 pub mod sides;
+pub mod spline;
 pub mod text;
 pub mod vec2;
 pub mod weight;

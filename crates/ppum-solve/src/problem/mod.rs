@@ -70,7 +70,6 @@ pub use boundary::{BorderPart, BoundaryCondition, Condition, Edge, Piece, SideRu
 pub(crate) use boundary::{held_directions, in_plane};
 pub(crate) use cracks::touch;
 pub use cracks::{crack, cracks};
-pub use curve::Spline;
 pub(crate) use curve::arc_from;
 pub use discretization::{Cells, Discretization, Enrichment, MOST_TERMS, Order, OrderError};
 pub use document::MAX_LENGTH;

@@ -13,7 +13,7 @@ const ARROWS: [(&str, &[&str]); 17] = [
     ("ppum-file", &[]),
     ("ppum-format", &["ppum", "ppum-file"]),
     ("ppum-solve", &["ppum", "ppum-file"]),
-    ("ppum-import", &["ppum", "ppum-solve"]),
+    ("ppum-import", &["ppum"]),
     ("ppum-raster", &["ppum"]),
     ("ppum-render", &["ppum", "ppum-raster"]),
     ("ppum-figure", &["ppum", "ppum-render"]),

@@ -8,12 +8,10 @@
 //! the short pieces at the tips do to K, of the order h^1.5, depends on the length of the first and
 //! the last segment, and vanishes at about a quarter of h.
 
-mod spline;
-
 use ppum::vec2::{Vec2, vec2};
 
 use super::keys::MOST_SEGMENTS;
-pub use spline::Spline;
+use ppum::spline::Spline;
 use std::f64::consts::TAU;
 
 /// Turn of the curve from vertex to vertex, in radians: K of arcs is right to 4e-5

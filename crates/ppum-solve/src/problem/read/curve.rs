@@ -4,9 +4,10 @@
 use ppum::vec2::{Vec2, vec2};
 
 use super::super::cracks::shown;
-use super::super::curve::{self, SmoothCurve, Spline, TooSharp};
+use super::super::curve::{self, SmoothCurve, TooSharp};
 use super::super::document::{Read as _, Section, Value, all};
 use super::super::keys::MOST_SEGMENTS;
+use ppum::spline::Spline;
 
 /// Gap between pieces of a path, in parts of their size, that is rounding of their ends.
 pub(super) const JOINT: f64 = 1e-6;

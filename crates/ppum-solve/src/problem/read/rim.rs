@@ -5,11 +5,12 @@ use ppum::vec2::{Rect, Vec2};
 
 use super::super::boundary::{Piece, SideRun};
 use super::super::cracks::{shown, touch};
-use super::super::curve::{SmoothCurve, Spline};
+use super::super::curve::SmoothCurve;
 use super::super::discretization::Discretization;
 use super::super::document::{Read as _, Section, Value, all};
 use super::super::straight::needed;
 use super::curve::{ellipse, joined, knots, points_or_mistake, segments};
+use ppum::spline::Spline;
 
 /// A closed curve in words of the problem file.
 pub(super) struct Rim {

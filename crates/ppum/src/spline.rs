@@ -1,7 +1,7 @@
 //! Cubic splines through points: two continuous derivatives, so that tangent and curvature
 //! are continuous.
 
-use ppum::vec2::Vec2;
+use crate::vec2::Vec2;
 
 /// A cubic spline through points, over the length of its chords; periodic if closed.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,7 +133,7 @@ fn tridiagonal(rows: &[(f64, f64, f64)], right: &[Vec2]) -> Vec<Vec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ppum::vec2::vec2;
+    use crate::vec2::vec2;
     use ppum_testkit::random::Random;
 
     /// Random points: the spline passes through them; tangent and curvature (by the length of
