@@ -1,8 +1,8 @@
 //! Outline, holes and cracks from curves: chains that close, and how they lie in each other.
 
+use ppum::segment;
 use ppum::vec2::Vec2;
 
-use crate::bspline::{closest_point, from_segment};
 use crate::chain::{CurveChain, Joints, Network};
 use crate::crossing;
 use crate::curve::PlaneCurve;
@@ -46,7 +46,7 @@ struct Closed {
 impl Closed {
     fn new(chain: CurveChain) -> Self {
         let points = chain.flattened();
-        let area = signed_area(&points);
+        let area = segment::signed_area(&points);
         if area < 0.0 {
             return Self::new(chain.reversed());
         }
@@ -125,12 +125,6 @@ fn centroid(points: &[Vec2], length: f64) -> Vec2 {
     points.windows(2).map(part).fold(Vec2::ZERO, |sum, part| sum + part)
 }
 
-/// Twice the area would do as well: Σ a × b / 2, positive if the points run counter-clockwise.
-pub(crate) fn signed_area(points: &[Vec2]) -> f64 {
-    let Some(origin) = points.first() else { return 0.0 };
-    points.windows(2).map(|p| (p[0] - *origin).cross(p[1] - *origin)).sum::<f64>() * 0.5
-}
-
 /// The closed curves, the outline first; the others lie in it and not in each other.
 fn nested(mut closed: Vec<Closed>, open: &[CurveChain]) -> Result<Vec<Closed>, ImportError> {
     if closed.len().max(open.len()) > MOST_CHAINS {
@@ -185,10 +179,7 @@ fn check_cracks(cracks: &[CurveChain], outline: &Closed, size: f64) -> Result<()
         if crack.is_closed {
             return Err(ImportError::ClosedCrack { at: points[0], curve });
         }
-        let distance = |p: &Vec2| {
-            let segments = outline.points.windows(2);
-            segments.map(|s| from_segment(*p, [s[0], s[1]])).fold(f64::MAX, f64::min)
-        };
+        let distance = |p: &Vec2| segment::polyline_distance(&outline.points, *p);
         let is_outside = |p: &&Vec2| !contains(&outline.points, **p) && distance(p) > BEYOND * size;
         if let Some(at) = points.iter().find(is_outside) {
             return Err(ImportError::Outside { at: *at, curve });
@@ -212,7 +203,7 @@ fn snapped(crack: CurveChain, borders: &[[Vec2; 2]], tolerance: f64) -> CurveCha
     let ([first, .., last] | [first @ last]) = &crack.curves[..] else { return crack };
     let ends = [first.curve.ends()[0], last.curve.ends()[1]];
     let on_border = ends.map(|end| {
-        let points = borders.iter().map(|segment| closest_point(end, *segment));
+        let points = borders.iter().map(|segment| segment::closest_point(*segment, end));
         let nearest = points.min_by(|a, b| (*a - end).length().total_cmp(&(*b - end).length()));
         nearest.filter(|point| (*point - end).length() <= tolerance).unwrap_or(end)
     });

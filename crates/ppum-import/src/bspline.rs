@@ -1,5 +1,6 @@
 //! B-splines and Bézier curves, made splines of the problem file as finely as a tolerance asks.
 
+use ppum::segment;
 use ppum::spline::Spline;
 use ppum::vec2::Vec2;
 
@@ -122,7 +123,7 @@ impl BSpline {
     fn fitted_run(&self, run: &[usize], tolerance: f64) -> (PlaneCurve, f64) {
         let fine = self.sampled(run, 16);
         let ends = [fine[0], fine[fine.len() - 1]];
-        if fine.iter().all(|p| from_segment(*p, ends) < 1e-3 * tolerance) {
+        if fine.iter().all(|p| segment::distance(ends, *p) < 1e-3 * tolerance) {
             return (PlaneCurve::Polyline(ends.to_vec()), 0.0);
         }
         let mut parts = 4;
@@ -144,24 +145,11 @@ impl BSpline {
 /// each.
 fn polyline(mut points: Vec<Vec2>, between: &[Vec2]) -> (PlaneCurve, f64) {
     let chords = points.windows(2).zip(between.chunks(4));
-    let distances =
-        chords.flat_map(|(chord, of)| of.iter().map(|p| from_segment(*p, [chord[0], chord[1]])));
+    let distances = chords
+        .flat_map(|(chord, of)| of.iter().map(|p| segment::distance([chord[0], chord[1]], *p)));
     let largest = distances.fold(0.0, f64::max);
     points.dedup();
     (PlaneCurve::Polyline(points), largest)
-}
-
-/// Distance of a point to a segment.
-pub(crate) fn from_segment(p: Vec2, segment: [Vec2; 2]) -> f64 {
-    (p - closest_point(p, segment)).length()
-}
-
-/// The point of a segment that is closest to `p`.
-pub(crate) fn closest_point(p: Vec2, [a, b]: [Vec2; 2]) -> Vec2 {
-    let along = b - a;
-    let square = along.dot(along);
-    let s = if square > 0.0 { ((p - a).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
-    a + along * s
 }
 
 /// Largest distance of points, four by span, to the spline through every fourth of them, by

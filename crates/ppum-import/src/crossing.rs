@@ -1,5 +1,6 @@
 //! Closed curves that cross or touch themselves or each other.
 
+use ppum::line::Line;
 use ppum::vec2::Vec2;
 
 use crate::error::ImportError;
@@ -76,7 +77,6 @@ fn meet(a: &BorderSegment, b: &BorderSegment) -> bool {
 
 /// The common point of the lines, or an end of parallel ones.
 fn meeting_point(a: &BorderSegment, b: &BorderSegment) -> Vec2 {
-    let (u, v) = (a.ends[1] - a.ends[0], b.ends[1] - b.ends[0]);
-    let s = (b.ends[0] - a.ends[0]).cross(v) / u.cross(v);
-    if s.is_finite() { a.ends[0] + u * s } else { b.ends[0] }
+    let [line, other] = [a, b].map(|segment| Line::through(segment.ends));
+    line.meets(&other).map_or(other.from, |[t, _]| line.at(t))
 }

@@ -1,8 +1,8 @@
 //! Curves of a chain made few and named: straight runs and arcs joined, sides told apart.
 
+use ppum::segment;
 use ppum::vec2::{Vec2, vec2};
 
-use crate::bspline::from_segment;
 use crate::chain::CurveChain;
 use crate::curve::{EllipseArc, PlaneCurve};
 use crate::sketch::NamedCurve;
@@ -155,10 +155,9 @@ fn merged_arcs(a: &EllipseArc, b: &EllipseArc, size: f64) -> Option<EllipseArc> 
 fn straighten(points: &mut Vec<Vec2>, distance: f64) {
     let all = std::mem::take(points);
     for (k, point) in all.iter().enumerate() {
-        let is_on_line = points
-            .last()
-            .zip(all.get(k + 1))
-            .is_some_and(|(before, after)| from_segment(*point, [*before, *after]) <= distance);
+        let is_on_line = points.last().zip(all.get(k + 1)).is_some_and(|(before, after)| {
+            segment::distance([*before, *after], *point) <= distance
+        });
         if !is_on_line {
             points.push(*point);
         }

@@ -102,11 +102,9 @@ mod tests {
     #[test]
     fn random_segments_become_chains_of_edges() {
         let mut random = Random(3);
-        let (lo, hi) = (vec2(-3.0, 10.0), vec2(4.0, 11.0));
-        let bounds = ppum::vec2::Rect::new(lo, hi);
+        let bounds = ppum::vec2::Rect::new(vec2(-3.0, 10.0), vec2(4.0, 11.0));
         for _ in 0..20 {
-            let corners = [lo, vec2(hi.x, lo.y), hi, vec2(lo.x, hi.y)];
-            let mut segments: Vec<_> = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]).collect();
+            let mut segments = bounds.sides().to_vec();
             segments.extend((0..12).map(|_| [random.point(&bounds), random.point(&bounds)]));
             let found = triangulate(&segments, &[random.point(&bounds)]).unwrap();
             let at = |k: u32| found.points[k as usize];

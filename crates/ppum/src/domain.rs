@@ -159,7 +159,7 @@ impl Hole {
             Self::Circle { .. } => &[],
             Self::Polygon { points, .. } => points,
         };
-        (0..points.len()).map(|k| [points[k], points[(k + 1) % points.len()]])
+        segment::sides(points)
     }
 
     /// +1 if the hole is on the left of its sides, −1 if it is on their right; +1 for a circle.

@@ -150,6 +150,7 @@ pub mod function;
 pub mod growth;
 pub mod jet;
 pub mod library;
+pub mod line;
 pub mod mesh;
 mod morton;
 pub mod polynomial;

@@ -5,6 +5,19 @@ use crate::vec2::{Rect, Vec2};
 /// A segment by its ends. It may be a point.
 pub type Segment = [Vec2; 2];
 
+/// The sides of a polygon, from each corner to the next.
+pub fn sides(corners: &[Vec2]) -> impl Iterator<Item = Segment> + Clone {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(&a, &b)| [a, b])
+}
+
+/// The area of a polygon, positive if its corners run counter-clockwise.
+#[must_use]
+pub fn signed_area(corners: &[Vec2]) -> f64 {
+    let Some(&origin) = corners.first() else { return 0.0 };
+    0.5 * sides(corners).map(|[a, b]| (a - origin).cross(b - origin)).sum::<f64>()
+}
+
 /// Distance of `p` to a segment, to rounding of p − a and b − a.
 #[must_use]
 pub fn distance(segment @ [a, b]: Segment, p: Vec2) -> f64 {

@@ -157,6 +157,13 @@ impl Rect {
         [self.min, vec2(self.max.x, self.min.y), self.max, vec2(self.min.x, self.max.y)]
     }
 
+    /// Sides, from each corner to the next.
+    #[must_use]
+    pub fn sides(&self) -> [[Vec2; 2]; 4] {
+        let [a, b, c, d] = self.corners();
+        [[a, b], [b, c], [c, d], [d, a]]
+    }
+
     /// True if `p` lies in the closed box.
     #[must_use]
     pub fn contains(&self, p: Vec2) -> bool {

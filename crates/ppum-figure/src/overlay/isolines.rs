@@ -1,8 +1,9 @@
 //! Isolines with their levels.
 
 use ppum::crack::Crack;
+use ppum::line::Line;
 use ppum::segment;
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::isoline::Isoline;
 use ppum_render::picture::Picture;
@@ -46,7 +47,8 @@ impl Room {
     /// Takes away the pixels along a line.
     fn close(&mut self, line: [Vec2; 2]) {
         let size = vec2(self.columns as f64, (self.is_free.len() / self.columns.max(1)) as f64);
-        let Some([a, b]) = clipped(line, size) else { return };
+        let all = Rect::new(Vec2::ZERO, size);
+        let Some([a, b]) = Line::through(line).clipped(&all, [0.0, 1.0]) else { return };
         let steps = (b - a).length().ceil().max(1.0);
         for k in 0..=steps as usize {
             let p = a + (b - a) * (k as f64 / steps);
@@ -88,23 +90,6 @@ impl Room {
             })
         })
     }
-}
-
-/// The part of a line within a box from the origin.
-fn clipped([a, b]: [Vec2; 2], size: Vec2) -> Option<[Vec2; 2]> {
-    let d = b - a;
-    let within = |from: f64, way: f64, size: f64| match way {
-        0.0 if (0.0..=size).contains(&from) => [f64::NEG_INFINITY, f64::INFINITY],
-        0.0 => [f64::INFINITY, f64::NEG_INFINITY],
-        way => {
-            let ends = [-from / way, (size - from) / way];
-            [ends[0].min(ends[1]), ends[0].max(ends[1])]
-        }
-    };
-    let [x, y] = [within(a.x, d.x, size.x), within(a.y, d.y, size.y)];
-    let (enter, leave) = (x[0].max(y[0]).max(0.0), x[1].min(y[1]).min(1.0));
-    let ends = [enter, leave].map(|t| a + d * t);
-    (enter <= leave && ends.iter().all(|p| p.is_finite())).then_some(ends)
 }
 
 /// Isolines as dark lines with a light seam, of one width everywhere; with their levels, if that is

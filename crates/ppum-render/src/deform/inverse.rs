@@ -1,6 +1,6 @@
 //! From a place in the deformed plane to the point of the plate.
 
-use ppum::segment::closest_point;
+use ppum::segment::{closest_point, sides};
 use ppum::vec2::{Rect, Vec2};
 
 use super::leaf::Leaf;
@@ -164,8 +164,4 @@ fn nearest(corners: &[Vec2], p: Vec2) -> Vec2 {
     }
     let nearer = |a: &Vec2, b: &Vec2| (*a - p).length().total_cmp(&(*b - p).length());
     sides(corners).map(|side| closest_point(side, p)).min_by(nearer).unwrap_or(p)
-}
-
-fn sides(corners: &[Vec2]) -> impl Iterator<Item = [Vec2; 2]> {
-    corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| [*a, *b])
 }

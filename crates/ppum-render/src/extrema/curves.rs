@@ -3,6 +3,7 @@
 use ppum::crack::{LocalCrack, SegmentId, Side};
 use ppum::domain::{Hole, LocalRim};
 use ppum::field::{Field, LocalField};
+use ppum::line::Line;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::{PI, TAU};
 
@@ -110,14 +111,14 @@ pub(super) fn boundary_curves(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> V
         for (segment, (s, ends)) in (0..).zip(local.segments().iter().zip(crack.points.windows(2)))
         {
             let range = [ends[0], ends[1]].map(|end| s.tangent.dot(end - anchor));
-            let foot = s.tangent.left() * -s.distance;
+            let line = Line { from: s.tangent.left() * -s.distance, along: s.tangent };
             let id = SegmentId { crack: index, segment };
             let normal = s.tangent.left();
             let faces = |ends| {
                 [(Side::Above, normal), (Side::Below, -normal)]
                     .map(|(side, toward)| BoundaryCurve::straight(ends, toward, On::Face(id, side)))
             };
-            curves.extend(clipped(foot, s.tangent, range, rect).into_iter().flat_map(faces));
+            curves.extend(line.clipped(rect, range).into_iter().flat_map(faces));
         }
     }
     for (index, hole) in field.domain.holes.iter().enumerate() {
@@ -128,12 +129,8 @@ pub(super) fn boundary_curves(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> V
 }
 
 fn borders(rect: &Rect) -> Vec<BoundaryCurve> {
-    let (min, max) = (rect.min, rect.max);
-    let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
-    let side = |k: usize| {
-        BoundaryCurve::straight([corners[k], corners[(k + 1) % 4]], Vec2::ZERO, On::Border)
-    };
-    (0..4).map(side).collect()
+    let side = |ends| BoundaryCurve::straight(ends, Vec2::ZERO, On::Border);
+    rect.sides().map(side).into()
 }
 
 fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Vec<BoundaryCurve>) {
@@ -150,11 +147,12 @@ fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Ve
             for side in sides {
                 let length = side.direction.length();
                 let tangent = side.direction / length;
-                let foot = tangent.left() * (-side.cross / length);
+                let from = tangent.left() * (-side.cross / length);
+                let line = Line { from, along: tangent };
                 let range = [tangent.dot(side.a), tangent.dot(side.b)];
                 let outward = tangent.left() * -orientation;
                 let rim = |ends| BoundaryCurve::straight(ends, outward, on);
-                curves.extend(clipped(foot, tangent, range, rect).map(rim));
+                curves.extend(line.clipped(rect, range).map(rim));
             }
         }
         _ => {}
@@ -196,39 +194,15 @@ fn arc(radius: f64, d: Vec2, excess: f64, rect: &Rect) -> Option<Arc> {
 fn add_interfaces(field: &Field<'_>, anchor: Vec2, rect: &Rect, curves: &mut Vec<BoundaryCurve>) {
     let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
     let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
-    for [a, b, c] in kinks.filter_map(|kink| kink.line()) {
-        let normal = vec2(a, b);
-        let distance = a.mul_add(anchor.x, b.mul_add(anchor.y, c)) / normal.length();
-        let normal = normal.unit();
-        let everywhere = [f64::NEG_INFINITY, f64::INFINITY];
-        let ends = clipped(normal * -distance, normal.left(), everywhere, rect);
+    for form in kinks.filter_map(|kink| kink.line()) {
+        let line = Line::of_equation(form, anchor);
+        let (normal, everywhere) = (line.along.left(), [f64::NEG_INFINITY, f64::INFINITY]);
+        let ends = line.clipped(rect, everywhere);
         let both = |ends| {
             [normal, -normal].map(|toward| BoundaryCurve::straight(ends, toward, On::Interface))
         };
         curves.extend(ends.into_iter().flat_map(both));
     }
-}
-
-/// The ends of the part of a line's range in a closed rectangle.
-fn clipped(
-    foot: Vec2,
-    tangent: Vec2,
-    [mut lo, mut hi]: [f64; 2],
-    rect: &Rect,
-) -> Option<[Vec2; 2]> {
-    for (from, step, min, max) in
-        [(foot.x, tangent.x, rect.min.x, rect.max.x), (foot.y, tangent.y, rect.min.y, rect.max.y)]
-    {
-        if step == 0.0 {
-            if from < min || from > max {
-                return None;
-            }
-        } else {
-            let (a, b) = ((min - from) / step, (max - from) / step);
-            (lo, hi) = (lo.max(a.min(b)), hi.min(a.max(b)));
-        }
-    }
-    (lo <= hi).then(|| [lo, hi].map(|t| foot + tangent * t))
 }
 
 impl BoundaryCurve {

@@ -1,5 +1,6 @@
 //! Convex polygons cut by lines.
 
+use ppum::line::Line;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// Rounding of offsets and of distances from lines, in parts of their size.
@@ -49,11 +50,9 @@ impl PolygonCut {
     }
 
     /// The interface a x + b y + c = 0.
-    pub(super) fn interface([a, b, c]: [f64; 3], anchor: Vec2) -> Option<Self> {
-        let normal = vec2(a, b);
-        let distance = a.mul_add(anchor.x, b.mul_add(anchor.y, c)) / normal.length();
-        // the left normal of the tangent is the normal
-        let tangent = -normal.unit().left();
+    pub(super) fn interface(form: [f64; 3], anchor: Vec2) -> Option<Self> {
+        let line = Line::of_equation(form, anchor);
+        let (tangent, distance) = (-line.along, line.along.cross(line.from));
         let cut = Self { is_interface: true, ..Self::along(tangent, distance, EVERYWHERE) };
         (tangent.is_finite() && distance.is_finite()).then_some(cut)
     }
@@ -100,21 +99,10 @@ impl PolygonCut {
     pub(super) fn meets(&self, rect: &Rect) -> bool {
         let size = [rect.min.x, rect.min.y, rect.max.x, rect.max.y];
         let reach = 2.0 * ROUNDING * size.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        let [mut lo, mut hi] = [self.range[0] - reach, self.range[1] + reach];
-        let foot = self.tangent.left() * -self.distance;
-        let (t, min, max) = (self.tangent, rect.min, rect.max);
-        for (from, step, min, max) in [(foot.x, t.x, min.x, max.x), (foot.y, t.y, min.y, max.y)] {
-            let (min, max) = (min - reach, max + reach);
-            if step == 0.0 {
-                if from < min || from > max {
-                    return false;
-                }
-            } else {
-                let (a, b) = ((min - from) / step, (max - from) / step);
-                (lo, hi) = (lo.max(a.min(b)), hi.min(a.max(b)));
-            }
-        }
-        lo <= hi
+        let line = Line { from: self.tangent.left() * -self.distance, along: self.tangent };
+        let beyond = vec2(reach, reach);
+        let near = Rect::new(rect.min - beyond, rect.max + beyond);
+        line.within(&near, [self.range[0] - reach, self.range[1] + reach]).is_some()
     }
 
     /// Part of the way to a centre that leads away from a curve.

@@ -14,6 +14,7 @@ use ppum::crack::SegmentId;
 use ppum::dataset::BoxPartition;
 use ppum::domain::{Domain, Hole};
 use ppum::field::Field;
+use ppum::line::Line;
 use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
@@ -88,7 +89,7 @@ impl BorderKind {
 pub(super) fn borders(field: &Field<'_>, domain: &Domain, lines: LineRequest) -> Vec<Border> {
     let plain = |ends| Border { ends, kind: BorderKind::default() };
     let rims = domain.holes.iter().flat_map(Hole::sides);
-    let mut all: Vec<_> = outline(&domain.bounds).into_iter().chain(rims).map(plain).collect();
+    let mut all: Vec<_> = domain.bounds.sides().into_iter().chain(rims).map(plain).collect();
     for (crack, points) in (0..).zip(field.step.cracks.iter().map(|crack| &crack.points)) {
         for (segment, ends) in (0..).zip(points.windows(2)) {
             let crack = Some(SegmentId { crack, segment });
@@ -207,12 +208,6 @@ fn around(center: Vec2, radius: f64) -> Vec<Vec2> {
         center + vec2(cos, sin) * far
     };
     (0..SIDES).map(corner).collect()
-}
-
-pub(super) fn outline(bounds: &Rect) -> [[Vec2; 2]; 4] {
-    let (lo, hi) = (bounds.min, bounds.max);
-    let corners = [lo, vec2(hi.x, lo.y), hi, vec2(lo.x, hi.y)];
-    [0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]])
 }
 
 /// Coordinates along an axis that are apart from each other by more than rounding; others are moved
@@ -340,29 +335,11 @@ fn jumps(weight: &WeightFunction, derivative: usize) -> Vec<f64> {
 fn interfaces(field: &Field<'_>) -> Vec<[Vec2; 2]> {
     let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
     let lines = formulas.flat_map(|(_, e)| e.formula().kinks()).filter_map(|kink| kink.line());
-    lines.filter_map(|line| clipped(line, &field.domain.bounds)).collect()
-}
-
-/// The part of the line a x + b y + c = 0 in a box.
-fn clipped([a, b, c]: [f64; 3], bounds: &Rect) -> Option<[Vec2; 2]> {
-    let (center, normal) = (bounds.center(), vec2(a, b));
-    let unit = normal.unit();
-    let away = (a.mul_add(center.x, b.mul_add(center.y, c))) / normal.length();
-    let (foot, along) = (center - unit * away, unit.left());
-    let mut range = [f64::NEG_INFINITY, f64::INFINITY];
-    for (p, d, low, high) in [
-        (foot.x, along.x, bounds.min.x, bounds.max.x),
-        (foot.y, along.y, bounds.min.y, bounds.max.y),
-    ] {
-        let ends = [(low - p) / d, (high - p) / d];
-        if d != 0.0 {
-            range = [range[0].max(ends[0].min(ends[1])), range[1].min(ends[0].max(ends[1]))];
-        } else if p < low || p > high {
-            return None;
-        }
-    }
-    let ends = range.map(|s| foot + along * s);
-    (range[0] < range[1] && ends.iter().all(|p| p.is_finite())).then_some(ends)
+    let (center, half) = (field.domain.bounds.center(), field.domain.bounds.size() * 0.5);
+    let (around, everywhere) = (Rect::around(Vec2::ZERO, half), [f64::NEG_INFINITY, f64::INFINITY]);
+    let ends =
+        lines.filter_map(|form| Line::of_equation(form, center).clipped(&around, everywhere));
+    ends.filter(|[a, b]| a != b).map(|ends| ends.map(|p| center + p)).collect()
 }
 
 #[cfg(test)]
@@ -381,14 +358,5 @@ mod tests {
         let found = jumps(&bent, 1);
         assert_eq!(found.len(), 5, "{found:?}");
         assert!((found[3] - 3.0 / 7.0).abs() < 1e-12, "{found:?}");
-    }
-
-    #[test]
-    fn lines_end_at_the_box() {
-        let bounds = Rect::new(vec2(-1.0, 2.0), vec2(3.0, 4.0));
-        assert_eq!(clipped([1.0, 0.0, -2.0], &bounds), Some([vec2(2.0, 2.0), vec2(2.0, 4.0)]));
-        assert_eq!(clipped([1.0, 0.0, -5.0], &bounds), None);
-        let [a, b] = clipped([1.0, -1.0, 0.0], &bounds).unwrap();
-        assert!((a - vec2(2.0, 2.0)).length() + (b - vec2(3.0, 3.0)).length() < 1e-14);
     }
 }

@@ -8,7 +8,7 @@ use ppum::segment;
 use ppum::vec2::Vec2;
 
 use super::arrays::Columns;
-use super::borders::{SAME, longest, outline};
+use super::borders::{SAME, longest};
 
 /// The default radius about a singular point in parts of the length on which the field varies
 /// there: the values at the radius make the range, which grows as R^−½ and loosens the tolerance
@@ -84,7 +84,7 @@ fn candidates(field: &Field<'_>) -> Vec<Vec2> {
 /// whichever is smallest. Kinks do not count: they may stand for an arc.
 fn extent(field: &Field<'_>, p: Vec2) -> f64 {
     let bounds = &field.domain.bounds;
-    let sides = outline(bounds).map(|side| (segment::distance(side, p), f64::INFINITY));
+    let sides = bounds.sides().map(|side| (segment::distance(side, p), f64::INFINITY));
     let holes = field.domain.holes.iter();
     let holes = holes.map(|hole| (hole.rim_distance(p), longest(&hole.rim_bounds())));
     let cracks = field.step.cracks.iter().map(|crack| {

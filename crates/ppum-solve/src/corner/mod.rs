@@ -290,7 +290,7 @@ fn places(problem: &Problem) -> Vec<Vec2> {
     let holes = &problem.domain.holes;
     all.extend(holes.iter().flat_map(Hole::sides).map(|[a, _]| a));
     let cracks = problem.cracks.iter().flat_map(|crack| crack.points.windows(2));
-    let straight = cracks.map(|s| [s[0], s[1]]).chain(edges_of(bounds));
+    let straight = cracks.map(|s| [s[0], s[1]]).chain(bounds.sides());
     let crossings = straight.flat_map(|s| holes.iter().flat_map(move |hole| crossing(s, hole)));
     all.extend(crossings);
     for (k, hole) in holes.iter().enumerate() {
@@ -353,11 +353,6 @@ fn curves(part: BorderPart, problem: &Problem) -> Vec<BorderCurve<'_>> {
 fn vertices(crack: &Crack) -> impl Iterator<Item = Vec2> + '_ {
     let is_tip = |p: &Vec2| crack.tips().any(|end| crack.end_point(end) == *p);
     crack.points.iter().copied().filter(move |p| !is_tip(p))
-}
-
-fn edges_of(rect: &Rect) -> impl Iterator<Item = [Vec2; 2]> {
-    let corners = rect.corners();
-    (0..4).map(move |k| [corners[k], corners[(k + 1) % 4]])
 }
 
 /// The points that a segment shares with a rim.

@@ -2,6 +2,7 @@
 
 use ppum::crack::Crack;
 use ppum::domain::Hole;
+use ppum::line::Line;
 use ppum::segment;
 use ppum::vec2::{Rect, Vec2};
 
@@ -38,21 +39,15 @@ pub(crate) fn solid_part<'h>(
 
 /// The parameters, 0 at `a` and 1 at `b`, at which the line through two points meets a rim.
 pub(crate) fn rim_crossings(a: Vec2, b: Vec2, hole: &Hole) -> Vec<f64> {
-    let d = b - a;
+    let line = Line::through([a, b]);
     match *hole {
         Hole::Circle { center, radius } => {
-            let middle = (center - a).dot(d) / d.dot(d);
-            let height = d.cross(center - a) / d.length();
-            let half = ((radius - height) * (radius + height)).sqrt() / d.length();
-            if half > 0.0 { vec![middle - half, middle + half] } else { Vec::new() }
+            line.meets_circle(center, radius).map_or_else(Vec::new, Vec::from)
         }
         Hole::Polygon { .. } => {
             let crossing = |[p, q]: [Vec2; 2]| {
-                let (s, t) = (d.cross(p - a), d.cross(q - a));
-                (s * t <= 0.0 && s != t).then(|| {
-                    let on = p + (q - p) * (s / (s - t));
-                    (on - a).dot(d) / d.dot(d)
-                })
+                let (s, t) = (line.side(p), line.side(q));
+                (s * t <= 0.0 && s != t).then(|| line.foot(p + (q - p) * (s / (s - t))))
             };
             hole.sides().filter_map(crossing).collect()
         }

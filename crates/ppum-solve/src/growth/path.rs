@@ -4,6 +4,7 @@ use crate::problem::{Problem, arc_from, touch};
 use ppum::crack::{Crack, End, TipId, tips};
 use ppum::dataset::Fate;
 use ppum::domain::Hole;
+use ppum::line::Line;
 use ppum::segment::{Segment, distance};
 use ppum::vec2::{Rect, Vec2};
 
@@ -184,17 +185,13 @@ fn leaves(s: Segment, bounds: &Rect) -> Option<(f64, Vec2)> {
 fn enters(s: Segment, hole: &Hole) -> Option<f64> {
     match hole {
         Hole::Circle { center, radius } => {
-            let (step, from) = (s[1] - s[0], s[0] - *center);
-            let (a, b) = (step.dot(step), from.dot(step));
-            let c = (from.length() - radius) * (from.length() + radius);
-            let root = b * b - a * c;
-            // the nearer of both, without cancellation
-            let t = (b < 0.0 && root >= 0.0).then(|| c / (-b + root.sqrt()))?;
-            (t <= 1.0).then_some(t.max(0.0))
+            // the nearer of both
+            let [t, _] = Line::through(s).meets_circle(*center, *radius)?;
+            let comes_nearer = (*center - s[0]).dot(s[1] - s[0]) > 0.0;
+            (comes_nearer && t <= 1.0).then_some(t.max(0.0))
         }
-        Hole::Polygon { points, .. } => {
-            let sides = (0..points.len()).map(|k| [points[k], points[(k + 1) % points.len()]]);
-            let hits = sides.filter_map(|side| Some(crosses(s, side, 0.0)?.0));
+        Hole::Polygon { .. } => {
+            let hits = hole.sides().filter_map(|side| Some(crosses(s, side, 0.0)?.0));
             hits.min_by(f64::total_cmp)
         }
     }
@@ -202,13 +199,8 @@ fn enters(s: Segment, hole: &Hole) -> Option<f64> {
 
 /// Where a segment meets another one, or comes as near to it as what touches.
 fn crosses(s: Segment, other: Segment, near: f64) -> Option<(f64, Vec2)> {
-    let (along, way) = (s[1] - s[0], other[1] - other[0]);
-    let area = along.cross(way);
-    if area == 0.0 {
-        return None;
-    }
-    let t = (other[0] - s[0]).cross(way) / area;
-    let u = (other[0] - s[0]).cross(along) / area;
+    let way = other[1] - other[0];
+    let [t, u] = Line::through(s).meets(&Line::through(other))?;
     let slack = near / way.length();
     let is_on = |x: f64, slack: f64| (-slack..=1.0 + slack).contains(&x);
     (is_on(t, 0.0) && is_on(u, slack)).then(|| (t, other[0] + way * u.clamp(0.0, 1.0)))

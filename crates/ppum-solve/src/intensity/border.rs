@@ -17,9 +17,7 @@ pub(super) fn border_distance(field: &Field<'_>, center: Vec2, radius: f64) -> f
     let elements = patches.iter().filter_map(|&patch| local.element(patch as usize));
     let of_element = |element: ElementField<'_, '_>| {
         let corners = element.corners();
-        let n = corners.len();
-        let sides = (0..n).map(|k| [corners[k], corners[(k + 1) % n]]);
-        let distances = sides.map(|side| side_distance(&local, &element, side));
+        let distances = segment::sides(&corners).map(|side| side_distance(&local, &element, side));
         distances.fold(radius, f64::min)
     };
     elements.map(of_element).fold(radius, f64::min)

@@ -2,6 +2,7 @@
 
 use ppum::crack::{Crack, CrackEnd};
 use ppum::domain::{Domain, Hole};
+use ppum::line::Line;
 use ppum::segment::{Segment, distance, gap};
 use ppum::text::{exact, trimmed};
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -274,12 +275,11 @@ fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option
 
 /// Where two segments meet: where they cross, else the end of one that is the nearest to the other.
 pub(super) fn place(s: Segment, t: Segment) -> Vec2 {
-    let (along, other) = (s[1] - s[0], t[1] - t[0]);
-    let at = (t[0] - s[0]).cross(other) / along.cross(other);
-    let crossing = s[0] + along * at;
+    let line = Line::through(s);
+    let crossing = line.meets(&Line::through(t)).map(|[at, _]| line.at(at));
     let ends = s.map(|p| (distance(t, p), p)).into_iter().chain(t.map(|p| (distance(s, p), p)));
-    let crosses = (distance(s, crossing).max(distance(t, crossing)), crossing);
-    let all = ends.chain((at.is_finite()).then_some(crosses));
+    let crosses = crossing.map(|p| (distance(s, p).max(distance(t, p)), p));
+    let all = ends.chain(crosses);
     all.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(s[0], |(_, p)| p)
 }
 

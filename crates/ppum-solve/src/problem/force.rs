@@ -2,6 +2,7 @@
 
 use ppum::crack::{SegmentId, Side};
 use ppum::domain::{Domain, Hole};
+use ppum::line::Line;
 use ppum::segment;
 use ppum::text::trimmed;
 use ppum::vec2::Vec2;
@@ -209,10 +210,9 @@ fn is_at_bend([[a, b], [_, c]]: [[Vec2; 2]; 2], p: Vec2, touch: f64) -> bool {
 
 /// Distance from a point in a direction to a segment that does not begin there.
 fn along(p: Vec2, way: Vec2, [a, b]: [Vec2; 2]) -> Option<f64> {
-    let side = b - a;
-    let across = way.cross(side);
-    let (distance, part) = ((a - p).cross(side) / across, (a - p).cross(way) / across);
-    let beside = BESIDE * (side.length() + (a - p).length());
+    let side = Line::through([a, b]);
+    let [distance, part] = Line { from: p, along: way }.meets(&side)?;
+    let beside = BESIDE * (side.along.length() + (a - p).length());
     (distance > beside && (0.0..=1.0).contains(&part)).then_some(distance)
 }
 

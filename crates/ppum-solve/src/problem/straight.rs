@@ -8,6 +8,7 @@
 
 use std::collections::BTreeMap;
 
+use ppum::line::Line;
 use ppum::segment::{Segment, distance};
 use ppum::vec2::Vec2;
 
@@ -178,14 +179,13 @@ fn joints(lines: &[Vec<Vec2>], touch: f64) -> Result<Vec<(Vec<LineEnd>, Vec2)>, 
 
 /// The point near `p` on one line, or where lines cross.
 fn place(p: Vec2, lines: &[Segment]) -> Vec2 {
-    let Some((&[a, b], others)) = lines.split_first() else { return p };
-    let along = b - a;
-    let crossing = others.iter().find_map(|&[c, d]| {
-        let way = d - c;
-        let sine = along.unit().cross(way.unit());
-        (sine.abs() > APART).then(|| a + along * ((c - a).cross(way) / along.cross(way)))
+    let Some((first, others)) = lines.split_first() else { return p };
+    let line = Line::through(*first);
+    let crossing = others.iter().map(|other| Line::through(*other)).find_map(|other| {
+        let sine = line.unit().along.cross(other.unit().along);
+        line.meets(&other).filter(|_| sine.abs() > APART).map(|[t, _]| line.at(t))
     });
-    crossing.unwrap_or_else(|| a + along * (along.dot(p - a) / along.dot(along)))
+    crossing.unwrap_or_else(|| line.at(line.foot(p)))
 }
 
 #[cfg(test)]

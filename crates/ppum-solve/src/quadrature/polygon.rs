@@ -77,8 +77,7 @@ impl Polygon {
     }
 
     pub(super) fn area(&self) -> f64 {
-        let origin = self.0[0];
-        0.5 * self.edges().map(|(a, b)| (a - origin).cross(b - origin)).sum::<f64>()
+        segment::signed_area(&self.0)
     }
 
     pub(super) fn diameter(&self) -> f64 {

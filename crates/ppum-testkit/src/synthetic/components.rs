@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use ppum::crack::{Crack, SegmentId};
 use ppum::function::{Cut, Part};
+use ppum::segment::signed_area;
 use ppum::vec2::{Rect, Vec2};
 
 /// Areas and steps that nobody sees, in parts of the box.
@@ -80,17 +81,18 @@ impl Components {
     #[must_use]
     pub fn middle(&self, component: usize) -> Vec2 {
         let cells = (0..self.cells.len()).filter(|&cell| self.of_cell[cell] == component);
-        let largest =
-            |&a: &usize, &b: &usize| area(&self.cells[a]).total_cmp(&area(&self.cells[b]));
+        let largest = |&a: &usize, &b: &usize| {
+            signed_area(&self.cells[a]).total_cmp(&signed_area(&self.cells[b]))
+        };
         centroid(&self.cells[cells.max_by(largest).expect("a component has a cell")])
     }
 
     /// Cuts a cell by the lines from a number on that part it.
     fn cut(&mut self, cell: Vec<Vec2>, first: usize) -> Node {
-        let least = ROUNDING * area(&cell);
+        let least = ROUNDING * signed_area(&cell);
         for line in first..self.lines.len() {
             let parts = [1.0, -1.0].map(|side| clipped(&cell, &self.lines[line], side));
-            if parts.iter().all(|part| area(part) > least) {
+            if parts.iter().all(|part| signed_area(part) > least) {
                 let sides = parts.map(|part| Box::new(self.cut(part, line + 1)));
                 return Node::Cut { line, sides };
             }
@@ -215,12 +217,6 @@ fn clipped(polygon: &[Vec2], line: &CrackSegment, side: f64) -> Vec<Vec2> {
         part.extend(line.crosses(a, b).map(|t| a + (b - a) * t));
     }
     part
-}
-
-fn area(polygon: &[Vec2]) -> f64 {
-    let Some(&origin) = polygon.first() else { return 0.0 };
-    let next = polygon.iter().cycle().skip(1);
-    0.5 * polygon.iter().zip(next).map(|(a, b)| (*a - origin).cross(*b - origin)).sum::<f64>()
 }
 
 fn centroid(polygon: &[Vec2]) -> Vec2 {

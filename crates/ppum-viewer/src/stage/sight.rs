@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use egui::{Pos2, Rect, pos2};
+use ppum::line::Line;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::deform::Deformation;
 use ppum_render::view::View;
@@ -25,6 +26,9 @@ pub struct Sight {
 
 /// Points of a polyline on the deformed plate, where it has fewer corners.
 const STEPS: usize = 96;
+
+/// Points of the window around the view in which marks and lines go on.
+const ROOM: f64 = 8.0;
 
 impl Sight {
     /// A view in a rectangle; of the deformed plate if the picture shows that.
@@ -73,7 +77,7 @@ impl Sight {
     #[must_use]
     pub fn position(&self, spot: &Spot) -> Option<Pos2> {
         let at = self.place(spot);
-        let is_seen = |v: f64, size: f32| (-8.0..=f64::from(size) + 8.0).contains(&v);
+        let is_seen = |v: f64, size: f32| (-ROOM..=f64::from(size) + ROOM).contains(&v);
         (is_seen(at.x, self.rect.width()) && is_seen(at.y, self.rect.height()))
             .then(|| self.window(at))
     }
@@ -95,7 +99,10 @@ impl Sight {
                 .collect(),
         };
         let size = vec2(f64::from(self.rect.width()), f64::from(self.rect.height()));
-        let seen = places.windows(2).filter_map(|pair| clipped([pair[0], pair[1]], size));
+        let room = ppum::vec2::Rect::new(vec2(-ROOM, -ROOM), size + vec2(ROOM, ROOM));
+        let seen = places
+            .windows(2)
+            .filter_map(|pair| Line::through([pair[0], pair[1]]).clipped(&room, [0.0, 1.0]));
         seen.map(|ends| ends.map(|end| self.window(end))).collect()
     }
 }
@@ -104,41 +111,4 @@ impl Sight {
 fn between(pair: &[Spot], part: f64) -> Spot {
     let (a, b) = (pair[0], pair[1]);
     Spot::new(a.anchor(), a.offset() + (b.from(a.anchor()) - a.offset()) * part)
-}
-
-/// The part of a line inside a box from zero to `size`, with some room around it (Liang and Barsky
-/// 1984).
-fn clipped([a, b]: [Vec2; 2], size: Vec2) -> Option<[Vec2; 2]> {
-    const ROOM: f64 = 8.0;
-    let way = b - a;
-    let (mut from, mut to) = (0.0f64, 1.0f64);
-    for (delta, start, end) in [(way.x, a.x, size.x), (way.y, a.y, size.y)] {
-        let (low, high) = (-ROOM - start, end + ROOM - start);
-        if delta == 0.0 {
-            if low > 0.0 || high < 0.0 {
-                return None;
-            }
-            continue;
-        }
-        let [near, far] = if delta > 0.0 { [low, high] } else { [high, low] };
-        (from, to) = (from.max(near / delta), to.min(far / delta));
-    }
-    (from < to && way.is_finite() && a.is_finite()).then(|| [a + way * from, a + way * to])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lines_are_cut_off_at_the_border_without_bending() {
-        let size = vec2(100.0, 50.0);
-        let [a, b] = clipped([vec2(-1e12, -1e12), vec2(1e12, 1e12)], size).expect("it is seen");
-        assert!((a.x - a.y).abs() < 1e-3 && (b.x - b.y).abs() < 1e-3, "{a:?} {b:?}");
-        assert!(b.x <= 58.001 && a.x >= -8.001);
-        assert_eq!(clipped([vec2(-10.0, 60.0), vec2(200.0, 60.0)], size), None);
-        let inside = [vec2(1.0, 2.0), vec2(3.0, 4.0)];
-        assert_eq!(clipped(inside, size), Some(inside));
-        assert_eq!(clipped([vec2(f64::NAN, 0.0), vec2(1.0, 1.0)], size), None);
-    }
 }

@@ -275,7 +275,7 @@ fn triangulate(
     let (mut mesh, bounds) = (SegmentMesh::new(), &domain.bounds);
     let rims = domain.holes.iter().flat_map(Hole::sides);
     let of_cracks = cracks.iter().flat_map(|crack| crack.windows(2)).map(|s| [s[0], s[1]]);
-    let all = rims::border(bounds).into_iter().chain(rims).chain(of_cracks);
+    let all = bounds.sides().into_iter().chain(rims).chain(of_cracks);
     for segment in all.chain(stitches.iter().copied()) {
         add_edges(&mut mesh, bounds, segment)?;
     }

@@ -1,7 +1,8 @@
 //! Rims of holes as polygons that cut the plate as the holes do.
 
 use ppum::domain::{Domain, Hole};
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::line::Line;
+use ppum::vec2::{Vec2, vec2};
 use std::f64::consts::TAU;
 
 /// Corners of a polygon in a circle that nothing crosses.
@@ -10,7 +11,7 @@ const CORNERS: u32 = 16;
 /// The domain with polygons for holes. Those of circles lie inside, with corners wherever another
 /// curve crosses the circle: so what touches the circle touches the polygon.
 pub(super) fn with_polygons(domain: &Domain, cracks: &[Vec<Vec2>]) -> Domain {
-    let mut segments = border(&domain.bounds).to_vec();
+    let mut segments = domain.bounds.sides().to_vec();
     segments.extend(cracks.iter().flat_map(|crack| crack.windows(2)).map(|s| [s[0], s[1]]));
     segments.extend(domain.holes.iter().flat_map(Hole::sides));
     let polygon = |hole: &Hole| match hole {
@@ -20,13 +21,6 @@ pub(super) fn with_polygons(domain: &Domain, cracks: &[Vec<Vec2>]) -> Domain {
         }
     };
     Domain { bounds: domain.bounds, holes: domain.holes.iter().map(polygon).collect() }
-}
-
-/// The sides of a box.
-pub(super) fn border(rect: &Rect) -> [[Vec2; 2]; 4] {
-    let (lo, hi) = (rect.min, rect.max);
-    let corners = [lo, vec2(hi.x, lo.y), hi, vec2(lo.x, hi.y)];
-    [0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]])
 }
 
 fn in_circle(center: Vec2, radius: f64, segments: &[[Vec2; 2]], holes: &[Hole]) -> Vec<Vec2> {
@@ -47,12 +41,10 @@ fn in_circle(center: Vec2, radius: f64, segments: &[[Vec2; 2]], holes: &[Hole]) 
 }
 
 /// Crossings of a segment and the circle around the origin.
-fn crossings([a, b]: [Vec2; 2], radius: f64) -> Vec<Vec2> {
-    let along = b - a;
-    let (square, half) = (along.dot(along), a.dot(along));
-    let root = (half * half - square * (a.dot(a) - radius * radius)).sqrt();
-    let places = [(-half - root) / square, (-half + root) / square];
-    places.into_iter().filter(|s| (0.0..=1.0).contains(s)).map(|s| a + along * s).collect()
+fn crossings(ends: [Vec2; 2], radius: f64) -> Vec<Vec2> {
+    let line = Line::through(ends);
+    let places = line.meets_circle(Vec2::ZERO, radius).into_iter().flatten();
+    places.filter(|s| (0.0..=1.0).contains(s)).map(|s| line.at(s)).collect()
 }
 
 /// Crossings of the circle around the origin and one around another point; none if they do

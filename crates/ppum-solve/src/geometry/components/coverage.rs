@@ -1,8 +1,9 @@
 //! The two sides of a cut: the parts along it, and what lies between them.
 
-use super::region::{SegmentPiece, StraightLine};
+use super::region::SegmentPiece;
 use crate::geometry::rim_crossings;
 use ppum::domain::Hole;
+use ppum::line::Line;
 use ppum::segment::Segment;
 use ppum::vec2::Vec2;
 
@@ -12,7 +13,7 @@ type Interval = [f64; 2];
 /// What is known of a cut.
 #[derive(Debug)]
 pub(super) struct Sides {
-    line: StraightLine,
+    line: Line,
     /// Where cracks lie on it.
     covered: Vec<Interval>,
     /// The parts along it on the left and on the right.
@@ -20,12 +21,12 @@ pub(super) struct Sides {
 }
 
 impl Sides {
-    pub(super) fn new(line: StraightLine) -> Self {
+    pub(super) fn new(line: Line) -> Self {
         Self { line, covered: Vec::new(), parts: [Vec::new(), Vec::new()] }
     }
 
     fn interval(&self, ends: Segment) -> Interval {
-        let [a, b] = ends.map(|p| self.line.place(p));
+        let [a, b] = ends.map(|p| self.line.foot(p));
         [a.min(b), a.max(b)]
     }
 
@@ -36,7 +37,7 @@ impl Sides {
 
     /// A part with this centre has a side on the line.
     pub(super) fn add(&mut self, part: usize, ends: Segment, center: Vec2) {
-        let side = usize::from(self.line.distance(center) < 0.0);
+        let side = usize::from(self.line.side(center) < 0.0);
         self.parts[side].push((part, self.interval(ends)));
     }
 

@@ -2,38 +2,15 @@
 
 use ppum::crack::SegmentId;
 use ppum::domain::Hole;
+use ppum::line::Line;
 use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2};
 
-/// A straight line: a point of it and its direction, a unit vector.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct StraightLine {
-    from: Vec2,
-    along: Vec2,
-}
-
-impl StraightLine {
-    /// Distance, positive on the left.
-    pub(super) fn distance(&self, p: Vec2) -> f64 {
-        self.along.cross(p - self.from)
-    }
-
-    /// Place of the foot of a point on the line.
-    pub(super) fn place(&self, p: Vec2) -> f64 {
-        self.along.dot(p - self.from)
-    }
-
-    /// The point at a place.
-    pub(super) fn at(&self, place: f64) -> Vec2 {
-        self.from + self.along * place
-    }
-}
-
-/// A piece of a segment, and the line of the whole segment.
+/// A piece of a segment, and the line of the whole segment, on which t is a length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SegmentPiece {
     pub(super) id: SegmentId,
-    pub(super) line: StraightLine,
+    pub(super) line: Line,
     pub(super) ends: Segment,
 }
 
@@ -43,7 +20,7 @@ impl SegmentPiece {
         let [from, to] = crate::geometry::clipped(ends[0], ends[1], open)?;
         let at = |t: f64| if t == 1.0 { ends[1] } else { ends[0] + (ends[1] - ends[0]) * t };
         let piece = [at(from), at(to)];
-        let line = StraightLine { from: piece[0], along: (ends[1] - ends[0]).unit() };
+        let line = Line { from: piece[0], along: (ends[1] - ends[0]).unit() };
         let piece = Self { id, line, ends: piece };
         (piece.length() > thinnest).then_some(piece)
     }
@@ -53,9 +30,9 @@ impl SegmentPiece {
     }
 
     /// What lies on the left and on the right of a line; nothing of what lies on it.
-    pub(super) fn split(&self, line: &StraightLine, thinnest: f64) -> [Option<Self>; 2] {
+    pub(super) fn split(&self, line: &Line, thinnest: f64) -> [Option<Self>; 2] {
         let [a, b] = self.ends;
-        let (da, db) = (line.distance(a), line.distance(b));
+        let (da, db) = (line.side(a), line.side(b));
         let on = |p: f64| p.abs() <= thinnest;
         if on(da) && on(db) {
             return [None, None];
@@ -84,8 +61,8 @@ impl Region {
     }
 
     /// True if a line leaves something on both of its sides.
-    pub(super) fn is_split_by(&self, line: &StraightLine, thinnest: f64) -> bool {
-        let distances = || self.0.iter().map(|(p, _)| line.distance(*p));
+    pub(super) fn is_split_by(&self, line: &Line, thinnest: f64) -> bool {
+        let distances = || self.0.iter().map(|(p, _)| line.side(*p));
         distances().any(|d| d > thinnest) && distances().any(|d| d < -thinnest)
     }
 
@@ -93,17 +70,11 @@ impl Region {
     ///
     /// A side that the segment ends on is divided there: the crossing of lines at a small angle is
     /// lost in rounding, and cracks that meet at a point would leave a way between them.
-    pub(super) fn split(
-        &self,
-        line: &StraightLine,
-        ends: Segment,
-        cut: usize,
-        thinnest: f64,
-    ) -> [Self; 2] {
+    pub(super) fn split(&self, line: &Line, ends: Segment, cut: usize, thinnest: f64) -> [Self; 2] {
         let (mut left, mut right) = (Vec::new(), Vec::new());
         for (k, &(p, side)) in self.0.iter().enumerate() {
             let next = self.0[(k + 1) % self.0.len()].0;
-            let (d, dn) = (line.distance(p), line.distance(next));
+            let (d, dn) = (line.side(p), line.side(next));
             let [d, dn] = [d, dn].map(|d| if d.abs() <= thinnest { 0.0 } else { d });
             // a part leaves at the line along the cut
             if d >= 0.0 {
@@ -113,10 +84,10 @@ impl Region {
                 right.push((p, if d == 0.0 && dn > 0.0 { Some(cut) } else { side }));
             }
             if d * dn < 0.0 {
-                let along = StraightLine { from: p, along: (next - p).unit() };
+                let along = Line::through([p, next]).unit();
                 let is_on = |end: &Vec2| {
-                    let place = 0.0..=(next - p).length();
-                    along.distance(*end).abs() <= thinnest && place.contains(&along.place(*end))
+                    let length = 0.0..=(next - p).length();
+                    along.side(*end).abs() <= thinnest && length.contains(&along.foot(*end))
                 };
                 let crossing = || p + (next - p) * (d / (d - dn));
                 let middle = ends.into_iter().find(is_on).unwrap_or_else(crossing);
@@ -140,10 +111,9 @@ impl Region {
     ) -> impl Iterator<Item = usize> + '_ {
         let (line, ends) = (piece.line, piece.ends);
         let runs = move |side: &Segment| {
-            let along = StraightLine { from: side[0], along: (side[1] - side[0]).unit() };
+            let along = Line::through(*side).unit();
             let near = |d: f64| d.abs() <= 2.0 * thinnest;
-            ends.iter().all(|p| near(along.distance(*p)))
-                || side.iter().all(|p| near(line.distance(*p)))
+            ends.iter().all(|p| near(along.side(*p))) || side.iter().all(|p| near(line.side(*p)))
         };
         self.ends().filter_map(move |(side, cut)| cut.filter(|_| runs(&side)))
     }
@@ -155,11 +125,9 @@ impl Region {
 
     /// The part in a box.
     pub(super) fn within(&self, part: &Rect, thinnest: f64) -> Self {
-        let corners = part.corners();
-        let sides = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]);
-        sides.fold(self.clone(), |region, [a, b]| {
-            let line = StraightLine { from: a, along: (b - a).unit() };
-            region.split(&line, [a, b], 0, thinnest).into_iter().next().unwrap_or(region)
+        part.sides().into_iter().fold(self.clone(), |region, side| {
+            let line = Line::through(side).unit();
+            region.split(&line, side, 0, thinnest).into_iter().next().unwrap_or(region)
         })
     }
 
