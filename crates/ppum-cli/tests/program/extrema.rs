@@ -209,12 +209,12 @@ fn the_least_level_has_a_whole_line() {
     }
 }
 
-/// What is in this repository: cracks, growth, contact, outlines with and without singular corners,
-/// an interface, potentials, halves.
+/// What is in this repository: cracks, a curved one, growth, contact, outlines with and without
+/// singular corners, an interface, potentials, halves.
 #[test]
-#[ignore = "slow: solves nine examples, and draws each of them some twenty times"]
+#[ignore = "slow: solves ten examples, and draws each of them some twenty times"]
 fn examples_tell_one_range_in_every_image() {
-    let examples: [(&str, &[&str], &[&str]); 9] = [
+    let examples: [(&str, &[&str], &[&str]); 10] = [
         ("centre-crack", &["von-mises", "uy"], &["", "--deformed auto"]),
         ("two-holes-growth", &["von-mises", "sxx"], &["", "--deformed auto"]),
         ("compact-tension", &["von-mises", "s2"], &["", "--deformed auto"]),
@@ -223,6 +223,7 @@ fn examples_tell_one_range_in_every_image() {
         ("square-hole", &["von-mises"], &["", "--deformed auto"]),
         ("gear-tooth", &["von-mises", "s1"], &["", "--deformed auto"]),
         ("plate-with-hole", &["syy"], &["", "--deformed auto"]),
+        ("arc-crack", &["von-mises", "sxy"], &["", "--deformed auto"]),
         ("poisson-slit", &["u", "gradient"], &[""]),
     ];
     for (name, quantities, options) in examples {
