@@ -70,7 +70,7 @@
 //! refine                                           covers
 //! corner          triangulation                    singular points of the border; triangles between segments
 //! equilibrium     problem         smoothness       watched
-//! geometry        heat            law              linear          quadrature      report
+//! geometry        heat            law              quadrature      report
 //! ```
 
 mod adapt;
@@ -87,7 +87,6 @@ mod heat;
 mod hierarchy;
 pub mod intensity;
 mod law;
-mod linear;
 pub mod norms;
 pub mod problem;
 mod quadrature;

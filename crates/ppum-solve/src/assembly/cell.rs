@@ -15,9 +15,9 @@ use super::functions::CellFunctions;
 use super::gauge::FreeModes;
 use super::stiffness::Gradients;
 use crate::basis::{BasisEvaluator, Shapes};
-use crate::linear::EigenError;
 use crate::quadrature::Rule;
 use ppum::vec2::{Vec2, vec2};
+use ppum_linear::EigenError;
 
 /// Data given at a point: position → values, one per component.
 pub(crate) type Data<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);

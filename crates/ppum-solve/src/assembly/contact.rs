@@ -41,13 +41,13 @@ use super::cell::CellAssembler;
 use super::cell_matrix::CellMatrix;
 use super::functions::CellFunctions;
 use crate::basis::{BasisEvaluator, Shapes};
-use crate::linear::{BlockMatrix, EigenError, largest_eigenvalue, product, taken};
 use crate::quadrature::{EdgeRule, Face, Quadrature};
 use crate::report::SolverReport;
 use crate::watched::{Halt, Stage, in_batches};
 use faer::{Mat, MatRef};
 use ppum::crack::Side;
 use ppum::vec2::{Vec2, vec2};
+use ppum_linear::{BlockMatrix, EigenError, largest_eigenvalue, product, taken};
 
 /// β in units of λ: what is left of the energy is a half beside a border that is held with its own
 /// terms, and three quarters elsewhere.

@@ -4,10 +4,10 @@
 use super::cell_matrix::CellMatrix;
 use crate::basis::StableBasis;
 use crate::law::Law;
-use crate::linear::{BlockMatrix, add_at, product, taken};
 use crate::problem::Problem;
 use crate::space::Space;
 use faer::{Mat, MatRef};
+use ppum_linear::{BlockMatrix, add_at, product, taken};
 
 /// A system that is to be assembled: the problem, the functions, and the law of its equation.
 #[derive(Clone, Copy)]

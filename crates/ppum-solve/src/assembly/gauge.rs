@@ -18,12 +18,12 @@ use super::point::PointValues;
 use super::spring::{Holder, PieceMoments, Spring};
 use crate::basis::Shapes;
 use crate::equilibrium::{Balance, Motion, PerMode, PieceConditions, Plate, RigidModes};
-use crate::linear::{BlockMatrix, LinearError, LinearSolver};
 use crate::problem::Support;
 use crate::quadrature::Rule;
 use faer::Mat;
 use faer::linalg::solvers::{DenseSolveCore, Solve};
 use ppum::vec2::Vec2;
+use ppum_linear::{BlockMatrix, LinearError, LinearSolver};
 
 /// A free mode of a piece.
 #[derive(Clone, PartialEq)]

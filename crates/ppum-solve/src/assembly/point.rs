@@ -3,10 +3,10 @@
 use super::Assembly;
 use super::functions::CellFunctions;
 use crate::basis::{ShapeEvaluator, Shapes};
-use crate::linear::BlockMatrix;
 use crate::quadrature::{Doubt, EdgeRule, Face};
 use crate::space::Space;
 use ppum::vec2::Vec2;
+use ppum_linear::BlockMatrix;
 
 /// The rule of a point, which may lie on a face of a crack, in the cell that holds it.
 pub(super) fn point_rule(space: &Space<'_>, (x, face): (Vec2, Option<Face>)) -> (usize, EdgeRule) {

@@ -11,9 +11,9 @@
 use super::functions::CellFunctions;
 use crate::basis::StableBasis;
 use crate::equilibrium::{MODES, PerMode, RigidModes};
-use crate::linear::BlockMatrix;
 use crate::problem::{BoundaryCondition, Problem, restraint_words};
 use ppum::dataset::Reaction;
+use ppum_linear::BlockMatrix;
 
 /// The modes that reactions do work on: the moment is about the centre of the box.
 pub(crate) fn modes(problem: &Problem) -> RigidModes {

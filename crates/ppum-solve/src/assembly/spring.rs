@@ -1,7 +1,7 @@
 //! Springs on the unknowns of single patches, which hold rigid motions of pieces.
 
-use crate::linear::{BlockMatrix, times};
 use faer::Mat;
+use ppum_linear::{BlockMatrix, times};
 
 /// A functional of the unknowns of one patch.
 pub(super) struct Holder {

@@ -13,7 +13,6 @@
 use super::gram::{Gram, LEAST};
 use super::shape::{ShapeEvaluator, Shapes};
 use super::transform::{CUT_OFF, FunctionCombinations};
-use crate::linear::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
 use crate::quadrature::Rule;
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
@@ -22,6 +21,7 @@ use faer::{Accum, Mat, Par};
 use ppum::dataset::monomials;
 use ppum::function::FunctionKind;
 use ppum::vec2::Vec2;
+use ppum_linear::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;

@@ -14,12 +14,12 @@
 
 use super::tie::VectorField;
 use super::transform::{CUT_OFF, Transform};
-use crate::linear::EigenError;
 use crate::space::{HeldLine, Space};
 use faer::Mat;
 use ppum::dataset::monomials;
 use ppum::function::FunctionKind;
 use ppum::polynomial::exponents;
+use ppum_linear::EigenError;
 
 /// The fields of a patch by the coefficients F of their components in its functions, and what makes
 /// stable ones of them.

@@ -6,9 +6,9 @@ use super::held::{HeldFields, held_fields};
 use super::tie::{self, tie};
 use super::transform::{CUT_OFF, FunctionCombinations, Transform};
 use super::williams::{fields, parts};
-use crate::linear::{EigenError, SymmetricEigen, inverse_root_diagonal, times};
 use crate::space::{KnownFunction, Space};
 use faer::{Mat, MatRef};
+use ppum_linear::{EigenError, SymmetricEigen, inverse_root_diagonal, times};
 use std::borrow::Cow;
 
 /// Functions N = T ψ of a patch, and what its unknowns are of them.

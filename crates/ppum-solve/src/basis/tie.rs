@@ -15,8 +15,8 @@
 //! errors are not amplified.
 
 use super::transform::{CUT_OFF, Transform};
-use crate::linear::{EigenError, SymmetricEigen};
 use faer::{Mat, MatRef};
+use ppum_linear::{EigenError, SymmetricEigen};
 
 /// A function of which the two components may differ, as combinations of a patch's functions.
 pub(super) type VectorField = [Vec<f64>; 2];

@@ -34,7 +34,7 @@
 
 use faer::{Mat, MatRef};
 
-use crate::linear::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
+use ppum_linear::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
 use std::ops::Range;
 
 /// Cut-off ε below which a function counts as dependent.

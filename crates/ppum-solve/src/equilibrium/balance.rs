@@ -3,10 +3,10 @@
 
 use super::pieces::BodyPieces;
 use super::rigid::{MODES, PerMode, RigidModes};
-use crate::linear::{EigenError, SymmetricEigen};
 use faer::Mat;
 use ppum::text::{beside, trimmed};
 use ppum::vec2::{Vec2, vec2};
+use ppum_linear::{EigenError, SymmetricEigen};
 use std::fmt;
 
 /// Part of the largest eigenvalue below which a mode counts as free.

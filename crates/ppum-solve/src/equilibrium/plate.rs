@@ -4,9 +4,9 @@ use super::balance::{Balance, UnbalancedError};
 use super::pieces::BodyPieces;
 use super::rigid::PerMode;
 use super::touching::{Motion, RigidPieces, Touch, TouchingPieces, first_mode, groups, touches};
-use crate::linear::EigenError;
 use crate::problem::Problem;
 use ppum::vec2::Vec2;
+use ppum_linear::EigenError;
 
 /// A plate in equilibrium, piece by piece, or as pieces that touch hold each other.
 pub(crate) struct Plate {

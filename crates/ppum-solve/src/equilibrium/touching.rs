@@ -15,9 +15,9 @@
 use super::balance::{Balance, FREE, UnbalancedError};
 use super::pieces::BodyPieces;
 use super::rigid::{MODES, PerMode};
-use crate::linear::{EigenError, SymmetricEigen, nonnegative_residual, product};
 use faer::Mat;
 use ppum::vec2::Vec2;
+use ppum_linear::{EigenError, SymmetricEigen, nonnegative_residual, product};
 use std::collections::BTreeMap;
 
 /// Part of the loads' magnitude that may remain unbalanced: quadrature of the data, not more.

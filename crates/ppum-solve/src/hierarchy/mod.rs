@@ -12,11 +12,11 @@ use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Given, System, sl
 use crate::basis::StableBasis;
 use crate::equilibrium::Plate;
 use crate::law::Law;
-use crate::linear::{BlockMatrix, Coarse};
 use crate::problem::Problem;
 use crate::space::{Mesh, Space, SpaceError, discretise_on};
 use crate::watched::{Halt, Stage};
 use ppum::progress::Cancelled;
+use ppum_linear::{BlockMatrix, Coarse};
 use transfer::transfer;
 
 /// Unknowns up to which a level is solved directly: in less time than the levels above it take.

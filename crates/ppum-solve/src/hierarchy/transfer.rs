@@ -20,7 +20,6 @@
 //! Of each component alike, but for patches whose components share unknowns: C_i (I ⊗ B) C_kᵀ.
 
 use crate::basis::{ShapeEvaluator, Shapes, StableBasis};
-use crate::linear::{Transfer, product};
 use crate::quadrature::Rule;
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
@@ -30,6 +29,7 @@ use faer::{Accum, Mat, MatRef, Par, Side};
 use ppum::box_tree::BoxTree;
 use ppum::polynomial::exponents;
 use ppum::vec2::Vec2;
+use ppum_linear::{Transfer, product};
 use std::collections::BTreeMap;
 use std::ops::Range;
 

@@ -13,8 +13,8 @@
 
 use super::SolveError;
 use crate::assembly::{FaceContacts, FaceState, FaceStress, Gauge, System};
-use crate::linear::{BlockMatrix, Cholesky, LinearError, LinearSolver as _};
 use crate::watched::Stage;
+use ppum_linear::{BlockMatrix, Cholesky, LinearError, LinearSolver as _};
 
 /// Most factors that are made, and most fields that are looked at, before the states must have
 /// settled.

@@ -4,7 +4,6 @@ use super::estimate::{Estimate, gibibytes};
 use crate::diagnostics::RecomputeError;
 use crate::equilibrium::{PlateError, SupportError, UnbalancedError};
 use crate::geometry::Around;
-use crate::linear::{EigenError, LinearError};
 use crate::problem::ProblemError;
 use crate::space::SpaceError;
 use crate::watched::Halt;
@@ -12,6 +11,7 @@ use ppum::check::CheckError;
 use ppum::field::FieldError;
 use ppum::function::FunctionError;
 use ppum::progress::Cancelled;
+use ppum_linear::{EigenError, LinearError};
 
 /// A problem that cannot be solved.
 #[derive(Debug, thiserror::Error)]

@@ -6,7 +6,6 @@
 //! below is known, which sorts out what would take too long to be counted.
 
 use crate::assembly::pattern;
-use crate::linear::{BlockPattern, fill};
 use crate::problem::{Cells, Order, Problem, SolverKind};
 use crate::report::LinearKind;
 use crate::space::Space;
@@ -14,6 +13,7 @@ use ppum::crack::tips;
 use ppum::dataset::monomials;
 use ppum::domain::Hole;
 use ppum::vec2::Rect;
+use ppum_linear::{BlockPattern, fill};
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -295,7 +295,7 @@ fn nonzeros(pattern: &BlockPattern, sizes: &[usize]) -> f64 {
         let columns = pattern.row(i).iter().map(|&j| sizes[j as usize]);
         (sizes[i] * columns.sum::<usize>()) as f64
     };
-    (0..pattern.len()).map(row).sum()
+    (0..sizes.len()).map(row).sum()
 }
 
 /// Products of functions at the quadrature points of all cells.

@@ -23,12 +23,11 @@ mod unknowns;
 
 pub use crate::equilibrium::{SupportError, UnbalancedError};
 pub use crate::geometry::Around;
-pub use crate::linear::{EigenError, LinearError, Spectrum};
 pub use error::SolveError;
 pub use estimate::Estimate;
 pub use plan::Plan;
+pub use ppum_linear::{EigenError, LinearError, Spectrum};
 
-use crate::linear::Cholesky;
 use crate::problem::Problem;
 use crate::watched::Stage;
 use adaptive::adapted;
@@ -37,6 +36,7 @@ use clock::Clock;
 use diagnosed::Diagnosed;
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::{Phase, Watcher};
+use ppum_linear::Cholesky;
 use solved::Solved;
 
 /// Solves a problem: one step, one field; several steps where the problem asks for adaptation and

@@ -6,11 +6,11 @@ use super::contact::close;
 use super::discretised::Discretised;
 use super::estimate::Estimate;
 use crate::hierarchy::Finest;
-use crate::linear::{Cholesky, LinearError, LinearSolution, LinearSolver, Multilevel};
 use crate::report::{LevelSize, LinearKind, SolverReport};
 use crate::space::Space;
 use crate::watched::Stage;
 use ppum::progress::{Cancelled, Phase, Watcher};
+use ppum_linear::{Cholesky, LinearError, LinearSolution, LinearSolver, Multilevel};
 
 /// The unknowns in the stable basis.
 pub(super) struct Unknowns {

@@ -30,10 +30,7 @@ const VANISHING: f64 = 1e-40;
 ///
 /// # Errors
 /// An entry that is not finite.
-pub(crate) fn largest_eigenvalue(
-    a: MatRef<'_, f64>,
-    r: MatRef<'_, f64>,
-) -> Result<f64, EigenError> {
+pub fn largest_eigenvalue(a: MatRef<'_, f64>, r: MatRef<'_, f64>) -> Result<f64, EigenError> {
     let (n, d) = (a.nrows(), inverse_root_diagonal(a, VANISHING));
     let mut factor = scaled(a, &d);
     (0..n).for_each(|k| factor[(k, k)] += SHIFT);

@@ -14,7 +14,7 @@ use faer::{MatMut, MatRef};
 ///
 /// Row i holds `columns[starts[i] .. starts[i + 1]]`, ascending, and begins with i itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct BlockPattern {
+pub struct BlockPattern {
     starts: Vec<usize>,
     columns: Vec<u32>,
 }
@@ -25,7 +25,7 @@ impl BlockPattern {
     /// # Panics
     /// If a row does not begin with its diagonal block, or is not ascending, or leaves the range.
     #[must_use]
-    pub(crate) fn new(starts: Vec<usize>, columns: Vec<u32>) -> Self {
+    pub fn new(starts: Vec<usize>, columns: Vec<u32>) -> Self {
         assert!(starts.first() == Some(&0) && starts.last() == Some(&columns.len()));
         let pattern = Self { starts, columns };
         for i in 0..pattern.len() {
@@ -45,7 +45,7 @@ impl BlockPattern {
 
     /// Patches j ≥ i coupled to patch i, ascending, i first.
     #[must_use]
-    pub(crate) fn row(&self, i: usize) -> &[u32] {
+    pub fn row(&self, i: usize) -> &[u32] {
         &self.columns[self.starts[i]..self.starts[i + 1]]
     }
 
@@ -62,7 +62,7 @@ impl BlockPattern {
 
 /// A symmetric matrix of dense blocks; see the module's head for the order of the unknowns.
 #[derive(Clone, Debug)]
-pub(crate) struct BlockMatrix {
+pub struct BlockMatrix {
     pattern: BlockPattern,
     /// First unknown of each patch, and their number [patches + 1].
     offsets: Vec<usize>,
@@ -78,7 +78,7 @@ impl BlockMatrix {
     /// # Panics
     /// If the numbers of patches differ.
     #[must_use]
-    pub(crate) fn new(sizes: &[usize], pattern: BlockPattern) -> Self {
+    pub fn new(sizes: &[usize], pattern: BlockPattern) -> Self {
         assert_eq!(sizes.len(), pattern.len(), "one size a patch");
         let offsets = running_sum(sizes.iter().copied());
         let block_starts = running_sum(pattern.pairs().map(|(i, j)| sizes[i] * sizes[j]));
@@ -88,7 +88,7 @@ impl BlockMatrix {
 
     /// Number of unknowns.
     #[must_use]
-    pub(crate) fn n_unknowns(&self) -> usize {
+    pub fn n_unknowns(&self) -> usize {
         self.offsets[self.pattern.len()]
     }
 
@@ -99,13 +99,13 @@ impl BlockMatrix {
 
     /// Number of patches.
     #[must_use]
-    pub(crate) fn n_blocks(&self) -> usize {
+    pub fn n_blocks(&self) -> usize {
         self.pattern.len()
     }
 
     /// Unknowns of patch i.
     #[must_use]
-    pub(crate) fn unknowns(&self, i: usize) -> std::ops::Range<usize> {
+    pub fn unknowns(&self, i: usize) -> std::ops::Range<usize> {
         self.offsets[i]..self.offsets[i + 1]
     }
 
@@ -121,7 +121,7 @@ impl BlockMatrix {
 
     /// Block (i, j) with i ≤ j, or nothing if the patches are not coupled.
     #[must_use]
-    pub(crate) fn block(&self, i: usize, j: usize) -> Option<MatRef<'_, f64>> {
+    pub fn block(&self, i: usize, j: usize) -> Option<MatRef<'_, f64>> {
         self.pattern.position(i, j).map(|k| self.stored_block(k, i, j))
     }
 
@@ -131,7 +131,7 @@ impl BlockMatrix {
     ///
     /// # Panics
     /// If i > j, the patches are not coupled, or the shape is wrong.
-    pub(crate) fn add_block(&mut self, i: usize, j: usize, block: MatRef<'_, f64>) {
+    pub fn add_block(&mut self, i: usize, j: usize, block: MatRef<'_, f64>) {
         let (rows, columns) = (self.unknowns(i).len(), self.unknowns(j).len());
         assert_eq!((block.nrows(), block.ncols()), (rows, columns), "shape of block ({i}, {j})");
         let k = self.pattern.position(i, j).expect("a block (i, j) of coupled patches, i ≤ j");
@@ -156,7 +156,7 @@ impl BlockMatrix {
     }
 
     /// Bytes of the values and of their places.
-    pub(crate) fn bytes(&self) -> usize {
+    pub fn bytes(&self) -> usize {
         let places =
             size_of_val(self.block_starts.as_slice()) + size_of_val(self.offsets.as_slice());
         let pattern = &self.pattern;
@@ -170,7 +170,7 @@ impl BlockMatrix {
     /// # Panics
     /// If `x` has not one entry for each unknown.
     #[must_use]
-    pub(crate) fn multiply(&self, x: &[f64]) -> Vec<f64> {
+    pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
         assert_eq!(x.len(), self.n_unknowns(), "one entry for each unknown");
         let mut y = vec![0.0; x.len()];
         for (k, (i, j)) in self.pattern.pairs().enumerate() {

@@ -1,5 +1,5 @@
 //! Eigen-decomposition A = U Λ Uᵀ of small dense symmetric matrices: the tool of
-//! [`crate::basis`] and [`super::pencil`].
+//! stable bases and of [`super::pencil`].
 //!
 //! Always sequential, so that the result does not depend on the number of threads.
 
@@ -22,16 +22,16 @@ pub struct EigenError {
 }
 
 /// Eigenvalues and orthonormal eigenvectors of a symmetric matrix.
-pub(crate) struct SymmetricEigen {
+pub struct SymmetricEigen {
     /// Eigenvalues, largest first.
-    pub(crate) values: Vec<f64>,
+    pub values: Vec<f64>,
     /// Eigenvectors as columns, in the order of `values`; the entry of largest modulus is positive.
-    pub(crate) vectors: Mat<f64>,
+    pub vectors: Mat<f64>,
 }
 
 impl SymmetricEigen {
     /// Decomposes `a` [n × n]; only its lower triangle is read.
-    pub(crate) fn new(a: MatRef<'_, f64>) -> Result<Self, EigenError> {
+    pub fn new(a: MatRef<'_, f64>) -> Result<Self, EigenError> {
         let n = a.nrows();
         let error = EigenError { size: n };
         if n == 0 {
@@ -59,7 +59,7 @@ impl SymmetricEigen {
     }
 
     /// The matrix R = Λ^−½ Uᵀ [kept × n] of the eigenvalues above `limit`, so that R A Rᵀ = I.
-    pub(crate) fn inverse_root(&self, limit: f64) -> Mat<f64> {
+    pub fn inverse_root(&self, limit: f64) -> Mat<f64> {
         let kept = self.values.iter().take_while(|&&value| value > limit).count();
         Mat::from_fn(kept, self.values.len(), |k, i| self.vectors[(i, k)] / self.values[k].sqrt())
     }
@@ -72,7 +72,7 @@ fn sign_of_largest(entries: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// D_k = A_kk^−½, and 0 where A_kk is not above `vanishing` times the largest diagonal entry.
-pub(crate) fn inverse_root_diagonal(a: MatRef<'_, f64>, vanishing: f64) -> Vec<f64> {
+pub fn inverse_root_diagonal(a: MatRef<'_, f64>, vanishing: f64) -> Vec<f64> {
     let diagonal = || (0..a.nrows()).map(|k| a[(k, k)]);
     let limit = vanishing * diagonal().fold(0.0, f64::max);
     let root = |x: f64| match x {
@@ -85,7 +85,7 @@ pub(crate) fn inverse_root_diagonal(a: MatRef<'_, f64>, vanishing: f64) -> Vec<f
 }
 
 /// The congruence D A D with a diagonal D.
-pub(crate) fn scaled(a: MatRef<'_, f64>, d: &[f64]) -> Mat<f64> {
+pub fn scaled(a: MatRef<'_, f64>, d: &[f64]) -> Mat<f64> {
     Mat::from_fn(a.nrows(), a.ncols(), |i, j| {
         // 0 · ∞ must not bring a vanishing function back as NaN
         if d[i] == 0.0 || d[j] == 0.0 { 0.0 } else { d[i] * a[(i, j)] * d[j] }

@@ -9,7 +9,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// What is left of a target, b − A x, where x ≥ 0 makes it least: the columns that x takes are
 /// orthogonal to it, and no other points in its direction (Lawson & Hanson 1974).
-pub(crate) fn nonnegative_residual(columns: &Mat<f64>, target: &[f64]) -> Vec<f64> {
+pub fn nonnegative_residual(columns: &Mat<f64>, target: &[f64]) -> Vec<f64> {
     let (rows, n) = (target.len(), columns.ncols());
     let column = |k: usize| columns.col_as_slice(k);
     let (mut factors, mut taken, mut left) = (vec![0.0; n], Vec::new(), target.to_vec());

@@ -43,15 +43,15 @@ pub(super) struct Elimination {
 
 /// The factor that elimination makes of a pattern of blocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Fill {
+pub struct Fill {
     /// Values of the factor.
-    pub(crate) values: f64,
+    pub values: f64,
     /// Operations of the factorisation.
-    pub(crate) operations: f64,
+    pub operations: f64,
 }
 
 /// The factor of a matrix with `sizes[i]` unknowns in block i, counted without its values.
-pub(crate) fn fill(pattern: &BlockPattern, sizes: &[usize]) -> Fill {
+pub fn fill(pattern: &BlockPattern, sizes: &[usize]) -> Fill {
     Elimination::new(&Neighbours::new(pattern), sizes).fill
 }
 
@@ -253,7 +253,7 @@ fn sequence(drafts: &[SymbolicFront]) -> (Vec<usize>, Vec<Range<usize>>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::test_matrices::grid_matrix;
+    use crate::test_matrices::grid_matrix;
     use ppum_testkit::random::Random;
 
     /// What is below a front is in its parent, in the rows that its runs tell.

@@ -35,7 +35,7 @@ const REPLACED: f64 = 2.0;
 /// The factorisation of a symmetric positive semi-definite matrix, for any number of
 /// right-hand sides.
 #[derive(Debug)]
-pub(crate) struct Cholesky<'a> {
+pub struct Cholesky<'a> {
     matrix: Cow<'a, BlockMatrix>,
     /// D
     scale: Vec<f64>,
@@ -50,7 +50,7 @@ impl<'a> Cholesky<'a> {
     /// # Errors
     /// A diagonal entry or pivot that is not positive or not finite; a matrix too large for
     /// the memory.
-    pub(crate) fn new(matrix: &'a BlockMatrix) -> Result<Self, LinearError> {
+    pub fn new(matrix: &'a BlockMatrix) -> Result<Self, LinearError> {
         Self::of(Cow::Borrowed(matrix))
     }
 
@@ -58,7 +58,7 @@ impl<'a> Cholesky<'a> {
     ///
     /// # Errors
     /// Those of [`Cholesky::new`].
-    pub(crate) fn owned(matrix: BlockMatrix) -> Result<Cholesky<'static>, LinearError> {
+    pub fn owned(matrix: BlockMatrix) -> Result<Cholesky<'static>, LinearError> {
         Cholesky::of(Cow::Owned(matrix))
     }
 
@@ -224,7 +224,7 @@ fn norm(x: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::{BlockPattern, fill};
+    use crate::{BlockPattern, fill};
     use ppum_testkit::random::Random;
 
     /// n × n patches, each coupled to its eight neighbours.

@@ -208,8 +208,8 @@ fn add(strip: &mut Strip, runs: &[RowRun], left: &[Strip]) {
 
 #[cfg(test)]
 mod tests {
-    use crate::linear::test_matrices::grid_matrix;
-    use crate::linear::{BlockMatrix, BlockPattern, Cholesky, LinearSolver};
+    use crate::test_matrices::grid_matrix;
+    use crate::{BlockMatrix, BlockPattern, Cholesky, LinearSolver};
     use faer::Mat;
     use faer::linalg::solvers::Solve;
     use ppum_testkit::random::Random;

@@ -3,7 +3,7 @@
 use super::conjugate::Course;
 
 /// A symmetric positive semi-definite system K u = f, prepared for any number of right-hand sides.
-pub(crate) trait LinearSolver {
+pub trait LinearSolver {
     /// Solves K u = f.
     ///
     /// # Errors
@@ -50,13 +50,13 @@ pub(crate) trait LinearSolver {
 
 /// A solution and how well it solves the system.
 #[derive(Clone, Debug)]
-pub(crate) struct LinearSolution {
+pub struct LinearSolution {
     /// u, one entry for each unknown.
-    pub(crate) unknowns: Vec<f64>,
+    pub unknowns: Vec<f64>,
     /// ‖f − K u‖ / ‖f‖ in the Euclidean norm; zero for f = 0.
-    pub(crate) relative_residual: f64,
+    pub relative_residual: f64,
     /// How it was found, by iteration.
-    pub(crate) course: Option<Course>,
+    pub course: Option<Course>,
 }
 
 /// A system that cannot be solved.

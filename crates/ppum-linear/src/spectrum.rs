@@ -36,7 +36,7 @@ impl Spectrum {
     ///
     /// # Errors
     /// That of `step`; entries that are not finite.
-    pub(crate) fn new<E: From<EigenError>>(
+    pub fn new<E: From<EigenError>>(
         matrix: &BlockMatrix,
         solver: &dyn LinearSolver,
         step: &dyn Fn() -> Result<(), E>,
@@ -115,7 +115,7 @@ fn norm(x: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::{BlockPattern, Cholesky};
+    use crate::{BlockPattern, Cholesky};
 
     /// Second differences on a line have the eigenvalues 2 − 2 cos(kπ/(n + 1)).
     #[test]

@@ -13,16 +13,16 @@ const CHUNK: usize = 1 << 14;
 
 /// The way to a solution.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Course {
+pub struct Course {
     /// (rᵀ M r)^½ before the first step.
-    pub(crate) size: f64,
+    pub size: f64,
     /// The same before the first step and after each, as a part of the first.
-    pub(crate) residuals: Vec<f64>,
+    pub residuals: Vec<f64>,
     /// Condition of M K, a bound from below.
-    pub(crate) condition: f64,
+    pub condition: f64,
     /// Of each step and each level, the finest first, the norm of its right-hand side as a part of
     /// that of the first step.
-    pub(crate) levels: Vec<Vec<f64>>,
+    pub levels: Vec<Vec<f64>>,
 }
 
 /// Why an iteration has ended.

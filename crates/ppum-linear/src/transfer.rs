@@ -7,7 +7,7 @@ use faer::Mat;
 /// The prolongation P from a coarse level, block-diagonal: x_i = (I ⊗ B_i) y_k with the parent k of
 /// block i, the unit matrix having as many rows as components are interpolated alike.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Transfer {
+pub struct Transfer {
     parents: Vec<Option<u32>>,
     repeats: Vec<u8>,
     /// B_i, block after block, row-major.
@@ -19,13 +19,13 @@ pub(crate) struct Transfer {
 
 impl Transfer {
     /// A transfer from so many coarse blocks, without fine blocks yet.
-    pub(crate) fn from_blocks(n: usize) -> Self {
+    pub fn from_blocks(n: usize) -> Self {
         Self { children: vec![Vec::new(); n], starts: vec![0], ..Self::default() }
     }
 
     /// Adds the next fine block: its parent with B, and how often B stands on the diagonal; or
     /// none, and it stays zero.
-    pub(crate) fn push(&mut self, from: Option<(u32, &Mat<f64>, u8)>) {
+    pub fn push(&mut self, from: Option<(u32, &Mat<f64>, u8)>) {
         let block = self.parents.len() as u32;
         self.parents.push(from.map(|(parent, ..)| parent));
         self.repeats.push(from.map_or(1, |(.., repeat)| repeat));

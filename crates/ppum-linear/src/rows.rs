@@ -276,7 +276,7 @@ fn colours(neighbours: &Neighbours) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::test_matrices::grid_matrix;
+    use crate::test_matrices::grid_matrix;
     use ppum_testkit::random::Random;
 
     #[test]

@@ -44,9 +44,11 @@ const ROUNDING: f64 = 2e-14;
 
 /// A coarse level: its matrix, and the way from it to the next finer one.
 #[derive(Debug)]
-pub(crate) struct Coarse {
-    pub(crate) matrix: BlockMatrix,
-    pub(crate) transfer: Transfer,
+pub struct Coarse {
+    /// The matrix of this level.
+    pub matrix: BlockMatrix,
+    /// The prolongation to the next finer level.
+    pub transfer: Transfer,
 }
 
 /// A level that is smoothed, with the way to the next coarser one.
@@ -57,7 +59,7 @@ struct SmoothedLevel<'a> {
 }
 
 /// A system with its levels.
-pub(crate) struct Multilevel<'a> {
+pub struct Multilevel<'a> {
     /// The system, by rows.
     levels: Vec<SmoothedLevel<'a>>,
     /// The coarsest level: its rows, in whose order vectors are, and its factor.
@@ -77,7 +79,7 @@ impl<'a> Multilevel<'a> {
     ///
     /// # Errors
     /// Those of the factorisation of the coarsest level; modes that the levels do not show.
-    pub(crate) fn new(
+    pub fn new(
         matrix: &'a BlockMatrix,
         coarser: Vec<Coarse>,
         free: &[Vec<f64>],
@@ -336,8 +338,8 @@ impl Course {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::BlockPattern;
-    use crate::linear::test_matrices::grid_matrix;
+    use crate::BlockPattern;
+    use crate::test_matrices::grid_matrix;
     use ppum_testkit::random::Random;
 
     /// Second differences on n points, with ends that are free or held.
