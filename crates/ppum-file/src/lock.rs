@@ -8,7 +8,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use crate::part::{folder, is_at, live};
+use crate::part::{existing_folder, is_at, live, remove_if_dead};
 
 /// The exclusive right to write a target, until this is dropped or the program ends or is killed.
 #[derive(Debug)]
@@ -27,10 +27,7 @@ impl Lock {
     /// Another program, or another part of this one, holds it; the folder takes no files.
     pub(crate) fn acquire(target: &Path) -> io::Result<Self> {
         let path = lock_path(target)?;
-        if !folder(target).is_dir() {
-            let message = format!("there is no folder {}", folder(target).display());
-            return Err(io::Error::new(ErrorKind::NotFound, message));
-        }
+        existing_folder(target)?;
         let mut live = live();
         for _ in 0..MOST_ATTEMPTS {
             let file = OpenOptions::new().write(true).create(true).truncate(false).open(&path)?;
@@ -58,18 +55,7 @@ impl Drop for Lock {
 
 /// Refuses a target whose lock is held, and removes a lock file without an owner.
 pub(crate) fn refuse_taken(target: &Path) -> io::Result<()> {
-    let path = lock_path(target)?;
-    let is_file = fs::symlink_metadata(&path).is_ok_and(|data| data.is_file());
-    let Some(file) = is_file.then(|| File::open(&path).ok()).flatten() else { return Ok(()) };
-    match file.try_lock() {
-        Err(TryLockError::WouldBlock) => Err(taken()),
-        Ok(()) if is_at(&file, &path) => {
-            // as above
-            let _ = fs::remove_file(&path);
-            Ok(())
-        }
-        _ => Ok(()),
-    }
+    if remove_if_dead(&lock_path(target)?) { Ok(()) } else { Err(taken()) }
 }
 
 fn lock_path(target: &Path) -> io::Result<PathBuf> {

@@ -53,12 +53,9 @@ impl PartFile {
     pub(crate) fn create(target: &Path) -> io::Result<Self> {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let name = target.file_name().ok_or(ErrorKind::InvalidFilename)?;
-        if !folder(target).is_dir() {
-            let message = format!("there is no folder {}", folder(target).display());
-            return Err(io::Error::new(ErrorKind::NotFound, message));
-        }
+        let folder = existing_folder(target)?;
         let mut live = live();
-        remove_dead(target, name);
+        remove_dead(folder, name);
         for _ in 0..MOST_NAMES {
             let number = COUNT.fetch_add(1, Ordering::Relaxed);
             let path = target.with_file_name(part_name(name, number));
@@ -97,6 +94,16 @@ pub(crate) fn folder(target: &Path) -> &Path {
     target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
+/// The same, if it exists.
+pub(crate) fn existing_folder(target: &Path) -> io::Result<&Path> {
+    let folder = folder(target);
+    if folder.is_dir() {
+        return Ok(folder);
+    }
+    let message = format!("there is no folder {}", folder.display());
+    Err(io::Error::new(ErrorKind::NotFound, message))
+}
+
 fn part_name(name: &OsStr, number: u32) -> OsString {
     let mut hidden = OsString::from(".");
     hidden.push(name);
@@ -129,10 +136,10 @@ fn created(path: &Path) -> io::Result<Option<File>> {
     Ok((!is_taken && is_at(&file, path)).then_some(file))
 }
 
-/// Removes the part files of a target that no program is writing.
-fn remove_dead(target: &Path, name: &OsStr) {
+/// Removes the part files that no program is writing of a target called `name`.
+fn remove_dead(folder: &Path, name: &OsStr) {
     // a folder that cannot be listed is told where a file is made in it
-    let Ok(entries) = fs::read_dir(folder(target)) else { return };
+    let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         if is_part_of(&entry.file_name(), name) {
             remove_if_dead(&entry.path());
@@ -140,14 +147,16 @@ fn remove_dead(target: &Path, name: &OsStr) {
     }
 }
 
-/// Removes a regular file whose lock can be had.
-fn remove_if_dead(path: &Path) {
+/// Removes a regular file whose lock can be had; false if somebody holds the lock.
+pub(crate) fn remove_if_dead(path: &Path) -> bool {
     let is_file = fs::symlink_metadata(path).is_ok_and(|data| data.is_file());
-    let Some(file) = is_file.then(|| File::open(path).ok()).flatten() else { return };
-    if file.try_lock().is_ok() && is_at(&file, path) {
+    let Some(file) = is_file.then(|| File::open(path).ok()).flatten() else { return true };
+    let locked = file.try_lock();
+    if locked.is_ok() && is_at(&file, path) {
         // nothing better can be done about a file that cannot be removed
         let _ = fs::remove_file(path);
     }
+    !matches!(locked, Err(TryLockError::WouldBlock))
 }
 
 /// True if `path` itself, and no link there, is the open file.
