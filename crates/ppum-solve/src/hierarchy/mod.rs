@@ -16,8 +16,8 @@ use crate::problem::Problem;
 use crate::space::{Mesh, Space, SpaceError, discretise_on};
 use crate::watched::{Halt, Stage};
 use ppum::progress::Cancelled;
-use ppum_linear::{BlockMatrix, Coarse};
-use transfer::transfer;
+use ppum_linear::Coarse;
+use transfer::{SpaceWithBasis, transfer};
 
 /// Unknowns up to which a level is solved directly: in less time than the levels above it take.
 const DIRECT: usize = 3_000;
@@ -69,28 +69,24 @@ impl Finest<'_> {
             }
             let Some(coarser) = fewer(&mesh) else { return Ok(levels) };
             mesh = coarser;
-            let (level, matrix) = match self.level(&mesh, stage) {
-                Ok(made) => made,
+            match self.level(&mesh, (space, basis), stage) {
+                Ok((level, coarse)) => {
+                    levels.push(coarse);
+                    last = Some(level);
+                }
                 Err(Trouble::Cancelled(cancelled)) => return Err(cancelled),
                 Err(Trouble::TooCoarse) => return Ok(levels),
-            };
-            let fine = (space, basis);
-            let transfer = match transfer(fine, (&level.space, &level.basis), stage) {
-                Ok(transfer) => transfer,
-                Err(Halt::Cancelled(cancelled)) => return Err(cancelled),
-                Err(Halt::NotFinite(_)) => return Ok(levels),
-            };
-            levels.push(Coarse { matrix, transfer });
-            last = Some(level);
+            }
         }
     }
 
-    /// The problem on a mesh.
+    /// The problem on a mesh, and its system with the transfer to the next finer level.
     fn level(
         &self,
         mesh: &Mesh,
+        finer: SpaceWithBasis<'_>,
         stage: &Stage<'_>,
-    ) -> Result<(FinerLevel<'_>, BlockMatrix), Trouble> {
+    ) -> Result<(FinerLevel<'_>, Coarse), Trouble> {
         let problem = self.problem;
         let step = discretise_on(problem, mesh, stage)?;
         let space = Space::of_problem(problem, step, None).map_err(|_| Trouble::TooCoarse)?;
@@ -102,8 +98,8 @@ impl Finest<'_> {
         let (free, duals) = (&FreeModes::none(self.plate), &Duals::new(&[], &space));
         let given = Given::restraints(problem);
         let system = System::new(assembly, &given, Functionals { free, duals }, stage)?;
-        let matrix = system.matrix;
-        Ok((FinerLevel { space, basis }, matrix))
+        let transfer = transfer(finer, (&space, &basis), stage)?;
+        Ok((FinerLevel { space, basis }, Coarse { matrix: system.matrix, transfer }))
     }
 }
 

@@ -34,7 +34,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The space and the stable basis of a level.
-type SpaceWithBasis<'a> = (&'a Space<'a>, &'a StableBasis);
+pub(super) type SpaceWithBasis<'a> = (&'a Space<'a>, &'a StableBasis);
 
 /// The transfer between two levels.
 ///
