@@ -11,6 +11,7 @@
 //! makes are dense matrices: `docs/decisions/0027-factorisation.md` has the measurements.
 
 use super::block_matrix::BlockMatrix;
+use super::conjugate::norm;
 use super::elimination::Elimination;
 use super::factor::Factor;
 use super::neighbours::Neighbours;
@@ -215,10 +216,6 @@ fn inverse_root_diagonal(matrix: &BlockMatrix) -> Result<Vec<f64>, LinearError> 
 fn not_positive_definite(matrix: &BlockMatrix, u: usize) -> LinearError {
     let patch = matrix.patch_of(u);
     LinearError::NotPositiveDefinite { patch, unknown: u - matrix.unknowns(patch).start }
-}
-
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

@@ -115,6 +115,11 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     parts.iter().sum()
 }
 
+/// ‖a‖
+pub(super) fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
+
 /// y ← y + factor x
 fn add(factor: f64, x: &[f64], y: &mut [f64]) {
     y.par_chunks_mut(CHUNK).zip(x.par_chunks(CHUNK)).for_each(|(y, x)| {

@@ -7,7 +7,7 @@
 //! f ← f − Σ s_k r_k,   zᵀ f = 0
 //! ```
 
-use super::conjugate::dot;
+use super::conjugate::{dot, norm};
 use super::rows::Rows;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
@@ -27,7 +27,7 @@ impl Kernel {
             // twice, so that rounding leaves nothing
             kernel.project(&mut vector);
             kernel.project(&mut vector);
-            let norm = dot(&vector, &vector).sqrt();
+            let norm = norm(&vector);
             vector.iter_mut().for_each(|x| *x /= norm);
             kernel.modes.push(vector);
         }
@@ -64,7 +64,7 @@ impl Kernel {
         let of = |mode: &Vec<f64>| {
             let mut product = vec![0.0; mode.len()];
             rows.multiply(mode, &mut product);
-            dot(&product, &product).sqrt() / stiffest
+            norm(&product) / stiffest
         };
         self.modes.iter().map(of).fold(0.0, |most, force| if force <= most { most } else { force })
     }

@@ -12,7 +12,7 @@
 
 use super::block_matrix::BlockMatrix;
 use super::cholesky::Cholesky;
-use super::conjugate::{Course, End, Iteration, dot};
+use super::conjugate::{Course, End, Iteration, dot, norm};
 use super::kernel::Kernel;
 use super::rows::Rows;
 use super::smoother::Smoother;
@@ -143,7 +143,7 @@ impl<'a> Multilevel<'a> {
     /// One cycle from some level on: an approximation of K⁻¹ f. The norms of the right-hand sides
     /// are appended.
     fn cycle(&self, level: usize, f: &[f64], norms: &mut Vec<f64>) -> Vec<f64> {
-        norms.push(dot(f, f).sqrt());
+        norms.push(norm(f));
         let Some(SmoothedLevel { smoother, transfer }) = self.levels.get(level) else {
             let (rows, factor) = &self.coarsest;
             let mut x = rows.plain(f);
@@ -223,7 +223,7 @@ impl<'a> Multilevel<'a> {
 
     /// True if a remainder is what rounding leaves of K x: no method does better.
     fn is_rounding(&self, rest: &[f64], x: &[f64]) -> bool {
-        let [rest, x] = [rest, x].map(|v| dot(v, v).sqrt());
+        let [rest, x] = [rest, x].map(norm);
         rest <= ROUNDING * self.stiffest * x
     }
 }
@@ -281,8 +281,8 @@ impl Multilevel<'_> {
         self.kernel.balance(&mut f);
         let (x, course) = self.iterate(tolerance, &f)?;
         let rest = self.remainder(&f, &x);
-        let size = dot(&f, &f).sqrt();
-        let relative_residual = if size == 0.0 { 0.0 } else { dot(&rest, &rest).sqrt() / size };
+        let size = norm(&f);
+        let relative_residual = if size == 0.0 { 0.0 } else { norm(&rest) / size };
         Ok(LinearSolution { unknowns: rows.plain(&x), relative_residual, course: Some(course) })
     }
 }

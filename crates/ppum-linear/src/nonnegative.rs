@@ -1,6 +1,6 @@
 //! Least squares with factors that are not negative.
 
-use super::conjugate::dot;
+use super::conjugate::{dot, norm};
 use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
 
@@ -13,7 +13,7 @@ pub fn nonnegative_residual(columns: &Mat<f64>, target: &[f64]) -> Vec<f64> {
     let (rows, n) = (target.len(), columns.ncols());
     let column = |k: usize| columns.col_as_slice(k);
     let (mut factors, mut taken, mut left) = (vec![0.0; n], Vec::new(), target.to_vec());
-    let least = |k: usize| ROUNDING * length(column(k)) * length(target);
+    let least = |k: usize| ROUNDING * norm(column(k)) * norm(target);
     // each round makes the residual smaller, up to rounding
     for _ in 0..4 * n {
         let others = (0..n).filter(|k| !taken.contains(k)).map(|k| (k, dot(column(k), &left)));
@@ -57,10 +57,6 @@ fn improve(
     }
     let largest = taken.iter().map(|&k| factors[k]).fold(0.0, f64::max);
     (step < 1.0).then_some(ROUNDING * largest)
-}
-
-fn length(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 #[cfg(test)]

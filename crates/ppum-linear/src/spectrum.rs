@@ -6,6 +6,7 @@
 //! is a thousandth of θ (Parlett, "The Symmetric Eigenvalue Problem", 1980, chapter 13).
 
 use super::block_matrix::BlockMatrix;
+use super::conjugate::{dot, norm};
 use super::eigen::{EigenError, SymmetricEigen};
 use super::solver::LinearSolver;
 use faer::Mat;
@@ -102,14 +103,6 @@ fn orthogonalise(x: &mut [f64], basis: &[Vec<f64>]) {
         let part = dot(x, v);
         x.iter_mut().zip(v).for_each(|(x, v)| *x -= part * v);
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn norm(x: &[f64]) -> f64 {
-    dot(x, x).sqrt()
 }
 
 #[cfg(test)]
