@@ -1,4 +1,5 @@
-"""Runs the Python of README.md and docs/tour.md as printed, on the dataset of the README's problem.
+"""Runs the Python of README.md and docs/tour.md as printed, on the dataset of the README's problem, and compares the
+output that the README prints with that of the program.
 
     pip install -r tests/python/requirements.txt
     python tests/python/test_readme.py          (from the repository's root; or: pytest tests/python)
@@ -7,6 +8,7 @@ Needs cargo: the problem is solved by the program (see programs.py). What import
 """
 
 import importlib.util
+import math
 import pathlib
 import re
 import subprocess
@@ -25,12 +27,47 @@ def blocks(page, language):
     return re.findall(rf"```{language}\n(.*?)```", page, re.DOTALL)
 
 
+def solve(folder):
+    """Solves the README's problem in a folder, and returns the command's output."""
+    (folder / "plate.toml").write_text(blocks(README, "toml")[0])
+    return run(folder, "solve", "plate.toml")
+
+
+def run(folder, *arguments):
+    """Runs a command on the files of a folder, and returns its output as if it had run there; cargo runs at the root."""
+    paths = [folder / word if word.startswith("plate.") else word for word in arguments]
+    done = subprocess.run(programs.ppum(*paths), cwd=ROOT, check=True, capture_output=True, text=True)
+    return (done.stdout + done.stderr).replace(f"{folder}/", "")
+
+
+def words(output):
+    """The words of an output with numbers as numbers; the seconds of a run are left out."""
+
+    def value(word):
+        try:
+            return float(word.strip("(),;°"))
+        except ValueError:
+            return word
+
+    return [value(word) for word in re.sub(r"[0-9.]+ s;", "", output).split()]
+
+
+def test_readme_prints_the_output_of_its_first_commands():
+    with tempfile.TemporaryDirectory(prefix="ppum-") as name:
+        folder = pathlib.Path(name)
+        solved = solve(folder)
+        command = re.search(r"^ppum (probe [^#]+)", README, re.MULTILINE)[1]
+        printed, computed = words(blocks(README, "text")[0]), words(solved + run(folder, *command.split()))
+    assert len(printed) == len(computed) > 50
+    for expected, value in zip(printed, computed, strict=True):
+        same = math.isclose(expected, value, rel_tol=1e-6) if isinstance(expected, float) else expected == value
+        assert same, f"README: {expected}, the program: {value}"
+
+
 def test_readme_snippets_run():
     with tempfile.TemporaryDirectory(prefix="ppum-") as name:
         folder = pathlib.Path(name)
-        (folder / "plate.toml").write_text(blocks(README, "toml")[0])
-        solve = programs.ppum("solve", folder / "plate.toml")
-        subprocess.run(solve, cwd=ROOT, check=True, capture_output=True)
+        solve(folder)
         (folder / "tests").symlink_to(ROOT / "tests")
         snippets = blocks(README, "python") + blocks(TOUR, "python")
         assert len(snippets) == 3
@@ -49,3 +86,5 @@ def test_readme_snippets_run():
 if __name__ == "__main__":
     test_readme_snippets_run()
     print("ok  test_readme_snippets_run")
+    test_readme_prints_the_output_of_its_first_commands()
+    print("ok  test_readme_prints_the_output_of_its_first_commands")
