@@ -1,5 +1,6 @@
 """Runs the Python of README.md and docs/tour.md as printed, on the dataset of the README's problem, and compares the
-output that the README prints with that of the program.
+output that the README prints with that of the program, and the numbers of docs/from-other-programs.md with those of
+its examples.
 
     pip install -r tests/python/requirements.txt
     python tests/python/test_readme.py          (from the repository's root; or: pytest tests/python)
@@ -8,6 +9,7 @@ Needs cargo: the problem is solved by the program (see programs.py). What import
 """
 
 import importlib.util
+import json
 import math
 import pathlib
 import re
@@ -21,6 +23,7 @@ import programs
 ROOT = pathlib.Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text()
 TOUR = (ROOT / "docs/tour.md").read_text()
+OTHERS = (ROOT / "docs/from-other-programs.md").read_text()
 
 
 def blocks(page, language):
@@ -83,8 +86,23 @@ def test_readme_snippets_run():
         ).stdout
 
 
+def test_examples_for_users_of_other_programs_give_the_stated_values():
+    stated = [("1583.65", 0), ("62.119", -1), ("0.1157", 0), ("121.9", -1)]
+    with tempfile.TemporaryDirectory(prefix="ppum-") as name:
+        folder = pathlib.Path(name)
+        for problem, (number, tip) in zip(blocks(OTHERS, "toml"), stated, strict=True):
+            (folder / "plate.toml").write_text(problem)
+            run(folder, "solve", "plate.toml")
+            tips = json.loads(run(folder, "sif", "plate.h5", "--json"))["tips"]
+            key = "k2" if "contact" in problem else "k1"
+            assert math.isclose(abs(tips[tip][key]), float(number), rel_tol=5e-4), (number, tips[tip])
+            assert number in OTHERS
+
+
 if __name__ == "__main__":
     test_readme_snippets_run()
     print("ok  test_readme_snippets_run")
+    test_examples_for_users_of_other_programs_give_the_stated_values()
+    print("ok  test_examples_for_users_of_other_programs_give_the_stated_values")
     test_readme_prints_the_output_of_its_first_commands()
     print("ok  test_readme_prints_the_output_of_its_first_commands")
