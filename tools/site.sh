@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Builds the site from the pages of the project into target/site/html: `tools/site.sh`. Needs python3, and fetches the
+# generator once, into target/site/venv. A link that leads nowhere is an error.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+readonly SITE=target/site
+readonly GENERATOR=$SITE/venv/bin/zensical
+mkdir -p "$SITE"
+if ! [[ -x $GENERATOR && tools/site/requirements.txt -ot $GENERATOR ]]; then
+    python3 -m venv --clear "$SITE/venv"
+    "$SITE/venv/bin/pip" install --quiet --disable-pip-version-check -r tools/site/requirements.txt
+    touch "$GENERATOR"
+fi
+python3 tools/site/pages.py "$SITE/pages"
+cp tools/site/site.css tools/site/site.js "$SITE/pages/"
+cp tools/site/site.yml "$SITE/mkdocs.yml"
+"$GENERATOR" build --clean --strict -f "$SITE/mkdocs.yml"
+du -sh "$SITE/html"
