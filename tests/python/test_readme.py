@@ -99,10 +99,17 @@ def test_examples_for_users_of_other_programs_give_the_stated_values():
             assert number in OTHERS
 
 
+def test_citation_has_the_version_of_the_workspace():
+    version = re.search(r'^version = "(.*)"', (ROOT / "Cargo.toml").read_text(), re.MULTILINE)[1]
+    assert f"\nversion: {version}\n" in (ROOT / "CITATION.cff").read_text()
+
+
 if __name__ == "__main__":
-    test_readme_snippets_run()
-    print("ok  test_readme_snippets_run")
-    test_examples_for_users_of_other_programs_give_the_stated_values()
-    print("ok  test_examples_for_users_of_other_programs_give_the_stated_values")
-    test_readme_prints_the_output_of_its_first_commands()
-    print("ok  test_readme_prints_the_output_of_its_first_commands")
+    for test in [
+        test_readme_snippets_run,
+        test_readme_prints_the_output_of_its_first_commands,
+        test_examples_for_users_of_other_programs_give_the_stated_values,
+        test_citation_has_the_version_of_the_workspace,
+    ]:
+        test()
+        print(f"ok  {test.__name__}")

@@ -77,9 +77,11 @@ def relinked(text, path):
     """A page whose links to files and folders lead to their pages."""
     def link(found):
         target = path.parent / found[2] if path.is_file() else path / found[2]
-        if "://" in found[2] or not target.exists() or target.suffix in IMAGES | {".md"}:
+        if "://" in found[2] or not target.exists():
             return found[0]
         there = place(target.resolve())
+        if there == target.resolve().relative_to(ROOT):
+            return found[0]
         up = len(place(path).parent.parts)
         return f"{found[1]}{'../' * up}{there.as_posix()}"
 
