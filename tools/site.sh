@@ -14,6 +14,11 @@ if ! [[ -x $GENERATOR && tools/site/requirements.txt -ot $GENERATOR ]]; then
 fi
 python3 tools/site/pages.py "$SITE/pages"
 cp tools/site/site.css tools/site/site.js "$SITE/pages/"
+# the reference of the Python package, from docstrings whose examples have the name that the generator takes for them
+cp tools/site/python-api.md.in "$SITE/pages/docs/python-api.md"
+rm -rf "$SITE/package"
+cp -r crates/ppum-python/python "$SITE/package"
+find "$SITE/package" -name '*.py' -exec sed -i -E 's/^( +)?Example:$/\1Examples:/' {} +
 cp tools/site/site.yml "$SITE/mkdocs.yml"
 "$GENERATOR" build --clean --strict -f "$SITE/mkdocs.yml"
 du -sh "$SITE/html"
