@@ -40,7 +40,7 @@ def run(folder, *arguments):
     """Runs a command on the files of a folder, and returns its output as if it had run there; cargo runs at the root."""
     paths = [folder / word if word.startswith("plate.") else word for word in arguments]
     done = subprocess.run(programs.ppum(*paths), cwd=ROOT, check=True, capture_output=True, text=True)
-    return (done.stdout + done.stderr).replace(f"{folder}/", "")
+    return done.stdout.replace(f"{folder}/", "")
 
 
 def words(output):
