@@ -53,8 +53,9 @@ def test_quoted_texts_are_those_of_the_sources():
     assert len(found) >= 28, found
     for quote in found:
         for fragment in filter(None, (part.strip(" :;,()") for part in quote.split("…"))):
-            near = difflib.get_close_matches(fragment, known, 1, 0.3)
-            assert any(fragment in text for text in known), f"{fragment!r} is not in the sources; nearest: {near}"
+            if not any(fragment in text for text in known):
+                near = difflib.get_close_matches(fragment, known, 1, 0.3)
+                raise AssertionError(f"{fragment!r} is not in the sources; nearest: {near}")
 
 
 if __name__ == "__main__":
