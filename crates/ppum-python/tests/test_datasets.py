@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 import ppum
 import pytest
-from ppum.field import KEPT
+from ppum._field import KEPT
 from conftest import ROOT, plate
 
 

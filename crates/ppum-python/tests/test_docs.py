@@ -2,9 +2,7 @@
 
 import doctest
 import importlib
-import inspect
 import os
-import pkgutil
 import re
 import subprocess
 import sys
@@ -14,21 +12,30 @@ import ppum
 import pytest
 from conftest import ROOT
 
-MODULES = [f"ppum.{m.name}" for m in pkgutil.iter_modules(ppum.__path__) if m.name != "_core"]
+PUBLIC = {
+    "ppum": [*ppum.__all__, "open"],
+    "ppum.basis": ppum.basis.__all__,
+    "ppum.plots": ppum.plots.__all__,
+    "ppum._widget": ["Viewer"],
+}
 PAGE = ROOT / "docs/python.md"
 
 
+def kinds(thing):
+    """A class and those of the package that it inherits from; else the thing itself."""
+    return [kind for kind in thing.__mro__ if kind.__module__.startswith("ppum")] if isinstance(thing, type) else [thing]
+
+
 def examples(module):
-    """Those of a module and of all that it offers; `doctest.testmod` passes over classes that say they are of `ppum`."""
+    """Those of a module, of all that it offers, and of what this inherits."""
+    public = [getattr(module, name) for name in PUBLIC[module.__name__]]
+    things = {kind.__name__: kind for thing in public if callable(thing) for kind in kinds(thing)}
+    things["head"] = type("Head", (), {"__doc__": module.__doc__})
     finder = doctest.DocTestFinder()
-    things = {name: getattr(module, name) for name in getattr(module, "__all__", ())}
-    things = {name: thing for name, thing in things.items() if not inspect.ismodule(thing)}
-    if doc := module.__doc__:
-        things[module.__name__] = type("Head", (), {"__doc__": doc})
     return [test for name, thing in things.items() for test in finder.find(thing, name, module=False) if test.examples]
 
 
-@pytest.mark.parametrize("name", ["ppum", *MODULES])
+@pytest.mark.parametrize("name", PUBLIC)
 def test_docstrings(name, ds, f, problem, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names = {"ppum": ppum, "np": np, "ds": ds, "f": f, "plate": problem.discretization(cells=(8, 16))}
@@ -40,9 +47,8 @@ def test_docstrings(name, ds, f, problem, tmp_path, monkeypatch):
 
 
 def test_examples_of_methods_are_run():
-    modules = [importlib.import_module(f"ppum.{name}") for name in ("field", "drawing", "sampling")]
-    names = {test.name for module in modules for test in examples(module)}
-    assert {"Field", "Field.at", "Drawing.figure", "Sampling.line", "Field.intensities"} <= names
+    names = {test.name for test in examples(ppum)}
+    assert {"Field", "Evaluation.at", "Drawing.figure", "Sampling.line", "Field.intensities", "open"} <= names
 
 
 def test_everything_is_documented():

@@ -14,8 +14,10 @@ import numpy as np
 import ppum
 import pytest
 from conftest import ROOT
-from ppum import _core, sections, styles
-from ppum.options import UNSET, options_of
+from ppum import _core
+from ppum import _sections as sections
+from ppum import _styles as styles
+from ppum._options import UNSET, options_of
 
 pytest.importorskip("matplotlib").use("agg")
 
@@ -188,12 +190,12 @@ def test_empty_rows_of_a_layout_are_told(f):
 
 def test_one_end_of_a_range(f):
     """The other one is that of an automatic range."""
-    facts = _core.frame(f._core, styles.scene("ux", {}, "auto"), ((0.0, 0.0), 4.0), (64, 64))[1]
+    facts = _core.frame(f._core, styles.written(styles.request(f, "ux", {}, None)), ((0.0, 0.0), 4.0), (64, 64))[1]
     low, high = facts["range"]
     view = ppum.View((0, 0), 4.0, (64, 64))
     assert not np.array_equal(f.rgba("ux", view=view), f.rgba("ux", view=view, vmin=0.0))
     assert np.array_equal(f.rgba("ux", view=view, vmin=low, vmax=0.1), f.rgba("ux", view=view, clim=(low, 0.1)))
-    made = json.loads(f._scene("ux", {"vmin": 0.0}, ((0.0, 0.0), 4.0)))
+    made = styles.request(f, "ux", {"vmin": 0.0}, ((0.0, 0.0), 4.0))
     assert made["colors"]["range"].startswith("0.0,")
     assert float(made["colors"]["range"].split(",")[1]) == pytest.approx(high, rel=1e-2)
     for options in ({"vmin": 0, "clim": (0, 1)}, {"vmax": 0, "clim": "full"}):
@@ -261,18 +263,21 @@ def paths(asked, at=""):
 
 def test_figures_have_all_options_of_requests(f):
     """What the command line, which is a request too, can ask of an image, and a figure asks for nothing else."""
-    request = json.loads(f.figure("ux", center=(0, 0), width=1.0)._made_of[1])
-    request["place"] |= json.loads(f.figure("ux", tip=0)._made_of[1])["place"]
+    given = {name: option.default for name, (_, option) in options_of(styles.FigureOptions).items()}
+    given |= dict(cmap="magma", bands=3, nan_color="red", isolines=[1.0], arrows=40, crosses=40, mirror="left")
+    given |= dict(precision="f64", dpi=100, font_size=9, colorbar="right", labels={"title": "t"})
+    panels, alone = dict(parts=["all", "jump"], layout=(2, 1), size=(900, 600)), dict(deformed=2.0, inches=4)
+    made = [{**given, **panels, "center": (0, 0), "width": 1.0}, {**given, **alone, "tip": 0, "zoom": 4.0}]
+    asked = set().union(*(paths(json.loads(f.figure("ux", **options)._made_of[1])) for options in made))
     every = paths(json.loads(_core.default_request()))
     elsewhere = {path for path in every if path.startswith("subject.")} | {"place.view", "backend", "look.cm"}
-    assert every - paths(request) == elsewhere
+    assert every - asked == elsewhere
     # a colour that is not given stands nowhere in a request
-    assert paths(request) <= every | {"colors.nan_color"}
+    assert asked <= every | {"colors.nan_color"}
 
 
 def test_overlays_are_those_of_the_libraries(f):
-    scene = json.loads(styles.scene("ux", {}, "auto"))
-    scene["overlays"]["shown"] = ["clouds"]
+    scene = {"overlays": {"shown": ["clouds"]}}
     with pytest.raises(ValueError) as info:
         _core.rgba(f._core, json.dumps(scene), ((0.0, 0.0), 1.0), (2, 2))
     assert set(re.findall(r"`(\w+)`", str(info.value))) - {"clouds"} == set(get_args(styles.Overlay))

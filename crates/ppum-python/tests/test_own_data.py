@@ -8,9 +8,9 @@ import warnings
 import numpy as np
 import ppum
 import pytest
-from ppum.blocks import exponents
-from ppum.interpolating import TRIANGLE, vandermonde
-from ppum.meshes.importing import Group, Labels, compared, smooth
+from ppum._blocks import exponents
+from ppum._shapes import TRIANGLE, vandermonde
+from ppum.meshes._elements import Group, Labels, compared, smooth
 
 COVER = ppum.Cover.uniform([(0, 0), (2, 1)], (8, 4))
 ONE = np.ones((32, 1))

@@ -331,7 +331,7 @@ def told_factor(f):
 
 def test_the_remedy_is_named(f, monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "anywidget", None)
-    monkeypatch.delitem(__import__("sys").modules, "ppum.widget")
-    monkeypatch.delattr(ppum, "widget")
+    monkeypatch.delitem(__import__("sys").modules, "ppum._widget")
+    monkeypatch.delattr(ppum, "_widget")
     with pytest.raises(ImportError, match="need anywidget: pip install anywidget"):
         f.view()

@@ -8,58 +8,37 @@ Example:
     (2,)
 """
 
+from typing import Any
+
 from . import _core, basis, plots
-from .errors import (
-    BuildError,
-    Finding,
-    FormatError,
-    InternalError,
-    PpumError,
-    ProblemError,
-    QuantityError,
-    RenderError,
-    SolveError,
-)
-from .building import Coefficients, State, arrays, build, from_arrays
-from .comparing import Comparison, Needed, Norms, Resampling
-from .cover import Cover
-from .curves import arc, ellipse
-from .dataset import (
-    Advance,
-    Crack,
-    Dataset,
-    Growth,
-    Hole,
-    Reaction,
-    Step,
-    Tip,
-    from_bytes,
-)
+from ._build import arrays, build, from_arrays
+from ._compare import Comparison, Needed, Norms, Resampling
+from ._cover import Cover
+from ._curves import arc, ellipse
+from ._dataset import Dataset, Step, from_bytes
+from ._errors import (
+    BuildError, Finding, FormatError, InternalError, PpumError, ProblemError, QuantityError, RenderError, SolveError,
+)  # fmt: skip
+from ._export import ArrayAccuracy, Triangles
+from ._facts import Advance, Crack, Growth, Hole, Reaction, Tip
+from ._field import Field
+from ._functions import Component, Formula, Jump, Level, tip_functions
+from ._links import link
+from ._mesh import Mesh
+from ._pictures import Animation, Extremum, Figure
+from ._problem import Elastic, Poisson, Problem, solve
+from ._state import Coefficients, State
+from ._sweep import Sweep, sweep
+from ._tables import History, Table
+from ._values import Quantity, Values
+from ._views import View
+from .meshes import (
+    from_dolfinx, from_getfem, from_meshio, from_mfem, from_ngsolve, from_ngsxfem, from_skfem, from_vtu,
+)  # fmt: skip
 
 # both are of `ppum.` alone: `from ppum import *` leaves Python's own as they are
-from .dataset import Warning as Warning
-from .dataset import open as open
-from .enriching import Component, Formula, Jump, Level, tip_functions
-from .exporting import ArrayAccuracy, Triangles
-from .field import Field
-from .linking import link
-from .mesh import Mesh
-from .meshes import (
-    from_dolfinx,
-    from_getfem,
-    from_meshio,
-    from_mfem,
-    from_ngsolve,
-    from_ngsxfem,
-    from_skfem,
-    from_vtu,
-)
-from .pictures import Animation, Extremum, Figure
-from .problem import Elastic, Poisson, Problem, solve
-from .sweeping import Sweep, sweep
-from .tables import History, Table
-from .values import Quantity, Values
-from .views import View
+from ._facts import Warning as Warning
+from ._dataset import open as open
 
 __version__ = _core.VERSION
 
@@ -67,69 +46,26 @@ __version__ = _core.VERSION
 COLORMAPS: tuple[str, ...] = tuple(_core.colormaps())
 
 __all__ = [
-    "COLORMAPS",
-    "Advance",
-    "Animation",
-    "ArrayAccuracy",
-    "BuildError",
-    "Coefficients",
-    "Comparison",
-    "Component",
-    "Cover",
-    "Crack",
-    "Dataset",
-    "Elastic",
-    "Extremum",
-    "Field",
-    "Figure",
-    "Finding",
-    "FormatError",
-    "Formula",
-    "Growth",
-    "History",
-    "Hole",
-    "InternalError",
-    "Jump",
-    "Level",
-    "Mesh",
-    "Needed",
-    "Norms",
-    "Poisson",
-    "PpumError",
-    "Problem",
-    "ProblemError",
-    "Quantity",
-    "QuantityError",
-    "Reaction",
-    "RenderError",
-    "Resampling",
-    "SolveError",
-    "State",
-    "Step",
-    "Sweep",
-    "Table",
-    "Tip",
-    "Triangles",
-    "Values",
-    "View",
-    "arc",
-    "arrays",
-    "basis",
-    "build",
-    "ellipse",
-    "from_arrays",
-    "from_bytes",
-    "from_dolfinx",
-    "from_getfem",
-    "from_meshio",
-    "from_mfem",
-    "from_ngsolve",
-    "from_ngsxfem",
-    "from_skfem",
-    "from_vtu",
-    "link",
-    "plots",
-    "solve",
-    "sweep",
-    "tip_functions",
-]
+    "COLORMAPS", "Advance", "Animation", "ArrayAccuracy", "BuildError", "Coefficients", "Comparison", "Component",
+    "Cover", "Crack", "Dataset", "Elastic", "Extremum", "Field", "Figure", "Finding", "FormatError", "Formula",
+    "Growth", "History", "Hole", "InternalError", "Jump", "Level", "Mesh", "Needed", "Norms", "Poisson", "PpumError",
+    "Problem", "ProblemError", "Quantity", "QuantityError", "Reaction", "RenderError", "Resampling", "SolveError",
+    "State", "Step", "Sweep", "Table", "Tip", "Triangles", "Values", "View", "arc", "arrays", "basis", "build",
+    "ellipse", "from_arrays", "from_bytes", "from_dolfinx", "from_getfem", "from_meshio", "from_mfem", "from_ngsolve",
+    "from_ngsxfem", "from_skfem", "from_vtu", "link", "plots", "solve", "sweep", "tip_functions",
+]  # fmt: skip
+
+
+def _viewer(*args: Any, **options: Any) -> Any:
+    from ._widget import Viewer
+
+    return Viewer(*args, **options)
+
+
+# methods of lower layers that make things of upper ones
+Dataset._parsed, Field._viewer = staticmethod(Problem.parse), staticmethod(_viewer)
+
+# people and pickles find all that is public here
+for _name in (*__all__, "Warning", "open"):
+    if getattr(globals()[_name], "__module__", "").startswith("ppum._"):
+        globals()[_name].__module__ = "ppum"

@@ -19,10 +19,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .checking import numbers, rows, short
-from .blocks import DEGREES, MAX_DEGREE, exponents
-from .cover import Cover
-from .errors import BuildError
+from ._checks import numbers, rows, short
+from ._blocks import DEGREES, MAX_DEGREE, exponents
+from ._cover import Cover
+from ._errors import BuildError
 
 __all__ = ["Basis", "bernstein", "chebyshev", "fit", "lagrange", "legendre", "monomials", "reframe"]
 
@@ -296,6 +296,3 @@ def _composed(p: Poly, shift: Fraction, factor: Fraction) -> Poly:
         result = _times(result, [shift, factor])
         result[0] += v
     return result
-
-
-Basis.__module__ = "ppum.basis"

@@ -21,13 +21,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from .drawn import Page
-from .values import degrees, pair
-from .views import pixels
+from ._files import Page
+from ._units import degrees, pair
+from ._units import pixels
 
 if TYPE_CHECKING:
-    from .dataset import Dataset
-    from .field import Field
+    from ._dataset import Dataset
+    from ._field import Field
 
 __all__ = ["Plot", "around", "circle", "convergence", "crack", "history", "line", "ray", "series"]
 

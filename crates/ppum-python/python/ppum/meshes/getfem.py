@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checking import real
-from ..blocks import MAX_DEGREE, exponents
-from ..building import Coefficients, State
-from ..dataset import Dataset
-from ..enriching import Formula
-from ..errors import BuildError
-from ..extras import needed
-from ..interpolating import SQUARE, TRIANGLE
-from .importing import Elements, Floats, Group, Labels, Places, Sampler, built, compared, labelled, random_places, to_unit
+from .._checks import real
+from .._blocks import MAX_DEGREE, exponents
+from .._state import Coefficients, State
+from .._dataset import Dataset
+from .._functions import Formula
+from .._errors import BuildError
+from .._errors import needed
+from .._shapes import SQUARE, TRIANGLE
+from ._elements import Elements, Floats, Group, Labels, Places, built, compared, labelled, random_places, to_unit
 
 __all__ = ["Crack", "from_getfem", "state"]
 

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checking import real
-from ..building import State
-from ..dataset import Dataset
-from ..errors import BuildError
-from ..extras import needed
-from ..interpolating import SQUARE, TRIANGLE
-from .importing import SEED, Floats, Group, Labels, Places, Sampler, built, compared, smooth, to_unit
+from .._checks import real
+from .._state import State
+from .._dataset import Dataset
+from .._errors import BuildError
+from .._errors import needed
+from .._shapes import SQUARE, TRIANGLE
+from ._elements import SEED, Floats, Group, Labels, Places, Sampler, built, compared, smooth, to_unit
 
 __all__ = ["from_mfem", "state"]
 

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ..checking import real
-from ..dataset import Dataset
-from ..building import State
-from ..errors import BuildError
-from ..extras import needed
-from ..interpolating import SQUARE, TRIANGLE
-from .importing import Group, Labels, Places, Sampler, built, compared, smooth, to_unit
+from .._checks import real
+from .._dataset import Dataset
+from .._state import State
+from .._errors import BuildError
+from .._errors import needed
+from .._shapes import SQUARE, TRIANGLE
+from ._elements import Group, Labels, Places, Sampler, built, compared, smooth, to_unit
 
 __all__ = ["from_ngsolve", "state"]
 

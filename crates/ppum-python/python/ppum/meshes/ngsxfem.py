@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from ..building import Coefficients, State
-from ..dataset import Dataset
-from ..extras import needed
-from ..verifying import Sampled
-from .importing import Elements, Floats, Labels, built, compared, labelled
+from .._state import Coefficients, State
+from .._dataset import Dataset
+from .._errors import needed
+from .._state import Sampled
+from ._elements import Elements, Floats, Labels, built, compared, labelled
 from .ngsolve import mesh_of, order_of, sampler
 
 __all__ = ["from_ngsxfem", "state"]

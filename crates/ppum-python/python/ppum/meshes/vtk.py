@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checking import numbers, sequence
-from ..blocks import MAX_DEGREE, exponents
-from ..building import Coefficients, State
-from ..dataset import Dataset
-from ..errors import BuildError
-from ..extras import needed
-from ..heading import components_of
-from ..interpolating import SQUARE, TRIANGLE
-from ..verifying import Sampled
-from .importing import SEED, Floats, Group, Labels, Places, built, compared, from_unit, smooth, to_unit
+from .._checks import numbers, sequence
+from .._blocks import MAX_DEGREE, exponents
+from .._state import Coefficients, State
+from .._dataset import Dataset
+from .._errors import BuildError
+from .._errors import needed
+from .._head import components_of
+from .._shapes import SQUARE, TRIANGLE
+from .._state import Sampled
+from ._elements import SEED, Floats, Group, Labels, Places, built, compared, from_unit, smooth, to_unit
 
 __all__ = ["from_meshio", "from_vtu", "meshio_state", "vtu_state"]
 

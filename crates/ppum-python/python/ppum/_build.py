@@ -1,0 +1,308 @@
+"""Datasets from the arrays of one's own code."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._checks import mapping, real, rows, scalar, sequence, text
+from ._blocks import Blocks, arranged
+from ._cover import Cover
+from ._dataset import Dataset
+from ._errors import BuildError, QuantityError
+from ._facts import Crack, Hole
+from ._functions import columns
+from ._head import Arrays, components_of, crack_arrays, listed, of_state, shared
+from ._mesh import Mesh
+from ._arrays import packed
+from ._places import in_arguments
+from ._problem import Elastic, Poisson
+from ._state import Coefficients, State
+from ._verify import verified
+
+TAKEN = "has a meaning in formulas already"
+#: Values of patches that each field has.
+OF_PATCHES = ("level", "element", "order", "blocks", "functions")
+
+
+def build(
+    states: State | Sequence[State],
+    *,
+    title: str = "",
+    program: str = "",
+    equation: Elastic | Poisson | None = None,
+    holes: Sequence[Hole] = (),
+    tables: Mapping[str, Sequence[ArrayLike]] | None = None,
+    quantities: Mapping[str, str | tuple[str, str]] | None = None,
+    tolerance: float = 1e-10,
+) -> Dataset:
+    """The dataset of arrays. It is in memory, draws, evaluates and saves as any other.
+
+    Args:
+        states: One step, or the steps of a series, on one domain.
+        title: One line that names the problem.
+        program: Name and version of the code that the arrays come from.
+        equation: The material, if there are to be stresses or energy: then the first field is ``displacement`` or
+            ``potential``. Without one there are values, derivatives and the dataset's own quantities.
+        holes: Holes of the domain: `ppum.Hole` with `center` and `radius`, or with `points`.
+        tables: Data that formulas read, by name: (x, values), or (x, y, values) with a row of values for each y.
+        quantities: Formulas of components and derivatives by name, or pairs of formula and unit.
+        tolerance: Largest difference from `Coefficients.verify` that is no error, in parts of the largest value.
+
+    Raises:
+        BuildError: What is wrong, with the array, the row and the remedy, before anything is written; or a field that is
+            not the one of its `verify`.
+
+    `Coefficients.verify` is compared at 1000 random points, spread over the patches, and at 100 points close to both
+    sides of each crack. The largest difference is printed, and kept in `Step.history`, as ``verified NAME``.
+    """
+    series, records = _series(states), dict[str, Any]()
+    named = arrays(
+        series, title=title, program=program, equation=equation, holes=holes, tables=tables, quantities=quantities
+    )
+    try:
+        made = from_arrays(named)
+    except BuildError as error:
+        raise BuildError(in_arguments(str(error), named, len(series) > 1)) from None
+    for k, state in enumerate(series):
+        with of_state(k, len(series)):
+            if state.attributes:
+                _check_attributes(state, made.steps[k].field)
+            found = verified(_Evaluated(made, named, k), state, scalar("tolerance", tolerance))
+        records |= _history(f"steps/{k:04}/history", found)
+    return from_arrays(named | records) if records else made
+
+
+def arrays(
+    states: State | Sequence[State],
+    *,
+    title: str = "",
+    program: str = "",
+    equation: Elastic | Poisson | None = None,
+    holes: Sequence[Hole] = (),
+    tables: Mapping[str, Sequence[ArrayLike]] | None = None,
+    quantities: Mapping[str, str | tuple[str, str]] | None = None,
+) -> Arrays:
+    """The arrays and attributes of a dataset by their paths in the file format (FORMAT.md, section 3), for files that are
+    written elsewhere: `build` hands them to `from_arrays`. Arguments are as of `build`; nothing is verified.
+
+    Example:
+        >>> mesh = ppum.Mesh.from_nodes([[(0, 0), (2, 0), (0, 1)]])
+        >>> made = ppum.arrays(ppum.State(mesh, ppum.Coefficients("u", {"one": [[1.0]]})))
+        >>> made["steps/0000/partition/map"].tolist()
+        [[1.3333333333333333, 0.0], [0.0, 0.6666666666666666]]
+    """
+    series = _series(states)
+    holes = listed("holes", holes, Hole, "ppum.Hole(center, radius)")
+    named = shared(series, title, program, equation, holes, tables, quantities)
+    for k, state in enumerate(series):
+        with of_state(k, len(series)):
+            named |= _step(f"steps/{k:04}", state, equation, holes)
+            _check_names(f"steps/{k:04}/fields", named, equation)
+    return named
+
+
+def _series(states: Any) -> list[State]:
+    given = [states] if isinstance(states, State) else states
+    series: list[State] = listed("states", given, State, "ppum.State(cover, fields)")
+    if not series:
+        raise BuildError("states: a dataset needs at least one step")
+    return series
+
+
+def from_arrays(arrays: Mapping[str, Any]) -> Dataset:
+    """The dataset of arrays and attributes by the paths that the file format has for them (FORMAT.md, section 3), such as
+    ``steps/0000/partition/center`` and ``steps/0000@load``. `build` makes such arrays.
+
+    Numbers become those of the format's types; objects that are not optional have to be there, but for ``@format`` and
+    ``@format_version``.
+
+    Raises:
+        BuildError: All that is wrong, a line for each array.
+
+    Example:
+        >>> ppum.from_arrays({"@title": "Nothing"})
+        Traceback (most recent call last):
+        ...
+        ppum.BuildError: @program: is missing
+        ...
+    """
+    named = mapping("arrays", arrays, "arrays, such as those of `ppum.arrays`")
+    return Dataset(_core.build([packed(path, value) for path, value in named.items()]))
+
+
+class _Evaluated:
+    """The fields of a step: only the first of a dataset can be evaluated, so others take its place in datasets of their
+    own."""
+
+    def __init__(self, made: Dataset, arrays: Arrays, step: int) -> None:
+        self.made, self.arrays, self.step = made, arrays, f"steps/{step:04}"
+        self.number = step
+
+    def field(self, number: int) -> Any:
+        if number == 0:
+            return self.made.steps[self.number].field
+        of, to = (f"{self.step}/fields/{k:04}" for k in (number, 0))
+        left_out = ("equation", "quantities", to)
+        others = {k: v for k, v in self.arrays.items() if not k.startswith(left_out)}
+        this = {k.replace(of, to): v for k, v in others.items() if k.startswith(of)}
+        one = {k: v for k, v in (others | this).items() if not k.startswith("steps/") or k.startswith(self.step)}
+        moved = {k.replace(self.step, "steps/0000"): v for k, v in one.items()}
+        name = f"{moved['steps/0000/fields/0000@name']}, compared"
+        return from_arrays(moved | {"equation@kind": "none", "steps/0000/fields/0000@name": name}).field
+
+
+def _step(path: str, state: State, equation: Elastic | Poisson | None, holes: Sequence[Hole]) -> Arrays:
+    cover = state.cover
+    fields = state.fields
+    if isinstance(fields, Coefficients):
+        fields = [fields]
+    fields = listed("fields", fields, Coefficients, "ppum.Coefficients(name, blocks)")
+    if not fields:
+        raise BuildError("fields: a step needs at least one field; give ppum.Coefficients(name, blocks)")
+    cracks = [
+        rows(f"cracks[{k}]", c.points if isinstance(c, Crack) else c, 2)
+        for k, c in enumerate(sequence("cracks", state.cracks, "cracks, each its points"))
+    ]
+    functions: dict[str, Any] = {"one": None}
+    if "one" in mapping("functions", state.functions, "functions"):
+        raise BuildError("functions['one']: is the function 1 already; give yours another name")
+    functions |= state.functions
+    names = [one.name for one in fields]
+    group = {"@load": scalar("load", state.load), **_partition(cover, names), **crack_arrays(state, cracks, holes)}
+    segments = [len(points) - 1 for points in cracks]
+    group |= {f"functions/{k}": v for k, v in columns(functions, segments, names).items()}
+    for k, one in enumerate(fields):
+        data = _field(one, cover, list(functions), equation if k == 0 else None)
+        group |= {f"fields/{k:04}{'' if name.startswith('@') else '/'}{name}": v for name, v in data.items()}
+    group |= _attributes(state.attributes, len(cover))
+    return {f"{path}{'' if k.startswith('@') else '/'}{k}": v for k, v in group.items()}
+
+
+def _partition(cover: Cover | Mesh, fields: Sequence[str]) -> Arrays:
+    arrays: Arrays = {f"partition/{name}": array for name, array in cover.arrays(fields).items()}
+    if isinstance(cover, Mesh):
+        return arrays | {"partition@kind": "mesh"}
+    named = cover.weight in ("linear", "quadratic", "cubic")
+    arrays |= {"partition@kind": "shepard-box", "partition@weight": cover.weight if named else "formula"}
+    return arrays | ({} if named else {"partition@weight_formula": cover.weight})
+
+
+def _field(
+    given: Coefficients, cover: Cover | Mesh, functions: list[str], equation: Elastic | Poisson | None
+) -> Arrays:
+    place = f"fields[{text('fields.name', given.name)!r}]"
+    given_blocks = mapping(f"{place}.blocks", given.blocks, "arrays, such as {'one': array}")
+    one_space = dict.fromkeys(given_blocks, given.space) if isinstance(given.space, str) else given.space
+    spaces = mapping(f"{place}.space", one_space, "words, or one for all")
+    if unknown := sorted(spaces.keys() - given_blocks.keys()):
+        raise BuildError(f"{place}.space[{unknown[0]!r}]: there are blocks of {', '.join(given_blocks)} alone")
+    tensor = {name: cover.in_space(f"{place}.space", spaces.get(name, "shape")) for name in given.blocks}
+    blocks: Blocks = arranged(place, given.blocks, tensor, functions)
+    names = _components(place, given, len(blocks.coefficients), equation)
+    arrays = {"@name": given.name, "@unit": text(f"{place}.unit", given.unit), "components": names, **blocks.arrays()}
+    exact = [text(f"{place}.exact[{k}]", f) for k, f in enumerate(sequence(f"{place}.exact", given.exact, "formulas"))]
+    return arrays | ({"exact": exact} if exact else {})
+
+
+def _components(place: str, given: Coefficients, count: int, equation: Elastic | Poisson | None) -> list[str]:
+    """The names of the components, as many as the blocks have, and as the equation wants them."""
+    wanted = components_of(equation)
+    if equation is not None:
+        unknown = "potential" if isinstance(equation, Poisson) else "displacement"
+        if given.name != unknown:
+            raise BuildError(f"{place}: is the first field, which the equation calls {unknown!r}; name it so")
+        if count != len(wanted):
+            raise BuildError(
+                f"{place}.blocks: have {count} components, but the equation has {len(wanted)}, {', '.join(wanted)}; "
+                "leave out others, or leave out `equation`"
+            )
+    names = wanted or _names(given.name, count)
+    if given.components is not None:
+        given_names = enumerate(sequence(f"{place}.components", given.components, "names"))
+        names = [text(f"{place}.components[{k}]", name) for k, name in given_names]
+    if len(names) != count:
+        raise BuildError(f"{place}.components: has {len(names)} names, but the blocks have {count} components")
+    return names
+
+
+def _names(name: str, count: int) -> list[str]:
+    if name == "displacement" and count == 2:
+        return ["ux", "uy"]
+    if name == "potential" and count == 1:
+        return ["u"]
+    # formulas have letters, digits and `_` alone
+    base = re.sub(r"\W", "_", name, flags=re.ASCII)
+    base = f"_{base}" if base[:1].isdigit() else base
+    return [base] if count == 1 else [f"{base}{k}" for k in range(count)]
+
+
+def _check_names(group: str, arrays: Arrays, equation: Elastic | Poisson | None) -> None:
+    """Refuses components' names that formulas cannot have for them."""
+    fields = [key.removesuffix("/components") for key in arrays if key.startswith(group) and key.endswith("/components")]
+    for path, k, name in ((f, k, name) for f in fields for k, name in enumerate(arrays[f"{f}/components"])):
+        if wrong := _unfit(name, _nameless(type(equation).__name__)):
+            raise BuildError(
+                f"fields[{arrays[f'{path}@name']!r}].components[{k}]: {name!r} {wrong}; give another one, of letters, digits "
+                "and `_`, by components=[…]"
+            )
+
+
+def _unfit(name: str, field: Any) -> str | None:
+    """Why formulas of a field without names cannot have this name."""
+    try:
+        field._core.check(f"let {name} = 1; {name}")
+    except QuantityError as error:
+        return TAKEN if "already has a meaning" in str(error) else "is no name that formulas can have"
+    return TAKEN if name in field.quantities else None
+
+
+@lru_cache
+def _nameless(equation: str) -> Any:
+    """A field of an equation whose components have names that nobody gives: in its formulas all others are free."""
+    materials: dict[str, Elastic | Poisson] = {"Elastic": Elastic(1.0, 0.0), "Poisson": Poisson(1.0)}
+    material = materials.get(equation)
+    count, name = (2, "displacement") if equation == "Elastic" else (1, "potential")
+    field = Coefficients(name, {"one": np.zeros((1, 1, count))}, [f"__{k}" for k in range(count)])
+    state = State(Cover.uniform([(0, 0), (1, 1)], (1, 1)), field)
+    return from_arrays(shared([state], "", "", material, ()) | _step("steps/0000", state, material, ())).field
+
+
+def _attributes(attributes: Mapping[str, ArrayLike], patches: int) -> Arrays:
+    if not mapping("attributes", attributes, "arrays"):
+        return {}
+    values = [real(f"attributes[{name!r}]", given) for name, given in attributes.items()]
+    for name, given in zip(attributes, values):
+        if given.shape != (patches,):
+            raise BuildError(f"attributes[{name!r}]: has the shape {given.shape}, expected ({patches},)")
+    return {"attributes/name": list(attributes), "attributes/values": np.array(values)}
+
+
+def _check_attributes(state: State, field: Any) -> None:
+    """Refuses attributes that are never shown, since their names are those of something else."""
+    for name in state.attributes:
+        is_quantity = name in OF_PATCHES
+        if not is_quantity:
+            try:
+                field._core.check(name)
+                is_quantity = True
+            except QuantityError:
+                pass
+        if is_quantity:
+            raise BuildError(
+                f"attributes[{name!r}]: is the name of a quantity, which would be shown in its place; give another, such "
+                f"as {f'my {name}'!r}"
+            )
+
+
+def _history(path: str, found: Mapping[str, float]) -> Arrays:
+    if not found:
+        return {}
+    names = [f"verified {name}" for name in found]
+    return {f"{path}/name": names, f"{path}/value": list(found.values()), f"{path}/unit": [""] * len(names)}

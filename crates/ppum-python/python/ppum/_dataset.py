@@ -1,0 +1,382 @@
+"""Datasets: solved problems, or fields from elsewhere in the same representation."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+from collections.abc import Mapping, Sequence
+from functools import cached_property, lru_cache, partial
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any, ClassVar, Unpack
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._export import TriangleOptions, save_triangles
+from ._facts import Advance, Crack, Growth, Hole, Point, Reaction, Tip, Warning, number, points, row, tips_of
+from ._field import KEPT, Field
+from ._options import passes
+from ._styles import ViewerOptions
+from ._tables import History, Numbered, Table
+from ._text import counted
+
+if TYPE_CHECKING:
+    from ._problem import Problem
+    from ._widget import Viewer
+
+
+class Step:
+    """One state of a series. Made by `Dataset.steps`.
+
+    Example:
+        >>> step = ds.steps[-1]
+        >>> step.patches, step.unknowns
+        (512, 6600)
+        >>> sorted(step.history)[:2]
+        ['assembly', 'basis']
+    """
+
+    def __init__(self, dataset: Dataset, number: int) -> None:
+        self.dataset = dataset
+        #: Number of the step, from 0.
+        self.number = number
+
+    @cached_property
+    def _facts(self) -> dict[str, Any]:
+        return dict(json.loads(self.dataset._core.step(self.number)))
+
+    @property
+    def load(self) -> float:
+        """Load factor or pseudo-time."""
+        return float(self._facts["load"])
+
+    @property
+    def patches(self) -> int:
+        """Number of patches."""
+        return int(self._facts["patches"])
+
+    @property
+    def unknowns(self) -> int:
+        """Number of unknowns of the solution."""
+        return int(self._facts["unknowns"])
+
+    @property
+    def functions(self) -> tuple[str, ...]:
+        """Names of the functions that polynomials are multiplied with; `Field.with_function` takes them."""
+        return tuple(self._facts["functions"])
+
+    @cached_property
+    def cracks(self) -> tuple[Crack, ...]:
+        """The cracks."""
+        cracks = enumerate(self._facts["cracks"])
+        made = (Crack(k, points(c["points"]), tuple(c["ends"])) for k, c in cracks)
+        return Numbered(made, "crack")
+
+    @cached_property
+    def tips(self) -> Table[Tip]:
+        """The crack tips with the factors that the solver found, in the order of cracks and ends."""
+        return tips_of(self._facts["tips"], self._facts["ends"])
+
+    @cached_property
+    def history(self) -> History:
+        """The solver's report."""
+        records = self._facts["history"]
+        return History([(r["name"], number(r["value"]), r["unit"]) for r in records])
+
+    @cached_property
+    def warnings(self) -> Table[Warning]:
+        """What the diagnostics found."""
+        return Table((row(Warning, w) for w in self._facts["warnings"]), "warning")
+
+    @cached_property
+    def reactions(self) -> Table[Reaction]:
+        """What the supports exert on the plate."""
+        names = self._facts["components"]
+        rows = (
+            row(Reaction, r, held=[n in r["held"] for n in names], moment=r["moment"] or 0.0)
+            for r in self._facts["reactions"]
+        )
+        return Table(rows, "reaction")
+
+    @cached_property
+    def growth(self) -> Growth | None:
+        """How the cracks grow on from here; None without growth."""
+        facts = self._facts["growth"]
+        if facts is None:
+            return None
+        tips = (
+            row(Advance, t, curvature=curvature, path=points(path))
+            for t, (curvature, path) in zip(facts["tips"], self._facts["arcs"])
+        )
+        return Growth(facts["cycles"], facts["stop"], Table(tips, "tip"))
+
+    @cached_property
+    def attributes(self) -> dict[str, NDArray[np.float64]]:
+        """Stored values of the cover's cells by name, each of shape (patches,)."""
+        return dict(self.dataset._core.attributes(self.number))
+
+    @property
+    def field(self) -> Field:
+        """The field of the step.
+
+        Raises:
+            FormatError: The step has none, or a function that cannot be compiled.
+        """
+        return self.dataset._field(self.number)
+
+    def __repr__(self) -> str:
+        return f"<ppum.Step {self.number}, {counted(self.patches, 'patch', 'patches')}, {counted(len(self.tips), 'tip')}>"
+
+
+class Dataset:
+    """A solved problem: all that is needed to evaluate its fields exactly. It never changes.
+
+    Datasets are equal if all their numbers and texts are, but for the seconds that solving took; they can be pickled, and
+    sent to other processes.
+
+    Example:
+        >>> ds
+        <ppum.Dataset 'Slanted crack', elasticity, 1 step, 512 patches, 2 tips>
+        >>> ds.tips[0]
+        <ppum.Tip at (-0.353553, -0.353553), K_I = 0.766738, K_II = 0.684074>
+        >>> ppum.from_bytes(ds.to_bytes()) == ds
+        True
+    """
+
+    #: Makes problems of their texts, which are of an upper layer; bound by the package.
+    _parsed: ClassVar[Any]
+
+    def __init__(self, core: _core.Dataset) -> None:
+        if not isinstance(core, _core.Dataset):
+            kind = type(core).__name__
+            raise TypeError(f"a dataset is not made of {kind}: `ppum.open` opens files, `ppum.build` takes arrays")
+        self._core = core
+        # a field holds the data of its step, which those of a file need not
+        most = KEPT if core.is_stored() else None
+        self._field = lru_cache(most)(partial(Field, self))
+
+    @cached_property
+    def _facts(self) -> dict[str, Any]:
+        return dict(json.loads(self._core.about()))
+
+    @property
+    def title(self) -> str:
+        """One line that names the problem."""
+        return str(self._facts["title"])
+
+    @property
+    def program(self) -> str:
+        """Name and version of the program that made it."""
+        return str(self._facts["program"])
+
+    @property
+    def equation(self) -> str:
+        """``elasticity``, ``eigenstrain`` (elasticity with given strains or a temperature), ``poisson``, or ``none``, of
+        fields without an equation."""
+        return str(self._facts["equation"]["kind"])
+
+    @property
+    def domain(self) -> tuple[Point, Point]:
+        """Lower left and upper right corner of the box; `holes` are cut out of it."""
+        domain = self._facts["domain"]
+        return tuple(domain["min"]), tuple(domain["max"])
+
+    @cached_property
+    def holes(self) -> tuple[Hole, ...]:
+        """The holes."""
+        holes = (
+            Hole(tuple(h["center"]), h["radius"], None)
+            if h["kind"] == "circle"
+            else Hole(None, None, points(h["points"]), h["kind"] == "outside")
+            for h in self._facts["domain"]["holes"]
+        )
+        return Numbered(holes, "hole")
+
+    @property
+    def problem(self) -> Problem | None:
+        """The problem that was solved, by its text; None if the dataset has none. Files that it names have to be where
+        they were."""
+        text = self._facts["problem"]
+        problem: Problem | None = None if text is None else self._parsed(text)
+        return problem
+
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        """The steps of the series, one or more."""
+        return Numbered((Step(self, k) for k in range(len(self._core))), "step")
+
+    @property
+    def field(self) -> Field:
+        """The field of the last step."""
+        return self.steps[-1].field
+
+    @property
+    def cracks(self) -> tuple[Crack, ...]:
+        """The cracks of the last step."""
+        return self.steps[-1].cracks
+
+    @property
+    def tips(self) -> Table[Tip]:
+        """The tips of the last step."""
+        return self.steps[-1].tips
+
+    @property
+    def warnings(self) -> Table[Warning]:
+        """The warnings of the last step."""
+        return self.steps[-1].warnings
+
+    @property
+    def history(self) -> History:
+        """The solver's report of the last step."""
+        return self.steps[-1].history
+
+    @property
+    def quantities(self) -> Mapping[str, Any]:
+        """All named quantities of the last step's field, see `Field.quantities`."""
+        return self.field.quantities
+
+    @passes(ViewerOptions)
+    def view(self, quantity: str | None = None, *, step: int = -1, **options: Unpack[ViewerOptions]) -> Viewer:
+        """Shows a step in a notebook, with a slider for the others; further options as in `Field.view`.
+
+        Example:
+            >>> ds.view("von_mises", tip=1, zoom=100).step
+            0
+        """
+        return self.steps[step].field.view(quantity, **options)
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        quantities: Sequence[str] | None = None,
+        **options: Unpack[TriangleOptions],
+    ) -> None:
+        """Writes a file. What was there stays until the new one is complete.
+
+        A name that ends in ``.vtkhdf``, or in ``.vtu`` if there is one step, is for programs that interpolate, such as
+        ParaView: the triangles of all steps, with the arguments of `Field.triangles`.
+
+        Raises:
+            OSError: The system refuses; `FileNotFoundError` where there is no such folder.
+            ValueError: A name of another kind of file, such as ``.png``.
+            TypeError: Arguments of triangles for another file.
+
+        Example:
+            >>> ds.save("plate.vtkhdf", ["displacement"], tolerance=0.01)
+        """
+        path = Path(path)
+        if path.suffix.lower() in (".vtu", ".vtkhdf"):
+            return save_triangles(self, path, quantities, **options)
+        if quantities is not None or options:
+            given = ", ".join(["quantities"] * (quantities is not None) + [*options])
+            raise TypeError(f"{given}: for names that end in .vtkhdf or .vtu, not {path.name}")
+        if remedy := _OTHER_FILES.get(path.suffix.lower()):
+            raise ValueError(f"{path.name}: a dataset is an HDF5 file, end its name in .h5; {remedy}")
+        self._core.save(path)
+
+    def to_bytes(self) -> bytes:
+        """The bytes of a file."""
+        return self._core.to_bytes()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return from_bytes, (self.to_bytes(),)
+
+    def __eq__(self, other: object) -> bool:
+        return self._core == other._core if isinstance(other, Dataset) else NotImplemented
+
+    def __hash__(self) -> int:
+        numbers = [(s.patches, s.unknowns, s.history.get("energy", 0.0)) for s in self.steps]
+        # what is not a number is not equal to itself
+        plain = tuple((p, u, energy if energy == energy else None) for p, u, energy in numbers)
+        return hash((self.title, self.equation, plain))
+
+    def __repr__(self) -> str:
+        last = self.steps[-1]
+        counts = [
+            self.equation,
+            counted(len(self.steps), "step"),
+            counted(last.patches, "patch", "patches"),
+            counted(len(last.tips), "tip"),
+        ]
+        return f"<ppum.Dataset {self.title!r}, {', '.join(counts)}>"
+
+    def _repr_html_(self) -> str:
+        (x0, y0), (x1, y1) = self.domain
+        last = self.steps[-1]
+        rows = {
+            "equation": self.equation,
+            "domain": f"({x0:g}, {y0:g}) to ({x1:g}, {y1:g}), {counted(len(self.holes), 'hole')}",
+            "steps": str(len(self.steps)),
+            "patches, unknowns": f"{last.patches}, {last.unknowns}",
+            "cracks": str(len(last.cracks)),
+            "warnings": "; ".join(w.message for w in last.warnings) or "none",
+        }
+        body = "".join(
+            f"<tr><th>{html.escape(k)}</th><td>{html.escape(v)}</td></tr>" for k, v in rows.items()
+        )
+        tips = last.tips._repr_html_() if last.tips else ""
+        return f"<p><b>{html.escape(self.title)}</b></p><table><tbody>{body}</tbody></table>{tips}"
+
+
+_PICTURES = "`Field.figure` draws pictures, `Field.animate` animations"
+_MESHES = "`Dataset.save` makes .vtkhdf and .vtu files, with the triangles of `Field.triangles`"
+_TABLES = "`Field.line` and others make tables"
+#: Ends of the names of other files, and what makes these.
+_OTHER_FILES = {
+    **dict.fromkeys((".png", ".svg", ".pdf", ".jpg", ".gif", ".apng"), _PICTURES),
+    **dict.fromkeys((".pvd", ".vtk", ".vtp"), _MESHES),
+    **dict.fromkeys((".csv", ".npy", ".npz", ".txt"), _TABLES),
+    **dict.fromkeys((".html", ".htm"), "`Field.to_html` makes pages"),
+    **dict.fromkeys((".toml",), "`Problem.to_toml` is the text of a problem file"),
+}
+
+
+def open(source: str | os.PathLike[str] | bytes | IO[bytes]) -> Dataset:
+    """Opens a dataset. A file with the steps of a series stays open, and each step is read when it is asked for; any other
+    is read whole.
+
+    Args:
+        source: A path, the bytes of a file, or a file that is open for reading bytes.
+
+    Raises:
+        OSError: The file cannot be read; `FileNotFoundError` if there is none.
+        FormatError: It is no dataset, or a damaged one.
+        TypeError: Something else, or a file that is open for text.
+
+    Example:
+        >>> ds.save("plate.h5")
+        >>> ppum.open("plate.h5") == ds
+        True
+    """
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        return from_bytes(bytes(source))
+    if isinstance(source, (str, os.PathLike)):
+        return Dataset(_core.read(Path(source)))
+    if not hasattr(source, "read"):
+        raise TypeError(f"a dataset is opened by a path, bytes or an open file{_remedy(source)}")
+    data = source.read()
+    if not isinstance(data, bytes):
+        raise TypeError("the file is open for text: open it with mode 'rb', or give its path")
+    return from_bytes(data)
+
+
+def _remedy(source: Any) -> str:
+    name = getattr(source, "filename", None)
+    if isinstance(name, str):
+        return f", not by a {type(source).__name__} of h5py; close it, and give {name!r}"
+    return f", not by {type(source).__name__!r}"
+
+
+def from_bytes(data: bytes) -> Dataset:
+    """The dataset of a file's bytes.
+
+    Raises:
+        FormatError: They are no dataset, or a damaged one.
+
+    Example:
+        >>> ppum.from_bytes(ds.to_bytes()).title
+        'Slanted crack'
+    """
+    return Dataset(_core.from_bytes(data))

@@ -1,0 +1,103 @@
+"""The exceptions of ppum.
+
+Each is a `PpumError` and, beside that, one of the classes that people catch. All can be pickled.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+#: The folder of the package, which warnings are never located in.
+PACKAGE = os.path.join(os.path.dirname(__file__), "")
+
+
+class PpumError(Exception):
+    """What all exceptions of ppum are, but for those of files (`OSError`) and of numbers of steps, cracks and
+    tips (`IndexError`)."""
+
+
+class BuildError(PpumError, ValueError):
+    """Arrays that make no dataset, or another field than the one that was meant."""
+
+
+class FormatError(PpumError, ValueError):
+    """No dataset, or a damaged one."""
+
+
+class QuantityError(PpumError, ValueError):
+    """No quantity of the field, a formula that is wrong, a part or a replacement that the field cannot have."""
+
+
+class RenderError(PpumError, ValueError):
+    """A picture that cannot be drawn: a view without width, a range that does not fit."""
+
+
+class SolveError(PpumError, RuntimeError):
+    """A problem that cannot be solved, with the reason and a remedy."""
+
+
+class InternalError(PpumError, RuntimeError):
+    """A mistake in ppum itself; please report it."""
+
+
+class MissingKey(KeyError):
+    """A key that a mapping does not have, with those that it has."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that is wrong in a problem.
+
+    Attributes:
+        place: The file, or the key of a problem made in Python, e.g. ``crack[0]``.
+        line: Line in the file, from 1; none where there is no file.
+        column: Column in characters, from 1.
+        message: What is wrong, and the remedy.
+    """
+
+    place: str
+    line: int | None
+    column: int | None
+    message: str
+
+    def __str__(self) -> str:
+        where = [self.place, *(str(n) for n in (self.line, self.column) if n is not None)]
+        return f"{':'.join(where)}: {self.message}"
+
+
+class ProblemError(PpumError, ValueError):
+    """A problem with mistakes, all of which are in `findings`."""
+
+    def __init__(self, message: str, findings: list[Any] | None = None) -> None:
+        #: The mistakes, in the order of the problem.
+        self.findings: list[Finding] = [
+            f if isinstance(f, Finding) else Finding(**f) for f in findings or []
+        ]
+        super().__init__(message, self.findings)
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+def needed(package: str, remedy: str, what: str, by: str = "pip install") -> Any:
+    """A package beyond numpy that `what` needs; without it an `ImportError` that says how to get it."""
+    try:
+        return importlib.import_module(package)
+    except ImportError as error:
+        raise ImportError(f"{what} need {package.split('.')[0]}: {by} {remedy}") from error
+
+
+def warn(text: str) -> None:
+    """Warns of the line outside of the package from which it was called."""
+    level, frame = 1, sys._getframe()
+    while frame.f_code.co_filename.startswith(PACKAGE) and frame.f_back:
+        level, frame = level + 1, frame.f_back
+    warnings.warn(text, stacklevel=level)

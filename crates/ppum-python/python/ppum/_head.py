@@ -1,0 +1,214 @@
+"""What all steps of a dataset share: the domain, holes, the equation, tables, quantities; and the ends of cracks in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._checks import mapping, numbers, rows, scalar, sequence, short, text
+from ._cover import Cover
+from ._errors import BuildError
+from ._facts import Crack, Hole
+from ._mesh import Mesh
+from ._problem import Elastic, Poisson
+from ._state import State
+
+Arrays = dict[str, Any]
+
+
+def listed(place: str, given: Any, kind: Any, remedy: str) -> list[Any]:
+    """The entries of a list, all of a class."""
+    entries = sequence(place, given, remedy)
+    for k, one in enumerate(entries):
+        if not isinstance(one, kind):
+            raise BuildError(f"{place}[{k}]: is {type(one).__name__}; give {remedy}")
+    return entries
+
+
+@contextmanager
+def of_state(number: int, count: int) -> Iterator[None]:
+    """Puts the state of a series before the places of mistakes in it."""
+    try:
+        yield
+    except BuildError as error:
+        raise BuildError(f"states[{number}].{error}" if count > 1 else str(error)) from None
+
+
+def shared(
+    series: Sequence[State],
+    title: str,
+    program: str,
+    equation: Elastic | Poisson | None,
+    holes: Sequence[Hole],
+    tables: Mapping[str, Sequence[ArrayLike]] | None = None,
+    quantities: Mapping[str, str | tuple[str, str]] | None = None,
+) -> Arrays:
+    """The arrays of what all steps share."""
+    named = _tables({} if tables is None else tables) | _quantities({} if quantities is None else quantities)
+    return _head(series, title, program, equation, holes) | named
+
+
+def _head(
+    series: Sequence[State],
+    title: str,
+    program: str,
+    equation: Elastic | Poisson | None,
+    holes: Sequence[Hole],
+) -> Arrays:
+    for k, state in enumerate(series):
+        with of_state(k, len(series)):
+            if not isinstance(state.cover, (Cover, Mesh)):
+                raise BuildError(f"cover: is {type(state.cover).__name__}; give a ppum.Cover or a ppum.Mesh")
+    low, high = domain = series[0].cover.domain
+    for k, state in enumerate(series):
+        if not np.array_equal(state.cover.domain, domain):
+            raise BuildError(f"states[{k}].cover.domain: differs from that of states[0]; a series has one domain")
+    arrays = {
+        "@title": text("title", title),
+        "@program": text("program", program) or f"ppum {_core.VERSION}, arrays",
+        "domain@min": low,
+        "domain@max": high,
+        "domain@kind": _domain(series[0].cover, holes),
+    }
+    return arrays | (_holes(holes) if holes else {}) | _equation(equation)
+
+
+def _domain(cover: Cover | Mesh, holes: Sequence[Hole]) -> str:
+    if isinstance(cover, Mesh):
+        if holes:
+            raise BuildError("holes: the domain of a mesh is what its elements cover; leave them out")
+        return "mesh"
+    return "box-with-holes" if holes else "box"
+
+
+def _holes(holes: Sequence[Hole]) -> Arrays:
+    points = [_outline(f"holes[{k}]", hole) for k, hole in enumerate(holes)]
+    return {
+        "domain/holes/kind": [
+            "circle" if h.points is None else "outside" if h.is_outside else "polygon" for h in holes
+        ],
+        "domain/holes/points": np.concatenate(points),
+        "domain/holes/offsets": np.cumsum([0, *map(len, points)]),
+        "domain/holes/radius": [scalar(f"holes[{k}].radius", h.radius if h.points is None else 0) for k, h in enumerate(holes)],
+    }
+
+
+def _outline(place: str, hole: Hole) -> NDArray[np.float64]:
+    """The points of a polygon, or the centre of a circle."""
+    if hole.points is not None:
+        return rows(f"{place}.points", hole.points, 2)
+    if hole.center is None or hole.radius is None:
+        raise BuildError(f"{place}: has neither points nor a center and a radius; give either")
+    return rows(f"{place}.center", [numbers(f"{place}.center", hole.center)], 2)
+
+
+def _equation(equation: Elastic | Poisson | None) -> Arrays:
+    if equation is None:
+        return {"equation@kind": "none"}
+    if isinstance(equation, Poisson):
+        return {"equation@kind": "poisson", "equation@conductivity": _constant("conductivity", equation.conductivity)}
+    if not isinstance(equation, Elastic):
+        raise BuildError(f"equation: is {type(equation).__name__}; give ppum.Elastic, ppum.Poisson or None")
+    given = equation.eigenstrain if equation.eigenstrain is not None or equation.expansion is None else (0.0,) * 4
+    if given is not None and (isinstance(given, str) or not hasattr(given, "__len__") or len(given) != 4):
+        raise BuildError(f"equation.eigenstrain: is {short(given)}; give four numbers or formulas, of xx, yy, xy and zz")
+    strains = dict(zip(("xx", "yy", "xy", "zz"), given or ()))
+    return {
+        "equation@kind": "eigenstrain" if strains else "elasticity",
+        "equation@young": _constant("young", equation.young),
+        "equation@poisson": _constant("poisson", equation.poisson),
+        "equation@state": text("equation.state", equation.state),
+        **{f"equation@eigenstrain_{name}": _constant("eigenstrain", value) for name, value in strains.items()},
+        **({} if equation.expansion is None else {"equation@expansion": _constant("expansion", equation.expansion)}),
+    }
+
+
+def _constant(name: str, value: Any) -> float | str:
+    return value if isinstance(value, str) else scalar(f"equation.{name}", value)
+
+
+def _tables(tables: Mapping[str, Sequence[ArrayLike]]) -> Arrays:
+    arrays: Arrays = {}
+    for k, (name, given) in enumerate(mapping("tables", tables, "(x, values)").items()):
+        given = sequence(f"tables[{name!r}]", given, "arrays, (x, values) or (x, y, values)")
+        if len(given) not in (2, 3):
+            raise BuildError(f"tables[{name!r}]: has {len(given)} arrays; give (x, values) or (x, y, values)")
+        path = f"tables/{k:04}"
+        arrays[f"{path}@name"] = name
+        for key, values in zip(("x", "values") if len(given) == 2 else ("x", "y", "values"), given):
+            arrays[f"{path}/{key}"] = numbers(f"tables[{name!r}].{key}", values)
+    return arrays
+
+
+def _quantities(quantities: Mapping[str, str | tuple[str, str]]) -> Arrays:
+    pairs = [_quantity(name, q) for name, q in mapping("quantities", quantities, "formulas").items()]
+    if not pairs:
+        return {}
+    formula, unit = ([pair[k] for pair in pairs] for k in (0, 1))
+    return {"quantities/name": list(quantities), "quantities/formula": formula, "quantities/unit": unit}
+
+
+def _quantity(name: str, given: Any) -> tuple[str, str]:
+    pair = (given, "") if isinstance(given, str) else tuple(sequence(f"quantities[{name!r}]", given, "formula and unit"))
+    if len(pair) != 2 or not all(isinstance(part, str) for part in pair):
+        raise BuildError(f"quantities[{name!r}]: is {short(given)}; give a formula, or a pair of formula and unit")
+    return pair
+
+
+def components_of(equation: Elastic | Poisson | None) -> list[str]:
+    """The components of an equation."""
+    if isinstance(equation, Elastic):
+        return ["ux", "uy", "temperature"] if equation.expansion is not None else ["ux", "uy"]
+    return [] if equation is None else ["u"]
+
+
+def crack_arrays(state: State, cracks: Sequence[NDArray[np.float64]], holes: Sequence[Hole]) -> Arrays:
+    for k, points in enumerate(cracks):
+        if len(points) < 2:
+            raise BuildError(f"cracks[{k}]: has {len(points)} points; a crack needs two or more")
+        same = np.flatnonzero((points[1:] == points[:-1]).all(axis=1))
+        if len(same):
+            raise BuildError(f"cracks[{k}][{same[0] + 1}]: is the point before it; leave one out")
+        low, high = np.minimum(points[1:], points[:-1]), np.maximum(points[1:], points[:-1])
+        if ((high < state.cover.domain[0]) | (low > state.cover.domain[1])).any(axis=1).all():
+            box = " to ".join(f"({x:g}, {y:g})" for x, y in state.cover.domain)
+            raise BuildError(f"cracks[{k}]: lies outside of the domain, {box}; leave it out, or give its points in this frame")
+    ends = [
+        list(given.ends) if isinstance(given, Crack) else _ends(k, cracks, state.cover, holes)
+        for k, given in enumerate(state.cracks)
+    ]
+    return {
+        "cracks/points": np.concatenate([np.empty((0, 2)), *cracks]),
+        "cracks/offsets": np.cumsum([0, *map(len, cracks)]),
+        "cracks/ends": np.array(ends, object).reshape(-1, 2),
+    }
+
+
+def _ends(
+    crack: int, cracks: Sequence[NDArray[np.float64]], cover: Cover | Mesh, holes: Sequence[Hole]
+) -> list[str]:
+    (x0, y0), (x1, y1) = cover.domain.tolist()
+    border = [np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)])]
+    border += [np.concatenate([h.points, h.points[:1]]) for h in holes if h.points is not None]
+    near = 1e-9 * max(x1 - x0, y1 - y0)
+    others = [points for k, points in enumerate(cracks) if k != crack]
+
+    def kind(p: NDArray[np.float64]) -> str:
+        rims = [abs(np.hypot(*(p - np.array(h.center))) - (h.radius or 0)) for h in holes if h.center]
+        if min([_distance(p, line) for line in border] + rims) <= near:
+            return "mouth"
+        return "junction" if any(_distance(p, line) <= near for line in others) else "tip"
+
+    return [kind(cracks[crack][0]), kind(cracks[crack][-1])]
+
+
+def _distance(p: NDArray[np.float64], line: NDArray[np.float64]) -> float:
+    """From a point to a polyline."""
+    start, along = line[:-1], np.diff(line, axis=0)
+    t = np.clip(((p - start) * along).sum(axis=1) / (along**2).sum(axis=1), 0, 1)
+    return float(np.hypot(*(start + t[:, None] * along - p).T).min())

@@ -1,0 +1,107 @@
+"""The keys of problem files as options of `Problem`; what has no default here has that of docs/problem-file.md."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, Literal, TypedDict
+
+from numpy.typing import ArrayLike
+
+from ._options import UNSET, Option
+
+#: A number, or a formula of x and y.
+Value = float | str
+Table = Mapping[str, Any]
+
+
+def _key(text: str) -> Option:
+    return Option(UNSET, text)
+
+
+class HoleOptions(TypedDict, total=False):
+    """A circle, a polygon, an ellipse, a closed curve or a path of pieces."""
+
+    center: Annotated[ArrayLike, _key("the centre of a circle")]
+    radius: Annotated[float, _key("its radius")]
+    points: Annotated[ArrayLike, _key("the corners of a polygon, shape (n, 2)")]
+    ellipse: Annotated[Table, _key("an ellipse: `ppum.ellipse`, or a table of problem files")]
+    spline: Annotated[ArrayLike, _key("points of a smooth closed curve, shape (n, 2)")]
+    path: Annotated[Sequence[Table], _key("several curves, each from where the one before ends, with names")]
+    segments: Annotated[int, _key("the number of segments of each curve")]
+
+
+class CrackOptions(TypedDict, total=False):
+    """A curve in place of points, and what faces that touch do."""
+
+    arc: Annotated[Table, _key("an arc of a circle: `ppum.arc`, or a table of problem files")]
+    ellipse: Annotated[Table, _key("a part of an ellipse: `ppum.ellipse`, or a table of problem files")]
+    spline: Annotated[ArrayLike, _key("points of a smooth curve, shape (n, 2)")]
+    path: Annotated[Sequence[Table], _key("several curves, each from where the one before ends")]
+    segments: Annotated[int, _key("the number of segments of each curve")]
+    contact: Annotated[bool, _key("whether its faces press on each other where they touch, instead of overlapping")]
+    friction: Annotated[float, _key("the coefficient of friction between faces that touch")]
+
+
+class BoundaryOptions(TypedDict, total=False):
+    """What holds or loads an edge, a rim or the faces of a crack."""
+
+    displacement: Annotated[Sequence[Value] | str, _key("[ux, uy], each a value, `free` or `exact`")]
+    traction: Annotated[Sequence[Value] | str, _key("[tx, ty], each a value or `free`")]
+    pressure: Annotated[Value, _key("pressure p: the traction −p n")]
+    symmetry: Annotated[bool, _key("whether the normal displacement is 0, the other one free")]
+    antisymmetry: Annotated[bool, _key("whether the tangential displacement is 0, the other one free")]
+    value: Annotated[Value, _key("of a potential: u, or `exact`")]
+    exchange: Annotated[Value, _key("of a potential: the coefficient of exchange with surroundings of that value")]
+    flux: Annotated[Value, _key("of a potential: the flux into the plate")]
+
+
+class SpaceOptions(TypedDict, total=False):
+    """The functions."""
+
+    refine: Annotated[bool, _key("whether cells are refined where the field needs it")]
+    order: Annotated[int | str, _key("degree of the polynomials, 0 to 8, or a formula of x and y")]
+    overlap: Annotated[float, _key("the factor by which a patch is larger than its cell")]
+    weight: Annotated[str, _key("the weight function: a name or a formula of t")]
+    enrichment: Annotated[
+        Literal["none", "tip-patch", "zone", "williams", "additive-only", "jumps"],
+        _key("what the functions have beside polynomials"),
+    ]
+    interfaces: Annotated[bool, _key("whether interfaces of materials are resolved")]
+    enrichment_radius: Annotated[float, _key("radius of the zone around each tip")]
+    tip_degree: Annotated[int, _key("degree of the polynomial at tips")]
+    tip_terms: Annotated[int, _key("number of terms of Williams' series")]
+
+
+class DiscretizationOptions(SpaceOptions, total=False):
+    """Cells and functions."""
+
+    level: Annotated[int, _key("4^level cells")]
+    cells: Annotated[tuple[int, int], _key("columns and rows of cells")]
+    points: Annotated[str | os.PathLike[str], _key("a file of points that cells are made around")]
+    accuracy: Annotated[float, _key("the relative error of K that is wanted")]
+
+
+class GrowthOptions(TypedDict, total=False):
+    """How cracks grow."""
+
+    criterion: Annotated[
+        Literal["hoop", "local-symmetry", "energy"], _key("the direction in which a tip goes")
+    ]
+    increment: Annotated[float, _key("length by which the fastest tip grows in a step")]
+    toughness: Annotated[Value, _key("K_c: a tip of less strength stays")]
+    load: Annotated[
+        Literal["constant", "critical"], _key("whether loads are those at which a tip reaches K_c")
+    ]
+    paris: Annotated[Table, _key("growth by load cycles: a dictionary of c, m, threshold, ratio")]
+
+
+class AdaptivityOptions(TypedDict, total=False):
+    """How cells are improved until the field is good enough."""
+
+    kind: Annotated[Literal["h", "p", "hp"], _key("cells are divided, or their order is raised")]
+    steps: Annotated[int, _key("most times that cells are improved")]
+    fraction: Annotated[float, _key("the part of the squared error whose cells are improved")]
+    max_unknowns: Annotated[int, _key("most unknowns of a step")]
+    tolerance: Annotated[float, _key("the relative error in the energy norm that is small enough")]
+    keep: Annotated[Literal["last", "all"], _key("the steps that the dataset keeps")]

@@ -1,0 +1,255 @@
+"""Many problems: all combinations of parameters, on this machine or on a cluster, as one xarray dataset."""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._dataset import Dataset
+from ._dataset import open as open_dataset
+from ._errors import PpumError
+from ._errors import needed
+from ._problem import Problem, solve
+
+#: What is kept of each tip, see `Tip`.
+TIPS = ("k1", "k2", "t_stress", "j", "g", "growth_angle", "error")
+#: What plots write at axes.
+LABELS = {
+    "k1": {"long_name": "$K_{I}$"},
+    "k2": {"long_name": "$K_{II}$"},
+    "t_stress": {"long_name": "$T$"},
+    "j": {"long_name": "$J$"},
+    "g": {"long_name": "$G$"},
+    "growth_angle": {"long_name": "angle of growth", "units": "rad"},
+    "error": {"long_name": "estimated error of $K$"},
+}
+#: What is kept of each solution beside it.
+PLAIN = ("energy", "unknowns", "patches", "warnings")
+
+_Make = Callable[..., Problem | Mapping[str, Any]]
+_Row = dict[str, Any]
+
+
+def sweep(make: _Make, **parameters: Sequence[Any]) -> Sweep:
+    """All combinations of parameters, each a problem.
+
+    Args:
+        make: Gives the problem for one value of each parameter, which it takes by their names.
+        parameters: The values of each, a list or an array.
+
+    Example:
+        >>> cases = ppum.sweep(
+        ...     lambda length, load: plate.crack((-0.8, -1.2), (-0.8 + length, -1.2)).add(
+        ...         "boundary", on="left", traction=(load, 0)
+        ...     ),
+        ...     length=[0.2, 0.4],
+        ...     load=[0.0, 1.0],
+        ... )
+        >>> result = cases.run()
+        >>> result.k1.dims, result.k1.shape
+        (('length', 'load', 'tip'), (2, 2, 4))
+        >>> result.status.values.tolist()[0]
+        ['', 'SolveError: ...']
+    """
+    return Sweep(make, parameters)
+
+
+class Sweep:
+    """All combinations of parameters; made by `ppum.sweep`."""
+
+    def __init__(self, make: _Make, parameters: Mapping[str, Sequence[Any]]) -> None:
+        if not parameters:
+            raise ValueError("a sweep has a parameter or more")
+        self._make = make
+        self._values = {name: list(values) for name, values in parameters.items()}
+        if taken := {"tip", *TIPS, *PLAIN, "x", "y", "status"} & set(parameters):
+            raise ValueError(f"results are called {', '.join(sorted(taken))}; name parameters otherwise")
+
+    def __len__(self) -> int:
+        return int(np.prod([len(values) for values in self._values.values()]))
+
+    def __repr__(self) -> str:
+        names = " x ".join(f"{name} {len(values)}" for name, values in self._values.items())
+        return f"<ppum.Sweep {names}>"
+
+    def problems(self) -> Iterator[tuple[dict[str, Any], Problem]]:
+        """Each combination with its problem, the last parameter running fastest."""
+        for chosen in self._combinations():
+            yield chosen, self._problem(chosen)
+
+    def _combinations(self) -> Iterator[dict[str, Any]]:
+        for values in itertools.product(*self._values.values()):
+            yield dict(zip(self._values, values, strict=True))
+
+    def _problem(self, chosen: dict[str, Any]) -> Problem:
+        problem = self._make(**chosen)
+        return problem if isinstance(problem, Problem) else Problem.from_dict(problem)
+
+    def run(
+        self,
+        client: Any = None,
+        *,
+        save: str | os.PathLike[str] | None = None,
+        threads: int | None = None,
+        progress: bool | Callable[[int, int], object] = False,
+    ) -> Any:
+        """Solves all problems.
+
+        Numbers come back, not datasets. A problem that cannot be made or solved, or whose worker dies again and again, has
+        NaN, and the reason in `status`, which is empty otherwise.
+
+        Args:
+            client: A `dask.distributed.Client`; its workers solve, one problem a task. Without one this process solves, one
+                after the other on all processors, which on one machine is as fast.
+            save: A folder for the datasets, which workers have to see under this name. A problem whose dataset is there is not
+                solved again, so that a sweep goes on where it ended.
+            threads: Of each solution.
+            progress: True for a line on standard error, or a function of how many are done and of all.
+
+        Returns:
+            An `xarray.Dataset` over the parameters: energy, unknowns, patches, warnings, status; and over `tip` as well: k1, k2,
+            t_stress, j, g, growth_angle, error, and the place x, y; with symbols as `long_name`.
+
+        Raises:
+            Exception: What is raised for the first combination, if no problem can be made.
+
+        Example:
+            >>> cases = ppum.sweep(lambda order: plate.discretization(level=2, order=order), order=[1, 2])
+            >>> result = cases.run()
+            >>> result.k1.sel(order=2, tip=1).attrs["long_name"], result.unknowns.values.tolist()[0] > 0
+            ('$K_{I}$', True)
+        """
+        # before hours of work, not after
+        xarray = needed("xarray", "xarray", "results of sweeps")
+        folder = None if save is None else Path(save).absolute()
+        if folder is not None:
+            folder.mkdir(parents=True, exist_ok=True)
+        made, rows = self._made()
+        tell = _counting(progress, len(rows))
+        found = _here if client is None else _there(client)
+        failed = len(rows) - len(made)
+        for done, (k, row) in enumerate(found(list(made.values()), folder, threads), 1 + failed):
+            rows[list(made)[k]] = row
+            tell(done)
+        return self._gathered(rows, xarray)
+
+    def _made(self) -> tuple[dict[int, Problem], list[_Row]]:
+        """The problems by the numbers of their combinations, and the rows of those that cannot be made.
+
+        Raises:
+            Exception: That of the first combination, if none can be made.
+        """
+        made: dict[int, Problem] = {}
+        errors: dict[int, Exception] = {}
+        for k, chosen in enumerate(self._combinations()):
+            try:
+                made[k] = self._problem(chosen)
+            except Exception as error:
+                errors[k] = error
+        if errors and not made:
+            raise errors[0]
+        return made, [_failed(errors[k]) if k in errors else {} for k in range(len(self))]
+
+    def _gathered(self, rows: list[_Row], xarray: Any) -> Any:
+        shape, dims = tuple(len(v) for v in self._values.values()), tuple(self._values)
+        count = max((len(row.get("tips", ())) for row in rows), default=0)
+        per_tip = np.full((len(rows), count, len(TIPS) + 2), np.nan)
+        for k, row in enumerate(rows):
+            if tips := row.get("tips"):
+                per_tip[k, : len(tips)] = tips
+        variables: dict[str, Any] = {
+            name: (dims, np.array([row.get(name, np.nan) for row in rows]).reshape(shape))
+            for name in PLAIN
+        }
+        variables["status"] = dims, np.array([row["status"] for row in rows]).reshape(shape)
+        for n, name in enumerate((*TIPS, "x", "y")):
+            values = per_tip[..., n].reshape(*shape, count)
+            variables[name] = (*dims, "tip"), values, LABELS.get(name, {})
+        return xarray.Dataset(variables, {**self._values, "tip": np.arange(count)})
+
+
+def _here(
+    problems: list[Problem], folder: Path | None, threads: int | None
+) -> Iterator[tuple[int, _Row]]:
+    for k, problem in enumerate(problems):
+        yield k, _one(problem, folder, threads)
+
+
+def _there(client: Any) -> Callable[..., Iterator[tuple[int, _Row]]]:
+    """On the workers of a client. Results are taken and released one by one: a worker that dies loses none."""
+    from distributed import as_completed
+
+    def found(
+        problems: list[Problem], folder: Path | None, threads: int | None
+    ) -> Iterator[tuple[int, _Row]]:
+        def submit(problem: Problem) -> Any:
+            return client.submit(_one, problem, folder, threads, pure=False)
+
+        numbers = {submit(problem): k for k, problem in enumerate(problems)}
+        waiting = as_completed(list(numbers), raise_errors=False)
+        for future in waiting:
+            k = numbers.pop(future)
+            error = future.exception() if future.status in ("error", "lost") else None
+            yield k, future.result() if error is None else _failed(error)
+            future.release()
+
+    return found
+
+
+def _one(problem: Problem, folder: Path | None, threads: int | None) -> _Row:
+    """The numbers of one problem."""
+    path = None if folder is None else folder / f"{_name(problem)}.h5"
+    try:
+        if path is not None and path.exists():
+            return _row(open_dataset(path))
+        dataset = solve(problem, threads=threads)
+        if path is not None:
+            dataset.save(path)
+        return _row(dataset)
+    except PpumError as error:
+        return _failed(error)
+
+
+def _name(problem: Problem) -> str:
+    """The name of a problem's dataset: it follows from the problem and the version that solves it."""
+    text = f"{_core.VERSION}\n{problem._folder}\n{problem.to_toml()}"
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def _row(dataset: Dataset) -> _Row:
+    step = dataset.steps[-1]
+    tips = [[*(getattr(tip, name) for name in TIPS), *tip.xy] for tip in step.tips]
+    return {
+        "energy": step.history.get("energy", np.nan),
+        "unknowns": step.unknowns,
+        "patches": step.patches,
+        "warnings": len(step.warnings),
+        "tips": tips,
+        "status": "",
+    }
+
+
+def _failed(error: BaseException) -> _Row:
+    return {"status": f"{type(error).__name__}: {error}"}
+
+
+def _counting(progress: bool | Callable[[int, int], object], total: int) -> Callable[[int], object]:
+    if callable(progress):
+        return lambda done: progress(done, total)
+    if not progress:
+        return lambda done: None
+
+    def line(done: int) -> None:
+        end = "\n" if done == total else ""
+        sys.stderr.write(f"\r{done} of {total} solved{end}")
+        sys.stderr.flush()
+
+    return line

@@ -1,0 +1,106 @@
+"""Texts: words that are near others, counts, labels; problems as the text of problem files."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import os
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+
+def nearest(name: str, known: Iterable[str]) -> str | None:
+    """The known word that a word is most like, if there is one."""
+    by_lower = {word.lower(): word for word in known}
+    found = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.7)
+    return by_lower[found[0]] if found else None
+
+
+def one_of(name: str, value: str, words: Sequence[str], others: str = "") -> None:
+    """Refuses a word that is not among those that there are.
+
+    Raises:
+        ValueError: With the words, and the one that was meant.
+    """
+    if value in words:
+        return
+    known = ", ".join(repr(word) for word in words)
+    near = nearest(value, words)
+    hint = f"; did you mean {near!r}?" if near else ""
+    raise ValueError(f"{name}: {value!r} is not one of {known}{others}{hint}")
+
+
+def counted(count: int, one: str, more: str | None = None) -> str:
+    """A number of things in words."""
+    return f"{count} {one if count == 1 else more or one + 's'}"
+
+
+def math_text(symbol: str) -> str:
+    """A symbol with its subscripts as matplotlib's mathtext has them; words stay words."""
+    return re.sub(r"_\{(.*?)\}", r"$_{\1}$", symbol)
+
+
+def plain(value: Any, place: str = "a problem") -> Any:
+    """Values that TOML has; frozen data are copied. `place` is that of the value, for messages."""
+    if isinstance(value, Mapping):
+        return {str(k): plain(v, f"{place}.{k}".removeprefix("a problem.")) for k, v in value.items() if v is not None}
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist(), place)
+    if isinstance(value, np.generic):
+        return plain(value.item(), place)
+    if isinstance(value, (bool, int, float, str)):
+        return value
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, Iterable):
+        return [plain(v, f"{place}[{k}]") for k, v in enumerate(value)]
+    raise TypeError(f"{place}: is {type(value).__name__}; give real numbers, texts, lists or dictionaries")
+
+
+def written(spec: Mapping[str, Any]) -> tuple[str, list[str]]:
+    """The text of a problem file, and the key of each of its lines."""
+    lines: list[tuple[str, str]] = []
+    for name, value in spec.items():
+        if not isinstance(value, dict) and not _is_tables(value):
+            lines.append((f"{_key(name)} = {_value(value)}", name))
+    for name, value in spec.items():
+        if isinstance(value, dict):
+            _section(lines, f"[{_key(name)}]", name, value)
+        elif _is_tables(value):
+            for k, one in enumerate(value):
+                _section(lines, f"[[{_key(name)}]]", f"{name}[{k}]", one)
+    text = "".join(line + "\n" for line, _ in lines)
+    return text, [key for _, key in lines]
+
+
+def _section(lines: list[tuple[str, str]], head: str, place: str, keys: dict[str, Any]) -> None:
+    lines.append((head, place))
+    lines.extend((f"{_key(k)} = {_value(v)}", f"{place}.{k}") for k, v in keys.items())
+
+
+def _is_tables(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(v, dict) for v in value)
+
+
+def _key(name: str) -> str:
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else _text(name)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, str):
+        return _text(value)
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + "}"
+    return "[" + ", ".join(_value(v) for v in value) + "]"
+
+
+def _text(text: str) -> str:
+    """A basic string: that of JSON, which leaves one character of control as it is."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

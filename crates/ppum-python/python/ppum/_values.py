@@ -1,0 +1,150 @@
+"""Values of fields at points, and the quantities that there are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._errors import MissingKey, QuantityError
+from ._text import nearest
+from ._units import Floats, check_out, floats, pair
+
+if TYPE_CHECKING:
+    from ._evaluation import Evaluation
+
+SideName = Literal["above", "below", "both"]
+SIDES = ("above", "below", "both")
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity of a field.
+
+    Attributes:
+        name: Its name as the program writes it, e.g. ``von-mises``.
+        symbol: For labels, with subscripts as ``_{…}``.
+        unit: For labels; may be empty.
+        formula: The text, if it is one that the dataset names.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    formula: str | None
+
+
+class Quantities(Mapping[str, Quantity]):
+    """Quantities by name, found under names with `_` too."""
+
+    def __init__(self, all: list[Quantity]) -> None:
+        self._all = {quantity.name: quantity for quantity in all}
+
+    def __getitem__(self, name: str) -> Quantity:
+        found = self._all.get(name) or self._all.get(name.replace("_", "-"))
+        if found is None:
+            near = nearest(name.replace("_", "-"), self._all)
+            hint = f"did you mean `{near}`?" if near else f"there are {', '.join(self._all)}"
+            raise MissingKey(f"no quantity is called `{name}`; {hint}")
+        return found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._all)
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def __repr__(self) -> str:
+        return f"<ppum quantities: {', '.join(self._all)}>"
+
+
+class Values:
+    """A field at points; made by `Field.at`. Evaluates when it is asked.
+
+    Attributes are quantities with ``_`` for ``-``, items are quantities and formulas of them. Results have the
+    shape of the points, with one axis more for ``side="both"``: above, below. They are NaN outside the domain.
+
+    Example:
+        >>> v = f.at([0.0, 0.5], [1.0, 0.25])
+        >>> v.ux.shape, v["sxx + syy"].shape
+        ((2,), (2,))
+    """
+
+    __slots__ = ("_anchor", "_field", "_is_one", "_shape", "_side", "_x", "_y")
+
+    def __init__(self, field: Evaluation, x: ArrayLike, y: ArrayLike, side: str, anchor: ArrayLike | None) -> None:
+        if side not in SIDES:
+            raise ValueError(f"side: {side!r} is none; there are above, below, both")
+        self._field, self._side = field, side
+        self._anchor = None if anchor is None else pair(anchor)
+        self._x: Any
+        self._y: Any
+        self._is_one: bool
+        self._shape: tuple[int, ...]
+        if isinstance(x, (float, int)) and isinstance(y, (float, int)):
+            self._x, self._y, self._shape = x, y, ()
+            self._is_one = anchor is None and side != "both"
+            return
+        self._is_one = False
+        x, y = floats(x), floats(y)
+        if x.shape != y.shape:
+            x, y = np.broadcast_arrays(x, y)
+        self._shape = x.shape
+        self._x, self._y = np.ravel(x), np.ravel(y)
+
+    def __getattr__(self, name: str) -> Floats:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except QuantityError as error:
+            raise AttributeError(str(error)) from error
+
+    def __getitem__(self, quantity: str) -> Floats:
+        if self._is_one:
+            value = self._field._core.value(quantity, self._x, self._y, self._side == "below")
+            return np.float64(value)  # type: ignore[return-value]
+        return self._evaluate([quantity], False, None)[..., 0]
+
+    def gradient(self, quantity: str) -> Floats:
+        """The exact gradient of a quantity, no difference: shape (..., 2) with ∂/∂x and ∂/∂y last.
+
+        The quantity `gradient` of a potential, the length of ∇u, is ``values["gradient"]``.
+
+        Example:
+            >>> f.at([0.1, 0.2], 0.5).gradient("uy").shape
+            (2, 2)
+        """
+        return self._evaluate([quantity], True, None)[..., 0, 1:]
+
+    def _evaluate(self, names: list[str], gradient: bool, out: Floats | None) -> Floats:
+        """Shape (..., q), (..., q, 3) with gradients; before these an axis of two for both sides."""
+        tail = (len(names), 3) if gradient else (len(names),)
+        if self._side == "both":
+            sides = [self._run(names, below, gradient, None) for below in (False, True)]
+            both = np.stack(sides, axis=-1).reshape(*self._shape, *tail, 2)
+            return np.moveaxis(both, -1, len(self._shape))
+        if out is not None:
+            check_out(out, self._shape + tail)
+            if any(np.may_share_memory(out, points) for points in (self._x, self._y)):
+                raise ValueError("`out` shares memory with the coordinates")
+            self._run(names, self._side == "below", gradient, out.reshape(-1))
+            return out
+        return self._run(names, self._side == "below", gradient, None).reshape(self._shape + tail)
+
+    def _run(self, names: list[str], below: bool, gradient: bool, out: Floats | None) -> Floats:
+        x, y = np.atleast_1d(self._x), np.atleast_1d(self._y)
+        if self._shape == ():
+            x, y = x.astype(np.float64), y.astype(np.float64)
+        found = self._field._core.evaluate(names, x, y, below, self._anchor, gradient, out)
+        return found if found is not None else out  # type: ignore[return-value]
+
+    def __dir__(self) -> list[str]:
+        names = (name.replace("-", "_") for name in self._field.quantities)
+        return sorted({*super().__dir__(), *(name for name in names if name.isidentifier())})
+
+    def __repr__(self) -> str:
+        return f"<ppum.Values at {'a point' if self._shape == () else f'points of shape {self._shape}'}>"

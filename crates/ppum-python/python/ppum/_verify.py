@@ -1,0 +1,178 @@
+"""Fields that are built compared with the evaluation of the code that they come from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._checks import numbers, real, short
+from ._functions import Component, Formula, Jump, Level
+from ._errors import BuildError
+from ._state import Coefficients, Sampled, State
+from ._units import Floats
+POINTS = 1000
+#: Points beside each face of a crack, and how far from it, in parts of the domain's size.
+BESIDE, DISTANCE = 50, 1e-7
+
+
+class Evaluated(Protocol):
+    """The fields of a step by their numbers."""
+
+    def field(self, number: int) -> Any: ...
+
+
+def verified(made: Evaluated, state: State, tolerance: float) -> dict[str, float]:
+    """Largest differences of the fields that have a reference, by their names, in parts of their largest values."""
+    fields = [state.fields] if isinstance(state.fields, Coefficients) else state.fields
+    found = {}
+    for number, given in enumerate(fields):
+        if given.verify is not None:
+            found[given.name] = _compared(given, made.field(number), state, tolerance)
+    return found
+
+
+def _compared(given: Coefficients, field: Any, state: State, tolerance: float) -> float:
+    place = f"fields[{given.name!r}].verify"
+    names = field._core.components()
+    if callable(given.verify):
+        x, y = _points(state, field).T
+        wanted = given.verify(x.copy(), y.copy())
+    else:
+        if not isinstance(given.verify, (tuple, list)) or len(given.verify) != 2:
+            raise BuildError(f"{place}: is {short(given.verify)}; give a function of x and y, or a pair of points and values")
+        points, wanted = given.verify
+        x, y = _given(place, points).T
+    values = field.evaluate(x, y, names)
+    outside = np.flatnonzero(np.isnan(values).any(axis=1))
+    if len(outside):
+        k = outside[0]
+        raise BuildError(f"{place}[{k}]: the field has no value at ({x[k]:g}, {y[k]:g}); give points of the domain")
+    wanted = _shaped(place, wanted, values.shape)
+    scale = float(np.abs(wanted).max()) or 1.0
+    differences = np.abs(values - wanted).max(axis=1) / scale
+    k = int(np.argmax(differences))
+    worst, count = float(differences[k]), len(values)
+    if not worst <= tolerance:
+        wrong = ~(differences <= tolerance)
+        raise BuildError(
+            f"{place}: at ({x[k]:.6g}, {y[k]:.6g}) the arrays give {_short(values[k])}, verify "
+            f"{_short(wanted[k])}: a difference of {worst:.1e} of the largest value, and more than {tolerance:g} at "
+            f"{np.mean(wrong):.0%} of {count} points. {_remedy(given, field, state, (x, y), wrong)}"
+        )
+    print(f"verified: field {given.name!r} at {count} points, largest difference {worst:.1e} of its largest value")
+    return worst
+
+
+#: What goes wrong with functions, by their kinds.
+LOOKS = {
+    Jump: "the direction of its crack, on whose left it is +1 and on whose right -1, and factors: H is (1 + jump)/2",
+    Level: "the sign of its level field, +1 where that is ≥ 0, and factors: H is (1 + level)/2",
+    Component: "its cuts, left before right, with -1 for outside and -2 for inside",
+    Formula: "its formula and parameters, its frame (origin, end of the crack, angle in radians), and the branch of theta",
+}
+
+
+def _remedy(
+    given: Coefficients, field: Any, state: State, at: tuple[Floats, Floats], wrong: NDArray[np.bool_]
+) -> str:
+    """What may be the reason for differences at some of the points."""
+    if isinstance(given.verify, Sampled):
+        return (
+            "The field is not a polynomial of this degree on elements; interpolate it into L2, a discontinuous space, of a "
+            "degree up to 8, or give the degree by order="
+        )
+    functions = [name for name in given.blocks if name != "one"]
+    touched = {name: _touched(field, name, at) for name in functions}
+    near = [name for name, where in touched.items() if where[wrong].all() and not where.all()]
+    if near and not wrong.all():
+        least = min(int(touched[name].sum()) for name in near)
+        named = [name for name in near if touched[name].sum() == least]
+        patches = state.cover.around(np.column_stack(at)[wrong])
+        return (
+            f"All these points are on patches with {' and '.join(map(repr, named))}, such as "
+            f"{_few(patches, given, named)}: look at {_looks(state, named)}"
+        )
+    others = f"; and of {', '.join(map(repr, functions))} at {_looks(state, functions)}" if functions else ""
+    return (
+        f"Look at the order of the coefficients (1, ξ, η, ξ², ξη, η², …), {state.cover.FRAME}, and the order of the "
+        f"patches{others}"
+    )
+
+
+def _looks(state: State, names: Sequence[str]) -> str:
+    """What to look at for some functions."""
+    kinds = {type(state.functions[name]) for name in names}
+    return "; ".join(look for kind, look in LOOKS.items() if kind in kinds or kind is Formula and str in kinds)
+
+
+def _touched(field: Any, function: str, at: tuple[Floats, Floats]) -> NDArray[np.bool_]:
+    """True for points where a function is a part of the field."""
+    names = field._core.components()
+    with_, without = (f.evaluate(*at, names) for f in (field, field.with_function({function: "0"})))
+    different: NDArray[np.bool_] = (with_ != without).any(axis=1)
+    return different
+
+
+def _few(patches: Sequence[int], given: Coefficients, functions: Sequence[str]) -> str:
+    """Some of the patches that have a function."""
+    blocks = [given.blocks[name] for name in functions]
+    having = [k for k in patches if all(k in b if isinstance(b, Mapping) else b[k] is not None for b in blocks)]
+    return ", ".join(map(str, having[:5])) + (", …" if len(having) > 5 else "")
+
+
+def _short(values: Floats) -> str:
+    return ", ".join(f"{v:.6g}" for v in values)
+
+
+def _given(place: str, points: ArrayLike) -> Floats:
+    array = numbers(f"{place}[0]", points)
+    if array.ndim != 2 or array.shape[1] != 2 or not len(array):
+        raise BuildError(f"{place}[0]: has the shape {array.shape}, expected (k, 2): points")
+    return array
+
+
+def _shaped(place: str, wanted: ArrayLike, shape: tuple[int, int]) -> Floats:
+    array = real(place, wanted)
+    if array.shape == shape[:1] and shape[1] == 1:
+        array = array[:, None]
+    if array.shape != shape:
+        raise BuildError(f"{place}: gives values of the shape {array.shape}, expected {shape}: points and components")
+    wrong = np.flatnonzero(~np.isfinite(array).all(axis=1))
+    if len(wrong):
+        raise BuildError(f"{place}: gives {array[wrong[0]]} at point {wrong[0]}; give finite numbers")
+    return array
+
+
+def _points(state: State, field: Any) -> Floats:
+    """Random points in the domain, the same for the same cover: of patches that are taken in turn, and beside cracks."""
+    random = np.random.default_rng(len(state.cover))
+    points = np.empty((0, 2))
+    while len(points) < POINTS:
+        points = np.concatenate([points, _inside(state.cover.spread(random, POINTS), state, field)])
+    beside = [_inside(_beside(np.asarray(c), state, random), state, field) for c in _cracks(state)]
+    return np.concatenate([points[:POINTS], *beside])
+
+
+def _cracks(state: State) -> list[Any]:
+    return [getattr(crack, "points", crack) for crack in state.cracks]
+
+
+def _beside(crack: Floats, state: State, random: np.random.Generator) -> Floats:
+    """Points close to both faces of a crack."""
+    segments = np.diff(crack, axis=0)
+    lengths = np.hypot(*segments.T)
+    k = random.choice(len(segments), BESIDE, p=lengths / lengths.sum())
+    on = crack[k] + segments[k] * random.uniform(0, 1, (BESIDE, 1))
+    normal = np.column_stack([-segments[k, 1], segments[k, 0]]) / lengths[k, None]
+    off = DISTANCE * float(np.ptp(state.cover.domain, axis=0).max()) * normal
+    return np.concatenate([on + off, on - off])
+
+
+def _inside(points: Floats, state: State, field: Any) -> Floats:
+    low, high = state.cover.domain
+    inside = points[((points >= low) & (points <= high)).all(axis=1)]
+    values = field.evaluate(inside[:, 0], inside[:, 1], field._core.components()[:1])
+    return np.asarray(inside[~np.isnan(values[:, 0])])

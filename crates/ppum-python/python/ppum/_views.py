@@ -1,0 +1,110 @@
+"""The part of the plane that is seen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, TypedDict
+
+from numpy.typing import NDArray
+
+from ._errors import RenderError
+from ._options import Option
+from ._units import floats, pair, pixels
+
+Spot = tuple[tuple[float, float], float]
+Box = tuple[tuple[float, float], tuple[float, float]]
+
+#: Columns and rows of a picture where none are given.
+SIZE = (1024, 768)
+
+#: How much a point or a tip is enlarged where nothing says it.
+ZOOM = 10.0
+
+
+@dataclass(frozen=True)
+class View:
+    """The part of the plane that a picture shows; all functions that draw take it as `view`.
+
+    Attributes:
+        center: The middle of the picture.
+        width: From the left border to the right one, a length; down to 1e-12 of the plate.
+        size: Columns and rows of pixels; they are squares, so the height follows.
+
+    Example:
+        >>> ppum.View(center=(0.0, 0.0), width=2.0, size=(400, 300)).height
+        1.5
+    """
+
+    center: tuple[float, float]
+    width: float
+    size: tuple[int, int] = SIZE
+
+    @property
+    def height(self) -> float:
+        """From the lower border to the upper one."""
+        return self.width * self.size[1] / self.size[0]
+
+    @property
+    def _spot(self) -> Spot:
+        return pair(self.center), float(floats(self.width))
+
+
+class PlaceOptions(TypedDict, total=False):
+    """What is seen; all of the plate if nothing is said."""
+
+    view: Annotated[View | None, Option(None, "a `View`, in place of center, width, tip and zoom")]
+    center: Annotated[Sequence[float] | NDArray[Any] | None, Option(None)]
+    width: Annotated[float | None, Option(None)]
+    tip: Annotated[int | None, Option(None)]
+    zoom: Annotated[float | None, Option(None, more="or at `center`")]
+
+
+class PixelOptions(PlaceOptions, total=False):
+    """What is seen, and in how many pixels."""
+
+    size: Annotated[
+        tuple[int, int] | None,
+        Option(None, "columns and rows of pixels; by default those of `view`, else 1024 and 768"),
+    ]
+
+
+def spot(
+    domain: Box,
+    size: tuple[int, int],
+    center: tuple[float, float] | None = None,
+    width: float | None = None,
+    zoom: float | None = None,
+) -> Spot:
+    """Center and width of a view, by default of all of the plate.
+
+    Raises:
+        RenderError: A zoom that enlarges nothing.
+    """
+    (x0, y0), (x1, y1) = domain
+    whole = max(x1 - x0, (y1 - y0) * size[0] / max(size[1], 1))
+    if width is not None and zoom is not None:
+        raise ValueError("give a width or a zoom, not both")
+    if zoom is None:
+        zoom = 1.0 if center is None else ZOOM
+    if not (zoom > 0 and math.isfinite(zoom)):
+        raise RenderError(f"zoom: {zoom!r} does not enlarge; give a positive number, e.g. 10")
+    if center is None:
+        center = (0.5 * x0 + 0.5 * x1, 0.5 * y0 + 0.5 * y1)
+    return center, float(width) if width is not None else whole / zoom
+
+
+def view_of(view: View, options: PixelOptions) -> View:
+    """The view that is given, in as many pixels as are asked for.
+
+    Raises:
+        TypeError: What else is said of the place.
+    """
+    if not isinstance(view, View):
+        raise TypeError(f"view: a ppum.View is needed, not {type(view).__name__}")
+    others = [n for n in ("center", "width", "tip", "zoom") if options.get(n) is not None]
+    if others:
+        raise TypeError(f"`view` says what is seen, so leave out {', '.join(others)}")
+    size = options.get("size")
+    return view if size is None else replace(view, size=pixels(size))
