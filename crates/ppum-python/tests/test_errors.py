@@ -134,3 +134,19 @@ def test_packages_that_are_missing_have_a_remedy(f, monkeypatch, package, remedy
     monkeypatch.setitem(sys.modules, package, None)
     error = caught(lambda: use(f))
     assert type(error) is ImportError and str(error).endswith(f"need {package}: pip install {remedy}")
+
+
+def test_warnings_are_of_the_line_that_calls(f):
+    """However deep in the package they arise."""
+    twice = {"center": [(0.5, 0.5)] * 2, "half": [(0.7, 0.7)] * 2}
+    calls = [
+        lambda: ppum.Cover([(0, 0), (1, 1)], **twice),
+        lambda: f.figure("ux", layout=(2, 2), size=(700, 900)).png(),
+        lambda: f.triangles(["uy"], tolerance=1e-9, max_cells=20_000),
+        lambda: ppum.basis.legendre(4, interval=(1, 1.001)).convert(np.ones((1, 15))),
+    ]
+    for call in calls:
+        with pytest.warns(UserWarning) as told:
+            call()
+        line = __file__, call.__code__.co_firstlineno
+        assert [(one.filename, one.lineno) for one in told] == [line] * len(told), str(told[0].message)

@@ -140,13 +140,9 @@ class FieldImage(AxesImage):
     Its array is a coarse picture of the plate, for norms and colour bars to begin with.
     """
 
-    def __init__(
-        self, ax: Any, field: Field, quantity: str, nan_color: Any = None, **properties: Any
-    ) -> None:
+    def __init__(self, ax: Any, field: Field, quantity: str, nan_color: Any = None, **properties: Any) -> None:
         (x0, y0), (x1, y1) = field.dataset.domain
-        super().__init__(
-            ax, interpolation="nearest", origin="upper", extent=(x0, x1, y0, y1), **properties
-        )
+        super().__init__(ax, interpolation="nearest", origin="upper", extent=(x0, x1, y0, y1), **properties)
         self._field, self._quantity = field, quantity
         self._nan_color = None if nan_color is None else to_rgba(nan_color)
         field._core.check(quantity)
@@ -191,12 +187,7 @@ class FieldImage(AxesImage):
         return rgba, left / magnification, bottom / magnification, None
 
     def _at_pixels(
-        self,
-        quantity: str,
-        to_display: Any,
-        scale: float,
-        corner: tuple[float, float],
-        size: tuple[int, int],
+        self, quantity: str, to_display: Any, scale: float, corner: tuple[float, float], size: tuple[int, int]
     ) -> Any:
         """Values at the centres of pixels, the lowest row first."""
         x = (corner[0] + np.arange(size[0]) + 0.5) / scale

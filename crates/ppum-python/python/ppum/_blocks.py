@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._checks import Ragged, gathered, index, known, real, sequence, short
 from ._errors import BuildError
+from ._units import Floats
 
-Floats = NDArray[np.float64]
 Block = NDArray[Any] | Sequence[ArrayLike | None] | Mapping[int, ArrayLike] | Ragged
 
 MAX_DEGREE = 8

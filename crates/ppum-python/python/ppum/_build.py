@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -74,7 +74,7 @@ def build(
         with of_state(k, len(series)):
             if state.attributes:
                 _check_attributes(state, made.steps[k].field)
-            found = verified(_Evaluated(made, named, k), state, scalar("tolerance", tolerance))
+            found = verified(partial(_field_of, made, named, k), state, scalar("tolerance", tolerance))
         records |= _history(f"steps/{k:04}/history", found)
     return from_arrays(named | records) if records else made
 
@@ -137,25 +137,18 @@ def from_arrays(arrays: Mapping[str, Any]) -> Dataset:
     return Dataset(_core.build([packed(path, value) for path, value in named.items()]))
 
 
-class _Evaluated:
-    """The fields of a step: only the first of a dataset can be evaluated, so others take its place in datasets of their
-    own."""
-
-    def __init__(self, made: Dataset, arrays: Arrays, step: int) -> None:
-        self.made, self.arrays, self.step = made, arrays, f"steps/{step:04}"
-        self.number = step
-
-    def field(self, number: int) -> Any:
-        if number == 0:
-            return self.made.steps[self.number].field
-        of, to = (f"{self.step}/fields/{k:04}" for k in (number, 0))
-        left_out = ("equation", "quantities", to)
-        others = {k: v for k, v in self.arrays.items() if not k.startswith(left_out)}
-        this = {k.replace(of, to): v for k, v in others.items() if k.startswith(of)}
-        one = {k: v for k, v in (others | this).items() if not k.startswith("steps/") or k.startswith(self.step)}
-        moved = {k.replace(self.step, "steps/0000"): v for k, v in one.items()}
-        name = f"{moved['steps/0000/fields/0000@name']}, compared"
-        return from_arrays(moved | {"equation@kind": "none", "steps/0000/fields/0000@name": name}).field
+def _field_of(made: Dataset, arrays: Arrays, step: int, number: int) -> Any:
+    """A field of a step: only the first of a dataset can be evaluated, so another takes its place in a dataset of its own."""
+    if number == 0:
+        return made.steps[step].field
+    path = f"steps/{step:04}"
+    of, to = (f"{path}/fields/{k:04}" for k in (number, 0))
+    others = {k: v for k, v in arrays.items() if not k.startswith(("equation", "quantities", to))}
+    this = {k.replace(of, to): v for k, v in others.items() if k.startswith(of)}
+    one = {k: v for k, v in (others | this).items() if not k.startswith("steps/") or k.startswith(path)}
+    moved = {k.replace(path, "steps/0000"): v for k, v in one.items()}
+    name = f"{moved['steps/0000/fields/0000@name']}, compared"
+    return from_arrays(moved | {"equation@kind": "none", "steps/0000/fields/0000@name": name}).field
 
 
 def _step(path: str, state: State, equation: Elastic | Poisson | None, holes: Sequence[Hole]) -> Arrays:
@@ -287,18 +280,19 @@ def _attributes(attributes: Mapping[str, ArrayLike], patches: int) -> Arrays:
 def _check_attributes(state: State, field: Any) -> None:
     """Refuses attributes that are never shown, since their names are those of something else."""
     for name in state.attributes:
-        is_quantity = name in OF_PATCHES
-        if not is_quantity:
-            try:
-                field._core.check(name)
-                is_quantity = True
-            except QuantityError:
-                pass
-        if is_quantity:
+        if name in OF_PATCHES or _is_quantity(name, field):
             raise BuildError(
                 f"attributes[{name!r}]: is the name of a quantity, which would be shown in its place; give another, such "
                 f"as {f'my {name}'!r}"
             )
+
+
+def _is_quantity(name: str, field: Any) -> bool:
+    try:
+        field._core.check(name)
+    except QuantityError:
+        return False
+    return True
 
 
 def _history(path: str, found: Mapping[str, float]) -> Arrays:

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._errors import BuildError
+from ._units import Floats
 
-Floats = NDArray[np.float64]
 
 #: What is wrong with arrays of other kinds of numpy than real numbers.
 OTHERS = {

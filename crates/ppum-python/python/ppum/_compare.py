@@ -146,12 +146,7 @@ class Comparing(Evaluation):
 
     @takes(PixelOptions)
     def compare(
-        self,
-        other: Field,
-        quantity: str | None = None,
-        *,
-        progress: Any = None,
-        **options: Unpack[PixelOptions],
+        self, other: Field, quantity: str | None = None, *, progress: Any = None, **options: Unpack[PixelOptions]
     ) -> Comparison:
         """This field minus another at the pixels of a view: how far they are from each other, and where.
 

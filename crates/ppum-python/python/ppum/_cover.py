@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,9 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._checks import column, integers, numbers, positive, repeated, rows, scalar
-from ._errors import BuildError
+from ._errors import BuildError, warn
+from ._text import counted
+from ._units import Floats
 
-Floats = NDArray[np.float64]
 
 #: Weight functions with a name, and where a derivative of them jumps; any other text is a formula of t.
 BREAKPOINTS = {"linear": (0.0,), "quadratic": (1 / 3,), "cubic": (0.0, 0.5)}
@@ -97,9 +97,7 @@ class Cover:
                 array.flags.writeable = False
 
     @classmethod
-    def uniform(
-        cls, domain: ArrayLike, cells: tuple[int, int], overlap: float = 1.3, weight: str = "linear"
-    ) -> Cover:
+    def uniform(cls, domain: ArrayLike, cells: tuple[int, int], overlap: float = 1.3, weight: str = "linear") -> Cover:
         """The cover of a grid of `cells` = (columns, rows) cells; patch j · columns + i is that of column i and row j
         from the lower left corner. A support is its cell enlarged by `overlap`, 1.01 to 1.99.
 
@@ -122,12 +120,7 @@ class Cover:
 
     @classmethod
     def from_cells(
-        cls,
-        domain: ArrayLike,
-        cell: ArrayLike,
-        overlap: float = 1.3,
-        weight: str = "linear",
-        **others: ArrayLike,
+        cls, domain: ArrayLike, cell: ArrayLike, overlap: float = 1.3, weight: str = "linear", **others: ArrayLike
     ) -> Cover:
         """The cover of cells that tile the domain, such as the leaves of a quadtree: shape (n, 4), rows x_min, y_min,
         x_max, y_max. A support is its cell enlarged by `overlap`."""
@@ -164,9 +157,7 @@ class Cover:
             cell, level, point = _core.scattered((*low, *high), (nx, ny), given)
         except ValueError as error:
             raise BuildError(f"points: {error}") from None
-        return cls.from_cells(
-            domain, cell.reshape(-1, 4), overlap, weight, level=level, point=point, points=of
-        )
+        return cls.from_cells(domain, cell.reshape(-1, 4), overlap, weight, level=level, point=point, points=of)
 
     def in_space(self, place: str, space: str | Sequence[str]) -> NDArray[np.bool_]:
         """True for the patches on which polynomials of a space are tensor products: none."""
@@ -194,14 +185,13 @@ class Cover:
         return len(self.center)
 
     def __repr__(self) -> str:
-        count = len(self)
-        return f"<ppum.Cover, {count} patch{'' if count == 1 else 'es'}, {self.weight}>"
+        return f"<ppum.Cover, {counted(len(self), 'patch', 'patches')}, {self.weight}>"
 
 
 def _look(center: Floats, half: Floats, domain: Floats) -> None:
     """Each support reaches into the domain, and is there once."""
     for k, first in repeated(np.column_stack([center, half]) + 0.0)[:1]:
-        warnings.warn(f"center[{k}]: the support is that of patch {first} again; is a patch there twice?", stacklevel=4)
+        warn(f"center[{k}]: the support is that of patch {first} again; is a patch there twice?")
     outside = np.flatnonzero(((center + half <= domain[0]) | (center - half >= domain[1])).any(axis=1))
     if len(outside):
         k = outside[0]

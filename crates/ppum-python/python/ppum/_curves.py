@@ -28,12 +28,7 @@ def arc(center: ArrayLike, radius: float, start: float, end: float) -> dict[str,
 
 
 def ellipse(
-    center: ArrayLike,
-    axes: ArrayLike,
-    angle: float = 0.0,
-    *,
-    start: float | None = None,
-    end: float | None = None,
+    center: ArrayLike, axes: ArrayLike, angle: float = 0.0, *, start: float | None = None, end: float | None = None
 ) -> dict[str, Any]:
     """An ellipse, for `Problem.hole`; with `start` and `end` a part of one, for `Problem.crack`.
 

@@ -248,10 +248,7 @@ class Dataset:
         return self.steps[step].field.view(quantity, **options)
 
     def save(
-        self,
-        path: str | os.PathLike[str],
-        quantities: Sequence[str] | None = None,
-        **options: Unpack[TriangleOptions],
+        self, path: str | os.PathLike[str], quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]
     ) -> None:
         """Writes a file. What was there stays until the new one is complete.
 
@@ -313,9 +310,7 @@ class Dataset:
             "cracks": str(len(last.cracks)),
             "warnings": "; ".join(w.message for w in last.warnings) or "none",
         }
-        body = "".join(
-            f"<tr><th>{html.escape(k)}</th><td>{html.escape(v)}</td></tr>" for k, v in rows.items()
-        )
+        body = "".join(f"<tr><th>{html.escape(k)}</th><td>{html.escape(v)}</td></tr>" for k, v in rows.items())
         tips = last.tips._repr_html_() if last.tips else ""
         return f"<p><b>{html.escape(self.title)}</b></p><table><tbody>{body}</tbody></table>{tips}"
 

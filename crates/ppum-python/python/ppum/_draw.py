@@ -79,9 +79,7 @@ class Drawing(Evaluation):
         return rgba
 
     @takes(FigureOptions)
-    def figure(
-        self, quantity: str | Sequence[str] | None = None, **options: Unpack[FigureOptions]
-    ) -> Figure:
+    def figure(self, quantity: str | Sequence[str] | None = None, **options: Unpack[FigureOptions]) -> Figure:
         """A figure with axes and a colour bar, as the program draws it; notebooks show it. Several quantities, or parts
         of the field, have a panel each.
 
@@ -173,9 +171,7 @@ class Drawing(Evaluation):
         return numbers
 
     @takes(PixelOptions)
-    def extrema(
-        self, quantity: str | None = None, **options: Unpack[PixelOptions]
-    ) -> tuple[Extremum, Extremum]:
+    def extrema(self, quantity: str | None = None, **options: Unpack[PixelOptions]) -> tuple[Extremum, Extremum]:
         """The smallest and the largest value in a view, also between its pixels, at tips infinite.
 
         Args:

@@ -78,9 +78,7 @@ class ProblemError(PpumError, ValueError):
 
     def __init__(self, message: str, findings: list[Any] | None = None) -> None:
         #: The mistakes, in the order of the problem.
-        self.findings: list[Finding] = [
-            f if isinstance(f, Finding) else Finding(**f) for f in findings or []
-        ]
+        self.findings: list[Finding] = [f if isinstance(f, Finding) else Finding(**f) for f in findings or []]
         super().__init__(message, self.findings)
 
     def __str__(self) -> str:

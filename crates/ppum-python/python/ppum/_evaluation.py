@@ -34,9 +34,7 @@ class Evaluation:
         """All quantities that have a name. Formulas of them are quantities too."""
         return Quantities([Quantity(**q) for q in self._core.known()])
 
-    def at(
-        self, x: ArrayLike, y: ArrayLike, *, side: SideName = "above", anchor: ArrayLike | None = None
-    ) -> Values:
+    def at(self, x: ArrayLike, y: ArrayLike, *, side: SideName = "above", anchor: ArrayLike | None = None) -> Values:
         """The field at points.
 
         A value depends on its point alone, to the last bit, whatever other points there are.
@@ -126,36 +124,26 @@ class Evaluation:
             >>> f.view_at(tip=1, zoom=4, size=(100, 100)).width
             1.0
         """
-        if view is not None:
-            given: PixelOptions = {"center": center, "width": width, "tip": tip, "zoom": zoom, "size": size}
-            return view_of(view, given)
-        size = pixels(SIZE if size is None else size)
-        at, width = self._spot(size, center, width, tip, zoom)
-        return View(at, width, size)
+        return self._seen({"view": view, "center": center, "width": width, "tip": tip, "zoom": zoom, "size": size})
 
     def _seen(self, options: PixelOptions) -> View:
         """What a picture in pixels shows."""
-        names = PixelOptions.__annotations__
-        return self.view_at(**{name: options.get(name) for name in names})  # type: ignore[arg-type]
+        if (view := options.get("view")) is not None:
+            return view_of(view, options)
+        size = options.get("size")
+        size = pixels(SIZE if size is None else size)
+        return View(*self._spot(size, options), size)
 
     def _place(self, options: PlaceOptions, size: tuple[int, int]) -> Spot | None:
         """Center and width of what a page of this size shows; None where nothing is said."""
-        seen = {name: options.get(name) for name in PlaceOptions.__annotations__ if options.get(name) is not None}
-        if not seen:
-            return None
-        return self.view_at(**seen, **({} if "view" in seen else {"size": size}))._spot  # type: ignore[arg-type]
+        seen: Any = {name: options.get(name) for name in PlaceOptions.__annotations__}
+        return None if all(value is None for value in seen.values()) else self._seen(seen | {"size": size})._spot
 
-    def _spot(
-        self,
-        size: tuple[int, int],
-        center: ArrayLike | None = None,
-        width: float | None = None,
-        tip: int | None = None,
-        zoom: float | None = None,
-    ) -> Spot:
+    def _spot(self, size: tuple[int, int], options: PlaceOptions) -> Spot:
+        center, tip = options.get("center"), options.get("tip")
         if tip is not None and center is not None:
             raise TypeError("give a tip or a center, not both")
         at = None if center is None else pair(center)
         if tip is not None:
             at = self.step.tips[tip].xy
-        return spot(self.dataset.domain, size, at, width, zoom)
+        return spot(self.dataset.domain, size, at, options.get("width"), options.get("zoom"))

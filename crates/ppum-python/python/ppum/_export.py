@@ -29,38 +29,22 @@ if TYPE_CHECKING:
 ORDERS = range(1, 5)
 
 
+RADIUS = (
+    "the radius about tips outside of which stresses are resolved; by default 1/50 of the crack, of half of it if both ends "
+    "are tips, or of the distance from other borders and cracks if that is less. A smaller one means a larger range"
+)
+ORDER = "degree of the polynomials between the points of a triangle, 1 to 4; higher ones take fewer triangles for fine tolerances"
+AVERAGE = "average where stresses jump between patches or elements, so that triangles share their points but for cracks and interfaces"
+
+
 class TriangleOptions(TypedDict, total=False):
     """How fine triangles are."""
 
-    tolerance: Annotated[
-        float, Option(1e-3, "largest difference from the field, in parts of the range of each array")
-    ]
-    tip_radius: Annotated[
-        float | None,
-        Option(
-            None,
-            "the radius about tips outside of which stresses are resolved; by default 1/50 of the crack, of half of it if "
-            "both ends are tips, or of the distance from other borders and cracks if that is less. A smaller one means a "
-            "larger range",
-        ),
-    ]
+    tolerance: Annotated[float, Option(1e-3, "largest difference from the field, in parts of the range of each array")]
+    tip_radius: Annotated[float | None, Option(None, RADIUS)]
     max_cells: Annotated[int, Option(1_000_000, "most triangles, of each step")]
-    order: Annotated[
-        int,
-        Option(
-            1,
-            "degree of the polynomials between the points of a triangle, 1 to 4; higher ones take fewer triangles for "
-            "fine tolerances",
-        ),
-    ]
-    average: Annotated[
-        bool,
-        Option(
-            False,
-            "average where stresses jump between patches or elements, so that triangles share their points but for cracks "
-            "and interfaces",
-        ),
-    ]
+    order: Annotated[int, Option(1, ORDER)]
+    average: Annotated[bool, Option(False, AVERAGE)]
     progress: Annotated[Any, Option(None, "as in `render`")]
 
 
@@ -122,15 +106,13 @@ class Triangles(Drawn):
     @cached_property
     def accuracy(self) -> Mapping[str, ArrayAccuracy]:
         """How well each array is resolved."""
-        told = {one.pop("name"): ArrayAccuracy(**one) for one in self._core.accuracy()}
-        return MappingProxyType(told)
+        return MappingProxyType({one.pop("name"): ArrayAccuracy(**one) for one in self._core.accuracy()})
 
     @cached_property
     def values(self) -> Mapping[str, Floats]:
         """The arrays by their names."""
         arrays = {name: self._core.values(k) for k, name in enumerate(self.accuracy)}
-        flat = {name: rows[:, 0] if rows.shape[1] == 1 else rows for name, rows in arrays.items()}
-        return MappingProxyType(flat)
+        return MappingProxyType({name: rows[:, 0] if rows.shape[1] == 1 else rows for name, rows in arrays.items()})
 
     def to_pyvista(self) -> Any:
         """The same as a `pyvista.UnstructuredGrid`.
@@ -158,17 +140,14 @@ class Triangles(Drawn):
         raise TypeError("triangles cannot be pickled; pickle the field, or save them")
 
     def __repr__(self) -> str:
-        arrays = ", ".join(self.accuracy)
-        return f"<ppum.Triangles {len(self.cells)} on {len(self.points)} points, {arrays}>"
+        return f"<ppum.Triangles {len(self.cells)} on {len(self.points)} points, {', '.join(self.accuracy)}>"
 
 
 class Exporting(Evaluation):
     """What is made of a `Field` for others."""
 
     @takes(TriangleOptions)
-    def triangles(
-        self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]
-    ) -> Triangles:
+    def triangles(self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]) -> Triangles:
         """Triangles for programs that interpolate, fine enough for a tolerance. Warns where the tolerance is not kept.
 
         Args:
@@ -186,9 +165,7 @@ class Exporting(Evaluation):
         """
         return self._triangles(quantities, hash_of(self.dataset), options)
 
-    def _triangles(
-        self, quantities: Sequence[str] | None, hashed: str, options: TriangleOptions
-    ) -> Triangles:
+    def _triangles(self, quantities: Sequence[str] | None, hashed: str, options: TriangleOptions) -> Triangles:
         for name in ("tolerance", "tip_radius"):
             positive(name, options[name])
         if options["order"] not in ORDERS:
@@ -214,9 +191,7 @@ class Exporting(Evaluation):
         return Triangles(made)
 
     @passes(TriangleOptions)
-    def to_pyvista(
-        self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]
-    ) -> Any:
+    def to_pyvista(self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]) -> Any:
         """The field as a `pyvista.UnstructuredGrid`, to a tolerance: `triangles`, whose arguments these are.
 
         Raises:
@@ -227,10 +202,7 @@ class Exporting(Evaluation):
 
     @takes(HtmlOptions)
     def to_html(
-        self,
-        path: str | os.PathLike[str] | None = None,
-        quantity: str | None = None,
-        **options: Unpack[HtmlOptions],
+        self, path: str | os.PathLike[str] | None = None, quantity: str | None = None, **options: Unpack[HtmlOptions]
     ) -> str | None:
         """A page that shows and explores the field exactly in a browser of 2024 or later: one file, without network and server.
 
@@ -272,10 +244,7 @@ def hash_of(dataset: Dataset) -> str:
 
 @takes(TriangleOptions)
 def save_triangles(
-    dataset: Dataset,
-    path: Path,
-    quantities: Sequence[str] | None = None,
-    **options: Unpack[TriangleOptions],
+    dataset: Dataset, path: Path, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]
 ) -> None:
     """Writes the triangles of all steps to a ``.vtkhdf`` file, or of the only one to a ``.vtu`` file: `Dataset.save`."""
     steps = list(dataset.steps)

@@ -109,7 +109,7 @@ def folder_of(path: Path) -> Path:
 
 def replace(path: Path, data: bytes) -> None:
     """Puts bytes in the place of a file: what was there stays until they are all written."""
-    part = folder_of(path) / f"{path.name}.{secrets.token_hex(8)}"
+    part = folder_of(path) / f"{path.name}.{secrets.token_hex(4)}"
     try:
         part.write_bytes(data)
         os.replace(part, path)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._checks import index, numbers, rows, scalar, sequence, short
 from ._errors import BuildError
+from ._text import counted
 
 
 @dataclass(frozen=True)
@@ -100,9 +101,7 @@ def tip_functions(crack: int = 0, end: str = "end") -> dict[str, Formula]:
     return {f"{name} of crack {crack} {end}": Formula(text, (crack, end), role="tip") for name, text in _TIP.items()}
 
 
-def columns(
-    functions: Mapping[str, Function], cracks: Sequence[int], fields: Sequence[str] = ()
-) -> dict[str, Any]:
+def columns(functions: Mapping[str, Function], cracks: Sequence[int], fields: Sequence[str] = ()) -> dict[str, Any]:
     """The arrays of the group `functions`; `cracks` has the number of segments of each crack, `fields` names of fields."""
     known = [_row(f"functions[{name!r}]", name, f, cracks, fields) for name, f in functions.items()]
     plain = ("name", "kind", "crack", "formula", "frame", "frame_end", "frame_origin", "frame_angle")
@@ -126,9 +125,7 @@ def _offsets(lists: Sequence[Any]) -> list[int]:
     return [0, *accumulate(len(one) for one in lists)]
 
 
-def _row(
-    place: str, name: str, function: Function, cracks: Sequence[int], fields: Sequence[str]
-) -> dict[str, Any]:
+def _row(place: str, name: str, function: Function, cracks: Sequence[int], fields: Sequence[str]) -> dict[str, Any]:
     row = {
         "name": name, "kind": "one", "crack": -1, "formula": "", "frame": "", "frame_end": "",
         "frame_origin": (0.0, 0.0), "frame_angle": 0.0, "parameters": {},
@@ -198,8 +195,8 @@ def level_field(place: str, name: str, fields: Sequence[str]) -> int:
 def _crack(place: str, crack: int, cracks: Sequence[int]) -> int:
     found = index(crack, len(cracks))
     if found is None:
-        count = f"there {'is 1 crack' if len(cracks) == 1 else f'are {len(cracks)} cracks'}"
-        raise BuildError(f"{place}: names crack {short(crack)}, but {count}, counted from 0")
+        there = f"there {'is' if len(cracks) == 1 else 'are'} {counted(len(cracks), 'crack')}"
+        raise BuildError(f"{place}: names crack {short(crack)}, but {there}, counted from 0")
     return found
 
 

@@ -50,16 +50,6 @@ def shared(
 ) -> Arrays:
     """The arrays of what all steps share."""
     named = _tables({} if tables is None else tables) | _quantities({} if quantities is None else quantities)
-    return _head(series, title, program, equation, holes) | named
-
-
-def _head(
-    series: Sequence[State],
-    title: str,
-    program: str,
-    equation: Elastic | Poisson | None,
-    holes: Sequence[Hole],
-) -> Arrays:
     for k, state in enumerate(series):
         with of_state(k, len(series)):
             if not isinstance(state.cover, (Cover, Mesh)):
@@ -75,7 +65,7 @@ def _head(
         "domain@max": high,
         "domain@kind": _domain(series[0].cover, holes),
     }
-    return arrays | (_holes(holes) if holes else {}) | _equation(equation)
+    return arrays | (_holes(holes) if holes else {}) | _equation(equation) | named
 
 
 def _domain(cover: Cover | Mesh, holes: Sequence[Hole]) -> str:
@@ -189,9 +179,7 @@ def crack_arrays(state: State, cracks: Sequence[NDArray[np.float64]], holes: Seq
     }
 
 
-def _ends(
-    crack: int, cracks: Sequence[NDArray[np.float64]], cover: Cover | Mesh, holes: Sequence[Hole]
-) -> list[str]:
+def _ends(crack: int, cracks: Sequence[NDArray[np.float64]], cover: Cover | Mesh, holes: Sequence[Hole]) -> list[str]:
     (x0, y0), (x1, y1) = cover.domain.tolist()
     border = [np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)])]
     border += [np.concatenate([h.points, h.points[:1]]) for h in holes if h.points is not None]

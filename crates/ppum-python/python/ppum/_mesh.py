@@ -13,8 +13,9 @@ from ._blocks import MAX_DEGREE, degrees, exponents
 from ._functions import level_field
 from ._errors import BuildError
 from ._shapes import CORNERS, SQUARE, TRIANGLE, Powers, interpolated, lattice, vandermonde
+from ._text import counted
+from ._units import Floats
 
-Floats = NDArray[np.float64]
 #: A level field by its name, and the side of it that a patch keeps: 1 where it is ≥ 0, -1 where it is < 0.
 Clip = tuple[str, int]
 
@@ -230,7 +231,7 @@ class Mesh:
 
     def __repr__(self) -> str:
         counts = [(int((self.shape == k).sum()), name) for name, k in SHAPES.items()]
-        words = [f"{count} {name}{'' if count == 1 else 's'}" for count, name in counts if count]
+        words = [counted(count, name) for count, name in counts if count]
         cut = sum(map(bool, self.clips))
         return f"<ppum.Mesh, {', '.join(words)}{f', {cut} cut' if cut else ''}>"
 

@@ -19,7 +19,7 @@ from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_t
 import numpy as np
 
 from . import _core
-from ._text import nearest, one_of
+from ._text import hint, one_of
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 
@@ -136,9 +136,8 @@ def refuse_unknown(what: str, given: Iterable[str], known: Iterable[str]) -> Non
     for name in given:
         if name in names:
             continue
-        meant = FOREIGN[name] if FOREIGN.get(name) in names else nearest(name, names)
-        hint = f"did you mean `{meant}`?" if meant else f"there are {', '.join(names)}"
-        raise TypeError(f"{what} has no option `{name}`; {hint}")
+        meant = f"did you mean `{FOREIGN[name]}`?" if FOREIGN.get(name) in names else hint(name, names)
+        raise TypeError(f"{what} has no option `{name}`; {meant}")
 
 
 def _check(name: str, kind: Any, value: Any) -> None:

@@ -76,38 +76,30 @@ class Problem:
     """
 
     def __init__(
-        self,
-        domain: Iterable[Iterable[float]] | Mapping[str, Any],
-        material: Elastic | Poisson,
-        *,
-        title: str = "",
+        self, domain: Iterable[Iterable[float]] | Mapping[str, Any], material: Elastic | Poisson, *, title: str = ""
     ) -> None:
         if not isinstance(material, (Elastic, Poisson)):
             raise TypeError(f"material: ppum.Elastic or ppum.Poisson is needed, not {_kind(material)}")
         spec: dict[str, Any] = {"title": title} if title else {}
         spec["domain"] = _domain(domain)
+        # those that are None are left out
+        spec["material"] = {name: value for name, value in vars(material).items() if name != "eigenstrain"}
         if isinstance(material, Poisson):
             spec["equation"] = {"kind": "poisson"}
-            spec["material"] = {"conductivity": material.conductivity}
-        else:
-            spec["material"] = {
-                "young": material.young,
-                "poisson": material.poisson,
-                "state": material.state,
-            }
-            if material.expansion is not None:
-                spec["material"]["expansion"] = material.expansion
-            if material.eigenstrain is not None:
-                spec["strain"] = dict(zip(("xx", "yy", "xy", "zz"), material.eigenstrain, strict=True))
-        self._set(plain(spec), None, "problem", Path())
+        elif material.eigenstrain is not None:
+            spec["strain"] = dict(zip(("xx", "yy", "xy", "zz"), material.eigenstrain, strict=True))
+        self._spec, self._text, self._name, self._folder = plain(spec), None, "problem", Path()
 
-    def _set(self, spec: dict[str, Any], text: str | None, name: str, folder: Path) -> None:
-        self._spec, self._text, self._name, self._folder = spec, text, name, folder
+    _spec: dict[str, Any]
+    #: The text of the file, whose name and folder follow; None of problems made in Python.
+    _text: str | None
+    _name: str
+    _folder: Path
 
     @classmethod
-    def _of(cls, spec: dict[str, Any], text: str | None, name: str, folder: Path) -> Problem:
+    def _of(cls, spec: dict[str, Any], text: str | None = None, name: str = "problem", folder: Path = Path()) -> Problem:
         problem = cls.__new__(cls)
-        problem._set(spec, text, name, folder)
+        problem._spec, problem._text, problem._name, problem._folder = spec, text, name, folder
         return problem
 
     @classmethod
@@ -127,7 +119,7 @@ class Problem:
             text = data.decode()
         except UnicodeDecodeError as error:
             message = f"byte {error.start} is no UTF-8; write the file in this encoding"
-            raise ProblemError(f"{path}: {message}", [Finding(str(path), None, None, message)]) from None
+            raise _refused([Finding(str(path), None, None, message)]) from None
         return cls._parse(text.replace("\r\n", "\n"), str(path), path.parent)
 
     @classmethod
@@ -142,9 +134,7 @@ class Problem:
         except tomllib.TOMLDecodeError as error:
             # the library says it with line and column
             findings = [Finding(**f) for f in _core.check(text, name, folder)]
-            if not findings:
-                findings = [Finding(name, None, None, str(error))]
-            raise ProblemError("\n".join(map(str, findings)), findings) from None
+            raise _refused(findings or [Finding(name, None, None, str(error))]) from None
         return cls._of(spec, text, name, folder)
 
     @classmethod
@@ -155,7 +145,7 @@ class Problem:
             >>> ppum.Problem.from_dict(plate.to_dict()) == plate
             True
         """
-        return cls._of(plain(dict(spec)), None, "problem", Path())
+        return cls._of(plain(dict(spec)))
 
     def to_dict(self) -> dict[str, Any]:
         """The problem as a dictionary, a copy."""
@@ -298,7 +288,7 @@ class Problem:
         return self._with({**self._spec, name: [*self._spec.get(name, ()), keys]})
 
     def _with(self, spec: dict[str, Any]) -> Problem:
-        return self._of(plain(spec), None, "problem", self._folder)
+        return self._of(plain(spec), folder=self._folder)
 
     def check(self) -> tuple[Finding, ...]:
         """What is wrong; nothing if the problem can be solved as far as its text tells.
@@ -310,18 +300,12 @@ class Problem:
             >>> plate.boundary("nowhere", traction=(0, 1)).check()[0].place
             'boundary[2].on'
         """
-        if self._text is not None:
-            found = _core.check(self._text, self._name, self._folder)
-            return tuple(Finding(**f) for f in found)
-        text, keys = written(self._spec)
-        return tuple(_of_key(Finding(**f), keys) for f in _core.check(text, "problem", self._folder))
+        text, keys = (self._text, None) if self._text is not None else written(self._spec)
+        found = (Finding(**f) for f in _core.check(text, self._name, self._folder))
+        return tuple(found if keys is None else (_of_key(finding, keys) for finding in found))
 
     def solve(
-        self,
-        *,
-        threads: int | None = None,
-        memory: int | None = None,
-        progress: bool | Progress = False,
+        self, *, threads: int | None = None, memory: int | None = None, progress: bool | Progress = False
     ) -> Dataset:
         """Solves the problem, see `ppum.solve`."""
         return solve(self, threads=threads, memory=memory, progress=progress)
@@ -335,7 +319,7 @@ class Problem:
         return hash(written(self._spec)[0])
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (self._spec, self._text, self._name, str(self._folder))
+        return Problem._of, (self._spec, self._text, self._name, self._folder)
 
     def __repr__(self) -> str:
         title, cracks = self._spec.get("title", ""), self._spec.get("crack", ())
@@ -362,8 +346,8 @@ def _domain(domain: Any) -> Mapping[str, Any]:
         raise TypeError(f"{message}, not {domain!r}") from None
 
 
-def _again(spec: dict[str, Any], text: str | None, name: str, folder: str) -> Problem:
-    return Problem._of(spec, text, name, Path(folder))
+def _refused(findings: Iterable[Finding]) -> ProblemError:
+    return ProblemError("\n".join(map(str, findings)), list(findings))
 
 
 def _of_key(finding: Finding, keys: list[str]) -> Finding:
@@ -416,11 +400,11 @@ def solve(
     text = problem.to_toml()
     try:
         return Dataset(_core.solve(text, problem._name, problem._folder, memory, threads, told))
-    except ProblemError as error:
+    except ProblemError:
         findings = problem.check() if problem._text is None else ()
         if not findings:
             raise
-        raise ProblemError("\n".join(map(str, findings)), list(findings)) from None
+        raise _refused(findings) from None
     finally:
         if isinstance(told, _Line):
             told.clear()

@@ -19,9 +19,7 @@ from ._values import SideName
 class Sampling(Evaluation):
     """The curves and grids of a `Field`."""
 
-    def line(
-        self, start: ArrayLike, end: ArrayLike, *, num: int = 201, quantities: Sequence[str] | None = None
-    ) -> Any:
+    def line(self, start: ArrayLike, end: ArrayLike, *, num: int = 201, quantities: Sequence[str] | None = None) -> Any:
         """Values along a line, as an `xarray.Dataset` over the distance `s` from its start.
 
         Coordinates are `x`, `y` and `side`: where the line meets a crack there are two rows, above (1) and below (-1).

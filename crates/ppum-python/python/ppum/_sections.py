@@ -85,14 +85,10 @@ class DiscretizationOptions(SpaceOptions, total=False):
 class GrowthOptions(TypedDict, total=False):
     """How cracks grow."""
 
-    criterion: Annotated[
-        Literal["hoop", "local-symmetry", "energy"], _key("the direction in which a tip goes")
-    ]
+    criterion: Annotated[Literal["hoop", "local-symmetry", "energy"], _key("the direction in which a tip goes")]
     increment: Annotated[float, _key("length by which the fastest tip grows in a step")]
     toughness: Annotated[Value, _key("K_c: a tip of less strength stays")]
-    load: Annotated[
-        Literal["constant", "critical"], _key("whether loads are those at which a tip reaches K_c")
-    ]
+    load: Annotated[Literal["constant", "critical"], _key("whether loads are those at which a tip reaches K_c")]
     paris: Annotated[Table, _key("growth by load cycles: a dictionary of c, m, threshold, ratio")]
 
 

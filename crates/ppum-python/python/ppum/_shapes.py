@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ._errors import BuildError
+from ._units import Floats
 
-Floats = NDArray[np.float64]
 Powers = Sequence[tuple[int, int]]
 
 #: Reference shapes: the triangle (−½, −½), (1, −½), (−½, 1) and the square [−1, 1]².

@@ -134,10 +134,8 @@ class Sweep:
             folder.mkdir(parents=True, exist_ok=True)
         made, rows = self._made()
         tell = _counting(progress, len(rows))
-        found = _here if client is None else _there(client)
-        failed = len(rows) - len(made)
-        for done, (k, row) in enumerate(found(list(made.values()), folder, threads), 1 + failed):
-            rows[list(made)[k]] = row
+        for done, (k, row) in enumerate(_solved(made, client, folder, threads), 1 + len(rows) - len(made)):
+            rows[k] = row
             tell(done)
         return self._gathered(rows, xarray)
 
@@ -165,43 +163,28 @@ class Sweep:
         for k, row in enumerate(rows):
             if tips := row.get("tips"):
                 per_tip[k, : len(tips)] = tips
-        variables: dict[str, Any] = {
-            name: (dims, np.array([row.get(name, np.nan) for row in rows]).reshape(shape))
-            for name in PLAIN
-        }
-        variables["status"] = dims, np.array([row["status"] for row in rows]).reshape(shape)
+        plain = {name: np.array([row.get(name, np.nan) for row in rows]).reshape(shape) for name in (*PLAIN, "status")}
+        variables: dict[str, Any] = {name: (dims, values) for name, values in plain.items()}
         for n, name in enumerate((*TIPS, "x", "y")):
-            values = per_tip[..., n].reshape(*shape, count)
-            variables[name] = (*dims, "tip"), values, LABELS.get(name, {})
+            variables[name] = (*dims, "tip"), per_tip[..., n].reshape(*shape, count), LABELS.get(name, {})
         return xarray.Dataset(variables, {**self._values, "tip": np.arange(count)})
 
 
-def _here(
-    problems: list[Problem], folder: Path | None, threads: int | None
+def _solved(
+    problems: Mapping[int, Problem], client: Any, folder: Path | None, threads: int | None
 ) -> Iterator[tuple[int, _Row]]:
-    for k, problem in enumerate(problems):
-        yield k, _one(problem, folder, threads)
-
-
-def _there(client: Any) -> Callable[..., Iterator[tuple[int, _Row]]]:
-    """On the workers of a client. Results are taken and released one by one: a worker that dies loses none."""
+    """The rows of problems by their numbers, here or from the workers of a client. Results of these are taken and released
+    one by one: a worker that dies loses none."""
+    if client is None:
+        yield from ((k, _one(problem, folder, threads)) for k, problem in problems.items())
+        return
     from distributed import as_completed
 
-    def found(
-        problems: list[Problem], folder: Path | None, threads: int | None
-    ) -> Iterator[tuple[int, _Row]]:
-        def submit(problem: Problem) -> Any:
-            return client.submit(_one, problem, folder, threads, pure=False)
-
-        numbers = {submit(problem): k for k, problem in enumerate(problems)}
-        waiting = as_completed(list(numbers), raise_errors=False)
-        for future in waiting:
-            k = numbers.pop(future)
-            error = future.exception() if future.status in ("error", "lost") else None
-            yield k, future.result() if error is None else _failed(error)
-            future.release()
-
-    return found
+    numbers = {client.submit(_one, problem, folder, threads, pure=False): k for k, problem in problems.items()}
+    for future in as_completed(list(numbers), raise_errors=False):
+        error = future.exception() if future.status in ("error", "lost") else None
+        yield numbers.pop(future), future.result() if error is None else _failed(error)
+        future.release()
 
 
 def _one(problem: Problem, folder: Path | None, threads: int | None) -> _Row:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import operator
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
@@ -12,7 +11,7 @@ import numpy as np
 
 from ._errors import MissingKey
 from ._errors import needed
-from ._text import counted, nearest
+from ._text import counted, hint, html_row
 
 _Row = TypeVar("_Row")
 
@@ -74,10 +73,8 @@ class Table(Numbered[_Row]):
 
     def _repr_html_(self) -> str:
         columns = self._columns()
-        head = "".join(f"<th>{html.escape(c)}</th>" for c in columns)
-        rows = ("".join(f"<td>{html.escape(_short(row[c]))}</td>" for c in columns) for row in self._records())
-        body = "".join(f"<tr>{cells}</tr>" for cells in rows)
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+        body = "".join(html_row(_short(row[c]) for c in columns) for row in self._records())
+        return f"<table><thead>{html_row(columns, 'th')}</thead><tbody>{body}</tbody></table>"
 
 
 def _short(value: Any) -> str:
@@ -111,17 +108,12 @@ class History(Mapping[str, float]):
 
     def _of(self, name: str) -> tuple[float, str]:
         if name not in self._first:
-            near = nearest(name, self._first)
-            hint = f"did you mean `{near}`?" if near else f"there are {', '.join(self._first)}"
-            raise MissingKey(f"the history has no `{name}`; {hint}")
+            raise MissingKey(f"the history has no `{name}`; {hint(name, self._first)}")
         return self._first[name]
 
     def __repr__(self) -> str:
         return f"<ppum.History {', '.join(f'{name} {self[name]:.6g}' for name in self)}>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{html.escape(n)}</td><td>{v:.6g}</td><td>{html.escape(u)}</td></tr>"
-            for n, v, u in self.records
-        )
-        return f"<table><tbody>{rows}</tbody></table>"
+        rows = (html_row((name, f"{value:.6g}", unit)) for name, value, unit in self.records)
+        return f"<table><tbody>{''.join(rows)}</tbody></table>"

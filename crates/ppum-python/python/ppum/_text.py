@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import html
 import json
 import os
 import re
@@ -19,6 +20,13 @@ def nearest(name: str, known: Iterable[str]) -> str | None:
     return by_lower[found[0]] if found else None
 
 
+def hint(name: str, known: Iterable[str]) -> str:
+    """What to write in place of a name that there is not."""
+    known = list(known)
+    near = nearest(name, known)
+    return f"did you mean `{near}`?" if near else f"there are {', '.join(known)}"
+
+
 def one_of(name: str, value: str, words: Sequence[str], others: str = "") -> None:
     """Refuses a word that is not among those that there are.
 
@@ -29,8 +37,8 @@ def one_of(name: str, value: str, words: Sequence[str], others: str = "") -> Non
         return
     known = ", ".join(repr(word) for word in words)
     near = nearest(value, words)
-    hint = f"; did you mean {near!r}?" if near else ""
-    raise ValueError(f"{name}: {value!r} is not one of {known}{others}{hint}")
+    meant = f"; did you mean {near!r}?" if near else ""
+    raise ValueError(f"{name}: {value!r} is not one of {known}{others}{meant}")
 
 
 def counted(count: int, one: str, more: str | None = None) -> str:
@@ -99,6 +107,11 @@ def _value(value: Any) -> str:
     if isinstance(value, dict):
         return "{" + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + "}"
     return "[" + ", ".join(_value(v) for v in value) + "]"
+
+
+def html_row(cells: Iterable[str], kind: str = "td") -> str:
+    """A row of an HTML table."""
+    return f"<tr>{''.join(f'<{kind}>{html.escape(cell)}</{kind}>' for cell in cells)}</tr>"
 
 
 def _text(text: str) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._errors import MissingKey, QuantityError
-from ._text import nearest
+from ._text import hint
 from ._units import Floats, check_out, floats, pair
 
 if TYPE_CHECKING:
@@ -46,9 +46,7 @@ class Quantities(Mapping[str, Quantity]):
     def __getitem__(self, name: str) -> Quantity:
         found = self._all.get(name) or self._all.get(name.replace("_", "-"))
         if found is None:
-            near = nearest(name.replace("_", "-"), self._all)
-            hint = f"did you mean `{near}`?" if near else f"there are {', '.join(self._all)}"
-            raise MissingKey(f"no quantity is called `{name}`; {hint}")
+            raise MissingKey(f"no quantity is called `{name}`; {hint(name.replace('_', '-'), self._all)}")
         return found
 
     def __iter__(self) -> Iterator[str]:

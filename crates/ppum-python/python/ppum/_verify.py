@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,20 +18,12 @@ POINTS = 1000
 BESIDE, DISTANCE = 50, 1e-7
 
 
-class Evaluated(Protocol):
-    """The fields of a step by their numbers."""
-
-    def field(self, number: int) -> Any: ...
-
-
-def verified(made: Evaluated, state: State, tolerance: float) -> dict[str, float]:
-    """Largest differences of the fields that have a reference, by their names, in parts of their largest values."""
+def verified(field: Callable[[int], Any], state: State, tolerance: float) -> dict[str, float]:
+    """Largest differences of the fields that have a reference, by their names, in parts of their largest values; `field`
+    gives those of the step by their numbers."""
     fields = [state.fields] if isinstance(state.fields, Coefficients) else state.fields
-    found = {}
-    for number, given in enumerate(fields):
-        if given.verify is not None:
-            found[given.name] = _compared(given, made.field(number), state, tolerance)
-    return found
+    with_reference = [(number, given) for number, given in enumerate(fields) if given.verify is not None]
+    return {given.name: _compared(given, field(number), state, tolerance) for number, given in with_reference}
 
 
 def _compared(given: Coefficients, field: Any, state: State, tolerance: float) -> float:
@@ -75,9 +67,7 @@ LOOKS = {
 }
 
 
-def _remedy(
-    given: Coefficients, field: Any, state: State, at: tuple[Floats, Floats], wrong: NDArray[np.bool_]
-) -> str:
+def _remedy(given: Coefficients, field: Any, state: State, at: tuple[Floats, Floats], wrong: NDArray[np.bool_]) -> str:
     """What may be the reason for differences at some of the points."""
     if isinstance(given.verify, Sampled):
         return (

@@ -165,20 +165,14 @@ class Viewer(anywidget.AnyWidget):
         except ValueError as error:
             raise traitlets.TraitError(str(error)) from None
 
-    @traitlets.observe("center", "width")
-    def _moved(self, change: Any) -> None:
-        self._is_whole = False
-
-    @traitlets.observe("center")
-    def _set_anew(self, change: Any) -> None:
-        self._rest = (0.0, 0.0)
-
-    @traitlets.observe(*_LOOK)
-    def _changed_look(self, change: Any) -> None:
-        self._held = None
-
     @traitlets.observe("center", "width", *_LOOK)
     def _changed(self, change: Any) -> None:
+        if change["name"] in _LOOK:
+            self._held = None
+        else:
+            self._is_whole = False
+        if change["name"] == "center":
+            self._rest = (0.0, 0.0)
         self._version += 1
         if not self._is_answering:
             self.send({"version": self._version})
@@ -203,7 +197,7 @@ class Viewer(anywidget.AnyWidget):
         Raises:
             IndexError: There is no such tip.
         """
-        self.center, self.width = self._at_step()._spot(self._size, tip=tip, zoom=zoom)
+        self.center, self.width = self._at_step()._spot(self._size, {"tip": tip, "zoom": zoom})
 
     @passes(FigureOptions)
     def figure(self, **options: Unpack[FigureOptions]) -> Figure:
@@ -221,14 +215,8 @@ class Viewer(anywidget.AnyWidget):
         return self._at_step().figure(self.quantity, **{**own, **options})
 
     def _look(self) -> dict[str, Any]:
-        overlays = ["cracks"] if self.cracks else []
-        return {
-            "cmap": None if self.cmap == "auto" else self.cmap,
-            "norm": self.norm,
-            "clim": self.clim,
-            "overlays": overlays,
-            "deformed": self.deformed,
-        }
+        cmap, overlays = None if self.cmap == "auto" else self.cmap, ["cracks"] if self.cracks else []
+        return {"cmap": cmap, "norm": self.norm, "clim": self.clim, "overlays": overlays, "deformed": self.deformed}
 
     def _at_step(self) -> Field:
         return self.field if self.step == self.field._number else self._other(self.step)
@@ -306,27 +294,23 @@ class Viewer(anywidget.AnyWidget):
 
     def _told(self) -> dict[str, Any]:
         """What the controls show."""
-        state = {name: getattr(self, name) for name in _SETTABLE}
         place = f"({self.center[0]:.9g}, {self.center[1]:.9g}), {self.width:.3g} wide"
-        return {"state": state, "place": place}
+        return {"state": {name: getattr(self, name) for name in _SETTABLE}, "place": place}
 
     def _probed(self, pixel: Any, size: tuple[int, int]) -> str:
         """Values under the mouse, near a crack those of its faces, in words."""
         side = self.width / size[0]
         offset = np.array([float(pixel[0]) - 0.5 * size[0], 0.5 * size[1] - float(pixel[1])]) * side
         anchor = np.array(self.center)
+        near = None if self.deformed is not None else _nearest(self._at_step(), anchor, offset, REACH * side)
+        anchor, offset = near or (anchor, offset)
         x, y = anchor + offset
         place = f"x = {x:.12g}, y = {y:.12g}"
         if self.deformed is not None:
             return f"{place}: {self._on_deformed((x, y), side)}"
-        near = _nearest(self._at_step(), anchor, offset, REACH * side)
-        if near is None:
+        if near is None or self._is_of_cells():
             return f"{place}: {self._value(anchor, offset, side):.9g}"
-        x, y = near[0] + near[1]
-        place = f"x = {x:.12g}, y = {y:.12g}"
-        if self._is_of_cells():
-            return f"{place}: {self._value(near[0], near[1], side):.9g}"
-        above, below = self._at_step().at(*near[1], anchor=near[0], side="both")[self.quantity]
+        above, below = self._at_step().at(*offset, anchor=anchor, side="both")[self.quantity]
         return f"{place}: {above:.9g} above, {below:.9g} below the crack"
 
     def _on_deformed(self, place: tuple[float, float], side: float) -> str:

@@ -9,7 +9,6 @@ Example:
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import comb
@@ -17,16 +16,16 @@ from numbers import Integral
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ._checks import numbers, rows, short
 from ._blocks import DEGREES, MAX_DEGREE, exponents
 from ._cover import Cover
-from ._errors import BuildError
+from ._errors import BuildError, warn
+from ._units import Floats
 
 __all__ = ["Basis", "bernstein", "chebyshev", "fit", "lagrange", "legendre", "monomials", "reframe"]
 
-Floats = NDArray[np.float64]
 #: A polynomial of one variable, from the constant on.
 Poly = list[Fraction]
 
@@ -74,7 +73,7 @@ class Basis:
         if self.condition > LARGE:
             digits = np.log10(self.condition)
             told = f"the condition number of the conversion is {self.condition:.1e}: up to {digits:.0f} digits are lost"
-            warnings.warn(told, stacklevel=2)
+            warn(told)
         product = np.tensordot(np.moveaxis(given, axis, -1).astype(np.longdouble), self._extended, (-1, 1))
         return np.ascontiguousarray(np.moveaxis(product, -1, axis), float)
 
@@ -139,11 +138,7 @@ def monomials(degree: int, order: Any = "total-y", interval: tuple[float, float]
 
 
 def reframe(
-    coefficients: ArrayLike,
-    origin: ArrayLike,
-    scale: ArrayLike,
-    new_origin: ArrayLike,
-    new_scale: ArrayLike,
+    coefficients: ArrayLike, origin: ArrayLike, scale: ArrayLike, new_origin: ArrayLike, new_scale: ArrayLike
 ) -> Floats:
     """Monomials' coefficients (n, m) or (n, m, c) of ξ = (p − origin)/scale as those of (p − new_origin)/new_scale, which
     have the same values. Origins and scales have the shape (n, 2), or (2,) for all patches.
@@ -282,11 +277,7 @@ def _at(p: Poly, k: int) -> Fraction:
 
 
 def _times(p: Poly, q: Poly) -> Poly:
-    product = [Fraction(0)] * (len(p) + len(q) - 1)
-    for i, a in enumerate(p):
-        for j, b in enumerate(q):
-            product[i + j] += a * b
-    return product
+    return [sum((p[i] * q[k - i] for i in range(len(p)) if 0 <= k - i < len(q)), Fraction(0)) for k in range(len(p) + len(q) - 1)]
 
 
 def _composed(p: Poly, shift: Fraction, factor: Fraction) -> Poly:

@@ -13,14 +13,14 @@ Example:
 from __future__ import annotations
 
 import json
-import warnings
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._errors import warn
 from ._files import Page
 from ._units import degrees, pair
 from ._units import pixels
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Plot", "around", "circle", "convergence", "crack", "history", "line", "ray", "series"]
 
-_T = TypeVar("_T")
 Size = tuple[int, int]
 Axes = Literal["", "x", "y", "xy"]
 
@@ -47,7 +46,7 @@ class Plot(Page):
         self._core, self._size = curves(*made_of), pixels(size)
         self._again = curves, made_of, self._size
         for text in self._core.warnings():
-            warnings.warn(text, stacklevel=4)
+            warn(text)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Plot, self._again
@@ -245,35 +244,25 @@ def convergence(
     return _told(datasets, {"convergence": {"step": step}}, log, size)
 
 
-def _named(things: _T | Mapping[str, _T]) -> list[tuple[str, _T]]:
+def _named(things: Any) -> list[tuple[str, Any]]:
+    """Fields or datasets by name; a single one has the title of its dataset."""
     if isinstance(things, Mapping):
         return [(str(name), thing) for name, thing in things.items()]
-    return [(_name(things), things)]
+    return [(getattr(things, "dataset", things).title or "a dataset", things)]
 
 
-def _name(thing: Any) -> str:
-    """What a file says that it is of, where there is no other name."""
-    title: str = getattr(thing, "dataset", thing).title
-    return title or "a dataset"
-
-
-def _profiles(
-    fields: Field | Mapping[str, Field], along: Any, quantities: Any, num: int, log: str, size: Size
-) -> Plot:
+def _profiles(fields: Field | Mapping[str, Field], along: Any, quantities: Any, num: int, log: str, size: Size) -> Plot:
     wanted = None if quantities is None else _list(quantities, "quantities")
-    return Plot(_profile_curves, (_named(fields), json.dumps(along), num, wanted, log), size)
-
-
-def _profile_curves(named: list[tuple[str, Field]], *how: Any) -> _core.Curves:
-    return _core.profiles([(name, field._core) for name, field in named], *how)
+    return Plot(_curves, ("profiles", _named(fields), json.dumps(along), num, wanted, log), size)
 
 
 def _told(datasets: Dataset | Mapping[str, Dataset], kind: Any, log: str, size: Size) -> Plot:
-    return Plot(_told_curves, (_named(datasets), json.dumps(kind), log), size)
+    return Plot(_curves, ("told", _named(datasets), json.dumps(kind), log), size)
 
 
-def _told_curves(named: list[tuple[str, Dataset]], *how: Any) -> _core.Curves:
-    return _core.told([(name, dataset._core) for name, dataset in named], *how)
+def _curves(kind: Literal["profiles", "told"], named: list[tuple[str, Any]], *how: Any) -> _core.Curves:
+    made: _core.Curves = getattr(_core, kind)([(name, thing._core) for name, thing in named], *how)
+    return made
 
 
 def _list(names: Sequence[str], what: str) -> list[str]:

@@ -17,8 +17,8 @@ from .._dataset import Dataset
 from .._errors import BuildError
 from .._shapes import SQUARE, TRIANGLE, interpolated, nodes
 from .._mesh import Clip, Mesh
+from .._units import Floats
 
-Floats = NDArray[np.float64]
 #: Reference places of each shape, (k, 2).
 Places = Mapping[int, Floats]
 
@@ -50,6 +50,8 @@ class Group:
 
 #: Asks a library for values at places.
 Sampler = Callable[[Places], list[Group]]
+#: Points and values of elements (n,) at places (k, 2).
+Values = Callable[[NDArray[np.int64], Floats], tuple[Floats, Floats]]
 
 
 @dataclass(frozen=True)
@@ -169,9 +171,7 @@ def random_places(random: np.random.Generator, shape: int, count: int) -> Floats
     return 0.75 * np.where(at.sum(axis=1, keepdims=True) > 0, -at, at) + 0.25
 
 
-def smooth(
-    sampler: Sampler, labels: Labels, order: int, geometry: int, verify: Sampled | None
-) -> State:
+def smooth(sampler: Sampler, labels: Labels, order: int, geometry: int, verify: Sampled | None) -> State:
     """The state of a field that is one polynomial on each element; `verify` are points and values of the library."""
     elements = Elements(sampler, order, geometry)
     return State(elements.mesh(), labelled(labels, {"one": elements.polynomials(order)}, verify))
@@ -185,6 +185,17 @@ def labelled(labels: Labels, blocks: Mapping[str, Any], verify: Sampled | None) 
 def built(state: State, library: str, version: str, options: Mapping[str, Any]) -> Dataset:
     """The dataset of a state, by the name of its library."""
     return build(state, **({"program": f"{library} {version}".strip()} | dict(options)))
+
+
+def by_shape(shapes: NDArray[np.int64], among: NDArray[np.int64], places: Places, values: Values) -> list[Group]:
+    """Groups of elements of each shape by what is known at places of the triangle (0, 0), (1, 0), (0, 1) or the square
+    [0, 1]²: points and values."""
+    groups = []
+    for k in (TRIANGLE, SQUARE):
+        elements = among[shapes[among] == k]
+        if len(elements):
+            groups.append(Group(k, elements, *values(elements, to_unit(k, places[k])), places[k]))
+    return groups
 
 
 def from_unit(shape: int, places: Floats) -> Floats:

@@ -13,7 +13,8 @@ from .._dataset import Dataset
 from .._errors import BuildError
 from .._errors import needed
 from .._shapes import SQUARE, TRIANGLE
-from ._elements import Floats, Group, Labels, Places, Sampler, built, compared, smooth, to_unit
+from .._units import Floats
+from ._elements import Group, Labels, Places, Sampler, built, compared, smooth, to_unit
 
 __all__ = ["from_dolfinx", "state"]
 
@@ -23,13 +24,7 @@ REMEDY = "interpolate the field into discontinuous Lagrange elements of its degr
 
 
 def from_dolfinx(
-    u: Any,
-    *,
-    name: str = "u",
-    components: list[str] | None = None,
-    unit: str = "",
-    verify: int = 1000,
-    **options: Any,
+    u: Any, *, name: str = "u", components: list[str] | None = None, unit: str = "", verify: int = 1000, **options: Any
 ) -> Dataset:
     """The dataset of a Function of DOLFINx in a Lagrange space, continuous or not, of scalars or vectors: degrees of
     freedom times basix's shape functions, on triangles or quadrilaterals of any order.

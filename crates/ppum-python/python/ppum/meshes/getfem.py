@@ -17,7 +17,8 @@ from .._functions import Formula
 from .._errors import BuildError
 from .._errors import needed
 from .._shapes import SQUARE, TRIANGLE
-from ._elements import Elements, Floats, Group, Labels, Places, built, compared, labelled, random_places, to_unit
+from .._units import Floats
+from ._elements import Elements, Group, Labels, Places, built, compared, labelled, random_places, to_unit
 
 __all__ = ["Crack", "from_getfem", "state"]
 

@@ -14,7 +14,8 @@ from .._dataset import Dataset
 from .._errors import BuildError
 from .._errors import needed
 from .._shapes import SQUARE, TRIANGLE
-from ._elements import SEED, Floats, Group, Labels, Places, Sampler, built, compared, smooth, to_unit
+from .._units import Floats
+from ._elements import SEED, Labels, Sampler, built, by_shape, compared, smooth
 
 __all__ = ["from_mfem", "state"]
 
@@ -76,22 +77,15 @@ def sampler(gf: Any, mesh: Any) -> Sampler:
     shape, values = _shapes(mesh), _tabulated(gf)
     points = _straight(mesh) if mesh.GetNodes() is None else _tabulated(mesh.GetNodes())
 
-    def sample(places: Places) -> list[Group]:
-        groups = []
-        for k in (TRIANGLE, SQUARE):
-            elements, at = np.flatnonzero(shape == k), to_unit(k, places[k])
-            if len(elements):
-                groups.append(Group(k, elements, points(elements, at), values(elements, at), places[k]))
-        return groups
-
-    return sample
+    all_ = np.arange(len(shape))
+    return lambda places: by_shape(shape, all_, places, lambda of, at: (points(of, at), values(of, at)))
 
 
 #: Values (n, k, c) of elements of one shape at places (k, 2).
-Values = Callable[[NDArray[np.int64], Floats], Floats]
+Table = Callable[[NDArray[np.int64], Floats], Floats]
 
 
-def _tabulated(gf: Any) -> Values:
+def _tabulated(gf: Any) -> Table:
     """Degrees of freedom times shape functions, for elements with as many of them at once."""
     space, data, count = gf.FESpace(), real("gf", gf.GetDataArray()), int(gf.VectorDim())
     by_component = space.GetOrdering() == _library().Ordering.byNODES
@@ -130,7 +124,7 @@ def _table(element: Any, at: Floats) -> Floats:
     return np.array(rows)
 
 
-def _straight(mesh: Any) -> Values:
+def _straight(mesh: Any) -> Table:
     """Points of straight elements by their vertices."""
     mfem, corners = _library(), np.array([mesh.GetVertexArray(k)[:2] for k in range(mesh.GetNV())])
     linear = mfem.H1_FECollection(1, 2)
@@ -154,26 +148,18 @@ def evaluator(gf: Any, mesh: Any, most: int | None = None) -> Sampler:
     # a space of vectors is not the same as a vector of spaces
     count = int(gf.VectorDim())
 
-    def at(element: int, rule: list[Any]) -> tuple[Floats, Floats]:
-        transformation, points, values = mesh.GetElementTransformation(element), [], []
-        for place in rule:
-            transformation.SetIntPoint(place)
-            points.append([float(v) for v in transformation.Transform(place)])
-            values.append(_value(gf, element, place, count))
-        return np.array(points)[:, :2], np.array(values)
+    def at(elements: NDArray[np.int64], places: Floats) -> tuple[Floats, Floats]:
+        rule, points, values = _rule(places), [], []
+        for element in elements.tolist():
+            transformation = mesh.GetElementTransformation(element)
+            for place in rule:
+                transformation.SetIntPoint(place)
+                points.append([float(v) for v in transformation.Transform(place)])
+                values.append(_value(gf, element, place, count))
+        shape = len(elements), len(rule), -1
+        return np.array(points).reshape(shape)[..., :2], np.array(values).reshape(shape)
 
-    def sample(places: Places) -> list[Group]:
-        groups = []
-        for k in (TRIANGLE, SQUARE):
-            elements = chosen[shape[chosen] == k]
-            rule = _rule(to_unit(k, places[k]))
-            found = [at(int(element), rule) for element in elements]
-            if found:
-                points, values = (np.array(part) for part in zip(*found))
-                groups.append(Group(k, elements, points, values, places[k]))
-        return groups
-
-    return sample
+    return lambda places: by_shape(shape, chosen, places, at)
 
 
 def _rule(places: Floats) -> list[Any]:

@@ -10,7 +10,8 @@ from .._state import Coefficients, State
 from .._dataset import Dataset
 from .._errors import needed
 from .._state import Sampled
-from ._elements import Elements, Floats, Labels, built, compared, labelled
+from .._units import Floats
+from ._elements import Elements, Labels, built, compared, labelled
 from .ngsolve import mesh_of, order_of, sampler
 
 __all__ = ["from_ngsxfem", "state"]

@@ -12,7 +12,8 @@ from .._dataset import Dataset
 from .._errors import BuildError
 from .._errors import needed
 from .._shapes import SQUARE, TRIANGLE
-from ._elements import Floats, Group, Labels, Places, Sampler, built, compared, smooth, to_unit
+from .._units import Floats
+from ._elements import Group, Labels, Places, Sampler, built, compared, smooth, to_unit
 
 __all__ = ["from_skfem", "state"]
 
@@ -41,9 +42,7 @@ def from_skfem(
     return built(made, "scikit-fem", version, options)
 
 
-def state(
-    basis: Any, u: Any, order: int | None = None, *, labels: Labels = Labels("u"), verify: int = 1000
-) -> State:
+def state(basis: Any, u: Any, order: int | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
     """The state of `from_skfem`."""
     shape = shape_of(basis.mesh)
     if order is None:

@@ -20,7 +20,8 @@ from .._errors import needed
 from .._head import components_of
 from .._shapes import SQUARE, TRIANGLE
 from .._state import Sampled
-from ._elements import SEED, Floats, Group, Labels, Places, built, compared, from_unit, smooth, to_unit
+from .._units import Floats
+from ._elements import SEED, Group, Labels, Places, built, compared, from_unit, smooth, to_unit
 
 __all__ = ["from_meshio", "from_vtu", "meshio_state", "vtu_state"]
 
