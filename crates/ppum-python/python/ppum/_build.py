@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._checks import mapping, real, rows, scalar, sequence, text
+from ._checks import mapping, of_shape, real, rows, scalar, sequence, text
 from ._blocks import Blocks, arranged
 from ._cover import Cover
 from ._dataset import Dataset
@@ -272,8 +272,7 @@ def _attributes(attributes: Mapping[str, ArrayLike], patches: int) -> Arrays:
         return {}
     values = [real(f"attributes[{name!r}]", given) for name, given in attributes.items()]
     for name, given in zip(attributes, values):
-        if given.shape != (patches,):
-            raise BuildError(f"attributes[{name!r}]: has the shape {given.shape}, expected ({patches},)")
+        of_shape(f"attributes[{name!r}]", given, given.shape == (patches,), f"({patches},)")
     return {"attributes/name": list(attributes), "attributes/values": np.array(values)}
 
 

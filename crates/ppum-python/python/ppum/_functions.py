@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._checks import index, numbers, rows, scalar, sequence, short
+from ._checks import index, numbers, of_kind, of_shape, rows, scalar, sequence, short
 from ._errors import BuildError
 from ._text import counted
 
@@ -148,10 +148,8 @@ def _row(place: str, name: str, function: Function, cracks: Sequence[int], field
 
 
 def _frame(place: str, f: Formula, cracks: Sequence[int], fields: Sequence[str]) -> dict[str, Any]:
-    if not isinstance(f.text, str):
-        raise BuildError(f"{place}.text: is {type(f.text).__name__}; give a formula as text, such as 'sqrt(r)*cos(theta/2)'")
-    if not isinstance(f.parameters, Mapping):
-        raise BuildError(f"{place}.parameters: is {type(f.parameters).__name__}; give a dictionary of names and numbers")
+    of_kind(f"{place}.text", f.text, isinstance(f.text, str), "a formula as text, such as 'sqrt(r)*cos(theta/2)'")
+    of_kind(f"{place}.parameters", f.parameters, isinstance(f.parameters, Mapping), "a dictionary of names and numbers")
     row: dict[str, Any] = {
         "frame": "world",
         "role": f.role,
@@ -176,8 +174,7 @@ def _frame(place: str, f: Formula, cracks: Sequence[int], fields: Sequence[str])
         return row | {"frame": "tip", "frame_end": ENDS[str(end)], "crack": _crack(f"{place}.tip", crack, cracks)}
     if f.origin is not None or angle:
         origin = numbers(f"{place}.origin", (0, 0) if f.origin is None else f.origin)
-        if origin.shape != (2,):
-            raise BuildError(f"{place}.origin: has the shape {origin.shape}, expected (2,): a point")
+        of_shape(f"{place}.origin", origin, origin.shape == (2,), "(2,): a point")
         if not abs(angle) <= 2 * np.pi:
             raise BuildError(f"{place}.angle: {angle:g} is more than a turn; angles are in radians, see math.radians")
         row |= {"frame": "fixed", "frame_origin": tuple(origin), "frame_angle": angle}

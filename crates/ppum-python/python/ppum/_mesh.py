@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._checks import Ragged, index, integers, known, numbers, repeated, rows, sequence, short
+from ._checks import Ragged, index, integers, known, numbers, of_kind, of_shape, repeated, rows, sequence, short
 from ._blocks import MAX_DEGREE, degrees, exponents
 from ._functions import level_field
 from ._errors import BuildError
@@ -272,8 +272,7 @@ def _maps(map: Any, n: int) -> Ragged:
         count = f"has {len(map)} entries" if hasattr(map, "__len__") else f"is {type(map).__name__}"
         raise BuildError(f"map: {count}, but there are {n} origins; give one for each patch")
     if isinstance(map, np.ndarray) and map.ndim == 3:
-        if map.shape[2] != 2:
-            raise BuildError(f"map: has the shape {map.shape}, expected ({n}, m, 2)")
+        of_shape("map", map, map.shape[2] == 2, f"({n}, m, 2)")
         return Ragged.joined([numbers("map", map)])
     parts = [rows(f"map[{k}]", c, 2) for k, c in enumerate(map)]
     return Ragged(np.concatenate(parts), np.array([len(part) for part in parts]))
@@ -299,8 +298,7 @@ def _elements(element: ArrayLike, n: int) -> NDArray[np.int64]:
 
 
 def _clips(clips: Mapping[int, Sequence[Clip]], n: int) -> list[list[Clip]]:
-    if not isinstance(clips, Mapping):
-        raise BuildError(f"clips: is {type(clips).__name__}; give a dictionary by the number of the patch")
+    of_kind("clips", clips, isinstance(clips, Mapping), "a dictionary by the number of the patch")
     for patch, of in clips.items():
         if index(patch, n) is None:
             raise BuildError(f"clips[{short(patch)}]: there is no such patch; the mesh has {n}, counted from 0")

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._checks import numbers, real, short
+from ._checks import numbers, of_shape, real, short
 from ._functions import Component, Formula, Jump, Level
 from ._errors import BuildError
 from ._state import Coefficients, Sampled, State
@@ -119,8 +119,7 @@ def _short(values: Floats) -> str:
 
 def _given(place: str, points: ArrayLike) -> Floats:
     array = numbers(f"{place}[0]", points)
-    if array.ndim != 2 or array.shape[1] != 2 or not len(array):
-        raise BuildError(f"{place}[0]: has the shape {array.shape}, expected (k, 2): points")
+    of_shape(f"{place}[0]", array, array.shape[1:] == (2,) and len(array) > 0, "(k, 2): points")
     return array
 
 

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._checks import numbers, rows, short
+from ._checks import numbers, of_kind, of_shape, rows, short
 from ._blocks import DEGREES, MAX_DEGREE, exponents
 from ._cover import Cover
 from ._errors import BuildError, warn
@@ -148,8 +148,8 @@ def reframe(
         [[0.5, 2.0, 0.0]]
     """
     given = numbers("coefficients", coefficients)
-    if given.ndim not in (2, 3) or given.shape[1] not in DEGREES:
-        raise BuildError(f"coefficients: has the shape {given.shape}, expected (n, m) or (n, m, c), m = (d + 1)(d + 2)/2")
+    is_fit = given.ndim in (2, 3) and given.shape[1] in DEGREES
+    of_shape("coefficients", given, is_fit, "(n, m) or (n, m, c), m = (d + 1)(d + 2)/2")
     old, size, new, new_size = (
         _points(name, values, len(given)).astype(np.longdouble)
         for name, values in zip(("origin", "scale", "new_origin", "new_scale"), (origin, scale, new_origin, new_scale))
@@ -168,8 +168,7 @@ def reframe(
 def _points(name: str, values: ArrayLike, count: int) -> Floats:
     """A point for each patch, or one for all."""
     array = numbers(name, values)
-    if array.shape not in ((2,), (count, 2)):
-        raise BuildError(f"{name}: has the shape {array.shape}, expected ({count}, 2), or (2,) for all patches")
+    of_shape(name, array, array.shape in ((2,), (count, 2)), f"({count}, 2), or (2,) for all patches")
     return np.broadcast_to(array, (count, 2))
 
 
@@ -192,8 +191,7 @@ def fit(
         >>> ppum.basis.fit(cover, 2, lambda patch, x, y: x * y).shape
         (4, 6)
     """
-    if not isinstance(cover, Cover):
-        raise BuildError(f"cover: is {type(cover).__name__}; give a ppum.Cover")
+    of_kind("cover", cover, isinstance(cover, Cover), "a ppum.Cover")
     count = _bounded(degree) + 3
     nodes = np.cos(np.pi * (np.arange(count) + 0.5) / count)
     xi, eta = (a.reshape(-1) for a in np.meshgrid(nodes, nodes))

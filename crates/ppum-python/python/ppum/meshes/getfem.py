@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._checks import real
+from .._checks import of_kind, real
 from .._blocks import MAX_DEGREE, exponents
 from .._state import Coefficients, State
 from .._dataset import Dataset
@@ -81,8 +81,7 @@ def from_getfem(
 
 def state(mf: Any, u: Any, crack: Crack | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
     """The state of `from_getfem`."""
-    if not hasattr(mf, "linked_mesh"):
-        raise BuildError(f"mf: is {type(mf).__name__}; give a MeshFem of GetFEM")
+    of_kind("mf", mf, hasattr(mf, "linked_mesh"), "a MeshFem of GetFEM")
     source = _Source(mf, real("u", u).ravel(), crack)
     elements = Elements(source.sample, source.order, source.geometry)
     known = compared(source.evaluate, verify, source.off)

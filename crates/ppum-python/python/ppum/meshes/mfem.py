@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._checks import real
+from .._checks import of_kind, real
 from .._state import State
 from .._dataset import Dataset
 from .._errors import BuildError
@@ -45,8 +45,7 @@ def from_mfem(
 
 def state(gf: Any, order: int | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
     """The state of `from_mfem`."""
-    if not hasattr(gf, "FESpace"):
-        raise BuildError(f"gf: is {type(gf).__name__}; give a GridFunction of MFEM")
+    of_kind("gf", gf, hasattr(gf, "FESpace"), "a GridFunction of MFEM")
     space = gf.FESpace()
     mesh = space.GetMesh()
     if mesh.Dimension() != 2 or mesh.SpaceDimension() != 2:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .._checks import real
+from .._checks import of_kind, real
 from .._dataset import Dataset
 from .._state import State
 from .._errors import BuildError
@@ -57,8 +57,7 @@ def state(
 
 def mesh_of(gf: Any, mesh: Any) -> Any:
     """The mesh of a field, in two dimensions."""
-    if not callable(gf):
-        raise BuildError(f"gf: is {type(gf).__name__}; give a GridFunction or a CoefficientFunction of NGSolve")
+    of_kind("gf", gf, callable(gf), "a GridFunction or a CoefficientFunction of NGSolve")
     # a vector has as many dimensions as components, a compound field one
     if int(gf.dim) < len(getattr(gf, "components", ())):
         raise BuildError("gf: is compound; give one of its parts, such as gf.components[0]")

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._checks import numbers, sequence
+from .._checks import numbers, of_kind, sequence
 from .._blocks import MAX_DEGREE, exponents
 from .._state import Coefficients, State
 from .._dataset import Dataset
@@ -113,8 +113,7 @@ def vtu_state(
     verify: int = 1000,
 ) -> State:
     """The state of `from_vtu`."""
-    if not isinstance(path, (str, os.PathLike)):
-        raise BuildError(f"path: is {type(path).__name__}; give the path of a file .vtu or .vtkhdf")
+    of_kind("path", path, isinstance(path, (str, os.PathLike)), "the path of a file .vtu or .vtkhdf")
     if importlib.util.find_spec("vtk") is None and not os.fspath(path).endswith(".vtkhdf"):
         mesh = needed("meshio", "vtk", "files of VTK").read(path)
         return meshio_state(mesh, data, columns=columns, labels=labels, verify=verify)
@@ -140,8 +139,7 @@ def meshio_state(
     verify: int = 1000,
 ) -> State:
     """The state of `from_meshio`."""
-    if not hasattr(mesh, "point_data"):
-        raise BuildError(f"mesh: is {type(mesh).__name__}; give a meshio.Mesh, as by meshio.read(path)")
+    of_kind("mesh", mesh, hasattr(mesh, "point_data"), "a meshio.Mesh, as by meshio.read(path)")
     chosen = _chosen(data, list(mesh.point_data))
     points, values = numbers("mesh.points", mesh.points), _values(chosen, mesh.point_data[chosen], labels, columns)
     unknown = [part.type for part in mesh.cells if part.type not in NAMES and part.dim == 2]
