@@ -36,18 +36,18 @@ def modules(folder):
     return {".".join(part for part in names if part != "__init__"): path for names, path in zip(parts, paths)}
 
 
-def runs(tree):
+def nodes_run(tree):
     """All that is run of a module: names for type checkers alone are not."""
     for node in ast.iter_child_nodes(tree):
         if not (isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"):
             yield node
-            yield from runs(node)
+            yield from nodes_run(node)
 
 
-def imported(name, path, known):
+def imports_of(name, path, known):
     """The modules of the package that one imports, also inside of functions."""
     package = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
-    for node in runs(ast.parse(path.read_text())):
+    for node in nodes_run(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
             assert all(alias.name.split(".")[0] != "ppum" for alias in node.names), f"{name}: give imports a relative form"
         if isinstance(node, ast.ImportFrom) and node.level:
@@ -59,10 +59,10 @@ def imported(name, path, known):
 
 def graph(folder):
     known = modules(folder)
-    return {name: set(imported(name, path, known)) - {name} for name, path in known.items()}
+    return {name: set(imports_of(name, path, known)) - {name} for name, path in known.items()}
 
 
-def wrong(found, layers):
+def violations(found, layers):
     """Imports from layers above, and circles."""
     rank = {name: k for k, names in enumerate(layers.values()) for name in names}
     upward = [f"{name} imports {other}" for name, others in found.items() for other in others if rank[other] > rank[name]]
@@ -77,7 +77,7 @@ def test_imports_go_down():
     found = graph(pathlib.Path(ppum.__file__).parent)
     assert sorted(found) == sorted(name for names in LAYERS.values() for name in names)
     assert len(found["_dataset"]) > 4 and "_widget" in found[""]
-    assert wrong(found, LAYERS) == []
+    assert violations(found, LAYERS) == []
 
 
 def test_upward_imports_and_circles_are_found(tmp_path):
@@ -87,6 +87,6 @@ def test_upward_imports_and_circles_are_found(tmp_path):
     (tmp_path / "b.py").write_text("if TYPE_CHECKING:\n    from .c import two\n")
     (tmp_path / "c.py").write_text("from .b import three\n")
     layers = {"low": ["a"], "high": ["b", "c"], "package": [""]}
-    assert wrong(graph(tmp_path), layers) == ["a imports b"]
+    assert violations(graph(tmp_path), layers) == ["a imports b"]
     (tmp_path / "b.py").write_text("from .c import two\n")
-    assert wrong(graph(tmp_path), layers)[0] == "a imports b" and "circle" in wrong(graph(tmp_path), layers)[1]
+    assert violations(graph(tmp_path), layers)[0] == "a imports b" and "circle" in violations(graph(tmp_path), layers)[1]

@@ -190,7 +190,7 @@ def test_empty_rows_of_a_layout_are_told(f):
 
 def test_one_end_of_a_range(f):
     """The other one is that of an automatic range."""
-    facts = _core.frame(f._core, styles.written(styles.request(f, "ux", {}, None)), ((0.0, 0.0), 4.0), (64, 64))[1]
+    facts = _core.frame(f._core, styles.to_json(styles.request(f, "ux", {}, None)), ((0.0, 0.0), 4.0), (64, 64))[1]
     low, high = facts["range"]
     view = ppum.View((0, 0), 4.0, (64, 64))
     assert not np.array_equal(f.rgba("ux", view=view), f.rgba("ux", view=view, vmin=0.0))

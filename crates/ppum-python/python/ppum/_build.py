@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._checks import mapping, of_shape, real, rows, scalar, sequence, text
+from ._arrays import packed
 from ._blocks import Blocks, arranged
+from ._checks import check_shape, mapping, real, rows, scalar, sequence, text
 from ._cover import Cover
 from ._dataset import Dataset
 from ._errors import BuildError, QuantityError
@@ -20,7 +21,6 @@ from ._facts import Crack, Hole
 from ._functions import columns
 from ._head import Arrays, components_of, crack_arrays, listed, of_state, shared
 from ._mesh import Mesh
-from ._arrays import packed
 from ._places import in_arguments
 from ._problem import Elastic, Poisson
 from ._state import Coefficients, State
@@ -272,26 +272,18 @@ def _attributes(attributes: Mapping[str, ArrayLike], patches: int) -> Arrays:
         return {}
     values = [real(f"attributes[{name!r}]", given) for name, given in attributes.items()]
     for name, given in zip(attributes, values):
-        of_shape(f"attributes[{name!r}]", given, given.shape == (patches,), f"({patches},)")
+        check_shape(f"attributes[{name!r}]", given, given.shape == (patches,), f"({patches},)")
     return {"attributes/name": list(attributes), "attributes/values": np.array(values)}
 
 
 def _check_attributes(state: State, field: Any) -> None:
     """Refuses attributes that are never shown, since their names are those of something else."""
     for name in state.attributes:
-        if name in OF_PATCHES or _is_quantity(name, field):
+        if name in OF_PATCHES or field._is_quantity(name):
             raise BuildError(
                 f"attributes[{name!r}]: is the name of a quantity, which would be shown in its place; give another, such "
                 f"as {f'my {name}'!r}"
             )
-
-
-def _is_quantity(name: str, field: Any) -> bool:
-    try:
-        field._core.check(name)
-    except QuantityError:
-        return False
-    return True
 
 
 def _history(path: str, found: Mapping[str, float]) -> Arrays:

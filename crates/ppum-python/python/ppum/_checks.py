@@ -27,13 +27,13 @@ OTHERS = {
 }
 
 
-def of_kind(place: str, value: Any, fits: bool, remedy: str) -> None:
+def check_type(place: str, value: Any, fits: bool, remedy: str) -> None:
     """Refuses a value that is of another type."""
     if not fits:
         raise BuildError(f"{place}: is {type(value).__name__}; give {remedy}")
 
 
-def of_shape(place: str, array: NDArray[Any], fits: bool, expected: str) -> None:
+def check_shape(place: str, array: NDArray[Any], fits: bool, expected: str) -> None:
     """Refuses an array of another shape."""
     if not fits:
         raise BuildError(f"{place}: has the shape {array.shape}, expected {expected}")
@@ -77,7 +77,7 @@ def rows(name: str, values: ArrayLike, columns: int, count: int | None = None) -
     wanted = f"({'n' if count is None else count}, {columns})"
     if array.size == 0 and not count:
         return np.empty((0, columns))
-    of_shape(name, array, array.shape[1:] == (columns,) and count in (None, len(array)), wanted)
+    check_shape(name, array, array.shape[1:] == (columns,) and count in (None, len(array)), wanted)
     return array
 
 
@@ -94,7 +94,7 @@ def column(name: str, values: ArrayLike, count: int, kind: type) -> NDArray[Any]
     array = known(name, values)
     if array.ndim == 0:
         array = np.full(count, array)
-    of_shape(name, array, array.shape == (count,), f"({count},), one entry per patch")
+    check_shape(name, array, array.shape == (count,), f"({count},), one entry per patch")
     with np.errstate(invalid="ignore"):
         whole: NDArray[Any] = array.astype(kind)
     if (whole != array).any():
@@ -127,13 +127,13 @@ def integers(name: str, values: Any, count: int) -> list[int]:
 
 def text(name: str, value: Any) -> str:
     """A text."""
-    of_kind(name, value, isinstance(value, str), "a text")
+    check_type(name, value, isinstance(value, str), "a text")
     return str(value)
 
 
 def mapping(name: str, given: Mapping[str, Any], what: str) -> Mapping[str, Any]:
     """A dictionary by names; `what` says of what."""
-    of_kind(name, given, isinstance(given, Mapping), f"a dictionary of names and {what}")
+    check_type(name, given, isinstance(given, Mapping), f"a dictionary of names and {what}")
     for key in given:
         text(f"{name}[{short(key)}]", key)
     return given

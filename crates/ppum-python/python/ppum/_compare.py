@@ -234,8 +234,7 @@ class Comparing(Evaluation):
 
 
 def _needed(found: dict[str, Any]) -> Needed:
-    grid = found["grid"] and tuple(found["grid"])
-    return Needed(found["kind"], grid, found["reason"])
+    return Needed(found["kind"], found["grid"] and tuple(found["grid"]), found["reason"])
 
 
 def _norms(norms: dict[str, Any]) -> dict[str, Any]:

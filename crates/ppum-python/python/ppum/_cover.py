@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._checks import column, integers, numbers, positive, repeated, rows, scalar
 from ._errors import BuildError, warn
-from ._text import counted
+from ._text import plural
 from ._units import Floats
 
 
@@ -185,7 +185,7 @@ class Cover:
         return len(self.center)
 
     def __repr__(self) -> str:
-        return f"<ppum.Cover, {counted(len(self), 'patch', 'patches')}, {self.weight}>"
+        return f"<ppum.Cover, {plural(len(self), 'patch', 'patches')}, {self.weight}>"
 
 
 def _look(center: Floats, half: Floats, domain: Floats) -> None:

@@ -20,7 +20,7 @@ from ._field import KEPT, Field
 from ._options import passes
 from ._styles import ViewerOptions
 from ._tables import History, Numbered, Table
-from ._text import counted
+from ._text import plural
 
 if TYPE_CHECKING:
     from ._problem import Problem
@@ -127,7 +127,7 @@ class Step:
         return self.dataset._field(self.number)
 
     def __repr__(self) -> str:
-        return f"<ppum.Step {self.number}, {counted(self.patches, 'patch', 'patches')}, {counted(len(self.tips), 'tip')}>"
+        return f"<ppum.Step {self.number}, {plural(self.patches, 'patch', 'patches')}, {plural(len(self.tips), 'tip')}>"
 
 
 class Dataset:
@@ -293,9 +293,9 @@ class Dataset:
         last = self.steps[-1]
         counts = [
             self.equation,
-            counted(len(self.steps), "step"),
-            counted(last.patches, "patch", "patches"),
-            counted(len(last.tips), "tip"),
+            plural(len(self.steps), "step"),
+            plural(last.patches, "patch", "patches"),
+            plural(len(last.tips), "tip"),
         ]
         return f"<ppum.Dataset {self.title!r}, {', '.join(counts)}>"
 
@@ -304,7 +304,7 @@ class Dataset:
         last = self.steps[-1]
         rows = {
             "equation": self.equation,
-            "domain": f"({x0:g}, {y0:g}) to ({x1:g}, {y1:g}), {counted(len(self.holes), 'hole')}",
+            "domain": f"({x0:g}, {y0:g}) to ({x1:g}, {y1:g}), {plural(len(self.holes), 'hole')}",
             "steps": str(len(self.steps)),
             "patches, unknowns": f"{last.patches}, {last.unknowns}",
             "cracks": str(len(last.cracks)),

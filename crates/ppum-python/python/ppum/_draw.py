@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._errors import RenderError, needed, warn
+from ._errors import RenderError, require, warn
 from ._evaluation import Evaluation
 from ._options import passes, takes
 from ._pictures import Animation, Extremum, Figure
-from ._styles import AnimationOptions, FigureOptions, PlotOptions, RgbaOptions, checked, quantities, request
+from ._styles import AnimationOptions, FigureOptions, PlotOptions, RgbaOptions, quantities, request, request_text
 from ._units import milliseconds, pixels
 from ._views import SIZE, PixelOptions, PlaceOptions, Spot
 
@@ -72,10 +72,9 @@ class Drawing(Evaluation):
         """
         seen = self._seen(options)
         scene: Any = {name: value for name, value in options.items() if name != "size"}
-        asked = checked(self, request(self, quantity, scene, seen._spot))
+        asked = request_text(self, request(self, quantity, scene, seen._spot))
         rgba, told = _core.rgba(self._core, asked, seen._spot, seen.size)
-        for text in told:
-            warn(text)
+        warn(*told)
         return rgba
 
     @takes(FigureOptions)
@@ -115,7 +114,7 @@ class Drawing(Evaluation):
             raise TypeError("give `size` or `inches`, not both")
         at = self._place(options, SIZE if size is None else pixels(size))
         made = request(self, quantity, options, at, may_find=is_one)
-        return checked(self, {**made, "figure": is_figure, "place": self._placed(options, at)})
+        return request_text(self, {**made, "figure": is_figure, "place": self._placed(options, at)})
 
     def _placed(self, options: PlaceOptions, at: Spot | None) -> dict[str, Any]:
         """The place of a picture, as the libraries read it; a tip is followed where the plate is deformed."""
@@ -212,7 +211,7 @@ class Drawing(Evaluation):
             >>> bool(image.axes.get_xlim()[1] > 0.35)
             True
         """
-        needed("matplotlib", "matplotlib xarray", "pictures in matplotlib")
+        require("matplotlib", "matplotlib xarray", "pictures in matplotlib")
         from . import _axes
 
         plot: Any = _axes.plot

@@ -85,7 +85,7 @@ class ProblemError(PpumError, ValueError):
         return str(self.args[0])
 
 
-def needed(package: str, remedy: str, what: str, by: str = "pip install") -> Any:
+def require(package: str, remedy: str, what: str, by: str = "pip install") -> Any:
     """A package beyond numpy that `what` needs; without it an `ImportError` that says how to get it."""
     try:
         return importlib.import_module(package)
@@ -93,9 +93,10 @@ def needed(package: str, remedy: str, what: str, by: str = "pip install") -> Any
         raise ImportError(f"{what} need {package.split('.')[0]}: {by} {remedy}") from error
 
 
-def warn(text: str) -> None:
-    """Warns of the line outside of the package from which it was called."""
+def warn(*texts: str) -> None:
+    """Warns at the line outside of the package that led here."""
     level, frame = 1, sys._getframe()
     while frame.f_code.co_filename.startswith(PACKAGE) and frame.f_back:
         level, frame = level + 1, frame.f_back
-    warnings.warn(text, stacklevel=level)
+    for text in texts:
+        warnings.warn(text, stacklevel=level)

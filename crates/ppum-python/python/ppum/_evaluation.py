@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._errors import QuantityError
 from ._units import Floats, pair, pixels
 from ._values import Quantities, Quantity, SideName, Values
 from ._views import SIZE, PixelOptions, PlaceOptions, Spot, View, spot, view_of
@@ -107,6 +108,14 @@ class Evaluation:
     def components(self) -> tuple[str, ...]:
         """Names of the components: ``ux``, ``uy``, or ``u``."""
         return tuple(self._core.components())
+
+    def _is_quantity(self, name: str) -> bool:
+        """Whether points have values by this name: those of cells and what there is not have none."""
+        try:
+            self._core.check(name)
+        except QuantityError:
+            return False
+        return True
 
     def view_at(
         self,

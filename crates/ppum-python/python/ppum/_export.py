@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Annotated, Any, TypedDict, Unpack
 import numpy as np
 
 from . import _core
-from ._errors import needed, warn
+from ._errors import require, warn
 from ._evaluation import Evaluation
 from ._files import Drawn, folder_of, replace
 from ._options import Option, passes, takes
-from ._styles import HtmlOptions, checked, request
+from ._styles import HtmlOptions, request, request_text
 from ._units import Floats, positive
 from ._views import SIZE
 
@@ -33,8 +33,14 @@ RADIUS = (
     "the radius about tips outside of which stresses are resolved; by default 1/50 of the crack, of half of it if both ends "
     "are tips, or of the distance from other borders and cracks if that is less. A smaller one means a larger range"
 )
-ORDER = "degree of the polynomials between the points of a triangle, 1 to 4; higher ones take fewer triangles for fine tolerances"
-AVERAGE = "average where stresses jump between patches or elements, so that triangles share their points but for cracks and interfaces"
+ORDER = (
+    "degree of the polynomials between the points of a triangle, 1 to 4; higher ones take fewer triangles for fine "
+    "tolerances"
+)
+AVERAGE = (
+    "average where stresses jump between patches or elements, so that triangles share their points but for cracks and "
+    "interfaces"
+)
 
 
 class TriangleOptions(TypedDict, total=False):
@@ -120,7 +126,7 @@ class Triangles(Drawn):
         Raises:
             ImportError: The package pyvista is not installed.
         """
-        pyvista = needed("pyvista", "pyvista", "grids of PyVista")
+        pyvista = require("pyvista", "pyvista", "grids of PyVista")
         points = np.column_stack([self.points, np.zeros(len(self.points))])
         types = pyvista.CellType
         kind = types.TRIANGLE if self.cells.shape[1] == 3 else types.LAGRANGE_TRIANGLE
@@ -197,7 +203,7 @@ class Exporting(Evaluation):
         Raises:
             ImportError: The package pyvista is not installed.
         """
-        needed("pyvista", "pyvista", "grids of PyVista")
+        require("pyvista", "pyvista", "grids of PyVista")
         return self.triangles(quantities, **options).to_pyvista()
 
     @takes(HtmlOptions)
@@ -229,7 +235,7 @@ class Exporting(Evaluation):
             folder_of(target)
         at = self._place(options, SIZE)
         name = f"{target.stem}.h5" if target is not None else "dataset.h5"
-        asked = checked(self, request(self, quantity, options, at))
+        asked = request_text(self, request(self, quantity, options, at))
         page = _core.page(self._core, self.dataset._core, asked, at, name)
         if target is None:
             return page

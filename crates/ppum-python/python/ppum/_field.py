@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Unpack, overload
 from . import _core
 from ._compare import Comparing
 from ._draw import Drawing
-from ._errors import needed, warn
+from ._errors import require, warn
 from ._export import Exporting
 from ._facts import Tip, tips_of
 from ._options import passes
@@ -155,8 +155,7 @@ class Field(Sampling, Comparing, Drawing, Exporting):
         """The factors of all tips, found once."""
         if self._tips is None:
             found, ends, told = _core.intensities(self._core, None, progress)
-            for text in told:
-                warn(text)
+            warn(*told)
             self._tips = tips_of(json.loads(found), ends)
         return self._tips
 
@@ -178,7 +177,7 @@ class Field(Sampling, Comparing, Drawing, Exporting):
             >>> view.width
             0.25
         """
-        needed("anywidget", "anywidget", "views in notebooks")
+        require("anywidget", "anywidget", "views in notebooks")
         made: Viewer = self._viewer(self, quantity, **options)
         return made
 

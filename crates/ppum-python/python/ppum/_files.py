@@ -27,10 +27,9 @@ class Drawn:
 
     def _told(self, made: tuple[bytes, list[str]]) -> bytes:
         data, texts = made
-        for text in texts:
-            if text not in self.warnings:
-                self.warnings += (text,)
-                warn(text)
+        new = [text for text in dict.fromkeys(texts) if text not in self.warnings]
+        self.warnings += tuple(new)
+        warn(*new)
         return data
 
     def _draw(self, form: str) -> bytes:

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._checks import index, numbers, of_kind, of_shape, rows, scalar, sequence, short
+from ._checks import check_shape, check_type, index, numbers, rows, scalar, sequence, short
 from ._errors import BuildError
-from ._text import counted
+from ._text import plural
 
 
 @dataclass(frozen=True)
@@ -148,8 +148,8 @@ def _row(place: str, name: str, function: Function, cracks: Sequence[int], field
 
 
 def _frame(place: str, f: Formula, cracks: Sequence[int], fields: Sequence[str]) -> dict[str, Any]:
-    of_kind(f"{place}.text", f.text, isinstance(f.text, str), "a formula as text, such as 'sqrt(r)*cos(theta/2)'")
-    of_kind(f"{place}.parameters", f.parameters, isinstance(f.parameters, Mapping), "a dictionary of names and numbers")
+    check_type(f"{place}.text", f.text, isinstance(f.text, str), "a formula as text, such as 'sqrt(r)*cos(theta/2)'")
+    check_type(f"{place}.parameters", f.parameters, isinstance(f.parameters, Mapping), "a dictionary of names and numbers")
     row: dict[str, Any] = {
         "frame": "world",
         "role": f.role,
@@ -174,7 +174,7 @@ def _frame(place: str, f: Formula, cracks: Sequence[int], fields: Sequence[str])
         return row | {"frame": "tip", "frame_end": ENDS[str(end)], "crack": _crack(f"{place}.tip", crack, cracks)}
     if f.origin is not None or angle:
         origin = numbers(f"{place}.origin", (0, 0) if f.origin is None else f.origin)
-        of_shape(f"{place}.origin", origin, origin.shape == (2,), "(2,): a point")
+        check_shape(f"{place}.origin", origin, origin.shape == (2,), "(2,): a point")
         if not abs(angle) <= 2 * np.pi:
             raise BuildError(f"{place}.angle: {angle:g} is more than a turn; angles are in radians, see math.radians")
         row |= {"frame": "fixed", "frame_origin": tuple(origin), "frame_angle": angle}
@@ -192,7 +192,7 @@ def level_field(place: str, name: str, fields: Sequence[str]) -> int:
 def _crack(place: str, crack: int, cracks: Sequence[int]) -> int:
     found = index(crack, len(cracks))
     if found is None:
-        there = f"there {'is' if len(cracks) == 1 else 'are'} {counted(len(cracks), 'crack')}"
+        there = f"there {'is' if len(cracks) == 1 else 'are'} {plural(len(cracks), 'crack')}"
         raise BuildError(f"{place}: names crack {short(crack)}, but {there}, counted from 0")
     return found
 

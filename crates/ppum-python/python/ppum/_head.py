@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._checks import mapping, numbers, of_kind, rows, scalar, sequence, short, text
+from ._checks import check_type, mapping, numbers, rows, scalar, sequence, short, text
 from ._cover import Cover
 from ._errors import BuildError
 from ._facts import Crack, Hole
@@ -25,7 +25,7 @@ def listed(place: str, given: Any, kind: Any, remedy: str) -> list[Any]:
     """The entries of a list, all of a class."""
     entries = sequence(place, given, remedy)
     for k, one in enumerate(entries):
-        of_kind(f"{place}[{k}]", one, isinstance(one, kind), remedy)
+        check_type(f"{place}[{k}]", one, isinstance(one, kind), remedy)
     return entries
 
 
@@ -51,7 +51,7 @@ def shared(
     named = _tables({} if tables is None else tables) | _quantities({} if quantities is None else quantities)
     for k, state in enumerate(series):
         with of_state(k, len(series)):
-            of_kind("cover", state.cover, isinstance(state.cover, (Cover, Mesh)), "a ppum.Cover or a ppum.Mesh")
+            check_type("cover", state.cover, isinstance(state.cover, (Cover, Mesh)), "a ppum.Cover or a ppum.Mesh")
     low, high = domain = series[0].cover.domain
     for k, state in enumerate(series):
         if not np.array_equal(state.cover.domain, domain):
@@ -100,7 +100,7 @@ def _equation(equation: Elastic | Poisson | None) -> Arrays:
         return {"equation@kind": "none"}
     if isinstance(equation, Poisson):
         return {"equation@kind": "poisson", "equation@conductivity": _constant("conductivity", equation.conductivity)}
-    of_kind("equation", equation, isinstance(equation, Elastic), "ppum.Elastic, ppum.Poisson or None")
+    check_type("equation", equation, isinstance(equation, Elastic), "ppum.Elastic, ppum.Poisson or None")
     given = equation.eigenstrain if equation.eigenstrain is not None or equation.expansion is None else (0.0,) * 4
     if given is not None and (isinstance(given, str) or not hasattr(given, "__len__") or len(given) != 4):
         raise BuildError(f"equation.eigenstrain: is {short(given)}; give four numbers or formulas, of xx, yy, xy and zz")

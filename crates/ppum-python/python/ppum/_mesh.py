@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._checks import Ragged, index, integers, known, numbers, of_kind, of_shape, repeated, rows, sequence, short
 from ._blocks import MAX_DEGREE, degrees, exponents
-from ._functions import level_field
+from ._checks import Ragged, check_shape, check_type, index, integers, known, numbers, repeated, rows, sequence, short
 from ._errors import BuildError
+from ._functions import level_field
 from ._shapes import CORNERS, SQUARE, TRIANGLE, Powers, interpolated, lattice, vandermonde
-from ._text import counted
+from ._text import plural
 from ._units import Floats
 
 #: A level field by its name, and the side of it that a patch keeps: 1 where it is ≥ 0, -1 where it is < 0.
@@ -231,7 +231,7 @@ class Mesh:
 
     def __repr__(self) -> str:
         counts = [(int((self.shape == k).sum()), name) for name, k in SHAPES.items()]
-        words = [counted(count, name) for count, name in counts if count]
+        words = [plural(count, name) for count, name in counts if count]
         cut = sum(map(bool, self.clips))
         return f"<ppum.Mesh, {', '.join(words)}{f', {cut} cut' if cut else ''}>"
 
@@ -272,7 +272,7 @@ def _maps(map: Any, n: int) -> Ragged:
         count = f"has {len(map)} entries" if hasattr(map, "__len__") else f"is {type(map).__name__}"
         raise BuildError(f"map: {count}, but there are {n} origins; give one for each patch")
     if isinstance(map, np.ndarray) and map.ndim == 3:
-        of_shape("map", map, map.shape[2] == 2, f"({n}, m, 2)")
+        check_shape("map", map, map.shape[2] == 2, f"({n}, m, 2)")
         return Ragged.joined([numbers("map", map)])
     parts = [rows(f"map[{k}]", c, 2) for k, c in enumerate(map)]
     return Ragged(np.concatenate(parts), np.array([len(part) for part in parts]))
@@ -298,7 +298,7 @@ def _elements(element: ArrayLike, n: int) -> NDArray[np.int64]:
 
 
 def _clips(clips: Mapping[int, Sequence[Clip]], n: int) -> list[list[Clip]]:
-    of_kind("clips", clips, isinstance(clips, Mapping), "a dictionary by the number of the patch")
+    check_type("clips", clips, isinstance(clips, Mapping), "a dictionary by the number of the patch")
     for patch, of in clips.items():
         if index(patch, n) is None:
             raise BuildError(f"clips[{short(patch)}]: there is no such patch; the mesh has {n}, counted from 0")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._files import Drawn, Page
-from ._text import counted
+from ._text import plural
 from ._views import SIZE
 
 if TYPE_CHECKING:
@@ -102,4 +102,5 @@ class Animation(Drawn):
     def __repr__(self) -> str:
         request, numbers = self._made_of[1]
         asked = json.loads(request)
-        return f"<ppum.Animation of {asked.get('quantity') or 'a field'}, {counted(len(numbers), 'step')}, {_size(asked['look'])}>"
+        quantity, steps = asked.get("quantity") or "a field", plural(len(numbers), "step")
+        return f"<ppum.Animation of {quantity}, {steps}, {_size(asked['look'])}>"

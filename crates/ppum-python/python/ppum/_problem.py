@@ -20,7 +20,7 @@ from ._options import takes
 from ._sections import (
     AdaptivityOptions, BoundaryOptions, CrackOptions, DiscretizationOptions, GrowthOptions, HoleOptions, SpaceOptions,
 )  # fmt: skip
-from ._text import counted, plain, written
+from ._text import plain, plural, toml_lines
 
 Progress = Callable[[str, int, int, int], object]
 
@@ -119,7 +119,7 @@ class Problem:
             text = data.decode()
         except UnicodeDecodeError as error:
             message = f"byte {error.start} is no UTF-8; write the file in this encoding"
-            raise _refused([Finding(str(path), None, None, message)]) from None
+            raise _error_of([Finding(str(path), None, None, message)]) from None
         return cls._parse(text.replace("\r\n", "\n"), str(path), path.parent)
 
     @classmethod
@@ -134,7 +134,7 @@ class Problem:
         except tomllib.TOMLDecodeError as error:
             # the library says it with line and column
             findings = [Finding(**f) for f in _core.check(text, name, folder)]
-            raise _refused(findings or [Finding(name, None, None, str(error))]) from None
+            raise _error_of(findings or [Finding(name, None, None, str(error))]) from None
         return cls._of(spec, text, name, folder)
 
     @classmethod
@@ -154,7 +154,7 @@ class Problem:
 
     def to_toml(self) -> str:
         """The text of a problem file."""
-        return self._text if self._text is not None else written(self._spec)[0]
+        return self._text if self._text is not None else toml_lines(self._spec)[0]
 
     @takes(CrackOptions)
     def crack(self, *points: ArrayLike, **options: Unpack[CrackOptions]) -> Problem:
@@ -300,7 +300,7 @@ class Problem:
             >>> plate.boundary("nowhere", traction=(0, 1)).check()[0].place
             'boundary[2].on'
         """
-        text, keys = (self._text, None) if self._text is not None else written(self._spec)
+        text, keys = (self._text, None) if self._text is not None else toml_lines(self._spec)
         found = (Finding(**f) for f in _core.check(text, self._name, self._folder))
         return tuple(found if keys is None else (_of_key(finding, keys) for finding in found))
 
@@ -316,14 +316,14 @@ class Problem:
         return self._spec == other._spec and self._folder == other._folder
 
     def __hash__(self) -> int:
-        return hash(written(self._spec)[0])
+        return hash(toml_lines(self._spec)[0])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Problem._of, (self._spec, self._text, self._name, self._folder)
 
     def __repr__(self) -> str:
         title, cracks = self._spec.get("title", ""), self._spec.get("crack", ())
-        return f"<ppum.Problem {title!r}, {counted(len(cracks), 'crack')}>"
+        return f"<ppum.Problem {title!r}, {plural(len(cracks), 'crack')}>"
 
 
 def _kind(value: Any) -> str:
@@ -346,7 +346,7 @@ def _domain(domain: Any) -> Mapping[str, Any]:
         raise TypeError(f"{message}, not {domain!r}") from None
 
 
-def _refused(findings: Iterable[Finding]) -> ProblemError:
+def _error_of(findings: Iterable[Finding]) -> ProblemError:
     return ProblemError("\n".join(map(str, findings)), list(findings))
 
 
@@ -404,7 +404,7 @@ def solve(
         findings = problem.check() if problem._text is None else ()
         if not findings:
             raise
-        raise _refused(findings) from None
+        raise _error_of(findings) from None
     finally:
         if isinstance(told, _Line):
             told.clear()

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._errors import needed
+from ._errors import require
 from ._evaluation import Evaluation
 from ._text import math_text, plain
 from ._units import Floats, degrees, floats, pair
@@ -156,7 +156,7 @@ class Sampling(Evaluation):
 
 
 def _xarray() -> Any:
-    return needed("xarray", "xarray", "values along curves and on grids")
+    return require("xarray", "xarray", "values along curves and on grids")
 
 
 def _attribute(name: str) -> str:

@@ -207,23 +207,23 @@ def request(
 ) -> dict[str, Any]:
     """What a picture is asked for, as the libraries read it; what is not given is left out. An end of the range that is not
     given is that of an automatic one."""
-    made = _placed(options)
+    made = _at_places(options)
     made["quantity"], made["panels"]["quantities"] = quantities(asked)
     found = span(options)
     if not isinstance(found, str) and None in found:
         if not may_find:
             raise ValueError("give both vmin and vmax: the range is that of all panels or steps")
-        ends = _core.frame(field._core, written(made), at or spot(field.dataset.domain, SIZE), SIZE)[1]["range"]
+        ends = _core.frame(field._core, to_json(made), at or spot(field.dataset.domain, SIZE), SIZE)[1]["range"]
         low, high = (end if given is None else given for given, end in zip(found, ends, strict=True))
         found = _ends(low, high)
     made["colors"]["range"] = found if isinstance(found, str) else ",".join(map(_end, found))
     return made
 
 
-def _placed(options: Mapping[str, Any]) -> dict[str, Any]:
+def _at_places(options: Mapping[str, Any]) -> dict[str, Any]:
     """The options that are given at their places of a request."""
     made: dict[str, Any] = {"colors": {}, "panels": {}}
-    for name, (_, option) in REQUESTED.items():
+    for name, (_, option) in REQUEST_OPTIONS.items():
         if (value := options.get(name)) is not None:
             *group, key = option.at.split(".")
             inner = made.setdefault(group[0], {}) if group else made
@@ -231,14 +231,14 @@ def _placed(options: Mapping[str, Any]) -> dict[str, Any]:
     return made
 
 
-def written(made: Mapping[str, Any]) -> str:
+def to_json(made: Mapping[str, Any]) -> str:
     """The text of a request."""
     return json.dumps(plain(made, "picture"))
 
 
-def checked(field: Evaluation, made: Mapping[str, Any]) -> str:
+def request_text(field: Evaluation, made: Mapping[str, Any]) -> str:
     """The text of a request that the field can be drawn by."""
-    text = written(made)
+    text = to_json(made)
     _core.check_request(field._core, text)
     return text
 
@@ -319,4 +319,4 @@ def _labels(labels: Mapping[str, str]) -> dict[str, str]:
 
 
 #: The options that stand in requests.
-REQUESTED = {name: known for name, known in options_of(FigureOptions).items() if known[1].at}
+REQUEST_OPTIONS = {name: known for name, known in options_of(FigureOptions).items() if known[1].at}

@@ -13,10 +13,8 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._dataset import Dataset
-from ._dataset import open as open_dataset
-from ._errors import PpumError
-from ._errors import needed
+from ._dataset import Dataset, open as open_dataset
+from ._errors import PpumError, require
 from ._problem import Problem, solve
 
 #: What is kept of each tip, see `Tip`.
@@ -128,13 +126,13 @@ class Sweep:
             ('$K_{I}$', True)
         """
         # before hours of work, not after
-        xarray = needed("xarray", "xarray", "results of sweeps")
+        xarray = require("xarray", "xarray", "results of sweeps")
         folder = None if save is None else Path(save).absolute()
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
         made, rows = self._made()
         tell = _counting(progress, len(rows))
-        for done, (k, row) in enumerate(_solved(made, client, folder, threads), 1 + len(rows) - len(made)):
+        for done, (k, row) in enumerate(_rows_of(made, client, folder, threads), 1 + len(rows) - len(made)):
             rows[k] = row
             tell(done)
         return self._gathered(rows, xarray)
@@ -170,7 +168,7 @@ class Sweep:
         return xarray.Dataset(variables, {**self._values, "tip": np.arange(count)})
 
 
-def _solved(
+def _rows_of(
     problems: Mapping[int, Problem], client: Any, folder: Path | None, threads: int | None
 ) -> Iterator[tuple[int, _Row]]:
     """The rows of problems by their numbers, here or from the workers of a client. Results of these are taken and released

@@ -9,9 +9,8 @@ from typing import Any, Generic, Self, SupportsIndex, TypeVar, overload
 
 import numpy as np
 
-from ._errors import MissingKey
-from ._errors import needed
-from ._text import counted, hint, html_row
+from ._errors import MissingKey, require
+from ._text import hint, html_row, plural
 
 _Row = TypeVar("_Row")
 
@@ -45,7 +44,7 @@ class Numbered(tuple[_Row, ...], Generic[_Row]):
         number, count = operator.index(key), len(self)
         if not -count <= number < count:
             one, more = self._called
-            there = f"there {'is' if count == 1 else 'are'} {counted(count, one, more)}"
+            there = f"there {'is' if count == 1 else 'are'} {plural(count, one, more)}"
             raise IndexError(f"there is no {one} {number}: {there}, numbered from 0")
         return number % count
 
@@ -60,7 +59,7 @@ class Table(Numbered[_Row]):
 
     def to_pandas(self) -> Any:
         """The rows as a `pandas.DataFrame`; those attributes that are arrays are left out."""
-        pandas = needed("pandas", "pandas", "tables")
+        pandas = require("pandas", "pandas", "tables")
         return pandas.DataFrame(self._records(), columns=self._columns() or None)
 
     def _columns(self) -> list[str]:

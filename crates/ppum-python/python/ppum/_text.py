@@ -41,7 +41,7 @@ def one_of(name: str, value: str, words: Sequence[str], others: str = "") -> Non
     raise ValueError(f"{name}: {value!r} is not one of {known}{others}{meant}")
 
 
-def counted(count: int, one: str, more: str | None = None) -> str:
+def plural(count: int, one: str, more: str | None = None) -> str:
     """A number of things in words."""
     return f"{count} {one if count == 1 else more or one + 's'}"
 
@@ -68,7 +68,7 @@ def plain(value: Any, place: str = "a problem") -> Any:
     raise TypeError(f"{place}: is {type(value).__name__}; give real numbers, texts, lists or dictionaries")
 
 
-def written(spec: Mapping[str, Any]) -> tuple[str, list[str]]:
+def toml_lines(spec: Mapping[str, Any]) -> tuple[str, list[str]]:
     """The text of a problem file, and the key of each of its lines."""
     lines: list[tuple[str, str]] = []
     for name, value in spec.items():

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._checks import numbers, of_shape, real, short
-from ._functions import Component, Formula, Jump, Level
+from ._checks import check_shape, numbers, real, short
 from ._errors import BuildError
+from ._functions import Component, Formula, Jump, Level
 from ._state import Coefficients, Sampled, State
 from ._units import Floats
 POINTS = 1000
@@ -119,7 +119,7 @@ def _short(values: Floats) -> str:
 
 def _given(place: str, points: ArrayLike) -> Floats:
     array = numbers(f"{place}[0]", points)
-    of_shape(f"{place}[0]", array, array.shape[1:] == (2,) and len(array) > 0, "(k, 2): points")
+    check_shape(f"{place}[0]", array, array.shape[1:] == (2,) and len(array) > 0, "(k, 2): points")
     return array
 
 

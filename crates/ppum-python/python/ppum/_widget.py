@@ -20,11 +20,11 @@ import numpy as np
 import traitlets
 
 from . import _core
-from ._errors import PpumError, QuantityError
+from ._errors import PpumError
 from ._field import KEPT
 from ._options import passes, takes
 from ._pictures import Figure
-from ._styles import FigureOptions, Norm, ViewerOptions, request, span, written
+from ._styles import FigureOptions, Norm, ViewerOptions, request, span, to_json
 from ._views import PlaceOptions, Spot, View, spot
 
 if TYPE_CHECKING:
@@ -287,7 +287,7 @@ class Viewer(anywidget.AnyWidget):
         if moving and is_found and self._held:
             look["clim"] = self._held
         field, seen = self._at_step(), (self.center, self.width)
-        made = written(request(field, self.quantity, look, seen))  # type: ignore[arg-type]
+        made = to_json(request(field, self.quantity, look, seen))  # type: ignore[arg-type]
         png, facts = _core.frame(field._core, made, seen, size)
         self._held = facts["range"] if is_found else None
         return png, facts
@@ -308,7 +308,7 @@ class Viewer(anywidget.AnyWidget):
         place = f"x = {x:.12g}, y = {y:.12g}"
         if self.deformed is not None:
             return f"{place}: {self._on_deformed((x, y), side)}"
-        if near is None or self._is_of_cells():
+        if near is None or not self._at_step()._is_quantity(self.quantity):
             return f"{place}: {self._value(anchor, offset, side):.9g}"
         above, below = self._at_step().at(*offset, anchor=anchor, side="both")[self.quantity]
         return f"{place}: {above:.9g} above, {below:.9g} below the crack"
@@ -327,16 +327,9 @@ class Viewer(anywidget.AnyWidget):
     def _value(self, anchor: Any, offset: Any, side: float) -> float:
         """The quantity at a point; of cells that of the cell."""
         field = self._at_step()
-        if self._is_of_cells():
+        if not field._is_quantity(self.quantity):
             return float(field.render(self.quantity, center=anchor + offset, width=side, size=(1, 1))[0, 0])
         return float(field.at(*offset, anchor=anchor)[self.quantity])
-
-    def _is_of_cells(self) -> bool:
-        try:
-            self._at_step()._core.check(self.quantity)
-        except QuantityError:
-            return True
-        return False
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
         """The widget, and a picture for where there is no kernel: pages with the widget's state show `_still`.

@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._checks import numbers, of_kind, of_shape, rows, short
 from ._blocks import DEGREES, MAX_DEGREE, exponents
+from ._checks import check_shape, check_type, numbers, rows, short
 from ._cover import Cover
 from ._errors import BuildError, warn
 from ._units import Floats
@@ -149,7 +149,7 @@ def reframe(
     """
     given = numbers("coefficients", coefficients)
     is_fit = given.ndim in (2, 3) and given.shape[1] in DEGREES
-    of_shape("coefficients", given, is_fit, "(n, m) or (n, m, c), m = (d + 1)(d + 2)/2")
+    check_shape("coefficients", given, is_fit, "(n, m) or (n, m, c), m = (d + 1)(d + 2)/2")
     old, size, new, new_size = (
         _points(name, values, len(given)).astype(np.longdouble)
         for name, values in zip(("origin", "scale", "new_origin", "new_scale"), (origin, scale, new_origin, new_scale))
@@ -168,7 +168,7 @@ def reframe(
 def _points(name: str, values: ArrayLike, count: int) -> Floats:
     """A point for each patch, or one for all."""
     array = numbers(name, values)
-    of_shape(name, array, array.shape in ((2,), (count, 2)), f"({count}, 2), or (2,) for all patches")
+    check_shape(name, array, array.shape in ((2,), (count, 2)), f"({count}, 2), or (2,) for all patches")
     return np.broadcast_to(array, (count, 2))
 
 
@@ -191,7 +191,7 @@ def fit(
         >>> ppum.basis.fit(cover, 2, lambda patch, x, y: x * y).shape
         (4, 6)
     """
-    of_kind("cover", cover, isinstance(cover, Cover), "a ppum.Cover")
+    check_type("cover", cover, isinstance(cover, Cover), "a ppum.Cover")
     count = _bounded(degree) + 3
     nodes = np.cos(np.pi * (np.arange(count) + 0.5) / count)
     xi, eta = (a.reshape(-1) for a in np.meshgrid(nodes, nodes))
@@ -275,7 +275,11 @@ def _at(p: Poly, k: int) -> Fraction:
 
 
 def _times(p: Poly, q: Poly) -> Poly:
-    return [sum((p[i] * q[k - i] for i in range(len(p)) if 0 <= k - i < len(q)), Fraction(0)) for k in range(len(p) + len(q) - 1)]
+    product = [Fraction(0)] * (len(p) + len(q) - 1)
+    for i, a in enumerate(p):
+        for j, b in enumerate(q):
+            product[i + j] += a * b
+    return product
 
 
 def _composed(p: Poly, shift: Fraction, factor: Fraction) -> Poly:

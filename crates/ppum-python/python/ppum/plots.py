@@ -22,8 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._errors import warn
 from ._files import Page
-from ._units import degrees, pair
-from ._units import pixels
+from ._units import degrees, pair, pixels
 
 if TYPE_CHECKING:
     from ._dataset import Dataset
@@ -45,8 +44,7 @@ class Plot(Page):
         super().__init__()
         self._core, self._size = curves(*made_of), pixels(size)
         self._again = curves, made_of, self._size
-        for text in self._core.warnings():
-            warn(text)
+        warn(*self._core.warnings())
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Plot, self._again

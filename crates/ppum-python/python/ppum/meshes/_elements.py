@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._checks import Ragged
 from .._blocks import MAX_DEGREE, exponents
 from .._build import build
-from .._state import Coefficients, Sampled, State
+from .._checks import Ragged
 from .._dataset import Dataset
 from .._errors import BuildError
-from .._shapes import SQUARE, TRIANGLE, interpolated, nodes
 from .._mesh import Clip, Mesh
+from .._shapes import SQUARE, TRIANGLE, interpolated, nodes
+from .._state import Coefficients, Sampled, State
 from .._units import Floats
 
 #: Reference places of each shape, (k, 2).
@@ -187,7 +187,7 @@ def built(state: State, library: str, version: str, options: Mapping[str, Any]) 
     return build(state, **({"program": f"{library} {version}".strip()} | dict(options)))
 
 
-def by_shape(shapes: NDArray[np.int64], among: NDArray[np.int64], places: Places, values: Values) -> list[Group]:
+def group_by_shape(shapes: NDArray[np.int64], among: NDArray[np.int64], places: Places, values: Values) -> list[Group]:
     """Groups of elements of each shape by what is known at places of the triangle (0, 0), (1, 0), (0, 1) or the square
     [0, 1]²: points and values."""
     groups = []

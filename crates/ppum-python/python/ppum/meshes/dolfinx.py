@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._checks import real
-from .._state import State
 from .._dataset import Dataset
-from .._errors import BuildError
-from .._errors import needed
+from .._errors import BuildError, require
 from .._shapes import SQUARE, TRIANGLE
+from .._state import State
 from .._units import Floats
 from ._elements import Group, Labels, Places, Sampler, built, compared, smooth, to_unit
 
@@ -33,7 +32,7 @@ def from_dolfinx(
         u: The Function; parts of mixed ones by ``u.sub(k).collapse()``.
         name, components, unit, verify, options: As of `from_ngsolve`.
     """
-    version = needed("dolfinx", "fenics-dolfinx", "fields of DOLFINx", CONDA).__version__
+    version = require("dolfinx", "fenics-dolfinx", "fields of DOLFINx", CONDA).__version__
     return built(state(u, labels=Labels(name, components, unit), verify=verify), "DOLFINx", version, options)
 
 

@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._checks import of_kind, real
 from .._blocks import MAX_DEGREE, exponents
-from .._state import Coefficients, State
+from .._checks import check_type, real
 from .._dataset import Dataset
+from .._errors import BuildError, require
 from .._functions import Formula
-from .._errors import BuildError
-from .._errors import needed
 from .._shapes import SQUARE, TRIANGLE
+from .._state import Coefficients, State
 from .._units import Floats
 from ._elements import Elements, Group, Labels, Places, built, compared, labelled, random_places, to_unit
 
@@ -81,7 +80,7 @@ def from_getfem(
 
 def state(mf: Any, u: Any, crack: Crack | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
     """The state of `from_getfem`."""
-    of_kind("mf", mf, hasattr(mf, "linked_mesh"), "a MeshFem of GetFEM")
+    check_type("mf", mf, hasattr(mf, "linked_mesh"), "a MeshFem of GetFEM")
     source = _Source(mf, real("u", u).ravel(), crack)
     elements = Elements(source.sample, source.order, source.geometry)
     known = compared(source.evaluate, verify, source.off)
@@ -107,7 +106,7 @@ def state(mf: Any, u: Any, crack: Crack | None = None, *, labels: Labels = Label
 
 
 def _library() -> Any:
-    return needed("getfem", "python3-getfem", "fields of GetFEM", "apt install")
+    return require("getfem", "python3-getfem", "fields of GetFEM", "apt install")
 
 
 class _Space:

@@ -8,14 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._checks import of_kind, real
-from .._state import State
+from .._checks import check_type, real
 from .._dataset import Dataset
-from .._errors import BuildError
-from .._errors import needed
+from .._errors import BuildError, require
 from .._shapes import SQUARE, TRIANGLE
+from .._state import State
 from .._units import Floats
-from ._elements import SEED, Labels, Sampler, built, by_shape, compared, smooth
+from ._elements import SEED, Labels, Sampler, built, compared, group_by_shape, smooth
 
 __all__ = ["from_mfem", "state"]
 
@@ -38,14 +37,14 @@ def from_mfem(
         order: Degree of the polynomials, on squares in each variable; by default the highest of the space.
         name, components, unit, verify, options: As of `from_ngsolve`.
     """
-    package = needed("mfem", "mfem", "fields of MFEM")
+    package = require("mfem", "mfem", "fields of MFEM")
     made = state(gf, order, labels=Labels(name, components, unit), verify=verify)
     return built(made, "MFEM", getattr(package, "__version__", ""), options)
 
 
 def state(gf: Any, order: int | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
     """The state of `from_mfem`."""
-    of_kind("gf", gf, hasattr(gf, "FESpace"), "a GridFunction of MFEM")
+    check_type("gf", gf, hasattr(gf, "FESpace"), "a GridFunction of MFEM")
     space = gf.FESpace()
     mesh = space.GetMesh()
     if mesh.Dimension() != 2 or mesh.SpaceDimension() != 2:
@@ -63,7 +62,7 @@ def _shapes(mesh: Any) -> NDArray[np.int64]:
 
 
 def _library() -> Any:
-    return needed("mfem.ser", "mfem", "fields of MFEM")
+    return require("mfem.ser", "mfem", "fields of MFEM")
 
 
 def sampler(gf: Any, mesh: Any) -> Sampler:
@@ -77,7 +76,7 @@ def sampler(gf: Any, mesh: Any) -> Sampler:
     points = _straight(mesh) if mesh.GetNodes() is None else _tabulated(mesh.GetNodes())
 
     all_ = np.arange(len(shape))
-    return lambda places: by_shape(shape, all_, places, lambda of, at: (points(of, at), values(of, at)))
+    return lambda places: group_by_shape(shape, all_, places, lambda of, at: (points(of, at), values(of, at)))
 
 
 #: Values (n, k, c) of elements of one shape at places (k, 2).
@@ -158,7 +157,7 @@ def evaluator(gf: Any, mesh: Any, most: int | None = None) -> Sampler:
         shape = len(elements), len(rule), -1
         return np.array(points).reshape(shape)[..., :2], np.array(values).reshape(shape)
 
-    return lambda places: by_shape(shape, chosen, places, at)
+    return lambda places: group_by_shape(shape, chosen, places, at)
 
 
 def _rule(places: Floats) -> list[Any]:

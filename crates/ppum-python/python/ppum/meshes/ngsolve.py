@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from .._checks import of_kind, real
+from .._checks import check_type, real
 from .._dataset import Dataset
-from .._state import State
-from .._errors import BuildError
-from .._errors import needed
+from .._errors import BuildError, require
 from .._shapes import SQUARE, TRIANGLE
+from .._state import State
 from ._elements import Group, Labels, Places, Sampler, built, compared, smooth, to_unit
 
 __all__ = ["from_ngsolve", "state"]
@@ -39,7 +38,7 @@ def from_ngsolve(
         verify: Number of random points at which the dataset is compared with NGSolve.
         options: As of `build`, such as `equation` and `title`.
     """
-    version = needed("ngsolve", "ngsolve", "fields of NGSolve").__version__
+    version = require("ngsolve", "ngsolve", "fields of NGSolve").__version__
     made = state(gf, order, mesh=mesh, labels=Labels(name, components, unit), verify=verify)
     return built(made, "NGSolve", version, options)
 
@@ -57,7 +56,7 @@ def state(
 
 def mesh_of(gf: Any, mesh: Any) -> Any:
     """The mesh of a field, in two dimensions."""
-    of_kind("gf", gf, callable(gf), "a GridFunction or a CoefficientFunction of NGSolve")
+    check_type("gf", gf, callable(gf), "a GridFunction or a CoefficientFunction of NGSolve")
     # a vector has as many dimensions as components, a compound field one
     if int(gf.dim) < len(getattr(gf, "components", ())):
         raise BuildError("gf: is compound; give one of its parts, such as gf.components[0]")
@@ -79,7 +78,7 @@ def order_of(gf: Any) -> int:
 
 def sampler(mesh: Any, fields: list[Any]) -> Sampler:
     """Values of several fields, one after the other."""
-    ngs = needed("ngsolve", "ngsolve", "fields of NGSolve")
+    ngs = require("ngsolve", "ngsolve", "fields of NGSolve")
     shapes = {ngs.ET.TRIG: TRIANGLE, ngs.ET.QUAD: SQUARE}
     shape = np.array([shapes[element.type] for element in mesh.Elements(ngs.VOL)])
 

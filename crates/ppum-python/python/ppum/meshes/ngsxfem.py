@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from .._state import Coefficients, State
 from .._dataset import Dataset
-from .._errors import needed
-from .._state import Sampled
+from .._errors import require
+from .._state import Coefficients, Sampled, State
 from .._units import Floats
 from ._elements import Elements, Labels, built, compared, labelled
 from .ngsolve import mesh_of, order_of, sampler
@@ -42,7 +41,7 @@ def from_ngsxfem(
         order: Degree of the polynomials; by default the higher one of the spaces.
         name, components, unit, verify, options: As of `from_ngsolve`.
     """
-    version = needed("ngsolve", "xfem", "fields of ngsxfem").__version__
+    version = require("ngsolve", "xfem", "fields of ngsxfem").__version__
     made = state(negative, positive, levelset, order, labels=Labels(name, components, unit), verify=verify)
     return built(made, "ngsxfem, NGSolve", version, options)
 
@@ -76,7 +75,7 @@ def state(
 
 def _signs(mesh: Any, levelset: Any) -> list[tuple[bool, bool]]:
     """Whether each element has a negative and a positive side, as ngsxfem decides it."""
-    xfem = needed("xfem", "xfem", "fields of ngsxfem")
+    xfem = require("xfem", "xfem", "fields of ngsxfem")
     cuts = xfem.CutInfo(mesh, levelset)
     has = [cuts.GetElementsOfType(kind) for kind in (xfem.HASNEG, xfem.HASPOS)]
     return [(bool(has[0][k]), bool(has[1][k])) for k in range(mesh.ne)]

@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 
 from .._checks import real
-from .._state import State
 from .._dataset import Dataset
-from .._errors import BuildError
-from .._errors import needed
+from .._errors import BuildError, require
 from .._shapes import SQUARE, TRIANGLE
+from .._state import State
 from .._units import Floats
 from ._elements import Group, Labels, Places, Sampler, built, compared, smooth, to_unit
 
@@ -37,7 +36,7 @@ def from_skfem(
         order: Degree of the polynomials, on squares in each variable; by default the one of the element.
         name, components, unit, verify, options: As of `from_ngsolve`.
     """
-    version = needed("skfem", "scikit-fem", "fields of scikit-fem").__version__
+    version = require("skfem", "scikit-fem", "fields of scikit-fem").__version__
     made = state(basis, u, order, labels=Labels(name, components, unit), verify=verify)
     return built(made, "scikit-fem", version, options)
 

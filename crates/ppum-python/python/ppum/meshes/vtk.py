@@ -11,15 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._checks import numbers, of_kind, sequence
 from .._blocks import MAX_DEGREE, exponents
-from .._state import Coefficients, State
+from .._checks import check_type, numbers, sequence
 from .._dataset import Dataset
-from .._errors import BuildError
-from .._errors import needed
+from .._errors import BuildError, require
 from .._head import components_of
 from .._shapes import SQUARE, TRIANGLE
-from .._state import Sampled
+from .._state import Coefficients, Sampled, State
 from .._units import Floats
 from ._elements import SEED, Group, Labels, Places, built, compared, from_unit, smooth, to_unit
 
@@ -98,7 +96,7 @@ def from_meshio(
         columns, name, components, unit, options: As of `from_vtu`.
         verify: Number of nodes at which the dataset is compared; meshio evaluates no fields.
     """
-    version = needed("meshio", "meshio", "meshes of meshio").__version__
+    version = require("meshio", "meshio", "meshes of meshio").__version__
     made = meshio_state(mesh, data, columns=columns, labels=Labels(name or "", components, unit), verify=verify)
     _check_columns(made, options.get("equation"))
     return built(made, "meshio", version, options)
@@ -113,9 +111,9 @@ def vtu_state(
     verify: int = 1000,
 ) -> State:
     """The state of `from_vtu`."""
-    of_kind("path", path, isinstance(path, (str, os.PathLike)), "the path of a file .vtu or .vtkhdf")
+    check_type("path", path, isinstance(path, (str, os.PathLike)), "the path of a file .vtu or .vtkhdf")
     if importlib.util.find_spec("vtk") is None and not os.fspath(path).endswith(".vtkhdf"):
-        mesh = needed("meshio", "vtk", "files of VTK").read(path)
+        mesh = require("meshio", "vtk", "files of VTK").read(path)
         return meshio_state(mesh, data, columns=columns, labels=labels, verify=verify)
     grid = _grid(path)
     arrays = grid.GetPointData()
@@ -139,7 +137,7 @@ def meshio_state(
     verify: int = 1000,
 ) -> State:
     """The state of `from_meshio`."""
-    of_kind("mesh", mesh, hasattr(mesh, "point_data"), "a meshio.Mesh, as by meshio.read(path)")
+    check_type("mesh", mesh, hasattr(mesh, "point_data"), "a meshio.Mesh, as by meshio.read(path)")
     chosen = _chosen(data, list(mesh.point_data))
     points, values = numbers("mesh.points", mesh.points), _values(chosen, mesh.point_data[chosen], labels, columns)
     unknown = [part.type for part in mesh.cells if part.type not in NAMES and part.dim == 2]
@@ -209,7 +207,7 @@ def _chosen(data: str | None, known: Sequence[str]) -> str:
 
 def _grid(path: str | os.PathLike[str]) -> Any:
     """The unstructured grid of a file."""
-    vtk, name = needed("vtk", "vtk", "files of VTK"), os.fspath(path)
+    vtk, name = require("vtk", "vtk", "files of VTK"), os.fspath(path)
     if not os.path.exists(path):
         raise FileNotFoundError(f"{name}: there is no such file")
     if not name.endswith((".vtu", ".vtkhdf")):
@@ -229,7 +227,7 @@ def _grid(path: str | os.PathLike[str]) -> Any:
 
 
 def _numpy(array: Any) -> NDArray[Any]:
-    support = needed("vtk.util.numpy_support", "vtk", "files of VTK")
+    support = require("vtk.util.numpy_support", "vtk", "files of VTK")
     return np.asarray(support.vtk_to_numpy(array))
 
 
