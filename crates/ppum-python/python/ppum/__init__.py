@@ -8,7 +8,7 @@ Example:
     (2,)
 """
 
-from typing import Any
+from typing import Any as _Any
 
 from . import _core, basis, plots
 from ._build import arrays, build, from_arrays
@@ -56,7 +56,7 @@ __all__ = [
 ]  # fmt: skip
 
 
-def _viewer(*args: Any, **options: Any) -> Any:
+def _viewer(*args: _Any, **options: _Any) -> _Any:
     from ._widget import Viewer
 
     return Viewer(*args, **options)

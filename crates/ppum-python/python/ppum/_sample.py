@@ -15,11 +15,14 @@ from ._text import math_text, plain
 from ._units import Floats, degrees, floats, pair
 from ._values import SideName
 
+#: Points of a curve where no number is given, as the program has it.
+POINTS = 201
+
 
 class Sampling(Evaluation):
     """The curves and grids of a `Field`."""
 
-    def line(self, start: ArrayLike, end: ArrayLike, *, num: int = 201, quantities: Sequence[str] | None = None) -> Any:
+    def line(self, start: ArrayLike, end: ArrayLike, *, num: int = POINTS, quantities: Sequence[str] | None = None) -> Any:
         """Values along a line, as an `xarray.Dataset` over the distance `s` from its start.
 
         Coordinates are `x`, `y` and `side`: where the line meets a crack there are two rows, above (1) and below (-1).
@@ -33,7 +36,7 @@ class Sampling(Evaluation):
         return self._curve(along, num, quantities)
 
     def circle(
-        self, center: ArrayLike, radius: float, *, num: int = 201, quantities: Sequence[str] | None = None
+        self, center: ArrayLike, radius: float, *, num: int = POINTS, quantities: Sequence[str] | None = None
     ) -> Any:
         """Values on a circle, as an `xarray.Dataset` over the angle `theta` from the x axis, radians.
 
@@ -44,7 +47,7 @@ class Sampling(Evaluation):
         along = {"circle": {"center": pair(center), "radius": radius}}
         return self._curve(along, num, quantities)
 
-    def along(self, crack: Any, *, num: int = 201, quantities: Sequence[str] | None = None) -> Any:
+    def along(self, crack: Any, *, num: int = POINTS, quantities: Sequence[str] | None = None) -> Any:
         """Values on both sides of a crack, as an `xarray.Dataset` over the arc length `s`: of each quantity
         `…_above` and `…_below`, and of a displacement the jumps `jump_ux` and `jump_uy`, `opening` and `sliding`.
 
@@ -58,7 +61,7 @@ class Sampling(Evaluation):
         return self._curve({"crack": {"index": getattr(crack, "index", crack)}}, num, quantities)
 
     def around(
-        self, tip: int, radius: float | None = None, *, num: int = 201, quantities: Sequence[str] | None = None
+        self, tip: int, radius: float | None = None, *, num: int = POINTS, quantities: Sequence[str] | None = None
     ) -> Any:
         """Values on a circle around a tip, as an `xarray.Dataset` over the angle `theta` from the crack's extension,
         radians; by default a hundredth of the crack's length away.
@@ -75,7 +78,7 @@ class Sampling(Evaluation):
         angle: float = 0.0,
         length: float | None = None,
         *,
-        num: int = 201,
+        num: int = POINTS,
         quantities: Sequence[str] | None = None,
     ) -> Any:
         """Values on a ray from a tip, as an `xarray.Dataset` over the distance `r` in steps of its logarithm.

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._errors import warn
 from ._files import Page
+from ._sample import POINTS
 from ._units import degrees, pair, pixels
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ def line(
     end: ArrayLike,
     quantities: Sequence[str] | None = None,
     *,
-    num: int = 201,
+    num: int = POINTS,
     log: Axes = "",
     size: Size = SIZE,
 ) -> Plot:
@@ -96,7 +97,7 @@ def circle(
     radius: float,
     quantities: Sequence[str] | None = None,
     *,
-    num: int = 201,
+    num: int = POINTS,
     log: Axes = "",
     size: Size = SIZE,
 ) -> Plot:
@@ -110,7 +111,7 @@ def crack(
     crack: Any = 0,
     quantities: Sequence[str] | None = None,
     *,
-    num: int = 201,
+    num: int = POINTS,
     log: Axes = "",
     size: Size = SIZE,
 ) -> Plot:
@@ -135,7 +136,7 @@ def around(
     radius: float | None = None,
     quantities: Sequence[str] | None = None,
     *,
-    num: int = 201,
+    num: int = POINTS,
     log: Axes = "",
     size: Size = SIZE,
 ) -> Plot:
@@ -152,7 +153,7 @@ def ray(
     length: float | None = None,
     quantities: Sequence[str] | None = None,
     *,
-    num: int = 201,
+    num: int = POINTS,
     log: Axes = "",
     size: Size = SIZE,
 ) -> Plot:
