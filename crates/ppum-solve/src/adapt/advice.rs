@@ -20,9 +20,17 @@ pub(crate) struct Adviser<'a> {
     kind: AdaptKind,
     field: &'a Field<'a>,
     space: &'a Space<'a>,
-    /// Tips, and what else is singular: functions times a few polynomials do not make the
-    /// rest smooth.
+    /// Where the field is singular.
     singular: Placed<Vec2>,
+}
+
+/// Tips, and what else is singular: functions times a few polynomials do not make the rest smooth.
+pub(super) fn singular_points(problem: &Problem) -> Placed<Vec2> {
+    let place = |tip: TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
+    // where tips have their series, the rest of the field is smooth
+    let bare_tips = tips(&problem.cracks).filter(|_| !problem.has_series()).map(place);
+    let others = corners(problem).into_iter().map(|corner| corner.at);
+    Placed::new(bare_tips.chain(others).map(|point| (around(&[point]), point)))
 }
 
 impl<'a> Adviser<'a> {
@@ -32,12 +40,7 @@ impl<'a> Adviser<'a> {
         field: &'a Field<'a>,
         space: &'a Space<'a>,
     ) -> Self {
-        let place = |tip: TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
-        // where tips have their series, the rest of the field is smooth
-        let bare_tips = tips(&problem.cracks).filter(|_| !problem.has_series()).map(place);
-        let others = corners(problem).into_iter().map(|corner| corner.at);
-        let singular = bare_tips.chain(others).map(|point| (around(&[point]), point));
-        Self { kind, field, space, singular: Placed::new(singular) }
+        Self { kind, field, space, singular: singular_points(problem) }
     }
 
     /// What to do about a cell, if that is possible.

@@ -19,15 +19,6 @@ use std::f64::consts::PI;
 /// with no tractions but those of the rounding of places, which have no bound.
 const AT_FORCE: f64 = 1e-6;
 
-/// The squares of what a cell misses.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Unseen {
-    /// Of all data.
-    pub(super) all: f64,
-    /// Of what faces that touch owe each other, which is a part of it.
-    pub(super) contact: f64,
-}
-
 /// The squares of what each cell misses of the data. Advances the stage by their number.
 ///
 /// # Errors
@@ -37,7 +28,7 @@ pub(super) fn unseen_data(
     field: &Field<'_>,
     space: &Space<'_>,
     stage: &Stage<'_>,
-) -> Result<Vec<Unseen>, Halt> {
+) -> Result<Vec<f64>, Halt> {
     let n = space.partition().len();
     let data = DataResidual {
         problem,
@@ -70,17 +61,17 @@ struct DataResidual<'a> {
 }
 
 impl DataResidual<'_> {
-    fn in_cell(&self, cell: usize) -> Unseen {
+    fn in_cell(&self, cell: usize) -> f64 {
         let (rect, order) = (&self.space.partition().cell[cell], self.space.order(cell));
-        let mut unseen = Unseen::default();
+        let mut unseen = 0.0;
         for part in self.border.iter().filter(|part| part.may_meet(rect)) {
             let coverers = &self.space.coverers[cell];
             let rules = border_rules(self.problem, part.on, &self.quadrature, rect, coverers);
-            rules.iter().for_each(|rule| self.on_border(part, rule, (rect, order), &mut unseen));
+            unseen +=
+                rules.iter().map(|rule| self.on_border(part, rule, (rect, order))).sum::<f64>();
         }
         let inside = if self.has_source { self.of_source(cell, rect, order) } else { 0.0 };
-        unseen.all += inside + self.of_eigenstrain(cell, rect, order);
-        unseen
+        unseen + inside + self.of_eigenstrain(cell, rect, order)
     }
 
     /// ∫ |C ε⁰ − Π C ε⁰|² / C with the best polynomials of a degree below the order p, which the
@@ -117,15 +108,14 @@ impl DataResidual<'_> {
         d * d * unseen(&places, order, &mut values) / self.law.at(rect.center()).modulus(0)
     }
 
-    /// Adds the squares of what the field misses of the tractions and values at the points of a
+    /// The squares of what the field misses of the tractions and values at the points of a
     /// rule.
     fn on_border(
         &self,
         part: &BorderConditions,
         rule: &EdgeRule,
         (rect, order): (&Rect, usize),
-        unseen: &mut Unseen,
-    ) {
+    ) -> f64 {
         let h = rect.size().x.max(rect.size().y);
         let (p, tips) = (order as f64, self.tips(rule));
         let (local, side) = match rule.face {
@@ -171,9 +161,7 @@ impl DataResidual<'_> {
                     };
             }
         }
-        unseen.all += sum;
-        let is_open = between.is_none_or(|states| states.iter().all(|state| state.gap == 0.0));
-        unseen.contact += if is_open { 0.0 } else { sum };
+        sum
     }
 
     /// The tips of the crack whose face a rule lies on: the tractions of tip functions one by one

@@ -24,6 +24,7 @@ mod overlap;
 mod span;
 
 pub(crate) use advice::Adviser;
+use advice::singular_points;
 pub(crate) use mark::mark;
 
 use crate::problem::Problem;
@@ -40,8 +41,6 @@ pub(crate) struct Estimated {
     pub(crate) energy: f64,
     /// The squares η_j².
     pub(crate) squares: Vec<f64>,
-    /// The parts of the squares that stand for what faces that touch owe each other.
-    pub(crate) contact: Vec<f64>,
     /// The products of the disagreements of the field and of all dual fields: a row for each
     /// of them.
     pub(crate) products: Vec<Mat<f64>>,
@@ -58,10 +57,8 @@ pub(crate) fn estimated(
     local: LocalFields<'_>,
     stage: &Stage<'_>,
 ) -> Result<Estimated, Halt> {
-    let (energy, products) = disagreements(local, stage)?;
+    let (energy, products) = disagreements(local, &singular_points(problem), stage)?;
     let unseen = unseen_data(problem, field, local.space, stage)?;
-    let squares =
-        products.iter().zip(&unseen).map(|(own, unseen)| own[(0, 0)] + unseen.all).collect();
-    let contact = unseen.iter().map(|unseen| unseen.contact).collect();
-    Ok(Estimated { energy, squares, contact, products })
+    let squares = products.iter().zip(&unseen).map(|(own, unseen)| own[(0, 0)] + unseen).collect();
+    Ok(Estimated { energy, squares, products })
 }

@@ -1,7 +1,8 @@
 //! The disagreement of the local fields where patches overlap.
 //!
 //! ```text
-//! η_j² = ∫_{C_j} Σ_i s_i φ_i |ε(u_i) − ε(u)|²_C        u = Σ_i φ_i u_i        s_i = min(1, 2/p_i)²
+//! η_j² = ∫_{C_j} Σ_i s_i φ_i |ε(u_i) − ε(u)|²_C        u = Σ_i φ_i u_i
+//! s_i = min(1, 2/p_i)², min(1, 2/p_i) if a point lies in the patch where the field is singular
 //! ```
 //!
 //! Neighbours approximate one smooth field with polynomials of their own; what each of them misses
@@ -10,6 +11,7 @@
 //! σ(u)) : (ε(v_i) − ε(v)) in place of the square.
 
 use crate::basis::{ShapeEvaluator, Shapes};
+use crate::geometry::Placed;
 use crate::law::Law;
 use crate::quadrature::Rule;
 use crate::space::Space;
@@ -42,18 +44,25 @@ pub(crate) struct LocalFields<'a> {
 /// Cancelled.
 pub(super) fn disagreements(
     fields: LocalFields<'_>,
+    singular: &Placed<Vec2>,
     stage: &Stage<'_>,
 ) -> Result<(f64, Vec<Mat<f64>>), Halt> {
     let LocalFields { space, coefficients, .. } = fields;
     let (law, quadrature) = (space.law(), space.quadrature(0));
     let n = coefficients.first().map_or(0, Mat::nrows) / law.components;
     let (mut energy, mut all) = (0.0, Vec::with_capacity(coefficients.len()));
+    let share = |patch: usize| {
+        let is_singular = singular.near(&space.partition().support(patch)).next().is_some();
+        share_of_error(space.order(patch), is_singular)
+    };
+    let shares: Vec<f64> = (0..coefficients.len()).map(share).collect();
     let start = || (ShapeEvaluator::of_series(space), Shapes::default());
     let work = |(evaluator, shapes): &mut (ShapeEvaluator<'_>, Shapes), cell: usize| {
         let (mut energy, mut sum) = (0.0, Mat::zeros(n, n));
         for rule in space.rules(&quadrature, cell).iter() {
             evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
-            energy += SampledFields { fields, law: &law, rule, shapes }.add(&mut sum);
+            energy +=
+                SampledFields { fields, shares: &shares, law: &law, rule, shapes }.add(&mut sum);
         }
         Ok((energy, sum))
     };
@@ -64,16 +73,20 @@ pub(super) fn disagreements(
     Ok((energy, all))
 }
 
-/// Part of the disagreement that is the error: of smooth fields of the orders 1 to 8 the
-/// disagreement was 1.1, 1.4, 2.0, 2.9, 3.0, 4.2, 5.5 and 6.2 times the error, as polynomials of
-/// higher order differ more outside their flat tops than they err inside.
-fn share_of_error(order: usize) -> f64 {
-    (2.0 / order.max(1) as f64).min(1.0)
+/// Part s of the square of the disagreement that is that of the error: of smooth fields of the
+/// orders 1 to 8 the disagreement was 1.1, 1.4, 2.0, 2.9, 3.0, 4.2, 5.5 and 6.2 times the error, as
+/// polynomials of higher order differ more outside their flat tops than they err inside. Beside
+/// singular points the error is inside, too.
+fn share_of_error(order: usize, is_singular: bool) -> f64 {
+    let share = (2.0 / order.max(1) as f64).min(1.0);
+    if is_singular { share } else { share * share }
 }
 
 /// Shapes at the points of a rule, and the fields that they make.
 struct SampledFields<'a> {
     fields: LocalFields<'a>,
+    /// s_i of each patch.
+    shares: &'a [f64],
     law: &'a Law<'a>,
     rule: &'a Rule,
     shapes: &'a Shapes,
@@ -84,8 +97,6 @@ struct Products {
     patch: usize,
     /// The row of φ among the shapes.
     phi: usize,
-    /// s_i
-    share: f64,
     value: Vec<f64>,
     slopes: [Vec<f64>; 2],
 }
@@ -153,7 +164,7 @@ impl SampledFields<'_> {
     }
 
     fn products(&self) -> Vec<Products> {
-        let LocalFields { space, coefficients, .. } = self.fields;
+        let coefficients = self.fields.coefficients;
         let mut first = 0;
         let of_patch = |&patch: &u32| {
             let patch = patch as usize;
@@ -162,8 +173,7 @@ impl SampledFields<'_> {
             let combined = |array: &Vec<f64>| self.combined(patch, array, range.clone());
             let [value, dx, dy] =
                 [&self.shapes.value, &self.shapes.dx, &self.shapes.dy].map(combined);
-            let share = share_of_error(space.order(patch)).powi(2);
-            Products { patch, phi: range.start, share, value, slopes: [dx, dy] }
+            Products { patch, phi: range.start, value, slopes: [dx, dy] }
         };
         self.rule.patches.iter().map(of_patch).collect()
     }
@@ -172,7 +182,7 @@ impl SampledFields<'_> {
     fn weights(&self, part: &Products) -> Vec<f64> {
         let weight = |(q, (weight, phi)): (usize, (&f64, &f64))| {
             let counts = *phi >= LEAST && !self.is_lonely(part, q);
-            if counts { weight * part.share * phi } else { 0.0 }
+            if counts { weight * self.shares[part.patch] * phi } else { 0.0 }
         };
         let phi = self.row(&self.shapes.value, part.phi);
         self.rule.weights.iter().zip(phi).enumerate().map(weight).collect()

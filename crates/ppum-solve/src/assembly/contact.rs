@@ -62,6 +62,7 @@ pub(crate) struct FaceContacts {
 /// The faces in one cell. Columns belong to a direction at a point, and carry the root of its
 /// weight.
 struct ContactCell {
+    cell: usize,
     patches: Vec<u32>,
     /// The pairs of patches that overlap, by their places.
     pairs: Vec<(usize, usize)>,
@@ -83,6 +84,14 @@ struct FaceRow {
     lacking: f64,
     /// μ of the tangent, whose row follows that of the normal.
     friction: Option<f64>,
+}
+
+/// A cell in which contact ends: faces touch in a part of it.
+pub(crate) struct ContactError {
+    /// Its number.
+    pub(crate) cell: usize,
+    /// ∫ |σ_m − min(P_m, 0)| |P_m(z)|/β of each dual solution z.
+    pub(crate) errors: Vec<f64>,
 }
 
 /// σ_d and P_d of a field at a row.
@@ -218,6 +227,12 @@ impl FaceContacts {
         rows.map(term).sum()
     }
 
+    /// The cells in which contact ends, by the solution and the dual solutions of a system.
+    pub(crate) fn errors(&self, matrix: &BlockMatrix, fields: &[Vec<f64>]) -> Vec<ContactError> {
+        let of_cell = |cell: &ContactCell| cell.errors(matrix, fields);
+        self.cells.iter().filter_map(of_cell).collect()
+    }
+
     /// Writes into a report what a solution with these stresses makes of the faces.
     pub(crate) fn report(&self, stresses: &[FaceStress], report: &mut SolverReport) {
         let (mut length, mut closed, mut overlap, mut tension) = (0.0, 0.0, 0.0_f64, 0.0_f64);
@@ -298,7 +313,7 @@ impl ContactCell {
         let beta = least.max(FACTOR * largest_eigenvalue(whole.as_ref(), stresses.as_ref())?);
         let projections = &stresses + faer::Scale(beta) * jumps;
         let (patches, rows) = (functions.patches, trace.rows);
-        Ok(Self { patches, pairs, first, beta, stresses, projections, rows })
+        Ok(Self { cell, patches, pairs, first, beta, stresses, projections, rows })
     }
 
     fn stresses(&self, matrix: &BlockMatrix, solution: &[f64]) -> Vec<FaceStress> {
@@ -312,6 +327,24 @@ impl ContactCell {
             FaceStress { stress: of(&self.stresses), projection: of(&self.projections) }
         };
         self.rows.iter().enumerate().map(of_row).collect()
+    }
+
+    /// None where all faces touch, or none.
+    fn errors(&self, matrix: &BlockMatrix, fields: &[Vec<f64>]) -> Option<ContactError> {
+        let (at, rows) = (self.stresses(matrix, &fields[0]), 0..self.rows.len());
+        let normal: Vec<_> = rows.filter(|&k| self.rows[k].friction.is_none()).collect();
+        let is_closed = |k: &usize| at[*k].projection < 0.0;
+        let ends = normal.iter().any(is_closed) && !normal.iter().all(is_closed);
+        let of_dual = |dual: &Vec<f64>| {
+            let dual = self.stresses(matrix, dual);
+            let part = |&k: &usize| {
+                let (row, missed) = (&self.rows[k], at[k].stress - at[k].projection.min(0.0));
+                row.weight / self.beta * (missed * (dual[k].projection + row.lacking)).abs()
+            };
+            normal.iter().map(part).sum()
+        };
+        let errors = || fields[1..].iter().map(of_dual).collect();
+        ends.then(|| ContactError { cell: self.cell, errors: errors() })
     }
 
     fn add(&self, states: &[FaceState], matrix: &mut BlockMatrix, load: &mut [f64]) {

@@ -86,13 +86,14 @@ impl Course {
         })
     }
 
-    /// A point of the crack just behind the tip, with its segment.
-    pub(super) fn behind_tip(&self) -> (SegmentId, Vec2) {
+    /// A point of the segment at the tip, at a distance from it but not nearer than just behind it.
+    pub(super) fn behind_tip(&self, distance: f64) -> (SegmentId, Vec2) {
         let segment = self.first as u32 + if self.tip.end == End::Start { 0 } else { self.last() };
         let mut from = from_tip(&self.crack, self.tip.end);
         let (tip, next) = (from.next(), from.next());
         let [tip, next] = [tip, next].map(|p| p.unwrap_or(self.center()));
-        (SegmentId { crack: self.tip.crack, segment }, tip + (next - tip) * FIRST)
+        let part = (distance / (next - tip).length()).clamp(FIRST, 1.0 - FIRST);
+        (SegmentId { crack: self.tip.crack, segment }, tip + (next - tip) * part)
     }
 
     /// The number of the last segment of the course.

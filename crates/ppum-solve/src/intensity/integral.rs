@@ -135,7 +135,7 @@ impl<'a> Interaction<'a> {
         let friction = loads.friction.and_then(|friction| friction(tip.crack));
         let touching = friction.map_or(0.0, |friction| {
             let contact = ContactLaw { friction, size: radii[0] };
-            contact.pressed(field, &law, course.behind_tip())
+            contact.pressed(field, &law, course.behind_tip(0.0))
         });
         Some(Self {
             field,
@@ -158,6 +158,16 @@ impl<'a> Interaction<'a> {
 
     pub(super) fn largest(&self) -> f64 {
         self.radii[RINGS - 1]
+    }
+
+    /// True if the faces touch at the tip or within a quarter of a cell of this size from it.
+    pub(super) fn touches(&self, cell: f64) -> bool {
+        let is_closed = |friction| {
+            let contact = ContactLaw { friction, size: self.radii[0] };
+            let points = [0.0, 0.125, 0.25].map(|part| self.course.behind_tip(part * cell));
+            points.into_iter().any(|at| contact.pressed(self.field, &self.law, at) < 0.0)
+        };
+        self.friction.is_some_and(is_closed)
     }
 
     /// The cells that meet the largest disc.

@@ -89,7 +89,7 @@ use ppum::dataset::{Dataset, TipIntensity};
 use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Rect, Vec2};
-pub(crate) use sensitivity::{FACTORS, Sensitivity, sensitivities};
+pub(crate) use sensitivity::{FACTORS, Sensitivity, TipDisc, sensitivities};
 
 /// Radii in parts of the tip's [`TipClearance`]; the last one is preferred, its integral averages
 /// most.
@@ -145,6 +145,8 @@ pub struct TipOutcome {
     pub interface: Option<f64>,
     /// Its factors; none if the clearance is too small for them, see [`TipOutcome::needed`].
     pub factors: Option<TipIntensity>,
+    /// True if faces that may touch do so at the tip, so that K_I is nothing but an error.
+    pub touches: bool,
     /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that
     /// K has where the crack concentrates stress, and far above K where nothing does. Zero
     /// without factors.
@@ -198,7 +200,9 @@ pub fn intensities(
     let integrals: Vec<_> = discs
         .filter_map(|(tip, radii)| Interaction::new(field, space, tip, radii, loads))
         .collect();
-    for (outcome, found) in wanted.into_iter().zip(integrate_tips(space, &integrals, watcher)?) {
+    let found = integrate_tips(space, &integrals, watcher)?;
+    for (outcome, (integral, found)) in wanted.into_iter().zip(integrals.iter().zip(found)) {
+        outcome.touches = integral.touches(outcome.cell);
         outcome.strength = found.strength;
         outcome.doubt = found.doubt;
         outcome.factors = Some(found.factors(outcome.tip));
@@ -380,6 +384,7 @@ impl TipOutcome {
             cell,
             interface,
             factors: None,
+            touches: false,
             strength: 0.0,
             doubt: Doubt::default(),
         }

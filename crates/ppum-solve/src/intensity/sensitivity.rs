@@ -31,6 +31,13 @@ pub(crate) type Kernel = [Vec2; 2];
 /// The factors of one tip as functionals.
 pub(crate) struct Sensitivity<'a>(Interaction<'a>);
 
+/// A tip, and the radius of the disc that its factors are integrated over.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TipDisc {
+    pub(crate) tip: Vec2,
+    pub(crate) radius: f64,
+}
+
 /// The functionals of all tips that have factors, in their order.
 pub(crate) fn sensitivities<'a>(
     dataset: &Dataset,
@@ -49,9 +56,9 @@ pub(crate) fn sensitivities<'a>(
 }
 
 impl Sensitivity<'_> {
-    /// The tip's place.
-    pub(crate) fn tip(&self) -> Vec2 {
-        self.0.center
+    /// Where the functional is integrated.
+    pub(crate) fn disc(&self) -> TipDisc {
+        TipDisc { tip: self.0.center, radius: self.0.largest() }
     }
 
     /// The cells that meet the disc.

@@ -8,14 +8,13 @@ use crate::assembly::{
 };
 use crate::basis::StableBasis;
 use crate::equilibrium::Plate;
-use crate::intensity::{Sensitivity, sensitivities};
+use crate::intensity::{Sensitivity, TipDisc, sensitivities};
 use crate::law::Law;
 use crate::problem::ForcePlace;
 use crate::quadrature::Face;
 use crate::watched::Stage;
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
-use ppum::vec2::Vec2;
 
 /// The system in the stable basis, without the penalty of the gauge.
 pub(super) struct Assembled {
@@ -25,8 +24,8 @@ pub(super) struct Assembled {
     pub(super) gauge: Gauge,
     /// The faces that may touch, whose terms are not in the system.
     pub(super) contacts: FaceContacts,
-    /// The tips whose factors are functionals of the system.
-    pub(super) tips: Vec<Vec2>,
+    /// The discs of the tips whose factors are functionals of the system.
+    pub(super) tips: Vec<TipDisc>,
 }
 
 impl Assembled {
@@ -61,7 +60,7 @@ impl Assembled {
         let conditions = plate.conditions(&problem.supports)?;
         let gauge = gauge.with_supports(&problem.supports, &conditions, &values);
         clock.lap(Phase::Assembly);
-        let tips = tips.iter().map(Sensitivity::tip).collect();
+        let tips = tips.iter().map(Sensitivity::disc).collect();
         Ok(Self { plate, basis, system, gauge, contacts, tips })
     }
 }

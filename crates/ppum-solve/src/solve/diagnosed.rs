@@ -55,15 +55,17 @@ impl<'p> Diagnosed<'p> {
     /// # Errors
     /// Data that are not finite; cancelled.
     pub(super) fn new(solved: Solved<'p>, watcher: &dyn Watcher) -> Result<Self, SolveError> {
-        let Solved { mut plan, mut report, local, unresolved, lonely, dual_tips, mut tips } =
-            solved;
+        let Solved { mut plan, mut report, local, unresolved, lonely, .. } = solved;
+        let (contact, mut tips) = (solved.contact, solved.tips);
         let Plan { discretised: Discretised { problem, dataset, space, .. }, clock, .. } =
             &mut plan;
         let stage = Stage::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
         let field = Field::new(dataset, 0)?;
         let fields = LocalFields { space, coefficients: &local, lonely: &lonely };
         let found = estimated(problem, &field, fields, &stage).map_err(SolveError::of_data)?;
-        let goal = Goal::new(&dual_tips, &space.partition().cell, &found);
+        let cells = &space.partition().cell;
+        let mut goal = Goal::new(&solved.dual_tips, cells, &found.products, &contact);
+        goal.add_own(&tips);
         let factors = tips.iter_mut().filter_map(|outcome| outcome.factors.as_mut());
         for (factors, error) in factors.zip(&goal.errors) {
             let of_segments = of_segments(dataset, factors);

@@ -5,15 +5,15 @@ use super::assembled::Assembled;
 use super::discretised::Discretised;
 use super::plan::Plan;
 use super::unknowns::Unknowns;
+use crate::assembly::ContactError;
 use crate::heat::Temperature;
-use crate::intensity::{TipOutcome, intensities_under};
+use crate::intensity::{TipDisc, TipOutcome, intensities_under};
 use crate::report::{ASSEMBLY_SECONDS, SolverReport, Unresolved};
 use crate::space::Space;
 use faer::Mat;
 use ppum::dataset::{Attribute, FieldData, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
-use ppum::vec2::Vec2;
 
 /// A solution with the stress intensity factors of its tips.
 pub(super) struct Solved<'p> {
@@ -28,8 +28,10 @@ pub(super) struct Solved<'p> {
     /// Of each patch, the first functions of components of which nearly nothing lies where it
     /// is alone.
     pub(super) lonely: Vec<Vec<usize>>,
-    /// The tips whose factors have dual solutions.
-    pub(super) dual_tips: Vec<Vec2>,
+    /// The discs of the tips whose factors have dual solutions.
+    pub(super) dual_tips: Vec<TipDisc>,
+    /// The cells in which contact ends.
+    pub(super) contact: Vec<ContactError>,
     /// The findings about all tips.
     pub(super) tips: Vec<TipOutcome>,
 }
@@ -75,8 +77,8 @@ impl<'p> Solved<'p> {
         let mut local = basis.local_coefficients(&unknowns.all, components);
         write_known(space, &mut step.fields[0], &mut local);
         let unresolved = std::mem::take(&mut system.unresolved);
-        let (lonely, tips) = (basis.lonely, Vec::new());
-        Self { plan, report, local, unresolved, lonely, dual_tips, tips }
+        let (lonely, tips, contact) = (basis.lonely, Vec::new(), unknowns.contact);
+        Self { plan, report, local, unresolved, lonely, dual_tips, contact, tips }
     }
 
     /// The factors of the tips that have any.

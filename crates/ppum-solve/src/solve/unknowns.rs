@@ -5,6 +5,7 @@ use super::assembled::Assembled;
 use super::contact::close;
 use super::discretised::Discretised;
 use super::estimate::Estimate;
+use crate::assembly::ContactError;
 use crate::hierarchy::Finest;
 use crate::report::{LevelSize, LinearKind, SolverReport};
 use crate::space::Space;
@@ -16,6 +17,8 @@ use ppum_linear::{Cholesky, LinearError, LinearSolution, LinearSolver, Multileve
 pub(super) struct Unknowns {
     /// Those of the solution, without what is left of free motions, and of the dual solutions.
     pub(super) all: Vec<Vec<f64>>,
+    /// The cells in which contact ends.
+    pub(super) contact: Vec<ContactError>,
     /// The numbers of the report that the linear solver knows.
     pub(super) report: SolverReport,
 }
@@ -85,7 +88,8 @@ impl Unknowns {
         if !system.duals.is_empty() {
             all.append(&mut solver.solve_roughly(&system.duals).map_err(located)?);
         }
-        Ok(Self { all, report })
+        let contact = contacts.errors(&system.matrix, &all);
+        Ok(Self { all, contact, report })
     }
 }
 

@@ -229,28 +229,65 @@ fn a_crack_in_bending_closes_on_a_third() {
     assert_eq!(again.k1.to_bits(), open.to_bits());
 }
 
-/// A slanted crack closes in part. The references are hp finite elements whose faces are held
-/// together up to the place where K_I of the open part is zero (orders 6 and 8): nothing is shared.
-#[test]
-fn a_slanted_crack_closes_in_part() {
-    let problem = parsed(
+/// A slanted crack in a square that is bent by tractions ±(load, a formula of x) along y.
+fn bent(load: &str, cells: u32, order: usize) -> Problem {
+    parsed(&format!(
         "[domain]\nmin = [-2, -2]\nmax = [2, 2]\n\
          [material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
          [[crack]]\npoints = [[-0.7, -0.15], [0.6, 0.2]]\ncontact = true\n\
-         [[boundary]]\non = \"top\"\ntraction = [0, \"x\"]\n\
-         [[boundary]]\non = \"bottom\"\ntraction = [0, \"-x\"]\n\
-         [discretization]\ncells = [20, 20]\norder = 2\n",
-    );
-    let dataset = solved(&problem);
+         [[boundary]]\non = \"top\"\ntraction = [0, \"{load}\"]\n\
+         [[boundary]]\non = \"bottom\"\ntraction = [0, \"-({load})\"]\n\
+         [discretization]\ncells = [{cells}, {cells}]\norder = {order}\n"
+    ))
+}
+
+/// K_I, K_II of both tips under tractions x. The references are hp finite elements whose faces are
+/// held together up to the place where K_I of the open part is zero (orders 6 and 8): nothing is
+/// shared. They are right to 3e-6.
+const BENT: [(f64, f64); 2] = [(0.0, -0.138_437_4), (0.438_409_0, 0.099_565_3)];
+
+/// The same under 0.3 + x, where faces touch on 4 % of the crack: order 4 on cells that shrink to
+/// where contact ends, to 1.2e-2.
+const BENT_OPEN: [(f64, f64); 2] = [(0.0, -0.016_622_8), (0.836_656_1, 0.220_369_0)];
+
+/// A slanted crack closes in part.
+#[test]
+fn a_slanted_crack_closes_in_part() {
+    let dataset = solved(&bent("x", 20, 2));
     let closed = record(&dataset.steps[0], "closed faces");
     assert!((closed - 0.373_063_9).abs() < 0.02, "{closed}");
-    let known = [(0.0, -0.138_437_4), (0.438_409_0, 0.099_565_3)];
-    for (tip, (k1, k2)) in tips(&dataset).iter().zip(known) {
-        let apart = (tip.k1 - k1).hypot(tip.k2 - k2);
-        let estimate = tip.error.expect("an estimate");
+    for (tip, (k1, k2)) in tips(&dataset).iter().zip(BENT) {
         // of the largest factors
-        assert!(apart < 3e-4 * 0.4496 && apart < 3.0 * estimate, "{tip:?}");
+        assert!((tip.k1 - k1).hypot(tip.k2 - k2) < 3e-4 * 0.4496, "{tip:?}");
     }
+}
+
+/// Estimated errors are 1 to 30 times the errors, wherever in a cell contact ends.
+fn assert_estimated(load: &str, known: [(f64, f64); 2], covers: &[(u32, usize)]) {
+    for &(cells, order) in covers {
+        let dataset = solved(&bent(load, cells, order));
+        for (tip, (k1, k2)) in tips(&dataset).iter().zip(known) {
+            let error = (tip.k1 - k1).hypot(tip.k2 - k2);
+            let effectivity = tip.error.expect("an estimate") / error;
+            println!("{load}, {cells} cells, order {order}: {error:.1e}, × {effectivity:.2}");
+            assert!((1.0..30.0).contains(&effectivity), "{load}, {cells}, {order}: {tip:?}");
+        }
+    }
+}
+
+#[test]
+fn errors_by_contact_are_known() {
+    assert_estimated("x", BENT, &[(20, 2), (17, 3)]);
+    assert_estimated("0.3 + x", BENT_OPEN, &[(20, 2), (17, 3)]);
+}
+
+/// With 18 cells contact ends at an edge of a cell, but for 3 % of it.
+#[test]
+#[ignore = "slow: a dozen contacts of orders 2 to 4"]
+fn errors_by_contact_are_known_on_all_cells() {
+    let x = [(14, 2), (18, 2), (31, 2), (14, 3), (18, 3), (20, 3), (25, 3), (31, 3), (12, 4)];
+    assert_estimated("x", BENT, &x);
+    assert_estimated("0.3 + x", BENT_OPEN, &[(17, 2), (25, 2), (20, 3), (25, 3), (31, 3), (20, 4)]);
 }
 
 /// What is closed carries pressure, what is open nothing: of several cracks each for itself, with
