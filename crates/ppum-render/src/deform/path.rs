@@ -1,7 +1,7 @@
 //! Lines of the plate in the deformed plane.
 
 use ppum::crack::{Crack, CrackEnd, Side};
-use ppum::domain::{Hole, LocalDomain};
+use ppum::domain::{Hole, LocalDomain, is_mirrored_side, touch};
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::DeformedView;
@@ -74,8 +74,9 @@ impl DeformedView<'_> {
             (DeformationMap::new(self.field(), self.anchor), self.field().domain.at(self.anchor));
         let mut face = |crack: &Crack, side: Side| {
             let mut paths = Joined::new(self);
-            let bounds = &self.field().domain.bounds;
-            let is_inside = |k: usize| crack.outer_side(k, bounds) != Some(side);
+            let body = self.field().domain;
+            let is_inside =
+                |k: usize| body.outer_side([crack.points[k], crack.points[k + 1]]) != Some(side);
             let faces = Face::on_side(crack, side, self.anchor).enumerate();
             for (_, face) in faces.filter(|(segment, _)| is_inside(*segment)) {
                 let mut place = |o: Vec2| {
@@ -98,25 +99,20 @@ impl DeformedView<'_> {
         self.outline_beside([None; 2])
     }
 
-    /// The image of the plate's border without the sides of its box on lines x = a and y = b, at
-    /// which it is mirrored. Of a mesh these are drawn.
+    /// The image of the plate's border without the sides on lines x = a and y = b, at which it is
+    /// mirrored. Of a mesh these are drawn.
     #[must_use]
-    pub fn outline_beside(&self, [x, y]: [Option<f64>; 2]) -> Paths {
+    pub fn outline_beside(&self, mirrors: [Option<f64>; 2]) -> Paths {
         if self.field().step.partition.mesh().is_some() {
             return self.element_borders();
         }
-        let mut border = Border::new(self);
-        let Rect { min, max } = self.field().domain.bounds;
-        let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
-        let is_on = |a: Vec2, b: Vec2| {
-            let is_at = |line: Option<f64>, a: f64, b: f64| line == Some(a) && a == b;
-            is_at(x, a.x, b.x) || is_at(y, a.y, b.y)
-        };
-        let mut all = border.sides(&corners, 1.0, |a, b| !is_on(a, b));
+        let (mut border, bounds) = (Border::new(self), &self.field().domain.bounds);
+        let is_drawn = |a: Vec2, b: Vec2| !is_mirrored_side([a, b], mirrors, touch(bounds));
+        let mut all = border.sides(&bounds.corners(), 1.0, is_drawn);
         for hole in &self.field().domain.holes {
             all.extend(match hole {
                 Hole::Circle { center, radius } => border.circle(*center, *radius),
-                Hole::Polygon { points, .. } => border.polygon(points, -hole.orientation()),
+                Hole::Polygon { points, .. } => border.sides(points, -hole.orientation(), is_drawn),
             });
         }
         all
@@ -267,12 +263,8 @@ impl<'a, 'f> Border<'a, 'f> {
         is_border.then(|| self.map.place(self.view, offset, Side::Above)).flatten()
     }
 
-    /// The sides of a polygon; the plate lies on the left of them, or on the right if `left` is −1.
-    fn polygon(&mut self, corners: &[Vec2], left: f64) -> Paths {
-        self.sides(corners, left, |_, _| true)
-    }
-
-    /// Some of the sides of a polygon.
+    /// Some of the sides of a polygon; the plate lies on the left of them, or on the right if `left`
+    /// is −1.
     fn sides(
         &mut self,
         corners: &[Vec2],

@@ -3,7 +3,7 @@
 use ppum::dataset::{self, Dataset, Step};
 use ppum::text::{Places, beside, short};
 use ppum::vec2::Vec2;
-use ppum_solve::problem::restraint_center;
+use ppum_solve::problem::{Problem, restraint_center};
 use serde::Serialize;
 
 use super::Number;
@@ -31,13 +31,17 @@ pub struct Reaction {
 pub fn reactions(dataset: &Dataset, step: &Step) -> Vec<Reaction> {
     let names = step.fields.first().map_or(&[][..], |field| &field.components);
     let about = dataset.domain.bounds.center();
+    let names_piece = step.reactions.iter().any(|reaction| reaction.on.starts_with("piece "));
+    let problem = names_piece.then(|| Problem::of_dataset(dataset).ok().flatten()).flatten();
+    let pieces = problem.as_ref().map_or(&[][..], |problem| &problem.pieces);
+    let domain = problem.as_ref().map_or(&dataset.domain, |problem| &problem.domain);
     let row = |reaction: &dataset::Reaction| {
         let dataset::Reaction { on, held, force, moment } = reaction;
         let held = names.iter().zip(held).filter(|(_, held)| **held);
         let turns = force.len() > 1;
         // a temperature, the third component, has no force
         let force = &force[..force.len().min(2)];
-        let center = restraint_center(on, &dataset.domain).filter(|_| turns);
+        let center = restraint_center(on, domain, pieces).filter(|_| turns);
         let moved = |center: Vec2| {
             let arm = about - center;
             Number(moment + arm.x * force[1] - arm.y * force[0])

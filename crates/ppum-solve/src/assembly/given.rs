@@ -35,6 +35,8 @@ struct GivenCondition<'p> {
     values: Box<dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync + Send + 'p>,
     /// Rules for the data where those of the system do not resolve them.
     own: LoadRules<EdgeRule>,
+    /// True if all fields have these values.
+    is_exact: bool,
 }
 
 impl<'p> Given<'p> {
@@ -52,7 +54,7 @@ impl<'p> Given<'p> {
         let conditions = problem.boundary.iter().enumerate();
         let given = |(number, condition)| {
             let own = of_condition(problem, space, condition, stage)?;
-            Ok(GivenCondition::new(number, condition, own))
+            Ok(GivenCondition::new(problem, (number, condition), own))
         };
         Ok(Self {
             problem,
@@ -72,7 +74,7 @@ impl<'p> Given<'p> {
             source: None,
             source_rules: LoadRules::default(),
             conditions: holding
-                .map(|(k, c)| GivenCondition::new(k, c, LoadRules::default()))
+                .map(|given| GivenCondition::new(problem, given, LoadRules::default()))
                 .collect(),
             strains: Vec::new(),
         }
@@ -162,8 +164,14 @@ impl<'p> Given<'p> {
 }
 
 impl<'p> GivenCondition<'p> {
-    fn new(number: usize, condition: &'p BoundaryCondition, own: LoadRules<EdgeRule>) -> Self {
-        Self { number, condition, values: Box::new(|x, normal| condition.values(x, normal)), own }
+    fn new(
+        problem: &Problem,
+        (number, condition): (usize, &'p BoundaryCondition),
+        own: LoadRules<EdgeRule>,
+    ) -> Self {
+        let values = Box::new(|x, normal| condition.values(x, normal));
+        let is_exact = problem.exact_line(condition).is_some();
+        Self { number, condition, values, own, is_exact }
     }
 
     fn piece(&self, problem: &Problem, cell: usize, rules: Vec<EdgeRule>) -> BorderPiece<'_> {
@@ -173,7 +181,7 @@ impl<'p> GivenCondition<'p> {
             held: self.condition.held(),
             axes: self.condition.axes(),
             exchange: self.condition.exchange.as_ref(),
-            is_exact: problem.is_exact(self.condition),
+            is_exact: self.is_exact,
             values: &*self.values,
             condition: self.number,
             modes: modes(problem),

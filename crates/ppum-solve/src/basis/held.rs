@@ -2,7 +2,8 @@
 //!
 //! The unknowns are fields v of both components: polynomials, jumps times polynomials, and the
 //! fields of series, which have the symmetry of the line. In a component that is zero on the line
-//! d(x) = 0 polynomials are those times d:
+//! d(x) = 0 polynomials are those times d; of two components that are held on different lines each
+//! is a coefficient of the direction across the other one:
 //!
 //! ```text
 //! P_p → d P_(p−1)      G = Σ_i F_i M F_iᵀ      C_i = R F_i,   R G Rᵀ = I
@@ -19,6 +20,7 @@ use faer::Mat;
 use ppum::dataset::monomials;
 use ppum::function::FunctionKind;
 use ppum::polynomial::exponents;
+use ppum::vec2::{Vec2, vec2};
 use ppum_linear::EigenError;
 
 /// The fields of a patch by the coefficients F of their components in its functions, and what makes
@@ -60,6 +62,7 @@ pub(super) fn held_fields(
 /// The fields of each block of polynomials or jumps, which come before all series.
 fn plain_fields(space: &Space<'_>, patch: usize) -> Vec<Vec<VectorField>> {
     let (data, mut first, n) = (space.data(), 0, space.evaluated(patch));
+    let parts = directions(space.held_lines(patch));
     let is_plain = |block: &usize| {
         let function = data.block_function[*block] as usize;
         !matches!(space.step().functions[function].kind, FunctionKind::Formula { .. })
@@ -68,43 +71,74 @@ fn plain_fields(space: &Space<'_>, patch: usize) -> Vec<Vec<VectorField>> {
         let degree = usize::from(data.block_degree[block]);
         let start = first;
         first += monomials(degree);
-        let field = |component: usize, polynomial: Vec<f64>| {
-            let mut field = [vec![0.0; n], vec![0.0; n]];
-            field[component][start..start + polynomial.len()].copy_from_slice(&polynomial);
-            field
+        let field = |direction: Vec2, polynomial: &[f64]| {
+            <[f64; 2]>::from(direction).map(|part| {
+                let mut own = vec![0.0; n];
+                let all = own[start..].iter_mut().zip(polynomial);
+                all.for_each(|(c, p)| *c = part * p);
+                own
+            })
         };
-        let of_component = |component: usize| {
-            let all = polynomials(space, patch, component, degree).into_iter();
-            all.map(move |polynomial| field(component, polynomial))
+        let of_direction = |(direction, lines): &(Vec2, Vec<HeldLine>)| {
+            let all = polynomials(space, patch, lines, degree).into_iter();
+            all.map(|polynomial| field(*direction, &polynomial)).collect::<Vec<_>>()
         };
-        [0, 1].into_iter().flat_map(of_component).collect()
+        parts.iter().flat_map(of_direction).collect()
     };
     data.blocks(patch).take_while(is_plain).map(of_block).collect()
 }
 
-/// A basis of the polynomials up to a degree that a component may have, in monomials of this
-/// degree.
-fn polynomials(space: &Space<'_>, patch: usize, component: usize, degree: usize) -> Vec<Vec<f64>> {
-    let partition = space.partition();
-    let [origin, scale]: [[f64; 2]; 2] =
-        [partition.origin[patch].into(), partition.scale[patch].into()];
-    let lines = space.held_lines(patch).iter().filter(|line| line.component == component);
-    let lines: Vec<_> = lines
-        .map(|line: &HeldLine| (line.across, (line.at - origin[line.across]) / scale[line.across]))
-        .collect();
-    let Some(first) = degree.checked_sub(lines.len()) else { return Vec::new() };
-    let unit = |k: usize| (0..monomials(degree)).map(|j| f64::from(j == k)).collect::<Vec<_>>();
-    let through = |polynomial, &(axis, at): &(usize, f64)| times_distance(polynomial, axis, at);
-    (0..monomials(first)).map(|k| lines.iter().fold(unit(k), through)).collect()
+/// Sine of the angle up to which directions are the same.
+const SAME: f64 = 1e-9;
+
+/// Two directions, and for each the lines on which its coefficient vanishes.
+///
+/// With the held components d₁ and d₂ these are the directions across d₂ and across d₁: of u = a e₁
+/// + b e₂ the component d₁ is a e₁·d₁. If more than two are held in a patch, both vanish on all
+/// lines.
+fn directions(lines: &[HeldLine]) -> [(Vec2, Vec<HeldLine>); 2] {
+    let first = lines.first().map_or(vec2(1.0, 0.0), |line| line.direction);
+    let is_same = |a: Vec2, b: Vec2| a.cross(b).abs() < SAME;
+    let (own, others): (Vec<_>, Vec<_>) =
+        lines.iter().copied().partition(|line| is_same(line.direction, first));
+    let second = others.first().map_or(first.left(), |line| line.direction);
+    match others.iter().all(|line| is_same(line.direction, second)) {
+        true if others.is_empty() => [(first, own), (second, others)],
+        true => [(second.left(), own), (first.left(), others)],
+        false => [(first, lines.to_vec()), (first.left(), lines.to_vec())],
+    }
 }
 
-/// A polynomial times ξ − at or η − at; its highest powers are zero.
-fn times_distance(polynomial: Vec<f64>, axis: usize, at: f64) -> Vec<f64> {
-    let mut product: Vec<f64> = polynomial.iter().map(|c| -at * c).collect();
+/// A basis of the polynomials up to a degree that vanish on lines, in monomials of this degree.
+fn polynomials(
+    space: &Space<'_>,
+    patch: usize,
+    lines: &[HeldLine],
+    degree: usize,
+) -> Vec<Vec<f64>> {
+    let partition = space.partition();
+    let (origin, scale) = (partition.origin[patch], partition.scale[patch]);
+    // n · x − at in the patch's coordinates, the larger coefficient 1
+    let level = |line: &HeldLine| {
+        let across = [line.normal.x * scale.x, line.normal.y * scale.y];
+        let largest = across[0].abs().max(across[1].abs());
+        [across[0], across[1], line.normal.dot(origin) - line.at].map(|c| c / largest)
+    };
+    let Some(first) = degree.checked_sub(lines.len()) else { return Vec::new() };
+    let unit = |k: usize| (0..monomials(degree)).map(|j| f64::from(j == k)).collect::<Vec<_>>();
+    let through = |polynomial: Vec<f64>, level: [f64; 3]| times_level(&polynomial, level);
+    (0..monomials(first)).map(|k| lines.iter().map(level).fold(unit(k), through)).collect()
+}
+
+/// A polynomial times α ξ + β η + γ; its highest powers are zero.
+fn times_level(polynomial: &[f64], [alpha, beta, gamma]: [f64; 3]) -> Vec<f64> {
+    let mut product: Vec<f64> = polynomial.iter().map(|c| gamma * c).collect();
     // ten monomials of degree 3 are followed by those of degree 4
-    for ((a, b), c) in exponents(polynomial.len()).zip(&polynomial).filter(|(_, c)| **c != 0.0) {
-        let (total, b) = ((a + b + 1) as usize, b as usize + axis);
-        product[total * (total + 1) / 2 + b] += c;
+    for ((a, b), c) in exponents(polynomial.len()).zip(polynomial).filter(|(_, c)| **c != 0.0) {
+        let (total, b) = ((a + b + 1) as usize, b as usize);
+        let next = total * (total + 1) / 2 + b;
+        product[next] += alpha * c;
+        product[next + 1] += beta * c;
     }
     product
 }

@@ -108,7 +108,20 @@ impl Surroundings<'_> {
     pub(super) fn sectors(&self, p: Vec2, room: f64) -> Vec<Sector> {
         let mut rays = self.rays(p, room);
         rays.sort_by(|a, b| a.angle.total_cmp(&b.angle));
-        rays.dedup_by(|b, a| b.angle - a.angle < SAME_RAY);
+        // of a border and a crack on it the crack counts
+        rays.dedup_by(|b, a| {
+            let is_same = b.angle - a.angle < SAME_RAY;
+            if is_same && matches!(b.on, On::Crack { .. }) {
+                a.on = b.on;
+            }
+            is_same
+        });
+        if let [first, .., last] = rays[..]
+            && first.angle + TAU - last.angle < SAME_RAY
+        {
+            let at = if matches!(first.on, On::Crack { .. }) { rays.len() - 1 } else { 0 };
+            rays.remove(at);
+        }
         let n = rays.len();
         let sector = |k: usize| self.sector(p, [rays[k], rays[(k + 1) % n]], BESIDE * room);
         let sectors = (0..if n < 2 { 0 } else { n }).map(sector);

@@ -3,7 +3,7 @@
 use super::material::jumps;
 use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::{Dataset, Step};
-use ppum::domain::Domain;
+use ppum::domain::{Domain, Hole, touch};
 use ppum::function::{Frame, Function, FunctionKind, Role};
 use ppum::segment::{self, Segment, gap};
 use ppum::vec2::{Rect, Vec2};
@@ -132,12 +132,20 @@ impl TipClearance {
     ) -> Self {
         let p = own.end_point(tip.end);
         let [low, high] = [p - domain.bounds.min, domain.bounds.max - p];
-        // a tip on an edge has one half of its field in the body
+        // a tip on a line of the border has one half of its field in the body
+        let touch = touch(&domain.bounds);
         let depths = [low.x, low.y, high.x, high.y].into_iter().filter(|depth| *depth != 0.0);
         let border = Self { radius: depths.fold(f64::INFINITY, f64::min), end: Obstacle::Border };
         let holes = domain.holes.iter().enumerate();
+        let distance = |hole: &Hole| match hole.rim_distance(p) {
+            on if on <= touch => {
+                let sides = hole.sides().map(|side| segment::distance(side, p));
+                sides.filter(|distance| *distance > touch).fold(f64::INFINITY, f64::min)
+            }
+            distance => distance,
+        };
         let rims = holes.map(|(k, hole)| Self {
-            radius: hole.rim_distance(p),
+            radius: distance(hole),
             end: if hole.is_outside() { Obstacle::Border } else { Obstacle::Hole(k) },
         });
         let others = cracks.filter(|(k, _)| *k != tip.crack as usize).map(|(k, c)| Self {

@@ -54,6 +54,22 @@ pub(crate) fn rim_crossings(a: Vec2, b: Vec2, hole: &Hole) -> Vec<f64> {
     }
 }
 
+/// True for a crack that lies on a straight line of a rim: it is a face of the body, and cuts
+/// nothing.
+pub(crate) fn is_on_rim(crack: &Crack, holes: &[Hole]) -> bool {
+    holes.iter().any(|hole| hole.line_along(&crack.points).is_some())
+}
+
+/// What is left of a range without others.
+pub(crate) fn without(range: [f64; 2], others: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let beside = |parts: Vec<[f64; 2]>, &[a, b]: &[f64; 2]| {
+        let (a, b) = (a.min(b), a.max(b));
+        let both = |[from, to]: [f64; 2]| [[from, to.min(a)], [from.max(b), to]];
+        parts.into_iter().flat_map(both).filter(|[from, to]| from < to).collect()
+    };
+    others.iter().fold(vec![range], beside)
+}
+
 /// Number of connected parts of a polyline inside an open box.
 pub(crate) fn runs_inside(points: &[Vec2], open: &Rect) -> usize {
     let (mut runs, mut goes_on) = (0, false);

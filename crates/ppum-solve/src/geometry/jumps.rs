@@ -11,7 +11,7 @@
 //! the sliver.
 
 use super::clearance::{extension, extensions, led_away};
-use super::clip::{clipped, inside, meets, segment_inside, solid_part};
+use super::clip::{clipped, inside, is_on_rim, meets, segment_inside, solid_part};
 use super::components::{Components, middle};
 use super::placed::{Placed, around, wider};
 use ppum::crack::{Crack, End, SegmentId, TipId};
@@ -42,7 +42,8 @@ pub(crate) struct Jumps<'p> {
 impl<'p> Jumps<'p> {
     /// The cracks of a domain; things not farther apart than `touch` meet.
     pub(crate) fn new(cracks: &'p [Crack], domain: &'p Domain, touch: f64) -> Self {
-        let all = (0..).zip(cracks).flat_map(|(crack, c)| segments(crack, &c.points));
+        let cutting = (0..).zip(cracks).filter(|(_, crack)| !is_on_rim(crack, &domain.holes));
+        let all = cutting.flat_map(|(crack, c)| segments(crack, &c.points));
         let place = |(id, ends): (SegmentId, Segment)| (around(&ends), (id, ends));
         let reach = domain.bounds.size().length();
         Self {

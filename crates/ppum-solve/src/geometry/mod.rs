@@ -14,8 +14,8 @@ pub(crate) use clearance::{
 };
 pub use clearance::{Obstacle, TipClearance};
 pub(crate) use clip::{
-    clipped, distance, inside, length_inside, meets, rim_crossings, runs_of_rim, segment_inside,
-    solid_part,
+    clipped, distance, inside, is_on_rim, length_inside, meets, rim_crossings, runs_of_rim,
+    segment_inside, solid_part, without,
 };
 pub(crate) use jumps::Jumps;
 pub(crate) use material::{eigenstrain_jumps, interface_distance};

@@ -52,7 +52,7 @@
 //!
 //! with the second integral over all faces.
 //!
-//! At a tip on an edge of the box, with the other half of the body mirrored ([`Symmetry`]), the
+//! At a tip on a straight line of the border, with the other half of the body mirrored ([`Symmetry`]), the
 //! integrals over one half are doubled. Of a symmetric field those of K_I and T, and J, are twice
 //! that half: on the line ahead of the tip P_j n_j = 0 since there u_2 = uᵃ_2 = 0 and σ_12 = σᵃ_12
 //! = 0. That of K_II is zero. Of an antisymmetric field that of K_II alone is not.
@@ -77,14 +77,14 @@ mod slope;
 use crate::geometry::{AMPLE_CLEARANCE, interface_distance};
 pub use crate::geometry::{Obstacle, TipClearance};
 use crate::heat::Temperature;
-use crate::problem::{Edge, Problem, Symmetry};
+use crate::problem::{Problem, Symmetry};
 pub use crate::quadrature::Doubt;
 use crate::space::Space;
 use crate::watched::Stage;
 use border::border_distance;
 pub(crate) use cells::with_cells;
 use integral::{Interaction, RINGS, integrate_tips};
-use ppum::crack::{Side, TipId, tips};
+use ppum::crack::{Crack, Side, TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
@@ -112,7 +112,7 @@ pub type FaceLoad<'a> = &'a (dyn Fn(u32, Side, Vec2) -> [f64; 2] + Sync);
 /// The coefficient of friction of a crack, given by its index, if its faces may touch.
 pub type FaceFriction<'a> = &'a (dyn Fn(u32) -> Option<f64> + Sync);
 
-/// The symmetry of the field at a tip on an edge; none at others.
+/// The symmetry of the field at a tip on the border; none at others.
 pub type TipSymmetry<'a> = &'a (dyn Fn(TipId) -> Option<Symmetry> + Sync);
 
 /// The loads that act where the interaction integral looks, and what is known of the field there.
@@ -125,7 +125,7 @@ pub struct Loads<'a> {
     /// Friction of faces that may touch, if there are any. What acts between them is taken from the
     /// field.
     pub friction: Option<FaceFriction<'a>>,
-    /// The symmetry of the field at tips on edges of the box, which have no factors without.
+    /// The symmetry of the field at tips on the border, which have no factors without.
     pub symmetry: Option<TipSymmetry<'a>>,
 }
 
@@ -294,8 +294,8 @@ fn on_plain(
     watcher: &dyn Watcher,
 ) -> Result<TipIntensity, CircleError> {
     let field = Field::new(dataset, step)?;
-    let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
-    if !is_half_known(dataset, at, problem.and_then(|problem| problem.symmetry_at(tip))) {
+    let crack = &field.step.cracks[tip.crack as usize];
+    if !is_half_known(dataset, crack, problem.and_then(|problem| problem.symmetry_at(tip))) {
         return Err(CircleError::Disturbed(TipClearance::NONE));
     }
     let Dataset { domain, equation, tables, .. } = dataset;
@@ -349,10 +349,10 @@ fn has_force(problem: &Problem) -> bool {
     problem.source.iter().any(|component| component.constant() != Some(0.0))
 }
 
-/// False at a tip on an edge of which no symmetry is known: nothing is known of its other half.
-fn is_half_known(dataset: &Dataset, at: Vec2, symmetry: Option<Symmetry>) -> bool {
-    let is_on = |edge: Edge| edge.depth(&dataset.domain.bounds, at) == 0.0;
-    symmetry.is_some() || !Edge::ALL.into_iter().any(is_on)
+/// False at a tip of a crack on the border of which no symmetry is known: nothing is known of its
+/// other half.
+fn is_half_known(dataset: &Dataset, crack: &Crack, symmetry: Option<Symmetry>) -> bool {
+    symmetry.is_some() || dataset.domain.line_along(&crack.points).is_none()
 }
 
 /// The longest side of the cells that a point lies in.
@@ -367,9 +367,10 @@ impl TipOutcome {
         field: &Field<'_>,
         (tip, symmetry): (TipId, Option<Symmetry>),
     ) -> Self {
-        let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
+        let crack = &field.step.cracks[tip.crack as usize];
+        let at = crack.end_point(tip.end);
         let cell = cell_at(&field.step.partition.cells(), at);
-        let clearance = if is_half_known(dataset, at, symmetry) {
+        let clearance = if is_half_known(dataset, crack, symmetry) {
             clearance_in(dataset, field, tip, cell)
         } else {
             TipClearance::NONE

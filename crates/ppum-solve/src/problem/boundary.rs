@@ -167,7 +167,7 @@ impl BorderPart {
 pub struct Piece {
     /// The name; different ones are different.
     pub name: String,
-    /// Where it is; no two runs, of this piece or of others, have a side in common.
+    /// Where it is; no two runs have a side in common, but for parts of other pieces.
     pub runs: Vec<SideRun>,
 }
 

@@ -1,7 +1,8 @@
 //! Cracks as a problem gives them: what their ends are, and where they may lie.
 
 use ppum::crack::{Crack, CrackEnd};
-use ppum::domain::{Domain, Hole};
+pub(crate) use ppum::domain::touch;
+use ppum::domain::{BorderLine, Domain, Hole};
 use ppum::line::Line;
 use ppum::segment::{Segment, distance, gap};
 use ppum::text::{exact, trimmed};
@@ -14,14 +15,10 @@ use super::nearby::{TooDense, first_pair};
 use super::straight::straightened;
 use crate::geometry::{Placed, length_inside, wider};
 
-/// Lengths below this part of the domain's longer side count as zero: nearer things are meant to
-/// touch, and no cover resolves them.
-pub(super) const TOUCH: f64 = 1e-9;
-
 /// A crack along a polyline: ends on the border of the box, to which they are moved, and on the rim
 /// or inside of a hole (up to 10⁻⁹ of the domain's size) are mouths, all others tips. A crack that
-/// lies on an edge has tips where it ends between two corners, and the body on its left. Of cracks
-/// that meet, see [`cracks`].
+/// lies on a straight line of the border has tips where it ends between two corners, and the body
+/// on its left. Of cracks that meet, see [`cracks`].
 #[must_use]
 pub fn crack(points: Vec<Vec2>, domain: &Domain) -> Crack {
     let lines = [points];
@@ -44,7 +41,7 @@ pub(super) fn settled(cracks: Vec<Crack>, domain: &Domain) -> Vec<Crack> {
     let lines = cracks.into_iter().map(|crack| crack.points);
     let is_mouth = |p| edges_at(p, &domain.bounds, 0.0).next().is_some();
     let straight = straightened(lines, is_mouth, touch(&domain.bounds));
-    with_ends(straight.into_iter().map(|line| with_body_on_left(line, &domain.bounds)), domain)
+    with_ends(straight.into_iter().map(|points| with_body_on_left(points, domain)), domain)
 }
 
 /// Cracks along polylines as they are, but for ends on edges, and whole cracks, which they are
@@ -52,30 +49,33 @@ pub(super) fn settled(cracks: Vec<Crack>, domain: &Domain) -> Vec<Crack> {
 pub(super) fn with_ends(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Domain) -> Vec<Crack> {
     let touch = touch(&domain.bounds);
     let holes = holes_of(domain, touch);
-    let end = |point: Option<&mut Vec2>, before: Option<Vec2>, most_edges: usize| {
+    let end = |point: Option<&mut Vec2>, before: Option<Vec2>, line: Option<BorderLine>| {
         let Some(p) = point else { return CrackEnd::Tip };
         *p = onto_edges(*p, &domain.bounds, touch);
+        let before = before.filter(|_| line.is_none());
         let onward = before.and_then(|before| beyond_rim(*p, (*p - before).unit(), domain));
         *p = *p + onward.unwrap_or(Vec2::ZERO);
-        let is_mouth = edges_at(*p, &domain.bounds, 0.0).count() > most_edges;
-        let mut near = holes_at(&holes, *p);
-        if is_mouth || near.any(|(_, hole)| reaches(hole, *p, touch)) {
+        // along a line of the border a crack ends at corners: there it goes on in the mirrored half
+        let is_on_edge = line.is_some_and(|line| line.hole.is_none());
+        let is_at_corner = line.is_some_and(|line| line.ends.contains(&*p));
+        let is_mouth = edges_at(*p, &domain.bounds, 0.0).count() > usize::from(is_on_edge);
+        let rim = line.and_then(|line| line.hole);
+        let mut near = holes_at(&holes, *p).filter(|(k, _)| Some(*k) != rim);
+        if is_mouth || is_at_corner || near.any(|(_, hole)| reaches(hole, *p, touch)) {
             CrackEnd::Mouth
         } else {
             CrackEnd::Tip
         }
     };
     let crack = |mut points: Vec<Vec2>| {
-        // along an edge a crack ends at corners: there it goes on in the mirrored half
-        let is_along = edge_along(&points, &domain.bounds, touch).is_some();
-        if is_along {
-            points.iter_mut().for_each(|p| *p = onto_edges(*p, &domain.bounds, touch));
+        let line = domain.line_along(&points);
+        if let Some(line) = line {
+            points.iter_mut().for_each(|p| *p = line.foot(*p, touch));
         }
-        let most = usize::from(is_along);
         let [second, last_but_one] =
             [points.get(1), points.iter().rev().nth(1)].map(|p| p.copied());
         let ends =
-            [end(points.first_mut(), second, most), end(points.last_mut(), last_but_one, most)];
+            [end(points.first_mut(), second, line), end(points.last_mut(), last_but_one, line)];
         Crack { points, ends }
     };
     let mut cracks: Vec<_> = lines.into_iter().map(crack).collect();
@@ -123,12 +123,6 @@ fn holes_at<'a, 'h>(holes: &'a Holes<'h>, p: Vec2) -> impl Iterator<Item = &'a (
     holes.near(&Rect::new(p, p))
 }
 
-/// The length below which things touch: 10⁻⁹ of the domain's longer side.
-pub(crate) fn touch(bounds: &Rect) -> f64 {
-    let size = bounds.size();
-    TOUCH * size.x.max(size.y)
-}
-
 /// True if a point lies in a hole or on its rim.
 fn reaches(hole: &Hole, p: Vec2, touch: f64) -> bool {
     hole.contains(p) || hole.rim_distance(p) <= touch
@@ -147,17 +141,11 @@ fn edges_at(p: Vec2, domain: &Rect, tolerance: f64) -> impl Iterator<Item = Edge
     depths.into_iter().filter(move |(_, depth)| depth.abs() <= tolerance).map(|(edge, _)| edge)
 }
 
-/// The edge that all points of a line are on, up to the distance `touch`.
-pub(super) fn edge_along(points: &[Vec2], bounds: &Rect, touch: f64) -> Option<Edge> {
-    let holds = |edge: &Edge| points.iter().all(|p| edge.depth(bounds, *p).abs() <= touch);
-    Edge::ALL.into_iter().find(|edge| points.len() > 1 && holds(edge))
-}
-
-/// The line of a crack on an edge in the direction that has the body on its left, so that the face
-/// in the body is the one above; other lines as they are.
-fn with_body_on_left(mut points: Vec<Vec2>, bounds: &Rect) -> Vec<Vec2> {
-    if let Some(edge) = edge_along(&points, bounds, 0.0)
-        && (points[points.len() - 1] - points[0]).left().dot(edge.normal()) > 0.0
+/// The line of a crack on the border in the direction that has the body on its left, so that the
+/// face in the body is the one above; other lines as they are.
+fn with_body_on_left(mut points: Vec<Vec2>, domain: &Domain) -> Vec<Vec2> {
+    if let Some(line) = domain.line_along(&points)
+        && line.direction().dot(points[points.len() - 1] - points[0]) < 0.0
     {
         points.reverse();
     }
@@ -172,10 +160,14 @@ pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<MistakeAt> 
     let mut in_order = Vec::new();
     for (index, crack) in cracks.iter().enumerate() {
         let key = Key::points(index);
-        let mut broken = check_crack(&crack.points, &domain.bounds, touch, &key);
+        let line = domain.line_along(&crack.points);
+        let shape = (&domain.bounds, line.is_some());
+        let mut broken = check_crack(&crack.points, shape, touch, &key);
         broken.extend(check_at_holes(crack, &holes, touch, &key));
-        broken.extend(check_in_outline(crack, domain, touch, &key));
-        broken.extend(check_along_rims(crack, domain, touch, &key));
+        if line.is_none_or(|line| line.hole.is_none()) {
+            broken.extend(check_in_outline(crack, domain, touch, &key));
+            broken.extend(check_along_rims(crack, domain, touch, &key));
+        }
         in_order.extend(broken.is_empty().then_some(index));
         found.extend(broken);
     }
@@ -206,7 +198,8 @@ fn check_along_rims(crack: &Crack, domain: &Domain, touch: f64, key: &Key) -> Op
     let mut pairs = sides.flat_map(|side| crack.points.windows(2).map(move |s| (s, side)));
     let (segment, _) = pairs.find(|(s, side)| runs_along(s, *side))?;
     let message = format!(
-        "the crack runs along the border at {}; move it into the body, or leave it out",
+        "the crack runs along the border at {}, and leaves it; move it into the body, or let all of it lie on one \
+         straight side, as in half of a symmetric body",
         shown(segment[0])
     );
     Some(key.clone().mistake(message))
@@ -221,13 +214,19 @@ fn check_in_outline(crack: &Crack, domain: &Domain, touch: f64, key: &Key) -> Op
     (inside <= touch).then(|| key.clone().mistake(message))
 }
 
-fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<MistakeAt> {
+fn check_crack(
+    points: &[Vec2],
+    (domain, is_along): (&Rect, bool),
+    touch: f64,
+    key: &Key,
+) -> Vec<MistakeAt> {
     if points.len() < 2 {
         let message = "a crack needs at least two points; add `[x, y]`";
         return vec![key.clone().mistake(message)];
     }
-    let mut found: Vec<MistakeAt> = check_places(points, domain, touch, key).into_iter().collect();
-    found.extend(check_segments(points, domain, touch, key));
+    let places = check_places(points, (domain, is_along), touch, key);
+    let mut found: Vec<MistakeAt> = places.into_iter().collect();
+    found.extend(check_segments(points, (domain, is_along), touch, key));
     if found.is_empty() {
         found.extend(check_whole(points, touch, key));
     }
@@ -236,8 +235,12 @@ fn check_crack(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<Mis
 
 /// Each point inside the closed box; on its border only the ends, and then exactly, or all on one
 /// edge. The first that is not is told: a curve has many.
-fn check_places(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Option<MistakeAt> {
-    let is_along = edge_along(points, domain, 0.0).is_some();
+fn check_places(
+    points: &[Vec2],
+    (domain, is_along): (&Rect, bool),
+    touch: f64,
+    key: &Key,
+) -> Option<MistakeAt> {
     let place = |(index, p): (usize, &Vec2)| {
         let is_end = index == 0 || index + 1 == points.len();
         let near = edges_at(*p, domain, touch).next();
@@ -289,8 +292,12 @@ pub(super) fn shown(p: Vec2) -> String {
 }
 
 /// Each segment of positive length, and along the border all of them or none.
-fn check_segments(points: &[Vec2], domain: &Rect, touch: f64, key: &Key) -> Vec<MistakeAt> {
-    let is_along = edge_along(points, domain, 0.0).is_some();
+fn check_segments(
+    points: &[Vec2],
+    (domain, is_along): (&Rect, bool),
+    touch: f64,
+    key: &Key,
+) -> Vec<MistakeAt> {
     let segment = |(index, pair): (usize, &[Vec2])| {
         let [a, b] = [pair[0], pair[1]];
         let along = edges_at(a, domain, touch)

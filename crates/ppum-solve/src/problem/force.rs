@@ -93,8 +93,8 @@ impl Problem {
                 "lies at an end, a kink or a crossing of crack {crack}; move it along the face"
             ));
         }
-        if self.edge_of(crack).is_some() {
-            return Err("lies on the edge of a half model; model the whole body".into());
+        if self.line_of(crack).is_some() {
+            return Err("lies on the border of a half model; model the whole body".into());
         }
         let distance = |s: &[Vec2]| segment::distance([s[0], s[1]], p);
         let all = points.windows(2).enumerate();

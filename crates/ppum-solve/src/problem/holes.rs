@@ -4,7 +4,7 @@ use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2};
 
 use super::boundary::Edge;
-use super::cracks::{TOUCH, crosses_itself, place, shown};
+use super::cracks::{crosses_itself, place, shown, touch};
 use super::key::{Key, MistakeAt};
 use super::nearby::TooDense;
 use crate::geometry::{meets, solid_part};
@@ -14,8 +14,7 @@ const MAX_RIMS: usize = 1 << 14;
 
 /// All rules broken by the holes of a domain whose box is in order.
 pub(super) fn check_holes(domain: &Domain) -> Vec<MistakeAt> {
-    let size = domain.bounds.size();
-    let touch = TOUCH * size.x.max(size.y);
+    let touch = touch(&domain.bounds);
     let rims = domain.holes.iter().map(|hole| hole.sides().count().max(1));
     if rims.sum::<usize>() > MAX_RIMS {
         let message = format!(

@@ -479,11 +479,11 @@ tables! {
     /// A part of the border.
     static ON = "`on`", "" {
         edge: Word(words::<Edge>), example("\"top\"") => "A piece of this edge.";
-        from: Number, default("start of the edge") =>
-            "Start of the piece: its y on the left and right, its x at the bottom and top.";
-        to: Number, default("end of the edge") => "End of the piece, larger than `from`.";
+        from: Number, default("start") =>
+            "Start of the part: its y on the left and right, its x at the bottom and top; of a `piece` the length along it.";
+        to: Number, default("end") => "End of the part, larger than `from`.";
         hole: Whole => "The rim of this hole, except the parts in other holes or outside the box.";
-        piece: Text("name") => "The pieces of outline and rims with this name.";
+        piece: Text("name") => "The pieces of outline and rims with this name, or, with `from` or `to`, a part of one.";
         crack: Whole => "The faces of this crack.";
         face: Word(words::<Side>), default("both") => "Only the face that bounds the material on this side.";
     }

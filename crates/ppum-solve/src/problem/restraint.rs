@@ -5,11 +5,18 @@ use super::boundary::{BorderPart, Edge, OUTLINE, Piece};
 use ppum::domain::Domain;
 use ppum::vec2::Vec2;
 
-/// The middle of a restraint by the words of its reaction: of an edge or a piece of it, of a
-/// circle, of the box around a polygon. None for words of other programs.
+/// The middle of a restraint by the words of its reaction: of an edge or a part of it, of a circle,
+/// of the box around a polygon, the centroid of the sides of a piece. None for words of other
+/// programs.
 #[must_use]
-pub fn restraint_center(on: &str, domain: &Domain) -> Option<Vec2> {
+pub fn restraint_center(on: &str, domain: &Domain, pieces: &[Piece]) -> Option<Vec2> {
     let bounds = &domain.bounds;
+    if let Some(name) = on.strip_prefix("piece ") {
+        let piece = pieces.iter().find(|piece| piece.name == name)?;
+        return Some(centroid(
+            piece.runs.iter().flat_map(|run| run.sides(&domain.holes[run.hole])),
+        ));
+    }
     let on_edge = |name: &str, range: Option<[f64; 2]>| {
         let edge = Edge::from_name(name)?;
         let [from, to] = range.unwrap_or(edge.range(bounds));
@@ -26,6 +33,16 @@ pub fn restraint_center(on: &str, domain: &Domain) -> Option<Vec2> {
         }
         _ => None,
     }
+}
+
+/// The centroid of segments.
+fn centroid(sides: impl Iterator<Item = [Vec2; 2]>) -> Vec2 {
+    let (mut length, mut moment) = (0.0, Vec2::ZERO);
+    for [a, b] in sides {
+        length += (b - a).length();
+        moment = moment + (a + b) * (0.5 * (b - a).length());
+    }
+    moment / length
 }
 
 /// A part of the border as problem files name it.
@@ -46,6 +63,7 @@ pub(crate) fn restraint_words(on: BorderPart, domain: &Domain, pieces: &[Piece])
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::problem::SideRun;
     use ppum::domain::Hole;
     use ppum::vec2::{Rect, vec2};
 
@@ -68,13 +86,23 @@ mod tests {
             (BorderPart::Hole(2), vec2(2.0, 1.0)),
         ] {
             assert_eq!(
-                restraint_center(&restraint_words(part, &domain, &[]), &domain),
+                restraint_center(&restraint_words(part, &domain, &[]), &domain, &[]),
                 Some(center),
                 "{part}"
             );
         }
+        let run = |from, to| SideRun { hole: 1, from, to };
+        let pieces = [("a", vec![run(0, 1)]), ("b from 0 to 1", vec![run(1, 2), run(2, 3)])];
+        let pieces = pieces.map(|(name, runs)| Piece { name: name.into(), runs });
+        // of the second, sides as long as 1 and √2
+        let middle = vec2(3.0, 0.5) + vec2(-0.5, 0.0) * (2f64.sqrt() / (1.0 + 2f64.sqrt()));
+        for (k, center) in [vec2(2.5, 0.0), middle].into_iter().enumerate() {
+            let words = restraint_words(BorderPart::Piece(k), &domain, &pieces);
+            let found = restraint_center(&words, &domain, &pieces).expect("a centre");
+            assert!((found - center).length() < 1e-15, "{words}: {found:?}");
+        }
         for other in ["", "hole 3", "hole x", "rim", "top from 0 to", "top  from 0 to 1"] {
-            assert_eq!(restraint_center(other, &domain), None, "{other}");
+            assert_eq!(restraint_center(other, &domain, &[]), None, "{other}");
         }
     }
 }

@@ -4,9 +4,11 @@ use std::f64::consts::TAU;
 
 use ppum::crack::Side;
 use ppum::domain::Hole;
+use ppum::segment;
 use ppum::vec2::{Vec2, vec2};
 
 use super::boundary::{BorderPart, BoundaryCondition};
+use super::cracks::touch;
 use super::force::ForcePlace;
 use super::model::Problem;
 
@@ -94,20 +96,26 @@ impl Problem {
                 let rims = holes.flat_map(|(index, hole)| {
                     around(hole, |side| self.is_on(part, index, side), spacing)
                 });
-                rims.filter(|&(p, _)| bounds.contains(p)).collect()
+                let faces: Vec<_> =
+                    self.border_cracks().map(|(k, _)| &self.cracks[k].points).collect();
+                let is_on_face = |p: Vec2| {
+                    let mut near = faces.iter().map(|face| segment::polyline_distance(face, p));
+                    near.any(|distance| distance <= touch(bounds))
+                };
+                rims.filter(|&(p, _)| bounds.contains(p) && !is_on_face(p)).collect()
             }
             BorderPart::Crack { crack, face } => {
                 let crack = &self.cracks[crack];
-                let segments = crack.points.windows(2).enumerate();
+                let segments = crack.points.windows(2).map(|s| [s[0], s[1]]);
                 let sides = [Side::Above, Side::Below].into_iter();
                 let sides = sides.filter(|side| face.is_none_or(|face| face == *side));
                 let faces = sides.flat_map(|side| {
-                    let is_in_body = move |k: usize| crack.outer_side(k, bounds) != Some(side);
-                    let segments = segments.clone().filter(move |(k, _)| is_in_body(*k));
-                    segments.flat_map(move |(_, ends)| {
+                    let is_in_body =
+                        move |ends: &[Vec2; 2]| self.domain.outer_side(*ends) != Some(side);
+                    segments.clone().filter(is_in_body).flat_map(move |ends| {
                         let left = (ends[1] - ends[0]).unit().left();
                         let outward = if side == Side::Above { -left } else { left };
-                        along([ends[0], ends[1]], spacing).map(move |p| (p, outward))
+                        along(ends, spacing).map(move |p| (p, outward))
                     })
                 });
                 faces.collect()

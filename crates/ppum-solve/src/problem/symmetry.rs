@@ -1,4 +1,4 @@
-//! Half models: a crack on an edge, about which the whole body is mirrored.
+//! Half models: a crack on a straight line of the border, about which the whole body is mirrored.
 //!
 //! Of a symmetric field u, mirrored about the line y = 0, the upper half is all there is to know:
 //!
@@ -7,15 +7,23 @@
 //! antisymmetric   u_x(x, −y) = −u_x(x, y)    u_y(x, −y) = u_y(x, y)      on the line u_x = 0, t_y = 0
 //! ```
 //!
-//! On a crack that lies on the line neither holds: there the edge is a face of the crack. The end
-//! of the crack between two corners of the box is a tip, the one at a corner a mouth.
+//! On a crack that lies on the line neither holds: there the border is a face of the crack. The end
+//! of the crack between two corners of the body is a tip, the one at a corner a mouth.
+
+use std::f64::consts::{PI, TAU};
 
 use ppum::crack::TipId;
-use ppum::vec2::{Rect, Vec2};
+use ppum::domain::BorderLine;
+use ppum::segment::{self, Segment};
+use ppum::vec2::Vec2;
 
 use super::boundary::{BorderPart, BoundaryCondition, Condition, Edge};
-use super::cracks::{edge_along, touch};
+use super::cracks::touch;
 use super::model::Problem;
+use crate::geometry::without;
+
+/// Sine of angles that are rounding.
+const ROUNDING: f64 = 1e-6;
 
 /// Symmetry of a field to a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,6 +70,7 @@ impl BoundaryCondition {
         let [first, second] = self.axes().map(|axis| axis.dot(normal).abs());
         let [across, along] = if second > first { [y, x] } else { [x, y] };
         match () {
+            () if first.min(second) > ROUNDING => None,
             () if is_zero(across) && is_free(along) => Some(Symmetry::Symmetric),
             () if is_free(across) && is_zero(along) => Some(Symmetry::Antisymmetric),
             () => None,
@@ -70,9 +79,20 @@ impl BoundaryCondition {
 }
 
 impl Problem {
+    /// The straight line of the border that a crack lies on.
+    pub(crate) fn line_of(&self, crack: usize) -> Option<BorderLine> {
+        self.domain.line_along(&self.cracks[crack].points)
+    }
+
+    /// The cracks that lie on straight lines of the border.
+    pub(crate) fn border_cracks(&self) -> impl Iterator<Item = (usize, BorderLine)> {
+        (0..self.cracks.len()).filter_map(|crack| Some((crack, self.line_of(crack)?)))
+    }
+
     /// The edge that a crack lies on.
     pub(crate) fn edge_of(&self, crack: usize) -> Option<Edge> {
-        edge_along(&self.cracks[crack].points, &self.domain.bounds, 0.0)
+        let line = self.line_of(crack).filter(|line| line.hole.is_none())?;
+        Edge::ALL.into_iter().find(|edge| edge.normal() == line.outward())
     }
 
     /// The parts of an edge, in its own coordinate, that are faces of cracks.
@@ -103,32 +123,56 @@ impl Problem {
         if condition.symmetry().is_none() {
             return vec![condition];
         }
-        let mut parts = vec![[from, to]];
-        for [a, b] in self.faces_on(edge) {
-            let beside = |[from, to]: [f64; 2]| [[from, to.min(a)], [from.max(b), to]];
-            parts = parts.into_iter().flat_map(beside).filter(|[from, to]| from < to).collect();
-        }
+        let faces: Vec<[f64; 2]> = self.faces_on(edge).collect();
         let part = |[from, to]: [f64; 2]| BoundaryCondition {
             on: BorderPart::Edge { edge, from, to },
             ..condition.clone()
         };
-        parts.into_iter().map(part).collect()
+        without([from, to], &faces).into_iter().map(part).collect()
     }
 
-    /// The symmetry of the field at a tip on an edge: that of the edge ahead of it.
+    /// The segments of the border that a part of it consists of; none of circles and cracks.
+    fn segments_of(&self, part: BorderPart) -> Vec<Segment> {
+        if let BorderPart::Edge { edge, from, to } = part {
+            return vec![[from, to].map(|s| edge.point(&self.domain.bounds, s))];
+        }
+        let holes = self.domain.holes.iter().enumerate();
+        let own = holes.flat_map(|(k, hole)| {
+            hole.sides().enumerate().filter(move |(side, _)| self.is_on(part, k, *side))
+        });
+        own.map(|(_, ends)| ends).collect()
+    }
+
+    /// True if some of a part of the border lies on a line of it.
+    pub(super) fn meets_line(&self, part: BorderPart, line: &BorderLine) -> bool {
+        let touch = touch(&self.domain.bounds);
+        let is_on = |ends: &Segment| ends.iter().all(|p| line.holds(*p, touch));
+        self.segments_of(part).iter().any(is_on)
+    }
+
+    /// The symmetry to a line of the border that a condition on it says.
+    pub(super) fn symmetry_on(
+        &self,
+        condition: &BoundaryCondition,
+        line: &BorderLine,
+    ) -> Option<Symmetry> {
+        let (touch, segments) = (touch(&self.domain.bounds), self.segments_of(condition.on));
+        let is_on = segments.iter().flatten().all(|p| line.holds(*p, touch));
+        let symmetry = condition.symmetry_to(line.outward());
+        symmetry.filter(|_| is_on && !segments.is_empty())
+    }
+
+    /// The symmetry of the field at a tip on the border: that of the line ahead of it.
     pub(crate) fn symmetry_at(&self, tip: TipId) -> Option<Symmetry> {
         let (crack, touch) = (tip.crack as usize, touch(&self.domain.bounds));
-        let edge = self.edge_of(crack)?;
+        let line = self.line_of(crack)?;
         let (at, axis) =
             (self.cracks[crack].end_point(tip.end), self.cracks[crack].growth_direction(tip.end));
-        let ahead = [touch, 4.0 * touch].map(|step| edge.coordinate(at + axis * step));
-        let holds = |condition: &&BoundaryCondition| match condition.on {
-            BorderPart::Edge { edge: own, from, to } => {
-                own == edge && ahead.iter().all(|s| from <= *s && *s <= to)
-            }
-            _ => false,
-        };
-        self.boundary.iter().find(holds).and_then(BoundaryCondition::symmetry)
+        let ahead = [2.0 * touch, 4.0 * touch].map(|step| at + axis * step);
+        let holds = |ends: Segment| ahead.iter().all(|p| segment::distance(ends, *p) < touch);
+        let is_ahead =
+            |condition: &&BoundaryCondition| self.segments_of(condition.on).into_iter().any(holds);
+        self.symmetry_on(self.boundary.iter().find(is_ahead)?, &line)
     }
 
     /// The symmetry of the field at a crack on an edge.
@@ -138,34 +182,54 @@ impl Problem {
         tips.find_map(|tip| self.symmetry_at(tip))
     }
 
-    /// True if the faces of cracks and symmetries of some kinds fill an edge.
-    fn is_along(&self, edge: Edge, is_of_kind: impl Fn(Symmetry) -> bool) -> bool {
-        let [from, to] = edge.range(&self.domain.bounds);
-        let of_condition = |condition: &BoundaryCondition| match condition.on {
-            BorderPart::Edge { edge: own, from, to } if own == edge => {
-                condition.symmetry().filter(|kind| is_of_kind(*kind)).map(|_| to - from)
-            }
-            _ => None,
+    /// True if the faces of cracks and symmetries of some kinds fill a line of the border.
+    fn is_along(&self, line: &BorderLine, is_of_kind: impl Fn(Symmetry) -> bool) -> bool {
+        let is_held =
+            |one: &&BoundaryCondition| self.symmetry_on(one, line).is_some_and(&is_of_kind);
+        let held = self.boundary.iter().filter(is_held);
+        let held = held.flat_map(|condition| self.segments_of(condition.on));
+        let mut parts: Vec<[f64; 2]> = held
+            .chain(self.faces_along(line))
+            .map(|ends| ends.map(|p| line.coordinate(p)))
+            .map(|[a, b]| [a.min(b), a.max(b)])
+            .collect();
+        parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let touch = touch(&self.domain.bounds);
+        let filled = |reach: f64, [a, b]: [f64; 2]| {
+            if a <= reach + touch { reach.max(b) } else { reach }
         };
-        let held: f64 = self.boundary.iter().filter_map(of_condition).sum();
-        let faces: f64 = self.faces_on(edge).map(|[from, to]| to - from).sum();
-        held + faces >= (to - from) - touch(&self.domain.bounds)
+        parts.into_iter().fold(0.0, filled) >= line.length() - touch
     }
 
-    /// The symmetry that all sides of the outline on a line along an edge have.
-    fn symmetry_of_sides(&self, edge: Edge, line: f64) -> Option<Symmetry> {
-        let (touch, normal) = (touch(&self.domain.bounds), edge.normal());
-        let hole = self.domain.outline()?;
-        let is_on = |p: &Vec2| (normal.dot(*p) - line).abs() <= touch;
-        let sides = self.domain.holes[hole].sides().enumerate();
-        let on_line = sides.filter(|(_, ends)| ends.iter().all(is_on)).map(|(side, _)| side);
-        let symmetry = |side: usize| {
-            let here = self.boundary.iter().filter(|one| self.is_on(one.on, hole, side));
-            here.filter_map(|one| one.symmetry_to(normal)).next()
+    /// The faces of cracks on a line of the border.
+    pub(crate) fn faces_along(&self, line: &BorderLine) -> impl Iterator<Item = Segment> {
+        let own = self.border_cracks().filter(move |(_, own)| own == line);
+        own.flat_map(|(crack, _)| self.cracks[crack].points.windows(2)).map(|s| [s[0], s[1]])
+    }
+
+    /// The parts of a part of the border on a line that are no faces of cracks.
+    pub(crate) fn parts_beside_faces(&self, part: BorderPart, line: &BorderLine) -> Vec<Segment> {
+        let ranges = |ends: Segment| ends.map(|p| line.coordinate(p));
+        let faces: Vec<[f64; 2]> = self.faces_along(line).map(ranges).collect();
+        let [direction, start] = [line.direction(), line.ends[0]];
+        let beside = |ends: Segment| {
+            let [a, b] = ranges(ends);
+            let all = without([a.min(b), a.max(b)], &faces).into_iter();
+            all.map(move |range| range.map(|s| start + direction * s))
         };
-        let mut all = on_line.map(symmetry);
-        let first = all.next()??;
-        all.all(|other| other == Some(first)).then_some(first)
+        self.segments_of(part).into_iter().flat_map(beside).collect()
+    }
+
+    /// The lines of the body's border on an edge of the box around it.
+    fn lines_on(&self, edge: Edge) -> Vec<BorderLine> {
+        let (touch, normal) = (touch(&self.domain.bounds), edge.normal());
+        let at = edge.point(&self.domain.body_bounds(), 0.0);
+        let is_on = |line: &BorderLine| {
+            let [a, b] = line.ends.map(|p| normal.dot(p - at).abs());
+            let is_outer = line.hole.is_none() || line.hole == self.domain.outline();
+            a.max(b) <= touch && line.outward().dot(normal) > 0.0 && is_outer
+        };
+        self.domain.border_lines().filter(is_on).collect()
     }
 
     /// The edges of the box around the body beyond which it may be mirrored: those that have one
@@ -173,38 +237,42 @@ impl Problem {
     /// or the lower one.
     #[must_use]
     pub fn mirrors(&self) -> Vec<(Edge, Symmetry)> {
-        let body = self.domain.body_bounds();
-        let of_box = |edge: Edge| {
-            let kinds = [Symmetry::Symmetric, Symmetry::Antisymmetric].into_iter();
-            let mut kinds = kinds.filter(|kind| self.is_along(edge, |own| own == *kind));
-            let has_faces_alone = self.is_along(edge, |_| false);
-            kinds.next().filter(|_| !has_faces_alone)
-        };
         let symmetry = |edge: Edge| {
-            let line = |around: &Rect| edge.normal().dot(edge.point(around, 0.0));
-            let kind = match line(&body) == line(&self.domain.bounds) {
-                true => of_box(edge),
-                false => self.symmetry_of_sides(edge, line(&body)),
+            let lines = self.lines_on(edge);
+            let is_of = |kind: &Symmetry| {
+                let is_along = |line| self.is_along(line, |own| own == *kind);
+                lines.iter().all(is_along)
+                    && !lines.iter().all(|line| self.is_along(line, |_| false))
             };
-            kind.map(|kind| (edge, kind))
+            let kind = [Symmetry::Symmetric, Symmetry::Antisymmetric].into_iter().find(is_of)?;
+            Some((edge, kind))
         };
         let pairs = [[Edge::Left, Edge::Right], [Edge::Bottom, Edge::Top]];
         pairs.into_iter().filter_map(|pair| pair.into_iter().find_map(symmetry)).collect()
     }
 
-    /// The number of images of a plate with a crack on an edge that make the whole: 2 of a half, 4
-    /// of a quarter. None of other plates.
+    /// The number of images of a body with a crack on a line of symmetry that make the whole: 2 of
+    /// a half, 4 of a quarter, 2π/ω of a wedge between two lines at an angle ω. None of other bodies,
+    /// and where images do not make a whole.
     pub(crate) fn images(&self) -> Option<f64> {
-        (0..self.cracks.len()).find(|&k| self.edge_of(k).is_some())?;
-        let pairs = [[Edge::Left, Edge::Right], [Edge::Bottom, Edge::Top]];
-        let is_mirror = |edge: &Edge| self.is_along(*edge, |_| true);
-        let mirrored = pairs.into_iter().filter(|pair| pair.iter().any(is_mirror)).count();
-        Some([1.0, 2.0, 4.0][mirrored])
+        let (_, first) = self.border_cracks().next()?;
+        let is_mirror = |line: &BorderLine| self.is_along(line, |_| true);
+        let normal = first.outward();
+        let angle = |line: BorderLine| {
+            let other = line.outward();
+            PI - normal.cross(other).atan2(normal.dot(other)).abs()
+        };
+        is_mirror(&first).then_some(())?;
+        let all = self.domain.border_lines().filter(is_mirror).map(angle);
+        let least =
+            all.filter(|angle| *angle > ROUNDING && *angle < PI - ROUNDING).fold(PI, f64::min);
+        let count = TAU / least;
+        ((count - count.round()).abs() < ROUNDING).then_some(count.round())
     }
 
-    /// True of a symmetry that fields satisfy exactly: that of an edge with a crack.
-    pub(crate) fn is_exact(&self, condition: &BoundaryCondition) -> bool {
-        let BorderPart::Edge { edge, .. } = condition.on else { return false };
-        condition.symmetry().is_some() && self.faces_on(edge).next().is_some()
+    /// The line with a crack to which a condition says a symmetry: fields satisfy it exactly.
+    pub(crate) fn exact_line(&self, condition: &BoundaryCondition) -> Option<BorderLine> {
+        let mut lines = self.border_cracks().map(|(_, line)| line);
+        lines.find(|line| self.symmetry_on(condition, line).is_some())
     }
 }

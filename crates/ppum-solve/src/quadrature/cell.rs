@@ -6,8 +6,10 @@ use super::polygon::{Polygon, SegmentCut, line_side};
 use super::rule::{Rule, Rules};
 use super::singular::PieceQuadrature;
 use super::{adapt, curve, holes, split};
+use crate::geometry::is_on_rim;
 use ppum::crack::Crack;
 use ppum::domain::Hole;
+use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::cell::Cell;
 use std::sync::Arc;
@@ -28,6 +30,8 @@ pub(crate) struct Quadrature<'a> {
     pub(super) orders: Orders,
     /// Segments of cracks and sides of holes.
     segments: Vec<SegmentCut>,
+    /// Segments of cracks on sides of holes, which cut nothing.
+    pub(super) faces: Vec<Segment>,
     /// Round rims: at least as many as there are round holes.
     pub(super) circles: Vec<Arc<LevelFunction>>,
     /// Boxes of the holes, and of the round ones.
@@ -70,13 +74,16 @@ impl<'a> Quadrature<'a> {
     #[must_use]
     pub(crate) fn new(geometry: Geometry<'a>, orders: Orders) -> Self {
         let sides = geometry.holes.iter().flat_map(Hole::sides).map(SegmentCut::segment);
-        let segments = geometry.cracks.iter().flat_map(cuts).chain(sides).collect();
+        let (on_rims, inside): (Vec<&Crack>, Vec<&Crack>) =
+            geometry.cracks.iter().partition(|crack| is_on_rim(crack, geometry.holes));
+        let faces = on_rims.into_iter().flat_map(cuts).map(|cut| cut.ends).collect();
+        let segments = inside.into_iter().flat_map(cuts).chain(sides).collect();
         let circles = geometry.holes.iter().filter_map(holes::level).collect();
         let round = geometry.holes.iter().filter(|hole| matches!(hole, Hole::Circle { .. }));
         let circle_boxes = round.map(Hole::bounds).collect();
         let boxes = geometry.holes.iter().map(Hole::bounds).collect();
         let divisions = adapt::MOST_DIVISIONS;
-        Self { geometry, orders, segments, circles, boxes, circle_boxes, divisions }
+        Self { geometry, orders, segments, faces, circles, boxes, circle_boxes, divisions }
     }
 
     /// The same with fewer divisions of a cell where formulas are probed.

@@ -12,7 +12,10 @@ use super::roots::{sign_changes, tame};
 use super::singular::panels;
 use super::split::{breaks, component, divided, kinks, varies};
 use super::stretch::{Path, Stretch};
+use crate::geometry::{around, without};
 use ppum::crack::Side;
+use ppum::domain::{TOUCH, touch};
+use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2};
 use std::cell::Cell;
 
@@ -97,7 +100,7 @@ impl Quadrature<'_> {
     /// Rules on the part of a straight segment that belongs to a cell; empty if none does.
     ///
     /// `normal` is the segment's unit normal out of the material. Parts without material behind
-    /// them count for nothing. A segment along a cell's border belongs to the cell that `normal`
+    /// them count for nothing, and neither do faces of cracks on it. A segment along a cell's border belongs to the cell that `normal`
     /// points out of. `coverers` are the patches whose open supports meet the cell; more of them do
     /// no harm.
     #[must_use]
@@ -132,7 +135,11 @@ impl Quadrature<'_> {
             rules: Vec::new(),
             left,
         };
-        run.add(lo, hi, coverers);
+        let faces: Vec<_> = match face {
+            None => self.faces.iter().filter_map(|face| run.line.range_of(*face)).collect(),
+            Some(_) => Vec::new(),
+        };
+        without([lo, hi], &faces).into_iter().for_each(|[lo, hi]| run.add(lo, hi, coverers));
         run.rules
     }
 }
@@ -217,6 +224,14 @@ impl EdgeLine {
         let ways = self.segment.map(|end| at - component(end, axis));
         let k = usize::from(ways[1].abs() < ways[0].abs());
         self.ends[k] + ways[k] / component(self.tangent, axis)
+    }
+
+    /// s at the ends of a segment that lies on the line.
+    fn range_of(&self, segment: Segment) -> Option<[f64; 2]> {
+        let [from, to] = self.ends;
+        let near = touch(&around(&segment)).max(TOUCH * (to - from).abs());
+        let seen = segment.map(|p| self.seen_from(p));
+        seen.iter().all(|(_, distance)| *distance <= 2.0 * near).then_some(seen.map(|(s, _)| s))
     }
 
     /// s of a point's foot on the line, and the point's distance to the line.

@@ -1,26 +1,29 @@
-//! Components of the field that are zero on the line of an edge: the symmetry of an edge that holds
-//! a crack.
+//! Components of the field that are zero on a line: the symmetry of a straight line of the border
+//! that holds a crack.
 //!
 //! The tip's singular functions that have the symmetry satisfy it; of the polynomials, and of jumps
 //! times polynomials, those are taken that vanish on the line. Nothing is left for Nitsche's
 //! method, whose tractions are not square integrable at the tip, and factors converge as in the
 //! whole body.
 
-use crate::geometry;
-use crate::problem::{BorderPart, Edge, Problem};
+use crate::geometry::{clipped, solid_part, wider};
+use crate::problem::{BoundaryCondition, Problem, held_directions, touch};
 use ppum::dataset::BoxPartition;
-use ppum::domain::Domain;
+use ppum::domain::BorderLine;
+use ppum::segment::Segment;
+use ppum::vec2::Vec2;
 use std::collections::BTreeMap;
 
-/// Length of an edge in a patch, in half-sizes of the patch, up to which nothing of it is seen.
+/// Length of a line in a patch, in half-sizes of the patch, up to which nothing of it is seen.
 const LEAST: f64 = 1e-9;
 
 /// A component of the field that is zero on a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HeldLine {
-    pub(crate) component: usize,
-    /// The axis across the line: 0 of a line x = `at`, 1 of y = `at`.
-    pub(crate) across: usize,
+    /// The unit vector of the component.
+    pub(crate) direction: Vec2,
+    /// The unit normal n of the line n · x = `at`.
+    pub(crate) normal: Vec2,
     pub(crate) at: f64,
 }
 
@@ -29,34 +32,42 @@ pub(super) fn held_lines(
     problem: &Problem,
     partition: &BoxPartition,
 ) -> BTreeMap<u32, Vec<HeldLine>> {
-    let bounds = &problem.domain.bounds;
     let mut found: BTreeMap<u32, Vec<HeldLine>> = BTreeMap::new();
-    for condition in problem.boundary.iter().filter(|condition| problem.is_exact(condition)) {
-        let BorderPart::Edge { edge, from, to } = condition.on else { continue };
-        let line = held_line(edge, condition.held(), edge.point(bounds, from).into());
+    for condition in &problem.boundary {
+        let Some(line) = problem.exact_line(condition) else { continue };
+        let Some(held) = held_line(&line, condition) else { continue };
+        let parts = problem.parts_beside_faces(condition.on, &line);
         for patch in 0..partition.len() {
-            let part = partition.support(patch).intersection(bounds);
-            let [start, end] = edge.range(&part);
-            let on_edge = edge.point(&part, start) == edge.point(bounds, start);
-            let [from, to] = [start.max(from), end.min(to)];
             let half = partition.half[patch];
-            let seen = || (to - from) * solid_part(edge, [from, to], &problem.domain);
-            if on_edge && to > from && seen() > LEAST * half.x.min(half.y) {
+            let seen: f64 = parts
+                .iter()
+                .map(|part| seen_length(part, &line, (problem, partition, patch)))
+                .sum();
+            if seen > LEAST * half.x.min(half.y) {
                 let lines = found.entry(patch as u32).or_default();
-                lines.extend((!lines.contains(&line)).then_some(line));
+                lines.extend((!lines.contains(&held)).then_some(held));
             }
         }
     }
     found
 }
 
-/// The part of a piece of an edge that lies outside of holes.
-fn solid_part(edge: Edge, piece: [f64; 2], domain: &Domain) -> f64 {
-    let [a, b] = piece.map(|s| edge.point(&domain.bounds, s));
-    geometry::solid_part(a, b, [0.0, 1.0], domain.holes.iter())
+/// The length of a part of a line in a patch and outside of holes.
+fn seen_length(
+    &[a, b]: &Segment,
+    line: &BorderLine,
+    (problem, partition, patch): (&Problem, &BoxPartition, usize),
+) -> f64 {
+    let domain = &problem.domain;
+    let near =
+        wider(&partition.support(patch).intersection(&domain.bounds), 1e-3 * touch(&domain.bounds));
+    let others = domain.holes.iter().enumerate().filter(|(k, _)| line.hole != Some(*k));
+    let solid = |range| solid_part(a, b, range, others.clone().map(|(_, hole)| hole));
+    clipped(a, b, &near).map_or(0.0, |range| solid(range) * (b - a).length())
 }
 
-fn held_line(edge: Edge, held: [bool; 2], start: [f64; 2]) -> HeldLine {
-    let across = usize::from(edge.normal().x == 0.0);
-    HeldLine { component: usize::from(held[1]), across, at: start[across] }
+fn held_line(line: &BorderLine, condition: &BoundaryCondition) -> Option<HeldLine> {
+    let direction = held_directions(condition.held(), condition.axes()).next()?;
+    let normal = line.outward();
+    Some(HeldLine { direction, normal, at: normal.dot(line.ends[0]) })
 }

@@ -1,6 +1,7 @@
 //! Symmetry and antisymmetry to straight sides of outlines, whichever way these run.
 
 use crate::studies::support::{parsed, record, solved};
+use ppum::dataset::TipIntensity;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::problem::{Edge, Problem, Symmetry};
 use ppum_testkit::random::Random;
@@ -214,4 +215,162 @@ fn sides_are_mirrors() {
     assert_eq!(edges, [Edge::Right, Edge::Top]);
     ring.degrees = 20.0;
     assert!(ring.quarter("symmetry", "1").mirrors().is_empty());
+}
+
+/// K_I, K_II, T and J of the tips of a body, and the energy of the whole of which it is a part.
+fn factors(problem: &Problem) -> Vec<[f64; 5]> {
+    let step = solved(problem).steps.remove(0);
+    let whole = record(&step, "energy of the whole");
+    let of_tip =
+        |tip: &TipIntensity| [tip.k1, tip.k2, tip.t_stress.expect("T"), tip.j.expect("J"), whole];
+    step.intensities.iter().map(of_tip).collect()
+}
+
+/// The rectangle of the sides 1 and 2 as a box. Names of sides stand in the conditions as `@bottom`
+/// and so on, points and vectors as `<x, y>`.
+fn of_box(conditions: &str, order: usize) -> Problem {
+    let head = format!(
+        "[domain]\nmin = [0, 0]\nmax = [1, 2]\n[material]\nyoung = {YOUNG}\npoisson = {POISSON}\n\
+         state = \"plane-strain\"\n[discretization]\ncells = [8, 16]\norder = {order}\n"
+    );
+    parsed(&(head + &placed(&named(conditions, |side| format!("\"{side}\"")), 0.0)))
+}
+
+/// The same as an outline, turned by some angles.
+fn of_sides(conditions: &str, order: usize, seed: u64) -> Vec<(f64, Problem)> {
+    let text = named(conditions, |side| format!("{{ piece = \"{side}\" }}"));
+    let turned = |degrees: f64| {
+        let rectangle = Turned { degrees, order, cells: 13 };
+        (degrees, rectangle.rectangle(&placed(&text, degrees)))
+    };
+    angles(seed, 2).into_iter().map(turned).collect()
+}
+
+fn named(conditions: &str, name: impl Fn(&str) -> String) -> String {
+    let sides = ["bottom", "right", "top", "left"].iter();
+    sides.fold(conditions.to_owned(), |text, side| text.replace(&format!("@{side}"), &name(side)))
+}
+
+/// A text with its points (x, y), written as `<x, y>`, turned.
+fn placed(text: &str, degrees: f64) -> String {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let mut parts = text.split('<');
+    let mut all = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (point, rest) = part.split_once('>').expect("a point");
+        let (x, y) = point.split_once(',').expect("two coordinates");
+        let [x, y] = [x, y].map(|number| number.trim().parse::<f64>().expect("a number"));
+        all += &format!("[{}, {}]{rest}", cos * x - sin * y, sin * x + cos * y);
+    }
+    all
+}
+
+fn condition(on: &str, what: &str) -> String {
+    format!("[[boundary]]\non = {on}\n{what}\n")
+}
+
+/// Halves and quarters with a crack on a line of symmetry: those of a box, and those of outlines
+/// in any direction, have the same factors and energies of the whole, up to the error of their
+/// covers; also if vertices are moved by rounding.
+#[test]
+fn cracks_on_sides_of_outlines() {
+    let mut random = Random(11);
+    let crack = |from: f64, to: f64| {
+        let bend = 1e-14;
+        format!(
+            "[[crack]]\npoints = [<{from}, 0>, <{}, {bend}>, <{to}, 0>]\n",
+            0.6 * from + 0.4 * to
+        )
+    };
+    let load = |on: &str, t: [f64; 2]| condition(on, &format!("traction = <{}, {}>", t[0], t[1]));
+    let pulled = load("@top", [0.0, 1.0])
+        + &condition("{ crack = 0 }", "pressure = 0.4")
+        + &condition("@bottom", "symmetry = true");
+    let quarter = condition("@left", "symmetry = true");
+    let sheared = load("@top", [1.0, 0.0])
+        + &load("@right", [0.0, 1.0])
+        + &load("@left", [0.0, -1.0])
+        + &condition("@bottom", "antisymmetry = true");
+    let edge = crack(0.0, random.between(0.3, 0.6));
+    let inner = crack(random.between(0.2, 0.35), random.between(0.55, 0.75));
+    let right = crack(1.0, random.between(0.4, 0.6));
+    for (name, text, modes) in [
+        ("edge", edge.clone() + &pulled, 0),
+        ("quarter", edge.clone() + &pulled + &quarter, 0),
+        ("inner", inner.clone() + &pulled, 0),
+        ("right", right + &pulled, 0),
+        ("sheared", inner + &sheared, 1),
+    ] {
+        let known = factors(&of_box(&text, 5));
+        for (degrees, problem) in of_sides(&text, 5, 12) {
+            let found = factors(&problem);
+            assert_eq!(found.len(), known.len(), "{name} {degrees}");
+            for (found, known) in found.iter().zip(&known) {
+                // the errors of both covers: 2e-7 and less of K, 2e-6 of T
+                let apart = |i: usize, size: f64| (found[i] - known[i]).abs() / size.abs();
+                let t = apart(2, known[modes]);
+                let worst =
+                    [modes, 3, 4].map(|i| apart(i, known[i])).into_iter().fold(0.0, f64::max);
+                println!("{name} {degrees}: T {t:.1e}, others {worst:.1e}");
+                assert_eq!(found[1 - modes], 0.0, "{name} {degrees}");
+                assert!(worst < 2e-6 && t < 1e-5, "{name} {degrees}: {found:?}, not {known:?}");
+            }
+        }
+    }
+}
+
+/// A crack on the line of symmetry may be a piece of its own, and the ligament the other one.
+#[test]
+fn faces_may_be_pieces() {
+    let turned = Turned { degrees: 31.0, order: 3, cells: 9 };
+    let [a, b, c, d, e] = [[0.0, 0.0], [0.5, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0]]
+        .map(|[x, y]| turned.point(f64::hypot(x, y), y.atan2(x).to_degrees()));
+    let rest = format!("points = [{c}, {d}, {e}, {a}]");
+    let one = [format!("points = [{a}, {c}], name = \"base\""), rest.clone()];
+    let two =
+        [format!("points = [{a}, {b}]"), format!("points = [{b}, {c}], name = \"base\""), rest];
+    let conditions = placed(
+        &(format!("[[crack]]\npoints = [{a}, {b}]\n")
+            + &condition("{ crack = 0 }", "pressure = 1")
+            + &condition("{ piece = \"base\" }", "symmetry = true")),
+        0.0,
+    );
+    let [one, two] =
+        [&one[..], &two[..]].map(|pieces| factors(&turned.problem(pieces, &conditions))[0]);
+    assert!(
+        one.iter().zip(two).all(|(one, two)| (one - two).abs() <= 1e-9 * one.abs()),
+        "{one:?} {two:?}"
+    );
+}
+
+/// Parts of sides by `from` and `to`, and loads that begin inside of a side by a formula: as boxes
+/// have them, with cells that resolve their ends.
+#[test]
+fn parts_of_sides() {
+    let mut random = Random(13);
+    let [a, b] = [random.between(0.1, 0.4), random.between(0.6, 0.9)];
+    let held = condition("@bottom", "symmetry = true") + &condition("@left", "symmetry = true");
+    let load = |on: &str| condition(on, "traction = <0, 1>");
+    // the top runs from right to left
+    let box_part = load(&format!("{{ edge = \"top\", from = {a}, to = {b} }}"));
+    let side_part = load(&format!("{{ piece = \"top\", from = {}, to = {} }}", 1.0 - b, 1.0 - a));
+    let known = energy(&of_box(&(box_part + &held), 4));
+    for (degrees, part) in of_sides(&(side_part + &held), 4, 14) {
+        let found = energy(&part);
+        println!("{degrees}: {:.1e}", found / known - 1.0);
+        assert!((found / known - 1.0).abs() < 1e-5, "{degrees}: {found}, not {known}");
+        let formula = {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let along = format!("{cos}*x + {sin}*y");
+            let on = |t: f64| format!("\"if(({along} > {a}) and ({along} < {b}), {t}, 0)\"");
+            let held = ["bottom", "left"]
+                .map(|side| condition(&format!("{{ piece = \"{side}\" }}"), "symmetry = true"));
+            let load = format!("traction = [{}, {}]", on(-sin), on(cos));
+            let rectangle = Turned { degrees, order: 4, cells: 13 };
+            rectangle.rectangle(&(held.concat() + &condition("{ piece = \"top\" }", &load)))
+        };
+        let other = energy(&formula);
+        println!("{degrees}: by a formula {:.1e}", other / found - 1.0);
+        assert!((other / found - 1.0).abs() < 1e-6, "{degrees}: {other}, not {found}");
+    }
 }

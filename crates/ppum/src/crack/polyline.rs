@@ -1,6 +1,6 @@
 //! Cracks as data: their vertices, ends, tips and sides.
 
-use crate::vec2::{Rect, Vec2, vec2};
+use crate::vec2::Vec2;
 
 /// A crack: a polyline of at least two points, both faces free unless loaded.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,25 +105,6 @@ impl Crack {
             End::Start => (self.points[0] - self.points[1]).unit(),
             End::Last => (self.points[n - 1] - self.points[n - 2]).unit(),
         }
-    }
-
-    /// The side of a segment that lies outside of a box, if the segment is on its border: of a
-    /// crack on an edge of a half model there is one face in the body.
-    ///
-    /// # Panics
-    /// If there is no such segment.
-    #[must_use]
-    pub fn outer_side(&self, segment: usize, bounds: &Rect) -> Option<Side> {
-        let [a, b] = [self.points[segment], self.points[segment + 1]];
-        let Rect { min, max } = *bounds;
-        let outward = match () {
-            () if a.x == b.x && a.x == min.x => vec2(-1.0, 0.0),
-            () if a.x == b.x && a.x == max.x => vec2(1.0, 0.0),
-            () if a.y == b.y && a.y == min.y => vec2(0.0, -1.0),
-            () if a.y == b.y && a.y == max.y => vec2(0.0, 1.0),
-            () => return None,
-        };
-        Some(if (b - a).left().dot(outward) > 0.0 { Side::Above } else { Side::Below })
     }
 
     /// The ends that are tips.

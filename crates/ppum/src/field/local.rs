@@ -62,9 +62,13 @@ impl Field<'_> {
     #[must_use]
     pub fn on(&self, segment: SegmentId, anchor: Vec2) -> LocalField<'_> {
         let functions = self.functions.on(&self.step.cracks, segment, anchor);
-        let crack = &self.step.cracks[segment.crack as usize];
-        let outer = crack.outer_side(segment.segment as usize, &self.domain.bounds);
-        LocalField { outer, ..LocalField::new(self, anchor, functions) }
+        let from = segment.segment as usize;
+        let points = &self.step.cracks[segment.crack as usize].points;
+        let ends = [points[from], points[from + 1]];
+        let line = self.domain.line_along(&ends);
+        let local = LocalField::new(self, anchor, functions);
+        let domain = local.domain.without_hole(line.and_then(|line| line.hole));
+        LocalField { outer: line.map(|line| line.outer_side(ends)), domain, ..local }
     }
 }
 

@@ -9,6 +9,7 @@
 //! crack belongs to the triangle on that side of the edge that it lies on.
 
 use super::rigid::RigidModes;
+use crate::geometry::is_on_rim;
 use crate::quadrature::{EdgeRule, Face};
 use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side};
 use ppum::domain::{Domain, Hole};
@@ -74,7 +75,11 @@ impl BodyPieces {
             return all_of_it();
         }
         let stitches = stitches(cracks, &bounds);
-        let cracks: Vec<_> = cracks.iter().map(|crack| into_holes(crack, &bounds)).collect();
+        let points = |crack: &Crack| match is_on_rim(crack, &domain.holes) {
+            true => Vec::new(),
+            false => into_holes(crack, &bounds),
+        };
+        let cracks: Vec<_> = cracks.iter().map(points).collect();
         let domain = rims::with_polygons(domain, &cracks);
         // A triangulation fails on coordinates that are not finite only, which no problem has.
         let Ok((mesh, along)) = triangulate(&domain, &cracks, &stitches) else {
@@ -146,7 +151,7 @@ impl BodyPieces {
     /// The piece that a point of a rule along an edge belongs to.
     pub(crate) fn of_border(&self, rule: &EdgeRule, point: usize) -> usize {
         let p = rule.anchor + rule.offsets[point];
-        match rule.face {
+        match rule.face.filter(|face| self.is_cut_by(face.segment.crack)) {
             Some(face) => self.beside(face, p),
             None => self.behind(p, rule.normals[point]),
         }
@@ -155,6 +160,11 @@ impl BodyPieces {
     /// The piece that a point of the border belongs to, with the normal out of the material.
     fn behind(&self, p: Vec2, normal: Vec2) -> usize {
         self.of(p - normal * (INWARD * self.bounds.size().length()))
+    }
+
+    /// False for a crack on a side of a polygon.
+    fn is_cut_by(&self, crack: u32) -> bool {
+        self.map().is_none_or(|map| !map.along[crack as usize].is_empty())
     }
 
     /// The piece that a face of a crack belongs to at a point of it.

@@ -91,7 +91,7 @@ fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) ->
     let message = match condition.on {
         part @ BorderPart::Edge { edge, from, to } => {
             // a symmetry beside the faces of a crack may have a part that lies in a hole
-            let is_needed = reaches_body(part, problem) || problem.is_exact(condition);
+            let is_needed = reaches_body(part, problem) || problem.exact_line(condition).is_some();
             bad_range(edge, [from, to], &problem.domain.bounds)
                 .or_else(|| (!is_needed).then(|| NOTHING_THERE.to_owned()))?
         }

@@ -1,67 +1,73 @@
-//! Rules for cracks on edges: halves of symmetric bodies.
+//! Rules for cracks on straight lines of the border: halves of symmetric bodies.
 
 use ppum::crack::TipId;
+use ppum::domain::BorderLine;
 
-use super::super::boundary::{BorderPart, BoundaryCondition, Edge};
+use super::super::boundary::{BorderPart, BoundaryCondition};
+use super::super::cracks::shown;
 use super::super::discretization::Enrichment;
 use super::super::key::{Key, MistakeAt};
 use super::super::model::Problem;
 use super::super::symmetry::Symmetry;
 
-/// All rules broken by cracks on edges.
+/// All rules broken by cracks on straight lines of the border.
 pub(super) fn check_symmetry(problem: &Problem) -> Vec<MistakeAt> {
-    let on_edges: Vec<(usize, Edge)> = (0..problem.cracks.len())
-        .filter_map(|crack| Some((crack, problem.edge_of(crack)?)))
-        .collect();
-    let Some((first, _)) = on_edges.first() else { return Vec::new() };
-    let of_crack = |(crack, edge): &(usize, Edge)| {
-        let message = bad_crack(problem, *crack, *edge)?;
+    let on_lines: Vec<(usize, BorderLine)> = problem.border_cracks().collect();
+    let Some((first, _)) = on_lines.first() else { return Vec::new() };
+    let of_crack = |(crack, line): &(usize, BorderLine)| {
+        let message = bad_crack(problem, *crack, line)?;
         Some(Key::points(*crack).mistake(message))
     };
-    let mut found: Vec<MistakeAt> = on_edges.iter().filter_map(of_crack).collect();
-    found.extend(bad_conditions(problem, &on_edges));
+    let mut found: Vec<MistakeAt> = on_lines.iter().filter_map(of_crack).collect();
+    found.extend(bad_conditions(problem, &on_lines));
     found.extend(
-        bad_whole(problem)
+        bad_whole(problem, &on_lines)
             .map(|(key, message)| key.mistake(message).with_other(Key::points(*first))),
     );
     found
 }
 
-/// What is wrong with a crack on an edge.
-fn bad_crack(problem: &Problem, index: usize, edge: Edge) -> Option<String> {
-    let (crack, name) = (&problem.cracks[index], edge.name());
-    if !crack.points.iter().all(|p| problem.domain.bounds.contains(*p)) {
-        return None; // it is told that it leaves the domain
+/// The edge, or the side of a polygon, that a line is.
+fn name_of(problem: &Problem, crack: usize, line: &BorderLine) -> String {
+    match problem.edge_of(crack) {
+        Some(edge) => format!("{} edge", edge.name()),
+        None => format!("straight side from {} to {}", shown(line.ends[0]), shown(line.ends[1])),
     }
+}
+
+/// What is wrong with a crack on a line of the border.
+fn bad_crack(problem: &Problem, index: usize, line: &BorderLine) -> Option<String> {
+    let (crack, name) = (&problem.cracks[index], name_of(problem, index, line));
     if problem.equation.elastic().is_none() {
         return Some(format!(
-            "the crack runs along the {name} edge; move it into the plate, or leave it out: where nothing is said \
-             of an edge there is no flux through it"
+            "the crack runs along the {name}; move it into the plate, or leave it out: where nothing is said of the \
+             border there is no flux through it"
         ));
     }
     let mut tips = crack.tips().map(|end| TipId { crack: index as u32, end }).peekable();
     if tips.peek().is_none() {
         return Some(format!(
-            "no end of the crack on the {name} edge is a tip: both lie at corners of the domain, in holes or on \
-             other cracks; let one end on the edge between its corners, or leave the crack out: where nothing is \
-             said of an edge it is free"
+            "no end of the crack on the {name} is a tip: both lie at corners of the body, in holes or on other \
+             cracks; let one end between two corners, or leave the crack out: where nothing is said of the border \
+             it is free"
         ));
     }
     // no conditions are known where one of them cannot be read
     let is_known = !problem.boundary.is_empty();
     (is_known && tips.any(|tip| problem.symmetry_at(tip).is_none())).then(|| {
+        let on = problem.edge_of(index).map_or("{ piece = … }".to_owned(), |edge| format!("\"{}\"", edge.name()));
         format!(
-            "the crack runs along the {name} edge, which nothing holds ahead of its tip; add [[boundary]] with \
-             on = \"{name}\" and `symmetry = true`, or `antisymmetry = true`, or move the crack into the plate"
+            "the crack runs along the {name}, which nothing holds ahead of its tip; add [[boundary]] with on = {on} \
+             and `symmetry = true`, or `antisymmetry = true`, or move the crack into the plate"
         )
     })
 }
 
-/// Conditions on edges with cracks that are no symmetry, or another one.
-fn bad_conditions(problem: &Problem, on_edges: &[(usize, Edge)]) -> Vec<MistakeAt> {
+/// Conditions on lines with cracks that are no symmetry, or another one.
+fn bad_conditions(problem: &Problem, on_lines: &[(usize, BorderLine)]) -> Vec<MistakeAt> {
     let bad = |(index, condition): (usize, _)| {
         let key = Key::new("boundary").index(index);
-        let (own, crack, message) = bad_condition(problem, condition, on_edges)?;
+        let (own, crack, message) = bad_condition(problem, condition, on_lines)?;
         Some(key.name(own).mistake(message).with_other(Key::points(crack)))
     };
     problem.boundary.iter().enumerate().filter_map(bad).collect()
@@ -71,45 +77,42 @@ fn bad_conditions(problem: &Problem, on_edges: &[(usize, Edge)]) -> Vec<MistakeA
 fn bad_condition(
     problem: &Problem,
     condition: &BoundaryCondition,
-    on_edges: &[(usize, Edge)],
+    on_lines: &[(usize, BorderLine)],
 ) -> Option<(&'static str, usize, String)> {
-    match condition.on {
-        BorderPart::Edge { edge, .. } => {
-            let (crack, _) = on_edges.iter().find(|(_, own)| *own == edge)?;
-            let name = edge.name();
-            let message = match (condition.symmetry(), problem.symmetry_of(*crack)) {
-                (None, _) => format!(
-                    "the {name} edge holds a crack, beside which there can be nothing but symmetry or antisymmetry; \
-                     give loads to the crack, on = {{ crack = {crack} }}, or move it into the plate"
-                ),
-                (Some(own), Some(other)) if own != other => format!(
-                    "the {name} edge holds a crack and is in part one of symmetry, in part one of antisymmetry; let \
-                     all of it be of one kind"
-                ),
-                _ => return None,
-            };
-            Some(("on", *crack, message))
-        }
-        BorderPart::Crack { crack, face: Some(_) } => {
-            on_edges.iter().find(|(own, _)| *own == crack)?;
-            let message = "only one face of a crack on an edge is in the plate, and a load on it means the same on \
-                           its image; leave `face` out";
-            Some(("on", crack, message.to_owned()))
-        }
-        _ => None,
+    if let BorderPart::Crack { crack, face } = condition.on {
+        face?;
+        on_lines.iter().find(|(own, _)| *own == crack)?;
+        let message = "only one face of a crack on the border is in the plate, and a load on it means the same on \
+                       its image; leave `face` out";
+        return Some(("on", crack, message.to_owned()));
     }
+    let meets = |(_, line): &&(usize, BorderLine)| problem.meets_line(condition.on, line);
+    let (crack, line) = on_lines.iter().find(meets)?;
+    let name = name_of(problem, *crack, line);
+    let message = match (problem.symmetry_on(condition, line), problem.symmetry_of(*crack)) {
+        (None, _) => format!(
+            "the {name} holds a crack, beside which there can be nothing but symmetry or antisymmetry; give loads \
+             to the crack, on = {{ crack = {crack} }}, or move it into the plate"
+        ),
+        (Some(own), Some(other)) if own != other => format!(
+            "the {name} holds a crack and is in part one of symmetry, in part one of antisymmetry; let all of it be \
+             of one kind"
+        ),
+        _ => return None,
+    };
+    Some(("on", *crack, message))
 }
 
-/// What in the rest of a problem does not go with cracks on edges.
-fn bad_whole(problem: &Problem) -> Option<(Key, String)> {
+/// What in the rest of a problem does not go with cracks on lines of the border.
+fn bad_whole(problem: &Problem, on_lines: &[(usize, BorderLine)]) -> Option<(Key, String)> {
     let is_antisymmetric = |k: usize| problem.symmetry_of(k) == Some(Symmetry::Antisymmetric);
     if problem.discretization.enrichment != Enrichment::Williams {
-        let message = "a crack on an edge needs the functions of `enrichment = \"williams\"`; leave `enrichment` \
+        let message = "a crack on the border needs the functions of `enrichment = \"williams\"`; leave `enrichment` \
                        out, or model the whole plate";
         return Some((Key::of("discretization.enrichment"), message.to_owned()));
     }
     if !problem.equation.has_uniform_material() {
-        let message = "a crack on an edge needs a material that is the same everywhere; give numbers for `young` \
+        let message = "a crack on the border needs a material that is the same everywhere; give numbers for `young` \
                        and `poisson`, or model the whole plate";
         return Some((Key::new("material"), message.to_owned()));
     }
@@ -117,22 +120,30 @@ fn bad_whole(problem: &Problem) -> Option<(Key, String)> {
     let is_sheared = given.is_some_and(|given| given.strains[2].constant() != Some(0.0));
     let slides = (0..problem.cracks.len()).any(is_antisymmetric);
     if given.is_some() && (is_sheared || slides) {
-        let message = "temperatures and given strains have the symmetry of a crack on an edge only with `symmetry = \
+        let message = "temperatures and given strains have the symmetry of a crack on the border only with `symmetry = \
                        true` and without [strain] `xy`; model the whole plate";
         return Some((Key::of("material.expansion"), message.to_owned()));
     }
     if problem.temperature.is_some() {
-        let message = "a temperature that is solved for cannot be had with a crack on an edge; model the whole plate";
+        let message = "a temperature that is solved for cannot be had with a crack on the border; model the whole plate";
         return Some((Key::of("temperature.problem"), message.to_owned()));
     }
     if !problem.enrichments.is_empty() {
-        let message = "user-defined functions do not satisfy the symmetry of an edge with a crack; leave \
+        let message = "user-defined functions do not satisfy the symmetry of a border with a crack; leave \
                        [[enrichment]] out, or model the whole plate";
         return Some((Key::new("enrichment").index(0), message.to_owned()));
     }
+    let of_rim = |(crack, line): &&(usize, BorderLine)| {
+        line.hole.is_some() && problem.contacts.contains_key(&(*crack as u32))
+    };
+    if let Some((crack, _)) = on_lines.iter().find(of_rim) {
+        let message = "one face alone of a crack on the border is in the plate; leave `contact` out, or model the \
+                       whole plate";
+        return Some((Key::new("crack").index(*crack).name("contact"), message.to_owned()));
+    }
     let grows = problem.growth.is_some() && (0..problem.cracks.len()).any(is_antisymmetric);
     grows.then(|| {
-        let message = "a crack that slides turns off the edge that it lies on; leave [growth] out, or model the \
+        let message = "a crack that slides turns off the line that it lies on; leave [growth] out, or model the \
                        whole plate";
         (Key::new("growth"), message.to_owned())
     })

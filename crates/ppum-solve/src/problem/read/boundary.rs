@@ -17,7 +17,7 @@ use super::rim::Body;
 pub(super) fn boundary(
     root: &Section<'_>,
     kind: EquationKind,
-    body: &Body,
+    body: &mut Body,
     exact: Option<&[Expression]>,
 ) -> Vec<BoundaryCondition> {
     root.each("boundary", |section| {
@@ -96,7 +96,7 @@ fn exchange(section: &Section<'_>) -> Option<Option<Expression>> {
 }
 
 /// A part of the border: the name of an edge, or a table.
-fn part(value: &Value<'_>, body: &Body) -> Option<BorderPart> {
+fn part(value: &Value<'_>, body: &mut Body) -> Option<BorderPart> {
     let domain = &body.bounds.unwrap_or(Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)));
     let Some(section) = value.as_section() else {
         return if value.as_text() == Some(OUTLINE) {
@@ -112,7 +112,7 @@ fn part(value: &Value<'_>, body: &Body) -> Option<BorderPart> {
         return value.error("names several parts of the border; write one [[boundary]] for each");
     }
     let others: &[_] = match key {
-        "hole" | "piece" => &["from", "to", "face"],
+        "hole" => &["from", "to", "face"],
         "crack" => &["from", "to"],
         _ => &["face"],
     };
@@ -131,7 +131,16 @@ fn part(value: &Value<'_>, body: &Body) -> Option<BorderPart> {
                 _ => Some(BorderPart::Hole(hole)),
             }
         }
-        "piece" => piece(&section.value("piece")?, body),
+        "piece" => {
+            let whole = piece(&section.value("piece")?, body);
+            let ends = [section.optional("from")?, section.optional("to")?];
+            let Some(end) = section.value("from").or(section.value("to")) else { return whole };
+            let BorderPart::Piece(whole) = whole? else { return None };
+            match body.part_of(whole, ends) {
+                Ok(part) => Some(BorderPart::Piece(part)),
+                Err(message) => end.error(&message),
+            }
+        }
         "crack" => {
             let (crack, face) = (section.get("crack"), section.optional("face"));
             Some(BorderPart::Crack { crack: crack?, face: face? })

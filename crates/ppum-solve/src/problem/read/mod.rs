@@ -188,7 +188,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
         root.each("crack", |section| Some((curve::course(&section)?, friction(&section)?)));
     let (cracks, frictions): (Vec<_>, Vec<_>) = cracks.into_iter().unzip();
     let contacts = (0..).zip(frictions).filter_map(|(crack, friction)| Some((crack, friction?)));
-    let body = rim::body(root, discretization.as_ref());
+    let mut body = rim::body(root, discretization.as_ref());
     let enrichments = root.each("enrichment", |new| enrichment::enrichment(&new, cracks.len()));
     let mut refinements = root.each("refine", |new| steps::refinement(&new));
     let kind = kind?;
@@ -196,7 +196,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     let source = source(root, kind);
     let equation = equation(root, kind);
     let quantities = quantities(root, &equation);
-    let mut boundary = boundary::boundary(root, kind, &body, exact.as_deref());
+    let mut boundary = boundary::boundary(root, kind, &mut body, exact.as_deref());
     if cracks.is_empty() && root.mentions("crack") {
         // none could be read: what is said of them cannot be judged
         boundary.retain(|condition| !matches!(condition.on, BorderPart::Crack { .. }));

@@ -55,6 +55,81 @@ fn add_piece(pieces: &mut Vec<Piece>, (name, [from, to]): (String, [usize; 2]), 
     }
 }
 
+impl Body {
+    /// The part of a piece between two lengths along it from its beginning, as a piece of its own.
+    /// Sides are divided at its ends.
+    ///
+    /// # Errors
+    /// What is wrong with the lengths.
+    pub(super) fn part_of(
+        &mut self,
+        piece: usize,
+        [from, to]: [Option<f64>; 2],
+    ) -> Result<usize, String> {
+        let Piece { name, runs } = self.pieces[piece].clone();
+        let Some(holes) = &self.holes else { return Ok(piece) };
+        let [run] = runs[..] else {
+            return Err(
+                "is for a piece in one part; give the parts of this one names of their own".into(),
+            );
+        };
+        let hole = &holes[run.hole];
+        let (touch, length) =
+            (touch(&hole.rim_bounds()), run.sides(hole).map(|[a, b]| (b - a).length()).sum());
+        let ends = [from.unwrap_or(0.0), to.unwrap_or(length)];
+        if ends[0] >= ends[1] {
+            return Err(format!(
+                "is {} and `to` is {}, but `to` must exceed `from`",
+                ends[0], ends[1]
+            ));
+        }
+        if ends[0] < -touch || ends[1] > length + touch {
+            return Err(format!(
+                "{} to {} leaves the piece, which is {length} long; stay inside",
+                ends[0], ends[1]
+            ));
+        }
+        // the second one first: the number of the side at the first one stays
+        let last = self.vertex_at(piece, ends[1], touch);
+        let count = self.pieces[piece].runs[0].to;
+        let first = self.vertex_at(piece, ends[0], touch);
+        let to = last + self.pieces[piece].runs[0].to - count;
+        let runs = vec![SideRun { hole: run.hole, from: first, to }];
+        self.pieces.push(Piece { name: format!("{name} from {} to {}", ends[0], ends[1]), runs });
+        Ok(self.pieces.len() - 1)
+    }
+
+    /// The number of the side of a piece that begins at a length along it, or of the one after the
+    /// piece; a side that goes on there is divided.
+    fn vertex_at(&mut self, piece: usize, length: f64, touch: f64) -> usize {
+        let run = self.pieces[piece].runs[0];
+        let Some(Hole::Polygon { points, .. }) =
+            self.holes.as_mut().map(|holes| &mut holes[run.hole])
+        else {
+            return run.from;
+        };
+        let mut left = length;
+        for side in run.from..run.to {
+            let [a, b] = [points[side], points[(side + 1) % points.len()]];
+            let own = (b - a).length();
+            if left <= touch {
+                return side;
+            }
+            if left < own - touch {
+                points.insert(side + 1, a + (b - a) * (left / own));
+                let runs = self.pieces.iter_mut().flat_map(|piece| &mut piece.runs);
+                for other in runs.filter(|other| other.hole == run.hole) {
+                    other.from += usize::from(other.from > side);
+                    other.to += usize::from(other.to > side);
+                }
+                return side + 1;
+            }
+            left -= own;
+        }
+        run.to
+    }
+}
+
 /// The box: the one given, or one around the outline. There the outline runs through the middle of
 /// the outer cells: it is on no line of cells but for rounding.
 fn bounds(
