@@ -5,11 +5,12 @@
 //! discrete problems differ by nothing else either: what remains is quadrature and rounding,
 //! whatever the cells.
 
-use crate::studies::support::{solved, strain_energy};
-use ppum::crack::{End, Side};
+use crate::studies::support::{parsed, solved, strain_energy};
+use ppum::crack::{End, SegmentId, Side};
 use ppum::dataset::{Dataset, Material, StressState};
 use ppum::domain::{Domain, Hole};
 use ppum::field::Field;
+use ppum::jet::Jet;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_solve::problem::{
@@ -342,5 +343,60 @@ fn one_face_alone() {
         assert!((a / b - 1.0).abs() < EQUAL, "{a} {b}");
         let ends = above.steps[0].intensities.iter().map(|tip| tip.tip.end);
         assert!(ends.eq([End::Start, End::Last]) || factors(&above).is_empty());
+    }
+}
+
+/// On faces that run along borders of patches, where the slopes of weights jump, values and
+/// stresses are the limits from their own side, whichever way the crack runs.
+#[test]
+fn faces_along_borders_of_patches_have_their_own_limits() {
+    let mut random = Random(21);
+    for k in 0..12 {
+        let overlap = random.between(1.2, 1.6);
+        let row = 2.0 + (4.0 * random.unit()).floor();
+        // the upper or the lower border of a row of patches
+        let level =
+            -1.0 + 0.25 * (row + 0.5) + 0.125 * overlap * if k % 2 == 0 { 1.0 } else { -1.0 };
+        let mut ends = [[-0.53, level], [0.47, level]];
+        if k % 4 < 2 {
+            ends.iter_mut().for_each(|end| end.reverse());
+        }
+        if k % 3 == 0 {
+            ends.reverse();
+        }
+        let problem = parsed(&format!(
+            r#"
+            domain = {{ min = [-1, -1], max = [1, 1] }}
+            material = {{ young = 1.0, poisson = 0.3, state = "plane-strain" }}
+            crack = [{{ points = {ends:?} }}]
+            boundary = [
+                {{ on = "top", traction = [0.3, "1 + x*x"] }}, {{ on = "bottom", displacement = [0, 0] }},
+                {{ on = {{ crack = 0, face = "above" }}, traction = ["x", "y + 1"] }},
+            ]
+            discretization = {{ cells = [8, 8], order = 2, overlap = {overlap}, refine = false }}
+            "#
+        ));
+        let dataset = solved(&problem);
+        let field = Field::new(&dataset, 0).expect("a field");
+        let [a, b] = ends.map(Vec2::from);
+        let left = (b - a).unit().left();
+        for part in [0.3, 0.5, random.between(0.1, 0.9)] {
+            let at = a + (b - a) * part;
+            let mut on = field.on(SegmentId { crack: 0, segment: 0 }, at);
+            for (side, way) in [(Side::Above, 1e-9), (Side::Below, -1e-9)] {
+                let (mut face, mut beside) = ([Jet::constant(0.0); 2], [Jet::constant(0.0); 2]);
+                assert!(on.evaluate::<1>(Vec2::ZERO, side, &mut face));
+                assert!(field.at(at).evaluate::<1>(left * way, side, &mut beside));
+                let mut many = [Jet::constant(0.0); 8];
+                on.evaluate_into::<1>(&[Vec2::ZERO; 4], side, &mut many);
+                for (i, limit) in beside.iter().enumerate() {
+                    for found in [face[i], many[6 + i]] {
+                        let apart = [found.v - limit.v, found.x - limit.x, found.y - limit.y];
+                        let worst = apart.into_iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+                        assert!(worst < 1e-6, "{ends:?} {overlap} {side:?} {at:?}: {worst:e}");
+                    }
+                }
+            }
+        }
     }
 }

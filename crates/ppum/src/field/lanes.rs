@@ -24,7 +24,7 @@ impl<const D: usize> Job<f64> for Many<'_, '_, D> {
         let mut lanes = vec![Jet::constant(zero); components];
         let chunks = self.offsets.chunks(R::LANES).zip(self.out.chunks_mut(R::LANES * components));
         for (points, out) in chunks {
-            let patches = self.local.covering_any(points);
+            let patches = self.local.covering_any(points, self.side);
             self.local.at_once::<R, D>(points, self.side, &patches, &mut lanes, out);
             for (&point, out) in points.iter().zip(out.chunks_mut(components)) {
                 if !self.local.contains(point) {

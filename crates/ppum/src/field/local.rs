@@ -8,7 +8,7 @@ use crate::function::{LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::mesh::{ElementField, LocalMesh};
 use crate::polynomial::polynomial;
-use crate::vec2::{Vec2, vec2};
+use crate::vec2::{Rect, Vec2, vec2};
 use ppum_formula::real::Real;
 
 /// A field seen from an anchor.
@@ -21,6 +21,10 @@ pub struct LocalField<'f> {
     domain: LocalDomain,
     /// The side of the segment that it is seen on that lies outside of the domain, if one does.
     pub(super) outer: Option<Side>,
+    /// A way of a few roundings from the segment that it is seen on to the side above it; zero if
+    /// on none. Where the segment runs along the border of a patch, on which the slope of its
+    /// weight jumps, each face has the weights on its side.
+    above: Vec2,
     pub(super) functions: LocalFunctions<'f>,
     /// The elements, if the patches are those of a mesh.
     pub(super) mesh: Option<LocalMesh<'f>>,
@@ -46,6 +50,10 @@ pub struct Covering {
     pub overlap: usize,
 }
 
+/// Way from a crack to its side, in parts of the domain's largest coordinate, at which weights are
+/// taken there.
+const ASIDE: f64 = 16.0 * f64::EPSILON;
+
 impl Field<'_> {
     /// The field as seen from an anchor.
     #[must_use]
@@ -68,7 +76,10 @@ impl Field<'_> {
         let line = self.domain.line_along(&ends);
         let local = LocalField::new(self, anchor, functions);
         let domain = local.domain.without_hole(line.and_then(|line| line.hole));
-        LocalField { outer: line.map(|line| line.outer_side(ends)), domain, ..local }
+        let Rect { min, max } = self.domain.bounds;
+        let extent = [min.x, min.y, max.x, max.y].into_iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let above = (ends[1] - ends[0]).unit().left() * (ASIDE * extent);
+        LocalField { outer: line.map(|line| line.outer_side(ends)), above, domain, ..local }
     }
 }
 
@@ -76,7 +87,8 @@ impl<'f> LocalField<'f> {
     fn new(field: &'f Field<'f>, anchor: Vec2, functions: LocalFunctions<'f>) -> Self {
         let domain = field.domain.at(anchor);
         let mesh = field.step.partition.mesh().map(|mesh| LocalMesh::new(field, mesh, anchor));
-        Self { field, anchor, domain, outer: None, functions, mesh, patches: Vec::new() }
+        let (outer, above, patches) = (None, Vec2::ZERO, Vec::new());
+        Self { field, anchor, domain, outer, above, functions, mesh, patches }
     }
 
     /// The functions as seen from the anchor.
@@ -114,7 +126,7 @@ impl<'f> LocalField<'f> {
         if self.outer == Some(side) || !self.contains(offset) {
             return false;
         }
-        let patches = self.covering_any(&[offset]);
+        let patches = self.covering_any(&[offset], side);
         self.over_patches::<f64, D>([offset.x, offset.y], side, &patches, out);
         self.patches = patches;
         true
@@ -179,7 +191,7 @@ impl<'f> LocalField<'f> {
         if self.mesh.is_some() {
             return Some(Covering { weight_sum: Jet::constant(1.0), overlap: 1 });
         }
-        let patches = self.covering_any(&[offset]);
+        let patches = self.covering_any(&[offset], Side::Above);
         let weight = |&p: &u32| self.partition_weight::<f64, D>(p as usize, [offset.x, offset.y]);
         let zero = Jet::constant(0.0);
         let weight_sum = patches.iter().map(weight).fold(zero, Jet::plus::<D>);
@@ -188,12 +200,20 @@ impl<'f> LocalField<'f> {
         Some(Covering { weight_sum, overlap })
     }
 
+    /// The place at which weights are taken.
+    #[inline(always)]
+    fn aside<R: Real>(&self, [x, y]: [R; 2], side: Side) -> [R; 2] {
+        let way = if side == Side::Above { self.above } else { -self.above };
+        [x + x.lit(way.x), y + y.lit(way.y)]
+    }
+
     /// The patches that cover at least one of the points, ascending.
-    pub(super) fn covering_any(&mut self, offsets: &[Vec2]) -> Vec<u32> {
+    pub(super) fn covering_any(&mut self, offsets: &[Vec2], side: Side) -> Vec<u32> {
         let mut patches = std::mem::take(&mut self.patches);
         patches.clear();
         for &offset in offsets {
-            self.field.tree.query_point(self.anchor + offset, &mut patches);
+            let [x, y] = self.aside([offset.x, offset.y], side);
+            self.field.tree.query_point(self.anchor + vec2(x, y), &mut patches);
         }
         patches.sort_unstable();
         patches.dedup();
@@ -214,16 +234,17 @@ impl<'f> LocalField<'f> {
         }
         let zero = Jet::constant(offset[0].lit(0.0));
         let mut functions = FunctionJets::new(&self.functions, offset, side);
+        let aside = self.aside(offset, side);
         let components = self.field.components();
         out[..components].fill(zero);
         let mut weight_sum = zero;
         for &patch in patches {
             let patch = patch as usize;
-            let weight = self.weight::<R, D>(patch, offset, patches.len() == 1);
+            let weight = self.weight::<R, D>(patch, aside, patches.len() == 1);
             weight_sum = weight_sum.plus::<D>(weight);
             for (component, sum) in out[..components].iter_mut().enumerate() {
                 let v = self.local_field::<R, D>(patch, component, offset, &mut functions);
-                *sum = sum.plus::<D>(self.shared::<R, D>(patch, offset, weight.times::<D>(v)));
+                *sum = sum.plus::<D>(self.shared::<R, D>(patch, aside, weight.times::<D>(v)));
             }
         }
         for sum in &mut out[..components] {
@@ -299,11 +320,12 @@ impl<'f> LocalField<'f> {
         }
         let at = [offset.x, offset.y];
         let mut functions = FunctionJets::new(&self.functions, at, side);
+        let aside = self.aside(at, side);
         let (components, zero) = (self.field.components(), Jet::constant(0.0));
         let mut weight_sum = zero;
         for &patch in patches {
             let patch = patch as usize;
-            let share = self.weight::<f64, D>(patch, at, patches.len() == 1);
+            let share = self.weight::<f64, D>(patch, aside, patches.len() == 1);
             weight_sum = weight_sum.plus::<D>(share);
             let mut local = [zero; 2];
             for (component, v) in local.iter_mut().enumerate().take(components) {
