@@ -103,7 +103,8 @@ impl Case {
     }
 
     fn panel<'a>(&self, picture: &'a Picture, cracks: &'a [Crack]) -> Panel<'a> {
-        let mut layers = overlay::rims(&picture.view, self.design.scale(), &self.domain().holes);
+        let mut layers =
+            overlay::rims(&picture.view, self.design.scale(), &self.domain().holes, [None; 2]);
         layers.extend(overlay::cracks(&picture.view, self.design.scale(), cracks));
         Panel { picture, layers, legend: vec![], labels: self.labels(), cracks, bar_of: None }
     }

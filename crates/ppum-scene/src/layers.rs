@@ -238,8 +238,9 @@ impl<'a> Drawing<'a> {
             Overlay::Supports => overlay::supports(view, scale, &stations.supports),
             Overlay::Loads => overlay::loads(view, scale, &stations.loads),
             Overlay::Cracks => {
+                let mirrors = self.lines.at();
                 let edges = |view: &View| {
-                    let rims = overlay::rims(view, scale, &field.domain.holes);
+                    let rims = overlay::rims(view, scale, &field.domain.holes, mirrors);
                     [rims, overlay::cuts(view, scale, field)].concat()
                 };
                 let cracks = self.lines.cracks(&field.step.cracks);

@@ -52,8 +52,9 @@ pub enum BoxEdge {
 pub enum MirrorError {
     /// No symmetry that the dataset knows.
     #[error(
-        "mirror: the dataset does not say which of its edges is a line of symmetry; name it, as \
-         `bottom`, `bottom,left` or `bottom:antisymmetric`"
+        "mirror: the dataset does not say which edge of the box around the body is a line of \
+         symmetry, and at oblique lines nothing is mirrored; name an edge, as `bottom`, \
+         `bottom,left` or `bottom:antisymmetric`"
     )]
     Unknown,
     /// An edge of the box that the body does not reach.

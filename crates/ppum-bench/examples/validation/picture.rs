@@ -35,7 +35,8 @@ pub(crate) fn draw(path: &Path, dataset: &Dataset, window: Rect) -> anyhow::Resu
     let texts = picture.description(&dataset.title, "", name);
     let cracks = &field.step.cracks;
     let (scale, holes) = (design.scale(), &field.domain.holes);
-    let layers = [overlay::rims(&view, scale, holes), overlay::cracks(&view, scale, cracks)];
+    let layers =
+        [overlay::rims(&view, scale, holes, [None; 2]), overlay::cracks(&view, scale, cracks)];
     let panel = Panel {
         picture: &picture,
         layers: layers.concat(),

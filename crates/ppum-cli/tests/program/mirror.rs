@@ -602,6 +602,16 @@ order = 3
         assert!(pixel[3] == 255, "{i}, {j}");
         assert_eq!([png.pixel(87 - i, j), png.pixel(i, 87 - j)], [pixel; 2], "{i}, {j}");
     }
+    // the whole has no border along its lines of symmetry
+    lab.run(
+        "render plate.h5 -o b.png -q energy --mirror --backend cpu --center 0,0 --width 4.4 --size 88x88 --no-cracks",
+    );
+    let bare = Png::read(&lab.path("b.png"));
+    for (k, middle) in (6..21).flat_map(|k| [43, 44].map(|middle| (k, middle))) {
+        for (i, j) in [(k, middle), (middle, k)] {
+            assert_eq!(png.pixel(i, j), bare.pixel(i, j), "{i}, {j}");
+        }
+    }
 }
 
 /// Where the dataset does not know its lines they are named, as of a plate that is no half.

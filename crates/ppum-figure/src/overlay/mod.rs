@@ -20,7 +20,7 @@ mod strokes;
 mod supports;
 
 use ppum::crack::{Crack, tips};
-use ppum::domain::Hole;
+use ppum::domain::{Hole, is_mirrored_side, touch};
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 
@@ -62,15 +62,17 @@ pub fn cracks(view: &View, scale: f64, cracks: &[Crack]) -> Vec<Item> {
     ]
 }
 
-/// The rims of holes as thin lines.
+/// The rims of holes as thin lines, but for sides on the lines x = a and y = b at which the body is
+/// mirrored.
 #[must_use]
-pub fn rims(view: &View, scale: f64, holes: &[Hole]) -> Vec<Item> {
+pub fn rims(view: &View, scale: f64, holes: &[Hole], mirrors: [Option<f64>; 2]) -> Vec<Item> {
     let mut path = Path::default();
     for hole in holes {
         if let Hole::Circle { center, radius } = hole {
             path.pieces.push(arc(view, *center, *radius));
         }
-        let sides = hole.sides();
+        let touch = touch(&hole.rim_bounds());
+        let sides = hole.sides().filter(|ends| !is_mirrored_side(*ends, mirrors, touch));
         path.pieces.extend(sides.filter_map(|[a, b]| visible_part(view, a, b)).map(Vec::from));
     }
     vec![Item::Line { path, pen: Pen::new(CRACK, RIM_WIDTH * scale) }]
@@ -176,7 +178,7 @@ mod tests {
             (&polygon, vec2(0.875, 0.75), 1e-12),
         ] {
             let view = View::new(center, width, [101, 101]).unwrap();
-            let image = on(GREY, &view, rims(&view, 1.0, std::slice::from_ref(hole)));
+            let image = on(GREY, &view, rims(&view, 1.0, std::slice::from_ref(hole), [None; 2]));
             for (column, row) in (0..101).flat_map(|i| (0..101).map(move |j| (i, j))) {
                 // A world coordinate is rounded to a fiftieth of the smallest pixel.
                 let distance = hole.rim_distance(center + view.offset(column, row));

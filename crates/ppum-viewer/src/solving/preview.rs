@@ -73,7 +73,7 @@ impl Preview {
         let width = f64::from(pixels[0]) * (size.x / across).max(size.y / up);
         let Ok(view) = View::new(center, width, pixels) else { return Vec::new() };
         let mut items = plate(&view, bounds.min, bounds.max, scale);
-        items.extend(overlay::rims(&view, scale, self.holes()));
+        items.extend(overlay::rims(&view, scale, self.holes(), [None; 2]));
         items.extend(overlay::cracks(&view, scale, &self.cracks));
         items.extend(overlay::supports(&view, scale, &self.supports));
         items.extend(overlay::loads(&view, scale, &self.loads));

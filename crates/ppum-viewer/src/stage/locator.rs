@@ -27,7 +27,7 @@ impl Locator {
     pub fn new(field: &Field<'_>) -> Option<Self> {
         let bounds = field.domain.bounds;
         let map = View::hug(bounds, [SIDE as u32; 2]).ok()?;
-        let rims = overlay::rims(&map, 1.0, &field.domain.holes);
+        let rims = overlay::rims(&map, 1.0, &field.domain.holes, [None; 2]);
         let items = [rims, overlay::cracks(&map, 1.0, &field.step.cracks)].concat();
         Some(Self { map, items })
     }

@@ -117,7 +117,7 @@ impl Layout {
         };
         let pictures = self.panels.iter().map(picture).collect::<anyhow::Result<Vec<_>>>()?;
         let (cracks, scale) = (&field.step.cracks, self.design.scale());
-        let rims = overlay::rims(view, scale, &field.domain.holes);
+        let rims = overlay::rims(view, scale, &field.domain.holes, [None; 2]);
         let layers = [rims, overlay::cracks(view, scale, cracks)].concat();
         let bar = self.panels.iter().position(|shows| *shows == Shows::Direct);
         let panel = |((shows, labels), picture): ((&Shows, &Labels), _)| Panel {
