@@ -124,13 +124,15 @@ pub(super) fn longest(bounds: &Rect) -> f64 {
     size.x.max(size.y)
 }
 
-/// Divides segments where they meet, but for those along axes among themselves: both get one point,
+/// Divides segments where they meet, but for lines along axes among themselves: both get one point,
 /// and nothing passes between.
 fn divided(all: &[Border], reach: f64) -> Vec<Border> {
     let mut known = crossings(all);
     let mut inner: Vec<Vec<Vec2>> = vec![Vec::new(); all.len()];
-    for i in (0..all.len()).filter(|&i| !all[i].kind.is_line) {
-        for j in (0..all.len()).filter(|&j| j > i || all[j].kind.is_line) {
+    let is_along_axis =
+        |&Border { ends: [a, b], kind }: &Border| kind.is_line && (a.x == b.x || a.y == b.y);
+    for i in (0..all.len()).filter(|&i| !is_along_axis(&all[i])) {
+        for j in (0..all.len()).filter(|&j| j > i || is_along_axis(&all[j])) {
             for p in meetings(all[i].ends, all[j].ends, reach) {
                 let near = known.iter().find(|q| (**q - p).length() <= reach).copied();
                 let point = near.unwrap_or(p);

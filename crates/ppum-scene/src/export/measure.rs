@@ -49,7 +49,8 @@ impl Refined<'_, '_> {
         let fails = |row: &Vec<f64>| row.iter().zip(&allowed).any(|(d, allowed)| d > allowed);
         let failed =
             at.iter().zip(&differences).filter(|(_, row)| fails(row)).map(|((t, _), _)| *t);
-        found.failed = failed.filter(|&triangle| self.may_divide(triangle)).collect();
+        let has_stalled = |t: u32| self.mesh.triangles[t as usize].convergence.has_stalled();
+        found.failed = failed.filter(|&t| self.may_divide(t) && !has_stalled(t)).collect();
         found.failed.sort_unstable();
         found.failed.dedup();
         found

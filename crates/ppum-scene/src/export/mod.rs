@@ -96,6 +96,9 @@ pub struct Mesh {
     pub accuracy: Accuracy,
     /// False if the limit of triangles ended the refinement.
     pub is_complete: bool,
+    /// A place where values jump within triangles, which no edges follow: there smaller ones are no
+    /// better.
+    pub jump: Option<Vec2>,
 }
 
 /// The times that steps are shown at: their loads where these increase, else their numbers.
@@ -120,7 +123,13 @@ impl Mesh {
             true => String::new(),
             false => format!("the limit of {} triangles is reached, and ", self.accuracy.cells),
         };
-        let text = format!("{limit}the tolerance is not kept: {}", missed.join("; "));
+        let jump = self.jump.map_or(String::new(), |p| {
+            let [x, y] = [p.x, p.y].map(short);
+            format!(
+                "; values jump within triangles, as at ({x}, {y}), along lines that no edges follow"
+            )
+        });
+        let text = format!("{limit}the tolerance is not kept: {}{jump}", missed.join("; "));
         (!missed.is_empty()).then_some(text)
     }
 
@@ -336,6 +345,9 @@ impl Refined<'_, '_> {
             }
         };
         let measured = arrays.iter().enumerate().map(measured).collect();
+        let jump =
+            self.mesh.triangles.iter().position(|triangle| triangle.convergence.has_stalled());
+        let jump = jump.map(|t| self.position(t as u32, [1.0 / 3.0; 3]));
         if let Some(together) = together {
             self.share_points(&together, &mut cells);
         }
@@ -349,6 +361,7 @@ impl Refined<'_, '_> {
             radii: self.singular.radii,
             accuracy: *accuracy,
             is_complete,
+            jump,
         }
     }
 }

@@ -63,7 +63,7 @@ pub(super) struct Refined<'a, 'd> {
     /// Smallest and largest value of each column that was seen outside of singular points.
     pub(super) ranges: Vec<[f64; 2]>,
     /// For each triangle the largest difference at its tests in parts of the ranges of arrays; zero
-    /// if it is rounding or the triangle is not divided.
+    /// if it is rounding or the triangle is not divided, as where it does not fall.
     pub(super) differences: Vec<f64>,
     pub(super) limits: Limits,
 }
@@ -212,7 +212,10 @@ impl Refined<'_, '_> {
                 .map(|((&t, nodes), rows)| self.largest_difference((t, nodes), rows, &scales))
                 .collect();
             for (&t, difference) in part.iter().zip(differences) {
-                self.differences[t as usize] = difference;
+                let convergence = &mut self.mesh.triangles[t as usize].convergence;
+                convergence.record(difference);
+                self.differences[t as usize] =
+                    if convergence.has_stalled() { 0.0 } else { difference };
             }
         }
     }

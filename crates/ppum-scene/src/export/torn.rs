@@ -79,6 +79,41 @@ pub(super) struct Triangle {
     /// The triangle across each edge.
     neighbours: [u32; 3],
     kinds: [BorderKind; 3],
+    pub(super) convergence: Convergence,
+}
+
+/// How the difference from the field falls from a triangle to those that it is divided into.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Convergence {
+    /// The last difference that was less than half of the one before.
+    difference: f64,
+    /// Divisions since.
+    divisions: u8,
+}
+
+/// Divisions, half as many halvings of edges, in which the difference of a field that is continuous
+/// in a triangle is expected to fall by half.
+const MOST_DIVISIONS: u8 = 16;
+
+impl Convergence {
+    /// That of a triangle of which no difference is known.
+    pub(super) const NEW: Self = Self { difference: f64::INFINITY, divisions: 0 };
+
+    /// The difference of the triangle as it is now.
+    pub(super) fn record(&mut self, difference: f64) {
+        if difference < 0.5 * self.difference {
+            *self = Self { difference, divisions: 0 };
+        }
+    }
+
+    /// True if the field jumps in the triangle where no edge follows: smaller ones are as wrong.
+    pub(super) fn has_stalled(self) -> bool {
+        self.divisions >= MOST_DIVISIONS
+    }
+
+    fn divided(self) -> Self {
+        Self { divisions: self.divisions.saturating_add(1), ..self }
+    }
 }
 
 impl Triangle {
@@ -89,6 +124,7 @@ impl Triangle {
             corners: [0, 1, 2].map(|k| self.corners[turned(k)]),
             neighbours: [0, 1, 2].map(|k| self.neighbours[turned(k)]),
             kinds: [0, 1, 2].map(|k| self.kinds[turned(k)]),
+            convergence: self.convergence,
         }
     }
 }
@@ -234,11 +270,13 @@ impl Torn<'_> {
             corners: [a, point, c],
             neighbours: [NONE, new, before],
             kinds: [kind, inner, kind_before],
+            convergence: turned.convergence.divided(),
         };
         self.triangles.push(Triangle {
             corners: [point, b, c],
             neighbours: [NONE, after, triangle],
             kinds: [kind, kind_after, inner],
+            convergence: turned.convergence.divided(),
         });
         if after != NONE {
             let edge = self.edge_to(after, triangle);

@@ -11,7 +11,7 @@ use ppum_solve::triangulation::{NotFinite, Triangulation, triangulate};
 
 use super::super::borders::{Border, BorderKind};
 use super::forest::Forest;
-use super::{INSET, NONE, Seen, Torn, TornPoint, Triangle, centroid, on_crack};
+use super::{Convergence, INSET, NONE, Seen, Torn, TornPoint, Triangle, centroid, on_crack};
 
 /// The kinds of edges, by their ends in ascending order.
 pub(super) type Kinds = HashMap<[u32; 2], BorderKind>;
@@ -189,6 +189,7 @@ pub(super) fn linked(triangles: &[[u32; 3]], kinds: &Kinds) -> Vec<Triangle> {
             owners.get(&[b, a]).copied().unwrap_or(NONE)
         }),
         kinds: [0, 1, 2].map(|k| kinds.get(&sorted(edge(corners, k))).copied().unwrap_or_default()),
+        convergence: Convergence::NEW,
     };
     triangles.iter().map(link).collect()
 }
