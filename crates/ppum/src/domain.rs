@@ -7,10 +7,12 @@
 //! As everywhere points are `anchor + offset`, and what the anchor has to do with a rim is formed
 //! once, without cancellation: a rim in a view 10⁻¹² of the domain wide has no noise.
 
+mod lines;
+
 use crate::compensated::{circle, cross};
-use crate::crack::Side;
-use crate::segment::{self, Segment};
+use crate::segment;
 use crate::vec2::{Rect, Vec2, vec2};
+pub use lines::{BorderLine, TOUCH, is_mirrored_side, touch};
 
 /// A box minus holes; outside nothing is defined.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,88 +53,6 @@ pub enum PolygonSide {
     Outside,
 }
 
-/// Lengths below this part of the longer side of the box around a body count as zero: nearer things
-/// are meant to touch, and no cover resolves them.
-pub const TOUCH: f64 = 1e-9;
-
-/// The length below which things touch: 10⁻⁹ of the longer side of a box.
-#[must_use]
-pub fn touch(bounds: &Rect) -> f64 {
-    let size = bounds.size();
-    TOUCH * size.x.max(size.y)
-}
-
-/// True for a side on one of the lines x = a and y = b at which a body is mirrored: there it has no
-/// border.
-#[must_use]
-pub fn is_mirrored_side([a, b]: Segment, [x, y]: [Option<f64>; 2], touch: f64) -> bool {
-    let is_at = |line: Option<f64>, ends: [f64; 2]| {
-        line.is_some_and(|line| ends.iter().all(|end| (end - line).abs() <= touch))
-    };
-    is_at(x, [a.x, b.x]) || is_at(y, [a.y, b.y])
-}
-
-/// A straight line of the border from corner to corner: an edge of the box, or sides of a polygon
-/// that go straight on. The body lies on its left.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BorderLine {
-    /// Its ends.
-    pub ends: Segment,
-    /// The index of the hole whose rim it is part of; none for an edge of the box.
-    pub hole: Option<usize>,
-}
-
-impl BorderLine {
-    /// Unit vector from its first to its second end.
-    #[must_use]
-    pub fn direction(&self) -> Vec2 {
-        (self.ends[1] - self.ends[0]).unit()
-    }
-
-    /// Unit normal out of the body.
-    #[must_use]
-    pub fn outward(&self) -> Vec2 {
-        -self.direction().left()
-    }
-
-    /// Distance of a point from the infinite line, positive on the side of the body.
-    #[must_use]
-    pub fn depth(&self, p: Vec2) -> f64 {
-        self.direction().cross(p - self.ends[0])
-    }
-
-    /// Length along the line from its first end to the foot of a point.
-    #[must_use]
-    pub fn coordinate(&self, p: Vec2) -> f64 {
-        self.direction().dot(p - self.ends[0])
-    }
-
-    /// Its length.
-    #[must_use]
-    pub fn length(&self) -> f64 {
-        (self.ends[1] - self.ends[0]).length()
-    }
-
-    /// True if a point is no farther from it than `touch`.
-    #[must_use]
-    pub fn holds(&self, p: Vec2, touch: f64) -> bool {
-        segment::distance(self.ends, p) <= touch
-    }
-
-    /// The side of a segment on it that lies outside of the body.
-    #[must_use]
-    pub fn outer_side(&self, [a, b]: Segment) -> Side {
-        if self.direction().dot(b - a) > 0.0 { Side::Below } else { Side::Above }
-    }
-
-    /// The foot of a point, or the end that is no farther from it than `touch`.
-    #[must_use]
-    pub fn foot(&self, p: Vec2, touch: f64) -> Vec2 {
-        let end = self.ends.into_iter().find(|end| (p - *end).length() <= touch);
-        end.unwrap_or(p + self.outward() * self.depth(p))
-    }
-}
-
 impl From<Rect> for Domain {
     /// The whole box.
     fn from(bounds: Rect) -> Self {
@@ -159,40 +79,6 @@ impl Domain {
     pub fn body_bounds(&self) -> Rect {
         let outline = self.outline().map(|outline| self.holes[outline].rim_bounds());
         outline.map_or(self.bounds, |outline| outline.intersection(&self.bounds))
-    }
-
-    /// The straight lines of the border: edges of the box, and sides of polygons.
-    pub fn border_lines(&self) -> impl Iterator<Item = BorderLine> + '_ {
-        let of_rim = |(k, hole): (usize, &Hole)| {
-            let line = move |ends| BorderLine { ends, hole: Some(k) };
-            hole.straight_lines().into_iter().map(line)
-        };
-        self.edge_lines().chain(self.holes.iter().enumerate().flat_map(of_rim))
-    }
-
-    fn edge_lines(&self) -> impl Iterator<Item = BorderLine> + use<> {
-        let corners = self.bounds.corners();
-        (0..4).map(move |k| BorderLine { ends: [corners[k], corners[(k + 1) % 4]], hole: None })
-    }
-
-    /// The straight line of the border that holds all points of a crack.
-    #[must_use]
-    pub fn line_along(&self, points: &[Vec2]) -> Option<BorderLine> {
-        let touch = touch(&self.bounds);
-        let holds =
-            |line: &BorderLine| points.len() > 1 && points.iter().all(|p| line.holds(*p, touch));
-        let on_rim = |(k, hole): (usize, &Hole)| {
-            Some(BorderLine { ends: hole.line_along(points)?, hole: Some(k) })
-        };
-        let mut holes = self.holes.iter().enumerate();
-        self.edge_lines().find(holds).or_else(|| holes.find_map(on_rim))
-    }
-
-    /// The side of a segment on the border that lies outside of the body: of a crack on a line of
-    /// symmetry one face is in the body.
-    #[must_use]
-    pub fn outer_side(&self, ends: Segment) -> Option<Side> {
-        self.line_along(&ends).map(|line| line.outer_side(ends))
     }
 
     /// True if `p` lies in the closed box and in no hole.
@@ -279,41 +165,6 @@ impl Hole {
         segment::sides(points)
     }
 
-    /// The straight lines of a polygon from corner to corner, with the hole on their right.
-    fn straight_lines(&self) -> Vec<Segment> {
-        let (sides, touch): (Vec<Segment>, _) = (self.sides().collect(), touch(&self.rim_bounds()));
-        let n = sides.len();
-        let goes_on = |[a, b]: Segment, c: Vec2| {
-            let way = c - a;
-            (b - a).dot(c - b) > 0.0 && (b - a).cross(way).abs() <= touch * way.length()
-        };
-        let is_corner = |k: &usize| !goes_on(sides[(*k + n - 1) % n], sides[*k][1]);
-        let first = (0..n).find(is_corner).unwrap_or(0);
-        let mut lines: Vec<Segment> = Vec::new();
-        for [a, b] in sides.iter().cycle().skip(first).take(n).copied() {
-            match lines.last_mut() {
-                Some(line) if goes_on(*line, b) => line[1] = b,
-                _ => lines.push([a, b]),
-            }
-        }
-        if self.orientation() > 0.0 {
-            lines.iter_mut().for_each(|line| line.reverse());
-        }
-        lines
-    }
-
-    /// The straight line of the rim of a polygon that holds all points of a crack.
-    #[must_use]
-    pub fn line_along(&self, points: &[Vec2]) -> Option<Segment> {
-        let touch = touch(&self.rim_bounds());
-        let (Self::Polygon { .. }, [first, _, ..]) = (self, points) else { return None };
-        if self.rim_distance(*first) > touch {
-            return None;
-        }
-        let holds = |line: &Segment| points.iter().all(|p| segment::distance(*line, *p) <= touch);
-        self.straight_lines().into_iter().find(holds)
-    }
-
     /// +1 if the hole is on the left of its sides, −1 if it is on their right; +1 for a circle.
     #[must_use]
     pub fn orientation(&self) -> f64 {
@@ -343,6 +194,14 @@ pub struct LocalDomain {
 }
 
 impl LocalDomain {
+    /// The same with a hole taken as a part of the domain: for points that lie on its rim, wherever
+    /// rounding has put them.
+    #[must_use]
+    pub(crate) fn without_hole(mut self, hole: Option<usize>) -> Self {
+        hole.into_iter().for_each(|hole| drop(self.holes.remove(hole)));
+        self
+    }
+
     /// True if `anchor + offset` belongs to the domain; exact also where the sum would round.
     #[must_use]
     pub fn contains(&self, offset: Vec2) -> bool {
@@ -361,16 +220,6 @@ impl LocalDomain {
         }
         let out = self.holes.iter().fold(clamped, |p, hole| hole.left_by(p, reach));
         [out, inside(out)].into_iter().find(|&p| self.contains(p))
-    }
-}
-
-impl LocalDomain {
-    /// The same with a hole taken as a part of the domain: for points that lie on its rim, wherever
-    /// rounding has put them.
-    #[must_use]
-    pub(crate) fn without_hole(mut self, hole: Option<usize>) -> Self {
-        hole.into_iter().for_each(|hole| drop(self.holes.remove(hole)));
-        self
     }
 }
 

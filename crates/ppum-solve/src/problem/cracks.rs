@@ -70,7 +70,7 @@ pub(super) fn with_ends(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Dom
     let crack = |mut points: Vec<Vec2>| {
         let line = domain.line_along(&points);
         if let Some(line) = line {
-            points.iter_mut().for_each(|p| *p = line.foot(*p, touch));
+            points.iter_mut().for_each(|p| *p = inside(line.foot(*p, touch), &line, domain));
         }
         let [second, last_but_one] =
             [points.get(1), points.iter().rev().nth(1)].map(|p| p.copied());
@@ -81,6 +81,16 @@ pub(super) fn with_ends(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Dom
     let mut cracks: Vec<_> = lines.into_iter().map(crack).collect();
     find_junctions(&mut cracks, touch);
     cracks
+}
+
+/// A point of a line of the border, moved by a few roundings where these have put it outside: so
+/// the field has values at tips on oblique sides.
+fn inside(p: Vec2, line: &BorderLine, domain: &Domain) -> Vec2 {
+    let size = p.x.abs().max(p.y.abs()).max(line.length());
+    let step = line.outward() * (-f64::EPSILON * size);
+    let is_end = line.ends.contains(&p);
+    let mut moved = (0..8).map(|k| p + step * f64::from(k)).filter(|_| !is_end);
+    moved.find(|q| domain.contains(*q)).unwrap_or(p)
 }
 
 /// Turn of a rim from side to side up to which it follows a curve, and reach of ends on the curve,

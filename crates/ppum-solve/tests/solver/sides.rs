@@ -6,6 +6,7 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_solve::problem::{Edge, Problem, Symmetry};
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
+use std::path::Path;
 
 const YOUNG: f64 = 1.0;
 const POISSON: f64 = 0.3;
@@ -303,6 +304,8 @@ fn cracks_on_sides_of_outlines() {
     ] {
         let known = factors(&of_box(&text, 5));
         for (degrees, problem) in of_sides(&text, 5, 12) {
+            let tips = problem.cracks[0].tips().map(|end| problem.cracks[0].end_point(end));
+            assert!(tips.into_iter().all(|tip| problem.domain.contains(tip)), "{name} {degrees}");
             let found = factors(&problem);
             assert_eq!(found.len(), known.len(), "{name} {degrees}");
             for (found, known) in found.iter().zip(&known) {
@@ -341,6 +344,32 @@ fn faces_may_be_pieces() {
         one.iter().zip(two).all(|(one, two)| (one - two).abs() <= 1e-9 * one.abs()),
         "{one:?} {two:?}"
     );
+}
+
+/// A crack grows along sides whose coordinates have no rounding; along others that is refused.
+#[test]
+fn growth_along_oblique_sides_is_refused() {
+    let grown = |degrees: f64| {
+        let rectangle = Turned { degrees, order: 2, cells: 7 };
+        let [a, b] = [rectangle.point(0.0, 0.0), rectangle.point(0.4, 0.0)];
+        let pieces = [0, 1, 2, 3].map(|k| {
+            let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 2.0], [0.0, 2.0], [0.0, 0.0]];
+            let [from, to] = [corners[k], corners[k + 1]]
+                .map(|[x, y]| rectangle.point(f64::hypot(x, y), y.atan2(x).to_degrees()));
+            format!("{{ points = [{from}, {to}], name = \"{k}\" }}")
+        });
+        let text = format!(
+            "[domain]\noutline = {{ path = [{}] }}\n[material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
+             [discretization]\nlevel = 3\n[[crack]]\npoints = [{a}, {b}]\n[growth]\nsteps = 2\n{}{}",
+            pieces.join(", "),
+            condition("{ piece = \"0\" }", "symmetry = true"),
+            condition("{ crack = 0 }", "pressure = 1")
+        );
+        Problem::parse(&text, "plate.toml", Path::new(""))
+    };
+    assert!(grown(0.0).is_ok());
+    let error = grown(30.0).expect_err("a refusal").to_string();
+    assert!(error.contains("a crack grows along an edge"), "{error}");
 }
 
 /// Parts of sides by `from` and `to`, and loads that begin inside of a side by a formula: as boxes

@@ -141,10 +141,19 @@ fn bad_whole(problem: &Problem, on_lines: &[(usize, BorderLine)]) -> Option<(Key
                        whole plate";
         return Some((Key::new("crack").index(*crack).name("contact"), message.to_owned()));
     }
-    let grows = problem.growth.is_some() && (0..problem.cracks.len()).any(is_antisymmetric);
-    grows.then(|| {
-        let message = "a crack that slides turns off the line that it lies on; leave [growth] out, or model the \
-                       whole plate";
-        (Key::new("growth"), message.to_owned())
-    })
+    let growth = |message: &str| (Key::new("growth"), message.to_owned());
+    let is_oblique = |(_, line): &(usize, BorderLine)| {
+        let BorderLine { ends: [a, b], hole } = line;
+        hole.is_some() && a.x != b.x && a.y != b.y
+    };
+    match problem.growth.is_some() {
+        true if (0..problem.cracks.len()).any(is_antisymmetric) => Some(growth(
+            "a crack that slides turns off the line that it lies on; leave [growth] out, or model the whole plate",
+        )),
+        true if on_lines.iter().any(is_oblique) => Some(growth(
+            "a crack grows along an edge, or along a side of an outline that is horizontal or vertical; turn the \
+             body, leave [growth] out, or model the whole plate",
+        )),
+        _ => None,
+    }
 }
