@@ -14,7 +14,8 @@ pub(crate) struct Stations {
     pub(crate) loads: Vec<Load>,
 }
 
-/// Distance from a line of symmetry, in parts of the body, on which a support lies on it.
+/// Distance from a line of symmetry, in parts of the body, on which a support lies on it, and the
+/// difference of directions that is rounding.
 const ON_LINE: f64 = 1e-9;
 
 impl Stations {
@@ -24,7 +25,7 @@ impl Stations {
         let (supports, loads) = (self.supports.clone(), self.loads.clone());
         let holds = |reflection: &Reflection, support: &Support| {
             let normal = support.outward;
-            let is_across = reflection.vector(normal) == normal * -1.0;
+            let is_across = reflection.vector(normal).dot(normal) < ON_LINE - 1.0;
             let way = reflection.point(support.at) - support.at;
             !(is_across && way.length() <= ON_LINE * support.at.length().max(1.0))
         };

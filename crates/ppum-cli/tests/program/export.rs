@@ -106,6 +106,33 @@ fn tolerances_that_are_not_kept_have_their_own_status() {
     }
 }
 
+/// Edges follow a straight interface, whatever crosses it. Along a curved one, which they do not
+/// follow, division ends long before the limit of triangles, and the warning has a place.
+#[test]
+fn jumps_of_materials_do_not_eat_all_triangles() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/bimaterial-plate.toml");
+    let lab = Lab::solved(&std::fs::read_to_string(folder).unwrap());
+    lab.run("export plate.h5 -o plate.vtu -q stress --tolerance 0.02 --max-cells 100000");
+    let lab = Lab::solved(
+        r#"
+domain = { min = [-1, -1], max = [1, 1] }
+material = { young = "if(x*x + y*y > 0.3, 10, 1)", poisson = 0.3, state = "plane-strain" }
+boundary = [{ on = "top", traction = [0, 1] }, { on = "bottom", displacement = [0, 0] }]
+discretization = { cells = [8, 8], order = 2 }
+"#,
+    );
+    let output =
+        lab.command("export plate.h5 -o plate.vtu -q stress --tolerance 0.1").output().unwrap();
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{told}");
+    assert!(told.starts_with("warning: the tolerance is not kept: stress"), "{told}");
+    let place = told.split_once("values jump within triangles, as at (").expect("a place").1;
+    let (place, _) = place.split_once(')').unwrap();
+    let (x, y) = place.split_once(", ").unwrap();
+    let [x, y] = [x, y].map(|number| number.parse::<f64>().unwrap());
+    assert!((x * x + y * y - 0.3).abs() < 0.01, "{told}");
+}
+
 #[test]
 fn averages_take_fewer_points() {
     let lab = Lab::solved(CRACKED);

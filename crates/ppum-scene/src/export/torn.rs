@@ -85,30 +85,37 @@ pub(super) struct Triangle {
 /// How the difference from the field falls from a triangle to those that it is divided into.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Convergence {
-    /// The last difference that was less than half of the one before.
-    difference: f64,
+    /// A difference that none after it was twice as large as.
+    first: f64,
     /// Divisions since.
     divisions: u8,
+    last: f64,
 }
 
-/// Divisions, half as many halvings of edges, in which the difference of a field that is continuous
-/// in a triangle is expected to fall by half.
-const MOST_DIVISIONS: u8 = 16;
+/// Divisions, half as many halvings of edges, after which the difference must have fallen.
+const LEAST_DIVISIONS: u8 = 12;
+
+/// Divisions in which it must fall by half: those of smooth fields take one, and four where a
+/// displacement is like r^½.
+const TO_HALF: f64 = 8.0;
 
 impl Convergence {
     /// That of a triangle of which no difference is known.
-    pub(super) const NEW: Self = Self { difference: f64::INFINITY, divisions: 0 };
+    pub(super) const NEW: Self = Self { first: 0.0, divisions: 0, last: 0.0 };
 
     /// The difference of the triangle as it is now.
     pub(super) fn record(&mut self, difference: f64) {
-        if difference < 0.5 * self.difference {
-            *self = Self { difference, divisions: 0 };
+        self.last = difference;
+        if difference > 2.0 * self.first {
+            *self = Self { first: difference, divisions: 0, last: difference };
         }
     }
 
-    /// True if the field jumps in the triangle where no edge follows: smaller ones are as wrong.
+    /// True if the difference does not fall: values jump in the triangle where no edge follows, and
+    /// smaller ones are as wrong.
     pub(super) fn has_stalled(self) -> bool {
-        self.divisions >= MOST_DIVISIONS
+        let least = self.first * (-f64::from(self.divisions) / TO_HALF).exp2();
+        self.divisions >= LEAST_DIVISIONS && self.last >= least && self.last > 0.0
     }
 
     fn divided(self) -> Self {
