@@ -101,6 +101,13 @@ pub(crate) struct FaceStress {
     projection: f64,
 }
 
+/// √w and √w/β of a row: a traction t adds t √w/β p to the forces.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RowFactors {
+    pub(crate) root: f64,
+    pub(crate) force: f64,
+}
+
 /// What holds at a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum FaceState {
@@ -168,27 +175,52 @@ impl FaceContacts {
         openings().all(|g| g >= -ROUNDING * largest)
     }
 
+    /// The factors of each row.
+    pub(crate) fn factors(&self) -> Vec<RowFactors> {
+        let of_row = |(row, beta): (&FaceRow, f64)| {
+            let root = row.weight.sqrt();
+            RowFactors { root, force: root / beta }
+        };
+        self.rows().map(of_row).collect()
+    }
+
+    /// P_d of a field at each row.
+    pub(crate) fn projections(&self, matrix: &BlockMatrix, field: &[f64]) -> Vec<f64> {
+        let changes = self.changes(matrix, field);
+        self.rows().zip(changes).map(|((row, _), change)| change - row.lacking).collect()
+    }
+
+    /// How much P_d changes at each row where a field is added.
+    pub(crate) fn changes(&self, matrix: &BlockMatrix, field: &[f64]) -> Vec<f64> {
+        let of_cell = |cell: &ContactCell| cell.values(&cell.projections, matrix, field);
+        self.cells.iter().flat_map(of_cell).collect()
+    }
+
+    /// Adds Σ p of the rows' columns p, each times a factor.
+    pub(crate) fn add_columns(&self, factors: &[f64], matrix: &BlockMatrix, load: &mut [f64]) {
+        let mut rest = factors;
+        for cell in &self.cells {
+            let (own, tail) = rest.split_at(cell.rows.len());
+            for (k, factor) in own.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
+                let places = cell.patches.iter().flat_map(|&p| matrix.unknowns(p as usize));
+                let column = cell.projections.col_as_slice(k);
+                places.zip(column).for_each(|(place, p)| load[place] += factor * p);
+            }
+            rest = tail;
+        }
+    }
+
     /// The intervals onto which P_d is clamped at each row, by the pressures of a field.
-    pub(crate) fn intervals(&self, stresses: &[FaceStress]) -> Vec<[f64; 2]> {
+    pub(crate) fn intervals(&self, projections: &[f64]) -> Vec<[f64; 2]> {
         let mut pressure = 0.0;
-        let interval = |((row, _), at): ((&FaceRow, f64), &FaceStress)| match row.friction {
+        let interval = |((row, _), at): ((&FaceRow, f64), &f64)| match row.friction {
             None => {
-                pressure = (-at.projection).max(0.0);
+                pressure = (-at).max(0.0);
                 [f64::NEG_INFINITY, 0.0]
             }
             Some(friction) => [-friction * pressure, friction * pressure],
         };
-        self.rows().zip(stresses).map(interval).collect()
-    }
-
-    /// The states of faces that hold together.
-    pub(crate) fn tied(&self) -> Vec<FaceState> {
-        self.rows().map(|_| FaceState::Tied).collect()
-    }
-
-    /// The states where P_d is clamped onto these intervals.
-    pub(crate) fn states(stresses: &[FaceStress], intervals: &[[f64; 2]]) -> Vec<FaceState> {
-        stresses.iter().zip(intervals).map(|(at, interval)| at.state(*interval)).collect()
+        self.rows().zip(projections).map(interval).collect()
     }
 
     /// The system of states, from that without faces that touch.
@@ -206,25 +238,6 @@ impl FaceContacts {
             rest = tail;
         }
         (matrix, load)
-    }
-
-    /// The derivative of the functional's part on the faces at a field plus `t` times another one,
-    /// along the other one.
-    pub(crate) fn slope(
-        &self,
-        intervals: &[[f64; 2]],
-        [at, along]: [&[FaceStress]; 2],
-        t: f64,
-    ) -> f64 {
-        let rows = self.rows().zip(intervals).zip(at.iter().zip(along));
-        let term = |(((row, beta), [low, high]), (at, along)): ((_, &[f64; 2]), _)| {
-            let (row, beta): (&FaceRow, f64) = (row, beta);
-            let (at, along): (&FaceStress, &FaceStress) = (at, along);
-            let projection = (at.projection + t * along.projection).clamp(*low, *high);
-            let stress = at.stress + t * along.stress;
-            row.weight / beta * (projection * along.projection - stress * along.stress)
-        };
-        rows.map(term).sum()
     }
 
     /// The cells in which contact ends, by the solution and the dual solutions of a system.
@@ -254,27 +267,22 @@ impl FaceContacts {
 const ROUNDING: f64 = 1e-12;
 
 impl FaceStress {
-    /// What remains without another one.
-    pub(crate) fn less(self, other: Self) -> Self {
-        Self { stress: self.stress - other.stress, projection: self.projection - other.projection }
-    }
-
     /// \[u\]·d
     fn jump(&self, beta: f64) -> f64 {
         (self.projection - self.stress) / beta
     }
-
-    /// What holds where P_d is clamped onto an interval.
-    fn state(&self, [low, high]: [f64; 2]) -> FaceState {
-        match self.projection {
-            p if p < low => FaceState::Loaded(low),
-            p if p >= high => FaceState::Loaded(high),
-            _ => FaceState::Tied,
-        }
-    }
 }
 
 impl FaceState {
+    /// What holds where P_d is clamped onto an interval.
+    pub(crate) fn new(projection: f64, [low, high]: [f64; 2]) -> Self {
+        match projection {
+            p if p < low => Self::Loaded(low),
+            p if p >= high => Self::Loaded(high),
+            _ => Self::Tied,
+        }
+    }
+
     /// True if the faces are tied.
     pub(crate) fn is_tied(self) -> bool {
         self == Self::Tied
@@ -316,17 +324,25 @@ impl ContactCell {
         Ok(Self { cell, patches, pairs, first, beta, stresses, projections, rows })
     }
 
-    fn stresses(&self, matrix: &BlockMatrix, solution: &[f64]) -> Vec<FaceStress> {
-        let own = self.patches.iter().flat_map(|&p| &solution[matrix.unknowns(p as usize)]);
+    /// Values of columns, p·u/√w, at each row.
+    fn values(&self, columns: &Mat<f64>, matrix: &BlockMatrix, field: &[f64]) -> Vec<f64> {
+        let own = self.patches.iter().flat_map(|&p| &field[matrix.unknowns(p as usize)]);
         let own: Vec<f64> = own.copied().collect();
-        let at = |columns: &Mat<f64>, k: usize| {
-            columns.col_as_slice(k).iter().zip(&own).map(|(entry, u)| entry * u).sum::<f64>()
-        };
         let of_row = |(k, row): (usize, &FaceRow)| {
-            let of = |columns| at(columns, k) / row.weight.sqrt() - row.lacking;
-            FaceStress { stress: of(&self.stresses), projection: of(&self.projections) }
+            let sum: f64 = columns.col_as_slice(k).iter().zip(&own).map(|(p, u)| p * u).sum();
+            sum / row.weight.sqrt()
         };
         self.rows.iter().enumerate().map(of_row).collect()
+    }
+
+    fn stresses(&self, matrix: &BlockMatrix, solution: &[f64]) -> Vec<FaceStress> {
+        let of = |columns| self.values(columns, matrix, solution);
+        let both = of(&self.stresses).into_iter().zip(of(&self.projections));
+        let less = |((stress, projection), row): (_, &FaceRow)| FaceStress {
+            stress: stress - row.lacking,
+            projection: projection - row.lacking,
+        };
+        both.zip(&self.rows).map(less).collect()
     }
 
     /// None where all faces touch, or none.
@@ -336,10 +352,10 @@ impl ContactCell {
         let is_closed = |k: &usize| at[*k].projection < 0.0;
         let ends = normal.iter().any(is_closed) && !normal.iter().all(is_closed);
         let of_dual = |dual: &Vec<f64>| {
-            let dual = self.stresses(matrix, dual);
+            let dual = self.values(&self.projections, matrix, dual);
             let part = |&k: &usize| {
-                let (row, missed) = (&self.rows[k], at[k].stress - at[k].projection.min(0.0));
-                row.weight / self.beta * (missed * (dual[k].projection + row.lacking)).abs()
+                let missed = at[k].stress - at[k].projection.min(0.0);
+                self.rows[k].weight / self.beta * (missed * dual[k]).abs()
             };
             normal.iter().map(part).sum()
         };

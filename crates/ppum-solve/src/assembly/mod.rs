@@ -26,7 +26,7 @@ mod system;
 mod template;
 
 pub(crate) use cell::Functionals;
-pub(crate) use contact::{ContactError, FaceContacts, FaceState, FaceStress};
+pub(crate) use contact::{ContactError, FaceContacts, FaceState, RowFactors};
 pub(crate) use dual::Duals;
 pub(crate) use functions::Assembly;
 pub(crate) use gauge::{FreeModes, Gauge};

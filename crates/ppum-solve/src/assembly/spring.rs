@@ -1,7 +1,7 @@
 //! Springs on the unknowns of single patches, which hold rigid motions of pieces.
 
 use faer::Mat;
-use ppum_linear::{BlockMatrix, times};
+use ppum_linear::BlockMatrix;
 
 /// A functional of the unknowns of one patch.
 pub(super) struct Holder {
@@ -63,15 +63,6 @@ impl Spring {
     /// Adds the spring to a matrix.
     pub(crate) fn add_to(&self, matrix: &mut BlockMatrix) {
         self.0.iter().for_each(|(patch, block)| matrix.add_block(*patch, *patch, block.as_ref()));
-    }
-
-    /// Adds the load that keeps the spring where a field is.
-    pub(crate) fn add_load(&self, matrix: &BlockMatrix, field: &[f64], load: &mut [f64]) {
-        for (patch, block) in &self.0 {
-            let range = matrix.unknowns(*patch);
-            let forces = times(block.as_ref(), &field[range.clone()]);
-            load[range].iter_mut().zip(forces).for_each(|(load, force)| *load += force);
-        }
     }
 }
 

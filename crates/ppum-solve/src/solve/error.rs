@@ -87,12 +87,12 @@ pub enum SolveError {
     Overflow,
     /// Faces that touch do not come to rest.
     #[error(
-        "the faces that touch do not come to rest in {factors} systems: with much friction there may be several states, or \
+        "the faces that touch do not come to rest in {steps} steps: with much friction there may be several states, or \
          none; use a smaller `friction`, or smaller cells at the crack"
     )]
     Contact {
-        /// Systems solved.
-        factors: usize,
+        /// Steps made.
+        steps: usize,
     },
     /// The watcher cancelled the work.
     #[error(transparent)]

@@ -360,6 +360,22 @@ fn closed_tips_grow_by_what_slides_alone() {
     assert_eq!(fates(2.0).0, [Fate::Closed; 2]);
 }
 
+/// Cracks with kinks and arcs, whose points change their states many times, take a few factors.
+#[test]
+fn kinks_take_few_factors() {
+    let cracks: [Line; 2] = [
+        vec![[-0.45, -0.25], [-0.15, 0.05], [0.35, 0.15]],
+        vec![[-0.27, -0.55], [-0.35, -0.35], [0.35, 0.35], [0.27, 0.55]],
+    ];
+    for (crack, friction) in cracks.iter().flat_map(|crack| [(crack, 0.0), (crack, 0.3)]) {
+        let problem = touching(plate(1.0, 16, &[crack.clone()], PRESSED_ALONG_Y), friction);
+        let dataset = solved(&problem);
+        let factors = record(&dataset.steps[0], "contact steps");
+        assert!((1.0..=8.0).contains(&factors), "{crack:?}, {friction}: {factors}");
+        assert!(record(&dataset.steps[0], "closed faces") > 0.5);
+    }
+}
+
 /// Each mistake is told at its key, with a remedy.
 #[test]
 fn contact_that_cannot_be() {
