@@ -61,7 +61,10 @@ fn info_lists_the_steps() {
         let length = row["crack_length"].as_f64().unwrap();
         assert!((length - step.cracks[0].length()).abs() < 1e-15, "{length}");
         let [k1, k2] = [1.0 + 0.25 * k as f64, -0.125 * k as f64];
-        assert_eq!(row["tips"], json!([{ "crack": 0, "end": "end", "k1": k1, "k2": k2 }]));
+        assert_eq!(
+            row["tips"],
+            json!([{ "crack": 0, "end": "end", "k1": k1, "k2": k2, "k2_over_k1": k2 / k1 }])
+        );
         assert!(row["growth"].is_null());
     }
     let text = lab.run("info growth.h5 --steps");
@@ -197,12 +200,12 @@ fn info_tells_how_cracks_grow() {
         text.lines().map(|line| line.split_whitespace().collect()).collect();
     let head = lines.iter().position(|line| line.first() == Some(&"step"));
     let head = head.unwrap_or_else(|| panic!("{text}"));
-    let heads = "step load cycles unknowns length tip K_I K_II grown by next";
+    let heads = "step load cycles unknowns length tip K_I K_II K_II/K_I grown by next";
     assert_eq!(lines[head].join(" "), heads);
     assert_eq!(lines[head + 5][..3], ["2", "0.666667", "200.000"], "{text}");
     assert_eq!(
         lines[head + 6].join(" "),
-        "0 end 1.50000 -0.250000 1.00000 0.500000 at 14.32°, meets hole 3"
+        "0 end 1.50000 -0.250000 -0.1667 1.00000 0.500000 at 14.32°, meets hole 3"
     );
     assert_eq!(lines[head + 7].last(), Some(&"waits"));
     assert_eq!(lines.last().unwrap().join(" "), "ended with step 3: no tip goes on");

@@ -33,6 +33,8 @@ struct TipRow {
     end: &'static str,
     k1: Number,
     k2: Number,
+    /// Small along a path that its increments resolve; NaN where K_I is within its error of zero.
+    k2_over_k1: Number,
 }
 
 impl StepRow {
@@ -88,22 +90,32 @@ impl StepRow {
 impl TipRow {
     fn new(intensity: &TipIntensity) -> Self {
         let TipIntensity { tip: TipId { crack, end }, k1, k2, .. } = intensity;
-        Self { crack: *crack, end: end.name(), k1: Number(*k1), k2: Number(*k2) }
+        let k2_over_k1 = Number(ratio(intensity));
+        Self { crack: *crack, end: end.name(), k1: Number(*k1), k2: Number(*k2), k2_over_k1 }
     }
+}
+
+/// K_II / K_I of a tip; NaN where K_I is within its error of zero, as where faces are closed.
+fn ratio(&TipIntensity { k1, k2, error, .. }: &TipIntensity) -> f64 {
+    if k1 > error.unwrap_or(0.0) { k2 / k1 } else { f64::NAN }
 }
 
 fn number(value: f64) -> String {
     if value.is_nan() { "–".into() } else { short(value) }
 }
 
-/// Of each tip its name, factors, extension and fate.
+/// Of each tip its name, factors and their ratio, extension and fate.
 fn grown(step: &Step) -> Vec<Vec<String>> {
     let rows = step.growth.iter().flat_map(|growth| &growth.tips);
     let line = |row: &ppum::dataset::Advance| {
         let factors = step.intensities.iter().find(|found| found.tip == row.tip);
         let [k1, k2] = factors.map_or([f64::NAN; 2], |found| [found.k1, found.k2]).map(number);
+        let ratio = match factors.map_or(f64::NAN, ratio) {
+            ratio if ratio.is_nan() => "–".into(),
+            ratio => format!("{ratio:.4}"),
+        };
         let tip = format!("{} {}", row.tip.crack, row.tip.end.name());
-        vec![tip, k1, k2, short(row.extension), increment(row)]
+        vec![tip, k1, k2, ratio, short(row.extension), increment(row)]
     };
     rows.map(line).collect()
 }
@@ -136,7 +148,8 @@ fn table_of_growth(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
     let has_cycles = rows.iter().flat_map(|row| &row.growth).any(|g| g.cycles.is_some());
     let cycles = has_cycles.then_some("cycles");
     let heads = ["step", "load"].into_iter().chain(cycles);
-    let heads = heads.chain(["unknowns", "length", "tip", "K_I", "K_II", "grown by", "next"]);
+    let heads =
+        heads.chain(["unknowns", "length", "tip", "K_I", "K_II", "K_II/K_I", "grown by", "next"]);
     let heads: Vec<_> = heads.map(str::to_owned).collect();
     let steps = rows.iter().flat_map(|row| row.grown_words(has_cycles));
     columns(out, &[heads].into_iter().chain(steps).collect::<Vec<_>>(), true)?;
