@@ -16,11 +16,12 @@
 //! turns: where T < 0 an increment that turns by θ = −2 K_II / K_I ends with
 //! K_II = −½ c θ K_I, c = 2 √(8a/π) |T| / K_I. The next one would turn back by −c θ, so that paths
 //! swing, with growing angles if c > 1.32: the history of turns, whose memory is
-//! √(n + 1) − √n, stands in their recursion. [`Drive::ahead`] turns by θ / (1 + c) instead, for
+//! √(n + 1) − √n, stands in their recursion. [`Drive::next_turn`] turns by θ / (1 + c) instead, for
 //! which K_II at the end of the increment vanishes.
 
 use crate::problem::Criterion;
 use ppum::dataset::TipIntensity;
+use ppum::vec2::Vec2;
 use std::f64::consts::{FRAC_2_PI, PI};
 
 /// The direction of growth and the factor that drives it.
@@ -83,24 +84,74 @@ impl Drive {
         Some(Self { criterion, k, t_stress, kink: Kink { angle, strength } })
     }
 
-    /// The turn of an increment at whose end the criterion goes straight on: along an arc behind
-    /// the kink if it need not turn by more than `most`, and by a smaller kink beyond that. Where T
-    /// is not negative it is the kink alone.
-    pub(super) fn ahead(&self, length: f64, most: f64) -> Turn {
-        let Kink { angle, strength } = self.kink;
+    /// True if T turns the crack back.
+    pub(super) fn turns_back(&self) -> bool {
+        self.t_stress < 0.0
+    }
+
+    /// The turn of a first increment at whose end the criterion goes straight on: along an arc
+    /// behind the kink if it need not turn by more than `most`, and by a smaller kink beyond that.
+    /// Where T is not negative it is the kink alone.
+    pub(super) fn first_turn(&self, path: &[Vec2], length: f64, most: f64) -> Turn {
+        let angle = self.kink.angle;
+        let arc = Turn { at_start: angle, along: self.bend(path, length, angle) };
+        if arc.along.abs() <= most {
+            return arc;
+        }
+        let along = most.copysign(arc.along);
+        let bent = along * self.stiffness(length) + self.memory(path, length);
+        Turn { at_start: self.root(length, bent), along }
+    }
+
+    /// The turn of a later increment at whose end the criterion goes straight on: what K_II there
+    /// is now is answered at the start, so that errors fade, what is to come along the arc.
+    pub(super) fn next_turn(&self, path: &[Vec2], length: f64) -> Turn {
+        Turn { at_start: self.root(length, 0.0), along: self.bend(path, length, 0.0) }
+    }
+
+    /// The turn of an arc behind a kink that answers how T changes K_II along it.
+    pub(super) fn bend(&self, path: &[Vec2], length: f64, kink: f64) -> f64 {
+        if !self.turns_back() {
+            return 0.0;
+        }
+        let change = self.memory(path, length) + turned_back(kink) * self.t_stress * length.sqrt();
+        -change / self.stiffness(length)
+    }
+
+    /// K_II at the end of an arc, by its turn: of a curvature κ it is
+    /// ½ κ a K_I − √(2/π) T ∫ κ s / √(a − s) ds.
+    fn stiffness(&self, length: f64) -> f64 {
+        0.5 * self.kink.strength - 4.0 / 3.0 * FRAC_2_PI.sqrt() * self.t_stress * length.sqrt()
+    }
+
+    /// The kink behind which the criterion goes straight on at the end of an increment that adds
+    /// some K_II beside.
+    fn root(&self, length: f64, beside: f64) -> f64 {
         let stress = self.t_stress * length.sqrt();
-        if stress == 0.0 || angle == 0.0 {
-            return Turn { at_start: angle, along: 0.0 };
+        let angle = self.kink.angle;
+        if angle == 0.0 || (stress == 0.0 && beside == 0.0) {
+            return angle;
         }
-        // K_II of an arc of the curvature κ: ½ κ a K_I − √(2/π) T ∫ κ s / √(a − s) ds
-        let stiffness = 0.5 * strength - 4.0 / 3.0 * FRAC_2_PI.sqrt() * stress;
         let at_end = |angle| sliding(self.criterion, angle, self.k) + turned_back(angle) * stress;
-        let along = -turned_back(angle) * stress / stiffness;
-        if along.abs() <= most {
-            return Turn { at_start: angle, along };
-        }
-        let along = most.copysign(along);
-        Turn { at_start: root(angle, |angle| at_end(angle) + along * stiffness), along }
+        root(angle, |angle| at_end(angle) + beside)
+    }
+
+    /// How much K_II changes along a straight increment because the crack behind it, given from
+    /// its tip on, is not straight: a piece at the distance x with the angle φ to the tip's
+    /// direction adds −√(2/π) T φ (1/√(x + a) − 1/√x) dx, with ½ sin 2φ where turns are large.
+    fn memory(&self, path: &[Vec2], length: f64) -> f64 {
+        let Some(direction) = path.get(1).map(|next| (path[0] - *next).unit()) else { return 0.0 };
+        let kernel = |x: f64| 2.0 * ((x + length).sqrt() - x.sqrt());
+        let mut near = 0.0;
+        let pieces = path.windows(2).map(|ends| {
+            let piece = ends[0] - ends[1];
+            let far = near + piece.length();
+            let shear = direction.dot(piece) * direction.cross(piece) / piece.dot(piece);
+            let change = shear * (kernel(far) - kernel(near));
+            near = far;
+            change
+        });
+        -FRAC_2_PI.sqrt() * self.t_stress * pieces.sum::<f64>()
     }
 }
 

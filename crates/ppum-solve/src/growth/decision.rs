@@ -1,6 +1,6 @@
 //! What the tips of a solved step do next: who grows, how far, and where to.
 
-use super::criterion::{Drive, Turn};
+use super::criterion::Drive;
 use super::path::{Arc, way};
 use crate::problem::{GrowthRule, LoadControl, Problem, cracks};
 use ppum::crack::{Crack, End, TipId, tips};
@@ -30,6 +30,9 @@ const LEAST_CHOSEN: f64 = 0.125;
 /// Halvings of a chosen first increment, down to the least.
 const HALVINGS: usize = 3;
 
+/// Part of a length that is rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// Part of an increment from which on growth that is due is made.
 const DUE: f64 = 0.5;
 
@@ -46,6 +49,8 @@ struct Driven<'a> {
     at: Vec2,
     /// The angle of the crack's direction to the x axis.
     axis: f64,
+    /// The crack from its tip on, as far as T is known to act on its faces.
+    path: Vec<Vec2>,
     drive: Option<Drive>,
     fate: Fate,
     /// None if none is given: it grows however small K is.
@@ -170,7 +175,13 @@ impl<'a> Driven<'a> {
         let toughness = rule.toughness.as_ref().map(|toughness| toughness.value(at));
         let before = before.and_then(|growth| growth.tips.iter().find(|row| row.tip == tip));
         let axis = along.y.atan2(along.x);
-        Self { tip, at, axis, drive, fate, toughness, before, share: 0.0 }
+        let path = match tip.end {
+            // what is closed has no free faces, which T would act on
+            _ if problem.contacts.contains_key(&tip.crack) => Vec::new(),
+            End::Start => crack.points.clone(),
+            End::Last => crack.points.iter().rev().copied().collect(),
+        };
+        Self { tip, at, axis, path, drive, fate, toughness, before, share: 0.0 }
     }
 
     /// Asks whether the toughness at the tip is one, if there is any.
@@ -194,28 +205,35 @@ impl<'a> Driven<'a> {
         self.before.filter(|row| row.length > 0.0)
     }
 
-    /// Direction and curvature of the next increment. The first one kinks in full, and its arc
-    /// turns back; later ones turn less at once, so that errors do not swing.
+    /// Direction and curvature of the next increment.
     fn heading(&self, length: f64) -> (f64, f64) {
+        let Some(drive) = &self.drive else { return (self.axis, 0.0) };
         let is_first = self.before.is_none_or(|row| row.extension + row.length == 0.0);
-        let most = if is_first { LARGEST_TURN } else { 0.0 };
-        let none = Turn { at_start: 0.0, along: 0.0 };
-        let Turn { at_start, along } = self.drive.map_or(none, |drive| drive.ahead(length, most));
-        let direction = turned(0.0, self.axis + at_start);
+        let turn = if is_first {
+            drive.first_turn(&self.path, length, LARGEST_TURN)
+        } else {
+            drive.next_turn(&self.path, length)
+        };
+        let direction = turned(0.0, self.axis + turn.at_start);
+        let curvature = turn.along / length + self.drift(drive, direction);
         let bound = LARGEST_TURN / length;
-        (direction, (along / length + self.curvature(direction)).clamp(-bound, bound))
+        (direction, curvature.clamp(-bound, bound))
     }
 
-    /// The curvature of the path: half of it how the direction has changed along the last
-    /// increment, half what it was taken for there. The change alone would answer errors of the
-    /// last direction with larger ones of the next, and paths would swing. Behind a kink nothing is
-    /// known of it yet, and the arc that follows a kink has turned back already.
-    fn curvature(&self, direction: f64) -> f64 {
+    /// The curvature of the path beside what T explains: half of it how the direction has changed
+    /// along the last increment, half what it was taken for there. The change alone would answer
+    /// errors of the last direction with larger ones of the next, and paths would swing. Behind a
+    /// kink nothing is known of it yet.
+    fn drift(&self, drive: &Drive, direction: f64) -> f64 {
         let is_smooth = self.angle().abs() < SHARP;
-        let known = |row: &&Advance| is_smooth && (row.extension > 0.0 || row.curvature == 0.0);
-        self.last().filter(known).map_or(0.0, |row| {
+        self.last().filter(|_| is_smooth).map_or(0.0, |row| {
             let found = turned(row.direction, direction) / row.length;
-            0.5 * (found + row.curvature)
+            let explained = if row.extension == 0.0 && drive.turns_back() {
+                row.curvature
+            } else {
+                drive.bend(&behind(&self.path, row.length), row.length, 0.0) / row.length
+            };
+            0.5 * (found + row.curvature) - explained
         })
     }
 
@@ -252,6 +270,21 @@ impl<'a> Driven<'a> {
         go(problem, cracks, length, &mut row);
         row
     }
+}
+
+/// A path without its first piece of a given length.
+fn behind(path: &[Vec2], length: f64) -> Vec<Vec2> {
+    let mut left = length;
+    for (k, ends) in path.windows(2).enumerate() {
+        let piece = ends[1] - ends[0];
+        // vertices on straight pieces of a crack are removed
+        if left < (1.0 - ROUNDING) * piece.length() {
+            let at = ends[0] + piece * (left / piece.length()).max(0.0);
+            return std::iter::once(at).chain(path[k + 1..].iter().copied()).collect();
+        }
+        left -= piece.length();
+    }
+    Vec::new()
 }
 
 /// What was decided in a step with other curvatures of some arcs, given with their tips.

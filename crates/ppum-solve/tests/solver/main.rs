@@ -30,6 +30,7 @@ mod loads;
 mod multilevel;
 mod names;
 mod outlines;
+mod paths;
 mod physics;
 mod pieces;
 mod plates;
