@@ -93,8 +93,8 @@ const SAME: f64 = 1e-9;
 
 /// Two directions, and for each the lines on which its coefficient vanishes.
 ///
-/// With the held components d₁ and d₂ these are the directions across d₂ and across d₁: of u = a e₁
-/// + b e₂ the component d₁ is a e₁·d₁. If more than two are held in a patch, both vanish on all
+/// With the held components d₁ and d₂ these are the directions e₁ across d₂ and e₂ across d₁: the
+/// component d₁ of a e₁ + b e₂ is a e₁·d₁. If more than two are held in a patch, both vanish on all
 /// lines.
 fn directions(lines: &[HeldLine]) -> [(Vec2, Vec<HeldLine>); 2] {
     let first = lines.first().map_or(vec2(1.0, 0.0), |line| line.direction);

@@ -368,7 +368,8 @@ fn kinks_take_few_factors() {
         vec![[-0.27, -0.55], [-0.35, -0.35], [0.35, 0.35], [0.27, 0.55]],
     ];
     for (crack, friction) in cracks.iter().flat_map(|crack| [(crack, 0.0), (crack, 0.3)]) {
-        let problem = touching(plate(1.0, 16, &[crack.clone()], PRESSED_ALONG_Y), friction);
+        let problem =
+            touching(plate(1.0, 16, std::slice::from_ref(crack), PRESSED_ALONG_Y), friction);
         let dataset = solved(&problem);
         let factors = record(&dataset.steps[0], "contact steps");
         assert!((1.0..=8.0).contains(&factors), "{crack:?}, {friction}: {factors}");
