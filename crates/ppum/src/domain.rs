@@ -7,12 +7,9 @@
 //! As everywhere points are `anchor + offset`, and what the anchor has to do with a rim is formed
 //! once, without cancellation: a rim in a view 10⁻¹² of the domain wide has no noise.
 
-mod lines;
-
 use crate::compensated::{circle, cross};
 use crate::segment;
 use crate::vec2::{Rect, Vec2, vec2};
-pub use lines::{BorderLine, TOUCH, is_mirrored_side, touch};
 
 /// A box minus holes; outside nothing is defined.
 #[derive(Clone, Debug, PartialEq)]

@@ -135,6 +135,7 @@
 //! - Formulas are interpreted, functions of the plane in blocks of points on lanes; the Westergaard
 //!   functions, recognised by their text, have a kernel of their own.
 
+pub mod border;
 pub mod box_tree;
 pub mod check;
 mod compensated;

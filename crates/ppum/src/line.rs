@@ -19,8 +19,8 @@ impl Line {
         Self { from: a, along: b - a }
     }
 
-    /// The line a x + b y + c = 0 seen from an anchor, with t as a length from the point next to the
-    /// anchor; the form is positive on the right. Not finite if a and b are zero.
+    /// The line a x + b y + c = 0 seen from an anchor, with t as a length from the point next to
+    /// the anchor; the form is positive on the right. Not finite if a and b are zero.
     #[must_use]
     pub fn of_equation([a, b, c]: [f64; 3], anchor: Vec2) -> Self {
         let normal = vec2(a, b);

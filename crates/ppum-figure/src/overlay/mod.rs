@@ -19,8 +19,9 @@ mod rings;
 mod strokes;
 mod supports;
 
+use ppum::border::{is_mirrored_side, touch};
 use ppum::crack::{Crack, tips};
-use ppum::domain::{Hole, is_mirrored_side, touch};
+use ppum::domain::Hole;
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 

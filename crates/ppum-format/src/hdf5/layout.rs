@@ -93,7 +93,11 @@ type Stored = (u64, u64);
 fn chunked(addition: &mut Addition, name: &str, array: &Array) -> Result<Vec<Message>, WriteError> {
     let (size, shape) = (size(&array.values), chunk(&array.shape));
     let chunk_bytes = size as u64 * shape.iter().product::<u64>();
-    let chunks = chunks(&array.shape, &shape, &bytes(array), size);
+    let values = bytes(array);
+    if values.len() as u64 != size as u64 * array.shape.iter().product::<u64>() {
+        return Err(WriteError::object(name, "has another number of values than its shape says"));
+    }
+    let chunks = chunks(&array.shape, &shape, &values, size);
     let packed = chunks.par_iter().map(|values| deflated(&shuffled(values, size)));
     let packed: Option<Vec<_>> = packed.collect();
     let packed = packed.ok_or_else(|| WriteError::object(name, "cannot be compressed"))?;

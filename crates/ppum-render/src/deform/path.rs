@@ -1,7 +1,8 @@
 //! Lines of the plate in the deformed plane.
 
+use ppum::border::{is_mirrored_side, touch};
 use ppum::crack::{Crack, CrackEnd, Side};
-use ppum::domain::{Hole, LocalDomain, is_mirrored_side, touch};
+use ppum::domain::{Hole, LocalDomain};
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::DeformedView;
@@ -263,8 +264,8 @@ impl<'a, 'f> Border<'a, 'f> {
         is_border.then(|| self.map.place(self.view, offset, Side::Above)).flatten()
     }
 
-    /// Some of the sides of a polygon; the plate lies on the left of them, or on the right if `left`
-    /// is −1.
+    /// Some of the sides of a polygon; the plate lies on the left of them, or on the right if
+    /// `left` is −1.
     fn sides(
         &mut self,
         corners: &[Vec2],

@@ -71,6 +71,11 @@ const FEWEST: usize = 1 << 13;
 const SAMPLES: usize = 1 << 15;
 const OPERATIONS: usize = 1 << 28;
 
+/// Pixels of the image from which a search begins, in any field and at most, between which the same
+/// operations decide.
+const FEWEST_PIXELS: usize = 1 << 10;
+const PIXELS: usize = 1 << 18;
+
 /// Segments of cracks that take as long as a sample: on each face all of them are seen anew.
 const SEGMENTS: usize = 64;
 
@@ -203,7 +208,7 @@ pub fn extrema(
     watcher: &dyn Watcher,
 ) -> Result<Option<Extrema>, RenderError> {
     quantity.check(field)?;
-    let Some(grid) = region.grid() else { return Ok(None) };
+    let Some(grid) = region.grid(pixels(field)) else { return Ok(None) };
     let raster = f64::render(field, &grid, quantity, watcher)?;
     if let Some(constant) = constant(field, region, quantity, &raster) {
         return Ok(Some(constant));
@@ -270,12 +275,19 @@ fn boundaries(field: &Field<'_>, region: &BodyRegion, pixel: f64) -> Vec<Boundar
 fn samples(field: &Field<'_>, curves: &[BoundaryCurve], pixel: f64) -> Vec<usize> {
     let wanted = curves.iter().map(|curve| curve.samples(pixel));
     let all: usize = wanted.clone().sum();
-    let part = (affordable(field) as f64 / all as f64).min(1.0);
+    let affordable = (OPERATIONS / operations(field)).clamp(FEWEST, SAMPLES);
+    let part = (affordable as f64 / all as f64).min(1.0);
     wanted.map(|n| ((n as f64 * part) as usize).max(curves::LEAST)).collect()
 }
 
-/// Samples that boundaries may have, by the operations of the functions of a patch.
-fn affordable(field: &Field<'_>) -> usize {
+/// The number of pixels from which a search begins: it depends on the field alone.
+fn pixels(field: &Field<'_>) -> usize {
+    (OPERATIONS / operations(field)).clamp(FEWEST_PIXELS, PIXELS)
+}
+
+/// Operations of the functions of a patch, on the average, and of the material, whose formulas have
+/// no more of them than characters.
+fn operations(field: &Field<'_>) -> usize {
     let functions = &field.functions;
     let cost = |&function: &u32| match functions.of(function) {
         Slot::One => 0,
@@ -285,8 +297,8 @@ fn affordable(field: &Field<'_>) -> usize {
         }
     };
     let all: usize = field.data.block_function.iter().map(cost).sum();
-    let of_a_patch = 1 + all / field.step.partition.len();
-    (OPERATIONS / of_a_patch).clamp(FEWEST, SAMPLES)
+    let material: usize = field.equation.constants().map(|(_, e)| e.formula().text().len()).sum();
+    1 + all / field.step.partition.len() + material
 }
 
 /// What a search needs.

@@ -7,8 +7,7 @@ use ppum_raster::view::View;
 /// Distance from the sides of a body's box, in parts of it, up to which a region holds the box.
 const ROUNDING: f64 = 1e-9;
 
-/// Pixels of the image from which a search begins, and columns or rows of it, at most.
-const PIXELS: f64 = 262_144.0;
+/// Columns or rows of the image from which a search begins, at most.
 const LONGEST: f64 = 16_384.0;
 
 /// Part of a pixel by which rounding may move the centre of that image.
@@ -54,11 +53,11 @@ impl BodyRegion {
         Self::new(field, view.center, Rect::new(-half, half))
     }
 
-    /// The view of the image from which a search begins: it depends on the region alone. `None` of
-    /// a region that is a point.
-    pub(super) fn grid(&self) -> Option<View> {
+    /// The view of the image of so many pixels from which a search begins. `None` of a region that
+    /// is a point.
+    pub(super) fn grid(&self, pixels: usize) -> Option<View> {
         let (size, middle) = (self.rect.size(), self.rect.center());
-        let pixel = (size.x * size.y / PIXELS).sqrt().max(size.x.max(size.y) / LONGEST);
+        let pixel = (size.x * size.y / pixels as f64).sqrt().max(size.x.max(size.y) / LONGEST);
         if !pixel.is_normal() {
             return None;
         }

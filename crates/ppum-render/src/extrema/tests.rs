@@ -22,7 +22,10 @@ fn extrema_of(field: &Field<'_>, view: &View, text: &str) -> Extrema {
 
 /// The distance of the places from which a search in what a view shows begins.
 fn pixel_of(field: &Field<'_>, view: &View) -> f64 {
-    BodyRegion::seen(field, view).and_then(|region| region.grid()).expect("a grid").pixel_size()
+    BodyRegion::seen(field, view)
+        .and_then(|region| region.grid(pixels(field)))
+        .expect("a grid")
+        .pixel_size()
 }
 
 #[test]
@@ -410,7 +413,7 @@ fn poles_are_infinite() {
     let dataset = Recipe { cracks: vec![], ..Recipe::default() }.dataset();
     let field = Field::new(&dataset, 0).expect("a field");
     let region = BodyRegion::whole(&field);
-    let grid = region.grid().expect("a grid");
+    let grid = region.grid(pixels(&field)).expect("a grid");
     let (x, column) = (grid.center.x + 0.3 * grid.pixel_size(), grid.center + grid.offset(7, 11));
     let inf = f64::INFINITY;
     for (text, expected) in [

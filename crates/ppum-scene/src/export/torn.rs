@@ -96,8 +96,8 @@ pub(super) struct Convergence {
 const LEAST_DIVISIONS: u8 = 12;
 
 /// Divisions in which it must fall by half: those of smooth fields take one, and four where a
-/// displacement is like r^½.
-const TO_HALF: f64 = 8.0;
+/// displacement is like r^½. As much as this it may fall by chance.
+const TO_HALF: f64 = 24.0;
 
 impl Convergence {
     /// That of a triangle of which no difference is known.

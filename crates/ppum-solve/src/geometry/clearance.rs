@@ -1,9 +1,10 @@
 //! Clearance of crack tips: the largest disc around a tip in which nothing disturbs its field.
 
 use super::material::jumps;
+use ppum::border::touch;
 use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::{Dataset, Step};
-use ppum::domain::{Domain, Hole, touch};
+use ppum::domain::{Domain, Hole};
 use ppum::function::{Frame, Function, FunctionKind, Role};
 use ppum::segment::{self, Segment, gap};
 use ppum::vec2::{Rect, Vec2};

@@ -52,10 +52,11 @@
 //!
 //! with the second integral over all faces.
 //!
-//! At a tip on a straight line of the border, with the other half of the body mirrored ([`Symmetry`]), the
-//! integrals over one half are doubled. Of a symmetric field those of K_I and T, and J, are twice
-//! that half: on the line ahead of the tip P_j n_j = 0 since there u_2 = uᵃ_2 = 0 and σ_12 = σᵃ_12
-//! = 0. That of K_II is zero. Of an antisymmetric field that of K_II alone is not.
+//! At a tip on a straight line of the border, with the other half of the body mirrored
+//! ([`Symmetry`]), the integrals over one half are doubled. Of a symmetric field those of K_I and
+//! T, and J, are twice that half: on the line ahead of the tip P_j n_j = 0 since there u_2 = uᵃ_2 =
+//! 0 and σ_12 = σᵃ_12 = 0. That of K_II is zero. Of an antisymmetric field that of K_II alone is
+//! not.
 //!
 //! J knows nothing of auxiliary fields: that J = G =
 //! (K_I² + K_II²)/E′ is a check. C is differentiated, so that there is no J where the material

@@ -1,8 +1,9 @@
 //! Cracks as a problem gives them: what their ends are, and where they may lie.
 
+use ppum::border::BorderLine;
+pub(crate) use ppum::border::touch;
 use ppum::crack::{Crack, CrackEnd};
-pub(crate) use ppum::domain::touch;
-use ppum::domain::{BorderLine, Domain, Hole};
+use ppum::domain::{Domain, Hole};
 use ppum::line::Line;
 use ppum::segment::{Segment, distance, gap};
 use ppum::text::{exact, trimmed};

@@ -12,8 +12,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use ppum::border::BorderLine;
 use ppum::crack::TipId;
-use ppum::domain::BorderLine;
 use ppum::segment::{self, Segment};
 use ppum::vec2::Vec2;
 
@@ -252,8 +252,8 @@ impl Problem {
     }
 
     /// The number of images of a body with a crack on a line of symmetry that make the whole: 2 of
-    /// a half, 4 of a quarter, 2π/ω of a wedge between two lines at an angle ω. None of other bodies,
-    /// and where images do not make a whole.
+    /// a half, 4 of a quarter, 2π/ω of a wedge between two lines at an angle ω. None of other
+    /// bodies, and where images do not make a whole.
     pub(crate) fn images(&self) -> Option<f64> {
         let (_, first) = self.border_cracks().next()?;
         let is_mirror = |line: &BorderLine| self.is_along(line, |_| true);

@@ -13,8 +13,8 @@ use super::singular::panels;
 use super::split::{breaks, component, divided, kinks, varies};
 use super::stretch::{Path, Stretch};
 use crate::geometry::{around, without};
+use ppum::border::{TOUCH, touch};
 use ppum::crack::Side;
-use ppum::domain::{TOUCH, touch};
 use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2};
 use std::cell::Cell;
@@ -100,9 +100,9 @@ impl Quadrature<'_> {
     /// Rules on the part of a straight segment that belongs to a cell; empty if none does.
     ///
     /// `normal` is the segment's unit normal out of the material. Parts without material behind
-    /// them count for nothing, and neither do faces of cracks on it. A segment along a cell's border belongs to the cell that `normal`
-    /// points out of. `coverers` are the patches whose open supports meet the cell; more of them do
-    /// no harm.
+    /// them count for nothing, and neither do faces of cracks on it. A segment along a cell's
+    /// border belongs to the cell that `normal` points out of. `coverers` are the patches whose
+    /// open supports meet the cell; more of them do no harm.
     #[must_use]
     pub(crate) fn edge(
         &self,

@@ -16,9 +16,9 @@
 //!
 //! At the tip z is singular, and no order resolves it: e_j is large there, as it does not know that
 //! the error of u is orthogonal to the space. The difference of the factors over two discs does: it
-//! is a(u − u_h, z_1 − z_2) with two dual solutions that differ in the discs alone. So it stands for
-//! the error there, and the weights w_j grow from 0 at half the radius of the largest disc to 1 at
-//! one and a half of it.
+//! is a(u − u_h, z_1 − z_2) with two dual solutions that differ in the discs alone. So it stands
+//! for the error there, and the weights w_j grow from 0 at half the radius of the largest disc to 1
+//! at one and a half of it.
 //!
 //! The functionals of all tips are added up, so that two dual solutions serve any number of tips.
 //! What a cell adds may be due to any of them, the more the nearer: the strain of a dual solution

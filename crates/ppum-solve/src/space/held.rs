@@ -8,8 +8,8 @@
 
 use crate::geometry::{clipped, solid_part, wider};
 use crate::problem::{BoundaryCondition, Problem, held_directions, touch};
+use ppum::border::BorderLine;
 use ppum::dataset::BoxPartition;
-use ppum::domain::BorderLine;
 use ppum::segment::Segment;
 use ppum::vec2::Vec2;
 use std::collections::BTreeMap;

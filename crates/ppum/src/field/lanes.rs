@@ -1,6 +1,6 @@
 //! Evaluation at many points, on lanes.
 
-use super::local::LocalField;
+use super::local::{LocalField, take_values};
 use crate::crack::Side;
 use crate::jet::Jet;
 use crate::mesh::grid::PointGrid;
@@ -83,6 +83,11 @@ impl LocalField<'_> {
             return out.fill(Jet::NAN);
         }
         f64::dispatch(Many::<D> { local: self, offsets, side, out });
+        if self.is_sided::<D>() {
+            let mut values = out.to_vec();
+            f64::dispatch(Many::<0> { local: self, offsets, side, out: &mut values });
+            take_values(out, &values);
+        }
     }
 
     /// Evaluates a field on a mesh at the points of a grid, row by row: as
@@ -118,6 +123,18 @@ impl LocalField<'_> {
             return out.fill(Jet::NAN);
         }
         f64::dispatch(LaneEvaluation::<D> { local: self, offsets, side, patches, out });
+        if self.is_sided::<D>() {
+            let mut values = out.to_vec();
+            let out_values = &mut values[..];
+            f64::dispatch(LaneEvaluation::<0> {
+                local: self,
+                offsets,
+                side,
+                patches,
+                out: out_values,
+            });
+            take_values(out, &values);
+        }
     }
 
     /// Evaluates at no more points than there are lanes; `lanes` holds one vector per component.

@@ -23,7 +23,7 @@ pub struct LocalField<'f> {
     pub(super) outer: Option<Side>,
     /// A way of a few roundings from the segment that it is seen on to the side above it; zero if
     /// on none. Where the segment runs along the border of a patch, on which the slope of its
-    /// weight jumps, each face has the weights on its side.
+    /// weight jumps, each face has the slopes on its side.
     above: Vec2,
     pub(super) functions: LocalFunctions<'f>,
     /// The elements, if the patches are those of a mesh.
@@ -50,9 +50,14 @@ pub struct Covering {
     pub overlap: usize,
 }
 
-/// Way from a crack to its side, in parts of the domain's largest coordinate, at which weights are
-/// taken there.
+/// Way from a crack to its side, in parts of the domain's largest coordinate, at which slopes of
+/// weights are taken there.
 const ASIDE: f64 = 16.0 * f64::EPSILON;
+
+/// Takes the values, not the derivatives, of other evaluations.
+pub(super) fn take_values(out: &mut [Jet<f64>], others: &[Jet<f64>]) {
+    out.iter_mut().zip(others).for_each(|(out, other)| out.v = other.v);
+}
 
 impl Field<'_> {
     /// The field as seen from an anchor.
@@ -128,6 +133,11 @@ impl<'f> LocalField<'f> {
         }
         let patches = self.covering_any(&[offset], side);
         self.over_patches::<f64, D>([offset.x, offset.y], side, &patches, out);
+        if self.is_sided::<D>() {
+            let mut values = out.to_vec();
+            self.over_patches::<f64, 0>([offset.x, offset.y], side, &patches, &mut values);
+            take_values(out, &values);
+        }
         self.patches = patches;
         true
     }
@@ -200,9 +210,18 @@ impl<'f> LocalField<'f> {
         Some(Covering { weight_sum, overlap })
     }
 
-    /// The place at which weights are taken.
+    /// True if derivatives are those of a side, while values, which are continuous but for the
+    /// functions, are those of the point itself.
+    pub(super) fn is_sided<const D: usize>(&self) -> bool {
+        D > 0 && self.above != Vec2::ZERO
+    }
+
+    /// The place at which weights are taken for `D` derivatives.
     #[inline(always)]
-    fn aside<R: Real>(&self, [x, y]: [R; 2], side: Side) -> [R; 2] {
+    fn aside<R: Real, const D: usize>(&self, [x, y]: [R; 2], side: Side) -> [R; 2] {
+        if D == 0 {
+            return [x, y];
+        }
         let way = if side == Side::Above { self.above } else { -self.above };
         [x + x.lit(way.x), y + y.lit(way.y)]
     }
@@ -212,7 +231,7 @@ impl<'f> LocalField<'f> {
         let mut patches = std::mem::take(&mut self.patches);
         patches.clear();
         for &offset in offsets {
-            let [x, y] = self.aside([offset.x, offset.y], side);
+            let [x, y] = self.aside::<f64, 1>([offset.x, offset.y], side);
             self.field.tree.query_point(self.anchor + vec2(x, y), &mut patches);
         }
         patches.sort_unstable();
@@ -234,7 +253,7 @@ impl<'f> LocalField<'f> {
         }
         let zero = Jet::constant(offset[0].lit(0.0));
         let mut functions = FunctionJets::new(&self.functions, offset, side);
-        let aside = self.aside(offset, side);
+        let aside = self.aside::<R, D>(offset, side);
         let components = self.field.components();
         out[..components].fill(zero);
         let mut weight_sum = zero;
@@ -320,7 +339,7 @@ impl<'f> LocalField<'f> {
         }
         let at = [offset.x, offset.y];
         let mut functions = FunctionJets::new(&self.functions, at, side);
-        let aside = self.aside(at, side);
+        let aside = self.aside::<f64, D>(at, side);
         let (components, zero) = (self.field.components(), Jet::constant(0.0));
         let mut weight_sum = zero;
         for &patch in patches {

@@ -1,7 +1,7 @@
 //! Rules for cracks on straight lines of the border: halves of symmetric bodies.
 
+use ppum::border::BorderLine;
 use ppum::crack::TipId;
-use ppum::domain::BorderLine;
 
 use super::super::boundary::{BorderPart, BoundaryCondition};
 use super::super::cracks::shown;

@@ -1,8 +1,8 @@
 //! Straight lines of the border, on which cracks of half models lie, and at which bodies are
 //! mirrored.
 
-use super::{Domain, Hole};
 use crate::crack::Side;
+use crate::domain::{Domain, Hole};
 use crate::segment::{self, Segment};
 use crate::vec2::{Rect, Vec2};
 
