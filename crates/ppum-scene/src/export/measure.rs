@@ -10,6 +10,9 @@ use super::refine::{Refined, or_infinite};
 /// the triangles, so that small ones are seen too.
 pub const RANDOM_POINTS: usize = 20_000;
 
+/// Part of the tolerance from which a triangle is divided: peaks next to a random point are higher.
+const MARGIN: f64 = 0.7;
+
 /// A measurement.
 #[derive(Clone, Debug)]
 pub(super) struct Measurement {
@@ -18,7 +21,7 @@ pub(super) struct Measurement {
     /// For each column the share of points that are within the tolerance, of those outside of
     /// singular points.
     pub(super) share: Vec<f64>,
-    /// Triangles in which one is not and which can be divided.
+    /// Triangles in which one is not by a margin, and which can be divided.
     pub(super) failed: Vec<u32>,
 }
 
@@ -46,7 +49,8 @@ impl Refined<'_, '_> {
             let within = all.iter().filter(|difference| **difference <= allowed[c]).count();
             found.share[c] = within as f64 / all.len().max(1) as f64;
         }
-        let fails = |row: &Vec<f64>| row.iter().zip(&allowed).any(|(d, allowed)| d > allowed);
+        let fails =
+            |row: &Vec<f64>| row.iter().zip(&allowed).any(|(d, allowed)| *d > MARGIN * allowed);
         let failed =
             at.iter().zip(&differences).filter(|(_, row)| fails(row)).map(|((t, _), _)| *t);
         let has_stalled = |t: u32| self.mesh.triangles[t as usize].convergence.has_stalled();
