@@ -364,7 +364,7 @@ def test_vtk_reads_fields_on_meshes(folder):
         dataset = folder / fixture.name
         dataset.write_bytes(fixture.read_bytes())
         for order in (1, 3):
-            options = ["--tolerance", 1e-3, "--order", order]
+            options = ["--tolerance", 5e-4, "--order", order]
             path = exported(dataset, "mesh.vtu", *options)
             grid = read(vtk.vtkXMLUnstructuredGridReader(), path)
             data, arrays = arrays_of(grid, grid.GetFieldData()), arrays_of(grid)
