@@ -2,14 +2,13 @@
 //!
 //! `PPUM_WRITE=1 cargo test -p ppum-solve --lib problem::tests::keys` writes them anew.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
 use super::super::keys::{KeyRow, KeyTable, Kind, ROOT, Range, completions};
 use super::super::words::{EquationKind, Words};
-use super::Problem;
 
 /// The path of the table of all tables.
 const FILE: &str = "file";
@@ -294,62 +293,4 @@ fn keys_are_completed_where_they_stand() {
         let has = |key: &str| keys.contains(&key.to_owned());
         assert_eq!((has("conductivity"), has("young")), (is_poisson, !is_poisson), "{text}");
     }
-}
-
-/// A key that is written with its default means what it means where it is left out: in each table
-/// of each example that lacks it, where the reader takes it.
-#[test]
-fn defaults_are_what_is_read() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
-    let parse = |text: &str| {
-        let problem = Problem::parse(text, "example.toml", &folder).ok()?;
-        Some(format!("{:?}", Problem { text: None, ..problem }))
-    };
-    let mut shown = BTreeSet::new();
-    for entry in std::fs::read_dir(&folder).expect("examples") {
-        let path = entry.expect("an entry").path();
-        if path.extension().is_none_or(|end| end != "toml") {
-            continue;
-        }
-        let text = std::fs::read_to_string(&path).expect("an example");
-        let plain = parse(&text).expect("a good example");
-        for (table, row) in ROOT
-            .keys
-            .iter()
-            .filter_map(|row| Some((row, row.kind.table()?)))
-            .flat_map(|(name, table)| table.keys.iter().map(move |row| (name.name, row)))
-        {
-            let Some(default) = row.default.filter(|text| is_toml(text)) else { continue };
-            for (at, header) in headers(&text, table) {
-                let body = text[at..].split("\n[").next().unwrap_or_default();
-                if body.lines().any(|line| line.split('=').next().map(str::trim) == Some(row.name))
-                {
-                    continue;
-                }
-                let written = format!("{}\n{} = {default}{}", &text[..at], row.name, &text[at..]);
-                // some keys need others beside them
-                let Some(problem) = parse(&written) else { continue };
-                let shown_now = format!("{header}.{}", row.name);
-                assert_eq!(problem, plain, "{}: {shown_now}", path.display());
-                shown.insert(shown_now);
-            }
-        }
-    }
-    assert!(shown.len() > 20, "{shown:?}");
-}
-
-fn is_toml(value: &str) -> bool {
-    format!("key = {value}").parse::<toml::Table>().is_ok()
-}
-
-/// The ends of the headers of a table in a text, and the headers.
-fn headers(text: &str, table: &str) -> Vec<(usize, String)> {
-    [format!("\n[{table}]"), format!("\n[[{table}]]")]
-        .into_iter()
-        .flat_map(|header| {
-            let ends: Vec<_> =
-                text.match_indices(&header).map(|(at, _)| at + header.len()).collect();
-            ends.into_iter().map(move |end| (end, header.trim().to_owned()))
-        })
-        .collect()
 }
