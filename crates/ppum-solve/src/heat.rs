@@ -5,12 +5,10 @@
 //! strains ε⁰ = α T I + … it gives. Their local spaces have the same patches but functions of their
 //! own; in the joint field a block is of zeros in the components that do not have it.
 
+use crate::problem::without_expansion;
 use crate::report::{SolverReport, Unresolved};
 use ppum::crack::{SegmentId, Side};
-use ppum::dataset::{
-    Dataset, Eigenstrain, Elasticity, Equation, FieldData, NamedQuantity, Reaction, Step,
-    TEMPERATURE,
-};
+use ppum::dataset::{Dataset, Equation, FieldData, NamedQuantity, Reaction, Step, TEMPERATURE};
 use ppum::equation::Moduli;
 use ppum::expression::Expression;
 use ppum::field::{Field, FieldError};
@@ -124,30 +122,6 @@ impl Temperature {
         let heat = part(TEMPERATURE, DISPLACEMENT..DISPLACEMENT + 1, Equation::None);
         Ok(Some((plain, Self::new(heat, dataset.equation.clone())?)))
     }
-}
-
-/// The equation of a body whose field has a temperature that strains it by a coefficient.
-pub(crate) fn with_expansion(equation: &Equation, expansion: &Expression) -> Equation {
-    let mut equation = equation.clone();
-    if let Equation::Elasticity(Elasticity { eigenstrain, .. }) = &mut equation {
-        let zeros = || Box::new(Eigenstrain::from([0.0; 4].map(Expression::number)));
-        eigenstrain.get_or_insert_with(zeros).expansion = Some(expansion.clone());
-    }
-    equation
-}
-
-/// The same equation without the temperature.
-pub(crate) fn without_expansion(mut equation: Equation) -> Equation {
-    if equation.expansion().is_none() {
-        return equation;
-    }
-    if let Equation::Elasticity(Elasticity { eigenstrain, .. }) = &mut equation {
-        let is_given =
-            |given: &Eigenstrain| given.strains.iter().any(|e| e.constant() != Some(0.0));
-        *eigenstrain = eigenstrain.take().filter(|given| is_given(given));
-        eigenstrain.iter_mut().for_each(|given| given.expansion = None);
-    }
-    equation
 }
 
 /// A step of a displacement with that of a temperature on the same patches as a third component.

@@ -2,26 +2,41 @@
 
 use crate::basis::Shapes;
 use crate::geometry::Placed;
-use crate::intensity::{FACTORS, Sensitivity};
 use crate::quadrature::Rule;
 use crate::space::Space;
 use faer::Mat;
 use ppum::vec2::Vec2;
 
+/// The modes I and II.
+pub(crate) const FACTORS: usize = 2;
+
+/// G of a mode at a point, times the weight of the point: of each component the vector that its
+/// gradient is multiplied with.
+pub(crate) type Kernel = [Vec2; 2];
+
+/// The stress intensity factors of one tip as linear functionals K_m(v) = ∫ G_m : ∇v dA.
+pub(crate) trait LinearFunctional: Sync {
+    /// The cells in which G is not zero.
+    fn cells(&self, cells: &Placed<usize>) -> Vec<usize>;
+
+    /// G of both modes at the points of a rule.
+    fn kernels(&self, rule: &Rule) -> Vec<[Kernel; FACTORS]>;
+}
+
 /// The factors of all tips as functionals: K(N) of both modes is integrated with the system, summed
 /// over the tips.
 pub(crate) struct Duals<'a> {
-    tips: &'a [Sensitivity<'a>],
+    tips: Vec<&'a dyn LinearFunctional>,
     /// Of each cell, the tips whose discs it meets.
     near: Vec<Vec<u32>>,
 }
 
 impl<'a> Duals<'a> {
-    pub(crate) fn new(tips: &'a [Sensitivity<'a>], space: &Space<'_>) -> Self {
+    pub(crate) fn new(tips: Vec<&'a dyn LinearFunctional>, space: &Space<'_>) -> Self {
         let cells = &space.partition().cell;
         let mut near = vec![Vec::new(); cells.len()];
         let placed = Placed::new(cells.iter().copied().zip(0..));
-        for (k, tip) in (0..).zip(tips) {
+        for (k, tip) in (0..).zip(&tips) {
             tip.cells(&placed).into_iter().for_each(|cell| near[cell].push(k));
         }
         Self { tips, near }

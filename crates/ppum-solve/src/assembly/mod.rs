@@ -27,7 +27,7 @@ mod template;
 
 pub(crate) use cell::Functionals;
 pub(crate) use contact::{ContactError, FaceContacts, FaceState, RowFactors};
-pub(crate) use dual::Duals;
+pub(crate) use dual::{Duals, FACTORS, Kernel, LinearFunctional};
 pub(crate) use functions::Assembly;
 pub(crate) use gauge::{FreeModes, Gauge};
 pub(crate) use given::Given;

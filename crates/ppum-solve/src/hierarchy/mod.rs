@@ -95,7 +95,7 @@ impl Finest<'_> {
         let found = slivers(Assembly { problem, space: &space, basis: &basis, law }, stage)?;
         basis.damp(&space, &found)?;
         let assembly = Assembly { problem, space: &space, basis: &basis, law };
-        let (free, duals) = (&FreeModes::none(self.plate), &Duals::new(&[], &space));
+        let (free, duals) = (&FreeModes::none(self.plate), &Duals::new(Vec::new(), &space));
         let given = Given::restraints(problem);
         let system = System::new(assembly, &given, Functionals { free, duals }, stage)?;
         let transfer = transfer(finer, (&space, &basis), stage)?;

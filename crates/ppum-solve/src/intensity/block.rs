@@ -4,7 +4,7 @@ use super::auxiliary::{Auxiliary, Gradients, difference, stress, work};
 use super::integral::{
     Integrals, Interaction, MODES, RINGS, cut_off, flat_cut_off, in_frame, square,
 };
-use super::sensitivity::{FACTORS, Kernel};
+use crate::assembly::{FACTORS, Kernel};
 use ppum::crack::{LocalTip, Side, TipPoint};
 use ppum::jet::Jet;
 use ppum::real::{Job, Real, Scalar};

@@ -90,7 +90,7 @@ use ppum::dataset::{Dataset, TipIntensity};
 use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Rect, Vec2};
-pub(crate) use sensitivity::{FACTORS, Sensitivity, TipDisc, sensitivities};
+pub(crate) use sensitivity::{Sensitivity, TipDisc, sensitivities};
 
 /// Radii in parts of the tip's [`TipClearance`]; the last one is preferred, its integral averages
 /// most.

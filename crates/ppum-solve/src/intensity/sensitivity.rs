@@ -13,6 +13,7 @@
 use super::block::PointBlock;
 use super::integral::Interaction;
 use super::{Loads, RADII, TipOutcome, TipSymmetry};
+use crate::assembly::{FACTORS, Kernel, LinearFunctional};
 use crate::geometry::Placed;
 use crate::quadrature::Rule;
 use crate::space::Space;
@@ -20,13 +21,6 @@ use ppum::crack::tips;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::vec2::Vec2;
-
-/// The modes I and II.
-pub(crate) const FACTORS: usize = 2;
-
-/// G of a mode at a point, times the weight of the point: of each component the vector that its
-/// gradient is multiplied with.
-pub(crate) type Kernel = [Vec2; 2];
 
 /// The factors of one tip as functionals.
 pub(crate) struct Sensitivity<'a>(Interaction<'a>);
@@ -60,14 +54,14 @@ impl Sensitivity<'_> {
     pub(crate) fn disc(&self) -> TipDisc {
         TipDisc { tip: self.0.center, radius: self.0.largest() }
     }
+}
 
-    /// The cells that meet the disc.
-    pub(crate) fn cells(&self, cells: &Placed<usize>) -> Vec<usize> {
+impl LinearFunctional for Sensitivity<'_> {
+    fn cells(&self, cells: &Placed<usize>) -> Vec<usize> {
         self.0.cells(cells).collect()
     }
 
-    /// G of both modes at the points of a rule; zero outside the disc.
-    pub(crate) fn kernels(&self, rule: &Rule) -> Vec<[Kernel; FACTORS]> {
+    fn kernels(&self, rule: &Rule) -> Vec<[Kernel; FACTORS]> {
         PointBlock::new(&self.0, rule.anchor, &rule.offsets).kernels(&rule.weights)
     }
 }

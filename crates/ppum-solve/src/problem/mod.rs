@@ -89,3 +89,4 @@ pub(crate) use stiffness::{FREE_OF_LOCKING, STIFF, stiffness_ratio};
 pub use support::{Force, Support};
 pub use symmetry::Symmetry;
 pub use table_file::read_table;
+pub(crate) use temperature::without_expansion;

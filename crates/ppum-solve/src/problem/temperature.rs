@@ -2,11 +2,10 @@
 
 use std::borrow::Cow;
 
-use ppum::dataset::Equation;
+use ppum::dataset::{Eigenstrain, Elasticity, Equation};
 use ppum::expression::Expression;
 
 use super::model::{Problem, SolvedTemperature};
-use crate::heat::with_expansion;
 
 impl Problem {
     /// The problem of elasticity in a body that the solution of another problem strains as its
@@ -48,4 +47,28 @@ impl Problem {
         };
         Some(heat.with_free_faces())
     }
+}
+
+/// The equation of a body whose field has a temperature that strains it by a coefficient.
+fn with_expansion(equation: &Equation, expansion: &Expression) -> Equation {
+    let mut equation = equation.clone();
+    if let Equation::Elasticity(Elasticity { eigenstrain, .. }) = &mut equation {
+        let zeros = || Box::new(Eigenstrain::from([0.0; 4].map(Expression::number)));
+        eigenstrain.get_or_insert_with(zeros).expansion = Some(expansion.clone());
+    }
+    equation
+}
+
+/// The same equation without the temperature.
+pub(crate) fn without_expansion(mut equation: Equation) -> Equation {
+    if equation.expansion().is_none() {
+        return equation;
+    }
+    if let Equation::Elasticity(Elasticity { eigenstrain, .. }) = &mut equation {
+        let is_given =
+            |given: &Eigenstrain| given.strains.iter().any(|e| e.constant() != Some(0.0));
+        *eigenstrain = eigenstrain.take().filter(|given| is_given(given));
+        eigenstrain.iter_mut().for_each(|given| given.expansion = None);
+    }
+    equation
 }

@@ -4,7 +4,8 @@ use super::SolveError;
 use super::clock::Clock;
 use super::discretised::Discretised;
 use crate::assembly::{
-    Assembly, Duals, FaceContacts, FreeModes, Functionals, Gauge, System, slivers, values_at,
+    Assembly, Duals, FaceContacts, FreeModes, Functionals, Gauge, LinearFunctional, System,
+    slivers, values_at,
 };
 use crate::basis::StableBasis;
 use crate::equilibrium::Plate;
@@ -49,7 +50,9 @@ impl Assembled {
         let assembly = Assembly { problem, space, basis: &basis, law };
         let stage = Stage::new(watcher, Phase::Assembly, assembly.n_cells())?;
         let free = FreeModes::new(&plate);
-        let functionals = Functionals { free: &free, duals: &Duals::new(&tips, space) };
+        let duals =
+            Duals::new(tips.iter().map(|tip| tip as &dyn LinearFunctional).collect(), space);
+        let functionals = Functionals { free: &free, duals: &duals };
         let system = System::new(assembly, &given, functionals, &stage);
         let mut system = system.map_err(SolveError::of_data)?;
         add_forces(assembly, &mut system);

@@ -31,7 +31,8 @@
 //! faces touch has K_I = 0, so that K_I is an error.
 
 use crate::assembly::ContactError;
-use crate::intensity::{FACTORS, TipDisc, TipOutcome};
+use crate::assembly::FACTORS;
+use crate::intensity::{TipDisc, TipOutcome};
 use faer::Mat;
 use ppum::vec2::Rect;
 

@@ -38,8 +38,8 @@ use super::refinement::RefinementRegion;
 use super::report::Report;
 use super::solver::Solver;
 use super::stiffness::default_order;
+use super::temperature::without_expansion;
 use super::words::EquationKind;
-use crate::heat::without_expansion;
 
 impl Problem {
     /// Reads a problem file of at most [`MAX_LENGTH`] bytes. Paths in it are relative to its
