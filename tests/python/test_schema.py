@@ -12,7 +12,7 @@ from pathlib import Path
 from jsonschema import Draft7Validator
 
 ROOT = Path(__file__).resolve().parents[2]
-BAD = ROOT / "crates/ppum-solve/tests/bad_files"
+BAD = ROOT / "crates/ppum-problem/tests/bad_files"
 # What a schema can see: keys, types, words and ranges of plain numbers.
 SEEN = re.compile(
     r"unknown key|is missing in (`|\[[a-z])|does not fit|must be (true|a text|a list|one table|two |four |an array|a whole|a table)"

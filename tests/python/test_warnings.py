@@ -10,7 +10,8 @@ import re
 ROOT = pathlib.Path(__file__).parents[2]
 PAGE = (ROOT / "docs/warnings.md").read_text()
 # where warnings are made: the solver, and the command that finds factors again
-SOURCES = [*(ROOT / "crates/ppum-solve/src").rglob("*.rs"), ROOT / "crates/ppum-cli/src/commands/sif.rs"]
+FOLDERS = [ROOT / f"crates/{crate}/src" for crate in ("ppum-problem", "ppum-solve", "ppum-fracture")]
+SOURCES = [*(path for folder in FOLDERS for path in folder.rglob("*.rs")), ROOT / "crates/ppum-cli/src/commands/sif.rs"]
 TEXTS = [path.read_text() for path in SOURCES]
 
 # kinds that are no constants of `diagnostics::kind`

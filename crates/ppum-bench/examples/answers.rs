@@ -10,8 +10,8 @@
 use ppum::dataset::{Dataset, Warning};
 use ppum::progress::unwatched;
 use ppum::vec2::Vec2;
-use ppum_solve::problem::Problem;
-use ppum_solve::solve::solve;
+use ppum_fracture::solve::solve;
+use ppum_problem::Problem;
 use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Instant;

@@ -8,9 +8,9 @@
 
 use ppum::dataset::Dataset;
 use ppum::progress::{Phase, unwatched};
-use ppum_solve::problem::{Problem, SolverKind};
+use ppum_fracture::solve::solve;
+use ppum_problem::{Problem, SolverKind};
 use ppum_solve::report::SolverReport;
-use ppum_solve::solve::solve;
 use std::path::Path;
 
 fn main() {

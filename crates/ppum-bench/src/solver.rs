@@ -7,9 +7,9 @@ use anyhow::Context as _;
 use clap::ValueEnum;
 use ppum::progress::{Phase, unwatched};
 use ppum_figure::plot::{CurveStyle, PlotCurve, slope, with_slope};
-use ppum_solve::problem::{Cells, Order, Problem, SolverKind};
+use ppum_fracture::solve::solve;
+use ppum_problem::{Cells, Order, Problem, SolverKind};
 use ppum_solve::report::{LinearKind, SolverReport};
-use ppum_solve::solve::solve;
 use serde::Serialize;
 
 use crate::machine::line;

@@ -5,10 +5,10 @@ use std::error::Error;
 
 use ppum::quantity::QuantityError;
 use ppum_format::WriteError;
+use ppum_fracture::solve::{LinearError, SolveError};
 use ppum_render::RenderError;
 use ppum_scene::place::PlaceError;
 use ppum_scene::shot::ShotError;
-use ppum_solve::solve::{LinearError, SolveError};
 use ppum_solve::space::{InspectError, SpaceError};
 
 /// The text of an error, with its remedy if there is one.
@@ -62,7 +62,7 @@ fn of_system(error: &LinearError) -> Option<&'static str> {
 mod tests {
     use super::*;
     use ppum::vec2::vec2;
-    use ppum_solve::solve::Around;
+    use ppum_fracture::solve::Around;
 
     #[test]
     fn remedies_end_the_sentence() {

@@ -3,11 +3,11 @@
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::Watcher;
+use ppum_fracture::diagnostics::effort::check_effort;
+use ppum_fracture::diagnostics::{RecomputeError, recompute};
+use ppum_fracture::intensity::{CircleError, TipOutcome, on_circle};
+use ppum_problem::Problem;
 use ppum_scene::facts::Tip;
-use ppum_solve::diagnostics::effort::check_effort;
-use ppum_solve::diagnostics::{RecomputeError, recompute};
-use ppum_solve::intensity::{CircleError, TipOutcome, on_circle};
-use ppum_solve::problem::Problem;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use ppum::progress::Watcher;
-use ppum_solve::growth::series;
-use ppum_solve::problem::Problem;
-use ppum_solve::solve::Plan;
+use ppum_fracture::growth::series;
+use ppum_fracture::solve::Plan;
+use ppum_problem::Problem;
 use pyo3::prelude::*;
 
 use crate::dataset::Dataset;

@@ -212,7 +212,7 @@ impl Mirror {
 /// The edges of a dataset's problem that have a symmetry.
 #[cfg(feature = "problem")]
 fn known(dataset: &Dataset) -> Vec<MirrorEdge> {
-    use ppum_solve::problem::{Edge, Problem, Symmetry};
+    use ppum_problem::{Edge, Problem, Symmetry};
 
     let problem = Problem::of_dataset(dataset).ok().flatten();
     let edges = problem.map(|problem| problem.mirrors()).unwrap_or_default();

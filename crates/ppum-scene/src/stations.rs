@@ -53,7 +53,7 @@ impl Stations {
     #[cfg(feature = "problem")]
     pub(crate) fn of(dataset: &Dataset, spacing: f64) -> Result<Self, Notice> {
         use ppum::vec2::Vec2;
-        use ppum_solve::problem::{Problem, Station};
+        use ppum_problem::{Problem, Station};
 
         let problem = Problem::of_dataset(dataset).map_err(|_| Notice::UnreadableProblem)?;
         let stations = problem.ok_or(Notice::NoProblem)?.stations(spacing);

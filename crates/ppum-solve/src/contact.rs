@@ -13,11 +13,11 @@ use ppum::vec2::{Vec2, vec2};
 
 /// What decides what acts between faces.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ContactLaw {
+pub struct ContactLaw {
     /// Coulomb's coefficient of friction.
-    pub(crate) friction: f64,
+    pub friction: f64,
     /// Size of the cells.
-    pub(crate) size: f64,
+    pub size: f64,
 }
 
 /// What acts on a face at a point.
@@ -36,7 +36,7 @@ impl ContactState {
 
 impl ContactLaw {
     /// The tractions at the points of a rule on a face of a crack that may touch; zero on others.
-    pub(crate) fn tractions(self, field: &Field<'_>, law: &Law<'_>, rule: &EdgeRule) -> Vec<Vec2> {
+    pub fn tractions(self, field: &Field<'_>, law: &Law<'_>, rule: &EdgeRule) -> Vec<Vec2> {
         self.states(field, law, rule).into_iter().map(|state| state.traction).collect()
     }
 
@@ -63,7 +63,7 @@ impl ContactLaw {
     }
 
     /// The normal stress between the faces at a point of a segment; zero where they are open.
-    pub(crate) fn pressed(
+    pub fn pressed(
         self,
         field: &Field<'_>,
         law: &Law<'_>,

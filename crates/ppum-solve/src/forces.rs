@@ -17,11 +17,11 @@
 //! unknowns, and w is a field like any other under the loads F·v(x₀) − a(u_s, v). The energy of u_s
 //! is infinite and needed nowhere.
 
-use crate::problem::{Force, ForcePlace, Problem};
 use ppum::crack::Side;
 use ppum::dataset::{BoxPartition, Material};
 use ppum::function::{Declared, Frame, Function, FunctionKind, Role};
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::{Force, ForcePlace, Problem};
 use std::f64::consts::PI;
 
 /// The functions of the angle and the distance, the last at borders only.
@@ -32,19 +32,19 @@ const TEXTS: [&str; 4] = ["log(r)", "(x^2 - y^2)/r^2", "2*x*y/r^2", "theta"];
 const REACH: f64 = 3.0;
 
 /// The field S of a force: functions with the coefficients of both components.
-pub(crate) struct ForceField {
+pub struct ForceField {
     at: Vec2,
     /// Radius of the disc in which the field stands for what is not smooth.
     pub(crate) room: f64,
     /// Radius of the disc that the patches that hold the point must lie in.
-    pub(crate) reach: f64,
+    pub reach: f64,
     pub(crate) functions: Vec<Function>,
     /// Of each function, its coefficient in each component.
     pub(crate) coefficients: Vec<[f64; 2]>,
 }
 
 /// The fields of the forces of a problem in order; of those whose place is no good there is none.
-pub(crate) fn force_fields(problem: &Problem) -> Vec<ForceField> {
+pub fn force_fields(problem: &Problem) -> Vec<ForceField> {
     let material = problem.equation.elastic().and_then(|elastic| elastic.uniform());
     let field = |(number, force): (usize, &Force)| {
         let place = problem.place_of(force).ok()?;
@@ -97,7 +97,7 @@ impl ForceField {
 
     /// True if the patches that hold the point have room, and are not much larger than the
     /// distance to the next border.
-    pub(crate) fn fits(&self, partition: &BoxPartition, bounds: &Rect) -> bool {
+    pub fn fits(&self, partition: &BoxPartition, bounds: &Rect) -> bool {
         (0..partition.len()).all(|k| self.fits_in(&partition.support(k), bounds))
     }
 
@@ -107,7 +107,7 @@ impl ForceField {
     }
 
     /// The place of the force.
-    pub(crate) fn at(&self) -> Vec2 {
+    pub fn at(&self) -> Vec2 {
         self.at
     }
 }

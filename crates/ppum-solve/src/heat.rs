@@ -5,7 +5,6 @@
 //! strains ε⁰ = α T I + … it gives. Their local spaces have the same patches but functions of their
 //! own; in the joint field a block is of zeros in the components that do not have it.
 
-use crate::problem::without_expansion;
 use crate::report::{SolverReport, Unresolved};
 use ppum::crack::{SegmentId, Side};
 use ppum::dataset::{Dataset, Equation, FieldData, NamedQuantity, Reaction, Step, TEMPERATURE};
@@ -16,24 +15,25 @@ use ppum::formula::FormulaJets;
 use ppum::function::Function;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
+use ppum_problem::without_expansion;
 
 /// Components of a displacement.
 const DISPLACEMENT: usize = 2;
 
 /// The face of a crack that a point lies on.
-pub(crate) type FacePoint = Option<(SegmentId, Side)>;
+pub type FacePoint = Option<(SegmentId, Side)>;
 
 /// A temperature that is known, and the body that it strains.
 #[derive(Debug)]
-pub(crate) struct Temperature {
+pub struct Temperature {
     /// The temperature as the first field of the only step.
     heat: Dataset,
     /// The equation of the body, with the coefficient α of expansion.
     equation: Equation,
     /// What its solution tells beside the field; nothing of a temperature that is stored.
-    pub(crate) report: SolverReport,
+    pub report: SolverReport,
     /// Integrands of its system that were not resolved.
-    pub(crate) unresolved: Vec<Unresolved>,
+    pub unresolved: Vec<Unresolved>,
 }
 
 impl Temperature {
@@ -42,14 +42,14 @@ impl Temperature {
     ///
     /// # Errors
     /// A field that does not compile.
-    pub(crate) fn new(heat: Dataset, equation: Equation) -> Result<Self, FieldError> {
+    pub fn new(heat: Dataset, equation: Equation) -> Result<Self, FieldError> {
         Field::new(&heat, 0)?;
         let (report, unresolved) = (SolverReport::default(), Vec::new());
         Ok(Self { heat, equation, report, unresolved })
     }
 
     /// The temperature as the solution of its own problem, which has an equation of one component.
-    pub(crate) fn potential(&self, equation: &Equation) -> Dataset {
+    pub fn potential(&self, equation: &Equation) -> Dataset {
         let mut dataset = self.heat.clone();
         let field = &mut dataset.steps[0].fields[0];
         "potential".clone_into(&mut field.name);
@@ -59,7 +59,7 @@ impl Temperature {
     }
 
     /// The temperature with what its solution tells beside the field.
-    pub(crate) fn with_report(self, report: SolverReport, unresolved: Vec<Unresolved>) -> Self {
+    pub fn with_report(self, report: SolverReport, unresolved: Vec<Unresolved>) -> Self {
         Self { report, unresolved, ..self }
     }
 
@@ -74,12 +74,12 @@ impl Temperature {
     }
 
     /// The equation of the body, with the coefficient of expansion.
-    pub(crate) fn equation(&self) -> &Equation {
+    pub fn equation(&self) -> &Equation {
         &self.equation
     }
 
     /// The dataset of displacement and temperature, with quantities of both.
-    pub(crate) fn joined(&self, mut plain: Dataset, quantities: &[NamedQuantity]) -> Dataset {
+    pub fn joined(&self, mut plain: Dataset, quantities: &[NamedQuantity]) -> Dataset {
         let step = &mut plain.steps[0];
         *step = joined(step, &self.heat.steps[0]);
         for Reaction { held, force, .. } in &mut step.reactions {
@@ -96,10 +96,7 @@ impl Temperature {
     ///
     /// # Errors
     /// A field that does not compile.
-    pub(crate) fn split(
-        dataset: &Dataset,
-        step: usize,
-    ) -> Result<Option<(Dataset, Self)>, FieldError> {
+    pub fn split(dataset: &Dataset, step: usize) -> Result<Option<(Dataset, Self)>, FieldError> {
         if !Field::new(dataset, step)?.has_temperature() {
             return Ok(None);
         }

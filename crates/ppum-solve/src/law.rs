@@ -17,7 +17,7 @@ type Tensor = [[[[f64; 2]; 2]; 2]; 2];
 /// Elasticity: C = λ δ_ik δ_jl + μ (δ_ij δ_kl + δ_il δ_jk) with the plane λ; Poisson: κ δ_kl. Where
 /// the constants are the same everywhere there is one term with coefficient 1.
 #[derive(Clone, Debug)]
-pub(crate) struct Law<'e> {
+pub struct Law<'e> {
     /// Components of u.
     pub components: usize,
     equation: &'e Equation,
@@ -34,7 +34,7 @@ pub(crate) const TERMS: usize = 2;
 impl<'e> Law<'e> {
     /// The law of an equation.
     #[must_use]
-    pub(crate) fn new(equation: &'e Equation) -> Self {
+    pub fn new(equation: &'e Equation) -> Self {
         let components = equation.components();
         let (terms, uniform, temperature) = (units(components), false, None);
         let mut law = Self { components, equation, temperature, terms, uniform };
@@ -51,13 +51,13 @@ impl<'e> Law<'e> {
     }
 
     /// The coefficient of expansion by a temperature that is solved for.
-    pub(crate) fn expansion(&self) -> Option<&Expression> {
+    pub fn expansion(&self) -> Option<&Expression> {
         self.temperature.as_ref()?.expansion()
     }
 
     /// The law at a point.
     #[must_use]
-    pub(crate) fn at(&self, x: Vec2) -> LawAt {
+    pub fn at(&self, x: Vec2) -> LawAt {
         self.on(x, None)
     }
 
@@ -69,12 +69,12 @@ impl<'e> Law<'e> {
     }
 
     /// The strains ε⁰ that are given in the plane at a point, if any are.
-    pub(crate) fn eigenstrain(&self, x: Vec2) -> Option<[Vec2; 2]> {
+    pub fn eigenstrain(&self, x: Vec2) -> Option<[Vec2; 2]> {
         self.eigenstrain_on(x, None)
     }
 
     /// These strains on the face of a crack, if the point lies on one.
-    pub(crate) fn eigenstrain_on(&self, x: Vec2, face: FacePoint) -> Option<[Vec2; 2]> {
+    pub fn eigenstrain_on(&self, x: Vec2, face: FacePoint) -> Option<[Vec2; 2]> {
         let [xx, yy, xy] =
             self.has_eigenstrain().then(|| self.moduli(x, face).plane_eigenstrain())?;
         Some([vec2(xx, xy), vec2(xy, yy)])
@@ -82,12 +82,12 @@ impl<'e> Law<'e> {
 
     /// The derivative along `axis` of the strains that a temperature gives in the plane, zero
     /// without one.
-    pub(crate) fn temperature_slope(&self, x: Vec2, axis: Vec2) -> [Vec2; 2] {
+    pub fn temperature_slope(&self, x: Vec2, axis: Vec2) -> [Vec2; 2] {
         self.temperature.as_ref().map_or([Vec2::ZERO; 2], |heat| heat.strain_slope(x, axis))
     }
 
     /// True if strains are given.
-    pub(crate) fn has_eigenstrain(&self) -> bool {
+    pub fn has_eigenstrain(&self) -> bool {
         self.temperature.is_some() || self.equation.eigenstrains().next().is_some()
     }
 
@@ -117,7 +117,7 @@ impl<'e> Law<'e> {
     }
 
     /// The coefficients a_m at a point, one per term.
-    pub(crate) fn coefficients(&self, x: Vec2) -> [f64; TERMS] {
+    pub fn coefficients(&self, x: Vec2) -> [f64; TERMS] {
         if self.uniform {
             return [1.0, 0.0];
         }
@@ -141,7 +141,7 @@ impl<'e> Law<'e> {
     }
 
     /// True if the law is the same everywhere.
-    pub(crate) fn is_uniform(&self) -> bool {
+    pub fn is_uniform(&self) -> bool {
         self.uniform
     }
 }
@@ -173,7 +173,7 @@ fn units(components: usize) -> Vec<LawAt> {
 
 /// The law at a point, as one tensor.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LawAt {
+pub struct LawAt {
     components: usize,
     tensor: Tensor,
     /// ε⁰
@@ -218,25 +218,25 @@ impl LawAt {
 
     /// The modulus of component i: the traction of a unit stretch along its axis, κ of a potential.
     #[must_use]
-    pub(crate) fn modulus(&self, i: usize) -> f64 {
+    pub fn modulus(&self, i: usize) -> f64 {
         self.tensor[i][i][i][i]
     }
 
     /// λ: the stress along one axis of a unit stretch along the other.
     #[must_use]
-    pub(crate) fn lambda(&self) -> f64 {
+    pub fn lambda(&self) -> f64 {
         self.tensor[0][0][1][1]
     }
 
     /// The flux σ of a gradient, `g[j] = ∇u_j`; rows beyond the components are zero.
     #[must_use]
-    pub(crate) fn flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
+    pub fn flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
         self.linear_flux(&self.elastic(g))
     }
 
     /// A gradient without the strains that are given.
     #[must_use]
-    pub(crate) fn elastic(&self, g: &[Vec2; 2]) -> [Vec2; 2] {
+    pub fn elastic(&self, g: &[Vec2; 2]) -> [Vec2; 2] {
         std::array::from_fn(|j| g[j] - self.eigenstrain[j])
     }
 
@@ -248,7 +248,7 @@ impl LawAt {
 
     /// The flux C g of a gradient where no strains are given.
     #[must_use]
-    pub(crate) fn linear_flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
+    pub fn linear_flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
         let entry = |i: usize, k: usize| {
             (0..self.components)
                 .map(|j| self.tensor[i][k][j][0] * g[j].x + self.tensor[i][k][j][1] * g[j].y)

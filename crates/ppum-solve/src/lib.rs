@@ -1,55 +1,9 @@
-//! Solves two-dimensional problems of elasticity and Poisson's equation with cracks by the
-//! particle-partition of unity method.
+//! Discretises two-dimensional problems of elasticity and Poisson's equation with cracks by the
+//! particle-partition of unity method: from a checked [`Problem`](ppum_problem::Problem) to a
+//! system of equations, and from coefficients to fields, energies and estimates of the error.
 //!
-//! A [`Problem`](problem::Problem), from a file or built in code, is solved by
-//! [`solve()`](solve::solve); the result is a [`Dataset`](ppum::dataset::Dataset) with the field,
-//! its stress intensity factors, the [report](report::SolverReport) of the solver
-//! and [warnings](diagnostics).
-//!
-//! ```
-//! use std::path::Path;
-//!
-//! use ppum::progress::unwatched;
-//! use ppum_solve::problem::Problem;
-//! use ppum_solve::solve::solve;
-//!
-//! let text = r#"
-//!     [domain]
-//!     min = [-1.0, -1.0]
-//!     max = [1.0, 1.0]
-//!     [material]
-//!     young = 1.0
-//!     poisson = 0.3
-//!     state = "plane-strain"
-//!     [[crack]]
-//!     points = [[-0.5, 0.0], [0.5, 0.0]]
-//!     [[boundary]]
-//!     on = "bottom"
-//!     traction = [0.0, -1.0]
-//!     [[boundary]]
-//!     on = "top"
-//!     traction = [0.0, 1.0]
-//!     [discretization]
-//!     level = 4
-//! "#;
-//! let problem = Problem::parse(text, "plate.toml", Path::new("."))?;
-//! let dataset = solve(&problem, unwatched())?;
-//! // K_I / (σ √(πa)) of a square plate with a/W = 1/2 is 1.333712
-//! let factor = dataset.steps[0].intensities[0].k1 / (0.5 * std::f64::consts::PI).sqrt();
-//! assert!((factor / 1.333712 - 1.0).abs() < 1e-3);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
-//!
-//! # Tour
-//!
-//! - [`problem`]: what is to be solved, read from TOML or built in code, every mistake at its
-//!   place.
-//! - [`solve`]: [`Plan`](solve::Plan) tells what a solution takes before it is made;
-//!   [`solve()`](solve::solve) does both; [`spectrum`](solve::spectrum) measures the condition of a
-//!   discretisation.
-//! - [`intensity`]: stress intensity factors of any field. [`diagnostics`]: they and all warnings
-//!   once more, from a dataset.
-//! - [`norms`]: energies and errors, integrated over the cells of a [`Space`](space::Space).
+//! `ppum_fracture::solve` drives it; what depends on fracture alone (intensity factors, growth,
+//! iterations of contact, warnings) is there.
 //!
 //! # Threads
 //!
@@ -58,42 +12,34 @@
 //! number of threads. Long calls take a [`Watcher`](ppum::progress::Watcher), which hears of their
 //! progress and can stop them.
 //!
-//! # The path of a solution, from below
+//! # Modules, from below
 //!
 //! ```text
-//! growth                                           cracks that grow, step by step
-//! solve                                            plan, system, solution, dataset
 //! adapt           hierarchy                        estimated error, cells to divide; coarser levels of a system
-//! assembly        diagnostics                      cells and border → K u = f; warnings
-//! basis           intensity       norms            stable basis; K_I, K_II; energies, errors
+//! assembly        norms                            cells and border → K u = f; energies, errors
+//! basis                                            stable basis
 //! space                                            local spaces of a cover, enriched
 //! refine                                           covers
 //! corner          triangulation                    singular points of the border; triangles between segments
-//! equilibrium     problem         smoothness       watched
-//! geometry        heat            law              quadrature      report
+//! equilibrium     smoothness      watched
+//! contact         forces          heat             law             quadrature      report
 //! ```
 
-mod adapt;
-mod assembly;
-mod basis;
-mod contact;
-mod corner;
-pub mod diagnostics;
-mod equilibrium;
-mod forces;
-mod geometry;
-pub mod growth;
-mod heat;
-mod hierarchy;
-pub mod intensity;
-mod law;
+pub mod adapt;
+pub mod assembly;
+pub mod basis;
+pub mod contact;
+pub mod corner;
+pub mod equilibrium;
+pub mod forces;
+pub mod heat;
+pub mod hierarchy;
+pub mod law;
 pub mod norms;
-pub mod problem;
-mod quadrature;
-mod refine;
+pub mod quadrature;
+pub mod refine;
 pub mod report;
-mod smoothness;
-pub mod solve;
+pub mod smoothness;
 pub mod space;
 pub mod triangulation;
-mod watched;
+pub mod watched;

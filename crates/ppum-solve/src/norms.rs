@@ -66,7 +66,7 @@ pub fn energy(field: &Field<'_>, space: &Space<'_>) -> f64 {
 }
 
 /// The part of the [`energy`] in some cells, by their indices.
-pub(crate) fn energy_of(field: &Field<'_>, space: &Space<'_>, cells: &[usize]) -> f64 {
+pub fn energy_of(field: &Field<'_>, space: &Space<'_>, cells: &[usize]) -> f64 {
     let add = |sum: &mut Norms, at: &QuadraturePoint, u: &[Jet<f64>; 2], weight| {
         sum.add(&at.law, u, weight)
     };
@@ -80,7 +80,7 @@ pub(crate) fn energy_of(field: &Field<'_>, space: &Space<'_>, cells: &[usize]) -
 /// # Panics
 /// If the field is not of the step of `space`.
 #[must_use]
-pub(crate) fn fluctuation(field: &Field<'_>, space: &Space<'_>) -> f64 {
+pub fn fluctuation(field: &Field<'_>, space: &Space<'_>) -> f64 {
     let add = |sum: &mut Volume, at: &QuadraturePoint, u: &[Jet<f64>; 2], weight| {
         sum.norms.add(&at.law, u, weight);
         let (lambda, d) = (weight * at.law.lambda(), u[0].x + u[1].y);

@@ -13,7 +13,6 @@ use ppum::vec2::Vec2;
 /// The numbers of a solution. Those of a dataset that another program made, or a step that nobody
 /// has solved, may be missing.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
 pub struct SolverReport {
     /// Number of patches that hold several runs of one crack or rim, and so glue two parts of the
     /// plate together: smaller cells are needed there.
@@ -245,7 +244,7 @@ const ENTRIES: [ReportEntry; 26] = entries![
 const WHOLE_ENERGY: &str = "energy of the whole";
 
 /// The records of energies, which grow with the square of the loads.
-pub(crate) const ENERGIES: [&str; 2] = ["energy", WHOLE_ENERGY];
+pub const ENERGIES: [&str; 2] = ["energy", WHOLE_ENERGY];
 
 /// The records whose values are codes.
 const SOLVER: &str = "linear solver";
@@ -403,21 +402,21 @@ impl SolverReport {
     }
 
     /// Part of the unknowns that was cut off.
-    pub(crate) fn cut_off_part(&self) -> Option<f64> {
+    pub fn cut_off_part(&self) -> Option<f64> {
         Some(self.cut_off? / self.unknowns?)
     }
 }
 
 /// An integrand that quadrature does not resolve.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Unresolved {
+pub struct Unresolved {
     /// The load that it is, in words; none for functions of the space and coefficients.
-    pub(crate) load: Option<String>,
+    pub load: Option<String>,
     /// Estimated error: of a load that of its resultant as a part of its magnitude, of functions
     /// that of their integrals over a piece of a cell.
-    pub(crate) error: f64,
+    pub error: f64,
     /// The place of most of it.
-    pub(crate) at: Vec2,
+    pub at: Vec2,
 }
 
 #[cfg(test)]

@@ -4,9 +4,9 @@
 //! items, and a [`Watcher`] hears of every one of them, so that it can stop the work within the
 //! time of one.
 
-use crate::geometry::Around;
 use ppum::progress::{Cancelled, Phase, Progress, Watcher};
 use ppum::vec2::Rect;
+use ppum_problem::geometry::Around;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 
@@ -16,7 +16,7 @@ const LEAST_BATCH: usize = 32;
 const BATCH_OF_THREAD: usize = 8;
 
 /// Work in one phase, as a watcher sees it.
-pub(crate) struct Stage<'w> {
+pub struct Stage<'w> {
     watcher: &'w dyn Watcher,
     phase: Phase,
     /// Parts of the phase, where they are known.
@@ -31,11 +31,7 @@ impl<'w> Stage<'w> {
     ///
     /// # Errors
     /// The watcher wants the work to stop.
-    pub(crate) fn new(
-        watcher: &'w dyn Watcher,
-        phase: Phase,
-        total: usize,
-    ) -> Result<Self, Cancelled> {
+    pub fn new(watcher: &'w dyn Watcher, phase: Phase, total: usize) -> Result<Self, Cancelled> {
         Self::start(watcher, phase, Some(total.max(1)))
     }
 
@@ -43,7 +39,7 @@ impl<'w> Stage<'w> {
     ///
     /// # Errors
     /// The watcher wants the work to stop.
-    pub(crate) fn uncounted(watcher: &'w dyn Watcher, phase: Phase) -> Result<Self, Cancelled> {
+    pub fn uncounted(watcher: &'w dyn Watcher, phase: Phase) -> Result<Self, Cancelled> {
         Self::start(watcher, phase, None)
     }
 
@@ -61,7 +57,7 @@ impl<'w> Stage<'w> {
     ///
     /// # Errors
     /// The watcher wants the work to stop, or has wanted it before.
-    pub(crate) fn advance(&self, parts: usize) -> Result<(), Cancelled> {
+    pub fn advance(&self, parts: usize) -> Result<(), Cancelled> {
         let done = self.done.fetch_add(parts, Relaxed) + parts;
         let progress = match self.total {
             Some(total) => Progress::new(self.phase, done.min(total), total),
@@ -80,7 +76,7 @@ impl<'w> Stage<'w> {
 
 /// The end of work over the plate before it is done.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub(crate) enum Halt {
+pub enum Halt {
     /// The watcher wants it.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -10,7 +10,7 @@ use crate::studies::support::solved;
 use anyhow::Context as _;
 use ppum_figure::form::PageFormat;
 use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve, plot};
-use ppum_solve::problem::{AdaptKind, Adaptivity, Cells, Problem};
+use ppum_problem::{AdaptKind, Adaptivity, Cells, Problem};
 
 /// What `tests/random/estimates.py` writes.
 const ESTIMATES: &str = include_str!("../../../../tests/random/estimates.md");

@@ -4,7 +4,7 @@ use crate::page::{Page, error, rated};
 use crate::studies::exact_fields::{OBLIQUE, STUDY, Strip, smooth};
 use crate::studies::plates::oblique_crack;
 use crate::studies::release::kinked_crack;
-use ppum_solve::problem::Cells;
+use ppum_problem::Cells;
 
 pub(crate) fn write(page: &mut Page) {
     smooth_field(page);

@@ -8,8 +8,8 @@ use ppum::dataset::{Dataset, Fate, Step, TipIntensity};
 use ppum::segment::distance;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_format::Series;
-use ppum_solve::growth::kink;
-use ppum_solve::problem::{Criterion, Problem};
+use ppum_fracture::growth::kink;
+use ppum_problem::{Criterion, Problem};
 use std::path::Path;
 
 const CRITERIA: [(&str, &str, Criterion); 3] = [

@@ -12,7 +12,7 @@ mod growth;
 mod page;
 mod picture;
 mod series;
-#[path = "../../../ppum-solve/tests/studies/mod.rs"]
+#[path = "../../../ppum-fracture/tests/studies/mod.rs"]
 mod studies;
 
 use page::Page;
@@ -31,7 +31,7 @@ Errors are relative; a positive error means that the value is too large. Unless 
 strain, order 2, α = 1.3, linear weights, and all other settings have their defaults. Each benchmark is solved on three
 covers. Each has cells half as large as the one before, which the program further refines at tips. The images show the
 von Mises stress (for Laplace's equation: the gradient) on the middle cover. F = K/(σ√(πa)).
-The set-ups are in `crates/ppum-solve/tests/studies`; the tests in `crates/ppum-solve/tests/solver` bound the errors of
+The set-ups are in `crates/ppum-fracture/tests/studies`; the tests in `crates/ppum-fracture/tests/solver` bound the errors of
 most of these benchmarks, mostly on the coarser covers.
 
 Errors are differences from references. The `error` that `ppum sif` and `ppum info` print is an estimate, which is

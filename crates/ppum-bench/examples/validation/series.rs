@@ -4,8 +4,8 @@ use anyhow::Context as _;
 use ppum::dataset::{Dataset, Step};
 use ppum::progress::unwatched;
 use ppum_format::{Series, SeriesWriter};
-use ppum_solve::growth::{Last, grow, is_same_series};
-use ppum_solve::problem::Problem;
+use ppum_fracture::growth::{Last, grow, is_same_series};
+use ppum_problem::Problem;
 use std::path::{Path, PathBuf};
 
 /// The text of a problem of the folder `examples`, with parts replaced.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use anyhow::Context as _;
 use ppum::formula::Table;
-use ppum_solve::problem::read_table;
+use ppum_problem::read_table;
 
 use crate::given::Given;
 use crate::number::json;

@@ -75,7 +75,7 @@ impl Args {
         let name = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
         let text = drawing.problem_file(&name(self.file.file_stem()), &name(self.file.file_name()));
         ensure!(
-            text.len() as u64 <= ppum_solve::problem::MAX_LENGTH,
+            text.len() as u64 <= ppum_problem::MAX_LENGTH,
             "the problem file would have {} MiB, more than is read; draw fewer points, or give a larger --tolerance",
             text.len() >> 20
         );

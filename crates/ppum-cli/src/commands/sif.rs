@@ -7,12 +7,12 @@ use anyhow::{bail, ensure};
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity, Warning};
 use ppum::text::Places;
+use ppum_fracture::diagnostics::effort::{EffortError, check_effort};
+use ppum_fracture::diagnostics::{kind, recompute};
+use ppum_fracture::intensity::TipOutcome;
+use ppum_problem::Problem;
 use ppum_scene::facts::{self, Tip, all_tips};
 use ppum_scene::range::places;
-use ppum_solve::diagnostics::effort::{EffortError, check_effort};
-use ppum_solve::diagnostics::{kind, recompute};
-use ppum_solve::intensity::TipOutcome;
-use ppum_solve::problem::Problem;
 use serde::Serialize;
 
 use crate::dataset::{named, open_results, series};

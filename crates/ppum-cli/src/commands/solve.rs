@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
 use ppum::dataset::{Dataset, Record, Step};
+use ppum_fracture::solve::Plan;
+use ppum_problem::Problem;
 use ppum_scene::facts::{self, Tip, all_tips};
 use ppum_scene::range::places;
-use ppum_solve::problem::Problem;
 use ppum_solve::report::{LinearKind, SolverReport};
-use ppum_solve::solve::Plan;
 use serde::Serialize;
 
 use crate::memory;

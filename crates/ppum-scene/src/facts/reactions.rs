@@ -3,7 +3,7 @@
 use ppum::dataset::{self, Dataset, Step};
 use ppum::text::{Places, beside, short};
 use ppum::vec2::Vec2;
-use ppum_solve::problem::{Problem, restraint_center};
+use ppum_problem::{Problem, restraint_center};
 use serde::Serialize;
 
 use super::Number;

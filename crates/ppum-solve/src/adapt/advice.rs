@@ -2,21 +2,21 @@
 
 use super::decay::{rate, squares};
 use crate::corner::corners;
-use crate::geometry::{Placed, around};
-use crate::problem::{AdaptKind, Problem};
 use crate::space::{Change, Space};
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{FieldData, MAX_DEGREE};
 use ppum::field::Field;
 use ppum::function::FunctionKind;
 use ppum::vec2::Vec2;
+use ppum_problem::geometry::{Placed, around};
+use ppum_problem::{AdaptKind, Problem};
 
 /// The rate σ of the decay of Legendre coefficients from which on a field counts as smooth: each is
 /// less than exp(−1) of the one before.
 const SMOOTH: f64 = 1.0;
 
 /// Says what to do about cells.
-pub(crate) struct Adviser<'a> {
+pub struct Adviser<'a> {
     kind: AdaptKind,
     field: &'a Field<'a>,
     space: &'a Space<'a>,
@@ -34,7 +34,8 @@ pub(super) fn singular_points(problem: &Problem) -> Placed<Vec2> {
 }
 
 impl<'a> Adviser<'a> {
-    pub(crate) fn new(
+    /// Finds the points near which the field is singular.
+    pub fn new(
         kind: AdaptKind,
         problem: &'a Problem,
         field: &'a Field<'a>,
@@ -44,7 +45,7 @@ impl<'a> Adviser<'a> {
     }
 
     /// What to do about a cell, if that is possible.
-    pub(crate) fn advice(&self, cell: usize) -> Change {
+    pub fn advice(&self, cell: usize) -> Change {
         let can_rise = self.space.order(cell) < MAX_DEGREE;
         match self.kind {
             AdaptKind::H => Change::Divide,

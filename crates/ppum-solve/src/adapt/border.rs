@@ -1,10 +1,10 @@
 //! The border of a plate in parts on each of which the same conditions hold, those that nobody
 //! speaks of among them.
 
-use crate::geometry::around;
-use crate::problem::{BorderPart, BoundaryCondition, Edge, Problem, SideRun, in_plane};
 use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::geometry::around;
+use ppum_problem::{BorderPart, BoundaryCondition, Edge, Problem, SideRun, in_plane};
 
 /// A part of the border with the conditions on it, by their numbers.
 pub(super) struct BorderConditions {

@@ -5,7 +5,6 @@ use super::span::unseen;
 use crate::assembly::border_rules;
 use crate::contact::ContactLaw;
 use crate::law::Law;
-use crate::problem::Problem;
 use crate::quadrature::{EdgeRule, Quadrature, Rule};
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
@@ -13,6 +12,7 @@ use ppum::crack::Side;
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::Problem;
 use std::f64::consts::PI;
 
 /// Part of a cell around a force within which borders are not looked at: its field is all there,

@@ -5,7 +5,7 @@ const SAME: f64 = 1e-6;
 
 /// The fewest cells that make up a part of the sum of the squares η_j² (Dörfler 1996), and all that
 /// are as large as the smallest of them, ascending.
-pub(crate) fn mark(squares: &[f64], fraction: f64) -> Vec<usize> {
+pub fn mark(squares: &[f64], fraction: f64) -> Vec<usize> {
     let mut order: Vec<usize> = (0..squares.len()).collect();
     order.sort_by(|&a, &b| squares[b].total_cmp(&squares[a]).then(a.cmp(&b)));
     let wanted = fraction * squares.iter().sum::<f64>();

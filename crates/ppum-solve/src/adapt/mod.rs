@@ -23,27 +23,27 @@ mod mark;
 mod overlap;
 mod span;
 
-pub(crate) use advice::Adviser;
+pub use advice::Adviser;
 use advice::singular_points;
-pub(crate) use mark::mark;
+pub use mark::mark;
 
-use crate::problem::Problem;
 use crate::watched::{Halt, Stage};
 use data::unseen_data;
 use faer::Mat;
-pub(crate) use overlap::LocalFields;
+pub use overlap::LocalFields;
 use overlap::disagreements;
 use ppum::field::Field;
+use ppum_problem::Problem;
 
 /// The estimated error in the energy norm, cell by cell.
-pub(crate) struct Estimated {
+pub struct Estimated {
     /// ½ ∫ σ:(ε − ε⁰) of the field.
-    pub(crate) energy: f64,
+    pub energy: f64,
     /// The squares η_j².
-    pub(crate) squares: Vec<f64>,
+    pub squares: Vec<f64>,
     /// The products of the disagreements of the field and of all dual fields: a row for each
     /// of them.
-    pub(crate) products: Vec<Mat<f64>>,
+    pub products: Vec<Mat<f64>>,
 }
 
 /// The energy of a field, its estimated error, and what that has in common with those of dual
@@ -51,7 +51,7 @@ pub(crate) struct Estimated {
 ///
 /// # Errors
 /// Cancelled.
-pub(crate) fn estimated(
+pub fn estimated(
     problem: &Problem,
     field: &Field<'_>,
     local: LocalFields<'_>,

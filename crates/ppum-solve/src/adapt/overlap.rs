@@ -11,7 +11,6 @@
 //! σ(u)) : (ε(v_i) − ε(v)) in place of the square.
 
 use crate::basis::{ShapeEvaluator, Shapes};
-use crate::geometry::Placed;
 use crate::law::Law;
 use crate::quadrature::Rule;
 use crate::space::Space;
@@ -19,6 +18,7 @@ use crate::watched::{Halt, Stage, in_batches};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use ppum::vec2::Vec2;
+use ppum_problem::geometry::Placed;
 use std::ops::Range;
 
 /// φ below which a local field is not made out of φ times it: its share is rounding.
@@ -26,15 +26,16 @@ const LEAST: f64 = 1e-10;
 
 /// Local fields of some fields of a space.
 #[derive(Clone, Copy)]
-pub(crate) struct LocalFields<'a> {
-    pub(crate) space: &'a Space<'a>,
+pub struct LocalFields<'a> {
+    /// The space of the fields.
+    pub space: &'a Space<'a>,
     /// Of each patch, the coefficients of the functions that the solver evaluates: a row for each
     /// component of each field.
-    pub(crate) coefficients: &'a [Mat<f64>],
+    pub coefficients: &'a [Mat<f64>],
     /// Of each patch, first functions of components: of these it has nearly nothing for itself, and
     /// many combinations of those of several patches make one field. Its local field is no
     /// approximation where one of them is other than zero, and does not count there.
-    pub(crate) lonely: &'a [Vec<usize>],
+    pub lonely: &'a [Vec<usize>],
 }
 
 /// The energy of the first field, and the products of the disagreements of all of them in each

@@ -44,13 +44,13 @@ use super::cell_system::CellSystem;
 use super::reaction::{CellReaction, Restraint};
 use crate::basis::{BasisEvaluator, Shapes};
 use crate::equilibrium::RigidModes;
-use crate::problem::in_plane;
 use crate::quadrature::EdgeRule;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use ppum::expression::Expression;
 use ppum::vec2::{Vec2, vec2};
 use ppum_linear::{EigenError, add_at, largest_eigenvalue};
+use ppum_problem::in_plane;
 
 /// β in units of λ_max: below 1 the system is indefinite, 2 to 10 give the same error.
 const FACTOR: f64 = 2.0;

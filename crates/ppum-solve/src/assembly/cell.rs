@@ -31,9 +31,11 @@ pub(crate) struct SourceTerm<'a> {
 
 /// Functionals whose values for all functions are integrated with the system.
 #[derive(Clone, Copy)]
-pub(crate) struct Functionals<'a> {
-    pub(crate) free: &'a FreeModes<'a>,
-    pub(crate) duals: &'a Duals<'a>,
+pub struct Functionals<'a> {
+    /// ∫ N·m of the free modes m of the pieces.
+    pub free: &'a FreeModes<'a>,
+    /// K(N) of both modes, summed over the tips.
+    pub duals: &'a Duals<'a>,
 }
 
 /// Assembles the systems of cells; keeps what belongs to the last one.

@@ -55,7 +55,7 @@ const FACTOR: f64 = 4.0;
 
 /// All faces that may touch.
 #[derive(Default)]
-pub(crate) struct FaceContacts {
+pub struct FaceContacts {
     cells: Vec<ContactCell>,
 }
 
@@ -87,30 +87,32 @@ struct FaceRow {
 }
 
 /// A cell in which contact ends: faces touch in a part of it.
-pub(crate) struct ContactError {
+pub struct ContactError {
     /// Its number.
-    pub(crate) cell: usize,
+    pub cell: usize,
     /// ∫ |σ_m − min(P_m, 0)| |P_m(z)|/β of each dual solution z.
-    pub(crate) errors: Vec<f64>,
+    pub errors: Vec<f64>,
 }
 
 /// σ_d and P_d of a field at a row.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FaceStress {
+pub struct FaceStress {
     stress: f64,
     projection: f64,
 }
 
 /// √w and √w/β of a row: a traction t adds t √w/β p to the forces.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct RowFactors {
-    pub(crate) root: f64,
-    pub(crate) force: f64,
+pub struct RowFactors {
+    /// √w of the row's point.
+    pub root: f64,
+    /// √w/β, the factor of a traction in the forces.
+    pub force: f64,
 }
 
 /// What holds at a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum FaceState {
+pub enum FaceState {
     /// The faces are tied in this direction.
     Tied,
     /// The traction is known.
@@ -122,7 +124,7 @@ impl FaceContacts {
     ///
     /// # Errors
     /// Data that are not finite, with their place; cancelled.
-    pub(crate) fn new(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
+    pub fn new(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
         let (mut cells, space) = (Vec::new(), assembly.space);
         let quadrature = space.quadrature(0);
         let is_wanted = !assembly.problem.contacts.is_empty();
@@ -146,7 +148,7 @@ impl FaceContacts {
     }
 
     /// True if no faces may touch.
-    pub(crate) fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.cells.is_empty()
     }
 
@@ -164,19 +166,19 @@ impl FaceContacts {
     }
 
     /// The stresses of a solution in the order of the matrix, row by row.
-    pub(crate) fn stresses(&self, matrix: &BlockMatrix, solution: &[f64]) -> Vec<FaceStress> {
+    pub fn stresses(&self, matrix: &BlockMatrix, solution: &[f64]) -> Vec<FaceStress> {
         self.cells.iter().flat_map(|cell| cell.stresses(matrix, solution)).collect()
     }
 
     /// True if no faces overlap by more than rounding leaves of a jump.
-    pub(crate) fn is_open(&self, stresses: &[FaceStress]) -> bool {
+    pub fn is_open(&self, stresses: &[FaceStress]) -> bool {
         let openings = || self.normal(stresses).map(|((_, beta), at)| at.jump(beta));
         let largest = openings().fold(0.0, |most: f64, g| most.max(g.abs()));
         openings().all(|g| g >= -ROUNDING * largest)
     }
 
     /// The factors of each row.
-    pub(crate) fn factors(&self) -> Vec<RowFactors> {
+    pub fn factors(&self) -> Vec<RowFactors> {
         let of_row = |(row, beta): (&FaceRow, f64)| {
             let root = row.weight.sqrt();
             RowFactors { root, force: root / beta }
@@ -185,19 +187,19 @@ impl FaceContacts {
     }
 
     /// P_d of a field at each row.
-    pub(crate) fn projections(&self, matrix: &BlockMatrix, field: &[f64]) -> Vec<f64> {
+    pub fn projections(&self, matrix: &BlockMatrix, field: &[f64]) -> Vec<f64> {
         let changes = self.changes(matrix, field);
         self.rows().zip(changes).map(|((row, _), change)| change - row.lacking).collect()
     }
 
     /// How much P_d changes at each row where a field is added.
-    pub(crate) fn changes(&self, matrix: &BlockMatrix, field: &[f64]) -> Vec<f64> {
+    pub fn changes(&self, matrix: &BlockMatrix, field: &[f64]) -> Vec<f64> {
         let of_cell = |cell: &ContactCell| cell.values(&cell.projections, matrix, field);
         self.cells.iter().flat_map(of_cell).collect()
     }
 
     /// Adds Σ p of the rows' columns p, each times a factor.
-    pub(crate) fn add_columns(&self, factors: &[f64], matrix: &BlockMatrix, load: &mut [f64]) {
+    pub fn add_columns(&self, factors: &[f64], matrix: &BlockMatrix, load: &mut [f64]) {
         let mut rest = factors;
         for cell in &self.cells {
             let (own, tail) = rest.split_at(cell.rows.len());
@@ -211,7 +213,7 @@ impl FaceContacts {
     }
 
     /// The intervals onto which P_d is clamped at each row, by the pressures of a field.
-    pub(crate) fn intervals(&self, projections: &[f64]) -> Vec<[f64; 2]> {
+    pub fn intervals(&self, projections: &[f64]) -> Vec<[f64; 2]> {
         let mut pressure = 0.0;
         let interval = |((row, _), at): ((&FaceRow, f64), &f64)| match row.friction {
             None => {
@@ -224,7 +226,7 @@ impl FaceContacts {
     }
 
     /// The system of states, from that without faces that touch.
-    pub(crate) fn system(
+    pub fn system(
         &self,
         states: &[FaceState],
         matrix: &BlockMatrix,
@@ -241,13 +243,13 @@ impl FaceContacts {
     }
 
     /// The cells in which contact ends, by the solution and the dual solutions of a system.
-    pub(crate) fn errors(&self, matrix: &BlockMatrix, fields: &[Vec<f64>]) -> Vec<ContactError> {
+    pub fn errors(&self, matrix: &BlockMatrix, fields: &[Vec<f64>]) -> Vec<ContactError> {
         let of_cell = |cell: &ContactCell| cell.errors(matrix, fields);
         self.cells.iter().filter_map(of_cell).collect()
     }
 
     /// Writes into a report what a solution with these stresses makes of the faces.
-    pub(crate) fn report(&self, stresses: &[FaceStress], report: &mut SolverReport) {
+    pub fn report(&self, stresses: &[FaceStress], report: &mut SolverReport) {
         let (mut length, mut closed, mut overlap, mut tension) = (0.0, 0.0, 0.0_f64, 0.0_f64);
         for ((row, beta), at) in self.normal(stresses) {
             length += row.weight;
@@ -275,7 +277,7 @@ impl FaceStress {
 
 impl FaceState {
     /// What holds where P_d is clamped onto an interval.
-    pub(crate) fn new(projection: f64, [low, high]: [f64; 2]) -> Self {
+    pub fn new(projection: f64, [low, high]: [f64; 2]) -> Self {
         match projection {
             p if p < low => Self::Loaded(low),
             p if p >= high => Self::Loaded(high),
@@ -284,7 +286,7 @@ impl FaceState {
     }
 
     /// True if the faces are tied.
-    pub(crate) fn is_tied(self) -> bool {
+    pub fn is_tied(self) -> bool {
         self == Self::Tied
     }
 

@@ -1,21 +1,21 @@
 //! Loads whose solutions are dual to stress intensity factors: K(v) = a(v, z) for all v.
 
 use crate::basis::Shapes;
-use crate::geometry::Placed;
 use crate::quadrature::Rule;
 use crate::space::Space;
 use faer::Mat;
 use ppum::vec2::Vec2;
+use ppum_problem::geometry::Placed;
 
 /// The modes I and II.
-pub(crate) const FACTORS: usize = 2;
+pub const FACTORS: usize = 2;
 
 /// G of a mode at a point, times the weight of the point: of each component the vector that its
 /// gradient is multiplied with.
-pub(crate) type Kernel = [Vec2; 2];
+pub type Kernel = [Vec2; 2];
 
 /// The stress intensity factors of one tip as linear functionals K_m(v) = ∫ G_m : ∇v dA.
-pub(crate) trait LinearFunctional: Sync {
+pub trait LinearFunctional: Sync {
     /// The cells in which G is not zero.
     fn cells(&self, cells: &Placed<usize>) -> Vec<usize>;
 
@@ -25,14 +25,15 @@ pub(crate) trait LinearFunctional: Sync {
 
 /// The factors of all tips as functionals: K(N) of both modes is integrated with the system, summed
 /// over the tips.
-pub(crate) struct Duals<'a> {
+pub struct Duals<'a> {
     tips: Vec<&'a dyn LinearFunctional>,
     /// Of each cell, the tips whose discs it meets.
     near: Vec<Vec<u32>>,
 }
 
 impl<'a> Duals<'a> {
-    pub(crate) fn new(tips: Vec<&'a dyn LinearFunctional>, space: &Space<'_>) -> Self {
+    /// Finds the cells that each functional is integrated over.
+    pub fn new(tips: Vec<&'a dyn LinearFunctional>, space: &Space<'_>) -> Self {
         let cells = &space.partition().cell;
         let mut near = vec![Vec::new(); cells.len()];
         let placed = Placed::new(cells.iter().copied().zip(0..));

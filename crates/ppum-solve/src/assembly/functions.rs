@@ -4,18 +4,22 @@
 use super::cell_matrix::CellMatrix;
 use crate::basis::StableBasis;
 use crate::law::Law;
-use crate::problem::Problem;
 use crate::space::Space;
 use faer::{Mat, MatRef};
 use ppum_linear::{BlockMatrix, add_at, product, taken};
+use ppum_problem::Problem;
 
 /// A system that is to be assembled: the problem, the functions, and the law of its equation.
 #[derive(Clone, Copy)]
-pub(crate) struct Assembly<'a> {
-    pub(crate) problem: &'a Problem,
-    pub(crate) space: &'a Space<'a>,
-    pub(crate) basis: &'a StableBasis,
-    pub(crate) law: &'a Law<'a>,
+pub struct Assembly<'a> {
+    /// Its body, loads and material.
+    pub problem: &'a Problem,
+    /// The patches with their local spaces.
+    pub space: &'a Space<'a>,
+    /// The unknowns of each patch in terms of its local functions.
+    pub basis: &'a StableBasis,
+    /// Stress or flux of a gradient.
+    pub law: &'a Law<'a>,
 }
 
 impl Assembly<'_> {
@@ -25,7 +29,7 @@ impl Assembly<'_> {
     }
 
     /// Number of cells.
-    pub(crate) fn n_cells(&self) -> usize {
+    pub fn n_cells(&self) -> usize {
         self.space.partition().len()
     }
 }

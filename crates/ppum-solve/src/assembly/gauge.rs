@@ -18,12 +18,12 @@ use super::point::PointValues;
 use super::spring::{Holder, PieceMoments, Spring};
 use crate::basis::Shapes;
 use crate::equilibrium::{Balance, Motion, PerMode, PieceConditions, Plate, RigidModes};
-use crate::problem::Support;
 use crate::quadrature::Rule;
 use faer::Mat;
 use faer::linalg::solvers::{DenseSolveCore, Solve};
 use ppum::vec2::Vec2;
 use ppum_linear::{BlockMatrix, LinearError, LinearSolver};
+use ppum_problem::Support;
 
 /// A free mode of a piece.
 #[derive(Clone, PartialEq)]
@@ -34,14 +34,14 @@ struct Mode {
 }
 
 /// The free modes of all pieces.
-pub(crate) struct FreeModes<'p> {
+pub struct FreeModes<'p> {
     plate: &'p Plate,
     modes: Vec<Mode>,
 }
 
 impl<'p> FreeModes<'p> {
     /// The free modes of a plate.
-    pub(crate) fn new(plate: &'p Plate) -> Self {
+    pub fn new(plate: &'p Plate) -> Self {
         let pieces = plate.balances.iter().zip(&plate.free).enumerate();
         let of_piece = |(piece, (balance, free)): (usize, (&Balance, &'p Vec<PerMode>))| {
             let modes = balance.modes;
@@ -98,7 +98,7 @@ struct Condition {
 const SOFT: f64 = 1e-6;
 
 /// The free motions of all pieces and the functionals that fix them.
-pub(crate) struct Gauge {
+pub struct Gauge {
     motions: Vec<Motion>,
     /// Of each motion, ∫ N·m over its pieces, in the order of the system.
     moments: Vec<Vec<f64>>,
@@ -115,7 +115,7 @@ pub(crate) struct Gauge {
 impl Gauge {
     /// The gauge of free modes with these moments, ∫ N·m over their pieces in the order of
     /// the matrix, and those of the known part of the field.
-    pub(crate) fn new(
+    pub fn new(
         FreeModes { plate, modes }: FreeModes<'_>,
         (moments, known): (Vec<Vec<f64>>, Vec<f64>),
         matrix: &BlockMatrix,
@@ -149,7 +149,7 @@ impl Gauge {
     }
 
     /// The gauge of a plate with supports.
-    pub(crate) fn with_supports(
+    pub fn with_supports(
         mut self,
         supports: &[Support],
         groups: &[PieceConditions],
@@ -187,17 +187,17 @@ impl Gauge {
     }
 
     /// Number of free motions.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.motions.len()
     }
 
     /// Adds γ Σ_k r_k r_kᵀ, r_k the part of a functional on the unknowns of one patch.
-    pub(crate) fn add_penalty(&self, matrix: &mut BlockMatrix) {
+    pub fn add_penalty(&self, matrix: &mut BlockMatrix) {
         Spring::new(&self.holders, 1.0, matrix).add_to(matrix);
     }
 
     /// The spring for pieces that others hold where they touch; nothing where none do.
-    pub(crate) fn spring(&self, matrix: &BlockMatrix) -> Spring {
+    pub fn spring(&self, matrix: &BlockMatrix) -> Spring {
         Spring::new(&self.of_touching, SOFT, matrix)
     }
 
@@ -206,7 +206,7 @@ impl Gauge {
     ///
     /// # Errors
     /// Those of the linear solver.
-    pub(crate) fn center(
+    pub fn center(
         &self,
         solver: &dyn LinearSolver,
         matrix: &BlockMatrix,
@@ -245,7 +245,7 @@ impl Gauge {
     }
 
     /// The functionals of the penalty as right-hand sides: their solutions are rigid-body modes.
-    pub(crate) fn loads(&self, matrix: &BlockMatrix) -> Vec<Vec<f64>> {
+    pub fn loads(&self, matrix: &BlockMatrix) -> Vec<Vec<f64>> {
         let load = |holder: &Holder| {
             let mut load = vec![0.0; matrix.n_unknowns()];
             load[matrix.unknowns(holder.patch)].copy_from_slice(&holder.functional);

@@ -7,18 +7,18 @@ use super::loads::{LoadRules, border_rules, of_condition, of_source, unresolved_
 use super::point::point_rule;
 use super::reaction::modes;
 use crate::equilibrium::{Balance, BodyPieces};
-use crate::problem::{BoundaryCondition, ForcePlace, Problem, held_directions};
 use crate::quadrature::{EdgeRule, Face, Quadrature, Rule};
 use crate::report::Unresolved;
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
 use ppum::vec2::Vec2;
+use ppum_problem::{BoundaryCondition, ForcePlace, Problem, held_directions};
 
 /// A source as a function of position.
 type Values<'p> = Box<dyn Fn(Vec2) -> [f64; 2] + Sync + Send + 'p>;
 
 /// The source and the boundary conditions of a problem.
-pub(crate) struct Given<'p> {
+pub struct Given<'p> {
     problem: &'p Problem,
     /// The source; none where it is zero.
     source: Option<Values<'p>>,
@@ -44,11 +44,7 @@ impl<'p> Given<'p> {
     ///
     /// # Errors
     /// Cancelled.
-    pub(crate) fn new(
-        problem: &'p Problem,
-        space: &Space<'_>,
-        stage: &Stage<'_>,
-    ) -> Result<Self, Halt> {
+    pub fn new(problem: &'p Problem, space: &Space<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
         let has_source = problem.source.iter().any(|e| e.formula().constant() != Some(0.0));
         let source = move |x: Vec2| problem.source_at(x);
         let conditions = problem.boundary.iter().enumerate();
@@ -111,7 +107,7 @@ impl<'p> Given<'p> {
     ///
     /// # Errors
     /// Data that are not finite, with their place; cancelled.
-    pub(crate) fn balance(
+    pub fn balance(
         &self,
         space: &Space<'_>,
         pieces: &BodyPieces,

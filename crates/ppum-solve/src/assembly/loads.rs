@@ -6,13 +6,13 @@
 //! divided until it resolves the formula. Where they agree the rule of the system stays, else the
 //! other one takes its place for this load.
 
-use crate::problem::{BorderPart, BoundaryCondition, Expression, Problem};
 use crate::quadrature::{Doubt, EdgeRule, Face, Kink, Quadrature, Rule};
 use crate::smoothness::{Smoothness, box_of};
 use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
 use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::{BorderPart, BoundaryCondition, Expression, Problem};
 
 /// Difference of moments up to which the rule of the system stays, as a part of the mean load: of
 /// formulas with kinks, layers or spikes somewhere, and of smooth ones, which the polynomials of

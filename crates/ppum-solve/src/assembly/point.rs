@@ -27,15 +27,15 @@ pub(super) fn point_rule(space: &Space<'_>, (x, face): (Vec2, Option<Face>)) -> 
 }
 
 /// The values of a field at a point.
-pub(crate) struct PointValues {
+pub struct PointValues {
     /// N(x) of each component for all unknowns, in the order of the matrix.
-    pub(crate) functionals: Vec<Vec<f64>>,
+    pub functionals: Vec<Vec<f64>>,
     /// The known part of the field, which may be infinite.
     pub(crate) known: [f64; 2],
 }
 
 /// The values of a field at a point; on a face of a crack those of its side.
-pub(crate) fn values_at(
+pub fn values_at(
     assembly: Assembly<'_>,
     matrix: &BlockMatrix,
     place: (Vec2, Option<Face>),

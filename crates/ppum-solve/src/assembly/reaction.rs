@@ -11,9 +11,9 @@
 use super::functions::CellFunctions;
 use crate::basis::StableBasis;
 use crate::equilibrium::{MODES, PerMode, RigidModes};
-use crate::problem::{BoundaryCondition, Problem, restraint_words};
 use ppum::dataset::Reaction;
 use ppum_linear::BlockMatrix;
+use ppum_problem::{BoundaryCondition, Problem, restraint_words};
 
 /// The modes that reactions do work on: the moment is about the centre of the box.
 pub(crate) fn modes(problem: &Problem) -> RigidModes {
@@ -99,7 +99,7 @@ pub(crate) struct CellReaction {
 
 /// The reactions of all cells, in the order of the cells.
 #[derive(Default)]
-pub(crate) struct Reactions(Vec<(CellFunctions, Vec<CellReaction>)>);
+pub struct Reactions(Vec<(CellFunctions, Vec<CellReaction>)>);
 
 impl Reactions {
     /// Adds those of the next cell.
@@ -111,7 +111,7 @@ impl Reactions {
 
     /// The reactions of a solution in the order of the matrix, one entry per condition that
     /// gives values.
-    pub(crate) fn of(
+    pub fn of(
         &self,
         problem: &Problem,
         basis: &StableBasis,

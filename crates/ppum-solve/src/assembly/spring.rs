@@ -10,7 +10,7 @@ pub(super) struct Holder {
 }
 
 /// A spring on unknowns of single patches.
-pub(crate) struct Spring(Vec<(usize, Mat<f64>)>);
+pub struct Spring(Vec<(usize, Mat<f64>)>);
 
 /// The moments of the free modes of one piece.
 pub(super) struct PieceMoments<'m> {
@@ -56,12 +56,12 @@ impl Spring {
     }
 
     /// True if nothing is held.
-    pub(crate) fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// Adds the spring to a matrix.
-    pub(crate) fn add_to(&self, matrix: &mut BlockMatrix) {
+    pub fn add_to(&self, matrix: &mut BlockMatrix) {
         self.0.iter().for_each(|(patch, block)| matrix.add_block(*patch, *patch, block.as_ref()));
     }
 }

@@ -20,24 +20,25 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// The assembled system.
-pub(crate) struct System {
-    pub(crate) matrix: BlockMatrix,
+pub struct System {
+    /// a(N_i, N_j), symmetric.
+    pub matrix: BlockMatrix,
     /// Right-hand side, in the order of the matrix.
-    pub(crate) load: Vec<f64>,
+    pub load: Vec<f64>,
     /// ∫ N·m of each free mode m, in the same order.
-    pub(crate) moments: Vec<Vec<f64>>,
+    pub moments: Vec<Vec<f64>>,
     /// ∫ u_s·m of the known part of the field.
-    pub(crate) known: Vec<f64>,
+    pub known: Vec<f64>,
     /// K(N) of both modes summed over the tips, in the same order; none without tips.
-    pub(crate) duals: Vec<Vec<f64>>,
+    pub duals: Vec<Vec<f64>>,
     /// The largest Nitsche's β of a cell, times the cell's width over λ + 2μ or the conductivity.
-    pub(crate) nitsche: f64,
+    pub nitsche: f64,
     /// Forces of the restraints on the plate.
-    pub(crate) reactions: Reactions,
+    pub reactions: Reactions,
     /// Of each cell, what its integrals have taken and what they leave.
     cells: Vec<CellFacts>,
     /// Loads and data, functions and coefficients that are not resolved.
-    pub(crate) unresolved: Vec<Unresolved>,
+    pub unresolved: Vec<Unresolved>,
 }
 
 /// What is told of a cell.
@@ -60,7 +61,7 @@ const SLIVER: f64 = 50.0;
 ///
 /// # Errors
 /// Data that are not finite, with their place; cancelled.
-pub(crate) fn slivers(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Vec<Penalty>, Halt> {
+pub fn slivers(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Vec<Penalty>, Halt> {
     let Assembly { problem, space, .. } = assembly;
     let quadrature = space.quadrature(0);
     let given = Given::restraints(problem);
@@ -119,7 +120,7 @@ impl System {
     ///
     /// # Errors
     /// Data that are not finite, with their place; cancelled.
-    pub(crate) fn new(
+    pub fn new(
         assembly: Assembly<'_>,
         given: &Given<'_>,
         functionals: Functionals<'_>,
@@ -186,17 +187,17 @@ impl System {
     }
 
     /// Of each cell, the number of quadrature points.
-    pub(crate) fn points(&self) -> Vec<f64> {
+    pub fn points(&self) -> Vec<f64> {
         self.cells.iter().map(|cell| cell.points as f64).collect()
     }
 
     /// Of each cell, the seconds that one core took for it.
-    pub(crate) fn seconds(&self) -> Vec<f64> {
+    pub fn seconds(&self) -> Vec<f64> {
         self.cells.iter().map(|cell| cell.seconds).collect()
     }
 
     /// Bytes of the matrix and of all right-hand sides.
-    pub(crate) fn bytes(&self) -> usize {
+    pub fn bytes(&self) -> usize {
         let sides = 1 + self.moments.len() + self.duals.len();
         self.matrix.bytes() + sides * self.load.len() * size_of::<f64>()
     }
@@ -240,7 +241,7 @@ impl System {
 }
 
 /// Two patches are coupled when their open supports meet.
-pub(crate) fn pattern(space: &Space<'_>) -> BlockPattern {
+pub fn pattern(space: &Space<'_>) -> BlockPattern {
     let support = |p: u32| space.partition().support(p as usize);
     let mut rows = vec![Vec::new(); space.partition().len()];
     for patches in &space.coverers {

@@ -86,10 +86,10 @@ mod tests {
     use super::*;
     use crate::basis::StableBasis;
     use crate::law::Law;
-    use crate::problem::Problem;
     use crate::space::{Space, discretise};
     use crate::watched::Stage;
     use ppum::progress::{Phase, unwatched};
+    use ppum_problem::Problem;
     use ppum_testkit::random::Random;
     use std::path::Path;
 

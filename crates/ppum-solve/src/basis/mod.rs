@@ -32,7 +32,7 @@ use williams::stored;
 
 /// A penalty on values at a part of the border, β ∫ N Nᵀ: what Nitsche's method adds to a
 /// cell's system.
-pub(crate) struct Penalty {
+pub struct Penalty {
     /// Rules on the border of one cell where values are given.
     pub(crate) rules: Vec<EdgeRule>,
     /// β over λ + 2μ or the conductivity \[1/L\].
@@ -41,7 +41,7 @@ pub(crate) struct Penalty {
 
 /// The stable basis of every patch.
 #[derive(Debug)]
-pub(crate) struct StableBasis {
+pub struct StableBasis {
     patches: Vec<Arc<LocalBasis>>,
     /// Of each patch that has the functions of all of its kind, that kind.
     kinds: Vec<Option<usize>>,
@@ -49,7 +49,7 @@ pub(crate) struct StableBasis {
     pub(crate) sizes: Vec<usize>,
     /// Of each patch, the first functions of the jumps around corners and junctions of cracks of
     /// which nearly nothing lies where it is alone.
-    pub(crate) lonely: Vec<Vec<usize>>,
+    pub lonely: Vec<Vec<usize>>,
 }
 
 impl StableBasis {
@@ -58,7 +58,7 @@ impl StableBasis {
     ///
     /// # Errors
     /// Functions that are not finite, with their place; cancelled.
-    pub(crate) fn new(space: &Space<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
+    pub fn new(space: &Space<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
         let grams = grams(space, stage)?;
         let reductions = reductions(space, &grams, stage)?;
         let (alike, none) = (space.alike(), Vec::new());
@@ -124,7 +124,7 @@ impl StableBasis {
     ///
     /// # Errors
     /// Functions that are not finite, with their place; cancelled.
-    pub(crate) fn damp(&mut self, space: &Space<'_>, penalties: &[Penalty]) -> Result<(), Halt> {
+    pub fn damp(&mut self, space: &Space<'_>, penalties: &[Penalty]) -> Result<(), Halt> {
         for (patch, gram) in self.border_grams(space, penalties) {
             self.kinds[patch as usize] = None;
             Arc::make_mut(&mut self.patches[patch as usize])
@@ -156,23 +156,23 @@ impl StableBasis {
     }
 
     /// Of each patch, the number of unknowns.
-    pub(crate) fn unknowns(&self, components: usize) -> impl Iterator<Item = usize> + '_ {
+    pub fn unknowns(&self, components: usize) -> impl Iterator<Item = usize> + '_ {
         self.patches.iter().map(move |patch| patch.unknowns(components))
     }
 
     /// Of each patch, the number of unknowns cut off.
-    pub(crate) fn cut_off(&self, components: usize) -> impl Iterator<Item = usize> + '_ {
+    pub fn cut_off(&self, components: usize) -> impl Iterator<Item = usize> + '_ {
         self.patches.iter().map(move |patch| patch.cut_off(components))
     }
 
     /// Of each patch, the least eigenvalue of its Gram matrix that was kept,
     /// see [`LocalBasis::least`].
-    pub(crate) fn least(&self) -> Vec<f64> {
+    pub fn least(&self) -> Vec<f64> {
         self.patches.iter().map(|patch| patch.least).collect()
     }
 
     /// Bytes of all transformations.
-    pub(crate) fn bytes(&self) -> usize {
+    pub fn bytes(&self) -> usize {
         let values = |m: &Mat<f64>| m.nrows() * m.ncols();
         let of = |patch: &LocalBasis| values(&patch.matrix) + patch.tie.as_ref().map_or(0, values);
         self.patches.iter().map(|patch| of(patch)).sum::<usize>() * size_of::<f64>()
@@ -216,11 +216,7 @@ impl StableBasis {
 
     /// Of each patch, the coefficients of the functions that the solver evaluates from those of the
     /// basis: a row for each component of each of some solutions.
-    pub(crate) fn local_coefficients(
-        &self,
-        solutions: &[Vec<f64>],
-        components: usize,
-    ) -> Vec<Mat<f64>> {
+    pub fn local_coefficients(&self, solutions: &[Vec<f64>], components: usize) -> Vec<Mat<f64>> {
         let mut first = 0;
         let of_patch = |basis: &Arc<LocalBasis>| {
             let own = first..first + basis.unknowns(components);
@@ -233,7 +229,7 @@ impl StableBasis {
     }
 
     /// Plain coefficients from those of the basis, patch by patch and component by component.
-    pub(crate) fn plain(&self, space: &Space<'_>, solution: &[f64], components: usize) -> Vec<f64> {
+    pub fn plain(&self, space: &Space<'_>, solution: &[f64], components: usize) -> Vec<f64> {
         let mut rest = solution;
         let mut out = Vec::new();
         for (patch, basis) in self.patches.iter().enumerate() {

@@ -14,7 +14,6 @@
 
 use super::transform::FunctionCombinations;
 use crate::corner::WedgeTerm;
-use crate::problem::Symmetry;
 use crate::space::{ANGULAR, Origin, SeriesFunctions, Space};
 use faer::Mat;
 use ppum::crack::TipId;
@@ -22,6 +21,7 @@ use ppum::dataset::{BoxPartition, Elasticity, Equation, Step, monomials};
 use ppum::polynomial::exponents;
 use ppum::vec2::{Vec2, vec2};
 use ppum_linear::times;
+use ppum_problem::Symmetry;
 use std::ops::Range;
 
 /// A polynomial in ξ and η with values in the complex plane, in the order of the dataset.

@@ -12,15 +12,16 @@ mod exponent;
 mod sectors;
 mod wedge;
 
-use crate::geometry::{rim_crossings, sure_side};
-use crate::problem::{BorderPart, BoundaryCondition, Problem, touch};
 use crate::quadrature::{sign_changes, tame};
 use crate::smoothness::levels_of_data;
 use exponent::{Constants, smallest};
+use ppum::border::touch;
 use ppum::crack::{Crack, LocalCrack, Side, tips};
 use ppum::domain::Hole;
 use ppum::formula::Formula;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::geometry::{rim_crossings, sure_side};
+use ppum_problem::{BorderPart, BoundaryCondition, Problem};
 use sectors::{LOOK, Sector, Surroundings};
 use std::f64::consts::TAU;
 pub(crate) use wedge::WedgeTerm;
@@ -40,23 +41,23 @@ const MOST: usize = 64;
 
 /// A singular point.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Corner {
+pub struct Corner {
     /// Its place.
-    pub(crate) at: Vec2,
+    pub at: Vec2,
     /// The smallest Re λ > 0 of u ~ r^λ there; below one, but for the ends of loads; zero where
     /// values jump.
-    pub(crate) exponent: f64,
+    pub exponent: f64,
     /// Distance to what is next: another corner of the border, a tip, a rim, a crack.
     pub(crate) room: f64,
     /// Its nature.
-    pub(crate) nature: Nature,
+    pub nature: Nature,
     /// Its fields, where they are known in all of the room.
-    pub(crate) wedge: Option<Wedge>,
+    pub wedge: Option<Wedge>,
 }
 
 /// The material around a corner that turns inwards, with free sides.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Wedge {
+pub struct Wedge {
     /// Angle of its bisector from the plate's x axis.
     pub(crate) bisector: f64,
     /// Radius of the disc in which it is all there is.
@@ -78,14 +79,14 @@ impl Corner {
     }
 
     /// True if a box lies in the disc around the corner in which its wedge is all there is.
-    pub(crate) fn has_room_for(&self, part: &Rect) -> bool {
+    pub fn has_room_for(&self, part: &Rect) -> bool {
         let room = self.wedge.as_ref().map_or(self.room, |wedge| wedge.room);
         part.corners().iter().all(|p| (*p - self.at).length() < room)
     }
 
     /// The part of the field around the point that is not smooth: 1 − λ, and a constant where
     /// loads jump.
-    pub(crate) fn weakness(&self) -> f64 {
+    pub fn weakness(&self) -> f64 {
         match self.nature {
             Nature::Load => LOGARITHM,
             _ => 1.0 - self.exponent,
@@ -95,7 +96,7 @@ impl Corner {
 
 /// The cause of a singular point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Nature {
+pub enum Nature {
     /// A kink of the crack with this index.
     Kink(usize),
     /// A corner of the plate, at its border or at holes, free or held alike on its two sides.
@@ -111,7 +112,7 @@ pub(crate) enum Nature {
 
 impl Nature {
     /// In words.
-    pub(crate) fn name(self) -> String {
+    pub fn name(self) -> String {
         match self {
             Self::Kink(crack) => format!("the kink of crack {crack}"),
             Self::Corner => "the corner".into(),
@@ -124,7 +125,7 @@ impl Nature {
 
 /// The singular points of a problem, in the order: box, edges, holes, cracks. Its cost is quadratic
 /// in their number.
-pub(crate) fn corners(problem: &Problem) -> Vec<Corner> {
+pub fn corners(problem: &Problem) -> Vec<Corner> {
     let touch = touch(&problem.domain.bounds);
     let tips: Vec<_> = tips(&problem.cracks)
         .map(|tip| problem.cracks[tip.crack as usize].end_point(tip.end))

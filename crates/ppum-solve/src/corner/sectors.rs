@@ -1,10 +1,10 @@
 //! The plate around a point of its border: sectors of material between rays.
 
-use crate::problem::{BorderPart, Edge, Problem};
 use ppum::crack::Side;
 use ppum::domain::Hole;
 use ppum::segment;
 use ppum::vec2::{Vec2, vec2};
+use ppum_problem::{BorderPart, Edge, Problem};
 use std::f64::consts::TAU;
 
 /// Angles nearer than this are the same ray.

@@ -1,7 +1,7 @@
 use super::*;
-use crate::problem::{BoundaryCondition, Cells, Condition, Discretization, Edge, Expression};
 use ppum::dataset::{Material, StressState};
 use ppum::vec2::vec2;
+use ppum_problem::{BoundaryCondition, Cells, Condition, Discretization, Edge, Expression};
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 

@@ -11,7 +11,7 @@
 //! with λ = π/ω and r^λ cos λθ with λ = 2π/ω have no flux there.
 
 use super::exponent::Constants;
-use crate::problem::Symmetry;
+use ppum_problem::Symmetry;
 use std::f64::consts::PI;
 
 /// Exponents that are taken: between 1 and 2 gradients are finite and polynomials still see the

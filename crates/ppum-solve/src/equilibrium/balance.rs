@@ -89,7 +89,7 @@ impl fmt::Display for UnbalancedError {
 
 /// Supports and loads of one piece, as far as they have been added.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Balance {
+pub struct Balance {
     pub(crate) modes: RigidModes,
     /// ∫ m_k·m_l of the rigid-body modes over the border where values are given, held
     /// components only.

@@ -10,8 +10,9 @@ mod touching;
 
 pub(crate) use balance::Balance;
 pub use balance::UnbalancedError;
-pub(crate) use pieces::{BodyPieces, SegmentMesh, crossing};
-pub(crate) use plate::{Plate, PlateError};
+pub use pieces::BodyPieces;
+pub(crate) use pieces::{SegmentMesh, crossing};
+pub use plate::{Plate, PlateError};
 pub(crate) use rigid::{MODES, PerMode, RigidModes};
 pub(crate) use supports::PieceConditions;
 pub use supports::SupportError;

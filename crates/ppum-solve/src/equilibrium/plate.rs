@@ -4,13 +4,14 @@ use super::balance::{Balance, UnbalancedError};
 use super::pieces::BodyPieces;
 use super::rigid::PerMode;
 use super::touching::{Motion, RigidPieces, Touch, TouchingPieces, first_mode, groups, touches};
-use crate::problem::Problem;
 use ppum::vec2::Vec2;
 use ppum_linear::EigenError;
+use ppum_problem::Problem;
 
 /// A plate in equilibrium, piece by piece, or as pieces that touch hold each other.
-pub(crate) struct Plate {
-    pub(crate) pieces: BodyPieces,
+pub struct Plate {
+    /// The parts into which cracks divide the body.
+    pub pieces: BodyPieces,
     /// Restraints and loads of each piece.
     pub(crate) balances: Vec<Balance>,
     /// The rigid-body modes of each piece that what is given on the border does not hold.
@@ -25,7 +26,7 @@ pub(crate) struct Plate {
 
 /// A plate without equilibrium.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum PlateError {
+pub enum PlateError {
     /// Loads on a piece that nothing holds against them.
     #[error(transparent)]
     Unbalanced(#[from] UnbalancedError),
@@ -39,7 +40,7 @@ impl Plate {
     ///
     /// # Errors
     /// Loads that nothing holds, data that are not finite.
-    pub(crate) fn new(
+    pub fn new(
         pieces: BodyPieces,
         balances: Vec<Balance>,
         problem: &Problem,
@@ -72,7 +73,7 @@ impl Plate {
     }
 
     /// Largest part of the loads on a piece that does not balance.
-    pub(crate) fn imbalance(&self) -> f64 {
+    pub fn imbalance(&self) -> f64 {
         self.imbalance
     }
 

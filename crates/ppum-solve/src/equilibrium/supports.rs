@@ -6,9 +6,9 @@
 
 use super::plate::Plate;
 use super::touching::Motion;
-use crate::problem::Support;
 use ppum::text::trimmed;
 use ppum::vec2::Vec2;
+use ppum_problem::Support;
 
 /// Part of a motion of size one below which a component does not move.
 const STILL: f64 = 1e-8;
@@ -47,7 +47,7 @@ impl std::fmt::Display for SupportError {
 
 /// The conditions that fix the free motions of pieces that touch, each a combination of those
 /// motions or the component of a support.
-pub(crate) struct PieceConditions {
+pub struct PieceConditions {
     /// The components that are held, by the numbers of the supports.
     pub(crate) held: Vec<(usize, usize)>,
     /// For the motions that supports leave, their factors of the free motions.
@@ -60,10 +60,7 @@ impl Plate {
     ///
     /// # Errors
     /// A support that would take a force.
-    pub(crate) fn conditions(
-        &self,
-        supports: &[Support],
-    ) -> Result<Vec<PieceConditions>, SupportError> {
+    pub fn conditions(&self, supports: &[Support]) -> Result<Vec<PieceConditions>, SupportError> {
         let groups = 0..self.groups.len();
         groups.map(|group| self.conditions_on(group, supports)).collect()
     }

@@ -12,11 +12,11 @@ use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Given, System, sl
 use crate::basis::StableBasis;
 use crate::equilibrium::Plate;
 use crate::law::Law;
-use crate::problem::Problem;
 use crate::space::{Mesh, Space, SpaceError, discretise_on};
 use crate::watched::{Halt, Stage};
 use ppum::progress::Cancelled;
 use ppum_linear::Coarse;
+use ppum_problem::Problem;
 use transfer::{SpaceWithBasis, transfer};
 
 /// Unknowns up to which a level is solved directly: in less time than the levels above it take.
@@ -28,12 +28,17 @@ const FEWER: f64 = 0.7;
 
 /// A system to find coarser levels of.
 #[derive(Clone, Copy)]
-pub(crate) struct Finest<'a> {
-    pub(crate) problem: &'a Problem,
-    pub(crate) plate: &'a Plate,
-    pub(crate) mesh: &'a Mesh,
-    pub(crate) space: &'a Space<'a>,
-    pub(crate) basis: &'a StableBasis,
+pub struct Finest<'a> {
+    /// The problem that it belongs to.
+    pub problem: &'a Problem,
+    /// The pieces of the body.
+    pub plate: &'a Plate,
+    /// The cells.
+    pub mesh: &'a Mesh,
+    /// The patches of the cells.
+    pub space: &'a Space<'a>,
+    /// The unknowns of each patch.
+    pub basis: &'a StableBasis,
 }
 
 /// A level while the next coarser one is made.
@@ -55,7 +60,7 @@ impl Finest<'_> {
     ///
     /// # Errors
     /// Cancelled.
-    pub(crate) fn coarser(&self, stage: &Stage<'_>) -> Result<Vec<Coarse>, Cancelled> {
+    pub fn coarser(&self, stage: &Stage<'_>) -> Result<Vec<Coarse>, Cancelled> {
         let components = self.problem.components();
         let mut levels: Vec<Coarse> = Vec::new();
         let mut last: Option<FinerLevel<'_>> = None;

@@ -6,11 +6,11 @@ use super::polygon::{Polygon, SegmentCut, line_side};
 use super::rule::{Rule, Rules};
 use super::singular::PieceQuadrature;
 use super::{adapt, curve, holes, split};
-use crate::geometry::is_on_rim;
 use ppum::crack::Crack;
 use ppum::domain::Hole;
 use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::geometry::is_on_rim;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ pub(super) const SAME_POINT: f64 = 1e-9;
 
 /// The rules of a step's cells.
 #[derive(Clone)]
-pub(crate) struct Quadrature<'a> {
+pub struct Quadrature<'a> {
     pub(super) geometry: Geometry<'a>,
     pub(super) orders: Orders,
     /// Segments of cracks and sides of holes.
@@ -43,8 +43,10 @@ pub(crate) struct Quadrature<'a> {
 
 /// A disc around a point at which the integrand is singular.
 #[derive(Clone, Copy)]
-pub(crate) struct Disc {
+pub struct Disc {
+    /// The singular point.
     pub center: Vec2,
+    /// Its radius.
     pub radius: f64,
     /// Length on which the integrand's factor of the disc varies.
     pub scale: f64,
@@ -88,7 +90,7 @@ impl<'a> Quadrature<'a> {
 
     /// The same with fewer divisions of a cell where formulas are probed.
     #[must_use]
-    pub(crate) fn with_divisions(self, most: usize) -> Self {
+    pub fn with_divisions(self, most: usize) -> Self {
         Self { divisions: most.min(self.divisions), ..self }
     }
 
@@ -118,7 +120,7 @@ impl<'a> Quadrature<'a> {
     /// and must vanish outside the disc: of the cell the part inside the disc's bounding square is
     /// integrated. The anchor is the centre wherever no other singular point is near.
     #[must_use]
-    pub(crate) fn disc(&self, cell: &Rect, coverers: &[u32], disc: Disc) -> Vec<Rule> {
+    pub fn disc(&self, cell: &Rect, coverers: &[u32], disc: Disc) -> Vec<Rule> {
         let part = cell.intersection(&Rect::around(disc.center, vec2(disc.radius, disc.radius)));
         let size = part.size();
         if size.x <= 0.0 || size.y <= 0.0 {

@@ -24,7 +24,7 @@ impl Doubt {
     }
 
     /// The doubt about functions at a place.
-    pub(crate) fn of_functions(functions: f64, at: Vec2) -> Self {
+    pub fn of_functions(functions: f64, at: Vec2) -> Self {
         Self { load: 0.0, functions, at, worst: functions }
     }
 

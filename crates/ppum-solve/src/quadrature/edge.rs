@@ -12,11 +12,11 @@ use super::roots::{sign_changes, tame};
 use super::singular::panels;
 use super::split::{breaks, component, divided, kinks, varies};
 use super::stretch::{Path, Stretch};
-use crate::geometry::{around, without};
 use ppum::border::{TOUCH, touch};
 use ppum::crack::Side;
 use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2};
+use ppum_problem::geometry::{around, without};
 use std::cell::Cell;
 
 /// Values of a level function below this part of its size on a segment are zero.
@@ -33,7 +33,7 @@ const INWARD: f64 = 1e-9;
 
 /// A rule on the part of a segment in one cell on which one set of patches is active.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct EdgeRule {
+pub struct EdgeRule {
     /// Origin of the offsets: the singular point they are graded toward, else the
     /// centre of the cell.
     pub anchor: Vec2,
@@ -84,7 +84,7 @@ impl Quadrature<'_> {
 
     /// The same along the part of a face between two points of its segment.
     #[must_use]
-    pub(crate) fn part_of_face(
+    pub fn part_of_face(
         &self,
         cell: &Rect,
         coverers: &[u32],

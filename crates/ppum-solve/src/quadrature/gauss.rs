@@ -7,7 +7,7 @@ pub(crate) const MAX_POINTS: usize = 40;
 
 /// The n-point Gauss–Legendre rule on \[−1, 1\], exact for polynomials of degree 2n − 1.
 #[derive(Clone, Debug)]
-pub(crate) struct GaussRule {
+pub struct GaussRule {
     /// Nodes in ascending order, zeros of the Legendre polynomial P_n.
     pub nodes: Vec<f64>,
     /// Quadrature weights w = 2 / ((1 − x²) P_n′(x)²).
@@ -30,7 +30,7 @@ impl GaussRule {
     }
 
     /// Nodes and weights of the rule moved to \[lo, hi\].
-    pub(crate) fn on(&self, lo: f64, hi: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
+    pub fn on(&self, lo: f64, hi: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
         let (mid, half) = (0.5 * (lo + hi), 0.5 * (hi - lo));
         self.nodes.iter().zip(&self.weights).map(move |(x, w)| (mid + half * x, half * w))
     }
@@ -66,7 +66,7 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
 /// # Panics
 /// If n is outside that range.
 #[must_use]
-pub(crate) fn gauss(n: usize) -> &'static GaussRule {
+pub fn gauss(n: usize) -> &'static GaussRule {
     static RULES: OnceLock<Vec<GaussRule>> = OnceLock::new();
     assert!((1..=MAX_POINTS).contains(&n), "no Gauss rule with {n} points");
     &RULES.get_or_init(|| (1..=MAX_POINTS).map(GaussRule::new).collect())[n - 1]
@@ -82,7 +82,7 @@ const INSET: f64 = 1e-6;
 ///
 /// The Lobatto rule on the interval without its outermost millionths, whose share is given to the
 /// points at their inner ends.
-pub(crate) fn closed(n: usize) -> &'static GaussRule {
+pub fn closed(n: usize) -> &'static GaussRule {
     static RULES: OnceLock<Vec<GaussRule>> = OnceLock::new();
     assert!((1..=MAX_POINTS).contains(&n), "no closed rule for {n} points");
     &RULES.get_or_init(|| (1..=MAX_POINTS).map(lobatto_inside).collect())[n - 1]

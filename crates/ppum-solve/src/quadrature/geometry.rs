@@ -17,7 +17,7 @@ const EXTRA_POINTS: f64 = 8.0;
 
 /// A face of a crack: one side of one of its segments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Face {
+pub struct Face {
     /// The segment.
     pub segment: SegmentId,
     /// The side that the material lies on.

@@ -45,13 +45,14 @@ mod stretch;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use cell::{Disc, Quadrature};
+pub use cell::{Disc, Quadrature};
 pub(crate) use curve::may_meet;
 pub use doubt::Doubt;
-pub(crate) use edge::EdgeRule;
-pub(crate) use gauss::closed;
-pub(crate) use gauss::{GaussRule, gauss};
-pub(crate) use geometry::{Face, Geometry, Growth, Kink, LevelFunction, Probes, Singular};
+pub use edge::EdgeRule;
+pub use gauss::gauss;
+pub use gauss::{GaussRule, closed};
+pub use geometry::Face;
+pub(crate) use geometry::{Geometry, Growth, Kink, LevelFunction, Probes, Singular};
 pub(crate) use orders::Orders;
 pub(crate) use roots::{sign_changes, tame};
-pub(crate) use rule::Rule;
+pub use rule::Rule;

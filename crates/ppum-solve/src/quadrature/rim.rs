@@ -8,9 +8,9 @@ use super::geometry::{Kink, Singular};
 use super::orders::Active;
 use super::roots::{sign_changes, tame};
 use super::split::{breaks, component, divided, kinks};
-use crate::geometry::wider;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::geometry::wider;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 

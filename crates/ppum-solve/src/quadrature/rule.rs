@@ -5,7 +5,7 @@ use ppum::vec2::Vec2;
 
 /// A rule on a part of a cell on which one set of patches is active.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Rule {
+pub struct Rule {
     /// Origin of the offsets: a singular point near it, else the centre of the cell.
     pub anchor: Vec2,
     /// Points, relative to the anchor; inside the part, never on its border or on a crack.

@@ -1,13 +1,13 @@
 //! Cells divided where a problem says so, whatever else it leaves to the program.
 
 use super::RefineError;
-use crate::geometry::{Placed, around, distance, wider};
-use crate::problem::{DEEPEST, LocalRefinement, Problem, RefinementRegion, nine};
 use crate::watched::Stage;
 use ppum::cover::Cover;
 use ppum::domain::Hole;
 use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::geometry::{Placed, around, distance, wider};
+use ppum_problem::{DEEPEST, LocalRefinement, Problem, RefinementRegion, nine};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 

@@ -8,10 +8,10 @@
 
 use super::rim::{Bend, FOR_ENERGY, bends, finest};
 use crate::corner::{Corner, Nature};
-use crate::geometry::{around, exceeds, wider};
-use crate::problem::Problem;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::Problem;
+use ppum_problem::geometry::{around, exceeds, wider};
 use std::collections::BTreeSet;
 
 /// Part of the energy around a singular point that its cells may miss.

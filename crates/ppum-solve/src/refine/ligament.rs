@@ -2,11 +2,11 @@
 //! crack, the plate bends like a beam, and a few cells must lie across.
 
 use super::graded::SMALLEST;
-use crate::geometry::exceeds;
-use crate::problem::{Edge, Problem};
 use ppum::domain::Hole;
 use ppum::segment::polyline_distance;
 use ppum::vec2::{Rect, Vec2};
+use ppum_problem::geometry::exceeds;
+use ppum_problem::{Edge, Problem};
 
 /// Largest cells in a ligament, in parts of its width: the energy is right to 4e-4 then, with half
 /// as many cells across to 4e-3.

@@ -25,15 +25,11 @@ mod rim;
 
 use crate::corner::corners;
 use crate::forces::{ForceField, force_fields};
-use crate::geometry::{
-    AMPLE_CLEARANCE, Jumps, Placed, TipClearance, around, bent_part, exceeds, interface_distance,
-    rim_crossings, runs_of_rim, wider,
-};
-use crate::problem::{Cells, DEEPEST, Enrichment, Problem, touch};
 use crate::smoothness::Interfaces;
 use crate::watched::Stage;
 use graded::{Graded, graded};
 use ligament::{Ligament, ligaments};
+use ppum::border::touch;
 use ppum::cover::{Cover, CoverError};
 use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
 use ppum::dataset::BoxPartition;
@@ -41,7 +37,12 @@ use ppum::domain::{Domain, Hole};
 use ppum::progress::Cancelled;
 use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
-pub(crate) use rim::{coarsest, rim_error};
+use ppum_problem::geometry::{
+    AMPLE_CLEARANCE, Jumps, Placed, TipClearance, around, bent_part, exceeds, interface_distance,
+    rim_crossings, runs_of_rim, wider,
+};
+use ppum_problem::{Cells, DEEPEST, Enrichment, Problem};
+pub use rim::{coarsest, rim_error};
 
 /// Part of a hole's size below which cells are not divided to part the sides of its rim; of an
 /// outline, whose gaps are slots of the body, a smaller one.
@@ -77,7 +78,6 @@ fn shown(p: Vec2) -> String {
 
 /// The cover of a problem cannot be built.
 #[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
 pub enum RefineError {
     /// The cover itself.
     #[error(transparent)]
@@ -313,13 +313,13 @@ fn base(problem: &Problem) -> Result<Cover, CoverError> {
 
 /// Number of patches that still hold several runs of a rim: two of the parts they are cut into
 /// are glued together.
-pub(crate) fn n_crossed_twice(problem: &Problem, partition: &BoxPartition) -> usize {
+pub fn n_crossed_twice(problem: &Problem, partition: &BoxPartition) -> usize {
     let rims = Rims::new(problem);
     (0..partition.len()).filter(|&patch| rims.cross_twice(&partition.support(patch))).count()
 }
 
 /// Rims of polygons, which can cross a patch twice.
-struct Rims<'p> {
+pub struct Rims<'p> {
     domain: Rect,
     overlap: f64,
     /// Their corners, and sizes of cells that are not divided.

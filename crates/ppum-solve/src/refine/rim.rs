@@ -1,8 +1,8 @@
 //! Cells at curved rims: as large as the stress at the rim allows.
 
-use crate::problem::{Order, nine};
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2};
+use ppum_problem::{Order, nine};
 
 /// Error of the stress at a rim, relative to the largest one, that its cells aim at.
 const AIM: f64 = 0.0075;
@@ -36,7 +36,7 @@ pub(super) struct Bend {
 
 /// Estimated error of the stress at a rim, relative to the largest one, in cells of a size
 /// in radii.
-pub(crate) fn rim_error(size: f64, order: usize) -> f64 {
+pub fn rim_error(size: f64, order: usize) -> f64 {
     (ROUGH * size.powi(order.max(1) as i32)).min(1.0)
 }
 
@@ -62,7 +62,7 @@ pub(super) fn bends(hole: &Hole) -> Vec<Bend> {
 
 /// Largest part of its radius of curvature that a cell at the rim of a hole is long, with the
 /// cell's number; none if no cell is there, or the rim is not curved.
-pub(crate) fn coarsest(hole: &Hole, cells: &[(u32, Rect)]) -> Option<(f64, u32)> {
+pub fn coarsest(hole: &Hole, cells: &[(u32, Rect)]) -> Option<(f64, u32)> {
     let size = |cell: &Rect| cell.size().x.max(cell.size().y);
     let on = |bends: &[Bend], cell: &Rect| match *hole {
         Hole::Circle { center, radius } => {

@@ -4,9 +4,6 @@ use super::enrichment::{Block, Enrichments};
 use super::error::SpaceError;
 use super::inspect::inspect;
 use super::mesh::Mesh;
-use crate::geometry::Placed;
-use crate::problem::Problem;
-use crate::problem::quantities::field_names;
 use crate::quadrature::{Geometry, Orders, Quadrature, Rule};
 use crate::refine::RefineError;
 use crate::watched::Stage;
@@ -14,6 +11,9 @@ use ppum::dataset::{Attribute, BoxPartition, FieldData, MAX_DEGREE, Step, monomi
 use ppum::domain::Hole;
 use ppum::progress::{Phase, Watcher};
 use ppum::vec2::{Rect, vec2};
+use ppum_problem::Problem;
+use ppum_problem::geometry::Placed;
+use ppum_problem::quantities::field_names;
 
 /// The step of a problem with all coefficients zero.
 ///
@@ -29,7 +29,7 @@ pub fn discretise(problem: &Problem, watcher: &dyn Watcher) -> Result<Step, Spac
 ///
 /// # Errors
 /// See [`discretise`].
-pub(crate) fn discretise_on(
+pub fn discretise_on(
     problem: &Problem,
     mesh: &Mesh,
     stage: &Stage<'_>,

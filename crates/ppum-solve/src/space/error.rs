@@ -1,15 +1,14 @@
 //! Spaces that cannot be built.
 
 use super::inspect::InspectError;
-use crate::problem::OrderError;
 use crate::refine::RefineError;
 use ppum::progress::Cancelled;
 use ppum::text::trimmed;
 use ppum::vec2::Vec2;
+use ppum_problem::OrderError;
 
 /// The space of a problem cannot be built.
 #[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
 pub enum SpaceError {
     /// The cover.
     #[error(transparent)]

@@ -6,12 +6,13 @@
 //! method, whose tractions are not square integrable at the tip, and factors converge as in the
 //! whole body.
 
-use crate::geometry::{clipped, solid_part, wider};
-use crate::problem::{BoundaryCondition, Problem, held_directions, touch};
 use ppum::border::BorderLine;
+use ppum::border::touch;
 use ppum::dataset::BoxPartition;
 use ppum::segment::Segment;
 use ppum::vec2::Vec2;
+use ppum_problem::geometry::{clipped, solid_part, wider};
+use ppum_problem::{BoundaryCondition, Problem, held_directions};
 use std::collections::BTreeMap;
 
 /// Length of a line in a patch, in half-sizes of the patch, up to which nothing of it is seen.

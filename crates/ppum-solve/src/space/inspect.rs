@@ -17,7 +17,6 @@ const LOOKS: [f64; 4] = [0.0717, 0.3129, 0.6483, 0.9271];
 
 /// A function that the local space of a patch cannot hold.
 #[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
 pub enum InspectError {
     /// It does not compile.
     #[error(transparent)]

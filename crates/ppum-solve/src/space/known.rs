@@ -2,20 +2,20 @@
 
 use super::williams::SeriesFunctions;
 use crate::forces::force_fields;
-use crate::problem::Problem;
 use ppum::dataset::{Step, monomials};
 use ppum::function::{Function, Role};
+use ppum_problem::Problem;
 use std::collections::BTreeMap;
 
 /// A function of a patch whose coefficients are known.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct KnownFunction {
+pub struct KnownFunction {
     /// Its number among the patch's functions as they are stored.
-    pub(crate) stored: usize,
+    pub stored: usize,
     /// Its number among those that the solver evaluates.
-    pub(crate) evaluated: usize,
+    pub evaluated: usize,
     /// The coefficient in each component.
-    pub(crate) coefficients: [f64; 2],
+    pub coefficients: [f64; 2],
 }
 
 /// By the number of a patch.

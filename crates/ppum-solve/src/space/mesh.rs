@@ -1,17 +1,18 @@
 //! The cells of a problem with what adaptation has made of them.
 
 use super::error::SpaceError;
-use crate::problem::Problem;
 use crate::refine::{RefineError, cover};
 use crate::watched::Stage;
 use ppum::box_tree::BoxTree;
 use ppum::cover::{Cover, CoverError};
 use ppum::dataset::BoxPartition;
 use ppum::vec2::Rect;
+use ppum_problem::Problem;
 
 /// What is to be done to a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Change {
+pub enum Change {
+    /// It stays as it is.
     Keep,
     /// Its four quarters take its place.
     Divide,
@@ -22,7 +23,7 @@ pub(crate) enum Change {
 /// A cover, and of each of its cells by how much the order is raised above the one that the
 /// problem gives.
 #[derive(Clone, Debug)]
-pub(crate) struct Mesh {
+pub struct Mesh {
     pub(super) cover: Cover,
     pub(super) raised: Vec<u8>,
 }
@@ -32,18 +33,14 @@ impl Mesh {
     ///
     /// # Errors
     /// A cover that cannot be built or refined; cancelled.
-    pub(crate) fn new(
-        problem: &Problem,
-        most: usize,
-        stage: &Stage<'_>,
-    ) -> Result<Self, SpaceError> {
+    pub fn new(problem: &Problem, most: usize, stage: &Stage<'_>) -> Result<Self, SpaceError> {
         let cover = cover(problem, most, stage)?;
         let raised = vec![0; cover.n_cells()];
         Ok(Self { cover, raised })
     }
 
     /// Number of cells, those in holes among them.
-    pub(crate) fn n_cells(&self) -> usize {
+    pub fn n_cells(&self) -> usize {
         self.raised.len()
     }
 
@@ -71,7 +68,7 @@ impl Mesh {
     ///
     /// # Errors
     /// Too many cells.
-    pub(crate) fn changed(
+    pub fn changed(
         &self,
         partition: &BoxPartition,
         changes: &[Change],

@@ -15,12 +15,11 @@ mod williams;
 
 pub use crate::refine::RefineError;
 pub(crate) use alike::Member;
-pub use discretise::discretise;
-pub(crate) use discretise::discretise_on;
+pub use discretise::{discretise, discretise_on};
 pub use error::SpaceError;
 pub(crate) use held::HeldLine;
 pub use inspect::InspectError;
 pub(crate) use known::KnownFunction;
-pub(crate) use mesh::{Change, Mesh};
+pub use mesh::{Change, Mesh};
 pub use trial::Space;
 pub(crate) use williams::{ANGULAR, Origin, SeriesFunctions};

@@ -6,7 +6,6 @@ use super::known::{KnownFunction, KnownFunctions, known_functions};
 use super::williams::{self, SeriesFunctions};
 use crate::heat::{Temperature, joined};
 use crate::law::Law;
-use crate::problem::Problem;
 use crate::quadrature::{Orders, Quadrature, Rule};
 use crate::smoothness::Smoothness;
 use ppum::box_tree::BoxTree;
@@ -15,6 +14,7 @@ use ppum::dataset::{BoxPartition, Equation, FieldData, Step, monomials};
 use ppum::domain::{Domain, Hole};
 use ppum::formula::Table;
 use ppum::function::{FunctionError, FunctionKind, FunctionTable, Role};
+use ppum_problem::Problem;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -39,9 +39,9 @@ pub struct Space<'d> {
     /// The step's functions, compiled.
     pub(crate) functions: FunctionTable,
     /// The patches whose open supports meet a cell, cell by cell.
-    pub(crate) coverers: Vec<Vec<u32>>,
+    pub coverers: Vec<Vec<u32>>,
     /// The number of functions of a patch's local space, patch by patch.
-    pub(crate) sizes: Vec<usize>,
+    pub sizes: Vec<usize>,
     /// The constant σ that a block's function f is replaced by f − σ with while solving, block
     /// by block.
     ///
@@ -90,7 +90,7 @@ impl<'d> Space<'d> {
     ///
     /// # Errors
     /// A function of a step that does not compile.
-    pub(crate) fn of_problem(
+    pub fn of_problem(
         problem: &'d Problem,
         step: Step,
         heat: Option<&Step>,
@@ -144,22 +144,22 @@ impl<'d> Space<'d> {
     }
 
     /// Takes a temperature that strains the body; the first one stays.
-    pub(crate) fn heat(&self, temperature: Temperature) {
+    pub fn heat(&self, temperature: Temperature) {
         self.temperature.get_or_init(|| temperature);
     }
 
     /// The temperature that strains the body, if one does and is known.
-    pub(crate) fn temperature(&self) -> Option<&Temperature> {
+    pub fn temperature(&self) -> Option<&Temperature> {
         self.temperature.get()
     }
 
     /// The law of the equation in a body that the temperature strains.
-    pub(crate) fn law(&self) -> Law<'_> {
+    pub fn law(&self) -> Law<'_> {
         Law::new(self.equation).heated(self.temperature().map(Temperature::field))
     }
 
     /// The functions of a patch whose coefficients are known.
-    pub(crate) fn known(&self, patch: usize) -> &[KnownFunction] {
+    pub fn known(&self, patch: usize) -> &[KnownFunction] {
         self.known.get(&(patch as u32)).map_or(&[], Vec::as_slice)
     }
 
@@ -179,18 +179,18 @@ impl<'d> Space<'d> {
     }
 
     /// The partition of unity.
-    pub(crate) fn partition(&self) -> &BoxPartition {
+    pub fn partition(&self) -> &BoxPartition {
         self.step.partition.boxes()
     }
 
     /// The field, whose coefficients play no part.
-    pub(crate) fn data(&self) -> &FieldData {
+    pub fn data(&self) -> &FieldData {
         &self.step.fields[0]
     }
 
     /// The quadrature over the cells. `extra` Gauss points in each direction come on top of the
     /// default, for errors.
-    pub(crate) fn quadrature(&self, extra: usize) -> Quadrature<'_> {
+    pub fn quadrature(&self, extra: usize) -> Quadrature<'_> {
         self.quadrature_of(&self.smoothness, extra)
     }
 
@@ -206,7 +206,7 @@ impl<'d> Space<'d> {
     }
 
     /// Operations of all formulas that quadrature looks at.
-    pub(crate) fn probe_operations(&self) -> usize {
+    pub fn probe_operations(&self) -> usize {
         self.smoothness.probe_operations()
     }
 
@@ -230,12 +230,12 @@ impl<'d> Space<'d> {
     }
 
     /// Largest degree of a polynomial, times its function where that is a piecewise polynomial.
-    pub(crate) fn degree(&self) -> usize {
+    pub fn degree(&self) -> usize {
         self.smoothness.degree()
     }
 
     /// True if a patch has user-defined functions.
-    pub(crate) fn has_user_functions(&self, patch: usize) -> bool {
+    pub fn has_user_functions(&self, patch: usize) -> bool {
         let (data, functions) = (self.data(), &self.step().functions);
         let role = |b: usize| functions[data.block_function[b] as usize].kind.role();
         data.blocks(patch).any(|b| role(b) == Some(Role::User))
@@ -279,7 +279,7 @@ impl Space<'_> {
     }
 
     /// Number of unknowns of a patch, before any are cut off.
-    pub(crate) fn unknowns(&self, patch: usize) -> usize {
+    pub fn unknowns(&self, patch: usize) -> usize {
         let (components, series) = (self.equation.components(), self.series(patch));
         let theirs: usize = series.iter().map(|series| series.functions.len()).sum();
         let unknowns: usize = series.iter().map(|series| series.unknowns(components)).sum();

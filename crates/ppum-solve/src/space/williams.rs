@@ -3,12 +3,12 @@
 
 use crate::corner::{Corner, WedgeTerm, corners};
 use crate::forces::on_side;
-use crate::problem::{Problem, Symmetry};
 use ppum::crack::TipId;
 use ppum::dataset::{Equation, Step, monomials};
 use ppum::function::{Declared, Frame, Function, FunctionKind, GROUP, Role, WESTERGAARD};
 use ppum::library::WEDGE;
 use ppum::vec2::Vec2;
+use ppum_problem::{Problem, Symmetry};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 

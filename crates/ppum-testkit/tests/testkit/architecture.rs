@@ -28,14 +28,15 @@ const DOORS: [(&str, &str); 22] = [
     ("spade", "ppum-solve"),
     ("strsim", "ppum-formula"),
     ("sysinfo", "ppum-cli"),
-    ("toml", "ppum-solve"),
+    ("toml", "ppum-problem"),
     ("wgpu", "ppum-gpu"),
     ("zlib-rs", "ppum-format"),
 ];
 
 /// Foreign crates that one more of ours knows: it derives their traits, behind a feature, or
 /// exchanges their matrices with the first.
-const SHARED: [(&str, &str); 2] = [("clap", "ppum-scene"), ("faer", "ppum-solve")];
+const SHARED: [(&str, &str); 3] =
+    [("clap", "ppum-scene"), ("faer", "ppum-solve"), ("faer", "ppum-fracture")];
 
 /// Things that formulas and the field do without: threads, files of any kind, messages, graphics.
 const NOT_IN_PPUM: [&str; 4] = ["rayon", "serde", "anyhow", "wgpu"];

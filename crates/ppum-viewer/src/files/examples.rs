@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use ppum_solve::problem::Problem;
+use ppum_problem::Problem;
 
 use crate::job::Job;
 use crate::solving::preview::Preview;

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use ppum::dataset::Dataset;
-use ppum_solve::problem::MAX_LENGTH as MAX_PROBLEM;
+use ppum_problem::MAX_LENGTH as MAX_PROBLEM;
 
 use super::session_file;
 use super::watch::{Stamp, stamp};

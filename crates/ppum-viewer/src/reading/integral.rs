@@ -6,11 +6,11 @@ use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::Watcher;
 use ppum::vec2::Vec2;
+use ppum_fracture::diagnostics::effort::check_effort;
+use ppum_fracture::intensity::{CircleError, clearance, on_circle};
+use ppum_problem::Problem;
 use ppum_scene::facts::{HEADS, Tip};
 use ppum_scene::profile::Along;
-use ppum_solve::diagnostics::effort::check_effort;
-use ppum_solve::intensity::{CircleError, clearance, on_circle};
-use ppum_solve::problem::Problem;
 
 use super::question::Question;
 

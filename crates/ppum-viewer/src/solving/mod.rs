@@ -9,9 +9,9 @@ use std::time::Instant;
 
 use ppum::dataset::Dataset;
 use ppum::progress::{Phase, Progress, Verdict, Watcher};
-use ppum_solve::growth::{GrowthError, grow};
-use ppum_solve::problem::{Location, Problem, ProblemError};
-use ppum_solve::solve::{Plan, SolveError};
+use ppum_fracture::growth::{GrowthError, grow};
+use ppum_fracture::solve::{Plan, SolveError};
+use ppum_problem::{Location, Problem, ProblemError};
 
 use self::preview::Preview;
 use crate::job::{CancelToken, Job};
@@ -469,7 +469,7 @@ fn summary(error: &ProblemError) -> String {
 
 /// The mistakes with their places in the text.
 fn marks(error: &ProblemError) -> Vec<Mark> {
-    let mark = |mistake: &ppum_solve::problem::Mistake| match &mistake.location {
+    let mark = |mistake: &ppum_problem::Mistake| match &mistake.location {
         Location::Text { file, line, column } if file == "problem" => {
             Mark { at: Some([*line, *column]), message: mistake.message.clone() }
         }

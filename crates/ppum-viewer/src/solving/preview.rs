@@ -5,9 +5,9 @@ use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Vec2, vec2};
 use ppum_figure::canvas::{Item, Path, Pen};
 use ppum_figure::overlay::{self, Load, Support};
+use ppum_problem::{Problem, Station};
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
-use ppum_solve::problem::{Problem, Station};
 
 /// The plate with its holes and cracks, and what holds and loads it.
 #[derive(Clone, Debug, PartialEq)]

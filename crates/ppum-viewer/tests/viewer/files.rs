@@ -245,9 +245,9 @@ fn other() -> ppum::dataset::Dataset {
     let text = include_str!("../../../../examples/poisson-slit.toml");
     let text =
         text.replace("level = 4", "level = 2").replace("max = [1.0, 1.0]", "max = [1.0, 2.0]");
-    let problem = ppum_solve::problem::Problem::parse(&text, "slit", Path::new("."));
+    let problem = ppum_problem::Problem::parse(&text, "slit", Path::new("."));
     let problem = problem.expect("it is a problem");
-    let solved = ppum_solve::solve::solve(&problem, ppum::progress::unwatched());
+    let solved = ppum_fracture::solve::solve(&problem, ppum::progress::unwatched());
     solved.expect("it can be solved")
 }
 

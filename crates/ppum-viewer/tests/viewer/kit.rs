@@ -9,8 +9,8 @@ use egui_kittest::kittest::Queryable as _;
 use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
 use ppum::vec2::Vec2;
-use ppum_solve::problem::Problem;
-use ppum_solve::solve::solve;
+use ppum_fracture::solve::solve;
+use ppum_problem::Problem;
 use ppum_viewer::Viewer;
 use ppum_viewer::session::Session;
 

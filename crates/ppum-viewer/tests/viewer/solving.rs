@@ -10,8 +10,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use ppum::crack::End;
 use ppum::progress::unwatched;
-use ppum_solve::problem::Problem;
-use ppum_solve::solve::solve;
+use ppum_fracture::solve::solve;
+use ppum_problem::Problem;
 use ppum_viewer::Viewer;
 use ppum_viewer::actions::{ALL, Action};
 use ppum_viewer::session::VisibleRegion;
@@ -129,7 +129,7 @@ fn a_solution_is_stopped_and_what_was_there_stays() {
     lab.window.get_by_label("Cancel").click();
     lab.window.step();
     lab.settle();
-    // tests of ppum-solve count how little of the work is still done
+    // tests of ppum-fracture count how little of the work is still done
     assert_eq!(lab.state().solving.outcome, Some(SolutionOutcome::Cancelled(0)));
     lab.window.get_by_label("Cancelled. What was there before is still shown.");
     assert!(Arc::ptr_eq(&before, &lab.dataset(0).expect("it stays")));

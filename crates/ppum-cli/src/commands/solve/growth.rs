@@ -11,9 +11,9 @@ use anyhow::{Context as _, bail, ensure};
 use ppum::dataset::{Advance, Dataset, Growth, Step, TipIntensity};
 use ppum::text::short;
 use ppum_format::SeriesWriter;
+use ppum_fracture::growth::{GrowthError, Last, grow, is_same_series};
+use ppum_problem::{GrowthRule, Problem};
 use ppum_scene::facts::{self, increment};
-use ppum_solve::growth::{GrowthError, Last, grow, is_same_series};
-use ppum_solve::problem::{GrowthRule, Problem};
 use serde::Serialize;
 
 use super::{Args, Report};

@@ -9,12 +9,12 @@
 //! crack belongs to the triangle on that side of the edge that it lies on.
 
 use super::rigid::RigidModes;
-use crate::geometry::is_on_rim;
 use crate::quadrature::{EdgeRule, Face};
 use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side};
 use ppum::domain::{Domain, Hole};
 use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::geometry::is_on_rim;
 use spade::handles::{FaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, InsertionError, Point2, PositionInTriangulation};
 use spade::{Triangulation as _, mitigate_underflow};
@@ -31,7 +31,7 @@ type Triangle<'m> = FaceHandle<'m, InnerTag, Point2<f64>, (), spade::CdtEdge<()>
 
 /// The connected components of the domain without its cracks.
 #[derive(Debug)]
-pub(crate) struct BodyPieces {
+pub struct BodyPieces {
     bounds: Rect,
     /// Of each piece, what is known of it.
     all: Vec<BodyPiece>,
@@ -54,7 +54,7 @@ type Along = Vec<Vec<Vec<[FixedVertexHandle; 2]>>>;
 
 /// One connected component.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct BodyPiece {
+pub struct BodyPiece {
     /// Area, rims of round holes replaced by polygons.
     pub(crate) area: f64,
     /// Centroid; it need not lie in the piece.
@@ -67,7 +67,7 @@ impl BodyPieces {
     /// The pieces of a domain without cracks.
     ///
     /// In a box one crack with a tip does not cut anything.
-    pub(crate) fn new(domain: &Domain, cracks: &[Crack]) -> Self {
+    pub fn new(domain: &Domain, cracks: &[Crack]) -> Self {
         let bounds = domain.bounds;
         let all_of_it = || Self { bounds, all: vec![BodyPiece::of_box(&bounds)], map: None };
         let has_tip = cracks.iter().all(|crack| crack.ends.contains(&CrackEnd::Tip));
@@ -120,7 +120,7 @@ impl BodyPieces {
     }
 
     /// The pieces; at least one if anything is left of the box.
-    pub(crate) fn all(&self) -> &[BodyPiece] {
+    pub fn all(&self) -> &[BodyPiece] {
         &self.all
     }
 

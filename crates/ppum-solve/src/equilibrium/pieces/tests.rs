@@ -1,6 +1,6 @@
 use super::*;
-use crate::problem::crack;
 use ppum::domain::Hole;
+use ppum_problem::crack;
 
 fn bounds() -> Rect {
     Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0))
@@ -168,7 +168,7 @@ fn cracks_that_meet() {
                 ]
             }
         };
-        let cracks = crate::problem::cracks(
+        let cracks = ppum_problem::cracks(
             lines.into_iter().map(|line| line.into_iter().map(Vec2::from).collect()),
             &bounds().into(),
         );
@@ -195,9 +195,9 @@ fn pieces_of_a_box_are_its_components() {
         let lines: Vec<Vec<Vec2>> =
             (0..2 + round % 5).map(|k| (0..2 + k % 3).map(|_| point()).collect()).collect();
         let around = Rect::around(Vec2::ZERO, vec2(9.0, 9.0)).into();
-        let whole = crate::problem::cracks(lines.iter().cloned(), &around);
+        let whole = ppum_problem::cracks(lines.iter().cloned(), &around);
         let pieces = BodyPieces::new(&domain(&[]), &whole);
-        let kinds = crate::geometry::Jumps::new(&whole, &bounds.into(), 1e-9).of(&bounds);
+        let kinds = ppum_problem::geometry::Jumps::new(&whole, &bounds.into(), 1e-9).of(&bounds);
         let functions: Vec<_> =
             kinds.into_iter().map(|kind| Function { name: "any".into(), kind }).collect();
         let table = FunctionTable::new(&functions, whole.len(), &[]).expect("jumps");

@@ -12,15 +12,15 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use std::sync::Arc;
 
 /// Points in each direction at which two level functions are compared.
-pub(crate) const COMPARED: usize = 24;
+pub const COMPARED: usize = 24;
 
 /// Part of a level function's size that is rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// The sets on which constants of an equation may jump in a cracked body.
-pub(crate) struct Interfaces<'e> {
+pub struct Interfaces<'e> {
     /// No two have proportional level functions.
-    pub(crate) all: Vec<Interface>,
+    pub all: Vec<Interface>,
     pub(super) domain: &'e Domain,
     pub(super) cracks: &'e [Crack],
     pub(super) law: Law<'e>,
@@ -31,7 +31,7 @@ pub(crate) struct Interfaces<'e> {
 }
 
 /// A set on which a constant may jump: the zeros of a level function ψ.
-pub(crate) struct Interface {
+pub struct Interface {
     pub(super) level: Arc<LevelFunction>,
     /// The derivatives of ψ.
     slopes: [Formula; 2],
@@ -44,7 +44,7 @@ pub(crate) struct Interface {
 
 impl<'e> Interfaces<'e> {
     /// Those of an equation, and of a coefficient of expansion by a temperature that is solved for.
-    pub(crate) fn new(
+    pub fn new(
         (equation, expansion): (&'e Equation, Option<&'e Expression>),
         domain: &'e Domain,
         cracks: &'e [Crack],

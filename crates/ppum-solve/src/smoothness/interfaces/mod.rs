@@ -15,9 +15,10 @@ mod interface;
 mod place;
 mod trouble;
 
-pub(crate) use interface::{COMPARED, Interface, Interfaces, proportional};
+pub use interface::{COMPARED, Interfaces};
+pub(crate) use interface::{Interface, proportional};
 pub(crate) use place::{BESIDE, InterfacePoint};
-pub(crate) use trouble::{Cause, Trouble};
+pub use trouble::{Cause, Trouble};
 
 #[cfg(test)]
 mod tests;

@@ -1,10 +1,10 @@
 //! The course of an interface through a box.
 
 use super::interface::{Interface, Interfaces};
-use crate::geometry::inside;
 use crate::quadrature::may_meet;
 use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::geometry::inside;
 
 /// Steps of the grid on which an interface is looked for. What is missed between them is a corner
 /// of a patch in which its weight vanishes.

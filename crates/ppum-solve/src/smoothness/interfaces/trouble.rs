@@ -2,10 +2,10 @@
 
 use super::interface::Interfaces;
 use super::place::InterfacePoint;
-use crate::geometry::inside;
 use ppum::crack::{Crack, End};
 use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::geometry::inside;
 
 /// Most interfaces that a patch resolves.
 const MOST: usize = 4;
@@ -24,7 +24,7 @@ const LEAST_CONTRAST: f64 = 0.2;
 
 /// The reason why a kink does not resolve an interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Cause {
+pub enum Cause {
     /// More interfaces than a patch takes.
     Many,
     /// A corner of an interface, or a curve that is too round.
@@ -39,16 +39,18 @@ pub(crate) enum Cause {
 
 /// A place that a kink does not resolve.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Trouble {
-    pub(crate) cause: Cause,
-    pub(crate) at: Vec2,
+pub struct Trouble {
+    /// The reason.
+    pub cause: Cause,
+    /// The place.
+    pub at: Vec2,
     /// The largest contrast nearby.
-    pub(crate) contrast: f64,
+    pub contrast: f64,
 }
 
 impl Cause {
     /// In words.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Many => "too many interfaces lie in one cell",
             Self::Turn => {
@@ -67,7 +69,7 @@ type InterfaceRun = (usize, Vec<InterfacePoint>);
 impl Interfaces<'_> {
     /// The trouble with the interfaces in an open box inside the domain, if kinks do not
     /// resolve them.
-    pub(crate) fn trouble(&self, rect: &Rect) -> Option<Trouble> {
+    pub fn trouble(&self, rect: &Rect) -> Option<Trouble> {
         let runs: Vec<InterfaceRun> = (0..self.all.len())
             .map(|index| (index, self.places(&self.all[index], rect)))
             .filter(|(_, places)| !places.is_empty())

@@ -1,7 +1,6 @@
 //! Kinks at the interfaces of materials: what no function of the problem's own has is added.
 
 use super::{Degree, Enrichments, Instance, Patch, Patches};
-use crate::problem::{Enrichment, Problem};
 use crate::smoothness::{BESIDE, Interface, InterfacePoint, Interfaces, Probe};
 use crate::space::SpaceError;
 use crate::space::inspect::InspectError;
@@ -11,6 +10,7 @@ use ppum::dataset::BoxPartition;
 use ppum::function::{Declared, Frame, Function, FunctionError, FunctionKind, Role};
 use ppum::progress::Cancelled;
 use ppum::vec2::Vec2;
+use ppum_problem::{Enrichment, Problem};
 use rayon::prelude::*;
 use std::sync::Arc;
 

@@ -17,16 +17,17 @@ use std::sync::OnceLock;
 use super::williams::of_corner;
 use crate::corner::corners;
 use crate::forces::force_fields;
-use crate::geometry::{
-    Jumps, Placed, around, distance, exceeds, inside, length_inside, segment_inside, wider,
-};
-use crate::problem::{Enrichment, LocalEnrichment, Problem, Region, Site, touch};
+use ppum::border::touch;
 use ppum::crack::{Crack, End, SegmentId, TipId, tips};
 use ppum::dataset::BoxPartition;
 use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::function::{Cut, Frame, Function, FunctionKind, Role, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::geometry::{
+    Jumps, Placed, around, distance, exceeds, inside, length_inside, segment_inside, wider,
+};
+use ppum_problem::{Enrichment, LocalEnrichment, Problem, Region, Site};
 
 /// Shortest part of a crack or segment inside a patch, in half-sizes of the patch, that counts as a
 /// cut.

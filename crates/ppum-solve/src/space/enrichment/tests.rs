@@ -2,7 +2,7 @@ use super::*;
 use ppum::cover::Cover;
 use ppum::weight::WeightFunction;
 
-use crate::problem::{Cells, Discretization};
+use ppum_problem::{Cells, Discretization};
 
 #[test]
 fn clipped_lengths_and_distances() {

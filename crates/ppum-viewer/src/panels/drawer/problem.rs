@@ -9,7 +9,7 @@ use egui::{
     TextEdit, TextStyle, Ui, vec2,
 };
 use ppum::text::trimmed;
-use ppum_solve::problem::keys::completions;
+use ppum_problem::keys::completions;
 
 use crate::actions::Action;
 use crate::desk::Desk;

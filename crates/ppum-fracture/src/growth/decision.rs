@@ -1,0 +1,426 @@
+//! What the tips of a solved step do next: who grows, how far, and where to.
+
+use super::criterion::Drive;
+use super::path::{Arc, way};
+use ppum::crack::{Crack, End, TipId, tips};
+use ppum::dataset::{Advance, Fate, Growth, GrowthStop, TipIntensity};
+use ppum::text::{short, trimmed};
+use ppum::vec2::Vec2;
+use ppum_problem::{GrowthRule, LoadControl, Problem, cracks};
+
+/// Loads at which tips reach their toughness that count as one, relative: those of a symmetric
+/// plate differ by the errors of their factors.
+const TOGETHER: f64 = 1e-2;
+
+/// Turn in radians from which on a change of direction is a kink, and not a part of a smooth path.
+pub(super) const SHARP: f64 = 0.1;
+
+/// Largest turn of an arc: paths that turn faster are not resolved by their increments.
+const LARGEST_TURN: f64 = 0.35;
+
+/// Turn of a chosen increment.
+const CHOSEN_TURN: f64 = 0.1;
+
+/// A chosen increment in parts of the length of the shortest crack with a tip, and of the plate's
+/// shorter side; and how much less it is where a path turns.
+const CHOSEN: f64 = 0.25;
+const OF_PLATE: f64 = 0.02;
+const LEAST_CHOSEN: f64 = 0.125;
+
+/// Halvings of a chosen first increment, down to the least.
+const HALVINGS: usize = 3;
+
+/// Part of a length that is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Part of an increment from which on growth that is due is made.
+const DUE: f64 = 0.5;
+
+/// The decisions of a step.
+pub(super) struct Decision {
+    pub(super) growth: Growth,
+    /// The factor of the load.
+    pub(super) load: f64,
+}
+
+/// A tip with what drives it.
+struct Driven<'a> {
+    tip: TipId,
+    at: Vec2,
+    /// The angle of the crack's direction to the x axis.
+    axis: f64,
+    /// The crack from its tip on, as far as T is known to act on its faces.
+    path: Vec<Vec2>,
+    drive: Option<Drive>,
+    fate: Fate,
+    /// None if none is given: it grows however small K is.
+    toughness: Option<f64>,
+    /// What it did after the step before.
+    before: Option<&'a Advance>,
+    /// Growth in parts of that of the tip that grows most.
+    share: f64,
+}
+
+/// Numbers of a rule that nothing can be decided with.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Undecided {
+    /// A toughness that is none.
+    #[error(
+        "`toughness` is {toughness} at the tip ({x}, {y}), but must be positive and finite there: mend its formula",
+        toughness = short(*toughness), x = trimmed(at.x), y = trimmed(at.y)
+    )]
+    Toughness {
+        /// The tip.
+        at: Vec2,
+        /// Its value.
+        toughness: f64,
+    },
+    /// A load that is too far from the one that was given.
+    #[error(
+        "K reaches the toughness at {} times the loads, which is too far away to compute with: look at their \
+         units, and at that of `toughness`",
+        short(*.0)
+    )]
+    Load(f64),
+    /// Cycles without number.
+    #[error(
+        "the last increment took {} cycles: look at the units of `c` in `paris`, with which c ΔK^m is the length a \
+         cycle",
+        short(*.0)
+    )]
+    Cycles(f64),
+}
+
+/// Largest factor of a load, and one over the smallest: squares of it are far from the ends of f64.
+const FARTHEST: f64 = 1e60;
+
+/// Decides what the tips do, from their factors under the loads of the problem and from what was
+/// decided in the step before.
+///
+/// # Errors
+/// A toughness, a load or a number of cycles that is none.
+pub(super) fn decide(
+    problem: &Problem,
+    rule: &GrowthRule,
+    factors: &[TipIntensity],
+    before: Option<&Growth>,
+) -> Result<Decision, Undecided> {
+    let mut driven: Vec<_> =
+        tips(&problem.cracks).map(|tip| Driven::new(problem, rule, tip, factors, before)).collect();
+    driven.iter().filter(|tip| tip.fate == Fate::Grows).try_for_each(Driven::check)?;
+    let load = load(rule, &driven)?;
+    share(rule, &mut driven, load);
+    let increment = increment(problem, rule, &driven);
+    let mut growth = Growth::default();
+    growth.cycles = cycles(rule, before, &driven)?;
+    let mut so_far = problem.cracks.clone();
+    for tip in &driven {
+        let row = tip.advance(problem, &so_far, increment);
+        extend(&mut so_far[tip.tip.crack as usize], &row);
+        growth.tips.push(row);
+    }
+    growth.stop = stop(rule, &driven, &growth);
+    Ok(Decision { growth, load })
+}
+
+/// The problem with the cracks that follow from what was decided.
+pub(super) fn grown(problem: &Problem, growth: &Growth) -> Problem {
+    let mut next = problem.clone();
+    growth.tips.iter().for_each(|row| extend(&mut next.cracks[row.tip.crack as usize], row));
+    let lines = next.cracks.iter().map(|crack| crack.points.clone());
+    next.cracks = cracks(lines, &next.domain);
+    next.with_free_faces()
+}
+
+/// Adds the way of a tip to its crack.
+fn extend(crack: &mut Crack, row: &Advance) {
+    match row.tip.end {
+        End::Last => crack.points.extend(&row.path),
+        End::Start => {
+            crack.points.splice(0..0, row.path.iter().rev().copied());
+        }
+    }
+}
+
+/// The factors of a crack whose faces may touch, which has no negative K_I; none if nothing but
+/// their error is left, as where the faces stick. Where they are closed T does not act on free
+/// faces: under pressure from all sides it turns nothing.
+fn pressed(factors: &TipIntensity) -> Option<TipIntensity> {
+    let error = factors.error.unwrap_or(0.0);
+    let t_stress = factors.t_stress.filter(|_| factors.k1 > error);
+    let open = TipIntensity { k1: factors.k1.max(0.0), t_stress, ..factors.clone() };
+    (open.k1.hypot(open.k2) > error).then_some(open)
+}
+
+impl<'a> Driven<'a> {
+    fn new(
+        problem: &Problem,
+        rule: &GrowthRule,
+        tip: TipId,
+        factors: &[TipIntensity],
+        before: Option<&'a Growth>,
+    ) -> Self {
+        let crack = &problem.cracks[tip.crack as usize];
+        let (at, along) = (crack.end_point(tip.end), crack.growth_direction(tip.end));
+        let factors = factors.iter().find(|found| found.tip == tip);
+        let drive = factors.and_then(|factors| match problem.contacts.get(&tip.crack) {
+            Some(_) => Drive::new(rule.criterion, &pressed(factors)?),
+            None => Drive::new(rule.criterion, factors),
+        });
+        let fate = match (factors, drive) {
+            (None, _) => Fate::Unknown,
+            (_, None) => Fate::Closed,
+            _ => Fate::Grows,
+        };
+        let toughness = rule.toughness.as_ref().map(|toughness| toughness.value(at));
+        let before = before.and_then(|growth| growth.tips.iter().find(|row| row.tip == tip));
+        let axis = along.y.atan2(along.x);
+        let path = match tip.end {
+            // what is closed has no free faces, which T would act on
+            _ if problem.contacts.contains_key(&tip.crack) => Vec::new(),
+            End::Start => crack.points.clone(),
+            End::Last => crack.points.iter().rev().copied().collect(),
+        };
+        Self { tip, at, axis, path, drive, fate, toughness, before, share: 0.0 }
+    }
+
+    /// Asks whether the toughness at the tip is one, if there is any.
+    fn check(&self) -> Result<(), Undecided> {
+        let is_one = self.toughness.is_none_or(|k| k > 0.0 && k.is_finite());
+        let refused = |toughness| Undecided::Toughness { at: self.at, toughness };
+        if is_one { Ok(()) } else { Err(refused(self.toughness.unwrap_or(0.0))) }
+    }
+
+    fn strength(&self) -> f64 {
+        self.drive.map_or(f64::NAN, |drive| drive.kink.strength)
+    }
+
+    /// The turn that the criterion asks for without looking ahead.
+    fn angle(&self) -> f64 {
+        self.drive.map_or(0.0, |drive| drive.kink.angle)
+    }
+
+    /// What the tip did after the step before, if it has grown before.
+    fn last(&self) -> Option<&'a Advance> {
+        self.before.filter(|row| row.length > 0.0)
+    }
+
+    /// Direction and curvature of the next increment.
+    fn heading(&self, length: f64) -> (f64, f64) {
+        let Some(drive) = &self.drive else { return (self.axis, 0.0) };
+        let is_first = self.before.is_none_or(|row| row.extension + row.length == 0.0);
+        let turn = if is_first {
+            drive.first_turn(&self.path, length, LARGEST_TURN)
+        } else {
+            drive.next_turn(&self.path, length)
+        };
+        let direction = turned(0.0, self.axis + turn.at_start);
+        let curvature = turn.along / length + self.drift(drive, direction);
+        let bound = LARGEST_TURN / length;
+        (direction, curvature.clamp(-bound, bound))
+    }
+
+    /// The curvature of the path beside what T explains: half of it how the direction has changed
+    /// along the last increment, half what it was taken for there. The change alone would answer
+    /// errors of the last direction with larger ones of the next, and paths would swing. Behind a
+    /// kink nothing is known of it yet.
+    fn drift(&self, drive: &Drive, direction: f64) -> f64 {
+        let is_smooth = self.angle().abs() < SHARP;
+        self.last().filter(|_| is_smooth).map_or(0.0, |row| {
+            let found = turned(row.direction, direction) / row.length;
+            let explained = if row.extension == 0.0 && drive.turns_back() {
+                row.curvature
+            } else {
+                drive.bend(&behind(&self.path, row.length), row.length, 0.0) / row.length
+            };
+            0.5 * (found + row.curvature) - explained
+        })
+    }
+
+    /// How much the path turns in an increment beyond its first kink.
+    fn turn(&self, length: f64) -> f64 {
+        let at_start = self.last().map_or(0.0, |_| self.angle().abs());
+        at_start + length * self.heading(length).1.abs()
+    }
+
+    /// What the tip does, if the tip that grows most does so by `increment`.
+    fn advance(&self, problem: &Problem, cracks: &[Crack], increment: f64) -> Advance {
+        let so_far = self.before.map_or([0.0; 2], |row| [row.due, row.extension + row.length]);
+        let mut row = Advance {
+            strength: self.strength(),
+            direction: self.axis,
+            due: so_far[0],
+            extension: so_far[1],
+            ..Advance::staying(self.tip, self.fate)
+        };
+        if self.fate != Fate::Grows {
+            return row;
+        }
+        if is_joined(problem, cracks, self.tip) {
+            row.fate = Fate::Joined;
+            return row;
+        }
+        row.due += self.share * increment;
+        if row.due < DUE * increment {
+            row.fate = Fate::Waits;
+            return row;
+        }
+        (row.direction, row.curvature) = self.heading(row.due);
+        let length = std::mem::replace(&mut row.due, 0.0);
+        go(problem, cracks, length, &mut row);
+        row
+    }
+}
+
+/// A path without its first piece of a given length.
+fn behind(path: &[Vec2], length: f64) -> Vec<Vec2> {
+    let mut left = length;
+    for (k, ends) in path.windows(2).enumerate() {
+        let piece = ends[1] - ends[0];
+        // vertices on straight pieces of a crack are removed
+        if left < (1.0 - ROUNDING) * piece.length() {
+            let at = ends[0] + piece * (left / piece.length()).max(0.0);
+            return std::iter::once(at).chain(path[k + 1..].iter().copied()).collect();
+        }
+        left -= piece.length();
+    }
+    Vec::new()
+}
+
+/// What was decided in a step with other curvatures of some arcs, given with their tips.
+pub(super) fn bent(problem: &Problem, growth: &Growth, curvatures: &[(TipId, f64)]) -> Growth {
+    let mut so_far = problem.cracks.clone();
+    let mut bent = growth.clone();
+    for row in &mut bent.tips {
+        if let Some((_, curvature)) = curvatures.iter().find(|(tip, _)| *tip == row.tip) {
+            let bound = LARGEST_TURN / row.length;
+            row.curvature = curvature.clamp(-bound, bound);
+            go(problem, &so_far, row.length, row);
+        }
+        extend(&mut so_far[row.tip.crack as usize], row);
+    }
+    bent
+}
+
+/// True if another crack has come to a tip in this step: both end there then, whichever of them
+/// would have gone on.
+fn is_joined(problem: &Problem, cracks: &[Crack], tip: TipId) -> bool {
+    let at = problem.cracks[tip.crack as usize].end_point(tip.end);
+    let others = (0u32..).zip(cracks).filter(|(k, _)| *k != tip.crack);
+    others
+        .flat_map(|(_, crack)| [End::Start, End::Last].map(|end| crack.end_point(end)))
+        .any(|end| end == at)
+}
+
+/// Sends a tip along its arc, among the cracks as they are.
+fn go(problem: &Problem, cracks: &[Crack], length: f64, row: &mut Advance) {
+    let from = problem.cracks[row.tip.crack as usize].end_point(row.tip.end);
+    let arc = Arc { from, direction: row.direction, curvature: row.curvature, length };
+    let way = way(problem, cracks, row.tip, arc);
+    (row.length, row.fate, row.path) = (way.length, way.fate, way.path);
+}
+
+/// The turn from one direction to another, between −π and π.
+fn turned(from: f64, to: f64) -> f64 {
+    let turn = to - from;
+    turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round()
+}
+
+/// The factor of the load: the least at which a tip reaches its toughness, if that is asked for.
+fn load(rule: &GrowthRule, driven: &[Driven<'_>]) -> Result<f64, Undecided> {
+    if rule.load == LoadControl::Constant {
+        return Ok(1.0);
+    }
+    let growing = driven.iter().filter(|tip| tip.fate == Fate::Grows && tip.strength() > 0.0);
+    let factors = growing.filter_map(|tip| Some(tip.toughness? / tip.strength()));
+    match factors.reduce(f64::min) {
+        None => Ok(1.0),
+        Some(least) if (1.0 / FARTHEST..=FARTHEST).contains(&least) => Ok(least),
+        Some(least) => Err(Undecided::Load(least)),
+    }
+}
+
+/// Finds which tips grow, and how much in parts of what the fastest grows.
+fn share(rule: &GrowthRule, driven: &mut [Driven<'_>], load: f64) {
+    let enough = if rule.load == LoadControl::Critical { 1.0 - TOGETHER } else { 1.0 };
+    let most = driven.iter().map(|tip| load * tip.strength()).fold(0.0, f64::max);
+    for tip in driven.iter_mut().filter(|tip| tip.fate == Fate::Grows) {
+        let strength = load * tip.strength();
+        let grows = match &rule.paris {
+            Some(paris) => paris.grows(strength),
+            None => tip.toughness.is_none_or(|toughness| strength >= enough * toughness),
+        };
+        // the parts of rates alone, which may be out of all range
+        let power = rule.paris.as_ref().map_or(0.0, |paris| paris.m);
+        tip.share = if grows { (strength / most).powf(power) } else { 0.0 };
+        if !grows {
+            tip.fate = Fate::Held;
+        }
+    }
+}
+
+/// The length of the largest increment: the one given, or one that the cracks and the plate allow
+/// and the paths do not turn much on. It follows the turns of the last one by a factor of at most
+/// two, since what a path has turned before acts on it as far as it was long.
+fn increment(problem: &Problem, rule: &GrowthRule, driven: &[Driven<'_>]) -> f64 {
+    if let Some(increment) = rule.increment {
+        return increment;
+    }
+    let size = problem.domain.bounds.size();
+    let with_tips = problem.cracks.iter().filter(|crack| crack.tips().next().is_some());
+    let shortest = with_tips.map(Crack::length).fold(f64::INFINITY, f64::min);
+    let largest = (CHOSEN * shortest).min(OF_PLATE * size.x.min(size.y));
+    let growing = || driven.iter().filter(|tip| tip.share > 0.0);
+    let turn = |length: f64| growing().map(|tip| tip.turn(length)).fold(0.0, f64::max);
+    let halve = |length, _| if turn(length) > CHOSEN_TURN { 0.5 * length } else { length };
+    let last = growing().filter_map(Driven::last).map(|row| row.length).reduce(f64::max);
+    let chosen = match last {
+        Some(last) => last * (CHOSEN_TURN / turn(last)).clamp(0.5, 2.0),
+        None => (0..HALVINGS).fold(largest, halve),
+    };
+    chosen.max(LEAST_CHOSEN * largest).min(largest)
+}
+
+/// Load cycles up to this step: those of the steps before, and those of the last increment of the
+/// tip that was driven most.
+fn cycles(
+    rule: &GrowthRule,
+    before: Option<&Growth>,
+    driven: &[Driven<'_>],
+) -> Result<Option<f64>, Undecided> {
+    let Some(paris) = &rule.paris else { return Ok(None) };
+    let Some(before) = before else { return Ok(Some(0.0)) };
+    let rows = before.tips.iter().filter(|row| row.length > 0.0);
+    let so_far = before.cycles.unwrap_or(0.0);
+    let fastest = rows.max_by(|a, b| a.strength.total_cmp(&b.strength));
+    let Some(row) = fastest else { return Ok(Some(so_far)) };
+    let then = paris.ln_rate(row.strength);
+    let now = driven.iter().find(|tip| tip.tip == row.tip && paris.grows(tip.strength()));
+    let now = now.map_or(then, |tip| paris.ln_rate(tip.strength()));
+    let last = cycles_along(row.length, then, now);
+    if last.is_normal() { Ok(Some(so_far + last)) } else { Err(Undecided::Cycles(last)) }
+}
+
+/// ∫ da / rate along a length on which the rate grows or falls like an exponential from one value
+/// to another, given by their logarithms.
+fn cycles_along(length: f64, from: f64, to: f64) -> f64 {
+    let growth = to - from;
+    // (1 − e^−x) / x
+    let mean = if growth == 0.0 { 1.0 } else { -(-growth).exp_m1() / growth };
+    length * (-from).exp() * mean
+}
+
+/// What ends the series here.
+fn stop(rule: &GrowthRule, driven: &[Driven<'_>], growth: &Growth) -> Option<GrowthStop> {
+    let breaks = |tip: &Driven<'_>| {
+        rule.paris.is_some() && tip.toughness.is_some_and(|toughness| tip.strength() >= toughness)
+    };
+    if driven.is_empty() {
+        return Some(GrowthStop::NoTips);
+    }
+    if driven.iter().any(breaks) {
+        return Some(GrowthStop::Fracture);
+    }
+    let moves = |row: &Advance| row.fate.goes_on() || row.fate == Fate::Waits;
+    (!growth.tips.iter().any(moves)).then_some(GrowthStop::AllHeld)
+}

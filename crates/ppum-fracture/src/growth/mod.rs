@@ -1,0 +1,158 @@
+//! Cracks that grow, step by step: solve, let the tips go on, solve again.
+//!
+//! ```text
+//! cracks ─▶ solution ─▶ factors of the tips ─▶ decision: who grows, how far, where to ─▶ cracks of the next step
+//! ```
+//!
+//! A tip goes on along an arc. Its direction is that of the criterion, its curvature that with
+//! which the path has turned so far: tips then lie on the path up to the second power of the
+//! increments. By the criterion of local symmetry the arc is bent until K_II = 0 at its end.
+//!
+//! Each step is solved for itself, from its cracks alone, and given away when it is complete. What
+//! follows it is decided with it and stored in its [`Growth`](ppum::dataset::Growth), so that a
+//! series goes on from any of its steps with the same bits.
+
+mod criterion;
+mod decision;
+mod path;
+mod settle;
+mod step;
+
+pub use criterion::{Kink, kink};
+pub use decision::Undecided;
+
+use crate::solve::SolveError;
+use decision::grown;
+use ppum::dataset::{Dataset, Step};
+use ppum::progress::{Progress, Verdict, Watcher};
+use ppum_problem::{GrowthRule, Problem};
+use settle::settled;
+use std::convert::Infallible;
+use step::{Before, GrowthSeries, Obstacle, closed};
+
+/// A series that has ended before its end.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum GrowthError<E> {
+    /// A step that cannot be solved.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// Nothing can be decided in the first step.
+    #[error("growth: {0}")]
+    Undecided(#[from] Undecided),
+    /// What a step was given to wants no more.
+    #[error(transparent)]
+    Kept(E),
+}
+
+/// A watcher of one step, which it tells the number of.
+struct InStep<'w> {
+    watcher: &'w dyn Watcher,
+    step: usize,
+}
+
+impl Watcher for InStep<'_> {
+    fn hear(&self, progress: Progress) -> Verdict {
+        self.watcher.hear(progress.in_step(self.step))
+    }
+}
+
+/// The last step of a series that is to go on, and its number.
+#[derive(Clone, Copy, Debug)]
+pub struct Last<'s> {
+    /// Its number, from 0.
+    pub number: usize,
+    /// The step, with its [`Growth`](ppum::dataset::Growth).
+    pub step: &'s Step,
+}
+
+/// Solves a problem whose cracks grow, and gives each step to `keep` as a dataset of its own when
+/// it is complete: from the first, or from one after the last that there is.
+///
+/// A step is complete when it is known whether a next one can be solved. A call that is cancelled
+/// gives it away before.
+///
+/// # Errors
+/// A first step that cannot be solved; cancelled; those of `keep`.
+pub fn grow<E>(
+    problem: &Problem,
+    last: Option<Last<'_>>,
+    memory: Option<u64>,
+    watcher: &dyn Watcher,
+    mut keep: impl FnMut(Dataset) -> Result<(), E>,
+) -> Result<(), GrowthError<E>> {
+    let single = GrowthRule::new(0);
+    let rule = problem.growth.as_ref().unwrap_or(&single);
+    let series = GrowthSeries { rule, memory };
+    let (mut number, mut current, mut before) = match start(problem, last) {
+        Some(start) => start,
+        None => return Ok(()),
+    };
+    let mut done: Option<Dataset> = None;
+    while number <= rule.steps {
+        let here = InStep { watcher, step: number };
+        let plan = series.plan(&current, &here);
+        if let Some(dataset) = done.take() {
+            let (dataset, ends) = closed(dataset, plan.as_ref().err());
+            keep(dataset).map_err(GrowthError::Kept)?;
+            if ends {
+                return Ok(());
+            }
+        }
+        let plan = plan.map_err(Obstacle::into_error)?;
+        let (cracks, dataset) = settled(plan, before.as_ref(), &series, &here)?;
+        current.cracks = cracks;
+        let growth_before = before.as_ref().map(|before| &before.growth);
+        let (dataset, growth) = series.decided(&current, dataset, growth_before)?;
+        if growth.stop.is_some() || number == rule.steps {
+            return keep(dataset).map_err(GrowthError::Kept);
+        }
+        let next = grown(&current, &growth);
+        before = Some(Before { problem: std::mem::replace(&mut current, next), growth });
+        (done, number) = (Some(dataset), number + 1);
+    }
+    Ok(())
+}
+
+/// True if a series of one problem may go on as one of the other: they differ in nothing but names
+/// and the number of steps.
+#[must_use]
+pub fn is_same_series(one: &Problem, other: &Problem) -> bool {
+    let core = |problem: &Problem| {
+        let growth = problem.growth.clone().map(|rule| GrowthRule { steps: 0, ..rule });
+        let (title, text, files) = (String::new(), None, Vec::new());
+        Problem { title, text, files, growth, ..problem.clone() }
+    };
+    core(one) == core(other)
+}
+
+/// All steps of a series in one dataset.
+///
+/// # Errors
+/// See [`grow`].
+pub fn series(
+    problem: &Problem,
+    memory: Option<u64>,
+    watcher: &dyn Watcher,
+) -> Result<Dataset, GrowthError<Infallible>> {
+    let mut all: Option<Dataset> = None;
+    let keep = |step: Dataset| {
+        match &mut all {
+            Some(all) => all.steps.extend(step.steps),
+            None => all = Some(step),
+        }
+        Ok(())
+    };
+    grow(problem, None, memory, watcher, keep)?;
+    Ok(all.expect("a series has a first step"))
+}
+
+/// Number and problem of the next step, and what was decided in the one before; none if the series
+/// has ended.
+fn start(problem: &Problem, last: Option<Last<'_>>) -> Option<(usize, Problem, Option<Before>)> {
+    let Some(Last { number, step }) = last else { return Some((0, problem.clone(), None)) };
+    let growth = step.growth.as_ref().filter(|growth| growth.stop.is_none())?;
+    let at_last = Problem { cracks: step.cracks.clone(), ..problem.clone() }.with_free_faces();
+    let next = grown(&at_last, growth);
+    Some((number + 1, next, Some(Before { problem: at_last, growth: growth.clone() })))
+}

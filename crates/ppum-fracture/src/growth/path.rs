@@ -1,0 +1,316 @@
+//! The way of a tip through the plate: an arc, up to what it meets.
+
+use ppum::border::touch;
+use ppum::crack::{Crack, End, TipId, tips};
+use ppum::dataset::Fate;
+use ppum::domain::Hole;
+use ppum::line::Line;
+use ppum::segment::{Segment, distance};
+use ppum::vec2::{Rect, Vec2};
+use ppum_problem::{Problem, arc_from};
+
+/// The arc along which a tip would go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Arc {
+    /// The tip.
+    pub(super) from: Vec2,
+    /// Angle to the x axis at the tip.
+    pub(super) direction: f64,
+    /// Positive where it turns left.
+    pub(super) curvature: f64,
+    pub(super) length: f64,
+}
+
+/// The way that a tip goes: the vertices after the tip, and what it comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Way {
+    pub(super) path: Vec<Vec2>,
+    pub(super) length: f64,
+    pub(super) fate: Fate,
+}
+
+/// Part of an increment that may not be left between the new tip and what is ahead of it: the way
+/// there is divided in two equal ones instead, each more than half of what was asked for.
+const LEFT: f64 = 0.5;
+
+/// Distance at which a tip joins the tip of another crack that it would pass, in increments: nearer
+/// ones would leave a sliver between them that no cell resolves.
+const JOINS: f64 = 0.25;
+
+/// The way of a tip along an arc, among the cracks as they are.
+pub(super) fn way(problem: &Problem, cracks: &[Crack], tip: TipId, arc: Arc) -> Way {
+    let ahead = Ahead { problem, cracks, tip, reach: JOINS * arc.length };
+    // along an edge rounding must not lead out of the plate
+    let edge = problem.edge_of(tip.crack as usize);
+    let bounds = &problem.domain.bounds;
+    let on_edge = |points: Vec<Vec2>| match edge {
+        Some(edge) => points.iter().map(|p| edge.point(bounds, edge.coordinate(*p))).collect(),
+        None => points,
+    };
+    let path = on_edge(arc.points());
+    if let Some(hit) = ahead.first(arc.from, &path) {
+        return hit.way(path);
+    }
+    let end = arc.direction + arc.curvature * arc.length;
+    let beyond = arc_from(*path.last().unwrap_or(&arc.from), end, 0.0, LEFT * arc.length);
+    let beyond = on_edge(beyond);
+    match ahead.first(*path.last().unwrap_or(&arc.from), &beyond) {
+        None => Way { path, length: arc.length, fate: Fate::Grows },
+        Some(hit) => {
+            let length = 0.5 * (arc.length + hit.distance);
+            Way { path: on_edge(Arc { length, ..arc }.points()), length, fate: Fate::Grows }
+        }
+    }
+}
+
+impl Arc {
+    fn points(&self) -> Vec<Vec2> {
+        arc_from(self.from, self.direction, self.curvature, self.length)
+    }
+}
+
+/// What lies ahead of a tip.
+struct Ahead<'a> {
+    problem: &'a Problem,
+    cracks: &'a [Crack],
+    tip: TipId,
+    /// Distance to other tips at which they are met.
+    reach: f64,
+}
+
+/// A place at which a way ends.
+#[derive(Clone, Copy, Debug)]
+struct Hit {
+    /// Number of the segment of the way.
+    segment: usize,
+    /// Distance along the way.
+    distance: f64,
+    at: Vec2,
+    fate: Fate,
+}
+
+impl Hit {
+    /// The way up to the place.
+    fn way(self, mut path: Vec<Vec2>) -> Way {
+        if self.fate == Fate::MeetsItself {
+            return Way { path: Vec::new(), length: 0.0, fate: self.fate };
+        }
+        path.truncate(self.segment);
+        path.push(self.at);
+        Way { path, length: self.distance, fate: self.fate }
+    }
+}
+
+impl Ahead<'_> {
+    /// The first thing that a way from a point meets.
+    fn first(&self, from: Vec2, path: &[Vec2]) -> Option<Hit> {
+        let (mut before, mut distance) = (from, 0.0);
+        for (segment, &to) in path.iter().enumerate() {
+            let nearest = self.meets([before, to]).min_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some((_, at, fate)) = nearest {
+                // a tip beside the way is not on it
+                let distance = distance + (at - before).length();
+                return Some(Hit { segment, distance, at, fate });
+            }
+            (before, distance) = (to, distance + (to - before).length());
+        }
+        None
+    }
+
+    /// What a segment meets: the part of it before that, the place, and the fate.
+    fn meets(&self, s: Segment) -> impl Iterator<Item = (f64, Vec2, Fate)> + '_ {
+        let Problem { domain, .. } = self.problem;
+        let near = touch(&domain.bounds);
+        let border = leaves(s, &domain.bounds).map(|(t, at)| (t, at, Fate::LeavesPlate));
+        let holes = (0u32..).zip(&domain.holes).filter_map(move |(k, hole)| {
+            let fate = if hole.is_outside() { Fate::LeavesPlate } else { Fate::MeetsHole(k) };
+            enters(s, hole).map(|t| (t, on(s, t), fate))
+        });
+        let others = (0u32..).zip(self.cracks).flat_map(move |(k, crack)| {
+            let own = k == self.tip.crack;
+            let fate = if own { Fate::MeetsItself } else { Fate::MeetsCrack(k) };
+            let segments = crack.points.windows(2).enumerate();
+            let others = segments.filter(move |(j, _)| !(own && self.is_last(crack, *j)));
+            others
+                .filter_map(move |(_, p)| crosses(s, [p[0], p[1]], near))
+                .map(move |(t, at)| (t, at, fate))
+        });
+        border.into_iter().chain(holes).chain(others).chain(self.tips(s))
+    }
+
+    /// The tips of other cracks beside a segment.
+    fn tips(&self, s: Segment) -> impl Iterator<Item = (f64, Vec2, Fate)> + '_ {
+        let others = tips(self.cracks).filter(|other| other.crack != self.tip.crack);
+        let (along, square) = (s[1] - s[0], (s[1] - s[0]).dot(s[1] - s[0]));
+        others.filter_map(move |other| {
+            let at = self.cracks[other.crack as usize].end_point(other.end);
+            let t = ((at - s[0]).dot(along) / square).clamp(0.0, 1.0);
+            let is_near = distance(s, at) <= self.reach && (at - s[0]).dot(along) > 0.0;
+            is_near.then_some((t, at, Fate::MeetsCrack(other.crack)))
+        })
+    }
+
+    /// True of the segment that ends at the tip.
+    fn is_last(&self, crack: &Crack, segment: usize) -> bool {
+        match self.tip.end {
+            End::Start => segment == 0,
+            End::Last => segment + 2 == crack.points.len(),
+        }
+    }
+}
+
+fn on(s: Segment, t: f64) -> Vec2 {
+    s[0] + (s[1] - s[0]) * t
+}
+
+/// Where a segment that begins in a box comes to its border, and the place exactly on it.
+fn leaves(s: Segment, bounds: &Rect) -> Option<(f64, Vec2)> {
+    let step = s[1] - s[0];
+    let part = |from: f64, step: f64, min: f64, max: f64| {
+        let wall = if step > 0.0 { max } else { min };
+        (step != 0.0).then(|| ((wall - from) / step, wall)).filter(|(t, _)| *t <= 1.0)
+    };
+    let x = part(s[0].x, step.x, bounds.min.x, bounds.max.x);
+    let y = part(s[0].y, step.y, bounds.min.y, bounds.max.y);
+    let first_is_x = match (x, y) {
+        (Some((t, _)), Some((u, _))) => t <= u,
+        (x, _) => x.is_some(),
+    };
+    let (t, wall) = if first_is_x { x? } else { y? };
+    let mut at = on(s, t);
+    *(if first_is_x { &mut at.x } else { &mut at.y }) = wall;
+    Some((t, at.max(bounds.min).min(bounds.max)))
+}
+
+/// Where a segment that begins outside of a hole enters it.
+fn enters(s: Segment, hole: &Hole) -> Option<f64> {
+    match hole {
+        Hole::Circle { center, radius } => {
+            // the nearer of both
+            let [t, _] = Line::through(s).meets_circle(*center, *radius)?;
+            let comes_nearer = (*center - s[0]).dot(s[1] - s[0]) > 0.0;
+            (comes_nearer && t <= 1.0).then_some(t.max(0.0))
+        }
+        Hole::Polygon { .. } => {
+            let hits = hole.sides().filter_map(|side| Some(crosses(s, side, 0.0)?.0));
+            hits.min_by(f64::total_cmp)
+        }
+    }
+}
+
+/// Where a segment meets another one, or comes as near to it as what touches.
+fn crosses(s: Segment, other: Segment, near: f64) -> Option<(f64, Vec2)> {
+    let way = other[1] - other[0];
+    let [t, u] = Line::through(s).meets(&Line::through(other))?;
+    let slack = near / way.length();
+    let is_on = |x: f64, slack: f64| (-slack..=1.0 + slack).contains(&x);
+    (is_on(t, 0.0) && is_on(u, slack)).then(|| (t, other[0] + way * u.clamp(0.0, 1.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::dataset::{Material, StressState};
+    use ppum::vec2::vec2;
+    use ppum_problem::{Cells, Discretization};
+    use ppum_testkit::random::Random;
+    use std::f64::consts::PI;
+
+    fn plate(holes: Vec<Hole>, cracks: &[&[[f64; 2]]]) -> Problem {
+        let bounds = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+        let steel = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+        let plate = Problem::elasticity(bounds, steel, Discretization::new(Cells::Level(3)));
+        let plate = Problem { domain: ppum::domain::Domain { bounds, holes }, ..plate };
+        cracks.iter().fold(plate, |plate, points| plate.with_crack(points))
+    }
+
+    const TIP: TipId = TipId { crack: 0, end: End::Last };
+
+    fn from_origin(problem: &Problem, direction: f64, curvature: f64, length: f64) -> Way {
+        let arc = Arc { from: vec2(0.0, 0.0), direction, curvature, length };
+        way(problem, &problem.cracks, TIP, arc)
+    }
+
+    /// Ways end exactly on the border, and not shortly before it.
+    #[test]
+    fn the_border() {
+        let problem = plate(Vec::new(), &[&[[-0.5, 0.0], [0.0, 0.0]]]);
+        let mut random = Random(1);
+        for _ in 0..200 {
+            let direction = random.between(-1.5, 1.5);
+            let reach = 1.0 / direction.cos().max(direction.sin().abs());
+            let long = from_origin(&problem, direction, 0.0, reach * random.between(1.01, 3.0));
+            assert_eq!(long.fate, Fate::LeavesPlate);
+            let end = long.path[0];
+            assert!(end.x.abs() == 1.0 || end.y.abs() == 1.0, "{end:?}");
+            assert!((long.length - reach).abs() < 1e-14);
+            let near = from_origin(&problem, direction, 0.0, reach * random.between(0.68, 0.99));
+            assert_eq!(near.fate, Fate::Grows);
+            assert!((near.length - 0.5 * reach).abs() < 1e-14);
+            let short = from_origin(&problem, direction, 0.0, 0.6 * reach);
+            assert!((short.length - 0.6 * reach).abs() < 1e-14);
+        }
+    }
+
+    /// Arcs are as long as they should be, and end in the direction that they should.
+    #[test]
+    fn arcs() {
+        let problem = plate(Vec::new(), &[&[[-0.5, 0.0], [0.0, 0.0]]]);
+        let mut random = Random(2);
+        for _ in 0..100 {
+            let (direction, turn) = (random.between(-PI, PI), random.between(-0.3, 0.3));
+            let found = from_origin(&problem, direction, turn / 0.2, 0.2).path;
+            let last = found[found.len() - 1] - found[found.len() - 2];
+            let wanted = direction + turn;
+            assert!(last.unit().dot(vec2(wanted.cos(), wanted.sin())) > 1.0 - 1e-12);
+            let chord = 0.2 * (0.5 * turn).sin() / (0.5 * turn);
+            let middle = direction + 0.5 * turn;
+            let end = vec2(middle.cos(), middle.sin()) * chord;
+            assert!((found[found.len() - 1] - end).length() < 1e-12);
+        }
+    }
+
+    /// Ways end on rims of holes of either kind, whose places are known.
+    #[test]
+    fn holes() {
+        let circle = Hole::Circle { center: vec2(0.5, 0.0), radius: 0.25 };
+        let points = vec![vec2(0.25, -0.1), vec2(0.6, -0.1), vec2(0.6, 0.3), vec2(0.25, 0.3)];
+        for hole in [circle, Hole::polygon(points)] {
+            let problem = plate(vec![hole], &[&[[-0.5, 0.0], [0.0, 0.0]]]);
+            let found = from_origin(&problem, 0.0, 0.0, 0.3);
+            assert_eq!(
+                (found.fate, found.path.as_slice()),
+                (Fate::MeetsHole(0), &[vec2(0.25, 0.0)][..])
+            );
+            let past = from_origin(&problem, 1.2, 0.0, 0.3);
+            assert_eq!(past.fate, Fate::Grows);
+        }
+    }
+
+    /// The nearest of several cracks is met; a tip that would be passed closely is joined; the own
+    /// crack is not crossed.
+    #[test]
+    fn cracks() {
+        let walls: [&[[f64; 2]]; 3] =
+            [&[[-0.5, 0.0], [0.0, 0.0]], &[[0.6, -0.5], [0.6, 0.5]], &[[0.4, -0.5], [0.4, 0.5]]];
+        let problem = plate(Vec::new(), &walls);
+        let found = from_origin(&problem, 0.0, 0.0, 0.7);
+        assert_eq!(
+            (found.fate, found.path.as_slice()),
+            (Fate::MeetsCrack(2), &[vec2(0.4, 0.0)][..])
+        );
+        let beside: [&[[f64; 2]]; 2] = [&[[-0.5, 0.0], [0.0, 0.0]], &[[0.3, 0.05], [0.8, 0.05]]];
+        let problem = plate(Vec::new(), &beside);
+        let found = from_origin(&problem, 0.0, 0.0, 0.4);
+        assert_eq!(
+            (found.fate, found.path.as_slice()),
+            (Fate::MeetsCrack(1), &[vec2(0.3, 0.05)][..])
+        );
+        assert_eq!(found.length, vec2(0.3, 0.05).length());
+        let bent: [&[[f64; 2]]; 1] =
+            [&[[0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, 0.0], [0.0, 0.0]]];
+        let problem = plate(Vec::new(), &bent);
+        let found = from_origin(&problem, 0.0, 0.0, 0.7);
+        assert_eq!((found.fate, found.path.len()), (Fate::MeetsItself, 0));
+    }
+}

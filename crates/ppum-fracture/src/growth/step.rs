@@ -1,0 +1,127 @@
+//! A step of a series: its plan, what is decided with it, and whether the series ends there.
+
+use super::decision::{Decision, Undecided, decide};
+use crate::solve::{Plan, SolveError};
+use ppum::dataset::{Dataset, Growth, GrowthStop, Record, Step, Warning};
+use ppum::progress::Watcher;
+use ppum_problem::{GrowthRule, Problem, ProblemError};
+use ppum_solve::report::ENERGIES;
+
+/// The next problem cannot be solved.
+pub(super) enum Obstacle {
+    Problem(ProblemError),
+    Solve(SolveError),
+}
+
+/// A step that has been solved: its problem, and what was decided.
+pub(super) struct Before {
+    pub(super) problem: Problem,
+    pub(super) growth: Growth,
+}
+
+/// A series on its way.
+pub(super) struct GrowthSeries<'a> {
+    pub(super) rule: &'a GrowthRule,
+    pub(super) memory: Option<u64>,
+}
+
+/// A step that is complete, and whether the series ends with it because of what the next one meets.
+pub(super) fn closed(mut dataset: Dataset, obstacle: Option<&Obstacle>) -> (Dataset, bool) {
+    let (stop, message) = match obstacle {
+        None | Some(Obstacle::Solve(SolveError::Cancelled(_))) => return (dataset, false),
+        Some(Obstacle::Solve(error @ SolveError::Unbalanced(_))) => {
+            (GrowthStop::PieceComesOff, error.to_string())
+        }
+        Some(Obstacle::Solve(error)) => (GrowthStop::Unsolvable, error.to_string()),
+        Some(Obstacle::Problem(error)) => (GrowthStop::Unsolvable, error.to_string()),
+    };
+    dataset.steps[0].growth.iter_mut().for_each(|growth| growth.stop = Some(stop));
+    dataset.steps[0].warnings.push(ending(stop, &message));
+    (dataset, true)
+}
+
+/// The warning that a series ends before its end.
+fn ending(stop: GrowthStop, message: &str) -> Warning {
+    let message = format!("growth ends here, {}: {message}", stop.words());
+    Warning { kind: "growth".to_owned(), at: None, value: 0.0, limit: 0.0, message }
+}
+
+impl Obstacle {
+    pub(super) fn into_error(self) -> SolveError {
+        match self {
+            Self::Solve(error) => error,
+            Self::Problem(error) => SolveError::Problem(error),
+        }
+    }
+}
+
+impl GrowthSeries<'_> {
+    /// The plan of a problem whose loads balance.
+    pub(super) fn plan<'p>(
+        &'p self,
+        problem: &'p Problem,
+        watcher: &dyn Watcher,
+    ) -> Result<Plan<'p>, Obstacle> {
+        problem.check().map_err(Obstacle::Problem)?;
+        let plan = Plan::new(problem, self.memory, watcher).map_err(Obstacle::Solve)?;
+        plan.check(watcher).map_err(Obstacle::Solve)?;
+        Ok(plan)
+    }
+
+    /// The dataset of a step under its load, with what is decided in it: if nothing can be, the end
+    /// of the series.
+    ///
+    /// # Errors
+    /// Nothing can be decided in the first step.
+    pub(super) fn decided(
+        &self,
+        problem: &Problem,
+        mut dataset: Dataset,
+        before: Option<&Growth>,
+    ) -> Result<(Dataset, Growth), Undecided> {
+        let step = &mut dataset.steps[0];
+        let decision = decide(problem, self.rule, &step.intensities, before);
+        let Decision { growth, load } = match (decision, before) {
+            (Err(error), Some(Growth { cycles, .. })) => {
+                let stop = GrowthStop::Unsolvable;
+                step.warnings.push(ending(stop, &error.to_string()));
+                let mut growth = Growth::default();
+                (growth.cycles, growth.stop) = (*cycles, Some(stop));
+                Decision { growth, load: 1.0 }
+            }
+            (decision, _) => decision?,
+        };
+        under(step, load);
+        step.growth = Some(growth.clone());
+        Ok((dataset, growth))
+    }
+}
+
+/// The step under a multiple of its loads.
+fn under(step: &mut Step, load: f64) {
+    step.load *= load;
+    if load == 1.0 {
+        return;
+    }
+    for field in &mut step.fields {
+        field.coefficients.iter_mut().flatten().for_each(|c| *c *= load);
+    }
+    for tip in &mut step.intensities {
+        for k in
+            [&mut tip.k1, &mut tip.k2].into_iter().chain(&mut tip.t_stress).chain(&mut tip.error)
+        {
+            *k *= load;
+        }
+        tip.j.iter_mut().for_each(|j| *j *= load * load);
+        for ring in &mut tip.rings {
+            (ring.k1, ring.k2) = (load * ring.k1, load * ring.k2);
+        }
+    }
+    for reaction in &mut step.reactions {
+        reaction.force.iter_mut().for_each(|force| *force *= load);
+        reaction.moment *= load;
+    }
+    let is_energy = |record: &&mut Record| ENERGIES.contains(&record.name.as_str());
+    let energies = step.history.iter_mut().filter(is_energy);
+    energies.for_each(|record| record.value *= load * load);
+}

@@ -1,0 +1,103 @@
+//! The part of the interaction integral that comes from the faces of the crack behind its kinks.
+
+use super::auxiliary::{Auxiliary, Gradients, difference, stress, work};
+use super::course::CourseSegment;
+use super::integral::{Integrals, Interaction, cut_off, square, turned};
+use ppum::crack::{SegmentId, Side};
+use ppum::jet::Jet;
+use ppum::vec2::{Vec2, vec2};
+use ppum_solve::heat::FacePoint;
+use ppum_solve::quadrature::{EdgeRule, Face, Quadrature};
+
+/// A piece of the crack in a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bend {
+    pub(super) part: CourseSegment,
+    pub(super) ends: [Vec2; 2],
+    pub(super) cell: usize,
+}
+
+impl Interaction<'_> {
+    /// The integrals over both faces of a piece.
+    pub(super) fn bend(&self, quadrature: &Quadrature<'_>, bend: &Bend) -> Integrals {
+        let segment = SegmentId { crack: self.course.tip().crack, segment: bend.part.segment };
+        let mut sums = Integrals::default();
+        for side in [Side::Above, Side::Below] {
+            let face = Face { segment, side };
+            let cell = &self.space.partition().cell[bend.cell];
+            let coverers = &self.space.coverers[bend.cell];
+            for rule in quadrature.part_of_face(cell, coverers, bend.ends, face) {
+                sums = sums.plus(self.along(bend, face, &rule));
+                sums.doubt.add(&rule.doubt);
+            }
+        }
+        sums
+    }
+
+    /// The points of a rule on one face in a cell.
+    fn along(&self, bend: &Bend, Face { segment, side }: Face, rule: &EdgeRule) -> Integrals {
+        let between = self.between(rule, bend.cell);
+        let mut jets = vec![Jet::constant(0.0); 2 * rule.offsets.len()];
+        let local = self.field.on(segment, rule.anchor);
+        local.evaluate_over::<1>(&rule.offsets, side, &rule.patches, &mut jets);
+        self.on_face(&bend.part, rule, &jets, &between)
+    }
+
+    /// The points of a rule on one face, with the field there, and the tractions between faces that
+    /// touch; none if there are not any.
+    pub(super) fn on_face(
+        &self,
+        part: &CourseSegment,
+        rule: &EdgeRule,
+        jets: &[Jet<f64>],
+        between: &[Vec2],
+    ) -> Integrals {
+        let Some(Face { segment, side }) = rule.face else { return Integrals::default() };
+        let tip = self.course.on(part, rule.anchor);
+        let mut sums = Integrals::default();
+        let points = rule.offsets.iter().zip(&rule.weights).zip(&rule.normals);
+        let between = between.iter().copied().chain(std::iter::repeat(Vec2::ZERO));
+        for ((((offset, &weight), normal), u), t) in points.zip(jets.chunks_exact(2)).zip(between) {
+            let point = tip.point([offset.x, offset.y], side);
+            let (u, normal) = (self.gradient(u, tip.axis), turned(tip.axis, (*normal).into()));
+            let parts = self.auxiliary(&point).map(|Auxiliary { gradient: [a, b], .. }| {
+                -self.crossing(&u, &[a, b], normal) - (t.x * a[0] + t.y * b[0])
+            });
+            let part = |radius: f64| parts.map(|m| cut_off(square(&point), radius).0 * m);
+            let modes = self.radii.map(part);
+            let world = rule.anchor + *offset;
+            let q = cut_off(square(&point), self.largest()).0;
+            let traction = self.traction(side, world, tip.axis) + t;
+            let face = Some((segment, side));
+            let j = q * self.energy_crossing(&u, normal, (world, face), traction);
+            sums = sums.plus(Integrals { modes, j, ..Integrals::default() }.times(weight));
+        }
+        sums
+    }
+
+    /// σᵃ_i2 ∂u_i/∂s, with s along the face so that the normal points to its left: what P_j n_j is
+    /// but for the traction's part.
+    fn crossing(&self, u: &Gradients, aux: &Gradients, normal: Vec2) -> f64 {
+        let (stress, along) = (stress(self.body.lame, aux), -normal.left());
+        (0..2).map(|i| stress[i][1] * Vec2::from(u[i]).dot(along)).sum()
+    }
+
+    /// The traction of a load on a face in the tip's frame.
+    fn traction(&self, side: Side, world: Vec2, axis: Vec2) -> Vec2 {
+        let crack = self.course.tip().crack;
+        self.loads.faces.map_or(Vec2::ZERO, |load| turned(axis, load(crack, side, world)))
+    }
+
+    /// E_j n_j = W n_1 − t_i u_i,1
+    fn energy_crossing(
+        &self,
+        u: &Gradients,
+        normal: Vec2,
+        (world, face): (Vec2, FacePoint),
+        traction: Vec2,
+    ) -> f64 {
+        let elastic = difference(u, &self.eigenstrain(world, face));
+        let energy = 0.5 * work(&stress(self.lame(world), &elastic), &elastic);
+        energy * normal.x - traction.dot(vec2(u[0][0], u[1][0]))
+    }
+}

@@ -1,0 +1,316 @@
+//! The integrands of the interaction integral at the points of a rule, on lanes.
+
+use super::auxiliary::{Auxiliary, Gradients, difference, stress, work};
+use super::integral::{
+    Integrals, Interaction, MODES, RINGS, cut_off, flat_cut_off, in_frame, square,
+};
+use ppum::crack::{LocalTip, Side, TipPoint};
+use ppum::jet::Jet;
+use ppum::real::{Job, Real, Scalar};
+use ppum::vec2::Vec2;
+use ppum_solve::assembly::{FACTORS, Kernel};
+
+/// Sums at a point: of each disc those of its modes, J and the energy.
+const SUMS: usize = RINGS * MODES + 2;
+
+/// What is particular to a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Local {
+    /// λ and μ.
+    pub(super) lame: [f64; 2],
+    /// The body force in the tip's frame.
+    pub(super) force: [f64; 2],
+    /// The given strains without those at the tip, in its frame.
+    pub(super) eigenstrain: Gradients,
+}
+
+/// Points that see a tip from one anchor.
+pub(super) struct PointBlock<'b> {
+    tip: &'b Interaction<'b>,
+    local_tip: LocalTip,
+    anchor: Vec2,
+    offsets: &'b [Vec2],
+    /// None where all points are alike, and no force acts.
+    locals: Option<Vec<Local>>,
+}
+
+impl<'b> PointBlock<'b> {
+    pub(super) fn new(tip: &'b Interaction<'b>, anchor: Vec2, offsets: &'b [Vec2]) -> Self {
+        let local = |&offset: &Vec2| tip.local(anchor + offset);
+        let locals = tip.has_sources().then(|| offsets.iter().map(local).collect());
+        Self { tip, local_tip: tip.course.at(anchor), anchor, offsets, locals }
+    }
+
+    /// The integrals of a field with these jets, the two components of a point beside each other.
+    pub(super) fn integrals(&self, weights: &[f64], jets: &[Jet<f64>]) -> Integrals {
+        let gradients: Vec<Gradients> =
+            jets.chunks_exact(2).map(|u| self.tip.gradient(u, self.tip.axis)).collect();
+        let energies = self.locals.as_ref().map(|locals| {
+            let points = self.offsets.iter().zip(locals).zip(&gradients);
+            let source = |((&offset, local), u): ((&Vec2, &Local), &Gradients)| {
+                self.tip.energy_source(self.anchor + offset, local, u)
+            };
+            points.map(source).collect()
+        });
+        let sums = f64::dispatch(Sums { block: self, weights, gradients: &gradients, energies });
+        let mut integrals =
+            Integrals { j: -sums[SUMS - 2], energy: sums[SUMS - 1], ..Integrals::default() };
+        for (modes, sums) in integrals.modes.iter_mut().zip(sums.chunks_exact(MODES)) {
+            modes.copy_from_slice(sums);
+        }
+        integrals
+    }
+
+    /// G of both modes, times the weights.
+    pub(super) fn kernels(&self, weights: &[f64]) -> Vec<[Kernel; FACTORS]> {
+        f64::dispatch(Kernels { block: self, weights })
+    }
+
+    /// The points from one on, as many as there are lanes; the last stands in for those that
+    /// are missing.
+    #[inline(always)]
+    fn points<R: Real<Scalar = f64>>(&self, first: usize, zero: R) -> TipPoint<R> {
+        let at = |k: usize| self.offsets[(first + k).min(self.offsets.len() - 1)];
+        let offset = [zero.with_lanes(|k| at(k).x), zero.with_lanes(|k| at(k).y)];
+        self.local_tip.point(offset, Side::Above)
+    }
+
+    /// λ, μ and the force at these points.
+    #[inline(always)]
+    fn locals<R: Real<Scalar = f64>>(&self, first: usize, zero: R) -> ([R; 2], [R; 2]) {
+        let Some(locals) = &self.locals else {
+            return (self.tip.body.lame.map(|constant| zero.lit(constant)), [zero; 2]);
+        };
+        let at = |k: usize| &locals[(first + k).min(locals.len() - 1)];
+        (
+            [zero.with_lanes(|k| at(k).lame[0]), zero.with_lanes(|k| at(k).lame[1])],
+            [zero.with_lanes(|k| at(k).force[0]), zero.with_lanes(|k| at(k).force[1])],
+        )
+    }
+
+    /// The given strains at these points without those at the tip.
+    #[inline(always)]
+    fn eigenstrain<R: Real<Scalar = f64>>(&self, first: usize, zero: R) -> Gradients<R> {
+        let Some(locals) = &self.locals else { return [[zero; 2]; 2] };
+        let at = |k: usize| &locals[(first + k).min(locals.len() - 1)].eigenstrain;
+        [0, 1].map(|i| [0, 1].map(|j| zero.with_lanes(|k| at(k)[i][j])))
+    }
+}
+
+/// A point and the field there, in the tip's frame.
+struct FieldSample<R> {
+    point: TipPoint<R>,
+    u: Gradients<R>,
+    /// ∇u without the given strains.
+    elastic: Gradients<R>,
+    lame: [R; 2],
+    force: [R; 2],
+}
+
+/// P_j x_j, which times q′/r is P_j q_,j, and P_j,j of all modes; and σ.
+struct Integrands<R> {
+    flows: [R; MODES],
+    sources: [R; MODES],
+    stress: Gradients<R>,
+}
+
+impl<R: Real> FieldSample<R> {
+    /// The integrands in a body that has the constants `lame` at the tip.
+    #[inline(always)]
+    fn integrands<const D: usize>(
+        &self,
+        lame: [f64; 2],
+        auxiliary: &[Auxiliary<R>; MODES],
+    ) -> Integrands<R> {
+        let lame = [self.point.x.lit(lame[0]), self.point.x.lit(lame[1])];
+        let (own, at_tip) = (stress(self.lame, &self.elastic), stress(lame, &self.u));
+        let through = self.through(&own, &at_tip, lame);
+        let [mut flows, mut sources] = [[self.point.x.lit(0.0); MODES]; 2];
+        for (mode, auxiliary) in auxiliary.iter().enumerate() {
+            let ([a, b], [c, d]) = (auxiliary.gradient, through);
+            flows[mode] = c[0] * a[0] + c[1] * a[1] + (d[0] * b[0] + d[1] * b[1]);
+            if D >= 2 {
+                sources[mode] = self.divergence(&own, &at_tip, auxiliary);
+            }
+        }
+        Integrands { flows, sources, stress: own }
+    }
+
+    /// What P_j x_j is of ∇uᵃ: with σᵃ_ij u_i,1 x_j = C:(u_,1 x) on ∇uᵃ, and P_j = σ_ij uᵃ_i,1 +
+    /// σᵃ_ij u_i,1 − σᵃ_ik ε_ik δ_1j, where σᵃ_ik ε_ik is the stress that the tip's material would
+    /// have, on εᵃ.
+    #[inline(always)]
+    fn through(&self, own: &Gradients<R>, at_tip: &Gradients<R>, lame: [R; 2]) -> Gradients<R> {
+        let (x, y, u) = (self.point.x, self.point.y, &self.u);
+        let dual = stress(lame, &[[x * u[0][0], y * u[0][0]], [x * u[1][0], y * u[1][0]]]);
+        let ([a, b], [c, d], [s, t]) = (own, dual, at_tip);
+        [
+            [a[0] * x + a[1] * y + c[0] - x * s[0], c[1] - x * s[1]],
+            [b[0] * x + b[1] * y + d[0] - x * t[0], d[1] - x * t[1]],
+        ]
+    }
+
+    /// P_j,j = σ_ij (S_tip − S)_ijkl σᵃ_kl,1 − b_i uᵃ_i,1 with the compliance S, written without
+    /// it: what σ exceeds the stress of the tip's material by, on εᵃ,_1.
+    #[inline(always)]
+    fn divergence(&self, own: &Gradients<R>, at_tip: &Gradients<R>, auxiliary: &Auxiliary<R>) -> R {
+        let ([a, b], [s, t]) = (own, at_tip);
+        let excess = [[a[0] - s[0], a[1] - s[1]], [b[0] - t[0], b[1] - t[1]]];
+        let [a, b] = auxiliary.gradient;
+        work(&excess, &auxiliary.along) - (self.force[0] * a[0] + self.force[1] * b[0])
+    }
+}
+
+/// E_j x_j with E_j = W δ_1j − σ_ij u_i,1 and W = ½ σ_ij (u_i,j − ε⁰_ij): the flow of energy whose
+/// integral round a tip is J.
+#[inline(always)]
+fn energy_flow<R: Real>(stress: &Gradients<R>, sample: &FieldSample<R>) -> R {
+    let FieldSample { point, u, elastic, .. } = sample;
+    let flow = |j: usize| stress[0][j] * u[0][0] + stress[1][j] * u[1][0];
+    (work(stress, elastic) * point.x.lit(0.5) - flow(0)) * point.x - flow(1) * point.y
+}
+
+/// The sums of all integrands over the points of a block, in their order.
+struct Sums<'b> {
+    block: &'b PointBlock<'b>,
+    weights: &'b [f64],
+    gradients: &'b [Gradients],
+    /// E_j,j, if it is not zero.
+    energies: Option<Vec<f64>>,
+}
+
+impl Job<f64> for Sums<'_> {
+    type Output = [f64; SUMS];
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = f64>>(self, zero: R) -> [f64; SUMS] {
+        if self.block.locals.is_some() { self.over::<R, 2>(zero) } else { self.over::<R, 1>(zero) }
+    }
+}
+
+impl Sums<'_> {
+    #[inline(always)]
+    fn over<R: Real<Scalar = f64>, const D: usize>(&self, zero: R) -> [f64; SUMS] {
+        let mut sums = [0.0; SUMS];
+        for first in (0..self.weights.len()).step_by(R::LANES) {
+            let densities = self.densities::<R, D>(first, zero);
+            for (sum, density) in sums.iter_mut().zip(densities) {
+                let lanes = density.lanes();
+                for (weight, density) in self.weights[first..].iter().zip(&lanes[..R::LANES]) {
+                    *sum += weight * density;
+                }
+            }
+        }
+        sums
+    }
+
+    /// The integrands at the points from one on.
+    #[inline(always)]
+    fn densities<R: Real<Scalar = f64>, const D: usize>(&self, first: usize, zero: R) -> [R; SUMS] {
+        let PointBlock { tip, .. } = self.block;
+        let at = |k: usize| (first + k).min(self.weights.len() - 1);
+        let (lame, force) = self.block.locals(first, zero);
+        let u = [
+            [
+                zero.with_lanes(|k| self.gradients[at(k)][0][0]),
+                zero.with_lanes(|k| self.gradients[at(k)][0][1]),
+            ],
+            [
+                zero.with_lanes(|k| self.gradients[at(k)][1][0]),
+                zero.with_lanes(|k| self.gradients[at(k)][1][1]),
+            ],
+        ];
+        let elastic = difference(&u, &self.block.eigenstrain(first, zero));
+        let sample = FieldSample { point: self.block.points(first, zero), u, elastic, lame, force };
+        let auxiliary = tip.body.fields::<R, D>(&sample.point);
+        let of = sample.integrands::<D>(tip.body.lame, &auxiliary);
+        let source = match &self.energies {
+            Some(energies) => zero.with_lanes(|k| energies[at(k)]),
+            None => zero,
+        };
+        let square = square(&sample.point);
+        let mut densities = [zero; SUMS];
+        let mut last = (zero, zero);
+        for (modes, radius) in densities.chunks_exact_mut(MODES).zip(tip.radii) {
+            last = cut_off(square, radius);
+            for (density, (flow, source)) in modes.iter_mut().zip(of.flows.iter().zip(of.sources)) {
+                *density = last.1 * *flow + last.0 * source;
+            }
+        }
+        let energy = energy_flow(&of.stress, &sample);
+        densities[SUMS - 2] = last.1 * energy + last.0 * source;
+        densities[SUMS - 1] = work(&of.stress, &sample.elastic);
+        densities
+    }
+}
+
+/// What the integrands over the largest disc are of ∇u, times E′/2 and the weights.
+struct Kernels<'b> {
+    block: &'b PointBlock<'b>,
+    weights: &'b [f64],
+}
+
+impl Job<f64> for Kernels<'_> {
+    type Output = Vec<[Kernel; FACTORS]>;
+
+    #[inline(always)]
+    fn run<R: Real<Scalar = f64>>(self, zero: R) -> Self::Output {
+        if self.block.locals.is_some() { self.over::<R, 2>(zero) } else { self.over::<R, 1>(zero) }
+    }
+}
+
+impl Kernels<'_> {
+    #[inline(always)]
+    fn over<R: Real<Scalar = f64>, const D: usize>(&self, zero: R) -> Vec<[Kernel; FACTORS]> {
+        let mut all = vec![[[Vec2::ZERO; 2]; FACTORS]; self.weights.len()];
+        for (first, kernels) in (0..).step_by(R::LANES).zip(all.chunks_mut(R::LANES)) {
+            for (component, [x, y]) in self.densities::<R, D>(first, zero).into_iter().enumerate() {
+                for (mode, (x, y)) in x.into_iter().zip(y).enumerate() {
+                    let (x, y) = (x.lanes(), y.lanes());
+                    for (k, kernel) in kernels.iter_mut().enumerate() {
+                        let weight = self.weights[first + k];
+                        kernel[mode][component] = Vec2 { x: weight * x[k], y: weight * y[k] };
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    /// Of each component and axis the integrands of both modes for a gradient of one.
+    #[inline(always)]
+    fn densities<R: Real<Scalar = f64>, const D: usize>(
+        &self,
+        first: usize,
+        zero: R,
+    ) -> [[[R; FACTORS]; 2]; 2] {
+        let PointBlock { tip, .. } = self.block;
+        let (lame, force) = self.block.locals(first, zero);
+        let point = self.block.points(first, zero);
+        let auxiliary = tip.body.fields::<R, D>(&point);
+        let (q, slope) = flat_cut_off(square(&point), tip.radii[RINGS - 1]);
+        let halves = tip.halves().map(|halves| zero.lit(0.5 * tip.modulus() * halves));
+        let mut densities = [[[zero; FACTORS]; 2]; 2];
+        for (component, of_component) in densities.iter_mut().enumerate() {
+            for (axis, of_modes) in of_component.iter_mut().enumerate() {
+                let [[a, b], [c, d]] = unit(component, axis, tip.axis);
+                let u = [[zero.lit(a), zero.lit(b)], [zero.lit(c), zero.lit(d)]];
+                let of = FieldSample { point, u, elastic: u, lame, force }
+                    .integrands::<D>(tip.body.lame, &auxiliary);
+                for ((density, half), (flow, source)) in
+                    of_modes.iter_mut().zip(halves).zip(of.flows.iter().zip(of.sources))
+                {
+                    *density = half * (slope * *flow + q * source);
+                }
+            }
+        }
+        densities
+    }
+}
+
+/// The gradient of a component along an axis, in the tip's frame.
+fn unit(component: usize, axis: usize, frame: Vec2) -> Gradients {
+    let mut u = [Jet::constant(0.0); 2];
+    (u[component].x, u[component].y) = if axis == 0 { (1.0, 0.0) } else { (0.0, 1.0) };
+    in_frame(&u, frame)
+}

@@ -1,0 +1,280 @@
+//! The integrals over the elements of a mesh.
+//!
+//! In an element the field is smooth in the element's own coordinate. So elements that meet the
+//! disc are divided there into triangles: along the crack, where that cuts one with a linear map,
+//! and in one with the tip, with a corner there. A triangle has the points
+//!
+//! ```text
+//! a + ρ ((1 − s) (b − a) + s (c − a)),     0 ≤ ρ, s ≤ 1
+//! ```
+//!
+//! with Gauss points in s and ρ, at the tip in √ρ, in which half powers of the distance are
+//! polynomials. It is divided into four until that changes nothing.
+
+use super::block::PointBlock;
+use super::integral::{Integrals, Interaction};
+use super::resolve::Integration;
+use ppum::crack::{SegmentId, Side};
+use ppum::jet::Jet;
+use ppum::mesh::ElementField;
+use ppum::progress::Cancelled;
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_solve::quadrature::{Doubt, EdgeRule, Face, gauss};
+use ppum_solve::watched::Stage;
+use rayon::prelude::*;
+
+/// Gauss points in each direction.
+const ORDER: usize = 12;
+
+/// Most divisions of all triangles together; each may have some.
+const MOST: usize = 50_000;
+const LEAST: usize = 200;
+
+/// Lengths that are rounding, in parts of the radius or of an element.
+const SAME: f64 = 1e-9;
+
+/// Distances from a face at which the field beside it is looked at, in radii.
+const BESIDE: f64 = 1e-6;
+
+/// A triangle in the coordinate of an element.
+#[derive(Clone, Copy, Debug)]
+struct Triangle {
+    corners: [Vec2; 3],
+    /// True if the first corner is the tip.
+    is_at_tip: bool,
+}
+
+/// An element with what it is divided into.
+type ElementTriangles<'m, 'f> = (Vec<Triangle>, ElementField<'m, 'f>);
+
+impl Triangle {
+    /// The four triangles between its corners and the middles of its sides.
+    fn quarters(&self) -> [Self; 4] {
+        let [a, b, c] = self.corners;
+        let [ab, bc, ca] = [[a, b], [b, c], [c, a]].map(|[p, q]| (p + q) * 0.5);
+        let at = |corners| Self { corners, is_at_tip: false };
+        let first = Self { corners: [a, ab, ca], is_at_tip: self.is_at_tip };
+        [first, at([b, bc, ab]), at([c, ca, bc]), at([bc, ca, ab])]
+    }
+
+    /// Points with their weights.
+    fn points(&self) -> Vec<(Vec2, f64)> {
+        let [a, b, c] = self.corners;
+        let (to_b, to_c, rule) = (b - a, c - a, gauss(ORDER));
+        let area = to_b.cross(to_c).abs();
+        let row = |(t, dt): (f64, f64)| {
+            let (rho, slope) = if self.is_at_tip { (t * t, 2.0 * t) } else { (t, 1.0) };
+            let point = move |(s, ds): (f64, f64)| {
+                (a + (to_b * (1.0 - s) + to_c * s) * rho, area * rho * slope * dt * ds)
+            };
+            rule.on(0.0, 1.0).map(point).collect::<Vec<_>>()
+        };
+        rule.on(0.0, 1.0).flat_map(row).collect()
+    }
+}
+
+impl Interaction<'_> {
+    /// True if the patches of the field are elements.
+    pub(super) fn is_on_mesh(&self) -> bool {
+        self.field.step.partition.mesh().is_some()
+    }
+
+    /// The integrals over the elements in the disc, and over the faces of the crack that are loaded
+    /// or not along the axis.
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub(super) fn mesh(&self, stage: &Stage<'_>) -> Result<Integrals, Cancelled> {
+        let local = self.field.at(self.center);
+        let (mut patches, reach) = (Vec::new(), vec2(self.largest(), self.largest()));
+        self.field.tree.query_box(&Rect::around(self.center, reach), &mut patches);
+        patches.sort_unstable();
+        let of_patch = |&patch: &u32| {
+            let element = local.element(patch as usize);
+            element.map(|element| (self.triangles(&element), element))
+        };
+        let elements: Vec<_> = patches.iter().filter_map(of_patch).collect();
+        let rough = |(triangles, element): &ElementTriangles<'_, '_>| -> Result<Vec<_>, Cancelled> {
+            stage.advance(0)?;
+            Ok(triangles.iter().map(|triangle| self.triangle(element, triangle)).collect())
+        };
+        let wholes: Vec<Vec<Integrals>> =
+            elements.par_iter().map(rough).collect::<Result<_, Cancelled>>()?;
+        let triangles_in_all = wholes.iter().flatten().count();
+        let sizes = wholes.iter().flatten().map(Integrals::sizes);
+        let scale = sizes.fold(Integrals::default(), Integrals::plus);
+        let (at, most) = (self.center, LEAST.max(MOST / triangles_in_all.max(1)));
+        let resolved = |(parts, wholes): (&ElementTriangles<'_, '_>, &Vec<Integrals>)| {
+            let (triangles, element) = parts;
+            let integral = |triangle: &Triangle| self.triangle(element, triangle);
+            let mut sum = Integrals::default();
+            for (triangle, whole) in triangles.iter().zip(wholes) {
+                stage.advance(0)?;
+                let integration = Integration { integral: &integral, scale: &scale, at, most };
+                sum = sum.plus(integration.resolve((*triangle, *whole), Triangle::quarters));
+            }
+            Ok::<_, Cancelled>(sum)
+        };
+        let sums: Vec<_> = elements.par_iter().zip(&wholes).map(resolved).collect();
+        let sums = sums.into_iter().collect::<Result<Vec<_>, Cancelled>>()?;
+        let on_faces = self.faces_on_mesh(&scale);
+        Ok(sums.into_iter().fold(on_faces, Integrals::plus))
+    }
+
+    /// The points of a triangle in the disc.
+    fn triangle(&self, element: &ElementField<'_, '_>, triangle: &Triangle) -> Integrals {
+        let (mut offsets, mut weights, mut jets) = (Vec::new(), Vec::new(), Vec::new());
+        for (delta, weight) in triangle.points() {
+            let point = element.point(delta);
+            let [x, y] = point.columns;
+            if point.offset.length() < self.largest() && element.is_kept(delta, Side::Above) {
+                let mut jet = vec![Jet::constant(0.0); self.field.components()];
+                element.evaluate::<1>((delta, point.offset), Side::Above, &mut jet);
+                jets.extend_from_slice(&jet[..2]);
+                offsets.push(point.offset);
+                weights.push(weight * x.cross(y).abs());
+            }
+        }
+        PointBlock::new(self, self.center, &offsets).integrals(&weights, &jets)
+    }
+
+    /// The triangles of an element.
+    fn triangles(&self, element: &ElementField<'_, '_>) -> Vec<Triangle> {
+        let corners = element.corners();
+        let columns = |corner: &Vec2| element.point(*corner).columns;
+        let first = columns(&corners[0]);
+        let size = first[0].length() + first[1].length();
+        let is_first =
+            |[x, y]: [Vec2; 2]| (x - first[0]).length() + (y - first[1]).length() <= SAME * size;
+        let is_linear = corners.iter().map(columns).all(is_first);
+        let mut polygons = vec![corners];
+        for part in self.course.parts().filter(|_| is_linear) {
+            polygons = polygons
+                .into_iter()
+                .flat_map(|polygon| self.cut(element, polygon, part.ends))
+                .collect();
+        }
+        let is_tip = |p: &Vec2| element.point(*p).offset.length() <= SAME * self.largest();
+        polygons.iter().flat_map(|polygon| fan(polygon, &is_tip)).collect()
+    }
+
+    /// A polygon of an element on both sides of the line of a segment that meets it.
+    fn cut(
+        &self,
+        element: &ElementField<'_, '_>,
+        polygon: Vec<Vec2>,
+        ends: [Vec2; 2],
+    ) -> Vec<Vec<Vec2>> {
+        let [from, to] = ends.map(|p| p - self.center);
+        let offsets: Vec<Vec2> = polygon.iter().map(|p| element.point(*p).offset).collect();
+        let bounds = |points: &[Vec2]| {
+            let first = (points[0], points[0]);
+            let (low, high) =
+                points.iter().fold(first, |(low, high), p| (low.min(*p), high.max(*p)));
+            Rect::new(low, high)
+        };
+        let along = (to - from).unit();
+        let depths: Vec<f64> = offsets.iter().map(|p| along.cross(*p - from)).collect();
+        let size = depths.iter().fold(0.0f64, |m, d| m.max(d.abs()));
+        let is_beyond = |sign: f64| depths.iter().any(|depth| sign * depth > SAME * size);
+        let is_near = bounds(&offsets).overlaps(&bounds(&[from, to]));
+        if !(is_beyond(1.0) && is_beyond(-1.0) && is_near) {
+            return vec![polygon];
+        }
+        [1.0, -1.0].map(|sign| clipped(&polygon, &depths, sign)).to_vec()
+    }
+
+    /// The integrals over both faces of the crack behind its kinks, and of loaded ones.
+    fn faces_on_mesh(&self, scale: &Integrals) -> Integrals {
+        let mut sums = Integrals::default();
+        for (part, ends) in self.pieces_of_faces() {
+            let integral = |ends: &[Vec2; 2]| {
+                let of_side = |side| {
+                    let rule = self.face_rule(*ends, part.segment, side);
+                    self.on_face(&part, &rule, &self.beside(&rule, side), &[])
+                };
+                of_side(Side::Above).plus(of_side(Side::Below))
+            };
+            let whole = integral(&ends);
+            let (at, most) = (self.center, LEAST);
+            let integration = Integration { integral: &integral, scale, at, most };
+            sums = sums.plus(integration.resolve((ends, whole), |[a, b]| {
+                let middle = (*a + *b) * 0.5;
+                [[*a, middle], [middle, *b]]
+            }));
+        }
+        sums
+    }
+
+    /// The rule on a part of a face.
+    fn face_rule(&self, ends: [Vec2; 2], segment: u32, side: Side) -> EdgeRule {
+        let segment = SegmentId { crack: self.course.tip().crack, segment };
+        let points = &self.field.step.cracks[segment.crack as usize].points;
+        let [first, last] = [0, 1].map(|k| points[segment.segment as usize + k]);
+        let left = (last - first).unit().left();
+        let normal = if side == Side::Above { -left } else { left };
+        let [from, way] = [ends[0] - self.center, ends[1] - ends[0]];
+        let nodes = gauss(ORDER).on(0.0, 1.0);
+        let (offsets, weights): (Vec<_>, Vec<_>) =
+            nodes.map(|(t, dt)| (from + way * t, dt * way.length())).unzip();
+        EdgeRule {
+            anchor: self.center,
+            normals: vec![normal; offsets.len()],
+            offsets,
+            weights,
+            patches: Vec::new(),
+            face: Some(Face { segment, side }),
+            doubt: Doubt::default(),
+        }
+    }
+
+    /// The field beside points of a face, in the elements on its side: a linear extrapolation.
+    fn beside(&self, rule: &EdgeRule, side: Side) -> Vec<Jet<f64>> {
+        let (components, step) = (self.field.components(), BESIDE * self.largest());
+        let mut local = self.field.at(self.center);
+        let mut at = |offset: Vec2| {
+            let mut jets = vec![Jet::constant(0.0); components];
+            local.evaluate::<1>(offset, side, &mut jets);
+            jets
+        };
+        let mut all = Vec::new();
+        for (&offset, &normal) in rule.offsets.iter().zip(&rule.normals) {
+            let [near, far] = [1.0, 2.0].map(|k| at(offset - normal * (k * step)));
+            let both = near.into_iter().zip(far).take(2);
+            all.extend(both.map(|(near, far)| near.scaled::<1>(2.0).minus::<1>(far)));
+        }
+        all
+    }
+}
+
+/// The triangles of a convex polygon, all with a corner at the tip if that lies in it.
+fn fan(polygon: &[Vec2], is_tip: &dyn Fn(&Vec2) -> bool) -> Vec<Triangle> {
+    let n = polygon.len();
+    let area = |a: Vec2, b: Vec2, c: Vec2| (b - a).cross(c - a);
+    let whole: f64 = (2..n).map(|k| area(polygon[0], polygon[k - 1], polygon[k])).sum();
+    let side = |k: usize| [polygon[k], polygon[(k + 1) % n]];
+    let holds = |p: Vec2| (0..n).all(|k| area(side(k)[0], side(k)[1], p) >= -SAME * whole);
+    let inner = [Vec2::ZERO].into_iter().filter(|p| holds(*p));
+    let tip = inner.chain(polygon.iter().copied()).find(is_tip);
+    let apex = tip.unwrap_or(polygon[0]);
+    let all = (0..n).map(|k| [apex, side(k)[0], side(k)[1]]);
+    let whole_ones = all.filter(|[a, b, c]| area(*a, *b, *c) > SAME * whole);
+    whole_ones.map(|corners| Triangle { corners, is_at_tip: tip.is_some() }).collect()
+}
+
+/// The part of a convex polygon where depths, which are linear, have a sign.
+fn clipped(polygon: &[Vec2], depths: &[f64], sign: f64) -> Vec<Vec2> {
+    let n = polygon.len();
+    let mut points = Vec::new();
+    for k in 0..n {
+        let next = (k + 1) % n;
+        let [a, b] = [k, next].map(|k| sign * depths[k]);
+        if a >= 0.0 {
+            points.push(polygon[k]);
+        }
+        if a * b < 0.0 {
+            points.push(polygon[k] + (polygon[next] - polygon[k]) * (a / (a - b)));
+        }
+    }
+    points
+}

@@ -1,0 +1,501 @@
+//! The interaction integral over the cells of a space.
+
+use super::Loads;
+use super::auxiliary::{Auxiliary, Body, Gradients, difference, stress, work};
+use super::bent::Bend;
+use super::block::{Local, PointBlock};
+use super::course::{Course, CourseSegment};
+use super::faces::{Faces, pressed};
+use super::slope::Slope;
+use ppum::crack::{Side, TipId, TipPoint};
+use ppum::dataset::{Material, Ring, TipIntensity};
+use ppum::field::{Field, LocalField};
+use ppum::jet::Jet;
+use ppum::progress::{Cancelled, Phase, Watcher};
+use ppum::real::Real;
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::Symmetry;
+use ppum_problem::geometry::{Placed, around};
+use ppum_solve::assembly::FACTORS;
+use ppum_solve::contact::ContactLaw;
+use ppum_solve::heat::FacePoint;
+use ppum_solve::law::Law;
+use ppum_solve::quadrature::{Disc, Doubt, EdgeRule, Quadrature, Rule};
+use ppum_solve::space::Space;
+use ppum_solve::watched::Stage;
+use rayon::prelude::*;
+
+/// Exponent of the cut-off q = (1 − r²/R²)^m, which [`cut_off`] multiplies out. It is smooth enough
+/// for plain Gauss rules across r = R: with m = 4 their error is seen at 1e-7, with more at 1e-10.
+const CUT_OFF_POWER: u8 = 6;
+
+/// Gauss points in each direction of large pieces and at the tip: the cut-off bends there.
+const ORDER: usize = 12;
+
+/// Size of pieces from which on they are large, in radii of the smallest disc. Smaller ones take
+/// fewer points, down to the order of the assembly. With 1 that is seen at 1e-8 in discs no larger
+/// than the cells.
+const ALL_POINTS: f64 = 0.5;
+
+/// Discs for each tip.
+pub(super) const RINGS: usize = 3;
+
+/// Auxiliary fields: one for each of K_I, K_II and T.
+pub(super) const MODES: usize = 3;
+
+/// Integrals of all modes over each disc.
+pub(super) type Modes = [[f64; MODES]; RINGS];
+
+/// Integrals around a tip.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Integrals {
+    pub(super) modes: Modes,
+    /// The J-integral over the largest disc.
+    pub(super) j: f64,
+    /// Twice the strain energy in the largest disc.
+    pub(super) energy: f64,
+    /// Errors that the rules leave.
+    pub(super) doubt: Doubt,
+}
+
+/// The integrals of a tip, ring by ring, and what follows from them.
+pub(super) struct TipIntegrals {
+    pub(super) rings: [Ring; RINGS],
+    pub(super) t_stress: Option<f64>,
+    pub(super) j: Option<f64>,
+    /// See [`TipOutcome::strength`](super::TipOutcome::strength).
+    pub(super) strength: f64,
+    /// Errors that quadrature leaves in the discs.
+    pub(super) doubt: Doubt,
+}
+
+impl TipIntegrals {
+    /// The same as they are stored: the values of the largest disc, whose integral averages most.
+    pub(super) fn factors(&self, tip: TipId) -> TipIntensity {
+        let Ring { k1, k2, .. } = self.rings[RINGS - 1];
+        let Self { t_stress, j, .. } = *self;
+        TipIntensity { tip, k1, k2, t_stress, j, error: None, rings: self.rings.to_vec() }
+    }
+}
+
+/// The interaction integrals around one tip.
+pub(super) struct Interaction<'a> {
+    pub(super) field: &'a Field<'a>,
+    pub(super) space: &'a Space<'a>,
+    law: Law<'a>,
+    /// The material at the tip, and the body of it that the auxiliary fields are in.
+    material: Material,
+    pub(super) body: Body,
+    /// The crack in the discs.
+    pub(super) course: Course,
+    pub(super) center: Vec2,
+    /// The direction of growth.
+    pub(super) axis: Vec2,
+    /// Radii of the discs, ascending.
+    pub(super) radii: [f64; RINGS],
+    pub(super) loads: Loads<'a>,
+    /// The strains given at the tip, in its frame. The field is taken without them: a body that
+    /// strains alike everywhere has the same stresses.
+    pub(super) shift: Gradients,
+    /// How the material varies, as the J-integral needs it; none if it jumps in the discs.
+    slope: Option<Slope<'a>>,
+    /// σ_22 at the tip by the loads on its faces; none if these have a resultant there.
+    pressed: Option<f64>,
+    /// Coulomb's coefficient of friction of the crack, if its faces may touch.
+    friction: Option<f64>,
+    /// The symmetry to the axis of a field of which one half is in the body.
+    half: Option<Symmetry>,
+}
+
+impl<'a> Interaction<'a> {
+    /// Prepares the integrals over discs of the given radii, which ascend; the auxiliary fields are
+    /// those of the material at the tip. None unless the field is a displacement.
+    pub(super) fn new(
+        field: &'a Field<'a>,
+        space: &'a Space<'a>,
+        tip: TipId,
+        radii: [f64; RINGS],
+        loads: Loads<'a>,
+    ) -> Option<Self> {
+        let crack = &field.step.cracks[tip.crack as usize];
+        let course = Course::new(crack, tip, radii[RINGS - 1]);
+        let center = course.center();
+        let law = space.law();
+        let elastic = field.equation.elastic()?;
+        let material = elastic.at(center);
+        let body = Body::new(&material);
+        let expansion = space.temperature().and_then(|heat| heat.equation().expansion());
+        let slope = Slope::new(elastic, expansion, center, radii[RINGS - 1]);
+        let axis = crack.growth_direction(tip.end);
+        let at_tip = law.eigenstrain(center).map(|given| tensor_in_frame(&given, axis));
+        let is_finite = |given: &Gradients| given.as_flattened().iter().all(|e| e.is_finite());
+        let shift = at_tip.filter(is_finite).unwrap_or_default();
+        let half = loads.symmetry.and_then(|symmetry| symmetry(tip));
+        let pressed = loads.faces.map_or(Some(0.0), |load| pressed(&course, load, half));
+        let friction = loads.friction.and_then(|friction| friction(tip.crack));
+        let touching = friction.map_or(0.0, |friction| {
+            let contact = ContactLaw { friction, size: radii[0] };
+            contact.pressed(field, &law, course.behind_tip(0.0))
+        });
+        Some(Self {
+            field,
+            space,
+            law,
+            friction,
+            material,
+            body,
+            course,
+            center,
+            axis,
+            shift,
+            radii,
+            loads,
+            slope,
+            pressed: pressed.map(|pressed| pressed + touching),
+            half,
+        })
+    }
+
+    pub(super) fn largest(&self) -> f64 {
+        self.radii[RINGS - 1]
+    }
+
+    /// True if the faces touch at the tip or within a quarter of a cell of this size from it.
+    pub(super) fn touches(&self, cell: f64) -> bool {
+        let is_closed = |friction| {
+            let contact = ContactLaw { friction, size: self.radii[0] };
+            let points = [0.0, 0.125, 0.25].map(|part| self.course.behind_tip(part * cell));
+            points.into_iter().any(|at| contact.pressed(self.field, &self.law, at) < 0.0)
+        };
+        self.friction.is_some_and(is_closed)
+    }
+
+    /// The cells that meet the largest disc.
+    pub(super) fn cells(&self, cells: &Placed<usize>) -> impl Iterator<Item = usize> {
+        let (all, radius) = (&self.space.partition().cell, self.largest());
+        let square = Rect::around(self.center, vec2(radius, radius));
+        let near = cells.near(&square).copied().collect::<Vec<_>>().into_iter();
+        near.filter(move |&c| all[c].distance(self.center) < radius)
+    }
+
+    /// The pieces of the crack that are not along the axis, or loaded, in all cells that they
+    /// may meet.
+    fn bends(&self, cells: &Placed<usize>) -> Vec<Bend> {
+        let in_cells = |(part, ends): (CourseSegment, [Vec2; 2])| {
+            let near = cells.near(&around(&ends));
+            near.map(move |&cell| Bend { part, ends, cell }).collect::<Vec<_>>()
+        };
+        self.pieces_of_faces().into_iter().flat_map(in_cells).collect()
+    }
+
+    /// The pieces of the crack that are not along the axis, or loaded.
+    pub(super) fn pieces_of_faces(&self) -> Vec<(CourseSegment, [Vec2; 2])> {
+        let faces = self.faces();
+        let mut all = Vec::new();
+        let is_loaded = faces.is_some() || self.friction.is_some();
+        for part in self.course.parts().filter(|part| !part.is_first || is_loaded) {
+            let loads = faces.as_ref().map_or_else(Vec::new, |faces| faces.breaks(&part));
+            let at: Vec<f64> = loads.into_iter().chain(self.radii).collect();
+            all.extend(self.course.pieces(&part, &at).into_iter().map(|ends| (part, ends)));
+        }
+        all
+    }
+
+    /// The tractions between faces that touch, at the points of a rule on one face in a cell, in
+    /// the tip's frame; zero at other tips.
+    pub(super) fn between(&self, rule: &EdgeRule, cell: usize) -> Vec<Vec2> {
+        let size = self.space.partition().cell[cell].size();
+        let tractions = self.friction.map(|friction| {
+            let contact = ContactLaw { friction, size: size.x.max(size.y) };
+            contact.tractions(self.field, &self.law, rule)
+        });
+        let tractions = tractions.unwrap_or(vec![Vec2::ZERO; rule.offsets.len()]);
+        tractions.into_iter().map(|t| turned(self.axis, t.into())).collect()
+    }
+
+    fn faces(&self) -> Option<Faces<'_>> {
+        let Self { course, body, radii, pressed, .. } = self;
+        let (is_balanced, is_half) = (pressed.is_some(), self.half.is_some());
+        self.loads.faces.map(|load| Faces { course, body, radii, load, is_balanced, is_half })
+    }
+
+    fn cell(
+        &self,
+        quadrature: &Quadrature<'_>,
+        seen: &mut Option<LocalField<'a>>,
+        c: usize,
+    ) -> Integrals {
+        let rules = self.rules(quadrature, c);
+        let parts = rules.iter().map(|rule| self.rule(rule, seen));
+        let mut sums = parts.fold(Integrals::default(), Integrals::plus);
+        rules.iter().for_each(|rule| sums.doubt.add(&rule.doubt));
+        sums
+    }
+
+    /// The rules for a cell.
+    fn rules(&self, quadrature: &Quadrature<'_>, c: usize) -> Vec<Rule> {
+        let disc = Disc {
+            center: self.center,
+            radius: self.largest(),
+            scale: ALL_POINTS * self.radii[0],
+            order: ORDER,
+            least: self.space.degree() + 4,
+        };
+        quadrature.disc(&self.space.partition().cell[c], &self.space.coverers[c], disc)
+    }
+
+    /// The part of a rule's points inside the largest disc. `seen` is the field as it was last
+    /// looked at: most rules around a tip have the tip as their anchor.
+    fn rule(&self, rule: &Rule, seen: &mut Option<LocalField<'a>>) -> Integrals {
+        let near = rule.anchor - self.center;
+        let all = rule.offsets.iter().zip(&rule.weights);
+        let inside = all.filter(|(o, _)| (near + **o).length() < self.largest());
+        let (offsets, weights): (Vec<Vec2>, Vec<f64>) = inside.unzip();
+        let mut jets = vec![Jet::constant(0.0); 2 * offsets.len()];
+        let known = seen.take().filter(|local| local.anchor == rule.anchor);
+        let local = seen.insert(known.unwrap_or_else(|| self.field.at(rule.anchor)));
+        local.evaluate_over::<1>(&offsets, Side::Above, &rule.patches, &mut jets);
+        PointBlock::new(self, rule.anchor, &offsets).integrals(&weights, &jets)
+    }
+
+    /// The number of halves, alike in the integrals of symmetric and of antisymmetric fields, that
+    /// those over the body stand for.
+    pub(super) fn halves(&self) -> [f64; FACTORS] {
+        match self.half {
+            None => [1.0; FACTORS],
+            Some(Symmetry::Symmetric) => [2.0, 0.0],
+            Some(Symmetry::Antisymmetric) => [0.0, 2.0],
+        }
+    }
+
+    /// E′ at the tip.
+    pub(super) fn modulus(&self) -> f64 {
+        self.material.effective_young()
+    }
+
+    /// False where all flows have no divergence.
+    pub(super) fn has_sources(&self) -> bool {
+        self.loads.force.is_some() || !self.law.is_uniform() || self.law.has_eigenstrain()
+    }
+
+    /// What is particular to a point, where the field has a gradient that is given in the
+    /// tip's frame.
+    pub(super) fn local(&self, world: Vec2) -> Local {
+        let force = self.loads.force.map_or(Vec2::ZERO, |force| turned(self.axis, force(world)));
+        let eigenstrain = self.eigenstrain(world, None);
+        Local { lame: self.lame(world), force: force.into(), eigenstrain }
+    }
+
+    /// ∇u of the jets at a point without the strains given at the tip, in its frame.
+    pub(super) fn gradient(&self, u: &[Jet<f64>], axis: Vec2) -> Gradients {
+        difference(&in_frame(u, axis), &self.shift)
+    }
+
+    /// The strains given at a point without those at the tip, in its frame.
+    pub(super) fn eigenstrain(&self, world: Vec2, face: FacePoint) -> Gradients {
+        let given = self.law.eigenstrain_on(world, face);
+        let given = given.map(|given| tensor_in_frame(&given, self.axis));
+        given.map_or([[0.0; 2]; 2], |given| difference(&given, &self.shift))
+    }
+
+    /// E_j,j of the flow of energy: what the material's variation, the given strains and the body
+    /// force add to it, ½ e:C,_1:e − σ:ε⁰,_1 + b_i u_i,1 with e = ε − ε⁰.
+    pub(super) fn energy_source(&self, world: Vec2, local: &Local, u: &Gradients) -> f64 {
+        let elastic = difference(u, &local.eigenstrain);
+        let graded = self.slope.as_ref().map_or(0.0, |slope| {
+            let heated = self.law.temperature_slope(world, self.axis);
+            let along = slope.eigenstrain(world, self.axis).unwrap_or_default();
+            let along = [0, 1].map(|j| heated[j] + along[j]);
+            let strained = match self.law.has_eigenstrain() {
+                true => work(&stress(local.lame, &elastic), &tensor_in_frame(&along, self.axis)),
+                false => 0.0,
+            };
+            slope.energy(world, self.axis, &elastic) - strained
+        });
+        graded + local.force[0] * u[0][0] + local.force[1] * u[1][0]
+    }
+
+    /// λ and μ of the material at a point.
+    pub(super) fn lame(&self, world: Vec2) -> [f64; 2] {
+        if self.law.is_uniform() { self.body.lame } else { self.law.coefficients(world) }
+    }
+
+    pub(super) fn auxiliary(&self, point: &TipPoint<f64>) -> [Auxiliary; MODES] {
+        self.body.fields::<f64, 1>(point)
+    }
+
+    /// The part that does not come from the cells: the loads on the faces.
+    fn start(&self) -> Integrals {
+        let modes = self.faces().map_or_else(Modes::default, |faces| faces.integrals());
+        Integrals { modes, ..Integrals::default() }
+    }
+
+    /// K = E′/2 M, and T = E′M + σ_22. Of the part of the field that is constant at the tip the
+    /// force sees ε_11 by its work, and σ_22 by the opening of its own field, u_2(−π) − u_2(π) =
+    /// (κ − 1)/(4μ): together E′M = σ_11 − σ_22.
+    fn integrals(&self, integrals: &Integrals) -> TipIntegrals {
+        let (modulus, [one, two]) = (self.modulus(), self.halves());
+        let integrals = &integrals.times(one.max(two));
+        let [one, two] = [one, two].map(|halves| halves.min(1.0));
+        let rings = std::array::from_fn(|k| {
+            let [m1, m2, _] = integrals.modes[k];
+            let [k1, k2] = [one * m1, two * m2].map(|m| 0.5 * modulus * m);
+            Ring { r1: 0.0, r2: self.radii[k], k1, k2 }
+        });
+        let of_force = one * modulus * integrals.modes[RINGS - 1][2];
+        let strength = (modulus * integrals.energy.max(0.0) / self.largest()).sqrt();
+        TipIntegrals {
+            rings,
+            t_stress: self.pressed.map(|pressed| of_force + pressed).filter(|t| t.is_finite()),
+            j: self.slope.as_ref().map(|_| integrals.j).filter(|j| j.is_finite()),
+            strength,
+            doubt: integrals.doubt,
+        }
+    }
+}
+
+/// Divisions of cells with formulas that vary fast, for all discs together. A cell in a layer takes
+/// some hundred; what more would be good for is told by a [`Doubt`].
+const MOST_DIVISIONS: usize = 50_000;
+
+/// The same in operations of the formulas, one of which takes these many points in a division.
+const DIVISION_OPERATIONS: usize = 1 << 32;
+const DIVISION_POINTS: usize = 1 << 10;
+
+/// Pieces of work that are done at a time.
+const BATCH: usize = 1 << 14;
+
+/// A region to integrate over at a tip, which its number gives.
+enum TipRegion {
+    Cell(usize, usize),
+    Bend(usize, Bend),
+    /// All elements of a mesh.
+    Mesh(usize),
+}
+
+/// The integrals around all tips, each over its discs: tips × cells in parallel, sums in order.
+///
+/// # Errors
+/// Cancelled.
+pub(super) fn integrate_tips<'a>(
+    space: &Space<'_>,
+    tips: &[Interaction<'a>],
+    watcher: &dyn Watcher,
+) -> Result<Vec<TipIntegrals>, Cancelled> {
+    let near = Placed::new(space.partition().cell.iter().copied().zip(0..));
+    let of_tip = |(k, tip): (usize, &Interaction<'_>)| {
+        if tip.is_on_mesh() {
+            return vec![TipRegion::Mesh(k)];
+        }
+        let of_cells = tip.cells(&near).map(|c| TipRegion::Cell(k, c));
+        of_cells.chain(tip.bends(&near).into_iter().map(|bend| TipRegion::Bend(k, bend))).collect()
+    };
+    let work: Vec<Vec<TipRegion>> = tips.par_iter().enumerate().map(of_tip).collect();
+    let count = |is_counted: fn(&TipRegion) -> bool| {
+        work.iter().flatten().filter(|work| is_counted(work)).count().max(1)
+    };
+    let cells_of_tips = count(|work| matches!(work, TipRegion::Cell(..)));
+    let stage = Stage::new(watcher, Phase::Intensity, count(|_| true))?;
+    let operations = space.probe_operations().max(1);
+    let divisions = MOST_DIVISIONS.min(DIVISION_OPERATIONS / (DIVISION_POINTS * operations));
+    let [quadrature, finer] =
+        [0, ORDER].map(|extra| space.quadrature(extra).with_divisions(divisions / cells_of_tips));
+    let mut integrals: Vec<_> = tips.iter().map(Interaction::start).collect();
+    let mut work = work.into_iter().flatten();
+    loop {
+        let batch: Vec<_> = work.by_ref().take(BATCH).collect();
+        if batch.is_empty() {
+            break;
+        }
+        let part = |seen: &mut Option<LocalField<'a>>, work: &TipRegion| {
+            stage.advance(1)?;
+            Ok::<_, Cancelled>(match work {
+                TipRegion::Cell(k, c) => (*k, tips[*k].cell(&quadrature, seen, *c)),
+                TipRegion::Bend(k, bend) => (*k, tips[*k].bend(&finer, bend)),
+                TipRegion::Mesh(k) => (*k, tips[*k].mesh(&stage)?),
+            })
+        };
+        let parts: Vec<_> = batch.par_iter().map_init(|| None, part).collect();
+        for part in parts {
+            let (k, part) = part?;
+            integrals[k] = integrals[k].plus(part);
+        }
+    }
+    Ok(tips.iter().zip(integrals).map(|(tip, sums)| tip.integrals(&sums)).collect())
+}
+
+impl Integrals {
+    pub(super) fn plus(self, other: Self) -> Self {
+        let mode = |k: usize| std::array::from_fn(|i| self.modes[k][i] + other.modes[k][i]);
+        let mut doubt = self.doubt;
+        doubt.add(&other.doubt);
+        let (j, energy) = (self.j + other.j, self.energy + other.energy);
+        Self { modes: std::array::from_fn(mode), j, energy, doubt }
+    }
+
+    pub(super) fn times(self, weight: f64) -> Self {
+        let modes = self.modes.map(|modes| modes.map(|m| weight * m));
+        Self { modes, j: weight * self.j, energy: weight * self.energy, doubt: self.doubt }
+    }
+}
+
+impl Integrals {
+    /// The sizes of the integrals.
+    pub(super) fn sizes(&self) -> Self {
+        let modes = self.modes.map(|modes| modes.map(f64::abs));
+        Self { modes, j: self.j.abs(), energy: self.energy.abs(), doubt: Doubt::default() }
+    }
+
+    /// The largest ratio to sizes of the same kind.
+    pub(super) fn part_of(&self, sizes: &Self) -> f64 {
+        let all = |of: &Self| {
+            of.modes.as_flattened().iter().copied().chain([of.j, of.energy]).collect::<Vec<_>>()
+        };
+        let ratios = all(self).into_iter().zip(all(sizes)).filter(|(_, size)| *size > 0.0);
+        ratios.map(|(part, size)| part.abs() / size).fold(0.0, f64::max)
+    }
+}
+
+/// r² of a point in the tip's frame.
+#[inline(always)]
+pub(super) fn square<R: Real>(point: &TipPoint<R>) -> R {
+    point.x * point.x + point.y * point.y
+}
+
+/// q and q′(r)/r for r² = `square`; zero outside the disc.
+#[inline(always)]
+pub(super) fn cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
+    let inverse = (radius * radius).recip();
+    let base = (square.lit(1.0) - square * square.lit(inverse)).max(square.lit(0.0));
+    let fourth = base * base * (base * base);
+    let power = fourth * base;
+    (base * power, square.lit(-2.0 * f64::from(CUT_OFF_POWER) * inverse) * power)
+}
+
+/// q and q′(r)/r of the functionals that have dual solutions, q = (1 − r⁴/R⁴)⁴: it is flatter at
+/// the tip than [`cut_off`], see [`Sensitivity`](super::Sensitivity).
+#[inline(always)]
+pub(super) fn flat_cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
+    let inverse = (radius * radius).recip();
+    let part = square * square.lit(inverse);
+    let base = (square.lit(1.0) - part * part).max(square.lit(0.0));
+    let third = base * base * base;
+    (base * third, square.lit(-16.0 * inverse) * part * third)
+}
+
+/// A vector in a frame with the given x axis.
+pub(super) fn turned(axis: Vec2, vector: [f64; 2]) -> Vec2 {
+    let vector = Vec2::from(vector);
+    vec2(axis.dot(vector), axis.cross(vector))
+}
+
+/// The displacement gradient in a frame with the given x axis.
+pub(super) fn in_frame(u: &[Jet<f64>], axis: Vec2) -> Gradients {
+    tensor_in_frame(&[vec2(u[0].x, u[0].y), vec2(u[1].x, u[1].y)], axis)
+}
+
+/// A gradient or strain in a frame with the given x axis.
+fn tensor_in_frame(g: &[Vec2; 2], axis: Vec2) -> Gradients {
+    let (gx, gy) = (turned(axis, g[0].into()), turned(axis, g[1].into()));
+    [(gx * axis.x + gy * axis.y).into(), (gy * axis.x - gx * axis.y).into()]
+}

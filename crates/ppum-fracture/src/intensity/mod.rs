@@ -1,0 +1,394 @@
+//! Stress intensity factors by the interaction integral, and what stands beside them.
+//!
+//! With the field u, an auxiliary Williams field uᵃ with K = 1 in one mode, both in the tip's
+//! frame, and a cut-off q that is 1 at the tip and 0 outside a disc (Yau, Wang & Corten 1980;
+//! domain form of Moran & Shih 1987)
+//!
+//! ```text
+//! M = ∫ P_j q_,j + P_j,j q dA − ∫ t_i uᵃ_i,1 q ds      K = E′/2 M
+//! P_j = σ_ij uᵃ_i,1 + σᵃ_ij u_i,1 − σᵃ_ik ε_ik δ_1j
+//! P_j,j = σ_ij (S_tip − S)_ijkl σᵃ_kl,1 − b_i uᵃ_i,1
+//! ```
+//!
+//! with the compliance S of the material, the body force b, and the tractions t on both faces of
+//! the crack. E′ and uᵃ are those of a uniform body of the material at the tip, and σᵃ is the
+//! stress in that body, in equilibrium but at odds with ε = S σ elsewhere (Dolbow & Gosz 2002):
+//! P_j,j is what that costs. It needs no derivative of the material and is of the order 1/r at the
+//! tip. In a uniform material it is the body force's part alone.
+//!
+//! Across an interface of two materials P_j n_j does not jump: tractions are continuous, and so is
+//! u, so that \[u_i,j\] = a_i n_j, and the jumps of the second and the third part cancel (Yu et al.
+//! 2009). Interfaces may lie in the disc; only a tip on one has no factors, because its field is
+//! another one.
+//!
+//! The crack may have kinks in the disc. The auxiliary fields then jump on the crack itself, where
+//! θ does, and not on its axis; so they load the faces that are not along it, and the last integral
+//! is −∫ P_j n_j q ds there. Of the gradient along a face, ∂u/∂s, and of that across it, the second
+//! cancels from σᵃ_ij n_j u_i,1 − σᵃ_ij u_i,j n_1, and with the outward normal n on the left of s
+//!
+//! ```text
+//! −∫ P_j n_j q ds = −∫ (t_i uᵃ_i,1 + σᵃ_i2 ∂u_i/∂s) q ds
+//! ```
+//!
+//! on all faces: σᵃ_i2 = 0 where they are along the axis. The field of each side is taken as it is
+//! on that side. Nothing else may lie in the disc: the radii are chosen in the [`TipClearance`] of
+//! the tip.
+
+//! Faces that touch have the tractions that the field itself has there, evaluated at the points of
+//! the same rules as what kinks add; σ_22 at the tip is then the stress between them.
+//!
+//! T, the part of σ_11 at the tip that is finite, comes from the same integral with the field of a
+//! force 1 along the axis at the tip (Kfouri 1986): T = E′M + σ_22, where σ_22 is what the loads on
+//! the faces press the tip with. That field loads no face along the axis, and has no K. Loads with
+//! a resultant at the tip make σ_11 grow like log r, and there is no T.
+//!
+//! J is the energy that is released, by the domain form of the J-integral (Li, Shih &
+//! Needleman 1985)
+//!
+//! ```text
+//! J = −∫ E_j q_,j + E_j,j q dA + ∫ (W n_1 − t_i u_i,1) q ds      W = ½ σ_ij ε_ij
+//! E_j = W δ_1j − σ_ij u_i,1      E_j,j = ½ ε:C,_1:ε + b_i u_i,1
+//! ```
+//!
+//! with the second integral over all faces.
+//!
+//! At a tip on a straight line of the border, with the other half of the body mirrored
+//! ([`Symmetry`]), the integrals over one half are doubled. Of a symmetric field those of K_I and
+//! T, and J, are twice that half: on the line ahead of the tip P_j n_j = 0 since there u_2 = uᵃ_2 =
+//! 0 and σ_12 = σᵃ_12 = 0. That of K_II is zero. Of an antisymmetric field that of K_II alone is
+//! not.
+//!
+//! J knows nothing of auxiliary fields: that J = G =
+//! (K_I² + K_II²)/E′ is a check. C is differentiated, so that there is no J where the material
+//! jumps in the disc.
+
+mod auxiliary;
+mod bent;
+mod block;
+mod border;
+mod cells;
+mod course;
+mod elements;
+mod faces;
+mod integral;
+mod resolve;
+mod sensitivity;
+mod slope;
+
+use border::border_distance;
+pub(crate) use cells::with_cells;
+use integral::{Interaction, RINGS, integrate_tips};
+use ppum::crack::{Crack, Side, TipId, tips};
+use ppum::dataset::{Dataset, TipIntensity};
+use ppum::field::{Field, FieldError};
+use ppum::progress::{Cancelled, Phase, Watcher};
+use ppum::vec2::{Rect, Vec2};
+use ppum_problem::geometry::{AMPLE_CLEARANCE, interface_distance};
+pub use ppum_problem::geometry::{Obstacle, TipClearance};
+use ppum_problem::{Problem, Symmetry};
+use ppum_solve::heat::Temperature;
+pub use ppum_solve::quadrature::Doubt;
+use ppum_solve::space::Space;
+use ppum_solve::watched::Stage;
+pub(crate) use sensitivity::{Sensitivity, TipDisc, sensitivities};
+
+/// Radii in parts of the tip's [`TipClearance`]; the last one is preferred, its integral averages
+/// most.
+const RADII: [f64; RINGS] = [0.5, 0.7, 0.9];
+
+/// Least radius of a tip's [`TipClearance`], in cells at the tip, for which factors are given.
+///
+/// Measured with tips beside another tip and beside the border, at orders 2 and 3
+/// (docs/decisions/0004): factors are off by at most 0.8 % from half a cell on, by 0.9 % from a
+/// fifth on, but by 4 % at a tenth of a cell, where the spread of the radii may say a tenth of
+/// that: the error is that of the field, which cells larger than the clearance do not resolve.
+const LEAST_CLEARANCE: f64 = 0.5;
+
+/// A load per area at a point: the body force b.
+pub type PointLoad<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
+
+/// The traction t on a face of a crack, given by its index, at a point.
+pub type FaceLoad<'a> = &'a (dyn Fn(u32, Side, Vec2) -> [f64; 2] + Sync);
+
+/// The coefficient of friction of a crack, given by its index, if its faces may touch.
+pub type FaceFriction<'a> = &'a (dyn Fn(u32) -> Option<f64> + Sync);
+
+/// The symmetry of the field at a tip on the border; none at others.
+pub type TipSymmetry<'a> = &'a (dyn Fn(TipId) -> Option<Symmetry> + Sync);
+
+/// The loads that act where the interaction integral looks, and what is known of the field there.
+#[derive(Clone, Copy, Default)]
+pub struct Loads<'a> {
+    /// Body force, if there is one.
+    pub force: Option<PointLoad<'a>>,
+    /// Tractions on the faces of cracks, if there are any.
+    pub faces: Option<FaceLoad<'a>>,
+    /// Friction of faces that may touch, if there are any. What acts between them is taken from the
+    /// field.
+    pub friction: Option<FaceFriction<'a>>,
+    /// The symmetry of the field at tips on the border, which have no factors without.
+    pub symmetry: Option<TipSymmetry<'a>>,
+}
+
+/// The findings about a tip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TipOutcome {
+    /// The tip.
+    pub tip: TipId,
+    /// Its place.
+    pub at: Vec2,
+    /// Its clearance.
+    pub clearance: TipClearance,
+    /// The longest side of the cells it lies in.
+    pub cell: f64,
+    /// Distance to the nearest interface of two materials, if it is within the clearance and nearer
+    /// than two of these cells.
+    pub interface: Option<f64>,
+    /// Its factors; none if the clearance is too small for them, see [`TipOutcome::needed`].
+    pub factors: Option<TipIntensity>,
+    /// True if faces that may touch do so at the tip, so that K_I is nothing but an error.
+    pub touches: bool,
+    /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that
+    /// K has where the crack concentrates stress, and far above K where nothing does. Zero
+    /// without factors.
+    pub strength: f64,
+    /// Errors that quadrature leaves in the discs.
+    pub doubt: Doubt,
+}
+
+impl TipOutcome {
+    /// Radius of the clearance below which a tip has no factors.
+    #[must_use]
+    pub fn needed(&self) -> f64 {
+        LEAST_CLEARANCE * self.cell
+    }
+
+    /// True if there is room for factors.
+    fn has_room(&self) -> bool {
+        self.clearance.radius >= self.needed()
+    }
+}
+
+/// The stress intensity factors of all tips of a step, each at three radii chosen in the tip's
+/// [`TipClearance`]; none at all unless the field is a displacement without a temperature, of which
+/// [`recompute`](crate::diagnostics::recompute) finds them.
+///
+/// The field is evaluated in the cells that meet the discs, for all tips in parallel; the values do
+/// not depend on the number of threads.
+///
+/// # Errors
+/// Cancelled, within the time of one cell.
+///
+/// # Panics
+/// If the field is not of the dataset and step of `space`.
+pub fn intensities(
+    dataset: &Dataset,
+    field: &Field<'_>,
+    space: &Space<'_>,
+    loads: Loads<'_>,
+    watcher: &dyn Watcher,
+) -> Result<Vec<TipOutcome>, Cancelled> {
+    if !field.is_displacement() || field.has_temperature() {
+        return Ok(Vec::new());
+    }
+    let stage = Stage::uncounted(watcher, Phase::Intensity)?;
+    let symmetry = |tip| loads.symmetry.and_then(|symmetry| symmetry(tip));
+    let outcome =
+        |tip| stage.advance(0).map(|()| TipOutcome::new(dataset, field, (tip, symmetry(tip))));
+    let mut tips = tips(&field.step.cracks).map(outcome).collect::<Result<Vec<_>, _>>()?;
+    let wanted: Vec<_> = tips.iter_mut().filter(|outcome| outcome.has_room()).collect();
+    let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.clearance.radius)));
+    let integrals: Vec<_> = discs
+        .filter_map(|(tip, radii)| Interaction::new(field, space, tip, radii, loads))
+        .collect();
+    let found = integrate_tips(space, &integrals, watcher)?;
+    for (outcome, (integral, found)) in wanted.into_iter().zip(integrals.iter().zip(found)) {
+        outcome.touches = integral.touches(outcome.cell);
+        outcome.strength = found.strength;
+        outcome.doubt = found.doubt;
+        outcome.factors = Some(found.factors(outcome.tip));
+    }
+    Ok(tips)
+}
+
+/// The reason why there are no factors on a circle.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CircleError {
+    /// A Poisson problem.
+    #[error("only displacements of elasticity have stress intensity factors")]
+    NoDisplacement,
+    /// No such tip.
+    #[error("the step has no such tip")]
+    NoTip,
+    /// Something else lies in the disc.
+    #[error("the circle meets {}; its radius can be at most {}", .0.end.name(), ppum::text::trimmed(.0.radius))]
+    Disturbed(TipClearance),
+    /// A radius that is no length.
+    #[error("the radius is not positive")]
+    Radius,
+    /// The field cannot be evaluated.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+    /// The watcher stopped the call.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// The largest disc around a tip of a step in which nothing disturbs its field; none if there is no
+/// such tip.
+#[must_use]
+pub fn clearance(dataset: &Dataset, step: usize, tip: TipId) -> Option<TipClearance> {
+    let field = Field::new(dataset, step).ok()?;
+    let crack = field.step.cracks.get(tip.crack as usize)?;
+    let cell = cell_at(&field.step.partition.cells(), crack.end_point(tip.end));
+    Some(clearance_in(dataset, &field, tip, cell))
+}
+
+/// The clearance of a tip in cells of a size; of a mesh without what is outside of it.
+fn clearance_in(dataset: &Dataset, field: &Field<'_>, tip: TipId, cell: f64) -> TipClearance {
+    let clear = TipClearance::new(dataset, field.step, tip, cell);
+    if field.step.partition.mesh().is_none() {
+        return clear;
+    }
+    let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
+    let radius = border_distance(field, at, clear.radius);
+    if radius < clear.radius { TipClearance { radius, end: Obstacle::Border } } else { clear }
+}
+
+/// The stress intensity factors at one tip by the discs inside a circle around it: the preferred
+/// ring is the circle's own, two others have the parts of its radius that those of [`intensities`]
+/// have. The loads are those of the problem, if one is known.
+///
+/// # Errors
+/// See [`CircleError`].
+pub fn on_circle(
+    dataset: &Dataset,
+    step: usize,
+    tip: TipId,
+    radius: f64,
+    problem: Option<&Problem>,
+    watcher: &dyn Watcher,
+) -> Result<TipIntensity, CircleError> {
+    let (dataset, step) = with_cells(dataset, step);
+    let dataset = &*dataset;
+    Field::new(dataset, step)?;
+    let clear = clearance(dataset, step, tip).ok_or(CircleError::NoTip)?;
+    if !(radius > 0.0 && radius.is_finite()) {
+        return Err(CircleError::Radius);
+    }
+    if radius > clear.radius {
+        return Err(CircleError::Disturbed(clear));
+    }
+    match Temperature::split(dataset, step)? {
+        Some((plain, heat)) => on_plain((&plain, 0), Some(heat), (tip, radius), problem, watcher),
+        None => on_plain((dataset, step), None, (tip, radius), problem, watcher),
+    }
+}
+
+/// The same of a displacement, in a body that a temperature may strain.
+fn on_plain(
+    (dataset, step): (&Dataset, usize),
+    heat: Option<Temperature>,
+    (tip, radius): (TipId, f64),
+    problem: Option<&Problem>,
+    watcher: &dyn Watcher,
+) -> Result<TipIntensity, CircleError> {
+    let field = Field::new(dataset, step)?;
+    let crack = &field.step.cracks[tip.crack as usize];
+    if !is_half_known(dataset, crack, problem.and_then(|problem| problem.symmetry_at(tip))) {
+        return Err(CircleError::Disturbed(TipClearance::NONE));
+    }
+    let Dataset { domain, equation, tables, .. } = dataset;
+    if !field.is_displacement() {
+        return Err(CircleError::NoDisplacement);
+    }
+    let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
+    heat.into_iter().for_each(|heat| space.heat(heat));
+    let radii = RADII.map(|part| part / RADII[RINGS - 1] * radius);
+    let found = under(problem, field.step.load, |loads| {
+        let integral = Interaction::new(&field, &space, tip, radii, loads);
+        integrate_tips(&space, integral.as_slice(), watcher)
+    })?;
+    let found = found.into_iter().next().ok_or(CircleError::NoDisplacement)?;
+    Ok(found.factors(tip))
+}
+
+/// The same under the loads of a problem that the field solves; none act without one.
+///
+/// # Errors
+/// Cancelled.
+pub(crate) fn intensities_under(
+    problem: Option<&Problem>,
+    dataset: &Dataset,
+    field: &Field<'_>,
+    space: &Space<'_>,
+    watcher: &dyn Watcher,
+) -> Result<Vec<TipOutcome>, Cancelled> {
+    let find = |loads: Loads<'_>| intensities(dataset, field, space, loads, watcher);
+    under(problem, field.step.load, find)
+}
+
+/// What is found under a multiple of the loads of a problem; none act without one.
+fn under<T>(problem: Option<&Problem>, factor: f64, find: impl FnOnce(Loads<'_>) -> T) -> T {
+    let times = |load: [f64; 2]| load.map(|part| factor * part);
+    let force = |x: Vec2| problem.map_or([0.0; 2], |problem| times(problem.source_at(x)));
+    let face = |crack: u32, side: Side, x: Vec2| {
+        problem.map_or([0.0; 2], |problem| times(problem.face_load(crack as usize, side, x)))
+    };
+    let friction = |crack: u32| problem.and_then(|problem| problem.contacts.get(&crack).copied());
+    let loads = Loads {
+        friction: Some(&friction),
+        force: problem.filter(|p| has_force(p)).map(|_| &force as PointLoad<'_>),
+        faces: problem.filter(|p| p.loads_faces()).map(|_| &face as FaceLoad<'_>),
+        symmetry: Some(&|tip| problem.and_then(|problem| problem.symmetry_at(tip))),
+    };
+    find(loads)
+}
+
+fn has_force(problem: &Problem) -> bool {
+    problem.source.iter().any(|component| component.constant() != Some(0.0))
+}
+
+/// False at a tip of a crack on the border of which no symmetry is known: nothing is known of its
+/// other half.
+fn is_half_known(dataset: &Dataset, crack: &Crack, symmetry: Option<Symmetry>) -> bool {
+    symmetry.is_some() || dataset.domain.line_along(&crack.points).is_none()
+}
+
+/// The longest side of the cells that a point lies in.
+fn cell_at(cells: &[Rect], at: Vec2) -> f64 {
+    let own = cells.iter().filter(|cell| cell.contains(at));
+    own.map(|cell| cell.size().x.max(cell.size().y)).fold(0.0, f64::max)
+}
+
+impl TipOutcome {
+    fn new(
+        dataset: &Dataset,
+        field: &Field<'_>,
+        (tip, symmetry): (TipId, Option<Symmetry>),
+    ) -> Self {
+        let crack = &field.step.cracks[tip.crack as usize];
+        let at = crack.end_point(tip.end);
+        let cell = cell_at(&field.step.partition.cells(), at);
+        let clearance = if is_half_known(dataset, crack, symmetry) {
+            clearance_in(dataset, field, tip, cell)
+        } else {
+            TipClearance::NONE
+        };
+        let reach = clearance.radius.min(AMPLE_CLEARANCE * cell);
+        let elastic = dataset.equation.elastic().filter(|_| reach > 0.0);
+        let interface = elastic.and_then(|body| interface_distance(body, at, reach));
+        Self {
+            tip,
+            at,
+            clearance,
+            cell,
+            interface,
+            factors: None,
+            touches: false,
+            strength: 0.0,
+            doubt: Doubt::default(),
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! What stress intensity factors are of the field: linear functionals.
+//!
+//! ```text
+//! K_m = ∫ G_m : ∇u dA + …      G_m : ∇u = E′/2 (P_j q_,j + (σ − σ_tip) : εᵃ_,1 q)
+//! ```
+//!
+//! with the integrand of the interaction integral over the largest disc, which is linear in ∇u. Its
+//! cut-off q is flatter at the tip than that of the factors: their dual solutions go there like
+//! (1 − q) r^(−1/2), which the space does not have, and 1 − q ~ r⁴ leaves less of it than r². The
+//! body force and the loads on faces add numbers that no error of the field changes. What faces
+//! behind kinks add is left out: it is small beside the rest.
+
+use super::block::PointBlock;
+use super::integral::Interaction;
+use super::{Loads, RADII, TipOutcome, TipSymmetry};
+use ppum::crack::tips;
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::vec2::Vec2;
+use ppum_problem::geometry::Placed;
+use ppum_solve::assembly::{FACTORS, Kernel, LinearFunctional};
+use ppum_solve::quadrature::Rule;
+use ppum_solve::space::Space;
+
+/// The factors of one tip as functionals.
+pub(crate) struct Sensitivity<'a>(Interaction<'a>);
+
+/// A tip, and the radius of the disc that its factors are integrated over.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TipDisc {
+    pub(crate) tip: Vec2,
+    pub(crate) radius: f64,
+}
+
+/// The functionals of all tips that have factors, in their order.
+pub(crate) fn sensitivities<'a>(
+    dataset: &Dataset,
+    field: &'a Field<'a>,
+    space: &'a Space<'a>,
+    symmetry: TipSymmetry<'a>,
+) -> Vec<Sensitivity<'a>> {
+    let loads = Loads { symmetry: Some(symmetry), ..Loads::default() };
+    let of_tip = |outcome: TipOutcome| {
+        let radii = RADII.map(|part| part * outcome.clearance.radius);
+        Interaction::new(field, space, outcome.tip, radii, loads)
+    };
+    let outcomes =
+        tips(&field.step.cracks).map(|tip| TipOutcome::new(dataset, field, (tip, symmetry(tip))));
+    outcomes.filter(TipOutcome::has_room).filter_map(of_tip).map(Sensitivity).collect()
+}
+
+impl Sensitivity<'_> {
+    /// Where the functional is integrated.
+    pub(crate) fn disc(&self) -> TipDisc {
+        TipDisc { tip: self.0.center, radius: self.0.largest() }
+    }
+}
+
+impl LinearFunctional for Sensitivity<'_> {
+    fn cells(&self, cells: &Placed<usize>) -> Vec<usize> {
+        self.0.cells(cells).collect()
+    }
+
+    fn kernels(&self, rule: &Rule) -> Vec<[Kernel; FACTORS]> {
+        PointBlock::new(&self.0, rule.anchor, &rule.offsets).kernels(&rule.weights)
+    }
+}

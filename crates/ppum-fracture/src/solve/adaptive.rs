@@ -1,0 +1,126 @@
+//! Solutions on covers that are improved where the one before errs.
+
+use super::SolveError;
+use super::clock::Clock;
+use super::diagnosed::{Diagnosed, GoalError};
+use super::discretised::Discretised;
+use super::plan::{Plan, most_cells};
+use super::solved::Solved;
+use ppum::dataset::Dataset;
+use ppum::field::Field;
+use ppum::progress::{Phase, Progress, Verdict, Watcher};
+use ppum_problem::{Adaptivity, Keep};
+use ppum_solve::adapt::{Adviser, mark};
+use ppum_solve::report::StopReason;
+use ppum_solve::space::{Change, Mesh};
+use ppum_solve::watched::Stage;
+
+/// A watcher of one step, which it tells the number of.
+struct InStep<'w> {
+    watcher: &'w dyn Watcher,
+    step: usize,
+}
+
+impl Watcher for InStep<'_> {
+    fn hear(&self, progress: Progress) -> Verdict {
+        self.watcher.hear(progress.in_step(self.step))
+    }
+}
+
+/// The next step, or why there is none.
+enum Next<'p> {
+    Plan(Box<Plan<'p>>),
+    Stop(StopReason),
+}
+
+/// Solves step by step: solve, estimate, mark, improve, from a plan of the first step.
+///
+/// # Errors
+/// See [`SolveError`].
+pub(super) fn adapted(
+    first: Plan<'_>,
+    set: &Adaptivity,
+    watcher: &dyn Watcher,
+) -> Result<Dataset, SolveError> {
+    let (mut plan, mut kept) = (first, Vec::new());
+    for step in 0.. {
+        let here = InStep { watcher, step };
+        let diagnosed = Diagnosed::new(Solved::new(plan, &here)?, &here)?;
+        match diagnosed.next(set, step, &InStep { watcher, step: step + 1 })? {
+            Next::Plan(next) => {
+                if set.keep == Keep::All {
+                    kept.append(&mut diagnosed.dataset(None, &here)?.steps);
+                }
+                plan = *next;
+            }
+            Next::Stop(stop) => {
+                let mut dataset = diagnosed.dataset(Some(stop), &here)?;
+                kept.append(&mut dataset.steps);
+                dataset.steps = kept;
+                return Ok(dataset);
+            }
+        }
+    }
+    unreachable!("steps have no end but that of the loop")
+}
+
+impl<'p> Diagnosed<'p> {
+    /// The plan of the step after this one, or what ends the adaptation.
+    fn next(
+        &self,
+        set: &Adaptivity,
+        step: usize,
+        watcher: &dyn Watcher,
+    ) -> Result<Next<'p>, SolveError> {
+        let error = self.report.estimated_error.unwrap_or(0.0);
+        let GoalError { of_cells, of_segments, cells: parts } = self.goal();
+        // cells take nothing of what segments err by
+        let is_out_of_reach = set.accuracy.is_some_and(|most| of_segments >= most);
+        let of_goal = match is_out_of_reach {
+            true => (Some(of_segments), of_cells),
+            false => (set.accuracy, of_cells + of_segments),
+        };
+        let wanted = [(set.tolerance, error), of_goal];
+        let mut wanted =
+            wanted.into_iter().filter_map(|(most, error)| Some(error <= most?)).peekable();
+        let is_enough = wanted.peek().is_some() && wanted.all(|reached| reached);
+        if error == 0.0 || is_enough {
+            let is_reached = error == 0.0 || !is_out_of_reach;
+            let stop = if is_reached { StopReason::Tolerance } else { StopReason::Segments };
+            return Ok(Next::Stop(stop));
+        }
+        if step >= set.steps {
+            return Ok(Next::Stop(StopReason::Steps));
+        }
+        let clock = Clock::new();
+        let stage = Stage::uncounted(watcher, Phase::Cover)?;
+        let parts = if set.accuracy.is_some() { &parts } else { &self.squares };
+        let Some(mesh) = self.improved(set, parts)? else {
+            return Ok(Next::Stop(StopReason::Limits));
+        };
+        let Plan { discretised: Discretised { problem, .. }, memory, .. } = self.plan;
+        if mesh.n_cells() > most_cells(problem, memory) {
+            return Ok(Next::Stop(StopReason::Memory));
+        }
+        match Plan::on(problem, mesh, memory, (clock, &stage)) {
+            Err(SolveError::TooLarge { .. }) => Ok(Next::Stop(StopReason::Memory)),
+            Ok(plan) if plan.estimate.unknowns > set.max_unknowns as f64 => {
+                Ok(Next::Stop(StopReason::Unknowns))
+            }
+            other => Ok(Next::Plan(Box::new(other?))),
+        }
+    }
+
+    /// The mesh of the next step, given the parts that the cells have in the error; none if nothing
+    /// can be improved where it is needed.
+    fn improved(&self, set: &Adaptivity, parts: &[f64]) -> Result<Option<Mesh>, SolveError> {
+        let Discretised { problem, mesh, dataset, space, .. } = &self.plan.discretised;
+        let field = Field::new(dataset, 0)?;
+        let adviser = Adviser::new(set.kind, problem, &field, space);
+        let mut changes = vec![Change::Keep; parts.len()];
+        for cell in mark(parts, set.fraction) {
+            changes[cell] = adviser.advice(cell);
+        }
+        Ok(mesh.changed(space.partition(), &changes)?)
+    }
+}

@@ -1,0 +1,94 @@
+//! The system of a discretised problem, in the stable basis.
+
+use super::SolveError;
+use super::clock::Clock;
+use super::discretised::Discretised;
+use crate::intensity::{Sensitivity, TipDisc, sensitivities};
+use ppum::field::Field;
+use ppum::progress::{Phase, Watcher};
+use ppum_problem::ForcePlace;
+use ppum_solve::assembly::{
+    Assembly, Duals, FaceContacts, FreeModes, Functionals, Gauge, LinearFunctional, System,
+    slivers, values_at,
+};
+use ppum_solve::basis::StableBasis;
+use ppum_solve::equilibrium::Plate;
+use ppum_solve::law::Law;
+use ppum_solve::quadrature::Face;
+use ppum_solve::watched::Stage;
+
+/// The system in the stable basis, without the penalty of the gauge.
+pub(super) struct Assembled {
+    pub(super) plate: Plate,
+    pub(super) basis: StableBasis,
+    pub(super) system: System,
+    pub(super) gauge: Gauge,
+    /// The faces that may touch, whose terms are not in the system.
+    pub(super) contacts: FaceContacts,
+    /// The discs of the tips whose factors are functionals of the system.
+    pub(super) tips: Vec<TipDisc>,
+}
+
+impl Assembled {
+    /// The system of what is given on the plate.
+    ///
+    /// # Errors
+    /// Loads without restraint, data and functions that are not finite; cancelled.
+    pub(super) fn new(
+        discretised: &Discretised<'_>,
+        clock: &mut Clock,
+        watcher: &dyn Watcher,
+    ) -> Result<Self, SolveError> {
+        let Discretised { problem, dataset, space, .. } = discretised;
+        let (given, plate) = discretised.loaded(watcher)?;
+        let field = Field::new(dataset, 0)?;
+        let symmetry = |tip| problem.symmetry_at(tip);
+        let tips = sensitivities(dataset, &field, space, &symmetry);
+        let law = &space.law();
+        let basis = stable_basis(discretised, law, watcher)?;
+        clock.lap(Phase::Basis);
+        let assembly = Assembly { problem, space, basis: &basis, law };
+        let stage = Stage::new(watcher, Phase::Assembly, assembly.n_cells())?;
+        let free = FreeModes::new(&plate);
+        let duals =
+            Duals::new(tips.iter().map(|tip| tip as &dyn LinearFunctional).collect(), space);
+        let functionals = Functionals { free: &free, duals: &duals };
+        let system = System::new(assembly, &given, functionals, &stage);
+        let mut system = system.map_err(SolveError::of_data)?;
+        add_forces(assembly, &mut system);
+        let contacts = FaceContacts::new(assembly, &stage).map_err(SolveError::of_data)?;
+        let moments = (std::mem::take(&mut system.moments), system.known.clone());
+        let gauge = Gauge::new(free, moments, &system.matrix);
+        let values = |x| values_at(assembly, &system.matrix, (x, None));
+        let conditions = plate.conditions(&problem.supports)?;
+        let gauge = gauge.with_supports(&problem.supports, &conditions, &values);
+        clock.lap(Phase::Assembly);
+        let tips = tips.iter().map(Sensitivity::disc).collect();
+        Ok(Self { plate, basis, system, gauge, contacts, tips })
+    }
+}
+
+/// Adds F·N(x₀) of the forces at points to the load.
+fn add_forces(assembly: Assembly<'_>, system: &mut System) {
+    for force in &assembly.problem.forces {
+        let face = assembly.problem.place_of(force).ok().and_then(ForcePlace::face).map(Face::from);
+        let values = values_at(assembly, &system.matrix, (force.at, face));
+        for (values, factor) in values.functionals.iter().zip([force.value.x, force.value.y]) {
+            system.load.iter_mut().zip(values).for_each(|(load, value)| *load += factor * value);
+        }
+    }
+}
+
+/// The stable basis, damped where the border cuts slivers.
+fn stable_basis(
+    Discretised { problem, space, .. }: &Discretised<'_>,
+    law: &Law<'_>,
+    watcher: &dyn Watcher,
+) -> Result<StableBasis, SolveError> {
+    let stage = Stage::new(watcher, Phase::Basis, 3 * space.partition().len())?;
+    let mut basis = StableBasis::new(space, &stage).map_err(SolveError::of_basis)?;
+    let assembly = Assembly { problem, space, basis: &basis, law };
+    let slivers = slivers(assembly, &stage).map_err(SolveError::of_data)?;
+    basis.damp(space, &slivers).map_err(SolveError::of_basis)?;
+    Ok(basis)
+}

@@ -1,0 +1,197 @@
+//! A solution with its estimated error, and what is made of it.
+
+use super::SolveError;
+use super::discretised::Discretised;
+use super::goal::Goal;
+use super::plan::Plan;
+use super::solved::Solved;
+use crate::diagnostics::{DiagnosedSolution, error_of_segments};
+use crate::intensity::TipOutcome;
+use ppum::dataset::{Attribute, Dataset, TipIntensity};
+use ppum::field::Field;
+use ppum::progress::{Phase, Watcher};
+use ppum_solve::adapt::{Estimated, LocalFields, estimated};
+use ppum_solve::law::Law;
+use ppum_solve::norms::energy;
+use ppum_solve::report::{SolverReport, StopReason, Unresolved};
+use ppum_solve::space::Space;
+use ppum_solve::watched::Stage;
+
+/// Part of the largest [strength](TipOutcome::strength) of a tip below which factors count as
+/// nothing, and are no measure of their errors.
+const NOTHING: f64 = 1e-2;
+
+/// Part of the energy that a field of the same size could have up to which the energy is rounding:
+/// of rigid motions.
+const ROUNDING: f64 = 1e-20;
+
+/// A solution whose errors are estimated.
+pub(super) struct Diagnosed<'p> {
+    pub(super) plan: Plan<'p>,
+    pub(super) report: SolverReport,
+    /// Integrands that quadrature did not resolve.
+    unresolved: Vec<Unresolved>,
+    /// The squares of the estimated error, cell by cell.
+    pub(super) squares: Vec<f64>,
+    /// What is known of the tips.
+    tips: Vec<TipOutcome>,
+    goal: Goal,
+}
+
+/// The largest estimated error of the factors of a tip, as a part of their size; without tips that
+/// of the energy.
+pub(super) struct GoalError {
+    /// What better cells take away.
+    pub(super) of_cells: f64,
+    /// What is due to the straight segments of curved cracks.
+    pub(super) of_segments: f64,
+    /// Of each cell its part in the sum of all.
+    pub(super) cells: Vec<f64>,
+}
+
+impl<'p> Diagnosed<'p> {
+    /// Finds the energy and the estimated errors of a solution and its factors.
+    ///
+    /// # Errors
+    /// Data that are not finite; cancelled.
+    pub(super) fn new(solved: Solved<'p>, watcher: &dyn Watcher) -> Result<Self, SolveError> {
+        let Solved { mut plan, mut report, local, unresolved, lonely, .. } = solved;
+        let (contact, mut tips) = (solved.contact, solved.tips);
+        let Plan { discretised: Discretised { problem, dataset, space, .. }, clock, .. } =
+            &mut plan;
+        let stage = Stage::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
+        let field = Field::new(dataset, 0)?;
+        let fields = LocalFields { space, coefficients: &local, lonely: &lonely };
+        let found = estimated(problem, &field, fields, &stage).map_err(SolveError::of_data)?;
+        let cells = &space.partition().cell;
+        let mut goal = Goal::new(&solved.dual_tips, cells, &found.products, &contact);
+        goal.add_own(&tips);
+        let factors = tips.iter_mut().filter_map(|outcome| outcome.factors.as_mut());
+        for (factors, error) in factors.zip(&goal.errors) {
+            let of_segments = of_segments(dataset, factors);
+            factors.error = Some(error + of_segments * size(factors));
+        }
+        let Estimated { mut energy, squares, .. } = found;
+        if problem.forces.is_empty() {
+            report.energy = Some(energy);
+            report.whole_energy = problem.images().map(|images| images * energy);
+        } else {
+            report.energy = Some(f64::INFINITY);
+            energy = energy_of_unknowns(dataset, space)?;
+        }
+        if !energy.is_finite() {
+            return Err(SolveError::Overflow);
+        }
+        clock.lap(Phase::Estimation);
+        // nothing is a part of no energy, or of one that is rounding
+        if energy > ROUNDING * energy_of_size(&field) {
+            report.estimated_error = Some((squares.iter().sum::<f64>() / (2.0 * energy)).sqrt());
+            dataset.steps[0].attributes.push(indicator(&squares, energy));
+        }
+        let mut diagnosed = Self { plan, report, unresolved, squares, tips, goal };
+        if !diagnosed.goal.errors.is_empty() {
+            let GoalError { of_cells, of_segments, .. } = diagnosed.goal();
+            diagnosed.report.factor_error = Some(of_cells + of_segments);
+        }
+        Ok(diagnosed)
+    }
+
+    /// The estimated error that an accuracy bounds.
+    pub(super) fn goal(&self) -> GoalError {
+        let with_factors = self.tips.iter().filter_map(|o| Some((o.strength, o.factors.as_ref()?)));
+        let (strengths, sizes): (Vec<_>, Vec<_>) =
+            with_factors.map(|(strength, factors)| (strength, size(factors))).unzip();
+        let largest = strengths.into_iter().fold(0.0, f64::max);
+        if largest == 0.0 {
+            let of_cells = self.report.estimated_error.unwrap_or(0.0).powi(2);
+            return GoalError { of_cells, of_segments: 0.0, cells: self.squares.clone() };
+        }
+        let relative = |tip: usize, error: f64| error / sizes[tip].max(NOTHING * largest);
+        let errors = self.goal.errors.iter().enumerate().map(|(tip, error)| relative(tip, *error));
+        let cells = self.goal.cells.iter().map(|(tip, part)| relative(*tip, *part));
+        let dataset = &self.plan.discretised.dataset;
+        let factors = self.tips.iter().filter_map(|outcome| outcome.factors.as_ref());
+        GoalError {
+            of_cells: errors.fold(0.0, f64::max),
+            of_segments: factors.map(|found| of_segments(dataset, found)).fold(0.0, f64::max),
+            cells: cells.collect(),
+        }
+    }
+
+    /// The dataset of a solution with its stress intensity factors, its diagnosis and its report;
+    /// of the last step of an adaptation with what has ended it.
+    pub(super) fn dataset(
+        self,
+        stop: Option<StopReason>,
+        watcher: &dyn Watcher,
+    ) -> Result<Dataset, SolveError> {
+        let Self { plan, mut report, unresolved, tips, .. } = self;
+        let Plan { discretised, mut clock, .. } = plan;
+        let Discretised { problem, mut dataset, ref space, crossed_twice, .. } = discretised;
+        let field = Field::new(&dataset, 0)?;
+        report.crossed_twice = Some(crossed_twice as f64);
+        report.stop = stop;
+        let case = DiagnosedSolution {
+            dataset: &dataset,
+            step: 0,
+            field: &field,
+            space,
+            problem: Some(problem),
+            report: &report,
+            unresolved: &unresolved,
+        };
+        let diagnosis = case.diagnose(&tips, watcher)?;
+        clock.lap(Phase::Estimation);
+        report.rounding = Some(diagnosis.rounding);
+        report.seconds = clock.seconds;
+        let step = &mut dataset.steps[0];
+        step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
+        step.warnings = diagnosis.warnings;
+        step.history = report.records();
+        match space.temperature() {
+            Some(temperature) => {
+                let dataset = temperature.joined(dataset, &problem.quantities);
+                dataset.check()?;
+                Ok(dataset)
+            }
+            None => Ok(dataset),
+        }
+    }
+}
+
+/// The part of the factors of a tip that the segments of its crack may err by.
+fn of_segments(dataset: &Dataset, factors: &TipIntensity) -> f64 {
+    let tip = factors.tip;
+    error_of_segments(&dataset.steps[0].cracks[tip.crack as usize], tip.end)
+}
+
+/// |(K_I, K_II)|
+fn size(tip: &TipIntensity) -> f64 {
+    tip.k1.hypot(tip.k2)
+}
+
+/// The energy of a field without its known part.
+fn energy_of_unknowns(dataset: &Dataset, space: &Space<'_>) -> Result<f64, SolveError> {
+    let mut rest = dataset.clone();
+    for patch in 0..space.partition().len() {
+        for component in rest.steps[0].fields[0].coefficients_mut(patch) {
+            space.known(patch).iter().for_each(|known| component[known.stored] = 0.0);
+        }
+    }
+    Ok(energy(&Field::new(&rest, 0)?, space))
+}
+
+/// A modulus times the square of the largest coefficient.
+fn energy_of_size(field: &Field<'_>) -> f64 {
+    let all = field.data.coefficients.iter().flatten();
+    let largest = all.fold(0.0_f64, |most, c| most.max(c.abs()));
+    let law = Law::new(field.equation).at(field.step.partition.boxes().center[0]);
+    law.modulus(0) * largest * largest
+}
+
+/// The attribute `indicator`, η_j / ‖u‖ in the energy norm: the root of the sum of its squares is
+/// the estimated error.
+fn indicator(squares: &[f64], energy: f64) -> Attribute {
+    let values = squares.iter().map(|square| (square / (2.0 * energy)).sqrt()).collect();
+    Attribute { name: "indicator".into(), values }
+}

@@ -1,0 +1,156 @@
+//! A plan whose dataset has its coefficients.
+
+use super::SolveError;
+use super::assembled::Assembled;
+use super::discretised::Discretised;
+use super::plan::Plan;
+use super::unknowns::Unknowns;
+use crate::intensity::{TipDisc, TipOutcome, intensities_under};
+use faer::Mat;
+use ppum::dataset::{Attribute, FieldData, TipIntensity};
+use ppum::field::Field;
+use ppum::progress::{Phase, Watcher};
+use ppum_solve::assembly::ContactError;
+use ppum_solve::heat::Temperature;
+use ppum_solve::report::{ASSEMBLY_SECONDS, SolverReport, Unresolved};
+use ppum_solve::space::Space;
+
+/// A solution with the stress intensity factors of its tips.
+pub(super) struct Solved<'p> {
+    pub(super) plan: Plan<'p>,
+    /// The numbers of the report that are known with the solution.
+    pub(super) report: SolverReport,
+    /// Of each patch, the coefficients of the functions that the solver evaluates: a row for each
+    /// component of the solution and of the dual solutions.
+    pub(super) local: Vec<Mat<f64>>,
+    /// Integrands that quadrature did not resolve.
+    pub(super) unresolved: Vec<Unresolved>,
+    /// Of each patch, the first functions of components of which nearly nothing lies where it
+    /// is alone.
+    pub(super) lonely: Vec<Vec<usize>>,
+    /// The discs of the tips whose factors have dual solutions.
+    pub(super) dual_tips: Vec<TipDisc>,
+    /// The cells in which contact ends.
+    pub(super) contact: Vec<ContactError>,
+    /// The findings about all tips.
+    pub(super) tips: Vec<TipOutcome>,
+}
+
+impl<'p> Solved<'p> {
+    /// Solves a plan, and integrates the factors of its tips.
+    ///
+    /// # Errors
+    /// See [`SolveError`].
+    pub(super) fn new(mut plan: Plan<'p>, watcher: &dyn Watcher) -> Result<Self, SolveError> {
+        if let Some(temperature) = temperature(&plan, watcher)? {
+            plan.discretised.space.heat(temperature);
+        }
+        let Plan { discretised, estimate, clock, .. } = &mut plan;
+        let mut assembled = Assembled::new(discretised, clock, watcher)?;
+        let unknowns = Unknowns::new(discretised, &mut assembled, estimate, watcher)?;
+        clock.lap(Phase::Solution);
+        let mut solved = Self::without_factors(plan, assembled, unknowns);
+        let Plan { discretised: Discretised { problem, dataset, space, .. }, clock, .. } =
+            &mut solved.plan;
+        let field = Field::new(dataset, 0)?;
+        solved.tips = intensities_under(Some(problem), dataset, &field, space, watcher)?;
+        clock.lap(Phase::Intensity);
+        Ok(solved)
+    }
+
+    /// Writes the solution into the dataset of its plan.
+    fn without_factors(mut plan: Plan<'p>, assembled: Assembled, unknowns: Unknowns) -> Self {
+        let Discretised { problem, space, dataset, .. } = &mut plan.discretised;
+        let components = problem.components();
+        let report = report(&assembled, unknowns.report, components);
+        let Assembled { basis, mut system, tips: dual_tips, .. } = assembled;
+        let (solution, step) = (&unknowns.all[0], &mut dataset.steps[0]);
+        write_coefficients(&mut step.fields[0], &basis.plain(space, solution, components));
+        step.reactions = system.reactions.of(problem, &basis, &system.matrix, solution);
+        let cut_off = basis.cut_off(components).map(|n| n as f64).collect();
+        step.attributes.extend([
+            attribute("cut-off", cut_off),
+            attribute("least-eigenvalue", basis.least()),
+            attribute("quadrature-points", system.points()),
+            attribute(ASSEMBLY_SECONDS, system.seconds()),
+        ]);
+        let mut local = basis.local_coefficients(&unknowns.all, components);
+        write_known(space, &mut step.fields[0], &mut local);
+        let unresolved = std::mem::take(&mut system.unresolved);
+        let (lonely, tips, contact) = (basis.lonely, Vec::new(), unknowns.contact);
+        Self { plan, report, local, unresolved, lonely, dual_tips, contact, tips }
+    }
+
+    /// The factors of the tips that have any.
+    pub(super) fn factors(&self) -> Vec<TipIntensity> {
+        self.tips.iter().filter_map(|outcome| outcome.factors.clone()).collect()
+    }
+}
+
+/// The temperature that strains the body, if another problem gives it: solved on the same cells.
+fn temperature(plan: &Plan<'_>, watcher: &dyn Watcher) -> Result<Option<Temperature>, SolveError> {
+    let problem = plan.problem();
+    let Some(heat) = problem.heat() else { return Ok(None) };
+    let solved =
+        Solved::new(plan.of_heat(&heat, watcher)?, watcher).map_err(SolveError::of_heat)?;
+    let Solved { plan, report, unresolved, .. } = solved;
+    let equation = problem.dataset_equation().into_owned();
+    let temperature = Temperature::new(plan.discretised.dataset, equation)?;
+    Ok(Some(temperature.with_report(report, unresolved)))
+}
+
+/// The report of a linear solver, with the numbers of the system.
+fn report(assembled: &Assembled, solver: SolverReport, components: usize) -> SolverReport {
+    let Assembled { plate, basis, system, gauge, .. } = assembled;
+    let cut_off = basis.cut_off(components).sum::<usize>() as f64;
+    let kept = basis.unknowns(components).sum::<usize>() as f64;
+    let (all, left) = (kept + cut_off, kept - solver.dependent.unwrap_or(0.0));
+    let mut bytes =
+        vec![(Phase::Basis, basis.bytes() as f64), (Phase::Assembly, system.bytes() as f64)];
+    bytes.extend(solver.solver_bytes.map(|held| (Phase::Solution, held)));
+    SolverReport {
+        unknowns: Some(all),
+        cut_off: Some(cut_off),
+        bytes,
+        worked: vec![
+            (Phase::Cover, all),
+            (Phase::Basis, all),
+            (Phase::Assembly, kept),
+            (Phase::Solution, left),
+        ],
+        nitsche: Some(system.nitsche),
+        pieces: Some(plate.pieces.all().len() as f64),
+        free_modes: Some(gauge.len() as f64),
+        imbalance: Some(plate.imbalance()),
+        quadrature_points: Some(system.points().iter().sum()),
+        ..solver
+    }
+}
+
+fn attribute(name: &str, values: Vec<f64>) -> Attribute {
+    Attribute { name: name.into(), values }
+}
+
+/// Writes the coefficients that are known, also among those that the solver evaluates.
+fn write_known(space: &Space<'_>, data: &mut FieldData, local: &mut [Mat<f64>]) {
+    for (patch, local) in local.iter_mut().enumerate() {
+        for known in space.known(patch) {
+            for (i, component) in data.coefficients_mut(patch).enumerate() {
+                component[known.stored] = known.coefficients[i];
+                local[(i, known.evaluated)] = known.coefficients[i];
+            }
+        }
+    }
+}
+
+/// Writes coefficients that stand patch by patch and in each patch component by component.
+fn write_coefficients(data: &mut FieldData, coefficients: &[f64]) {
+    let mut rest = coefficients;
+    for patch in 0..data.patch_blocks.len() - 1 {
+        for component in data.coefficients_mut(patch) {
+            let (part, tail) = rest.split_at(component.len());
+            component.copy_from_slice(part);
+            rest = tail;
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! The unknowns of a system, by the linear solver that suits it.
+
+use super::SolveError;
+use super::assembled::Assembled;
+use super::contact::close;
+use super::discretised::Discretised;
+use super::estimate::Estimate;
+use ppum::progress::{Cancelled, Phase, Watcher};
+use ppum_linear::{Cholesky, LinearError, LinearSolution, LinearSolver, Multilevel};
+use ppum_solve::assembly::ContactError;
+use ppum_solve::hierarchy::Finest;
+use ppum_solve::report::{LevelSize, LinearKind, SolverReport};
+use ppum_solve::space::Space;
+use ppum_solve::watched::Stage;
+
+/// The unknowns in the stable basis.
+pub(super) struct Unknowns {
+    /// Those of the solution, without what is left of free motions, and of the dual solutions.
+    pub(super) all: Vec<Vec<f64>>,
+    /// The cells in which contact ends.
+    pub(super) contact: Vec<ContactError>,
+    /// The numbers of the report that the linear solver knows.
+    pub(super) report: SolverReport,
+}
+
+impl Unknowns {
+    /// Solves the system by the solver of an estimate, or by the direct one where coarser levels
+    /// do not serve and memory holds a factor.
+    ///
+    /// # Errors
+    /// A system that is singular or too large, a load that is not finite; cancelled.
+    pub(super) fn new(
+        discretised: &Discretised<'_>,
+        assembled: &mut Assembled,
+        estimate: &Estimate,
+        watcher: &dyn Watcher,
+    ) -> Result<Self, SolveError> {
+        match Self::of_kind(estimate.solver, discretised, assembled, watcher) {
+            Err(error) if estimate.falls_back && is_of_levels(&error) => {
+                let direct = LinearKind::Direct;
+                let mut unknowns = Self::of_kind(direct, discretised, assembled, watcher)?;
+                unknowns.report.fallback = Some(1.0);
+                Ok(unknowns)
+            }
+            other => other,
+        }
+    }
+
+    fn of_kind(
+        kind: LinearKind,
+        Discretised { problem, mesh, space, .. }: &Discretised<'_>,
+        Assembled { plate, basis, system, gauge, contacts, .. }: &mut Assembled,
+        watcher: &dyn Watcher,
+    ) -> Result<Self, SolveError> {
+        let located = |error| located(error, space);
+        let stage = Stage::new(watcher, Phase::Solution, 3)?;
+        let goes_on = || stage.advance(0).is_ok();
+        let free = gauge.loads(&system.matrix);
+        let mut contact_steps = None;
+        let solver: Box<dyn LinearSolver + '_> = match kind {
+            LinearKind::Direct => {
+                gauge.add_penalty(&mut system.matrix);
+                if !contacts.is_empty() {
+                    contact_steps = Some(close(contacts, gauge, system, &located, &stage)?);
+                }
+                Box::new(Cholesky::new(&system.matrix).map_err(located)?)
+            }
+            LinearKind::Multilevel => {
+                let coarser = Finest { problem, plate, mesh, space, basis }.coarser(&stage)?;
+                let wanted = (problem.solver.tolerance, &goes_on as &(dyn Fn() -> bool + Sync));
+                let solver = Multilevel::new(&system.matrix, coarser, &free, wanted);
+                Box::new(solver.map_err(located)?)
+            }
+        };
+        let solver = solver.as_ref();
+        stage.advance(1)?;
+        let mut solution = solver.solve(&system.load).map_err(located)?;
+        stage.advance(1)?;
+        gauge.center(solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
+        stage.advance(1)?;
+        let mut report = report(kind, solver, &solution);
+        if let Some(steps) = contact_steps {
+            let stresses = contacts.stresses(&system.matrix, &solution.unknowns);
+            report.contact_steps = Some(steps as f64);
+            contacts.report(&stresses, &mut report);
+        }
+        let mut all = vec![solution.unknowns];
+        if !system.duals.is_empty() {
+            all.append(&mut solver.solve_roughly(&system.duals).map_err(located)?);
+        }
+        let contact = contacts.errors(&system.matrix, &all);
+        Ok(Self { all, contact, report })
+    }
+}
+
+/// The numbers that are told of a solver and a solution.
+fn report(kind: LinearKind, solver: &dyn LinearSolver, solution: &LinearSolution) -> SolverReport {
+    let report = SolverReport {
+        residual: Some(solution.relative_residual),
+        dependent: Some(solver.n_dependent() as f64),
+        solver: Some(kind),
+        solver_bytes: Some(solver.bytes() as f64),
+        ..SolverReport::default()
+    };
+    let Some(course) = &solution.course else { return report };
+    let levels: Vec<_> = solver.level_sizes().into_iter().map(level_size).collect();
+    SolverReport {
+        solver_levels: Some(levels.len() as f64),
+        iterations: Some(course.residuals.len() as f64 - 1.0),
+        preconditioned_condition: Some(course.condition),
+        levels,
+        residuals: course.residuals.clone(),
+        level_residuals: course.levels.clone(),
+        ..report
+    }
+}
+
+fn level_size(of: [usize; 4]) -> LevelSize {
+    let [patches, unknowns, values, bytes] = of.map(|n| n as f64);
+    LevelSize { patches, unknowns, values, bytes }
+}
+
+/// The error at the place of its patch.
+fn located(error: LinearError, space: &Space<'_>) -> SolveError {
+    match error.patch() {
+        Some(patch) => {
+            let around = space.partition().support(patch).into();
+            SolveError::Singular { around, error }
+        }
+        None if error == LinearError::Stopped => Cancelled.into(),
+        None => SolveError::Factor(error),
+    }
+}
+
+/// True if coarser levels may be the reason of an error.
+fn is_of_levels(error: &SolveError) -> bool {
+    let (SolveError::Singular { error, .. } | SolveError::Factor(error)) = error else {
+        return false;
+    };
+    !matches!(error, LinearError::LoadNotFinite { .. })
+}

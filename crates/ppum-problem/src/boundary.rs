@@ -1,0 +1,349 @@
+//! Conditions on the border: edges of the box, rims of holes, faces of cracks.
+
+use std::fmt;
+
+use ppum::crack::Side;
+use ppum::domain::Hole;
+use ppum::expression::Expression;
+use ppum::vec2::{Rect, Vec2, vec2};
+
+use super::words::Words;
+
+/// An edge of the box Ω.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edge {
+    /// x = min.
+    Left,
+    /// x = max.
+    Right,
+    /// y = min.
+    Bottom,
+    /// y = max.
+    Top,
+}
+
+impl Edge {
+    /// All edges.
+    pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
+
+    /// Name in problem files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.word()
+    }
+
+    /// The edge of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|edge| edge.name() == name)
+    }
+
+    /// Unit normal that points out of the box.
+    #[must_use]
+    pub fn normal(self) -> Vec2 {
+        match self {
+            Self::Left => vec2(-1.0, 0.0),
+            Self::Right => vec2(1.0, 0.0),
+            Self::Bottom => vec2(0.0, -1.0),
+            Self::Top => vec2(0.0, 1.0),
+        }
+    }
+
+    /// The range of the edge's own coordinate: y on the left and right, x at the bottom and top.
+    #[must_use]
+    pub fn range(self, domain: &Rect) -> [f64; 2] {
+        match self {
+            Self::Left | Self::Right => [domain.min.y, domain.max.y],
+            Self::Bottom | Self::Top => [domain.min.x, domain.max.x],
+        }
+    }
+
+    /// The edge's own coordinate of a point.
+    #[must_use]
+    pub fn coordinate(self, p: Vec2) -> f64 {
+        match self {
+            Self::Left | Self::Right => p.y,
+            Self::Bottom | Self::Top => p.x,
+        }
+    }
+
+    /// The point of the edge with own coordinate `s`.
+    #[must_use]
+    pub fn point(self, domain: &Rect, s: f64) -> Vec2 {
+        match self {
+            Self::Left => vec2(domain.min.x, s),
+            Self::Right => vec2(domain.max.x, s),
+            Self::Bottom => vec2(s, domain.min.y),
+            Self::Top => vec2(s, domain.max.y),
+        }
+    }
+
+    /// Distance of `p` to the line of the edge, positive inside the box.
+    #[must_use]
+    pub fn depth(self, domain: &Rect, p: Vec2) -> f64 {
+        match self {
+            Self::Left => p.x - domain.min.x,
+            Self::Right => domain.max.x - p.x,
+            Self::Bottom => p.y - domain.min.y,
+            Self::Top => domain.max.y - p.y,
+        }
+    }
+}
+
+impl Words for Edge {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("left", Self::Left),
+        ("right", Self::Right),
+        ("bottom", Self::Bottom),
+        ("top", Self::Top),
+    ];
+}
+
+/// The word for the whole outline of the body.
+pub(super) const OUTLINE: &str = "outline";
+
+/// A part of the border of the plate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BorderPart {
+    /// A piece of an edge of the box; what lies in holes does not count.
+    Edge {
+        /// The edge.
+        edge: Edge,
+        /// Start of the piece in the edge's own coordinate, see [`Edge::range`].
+        from: f64,
+        /// End of the piece, larger than `from`.
+        to: f64,
+    },
+    /// The rim of a hole, by its index; that of the hole around the outline is the outline.
+    Hole(usize),
+    /// Some sides of the rim of a hole.
+    Sides(SideRun),
+    /// A piece of rims that has a name, by its index in [`Problem::pieces`].
+    ///
+    /// [`Problem::pieces`]: super::Problem::pieces
+    Piece(usize),
+    /// A face of a crack, or both.
+    Crack {
+        /// Index of the crack.
+        crack: usize,
+        /// The face of the material on this side; both if none is named.
+        face: Option<Side>,
+    },
+}
+
+impl BorderPart {
+    /// A whole edge.
+    #[must_use]
+    pub fn edge(edge: Edge, domain: &Rect) -> Self {
+        let [from, to] = edge.range(domain);
+        Self::Edge { edge, from, to }
+    }
+
+    /// The part that two that meet have in common; of pieces of rims one of them.
+    pub(super) fn common(&self, other: &Self) -> Option<Self> {
+        match (*self, *other) {
+            (Self::Edge { edge, from: a, to: b }, Self::Edge { edge: same, from: c, to: d }) => {
+                let (from, to) = (a.max(c), b.min(d));
+                (edge == same && from < to).then_some(Self::Edge { edge, from, to })
+            }
+            (Self::Hole(hole), Self::Hole(same)) => (hole == same).then_some(*self),
+            (
+                part @ (Self::Piece(_) | Self::Sides(_)),
+                Self::Hole(_) | Self::Piece(_) | Self::Sides(_),
+            )
+            | (Self::Hole(_), part @ (Self::Piece(_) | Self::Sides(_))) => Some(part),
+            (Self::Crack { crack, face }, Self::Crack { crack: same, face: other }) => {
+                let apart = face.is_some() && other.is_some() && face != other;
+                let face = face.or(other);
+                (crack == same && !apart).then_some(Self::Crack { crack, face })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Sides of rims with a name, on which conditions may be given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// The name; different ones are different.
+    pub name: String,
+    /// Where it is; no two runs have a side in common, but for parts of other pieces.
+    pub runs: Vec<SideRun>,
+}
+
+/// Successive sides of the polygon around a hole, as [`Hole::sides`] counts them.
+///
+/// [`Hole::sides`]: ppum::domain::Hole::sides
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideRun {
+    /// Index of the hole.
+    pub hole: usize,
+    /// Number of the first side.
+    pub from: usize,
+    /// Number of the side after the last one.
+    pub to: usize,
+}
+
+impl SideRun {
+    /// Its sides, of its hole.
+    pub(super) fn sides(self, hole: &Hole) -> impl Iterator<Item = [Vec2; 2]> + '_ {
+        hole.sides().take(self.to).skip(self.from)
+    }
+
+    /// True if a side of a hole belongs to it.
+    pub fn holds(self, hole: usize, side: usize) -> bool {
+        self.hole == hole && (self.from..self.to).contains(&side)
+    }
+}
+
+impl fmt::Display for BorderPart {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Edge { edge, from, to } => {
+                write!(f, "the {} edge between {from} and {to}", edge.name())
+            }
+            Self::Hole(hole) => write!(f, "the rim of hole {hole}"),
+            Self::Sides(SideRun { hole, from, to }) => {
+                write!(f, "the sides {from} to {} of hole {hole}", to - 1)
+            }
+            Self::Piece(piece) => write!(f, "piece {piece}"),
+            Self::Crack { crack, face: None } => write!(f, "the faces of crack {crack}"),
+            Self::Crack { crack, face: Some(side) } => {
+                write!(f, "the face of crack {crack} {} it", side.word())
+            }
+        }
+    }
+}
+
+/// Conditions on a part of the border. Parts may overlap where they speak of different components;
+/// a component of which nothing is said anywhere is free of traction (of flux).
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoundaryCondition {
+    /// The place.
+    pub on: BorderPart,
+    /// One condition per component of the unknown field.
+    pub components: Vec<Condition>,
+    /// The unit vector along which the first component is; the second is along that to its left.
+    /// It is that of x but for a symmetry to an oblique line.
+    pub axis: Vec2,
+    /// A pressure p: the traction −p n, n pointing out of the material. It says all components.
+    pub pressure: Option<Expression>,
+    /// A coefficient h > 0: values that are given are those of the surroundings, to which the field
+    /// yields, κ ∂u/∂n = h (g − u), n pointing out of the material.
+    pub exchange: Option<Expression>,
+}
+
+/// The condition on one component of the unknown field.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Condition {
+    /// Nothing is said of this component here.
+    Free,
+    /// The component itself: u_k = g.
+    Dirichlet(Expression),
+    /// The traction (σ n)_k, or for Poisson the flux κ ∂u/∂n into the plate; n points outwards.
+    Neumann(Expression),
+}
+
+impl BoundaryCondition {
+    /// Conditions on a part of the border, one per component.
+    #[must_use]
+    pub fn new(on: BorderPart, components: Vec<Condition>) -> Self {
+        Self { on, components, axis: vec2(1.0, 0.0), pressure: None, exchange: None }
+    }
+
+    /// A pressure on a part of the border of an elastic plate.
+    #[must_use]
+    pub fn pressure(on: BorderPart, pressure: Expression) -> Self {
+        Self { pressure: Some(pressure), ..Self::new(on, vec![Condition::Free; 2]) }
+    }
+
+    /// Conditions on a whole edge.
+    #[must_use]
+    pub fn on_edge(edge: Edge, domain: &Rect, components: Vec<Condition>) -> Self {
+        Self::new(BorderPart::edge(edge, domain), components)
+    }
+
+    /// True if something is said of a component; along oblique axes it is of both.
+    pub(super) fn says(&self, component: usize) -> bool {
+        let is_free = self.components[component] == Condition::Free;
+        self.pressure.is_some() || !is_free || self.is_oblique()
+    }
+
+    fn is_oblique(&self) -> bool {
+        self.axis.y != 0.0
+    }
+
+    /// The direction along which a value is given, if it is oblique.
+    pub(crate) fn oblique_axis(&self) -> Option<Vec2> {
+        held_directions(self.fixed(), self.axes()).next().filter(|_| self.is_oblique())
+    }
+
+    /// The directions of the components.
+    pub fn axes(&self) -> [Vec2; 2] {
+        [self.axis, self.axis.left()]
+    }
+
+    /// Of x and y, whether something is held along a direction that has a part along them.
+    pub fn coordinates_of(&self, held: [bool; 2]) -> [bool; 2] {
+        if self.is_oblique() { [held.contains(&true); 2] } else { held }
+    }
+
+    /// Of each component, whether the field has the value that is given: not with an exchange.
+    pub fn fixed(&self) -> [bool; 2] {
+        self.held().map(|is_held| is_held && self.exchange.is_none())
+    }
+
+    /// Of each component, whether its value is given.
+    pub fn held(&self) -> [bool; 2] {
+        let is_held = |c: &Condition| matches!(c, Condition::Dirichlet(_));
+        let mut held = [false; 2];
+        held.iter_mut().zip(&self.components).for_each(|(held, c)| *held = is_held(c));
+        held
+    }
+
+    /// The formulas of what it gives.
+    pub fn formulas(&self) -> impl Iterator<Item = &Expression> {
+        let given = self.components.iter().filter_map(|component| match component {
+            Condition::Neumann(given) | Condition::Dirichlet(given) => Some(given),
+            Condition::Free => None,
+        });
+        given.chain(&self.pressure).chain(&self.exchange)
+    }
+
+    /// The coefficient h of the exchange at a point, zero if there is none.
+    pub fn exchange_at(&self, x: Vec2) -> f64 {
+        self.exchange.as_ref().map_or(0.0, |exchange| exchange.value(x))
+    }
+
+    /// The tractions (fluxes) at a point, zero where a value is given.
+    pub fn loads(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
+        let (held, values) = (self.held(), self.values(x, normal));
+        in_plane([0, 1].map(|k| if held[k] { 0.0 } else { values[k] }), self.axes())
+    }
+
+    /// The given values and tractions (fluxes), along the axes, at a point with the normal out of
+    /// the material; zero where nothing is said.
+    pub fn values(&self, x: Vec2, normal: Vec2) -> [f64; 2] {
+        if let Some(pressure) = &self.pressure {
+            return (-normal * pressure.value(x)).into();
+        }
+        let mut values = [0.0; 2];
+        for (value, component) in values.iter_mut().zip(&self.components) {
+            *value = match component {
+                Condition::Free => 0.0,
+                Condition::Dirichlet(g) | Condition::Neumann(g) => g.value(x),
+            };
+        }
+        values
+    }
+}
+
+/// The vector of components along axes.
+pub fn in_plane([first, second]: [f64; 2], axes: [Vec2; 2]) -> [f64; 2] {
+    (axes[0] * first + axes[1] * second).into()
+}
+
+/// The axes along which values are given.
+pub fn held_directions(held: [bool; 2], axes: [Vec2; 2]) -> impl Iterator<Item = Vec2> + Clone {
+    axes.into_iter().zip(held).filter(|(_, is_held)| *is_held).map(|(axis, _)| axis)
+}

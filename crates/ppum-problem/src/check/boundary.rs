@@ -1,0 +1,186 @@
+//! Rules for conditions on the border.
+
+use std::collections::BTreeMap;
+
+use ppum::crack::Side;
+use ppum::domain::Domain;
+use ppum::vec2::{Rect, Vec2};
+
+use super::super::boundary::{BorderPart, BoundaryCondition, Edge, Piece, SideRun};
+use super::super::key::{Key, MistakeAt, no_such};
+use super::super::model::Problem;
+use crate::geometry::{clipped, solid_part, wider};
+use ppum::border::touch;
+
+/// All rules broken by the conditions on the border.
+pub(super) fn check_boundary(problem: &Problem) -> Vec<MistakeAt> {
+    let parts = problem.boundary.iter().enumerate();
+    let mut found: Vec<_> = parts.filter_map(|(k, part)| check_part(k, part, problem)).collect();
+    found.extend(check_contradictions(problem));
+    found
+}
+
+/// A component of which a condition says something, on a stretch of a part of the border.
+struct Claim {
+    /// Kind and number of the part, face, component.
+    place: (u8, usize, u8, usize),
+    stretch: [f64; 2],
+    condition: usize,
+}
+
+fn claims(index: usize, condition: &BoundaryCondition, pieces: &[Piece]) -> Vec<Claim> {
+    let [both, above, below] = [vec![0, 1], vec![0], vec![1]];
+    let run = |&SideRun { hole, from, to }: &SideRun| (1, hole, [from as f64, to as f64]);
+    let (faces, parts) = match condition.on {
+        BorderPart::Edge { edge, from, to } => (above, vec![(0, edge as usize, [from, to])]),
+        BorderPart::Hole(hole) => (above, vec![(1, hole, [0.0, f64::INFINITY])]),
+        BorderPart::Sides(sides) => (above, vec![run(&sides)]),
+        BorderPart::Piece(piece) => {
+            (above, pieces.get(piece).iter().flat_map(|piece| &piece.runs).map(run).collect())
+        }
+        BorderPart::Crack { crack, face } => {
+            let faces = face.map_or(both, |side| if side == Side::Above { above } else { below });
+            (faces, vec![(2, crack, [0.0, 1.0])])
+        }
+    };
+    let components = (0..condition.components.len()).filter(|&k| condition.says(k));
+    let places = components.flat_map(|k| faces.iter().map(move |&face| (face, k)));
+    let claim = |(face, component): (u8, usize)| {
+        parts.iter().map(move |&(kind, number, stretch)| Claim {
+            place: (kind, number, face, component),
+            stretch,
+            condition: index,
+        })
+    };
+    places.flat_map(claim).collect()
+}
+
+/// No component is given twice at a place. Of the conditions that an earlier one contradicts each
+/// is told once.
+fn check_contradictions(problem: &Problem) -> Vec<MistakeAt> {
+    let Problem { boundary, pieces, .. } = problem;
+    let mut all: Vec<_> =
+        boundary.iter().enumerate().flat_map(|(k, part)| claims(k, part, pieces)).collect();
+    all.sort_by(|a, b| a.place.cmp(&b.place).then(a.stretch[0].total_cmp(&b.stretch[0])));
+    let mut pairs = BTreeMap::new();
+    let mut claims = all.iter();
+    let Some(mut farthest) = claims.next() else { return Vec::new() };
+    for claim in claims {
+        let meets = claim.place == farthest.place && claim.stretch[0] < farthest.stretch[1];
+        if meets && claim.condition != farthest.condition {
+            let (a, b) = (claim.condition, farthest.condition);
+            pairs.entry(a.max(b)).or_insert(a.min(b));
+        }
+        if !meets || claim.stretch[1] > farthest.stretch[1] {
+            farthest = claim;
+        }
+    }
+    let mistake = |(later, earlier): (usize, usize)| {
+        let message = contradiction(problem, &boundary[earlier], &boundary[later])?;
+        Some(on(later).mistake(message).with_other(on(earlier)))
+    };
+    pairs.into_iter().filter_map(mistake).collect()
+}
+
+fn on(index: usize) -> Key {
+    Key::new("boundary").index(index).name("on")
+}
+
+fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) -> Option<MistakeAt> {
+    let (holes, cracks) = (problem.domain.holes.len(), problem.cracks.len());
+    let message = match condition.on {
+        part @ BorderPart::Edge { edge, from, to } => {
+            // a symmetry beside the faces of a crack may have a part that lies in a hole
+            let is_needed = reaches_body(part, problem) || problem.exact_line(condition).is_some();
+            bad_range(edge, [from, to], &problem.domain.bounds)
+                .or_else(|| (!is_needed).then(|| NOTHING_THERE.to_owned()))?
+        }
+        BorderPart::Hole(hole) if hole >= holes => no_such("hole", hole, holes),
+        BorderPart::Piece(piece) if piece >= problem.pieces.len() => {
+            no_such("piece", piece, problem.pieces.len())
+        }
+        BorderPart::Sides(run) if !is_of(run, problem) => {
+            format!("there is no hole {} with sides {} to {}", run.hole, run.from, run.to)
+        }
+        BorderPart::Crack { crack, .. } if crack >= cracks => no_such("crack", crack, cracks),
+        BorderPart::Crack { .. } if condition.fixed().contains(&true) => {
+            let remedy = if problem.components() == 1 {
+                "flux or an exchange"
+            } else {
+                "traction or a pressure"
+            };
+            format!("the faces of a crack cannot be held; give them a {remedy}")
+        }
+        part if !reaches_body(part, problem) => NOTHING_THERE.to_owned(),
+        _ => return None,
+    };
+    Some(on(index).mistake(message))
+}
+
+const NOTHING_THERE: &str = "nothing of the body is there: it lies in holes, or outside of the outline or the box; leave this [[boundary]] \
+     out, or name another part";
+
+/// True if some of a part of the border bounds the body.
+fn reaches_body(part: BorderPart, problem: &Problem) -> bool {
+    let Domain { bounds, holes } = &problem.domain;
+    let is_solid = |[a, b]: [Vec2; 2], own: Option<usize>| {
+        let others = (0..).zip(holes).filter(|(k, _)| own != Some(*k)).map(|(_, hole)| hole);
+        let near = wider(bounds, touch(bounds));
+        clipped(a, b, &near).is_some_and(|range| solid_part(a, b, range, others) > 0.0)
+    };
+    match part {
+        BorderPart::Edge { edge, from, to } => {
+            is_solid([from, to].map(|s| edge.point(bounds, s)), None)
+        }
+        BorderPart::Hole(hole) if holes[hole].sides().next().is_none() => true,
+        BorderPart::Hole(_) | BorderPart::Sides(_) | BorderPart::Piece(_) => {
+            holes.iter().enumerate().any(|(k, hole)| {
+                let mut sides = hole.sides().enumerate();
+                sides.any(|(side, ends)| problem.is_on(part, k, side) && is_solid(ends, Some(k)))
+            })
+        }
+        BorderPart::Crack { .. } => true,
+    }
+}
+
+fn is_of(run: SideRun, problem: &Problem) -> bool {
+    let count = problem.domain.holes.get(run.hole).map_or(0, |hole| hole.sides().count());
+    run.from < run.to && run.to <= count
+}
+
+fn bad_range(edge: Edge, [from, to]: [f64; 2], domain: &Rect) -> Option<String> {
+    let [first, last] = edge.range(domain);
+    if from >= to {
+        return Some(format!("`from` is {from} and `to` is {to}, but `to` must exceed `from`"));
+    }
+    let edge = edge.name();
+    (from < first || to > last).then(|| {
+        format!(
+            "from {from} to {to} leaves the {edge} edge, which runs from {first} to {last}; stay inside"
+        )
+    })
+}
+
+/// Two conditions that speak of the same component at the same place.
+fn contradiction(
+    problem: &Problem,
+    a: &BoundaryCondition,
+    b: &BoundaryCondition,
+) -> Option<String> {
+    let place = a.on.common(&b.on)?;
+    let count = a.components.len().min(b.components.len());
+    let component = (0..count).find(|&k| a.says(k) && b.says(k))?;
+    let what = match count {
+        1 => "the value or flux".to_owned(),
+        _ => format!("the {} component", ["x", "y"][component]),
+    };
+    let remedy = match place {
+        BorderPart::Edge { .. } => "divide the edge by `from` and `to`, or leave",
+        _ => "leave",
+    };
+    let place = problem.words_of(place);
+    Some(format!(
+        "{what} on {place} is given twice; give each component once at each place: {remedy} a \
+         component \"free\""
+    ))
+}

@@ -1,0 +1,363 @@
+//! Rules for the values of a problem, whether it was read from a file or built in code.
+
+mod boundary;
+mod contact;
+mod enrichment;
+mod refinement;
+mod support;
+mod symmetry;
+
+use ppum::dataset::{EIGENSTRAINS, EXPANSION, Equation};
+use ppum::domain::{Domain, Hole};
+use ppum::expression::Expression;
+use ppum::text::trimmed;
+use ppum::vec2::{Rect, vec2};
+
+use super::adaptivity::Keep;
+use super::cracks::check_cracks;
+use super::discretization::{Cells, Enrichment, MAX_LEVEL, Order};
+use super::enrichment::{LocalEnrichment, Region};
+use super::error::{Location, Mistake, ProblemError};
+use super::growth::LoadControl;
+use super::holes::check_holes;
+use super::key::{Key, MistakeAt};
+use super::model::Problem;
+use super::quantities::check_quantities;
+use super::refinement::RefinementRegion;
+use super::scopes;
+use super::words::Words;
+use crate::geometry::Jumps;
+use boundary::check_boundary;
+use contact::check_contact;
+use enrichment::{check_enrichments, too_wide};
+use ppum::border::touch;
+use refinement::check_refinements;
+use support::{check_forces, check_supports};
+use symmetry::check_symmetry;
+
+/// Most cells of a base cover.
+const MAX_CELLS: u64 = 1 << (2 * MAX_LEVEL);
+
+/// Places along each axis at which a formula of the order is tried before anything is computed.
+const ORDER_SAMPLES: u32 = 16;
+
+impl Problem {
+    /// Applies the rules that hold for problem files to a problem built in code.
+    ///
+    /// # Errors
+    /// Everything that is wrong, each named by its key.
+    pub fn check(&self) -> Result<(), ProblemError> {
+        let mistakes = mistakes(self);
+        if mistakes.is_empty() {
+            return Ok(());
+        }
+        let mistake = |mistake: MistakeAt| {
+            let other = mistake.other.map_or(String::new(), |key| format!(" (see {key})"));
+            let location = Location::Key(mistake.key.to_string());
+            Mistake { location, message: mistake.message + &other }
+        };
+        Err(ProblemError::new(mistakes.into_iter().map(mistake).collect()))
+    }
+}
+
+/// All rules broken by a problem. The later ones are judged only in a domain that is one.
+pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
+    let mut found: Vec<_> =
+        check_equation(&problem.dataset_equation(), &problem.domain).into_iter().collect();
+    found.extend(check_components(problem));
+    found.extend(numbers(problem).into_iter().filter_map(|(key, value)| key.out_of_range(value)));
+    found.extend(check_cells(&problem.discretization.cells));
+    found.extend(check_combinations(problem));
+    found.extend(check_increment(problem));
+    found.extend(check_tables(problem));
+    found.extend(check_quantities(problem));
+    let bounds = &problem.domain.bounds;
+    let domain = check_domain(&problem.domain);
+    if domain.is_empty() {
+        found.extend(check_points(&problem.discretization.cells, bounds));
+        found.extend(check_order(&problem.discretization.order, bounds));
+        found.extend(check_cracks(&problem.cracks, &problem.domain));
+        found.extend(check_refinements(problem));
+        found.extend(check_additive(problem));
+        found.extend(check_zone(problem));
+        found.extend(check_enrichments(problem));
+        found.extend(check_boundary(problem));
+        found.extend(check_symmetry(problem));
+        found.extend(check_forces(problem));
+        found.extend(check_supports(problem));
+        found.extend(check_contact(problem));
+    }
+    found.extend(domain);
+    found
+}
+
+/// The numbers that are given, with their keys, whose rows say in which range they must be.
+fn numbers(problem: &Problem) -> Vec<(Key, f64)> {
+    let mut all = Vec::new();
+    let mut add = |path, value: Option<f64>| all.extend(value.map(|value| (Key::of(path), value)));
+    let set = &problem.discretization;
+    let level = if let Cells::Level(level) = set.cells { Some(level.into()) } else { None };
+    add("discretization.level", level);
+    add("discretization.overlap", Some(set.overlap));
+    add("discretization.tip_degree", Some(set.tip_degree as f64));
+    add("discretization.tip_terms", set.tip_terms.map(|terms| terms as f64));
+    add("discretization.enrichment_radius", set.enrichment_radius);
+    add("solver.tolerance", Some(problem.solver.tolerance));
+    if let Some(set) = &problem.adaptivity {
+        add("discretization.accuracy", set.accuracy);
+        add("adaptivity.steps", Some(set.steps as f64));
+        add("adaptivity.fraction", Some(set.fraction));
+        add("adaptivity.max_unknowns", Some(set.max_unknowns as f64));
+        add("adaptivity.tolerance", set.tolerance);
+    }
+    if let Some(rule) = &problem.growth {
+        add("growth.steps", Some(rule.steps as f64));
+        add("growth.increment", rule.increment);
+        add("growth.toughness", rule.toughness.as_ref().and_then(Expression::constant));
+        let paris = rule.paris;
+        add("growth.paris.c", paris.map(|law| law.c));
+        add("growth.paris.m", paris.map(|law| law.m));
+        add("growth.paris.threshold", paris.map(|law| law.threshold));
+        add("growth.paris.ratio", paris.map(|law| law.ratio));
+    }
+    for (index, new) in problem.enrichments.iter().enumerate() {
+        let key = Key::new("enrichment").index(index);
+        let radius = if let Region::Near(radius) = new.region { Some(radius) } else { None };
+        all.extend(radius.map(|radius| (key.clone().name("radius"), radius)));
+        all.extend(new.degree.map(|degree| (key.name("degree"), degree as f64)));
+    }
+    for (crack, friction) in &problem.contacts {
+        all.push((Key::new("crack").index(*crack as usize).name("friction"), *friction));
+    }
+    for (index, new) in problem.refinements.iter().enumerate() {
+        let key = Key::new("refine").index(index);
+        all.push((key.clone().name("distance"), new.distance));
+        if let RefinementRegion::Disc { radius, .. } = new.place {
+            all.push((key.name("radius"), radius));
+        }
+    }
+    all
+}
+
+/// Values that have no meaning together.
+fn check_combinations(problem: &Problem) -> Vec<MistakeAt> {
+    let Problem { discretization, adaptivity, growth, .. } = problem;
+    let enrichment = discretization.enrichment;
+    let name = enrichment.word();
+    let is_without_jumps = !enrichment.has_jumps() && !problem.cracks.is_empty();
+    let has_accuracy = adaptivity.as_ref().is_some_and(|set| set.accuracy.is_some());
+    let has_zones =
+        enrichment.has_zones() || problem.enrichments.iter().any(LocalEnrichment::has_default_zone);
+    let no_meaning = |key: &str| {
+        format!(
+            "`{key}` has no meaning with enrichment = \"{name}\"; remove it, or write \
+             enrichment = \"williams\""
+        )
+    };
+    let is_critical = growth.as_ref().is_some_and(|rule| rule.load == LoadControl::Critical);
+    let rules = [
+        (
+            discretization.tip_terms.is_some() && enrichment != Enrichment::Williams,
+            "discretization.tip_terms",
+            no_meaning("tip_terms"),
+        ),
+        (
+            discretization.enrichment_radius.is_some() && !has_zones,
+            "discretization.enrichment_radius",
+            no_meaning("enrichment_radius"),
+        ),
+        // cells as small as there may be do not stand for functions of cracks
+        (
+            has_accuracy && is_without_jumps,
+            "discretization.accuracy",
+            format!(
+                "no accuracy can be had with `enrichment = \"{name}\"`, which leaves out how fields jump across \
+                 cracks; leave `enrichment` or `accuracy` out"
+            ),
+        ),
+        (
+            is_critical && growth.as_ref().is_some_and(|rule| rule.toughness.is_none()),
+            "growth.load",
+            "`load = \"critical\"` needs a `toughness`, which the load is chosen to reach; add it".to_owned(),
+        ),
+        (
+            is_critical && growth.as_ref().is_some_and(|rule| rule.paris.is_some()),
+            "growth.load",
+            "`load = \"critical\"` is for one load that grows, `paris` for many cycles of the same; leave one out"
+                .to_owned(),
+        ),
+        (
+            is_critical && problem.dataset_equation().eigenstrains().next().is_some(),
+            "growth.load",
+            "`load = \"critical\"` multiplies the loads by a factor, but not temperatures and given strains; leave it \
+             out, or leave [temperature] and [strain] out"
+                .to_owned(),
+        ),
+        (
+            problem.temperature.is_some() && !problem.contacts.is_empty(),
+            "temperature.problem",
+            "a temperature that is solved for jumps across cracks whose faces touch; leave `contact` out, or give the \
+             temperature by a formula"
+                .to_owned(),
+        ),
+        (
+            problem.temperature.is_some() && !problem.exact.is_empty(),
+            "exact",
+            "an exact solution cannot be given beside a temperature that is solved for; leave [exact] out".to_owned(),
+        ),
+        (
+            growth.is_some() && problem.equation.elastic().is_none(),
+            "growth",
+            "cracks grow by their stress intensity factors, which only elasticity has; leave [growth] out".to_owned(),
+        ),
+        (
+            growth.is_some() && adaptivity.as_ref().is_some_and(|set| set.keep == Keep::All),
+            "adaptivity.keep",
+            "`keep = \"all\"` keeps the steps of an adaptation, and [growth] those of growth; leave it out".to_owned(),
+        ),
+    ];
+    let broken = rules.into_iter().filter(|(is_broken, ..)| *is_broken);
+    broken.map(|(_, path, message)| Key::of(path).mistake(message)).collect()
+}
+
+/// Least increment in units of the length below which things touch: an arc may have
+/// several vertices.
+const LEAST_INCREMENT: f64 = 100.0;
+
+fn check_increment(problem: &Problem) -> Option<MistakeAt> {
+    let least = LEAST_INCREMENT * touch(&problem.domain.bounds);
+    let increment = problem.growth.as_ref()?.increment.filter(|da| *da > 0.0 && *da < least)?;
+    let message = format!(
+        "`increment` is {}, but points of a crack in this plate must be {} apart: make it longer",
+        trimmed(increment),
+        trimmed(least)
+    );
+    Some(Key::of("growth.increment").mistake(message))
+}
+
+/// Functions of tips alone let no crack jump that meets another one, or that comes back to itself.
+fn check_additive(problem: &Problem) -> Option<MistakeAt> {
+    let Problem { cracks, domain, discretization, .. } = problem;
+    if discretization.enrichment != Enrichment::AdditiveOnly {
+        return None;
+    }
+    let jumps = Jumps::new(cracks, domain, touch(&domain.bounds));
+    let message = "the crack meets another one or comes back to itself, which `enrichment = \"additive-only\"` \
+                   cannot show; take another enrichment, or move the cracks apart";
+    jumps.first_meeting().map(|crack| Key::points(crack as usize).mistake(message))
+}
+
+/// No zone of the built-in functions of tips may reach too far.
+fn check_zone(problem: &Problem) -> Option<MistakeAt> {
+    let radius = problem.discretization.enrichment_radius?;
+    let message = too_wide(problem, radius)?;
+    let key = Key::of("discretization.enrichment_radius");
+    Some(key.mistake(format!("`enrichment_radius` {message}")))
+}
+
+/// Sizes of a domain whose squares and their sums neither underflow nor overflow in the solver.
+const SIZES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
+
+fn check_domain(domain: &Domain) -> Vec<MistakeAt> {
+    let size = domain.bounds.size();
+    let axes = [("x", size.x), ("y", size.y)];
+    let wrong = axes.into_iter().filter(|(_, size)| !SIZES.contains(size));
+    let message = |(axis, size): (&str, f64)| {
+        let message = if size > 0.0 {
+            format!(
+                "the domain is {size:e} long in {axis}, but lengths must lie between {:e} and {:e}; \
+                 choose another unit of length",
+                SIZES.start(),
+                SIZES.end()
+            )
+        } else {
+            format!("`max` must exceed `min` in {axis}; give two opposite corners of a box")
+        };
+        Key::of("domain.max").mistake(message)
+    };
+    let box_is_wrong: Vec<_> = wrong.map(message).collect();
+    if !box_is_wrong.is_empty() && domain.outline().is_some_and(|k| is_flat(&domain.holes[k])) {
+        let message = "the outline encloses nothing; give three corners or more, not all on a line";
+        return vec![Key::of("domain.outline").mistake(message)];
+    }
+    if box_is_wrong.is_empty() { check_holes(domain) } else { box_is_wrong }
+}
+
+/// True if the corners of an outline lie on an upright or a level line.
+fn is_flat(outline: &Hole) -> bool {
+    let size = outline.rim_bounds().size();
+    !(size.x > 0.0 && size.y > 0.0)
+}
+
+/// Names that all formulas may use; files cannot break this, code can.
+fn check_tables(problem: &Problem) -> Option<MistakeAt> {
+    let broken =
+        |count: &usize| scopes::check(&problem.tables[..*count], &problem.equation).is_err();
+    let count = (1..=problem.tables.len()).find(broken)?;
+    let error = scopes::check(&problem.tables[..count], &problem.equation).err()?;
+    Some(Key::new("table").index(count - 1).name("name").mistake(error.to_string()))
+}
+
+fn check_equation(equation: &Equation, domain: &Domain) -> Option<MistakeAt> {
+    let (name, message) = equation.mistake(domain)?;
+    if EIGENSTRAINS.contains(&name) || name == EXPANSION {
+        let message = format!("`{name}` {message}; correct [temperature] or [strain]");
+        return Some(Key::of("material.expansion").mistake(message));
+    }
+    Some(Key::new("material").name(name).mistake(format!("`{name}` {message}")))
+}
+
+/// One value per component everywhere; files cannot break this, code can.
+fn check_components(problem: &Problem) -> Vec<MistakeAt> {
+    let expected = problem.components();
+    let boundary = (0..)
+        .zip(&problem.boundary)
+        .map(|(index, condition)| (Key::new("boundary").index(index), condition.components.len()));
+    let exact = (!problem.exact.is_empty()).then_some((Key::new("exact"), problem.exact.len()));
+    let lists = boundary.chain(exact).chain([(Key::new("source"), problem.source.len())]);
+    let wrong = lists.filter(|(_, given)| *given != expected);
+    let message = |given| format!("there are {given} components, but the field has {expected}");
+    wrong.map(|(key, given)| key.mistake(message(given))).collect()
+}
+
+fn check_cells(cells: &Cells) -> Option<MistakeAt> {
+    let Cells::Grid([nx, ny]) = *cells else { return None };
+    let message = if nx == 0 || ny == 0 {
+        "`cells` must be at least 1 in each direction".to_owned()
+    } else if u64::from(nx) * u64::from(ny) > MAX_CELLS {
+        format!("`cells` are {nx} × {ny}, but at most {MAX_CELLS} in all")
+    } else {
+        return None;
+    };
+    Some(Key::of("discretization.cells").mistake(message))
+}
+
+fn check_points(cells: &Cells, domain: &Rect) -> Option<MistakeAt> {
+    let Cells::Points(points) = cells else { return None };
+    let key = Key::of("discretization.points");
+    if points.is_empty() {
+        return Some(key.mistake("there are no points; at least one is needed"));
+    }
+    let outside: Vec<_> = points.iter().filter(|p| !domain.contains(**p)).collect();
+    let first = outside.first()?;
+    let message = format!(
+        "{} of {} points lie outside the domain, the first at [{}, {}]; remove or move them",
+        outside.len(),
+        points.len(),
+        first.x,
+        first.y
+    );
+    Some(key.mistake(message))
+}
+
+fn check_order(order: &Order, domain: &Rect) -> Option<MistakeAt> {
+    let key = Key::of("discretization.order");
+    let steps = f64::from(ORDER_SAMPLES);
+    let samples = (0..ORDER_SAMPLES * ORDER_SAMPLES).map(|k| {
+        let [i, j] = [k % ORDER_SAMPLES, k / ORDER_SAMPLES].map(|i| (f64::from(i) + 0.5) / steps);
+        let size = domain.size();
+        domain.min + vec2(size.x * i, size.y * j)
+    });
+    let mut wrong = samples.filter_map(|p| order.at(p).err());
+    wrong.next().map(|error| key.mistake(error.to_string()))
+}

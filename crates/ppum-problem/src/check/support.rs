@@ -1,0 +1,70 @@
+//! Rules for forces at points, and for points that are held.
+
+use ppum::segment;
+use ppum::vec2::Vec2;
+
+use super::super::force::{is_outside, place_words};
+use super::super::key::{Key, MistakeAt};
+use super::super::model::Problem;
+use ppum::border::touch;
+
+/// All rules broken by the forces.
+pub(super) fn check_forces(problem: &Problem) -> Vec<MistakeAt> {
+    let key = |index: usize| Key::new("force").index(index);
+    if problem.forces.is_empty() {
+        return Vec::new();
+    }
+    if !problem.equation.has_uniform_material() || problem.equation.elastic().is_none() {
+        let message = "the field of a force is known where E and ν are constants alone; give it as a traction on a \
+                       short piece of the border, or as a [body_force]";
+        return vec![key(0).mistake(message)];
+    }
+    let touch = touch(&problem.domain.bounds);
+    let places = problem.forces.iter().enumerate().filter_map(|(index, force)| {
+        let message = match problem.place_of(force) {
+            Ok(place) if problem.room_of(force, place) <= touch => {
+                "lies where the displacement, or a component of it, is given; move it, leave it out, or model the whole of a \
+                 symmetric body"
+                    .into()
+            }
+            place => place.err()?,
+        };
+        Some(key(index).name("at").mistake(format!("{} {message}", place_words(force.at))))
+    });
+    places.collect()
+}
+
+/// All rules broken by the supports.
+pub(super) fn check_supports(problem: &Problem) -> Vec<MistakeAt> {
+    let mut found = Vec::new();
+    for (index, support) in problem.supports.iter().enumerate() {
+        let key = Key::new("support").index(index);
+        let place = misplaced(problem, support.at);
+        found.extend(place.map(|message| key.clone().name("at").mistake(message)));
+        if support.displacement == [None; 2] {
+            let message = "both components are free, so that nothing is held; give one a value, or leave this \
+                           [[support]] out";
+            found.push(key.name("displacement").mistake(message));
+        }
+    }
+    found
+}
+
+/// The mistake of a point that lies outside of the body or on a crack.
+fn misplaced(problem: &Problem, p: Vec2) -> Option<String> {
+    let Problem { domain, cracks, .. } = problem;
+    let (touch, place) = (touch(&domain.bounds), place_words(p));
+    if is_outside(domain, p, touch) {
+        return Some(format!(
+            "{place} lies outside of the body; move it into the body, or onto its border"
+        ));
+    }
+    if problem.forces.iter().any(|force| (force.at - p).length() <= touch) {
+        return Some(format!(
+            "{place} is the point of a [[force]], which moves without end; hold another one"
+        ));
+    }
+    let lies_on = |points: &[Vec2]| segment::polyline_distance(points, p) <= touch;
+    let crack = cracks.iter().position(|crack| lies_on(&crack.points))?;
+    Some(format!("{place} lies on crack {crack}, whose faces move apart; move it off the crack"))
+}

@@ -1,0 +1,139 @@
+//! Jumps of the material, seen from a tip.
+
+use ppum::dataset::{Elasticity, Material};
+use ppum::expression::Expression;
+use ppum::vec2::{Vec2, vec2};
+use std::f64::consts::TAU;
+
+/// Directions in which interfaces are looked for, and steps in each: one that passes at the
+/// distance d is found at 1.002 d.
+const RAYS: u32 = 64;
+const STEPS: u32 = 64;
+
+/// Halvings of a step in which the material changes, to the rounding of its length.
+const HALVINGS: u32 = 40;
+
+/// Change of the material at a tip that is a jump there: relative change of E, or change of ν.
+const JUMP: f64 = 1e-6;
+
+/// Change across an interface that is seen in the factors of a tip near it, in the same measure.
+const NOTABLE: f64 = 0.01;
+
+/// True if the material jumps at a point: if it differs at a distance that is next to nothing.
+pub(super) fn jumps(body: &Elasticity, p: Vec2, distance: f64) -> bool {
+    let own = body.at(p);
+    rays().any(|ray| change(&own, &body.at(p + ray * distance)) > JUMP)
+}
+
+/// Distance of a point to the nearest interface across which the material jumps notably, if it is
+/// below `reach`.
+pub fn interface_distance(body: &Elasticity, p: Vec2, reach: f64) -> Option<f64> {
+    if body.uniform().is_some() {
+        return None;
+    }
+    let along = |ray: Vec2| first_jump(&|r| body.at(p + ray * r), &change, reach);
+    rays().filter_map(along).reduce(f64::min)
+}
+
+/// True if given strains, or the coefficient of expansion by a temperature, jump within `reach` of
+/// a point, as seen from there: across a straight
+/// crack that ends at the point they may.
+pub fn eigenstrain_jumps(
+    body: &Elasticity,
+    expansion: Option<&Expression>,
+    p: Vec2,
+    reach: f64,
+) -> bool {
+    let given = body.eigenstrain.as_deref().map(|given| given.strains.each_ref());
+    let [xx, yy, xy, zz] = given.map_or([None; 4], |given| given.map(Some));
+    let all = [xx, yy, xy, zz, expansion];
+    let at = |x: Vec2| all.map(|e| e.map_or(0.0, |e| e.value(x)));
+    let difference = |a: &[f64; 5], b: &[f64; 5]| {
+        a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+    };
+    let size = rays().map(|ray| difference(&at(p), &at(p + ray * reach))).fold(0.0, f64::max);
+    let change = |a: &[f64; 5], b: &[f64; 5]| difference(a, b) / size;
+    let jumps = |ray: Vec2| first_jump(&|r| at(p + ray * r), &change, reach).is_some();
+    size > 0.0 && rays().any(jumps)
+}
+
+fn rays() -> impl Iterator<Item = Vec2> {
+    let angle = |k: u32| TAU * f64::from(k) / f64::from(RAYS);
+    (0..RAYS).map(move |k| vec2(angle(k).cos(), angle(k).sin()))
+}
+
+/// Relative change of E or change of ν, the larger one.
+fn change(a: &Material, b: &Material) -> f64 {
+    let young = (a.young - b.young).abs() / a.young.max(b.young);
+    young.max((a.poisson - b.poisson).abs())
+}
+
+/// The least distance below `reach` at which there is a jump. What changes over a step and no
+/// more when that is halved to nothing has varied smoothly.
+fn first_jump<T: Copy>(
+    at: &dyn Fn(f64) -> T,
+    change: &dyn Fn(&T, &T) -> f64,
+    reach: f64,
+) -> Option<f64> {
+    let r = |k: u32| reach * f64::from(k) / f64::from(STEPS);
+    (0..STEPS).find_map(|k| {
+        let [mut near, mut far] = [r(k), r(k + 1)].map(|r| (r, at(r)));
+        for _ in 0..HALVINGS {
+            if change(&near.1, &far.1) <= NOTABLE {
+                return None;
+            }
+            let mid = 0.5 * (near.0 + far.0);
+            let mid = (mid, at(mid));
+            if change(&near.1, &mid.1) >= change(&mid.1, &far.1) { far = mid } else { near = mid }
+        }
+        Some(near.0)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::dataset::StressState;
+
+    fn body(young: &str, poisson: &str) -> Elasticity {
+        let [young, poisson] = [young, poisson].map(|text| text.parse().expect("a formula"));
+        Elasticity { young, poisson, state: StressState::PlaneStrain, eigenstrain: None }
+    }
+
+    #[test]
+    fn materials_jump_on_interfaces_alone() {
+        let jump = |young: &str, p: Vec2| jumps(&body(young, "0.3"), p, 1e-10);
+        // the point lies on these lines but for rounding
+        for (p, young) in [
+            (vec2(0.2, 0.16), "if(y > 0.3*x + 0.1, 2, 1)"),
+            (vec2(0.2, 0.16), "if(y >= 0.3*x + 0.1, 2, 1)"),
+            (vec2(0.3, 0.4), "if(x^2 + y^2 < 0.25, 1.001, 1)"),
+        ] {
+            assert!(jump(young, p), "{young}");
+            assert!(!jump(young, p + vec2(1e-6, -2e-6)), "{young} beside");
+        }
+        // kinks and steep slopes are no jumps
+        for young in ["1 + 5*abs(x - 0.2)", "exp(40*x)", "max(1, 10*y)", "1e3 + sin(100*x)"] {
+            assert!(!jump(young, vec2(0.2, 0.1)), "{young}");
+        }
+    }
+
+    #[test]
+    fn interfaces_at_a_distance() {
+        let p = vec2(0.1, 0.2);
+        let apart = |young: &str, poisson: &str| interface_distance(&body(young, poisson), p, 1.0);
+        let near = |found: Option<f64>, exact: f64| {
+            let found = found.expect("an interface");
+            assert!(found >= exact * (1.0 - 1e-9) && found < 1.002 * exact, "{found} {exact}");
+        };
+        near(apart("if(y > 0.5, 2, 1)", "0.3"), 0.3);
+        near(apart("exp(3*x)", "if(x - y > 0.7, 0.3, 0.2)"), 0.8 / 2f64.sqrt());
+        near(apart("if(x^2 + y^2 < 0.25, 1, 1.1)", "0.3"), 0.5 - p.length());
+        near(apart("if(abs(y - 0.3) < 0.02, 9, 1)", "0.3"), 0.08);
+        // none, too far away, next to no jump, and what is only steep
+        for young in ["1", "if(y > 1.3, 2, 1)", "if(y > 0.5, 1.001, 1)", "2 + tanh(1e5*(y - 0.5))"]
+        {
+            assert_eq!(apart(young, "0.3"), None, "{young}");
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! Plane geometry of plates: what lies in a box, near a point, around a tip.
+
+mod clearance;
+mod clip;
+mod components;
+mod jumps;
+mod material;
+mod placed;
+mod vicinity;
+
+pub use clearance::{
+    AMPLE_CLEARANCE, Obstacle, TipClearance, bent_part, exceeds, from_tip, points_of_forces,
+    sure_side,
+};
+pub use clip::{
+    clipped, distance, inside, is_on_rim, length_inside, meets, rim_crossings, runs_of_rim,
+    segment_inside, solid_part, without,
+};
+pub use jumps::Jumps;
+pub use material::{eigenstrain_jumps, interface_distance};
+pub use placed::{Placed, around, wider};
+pub use vicinity::Around;

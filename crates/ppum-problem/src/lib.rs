@@ -1,0 +1,91 @@
+//! Problems: what is to be solved, and how, from a problem file (TOML) or built in code.
+//!
+//! Find u on the box minus holes Ω with cracks Γ, faces and rims free unless loaded, such that
+//!
+//! ```text
+//! elasticity:  −div σ(u) = f,  σ = 2μ ε(u) + λ tr ε(u) I        Poisson:  −div (κ ∇u) = f
+//! ```
+//!
+//! with components of u (Dirichlet) or of the traction σ n, the flux κ ∂u/∂n (Neumann), given on
+//! parts of the border. `docs/problem-file.md` describes the file for users.
+//!
+//! A [`Problem`] is plain data. Reading reports everything that is wrong at once, with places; for
+//! a problem built in code [`Problem::check`] applies the same rules:
+//!
+//! ```
+//! use ppum::dataset::{Material, StressState};
+//! use ppum::vec2::{Rect, vec2};
+//! use ppum_problem::{Cells, Condition, Discretization, Edge, Problem};
+//!
+//! let steel = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
+//! let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+//! let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
+//! let problem = Problem::elasticity(domain, steel, Discretization::new(Cells::Level(4)))
+//!     .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
+//!     .with_boundary(Edge::Bottom, pull(-1.0))
+//!     .with_boundary(Edge::Top, pull(1.0));
+//! assert_eq!(problem.check(), Ok(()));
+//! ```
+
+mod adaptivity;
+mod boundary;
+mod check;
+mod contacts;
+mod cracks;
+mod csv;
+mod curve;
+mod discretization;
+mod document;
+mod enrichment;
+mod error;
+mod expression;
+mod force;
+pub mod geometry;
+mod growth;
+mod holes;
+mod key;
+pub mod keys;
+mod model;
+mod nearby;
+mod points;
+pub mod quantities;
+mod read;
+mod refinement;
+mod report;
+mod restraint;
+mod scopes;
+mod solver;
+mod stations;
+mod stiffness;
+mod straight;
+mod support;
+mod symmetry;
+mod table_file;
+mod temperature;
+#[cfg(test)]
+mod tests;
+mod words;
+
+pub use adaptivity::{AdaptKind, Adaptivity, Keep};
+pub use boundary::{
+    BorderPart, BoundaryCondition, Condition, Edge, Piece, SideRun, held_directions, in_plane,
+};
+pub use cracks::{crack, cracks};
+pub use curve::arc_from;
+pub use discretization::{Cells, Discretization, Enrichment, MOST_TERMS, Order, OrderError};
+pub use document::MAX_LENGTH;
+pub use enrichment::{LocalEnrichment, Region, Site};
+pub use error::{Location, Mistake, ProblemError};
+pub use force::ForcePlace;
+pub use growth::{Criterion, GrowthRule, LoadControl, Paris};
+pub use model::{Problem, SolvedTemperature};
+pub use ppum::expression::Expression;
+pub use refinement::{DEEPEST, LocalRefinement, RefinementRegion, nine};
+pub use restraint::{restraint_center, restraint_words};
+pub use solver::{Solver, SolverKind};
+pub use stations::Station;
+pub use stiffness::{FREE_OF_LOCKING, STIFF, stiffness_ratio};
+pub use support::{Force, Support};
+pub use symmetry::Symmetry;
+pub use table_file::read_table;
+pub use temperature::without_expansion;

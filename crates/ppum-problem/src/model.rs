@@ -1,0 +1,277 @@
+//! A problem as data.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use ppum::crack::{Crack, Side, TipId, tips};
+use ppum::dataset::{Equation, Material, NamedQuantity};
+use ppum::domain::Domain;
+use ppum::expression::Expression;
+use ppum::formula::Table;
+use ppum::segment;
+use ppum::vec2::Vec2;
+
+use super::adaptivity::Adaptivity;
+use super::boundary::{BorderPart, BoundaryCondition, Condition, Edge, Piece};
+use super::cracks::cracks;
+use super::discretization::{Discretization, Enrichment};
+use super::enrichment::LocalEnrichment;
+use super::growth::GrowthRule;
+use super::refinement::LocalRefinement;
+use super::solver::{Solver, SolverKind};
+use super::support::{Force, Support};
+
+/// A problem with its discretisation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// One line that names the problem; may be empty.
+    pub title: String,
+    /// The box minus holes Ω.
+    pub domain: Domain,
+    /// The equation with its material.
+    pub equation: Equation,
+    /// The temperature that strains the body, if another problem gives it.
+    pub temperature: Option<SolvedTemperature>,
+    /// The cracks.
+    pub cracks: Vec<Crack>,
+    /// Of cracks whose faces may touch, by their numbers, Coulomb's coefficient μ ≥ 0 of friction.
+    /// Faces of the others may overlap.
+    pub contacts: BTreeMap<u32, f64>,
+    /// Pieces of rims that have names, which conditions may be on.
+    pub pieces: Vec<Piece>,
+    /// The conditions on the border.
+    pub boundary: Vec<BoundaryCondition>,
+    /// Forces at points.
+    pub forces: Vec<Force>,
+    /// Points that are held against rigid motion.
+    pub supports: Vec<Support>,
+    /// The right-hand side f, one expression per component: body force or source.
+    pub source: Vec<Expression>,
+    /// The exact solution, one expression per component; empty if unknown.
+    pub exact: Vec<Expression>,
+    /// Quantities the problem names, beside the built-in ones.
+    pub quantities: Vec<NamedQuantity>,
+    /// Tables its formulas may read.
+    pub tables: Vec<Arc<Table>>,
+    /// Functions of the local spaces beside the built-in ones.
+    pub enrichments: Vec<LocalEnrichment>,
+    /// Cover, local spaces and enrichment.
+    pub discretization: Discretization,
+    /// How the cover is improved by its own solutions; `None` solves once.
+    pub adaptivity: Option<Adaptivity>,
+    /// How cracks grow, step by step; `None` solves the problem with the cracks as they are.
+    pub growth: Option<GrowthRule>,
+    /// Where cells are divided by hand.
+    pub refinements: Vec<LocalRefinement>,
+    /// The linear solver.
+    pub solver: Solver,
+    /// The problem file's text, if there was one.
+    pub text: Option<String>,
+    /// The files that the text names, which were read with it: tables and points.
+    pub files: Vec<PathBuf>,
+}
+
+/// A change of temperature T, the solution of Poisson's equation on the same body with the same
+/// cracks, which strains the body by α T in all directions.
+///
+/// Of its problem conditions, sources, conductivity and functions count. It is solved on the cells
+/// of the elastic problem with the polynomials of that, anew for each of its steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolvedTemperature {
+    /// The problem of the temperature.
+    pub problem: Box<Problem>,
+    /// The coefficient α of thermal expansion.
+    pub expansion: Expression,
+}
+
+impl Problem {
+    /// True if tips have Williams' series, and corners theirs: where the material varies they have
+    /// other ones.
+    pub fn has_series(&self) -> bool {
+        self.discretization.enrichment == Enrichment::Williams
+            && self.equation.has_uniform_material()
+    }
+
+    /// A problem of elasticity on a box, as yet without cracks, loads and restraints.
+    #[must_use]
+    pub fn elasticity(
+        domain: impl Into<Domain>,
+        material: Material,
+        discretization: Discretization,
+    ) -> Self {
+        Self::new(domain.into(), Equation::elasticity(material), discretization)
+    }
+
+    /// A Poisson problem with conductivity κ on a box, as yet without cracks, sources and
+    /// conditions.
+    #[must_use]
+    pub fn poisson(
+        domain: impl Into<Domain>,
+        conductivity: f64,
+        discretization: Discretization,
+    ) -> Self {
+        Self::new(domain.into(), Equation::poisson(conductivity), discretization)
+    }
+
+    fn new(domain: Domain, equation: Equation, discretization: Discretization) -> Self {
+        Self {
+            title: String::new(),
+            domain,
+            source: vec![Expression::number(0.0); equation.components()],
+            equation,
+            temperature: None,
+            cracks: Vec::new(),
+            contacts: BTreeMap::new(),
+            pieces: Vec::new(),
+            boundary: Vec::new(),
+            forces: Vec::new(),
+            supports: Vec::new(),
+            exact: Vec::new(),
+            quantities: Vec::new(),
+            tables: Vec::new(),
+            enrichments: Vec::new(),
+            discretization,
+            adaptivity: None,
+            growth: None,
+            refinements: Vec::new(),
+            solver: Solver::default(),
+            text: None,
+            files: Vec::new(),
+        }
+    }
+
+    /// The problem with one more crack; its ends on the border, also on rims and in holes, become
+    /// mouths, those on other cracks junctions, and all others tips. Ends of the cracks before it
+    /// that lie on it become junctions, too. Cost: that of looking at all cracks; [`cracks()`]
+    /// makes many at once.
+    #[must_use]
+    pub fn with_crack(mut self, points: &[[f64; 2]]) -> Self {
+        let new = points.iter().copied().map(Vec2::from).collect();
+        let all = std::mem::take(&mut self.cracks).into_iter().map(|crack| crack.points);
+        self.cracks = cracks(all.chain([new]), &self.domain);
+        self.with_free_faces()
+    }
+
+    /// The problem with conditions on a whole edge, one per component.
+    #[must_use]
+    pub fn with_boundary(mut self, edge: Edge, components: Vec<Condition>) -> Self {
+        self.boundary.push(BoundaryCondition::on_edge(edge, &self.domain.bounds, components));
+        self.with_free_faces()
+    }
+
+    /// The problem with a pressure on a part of the border.
+    #[must_use]
+    pub fn with_pressure(mut self, on: BorderPart, pressure: f64) -> Self {
+        self.boundary.push(BoundaryCondition::pressure(on, pressure.into()));
+        self
+    }
+
+    /// The problem with a crack, given by its number, whose faces may touch, with Coulomb's
+    /// coefficient μ ≥ 0 of friction.
+    #[must_use]
+    pub fn with_contact(mut self, crack: u32, friction: f64) -> Self {
+        self.contacts.insert(crack, friction);
+        self
+    }
+
+    /// The problem with exact values given on a whole edge.
+    #[must_use]
+    pub fn with_exact_boundary(self, edge: Edge) -> Self {
+        let components = self.exact.iter().cloned().map(Condition::Dirichlet).collect();
+        self.with_boundary(edge, components)
+    }
+
+    /// The problem whose cover is improved by its own solutions.
+    #[must_use]
+    pub fn with_adaptivity(mut self, adaptivity: Adaptivity) -> Self {
+        self.adaptivity = Some(adaptivity);
+        self
+    }
+
+    /// The problem whose cracks grow.
+    #[must_use]
+    pub fn with_growth(mut self, growth: GrowthRule) -> Self {
+        self.growth = Some(growth);
+        self
+    }
+
+    /// The linear solver: of levels, the coarser ones do not see faces that touch.
+    pub fn solver_kind(&self) -> SolverKind {
+        if self.contacts.is_empty() { self.solver.kind } else { SolverKind::Direct }
+    }
+
+    /// True if something acts on faces of cracks.
+    pub fn loads_faces(&self) -> bool {
+        self.boundary.iter().any(|condition| matches!(condition.on, BorderPart::Crack { .. }))
+    }
+
+    /// Number of components of the unknown field.
+    #[must_use]
+    pub fn components(&self) -> usize {
+        self.equation.components()
+    }
+
+    /// Radius of the zone around a tip whose patches are enriched: the one given, or by default a
+    /// quarter of the crack's length, at most a quarter of the distance to the nearest other tip.
+    ///
+    /// The radius does not shrink with the cells: the rate of convergence rests on that.
+    #[must_use]
+    pub fn enrichment_radius(&self, tip: TipId) -> f64 {
+        if let Some(radius) = self.discretization.enrichment_radius {
+            return radius;
+        }
+        let position = |tip: TipId| self.cracks[tip.crack as usize].end_point(tip.end);
+        let length = self.cracks[tip.crack as usize].length();
+        let others = tips(&self.cracks).filter(|other| *other != tip);
+        let distances = others.map(|other| (position(other) - position(tip)).length());
+        0.25 * distances.fold(length, f64::min)
+    }
+
+    /// A part of the border in words.
+    pub fn words_of(&self, part: BorderPart) -> String {
+        match part {
+            BorderPart::Piece(piece) => format!("the piece `{}`", self.pieces[piece].name),
+            BorderPart::Hole(hole) if self.domain.outline() == Some(hole) => "the outline".into(),
+            other => other.to_string(),
+        }
+    }
+
+    /// True if a side of the rim of a hole belongs to a part of the border.
+    pub fn is_on(&self, part: BorderPart, hole: usize, side: usize) -> bool {
+        match part {
+            BorderPart::Hole(whole) => whole == hole,
+            BorderPart::Sides(run) => run.holds(hole, side),
+            BorderPart::Piece(piece) => {
+                self.pieces[piece].runs.iter().any(|run| run.holds(hole, side))
+            }
+            BorderPart::Edge { .. } | BorderPart::Crack { .. } => false,
+        }
+    }
+
+    /// The source (body force) at a point; zero beyond the components.
+    pub fn source_at(&self, x: Vec2) -> [f64; 2] {
+        let mut source = [0.0; 2];
+        source.iter_mut().zip(&self.source).for_each(|(value, e)| *value = e.value(x));
+        source
+    }
+
+    /// The traction on the face of a crack at a point of it, the sum of all conditions there.
+    pub fn face_load(&self, crack: usize, side: Side, x: Vec2) -> [f64; 2] {
+        let segments = self.cracks[crack].points.windows(2);
+        let distance = |s: &[Vec2]| segment::distance([s[0], s[1]], x);
+        let nearest = segments.min_by(|s, t| distance(s).total_cmp(&distance(t)));
+        let Some(&[a, b]) = nearest else { return [0.0; 2] };
+        let left = (b - a).unit().left();
+        let normal = if side == Side::Above { -left } else { left };
+        let mut sum = [0.0; 2];
+        for condition in &self.boundary {
+            let BorderPart::Crack { crack: other, face } = condition.on else { continue };
+            if other == crack && face.is_none_or(|face| face == side) {
+                let load = condition.values(x, normal);
+                sum.iter_mut().zip(load).for_each(|(sum, t)| *sum += t);
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,137 @@
+//! Outlines of bodies, paths of pieces, and conditions on pieces.
+
+use super::*;
+use crate::{Piece, SideRun};
+use ppum::crack::CrackEnd;
+use ppum::domain::Hole;
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_testkit::random::Random;
+
+/// A bracket with a fillet, and a slot of two pieces with one name.
+const BRACKET: &str = r#"
+crack = [{ points = [[0, 2.5], [0.5, 2.5]] }]
+[domain.outline]
+path = [
+  { points = [[0, 0], [2, 0], [4, 0], [4, 1], [2, 1]], name = "foot" },
+  { arc = { center = [2, 2], radius = 1, from = 270, to = 180 } },
+  { points = [[1, 2], [1, 4], [0, 4]], name = "head" },
+  { points = [[0, 4], [0, 0]] },
+]
+[[hole]]
+path = [
+  { arc = { center = [2.5, 0.5], radius = 0.2, from = -90, to = 90 }, name = "slot" },
+  { points = [[2.5, 0.7], [2, 0.7]] },
+  { arc = { center = [2, 0.5], radius = 0.2, from = 90, to = 270 }, name = "slot" },
+  { points = [[2, 0.3], [2.5, 0.3]] },
+]
+[material]
+young = 1.0
+poisson = 0.3
+state = "plane-stress"
+[[boundary]]
+on = { piece = "head" }
+displacement = [0, 0]
+[[boundary]]
+on = { piece = "slot" }
+pressure = "x"
+[discretization]
+cells = [9, 9]
+"#;
+
+#[test]
+fn everything_about_outlines() {
+    let problem = good(BRACKET);
+    let [slot, outside] = &problem.domain.holes[..] else { panic!("a hole and the outside") };
+    assert_eq!(problem.domain.outline(), Some(1));
+    assert!(outside.is_outside() && !slot.is_outside());
+    // cells of the half, beyond the body: it has 8 of the 9
+    assert_eq!(problem.domain.bounds, Rect::new(vec2(-0.25, -0.25), vec2(4.25, 4.25)));
+    let body = |p| problem.domain.contains(p);
+    assert!([[0.5, 3.9], [3.9, 0.5], [1.2, 1.3]].map(Vec2::from).into_iter().all(body));
+    assert!(![[2.0, 2.0], [2.5, 0.5], [-0.1, 1.0]].map(Vec2::from).into_iter().any(body));
+    assert_eq!(problem.cracks[0].ends, [CrackEnd::Mouth, CrackEnd::Tip]);
+    let [slot, foot, head] = &problem.pieces[..] else { panic!("three names") };
+    assert_eq!([slot, foot, head].map(|piece| piece.name.as_str()), ["slot", "foot", "head"]);
+    // one corner of the foot is on a straight line
+    assert_eq!(foot.runs, [SideRun { hole: 1, from: 0, to: 3 }]);
+    assert_eq!((slot.runs.len(), slot.runs[0].from), (2, 0));
+    assert_eq!(problem.boundary[0].on, BorderPart::Piece(2));
+    let on = problem.stations(0.05);
+    let at_head = |p: Vec2| (p.y == 4.0 && p.x <= 1.0) || (p.x == 1.0 && p.y >= 2.0);
+    assert!(on.iter().filter(|s| s.held[0]).all(|s| at_head(s.at)));
+    let far = on.iter().filter(|s| !s.held[0]).map(|s| (s.at - vec2(2.25, 0.5)).length());
+    assert!(far.fold(f64::INFINITY, f64::min) > 0.25);
+}
+
+#[test]
+fn mistakes_of_outlines() {
+    let wrong = |from: &str, to: &str, message: &str| {
+        assert!(BRACKET.contains(from), "{from}");
+        let error = parse(&BRACKET.replacen(from, to, 1)).expect_err("a mistake").to_string();
+        assert!(error.contains(message), "{error}");
+    };
+    wrong(
+        "{ points = [[0, 4], [0, 0]] }",
+        "{ points = [[0, 4], [0, 1]] }",
+        "is open: it begins at",
+    );
+    wrong("{ points = [[1, 2], [1, 4]", "{ points = [[1, 2.1], [1, 4]", "has a gap");
+    wrong("[1, 2], [1, 4], [0, 4]", "[1, 2], [3, 0.5], [0, 4]", "crosses or touches itself");
+    wrong("piece = \"head\"", "piece = \"heat\"", "known pieces are `slot`, `foot`, `head`");
+    wrong("on = { piece = \"slot\" }", "on = { hole = 2 }", "there is no hole 2");
+    wrong("[[0, 2.5], [0.5, 2.5]]", "[[2, 3], [3, 3]]", "the crack lies outside of the outline");
+    wrong("center = [2.5, 0.5]", "center = [2.5, 0.5], centre = 1", "unknown key");
+    let twice = "on = \"outline\"\ntraction = [0, 1]\n[[boundary]]\non = { piece = \"head\" }";
+    wrong("on = { piece = \"head\" }", twice, "on the piece `head` is given twice");
+    wrong("on = { piece = \"slot\" }", "on = { hole = 1 }", "the only [[hole]] has the number 0");
+    wrong("on = { piece = \"slot\" }", "on = \"left\"", "nothing of the body is there");
+    wrong("[[0, 2.5], [0.5, 2.5]]", "[[0, 2.5], [0, 3]]", "the crack runs along the straight side");
+    wrong("name = \"head\"", "name = \"\"", "is empty");
+    let flat = "[domain.outline]\npoints = [[0, 0], [1, 0]]\n[material]";
+    let (_, rest) = BRACKET.split_once("[material]").expect("it");
+    let error = parse(&format!("{flat}{rest}").replace("{ piece = \"head\" }", "\"outline\""));
+    let error = error.expect_err("a mistake").to_string();
+    assert!(error.contains("the outline encloses nothing"), "{error}");
+    let box_around = |min: &str| format!("min = {min}\nmax = [4, 4]\npath = [");
+    let with_box = |min| BRACKET.replacen("path = [", &box_around(min), 1);
+    for (min, message) in
+        [("[0, 0]", "runs along an edge of the box"), ("[2.5, 2.5]", "lies outside of the box")]
+    {
+        let text = with_box(min).replace("[domain.outline]\nmin", "[domain]\nmin");
+        let text = text.replacen("path = [", "[domain.outline]\npath = [", 1);
+        let error = parse(&text).expect_err("a mistake").to_string();
+        assert!(error.contains(message), "{error}");
+    }
+}
+
+/// Corners on straight lines, also nearly, are no corners, and names keep their places.
+#[test]
+fn straight_sides_have_no_corners() {
+    let mut random = Random(11);
+    for _ in 0..20 {
+        let (angle, count) = (random.between(0.0, 7.0), 2 + random.below(50));
+        let (sin, cos) = angle.sin_cos();
+        let turned = |x: f64, y: f64| vec2(cos * x - sin * y, sin * x + cos * y);
+        let corners = [turned(-1.0, -2.0), turned(1.0, -2.0), turned(1.0, 2.0), turned(-1.0, 2.0)];
+        let piece = |k: usize| {
+            let (a, b) = (corners[k], corners[(k + 1) % 4]);
+            let at = |j: usize| a + (b - a) * (j as f64 / count as f64);
+            let points: Vec<_> = (0..=count).map(|j| <[f64; 2]>::from(at(j))).collect();
+            format!("{{ points = {points:?}, name = \"side {k}\" }}")
+        };
+        let path = [0, 1, 2, 3].map(piece).join(", ");
+        let text = format!(
+            "[domain.outline]\npath = [{path}]\n[material]\nyoung = 1\npoisson = 0.3\nstate = \
+             \"plane-strain\"\n[[boundary]]\non = {{ piece = \"side 2\" }}\npressure = 1\n\
+             [discretization]\nlevel = 2\n"
+        );
+        let problem = good(&text);
+        let Hole::Polygon { points, .. } = &problem.domain.holes[0] else { panic!("a polygon") };
+        assert_eq!(points.len(), 4, "{points:?}");
+        let piece = |k: usize| Piece {
+            name: format!("side {k}"),
+            runs: vec![SideRun { hole: 0, from: k, to: k + 1 }],
+        };
+        assert_eq!(problem.pieces, [0, 1, 2, 3].map(piece));
+    }
+}
