@@ -23,11 +23,11 @@ fn main() {
 }
 
 fn compared(file: &str) -> Result<String, Box<dyn std::error::Error>> {
-    let mut problem = Problem::read(Path::new(file))?;
+    let mut problem = Problem::read(Path::new(file))?.into_data();
     problem.adaptivity = None;
     let mut solved = |kind| -> Result<(Dataset, SolverReport), Box<dyn std::error::Error>> {
         problem.solver.kind = kind;
-        let dataset = solve(&problem, unwatched())?;
+        let dataset = solve(&Problem::new(problem.clone())?, unwatched())?;
         let report = SolverReport::of(&dataset.steps[0].history);
         Ok((dataset, report))
     };

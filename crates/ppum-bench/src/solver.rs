@@ -120,7 +120,7 @@ impl Study {
         levels: RangeInclusive<u32>,
     ) -> anyhow::Result<Self> {
         let parse = || Problem::parse(PROBLEM, "centre-crack.toml", Path::new(""));
-        let mut problem = file.map_or_else(parse, Problem::read)?;
+        let mut problem = file.map_or_else(parse, Problem::read)?.into_data();
         problem.adaptivity = None;
         problem.solver.kind = match solver {
             SolverChoice::Auto => SolverKind::Auto,
@@ -133,7 +133,7 @@ impl Study {
         let mut runs = Vec::new();
         for level in levels {
             problem.discretization.cells = Cells::Level(level);
-            runs.push(SolverRun::new(&problem, level)?);
+            runs.push(SolverRun::new(&Problem::new(problem.clone())?, level)?);
             eprintln!("level {level}: {:.2} s", runs[runs.len() - 1].seconds);
         }
         let fits = || {

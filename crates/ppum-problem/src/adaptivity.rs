@@ -1,6 +1,6 @@
 //! How a cover is improved by its own solutions.
 
-use super::words::Words;
+use super::words::word_table;
 
 /// Solve, estimate the error, improve the cover where it is large, again.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,10 +36,7 @@ pub enum AdaptKind {
     Hp,
 }
 
-impl Words for AdaptKind {
-    const WORDS: &'static [(&'static str, Self)] =
-        &[("h", Self::H), ("p", Self::P), ("hp", Self::Hp)];
-}
+word_table!(AdaptKind: H "h", P "p", Hp "hp");
 
 /// The steps of an adaptation that a dataset keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,9 +48,7 @@ pub enum Keep {
     All,
 }
 
-impl Words for Keep {
-    const WORDS: &'static [(&'static str, Self)] = &[("last", Self::Last), ("all", Self::All)];
-}
+word_table!(Keep: Last "last", All "all");
 
 /// Defaults: up to ten steps and 100,000 unknowns, which a direct solver on one machine makes in
 /// less than a minute; θ = 0.6; the cells are divided.

@@ -2,12 +2,13 @@
 
 use std::fmt;
 
+use ppum::border::BorderLine;
 use ppum::crack::Side;
 use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::words::Words;
+use super::words::{Words, word_table};
 
 /// An edge of the box Ω.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +39,11 @@ impl Edge {
         Self::ALL.into_iter().find(|edge| edge.name() == name)
     }
 
+    /// The edge that a line of the border is.
+    pub fn of_line(line: &BorderLine) -> Option<Self> {
+        Self::ALL.into_iter().find(|edge| line.hole.is_none() && edge.normal() == line.outward())
+    }
+
     /// Unit normal that points out of the box.
     #[must_use]
     pub fn normal(self) -> Vec2 {
@@ -52,19 +58,13 @@ impl Edge {
     /// The range of the edge's own coordinate: y on the left and right, x at the bottom and top.
     #[must_use]
     pub fn range(self, domain: &Rect) -> [f64; 2] {
-        match self {
-            Self::Left | Self::Right => [domain.min.y, domain.max.y],
-            Self::Bottom | Self::Top => [domain.min.x, domain.max.x],
-        }
+        [domain.min, domain.max].map(|p| self.coordinate(p))
     }
 
     /// The edge's own coordinate of a point.
     #[must_use]
     pub fn coordinate(self, p: Vec2) -> f64 {
-        match self {
-            Self::Left | Self::Right => p.y,
-            Self::Bottom | Self::Top => p.x,
-        }
+        if self.normal().x == 0.0 { p.x } else { p.y }
     }
 
     /// The point of the edge with own coordinate `s`.
@@ -81,23 +81,11 @@ impl Edge {
     /// Distance of `p` to the line of the edge, positive inside the box.
     #[must_use]
     pub fn depth(self, domain: &Rect, p: Vec2) -> f64 {
-        match self {
-            Self::Left => p.x - domain.min.x,
-            Self::Right => domain.max.x - p.x,
-            Self::Bottom => p.y - domain.min.y,
-            Self::Top => domain.max.y - p.y,
-        }
+        self.normal().dot(self.point(domain, self.coordinate(p)) - p)
     }
 }
 
-impl Words for Edge {
-    const WORDS: &'static [(&'static str, Self)] = &[
-        ("left", Self::Left),
-        ("right", Self::Right),
-        ("bottom", Self::Bottom),
-        ("top", Self::Top),
-    ];
-}
+word_table!(Edge: Left "left", Right "right", Bottom "bottom", Top "top");
 
 /// The word for the whole outline of the body.
 pub(super) const OUTLINE: &str = "outline";

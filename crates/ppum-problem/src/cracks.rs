@@ -166,19 +166,11 @@ fn with_body_on_left(mut points: Vec<Vec2>, domain: &Domain) -> Vec<Vec2> {
 /// All rules broken by the cracks. Each crack must be in order before two are compared.
 pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<MistakeAt> {
     let touch = touch(&domain.bounds);
-    let holes = holes_of(domain, touch);
+    let (holes, lines) = (holes_of(domain, touch), domain.border_lines().collect::<Vec<_>>());
     let mut found = Vec::new();
     let mut in_order = Vec::new();
     for (index, crack) in cracks.iter().enumerate() {
-        let key = Key::points(index);
-        let line = domain.line_along(&crack.points);
-        let shape = (&domain.bounds, line.is_some());
-        let mut broken = check_crack(&crack.points, shape, touch, &key);
-        broken.extend(check_at_holes(crack, &holes, touch, &key));
-        if line.is_none_or(|line| line.hole.is_none()) {
-            broken.extend(check_in_outline(crack, domain, touch, &key));
-            broken.extend(check_along_rims(crack, domain, touch, &key));
-        }
+        let broken = check_crack(crack, (domain, &holes, &lines), touch, &Key::points(index));
         in_order.extend(broken.is_empty().then_some(index));
         found.extend(broken);
     }
@@ -196,24 +188,35 @@ fn check_at_holes(crack: &Crack, holes: &Holes<'_>, touch: f64, key: &Key) -> Op
     Some(key.clone().mistake(message))
 }
 
-/// No segment runs along a side of a rim.
-fn check_along_rims(crack: &Crack, domain: &Domain, touch: f64, key: &Key) -> Option<MistakeAt> {
-    let sides = domain.holes.iter().flat_map(Hole::sides);
-    let runs_along = |s: &[Vec2], [a, b]: [Vec2; 2]| {
-        let way = (b - a).unit();
-        let beside = |p: Vec2| way.cross(p - a).abs() <= touch;
-        let [from, to] = [s[0], s[1]].map(|p| way.dot(p - a));
-        let common = from.max(to).min((b - a).length()) - from.min(to).max(0.0);
-        beside(s[0]) && beside(s[1]) && common > touch
+/// No segment of a crack that leaves the border runs along one of its lines.
+fn check_along_border(
+    crack: &Crack,
+    lines: &[BorderLine],
+    touch: f64,
+    key: &Key,
+) -> Option<MistakeAt> {
+    let runs_along = |s: &[Vec2], line: &BorderLine| {
+        let [from, to] = [s[0], s[1]].map(|p| line.coordinate(p));
+        let common = from.max(to).min(line.length()) - from.min(to).max(0.0);
+        s.iter().all(|p| line.depth(*p).abs() <= touch) && common > touch
     };
-    let mut pairs = sides.flat_map(|side| crack.points.windows(2).map(move |s| (s, side)));
-    let (segment, _) = pairs.find(|(s, side)| runs_along(s, *side))?;
+    let along = |s: &[Vec2]| lines.iter().find(|line| runs_along(s, line));
+    let mut segments = crack.points.windows(2).enumerate();
+    let (index, line) = segments.find_map(|(k, s)| Some((k, along(s)?)))?;
     let message = format!(
-        "the crack runs along the border at {}, and leaves it; move it into the body, or let all of it lie on one \
-         straight side, as in half of a symmetric body",
-        shown(segment[0])
+        "the crack runs along the {}, and leaves it; move it into the body, or let all of it lie on one straight \
+         side, as in half of a symmetric body",
+        line_words(line)
     );
-    Some(key.clone().mistake(message))
+    Some(key.clone().index(index).mistake(message))
+}
+
+/// An edge, or a side of a polygon, in words.
+pub(super) fn line_words(line: &BorderLine) -> String {
+    match Edge::of_line(line) {
+        Some(edge) => format!("{} edge", edge.name()),
+        None => format!("straight side from {} to {}", shown(line.ends[0]), shown(line.ends[1])),
+    }
 }
 
 /// Some of the crack lies in the outline of the body.
@@ -226,20 +229,33 @@ fn check_in_outline(crack: &Crack, domain: &Domain, touch: f64, key: &Key) -> Op
 }
 
 fn check_crack(
-    points: &[Vec2],
-    (domain, is_along): (&Rect, bool),
+    crack: &Crack,
+    (domain, holes, lines): (&Domain, &Holes<'_>, &[BorderLine]),
     touch: f64,
     key: &Key,
 ) -> Vec<MistakeAt> {
+    let (points, bounds) = (&crack.points, &domain.bounds);
     if points.len() < 2 {
         let message = "a crack needs at least two points; add `[x, y]`";
         return vec![key.clone().mistake(message)];
     }
-    let places = check_places(points, (domain, is_along), touch, key);
+    let line = domain.line_along(points);
+    // what else is told of a crack that leaves the border follows from it
+    if line.is_none()
+        && points.iter().all(|p| bounds.contains(*p))
+        && let Some(along) = check_along_border(crack, lines, touch, key)
+    {
+        return vec![along];
+    }
+    let places = check_places(points, (bounds, line.is_some()), touch, key);
     let mut found: Vec<MistakeAt> = places.into_iter().collect();
-    found.extend(check_segments(points, (domain, is_along), touch, key));
+    found.extend(check_segments(points, touch, key));
     if found.is_empty() {
         found.extend(check_whole(points, touch, key));
+    }
+    found.extend(check_at_holes(crack, holes, touch, key));
+    if line.is_none_or(|line| line.hole.is_none()) {
+        found.extend(check_in_outline(crack, domain, touch, key));
     }
     found
 }
@@ -302,39 +318,17 @@ pub(super) fn shown(p: Vec2) -> String {
     format!("[{}, {}]", trimmed(p.x), trimmed(p.y))
 }
 
-/// Each segment of positive length, and along the border all of them or none.
-fn check_segments(
-    points: &[Vec2],
-    (domain, is_along): (&Rect, bool),
-    touch: f64,
-    key: &Key,
-) -> Vec<MistakeAt> {
-    let segment = |(index, pair): (usize, &[Vec2])| {
-        let [a, b] = [pair[0], pair[1]];
-        let along = edges_at(a, domain, touch)
-            .filter(|_| !is_along)
-            .find(|edge| edges_at(b, domain, touch).any(|other| other == *edge));
-        let (at, message) = match along {
-            _ if (b - a).length() <= touch => {
-                let message = format!(
-                    "the point equals the one before it, {}, up to rounding; remove it, or make the crack larger",
-                    shown(a)
-                );
-                (index + 1, message)
-            }
-            Some(edge) => (
-                index,
-                format!(
-                    "the crack runs along the {} edge, and leaves it; move it into the plate, or let all of it lie on \
-                     the edge, as in half of a symmetric plate",
-                    edge.name()
-                ),
-            ),
-            None => return None,
-        };
-        Some(key.clone().index(at).mistake(message))
+/// Each segment of positive length.
+fn check_segments(points: &[Vec2], touch: f64, key: &Key) -> Vec<MistakeAt> {
+    let segments = points.windows(2).zip(1..).filter(|(s, _)| (s[1] - s[0]).length() <= touch);
+    let mistake = |(s, at): (&[Vec2], usize)| {
+        let message = format!(
+            "the point equals the one before it, {}, up to rounding; remove it, or make the crack larger",
+            shown(s[0])
+        );
+        key.clone().index(at).mistake(message)
     };
-    points.windows(2).enumerate().filter_map(segment).collect()
+    segments.map(mistake).collect()
 }
 
 /// No crossing with itself.

@@ -5,7 +5,7 @@ use ppum::expression::Expression;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
-use super::words::Words;
+use super::words::{Words, word_table};
 
 /// Highest level of a uniform cover: 4^10 ≈ 10⁶ cells, beyond what a direct solver holds.
 pub(super) const MAX_LEVEL: u32 = 10;
@@ -109,16 +109,10 @@ pub enum Enrichment {
     AdditiveOnly,
 }
 
-impl Words for Enrichment {
-    const WORDS: &'static [(&'static str, Self)] = &[
-        ("none", Self::None),
-        ("jumps", Self::Jumps),
-        ("tip-patch", Self::TipPatch),
-        ("zone", Self::Zone),
-        ("williams", Self::Williams),
-        ("additive-only", Self::AdditiveOnly),
-    ];
-}
+word_table!(
+    Enrichment: None "none", Jumps "jumps", TipPatch "tip-patch", Zone "zone", Williams "williams",
+    AdditiveOnly "additive-only"
+);
 
 impl Discretization {
     /// Defaults on the given cells: order 2, α = 1.3, linear weights, Williams' series in zones

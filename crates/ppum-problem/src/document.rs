@@ -14,10 +14,11 @@ use ppum::vec2::Vec2;
 use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 
+use super::body::HeatedBody;
 use super::error::Mistake;
 use super::expression;
 use super::keys::{KeyTable, Kind};
-use super::report::Report;
+use super::report::{Report, quotes};
 use super::scopes;
 use super::words::{EquationKind, Words, words};
 
@@ -28,8 +29,8 @@ pub const MAX_LENGTH: u64 = 16 << 20;
 pub(super) struct Document<'a> {
     pub(super) report: Report<'a>,
     pub(super) source: FileSource<'a>,
-    /// True of the problem of a temperature.
-    pub(super) is_heat: bool,
+    /// Of the problem of a temperature, the problem of the body that it is in.
+    pub(super) heated: Option<&'a HeatedBody<'a>>,
     /// None if the file does not say it as it should.
     pub(super) equation: Cell<Option<EquationKind>>,
     /// Tables of its formulas.
@@ -55,7 +56,7 @@ impl<'a> Document<'a> {
         Self {
             report: Report::new(file, text),
             source,
-            is_heat: false,
+            heated: None,
             equation: Cell::new(None),
             tables: OnceCell::new(),
             scope: OnceCell::new(),
@@ -580,15 +581,6 @@ impl<T: Read> Read for Vec<T> {
     fn read(value: &Value<'_>) -> Option<Self> {
         all(value.list()?.iter().map(T::read))
     }
-}
-
-/// Length of what opens a text: quotes, and the line break that follows three of them.
-fn quotes(raw: &str) -> Option<usize> {
-    if let Some(rest) = raw.strip_prefix("\"\"\"").or_else(|| raw.strip_prefix("'''")) {
-        let breaks = ["\r\n", "\n"].iter().find(|text| rest.starts_with(**text));
-        return Some(3 + breaks.map_or(0, |text| text.len()));
-    }
-    raw.starts_with(['"', '\'']).then_some(1)
 }
 
 fn to_i64(integer: &DeInteger<'_>) -> Option<i64> {

@@ -4,7 +4,7 @@ use ppum::expression::Expression;
 use ppum::function::Declared;
 use ppum::vec2::Vec2;
 
-use super::words::Words;
+use super::words::word_table;
 
 /// Functions that the local spaces of some patches hold beside polynomials, each times all
 /// polynomials up to a degree: `[[enrichment]]` in problem files.
@@ -15,13 +15,13 @@ use super::words::Words;
 /// ```
 /// use ppum::dataset::Equation;
 /// use ppum::vec2::{Rect, vec2};
-/// use ppum_problem::{Cells, Discretization, LocalEnrichment, Problem, Site};
+/// use crate::{Cells, Discretization, LocalEnrichment, Problem, ProblemData, Site};
 ///
 /// let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
-/// let mut problem = Problem::poisson(domain, 1.0, Discretization::new(Cells::Level(3)));
+/// let mut problem = ProblemData::poisson(domain, 1.0, Discretization::new(Cells::Level(3)));
 /// let interface = Site::Along([vec2(-1.0, 0.1), vec2(1.0, 0.3)]);
 /// problem.enrichments.push(LocalEnrichment::new(&["abs(y)"], interface));
-/// assert_eq!(problem.check(), Ok(()));
+/// assert!(Problem::new(problem).is_ok());
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalEnrichment {
@@ -63,10 +63,8 @@ pub enum Site {
     Along([Vec2; 2]),
 }
 
-/// What is written as a word; points and segments are arrays.
-impl Words for Site {
-    const WORDS: &'static [(&'static str, Self)] = &[("tips", Self::Tips)];
-}
+// points and segments are arrays, not words
+word_table!(Site: Tips "tips");
 
 /// The patches that have an enrichment.
 #[derive(Clone, Debug, PartialEq)]

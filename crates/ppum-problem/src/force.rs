@@ -4,11 +4,10 @@ use ppum::crack::{SegmentId, Side};
 use ppum::domain::{Domain, Hole};
 use ppum::line::Line;
 use ppum::segment;
-use ppum::text::trimmed;
 use ppum::vec2::Vec2;
 
 use super::boundary::{BorderPart, Edge};
-use super::model::Problem;
+use super::model::ProblemData;
 use super::support::Force;
 use ppum::border::touch;
 
@@ -45,15 +44,15 @@ const PARALLEL: f64 = 1.0 - 1e-12;
 /// Part of the size of the domain by which the material beside a rim is looked for.
 const BESIDE: f64 = 1e-7;
 
-impl Problem {
+impl ProblemData {
     /// The surroundings of a force, or in words why there cannot be one.
     pub fn place_of(&self, force: &Force) -> Result<ForcePlace, String> {
         let Force { at: p, face: side, .. } = *force;
-        let touch = touch(&self.domain.bounds);
-        if self.domain.holes.iter().any(|hole| is_on_curve(hole, p, touch)) {
+        let touch = touch(&self.domain().bounds);
+        if self.domain().holes.iter().any(|hole| is_on_curve(hole, p, touch)) {
             return Err("lies on a curved part of the border; move it onto a straight one".into());
         }
-        if is_outside(&self.domain, p, touch) {
+        if is_outside(self.domain(), p, touch) {
             return Err(
                 "lies outside of the body; move it into the body, or onto its border".into()
             );
@@ -70,7 +69,8 @@ impl Problem {
             return Err("lies on no crack, so that `face` has no meaning; leave it out".into());
         }
         let mut normals: Vec<Vec2> = Vec::new();
-        for normal in edge_normals(&self.domain, p, touch).chain(self.rim_normals(p, touch)) {
+        let lines = self.domain().border_lines().filter(|line| line.holds(p, touch));
+        for normal in lines.map(|line| -line.outward()) {
             if !normals.iter().any(|known| known.dot(normal) > PARALLEL) {
                 normals.push(normal);
             }
@@ -86,19 +86,19 @@ impl Problem {
     }
 
     fn crack_at(&self, p: Vec2, touch: f64) -> Option<usize> {
-        self.cracks.iter().position(|crack| segment::polyline_distance(&crack.points, p) <= touch)
+        self.cracks().iter().position(|crack| segment::polyline_distance(&crack.points, p) <= touch)
     }
 
     fn face_at(&self, crack: usize, side: Side, p: Vec2, touch: f64) -> Result<ForcePlace, String> {
-        let points = &self.cracks[crack].points;
-        let others = self.cracks.iter().enumerate().filter(|(k, _)| *k != crack);
+        let points = &self.cracks()[crack].points;
+        let others = self.cracks().iter().enumerate().filter(|(k, _)| *k != crack);
         let mut others = others.map(|(_, other)| segment::polyline_distance(&other.points, p));
         if points.iter().any(|q| (*q - p).length() <= touch) || others.any(|d| d <= touch) {
             return Err(format!(
                 "lies at an end, a kink or a crossing of crack {crack}; move it along the face"
             ));
         }
-        if self.line_of(crack).is_some() {
+        if self.body.line_of(crack).is_some() {
             return Err("lies on the border of a half model; model the whole body".into());
         }
         let distance = |s: &[Vec2]| segment::distance([s[0], s[1]], p);
@@ -113,21 +113,6 @@ impl Problem {
         Ok(ForcePlace::Border { inward, face: Some((segment, side)) })
     }
 
-    /// The normals into the body of the sides of rims that a point lies on.
-    fn rim_normals(&self, p: Vec2, touch: f64) -> Vec<Vec2> {
-        let beside = BESIDE * self.domain.bounds.size().length();
-        let mut normals = Vec::new();
-        for hole in self.domain.holes.iter().filter(|hole| hole.rim_distance(p) <= touch) {
-            let sides: Vec<_> = hole.sides().collect();
-            let here = (0..sides.len()).filter(|&k| segment::distance(sides[k], p) <= touch);
-            normals.extend(here.map(|k| {
-                let left = (sides[k][1] - sides[k][0]).unit().left();
-                if hole.contains(p + left * beside) { -left } else { left }
-            }));
-        }
-        normals
-    }
-
     /// Distance from a force within which its field alone is not smooth: up to tips and kinks of
     /// the crack that it acts on, to parts of the border where values are given, and to material
     /// behind the border.
@@ -136,10 +121,10 @@ impl Problem {
         let held = self.boundary.iter().filter(|condition| condition.held().contains(&true));
         let mut room = held.map(|c| self.distance_to(c.on, p)).fold(f64::INFINITY, f64::min);
         if let Some((segment, _)) = place.face() {
-            let ends = self.cracks[segment.crack as usize].points.iter();
+            let ends = self.cracks()[segment.crack as usize].points.iter();
             room = ends.map(|q| (*q - p).length()).fold(room, f64::min);
         } else if let ForcePlace::Border { inward, .. } = place {
-            let rims = self.domain.holes.iter().flat_map(Hole::sides);
+            let rims = self.domain().holes.iter().flat_map(Hole::sides);
             room = rims.filter_map(|side| along(p, -inward, side)).fold(room, f64::min);
         }
         room
@@ -148,30 +133,24 @@ impl Problem {
     /// Distance from a force to the nearest border or crack that it does not act on: the rest of
     /// the field varies as fast there.
     pub fn next_to(&self, force: &Force) -> f64 {
-        let (p, domain) = (force.at, &self.domain);
+        let (p, domain) = (force.at, self.domain());
         let to = |[a, b]: [Vec2; 2]| segment::distance([a, b], p);
         let edges = Edge::ALL.into_iter().map(|edge| edge.depth(&domain.bounds, p));
         let sides = domain.holes.iter().flat_map(Hole::sides).map(to);
         let circles = domain.holes.iter().filter(|hole| hole.sides().next().is_none());
         let circles = circles.map(|hole| hole.rim_distance(p));
-        let cracks = self.cracks.iter().flat_map(|crack| crack.points.windows(2));
+        let cracks = self.cracks().iter().flat_map(|crack| crack.points.windows(2));
         let all = edges.chain(sides).chain(circles).chain(cracks.map(|s| to([s[0], s[1]])));
         all.filter(|distance| *distance > touch(&domain.bounds)).fold(f64::INFINITY, f64::min)
     }
 
     fn distance_to(&self, on: BorderPart, p: Vec2) -> f64 {
-        let bounds = &self.domain.bounds;
-        if let BorderPart::Edge { edge, from, to } = on {
-            return segment::distance([from, to].map(|s| edge.point(bounds, s)), p);
-        }
-        let of_hole = |(k, hole): (usize, &Hole)| {
-            if on == BorderPart::Hole(k) {
-                return hole.rim_distance(p);
-            }
-            let own = hole.sides().enumerate().filter(|(side, _)| self.is_on(on, k, *side));
-            own.map(|(_, ends)| segment::distance(ends, p)).fold(f64::INFINITY, f64::min)
+        let round = match on {
+            BorderPart::Hole(hole) => self.domain().holes[hole].rim_distance(p),
+            _ => f64::INFINITY,
         };
-        self.domain.holes.iter().enumerate().map(of_hole).fold(f64::INFINITY, f64::min)
+        let sides = self.segments_of(on).map(|ends| segment::distance(ends, p));
+        sides.fold(round, f64::min)
     }
 }
 
@@ -179,17 +158,6 @@ impl Problem {
 pub(super) fn is_outside(domain: &Domain, p: Vec2, touch: f64) -> bool {
     let is_inside = |hole: &Hole| hole.contains(p) && hole.rim_distance(p) > touch;
     !domain.bounds.contains(p) || domain.holes.iter().any(is_inside)
-}
-
-/// A place in a message, e.g. `[0.5, 1]`.
-pub(super) fn place_words(p: Vec2) -> String {
-    format!("[{}, {}]", trimmed(p.x), trimmed(p.y))
-}
-
-/// The normals into the box of its edges that a point lies on.
-fn edge_normals(domain: &Domain, p: Vec2, touch: f64) -> impl Iterator<Item = Vec2> {
-    let on_edge = move |edge: &Edge| edge.depth(&domain.bounds, p).abs() <= touch;
-    Edge::ALL.into_iter().filter(on_edge).map(|edge| -edge.normal())
 }
 
 /// True if a point lies on a curve that a part of a rim stands for: between the curve and its

@@ -7,7 +7,8 @@ use ppum::segment::polyline_distance;
 
 use super::error::{Location, Mistake, ProblemError};
 use super::model::Problem;
-use super::words::Words;
+
+use super::words::word_table;
 
 /// A quasi-static series: solve, let the tips go on, again.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,10 +40,7 @@ pub enum Criterion {
     Energy,
 }
 
-impl Words for Criterion {
-    const WORDS: &'static [(&'static str, Self)] =
-        &[("hoop", Self::Hoop), ("local-symmetry", Self::LocalSymmetry), ("energy", Self::Energy)];
-}
+word_table!(Criterion: Hoop "hoop", LocalSymmetry "local-symmetry", Energy "energy");
 
 /// What the load does while cracks grow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,10 +53,7 @@ pub enum LoadControl {
     Critical,
 }
 
-impl Words for LoadControl {
-    const WORDS: &'static [(&'static str, Self)] =
-        &[("constant", Self::Constant), ("critical", Self::Critical)];
-}
+word_table!(LoadControl: Constant "constant", Critical "critical");
 
 /// Growth per cycle da/dN = c ΔK^m, ΔK = (1 − ratio) × strength, above a threshold (Paris &
 /// Erdogan 1963).
@@ -124,9 +119,9 @@ impl Problem {
     pub fn of_step(dataset: &Dataset, step: usize) -> Result<Option<Self>, ProblemError> {
         let Some(problem) = Self::of_dataset(dataset)? else { return Ok(None) };
         let cracks = dataset.steps.get(step).map_or(&[][..], |step| &step.cracks);
-        let has_grown = problem.growth.is_some() && go_on(&problem.cracks, cracks);
-        if has_grown || problem.cracks == cracks {
-            return Ok(Some(Self { cracks: cracks.to_vec(), ..problem }.with_free_faces()));
+        let has_grown = problem.growth.is_some() && go_on(problem.cracks(), cracks);
+        if has_grown || problem.cracks() == cracks {
+            return Ok(Some(problem.with_cracks(cracks.to_vec())));
         }
         let location = Location::File("problem".into());
         Err(Mistake { location, message: format!("it has other cracks than step {step}") }.into())

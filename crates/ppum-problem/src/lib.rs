@@ -9,25 +9,26 @@
 //! with components of u (Dirichlet) or of the traction σ n, the flux κ ∂u/∂n (Neumann), given on
 //! parts of the border. `docs/problem-file.md` describes the file for users.
 //!
-//! A [`Problem`] is plain data. Reading reports everything that is wrong at once, with places; for
-//! a problem built in code [`Problem::check`] applies the same rules:
+//! [`ProblemData`] are plain data, a [`Problem`] such as break no rule. Reading reports everything
+//! that is wrong at once, with places; for data from code [`Problem::new`] applies the same rules:
 //!
 //! ```
 //! use ppum::dataset::{Material, StressState};
 //! use ppum::vec2::{Rect, vec2};
-//! use ppum_problem::{Cells, Condition, Discretization, Edge, Problem};
+//! use crate::{Cells, Condition, Discretization, Edge, Problem, ProblemData};
 //!
 //! let steel = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 //! let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
 //! let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-//! let problem = Problem::elasticity(domain, steel, Discretization::new(Cells::Level(4)))
+//! let plate = ProblemData::elasticity(domain, steel, Discretization::new(Cells::Level(4)))
 //!     .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
 //!     .with_boundary(Edge::Bottom, pull(-1.0))
 //!     .with_boundary(Edge::Top, pull(1.0));
-//! assert_eq!(problem.check(), Ok(()));
+//! assert!(Problem::new(plate).is_ok());
 //! ```
 
 mod adaptivity;
+mod body;
 mod boundary;
 mod check;
 mod contacts;
@@ -44,6 +45,7 @@ pub mod geometry;
 mod growth;
 mod holes;
 mod key;
+mod key_kinds;
 pub mod keys;
 mod model;
 mod nearby;
@@ -67,9 +69,11 @@ mod tests;
 mod words;
 
 pub use adaptivity::{AdaptKind, Adaptivity, Keep};
+pub use body::Body;
 pub use boundary::{
     BorderPart, BoundaryCondition, Condition, Edge, Piece, SideRun, held_directions, in_plane,
 };
+pub use check::features::Feature;
 pub use cracks::{crack, cracks};
 pub use curve::arc_from;
 pub use discretization::{Cells, Discretization, Enrichment, MOST_TERMS, Order, OrderError};
@@ -78,7 +82,7 @@ pub use enrichment::{LocalEnrichment, Region, Site};
 pub use error::{Location, Mistake, ProblemError};
 pub use force::ForcePlace;
 pub use growth::{Criterion, GrowthRule, LoadControl, Paris};
-pub use model::{Problem, SolvedTemperature};
+pub use model::{Problem, ProblemData, SolvedTemperature};
 pub use ppum::expression::Expression;
 pub use refinement::{DEEPEST, LocalRefinement, RefinementRegion, nine};
 pub use restraint::{restraint_center, restraint_words};
@@ -88,4 +92,3 @@ pub use stiffness::{FREE_OF_LOCKING, STIFF, stiffness_ratio};
 pub use support::{Force, Support};
 pub use symmetry::Symmetry;
 pub use table_file::read_table;
-pub use temperature::without_expansion;

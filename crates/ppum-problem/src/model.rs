@@ -1,6 +1,6 @@
-//! A problem as data.
+//! A problem as data, and one that has been checked.
 
-use std::collections::BTreeMap;
+use std::ops::Deref;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -13,33 +13,91 @@ use ppum::segment;
 use ppum::vec2::Vec2;
 
 use super::adaptivity::Adaptivity;
+use super::body::Body;
 use super::boundary::{BorderPart, BoundaryCondition, Condition, Edge, Piece};
-use super::cracks::cracks;
 use super::discretization::{Discretization, Enrichment};
 use super::enrichment::LocalEnrichment;
+use super::error::ProblemError;
 use super::growth::GrowthRule;
 use super::refinement::LocalRefinement;
 use super::solver::{Solver, SolverKind};
 use super::support::{Force, Support};
 
-/// A problem with its discretisation.
+/// A problem with its discretisation that breaks no rule.
+///
+/// It is made from [`ProblemData`] and read like these, but does not change:
+/// [`into_data`](Self::into_data) gives them back.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Problem {
+pub struct Problem(ProblemData);
+
+impl Deref for Problem {
+    type Target = ProblemData;
+
+    fn deref(&self) -> &ProblemData {
+        &self.0
+    }
+}
+
+impl Problem {
+    /// The problem of data that break no rule.
+    ///
+    /// # Errors
+    /// Everything that is wrong, each named by its key.
+    pub fn new(data: ProblemData) -> Result<Self, ProblemError> {
+        data.check()?;
+        Ok(Self::of_checked(data))
+    }
+
+    /// The problem of data that were checked; the problem of a temperature is on its body and
+    /// discretised as it is.
+    pub(super) fn of_checked(mut data: ProblemData) -> Self {
+        if let Some(SolvedTemperature { problem, .. }) = &mut data.temperature {
+            problem.0.body = data.body.with_pieces(problem.pieces());
+            problem.0.discretization = data.discretization.clone();
+            problem.0.refinements = data.refinements.clone();
+            problem.0.solver = data.solver;
+            (problem.0.adaptivity, problem.0.growth) = (None, None);
+        }
+        Self(data)
+    }
+
+    /// The data, which can be changed and checked anew.
+    #[must_use]
+    pub fn into_data(self) -> ProblemData {
+        self.0
+    }
+
+    /// The problem with the cracks of one of its steps in place of its own.
+    pub fn with_cracks(&self, cracks: Vec<Crack>) -> Self {
+        let body = (*self.body).clone().with_cracks(cracks);
+        Self::of_checked(ProblemData { body: body.into(), ..self.0.clone() })
+    }
+
+    /// The problem whose cracks have grown to these lines.
+    ///
+    /// # Errors
+    /// The rules that the new cracks break.
+    pub fn grown(&self, lines: Vec<Vec<Vec2>>) -> Result<Self, ProblemError> {
+        Self::new(self.0.clone().with_lines(lines))
+    }
+
+    /// The problem of the temperature in the body, discretised as this one.
+    pub fn heat(&self) -> Option<&Self> {
+        Some(&self.temperature.as_ref()?.problem)
+    }
+}
+
+/// A problem with its discretisation, as it is given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProblemData {
     /// One line that names the problem; may be empty.
     pub title: String,
-    /// The box minus holes Ω.
-    pub domain: Domain,
+    /// The body.
+    pub body: Arc<Body>,
     /// The equation with its material.
     pub equation: Equation,
     /// The temperature that strains the body, if another problem gives it.
     pub temperature: Option<SolvedTemperature>,
-    /// The cracks.
-    pub cracks: Vec<Crack>,
-    /// Of cracks whose faces may touch, by their numbers, Coulomb's coefficient μ ≥ 0 of friction.
-    /// Faces of the others may overlap.
-    pub contacts: BTreeMap<u32, f64>,
-    /// Pieces of rims that have names, which conditions may be on.
-    pub pieces: Vec<Piece>,
     /// The conditions on the border.
     pub boundary: Vec<BoundaryCondition>,
     /// Forces at points.
@@ -85,7 +143,7 @@ pub struct SolvedTemperature {
     pub expansion: Expression,
 }
 
-impl Problem {
+impl ProblemData {
     /// True if tips have Williams' series, and corners theirs: where the material varies they have
     /// other ones.
     pub fn has_series(&self) -> bool {
@@ -117,13 +175,10 @@ impl Problem {
     fn new(domain: Domain, equation: Equation, discretization: Discretization) -> Self {
         Self {
             title: String::new(),
-            domain,
+            body: Body::new(domain, Vec::new()).into(),
             source: vec![Expression::number(0.0); equation.components()],
             equation,
             temperature: None,
-            cracks: Vec::new(),
-            contacts: BTreeMap::new(),
-            pieces: Vec::new(),
             boundary: Vec::new(),
             forces: Vec::new(),
             supports: Vec::new(),
@@ -143,21 +198,34 @@ impl Problem {
 
     /// The problem with one more crack; its ends on the border, also on rims and in holes, become
     /// mouths, those on other cracks junctions, and all others tips. Ends of the cracks before it
-    /// that lie on it become junctions, too. Cost: that of looking at all cracks; [`cracks()`]
-    /// makes many at once.
+    /// that lie on it become junctions, too. Cost: that of looking at all cracks;
+    /// [`with_lines`](Self::with_lines) makes many at once.
     #[must_use]
-    pub fn with_crack(mut self, points: &[[f64; 2]]) -> Self {
-        let new = points.iter().copied().map(Vec2::from).collect();
-        let all = std::mem::take(&mut self.cracks).into_iter().map(|crack| crack.points);
-        self.cracks = cracks(all.chain([new]), &self.domain);
-        self.with_free_faces()
+    pub fn with_crack(self, points: &[[f64; 2]]) -> Self {
+        let mut lines: Vec<_> = self.cracks().iter().map(|crack| crack.points.clone()).collect();
+        lines.push(points.iter().copied().map(Vec2::from).collect());
+        self.with_lines(lines)
+    }
+
+    /// The problem with cracks along lines in place of its own, see [`cracks`](super::cracks).
+    #[must_use]
+    pub fn with_lines(self, lines: impl IntoIterator<Item = Vec<Vec2>>) -> Self {
+        let body = (*self.body).clone().with_lines(lines).settled();
+        Self { body: body.into(), ..self }
+    }
+
+    /// The problem with the same cracks in another domain.
+    #[must_use]
+    pub fn with_domain(self, domain: impl Into<Domain>) -> Self {
+        let body = (*self.body).clone().with_domain(domain.into());
+        Self { body: body.into(), ..self }
     }
 
     /// The problem with conditions on a whole edge, one per component.
     #[must_use]
     pub fn with_boundary(mut self, edge: Edge, components: Vec<Condition>) -> Self {
-        self.boundary.push(BoundaryCondition::on_edge(edge, &self.domain.bounds, components));
-        self.with_free_faces()
+        self.boundary.push(BoundaryCondition::on_edge(edge, &self.domain().bounds, components));
+        self
     }
 
     /// The problem with a pressure on a part of the border.
@@ -170,9 +238,9 @@ impl Problem {
     /// The problem with a crack, given by its number, whose faces may touch, with Coulomb's
     /// coefficient μ ≥ 0 of friction.
     #[must_use]
-    pub fn with_contact(mut self, crack: u32, friction: f64) -> Self {
-        self.contacts.insert(crack, friction);
-        self
+    pub fn with_contact(self, crack: u32, friction: f64) -> Self {
+        let body = (*self.body).clone().with_contact(crack, friction);
+        Self { body: body.into(), ..self }
     }
 
     /// The problem with exact values given on a whole edge.
@@ -198,7 +266,30 @@ impl Problem {
 
     /// The linear solver: of levels, the coarser ones do not see faces that touch.
     pub fn solver_kind(&self) -> SolverKind {
-        if self.contacts.is_empty() { self.solver.kind } else { SolverKind::Direct }
+        if self.touches() { SolverKind::Direct } else { self.solver.kind }
+    }
+
+    /// True if faces of some crack may touch.
+    pub(crate) fn touches(&self) -> bool {
+        self.body.contacts().next().is_some()
+    }
+
+    /// The box minus holes Ω.
+    #[must_use]
+    pub fn domain(&self) -> &Domain {
+        self.body.domain()
+    }
+
+    /// The cracks.
+    #[must_use]
+    pub fn cracks(&self) -> &[Crack] {
+        self.body.cracks()
+    }
+
+    /// The pieces of rims that have names, which conditions may be on.
+    #[must_use]
+    pub fn pieces(&self) -> &[Piece] {
+        self.body.pieces()
     }
 
     /// True if something acts on faces of cracks.
@@ -221,9 +312,9 @@ impl Problem {
         if let Some(radius) = self.discretization.enrichment_radius {
             return radius;
         }
-        let position = |tip: TipId| self.cracks[tip.crack as usize].end_point(tip.end);
-        let length = self.cracks[tip.crack as usize].length();
-        let others = tips(&self.cracks).filter(|other| *other != tip);
+        let position = |tip: TipId| self.cracks()[tip.crack as usize].end_point(tip.end);
+        let length = self.cracks()[tip.crack as usize].length();
+        let others = tips(self.cracks()).filter(|other| *other != tip);
         let distances = others.map(|other| (position(other) - position(tip)).length());
         0.25 * distances.fold(length, f64::min)
     }
@@ -231,8 +322,8 @@ impl Problem {
     /// A part of the border in words.
     pub fn words_of(&self, part: BorderPart) -> String {
         match part {
-            BorderPart::Piece(piece) => format!("the piece `{}`", self.pieces[piece].name),
-            BorderPart::Hole(hole) if self.domain.outline() == Some(hole) => "the outline".into(),
+            BorderPart::Piece(piece) => format!("the piece `{}`", self.pieces()[piece].name),
+            BorderPart::Hole(hole) if self.domain().outline() == Some(hole) => "the outline".into(),
             other => other.to_string(),
         }
     }
@@ -243,7 +334,7 @@ impl Problem {
             BorderPart::Hole(whole) => whole == hole,
             BorderPart::Sides(run) => run.holds(hole, side),
             BorderPart::Piece(piece) => {
-                self.pieces[piece].runs.iter().any(|run| run.holds(hole, side))
+                self.pieces()[piece].runs.iter().any(|run| run.holds(hole, side))
             }
             BorderPart::Edge { .. } | BorderPart::Crack { .. } => false,
         }
@@ -258,7 +349,7 @@ impl Problem {
 
     /// The traction on the face of a crack at a point of it, the sum of all conditions there.
     pub fn face_load(&self, crack: usize, side: Side, x: Vec2) -> [f64; 2] {
-        let segments = self.cracks[crack].points.windows(2);
+        let segments = self.cracks()[crack].points.windows(2);
         let distance = |s: &[Vec2]| segment::distance([s[0], s[1]], x);
         let nearest = segments.min_by(|s, t| distance(s).total_cmp(&distance(t)));
         let Some(&[a, b]) = nearest else { return [0.0; 2] };

@@ -8,7 +8,7 @@ use ppum::quantity::{QuantityFormula, QuantityFormulaError, Vocabulary, names};
 
 use super::expression;
 use super::key::{Key, MistakeAt};
-use super::model::Problem;
+use super::model::ProblemData;
 
 /// Name of the field of an equation, and names of its components.
 pub fn field_names(equation: &Equation) -> (&'static str, &'static [&'static str]) {
@@ -36,7 +36,7 @@ pub(super) fn parse(
 }
 
 /// All rules broken by the quantities.
-pub(super) fn check_quantities(problem: &Problem) -> Vec<MistakeAt> {
+pub(super) fn check_quantities(problem: &ProblemData) -> Vec<MistakeAt> {
     let rule = |index| {
         let key = Key::new("quantity").index(index);
         let (name, message) = broken(problem, index)?;
@@ -46,8 +46,8 @@ pub(super) fn check_quantities(problem: &Problem) -> Vec<MistakeAt> {
 }
 
 /// The key of a quantity that is wrong, and why.
-fn broken(problem: &Problem, index: usize) -> Option<(&'static str, String)> {
-    let (Problem { tables, quantities, .. }, equation) = (problem, problem.dataset_equation());
+fn broken(problem: &ProblemData, index: usize) -> Option<(&'static str, String)> {
+    let (ProblemData { tables, quantities, .. }, equation) = (problem, problem.dataset_equation());
     let equation = &*equation;
     let (earlier, quantity) = (&quantities[..index], &quantities[index]);
     if let Some(message) = bad_name(&quantity.name, equation, earlier) {

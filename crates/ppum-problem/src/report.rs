@@ -60,6 +60,15 @@ impl<'a> Report<'a> {
     }
 }
 
+/// Length of what opens a text: quotes, and the line break that follows three of them.
+pub(super) fn quotes(raw: &str) -> Option<usize> {
+    if let Some(rest) = raw.strip_prefix("\"\"\"").or_else(|| raw.strip_prefix("'''")) {
+        let breaks = ["\r\n", "\n"].iter().find(|text| rest.starts_with(**text));
+        return Some(3 + breaks.map_or(0, |text| text.len()));
+    }
+    raw.starts_with(['"', '\'']).then_some(1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

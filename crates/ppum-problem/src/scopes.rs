@@ -21,14 +21,10 @@ pub(super) fn check(tables: &[Arc<Table>], equation: &Equation) -> Result<(), Sc
 
 /// Names of a formula of position, and the tables.
 pub(super) fn position(tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
-    with_tables(Scope::cartesian(), tables)
+    Scope::cartesian().with_tables(tables)
 }
 
 /// Names of a weight function.
 pub(super) fn weight(tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
-    with_tables(Scope::new(&["t"])?, tables)
-}
-
-fn with_tables(scope: Scope, tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
-    scope.with_tables(tables)
+    Scope::new(&["t"])?.with_tables(tables)
 }

@@ -1,6 +1,6 @@
 //! The linear solver of a problem.
 
-use super::words::Words;
+use super::words::word_table;
 
 /// Settings of the solver.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,4 @@ pub enum SolverKind {
     Multilevel,
 }
 
-impl Words for SolverKind {
-    const WORDS: &'static [(&'static str, Self)] =
-        &[("auto", Self::Auto), ("direct", Self::Direct), ("multilevel", Self::Multilevel)];
-}
+word_table!(SolverKind: Auto "auto", Direct "direct", Multilevel "multilevel");

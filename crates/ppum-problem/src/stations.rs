@@ -9,7 +9,7 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::boundary::{BorderPart, BoundaryCondition};
 use super::force::ForcePlace;
-use super::model::Problem;
+use super::model::ProblemData;
 use ppum::border::touch;
 
 /// A point of the border with what a condition says there.
@@ -29,7 +29,7 @@ pub struct Station {
     pub traction: Vec2,
 }
 
-impl Problem {
+impl ProblemData {
     /// Points along the parts of the border that have conditions, about `spacing` apart, each in
     /// the middle of its piece of the border, those in holes left out, then the points of forces
     /// and supports; of a potential the parts with an exchange alone. The largest force counts as
@@ -84,34 +84,33 @@ impl Problem {
 
     /// Points of a part of the border with their normals out of the material.
     fn points_of(&self, part: BorderPart, spacing: f64) -> Vec<(Vec2, Vec2)> {
-        let bounds = &self.domain.bounds;
+        let bounds = &self.domain().bounds;
+        let faces: Vec<_> = self.border_cracks().map(|(k, _)| &self.cracks()[k].points).collect();
+        let is_on_face = |p: Vec2| {
+            let mut near = faces.iter().map(|face| segment::polyline_distance(face, p));
+            near.any(|distance| distance <= touch(bounds))
+        };
         match part {
             BorderPart::Edge { edge, from, to } => {
                 let ends = [from, to].map(|s| edge.point(bounds, s));
                 let points = along(ends, spacing).map(|p| (p, edge.normal()));
-                points.filter(|&(p, _)| self.domain.contains(p)).collect()
+                points.filter(|&(p, _)| self.domain().contains(p) && !is_on_face(p)).collect()
             }
             BorderPart::Hole(_) | BorderPart::Sides(_) | BorderPart::Piece(_) => {
-                let holes = self.domain.holes.iter().enumerate();
+                let holes = self.domain().holes.iter().enumerate();
                 let rims = holes.flat_map(|(index, hole)| {
                     around(hole, |side| self.is_on(part, index, side), spacing)
                 });
-                let faces: Vec<_> =
-                    self.border_cracks().map(|(k, _)| &self.cracks[k].points).collect();
-                let is_on_face = |p: Vec2| {
-                    let mut near = faces.iter().map(|face| segment::polyline_distance(face, p));
-                    near.any(|distance| distance <= touch(bounds))
-                };
                 rims.filter(|&(p, _)| bounds.contains(p) && !is_on_face(p)).collect()
             }
             BorderPart::Crack { crack, face } => {
-                let crack = &self.cracks[crack];
+                let crack = &self.cracks()[crack];
                 let segments = crack.points.windows(2).map(|s| [s[0], s[1]]);
                 let sides = [Side::Above, Side::Below].into_iter();
                 let sides = sides.filter(|side| face.is_none_or(|face| face == *side));
                 let faces = sides.flat_map(|side| {
                     let is_in_body =
-                        move |ends: &[Vec2; 2]| self.domain.outer_side(*ends) != Some(side);
+                        move |ends: &[Vec2; 2]| self.domain().outer_side(*ends) != Some(side);
                     segments.clone().filter(is_in_body).flat_map(move |ends| {
                         let left = (ends[1] - ends[0]).unit().left();
                         let outward = if side == Side::Above { -left } else { left };
@@ -180,6 +179,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
+    use crate::Problem;
 
     fn stations(border: &str, spacing: f64) -> Vec<Station> {
         let text = format!(

@@ -18,7 +18,7 @@ use ppum::segment::{self, Segment};
 use ppum::vec2::Vec2;
 
 use super::boundary::{BorderPart, BoundaryCondition, Condition, Edge};
-use super::model::Problem;
+use super::model::ProblemData;
 use crate::geometry::without;
 use ppum::border::touch;
 
@@ -48,14 +48,6 @@ impl BoundaryCondition {
         Self { axis: if is_oblique { normal } else { new.axis }, ..new }
     }
 
-    /// The symmetry to its edge that it says; none of other conditions.
-    pub(crate) fn symmetry(&self) -> Option<Symmetry> {
-        match self.on {
-            BorderPart::Edge { edge, .. } => self.symmetry_to(edge.normal()),
-            _ => None,
-        }
-    }
-
     /// The symmetry to a line with this normal that it says, where it holds.
     fn symmetry_to(&self, normal: Vec2) -> Option<Symmetry> {
         let [x, y] = self.components.as_slice() else { return None };
@@ -78,76 +70,35 @@ impl BoundaryCondition {
     }
 }
 
-impl Problem {
-    /// The straight line of the border that a crack lies on.
-    pub(crate) fn line_of(&self, crack: usize) -> Option<BorderLine> {
-        self.domain.line_along(&self.cracks[crack].points)
-    }
-
+impl ProblemData {
     /// The cracks that lie on straight lines of the border.
     pub(crate) fn border_cracks(&self) -> impl Iterator<Item = (usize, BorderLine)> {
-        (0..self.cracks.len()).filter_map(|crack| Some((crack, self.line_of(crack)?)))
-    }
-
-    /// The edge that a crack lies on.
-    pub fn edge_of(&self, crack: usize) -> Option<Edge> {
-        let line = self.line_of(crack).filter(|line| line.hole.is_none())?;
-        Edge::ALL.into_iter().find(|edge| edge.normal() == line.outward())
-    }
-
-    /// The parts of an edge, in its own coordinate, that are faces of cracks.
-    pub fn faces_on(&self, edge: Edge) -> impl Iterator<Item = [f64; 2]> {
-        let on_edge = (0..self.cracks.len()).filter(move |&k| self.edge_of(k) == Some(edge));
-        on_edge.map(move |k| {
-            let along = self.cracks[k].points.iter().map(|p| edge.coordinate(*p));
-            along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], s| [a.min(s), b.max(s)])
-        })
-    }
-
-    /// The problem whose symmetries leave out the faces of cracks on edges, as they must before it
-    /// is solved. Files are read so, and [`Problem::with_crack`] and [`Problem::with_boundary`] see
-    /// to it; others who change cracks or conditions must.
-    #[must_use]
-    pub fn with_free_faces(mut self) -> Self {
-        if (0..self.cracks.len()).any(|k| self.edge_of(k).is_some()) {
-            let all = std::mem::take(&mut self.boundary);
-            self.boundary =
-                all.into_iter().flat_map(|condition| self.beside_faces(condition)).collect();
-        }
-        self
-    }
-
-    /// The parts of a symmetry beside the faces of cracks; other conditions as they are.
-    fn beside_faces(&self, condition: BoundaryCondition) -> Vec<BoundaryCondition> {
-        let BorderPart::Edge { edge, from, to } = condition.on else { return vec![condition] };
-        if condition.symmetry().is_none() {
-            return vec![condition];
-        }
-        let faces: Vec<[f64; 2]> = self.faces_on(edge).collect();
-        let part = |[from, to]: [f64; 2]| BoundaryCondition {
-            on: BorderPart::Edge { edge, from, to },
-            ..condition.clone()
-        };
-        without([from, to], &faces).into_iter().map(part).collect()
+        (0..self.cracks().len()).filter_map(|crack| Some((crack, self.body.line_of(crack)?)))
     }
 
     /// The segments of the border that a part of it consists of; none of circles and cracks.
-    fn segments_of(&self, part: BorderPart) -> Vec<Segment> {
+    pub fn segments_of(&self, part: BorderPart) -> impl Iterator<Item = Segment> {
+        self.sides_of(part).into_iter().map(|(ends, _)| ends)
+    }
+
+    /// The same with the holes of their rims.
+    pub(super) fn sides_of(&self, part: BorderPart) -> Vec<(Segment, Option<usize>)> {
         if let BorderPart::Edge { edge, from, to } = part {
-            return vec![[from, to].map(|s| edge.point(&self.domain.bounds, s))];
+            return vec![([from, to].map(|s| edge.point(&self.domain().bounds, s)), None)];
         }
-        let holes = self.domain.holes.iter().enumerate();
+        let holes = self.domain().holes.iter().enumerate();
         let own = holes.flat_map(|(k, hole)| {
-            hole.sides().enumerate().filter(move |(side, _)| self.is_on(part, k, *side))
+            let sides = hole.sides().enumerate();
+            sides.filter(move |(side, _)| self.is_on(part, k, *side)).map(move |s| (s.1, Some(k)))
         });
-        own.map(|(_, ends)| ends).collect()
+        own.collect()
     }
 
     /// True if some of a part of the border lies on a line of it.
     pub(super) fn meets_line(&self, part: BorderPart, line: &BorderLine) -> bool {
-        let touch = touch(&self.domain.bounds);
+        let touch = touch(&self.domain().bounds);
         let is_on = |ends: &Segment| ends.iter().all(|p| line.holds(*p, touch));
-        self.segments_of(part).iter().any(is_on)
+        self.segments_of(part).any(|ends| is_on(&ends))
     }
 
     /// The symmetry to a line of the border that a condition on it says.
@@ -156,28 +107,30 @@ impl Problem {
         condition: &BoundaryCondition,
         line: &BorderLine,
     ) -> Option<Symmetry> {
-        let (touch, segments) = (touch(&self.domain.bounds), self.segments_of(condition.on));
-        let is_on = segments.iter().flatten().all(|p| line.holds(*p, touch));
-        let symmetry = condition.symmetry_to(line.outward());
-        symmetry.filter(|_| is_on && !segments.is_empty())
+        let touch = touch(&self.domain().bounds);
+        let mut segments = self.segments_of(condition.on).peekable();
+        segments.peek()?;
+        let is_on = segments.flatten().all(|p| line.holds(p, touch));
+        condition.symmetry_to(line.outward()).filter(|_| is_on)
     }
 
     /// The symmetry of the field at a tip on the border: that of the line ahead of it.
     pub fn symmetry_at(&self, tip: TipId) -> Option<Symmetry> {
-        let (crack, touch) = (tip.crack as usize, touch(&self.domain.bounds));
-        let line = self.line_of(crack)?;
-        let (at, axis) =
-            (self.cracks[crack].end_point(tip.end), self.cracks[crack].growth_direction(tip.end));
+        let (crack, touch) = (tip.crack as usize, touch(&self.domain().bounds));
+        let line = self.body.line_of(crack)?;
+        let (at, axis) = (
+            self.cracks()[crack].end_point(tip.end),
+            self.cracks()[crack].growth_direction(tip.end),
+        );
         let ahead = [2.0 * touch, 4.0 * touch].map(|step| at + axis * step);
         let holds = |ends: Segment| ahead.iter().all(|p| segment::distance(ends, *p) < touch);
-        let is_ahead =
-            |condition: &&BoundaryCondition| self.segments_of(condition.on).into_iter().any(holds);
+        let is_ahead = |condition: &&BoundaryCondition| self.segments_of(condition.on).any(holds);
         self.symmetry_on(self.boundary.iter().find(is_ahead)?, &line)
     }
 
     /// The symmetry of the field at a crack on an edge.
-    pub fn symmetry_of(&self, crack: usize) -> Option<Symmetry> {
-        let ends = self.cracks[crack].tips();
+    pub(crate) fn symmetry_of(&self, crack: usize) -> Option<Symmetry> {
+        let ends = self.cracks()[crack].tips();
         let mut tips = ends.map(|end| TipId { crack: crack as u32, end });
         tips.find_map(|tip| self.symmetry_at(tip))
     }
@@ -194,7 +147,7 @@ impl Problem {
             .map(|[a, b]| [a.min(b), a.max(b)])
             .collect();
         parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let touch = touch(&self.domain.bounds);
+        let touch = touch(&self.domain().bounds);
         let filled = |reach: f64, [a, b]: [f64; 2]| {
             if a <= reach + touch { reach.max(b) } else { reach }
         };
@@ -204,7 +157,7 @@ impl Problem {
     /// The faces of cracks on a line of the border.
     pub(crate) fn faces_along(&self, line: &BorderLine) -> impl Iterator<Item = Segment> {
         let own = self.border_cracks().filter(move |(_, own)| own == line);
-        own.flat_map(|(crack, _)| self.cracks[crack].points.windows(2)).map(|s| [s[0], s[1]])
+        own.flat_map(|(crack, _)| self.cracks()[crack].points.windows(2)).map(|s| [s[0], s[1]])
     }
 
     /// The parts of a part of the border on a line that are no faces of cracks.
@@ -217,19 +170,19 @@ impl Problem {
             let all = without([a.min(b), a.max(b)], &faces).into_iter();
             all.map(move |range| range.map(|s| start + direction * s))
         };
-        self.segments_of(part).into_iter().flat_map(beside).collect()
+        self.segments_of(part).flat_map(beside).collect()
     }
 
     /// The lines of the body's border on an edge of the box around it.
     fn lines_on(&self, edge: Edge) -> Vec<BorderLine> {
-        let (touch, normal) = (touch(&self.domain.bounds), edge.normal());
-        let at = edge.point(&self.domain.body_bounds(), 0.0);
+        let (touch, normal) = (touch(&self.domain().bounds), edge.normal());
+        let at = edge.point(&self.domain().body_bounds(), 0.0);
         let is_on = |line: &BorderLine| {
             let [a, b] = line.ends.map(|p| normal.dot(p - at).abs());
-            let is_outer = line.hole.is_none() || line.hole == self.domain.outline();
+            let is_outer = line.hole.is_none() || line.hole == self.domain().outline();
             a.max(b) <= touch && line.outward().dot(normal) > 0.0 && is_outer
         };
-        self.domain.border_lines().filter(is_on).collect()
+        self.domain().border_lines().filter(is_on).collect()
     }
 
     /// The edges of the box around the body beyond which it may be mirrored: those that have one
@@ -263,7 +216,7 @@ impl Problem {
             PI - normal.cross(other).atan2(normal.dot(other)).abs()
         };
         is_mirror(&first).then_some(())?;
-        let all = self.domain.border_lines().filter(is_mirror).map(angle);
+        let all = self.domain().border_lines().filter(is_mirror).map(angle);
         let least =
             all.filter(|angle| *angle > ROUNDING && *angle < PI - ROUNDING).fold(PI, f64::min);
         let count = TAU / least;

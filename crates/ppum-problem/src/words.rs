@@ -14,20 +14,24 @@ pub(super) trait Words: Copy + PartialEq + 'static {
     }
 }
 
+/// Values of a type that are written as words.
+macro_rules! word_table {
+    ($type:ty: $($value:ident $word:literal),*) => {
+        impl super::words::Words for $type {
+            const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$value)),*];
+        }
+    };
+}
+pub(super) use word_table;
+
 /// The words of all values.
 pub(super) fn words<T: Words>() -> Vec<&'static str> {
     T::WORDS.iter().map(|(word, _)| *word).collect()
 }
 
-impl Words for StressState {
-    const WORDS: &'static [(&'static str, Self)] =
-        &[("plane-strain", Self::PlaneStrain), ("plane-stress", Self::PlaneStress)];
-}
+word_table!(StressState: PlaneStrain "plane-strain", PlaneStress "plane-stress");
 
-impl Words for Side {
-    const WORDS: &'static [(&'static str, Self)] =
-        &[("above", Self::Above), ("below", Self::Below)];
-}
+word_table!(Side: Above "above", Below "below");
 
 /// The kind of equation, which decides what tables may say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,10 +42,7 @@ pub enum EquationKind {
     Poisson,
 }
 
-impl Words for EquationKind {
-    const WORDS: &'static [(&'static str, Self)] =
-        &[("elasticity", Self::Elasticity), ("poisson", Self::Poisson)];
-}
+word_table!(EquationKind: Elasticity "elasticity", Poisson "poisson");
 
 impl EquationKind {
     /// Keys of the right-hand side, of the unknown field, and of its Neumann data.

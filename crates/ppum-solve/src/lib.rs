@@ -20,19 +20,16 @@
 //! basis                                            stable basis
 //! space                                            local spaces of a cover, enriched
 //! refine                                           covers
-//! corner          triangulation                    singular points of the border; triangles between segments
-//! equilibrium     smoothness      watched
-//! contact         forces          heat             law             quadrature      report
+//! corner          triangulation   terms            singular points of the border; triangles; what features add
+//! equilibrium     problem         smoothness       watched
+//! geometry        law             quadrature       report
 //! ```
 
 pub mod adapt;
 pub mod assembly;
 pub mod basis;
-pub mod contact;
 pub mod corner;
 pub mod equilibrium;
-pub mod forces;
-pub mod heat;
 pub mod hierarchy;
 pub mod law;
 pub mod norms;
@@ -41,5 +38,6 @@ pub mod refine;
 pub mod report;
 pub mod smoothness;
 pub mod space;
+pub mod terms;
 pub mod triangulation;
 pub mod watched;

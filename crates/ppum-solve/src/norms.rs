@@ -149,7 +149,7 @@ fn over_cells<S: Default + Send>(
 impl Norms {
     fn add(&mut self, law: &LawAt, u: &[Jet<f64>; 2], weight: f64) {
         let g = u.map(|jet| vec2(jet.x, jet.y));
-        let s = law.linear_flux(&g);
+        let s = law.linear_stress(&g);
         for i in 0..law.components() {
             self.energy += weight * (s[i][0] * g[i].x + s[i][1] * g[i].y);
             self.l2 += weight * u[i].v * u[i].v;

@@ -150,6 +150,30 @@ impl Equation {
         self.eigenstrain()?.expansion.as_ref()
     }
 
+    /// The equation of a body whose field has a temperature that strains it by a coefficient.
+    #[must_use]
+    pub fn with_expansion(&self, expansion: &Expression) -> Self {
+        let mut equation = self.clone();
+        if let Self::Elasticity(Elasticity { eigenstrain, .. }) = &mut equation {
+            let zeros = || Box::new(Eigenstrain::from([0.0; 4].map(Expression::number)));
+            eigenstrain.get_or_insert_with(zeros).expansion = Some(expansion.clone());
+        }
+        equation
+    }
+
+    /// The equation of a body without the temperature of its field.
+    #[must_use]
+    pub fn without_expansion(mut self) -> Self {
+        if let Self::Elasticity(Elasticity { eigenstrain, .. }) = &mut self
+            && let Some(given) = eigenstrain
+            && given.expansion.take().is_some()
+            && given.strains.iter().all(|e| e.constant() == Some(0.0))
+        {
+            *eigenstrain = None;
+        }
+        self
+    }
+
     fn eigenstrain(&self) -> Option<&Eigenstrain> {
         self.elastic()?.eigenstrain.as_deref()
     }

@@ -10,7 +10,7 @@ use crate::studies::support::solved;
 use anyhow::Context as _;
 use ppum_figure::form::PageFormat;
 use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve, plot};
-use ppum_problem::{AdaptKind, Adaptivity, Cells, Problem};
+use ppum_problem::{AdaptKind, Adaptivity, Cells, ProblemData};
 
 /// What `tests/random/estimates.py` writes.
 const ESTIMATES: &str = include_str!("../../../../tests/random/estimates.md");
@@ -72,7 +72,7 @@ fn reached(plate: &Plate, accuracy: f64) -> (f64, usize) {
 
 /// A problem that adapts: its name, the first order, its strain energy if that is what tells
 /// the error.
-type Case = (&'static str, fn() -> Problem, usize, Option<f64>);
+type Case = (&'static str, fn() -> ProblemData, usize, Option<f64>);
 
 const CASES: [Case; 3] = [
     ("corner of 270°", corner, 1, None),

@@ -49,7 +49,7 @@ pub(super) fn of_corners(
 fn has_functions(corner: &Corner, problem: &Problem, space: &Space<'_>) -> bool {
     let supports = (0..space.partition().len()).map(|patch| space.partition().support(patch));
     let mut holding = supports.filter(|support| support.contains(corner.at));
-    let part = |support: Rect| support.intersection(&problem.domain.bounds);
+    let part = |support: Rect| support.intersection(&problem.domain().bounds);
     corner.wedge.is_some() && holding.all(|support| corner.has_room_for(&part(support)))
 }
 

@@ -260,7 +260,7 @@ impl Count<'_> {
 mod tests {
     use super::*;
     use crate::diagnostics::faces::places;
-    use crate::intensity::{Loads, TipOutcome, intensities};
+    use crate::intensity::{TipLoads, TipOutcome, intensities};
     use crate::solve::Plan;
     use ppum::field::Field;
     use ppum::progress::unwatched;
@@ -289,23 +289,28 @@ mod tests {
         Problem::parse(&text, "plate", Path::new(".")).expect("a problem")
     }
 
+    /// A body force of nothing that counts where it is asked for.
+    struct Counted(AtomicUsize);
+
+    impl TipLoads for Counted {
+        fn body_force(&self, _: Vec2) -> Option<[f64; 2]> {
+            self.0.fetch_add(1, Relaxed);
+            Some([0.0; 2])
+        }
+    }
+
     /// The points in the discs of all tips, counted by a body force, and the bound of their number.
     fn points(count: &Count<'_>) -> [f64; 2] {
         let Count { dataset, step, .. } = *count;
         let space = Space::new(step, &dataset.domain, &dataset.equation, &[]).expect("a space");
         let field = Field::new(dataset, 0).expect("a field");
-        let counted = AtomicUsize::new(0);
-        let force = |_: Vec2| {
-            counted.fetch_add(1, Relaxed);
-            [0.0; 2]
-        };
-        let loads = Loads { force: Some(&force), ..Loads::default() };
-        let tips = intensities(dataset, &field, &space, loads, unwatched()).expect("factors");
+        let loads = Counted(AtomicUsize::new(0));
+        let tips = intensities(dataset, &field, &space, &loads, unwatched()).expect("factors");
         let cells = BoxTree::new(&step.partition.boxes().cell);
         let with_factors = tips.iter().filter(|outcome| outcome.factors.is_some());
         let of_tip = |outcome: &TipOutcome| count.cells_of(outcome.tip, &cells).len() as f64;
         let bound = with_factors.map(of_tip).sum::<f64>() * count.points(0.0);
-        [counted.into_inner() as f64, bound]
+        [loads.0.into_inner() as f64, bound]
     }
 
     /// No more is looked at than is bounded, and not far less.

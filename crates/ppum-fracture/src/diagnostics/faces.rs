@@ -1,13 +1,14 @@
 //! Warnings about the faces of cracks: whether they open.
 
 use super::{kind, short, warning};
-use ppum::crack::{Crack, SegmentId, Side};
+use ppum::crack::{Crack, SegmentId, Side, TipId};
 use ppum::dataset::Warning;
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::text::Places;
 use ppum::vec2::{Vec2, vec2};
 use ppum_problem::{Problem, Symmetry};
+use ppum_solve::terms::{face_law, symmetry_of_field};
 
 /// Places along a crack at which its opening is looked at.
 pub(super) const SAMPLES: usize = 96;
@@ -24,20 +25,19 @@ pub(super) fn of_faces(
     if field.equation.elastic().is_none() || field.components() != 2 {
         return Vec::new();
     }
-    let symmetry = |k: usize| problem.and_then(|problem| problem.symmetry_of(k));
-    let cracks = field.step.cracks.iter().enumerate();
-    let remedy = |k: usize| remedy(problem, k as u32);
-    cracks
-        .filter_map(|(k, crack)| overlap((field, symmetry(k)), (k, crack), (seats, remedy(k))))
-        .collect()
+    let of_crack = |(k, own): (usize, &Crack)| {
+        let crack = k as u32;
+        let symmetry = |end| symmetry_of_field(problem?, TipId { crack, end });
+        let symmetry = own.tips().find_map(symmetry);
+        overlap((field, symmetry), (k, own), (seats, remedy(problem, crack)))
+    };
+    field.step.cracks.iter().enumerate().filter_map(of_crack).collect()
 }
 
 /// What to do about faces of a crack that overlap.
 pub(super) fn remedy(problem: Option<&Problem>, crack: u32) -> &'static str {
     match problem {
-        Some(problem) if problem.contacts.contains_key(&crack) => {
-            "use smaller cells along the crack"
-        }
+        Some(problem) if face_law(problem, crack).is_some() => "use smaller cells along the crack",
         _ => {
             "let its faces touch (`contact = true`), give them a pressure, or leave out a crack that is pressed together"
         }

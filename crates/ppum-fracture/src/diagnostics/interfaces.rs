@@ -28,8 +28,7 @@ pub(super) fn of_interfaces(
     (dataset, space): (&Dataset, &Space<'_>),
     places: &Places,
 ) -> Vec<Warning> {
-    let interfaces =
-        Interfaces::new((&dataset.equation, law.expansion()), &dataset.domain, &field.step.cracks);
+    let interfaces = Interfaces::new(law.constants(), &dataset.domain, &field.step.cracks);
     if interfaces.all.is_empty() {
         return Vec::new();
     }
@@ -76,7 +75,7 @@ fn energy(field: &Field<'_>, law: &Law<'_>, cell: usize) -> f64 {
         let inside = field.at(p).evaluate::<1>(Vec2::ZERO, Side::Above, &mut u);
         let law_at = law.at(p);
         let g = law_at.elastic(&u.map(|jet| vec2(jet.x, jet.y)));
-        let s = law_at.linear_flux(&g);
+        let s = law_at.linear_stress(&g);
         let sum: f64 = (0..law.components).map(|i| s[i][0] * g[i].x + s[i][1] * g[i].y).sum();
         if inside && sum.is_finite() { 0.5 * sum } else { 0.0 }
     };

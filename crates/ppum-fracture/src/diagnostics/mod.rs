@@ -24,7 +24,7 @@ pub use warning::{
     LARGE_CUT_OFF, LARGE_ERROR, LARGE_IMBALANCE, LARGE_LOCKING, LARGE_NITSCHE, LARGE_RESIDUAL, kind,
 };
 
-use crate::intensity::{TipOutcome, intensities_under, with_cells};
+use crate::intensity::{LoadCase, TipOutcome, intensities_by, with_cells};
 use corners::of_corners;
 use digits::of_digits;
 use faces::of_faces;
@@ -35,8 +35,8 @@ use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::text::Places;
 use ppum_problem::Problem;
-use ppum_problem::geometry::points_of_forces;
-use ppum_solve::heat::Temperature;
+use ppum_problem::geometry::known_points;
+use ppum_solve::law::{Law, Temperature};
 use ppum_solve::norms::energy;
 use ppum_solve::report::{SolverReport, Unresolved};
 use ppum_solve::space::Space;
@@ -55,6 +55,9 @@ pub(crate) struct DiagnosedSolution<'a> {
     /// The first field of the step.
     pub(crate) field: &'a Field<'a>,
     pub(crate) space: &'a Space<'a>,
+    pub(crate) law: &'a Law<'a>,
+    /// The temperature that strains the body, if one does.
+    pub(crate) temperature: Option<&'a Temperature>,
     /// The problem that it solves, if that is known.
     pub(crate) problem: Option<&'a Problem>,
     pub(crate) report: &'a SolverReport,
@@ -116,8 +119,9 @@ fn recompute_plain(
     let field = Field::new(dataset, step)?;
     let Dataset { domain, equation, tables, .. } = dataset;
     let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
-    heat.into_iter().for_each(|heat| space.heat(heat));
-    let tips = intensities_under(problem, dataset, &field, &space, watcher)?;
+    let law = &Law::new(equation).heated(heat.as_ref());
+    let loads = LoadCase { problem, factor: field.step.load };
+    let tips = intensities_by(law, dataset, &field, &space, &loads, watcher)?;
     // what else is warned of is found cell by cell
     if !has_cells {
         let places = Places::new(&domain.bounds, &field.step.cracks);
@@ -125,8 +129,18 @@ fn recompute_plain(
         return Ok((tips, warnings));
     }
     let report = &SolverReport::of(&field.step.history);
-    let (field, space) = (&field, &space);
-    let case = DiagnosedSolution { dataset, step, field, space, problem, report, unresolved: &[] };
+    let (field, space, temperature, unresolved) = (&field, &space, heat.as_ref(), &[]);
+    let case = DiagnosedSolution {
+        dataset,
+        step,
+        field,
+        space,
+        law,
+        temperature,
+        problem,
+        report,
+        unresolved,
+    };
     let Diagnosis { warnings, .. } = case.diagnose(&tips, watcher)?;
     Ok((tips, warnings))
 }
@@ -141,7 +155,7 @@ impl DiagnosedSolution<'_> {
         tips: &[TipOutcome],
         watcher: &dyn Watcher,
     ) -> Result<Diagnosis, RecomputeError> {
-        let Self { dataset, field, space, .. } = *self;
+        let Self { dataset, field, space, law, .. } = *self;
         let stage = Stage::uncounted(watcher, Phase::Estimation)?;
         let places = Places::new(&dataset.domain.bounds, &field.step.cracks);
         let cutters = Cutters::new(field.step, &dataset.domain);
@@ -163,14 +177,13 @@ impl DiagnosedSolution<'_> {
         stage.advance(0)?;
         warnings.extend(of_rims(field, &dataset.domain.holes, self.problem, &places));
         stage.advance(0)?;
-        let law = &space.law();
         warnings.extend(of_interfaces((field, law), (dataset, space), &places));
         warnings.extend(of_report(self.report, adaptivity, cutters));
         stage.advance(0)?;
         warnings.extend(of_digits(rounding, cutters, &places));
         stage.advance(0)?;
-        // shear near forces stores as much as bending that locks
-        if points_of_forces(&field.step.functions).next().is_none() {
+        // shear near singular points stores as much as bending that locks
+        if known_points(&field.step.functions).next().is_none() {
             warnings.extend(of_locking(field, space));
         }
         warnings.extend(of_pressure(field, law));
@@ -187,7 +200,7 @@ impl DiagnosedSolution<'_> {
         watcher: &dyn Watcher,
     ) -> Result<Vec<Warning>, RecomputeError> {
         let problem = self.problem.and_then(Problem::heat);
-        let Some((heat, problem)) = self.space.temperature().zip(problem) else {
+        let Some((heat, problem)) = self.temperature.zip(problem) else {
             return Ok(Vec::new());
         };
         let dataset = &heat.potential(&problem.equation);
@@ -195,9 +208,18 @@ impl DiagnosedSolution<'_> {
         let Dataset { domain, equation, tables, .. } = dataset;
         let space = &Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
         let report = &SolverReport { energy: Some(energy(field, space)), ..heat.report.clone() };
-        let (problem, unresolved) = (Some(&problem), heat.unresolved.as_slice());
-        let case =
-            DiagnosedSolution { dataset, step: 0, field, space, problem, report, unresolved };
+        let (problem, unresolved) = (Some(problem), heat.unresolved.as_slice());
+        let case = DiagnosedSolution {
+            dataset,
+            step: 0,
+            field,
+            space,
+            law: &Law::new(equation),
+            temperature: None,
+            problem,
+            report,
+            unresolved,
+        };
         let found = case.diagnose(&[], watcher)?.warnings.into_iter();
         // its values strain the body; what digits its gradient has does not matter
         let found = found.filter(|new| new.kind != kind::DIGITS && !known.contains(new));

@@ -105,7 +105,7 @@ fn stresses(local: &mut LocalField<'_>, offset: Vec2, law: &LawAt) -> Option<(f6
     let mut u = [Jet::constant(0.0); 2];
     let is_inside = local.evaluate::<1>(offset, Side::Above, &mut u);
     let g = u.map(|jet| vec2(jet.x, jet.y));
-    let ([[xx, xy], [yx, yy]], [ex, ey]) = (law.flux(&g), law.elastic(&g));
+    let ([[xx, xy], [yx, yy]], [ex, ey]) = (law.stress(&g), law.elastic(&g));
     let pressure = law.lambda() * (ex.x + ey.y);
     let square = xx * xx + xy * xy + yx * yx + yy * yy;
     (is_inside && square.is_finite()).then_some((pressure, square))

@@ -9,6 +9,7 @@ use ppum::dataset::{TipIntensity, Warning};
 use ppum::text::{Places, trimmed_to};
 use ppum_problem::Problem;
 use ppum_problem::geometry::AMPLE_CLEARANCE;
+use ppum_solve::terms::face_law;
 
 /// Difference of the factors at three radii, in parts of their size, above which they are not to be
 /// trusted. Below it they may be wrong as well, see [`TipIntensity::spread`].
@@ -74,7 +75,7 @@ fn negative(
 ) -> Option<Warning> {
     let k1 = factors.k1;
     // closed faces have none but for its error
-    let touches = problem.is_some_and(|all| all.contacts.contains_key(&outcome.tip.crack));
+    let touches = problem.is_some_and(|all| face_law(all, outcome.tip.crack).is_some());
     let error = if touches { CLOSED * factors.error.unwrap_or(0.0) } else { 0.0 };
     let limit = -(NOISE * size(outcome, factors)).max(error);
     let message = format!(

@@ -2,11 +2,13 @@
 
 use super::criterion::Drive;
 use super::path::{Arc, way};
+use crate::solve::SolveError;
 use ppum::crack::{Crack, End, TipId, tips};
 use ppum::dataset::{Advance, Fate, Growth, GrowthStop, TipIntensity};
 use ppum::text::{short, trimmed};
 use ppum::vec2::Vec2;
-use ppum_problem::{GrowthRule, LoadControl, Problem, cracks};
+use ppum_problem::{GrowthRule, LoadControl, Problem};
+use ppum_solve::terms::face_law;
 
 /// Loads at which tips reach their toughness that count as one, relative: those of a symmetric
 /// plate differ by the errors of their factors.
@@ -105,15 +107,16 @@ pub(super) fn decide(
     factors: &[TipIntensity],
     before: Option<&Growth>,
 ) -> Result<Decision, Undecided> {
-    let mut driven: Vec<_> =
-        tips(&problem.cracks).map(|tip| Driven::new(problem, rule, tip, factors, before)).collect();
+    let mut driven: Vec<_> = tips(problem.cracks())
+        .map(|tip| Driven::new(problem, rule, tip, factors, before))
+        .collect();
     driven.iter().filter(|tip| tip.fate == Fate::Grows).try_for_each(Driven::check)?;
     let load = load(rule, &driven)?;
     share(rule, &mut driven, load);
     let increment = increment(problem, rule, &driven);
     let mut growth = Growth::default();
     growth.cycles = cycles(rule, before, &driven)?;
-    let mut so_far = problem.cracks.clone();
+    let mut so_far = problem.cracks().to_vec();
     for tip in &driven {
         let row = tip.advance(problem, &so_far, increment);
         extend(&mut so_far[tip.tip.crack as usize], &row);
@@ -124,12 +127,14 @@ pub(super) fn decide(
 }
 
 /// The problem with the cracks that follow from what was decided.
-pub(super) fn grown(problem: &Problem, growth: &Growth) -> Problem {
-    let mut next = problem.clone();
-    growth.tips.iter().for_each(|row| extend(&mut next.cracks[row.tip.crack as usize], row));
-    let lines = next.cracks.iter().map(|crack| crack.points.clone());
-    next.cracks = cracks(lines, &next.domain);
-    next.with_free_faces()
+///
+/// # Errors
+/// The rules that these cracks break.
+pub(super) fn grown(problem: &Problem, growth: &Growth) -> Result<Problem, SolveError> {
+    let mut cracks = problem.cracks().to_vec();
+    growth.tips.iter().for_each(|row| extend(&mut cracks[row.tip.crack as usize], row));
+    let lines = cracks.into_iter().map(|crack| crack.points).collect();
+    problem.grown(lines).map_err(SolveError::Problem)
 }
 
 /// Adds the way of a tip to its crack.
@@ -160,10 +165,10 @@ impl<'a> Driven<'a> {
         factors: &[TipIntensity],
         before: Option<&'a Growth>,
     ) -> Self {
-        let crack = &problem.cracks[tip.crack as usize];
+        let crack = &problem.cracks()[tip.crack as usize];
         let (at, along) = (crack.end_point(tip.end), crack.growth_direction(tip.end));
         let factors = factors.iter().find(|found| found.tip == tip);
-        let drive = factors.and_then(|factors| match problem.contacts.get(&tip.crack) {
+        let drive = factors.and_then(|factors| match face_law(problem, tip.crack) {
             Some(_) => Drive::new(rule.criterion, &pressed(factors)?),
             None => Drive::new(rule.criterion, factors),
         });
@@ -177,7 +182,7 @@ impl<'a> Driven<'a> {
         let axis = along.y.atan2(along.x);
         let path = match tip.end {
             // what is closed has no free faces, which T would act on
-            _ if problem.contacts.contains_key(&tip.crack) => Vec::new(),
+            _ if face_law(problem, tip.crack).is_some() => Vec::new(),
             End::Start => crack.points.clone(),
             End::Last => crack.points.iter().rev().copied().collect(),
         };
@@ -289,7 +294,7 @@ fn behind(path: &[Vec2], length: f64) -> Vec<Vec2> {
 
 /// What was decided in a step with other curvatures of some arcs, given with their tips.
 pub(super) fn bent(problem: &Problem, growth: &Growth, curvatures: &[(TipId, f64)]) -> Growth {
-    let mut so_far = problem.cracks.clone();
+    let mut so_far = problem.cracks().to_vec();
     let mut bent = growth.clone();
     for row in &mut bent.tips {
         if let Some((_, curvature)) = curvatures.iter().find(|(tip, _)| *tip == row.tip) {
@@ -305,7 +310,7 @@ pub(super) fn bent(problem: &Problem, growth: &Growth, curvatures: &[(TipId, f64
 /// True if another crack has come to a tip in this step: both end there then, whichever of them
 /// would have gone on.
 fn is_joined(problem: &Problem, cracks: &[Crack], tip: TipId) -> bool {
-    let at = problem.cracks[tip.crack as usize].end_point(tip.end);
+    let at = problem.cracks()[tip.crack as usize].end_point(tip.end);
     let others = (0u32..).zip(cracks).filter(|(k, _)| *k != tip.crack);
     others
         .flat_map(|(_, crack)| [End::Start, End::Last].map(|end| crack.end_point(end)))
@@ -314,7 +319,7 @@ fn is_joined(problem: &Problem, cracks: &[Crack], tip: TipId) -> bool {
 
 /// Sends a tip along its arc, among the cracks as they are.
 fn go(problem: &Problem, cracks: &[Crack], length: f64, row: &mut Advance) {
-    let from = problem.cracks[row.tip.crack as usize].end_point(row.tip.end);
+    let from = problem.cracks()[row.tip.crack as usize].end_point(row.tip.end);
     let arc = Arc { from, direction: row.direction, curvature: row.curvature, length };
     let way = way(problem, cracks, row.tip, arc);
     (row.length, row.fate, row.path) = (way.length, way.fate, way.path);
@@ -366,8 +371,8 @@ fn increment(problem: &Problem, rule: &GrowthRule, driven: &[Driven<'_>]) -> f64
     if let Some(increment) = rule.increment {
         return increment;
     }
-    let size = problem.domain.bounds.size();
-    let with_tips = problem.cracks.iter().filter(|crack| crack.tips().next().is_some());
+    let size = problem.domain().bounds.size();
+    let with_tips = problem.cracks().iter().filter(|crack| crack.tips().next().is_some());
     let shortest = with_tips.map(Crack::length).fold(f64::INFINITY, f64::min);
     let largest = (CHOSEN * shortest).min(OF_PLATE * size.x.min(size.y));
     let growing = || driven.iter().filter(|tip| tip.share > 0.0);

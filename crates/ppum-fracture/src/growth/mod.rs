@@ -25,10 +25,10 @@ use crate::solve::SolveError;
 use decision::grown;
 use ppum::dataset::{Dataset, Step};
 use ppum::progress::{Progress, Verdict, Watcher};
-use ppum_problem::{GrowthRule, Problem};
+use ppum_problem::{GrowthRule, Problem, ProblemData};
 use settle::settled;
 use std::convert::Infallible;
-use step::{Before, GrowthSeries, Obstacle, closed};
+use step::{Before, GrowthSeries, closed};
 
 /// A series that has ended before its end.
 #[derive(Debug, thiserror::Error)]
@@ -84,7 +84,7 @@ pub fn grow<E>(
     let single = GrowthRule::new(0);
     let rule = problem.growth.as_ref().unwrap_or(&single);
     let series = GrowthSeries { rule, memory };
-    let (mut number, mut current, mut before) = match start(problem, last) {
+    let (mut number, mut current, mut before) = match start(problem, last)? {
         Some(start) => start,
         None => return Ok(()),
     };
@@ -99,15 +99,18 @@ pub fn grow<E>(
                 return Ok(());
             }
         }
-        let plan = plan.map_err(Obstacle::into_error)?;
+        let plan = plan?;
         let (cracks, dataset) = settled(plan, before.as_ref(), &series, &here)?;
-        current.cracks = cracks;
+        current = current.with_cracks(cracks);
         let growth_before = before.as_ref().map(|before| &before.growth);
         let (dataset, growth) = series.decided(&current, dataset, growth_before)?;
         if growth.stop.is_some() || number == rule.steps {
             return keep(dataset).map_err(GrowthError::Kept);
         }
-        let next = grown(&current, &growth);
+        let next = match grown(&current, &growth) {
+            Ok(next) => next,
+            Err(error) => return keep(closed(dataset, Some(&error)).0).map_err(GrowthError::Kept),
+        };
         before = Some(Before { problem: std::mem::replace(&mut current, next), growth });
         (done, number) = (Some(dataset), number + 1);
     }
@@ -121,7 +124,7 @@ pub fn is_same_series(one: &Problem, other: &Problem) -> bool {
     let core = |problem: &Problem| {
         let growth = problem.growth.clone().map(|rule| GrowthRule { steps: 0, ..rule });
         let (title, text, files) = (String::new(), None, Vec::new());
-        Problem { title, text, files, growth, ..problem.clone() }
+        ProblemData { title, text, files, growth, ..problem.clone().into_data() }
     };
     core(one) == core(other)
 }
@@ -147,12 +150,15 @@ pub fn series(
     Ok(all.expect("a series has a first step"))
 }
 
-/// Number and problem of the next step, and what was decided in the one before; none if the series
-/// has ended.
-fn start(problem: &Problem, last: Option<Last<'_>>) -> Option<(usize, Problem, Option<Before>)> {
-    let Some(Last { number, step }) = last else { return Some((0, problem.clone(), None)) };
-    let growth = step.growth.as_ref().filter(|growth| growth.stop.is_none())?;
-    let at_last = Problem { cracks: step.cracks.clone(), ..problem.clone() }.with_free_faces();
-    let next = grown(&at_last, growth);
-    Some((number + 1, next, Some(Before { problem: at_last, growth: growth.clone() })))
+/// Number and problem of the next step, and what was decided in the one before.
+type NextStep = (usize, Problem, Option<Before>);
+
+/// The next step; none if the series has ended.
+fn start(problem: &Problem, last: Option<Last<'_>>) -> Result<Option<NextStep>, SolveError> {
+    let Some(Last { number, step }) = last else { return Ok(Some((0, problem.clone(), None))) };
+    let going_on = step.growth.as_ref().filter(|growth| growth.stop.is_none());
+    let Some(growth) = going_on.cloned() else { return Ok(None) };
+    let problem = problem.with_cracks(step.cracks.clone());
+    let next = grown(&problem, &growth)?;
+    Ok(Some((number + 1, next, Some(Before { problem, growth }))))
 }

@@ -7,7 +7,7 @@ use ppum::domain::Hole;
 use ppum::line::Line;
 use ppum::segment::{Segment, distance};
 use ppum::vec2::{Rect, Vec2};
-use ppum_problem::{Problem, arc_from};
+use ppum_problem::{Edge, Problem, arc_from};
 
 /// The arc along which a tip would go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,8 +41,8 @@ const JOINS: f64 = 0.25;
 pub(super) fn way(problem: &Problem, cracks: &[Crack], tip: TipId, arc: Arc) -> Way {
     let ahead = Ahead { problem, cracks, tip, reach: JOINS * arc.length };
     // along an edge rounding must not lead out of the plate
-    let edge = problem.edge_of(tip.crack as usize);
-    let bounds = &problem.domain.bounds;
+    let edge = problem.body.line_of(tip.crack as usize).and_then(|line| Edge::of_line(&line));
+    let bounds = &problem.domain().bounds;
     let on_edge = |points: Vec<Vec2>| match edge {
         Some(edge) => points.iter().map(|p| edge.point(bounds, edge.coordinate(*p))).collect(),
         None => points,
@@ -119,7 +119,7 @@ impl Ahead<'_> {
 
     /// What a segment meets: the part of it before that, the place, and the fate.
     fn meets(&self, s: Segment) -> impl Iterator<Item = (f64, Vec2, Fate)> + '_ {
-        let Problem { domain, .. } = self.problem;
+        let domain = self.problem.domain();
         let near = touch(&domain.bounds);
         let border = leaves(s, &domain.bounds).map(|(t, at)| (t, at, Fate::LeavesPlate));
         let holes = (0u32..).zip(&domain.holes).filter_map(move |(k, hole)| {
@@ -212,23 +212,25 @@ mod tests {
     use super::*;
     use ppum::dataset::{Material, StressState};
     use ppum::vec2::vec2;
-    use ppum_problem::{Cells, Discretization};
+    use ppum_problem::{Cells, Discretization, ProblemData};
     use ppum_testkit::random::Random;
     use std::f64::consts::PI;
 
     fn plate(holes: Vec<Hole>, cracks: &[&[[f64; 2]]]) -> Problem {
         let bounds = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
         let steel = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
-        let plate = Problem::elasticity(bounds, steel, Discretization::new(Cells::Level(3)));
-        let plate = Problem { domain: ppum::domain::Domain { bounds, holes }, ..plate };
-        cracks.iter().fold(plate, |plate, points| plate.with_crack(points))
+        let domain = ppum::domain::Domain { bounds, holes };
+        let set = Discretization::new(Cells::Level(3));
+        let plate = ProblemData::elasticity(domain, steel, set);
+        let plate = cracks.iter().fold(plate, |plate, points| plate.with_crack(points));
+        Problem::new(plate).expect("a problem in order")
     }
 
     const TIP: TipId = TipId { crack: 0, end: End::Last };
 
     fn from_origin(problem: &Problem, direction: f64, curvature: f64, length: f64) -> Way {
         let arc = Arc { from: vec2(0.0, 0.0), direction, curvature, length };
-        way(problem, &problem.cracks, TIP, arc)
+        way(problem, problem.cracks(), TIP, arc)
     }
 
     /// Ways end exactly on the border, and not shortly before it.

@@ -32,7 +32,7 @@ pub(super) fn settled(
     series: &GrowthSeries<'_>,
     watcher: &dyn Watcher,
 ) -> Result<(Vec<Crack>, Dataset), SolveError> {
-    let cracks = plan.problem().cracks.clone();
+    let cracks = plan.problem().cracks().to_vec();
     let Some(Before { problem: base, growth }) = before else {
         return Ok((cracks, plan.solve(watcher)?));
     };
@@ -44,24 +44,26 @@ pub(super) fn settled(
     let mut known = Vec::new();
     for round in 1.. {
         let factors = match tried {
-            Ok(dataset) => return Ok((problem.cracks, warned(dataset, &growth, SYMMETRIC))),
+            Ok(dataset) => {
+                return Ok((problem.cracks().to_vec(), warned(dataset, &growth, SYMMETRIC)));
+            }
             Err(factors) => factors,
         };
         let found: Vec<_> = angles(&growth, &factors).map(Bend::new).collect();
         let curvatures: Vec<_> = found.iter().map(|bend| (bend.tip, bend.next(&known))).collect();
         known = found;
         let next = bent(base, &growth, &curvatures);
-        let bent = grown(base, &next);
-        let Ok(plan) = series.plan(&bent, watcher) else {
+        let bent = grown(base, &next).ok();
+        let Some(plan) = bent.as_ref().and_then(|bent| series.plan(bent, watcher).ok()) else {
             // what it led to cannot be solved: the arcs stay as they were
             let dataset = Plan::new(&problem, series.memory, watcher)?.solve(watcher)?;
-            return Ok((problem.cracks, warned(dataset, &growth, SYMMETRIC)));
+            return Ok((problem.cracks().to_vec(), warned(dataset, &growth, SYMMETRIC)));
         };
         // arcs that turn as much as they may do not change any more
         let is_last = round == ROUNDS || next == growth;
         growth = next;
         tried = plan.attempt(watcher, &|factors| is_last || is_settled(&growth, factors))?;
-        problem = bent;
+        problem = bent.unwrap_or(problem);
     }
     unreachable!("the last round takes what it finds")
 }

@@ -4,14 +4,8 @@ use super::decision::{Decision, Undecided, decide};
 use crate::solve::{Plan, SolveError};
 use ppum::dataset::{Dataset, Growth, GrowthStop, Record, Step, Warning};
 use ppum::progress::Watcher;
-use ppum_problem::{GrowthRule, Problem, ProblemError};
+use ppum_problem::{GrowthRule, Problem};
 use ppum_solve::report::ENERGIES;
-
-/// The next problem cannot be solved.
-pub(super) enum Obstacle {
-    Problem(ProblemError),
-    Solve(SolveError),
-}
 
 /// A step that has been solved: its problem, and what was decided.
 pub(super) struct Before {
@@ -26,14 +20,11 @@ pub(super) struct GrowthSeries<'a> {
 }
 
 /// A step that is complete, and whether the series ends with it because of what the next one meets.
-pub(super) fn closed(mut dataset: Dataset, obstacle: Option<&Obstacle>) -> (Dataset, bool) {
+pub(super) fn closed(mut dataset: Dataset, obstacle: Option<&SolveError>) -> (Dataset, bool) {
     let (stop, message) = match obstacle {
-        None | Some(Obstacle::Solve(SolveError::Cancelled(_))) => return (dataset, false),
-        Some(Obstacle::Solve(error @ SolveError::Unbalanced(_))) => {
-            (GrowthStop::PieceComesOff, error.to_string())
-        }
-        Some(Obstacle::Solve(error)) => (GrowthStop::Unsolvable, error.to_string()),
-        Some(Obstacle::Problem(error)) => (GrowthStop::Unsolvable, error.to_string()),
+        None | Some(SolveError::Cancelled(_)) => return (dataset, false),
+        Some(error @ SolveError::Unbalanced(_)) => (GrowthStop::PieceComesOff, error.to_string()),
+        Some(error) => (GrowthStop::Unsolvable, error.to_string()),
     };
     dataset.steps[0].growth.iter_mut().for_each(|growth| growth.stop = Some(stop));
     dataset.steps[0].warnings.push(ending(stop, &message));
@@ -46,25 +37,15 @@ fn ending(stop: GrowthStop, message: &str) -> Warning {
     Warning { kind: "growth".to_owned(), at: None, value: 0.0, limit: 0.0, message }
 }
 
-impl Obstacle {
-    pub(super) fn into_error(self) -> SolveError {
-        match self {
-            Self::Solve(error) => error,
-            Self::Problem(error) => SolveError::Problem(error),
-        }
-    }
-}
-
 impl GrowthSeries<'_> {
     /// The plan of a problem whose loads balance.
     pub(super) fn plan<'p>(
         &'p self,
         problem: &'p Problem,
         watcher: &dyn Watcher,
-    ) -> Result<Plan<'p>, Obstacle> {
-        problem.check().map_err(Obstacle::Problem)?;
-        let plan = Plan::new(problem, self.memory, watcher).map_err(Obstacle::Solve)?;
-        plan.check(watcher).map_err(Obstacle::Solve)?;
+    ) -> Result<Plan<'p>, SolveError> {
+        let plan = Plan::new(problem, self.memory, watcher)?;
+        plan.check(watcher)?;
         Ok(plan)
     }
 

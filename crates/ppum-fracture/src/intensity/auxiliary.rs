@@ -6,6 +6,7 @@ use ppum::crack::TipPoint;
 use ppum::dataset::Material;
 use ppum::function::westergaard;
 use ppum::real::Real;
+use ppum_solve::law::Coefficients;
 use std::f64::consts::{PI, TAU};
 
 /// Of each component its gradient, in the tip's frame.
@@ -24,9 +25,11 @@ pub(super) struct Auxiliary<R = f64> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Body {
     /// λ and μ of the plane law.
-    pub(super) lame: [f64; 2],
+    pub(super) moduli: Coefficients,
     /// Kolosov's κ.
     kappa: f64,
+    /// E′
+    pub(super) modulus: f64,
     /// 1 / (2μ √(2π)) and 1 / (8πμ).
     scale: [f64; 2],
 }
@@ -35,7 +38,8 @@ impl Body {
     pub(super) fn new(material: &Material) -> Self {
         let (lambda, mu) = (material.lambda(), material.mu());
         let scale = [0.5 / (mu * TAU.sqrt()), 0.125 / (PI * mu)];
-        Self { lame: [lambda, mu], kappa: material.kolosov(), scale }
+        let (kappa, modulus) = (material.kolosov(), material.effective_young());
+        Self { moduli: [lambda, mu], kappa, modulus, scale }
     }
 
     /// The fields with K_I = 1 and with K_II = 1 and that of the force, with derivatives up to `D`:
@@ -132,7 +136,7 @@ fn minus<R: Real>(a: [R; 2], b: [R; 2]) -> [R; 2] {
 
 /// σ = λ tr(ε) I + 2μ ε of a gradient.
 #[inline(always)]
-pub(super) fn stress<R: Real>([lambda, mu]: [R; 2], u: &Gradients<R>) -> Gradients<R> {
+pub(super) fn stress<R: Real>([lambda, mu]: Coefficients<R>, u: &Gradients<R>) -> Gradients<R> {
     let two_mu = mu + mu;
     let (trace, shear) = (lambda * (u[0][0] + u[1][1]), mu * (u[0][1] + u[1][0]));
     [[trace + two_mu * u[0][0], shear], [shear, trace + two_mu * u[1][1]]]

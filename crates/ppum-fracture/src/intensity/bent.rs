@@ -1,12 +1,11 @@
 //! The part of the interaction integral that comes from the faces of the crack behind its kinks.
 
-use super::auxiliary::{Auxiliary, Gradients, difference, stress, work};
+use super::auxiliary::{Auxiliary, Gradients, stress, work};
 use super::course::CourseSegment;
 use super::integral::{Integrals, Interaction, cut_off, square, turned};
 use ppum::crack::{SegmentId, Side};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
-use ppum_solve::heat::FacePoint;
 use ppum_solve::quadrature::{EdgeRule, Face, Quadrature};
 
 /// A piece of the crack in a cell.
@@ -59,17 +58,19 @@ impl Interaction<'_> {
         let between = between.iter().copied().chain(std::iter::repeat(Vec2::ZERO));
         for ((((offset, &weight), normal), u), t) in points.zip(jets.chunks_exact(2)).zip(between) {
             let point = tip.point([offset.x, offset.y], side);
+            let world = rule.anchor + *offset;
+            let elastic = self.elastic(u, (world, Some((segment, side))), tip.axis);
             let (u, normal) = (self.gradient(u, tip.axis), turned(tip.axis, (*normal).into()));
             let parts = self.auxiliary(&point).map(|Auxiliary { gradient: [a, b], .. }| {
                 -self.crossing(&u, &[a, b], normal) - (t.x * a[0] + t.y * b[0])
             });
             let part = |radius: f64| parts.map(|m| cut_off(square(&point), radius).0 * m);
             let modes = self.radii.map(part);
-            let world = rule.anchor + *offset;
             let q = cut_off(square(&point), self.largest()).0;
             let traction = self.traction(side, world, tip.axis) + t;
-            let face = Some((segment, side));
-            let j = q * self.energy_crossing(&u, normal, (world, face), traction);
+            let energy = 0.5 * work(&stress(self.moduli(world), &elastic), &elastic);
+            // E_j n_j = W n_1 − t_i u_i,1
+            let j = q * (energy * normal.x - traction.dot(vec2(u[0][0], u[1][0])));
             sums = sums.plus(Integrals { modes, j, ..Integrals::default() }.times(weight));
         }
         sums
@@ -78,26 +79,13 @@ impl Interaction<'_> {
     /// σᵃ_i2 ∂u_i/∂s, with s along the face so that the normal points to its left: what P_j n_j is
     /// but for the traction's part.
     fn crossing(&self, u: &Gradients, aux: &Gradients, normal: Vec2) -> f64 {
-        let (stress, along) = (stress(self.body.lame, aux), -normal.left());
+        let (stress, along) = (stress(self.body.moduli, aux), -normal.left());
         (0..2).map(|i| stress[i][1] * Vec2::from(u[i]).dot(along)).sum()
     }
 
     /// The traction of a load on a face in the tip's frame.
     fn traction(&self, side: Side, world: Vec2, axis: Vec2) -> Vec2 {
         let crack = self.course.tip().crack;
-        self.loads.faces.map_or(Vec2::ZERO, |load| turned(axis, load(crack, side, world)))
-    }
-
-    /// E_j n_j = W n_1 − t_i u_i,1
-    fn energy_crossing(
-        &self,
-        u: &Gradients,
-        normal: Vec2,
-        (world, face): (Vec2, FacePoint),
-        traction: Vec2,
-    ) -> f64 {
-        let elastic = difference(u, &self.eigenstrain(world, face));
-        let energy = 0.5 * work(&stress(self.lame(world), &elastic), &elastic);
-        energy * normal.x - traction.dot(vec2(u[0][0], u[1][0]))
+        turned(axis, self.loads.traction(crack, side, world).unwrap_or_default())
     }
 }

@@ -1,6 +1,6 @@
 //! The integrands of the interaction integral at the points of a rule, on lanes.
 
-use super::auxiliary::{Auxiliary, Gradients, difference, stress, work};
+use super::auxiliary::{Auxiliary, Gradients, stress, work};
 use super::integral::{
     Integrals, Interaction, MODES, RINGS, cut_off, flat_cut_off, in_frame, square,
 };
@@ -9,6 +9,7 @@ use ppum::jet::Jet;
 use ppum::real::{Job, Real, Scalar};
 use ppum::vec2::Vec2;
 use ppum_solve::assembly::{FACTORS, Kernel};
+use ppum_solve::law::Coefficients;
 
 /// Sums at a point: of each disc those of its modes, J and the energy.
 const SUMS: usize = RINGS * MODES + 2;
@@ -16,12 +17,10 @@ const SUMS: usize = RINGS * MODES + 2;
 /// What is particular to a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Local {
-    /// λ and μ.
-    pub(super) lame: [f64; 2],
+    /// The coefficients of the law.
+    pub(super) moduli: Coefficients,
     /// The body force in the tip's frame.
     pub(super) force: [f64; 2],
-    /// The given strains without those at the tip, in its frame.
-    pub(super) eigenstrain: Gradients,
 }
 
 /// Points that see a tip from one anchor.
@@ -43,12 +42,15 @@ impl<'b> PointBlock<'b> {
 
     /// The integrals of a field with these jets, the two components of a point beside each other.
     pub(super) fn integrals(&self, weights: &[f64], jets: &[Jet<f64>]) -> Integrals {
-        let gradients: Vec<Gradients> =
-            jets.chunks_exact(2).map(|u| self.tip.gradient(u, self.tip.axis)).collect();
+        let at = |(&offset, u): (&Vec2, _)| {
+            let (tip, place) = (self.tip, (self.anchor + offset, None));
+            [tip.gradient(u, tip.axis), tip.elastic(u, place, tip.axis)]
+        };
+        let gradients: Vec<_> = self.offsets.iter().zip(jets.chunks_exact(2)).map(at).collect();
         let energies = self.locals.as_ref().map(|locals| {
-            let points = self.offsets.iter().zip(locals).zip(&gradients);
-            let source = |((&offset, local), u): ((&Vec2, &Local), &Gradients)| {
-                self.tip.energy_source(self.anchor + offset, local, u)
+            let points = self.offsets.iter().zip(locals).zip(jets.chunks_exact(2));
+            let source = |((&offset, local), u): ((&Vec2, &Local), _)| {
+                self.tip.energy_source(self.anchor + offset, local.force, u)
             };
             points.map(source).collect()
         });
@@ -75,25 +77,17 @@ impl<'b> PointBlock<'b> {
         self.local_tip.point(offset, Side::Above)
     }
 
-    /// λ, μ and the force at these points.
+    /// The coefficients of the law and the force at these points.
     #[inline(always)]
-    fn locals<R: Real<Scalar = f64>>(&self, first: usize, zero: R) -> ([R; 2], [R; 2]) {
+    fn locals<R: Real<Scalar = f64>>(&self, first: usize, zero: R) -> (Coefficients<R>, [R; 2]) {
         let Some(locals) = &self.locals else {
-            return (self.tip.body.lame.map(|constant| zero.lit(constant)), [zero; 2]);
+            return (self.tip.body.moduli.map(|constant| zero.lit(constant)), [zero; 2]);
         };
         let at = |k: usize| &locals[(first + k).min(locals.len() - 1)];
         (
-            [zero.with_lanes(|k| at(k).lame[0]), zero.with_lanes(|k| at(k).lame[1])],
+            std::array::from_fn(|m| zero.with_lanes(|k| at(k).moduli[m])),
             [zero.with_lanes(|k| at(k).force[0]), zero.with_lanes(|k| at(k).force[1])],
         )
-    }
-
-    /// The given strains at these points without those at the tip.
-    #[inline(always)]
-    fn eigenstrain<R: Real<Scalar = f64>>(&self, first: usize, zero: R) -> Gradients<R> {
-        let Some(locals) = &self.locals else { return [[zero; 2]; 2] };
-        let at = |k: usize| &locals[(first + k).min(locals.len() - 1)].eigenstrain;
-        [0, 1].map(|i| [0, 1].map(|j| zero.with_lanes(|k| at(k)[i][j])))
     }
 }
 
@@ -101,9 +95,9 @@ impl<'b> PointBlock<'b> {
 struct FieldSample<R> {
     point: TipPoint<R>,
     u: Gradients<R>,
-    /// ∇u without the given strains.
+    /// The part of ∇u that has stress.
     elastic: Gradients<R>,
-    lame: [R; 2],
+    moduli: Coefficients<R>,
     force: [R; 2],
 }
 
@@ -115,16 +109,16 @@ struct Integrands<R> {
 }
 
 impl<R: Real> FieldSample<R> {
-    /// The integrands in a body that has the constants `lame` at the tip.
+    /// The integrands in a body that has the constants `moduli` at the tip.
     #[inline(always)]
     fn integrands<const D: usize>(
         &self,
-        lame: [f64; 2],
+        moduli: Coefficients,
         auxiliary: &[Auxiliary<R>; MODES],
     ) -> Integrands<R> {
-        let lame = [self.point.x.lit(lame[0]), self.point.x.lit(lame[1])];
-        let (own, at_tip) = (stress(self.lame, &self.elastic), stress(lame, &self.u));
-        let through = self.through(&own, &at_tip, lame);
+        let moduli = moduli.map(|constant| self.point.x.lit(constant));
+        let (own, at_tip) = (stress(self.moduli, &self.elastic), stress(moduli, &self.u));
+        let through = self.through(&own, &at_tip, moduli);
         let [mut flows, mut sources] = [[self.point.x.lit(0.0); MODES]; 2];
         for (mode, auxiliary) in auxiliary.iter().enumerate() {
             let ([a, b], [c, d]) = (auxiliary.gradient, through);
@@ -140,9 +134,14 @@ impl<R: Real> FieldSample<R> {
     /// σᵃ_ij u_i,1 − σᵃ_ik ε_ik δ_1j, where σᵃ_ik ε_ik is the stress that the tip's material would
     /// have, on εᵃ.
     #[inline(always)]
-    fn through(&self, own: &Gradients<R>, at_tip: &Gradients<R>, lame: [R; 2]) -> Gradients<R> {
+    fn through(
+        &self,
+        own: &Gradients<R>,
+        at_tip: &Gradients<R>,
+        moduli: Coefficients<R>,
+    ) -> Gradients<R> {
         let (x, y, u) = (self.point.x, self.point.y, &self.u);
-        let dual = stress(lame, &[[x * u[0][0], y * u[0][0]], [x * u[1][0], y * u[1][0]]]);
+        let dual = stress(moduli, &[[x * u[0][0], y * u[0][0]], [x * u[1][0], y * u[1][0]]]);
         let ([a, b], [c, d], [s, t]) = (own, dual, at_tip);
         [
             [a[0] * x + a[1] * y + c[0] - x * s[0], c[1] - x * s[1]],
@@ -174,7 +173,8 @@ fn energy_flow<R: Real>(stress: &Gradients<R>, sample: &FieldSample<R>) -> R {
 struct Sums<'b> {
     block: &'b PointBlock<'b>,
     weights: &'b [f64],
-    gradients: &'b [Gradients],
+    /// ∇u and its part that has stress.
+    gradients: &'b [[Gradients; 2]],
     /// E_j,j, if it is not zero.
     energies: Option<Vec<f64>>,
 }
@@ -209,21 +209,15 @@ impl Sums<'_> {
     fn densities<R: Real<Scalar = f64>, const D: usize>(&self, first: usize, zero: R) -> [R; SUMS] {
         let PointBlock { tip, .. } = self.block;
         let at = |k: usize| (first + k).min(self.weights.len() - 1);
-        let (lame, force) = self.block.locals(first, zero);
-        let u = [
-            [
-                zero.with_lanes(|k| self.gradients[at(k)][0][0]),
-                zero.with_lanes(|k| self.gradients[at(k)][0][1]),
-            ],
-            [
-                zero.with_lanes(|k| self.gradients[at(k)][1][0]),
-                zero.with_lanes(|k| self.gradients[at(k)][1][1]),
-            ],
-        ];
-        let elastic = difference(&u, &self.block.eigenstrain(first, zero));
-        let sample = FieldSample { point: self.block.points(first, zero), u, elastic, lame, force };
+        let (moduli, force) = self.block.locals(first, zero);
+        let part = |part: usize, i: usize, j: usize| {
+            zero.with_lanes(|k| self.gradients[at(k)][part][i][j])
+        };
+        let [u, elastic] = [0, 1].map(|p| [0, 1].map(|i| [0, 1].map(|j| part(p, i, j))));
+        let sample =
+            FieldSample { point: self.block.points(first, zero), u, elastic, moduli, force };
         let auxiliary = tip.body.fields::<R, D>(&sample.point);
-        let of = sample.integrands::<D>(tip.body.lame, &auxiliary);
+        let of = sample.integrands::<D>(tip.body.moduli, &auxiliary);
         let source = match &self.energies {
             Some(energies) => zero.with_lanes(|k| energies[at(k)]),
             None => zero,
@@ -285,7 +279,7 @@ impl Kernels<'_> {
         zero: R,
     ) -> [[[R; FACTORS]; 2]; 2] {
         let PointBlock { tip, .. } = self.block;
-        let (lame, force) = self.block.locals(first, zero);
+        let (moduli, force) = self.block.locals(first, zero);
         let point = self.block.points(first, zero);
         let auxiliary = tip.body.fields::<R, D>(&point);
         let (q, slope) = flat_cut_off(square(&point), tip.radii[RINGS - 1]);
@@ -295,8 +289,8 @@ impl Kernels<'_> {
             for (axis, of_modes) in of_component.iter_mut().enumerate() {
                 let [[a, b], [c, d]] = unit(component, axis, tip.axis);
                 let u = [[zero.lit(a), zero.lit(b)], [zero.lit(c), zero.lit(d)]];
-                let of = FieldSample { point, u, elastic: u, lame, force }
-                    .integrands::<D>(tip.body.lame, &auxiliary);
+                let of = FieldSample { point, u, elastic: u, moduli, force }
+                    .integrands::<D>(tip.body.moduli, &auxiliary);
                 for ((density, half), (flow, source)) in
                     of_modes.iter_mut().zip(halves).zip(of.flows.iter().zip(of.sources))
                 {

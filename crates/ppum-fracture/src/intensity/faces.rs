@@ -1,9 +1,9 @@
 //! The part of the interaction integral that comes from loads on the faces of a crack.
 
-use super::FaceLoad;
 use super::auxiliary::Body;
 use super::course::{Course, CourseSegment};
 use super::integral::{Modes, cut_off, square, turned};
+use super::loads::TipLoads;
 use ppum::crack::{LocalTip, Side};
 use ppum::vec2::vec2;
 use ppum_problem::Symmetry;
@@ -53,7 +53,7 @@ pub(super) struct Faces<'a> {
     pub(super) body: &'a Body,
     /// Radii of the discs, ascending.
     pub(super) radii: &'a [f64],
-    pub(super) load: FaceLoad<'a>,
+    pub(super) load: &'a dyn TipLoads,
     /// False if the loads have a resultant at the tip: the integral for T has no value then, and is
     /// left out.
     pub(super) is_balanced: bool,
@@ -144,8 +144,8 @@ impl Faces<'_> {
         let offset = (from - self.course.center()) + (to - from) * along;
         let of_side = |side: Side| {
             let point = tip.point([offset.x, offset.y], side);
-            let traction =
-                (self.load)(self.course.tip().crack, side, self.course.center() + offset);
+            let (crack, at) = (self.course.tip().crack, self.course.center() + offset);
+            let traction = self.load.traction(crack, side, at).unwrap_or_default();
             let t = turned(tip.axis, traction);
             let auxiliary = self.body.fields::<f64, 1>(&point);
             let work = auxiliary.map(|a| t.x * a.gradient[0][0] + t.y * a.gradient[1][0]);
@@ -166,13 +166,15 @@ impl Faces<'_> {
 
 /// σ_22 in the tip's frame that the loads on the faces at a tip stand for, or those on one face and
 /// their image; none if these have a resultant, under which stresses grow like log r.
-pub(super) fn pressed(course: &Course, load: FaceLoad<'_>, half: Option<Symmetry>) -> Option<f64> {
+pub(super) fn pressed(course: &Course, load: &dyn TipLoads, half: Option<Symmetry>) -> Option<f64> {
     let first = course.parts().next()?;
     let loads = LOOKS.map(|part| {
         let at = first.ends[0] + (first.ends[1] - first.ends[0]) * part;
         let tip = course.on(&first, at);
-        [Side::Above, Side::Below]
-            .map(|side| turned(tip.axis, load(course.tip().crack, side, at)) * tip.orientation)
+        [Side::Above, Side::Below].map(|side| {
+            let traction = load.traction(course.tip().crack, side, at).unwrap_or_default();
+            turned(tip.axis, traction) * tip.orientation
+        })
     });
     let size = loads.as_flattened().iter().map(|t| t.length()).fold(0.0, f64::max);
     let [above, below] = match (loads[0], half) {
@@ -208,8 +210,18 @@ mod tests {
 
     const RADII: [f64; 3] = [0.3, 0.4, 0.5];
 
+    /// A pressure by the distance to the tip.
+    struct Pressure<'p>(&'p (dyn Fn(f64) -> f64 + Sync));
+
+    impl TipLoads for Pressure<'_> {
+        fn traction(&self, _: u32, side: Side, x: Vec2) -> Option<[f64; 2]> {
+            let sign = if side == Side::Above { 1.0 } else { -1.0 };
+            Some([0.0, sign * (self.0)(0.3 - x.x)])
+        }
+    }
+
     /// The integrals for a tip at (0.3, 0) at the right end of a crack.
-    fn integrals(load: FaceLoad<'_>) -> Modes {
+    fn integrals(load: &dyn TipLoads) -> Modes {
         let points = vec![vec2(-0.5, 0.0), vec2(0.3, 0.0)];
         let crack = Crack { points, ends: [CrackEnd::Tip; 2] };
         let material = Material { young: 2.0, poisson: 0.2, state: StressState::PlaneStress };
@@ -237,11 +249,7 @@ mod tests {
             (2.0 / std::f64::consts::PI).sqrt() * sum
         };
         let check = |p: &(dyn Fn(f64) -> f64 + Sync), breaks: &[f64]| {
-            let load = |_: u32, side: Side, x: Vec2| {
-                let sign = if side == Side::Above { 1.0 } else { -1.0 };
-                [0.0, sign * p(0.3 - x.x)]
-            };
-            for ([k1, k2, _], radius) in integrals(&load).into_iter().zip(RADII) {
+            for ([k1, k2, _], radius) in integrals(&Pressure(p)).into_iter().zip(RADII) {
                 let expected: f64 =
                     breaks.windows(2).map(|b| exact(p, radius, b[0].min(radius), b[1])).sum();
                 // E′ = 2

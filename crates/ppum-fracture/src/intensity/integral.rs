@@ -1,14 +1,13 @@
 //! The interaction integral over the cells of a space.
 
-use super::Loads;
-use super::auxiliary::{Auxiliary, Body, Gradients, difference, stress, work};
+use super::auxiliary::{Auxiliary, Body, Gradients, difference};
 use super::bent::Bend;
 use super::block::{Local, PointBlock};
 use super::course::{Course, CourseSegment};
 use super::faces::{Faces, pressed};
-use super::slope::Slope;
+use super::loads::TipLoads;
 use ppum::crack::{Side, TipId, TipPoint};
-use ppum::dataset::{Material, Ring, TipIntensity};
+use ppum::dataset::{Ring, TipIntensity};
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::progress::{Cancelled, Phase, Watcher};
@@ -17,11 +16,10 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Symmetry;
 use ppum_problem::geometry::{Placed, around};
 use ppum_solve::assembly::FACTORS;
-use ppum_solve::contact::ContactLaw;
-use ppum_solve::heat::FacePoint;
-use ppum_solve::law::Law;
+use ppum_solve::law::{Coefficients, EnergySlope, FacePoint, Law};
 use ppum_solve::quadrature::{Disc, Doubt, EdgeRule, Quadrature, Rule};
 use ppum_solve::space::Space;
+use ppum_solve::terms::{FaceLaw, FaceTraction};
 use ppum_solve::watched::Stage;
 use rayon::prelude::*;
 
@@ -82,9 +80,8 @@ impl TipIntegrals {
 pub(super) struct Interaction<'a> {
     pub(super) field: &'a Field<'a>,
     pub(super) space: &'a Space<'a>,
-    law: Law<'a>,
-    /// The material at the tip, and the body of it that the auxiliary fields are in.
-    material: Material,
+    pub(super) law: &'a Law<'a>,
+    /// The body of the material at the tip that the auxiliary fields are in.
     pub(super) body: Body,
     /// The crack in the discs.
     pub(super) course: Course,
@@ -93,16 +90,16 @@ pub(super) struct Interaction<'a> {
     pub(super) axis: Vec2,
     /// Radii of the discs, ascending.
     pub(super) radii: [f64; RINGS],
-    pub(super) loads: Loads<'a>,
-    /// The strains given at the tip, in its frame. The field is taken without them: a body that
-    /// strains alike everywhere has the same stresses.
+    pub(super) loads: &'a dyn TipLoads,
+    has_force: bool,
+    /// The gradient without stress at the tip, in its frame. The field is taken without it.
     pub(super) shift: Gradients,
     /// How the material varies, as the J-integral needs it; none if it jumps in the discs.
-    slope: Option<Slope<'a>>,
+    slope: Option<EnergySlope<'a>>,
     /// σ_22 at the tip by the loads on its faces; none if these have a resultant there.
     pressed: Option<f64>,
-    /// Coulomb's coefficient of friction of the crack, if its faces may touch.
-    friction: Option<f64>,
+    /// What acts between the faces of the crack.
+    face_law: Option<FaceLaw>,
     /// The symmetry to the axis of a field of which one half is in the body.
     half: Option<Symmetry>,
 }
@@ -113,36 +110,31 @@ impl<'a> Interaction<'a> {
     pub(super) fn new(
         field: &'a Field<'a>,
         space: &'a Space<'a>,
+        law: &'a Law<'a>,
         tip: TipId,
         radii: [f64; RINGS],
-        loads: Loads<'a>,
+        loads: &'a dyn TipLoads,
     ) -> Option<Self> {
         let crack = &field.step.cracks[tip.crack as usize];
         let course = Course::new(crack, tip, radii[RINGS - 1]);
         let center = course.center();
-        let law = space.law();
-        let elastic = field.equation.elastic()?;
-        let material = elastic.at(center);
-        let body = Body::new(&material);
-        let expansion = space.temperature().and_then(|heat| heat.equation().expansion());
-        let slope = Slope::new(elastic, expansion, center, radii[RINGS - 1]);
+        let body = Body::new(&field.equation.elastic()?.at(center));
+        let slope = EnergySlope::new(law.clone(), center, radii[RINGS - 1]);
         let axis = crack.growth_direction(tip.end);
-        let at_tip = law.eigenstrain(center).map(|given| tensor_in_frame(&given, axis));
-        let is_finite = |given: &Gradients| given.as_flattened().iter().all(|e| e.is_finite());
-        let shift = at_tip.filter(is_finite).unwrap_or_default();
-        let half = loads.symmetry.and_then(|symmetry| symmetry(tip));
-        let pressed = loads.faces.map_or(Some(0.0), |load| pressed(&course, load, half));
-        let friction = loads.friction.and_then(|friction| friction(tip.crack));
-        let touching = friction.map_or(0.0, |friction| {
-            let contact = ContactLaw { friction, size: radii[0] };
-            contact.pressed(field, &law, course.behind_tip(0.0))
-        });
+        let free = law.at(center).elastic(&[Vec2::ZERO; 2]).map(|row| -row);
+        let is_finite = |g: &Gradients| g.as_flattened().iter().all(|e| e.is_finite());
+        let shift = Some(tensor_in_frame(&free, axis)).filter(is_finite).unwrap_or_default();
+        let half = loads.symmetry(tip);
+        let is_loaded = loads.traction(tip.crack, Side::Above, center).is_some();
+        let pressed = if is_loaded { pressed(&course, loads, half) } else { Some(0.0) };
+        let face_law = loads.face_law(tip.crack);
+        let between =
+            face_law.map_or(0.0, |of| of.pressed(field, law, course.behind_tip(0.0), radii[0]));
         Some(Self {
             field,
             space,
             law,
-            friction,
-            material,
+            face_law,
             body,
             course,
             center,
@@ -150,8 +142,9 @@ impl<'a> Interaction<'a> {
             shift,
             radii,
             loads,
+            has_force: loads.body_force(center).is_some(),
             slope,
-            pressed: pressed.map(|pressed| pressed + touching),
+            pressed: pressed.map(|pressed| pressed + between),
             half,
         })
     }
@@ -162,12 +155,12 @@ impl<'a> Interaction<'a> {
 
     /// True if the faces touch at the tip or within a quarter of a cell of this size from it.
     pub(super) fn touches(&self, cell: f64) -> bool {
-        let is_closed = |friction| {
-            let contact = ContactLaw { friction, size: self.radii[0] };
+        let is_closed = |of: FaceLaw| {
             let points = [0.0, 0.125, 0.25].map(|part| self.course.behind_tip(part * cell));
-            points.into_iter().any(|at| contact.pressed(self.field, &self.law, at) < 0.0)
+            let pressed = |at| of.pressed(self.field, self.law, at, self.radii[0]);
+            points.into_iter().any(|at| pressed(at) < 0.0)
         };
-        self.friction.is_some_and(is_closed)
+        self.face_law.is_some_and(is_closed)
     }
 
     /// The cells that meet the largest disc.
@@ -192,7 +185,7 @@ impl<'a> Interaction<'a> {
     pub(super) fn pieces_of_faces(&self) -> Vec<(CourseSegment, [Vec2; 2])> {
         let faces = self.faces();
         let mut all = Vec::new();
-        let is_loaded = faces.is_some() || self.friction.is_some();
+        let is_loaded = faces.is_some() || self.face_law.is_some();
         for part in self.course.parts().filter(|part| !part.is_first || is_loaded) {
             let loads = faces.as_ref().map_or_else(Vec::new, |faces| faces.breaks(&part));
             let at: Vec<f64> = loads.into_iter().chain(self.radii).collect();
@@ -205,18 +198,17 @@ impl<'a> Interaction<'a> {
     /// the tip's frame; zero at other tips.
     pub(super) fn between(&self, rule: &EdgeRule, cell: usize) -> Vec<Vec2> {
         let size = self.space.partition().cell[cell].size();
-        let tractions = self.friction.map(|friction| {
-            let contact = ContactLaw { friction, size: size.x.max(size.y) };
-            contact.tractions(self.field, &self.law, rule)
-        });
-        let tractions = tractions.unwrap_or(vec![Vec2::ZERO; rule.offsets.len()]);
-        tractions.into_iter().map(|t| turned(self.axis, t.into())).collect()
+        let size = size.x.max(size.y);
+        let all = self.face_law.map(|of| of.tractions(self.field, self.law, rule, size));
+        let in_frame = |state: FaceTraction| turned(self.axis, state.traction.into());
+        all.into_iter().flatten().map(in_frame).collect()
     }
 
     fn faces(&self) -> Option<Faces<'_>> {
         let Self { course, body, radii, pressed, .. } = self;
         let (is_balanced, is_half) = (pressed.is_some(), self.half.is_some());
-        self.loads.faces.map(|load| Faces { course, body, radii, load, is_balanced, is_half })
+        self.loads.traction(course.tip().crack, Side::Above, self.center)?;
+        Some(Faces { course, body, radii, load: self.loads, is_balanced, is_half })
     }
 
     fn cell(
@@ -270,54 +262,49 @@ impl<'a> Interaction<'a> {
 
     /// E′ at the tip.
     pub(super) fn modulus(&self) -> f64 {
-        self.material.effective_young()
+        self.body.modulus
     }
 
     /// False where all flows have no divergence.
     pub(super) fn has_sources(&self) -> bool {
-        self.loads.force.is_some() || !self.law.is_uniform() || self.law.has_eigenstrain()
+        self.has_force || !self.law.is_uniform() || self.law.has_initial_stress()
     }
 
     /// What is particular to a point, where the field has a gradient that is given in the
     /// tip's frame.
     pub(super) fn local(&self, world: Vec2) -> Local {
-        let force = self.loads.force.map_or(Vec2::ZERO, |force| turned(self.axis, force(world)));
-        let eigenstrain = self.eigenstrain(world, None);
-        Local { lame: self.lame(world), force: force.into(), eigenstrain }
+        let force = self.loads.body_force(world).unwrap_or_default();
+        Local { moduli: self.moduli(world), force: turned(self.axis, force).into() }
     }
 
-    /// ∇u of the jets at a point without the strains given at the tip, in its frame.
+    /// ∇u of the jets at a point without the gradient that has no stress at the tip, in its frame.
     pub(super) fn gradient(&self, u: &[Jet<f64>], axis: Vec2) -> Gradients {
         difference(&in_frame(u, axis), &self.shift)
     }
 
-    /// The strains given at a point without those at the tip, in its frame.
-    pub(super) fn eigenstrain(&self, world: Vec2, face: FacePoint) -> Gradients {
-        let given = self.law.eigenstrain_on(world, face);
-        let given = given.map(|given| tensor_in_frame(&given, self.axis));
-        given.map_or([[0.0; 2]; 2], |given| difference(&given, &self.shift))
+    /// The part of ∇u that has stress at a point, in the tip's frame.
+    pub(super) fn elastic(
+        &self,
+        u: &[Jet<f64>],
+        (world, face): (Vec2, FacePoint),
+        axis: Vec2,
+    ) -> Gradients {
+        if !self.law.has_initial_stress() {
+            return in_frame(u, axis);
+        }
+        tensor_in_frame(&self.law.on(world, face).elastic(&gradient(u)), axis)
     }
 
-    /// E_j,j of the flow of energy: what the material's variation, the given strains and the body
-    /// force add to it, ½ e:C,_1:e − σ:ε⁰,_1 + b_i u_i,1 with e = ε − ε⁰.
-    pub(super) fn energy_source(&self, world: Vec2, local: &Local, u: &Gradients) -> f64 {
-        let elastic = difference(u, &local.eigenstrain);
-        let graded = self.slope.as_ref().map_or(0.0, |slope| {
-            let heated = self.law.temperature_slope(world, self.axis);
-            let along = slope.eigenstrain(world, self.axis).unwrap_or_default();
-            let along = [0, 1].map(|j| heated[j] + along[j]);
-            let strained = match self.law.has_eigenstrain() {
-                true => work(&stress(local.lame, &elastic), &tensor_in_frame(&along, self.axis)),
-                false => 0.0,
-            };
-            slope.energy(world, self.axis, &elastic) - strained
-        });
-        graded + local.force[0] * u[0][0] + local.force[1] * u[1][0]
+    /// E_j,j of the flow of energy: W_,1 at a fixed ∇u, and what the body force adds to it, b_i u_i,1.
+    pub(super) fn energy_source(&self, world: Vec2, force: [f64; 2], u: &[Jet<f64>]) -> f64 {
+        let slope = self.slope.as_ref().map_or(0.0, |s| s.at(world, self.axis, &gradient(u)));
+        let shifted = self.gradient(u, self.axis);
+        slope + force[0] * shifted[0][0] + force[1] * shifted[1][0]
     }
 
-    /// λ and μ of the material at a point.
-    pub(super) fn lame(&self, world: Vec2) -> [f64; 2] {
-        if self.law.is_uniform() { self.body.lame } else { self.law.coefficients(world) }
+    /// The coefficients of the law at a point.
+    pub(super) fn moduli(&self, world: Vec2) -> Coefficients {
+        if self.law.is_uniform() { self.body.moduli } else { self.law.coefficients(world) }
     }
 
     pub(super) fn auxiliary(&self, point: &TipPoint<f64>) -> [Auxiliary; MODES] {
@@ -491,7 +478,12 @@ pub(super) fn turned(axis: Vec2, vector: [f64; 2]) -> Vec2 {
 
 /// The displacement gradient in a frame with the given x axis.
 pub(super) fn in_frame(u: &[Jet<f64>], axis: Vec2) -> Gradients {
-    tensor_in_frame(&[vec2(u[0].x, u[0].y), vec2(u[1].x, u[1].y)], axis)
+    tensor_in_frame(&gradient(u), axis)
+}
+
+/// The displacement gradient of jets.
+fn gradient(u: &[Jet<f64>]) -> [Vec2; 2] {
+    [0, 1].map(|i| vec2(u[i].x, u[i].y))
 }
 
 /// A gradient or strain in a frame with the given x axis.

@@ -33,7 +33,7 @@
 //! on all faces: σᵃ_i2 = 0 where they are along the axis. The field of each side is taken as it is
 //! on that side. Nothing else may lie in the disc: the radii are chosen in the [`TipClearance`] of
 //! the tip.
-
+//!
 //! Faces that touch have the tractions that the field itself has there, evaluated at the points of
 //! the same rules as what kinks add; σ_22 at the tip is then the stress between them.
 //!
@@ -71,14 +71,15 @@ mod course;
 mod elements;
 mod faces;
 mod integral;
+mod loads;
 mod resolve;
 mod sensitivity;
-mod slope;
 
 use border::border_distance;
 pub(crate) use cells::with_cells;
 use integral::{Interaction, RINGS, integrate_tips};
-use ppum::crack::{Crack, Side, TipId, tips};
+pub use loads::{LoadCase, TipLoads};
+use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
@@ -86,9 +87,10 @@ use ppum::vec2::{Rect, Vec2};
 use ppum_problem::geometry::{AMPLE_CLEARANCE, interface_distance};
 pub use ppum_problem::geometry::{Obstacle, TipClearance};
 use ppum_problem::{Problem, Symmetry};
-use ppum_solve::heat::Temperature;
+use ppum_solve::law::{Law, Temperature};
 pub use ppum_solve::quadrature::Doubt;
 use ppum_solve::space::Space;
+pub use ppum_solve::terms::FaceLaw;
 use ppum_solve::watched::Stage;
 pub(crate) use sensitivity::{Sensitivity, TipDisc, sensitivities};
 
@@ -103,32 +105,6 @@ const RADII: [f64; RINGS] = [0.5, 0.7, 0.9];
 /// fifth on, but by 4 % at a tenth of a cell, where the spread of the radii may say a tenth of
 /// that: the error is that of the field, which cells larger than the clearance do not resolve.
 const LEAST_CLEARANCE: f64 = 0.5;
-
-/// A load per area at a point: the body force b.
-pub type PointLoad<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
-
-/// The traction t on a face of a crack, given by its index, at a point.
-pub type FaceLoad<'a> = &'a (dyn Fn(u32, Side, Vec2) -> [f64; 2] + Sync);
-
-/// The coefficient of friction of a crack, given by its index, if its faces may touch.
-pub type FaceFriction<'a> = &'a (dyn Fn(u32) -> Option<f64> + Sync);
-
-/// The symmetry of the field at a tip on the border; none at others.
-pub type TipSymmetry<'a> = &'a (dyn Fn(TipId) -> Option<Symmetry> + Sync);
-
-/// The loads that act where the interaction integral looks, and what is known of the field there.
-#[derive(Clone, Copy, Default)]
-pub struct Loads<'a> {
-    /// Body force, if there is one.
-    pub force: Option<PointLoad<'a>>,
-    /// Tractions on the faces of cracks, if there are any.
-    pub faces: Option<FaceLoad<'a>>,
-    /// Friction of faces that may touch, if there are any. What acts between them is taken from the
-    /// field.
-    pub friction: Option<FaceFriction<'a>>,
-    /// The symmetry of the field at tips on the border, which have no factors without.
-    pub symmetry: Option<TipSymmetry<'a>>,
-}
 
 /// The findings about a tip.
 #[derive(Clone, Debug, PartialEq)]
@@ -185,21 +161,35 @@ pub fn intensities(
     dataset: &Dataset,
     field: &Field<'_>,
     space: &Space<'_>,
-    loads: Loads<'_>,
+    loads: &dyn TipLoads,
     watcher: &dyn Watcher,
 ) -> Result<Vec<TipOutcome>, Cancelled> {
-    if !field.is_displacement() || field.has_temperature() {
+    if field.has_temperature() {
+        return Ok(Vec::new());
+    }
+    intensities_by(&Law::new(field.equation), dataset, field, space, loads, watcher)
+}
+
+/// The same of a displacement alone, in a body with a law.
+pub(crate) fn intensities_by(
+    law: &Law<'_>,
+    dataset: &Dataset,
+    field: &Field<'_>,
+    space: &Space<'_>,
+    loads: &dyn TipLoads,
+    watcher: &dyn Watcher,
+) -> Result<Vec<TipOutcome>, Cancelled> {
+    if !field.is_displacement() {
         return Ok(Vec::new());
     }
     let stage = Stage::uncounted(watcher, Phase::Intensity)?;
-    let symmetry = |tip| loads.symmetry.and_then(|symmetry| symmetry(tip));
     let outcome =
-        |tip| stage.advance(0).map(|()| TipOutcome::new(dataset, field, (tip, symmetry(tip))));
+        |tip| stage.advance(0).map(|()| TipOutcome::new(dataset, field, tip, loads.symmetry(tip)));
     let mut tips = tips(&field.step.cracks).map(outcome).collect::<Result<Vec<_>, _>>()?;
     let wanted: Vec<_> = tips.iter_mut().filter(|outcome| outcome.has_room()).collect();
     let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.clearance.radius)));
     let integrals: Vec<_> = discs
-        .filter_map(|(tip, radii)| Interaction::new(field, space, tip, radii, loads))
+        .filter_map(|(tip, radii)| Interaction::new(field, space, law, tip, radii, loads))
         .collect();
     let found = integrate_tips(space, &integrals, watcher)?;
     for (outcome, (integral, found)) in wanted.into_iter().zip(integrals.iter().zip(found)) {
@@ -296,7 +286,8 @@ fn on_plain(
 ) -> Result<TipIntensity, CircleError> {
     let field = Field::new(dataset, step)?;
     let crack = &field.step.cracks[tip.crack as usize];
-    if !is_half_known(dataset, crack, problem.and_then(|problem| problem.symmetry_at(tip))) {
+    let loads = LoadCase { problem, factor: field.step.load };
+    if !is_half_known(dataset, crack, loads.symmetry(tip)) {
         return Err(CircleError::Disturbed(TipClearance::NONE));
     }
     let Dataset { domain, equation, tables, .. } = dataset;
@@ -304,50 +295,12 @@ fn on_plain(
         return Err(CircleError::NoDisplacement);
     }
     let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
-    heat.into_iter().for_each(|heat| space.heat(heat));
+    let law = Law::new(equation).heated(heat.as_ref());
     let radii = RADII.map(|part| part / RADII[RINGS - 1] * radius);
-    let found = under(problem, field.step.load, |loads| {
-        let integral = Interaction::new(&field, &space, tip, radii, loads);
-        integrate_tips(&space, integral.as_slice(), watcher)
-    })?;
+    let integral = Interaction::new(&field, &space, &law, tip, radii, &loads);
+    let found = integrate_tips(&space, integral.as_slice(), watcher)?;
     let found = found.into_iter().next().ok_or(CircleError::NoDisplacement)?;
     Ok(found.factors(tip))
-}
-
-/// The same under the loads of a problem that the field solves; none act without one.
-///
-/// # Errors
-/// Cancelled.
-pub(crate) fn intensities_under(
-    problem: Option<&Problem>,
-    dataset: &Dataset,
-    field: &Field<'_>,
-    space: &Space<'_>,
-    watcher: &dyn Watcher,
-) -> Result<Vec<TipOutcome>, Cancelled> {
-    let find = |loads: Loads<'_>| intensities(dataset, field, space, loads, watcher);
-    under(problem, field.step.load, find)
-}
-
-/// What is found under a multiple of the loads of a problem; none act without one.
-fn under<T>(problem: Option<&Problem>, factor: f64, find: impl FnOnce(Loads<'_>) -> T) -> T {
-    let times = |load: [f64; 2]| load.map(|part| factor * part);
-    let force = |x: Vec2| problem.map_or([0.0; 2], |problem| times(problem.source_at(x)));
-    let face = |crack: u32, side: Side, x: Vec2| {
-        problem.map_or([0.0; 2], |problem| times(problem.face_load(crack as usize, side, x)))
-    };
-    let friction = |crack: u32| problem.and_then(|problem| problem.contacts.get(&crack).copied());
-    let loads = Loads {
-        friction: Some(&friction),
-        force: problem.filter(|p| has_force(p)).map(|_| &force as PointLoad<'_>),
-        faces: problem.filter(|p| p.loads_faces()).map(|_| &face as FaceLoad<'_>),
-        symmetry: Some(&|tip| problem.and_then(|problem| problem.symmetry_at(tip))),
-    };
-    find(loads)
-}
-
-fn has_force(problem: &Problem) -> bool {
-    problem.source.iter().any(|component| component.constant() != Some(0.0))
 }
 
 /// False at a tip of a crack on the border of which no symmetry is known: nothing is known of its
@@ -363,11 +316,7 @@ fn cell_at(cells: &[Rect], at: Vec2) -> f64 {
 }
 
 impl TipOutcome {
-    fn new(
-        dataset: &Dataset,
-        field: &Field<'_>,
-        (tip, symmetry): (TipId, Option<Symmetry>),
-    ) -> Self {
+    fn new(dataset: &Dataset, field: &Field<'_>, tip: TipId, symmetry: Option<Symmetry>) -> Self {
         let crack = &field.step.cracks[tip.crack as usize];
         let at = crack.end_point(tip.end);
         let cell = cell_at(&field.step.partition.cells(), at);

@@ -12,13 +12,15 @@
 
 use super::block::PointBlock;
 use super::integral::Interaction;
-use super::{Loads, RADII, TipOutcome, TipSymmetry};
+use super::loads::TipLoads;
+use super::{RADII, TipOutcome};
 use ppum::crack::tips;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::vec2::Vec2;
 use ppum_problem::geometry::Placed;
 use ppum_solve::assembly::{FACTORS, Kernel, LinearFunctional};
+use ppum_solve::law::Law;
 use ppum_solve::quadrature::Rule;
 use ppum_solve::space::Space;
 
@@ -37,15 +39,15 @@ pub(crate) fn sensitivities<'a>(
     dataset: &Dataset,
     field: &'a Field<'a>,
     space: &'a Space<'a>,
-    symmetry: TipSymmetry<'a>,
+    law: &'a Law<'a>,
+    loads: &'a dyn TipLoads,
 ) -> Vec<Sensitivity<'a>> {
-    let loads = Loads { symmetry: Some(symmetry), ..Loads::default() };
     let of_tip = |outcome: TipOutcome| {
         let radii = RADII.map(|part| part * outcome.clearance.radius);
-        Interaction::new(field, space, outcome.tip, radii, loads)
+        Interaction::new(field, space, law, outcome.tip, radii, loads)
     };
-    let outcomes =
-        tips(&field.step.cracks).map(|tip| TipOutcome::new(dataset, field, (tip, symmetry(tip))));
+    let outcomes = tips(&field.step.cracks)
+        .map(|tip| TipOutcome::new(dataset, field, tip, loads.symmetry(tip)));
     outcomes.filter(TipOutcome::has_room).filter_map(of_tip).map(Sensitivity).collect()
 }
 

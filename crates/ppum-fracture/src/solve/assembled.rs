@@ -3,10 +3,9 @@
 use super::SolveError;
 use super::clock::Clock;
 use super::discretised::Discretised;
-use crate::intensity::{Sensitivity, TipDisc, sensitivities};
+use crate::intensity::{LoadCase, Sensitivity, TipDisc, sensitivities};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
-use ppum_problem::ForcePlace;
 use ppum_solve::assembly::{
     Assembly, Duals, FaceContacts, FreeModes, Functionals, Gauge, LinearFunctional, System,
     slivers, values_at,
@@ -15,6 +14,7 @@ use ppum_solve::basis::StableBasis;
 use ppum_solve::equilibrium::Plate;
 use ppum_solve::law::Law;
 use ppum_solve::quadrature::Face;
+use ppum_solve::terms::known_fields;
 use ppum_solve::watched::Stage;
 
 /// The system in the stable basis, without the penalty of the gauge.
@@ -36,15 +36,16 @@ impl Assembled {
     /// Loads without restraint, data and functions that are not finite; cancelled.
     pub(super) fn new(
         discretised: &Discretised<'_>,
+        law: &Law<'_>,
         clock: &mut Clock,
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
         let Discretised { problem, dataset, space, .. } = discretised;
         let (given, plate) = discretised.loaded(watcher)?;
         let field = Field::new(dataset, 0)?;
-        let symmetry = |tip| problem.symmetry_at(tip);
-        let tips = sensitivities(dataset, &field, space, &symmetry);
-        let law = &space.law();
+        // loads change no sensitivity
+        let loads = LoadCase { problem: Some(problem), factor: 0.0 };
+        let tips = sensitivities(dataset, &field, space, law, &loads);
         let basis = stable_basis(discretised, law, watcher)?;
         clock.lap(Phase::Basis);
         let assembly = Assembly { problem, space, basis: &basis, law };
@@ -55,7 +56,7 @@ impl Assembled {
         let functionals = Functionals { free: &free, duals: &duals };
         let system = System::new(assembly, &given, functionals, &stage);
         let mut system = system.map_err(SolveError::of_data)?;
-        add_forces(assembly, &mut system);
+        add_known(assembly, &mut system);
         let contacts = FaceContacts::new(assembly, &stage).map_err(SolveError::of_data)?;
         let moments = (std::mem::take(&mut system.moments), system.known.clone());
         let gauge = Gauge::new(free, moments, &system.matrix);
@@ -68,12 +69,11 @@ impl Assembled {
     }
 }
 
-/// Adds F·N(x₀) of the forces at points to the load.
-fn add_forces(assembly: Assembly<'_>, system: &mut System) {
-    for force in &assembly.problem.forces {
-        let face = assembly.problem.place_of(force).ok().and_then(ForcePlace::face).map(Face::from);
-        let values = values_at(assembly, &system.matrix, (force.at, face));
-        for (values, factor) in values.functionals.iter().zip([force.value.x, force.value.y]) {
+/// Adds F·N(x₀) of the loads F at singular points x₀ to the load.
+fn add_known(assembly: Assembly<'_>, system: &mut System) {
+    for field in known_fields(assembly.problem) {
+        let values = values_at(assembly, &system.matrix, (field.at, field.face.map(Face::from)));
+        for (values, factor) in values.functionals.iter().zip([field.load.x, field.load.y]) {
             system.load.iter_mut().zip(values).for_each(|(load, value)| *load += factor * value);
         }
     }

@@ -11,10 +11,11 @@ use ppum::dataset::{Attribute, Dataset, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
 use ppum_solve::adapt::{Estimated, LocalFields, estimated};
-use ppum_solve::law::Law;
+use ppum_solve::law::{Law, Temperature};
 use ppum_solve::norms::energy;
 use ppum_solve::report::{SolverReport, StopReason, Unresolved};
 use ppum_solve::space::Space;
+use ppum_solve::terms::known_fields;
 use ppum_solve::watched::Stage;
 
 /// Part of the largest [strength](TipOutcome::strength) of a tip below which factors count as
@@ -28,6 +29,7 @@ const ROUNDING: f64 = 1e-20;
 /// A solution whose errors are estimated.
 pub(super) struct Diagnosed<'p> {
     pub(super) plan: Plan<'p>,
+    temperature: Option<Temperature>,
     pub(super) report: SolverReport,
     /// Integrands that quadrature did not resolve.
     unresolved: Vec<Unresolved>,
@@ -55,13 +57,14 @@ impl<'p> Diagnosed<'p> {
     /// # Errors
     /// Data that are not finite; cancelled.
     pub(super) fn new(solved: Solved<'p>, watcher: &dyn Watcher) -> Result<Self, SolveError> {
-        let Solved { mut plan, mut report, local, unresolved, lonely, .. } = solved;
+        let Solved { mut plan, temperature, mut report, local, unresolved, lonely, .. } = solved;
         let (contact, mut tips) = (solved.contact, solved.tips);
         let Plan { discretised: Discretised { problem, dataset, space, .. }, clock, .. } =
             &mut plan;
         let stage = Stage::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
         let field = Field::new(dataset, 0)?;
-        let fields = LocalFields { space, coefficients: &local, lonely: &lonely };
+        let law = &Law::new(&problem.equation).heated(temperature.as_ref());
+        let fields = LocalFields { space, law, coefficients: &local, lonely: &lonely };
         let found = estimated(problem, &field, fields, &stage).map_err(SolveError::of_data)?;
         let cells = &space.partition().cell;
         let mut goal = Goal::new(&solved.dual_tips, cells, &found.products, &contact);
@@ -72,7 +75,7 @@ impl<'p> Diagnosed<'p> {
             factors.error = Some(error + of_segments * size(factors));
         }
         let Estimated { mut energy, squares, .. } = found;
-        if problem.forces.is_empty() {
+        if known_fields(problem).is_empty() {
             report.energy = Some(energy);
             report.whole_energy = problem.images().map(|images| images * energy);
         } else {
@@ -88,7 +91,7 @@ impl<'p> Diagnosed<'p> {
             report.estimated_error = Some((squares.iter().sum::<f64>() / (2.0 * energy)).sqrt());
             dataset.steps[0].attributes.push(indicator(&squares, energy));
         }
-        let mut diagnosed = Self { plan, report, unresolved, squares, tips, goal };
+        let mut diagnosed = Self { plan, temperature, report, unresolved, squares, tips, goal };
         if !diagnosed.goal.errors.is_empty() {
             let GoalError { of_cells, of_segments, .. } = diagnosed.goal();
             diagnosed.report.factor_error = Some(of_cells + of_segments);
@@ -125,7 +128,7 @@ impl<'p> Diagnosed<'p> {
         stop: Option<StopReason>,
         watcher: &dyn Watcher,
     ) -> Result<Dataset, SolveError> {
-        let Self { plan, mut report, unresolved, tips, .. } = self;
+        let Self { plan, temperature, mut report, unresolved, tips, .. } = self;
         let Plan { discretised, mut clock, .. } = plan;
         let Discretised { problem, mut dataset, ref space, crossed_twice, .. } = discretised;
         let field = Field::new(&dataset, 0)?;
@@ -136,6 +139,8 @@ impl<'p> Diagnosed<'p> {
             step: 0,
             field: &field,
             space,
+            law: &Law::new(&problem.equation).heated(temperature.as_ref()),
+            temperature: temperature.as_ref(),
             problem: Some(problem),
             report: &report,
             unresolved: &unresolved,
@@ -148,7 +153,7 @@ impl<'p> Diagnosed<'p> {
         step.intensities = tips.into_iter().filter_map(|outcome| outcome.factors).collect();
         step.warnings = diagnosis.warnings;
         step.history = report.records();
-        match space.temperature() {
+        match temperature {
             Some(temperature) => {
                 let dataset = temperature.joined(dataset, &problem.quantities);
                 dataset.check()?;

@@ -6,9 +6,9 @@ use ppum::progress::{Phase, Watcher};
 use ppum_problem::Problem;
 use ppum_solve::assembly::Given;
 use ppum_solve::equilibrium::{BodyPieces, Plate};
-use ppum_solve::forces::force_fields;
 use ppum_solve::refine::n_crossed_twice;
 use ppum_solve::space::{Mesh, Space, SpaceError, discretise_on};
+use ppum_solve::terms::known_fields;
 use ppum_solve::watched::Stage;
 
 /// A problem whose cover and functions are known.
@@ -40,16 +40,16 @@ impl<'p> Discretised<'p> {
         let dataset = dataset(problem, step.clone());
         dataset.check()?;
         stage.advance(0)?;
-        let heat = problem.heat().map(|heat| discretise_on(&heat, &mesh, stage));
+        let heat = problem.heat().map(|heat| discretise_on(heat, &mesh, stage));
         let heat = heat.transpose().map_err(|error| SolveError::of_heat(error.into()))?;
         let space = Space::of_problem(problem, step, heat.as_ref())?;
-        let bounds = &problem.domain.bounds;
+        let bounds = &problem.domain().bounds;
         if let Some(field) =
-            force_fields(problem).iter().find(|field| !field.fits(space.partition(), bounds))
+            known_fields(problem).iter().find(|field| !field.fits(space.partition(), bounds))
         {
-            let (at, reach) = (field.at(), field.reach);
+            let (at, reach) = (field.at, field.reach);
             let is_refined = problem.discretization.refine;
-            return Err(SpaceError::Force { at, reach, is_refined }.into());
+            return Err(SpaceError::Reach { at, reach, is_refined }.into());
         }
         Ok(Self { problem, mesh, dataset, space, heat, crossed_twice })
     }
@@ -60,7 +60,7 @@ impl<'p> Discretised<'p> {
     /// Loads without restraint, data that are not finite; cancelled.
     pub(super) fn loaded(&self, watcher: &dyn Watcher) -> Result<(Given<'p>, Plate), SolveError> {
         let Self { problem, space, .. } = self;
-        let pieces = BodyPieces::new(&problem.domain, &problem.cracks);
+        let pieces = BodyPieces::new(problem.domain(), problem.cracks());
         if pieces.all().is_empty() {
             return Err(SpaceError::Nothing.into());
         }
@@ -75,7 +75,7 @@ impl<'p> Discretised<'p> {
 
 fn dataset(problem: &Problem, step: Step) -> Dataset {
     let mut dataset =
-        Dataset::new(problem.domain.clone(), problem.equation.clone()).with_step(step);
+        Dataset::new(problem.domain().clone(), problem.equation.clone()).with_step(step);
     dataset.title.clone_from(&problem.title);
     dataset.program = concat!("ppum ", env!("CARGO_PKG_VERSION")).into();
     dataset.problem.clone_from(&problem.text);

@@ -320,8 +320,8 @@ fn least_patches(problem: &Problem) -> f64 {
         Cells::Grid([x, y]) => f64::from(*x) * f64::from(*y),
         Cells::Points(_) => 1.0,
     };
-    let bounds = &problem.domain.bounds;
-    let holes: f64 = problem.domain.holes.iter().map(|hole| area(hole, bounds)).sum();
+    let bounds = &problem.domain().bounds;
+    let holes: f64 = problem.domain().holes.iter().map(|hole| area(hole, bounds)).sum();
     let solid = (1.0 - holes / (bounds.size().x * bounds.size().y)).max(0.0);
     let refined = problem.discretization.refine;
     let tips = if refined { n_tips(problem) } else { 0.0 };
@@ -329,7 +329,7 @@ fn least_patches(problem: &Problem) -> f64 {
 }
 
 fn n_tips(problem: &Problem) -> f64 {
-    tips(&problem.cracks).count() as f64
+    tips(problem.cracks()).count() as f64
 }
 
 /// A bound of the area that a hole takes of a box.

@@ -33,7 +33,7 @@
 use crate::intensity::{TipDisc, TipOutcome};
 use faer::Mat;
 use ppum::vec2::Rect;
-use ppum_solve::assembly::ContactError;
+use ppum_solve::assembly::CellErrors;
 use ppum_solve::assembly::FACTORS;
 
 /// Exponent by which the strain of a dual solution falls from its tip, and that of its stress on
@@ -90,13 +90,13 @@ impl Goal {
         tips: &[TipDisc],
         cells: &[Rect],
         products: &[Mat<f64>],
-        touching: &[ContactError],
+        touching: &[CellErrors],
     ) -> Self {
         if tips.is_empty() {
             return Self::default();
         }
         let mut contact = vec![[0.0; FACTORS]; cells.len()];
-        for ContactError { cell, errors } in touching {
+        for CellErrors { cell, errors } in touching {
             contact[*cell].copy_from_slice(errors);
         }
         let mut sums = vec![[ErrorSum::default(); FACTORS]; tips.len()];

@@ -36,6 +36,7 @@ use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::{Phase, Watcher};
 use ppum_linear::Cholesky;
 use ppum_problem::Problem;
+use ppum_solve::law::Law;
 use ppum_solve::watched::Stage;
 use solved::Solved;
 
@@ -59,7 +60,8 @@ pub fn solve(problem: &Problem, watcher: &dyn Watcher) -> Result<Dataset, SolveE
 /// See [`SolveError`].
 pub fn spectrum(problem: &Problem, watcher: &dyn Watcher) -> Result<Spectrum, SolveError> {
     let plan = Plan::new(problem, None, watcher)?;
-    let assembled = Assembled::new(&plan.discretised, &mut Clock::new(), watcher)?;
+    let law = &Law::new(&problem.equation);
+    let assembled = Assembled::new(&plan.discretised, law, &mut Clock::new(), watcher)?;
     let Assembled { mut system, gauge, .. } = assembled;
     gauge.add_penalty(&mut system.matrix);
     let stage = Stage::uncounted(watcher, Phase::Solution)?;

@@ -15,15 +15,16 @@ use ppum_solve::watched::Stage;
 /// ```
 /// use ppum::progress::unwatched;
 /// use ppum::vec2::{Rect, vec2};
-/// use ppum_problem::{Cells, Condition, Discretization, Edge, Problem};
-/// use ppum_fracture::solve::{Plan, SolveError};
+/// use ppum_problem::{Cells, Condition, Discretization, Edge, Problem, ProblemData};
+/// use crate::solve::{Plan, SolveError};
 ///
 /// let domain = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
 /// let plate = |level| {
-///     Problem::poisson(domain, 1.0, Discretization::new(Cells::Level(level)))
-///         .with_boundary(Edge::Left, vec![Condition::Dirichlet(0.0.into())])
+///     let plate = ProblemData::poisson(domain, 1.0, Discretization::new(Cells::Level(level)));
+///     let zero = vec![Condition::Dirichlet(0.0.into())];
+///     Problem::new(plate.with_boundary(Edge::Left, zero)).map_err(SolveError::Problem)
 /// };
-/// let (small, large) = (plate(3), plate(10));
+/// let (small, large) = (plate(3)?, plate(10)?);
 /// let memory = Some(1 << 30);
 /// let plan = Plan::new(&small, memory, unwatched())?;
 /// assert_eq!(plan.estimate().patches, 64.0);
@@ -96,7 +97,7 @@ impl<'p> Plan<'p> {
     /// Loads without restraint, data that are not finite; cancelled.
     pub fn check(&self, watcher: &dyn Watcher) -> Result<(), SolveError> {
         if let Some(heat) = self.problem().heat() {
-            self.of_heat(&heat, watcher)?.check(watcher).map_err(SolveError::of_heat)?;
+            self.of_heat(heat, watcher)?.check(watcher).map_err(SolveError::of_heat)?;
         }
         self.discretised.loaded(watcher).map(drop)
     }
@@ -126,8 +127,8 @@ fn estimate(
     let Discretised { problem, space, heat, .. } = discretised;
     let own = Estimate::of_space(problem, space, memory);
     let Some((heat, step)) = problem.heat().zip(heat.take()) else { return Ok(own) };
-    let space = Space::of_problem(&heat, step, None)?;
-    Ok(own.after(&Estimate::of_space(&heat, &space, memory)))
+    let space = Space::of_problem(heat, step, None)?;
+    Ok(own.after(&Estimate::of_space(heat, &space, memory)))
 }
 
 /// The estimate, if what it needs is there.

@@ -5,19 +5,21 @@ use super::assembled::Assembled;
 use super::discretised::Discretised;
 use super::plan::Plan;
 use super::unknowns::Unknowns;
-use crate::intensity::{TipDisc, TipOutcome, intensities_under};
+use crate::intensity::{LoadCase, TipDisc, TipOutcome, intensities_by};
 use faer::Mat;
 use ppum::dataset::{Attribute, FieldData, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
-use ppum_solve::assembly::ContactError;
-use ppum_solve::heat::Temperature;
+use ppum_solve::assembly::CellErrors;
+use ppum_solve::law::{Law, Temperature};
 use ppum_solve::report::{ASSEMBLY_SECONDS, SolverReport, Unresolved};
 use ppum_solve::space::Space;
 
 /// A solution with the stress intensity factors of its tips.
 pub(super) struct Solved<'p> {
     pub(super) plan: Plan<'p>,
+    /// The temperature that strains the body, if one does.
+    pub(super) temperature: Option<Temperature>,
     /// The numbers of the report that are known with the solution.
     pub(super) report: SolverReport,
     /// Of each patch, the coefficients of the functions that the solver evaluates: a row for each
@@ -31,7 +33,7 @@ pub(super) struct Solved<'p> {
     /// The discs of the tips whose factors have dual solutions.
     pub(super) dual_tips: Vec<TipDisc>,
     /// The cells in which contact ends.
-    pub(super) contact: Vec<ContactError>,
+    pub(super) contact: Vec<CellErrors>,
     /// The findings about all tips.
     pub(super) tips: Vec<TipOutcome>,
 }
@@ -42,20 +44,20 @@ impl<'p> Solved<'p> {
     /// # Errors
     /// See [`SolveError`].
     pub(super) fn new(mut plan: Plan<'p>, watcher: &dyn Watcher) -> Result<Self, SolveError> {
-        if let Some(temperature) = temperature(&plan, watcher)? {
-            plan.discretised.space.heat(temperature);
-        }
+        let temperature = temperature(&plan, watcher)?;
+        let law = Law::new(&plan.problem().equation).heated(temperature.as_ref());
         let Plan { discretised, estimate, clock, .. } = &mut plan;
-        let mut assembled = Assembled::new(discretised, clock, watcher)?;
+        let mut assembled = Assembled::new(discretised, &law, clock, watcher)?;
         let unknowns = Unknowns::new(discretised, &mut assembled, estimate, watcher)?;
         clock.lap(Phase::Solution);
         let mut solved = Self::without_factors(plan, assembled, unknowns);
         let Plan { discretised: Discretised { problem, dataset, space, .. }, clock, .. } =
             &mut solved.plan;
         let field = Field::new(dataset, 0)?;
-        solved.tips = intensities_under(Some(problem), dataset, &field, space, watcher)?;
+        let loads = LoadCase { problem: Some(problem), factor: field.step.load };
+        solved.tips = intensities_by(&law, dataset, &field, space, &loads, watcher)?;
         clock.lap(Phase::Intensity);
-        Ok(solved)
+        Ok(Self { temperature, ..solved })
     }
 
     /// Writes the solution into the dataset of its plan.
@@ -78,7 +80,8 @@ impl<'p> Solved<'p> {
         write_known(space, &mut step.fields[0], &mut local);
         let unresolved = std::mem::take(&mut system.unresolved);
         let (lonely, tips, contact) = (basis.lonely, Vec::new(), unknowns.contact);
-        Self { plan, report, local, unresolved, lonely, dual_tips, contact, tips }
+        let temperature = None;
+        Self { plan, temperature, report, local, unresolved, lonely, dual_tips, contact, tips }
     }
 
     /// The factors of the tips that have any.
@@ -91,12 +94,10 @@ impl<'p> Solved<'p> {
 fn temperature(plan: &Plan<'_>, watcher: &dyn Watcher) -> Result<Option<Temperature>, SolveError> {
     let problem = plan.problem();
     let Some(heat) = problem.heat() else { return Ok(None) };
-    let solved =
-        Solved::new(plan.of_heat(&heat, watcher)?, watcher).map_err(SolveError::of_heat)?;
+    let solved = Solved::new(plan.of_heat(heat, watcher)?, watcher).map_err(SolveError::of_heat)?;
     let Solved { plan, report, unresolved, .. } = solved;
     let equation = problem.dataset_equation().into_owned();
-    let temperature = Temperature::new(plan.discretised.dataset, equation)?;
-    Ok(Some(temperature.with_report(report, unresolved)))
+    Ok(Some(Temperature::new(plan.discretised.dataset, equation, report, unresolved)?))
 }
 
 /// The report of a linear solver, with the numbers of the system.

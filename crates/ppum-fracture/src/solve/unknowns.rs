@@ -7,7 +7,7 @@ use super::discretised::Discretised;
 use super::estimate::Estimate;
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum_linear::{Cholesky, LinearError, LinearSolution, LinearSolver, Multilevel};
-use ppum_solve::assembly::ContactError;
+use ppum_solve::assembly::CellErrors;
 use ppum_solve::hierarchy::Finest;
 use ppum_solve::report::{LevelSize, LinearKind, SolverReport};
 use ppum_solve::space::Space;
@@ -18,7 +18,7 @@ pub(super) struct Unknowns {
     /// Those of the solution, without what is left of free motions, and of the dual solutions.
     pub(super) all: Vec<Vec<f64>>,
     /// The cells in which contact ends.
-    pub(super) contact: Vec<ContactError>,
+    pub(super) contact: Vec<CellErrors>,
     /// The numbers of the report that the linear solver knows.
     pub(super) report: SolverReport,
 }

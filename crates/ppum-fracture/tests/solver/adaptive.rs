@@ -5,14 +5,14 @@ use crate::studies::adapted::{
 };
 use crate::studies::exact_fields::SQUARE;
 use crate::studies::plates::pulled;
-use crate::studies::support::{record, solved};
+use crate::studies::support::{checked, record, solved};
 use ppum::dataset::{Dataset, Step};
-use ppum::domain::Hole;
+use ppum::domain::{Domain, Hole};
 use ppum::progress::{Phase, Progress, Verdict, unwatched};
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::diagnostics::kind;
 use ppum_fracture::solve::{Plan, SolveError, solve};
-use ppum_problem::{AdaptKind, Adaptivity, Cells, Keep, Problem};
+use ppum_problem::{AdaptKind, Adaptivity, Cells, Keep, ProblemData};
 use ppum_solve::report::{SolverReport, StopReason, forget_times};
 use ppum_testkit::random::Random;
 use std::ops::Range;
@@ -31,7 +31,7 @@ fn course(dataset: &Dataset, energy: Option<f64>) -> Vec<[f64; 2]> {
 /// A problem whose errors are known from its exact field or from its strain energy.
 struct Study {
     name: &'static str,
-    problem: Problem,
+    problem: ProblemData,
     energy: Option<f64>,
 }
 
@@ -152,7 +152,8 @@ fn energies_of_random_plates_grow() {
             let crack = (Vec2::from(ends[0]), Vec2::from(ends[1]));
             let away = ppum::segment::distance([crack.0, crack.1], center);
             let radius = (0.5 * away).clamp(0.02, 0.3);
-            problem.domain.holes = vec![Hole::Circle { center, radius }];
+            let holes = vec![Hole::Circle { center, radius }];
+            problem = problem.with_domain(Domain { bounds: SQUARE, holes });
         }
         let kind = [AdaptKind::H, AdaptKind::P, AdaptKind::Hp][case % 3];
         let dataset = solved(&on(problem, 1 + case % 2, set(kind, 2, 10_000)));
@@ -236,9 +237,11 @@ fn memory_ends_it() {
     let problem = on(corner(), 1, set(AdaptKind::H, 8, 100_000));
     let mut finer = problem.clone();
     finer.discretization.cells = Cells::Level(4);
-    let plan = Plan::new(&finer, None, unwatched()).expect("a plan");
+    let ready = checked(&finer);
+    let plan = Plan::new(&ready, None, unwatched()).expect("a plan");
     let memory = plan.estimate().memory as u64;
-    let plan = Plan::new(&problem, Some(memory), unwatched()).expect("a plan");
+    let ready = checked(&problem);
+    let plan = Plan::new(&ready, Some(memory), unwatched()).expect("a plan");
     let dataset = plan.solve(unwatched()).expect("a solution");
     assert_eq!(stop(&dataset), Some(StopReason::Memory));
     assert!(dataset.steps.len() > 1);
@@ -253,7 +256,7 @@ fn steps_are_watched() {
         heard.lock().expect("no panic").push(progress);
         Verdict::go_on_unless(progress.step == 1 && progress.phase == Phase::Solution)
     };
-    assert!(matches!(solve(&problem, &watcher), Err(SolveError::Cancelled(_))));
+    assert!(matches!(solve(&checked(&problem), &watcher), Err(SolveError::Cancelled(_))));
     let heard = heard.lock().expect("no panic");
     // the errors of a step are found when the next one has its cover
     let in_order =

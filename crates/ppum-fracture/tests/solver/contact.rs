@@ -1,6 +1,6 @@
 //! Faces that touch, against closed forms and what must hold whatever the cells.
 
-use crate::studies::support::{parsed, quantity, record, solved};
+use crate::studies::support::{checked, parsed, quantity, record, solved};
 use ppum::dataset::{Dataset, Fate, Material, StressState, TipIntensity};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -8,7 +8,7 @@ use ppum_fracture::diagnostics::{kind, recompute};
 use ppum_fracture::growth::series;
 use ppum_fracture::solve::{SolveError, solve};
 use ppum_problem::{
-    BorderPart, Cells, Condition, Discretization, Edge, GrowthRule, Order, Problem, SolverKind,
+    BorderPart, Cells, Condition, Discretization, Edge, GrowthRule, Order, ProblemData, SolverKind,
     Support,
 };
 use ppum_solve::report::forget_times;
@@ -48,19 +48,19 @@ impl Stress {
 type Line = Vec<[f64; 2]>;
 
 /// A free square plate under the tractions of a stress, with cracks.
-fn plate(half: f64, cells: u32, cracks: &[Line], stress: Stress) -> Problem {
+fn plate(half: f64, cells: u32, cracks: &[Line], stress: Stress) -> ProblemData {
     let bounds = Rect::new(vec2(-half, -half), vec2(half, half));
     let mut set = Discretization::new(Cells::Grid([cells, cells]));
     set.order = Order::Uniform(2);
-    let problem = Problem::elasticity(bounds, MATERIAL, set);
+    let problem = ProblemData::elasticity(bounds, MATERIAL, set);
     let problem = cracks.iter().fold(problem, |problem, crack| problem.with_crack(crack));
-    let load = |problem: Problem, edge: Edge| problem.with_boundary(edge, stress.on(edge));
+    let load = |problem: ProblemData, edge: Edge| problem.with_boundary(edge, stress.on(edge));
     Edge::ALL.into_iter().fold(problem, load)
 }
 
 /// The problem with all faces touching.
-fn touching(problem: Problem, friction: f64) -> Problem {
-    let all = 0..problem.cracks.len() as u32;
+fn touching(problem: ProblemData, friction: f64) -> ProblemData {
+    let all = 0..problem.cracks().len() as u32;
     all.fold(problem, |problem, crack| problem.with_contact(crack, friction))
 }
 
@@ -224,13 +224,14 @@ fn a_crack_in_bending_closes_on_a_third() {
     let expected = (PI / 3.0).sqrt() / 3.0;
     assert!((open / expected - 1.0).abs() < 6e-3, "{open} of {expected}");
     assert!(pressed.abs() < 3e-3 * open, "{pressed}");
-    let (found, _) = recompute(&dataset, 0, Some(&problem), unwatched()).expect("factors");
+    let (found, _) =
+        recompute(&dataset, 0, Some(&checked(&problem)), unwatched()).expect("factors");
     let again = found[1].factors.as_ref().expect("factors");
     assert_eq!(again.k1.to_bits(), open.to_bits());
 }
 
 /// A slanted crack in a square that is bent by tractions ±(load, a formula of x) along y.
-fn bent(load: &str, cells: u32, order: usize) -> Problem {
+fn bent(load: &str, cells: u32, order: usize) -> ProblemData {
     parsed(&format!(
         "[domain]\nmin = [-2, -2]\nmax = [2, 2]\n\
          [material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
@@ -321,7 +322,8 @@ fn pressed_cracks_grow_wings() {
     problem.discretization.order = Order::Uniform(1);
     let mut rule = GrowthRule::new(2);
     rule.increment = Some(0.3);
-    let dataset = series(&problem.with_growth(rule), None, unwatched()).expect("a series");
+    let dataset =
+        series(&checked(&problem.with_growth(rule)), None, unwatched()).expect("a series");
     assert_eq!(dataset.steps.len(), 3);
     assert!(dataset.steps[0].intensities.iter().all(|tip| tip.k1.abs() < 1e-3));
     for tip in &dataset.steps[2].intensities {
@@ -349,7 +351,7 @@ fn closed_tips_grow_by_what_slides_alone() {
              [[boundary]]\non = \"bottom\"\ntraction = [0, 1]\n\
              [discretization]\ncells = [8, 8]\nenrichment = \"zone\"\n[growth]\nsteps = 1\nincrement = 0.1\n"
         );
-        let dataset = series(&parsed(&text), None, unwatched()).expect("a series");
+        let dataset = series(&checked(&parsed(&text)), None, unwatched()).expect("a series");
         let growth = dataset.steps[0].growth.as_ref().expect("growth");
         let negative = tips(&dataset).iter().filter(|tip| tip.k1 < 0.0).count();
         (growth.tips.iter().map(|row| row.fate).collect::<Vec<_>>(), negative)
@@ -384,9 +386,7 @@ fn contact_that_cannot_be() {
     let loaded = problem().with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
     let mut multilevel = problem();
     multilevel.solver.kind = SolverKind::Multilevel;
-    let mut half = problem();
-    half.cracks.clear();
-    let half = half.with_crack(&[[-1.0, -1.0], [0.1, -1.0]]);
+    let half = problem().with_lines([vec![vec2(-1.0, -1.0), vec2(0.1, -1.0)]]);
     for (problem, words) in [
         (loaded, "boundary[4].on: the faces of this crack may touch"),
         (multilevel, "solver.kind: faces that touch need the direct solver"),
@@ -454,7 +454,7 @@ fn pieces_that_slide_away_are_told() {
         (0.0, PRESSED_ALONG_Y.times(-1.0), 0.5),
     ] {
         let problem = touching(plate(1.0, 9, &[cut(degrees, [0.0, 0.0])], stress), friction);
-        let error = solve(&problem, unwatched()).expect_err("a piece that moves");
+        let error = solve(&checked(&problem), unwatched()).expect_err("a piece that moves");
         let SolveError::Unbalanced(told) = error else { panic!("{error}") };
         assert_eq!(told.friction, Some(friction));
         let (sin, cos) = degrees.to_radians().sin_cos();
@@ -493,8 +493,10 @@ fn supports_of_pieces_that_touch() {
     {
         assert!((quantity(&dataset, name, at) - expected).abs() < 1e-10, "{name}");
     }
-    let error =
-        solve(&pressed(&[whole[0], whole[1], at(0.0, 0.6, [None, Some(0.0)])]), unwatched());
+    let error = solve(
+        &checked(&pressed(&[whole[0], whole[1], at(0.0, 0.6, [None, Some(0.0)])])),
+        unwatched(),
+    );
     let error = error.expect_err("the faces hold this");
     assert!(matches!(error, SolveError::Support(_)), "{error}");
 }

@@ -4,13 +4,13 @@
 //! geometrically towards every singular point (NGSolve 6.2.2608), right to 1e-7. Cells that are not
 //! refined towards these points had errors of 0.1 to 3.7 % in the energy and up to 5.6 % in K.
 
-use crate::studies::support::parsed;
+use crate::studies::support::{checked, parsed};
 use ppum::crack::End;
 use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
 use ppum::vec2::vec2;
 use ppum_fracture::solve::{Plan, solve};
-use ppum_problem::Problem;
+use ppum_problem::ProblemData;
 use ppum_solve::space::discretise;
 
 const PULLED: &str = r#"
@@ -33,7 +33,7 @@ traction = [0.3, 1.0]
 
 /// The plate [-1, 1]² of E = 1, ν = 0.3 in plane strain with more tables and the keys
 /// of `[discretization]`.
-fn plate(tables: &str, keys: &str) -> Problem {
+fn plate(tables: &str, keys: &str) -> ProblemData {
     let text = format!(
         "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
          state = \"plane-strain\"\n{tables}\n[discretization]\n{keys}\n"
@@ -42,7 +42,7 @@ fn plate(tables: &str, keys: &str) -> Problem {
 }
 
 fn solved_with(tables: &str, keys: &str) -> Dataset {
-    solve(&plate(tables, keys), unwatched()).expect("a solution")
+    solve(&checked(&plate(tables, keys)), unwatched()).expect("a solution")
 }
 
 fn solved(tables: &str) -> Dataset {
@@ -167,7 +167,7 @@ fn functions_of_corners_save_unknowns() {
     for Cornered { tables, .. } in [Cornered::right_angle(), Cornered::square()] {
         let unknowns = |keys: &str| {
             let problem = plate(&tables, &format!("level = 4\norder = 1\n{keys}"));
-            Plan::new(&problem, None, unwatched()).expect("a plan").estimate().unknowns
+            Plan::new(&checked(&problem), None, unwatched()).expect("a plan").estimate().unknowns
         };
         let [with, without] = ["", "enrichment = \"zone\""].map(unknowns);
         assert!(with < 0.8 * without, "{with} {without}");
@@ -346,7 +346,7 @@ fn loaded_corners_anywhere() {
              [discretization]\n{keys}\n"
         );
         let problem = parsed(&text);
-        let dataset = solve(&problem, unwatched()).expect("a solution");
+        let dataset = solve(&checked(&problem), unwatched()).expect("a solution");
         let tip = |end: End| {
             let mut all = dataset.steps[0].intensities.iter();
             let tip = all.find(|tip| tip.tip.end == end).expect("the tip");
@@ -394,7 +394,7 @@ fn assert_potential((hole, exact): (&str, f64), level: u32, order: usize, tolera
          level = {level}\norder = {order}\n"
     );
     let problem = parsed(&text);
-    let dataset = solve(&problem, unwatched()).expect("a solution");
+    let dataset = solve(&checked(&problem), unwatched()).expect("a solution");
     let error = 1.0 - energy(&dataset) / exact;
     assert!((-1e-7..tolerance).contains(&error), "{order}: {error}");
     let functions = dataset.steps[0].functions.iter();
@@ -425,7 +425,7 @@ fn corners_without_functions() {
     };
     let has_functions = |tables: &str, keys: &str| {
         let plate = plate(&format!("{PULLED}{tables}"), &format!("level = 4\norder = 1\n{keys}"));
-        let functions = discretise(&plate, unwatched()).expect("a space").functions;
+        let functions = discretise(&checked(&plate), unwatched()).expect("a space").functions;
         functions.iter().any(|f| f.name.starts_with("r^"))
     };
     let one = square(-0.3, -0.3, 0.6);

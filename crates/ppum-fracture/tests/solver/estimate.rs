@@ -1,28 +1,32 @@
 //! Estimates of the effort of a solution, against what it takes.
 
+use crate::studies::support::checked;
 use ppum::dataset::{Material, StressState};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, vec2};
 use ppum_fracture::solve::{Plan, SolveError, solve};
-use ppum_problem::{Cells, Condition, Discretization, Edge, Order, Problem, SolverKind, cracks};
+use ppum_problem::{Cells, Condition, Discretization, Edge, Order, ProblemData, SolverKind};
 use ppum_solve::report::LinearKind;
 
 const STEEL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 
-fn plate(level: u32, order: usize) -> Problem {
+fn plate(level: u32, order: usize) -> ProblemData {
     let square = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
     let mut discretization = Discretization::new(Cells::Level(level));
     discretization.order = Order::Uniform(order);
     let hold = vec![Condition::Dirichlet(0.0.into()); 2];
     let pull = vec![Condition::Neumann(0.0.into()), Condition::Neumann(1.0.into())];
-    Problem::elasticity(square, STEEL, discretization)
+    ProblemData::elasticity(square, STEEL, discretization)
         .with_crack(&[[-0.4, 0.1], [0.3, 0.1]])
         .with_boundary(Edge::Bottom, hold)
         .with_boundary(Edge::Top, pull)
 }
 
-fn refused(problem: &Problem, memory: u64) -> bool {
-    matches!(Plan::new(problem, Some(memory), unwatched()), Err(SolveError::TooLarge { .. }))
+fn refused(problem: &ProblemData, memory: u64) -> bool {
+    matches!(
+        Plan::new(&checked(problem), Some(memory), unwatched()),
+        Err(SolveError::TooLarge { .. })
+    )
 }
 
 /// The patches and unknowns are those of the solution; the memory grows with the problem.
@@ -31,9 +35,10 @@ fn an_estimate_counts_what_the_solution_has() {
     let mut memory = 0.0;
     for (level, order) in [(3, 1), (3, 2)] {
         let problem = plate(level, order);
-        let plan = Plan::new(&problem, None, unwatched()).expect("a plan");
+        let ready = checked(&problem);
+        let plan = Plan::new(&ready, None, unwatched()).expect("a plan");
         let estimate = *plan.estimate();
-        let step = solve(&problem, unwatched()).expect("a solution").steps.remove(0);
+        let step = solve(&checked(&problem), unwatched()).expect("a solution").steps.remove(0);
         let unknowns = step.history.iter().find(|r| r.name == "unknowns").expect("a record").value;
         assert_eq!(estimate.patches, step.partition.len() as f64);
         assert_eq!(estimate.unknowns, unknowns);
@@ -53,7 +58,8 @@ fn what_the_memory_does_not_hold_is_refused() {
     {
         let mut problem = plate(level, order);
         problem.solver.kind = kind;
-        let plan = Plan::new(&problem, None, unwatched()).expect("a plan");
+        let ready = checked(&problem);
+        let plan = Plan::new(&ready, None, unwatched()).expect("a plan");
         let needs = plan.estimate().memory.ceil() as u64;
         assert!(!refused(&problem, needs), "{level} {order}");
         assert!(refused(&problem, needs - 1), "{level} {order}");
@@ -65,8 +71,8 @@ fn what_the_memory_does_not_hold_is_refused() {
 #[test]
 fn a_small_memory_chooses_the_multilevel_solver() {
     let mut problem = plate(6, 2);
-    let chosen = |problem: &Problem, memory| {
-        Plan::new(problem, memory, unwatched()).map(|plan| *plan.estimate())
+    let chosen = |problem: &ProblemData, memory| {
+        Plan::new(&checked(problem), memory, unwatched()).map(|plan| *plan.estimate())
     };
     problem.solver.kind = SolverKind::Direct;
     let direct = chosen(&problem, None).expect("a plan");
@@ -88,7 +94,7 @@ fn a_small_memory_chooses_the_multilevel_solver() {
 fn what_no_machine_holds_is_refused_without_a_cover() {
     let problem = plate(10, 8);
     assert_eq!(problem.check(), Ok(()));
-    let error = Plan::new(&problem, Some(1 << 35), unwatched()).err().expect("too large");
+    let error = Plan::new(&checked(&problem), Some(1 << 35), unwatched()).err().expect("too large");
     let SolveError::TooLarge { needs, .. } = &error else { panic!("{error}") };
     assert!(needs.unknowns >= 9e7 && needs.memory > 5e11, "{needs:?}");
     let text = error.to_string();
@@ -106,9 +112,10 @@ fn many_cracks_are_refused_soon() {
         };
         vec![at(0.2, 0.5), at(0.8, 0.6)]
     };
-    problem.cracks = cracks((0..10_000).map(line), &problem.domain);
+    problem = problem.with_lines((0..10_000).map(line));
     assert_eq!(problem.check(), Ok(()));
-    let plan = Plan::new(&problem, Some(1 << 28), unwatched());
+    let ready = checked(&problem);
+    let plan = Plan::new(&ready, Some(1 << 28), unwatched());
     let error = plan.err().expect("too many").to_string();
     assert!(error.contains("memory"), "{error}");
 }
@@ -118,9 +125,10 @@ fn many_cracks_are_refused_soon() {
 fn loads_without_support_are_found_before_anything_is_solved() {
     let mut problem = plate(3, 2);
     problem.boundary.remove(0);
-    let plan = Plan::new(&problem, None, unwatched()).expect("a plan");
+    let ready = checked(&problem);
+    let plan = Plan::new(&ready, None, unwatched()).expect("a plan");
     assert!(matches!(plan.check(unwatched()), Err(SolveError::Unbalanced(_))));
     let early = plan.check(unwatched()).expect_err("unbalanced").to_string();
-    let late = solve(&problem, unwatched()).expect_err("unbalanced").to_string();
+    let late = solve(&checked(&problem), unwatched()).expect_err("unbalanced").to_string();
     assert_eq!(early, late);
 }

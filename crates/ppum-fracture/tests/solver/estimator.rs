@@ -13,7 +13,7 @@ use ppum::domain::{Domain, Hole};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::{Cells, Edge, Order, Problem};
+use ppum_problem::{Cells, Edge, Order, ProblemData};
 use ppum_testkit::exact::{ExactField as _, RoundHole, Smooth};
 use ppum_testkit::random::Random;
 
@@ -37,7 +37,7 @@ fn assert_manufactured(covers: &[(usize, u32)]) {
     let field = Smooth { material: MATERIAL };
     for &(order, level) in covers {
         let set = discretization(Cells::Level(level), order);
-        let mut problem = held(Problem::elasticity(SQUARE, MATERIAL, set), field.formulas());
+        let mut problem = held(ProblemData::elasticity(SQUARE, MATERIAL, set), field.formulas());
         problem.source = expressions(field.body_force_formulas());
         let dataset = solved(&problem);
         let error = errors(&dataset, &|p| both(field.evaluate(p))).energy;
@@ -90,7 +90,7 @@ fn round_holes() {
         for cells in [4, 8] {
             let domain = Domain { bounds, holes: vec![Hole::Circle { center, radius: 1.0 }] };
             let set = discretization(Cells::Grid([cells; 2]), order);
-            let problem = held(Problem::elasticity(domain, MATERIAL, set), field.formulas());
+            let problem = held(ProblemData::elasticity(domain, MATERIAL, set), field.formulas());
             let dataset = solved(&problem);
             let error = errors(&dataset, &|p| both(field.evaluate(p))).energy;
             assert_effective(&format!("order {order}, {cells} cells"), &dataset, error, SMOOTH);
@@ -128,7 +128,7 @@ fn known_energies() {
 }
 
 /// A Poisson problem on [−1, 1]² whose solution is given on the border.
-fn potential(exact: &str, source: &str, keys: &str) -> Problem {
+fn potential(exact: &str, source: &str, keys: &str) -> ProblemData {
     let edge = |name: &str| format!("[[boundary]]\non = \"{name}\"\nvalue = \"exact\"\n");
     let border: String = ["left", "right", "bottom", "top"].map(edge).concat();
     parsed(&format!(
@@ -139,7 +139,7 @@ fn potential(exact: &str, source: &str, keys: &str) -> Problem {
 
 fn assert_potential(
     name: &str,
-    problem: &Problem,
+    problem: &ProblemData,
     exact: &(dyn Fn(Vec2) -> Both + Sync),
     bounds: [f64; 2],
 ) {

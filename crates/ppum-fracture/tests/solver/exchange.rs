@@ -1,12 +1,12 @@
 //! Exchange with surroundings, κ ∂u/∂n = h (g − u): exact fields, what leaves through the border,
 //! and the limits of coefficients.
 
-use crate::studies::support::{Both, errors, parsed, quantity, record, solved};
+use crate::studies::support::{Both, checked, errors, parsed, quantity, record, solved};
 use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::solve::solve;
-use ppum_problem::{Cells, Problem};
+use ppum_problem::{Cells, Problem, ProblemData};
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -34,7 +34,7 @@ fn exchange(on: &str, h: &str, g: &str) -> String {
 
 /// A potential by formulas of its value and its derivatives, as a problem whose edges exchange with
 /// what makes it the solution.
-fn surrounded(u: &str, [ux, uy]: [&str; 2], h: &str, rest: &str, order: usize) -> Problem {
+fn surrounded(u: &str, [ux, uy]: [&str; 2], h: &str, rest: &str, order: usize) -> ProblemData {
     let on_edge = |(edge, n): (&str, Vec2)| {
         let g = format!("{u} + {KAPPA}*({ux}*({}) + {uy}*({}))/({h})", n.x, n.y);
         exchange(&format!("\"{edge}\""), h, &g)
@@ -180,6 +180,6 @@ fn mistakes() {
     wrong("value = 1\nexchange = -2", "must be positive");
     wrong("flux = 1\nexchange = 2", "needs the `value` of the surroundings");
     let text = plate("[[boundary]]\non = \"top\"\nvalue = 1\nexchange = \"x - 1\"\n", 2);
-    let error = solve(&parsed(&text), unwatched()).expect_err("a coefficient below zero");
+    let error = solve(&checked(&parsed(&text)), unwatched()).expect_err("a coefficient below zero");
     assert!(error.to_string().contains("exchange"), "{error}");
 }

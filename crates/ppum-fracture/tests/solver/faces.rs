@@ -15,7 +15,7 @@ use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::{
     BorderPart, BoundaryCondition, Cells, Condition, Discretization, Edge, Expression, Order,
-    Problem,
+    ProblemData,
 };
 use ppum_testkit::random::Random;
 
@@ -118,22 +118,22 @@ impl Case {
         self
     }
 
-    fn problem(&self) -> Problem {
+    fn problem(&self) -> ProblemData {
         let hole = |&(center, radius): &(Vec2, f64)| Hole::Circle { center, radius };
         let domain = Domain { bounds: self.bounds, holes: self.holes.iter().map(hole).collect() };
         let cells = Cells::Level(self.level);
         let mut set = Discretization::new(cells);
         (set.order, set.refine) = (Order::Uniform(self.order), self.refine);
         let problem = match self.flux.components {
-            1 => Problem::poisson(domain, CONDUCTIVITY, set),
-            _ => Problem::elasticity(domain, MATERIAL, set),
+            1 => ProblemData::poisson(domain, CONDUCTIVITY, set),
+            _ => ProblemData::elasticity(domain, MATERIAL, set),
         };
         let points = |crack: &Vec<Vec2>| crack.iter().map(|&p| p.into()).collect::<Vec<_>>();
         self.cracks.iter().fold(problem, |problem, crack| problem.with_crack(&points(crack)))
     }
 
     fn on_edges(&self) -> Dataset {
-        let with = |problem: Problem, edge: Edge| {
+        let with = |problem: ProblemData, edge: Edge| {
             problem.with_boundary(edge, self.flux.through(edge.normal()))
         };
         solved(&Edge::ALL.into_iter().fold(self.problem(), with))

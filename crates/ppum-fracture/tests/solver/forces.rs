@@ -1,7 +1,7 @@
 //! Forces at points: Kelvin's and Flamant's fields, pairs on the faces of a crack, and what must
 //! hold for any of them.
 
-use crate::studies::support::{parsed, quantity, record, solved};
+use crate::studies::support::{checked, parsed, quantity, record, solved};
 use ppum::dataset::Dataset;
 use ppum::expression::Expression;
 use ppum::progress::unwatched;
@@ -260,7 +260,7 @@ fn forces_beside_edges_need_small_cells() {
         let at = vec2(random.between(-0.5, 0.5), 1.0 - distance);
         let rest = format!("{held}{}", force(at, random.direction(), ""));
         let coarse = parsed(&body(0.3, 3, 8, &format!("refine = false\n{rest}")));
-        let coarse = solve(&coarse, unwatched()).expect_err("large cells").to_string();
+        let coarse = solve(&checked(&coarse), unwatched()).expect_err("large cells").to_string();
         assert!(coarse.contains("leave out `refine = false`"), "{coarse}");
         let on_edge = |refine: &str| {
             let dataset = solved(&parsed(&body(0.3, 3, 8, &(rest.clone() + refine))));
@@ -420,7 +420,8 @@ fn forces_without_room_and_without_balance_are_refused() {
         ),
         (force(vec2(0.2, 0.1), vec2(1.0, 0.0), ""), "a force of (1, 0)"),
     ] {
-        let error = solve(&parsed(&body(0.3, 2, 4, &rest)), unwatched()).expect_err("refused");
+        let error =
+            solve(&checked(&parsed(&body(0.3, 2, 4, &rest))), unwatched()).expect_err("refused");
         assert!(error.to_string().contains(expected), "{error}");
     }
 }

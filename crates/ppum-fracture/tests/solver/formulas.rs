@@ -15,7 +15,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::solve::solve;
 use ppum_problem::{
     BorderPart, BoundaryCondition, Cells, Condition, Edge, Enrichment, LocalEnrichment, Order,
-    Problem, Region, Site,
+    Problem, ProblemData, Region, Site,
 };
 use ppum_solve::norms::norms;
 use ppum_solve::report::forget_times;
@@ -23,22 +23,22 @@ use ppum_solve::space::{Space, discretise};
 use ppum_testkit::exact::ExactField;
 
 use crate::studies::exact_fields::{OBLIQUE, SQUARE, discretization};
-use crate::studies::support::{both, errors, parsed, solved};
+use crate::studies::support::{both, checked, errors, parsed, solved};
 
 /// Value and gradient of each component at `anchor + offset`.
 pub(crate) type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
 
 /// A problem of `examples/` at a level, with polynomials of a degree.
-fn example(name: &str, order: usize, level: u32) -> Problem {
+fn example(name: &str, order: usize, level: u32) -> ProblemData {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
-    let mut problem = Problem::read(&folder.join(name)).expect("a problem in order");
+    let mut problem = Problem::read(&folder.join(name)).expect("a problem in order").into_data();
     problem.discretization.order = Order::Uniform(order);
     problem.discretization.cells = Cells::Level(level);
     problem
 }
 
 /// The problem without its enrichments, interfaces left unresolved.
-fn bare(problem: &Problem) -> Problem {
+fn bare(problem: &ProblemData) -> ProblemData {
     let mut bare = problem.clone();
     bare.enrichments.clear();
     bare.discretization.interfaces = false;
@@ -46,7 +46,7 @@ fn bare(problem: &Problem) -> Problem {
 }
 
 /// The exact solution that a problem gives.
-pub(crate) fn given(problem: &Problem) -> impl Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync + use<> {
+pub(crate) fn given(problem: &ProblemData) -> impl Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync + use<> {
     let derivative = |f: &Formula, name| f.derivative(name).expect("a derivative");
     let jet = |f: &Formula| [f.clone(), derivative(f, "x"), derivative(f, "y")];
     let all: Vec<_> = problem.exact.iter().map(|e| jet(e.formula())).collect();
@@ -65,9 +65,9 @@ pub(crate) fn given(problem: &Problem) -> impl Fn(Vec2, Vec2) -> [Jet<f64>; 2] +
 
 /// Relative error in the energy norm, integrated over the pieces of the space of `fine`, which has
 /// the same cover.
-pub(crate) fn energy_error(dataset: &Dataset, fine: &Problem, exact: Exact<'_>) -> f64 {
-    let step = discretise(fine, unwatched()).expect("a space");
-    let space = Space::new(&step, &fine.domain, &fine.equation, &fine.tables)
+pub(crate) fn energy_error(dataset: &Dataset, fine: &ProblemData, exact: Exact<'_>) -> f64 {
+    let step = discretise(&checked(fine), unwatched()).expect("a space");
+    let space = Space::new(&step, fine.domain(), &fine.equation, &fine.tables)
         .expect("functions that compile");
     let field = Field::new(dataset, 0).expect("a field");
     let [_, reference, difference] = norms(&field, &space, exact);
@@ -157,7 +157,7 @@ fn corner(anchor: Vec2, offset: Vec2) -> [Jet<f64>; 2] {
     [Jet { x: gradient.x, y: gradient.y, ..Jet::constant(r * power * f) }, Jet::constant(0.0)]
 }
 
-fn corner_problem(order: usize, level: u32) -> Problem {
+fn corner_problem(order: usize, level: u32) -> ProblemData {
     let mut problem = example("interface-corner.toml", order, level);
     for kink in &mut problem.enrichments[1..] {
         kink.degree = Some(order - 1);
@@ -314,11 +314,11 @@ fn a_round_inclusion() {
 
 /// u = 0 on the right half of the lower edge of a plate, no flux on the left half: √r sin(θ/2),
 /// singular at a point of the border.
-fn changing_boundary() -> Problem {
+fn changing_boundary() -> ProblemData {
     let domain = Rect::new(vec2(-1.0, 0.0), vec2(1.0, 1.0));
     let mut set = discretization(Cells::Grid([6, 3]), 2);
     set.enrichment = Enrichment::None;
-    let mut problem = Problem::poisson(domain, 1.0, set);
+    let mut problem = ProblemData::poisson(domain, 1.0, set);
     let root = "sqrt(hypot(x, y))*sin(atan2(y, x)/2)";
     problem.exact = vec![root.parse().expect("a formula")];
     let site = Site::Point { at: vec2(0.0, 0.0), angle: 0.0 };
@@ -326,7 +326,7 @@ fn changing_boundary() -> Problem {
     let zero = vec![Condition::Dirichlet(0.0.into())];
     let lower = BorderPart::Edge { edge: Edge::Bottom, from: 0.0, to: 1.0 };
     problem.boundary.push(BoundaryCondition::new(lower, zero));
-    [Edge::Left, Edge::Right, Edge::Top].into_iter().fold(problem, Problem::with_exact_boundary)
+    [Edge::Left, Edge::Right, Edge::Top].into_iter().fold(problem, ProblemData::with_exact_boundary)
 }
 
 #[test]
@@ -341,7 +341,7 @@ fn a_singular_point_on_the_border() {
         // ∇ √r sin(θ/2) = (−sin(θ/2), cos(θ/2)) / (2√r)
         [Jet { x: -slope * s, y: slope * c, ..Jet::constant(r.sqrt() * s) }, Jet::constant(0.0)]
     };
-    let error = |problem: &Problem| energy_error(&solved(problem), &everywhere, &exact);
+    let error = |problem: &ProblemData| energy_error(&solved(problem), &everywhere, &exact);
     let found = [&everywhere, &problem, &bare(&problem)].map(error);
     println!("on the border: everywhere, at the point, without: {}", listed(&found));
     assert!(found[0] < 1e-9 && found[1] < 0.3 * found[2], "{found:?}");
@@ -357,7 +357,8 @@ fn williams_terms_as_enrichments() {
     set.enrichment_radius = Some(10.0);
     set.tip_degree = 0;
     let problem = OBLIQUE.problem(&field, set);
-    let error = |problem: &Problem| errors(&solved(problem), &|p| both(field.evaluate(p))).energy;
+    let error =
+        |problem: &ProblemData| errors(&solved(problem), &|p| both(field.evaluate(p))).energy;
     let functions = [
         "r^(3/2)*cos(3*theta/2)",
         "r^(3/2)*sin(3*theta/2)",
@@ -390,7 +391,7 @@ fn built_in_and_own_tip_functions_are_one() {
         name: "westergaard".to_owned(),
         ..LocalEnrichment::new(&WESTERGAARD, Site::Tips)
     }];
-    let step = |problem: &Problem| {
+    let step = |problem: &ProblemData| {
         let mut step = solved(problem).steps.remove(0);
         forget_times(&mut step);
         for function in &mut step.functions {
@@ -408,7 +409,7 @@ fn built_in_and_own_tip_functions_are_one() {
 fn functions_that_cannot_be_used() {
     let mut set = discretization(Cells::Level(3), 1);
     set.enrichment = Enrichment::None;
-    let one = Problem::poisson(SQUARE, 1.0, set);
+    let one = ProblemData::poisson(SQUARE, 1.0, set);
     let problem = |function: &str, site, region| {
         let mut problem = one.clone();
         problem.enrichments =
@@ -424,9 +425,10 @@ fn functions_that_cannot_be_used() {
         ("theta", at(0.3, 0.2), Region::Near(0.5), "`theta at [0.3, 0.2]` has infinite energy"),
         ("abs(y)", Site::World, right(2.0), "no patch has the enrichment `abs(y)`"),
     ] {
-        let error = solve(&problem(function, site, region), unwatched()).expect_err(function);
+        let error =
+            solve(&checked(&problem(function, site, region)), unwatched()).expect_err(function);
         assert!(error.to_string().contains(part), "{function}: {error}");
     }
-    discretise(&problem("sqrt(x)", Site::World, right(0.5)), unwatched())
+    discretise(&checked(&problem("sqrt(x)", Site::World, right(0.5))), unwatched())
         .expect("finite where it is needed");
 }

@@ -6,7 +6,7 @@ use crate::studies::plates::{Known, Plate, centre_cracks, end_shear, slanted_cra
 use crate::studies::support::{parsed, solved};
 use ppum::vec2::vec2;
 use ppum_fracture::diagnostics::kind;
-use ppum_problem::{Adaptivity, Cells, Order, Problem};
+use ppum_problem::{Adaptivity, Cells, Order, ProblemData};
 use ppum_testkit::random::Random;
 
 /// Limits of the effectivity, the estimated error over the error. Where K is nearly right by chance
@@ -46,7 +46,7 @@ fn errors_of_factors_are_known() {
 }
 
 /// A slanted crack anywhere in a square under a uniform stress on its border, in few cells.
-fn random_plate(random: &mut Random) -> Problem {
+fn random_plate(random: &mut Random) -> ProblemData {
     let (length, angle) = (random.between(0.25, 0.45), random.between(0.0, 3.0));
     let way = vec2(angle.cos(), angle.sin()) * length;
     let center = vec2(random.between(-0.3, 0.3), random.between(-0.3, 0.3));
@@ -66,7 +66,7 @@ fn random_plate(random: &mut Random) -> Problem {
 /// The estimated errors over the errors of all tips of random plates at an order, ascending. The
 /// references have order 8 on 8 × 8 cells.
 fn effectivities(random: &mut Random, orders: &[usize], plates: usize) -> Vec<f64> {
-    let on = |problem: &Problem, cells: u32, order: usize| {
+    let on = |problem: &ProblemData, cells: u32, order: usize| {
         let mut problem = problem.clone();
         problem.discretization.cells = Cells::Grid([cells; 2]);
         problem.discretization.order = Order::Uniform(order);

@@ -1,7 +1,7 @@
 //! Cracks that grow: kinks, paths, what they meet, loads and cycles, and series that
 //! are interrupted.
 
-use crate::studies::support::parsed;
+use crate::studies::support::{checked, parsed};
 use ppum::crack::{CrackEnd, End, TipId};
 use ppum::dataset::{Advance, Dataset, Fate, GrowthStop, Step, TipIntensity};
 use ppum::progress::{Progress, Verdict, unwatched};
@@ -13,7 +13,7 @@ use ppum_problem::{Criterion, Problem};
 use ppum_solve::report::forget_times;
 
 fn grown(text: &str) -> Vec<Step> {
-    series(&parsed(text), None, unwatched()).expect("a series").steps
+    series(&checked(&parsed(text)), None, unwatched()).expect("a series").steps
 }
 
 /// The row of a tip in the growth of a step.
@@ -100,7 +100,8 @@ fn kinks_of_local_symmetry() {
             discretization = {{ level = 3, order = 2 }}
             "#
         );
-        let dataset = ppum_fracture::solve::solve(&parsed(&text), unwatched()).expect("a solution");
+        let dataset =
+            ppum_fracture::solve::solve(&checked(&parsed(&text)), unwatched()).expect("a solution");
         let tip = &dataset.steps[0].intensities[0];
         [tip.k1, tip.k2]
     };
@@ -398,7 +399,7 @@ fn critical_loads() {
         let text = text
             .replace("[0, -1]", &format!("[0, {}]", -load))
             .replace("[0, 1]", &format!("[0, {load}]"));
-        series(&parsed(&text), None, unwatched()).expect("a series")
+        series(&checked(&parsed(&text)), None, unwatched()).expect("a series")
     };
     let (once, twice) = (plate(1.0), plate(2.0));
     for (a, b) in once.steps.iter().zip(&twice.steps) {
@@ -499,7 +500,7 @@ fn powers_out_of_range() {
 fn what_cannot_be_decided() {
     let first = |growth: &str| {
         let text = pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", growth);
-        series(&parsed(&text), None, unwatched()).expect_err("no decision").to_string()
+        series(&checked(&parsed(&text)), None, unwatched()).expect_err("no decision").to_string()
     };
     for (toughness, more) in [
         ("sqrt(-1 - x^2)", ""),
@@ -603,7 +604,7 @@ fn series_go_on_from_their_steps() {
         let (problem, whole) = (parsed(&text), grown(&text));
         let mut rest = Vec::new();
         let last = Last { number, step: &whole[number] };
-        grow(&problem, Some(last), None, unwatched(), |mut step| {
+        grow(&checked(&problem), Some(last), None, unwatched(), |mut step| {
             rest.append(&mut step.steps);
             Ok::<_, ()>(())
         })
@@ -629,7 +630,7 @@ fn a_step_has_a_problem_of_its_own() {
     let pressed = "boundary = [{ on = { crack = 1 }, pressure = 0.5 },";
     let text = pulled("[[-0.4, 0.1], [-0.2, 0.15]]", beside, "steps = 2, increment = 0.05");
     let text = text.replacen("boundary = [", pressed, 1);
-    let mut all = series(&parsed(&text), None, unwatched()).expect("a series");
+    let mut all = series(&checked(&parsed(&text)), None, unwatched()).expect("a series");
     assert!(all.steps[2].cracks[1].length() > all.steps[0].cracks[1].length());
     for step in 0..all.steps.len() {
         let problem = Problem::of_step(&all, step).expect("a problem");
@@ -661,13 +662,13 @@ fn series_are_cancelled() {
     let problem = parsed(&pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", "steps = 5, increment = 0.05"));
     let until = |progress: Progress| Verdict::go_on_unless(progress.step == 3);
     let mut kept = 0;
-    let ended = grow(&problem, None, None, &until, |_| {
+    let ended = grow(&checked(&problem), None, None, &until, |_| {
         kept += 1;
         Ok::<_, ()>(())
     });
     assert!(matches!(ended, Err(GrowthError::Solve(SolveError::Cancelled(_)))));
     assert_eq!(kept, 3);
-    let full = grow(&problem, None, None, unwatched(), |_| Err("full"));
+    let full = grow(&checked(&problem), None, None, unwatched(), |_| Err("full"));
     assert!(matches!(full, Err(GrowthError::Kept("full"))));
 }
 

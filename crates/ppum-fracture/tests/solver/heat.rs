@@ -4,7 +4,7 @@
 use super::eigenstrain::{
     Body, EDGES, STATES, WAVES, check, difference, factors, size, temperature,
 };
-use crate::studies::support::{parsed, quantity, record, solved};
+use crate::studies::support::{checked, parsed, quantity, record, solved};
 use ppum::dataset::{Dataset, TipIntensity, Warning};
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
@@ -12,7 +12,7 @@ use ppum_fracture::diagnostics::{kind, recompute};
 use ppum_fracture::growth::series;
 use ppum_fracture::intensity::on_circle;
 use ppum_fracture::solve::Plan;
-use ppum_problem::Problem;
+use ppum_problem::{Problem, ProblemData};
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -242,8 +242,14 @@ fn datasets_are_complete() {
         let again = again.factors.clone().expect("factors");
         assert_eq!(TipIntensity { error: None, ..known.clone() }, again);
         let radius = again.rings[2].r2;
-        let circle =
-            on_circle(&dataset, 0, known.tip, radius, Some(&again_problem(&dataset)), unwatched());
+        let circle = on_circle(
+            &dataset,
+            0,
+            known.tip,
+            radius,
+            Some(&checked(&again_problem(&dataset))),
+            unwatched(),
+        );
         let circle = circle.expect("factors");
         assert!((circle.k1 - again.k1).abs() + (circle.k2 - again.k2).abs() < 1e-12);
     }
@@ -280,7 +286,7 @@ fn warnings_of_the_temperature() {
         assert!((found.value / value - 1.0).abs() < 1e-9, "{} {value}", found.value);
         assert!(found.message.starts_with("the temperature: "), "{}", found.message);
     }
-    let (_, again) = recompute(&dataset, 0, Some(&problem), unwatched()).expect("a step");
+    let (_, again) = recompute(&dataset, 0, Some(&checked(&problem)), unwatched()).expect("a step");
     // a dataset does not hold what quadrature left open
     let expected: Vec<_> = found.iter().filter(|w| !w.kind.ends_with(kind::LOAD)).collect();
     assert_eq!(of_heat(&again).iter().collect::<Vec<_>>(), expected);
@@ -313,7 +319,7 @@ fn datasets_need_no_files() {
     drop(folder);
     assert!(dataset.problem.as_ref().expect("a text").contains("value = \"x\"\n"));
     let again = again_problem(&dataset);
-    let (tips, _) = recompute(&dataset, 0, Some(&again), unwatched()).expect("a step");
+    let (tips, _) = recompute(&dataset, 0, Some(&checked(&again)), unwatched()).expect("a step");
     let again: Vec<_> = tips.into_iter().filter_map(|tip| tip.factors).collect();
     assert_eq!(again.len(), 2);
     for (known, again) in dataset.steps[0].intensities.iter().zip(again) {
@@ -355,8 +361,9 @@ fn places_of_mistakes() {
 #[test]
 fn estimates_include_the_temperature() {
     let body = Body::random(&mut Random(183), STATES[0]);
-    let estimate =
-        |problem: &Problem| *Plan::new(problem, None, unwatched()).expect("a plan").estimate();
+    let estimate = |problem: &ProblemData| {
+        *Plan::new(&checked(problem), None, unwatched()).expect("a plan").estimate()
+    };
     // a temperature of many more functions than the displacement has
     let function =
         |k| format!("[[enrichment]]\nfunction = \"sin({k}*x)\"\nwhere = \"x < 9\"\ndegree = 3\n");
@@ -375,8 +382,8 @@ fn estimates_include_the_temperature() {
     }
 }
 
-fn again_problem(dataset: &Dataset) -> Problem {
-    Problem::of_dataset(dataset).expect("a problem").expect("a text")
+fn again_problem(dataset: &Dataset) -> ProblemData {
+    Problem::of_dataset(dataset).expect("a problem").expect("a text").into_data()
 }
 
 /// In each step of growth the temperature is that of the cracks as they are then.
@@ -386,7 +393,7 @@ fn cracks_grow_in_their_own_temperature() {
     let pulled = |on, t| format!("[[boundary]]\non = \"{on}\"\ntraction = [0, {t}]\n");
     let rest = heated(&body, &waves(WAVES)) + &pulled("top", 5.0) + &pulled("bottom", -5.0);
     let growth = "[growth]\nsteps = 2\nincrement = 0.1\n";
-    let all = series(&body.problem(&(rest.clone() + growth)), None, unwatched());
+    let all = series(&checked(&body.problem(&(rest.clone() + growth))), None, unwatched());
     let all = all.expect("a series");
     assert_eq!(all.steps.len(), 3);
     for step in &all.steps[1..] {
@@ -427,6 +434,31 @@ fn expansion_that_jumps_is_resolved() {
     for (a, b) in a.iter().zip(b) {
         let apart = (a.k1 - b.k1).hypot(a.k2 - b.k2);
         assert!(apart < 1e-7 * size, "{apart:.1e} of {size}");
+    }
+}
+
+/// The problem of a temperature has the body and the cells of its own where it says nothing of them:
+/// without these tables the solution has the same bits, and its dataset can be read again.
+#[test]
+fn temperatures_need_not_repeat_the_body() {
+    let mut random = Random(77);
+    for state in STATES {
+        let body = Body { order: 2, ..Body::random(&mut random, state) };
+        let whole = heat_text(&body, &on_edges("x + y"));
+        let is_body = |table: &&str| {
+            ["domain]", "[crack]]", "discretization]"].iter().any(|t| table.starts_with(t))
+        };
+        let rest: Vec<_> = whole.split("\n[").filter(|table| !is_body(table)).collect();
+        assert_eq!(whole.split("\n[").count(), rest.len() + 3, "{whole}");
+        let short = format!("[temperature]\nproblem = '''\n{}'''\n", rest.join("\n["));
+        let held = "[[boundary]]\non = \"top\"\ndisplacement = [0, 0]\n";
+        let [expected, found] = [heated(&body, &on_edges("x + y")), short]
+            .map(|heat| solved(&parsed(&body.text(&(heat + held)))));
+        assert_eq!(expected.steps[0].fields, found.steps[0].fields);
+        assert_eq!(expected.steps[0].intensities, found.steps[0].intensities);
+        let again = again_problem(&found);
+        assert_eq!(again.temperature, parsed(found.problem.as_ref().expect("a text")).temperature);
+        assert_eq!(again.body, again.temperature.as_ref().expect("heat").problem.body);
     }
 }
 

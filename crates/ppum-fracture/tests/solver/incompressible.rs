@@ -6,14 +6,14 @@ use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::diagnostics::kind;
-use ppum_problem::{Cells, Order, Problem};
+use ppum_problem::{Cells, Order, ProblemData};
 use ppum_testkit::random::Random;
 
 use crate::studies::exact_fields::{SQUARE, discretization, expressions, held};
 use crate::studies::support::{Errors, errors, parsed, solved};
 
 /// The plate of `examples/centre-crack-tension.toml`.
-fn cracked(material: &str, discretization: &str) -> Problem {
+fn cracked(material: &str, discretization: &str) -> ProblemData {
     let text = format!(
         "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[material]\nyoung = 1\n{material}\n[[crack]]\n\
          points = [[-0.5, 0.0], [0.5, 0.0]]\n[[boundary]]\non = \"bottom\"\ntraction = [0, -1]\n\
@@ -97,7 +97,7 @@ fn manufactured(poisson: f64, level: u32, order: usize) -> (Material, Dataset) {
     let [u, v] = ["-1.5*sin(2*x + 0.3)*sin(1.5*y)", "-2*cos(2*x + 0.3)*cos(1.5*y)"];
     let set = discretization(Cells::Level(level), order);
     let exact = [format!("{u} + x^2/{lambda:?}"), v.to_owned()];
-    let mut problem = held(Problem::elasticity(SQUARE, material, set), exact);
+    let mut problem = held(ProblemData::elasticity(SQUARE, material, set), exact);
     let (force, push) = (6.25 * mu, 2.0 * (lambda + 2.0 * mu) / lambda);
     problem.source =
         expressions([format!("{force:?}*({u}) - {push:?}"), format!("{force:?}*({v})")]);

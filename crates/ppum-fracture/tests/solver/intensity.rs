@@ -5,24 +5,24 @@ use crate::studies::support::solved;
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::unwatched;
-use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_fracture::intensity::{Loads, Obstacle, TipOutcome, intensities};
-use ppum_problem::{BorderPart, Cells, Condition, Edge, Expression, Problem};
+use ppum::vec2::{Rect, vec2};
+use ppum_fracture::intensity::{LoadCase, Obstacle, TipOutcome, intensities};
+use ppum_problem::{BorderPart, Cells, Condition, Edge, Expression, ProblemData};
 use ppum_solve::space::Space;
 use ppum_testkit::exact::{CollinearCracks, CrackInPlane, ExactField as _, Williams};
 
-fn outcomes(dataset: &Dataset, loads: Loads<'_>) -> Vec<TipOutcome> {
+fn outcomes(dataset: &Dataset, loads: LoadCase<'_>) -> Vec<TipOutcome> {
     let step = &dataset.steps[0];
     let space =
         Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables).expect("functions");
-    intensities(dataset, &Field::new(dataset, 0).expect("a field"), &space, loads, unwatched())
+    intensities(dataset, &Field::new(dataset, 0).expect("a field"), &space, &loads, unwatched())
         .expect("nobody stops it")
 }
 
 /// The right half of two collinear cracks in the infinite plane, cut out by its exact tractions:
 /// the line of symmetry, on which u_x and the shear vanish, is the left border at the distance
 /// `gap` from the inner tip.
-fn half_of_two_cracks(gap: f64, order: usize, refine: bool) -> (Problem, [f64; 2]) {
+fn half_of_two_cracks(gap: f64, order: usize, refine: bool) -> (ProblemData, [f64; 2]) {
     let field = CollinearCracks::new(gap, gap + 1.0, 1.0);
     let domain = Rect::new(vec2(0.0, -1.5), vec2(2.5, 1.5));
     let [xx, yy, xy] = field.stress_formulas().map(|text| Expression::parse(&text).expect("text"));
@@ -35,7 +35,7 @@ fn half_of_two_cracks(gap: f64, order: usize, refine: bool) -> (Problem, [f64; 2
     };
     let mut set = discretization(Cells::Grid([10, 12]), order);
     set.refine = refine;
-    let problem = Problem::elasticity(domain, MATERIAL, set)
+    let problem = ProblemData::elasticity(domain, MATERIAL, set)
         .with_crack(&[[gap, 0.0], [gap + 1.0, 0.0]])
         .with_boundary(Edge::Left, vec![Condition::Dirichlet(0.0.into()), Condition::Free])
         .with_boundary(Edge::Right, load(&xx, &xy))
@@ -49,7 +49,7 @@ fn half_of_two_cracks(gap: f64, order: usize, refine: bool) -> (Problem, [f64; 2
 fn tips_near_the_border() {
     let (problem, [_, exact]) = half_of_two_cracks(0.02, 2, true);
     let dataset = solved(&problem);
-    let [inner, _] = outcomes(&dataset, Loads::default()).try_into().expect("two tips");
+    let [inner, _] = outcomes(&dataset, LoadCase::default()).try_into().expect("two tips");
     let factors = inner.factors.expect("room enough in refined cells");
     let error = factors.k1 / exact - 1.0;
     println!("{error:.1e}, clearance {:?}, cell {}", inner.clearance, inner.cell);
@@ -62,7 +62,7 @@ fn tips_near_the_border() {
 fn too_little_room_is_no_value() {
     let (problem, [outer, _]) = half_of_two_cracks(0.02, 2, false);
     let dataset = solved(&problem);
-    let [inner, far] = outcomes(&dataset, Loads::default()).try_into().expect("two tips");
+    let [inner, far] = outcomes(&dataset, LoadCase::default()).try_into().expect("two tips");
     assert_eq!(inner.factors, None);
     assert!((inner.clearance.radius - 0.02).abs() < 1e-15 && (inner.cell - 0.25).abs() < 1e-15);
     assert!(inner.needed() > inner.clearance.radius && inner.needed() <= inner.cell);
@@ -88,18 +88,18 @@ fn a_constant_body_force() {
         format!("({uy}) + {}*x*y", 2.0 * poisson * c),
     ];
     let set = discretization(Cells::Level(3), 2);
-    let plate = Problem::elasticity(SQUARE, MATERIAL, set).with_crack(&[[-1.0, 0.0], [0.1, 0.0]]);
+    let plate =
+        ProblemData::elasticity(SQUARE, MATERIAL, set).with_crack(&[[-1.0, 0.0], [0.1, 0.0]]);
     let mut problem = held(plate, exact);
     problem.source = vec![FORCE.into(), 0.0.into()];
     let dataset = solved(&problem);
-    let force = |_: Vec2| [FORCE, 0.0];
     let k = |loads| {
         let [outcome] = outcomes(&dataset, loads).try_into().expect("a tip");
         let factors: ppum::dataset::TipIntensity = outcome.factors.expect("room");
         [factors.k1, factors.k2]
     };
-    let [k1, k2] = k(Loads { force: Some(&force), ..Loads::default() });
-    let [without, _] = k(Loads::default());
+    let [k1, k2] = k(LoadCase { problem: Some(&problem), factor: 1.0 });
+    let [without, _] = k(LoadCase::default());
     println!("K {k1} {k2}, without the term {without}");
     assert!((k1 - 1.0).abs() < 2e-4 && (k2 - 0.5).abs() < 2e-4, "{k1} {k2}");
     assert!((without - 1.0).abs() > 0.05, "{without}");
@@ -122,7 +122,7 @@ fn pressure_on_the_faces() {
     };
     let exact = [less(ux, "x"), less(uy, "y")];
     let ends = [vec2(0.03, 0.02) - along * a, vec2(0.03, 0.02) + along * a];
-    let plate = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 2))
+    let plate = ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 2))
         .with_crack(&ends.map(Into::into))
         .with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
     let dataset = solved(&held(plate, exact));
@@ -132,7 +132,7 @@ fn pressure_on_the_faces() {
         assert!((tip.k1 / k1 - 1.0).abs() < 1e-3 && tip.k2.abs() < 1e-3 * k1, "{tip:?} {k1}");
     }
     // without the term of the faces
-    let [start, _] = outcomes(&dataset, Loads::default()).try_into().expect("two tips");
+    let [start, _] = outcomes(&dataset, LoadCase::default()).try_into().expect("two tips");
     let without = start.factors.expect("room").k1;
     assert!((without / k1 - 1.0).abs() > 0.05, "{without} {k1}");
 }

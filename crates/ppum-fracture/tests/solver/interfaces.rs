@@ -3,14 +3,14 @@
 use ppum::dataset::Step;
 use ppum::progress::unwatched;
 use ppum::vec2::vec2;
-use ppum_problem::{Cells, Enrichment, LocalEnrichment, Order, Problem, Region, Site};
+use ppum_problem::{Cells, Enrichment, LocalEnrichment, Order, ProblemData, Region, Site};
 use ppum_solve::space::discretise;
 
 use super::formulas::{energy_error, given, study};
-use crate::studies::support::{parsed, solved};
+use crate::studies::support::{checked, parsed, solved};
 
 /// A plate [−1, 1]² with the displacement of its exact solution on all edges.
-fn held(equation: &str, material: &str, unknown: &str, exact: &str) -> Problem {
+fn held(equation: &str, material: &str, unknown: &str, exact: &str) -> ProblemData {
     let edge = |on: &str| format!("[[boundary]]\non = \"{on}\"\n{unknown} = \"exact\"\n");
     let edges: String = ["left", "right", "bottom", "top"].map(edge).concat();
     let text = format!(
@@ -21,7 +21,7 @@ fn held(equation: &str, material: &str, unknown: &str, exact: &str) -> Problem {
 }
 
 /// The same with polynomials of a degree on equal cells of a level.
-fn with(problem: &Problem, order: usize, level: u32) -> Problem {
+fn with(problem: &ProblemData, order: usize, level: u32) -> ProblemData {
     let mut problem = problem.clone();
     problem.discretization.order = Order::Uniform(order);
     problem.discretization.cells = Cells::Level(level);
@@ -29,7 +29,7 @@ fn with(problem: &Problem, order: usize, level: u32) -> Problem {
     problem
 }
 
-fn error(problem: &Problem) -> f64 {
+fn error(problem: &ProblemData) -> f64 {
     energy_error(&solved(problem), problem, &given(problem))
 }
 
@@ -69,7 +69,7 @@ fn a_stretch_across_a_straight_interface_is_exact() {
 /// ```text
 /// outside 2μ u = κ a/z + a z/z̄² + S z̄ − b/z̄³,   inside 2μ' u = (S − α) z̄
 /// ```
-fn goodier(young: f64, poisson: f64, state: &str) -> Problem {
+fn goodier(young: f64, poisson: f64, state: &str) -> ProblemData {
     let kolosov = |nu: f64| match state {
         "plane-strain" => 3.0 - 4.0 * nu,
         _ => (3.0 - nu) / (1.0 + nu),
@@ -104,7 +104,7 @@ fn goodier(young: f64, poisson: f64, state: &str) -> Problem {
 
 /// A disc of conductivity k in a uniform field: u = 2 x/(1 + k) inside, (1 + (1 − k)/(1 + k) R²/r²)
 /// x outside.
-fn disc_in_a_field(k: f64) -> Problem {
+fn disc_in_a_field(k: f64) -> ProblemData {
     let (c, d) = (2.0 / (1.0 + k), 0.36 * (1.0 - k) / (1.0 + k));
     let inside = "hypot(x - 0.05, y + 0.03) < 0.6";
     held(
@@ -120,7 +120,7 @@ fn disc_in_a_field(k: f64) -> Problem {
 /// Rates in the energy norm. Cut patches are better than others, and the ring that they fill
 /// shrinks: of the rate p at each place, a part is missing in the sum, up to 0.35 where the field
 /// varies everywhere. Unresolved interfaces have the rate 1/2.
-fn assert_rate(problem: &Problem, order: usize, missing: f64) {
+fn assert_rate(problem: &ProblemData, order: usize, missing: f64) {
     let (_, rate) = study(3, |level| error(&with(problem, order, level)));
     let near = order as f64 - missing..order as f64 + 0.3;
     assert!(near.contains(&rate), "order {order}: rate {rate}");
@@ -166,7 +166,7 @@ fn a_jump_of_given_strains_across_a_line_is_exact() {
 /// disc, so that more of the rate is missing: of order 3 on levels 3, 4 and 5 it is 2.54 and 2.53
 /// in all, 3.2 and 3.3 in the half of the ring inside, 2.8 in the other, and 1.6 and 2.3 in what
 /// the ring of 1.5 cells leaves.
-fn hot_disc() -> Problem {
+fn hot_disc() -> ProblemData {
     let (nu, alpha): (f64, f64) = (0.3, 0.5);
     let c = 0.5 * (1.0 + nu) * alpha / (1.0 - nu);
     let component = |v: &str| {
@@ -226,7 +226,7 @@ fn only_jumps_of_given_strains_are_interfaces() {
 }
 
 /// A plate with a crack and materials given by formulas.
-fn cracked(young: &str, poisson: &str) -> Problem {
+fn cracked(young: &str, poisson: &str) -> ProblemData {
     let text = format!(
         "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = \"{young}\"\npoisson = \"{poisson}\"\n\
          state = \"plane-strain\"\n[[crack]]\npoints = [[-0.6, 0.02], [0.3, 0.02]]\n[[boundary]]\non = \"top\"\n\
@@ -235,8 +235,8 @@ fn cracked(young: &str, poisson: &str) -> Problem {
     parsed(&text)
 }
 
-fn space(problem: &Problem) -> Step {
-    discretise(problem, unwatched()).expect("a space")
+fn space(problem: &ProblemData) -> Step {
+    discretise(&checked(problem), unwatched()).expect("a space")
 }
 
 /// E and ν that jump on the same curve, however it is written, are one interface.

@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::solve::{Plan, spectrum};
-use ppum_problem::{Cells, Condition, Discretization, Edge, Order, Problem};
+use ppum_problem::{Cells, Condition, Discretization, Edge, Order, ProblemData};
 
 use crate::studies::exact_fields::MATERIAL;
-use crate::studies::support::{record, solved, strain_energy};
+use crate::studies::support::{checked, record, solved, strain_energy};
 use ppum_testkit::random::Random;
 
 type Line = Vec<[f64; 2]>;
@@ -17,12 +17,12 @@ type Line = Vec<[f64; 2]>;
 type Case = (&'static str, Vec<Line>, Vec<[f64; 2]>);
 
 /// A square plate with these cracks under tension in y, and in x too if it is pulled all round.
-fn plate(half: f64, lines: &[Line], all_round: bool, level: u32, order: usize) -> Problem {
+fn plate(half: f64, lines: &[Line], all_round: bool, level: u32, order: usize) -> ProblemData {
     let domain = Rect::around(Vec2::ZERO, vec2(half, half));
     let pull = |x: f64, y: f64| vec![Condition::Neumann(x.into()), Condition::Neumann(y.into())];
     let mut set = Discretization::new(Cells::Level(level));
     set.order = Order::Uniform(order);
-    let mut problem = Problem::elasticity(domain, MATERIAL, set)
+    let mut problem = ProblemData::elasticity(domain, MATERIAL, set)
         .with_boundary(Edge::Bottom, pull(0.0, -1.0))
         .with_boundary(Edge::Top, pull(0.0, 1.0));
     if all_round {
@@ -34,7 +34,7 @@ fn plate(half: f64, lines: &[Line], all_round: bool, level: u32, order: usize) -
 }
 
 /// K_I and K_II of all tips.
-fn factors(problem: &Problem) -> Vec<[f64; 2]> {
+fn factors(problem: &ProblemData) -> Vec<[f64; 2]> {
     let dataset = solved(problem);
     dataset.steps[0].intensities.iter().map(|tip| [tip.k1, tip.k2]).collect()
 }
@@ -225,8 +225,9 @@ fn factors_of_a_hook() {
     }
 }
 
-fn n_cells(problem: &Problem) -> usize {
-    let plan = Plan::new(problem, None, unwatched()).expect("a plan");
+fn n_cells(problem: &ProblemData) -> usize {
+    let ready = checked(problem);
+    let plan = Plan::new(&ready, None, unwatched()).expect("a plan");
     plan.dataset().steps[0].partition.len()
 }
 
@@ -301,7 +302,7 @@ fn beside(place: usize, exponent: i32) -> Vec<Line> {
 fn condition(lines: &[Line], order: usize) -> f64 {
     let hold = vec![Condition::Dirichlet(0.0.into()), Condition::Dirichlet(0.0.into())];
     let held = plate(4.0, lines, false, 3, order).with_boundary(Edge::Left, hold);
-    spectrum(&held, unwatched()).expect("a spectrum").condition()
+    spectrum(&checked(&held), unwatched()).expect("a spectrum").condition()
 }
 
 /// Asserts that conditions are those of one magnitude.

@@ -8,7 +8,7 @@ use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::solve::solve;
 
-use crate::studies::support::{parsed, strain_energy};
+use crate::studies::support::{checked, parsed, strain_energy};
 
 const PLATE: &str = r#"
 [domain]
@@ -65,7 +65,7 @@ functions = [
 fn solved(discretization: &str) -> Dataset {
     let text = PLATE.to_owned() + discretization;
     let problem = parsed(&text);
-    solve(&problem, unwatched()).expect("a solution")
+    solve(&checked(&problem), unwatched()).expect("a solution")
 }
 
 /// Relative differences of K and of the energy, and the largest of strains, which are of size 1.

@@ -7,14 +7,14 @@ use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, vec2};
 use ppum_fracture::intensity::{clearance, on_circle};
-use ppum_problem::{BorderPart, Cells, Condition, Discretization, Edge, Problem};
+use ppum_problem::{BorderPart, Cells, Condition, Discretization, Edge, ProblemData};
 
 const PLATE: Rect = Rect::new(vec2(-2.0, -2.0), vec2(2.0, 2.0));
 
 /// A cracked plate under normal tractions of the given sizes along x and along y.
-fn pulled(domain: Rect, points: &[[f64; 2]], [x, y]: [f64; 2], set: Discretization) -> Problem {
+fn pulled(domain: Rect, points: &[[f64; 2]], [x, y]: [f64; 2], set: Discretization) -> ProblemData {
     let load = |x: f64, y: f64| vec![Condition::Neumann(x.into()), Condition::Neumann(y.into())];
-    Problem::elasticity(domain, MATERIAL, set)
+    ProblemData::elasticity(domain, MATERIAL, set)
         .with_crack(points)
         .with_boundary(Edge::Left, load(-x, 0.0))
         .with_boundary(Edge::Right, load(x, 0.0))

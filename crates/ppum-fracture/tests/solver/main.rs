@@ -11,6 +11,7 @@ mod estimator;
 mod examples;
 mod exchange;
 mod faces;
+mod features;
 mod forces;
 mod foreign;
 mod formulas;

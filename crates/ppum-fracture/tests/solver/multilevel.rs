@@ -3,7 +3,7 @@
 //!
 //! Covers have at least 3,000 unknowns, below which a system is its own coarsest level.
 
-use crate::studies::support::{parsed, record, solved, unknowns};
+use crate::studies::support::{checked, parsed, record, solved, unknowns};
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
@@ -12,7 +12,7 @@ use ppum::progress::{Phase, Progress, Verdict};
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::diagnostics::kind;
 use ppum_fracture::solve::{SolveError, solve};
-use ppum_problem::{Problem, SolverKind};
+use ppum_problem::{ProblemData, SolverKind};
 use ppum_solve::norms::energy;
 use ppum_solve::report::SolverReport;
 use ppum_solve::space::Space;
@@ -28,14 +28,14 @@ fn crack(points: &str) -> String {
     format!("[[crack]]\npoints = {points}\n")
 }
 
-fn parse(text: &str, level: u32, order: usize) -> Problem {
+fn parse(text: &str, level: u32, order: usize) -> ProblemData {
     let text = format!("{text}[discretization]\nlevel = {level}\norder = {order}\n");
     parsed(&text)
 }
 
 /// The solution by a solver. A multilevel one has several levels: on one alone it would be the
 /// direct solver.
-fn by(kind: SolverKind, problem: &Problem) -> Dataset {
+fn by(kind: SolverKind, problem: &ProblemData) -> Dataset {
     let mut problem = problem.clone();
     problem.solver.kind = kind;
     let dataset = solved(&problem);
@@ -88,7 +88,7 @@ fn energy_apart(a: &Dataset, b: &Dataset) -> f64 {
 }
 
 /// Both solvers give the same to 1e-9, the thousandfold of what may be left in the energy norm.
-fn agree(name: &str, problem: &Problem) {
+fn agree(name: &str, problem: &ProblemData) {
     let (direct, multilevel) =
         (by(SolverKind::Direct, problem), by(SolverKind::Multilevel, problem));
     let field = apart(&values(&direct), &values(&multilevel));
@@ -259,7 +259,7 @@ fn it_can_be_stopped() {
     let mut problem = parse(&format!("{HEAD}{STEEL}{HELD}"), 5, 1);
     problem.solver.kind = SolverKind::Multilevel;
     let stop = |progress: Progress| Verdict::go_on_unless(progress.phase == Phase::Solution);
-    let error = solve(&problem, &stop).expect_err("it was stopped");
+    let error = solve(&checked(&problem), &stop).expect_err("it was stopped");
     assert!(matches!(error, SolveError::Cancelled(_)), "{error}");
 }
 

@@ -1,14 +1,14 @@
 //! Names of functions are for reports: what a function is does not depend on them.
 
-use crate::studies::support::{parsed, record, solved};
+use crate::studies::support::{checked, parsed, record, solved};
 use ppum::progress::unwatched;
 use ppum_fracture::diagnostics::recompute;
-use ppum_problem::Problem;
+use ppum_problem::ProblemData;
 use ppum_solve::report::forget_times;
 use ppum_testkit::random::Random;
 
 /// An oblique crack with a user-defined function near a tip, and what else there is.
-fn plate(young: &str, enrichment: &str) -> Problem {
+fn plate(young: &str, enrichment: &str) -> ProblemData {
     parsed(&format!(
         "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[material]\nyoung = {young}\npoisson = 0.3\n\
          state = \"plane-strain\"\n[[crack]]\npoints = [[-0.35, -0.35], [0.35, 0.35]]\n\
@@ -19,10 +19,10 @@ fn plate(young: &str, enrichment: &str) -> Problem {
 
 /// All that comes of a problem, but for times and the name of its function; and what is computed
 /// again from the file.
-fn results(mut problem: Problem, name: &str) -> [String; 2] {
+fn results(mut problem: ProblemData, name: &str) -> [String; 2] {
     name.clone_into(&mut problem.enrichments[0].name);
     let mut dataset = solved(&problem);
-    let again = recompute(&dataset, 0, Some(&problem), unwatched()).expect("factors");
+    let again = recompute(&dataset, 0, Some(&checked(&problem)), unwatched()).expect("factors");
     let step = &mut dataset.steps[0];
     forget_times(step);
     step.functions.iter_mut().for_each(|function| function.name.clear());

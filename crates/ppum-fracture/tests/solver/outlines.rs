@@ -5,7 +5,7 @@ use ppum::dataset::{Dataset, Material, StressState};
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::{
-    BorderPart, BoundaryCondition, Cells, Discretization, Enrichment, Order, Problem,
+    BorderPart, BoundaryCondition, Cells, Discretization, Enrichment, Order, ProblemData,
 };
 use ppum_testkit::random::Random;
 use std::f64::consts::TAU;
@@ -42,7 +42,7 @@ fn pressed_bodies_have_no_shear() {
         };
         let set =
             Discretization { order: Order::Uniform(2), enrichment, ..Discretization::new(cells) };
-        let mut problem = Problem::elasticity(domain, MATERIAL, set);
+        let mut problem = ProblemData::elasticity(domain, MATERIAL, set);
         let pressure = BoundaryCondition::pressure(BorderPart::Hole(0), 3.0.into());
         problem.boundary.push(pressure);
         let dataset = solved(&problem);
@@ -62,7 +62,7 @@ fn pressed_bodies_have_no_shear() {
 }
 
 /// A plate with a crack as a box, as an outline, turned, and with sides of many short segments.
-fn plate(angle: f64, is_box: bool) -> Problem {
+fn plate(angle: f64, is_box: bool) -> ProblemData {
     let corners = [[-1.0, -2.0], [1.0, -2.0], [1.0, 2.0], [-1.0, 2.0]];
     let piece = |k: usize| {
         let [a, b] = [corners[k], corners[(k + 1) % 4]].map(|p| turned(p, angle));

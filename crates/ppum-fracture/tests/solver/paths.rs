@@ -1,7 +1,7 @@
 //! Paths of cracks that are pressed along their direction: with T < 0 a path returns to the axis of
 //! the pressure smoothly (Cotterell & Rice 1980), whatever its increments.
 
-use crate::studies::support::parsed;
+use crate::studies::support::{checked, parsed};
 use ppum::crack::End;
 use ppum::dataset::{Step, TipIntensity};
 use ppum::progress::unwatched;
@@ -46,7 +46,7 @@ impl Pressed {
     }
 
     fn steps(&self, growth: &str) -> Vec<Step> {
-        series(&parsed(&self.text(growth)), None, unwatched()).expect("a series").steps
+        series(&checked(&parsed(&self.text(growth))), None, unwatched()).expect("a series").steps
     }
 
     /// The place of a tip in the axes of the stress, for a crack of length 2.
@@ -157,7 +157,7 @@ fn first_arcs_end_without_sliding() {
         "#,
         sides.join(", ")
     );
-    let steps = series(&parsed(&text), None, unwatched()).expect("a series").steps;
+    let steps = series(&checked(&parsed(&text)), None, unwatched()).expect("a series").steps;
     let first = &steps[0].intensities[0];
     assert!((first.t_stress.expect("T") / stress - 1.0).abs() < 1e-3, "{first:?}");
     let row = &steps[0].growth.as_ref().expect("growth").tips[0];

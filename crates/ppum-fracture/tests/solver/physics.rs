@@ -9,7 +9,7 @@ use crate::studies::exact_fields::{
 };
 use crate::studies::support::{errors, solved, squares};
 use ppum::vec2::{Vec2, vec2};
-use ppum_problem::{Cells, Condition, Edge, Expression, Problem};
+use ppum_problem::{Cells, Condition, Edge, Expression, ProblemData};
 
 /// A linear displacement is reproduced: the patch test on a uniform cover, where quadrature
 /// is exact.
@@ -18,7 +18,7 @@ fn patch_test() {
     for order in [1, 2] {
         let exact = ["0.1+0.3*x-0.2*y".to_owned(), "0.4*x+0.7*y-1".to_owned()];
         let set = discretization(Cells::Level(2), order);
-        let solution = solved(&held(Problem::elasticity(SQUARE, MATERIAL, set), exact));
+        let solution = solved(&held(ProblemData::elasticity(SQUARE, MATERIAL, set), exact));
         let exact = |p: Vec2| [0.1 + 0.3 * p.x - 0.2 * p.y, 0.4 * p.x + 0.7 * p.y - 1.0];
         let gradient = [vec2(0.3, -0.2), vec2(0.4, 0.7)];
         let e = errors(&solution, &|p| (exact(p), gradient));
@@ -32,7 +32,7 @@ fn rollers() {
     let free = || Condition::Neumann(Expression::number(0.0));
     let zero = || Condition::Dirichlet(Expression::number(0.0));
     let pull = || Condition::Neumann(Expression::number(1.0));
-    let problem = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(2), 1))
+    let problem = ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(2), 1))
         .with_boundary(Edge::Left, vec![zero(), free()])
         .with_boundary(Edge::Bottom, vec![free(), zero()])
         .with_boundary(Edge::Top, vec![free(), pull()]);

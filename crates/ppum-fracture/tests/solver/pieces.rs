@@ -1,7 +1,7 @@
 //! Plates and pieces of plates that nothing holds, and loads that do not balance.
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization};
-use crate::studies::support::{errors, solved};
+use crate::studies::support::{checked, errors, solved};
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
@@ -9,7 +9,7 @@ use ppum::jet::Jet;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::solve::{SolveError, solve};
-use ppum_problem::{Cells, Condition, Edge, Problem};
+use ppum_problem::{Cells, Condition, Edge, ProblemData};
 
 /// Strains of a tension of 1 in x: E = 1, ν = 0.3, plane strain.
 const STRAINS: [f64; 2] = [0.91, -0.39];
@@ -18,12 +18,12 @@ fn given(values: [f64; 2]) -> Vec<Condition> {
     values.map(|t| Condition::Neumann(t.into())).to_vec()
 }
 
-fn plate(level: u32, order: usize) -> Problem {
-    Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(level), order))
+fn plate(level: u32, order: usize) -> ProblemData {
+    ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(level), order))
 }
 
 /// Pulled in x at both ends.
-fn pulled(problem: Problem) -> Problem {
+fn pulled(problem: ProblemData) -> ProblemData {
     problem
         .with_boundary(Edge::Left, given([-1.0, 0.0]))
         .with_boundary(Edge::Right, given([1.0, 0.0]))
@@ -41,9 +41,9 @@ fn record(dataset: &Dataset, name: &str) -> f64 {
     found.expect("a record of the solver").value
 }
 
-fn refused(problem: &Problem) -> ppum_fracture::solve::UnbalancedError {
+fn refused(problem: &ProblemData) -> ppum_fracture::solve::UnbalancedError {
     problem.check().expect("a problem in order");
-    match solve(problem, unwatched()) {
+    match solve(&checked(problem), unwatched()) {
         Err(SolveError::Unbalanced(error)) => error,
         other => panic!("solved, or failed for another reason: {:?}", other.err()),
     }
@@ -150,7 +150,7 @@ fn only_free_motions_count() {
 /// Poisson: a source that nothing takes up, and one that flows out.
 #[test]
 fn flows_balance_too() {
-    let mut problem = Problem::poisson(SQUARE, 2.0, discretization(Cells::Level(2), 2));
+    let mut problem = ProblemData::poisson(SQUARE, 2.0, discretization(Cells::Level(2), 2));
     problem.source = vec![1.0.into()];
     let error = refused(&problem);
     assert!((error.force.x - 4.0).abs() < 1e-12 && error.moment.is_none(), "{error:?}");

@@ -7,7 +7,7 @@ use ppum::dataset::{Dataset, Step, TipIntensity, Warning};
 use ppum::segment;
 use ppum::vec2::Vec2;
 use ppum_fracture::diagnostics::kind;
-use ppum_problem::Problem;
+use ppum_problem::{Problem, ProblemData};
 use serde_json::Value;
 
 use crate::studies::support::solved;
@@ -99,27 +99,27 @@ fn errors(step: &Step, known: &Value) -> [f64; 2] {
 }
 
 /// Distance of a point to the nearest crack, rim or edge.
-fn distance_to_anything(problem: &Problem, p: Vec2) -> f64 {
-    let bounds = problem.domain.bounds;
+fn distance_to_anything(problem: &ProblemData, p: Vec2) -> f64 {
+    let bounds = problem.domain().bounds;
     let edges = [p - bounds.min, bounds.max - p].into_iter().flat_map(|d| [d.x.abs(), d.y.abs()]);
-    let rims = problem.domain.holes.iter().map(|hole| hole.rim_distance(p));
-    let parts = problem.cracks.iter().flat_map(|crack| crack.points.windows(2));
+    let rims = problem.domain().holes.iter().map(|hole| hole.rim_distance(p));
+    let parts = problem.cracks().iter().flat_map(|crack| crack.points.windows(2));
     let cracks = parts.map(|ends| segment::distance([ends[0], ends[1]], p));
     edges.chain(rims).chain(cracks).fold(f64::INFINITY, f64::min)
 }
 
 /// Whether a warning is about an error, and where something is; an interface of materials may
 /// be anywhere.
-fn names_a_place(problem: &Problem, warning: &Warning) -> bool {
+fn names_a_place(problem: &ProblemData, warning: &Warning) -> bool {
     let Some(at) = warning.at else { return false };
-    let size = problem.domain.bounds.max - problem.domain.bounds.min;
+    let size = problem.domain().bounds.max - problem.domain().bounds.min;
     let two_materials = problem.text.as_deref().is_some_and(|text| text.contains("if("));
     !NO_ESTIMATES.contains(&warning.kind.as_str())
         && (two_materials || distance_to_anything(problem, at) < NEAR * size.x.max(size.y))
 }
 
 /// The silent errors of a solution, in words.
-fn complaint(problem: &Problem, dataset: &Dataset, known: &Value) -> Option<String> {
+fn complaint(problem: &ProblemData, dataset: &Dataset, known: &Value) -> Option<String> {
     let step = &dataset.steps[0];
     let [k, energy] = errors(step, known);
     let worst = [(k, K), (energy, ENERGY)].into_iter().filter(|(error, limit)| error > limit);

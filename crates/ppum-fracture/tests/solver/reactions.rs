@@ -6,7 +6,9 @@ use crate::studies::support::solved;
 use ppum::dataset::Reaction;
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, vec2};
-use ppum_problem::{BorderPart, BoundaryCondition, Cells, Condition, Edge, Expression, Problem};
+use ppum_problem::{
+    BorderPart, BoundaryCondition, Cells, Condition, Edge, Expression, ProblemData,
+};
 
 fn free() -> Condition {
     Condition::Neumann(0.0.into())
@@ -36,7 +38,7 @@ fn total(reactions: &[Reaction]) -> Vec<f64> {
 #[test]
 fn rollers_bear_what_pulls() {
     let pull = || Condition::Neumann(1.0.into());
-    let plate = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(2), 1))
+    let plate = ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(2), 1))
         .with_boundary(Edge::Left, vec![given("0"), free()])
         .with_boundary(Edge::Bottom, vec![free(), given("0")]);
     let uniform = plate.clone().with_boundary(Edge::Top, vec![free(), pull()]);
@@ -58,7 +60,7 @@ fn rollers_bear_what_pulls() {
 /// are not zero, a piece of an edge.
 #[test]
 fn given_values_stretch() {
-    let mut bar = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(1), 1))
+    let mut bar = ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(1), 1))
         .with_boundary(Edge::Left, vec![given("x"), free()])
         .with_boundary(Edge::Right, vec![given("x"), free()]);
     let on = BorderPart::Edge { edge: Edge::Bottom, from: -0.5, to: 0.5 };
@@ -91,7 +93,7 @@ fn the_clamp_bears_the_shear() {
 fn flows_balance_the_source() {
     let hole = Hole::Circle { center: vec2(0.1, 0.07), radius: 0.4 };
     let domain = Domain { bounds: Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)), holes: vec![hole] };
-    let mut problem = Problem::poisson(domain, 1.5, discretization(Cells::Level(3), 2))
+    let mut problem = ProblemData::poisson(domain, 1.5, discretization(Cells::Level(3), 2))
         .with_boundary(Edge::Left, vec![Condition::Neumann(0.7.into())])
         .with_boundary(Edge::Right, vec![given("1 + y")]);
     problem.boundary.push(BoundaryCondition::new(BorderPart::Hole(0), vec![given("3")]));

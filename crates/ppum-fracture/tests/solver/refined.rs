@@ -1,10 +1,10 @@
 //! Cells divided by hand: `[[refine]]`.
 
-use crate::studies::support::{parsed, solved};
+use crate::studies::support::{checked, parsed, solved};
 use ppum::progress::unwatched;
 use ppum::segment::polyline_distance;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::{LocalRefinement, Problem, RefinementRegion};
+use ppum_problem::{LocalRefinement, Problem, ProblemData, RefinementRegion};
 use ppum_solve::space::discretise;
 use ppum_testkit::random::Random;
 use std::path::Path;
@@ -16,13 +16,13 @@ const PLATE: &str = "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\
                      points = [[-0.5, -0.4], [0.0, -0.3], [0.3, -0.5]]\n";
 
 /// The plate with these cells, divided by hand alone.
-fn plate(cells: &str, refine: &str) -> Problem {
+fn plate(cells: &str, refine: &str) -> ProblemData {
     let text = format!("{PLATE}[discretization]\n{cells}\nrefine = false\n{refine}");
     parsed(&text)
 }
 
-fn cells_of(problem: &Problem) -> Vec<Rect> {
-    discretise(problem, unwatched()).expect("a cover").partition.boxes().cell.clone()
+fn cells_of(problem: &ProblemData) -> Vec<Rect> {
+    discretise(&checked(problem), unwatched()).expect("a cover").partition.boxes().cell.clone()
 }
 
 fn longest(cell: &Rect) -> f64 {
@@ -119,15 +119,14 @@ fn cells_are_as_small_as_was_said() {
 /// to both sides.
 #[test]
 fn sizes_of_cells_themselves() {
+    let square = Rect::around(Vec2::ZERO, vec2(1.0, 1.0));
     for (cells, size, expected) in [("[2, 2]", 1.0, 4), ("[20, 20]", 0.1, 400), ("[2, 2]", 0.5, 16)]
     {
-        let mut problem = plate(&format!("cells = {cells}"), "");
-        problem.domain.holes.clear();
+        let mut problem = plate(&format!("cells = {cells}"), "").with_domain(square);
         problem.refinements = vec![LocalRefinement::new(RefinementRegion::Plate, size)];
         assert_eq!(cells_of(&problem).len(), expected, "{cells}, {size}");
     }
-    let mut problem = plate("cells = [4, 4]", "");
-    problem.domain.holes.clear();
+    let mut problem = plate("cells = [4, 4]", "").with_domain(square);
     let quarter = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
     problem.refinements = vec![LocalRefinement::new(RefinementRegion::Box(quarter), 0.3)];
     assert_eq!(cells_of(&problem).len(), 12 + 16, "the box and no cell beside it");
@@ -159,7 +158,7 @@ fn formulas_on_all_kinds_of_cells() {
 fn sizes_that_are_none_or_too_small() {
     let told = |refine: &str| {
         let problem = plate("cells = [2, 2]", refine);
-        discretise(&problem, unwatched()).expect_err("an error").to_string()
+        discretise(&checked(&problem), unwatched()).expect_err("an error").to_string()
     };
     // not positive on a disc that no place of the check meets
     let hidden =

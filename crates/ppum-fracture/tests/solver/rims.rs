@@ -1,6 +1,6 @@
 //! Stresses at the rims of holes in the cells that the program chooses, at the default order.
 
-use crate::studies::support::solved;
+use crate::studies::support::{checked, solved};
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Material, StressState};
 use ppum::domain::{Domain, Hole};
@@ -8,7 +8,7 @@ use ppum::field::Field;
 use ppum::quantity::{Axis, Quantity};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::{
-    Cells, Condition, Discretization, Edge, Expression, LocalRefinement, Order, Problem,
+    Cells, Condition, Discretization, Edge, Expression, LocalRefinement, Order, ProblemData,
     RefinementRegion,
 };
 use ppum_testkit::exact::{ElasticField as _, RoundHole};
@@ -38,10 +38,10 @@ fn tractions(field: &RoundHole, edge: Edge) -> Vec<Condition> {
 }
 
 /// A square with a hole under the tractions of Kirsch's plate, pulled along y by 1.
-fn kirsch(half: f64, center: Vec2, radius: f64, set: Discretization) -> Problem {
+fn kirsch(half: f64, center: Vec2, radius: f64, set: Discretization) -> ProblemData {
     let field = RoundHole::new(MATERIAL, center, radius).with_remote([0.0, 1.0, 0.0]);
     let holes = vec![Hole::Circle { center, radius }];
-    let plate = Problem::elasticity(Domain { bounds: square(half), holes }, MATERIAL, set);
+    let plate = ProblemData::elasticity(Domain { bounds: square(half), holes }, MATERIAL, set);
     Edge::ALL.into_iter().fold(plate, |p, edge| p.with_boundary(edge, tractions(&field, edge)))
 }
 
@@ -138,14 +138,14 @@ fn errors_at_the_rim_are_estimated() {
 type Numbers<'a> = &'a [([f64; 2], f64)];
 
 /// A number of holes pulled along y at both ends of the plate [-1, 1]².
-fn pulled(holes: Numbers<'_>, level: u32) -> Problem {
+fn pulled(holes: Numbers<'_>, level: u32) -> ProblemData {
     let hole = |(center, radius): &([f64; 2], f64)| Hole::Circle {
         center: Vec2::from(*center),
         radius: *radius,
     };
     let domain = Domain { bounds: square(1.0), holes: holes.iter().map(hole).collect() };
     let load = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-    Problem::elasticity(domain, MATERIAL, Discretization::new(Cells::Level(level)))
+    ProblemData::elasticity(domain, MATERIAL, Discretization::new(Cells::Level(level)))
         .with_boundary(Edge::Bottom, load(-1.0))
         .with_boundary(Edge::Top, load(1.0))
 }
@@ -195,7 +195,8 @@ fn many_holes_are_told() {
     let at = |k: u32| -0.96 + 0.08 * f64::from(k);
     let mut holes: Vec<_> = (0..625).map(|k| ([at(k % 25), at(k / 25)], 0.02)).collect();
     holes[331].1 = 0.008;
-    let plan = ppum_solve::space::discretise(&pulled(&holes, 3), ppum::progress::unwatched());
+    let plan =
+        ppum_solve::space::discretise(&checked(&pulled(&holes, 3)), ppum::progress::unwatched());
     let cells = plan.expect("a cover").partition.len();
     assert!(cells < 32_000, "{cells}");
     let few: Vec<_> = holes.iter().skip(300).step_by(31).take(3).copied().collect();

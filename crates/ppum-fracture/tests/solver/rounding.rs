@@ -2,23 +2,23 @@
 //! to nothing.
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization};
-use crate::studies::support::solved;
+use crate::studies::support::{checked, solved};
 use ppum::dataset::Step;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::growth::series;
-use ppum_problem::{Cells, Condition, Edge, GrowthRule, Paris, Problem};
+use ppum_problem::{Cells, Condition, Edge, GrowthRule, Paris, ProblemData};
 use ppum_testkit::random::Random;
 
 type Lines = Vec<Vec<Vec2>>;
 
 /// In coarse cells, which cracks refine or not.
-fn plate(lines: &Lines, shift: Vec2, refine: bool) -> Problem {
+fn plate(lines: &Lines, shift: Vec2, refine: bool) -> ProblemData {
     let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
     let domain = Rect::new(SQUARE.min + shift, SQUARE.max + shift);
     let mut set = discretization(Cells::Level(3), 1);
     set.refine = refine;
-    let plate = Problem::elasticity(domain, MATERIAL, set)
+    let plate = ProblemData::elasticity(domain, MATERIAL, set)
         .with_boundary(Edge::Bottom, pull(-1.0))
         .with_boundary(Edge::Top, pull(1.0));
     lines.iter().fold(plate, |plate, line| {
@@ -123,7 +123,7 @@ fn cracks_that_have_grown_together() {
     let mut rule = GrowthRule::new(3);
     rule.increment = Some(0.06);
     let problem = plate(&two, AS_IT_IS, true).with_growth(rule);
-    let steps = series(&problem, None, unwatched()).expect("a series").steps;
+    let steps = series(&checked(&problem), None, unwatched()).expect("a series").steps;
     let last = &steps[steps.len() - 1];
     assert_eq!((steps.len(), last.intensities.len()), (4, 2));
     let [left, right] = [0, 1].map(|k| last.cracks[k].points.clone());
@@ -139,7 +139,8 @@ fn cycles_of_a_straight_crack() {
     let mut rule = GrowthRule::new(4);
     (rule.increment, rule.paris) = (Some(0.05), Some(Paris::new(1e-3, 3.0)));
     let lines = vec![vec![vec2(-0.3, 0.0), vec2(0.3, 0.0)]];
-    let steps = series(&plate(&lines, AS_IT_IS, false).with_growth(rule), None, unwatched());
+    let steps =
+        series(&checked(&plate(&lines, AS_IT_IS, false).with_growth(rule)), None, unwatched());
     let steps = steps.expect("a series").steps;
     let is_known = |step: &Step| factors(step).iter().all(|k| k.is_finite());
     assert!(steps.len() == 5 && steps.iter().all(is_known));

@@ -3,7 +3,7 @@
 use crate::studies::support::{parsed, record, solved};
 use ppum::dataset::TipIntensity;
 use ppum::vec2::{Vec2, vec2};
-use ppum_problem::{Edge, Problem, Symmetry};
+use ppum_problem::{Edge, Problem, ProblemData, Symmetry};
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -30,7 +30,7 @@ impl Turned {
         format!("arc = {{ center = [0, 0], radius = {radius}, from = {from}, to = {to} }}")
     }
 
-    fn problem(&self, pieces: &[String], conditions: &str) -> Problem {
+    fn problem(&self, pieces: &[String], conditions: &str) -> ProblemData {
         let pieces: Vec<_> = pieces.iter().map(|piece| format!("{{ {piece} }}")).collect();
         parsed(&format!(
             "[domain]\noutline = {{ path = [{}] }}\n[material]\nyoung = {YOUNG}\npoisson = {POISSON}\n\
@@ -42,7 +42,7 @@ impl Turned {
     }
 
     /// A quarter of a ring with the radii 1 and 2 whose straight sides have a symmetry.
-    fn quarter(&self, symmetry: &str, pressure: &str) -> Problem {
+    fn quarter(&self, symmetry: &str, pressure: &str) -> ProblemData {
         let side = |[from, to]: [f64; 2], degrees: f64, name: &str| {
             let ends = [from, to].map(|radius| self.point(radius, degrees)).join(", ");
             format!("points = [{ends}], name = \"{name}\"")
@@ -61,7 +61,7 @@ impl Turned {
     }
 
     /// The rectangle of the sides 1 and 2 with conditions on the sides "bottom", "right", …
-    fn rectangle(&self, conditions: &str) -> Problem {
+    fn rectangle(&self, conditions: &str) -> ProblemData {
         let corner = |k: usize| {
             let p = [vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 2.0), vec2(0.0, 2.0)][k % 4];
             self.point(p.length(), p.y.atan2(p.x).to_degrees())
@@ -81,7 +81,7 @@ fn angles(seed: u64, count: usize) -> Vec<f64> {
     [0.0, 90.0].into_iter().chain(any).collect()
 }
 
-fn energy(problem: &Problem) -> f64 {
+fn energy(problem: &ProblemData) -> f64 {
     record(&solved(problem).steps[0], "energy")
 }
 
@@ -219,7 +219,7 @@ fn sides_are_mirrors() {
 }
 
 /// K_I, K_II, T and J of the tips of a body, and the energy of the whole of which it is a part.
-fn factors(problem: &Problem) -> Vec<[f64; 5]> {
+fn factors(problem: &ProblemData) -> Vec<[f64; 5]> {
     let step = solved(problem).steps.remove(0);
     let whole = record(&step, "energy of the whole");
     let of_tip =
@@ -229,7 +229,7 @@ fn factors(problem: &Problem) -> Vec<[f64; 5]> {
 
 /// The rectangle of the sides 1 and 2 as a box. Names of sides stand in the conditions as `@bottom`
 /// and so on, points and vectors as `<x, y>`.
-fn of_box(conditions: &str, order: usize) -> Problem {
+fn of_box(conditions: &str, order: usize) -> ProblemData {
     let head = format!(
         "[domain]\nmin = [0, 0]\nmax = [1, 2]\n[material]\nyoung = {YOUNG}\npoisson = {POISSON}\n\
          state = \"plane-strain\"\n[discretization]\ncells = [8, 16]\norder = {order}\n"
@@ -238,7 +238,7 @@ fn of_box(conditions: &str, order: usize) -> Problem {
 }
 
 /// The same as an outline, turned by some angles.
-fn of_sides(conditions: &str, order: usize, seed: u64) -> Vec<(f64, Problem)> {
+fn of_sides(conditions: &str, order: usize, seed: u64) -> Vec<(f64, ProblemData)> {
     let text = named(conditions, |side| format!("{{ piece = \"{side}\" }}"));
     let turned = |degrees: f64| {
         let rectangle = Turned { degrees, order, cells: 13 };
@@ -304,8 +304,8 @@ fn cracks_on_sides_of_outlines() {
     ] {
         let known = factors(&of_box(&text, 5));
         for (degrees, problem) in of_sides(&text, 5, 12) {
-            let tips = problem.cracks[0].tips().map(|end| problem.cracks[0].end_point(end));
-            assert!(tips.into_iter().all(|tip| problem.domain.contains(tip)), "{name} {degrees}");
+            let tips = problem.cracks()[0].tips().map(|end| problem.cracks()[0].end_point(end));
+            assert!(tips.into_iter().all(|tip| problem.domain().contains(tip)), "{name} {degrees}");
             let found = factors(&problem);
             assert_eq!(found.len(), known.len(), "{name} {degrees}");
             for (found, known) in found.iter().zip(&known) {

@@ -10,7 +10,7 @@ use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_fracture::diagnostics::{FEW_DIGITS, kind, recompute, rounding};
-use ppum_problem::{Cells, Condition, Edge, Problem};
+use ppum_problem::{Cells, Condition, Edge, ProblemData};
 use ppum_testkit::extended::{Extended, point};
 use ppum_testkit::random::Random;
 
@@ -29,18 +29,18 @@ fn centre() -> Vec2 {
 }
 
 /// A plate under tension with a crack.
-fn cracked(weight: &str, order: usize, crack: &[[f64; 2]]) -> Problem {
+fn cracked(weight: &str, order: usize, crack: &[[f64; 2]]) -> ProblemData {
     let mut set = discretization(Cells::Grid([CELLS; 2]), order);
     set.weight = WeightFunction::from_library(weight).expect("of the library");
     let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-    Problem::elasticity(SQUARE, MATERIAL, set)
+    ProblemData::elasticity(SQUARE, MATERIAL, set)
         .with_crack(crack)
         .with_boundary(Edge::Bottom, pull(-1.0))
         .with_boundary(Edge::Top, pull(1.0))
 }
 
 /// One whose crack leaves `part` of the patch beyond it, in its upper right corner.
-fn plate(weight: &str, order: usize, part: f64, angle: f64) -> Problem {
+fn plate(weight: &str, order: usize, part: f64, angle: f64) -> ProblemData {
     let normal = vec2(angle.cos(), angle.sin());
     let distance = (8.0 * part * normal.x * normal.y).sqrt() * HALF;
     let at = centre() + vec2(HALF, HALF) - normal * distance;

@@ -1,6 +1,6 @@
 //! Points that are held: rigid motions alone depend on them.
 
-use crate::studies::support::{parsed, quantity, solved};
+use crate::studies::support::{checked, parsed, quantity, solved};
 use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -119,11 +119,12 @@ fn supports_that_would_take_forces_are_refused() {
              make this component \"free\": three components in all hold a body",
         ),
     ] {
-        let error = solve(&parsed(&body(&rest)), unwatched()).expect_err("a force");
+        let error = solve(&checked(&parsed(&body(&rest))), unwatched()).expect_err("a force");
         assert_eq!(error.to_string(), expected);
     }
     let unbalanced = "[body_force]\nvalue = [0, -1]\n".to_owned() + &support(Vec2::ZERO, all);
-    let error = solve(&parsed(&body(&unbalanced)), unwatched()).expect_err("a force").to_string();
+    let error =
+        solve(&checked(&parsed(&body(&unbalanced))), unwatched()).expect_err("a force").to_string();
     assert!(error.contains("a force of (0, -4)"), "{error}");
     assert!(error.contains("a [[support]] takes no force"), "{error}");
     assert!(error.contains("by [[boundary]], or balance the loads"), "{error}");

@@ -7,7 +7,7 @@ use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::intensity::on_circle;
-use ppum_problem::{BorderPart, Cells, Condition, Edge, Expression, Problem};
+use ppum_problem::{BorderPart, Cells, Condition, Edge, Expression, ProblemData};
 use ppum_testkit::exact::{CrackInPlane, ExactField as _};
 use ppum_testkit::random::Random;
 
@@ -45,11 +45,11 @@ fn given_terms_are_found() {
 
 /// A crack of half length 0.4 in the infinite plane under the stresses N_x, N_y, τ in its frame
 /// (Muskhelishvili 1953, §120), cut out by its exact displacements.
-fn in_plane(remote: [f64; 3], angle: f64) -> (Problem, CrackInPlane) {
+fn in_plane(remote: [f64; 3], angle: f64) -> (ProblemData, CrackInPlane) {
     let (center, along) = (vec2(0.03, 0.02), vec2(angle.cos(), angle.sin()));
     let field = CrackInPlane::biaxial(MATERIAL, center, along, 0.4, 1.0).with_remote(remote);
     let ends = [center - along * 0.4, center + along * 0.4];
-    let plate = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 3))
+    let plate = ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 3))
         .with_crack(&ends.map(Into::into));
     (plate, field)
 }
@@ -97,9 +97,10 @@ fn j_under_loads_that_jump() {
     for _ in 0..2 {
         let at = random.between(-0.1, 0.3);
         let pressure = Expression::parse(&format!("if(x > {at}, 1, 0.3)")).expect("a formula");
-        let mut plate = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 3))
-            .with_crack(&[[-0.4, -0.05], [0.1, 0.0], [0.4, -0.1]])
-            .with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
+        let mut plate =
+            ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 3))
+                .with_crack(&[[-0.4, -0.05], [0.1, 0.0], [0.4, -0.1]])
+                .with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
         plate.boundary[0].pressure = Some(pressure);
         let dataset = solved(&plate);
         for tip in stored(&dataset) {
@@ -114,7 +115,7 @@ fn j_under_loads_that_jump() {
 fn loads_with_a_resultant_at_the_tip_have_no_t() {
     let faces = BorderPart::Crack { crack: 0, face: None };
     let load = |x: f64, y: f64| vec![Condition::Neumann(x.into()), Condition::Neumann(y.into())];
-    let plate = Problem::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 2))
+    let plate = ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 2))
         .with_crack(&[[-0.4, 0.0], [0.4, 0.0]])
         .with_boundary(Edge::Bottom, vec![Condition::Dirichlet(0.0.into()); 2])
         .with_boundary(Edge::Top, load(0.0, 1.0));
@@ -134,7 +135,7 @@ fn loads_with_a_resultant_at_the_tip_have_no_t() {
 fn plate(domain: Rect, points: &[Vec2], [xx, yy, xy]: [f64; 3], grid: [u32; 2]) -> Dataset {
     let load = |x: f64, y: f64| vec![Condition::Neumann(x.into()), Condition::Neumann(y.into())];
     let points: Vec<[f64; 2]> = points.iter().map(|&p| p.into()).collect();
-    let plate = Problem::elasticity(domain, MATERIAL, discretization(Cells::Grid(grid), 2))
+    let plate = ProblemData::elasticity(domain, MATERIAL, discretization(Cells::Grid(grid), 2))
         .with_crack(&points)
         .with_boundary(Edge::Left, load(-xx, -xy))
         .with_boundary(Edge::Right, load(xx, xy))

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::sync::Mutex;
 
-use crate::studies::support::parsed;
+use crate::studies::support::{checked, parsed};
 use ppum::dataset::Dataset;
 use ppum::progress::{Cancelled, Phase, Progress, Verdict, Watcher, unwatched};
 use ppum_fracture::diagnostics::effort::EffortError;
@@ -11,7 +11,7 @@ use ppum_fracture::diagnostics::{RecomputeError, recompute};
 use ppum_fracture::solve::{
     EigenError, LinearError, Plan, SolveError, UnbalancedError, solve, spectrum,
 };
-use ppum_problem::{OrderError, Problem, ProblemError};
+use ppum_problem::{OrderError, ProblemData, ProblemError};
 use ppum_solve::report::{SolverReport, forget_times};
 use ppum_solve::space::{InspectError, RefineError, SpaceError, discretise};
 
@@ -46,7 +46,7 @@ const PHASES: [Phase; 6] = [
     Phase::Estimation,
 ];
 
-fn plate() -> Problem {
+fn plate() -> ProblemData {
     parsed(PLATE)
 }
 
@@ -101,7 +101,9 @@ fn threads_are_those_of_the_caller() {
         Verdict::GoOn
     };
     let solved = |threads, watcher: &(dyn Watcher + Send)| {
-        on_threads(threads, || without_seconds(solve(&problem, watcher).expect("a solution")))
+        on_threads(threads, || {
+            without_seconds(solve(&checked(&problem), watcher).expect("a solution"))
+        })
     };
     let one = solved(1, &at_home);
     assert!(one == solved(3, &at_home), "datasets differ");
@@ -111,7 +113,7 @@ fn threads_are_those_of_the_caller() {
 #[test]
 fn every_phase_is_told_of_in_order() {
     let watcher = Stopper::new(None);
-    let dataset = on_threads(1, || solve(&plate(), &watcher)).expect("a solution");
+    let dataset = on_threads(1, || solve(&checked(&plate()), &watcher)).expect("a solution");
     let heard = watcher.heard();
     let mut phases: Vec<_> = heard.iter().map(|progress| progress.phase).collect();
     phases.dedup();
@@ -132,7 +134,8 @@ fn a_solution_can_be_cancelled_in_every_phase() {
     for (phase, last) in PHASES.into_iter().zip([50, 500, 200, 3, 50]) {
         for at in [1, last] {
             let watcher = Stopper::new(Some((phase, at)));
-            let error = on_threads(3, || solve(&problem, &watcher)).expect_err("it was stopped");
+            let error =
+                on_threads(3, || solve(&checked(&problem), &watcher)).expect_err("it was stopped");
             assert!(matches!(error, SolveError::Cancelled(Cancelled)), "{phase:?}: {error}");
             assert_eq!(error.to_string(), "cancelled");
             let heard = watcher.heard();
@@ -146,22 +149,23 @@ fn a_solution_can_be_cancelled_in_every_phase() {
 #[test]
 fn other_long_calls_can_be_cancelled() {
     let problem = plate();
-    let dataset = solve(&problem, unwatched()).expect("a solution");
+    let dataset = solve(&checked(&problem), unwatched()).expect("a solution");
     for at in [1, 20] {
         let watcher = Stopper::new(Some((Phase::Intensity, at)));
-        let found = recompute(&dataset, 0, Some(&problem), &watcher);
+        let found = recompute(&dataset, 0, Some(&checked(&problem)), &watcher);
         assert!(matches!(found, Err(RecomputeError::Cancelled(Cancelled))), "{at}");
         assert!(watcher.heard().len() < at + 16);
     }
     for (phase, at) in PHASES.into_iter().take(4).zip([3, 10, 10, 5]) {
         let watcher = Stopper::new(Some((phase, at)));
-        let found = spectrum(&problem, &watcher);
+        let found = spectrum(&checked(&problem), &watcher);
         assert!(matches!(found, Err(SolveError::Cancelled(Cancelled))), "{phase:?}");
     }
-    let plan = Plan::new(&problem, None, unwatched()).expect("a plan");
+    let ready = checked(&problem);
+    let plan = Plan::new(&ready, None, unwatched()).expect("a plan");
     let stopper = || Stopper::new(Some((Phase::Basis, 9)));
     assert!(matches!(plan.check(&stopper()), Err(SolveError::Cancelled(Cancelled))));
-    let found = discretise(&problem, &Stopper::new(Some((Phase::Cover, 9))));
+    let found = discretise(&checked(&problem), &Stopper::new(Some((Phase::Cover, 9))));
     assert!(matches!(found, Err(SpaceError::Cancelled(Cancelled))));
 }
 

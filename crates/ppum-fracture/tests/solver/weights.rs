@@ -4,7 +4,7 @@ use ppum::cover::OVERLAP;
 use ppum::library::WEIGHTS;
 use ppum::vec2::vec2;
 use ppum::weight::WeightFunction;
-use ppum_problem::{Cells, Condition, Discretization, Edge, Order, Problem};
+use ppum_problem::{Cells, Condition, Discretization, Edge, Order, ProblemData};
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization, held};
 use crate::studies::support::{errors, solved};
@@ -16,7 +16,7 @@ fn patch_test(weight: WeightFunction, level: u32) -> f64 {
     set.weight = weight;
     let c = (MATERIAL.lambda() + 2.0 * MATERIAL.mu()) / MATERIAL.mu();
     let exact = [format!("0.3*x*x - {:?}*y*y + x - 0.5*y", 0.3 * c), "0.7*x + y".to_owned()];
-    let solution = solved(&held(Problem::elasticity(SQUARE, MATERIAL, set), exact));
+    let solution = solved(&held(ProblemData::elasticity(SQUARE, MATERIAL, set), exact));
     let exact = |p: ppum::vec2::Vec2| {
         let u = 0.3 * p.x * p.x - 0.3 * c * p.y * p.y + p.x - 0.5 * p.y;
         let gradient = [vec2(0.6 * p.x + 1.0, -0.6 * c * p.y - 0.5), vec2(0.7, 1.0)];
@@ -44,7 +44,7 @@ fn k_is_right_at_the_bounds_of_the_overlap() {
         let mut set = Discretization::new(Cells::Level(2));
         (set.order, set.overlap) = (Order::Uniform(4), alpha);
         let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-        let problem = Problem::elasticity(SQUARE, MATERIAL, set)
+        let problem = ProblemData::elasticity(SQUARE, MATERIAL, set)
             .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
             .with_boundary(Edge::Bottom, pull(-1.0))
             .with_boundary(Edge::Top, pull(1.0));

@@ -5,7 +5,7 @@ use crate::studies::plates::pulled;
 use crate::studies::support::{Both, both, errors, solved};
 use ppum::dataset::{Equation, Material, StressState, TipIntensity};
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::{Cells, Discretization, Enrichment, Expression, Order, Problem};
+use ppum_problem::{Cells, Discretization, Enrichment, Expression, Order, ProblemData};
 use ppum_solve::report::forget_times;
 use ppum_testkit::exact::{ExactField as _, Williams};
 use ppum_testkit::random::Random;
@@ -165,7 +165,7 @@ fn the_terms_of_laplace_are_in_the_space() {
     let angle = "atan2(y - 0.041, x - 0.03)";
     for (terms, power) in [(1, 0.5), (2, 1.5), (3, 2.5)] {
         let relative = |terms: usize| {
-            let plate = Problem::poisson(SQUARE, 1.0, everywhere(2, terms));
+            let plate = ProblemData::poisson(SQUARE, 1.0, everywhere(2, terms));
             let exact = [format!("{distance}^{power}*sin({power}*{angle})")];
             let dataset = solved(&held(plate.with_crack(&[[-1.0, 0.041], [0.03, 0.041]]), exact));
             errors(&dataset, &|p| antisymmetric(power, p)).energy

@@ -4,9 +4,9 @@ use super::exact_fields::SQUARE;
 use super::plates::pulled;
 use super::support::{Both, errors, parsed, record};
 use ppum::dataset::{Dataset, Step};
-use ppum::domain::Hole;
+use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Vec2, vec2};
-use ppum_problem::{AdaptKind, Adaptivity, Cells, Keep, Order, Problem};
+use ppum_problem::{AdaptKind, Adaptivity, Cells, Keep, Order, ProblemData};
 use std::f64::consts::PI;
 
 /// Strain energies by finite elements of order 10 and 12 on meshes graded towards the singular
@@ -24,28 +24,27 @@ pub(crate) fn set(kind: AdaptKind, steps: usize, max_unknowns: usize) -> Adaptiv
 }
 
 /// A problem on coarse cells that adapt.
-pub(crate) fn on(mut problem: Problem, order: usize, set: Adaptivity) -> Problem {
+pub(crate) fn on(mut problem: ProblemData, order: usize, set: Adaptivity) -> ProblemData {
     problem.discretization.cells = Cells::Level(2);
     problem.discretization.order = Order::Uniform(order);
     problem.with_adaptivity(set)
 }
 
 /// A crack in a plate.
-pub(crate) fn crack() -> Problem {
+pub(crate) fn crack() -> ProblemData {
     pulled(SQUARE, [1, 1], &[&[[-0.4, -0.3], [0.4, 0.3]]])
 }
 
 /// A square hole in a plate.
-pub(crate) fn square_hole() -> Problem {
-    let mut problem = pulled(SQUARE, [1, 1], &[]);
+pub(crate) fn square_hole() -> ProblemData {
     let points = [(-0.3, -0.3), (0.3, -0.3), (0.3, 0.3), (-0.3, 0.3)];
     let points = points.map(|(x, y)| vec2(x, y)).into();
-    problem.domain.holes = vec![Hole::polygon(points)];
-    problem
+    let domain = Domain { bounds: SQUARE, holes: vec![Hole::polygon(points)] };
+    pulled(SQUARE, [1, 1], &[]).with_domain(domain)
 }
 
 /// u = r^⅔ sin(⅔ θ) around a corner of 270°, given on the outer border.
-pub(crate) fn corner() -> Problem {
+pub(crate) fn corner() -> ProblemData {
     let edge = |name: &str| format!("[[boundary]]\non = \"{name}\"\nvalue = \"exact\"\n");
     let border: String = ["left", "right", "bottom", "top"].map(edge).concat();
     let text = format!(

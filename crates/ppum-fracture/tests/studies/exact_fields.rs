@@ -3,7 +3,7 @@
 use super::support::{self, Errors, errors, solved};
 use ppum::dataset::{Dataset, Material, StressState};
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::{Cells, Discretization, Edge, Enrichment, Expression, Order, Problem};
+use ppum_problem::{Cells, Discretization, Edge, Enrichment, Expression, Order, ProblemData};
 use ppum_testkit::exact::{ExactField, Slit, Smooth, Williams};
 
 /// E = 1, ν = 0.3, plane strain.
@@ -27,16 +27,16 @@ pub(crate) fn expressions<const N: usize>(texts: [String; N]) -> Vec<Expression>
 }
 
 /// The problem with an exact solution, given on all four edges.
-pub(crate) fn held<const N: usize>(mut problem: Problem, exact: [String; N]) -> Problem {
+pub(crate) fn held<const N: usize>(mut problem: ProblemData, exact: [String; N]) -> ProblemData {
     problem.exact = expressions(exact);
-    Edge::ALL.into_iter().fold(problem, Problem::with_exact_boundary)
+    Edge::ALL.into_iter().fold(problem, ProblemData::with_exact_boundary)
 }
 
 /// The manufactured field of the numerical study, with its body force.
 pub(crate) fn smooth(level: u32, order: usize) -> Errors {
     let field = Smooth { material: MATERIAL };
     let set = discretization(Cells::Level(level), order);
-    let mut problem = held(Problem::elasticity(SQUARE, MATERIAL, set), field.formulas());
+    let mut problem = held(ProblemData::elasticity(SQUARE, MATERIAL, set), field.formulas());
     problem.source = expressions(field.body_force_formulas());
     errors(&solved(&problem), &|p| support::both(field.evaluate(p)))
 }
@@ -63,7 +63,7 @@ impl TipProblem {
     }
 
     /// The problem that has this field as its solution.
-    pub(crate) fn problem(&self, field: &Williams, set: Discretization) -> Problem {
+    pub(crate) fn problem(&self, field: &Williams, set: Discretization) -> ProblemData {
         self.problem_of(MATERIAL, field, set)
     }
 
@@ -73,10 +73,10 @@ impl TipProblem {
         material: Material,
         field: &Williams,
         set: Discretization,
-    ) -> Problem {
+    ) -> ProblemData {
         let back = self.tip.x - self.domain.min.x;
         let mouth = vec2(self.domain.min.x, self.tip.y - back * self.angle.tan());
-        let plate = Problem::elasticity(self.domain, material, set);
+        let plate = ProblemData::elasticity(self.domain, material, set);
         held(plate.with_crack(&[mouth.into(), self.tip.into()]), field.formulas())
     }
 
@@ -255,10 +255,10 @@ pub(crate) fn tip_points(plate: &TipPlate) -> Vec<TipValue> {
 }
 
 /// u = √r sin(θ/2) on the slit square.
-pub(crate) fn slit_plate(level: u32, order: usize) -> Problem {
+pub(crate) fn slit_plate(level: u32, order: usize) -> ProblemData {
     let mut set = discretization(Cells::Level(level), order);
     set.enrichment_radius = Some(0.4);
-    let plate = Problem::poisson(SQUARE, 1.0, set).with_crack(&[[-1.0, 0.0], [0.0, 0.0]]);
+    let plate = ProblemData::poisson(SQUARE, 1.0, set).with_crack(&[[-1.0, 0.0], [0.0, 0.0]]);
     held(plate, Slit.formulas())
 }
 

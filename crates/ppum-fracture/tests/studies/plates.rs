@@ -4,7 +4,7 @@
 use super::support::{solved, strain_energy, unknowns};
 use ppum::dataset::{Dataset, Material, StressState};
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::{Cells, Condition, Discretization, Edge, Expression, Order, Problem};
+use ppum_problem::{Cells, Condition, Discretization, Edge, Expression, Order, ProblemData};
 use ppum_testkit::exact::CollinearCracks;
 use std::f64::consts::PI;
 
@@ -14,7 +14,7 @@ pub(crate) struct Plate {
     /// Its nature.
     pub(crate) name: String,
     /// The problem, on the coarsest of three covers.
-    pub(crate) problem: Problem,
+    pub(crate) problem: ProblemData,
     /// Its covers.
     covers: Covers,
     /// K is divided by this.
@@ -104,9 +104,9 @@ pub(crate) fn traction(x: Expression, y: Expression) -> Vec<Condition> {
 }
 
 /// A plate under unit tension on bottom and top.
-pub(crate) fn pulled(domain: Rect, cells: [u32; 2], cracks: &[&[[f64; 2]]]) -> Problem {
+pub(crate) fn pulled(domain: Rect, cells: [u32; 2], cracks: &[&[[f64; 2]]]) -> ProblemData {
     let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
-    let plate = Problem::elasticity(domain, material, Discretization::new(Cells::Grid(cells)));
+    let plate = ProblemData::elasticity(domain, material, Discretization::new(Cells::Grid(cells)));
     cracks
         .iter()
         .fold(plate, |plate, crack| plate.with_crack(crack))
@@ -226,7 +226,7 @@ pub(crate) fn end_shear_at(poisson: f64, [first, second]: [f64; 2]) -> Plate {
     let set = Discretization::new(Cells::Grid(cells));
     Plate {
         name: format!("end shear, ν = {poisson}"),
-        problem: Problem::elasticity(domain, material, set)
+        problem: ProblemData::elasticity(domain, material, set)
             .with_crack(&[[0.0, 8.0], [3.5, 8.0]])
             .with_boundary(Edge::Bottom, vec![clamp(), clamp()])
             .with_boundary(Edge::Top, traction(1.0.into(), 0.0.into())),
@@ -247,7 +247,7 @@ pub(crate) fn collinear_cracks() -> Plate {
         Expression::parse(&text).expect("a formula of the testkit")
     };
     let [xx, yy, xy] = field.stress_formulas();
-    let plate = Problem::elasticity(domain, material, Discretization::new(Cells::Grid(cells)))
+    let plate = ProblemData::elasticity(domain, material, Discretization::new(Cells::Grid(cells)))
         .with_crack(&[[-1.8, 0.0], [-0.2, 0.0]])
         .with_crack(&[[0.2, 0.0], [1.8, 0.0]]);
     let problem = Edge::ALL.into_iter().fold(plate, |plate, edge| {

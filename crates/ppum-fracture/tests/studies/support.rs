@@ -10,7 +10,7 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::Vec2;
 use ppum_fracture::solve::solve;
-use ppum_problem::Problem;
+use ppum_problem::{Problem, ProblemData};
 use ppum_solve::norms::norms;
 use ppum_solve::space::Space;
 use ppum_testkit::exact::Component;
@@ -25,15 +25,19 @@ pub(crate) struct Errors {
 }
 
 /// Solves a problem that is in order.
-pub(crate) fn solved(problem: &Problem) -> Dataset {
-    problem.check().expect("a problem in order");
-    solve(problem, unwatched()).expect("a solution")
+pub(crate) fn solved(problem: &ProblemData) -> Dataset {
+    solve(&checked(problem), unwatched()).expect("a solution")
+}
+
+/// The problem of data that are in order.
+pub(crate) fn checked(problem: &ProblemData) -> Problem {
+    Problem::new(problem.clone()).expect("a problem in order")
 }
 
 /// The problem of the text of a problem file that is in order.
-pub(crate) fn parsed(text: &str) -> Problem {
+pub(crate) fn parsed(text: &str) -> ProblemData {
     let problem = Problem::parse(text, "plate.toml", Path::new(""));
-    problem.unwrap_or_else(|error| panic!("{error}\n{text}"))
+    problem.unwrap_or_else(|error| panic!("{error}\n{text}")).into_data()
 }
 
 /// Values and gradients of two components.

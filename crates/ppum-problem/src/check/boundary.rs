@@ -4,16 +4,17 @@ use std::collections::BTreeMap;
 
 use ppum::crack::Side;
 use ppum::domain::Domain;
-use ppum::vec2::{Rect, Vec2};
+use ppum::segment::Segment;
+use ppum::vec2::Rect;
 
 use super::super::boundary::{BorderPart, BoundaryCondition, Edge, Piece, SideRun};
 use super::super::key::{Key, MistakeAt, no_such};
-use super::super::model::Problem;
+use super::super::model::ProblemData;
 use crate::geometry::{clipped, solid_part, wider};
 use ppum::border::touch;
 
 /// All rules broken by the conditions on the border.
-pub(super) fn check_boundary(problem: &Problem) -> Vec<MistakeAt> {
+pub(super) fn check_boundary(problem: &ProblemData) -> Vec<MistakeAt> {
     let parts = problem.boundary.iter().enumerate();
     let mut found: Vec<_> = parts.filter_map(|(k, part)| check_part(k, part, problem)).collect();
     found.extend(check_contradictions(problem));
@@ -57,8 +58,8 @@ fn claims(index: usize, condition: &BoundaryCondition, pieces: &[Piece]) -> Vec<
 
 /// No component is given twice at a place. Of the conditions that an earlier one contradicts each
 /// is told once.
-fn check_contradictions(problem: &Problem) -> Vec<MistakeAt> {
-    let Problem { boundary, pieces, .. } = problem;
+fn check_contradictions(problem: &ProblemData) -> Vec<MistakeAt> {
+    let (boundary, pieces) = (&problem.boundary, problem.pieces());
     let mut all: Vec<_> =
         boundary.iter().enumerate().flat_map(|(k, part)| claims(k, part, pieces)).collect();
     all.sort_by(|a, b| a.place.cmp(&b.place).then(a.stretch[0].total_cmp(&b.stretch[0])));
@@ -86,18 +87,20 @@ fn on(index: usize) -> Key {
     Key::new("boundary").index(index).name("on")
 }
 
-fn check_part(index: usize, condition: &BoundaryCondition, problem: &Problem) -> Option<MistakeAt> {
-    let (holes, cracks) = (problem.domain.holes.len(), problem.cracks.len());
+fn check_part(
+    index: usize,
+    condition: &BoundaryCondition,
+    problem: &ProblemData,
+) -> Option<MistakeAt> {
+    let (holes, cracks) = (problem.domain().holes.len(), problem.cracks().len());
     let message = match condition.on {
         part @ BorderPart::Edge { edge, from, to } => {
-            // a symmetry beside the faces of a crack may have a part that lies in a hole
-            let is_needed = reaches_body(part, problem) || problem.exact_line(condition).is_some();
-            bad_range(edge, [from, to], &problem.domain.bounds)
-                .or_else(|| (!is_needed).then(|| NOTHING_THERE.to_owned()))?
+            bad_range(edge, [from, to], &problem.domain().bounds)
+                .or_else(|| (!reaches_body(part, problem)).then(|| NOTHING_THERE.to_owned()))?
         }
         BorderPart::Hole(hole) if hole >= holes => no_such("hole", hole, holes),
-        BorderPart::Piece(piece) if piece >= problem.pieces.len() => {
-            no_such("piece", piece, problem.pieces.len())
+        BorderPart::Piece(piece) if piece >= problem.pieces().len() => {
+            no_such("piece", piece, problem.pieces().len())
         }
         BorderPart::Sides(run) if !is_of(run, problem) => {
             format!("there is no hole {} with sides {} to {}", run.hole, run.from, run.to)
@@ -121,30 +124,22 @@ const NOTHING_THERE: &str = "nothing of the body is there: it lies in holes, or 
      out, or name another part";
 
 /// True if some of a part of the border bounds the body.
-fn reaches_body(part: BorderPart, problem: &Problem) -> bool {
-    let Domain { bounds, holes } = &problem.domain;
-    let is_solid = |[a, b]: [Vec2; 2], own: Option<usize>| {
+fn reaches_body(part: BorderPart, problem: &ProblemData) -> bool {
+    let Domain { bounds, holes } = problem.domain();
+    let near = wider(bounds, touch(bounds));
+    let is_solid = |([a, b], own): (Segment, Option<usize>)| {
         let others = (0..).zip(holes).filter(|(k, _)| own != Some(*k)).map(|(_, hole)| hole);
-        let near = wider(bounds, touch(bounds));
         clipped(a, b, &near).is_some_and(|range| solid_part(a, b, range, others) > 0.0)
     };
     match part {
-        BorderPart::Edge { edge, from, to } => {
-            is_solid([from, to].map(|s| edge.point(bounds, s)), None)
-        }
         BorderPart::Hole(hole) if holes[hole].sides().next().is_none() => true,
-        BorderPart::Hole(_) | BorderPart::Sides(_) | BorderPart::Piece(_) => {
-            holes.iter().enumerate().any(|(k, hole)| {
-                let mut sides = hole.sides().enumerate();
-                sides.any(|(side, ends)| problem.is_on(part, k, side) && is_solid(ends, Some(k)))
-            })
-        }
         BorderPart::Crack { .. } => true,
+        _ => problem.sides_of(part).into_iter().any(is_solid),
     }
 }
 
-fn is_of(run: SideRun, problem: &Problem) -> bool {
-    let count = problem.domain.holes.get(run.hole).map_or(0, |hole| hole.sides().count());
+fn is_of(run: SideRun, problem: &ProblemData) -> bool {
+    let count = problem.domain().holes.get(run.hole).map_or(0, |hole| hole.sides().count());
     run.from < run.to && run.to <= count
 }
 
@@ -163,7 +158,7 @@ fn bad_range(edge: Edge, [from, to]: [f64; 2], domain: &Rect) -> Option<String> 
 
 /// Two conditions that speak of the same component at the same place.
 fn contradiction(
-    problem: &Problem,
+    problem: &ProblemData,
     a: &BoundaryCondition,
     b: &BoundaryCondition,
 ) -> Option<String> {

@@ -8,11 +8,11 @@ use ppum::vec2::{Rect, Vec2};
 use super::super::enrichment::{LocalEnrichment, Region, Site};
 use super::super::expression;
 use super::super::key::{Key, MistakeAt};
-use super::super::model::Problem;
+use super::super::model::ProblemData;
 use crate::geometry::meets;
 
 /// All rules broken by the enrichments.
-pub(super) fn check_enrichments(problem: &Problem) -> Vec<MistakeAt> {
+pub(super) fn check_enrichments(problem: &ProblemData) -> Vec<MistakeAt> {
     let check = |(index, new): (usize, &LocalEnrichment)| {
         let found = [
             bad_functions(new, problem),
@@ -32,11 +32,11 @@ pub(super) fn check_enrichments(problem: &Problem) -> Vec<MistakeAt> {
 /// A key and what is wrong with its value.
 type Broken = (&'static str, String);
 
-fn bad_functions(new: &LocalEnrichment, problem: &Problem) -> Option<Broken> {
+fn bad_functions(new: &LocalEnrichment, problem: &ProblemData) -> Option<Broken> {
     if new.functions.is_empty() {
         return Some(("functions", "there is no function; give at least one".to_owned()));
     }
-    let scope = match function_scope(&new.parameters, problem.cracks.len(), &problem.tables) {
+    let scope = match function_scope(&new.parameters, problem.cracks().len(), &problem.tables) {
         Ok(scope) => scope,
         Err(error) => return Some(("parameters", error.to_string())),
     };
@@ -49,12 +49,12 @@ fn bad_functions(new: &LocalEnrichment, problem: &Problem) -> Option<Broken> {
     })
 }
 
-fn bad_site(new: &LocalEnrichment, problem: &Problem) -> Option<Broken> {
-    let domain = &problem.domain.bounds;
+fn bad_site(new: &LocalEnrichment, problem: &ProblemData) -> Option<Broken> {
+    let domain = &problem.domain().bounds;
     let message = |text: &str| text.to_owned();
     match new.site {
         Site::World => None,
-        Site::Tips => tips(&problem.cracks).next().is_none().then(|| {
+        Site::Tips => tips(problem.cracks()).next().is_none().then(|| {
             ("at", message("there is no tip; add a [[crack]] that ends inside, or give a point"))
         }),
         Site::Point { at, angle } if !(at.is_finite() && angle.is_finite()) => {
@@ -78,7 +78,7 @@ fn bad_segment([a, b]: [Vec2; 2], domain: &Rect) -> Option<&'static str> {
     }
 }
 
-fn bad_region(new: &LocalEnrichment, problem: &Problem) -> Option<Broken> {
+fn bad_region(new: &LocalEnrichment, problem: &ProblemData) -> Option<Broken> {
     match (&new.region, new.site) {
         (Region::Near(_), Site::World) => {
             let message = "`radius` has no meaning without `at` or `along`; add one of them, or write \
@@ -109,13 +109,13 @@ fn bad_declaration(new: &LocalEnrichment) -> Option<Broken> {
 
 /// The mistake of the radius of a zone around all tips, if it is too large: the functions of a tip
 /// jump on the whole straight extension of its segment, also beyond the other end of the crack.
-pub(super) fn too_wide(problem: &Problem, radius: f64) -> Option<String> {
+pub(super) fn too_wide(problem: &ProblemData, radius: f64) -> Option<String> {
     // from the border on there is nothing to jump
     let goes_on = |crack: &&Crack| {
         crack.ends.contains(&CrackEnd::Tip) && !crack.ends.contains(&CrackEnd::Mouth)
     };
     let apart = problem
-        .cracks
+        .cracks()
         .iter()
         .filter(goes_on)
         .filter_map(|c| Some((*c.points.last()? - *c.points.first()?).length()));

@@ -3,6 +3,7 @@
 mod boundary;
 mod contact;
 mod enrichment;
+pub(super) mod features;
 mod refinement;
 mod support;
 mod symmetry;
@@ -11,37 +12,32 @@ use ppum::dataset::{EIGENSTRAINS, EXPANSION, Equation};
 use ppum::domain::{Domain, Hole};
 use ppum::expression::Expression;
 use ppum::text::trimmed;
-use ppum::vec2::{Rect, vec2};
+use ppum::vec2::Rect;
 
-use super::adaptivity::Keep;
 use super::cracks::check_cracks;
 use super::discretization::{Cells, Enrichment, MAX_LEVEL, Order};
-use super::enrichment::{LocalEnrichment, Region};
+use super::enrichment::Region;
 use super::error::{Location, Mistake, ProblemError};
-use super::growth::LoadControl;
 use super::holes::check_holes;
 use super::key::{Key, MistakeAt};
-use super::model::Problem;
+use super::model::ProblemData;
 use super::quantities::check_quantities;
 use super::refinement::RefinementRegion;
 use super::scopes;
-use super::words::Words;
 use crate::geometry::Jumps;
 use boundary::check_boundary;
 use contact::check_contact;
 use enrichment::{check_enrichments, too_wide};
+use features::check_features;
 use ppum::border::touch;
-use refinement::check_refinements;
+use refinement::{check_refinements, samples};
 use support::{check_forces, check_supports};
 use symmetry::check_symmetry;
 
 /// Most cells of a base cover.
 const MAX_CELLS: u64 = 1 << (2 * MAX_LEVEL);
 
-/// Places along each axis at which a formula of the order is tried before anything is computed.
-const ORDER_SAMPLES: u32 = 16;
-
-impl Problem {
+impl ProblemData {
     /// Applies the rules that hold for problem files to a problem built in code.
     ///
     /// # Errors
@@ -61,22 +57,22 @@ impl Problem {
 }
 
 /// All rules broken by a problem. The later ones are judged only in a domain that is one.
-pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
+pub(super) fn mistakes(problem: &ProblemData) -> Vec<MistakeAt> {
     let mut found: Vec<_> =
-        check_equation(&problem.dataset_equation(), &problem.domain).into_iter().collect();
+        check_equation(&problem.dataset_equation(), problem.domain()).into_iter().collect();
     found.extend(check_components(problem));
     found.extend(numbers(problem).into_iter().filter_map(|(key, value)| key.out_of_range(value)));
     found.extend(check_cells(&problem.discretization.cells));
-    found.extend(check_combinations(problem));
     found.extend(check_increment(problem));
     found.extend(check_tables(problem));
     found.extend(check_quantities(problem));
-    let bounds = &problem.domain.bounds;
-    let domain = check_domain(&problem.domain);
+    let bounds = &problem.domain().bounds;
+    let domain = check_domain(problem.domain());
     if domain.is_empty() {
         found.extend(check_points(&problem.discretization.cells, bounds));
         found.extend(check_order(&problem.discretization.order, bounds));
-        found.extend(check_cracks(&problem.cracks, &problem.domain));
+        found.extend(check_cracks(problem.cracks(), problem.domain()));
+        found.extend(check_features(problem));
         found.extend(check_refinements(problem));
         found.extend(check_additive(problem));
         found.extend(check_zone(problem));
@@ -92,42 +88,38 @@ pub(super) fn mistakes(problem: &Problem) -> Vec<MistakeAt> {
 }
 
 /// The numbers that are given, with their keys, whose rows say in which range they must be.
-fn numbers(problem: &Problem) -> Vec<(Key, f64)> {
-    let mut all = Vec::new();
-    let mut add = |path, value: Option<f64>| all.extend(value.map(|value| (Key::of(path), value)));
-    let set = &problem.discretization;
+fn numbers(problem: &ProblemData) -> Vec<(Key, f64)> {
+    let (set, rule) = (&problem.discretization, problem.growth.as_ref());
+    let (steps, paris) = (problem.adaptivity.as_ref(), rule.and_then(|rule| rule.paris));
     let level = if let Cells::Level(level) = set.cells { Some(level.into()) } else { None };
-    add("discretization.level", level);
-    add("discretization.overlap", Some(set.overlap));
-    add("discretization.tip_degree", Some(set.tip_degree as f64));
-    add("discretization.tip_terms", set.tip_terms.map(|terms| terms as f64));
-    add("discretization.enrichment_radius", set.enrichment_radius);
-    add("solver.tolerance", Some(problem.solver.tolerance));
-    if let Some(set) = &problem.adaptivity {
-        add("discretization.accuracy", set.accuracy);
-        add("adaptivity.steps", Some(set.steps as f64));
-        add("adaptivity.fraction", Some(set.fraction));
-        add("adaptivity.max_unknowns", Some(set.max_unknowns as f64));
-        add("adaptivity.tolerance", set.tolerance);
-    }
-    if let Some(rule) = &problem.growth {
-        add("growth.steps", Some(rule.steps as f64));
-        add("growth.increment", rule.increment);
-        add("growth.toughness", rule.toughness.as_ref().and_then(Expression::constant));
-        let paris = rule.paris;
-        add("growth.paris.c", paris.map(|law| law.c));
-        add("growth.paris.m", paris.map(|law| law.m));
-        add("growth.paris.threshold", paris.map(|law| law.threshold));
-        add("growth.paris.ratio", paris.map(|law| law.ratio));
-    }
+    let toughness = rule.and_then(|rule| rule.toughness.as_ref());
+    let single = [
+        ("discretization.level", level),
+        ("discretization.overlap", Some(set.overlap)),
+        ("discretization.tip_degree", Some(set.tip_degree as f64)),
+        ("discretization.tip_terms", set.tip_terms.map(|terms| terms as f64)),
+        ("discretization.enrichment_radius", set.enrichment_radius),
+        ("solver.tolerance", Some(problem.solver.tolerance)),
+        ("discretization.accuracy", steps.and_then(|set| set.accuracy)),
+        ("adaptivity.steps", steps.map(|set| set.steps as f64)),
+        ("adaptivity.fraction", steps.map(|set| set.fraction)),
+        ("adaptivity.max_unknowns", steps.map(|set| set.max_unknowns as f64)),
+        ("adaptivity.tolerance", steps.and_then(|set| set.tolerance)),
+        ("growth.steps", rule.map(|rule| rule.steps as f64)),
+        ("growth.increment", rule.and_then(|rule| rule.increment)),
+        ("growth.toughness", toughness.and_then(Expression::constant)),
+        ("growth.paris.c", paris.map(|law| law.c)),
+        ("growth.paris.m", paris.map(|law| law.m)),
+        ("growth.paris.threshold", paris.map(|law| law.threshold)),
+        ("growth.paris.ratio", paris.map(|law| law.ratio)),
+    ];
+    let given = single.into_iter().filter_map(|(path, value)| Some((Key::of(path), value?)));
+    let mut all: Vec<_> = given.collect();
     for (index, new) in problem.enrichments.iter().enumerate() {
         let key = Key::new("enrichment").index(index);
         let radius = if let Region::Near(radius) = new.region { Some(radius) } else { None };
         all.extend(radius.map(|radius| (key.clone().name("radius"), radius)));
         all.extend(new.degree.map(|degree| (key.name("degree"), degree as f64)));
-    }
-    for (crack, friction) in &problem.contacts {
-        all.push((Key::new("crack").index(*crack as usize).name("friction"), *friction));
     }
     for (index, new) in problem.refinements.iter().enumerate() {
         let key = Key::new("refine").index(index);
@@ -139,93 +131,12 @@ fn numbers(problem: &Problem) -> Vec<(Key, f64)> {
     all
 }
 
-/// Values that have no meaning together.
-fn check_combinations(problem: &Problem) -> Vec<MistakeAt> {
-    let Problem { discretization, adaptivity, growth, .. } = problem;
-    let enrichment = discretization.enrichment;
-    let name = enrichment.word();
-    let is_without_jumps = !enrichment.has_jumps() && !problem.cracks.is_empty();
-    let has_accuracy = adaptivity.as_ref().is_some_and(|set| set.accuracy.is_some());
-    let has_zones =
-        enrichment.has_zones() || problem.enrichments.iter().any(LocalEnrichment::has_default_zone);
-    let no_meaning = |key: &str| {
-        format!(
-            "`{key}` has no meaning with enrichment = \"{name}\"; remove it, or write \
-             enrichment = \"williams\""
-        )
-    };
-    let is_critical = growth.as_ref().is_some_and(|rule| rule.load == LoadControl::Critical);
-    let rules = [
-        (
-            discretization.tip_terms.is_some() && enrichment != Enrichment::Williams,
-            "discretization.tip_terms",
-            no_meaning("tip_terms"),
-        ),
-        (
-            discretization.enrichment_radius.is_some() && !has_zones,
-            "discretization.enrichment_radius",
-            no_meaning("enrichment_radius"),
-        ),
-        // cells as small as there may be do not stand for functions of cracks
-        (
-            has_accuracy && is_without_jumps,
-            "discretization.accuracy",
-            format!(
-                "no accuracy can be had with `enrichment = \"{name}\"`, which leaves out how fields jump across \
-                 cracks; leave `enrichment` or `accuracy` out"
-            ),
-        ),
-        (
-            is_critical && growth.as_ref().is_some_and(|rule| rule.toughness.is_none()),
-            "growth.load",
-            "`load = \"critical\"` needs a `toughness`, which the load is chosen to reach; add it".to_owned(),
-        ),
-        (
-            is_critical && growth.as_ref().is_some_and(|rule| rule.paris.is_some()),
-            "growth.load",
-            "`load = \"critical\"` is for one load that grows, `paris` for many cycles of the same; leave one out"
-                .to_owned(),
-        ),
-        (
-            is_critical && problem.dataset_equation().eigenstrains().next().is_some(),
-            "growth.load",
-            "`load = \"critical\"` multiplies the loads by a factor, but not temperatures and given strains; leave it \
-             out, or leave [temperature] and [strain] out"
-                .to_owned(),
-        ),
-        (
-            problem.temperature.is_some() && !problem.contacts.is_empty(),
-            "temperature.problem",
-            "a temperature that is solved for jumps across cracks whose faces touch; leave `contact` out, or give the \
-             temperature by a formula"
-                .to_owned(),
-        ),
-        (
-            problem.temperature.is_some() && !problem.exact.is_empty(),
-            "exact",
-            "an exact solution cannot be given beside a temperature that is solved for; leave [exact] out".to_owned(),
-        ),
-        (
-            growth.is_some() && problem.equation.elastic().is_none(),
-            "growth",
-            "cracks grow by their stress intensity factors, which only elasticity has; leave [growth] out".to_owned(),
-        ),
-        (
-            growth.is_some() && adaptivity.as_ref().is_some_and(|set| set.keep == Keep::All),
-            "adaptivity.keep",
-            "`keep = \"all\"` keeps the steps of an adaptation, and [growth] those of growth; leave it out".to_owned(),
-        ),
-    ];
-    let broken = rules.into_iter().filter(|(is_broken, ..)| *is_broken);
-    broken.map(|(_, path, message)| Key::of(path).mistake(message)).collect()
-}
-
 /// Least increment in units of the length below which things touch: an arc may have
 /// several vertices.
 const LEAST_INCREMENT: f64 = 100.0;
 
-fn check_increment(problem: &Problem) -> Option<MistakeAt> {
-    let least = LEAST_INCREMENT * touch(&problem.domain.bounds);
+fn check_increment(problem: &ProblemData) -> Option<MistakeAt> {
+    let least = LEAST_INCREMENT * touch(&problem.domain().bounds);
     let increment = problem.growth.as_ref()?.increment.filter(|da| *da > 0.0 && *da < least)?;
     let message = format!(
         "`increment` is {}, but points of a crack in this plate must be {} apart: make it longer",
@@ -236,19 +147,19 @@ fn check_increment(problem: &Problem) -> Option<MistakeAt> {
 }
 
 /// Functions of tips alone let no crack jump that meets another one, or that comes back to itself.
-fn check_additive(problem: &Problem) -> Option<MistakeAt> {
-    let Problem { cracks, domain, discretization, .. } = problem;
-    if discretization.enrichment != Enrichment::AdditiveOnly {
+fn check_additive(problem: &ProblemData) -> Option<MistakeAt> {
+    let domain = problem.domain();
+    if problem.discretization.enrichment != Enrichment::AdditiveOnly {
         return None;
     }
-    let jumps = Jumps::new(cracks, domain, touch(&domain.bounds));
+    let jumps = Jumps::new(problem.cracks(), domain, touch(&domain.bounds));
     let message = "the crack meets another one or comes back to itself, which `enrichment = \"additive-only\"` \
                    cannot show; take another enrichment, or move the cracks apart";
     jumps.first_meeting().map(|crack| Key::points(crack as usize).mistake(message))
 }
 
 /// No zone of the built-in functions of tips may reach too far.
-fn check_zone(problem: &Problem) -> Option<MistakeAt> {
+fn check_zone(problem: &ProblemData) -> Option<MistakeAt> {
     let radius = problem.discretization.enrichment_radius?;
     let message = too_wide(problem, radius)?;
     let key = Key::of("discretization.enrichment_radius");
@@ -290,7 +201,7 @@ fn is_flat(outline: &Hole) -> bool {
 }
 
 /// Names that all formulas may use; files cannot break this, code can.
-fn check_tables(problem: &Problem) -> Option<MistakeAt> {
+fn check_tables(problem: &ProblemData) -> Option<MistakeAt> {
     let broken =
         |count: &usize| scopes::check(&problem.tables[..*count], &problem.equation).is_err();
     let count = (1..=problem.tables.len()).find(broken)?;
@@ -308,7 +219,7 @@ fn check_equation(equation: &Equation, domain: &Domain) -> Option<MistakeAt> {
 }
 
 /// One value per component everywhere; files cannot break this, code can.
-fn check_components(problem: &Problem) -> Vec<MistakeAt> {
+fn check_components(problem: &ProblemData) -> Vec<MistakeAt> {
     let expected = problem.components();
     let boundary = (0..)
         .zip(&problem.boundary)
@@ -352,12 +263,6 @@ fn check_points(cells: &Cells, domain: &Rect) -> Option<MistakeAt> {
 
 fn check_order(order: &Order, domain: &Rect) -> Option<MistakeAt> {
     let key = Key::of("discretization.order");
-    let steps = f64::from(ORDER_SAMPLES);
-    let samples = (0..ORDER_SAMPLES * ORDER_SAMPLES).map(|k| {
-        let [i, j] = [k % ORDER_SAMPLES, k / ORDER_SAMPLES].map(|i| (f64::from(i) + 0.5) / steps);
-        let size = domain.size();
-        domain.min + vec2(size.x * i, size.y * j)
-    });
-    let mut wrong = samples.filter_map(|p| order.at(p).err());
+    let mut wrong = samples(domain).filter_map(|p| order.at(p).err());
     wrong.next().map(|error| key.mistake(error.to_string()))
 }

@@ -1,20 +1,28 @@
 //! Rules for cells divided by hand.
 
-use ppum::vec2::vec2;
+use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::super::discretization::{Cells, MAX_LEVEL};
 use super::super::key::{Key, MistakeAt, no_such};
-use super::super::model::Problem;
+use super::super::model::ProblemData;
 use super::super::refinement::{DEEPEST, LocalRefinement, RefinementRegion};
 
 /// Most tables: each cell asks all that are near it.
 const MAX_REFINEMENTS: usize = 1024;
 
-/// Places along each axis at which a formula of the size is tried before anything is computed.
+/// Places along each axis at which a formula is tried before anything is computed.
 const SAMPLES: u32 = 16;
 
+/// Places of a box at which formulas are tried.
+pub(super) fn samples(rect: &Rect) -> impl Iterator<Item = Vec2> + use<> {
+    let (min, size) = (rect.min, rect.size());
+    let part = |k: u32| (f64::from(k) + 0.5) / f64::from(SAMPLES);
+    let at = move |k| min + vec2(size.x * part(k % SAMPLES), size.y * part(k / SAMPLES));
+    (0..SAMPLES * SAMPLES).map(at)
+}
+
 /// All rules broken by the refinements; the domain and its cracks and holes are in order.
-pub(super) fn check_refinements(problem: &Problem) -> Vec<MistakeAt> {
+pub(super) fn check_refinements(problem: &ProblemData) -> Vec<MistakeAt> {
     let all = &problem.refinements;
     if all.len() > MAX_REFINEMENTS {
         let message = format!(
@@ -33,10 +41,10 @@ pub(super) fn check_refinements(problem: &Problem) -> Vec<MistakeAt> {
     all.iter().enumerate().filter_map(check).collect()
 }
 
-fn bad_place(new: &LocalRefinement, problem: &Problem) -> Option<(&'static str, String)> {
+fn bad_place(new: &LocalRefinement, problem: &ProblemData) -> Option<(&'static str, String)> {
     let (bounds, holes, cracks) =
-        (&problem.domain.bounds, problem.domain.holes.len(), problem.cracks.len());
-    let holes = holes - usize::from(problem.domain.outline().is_some());
+        (&problem.domain().bounds, problem.domain().holes.len(), problem.cracks().len());
+    let holes = holes - usize::from(problem.domain().outline().is_some());
     let missed = |what: &str| format!("the {what} misses the domain; move it in, or leave it out");
     match new.place {
         RefinementRegion::Box(rect) => {
@@ -75,20 +83,16 @@ fn bad_distance(new: &LocalRefinement) -> Option<(&'static str, String)> {
 }
 
 /// The mistake of a size that is none somewhere, or that the base cells cannot be divided to.
-fn bad_size(new: &LocalRefinement, problem: &Problem) -> Option<String> {
+fn bad_size(new: &LocalRefinement, problem: &ProblemData) -> Option<String> {
     let remedy = if new.size.constant().is_some() {
         ""
     } else {
         "; change the formula, e.g. add a constant"
     };
-    let rect = new.bounds(&problem.domain, &problem.cracks).intersection(&problem.domain.bounds);
-    let place = |k: u32| (f64::from(k) + 0.5) / f64::from(SAMPLES);
-    let places = (0..SAMPLES * SAMPLES).map(|k| {
-        let (x, y) = (place(k % SAMPLES), place(k / SAMPLES));
-        rect.min + vec2(rect.size().x * x, rect.size().y * y)
-    });
-    let wrong = places.filter_map(|p| new.size_at(p).err().map(|value| (p, value))).next();
-    if let Some((p, value)) = wrong {
+    let rect =
+        new.bounds(problem.domain(), problem.cracks()).intersection(&problem.domain().bounds);
+    let wrong = |p| Some((p, new.size_at(p).err()?));
+    if let Some((p, value)) = samples(&rect).find_map(wrong) {
         let at = match new.size.constant() {
             Some(_) => String::new(),
             None => format!(" at [{}, {}]", p.x, p.y),
@@ -105,11 +109,11 @@ fn bad_size(new: &LocalRefinement, problem: &Problem) -> Option<String> {
 }
 
 /// The size that base cells have after all divisions; nothing is known of those around points.
-fn smallest(problem: &Problem) -> Option<f64> {
+fn smallest(problem: &ProblemData) -> Option<f64> {
     let cells = &problem.discretization.cells;
     if matches!(cells, Cells::Level(level) if *level > MAX_LEVEL) {
         return None;
     }
-    let size = cells.size(&problem.domain.bounds)?;
+    let size = cells.size(&problem.domain().bounds)?;
     Some(size.x.max(size.y) * 0.5f64.powi(DEEPEST as i32))
 }

@@ -3,23 +3,19 @@
 use ppum::segment;
 use ppum::vec2::Vec2;
 
-use super::super::force::{is_outside, place_words};
+use super::super::cracks::shown;
+use super::super::force::is_outside;
 use super::super::key::{Key, MistakeAt};
-use super::super::model::Problem;
+use super::super::model::ProblemData;
 use ppum::border::touch;
 
 /// All rules broken by the forces.
-pub(super) fn check_forces(problem: &Problem) -> Vec<MistakeAt> {
+pub(super) fn check_forces(problem: &ProblemData) -> Vec<MistakeAt> {
     let key = |index: usize| Key::new("force").index(index);
     if problem.forces.is_empty() {
         return Vec::new();
     }
-    if !problem.equation.has_uniform_material() || problem.equation.elastic().is_none() {
-        let message = "the field of a force is known where E and ν are constants alone; give it as a traction on a \
-                       short piece of the border, or as a [body_force]";
-        return vec![key(0).mistake(message)];
-    }
-    let touch = touch(&problem.domain.bounds);
+    let touch = touch(&problem.domain().bounds);
     let places = problem.forces.iter().enumerate().filter_map(|(index, force)| {
         let message = match problem.place_of(force) {
             Ok(place) if problem.room_of(force, place) <= touch => {
@@ -29,13 +25,13 @@ pub(super) fn check_forces(problem: &Problem) -> Vec<MistakeAt> {
             }
             place => place.err()?,
         };
-        Some(key(index).name("at").mistake(format!("{} {message}", place_words(force.at))))
+        Some(key(index).name("at").mistake(format!("{} {message}", shown(force.at))))
     });
     places.collect()
 }
 
 /// All rules broken by the supports.
-pub(super) fn check_supports(problem: &Problem) -> Vec<MistakeAt> {
+pub(super) fn check_supports(problem: &ProblemData) -> Vec<MistakeAt> {
     let mut found = Vec::new();
     for (index, support) in problem.supports.iter().enumerate() {
         let key = Key::new("support").index(index);
@@ -51,9 +47,9 @@ pub(super) fn check_supports(problem: &Problem) -> Vec<MistakeAt> {
 }
 
 /// The mistake of a point that lies outside of the body or on a crack.
-fn misplaced(problem: &Problem, p: Vec2) -> Option<String> {
-    let Problem { domain, cracks, .. } = problem;
-    let (touch, place) = (touch(&domain.bounds), place_words(p));
+fn misplaced(problem: &ProblemData, p: Vec2) -> Option<String> {
+    let (domain, cracks) = (problem.domain(), problem.cracks());
+    let (touch, place) = (touch(&domain.bounds), shown(p));
     if is_outside(domain, p, touch) {
         return Some(format!(
             "{place} lies outside of the body; move it into the body, or onto its border"

@@ -78,12 +78,15 @@ impl Obstacle {
     }
 }
 
-/// The points of forces whose fields are among the functions of a step.
-pub fn points_of_forces(functions: &[Function]) -> impl Iterator<Item = Vec2> {
-    functions.iter().filter_map(|function| match function.kind {
-        FunctionKind::Formula { frame: Frame::Fixed { origin, .. }, role: Role::Force, .. } => {
-            Some(origin)
-        }
+/// True if the coefficients of a function are known.
+pub fn is_known(function: &Function) -> bool {
+    function.kind.role() == Some(Role::Force)
+}
+
+/// The singular points of known fields whose functions are among those of a step.
+pub fn known_points(functions: &[Function]) -> impl Iterator<Item = Vec2> {
+    functions.iter().filter(|f| is_known(f)).filter_map(|function| match function.kind {
+        FunctionKind::Formula { frame: Frame::Fixed { origin, .. }, .. } => Some(origin),
         _ => None,
     })
 }
@@ -99,7 +102,7 @@ impl TipClearance {
         let elastic = dataset.equation.elastic();
         let on_interface = elastic.is_some_and(|body| jumps(body, p, BESIDE * cell));
         let end = on_interface.then_some(Self { radius: 0.0, end: Obstacle::Interface });
-        let forces = points_of_forces(&step.functions)
+        let forces = known_points(&step.functions)
             .map(|at| Self { radius: (at - p).length(), end: Obstacle::Force });
         Self::among_cracks(cracks, &dataset.domain, tip).with(end.into_iter().chain(forces))
     }

@@ -1,7 +1,6 @@
 //! Jumps of the material, seen from a tip.
 
 use ppum::dataset::{Elasticity, Material};
-use ppum::expression::Expression;
 use ppum::vec2::{Vec2, vec2};
 use std::f64::consts::TAU;
 
@@ -35,24 +34,14 @@ pub fn interface_distance(body: &Elasticity, p: Vec2, reach: f64) -> Option<f64>
     rays().filter_map(along).reduce(f64::min)
 }
 
-/// True if given strains, or the coefficient of expansion by a temperature, jump within `reach` of
-/// a point, as seen from there: across a straight
-/// crack that ends at the point they may.
-pub fn eigenstrain_jumps(
-    body: &Elasticity,
-    expansion: Option<&Expression>,
-    p: Vec2,
-    reach: f64,
-) -> bool {
-    let given = body.eigenstrain.as_deref().map(|given| given.strains.each_ref());
-    let [xx, yy, xy, zz] = given.map_or([None; 4], |given| given.map(Some));
-    let all = [xx, yy, xy, zz, expansion];
-    let at = |x: Vec2| all.map(|e| e.map_or(0.0, |e| e.value(x)));
-    let difference = |a: &[f64; 5], b: &[f64; 5]| {
+/// True if some numbers jump within `reach` of a point, as seen from there: across a straight crack
+/// that ends at the point they may.
+pub fn jumps_within<const N: usize>(at: &dyn Fn(Vec2) -> [f64; N], p: Vec2, reach: f64) -> bool {
+    let difference = |a: &[f64; N], b: &[f64; N]| {
         a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
     };
     let size = rays().map(|ray| difference(&at(p), &at(p + ray * reach))).fold(0.0, f64::max);
-    let change = |a: &[f64; 5], b: &[f64; 5]| difference(a, b) / size;
+    let change = |a: &[f64; N], b: &[f64; N]| difference(a, b) / size;
     let jumps = |ray: Vec2| first_jump(&|r| at(p + ray * r), &change, reach).is_some();
     size > 0.0 && rays().any(jumps)
 }

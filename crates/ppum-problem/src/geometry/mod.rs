@@ -9,7 +9,7 @@ mod placed;
 mod vicinity;
 
 pub use clearance::{
-    AMPLE_CLEARANCE, Obstacle, TipClearance, bent_part, exceeds, from_tip, points_of_forces,
+    AMPLE_CLEARANCE, Obstacle, TipClearance, bent_part, exceeds, from_tip, is_known, known_points,
     sure_side,
 };
 pub use clip::{
@@ -17,6 +17,6 @@ pub use clip::{
     segment_inside, solid_part, without,
 };
 pub use jumps::Jumps;
-pub use material::{eigenstrain_jumps, interface_distance};
+pub use material::{interface_distance, jumps_within};
 pub use placed::{Placed, around, wider};
 pub use vicinity::Around;

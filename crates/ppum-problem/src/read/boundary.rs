@@ -9,7 +9,7 @@ use super::super::document::{Read as _, Section, Value, all};
 use super::super::key::no_such;
 use super::super::symmetry::Symmetry;
 use super::super::words::EquationKind;
-use super::rim::Body;
+use super::rim::BodyShape;
 use ppum::border::touch;
 
 /// The conditions; none at all if one of them cannot be read, as the checks count them. `exact` is
@@ -17,7 +17,7 @@ use ppum::border::touch;
 pub(super) fn boundary(
     root: &Section<'_>,
     kind: EquationKind,
-    body: &mut Body,
+    body: &mut BodyShape,
     exact: Option<&[Expression]>,
 ) -> Vec<BoundaryCondition> {
     root.each("boundary", |section| {
@@ -38,7 +38,7 @@ const SPECIAL: [&str; 3] = ["pressure", "symmetry", "antisymmetry"];
 fn special(
     section: &Section<'_>,
     on: Option<BorderPart>,
-    body: &Body,
+    body: &BodyShape,
 ) -> Option<BoundaryCondition> {
     let [pressure, symmetry, antisymmetry] = SPECIAL;
     let given = section.given(&[pressure, symmetry, antisymmetry, "displacement", "traction"]);
@@ -67,7 +67,7 @@ fn special(
 
 /// The normal of a part of the border all of which has one direction; that of an axis, if rounding
 /// is all that they differ by.
-fn normal(on: BorderPart, body: &Body) -> Option<Vec2> {
+fn normal(on: BorderPart, body: &BodyShape) -> Option<Vec2> {
     let piece = match on {
         BorderPart::Edge { edge, .. } => return Some(edge.normal()),
         BorderPart::Piece(piece) => &body.pieces[piece],
@@ -96,7 +96,7 @@ fn exchange(section: &Section<'_>) -> Option<Option<Expression>> {
 }
 
 /// A part of the border: the name of an edge, or a table.
-fn part(value: &Value<'_>, body: &mut Body) -> Option<BorderPart> {
+fn part(value: &Value<'_>, body: &mut BodyShape) -> Option<BorderPart> {
     let domain = &body.bounds.unwrap_or(Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)));
     let Some(section) = value.as_section() else {
         return if value.as_text() == Some(OUTLINE) {
@@ -160,7 +160,7 @@ fn bounded(holes: &[Hole]) -> usize {
 }
 
 /// The outline of the body; if it cannot be read, any part.
-fn outline(value: &Value<'_>, body: &Body) -> Option<BorderPart> {
+fn outline(value: &Value<'_>, body: &BodyShape) -> Option<BorderPart> {
     let holes = body.holes.as_ref()?;
     match holes.iter().position(Hole::is_outside) {
         Some(hole) => Some(BorderPart::Hole(hole)),
@@ -169,7 +169,7 @@ fn outline(value: &Value<'_>, body: &Body) -> Option<BorderPart> {
 }
 
 /// The piece of a name.
-fn piece(value: &Value<'_>, body: &Body) -> Option<BorderPart> {
+fn piece(value: &Value<'_>, body: &BodyShape) -> Option<BorderPart> {
     let name = String::read(value)?;
     body.holes.as_ref()?;
     let names: Vec<_> = body.pieces.iter().map(|piece| format!("`{}`", piece.name)).collect();

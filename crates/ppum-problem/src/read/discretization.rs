@@ -19,17 +19,13 @@ pub(super) fn discretization(section: &Section<'_>) -> Option<Discretization> {
         None => usize::read(&value).map(Order::Uniform),
     });
     let weight = section.value("weight").and_then(|value| weight(&value));
+    let set = with_keys!(section, default, refine, overlap, enrichment, interfaces, tip_degree);
     let new = Discretization {
-        cells: Cells::Level(0),
-        refine: section.get("refine").unwrap_or(default.refine),
-        order: order.unwrap_or(default.order),
-        overlap: section.get("overlap").unwrap_or(default.overlap),
-        weight: weight.unwrap_or(default.weight),
-        enrichment: section.get("enrichment").unwrap_or(default.enrichment),
-        interfaces: section.get("interfaces").unwrap_or(default.interfaces),
+        order: order.unwrap_or(set.order),
+        weight: weight.unwrap_or(set.weight),
         enrichment_radius: section.get("enrichment_radius"),
-        tip_degree: section.get("tip_degree").unwrap_or(default.tip_degree),
         tip_terms: section.get("tip_terms"),
+        ..set
     };
     Some(Discretization { cells: cells?, ..new })
 }
@@ -72,7 +68,7 @@ fn cells(section: &Section<'_>) -> Option<Cells> {
             FileSource::Stored(dataset) => {
                 let points = dataset.steps.first()?.partition.boxes().points.clone();
                 // a temperature is solved for on the cells of its body, which may have none
-                let is_other = section.document.is_heat && points.is_empty();
+                let is_other = section.document.heated.is_some() && points.is_empty();
                 Some(if is_other { Cells::Level(0) } else { Cells::Points(points) })
             }
         },

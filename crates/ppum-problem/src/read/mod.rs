@@ -3,6 +3,15 @@
 //! Every reader of a table reports what is wrong and returns something harmless in its place (or
 //! `None` where nothing is harmless), so that one reading finds all mistakes.
 
+/// A value whose fields are what keys of their names say, or as they are where these are left out.
+macro_rules! with_keys {
+    ($section:expr, $value:expr, $($key:ident),+) => {{
+        let mut value = $value;
+        $(value.$key = $section.get(stringify!($key)).unwrap_or(value.$key);)+
+        value
+    }};
+}
+
 mod boundary;
 mod curve;
 mod discretization;
@@ -13,7 +22,7 @@ mod support;
 mod table;
 mod temperature;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use ppum::dataset::{
@@ -22,24 +31,25 @@ use ppum::dataset::{
 use ppum::domain::Domain;
 use ppum::expression::Expression;
 use ppum::quantity::QuantityFormulaError;
+use ppum::vec2::Vec2;
 use toml::de::DeTable;
 
 use super::adaptivity::Adaptivity;
+use super::body::{Body, HeatedBody};
 use super::boundary::BorderPart;
 use super::check::mistakes;
-use super::cracks;
-use super::discretization::Order;
+use super::discretization::{Discretization, Order};
 use super::document::{Document, FileSource, MAX_LENGTH, Read as _, Section, Value, all};
 use super::error::{Location, Mistake, ProblemError};
 use super::keys::ROOT;
-use super::model::Problem;
+use super::model::{Problem, ProblemData};
 use super::quantities;
 use super::refinement::RefinementRegion;
 use super::report::Report;
 use super::solver::Solver;
 use super::stiffness::default_order;
-use super::temperature::without_expansion;
 use super::words::EquationKind;
+use rim::BodyShape;
 
 impl Problem {
     /// Reads a problem file of at most [`MAX_LENGTH`] bytes. Paths in it are relative to its
@@ -92,15 +102,17 @@ fn read(text: &str, file: &str, source: FileSource<'_>) -> Result<Problem, Probl
     read_document(text, file, Document::new(file, text, source))
 }
 
-/// Reads the problem of a temperature from a text that begins at a line and column of a file.
+/// Reads the problem of a temperature in a body from a text that begins at a line and column of a
+/// file.
 fn read_heat(
     text: &str,
     (file, line, column): (&str, usize, usize),
     source: FileSource<'_>,
+    heated: &HeatedBody<'_>,
 ) -> Result<Problem, ProblemError> {
     let mut document = Document::new(file, text, source);
     document.report.begins_at(line, column);
-    document.is_heat = true;
+    document.heated = Some(heated);
     read_document(text, file, document)
 }
 
@@ -123,10 +135,12 @@ fn read_document(text: &str, file: &str, document: Document<'_>) -> Result<Probl
     };
     // mistakes are about the vertices of the file
     let text = Some(temperature::with_text(text, table.get_ref(), &problem));
-    let cracks = cracks::settled(problem.cracks, &problem.domain);
-    let problem = Problem { title, cracks, text, files, ..problem };
-    Ok(problem.with_free_faces())
+    let body = (*problem.body).clone().settled().into();
+    Ok(Problem::of_checked(ProblemData { title, body, text, files, ..problem }))
 }
+
+/// The tables that give a body; the problem of a temperature need not repeat them.
+const BODY: [&str; 3] = ["domain", "hole", "crack"];
 
 /// The message where a bracket is open; every line that follows is then read as a part of
 /// the array.
@@ -151,7 +165,7 @@ fn report_syntax(report: &Report<'_>, errors: &[toml::de::Error]) {
 fn report_violations(
     Document { report, misnamed, .. }: &Document<'_>,
     document: &DeTable<'_>,
-    problem: &Problem,
+    problem: &ProblemData,
 ) {
     let misnamed = misnamed.borrow();
     for mistake in mistakes(problem).into_iter().filter(|one| !one.key.is_in_any(&misnamed)) {
@@ -163,15 +177,20 @@ fn report_violations(
     }
 }
 
-fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Problem> {
+fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<ProblemData> {
     let root = Section::unchecked(document, &ROOT, table, 0);
     let kind = match root.mentions("equation") {
-        true => root.section("equation").and_then(|section| section.require("kind")),
+        true => root
+            .section("equation")
+            .and_then(|section| section.or("kind", EquationKind::Elasticity)),
         false => Some(EquationKind::Elasticity),
     };
     document.equation.set(kind);
     let root = &root.checked();
     document.misnamed.replace(root.misnamed_keys());
+    let heated = document.heated.filter(|_| !root.mentions_any(&BODY));
+    // mistakes in the body are those of the problem that it stands in
+    document.misnamed.borrow_mut().extend(heated.iter().flat_map(|_| BODY));
     let loads = ["boundary", "force", "body_force", "source", "temperature", "strain"];
     if !root.mentions_any(&loads) {
         root.error::<()>("nothing acts on the plate; add [[boundary]]");
@@ -180,15 +199,15 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     let example = kind.unwrap_or(EquationKind::Elasticity).example();
     let tables = document.tables.get_or_init(|| table::tables(root, &example)).clone();
     document.scope()?;
-    let plan = root.required_section("discretization");
-    let discretization = plan.as_ref().and_then(discretization::discretization);
+    let (plan, discretization) = plan(root);
+    document.misnamed.borrow_mut().extend(plan.is_none().then_some("discretization"));
     let accuracy = plan.as_ref().and_then(|plan| plan.get("accuracy"));
     let solver = solver(root);
-    let cracks =
-        root.each("crack", |section| Some((curve::course(&section)?, friction(&section)?)));
-    let (cracks, frictions): (Vec<_>, Vec<_>) = cracks.into_iter().unzip();
-    let contacts = (0..).zip(frictions).filter_map(|(crack, friction)| Some((crack, friction?)));
-    let mut body = rim::body(root, discretization.as_ref());
+    let (cracks, frictions) = cracks(root, heated);
+    let mut shape = match heated {
+        Some(heated) => BodyShape::of(heated.body),
+        None => rim::body(root, discretization.as_ref()),
+    };
     let enrichments = root.each("enrichment", |new| enrichment::enrichment(&new, cracks.len()));
     let mut refinements = root.each("refine", |new| steps::refinement(&new));
     let kind = kind?;
@@ -196,33 +215,34 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     let source = source(root, kind);
     let equation = equation(root, kind);
     let quantities = quantities(root, &equation);
-    let mut boundary = boundary::boundary(root, kind, &mut body, exact.as_deref());
+    let mut boundary = boundary::boundary(root, kind, &mut shape, exact.as_deref());
     if cracks.is_empty() && root.mentions("crack") {
         // none could be read: what is said of them cannot be judged
         boundary.retain(|condition| !matches!(condition.on, BorderPart::Crack { .. }));
         refinements.retain(|new| !matches!(new.place, RefinementRegion::Crack(_)));
     }
-    let domain = Domain { bounds: body.bounds?, holes: body.holes? };
-    let cracks = cracks::with_ends(cracks, &domain);
-    let temperature = temperature::solved(root, &equation, (&domain, &cracks), &read_heat);
-    let equation = without_expansion(equation);
+    let domain = Domain { bounds: shape.bounds?, holes: shape.holes? };
+    let body = Body::new(domain, shape.pieces).with_lines(cracks);
+    let body = match kind {
+        EquationKind::Elasticity => body.with_contacts(frictions),
+        EquationKind::Poisson => body,
+    };
     let mut discretization = discretization?;
-    if !plan?.mentions("order") {
+    let heated = HeatedBody { body: &body, discretization: &discretization };
+    let read = |text: &str, place: (&str, usize, usize), source: FileSource<'_>| {
+        read_heat(text, place, source, &heated)
+    };
+    let temperature = temperature::solved(root, &equation, &body, &read);
+    let equation = equation.without_expansion();
+    if plan.is_some_and(|plan| !plan.mentions("order")) {
         let first = accuracy.map_or(0, Adaptivity::first_order);
-        discretization.order = Order::Uniform(default_order(&equation, &domain).max(first));
+        discretization.order = Order::Uniform(default_order(&equation, body.domain()).max(first));
     }
-    Some(Problem {
+    Some(ProblemData {
         title,
-        cracks,
+        body: body.into(),
         temperature,
-        contacts: if kind == EquationKind::Elasticity {
-            contacts.collect()
-        } else {
-            BTreeMap::new()
-        },
-        domain,
         equation,
-        pieces: body.pieces,
         boundary,
         forces: support::forces(root),
         supports: support::supports(root),
@@ -239,6 +259,36 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
         text: None,
         files: Vec::new(),
     })
+}
+
+/// The table `[discretization]`, which the problem of a temperature need not have, and what it says.
+fn plan<'a>(root: &Section<'a>) -> (Option<Section<'a>>, Option<Discretization>) {
+    match root.document.heated {
+        Some(heated) if !root.mentions("discretization") => {
+            (None, Some(heated.discretization.clone()))
+        }
+        _ => {
+            let plan = root.required_section("discretization");
+            let read = plan.as_ref().and_then(discretization::discretization);
+            (plan, read)
+        }
+    }
+}
+
+/// The lines of the cracks, and the friction of those whose faces touch.
+fn cracks(
+    root: &Section<'_>,
+    heated: Option<&HeatedBody<'_>>,
+) -> (Vec<Vec<Vec2>>, Vec<Option<f64>>) {
+    match heated {
+        Some(HeatedBody { body, .. }) => {
+            body.cracks().iter().map(|crack| (crack.points.clone(), None)).unzip()
+        }
+        None => {
+            let read = |section| Some((curve::course(&section)?, friction(&section)?));
+            root.each("crack", read).into_iter().unzip()
+        }
+    }
 }
 
 /// Values that are missing or wrong are reported, and replaced by possible ones.
@@ -291,12 +341,8 @@ fn expressions(value: &Value<'_>) -> Option<Vec<Expression>> {
 
 fn solver(root: &Section<'_>) -> Solver {
     let default = Solver::default();
-    let Some(section) = root.section("solver") else { return default };
-    Solver {
-        tolerance: section.get("tolerance").unwrap_or(default.tolerance),
-        kind: section.get("kind").unwrap_or(default.kind),
-        kernels: section.get("kernels").unwrap_or(default.kernels),
-    }
+    let section = root.section("solver");
+    section.map_or(default, |section| with_keys!(section, default, tolerance, kind, kernels))
 }
 
 /// The quantities that can be read, each of which may use those before it.

@@ -1,8 +1,9 @@
 //! Closed curves: the outline of the body, and the tables `[[hole]]`.
 
-use ppum::domain::Hole;
+use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2};
 
+use super::super::body::Body;
 use super::super::boundary::{Piece, SideRun};
 use super::super::cracks::shown;
 use super::super::curve::SmoothCurve;
@@ -22,7 +23,7 @@ pub(super) struct Rim {
 
 /// The box, the holes, and what is outside of the outline as the last of them; and their pieces
 /// with names.
-pub(super) struct Body {
+pub(super) struct BodyShape {
     pub(super) bounds: Option<Rect>,
     pub(super) holes: Option<Vec<Hole>>,
     pub(super) pieces: Vec<Piece>,
@@ -33,7 +34,7 @@ pub(super) struct Body {
 const ROOM: f64 = 1.0 / 16.0;
 
 /// The body of a problem; cells decide how much room its box has.
-pub(super) fn body(root: &Section<'_>, cells: Option<&Discretization>) -> Body {
+pub(super) fn body(root: &Section<'_>, cells: Option<&Discretization>) -> BodyShape {
     let domain = root.required_section("domain");
     let outline = domain.as_ref().map_or(Some(None), outline);
     let bounds = domain.and_then(|domain| bounds(&domain, outline.as_ref()?.as_ref(), cells));
@@ -45,7 +46,7 @@ pub(super) fn body(root: &Section<'_>, cells: Option<&Discretization>) -> Body {
         rim.names.into_iter().for_each(|name| add_piece(&mut pieces, name, holes.len()));
         holes.push(rim.hole);
     }
-    Body { bounds, holes: is_whole.then_some(holes), pieces }
+    BodyShape { bounds, holes: is_whole.then_some(holes), pieces }
 }
 
 fn add_piece(pieces: &mut Vec<Piece>, (name, [from, to]): (String, [usize; 2]), hole: usize) {
@@ -56,7 +57,13 @@ fn add_piece(pieces: &mut Vec<Piece>, (name, [from, to]): (String, [usize; 2]), 
     }
 }
 
-impl Body {
+impl BodyShape {
+    /// The shape of a body.
+    pub(super) fn of(body: &Body) -> Self {
+        let Domain { bounds, holes } = body.domain().clone();
+        Self { bounds: Some(bounds), holes: Some(holes), pieces: body.pieces().to_vec() }
+    }
+
     /// The part of a piece between two lengths along it from its beginning, as a piece of its own.
     /// Sides are divided at its ends.
     ///

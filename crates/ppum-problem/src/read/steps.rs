@@ -12,37 +12,24 @@ use super::super::refinement::{LocalRefinement, RefinementRegion};
 pub(super) fn adaptivity(root: &Section<'_>, accuracy: Option<f64>) -> Option<Adaptivity> {
     let default = accuracy.map_or_else(Adaptivity::default, Adaptivity::to);
     let Some(section) = root.section("adaptivity") else { return accuracy.map(|_| default) };
-    Some(Adaptivity {
-        steps: section.get("steps").unwrap_or(default.steps),
-        fraction: section.get("fraction").unwrap_or(default.fraction),
-        max_unknowns: section.get("max_unknowns").unwrap_or(default.max_unknowns),
-        tolerance: section.get("tolerance"),
-        accuracy,
-        kind: section.get("kind").unwrap_or(default.kind),
-        keep: section.get("keep").unwrap_or_default(),
-    })
+    let set = with_keys!(section, default, steps, fraction, max_unknowns, kind, keep);
+    Some(Adaptivity { tolerance: section.get("tolerance"), ..set })
 }
 
 /// The table. Values that are wrong are reported, and left at their defaults.
 pub(super) fn growth(section: &Section<'_>) -> GrowthRule {
+    let rule = GrowthRule::new(section.require("steps").unwrap_or(1));
     GrowthRule {
-        criterion: section.get("criterion").unwrap_or_default(),
-        load: section.get("load").unwrap_or_default(),
         increment: section.get("increment"),
         toughness: section.get("toughness"),
         paris: section.section("paris").and_then(|section| paris(&section)),
-        ..GrowthRule::new(section.require("steps").unwrap_or(1))
+        ..with_keys!(section, rule, criterion, load)
     }
 }
 
 fn paris(section: &Section<'_>) -> Option<Paris> {
     let (c, m) = (section.require("c"), section.require("m"));
-    let plain = Paris::new(c?, m?);
-    Some(Paris {
-        threshold: section.get("threshold").unwrap_or(plain.threshold),
-        ratio: section.get("ratio").unwrap_or(plain.ratio),
-        ..plain
-    })
+    Some(with_keys!(section, Paris::new(c?, m?), threshold, ratio))
 }
 
 pub(super) fn refinement(section: &Section<'_>) -> Option<LocalRefinement> {

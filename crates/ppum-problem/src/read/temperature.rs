@@ -2,16 +2,14 @@
 
 use std::path::Path;
 
-use ppum::crack::Crack;
 use ppum::dataset::{Eigenstrain, Equation};
-use ppum::domain::Domain;
 use ppum::expression::Expression;
 use toml::de::DeTable;
 
-use super::super::cracks;
+use super::super::body::Body;
 use super::super::document::{FileSource, MAX_LENGTH, Section, Value};
 use super::super::error::ProblemError;
-use super::super::model::{Problem, SolvedTemperature};
+use super::super::model::{Problem, ProblemData, SolvedTemperature};
 
 /// Reads the problem of a text that begins at a line and column of a file.
 type Reader<'r> =
@@ -42,7 +40,7 @@ pub(super) fn eigenstrain(
         formula.map(|section| format!("({})*({})", alpha.text(), text_of(section, "value")));
     let component = |name: &'static str| {
         let beside = given.as_ref().filter(|section| section.mentions(name));
-        let beside = beside.map(|section| text_of(section, name));
+        let beside = beside.map(|section| text_of(section, name)).filter(|text| text != "0");
         let parts = swelling.iter().filter(|_| name != "xy").chain(&beside);
         let parts: Vec<&str> = parts.map(String::as_str).collect();
         let text = if parts.is_empty() { "0".to_owned() } else { parts.join(" + ") };
@@ -63,7 +61,7 @@ fn text_of(section: &Section<'_>, key: &str) -> String {
 pub(super) fn solved(
     root: &Section<'_>,
     equation: &Equation,
-    body: (&Domain, &[Crack]),
+    body: &Body,
     read: Reader<'_>,
 ) -> Option<SolvedTemperature> {
     let expansion = equation.expansion()?.clone();
@@ -72,7 +70,7 @@ pub(super) fn solved(
         return value.error("contradicts `problem`; give one of them");
     }
     let value = section.value("problem")?;
-    if root.document.is_heat {
+    if root.document.heated.is_some() {
         return value.error("is in the problem of a temperature, which has none itself");
     }
     let found = problem_of(&value, value.text()?, read)?;
@@ -86,8 +84,8 @@ pub(super) fn solved(
             // what a file and the text of a dataset need not have in common
             let (title, files, tables) = (String::new(), Vec::new(), Vec::new());
             let text = problem.text.as_ref().map(|text| format!("{}\n", text.trim_end()));
-            let problem = Box::new(Problem { title, files, tables, text, ..problem });
-            Some(SolvedTemperature { problem, expansion })
+            let data = ProblemData { title, files, tables, text, ..problem.into_data() };
+            Some(SolvedTemperature { problem: Box::new(Problem::of_checked(data)), expansion })
         }
     }
 }
@@ -118,23 +116,18 @@ fn problem_of(
 }
 
 /// What is wrong with the problem of a temperature in a body with cracks.
-fn mistake(
-    problem: &Problem,
-    has_tables: bool,
-    (domain, cracks): (&Domain, &[Crack]),
-) -> Option<&'static str> {
-    let paths = |cracks: &[Crack]| cracks.iter().map(|c| c.points.clone()).collect::<Vec<_>>();
-    match problem {
-        Problem { equation: Equation::Poisson { .. }, .. } if has_tables => Some(
+fn mistake(problem: &Problem, has_tables: bool, body: &Body) -> Option<&'static str> {
+    let paths = |body: &Body| body.cracks().iter().map(|c| c.points.clone()).collect::<Vec<_>>();
+    match problem.equation {
+        Equation::Poisson { .. } if has_tables => Some(
             "has a [[table]], which the problem of a temperature cannot; write its formulas without",
         ),
-        Problem { equation: Equation::Poisson { .. }, .. } if problem.domain != *domain => Some(
-            "has another body; copy [domain] and [[hole]] from this file, and with an outline [discretization]",
+        Equation::Poisson { .. } if problem.domain() != body.domain() => Some(
+            "has another body; leave out its [domain] and [[hole]], and name pieces without `from` and `to`",
         ),
-        Problem { equation: Equation::Poisson { .. }, .. } => {
-            let own = cracks::settled(cracks.to_vec(), domain);
-            let is_other = paths(&problem.cracks) != paths(&own);
-            is_other.then_some("has other cracks; copy all [[crack]] from this file")
+        Equation::Poisson { .. } => {
+            let is_other = paths(&problem.body) != paths(&body.clone().settled());
+            is_other.then_some("has other cracks; leave all [domain], [[hole]] and [[crack]] out")
         }
         _ => {
             Some("must be one of Poisson's equation; write `kind = \"poisson\"` in its [equation]")
@@ -143,7 +136,7 @@ fn mistake(
 }
 
 /// The text of a problem with that of its temperature's in place of the name of its file.
-pub(super) fn with_text(text: &str, document: &DeTable<'_>, problem: &Problem) -> String {
+pub(super) fn with_text(text: &str, document: &DeTable<'_>, problem: &ProblemData) -> String {
     let heat = problem.temperature.as_ref().and_then(|heat| heat.problem.text.as_ref());
     let section = document.get("temperature").and_then(|section| section.get_ref().as_table());
     let value = section.and_then(|section| section.get("problem"));

@@ -12,10 +12,10 @@ const HOLES: &str = include_str!("../../tests/bad_files/holes.toml");
 #[test]
 fn everything_about_holes() {
     let problem = good(HOLES);
-    let [round, triangle] = &problem.domain.holes[..] else { panic!("two holes") };
+    let [round, triangle] = &problem.domain().holes[..] else { panic!("two holes") };
     assert_eq!(*round, Hole::Circle { center: vec2(0.0, 0.25), radius: 0.5 });
     assert!(matches!(triangle, Hole::Polygon { points, .. } if points.len() == 3));
-    assert_eq!(problem.cracks[0].ends, [CrackEnd::Mouth, CrackEnd::Tip]);
+    assert_eq!(problem.cracks()[0].ends, [CrackEnd::Mouth, CrackEnd::Tip]);
     let [left, top, first, second, face] = &problem.boundary[..] else { panic!("five conditions") };
     assert_eq!(left.components, [Condition::Dirichlet(0.0.into()), Condition::Free]);
     assert_eq!(top.on, BorderPart::Edge { edge: Edge::Top, from: 0.5, to: 2.0 });

@@ -2,13 +2,14 @@
 //!
 //! `PPUM_WRITE=1 cargo test -p ppum-problem --lib tests::keys` writes them anew.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
 use super::super::keys::{KeyRow, KeyTable, Kind, ROOT, Range, completions};
 use super::super::words::{EquationKind, Words};
+use super::{Problem, ProblemData};
 
 /// The path of the table of all tables.
 const FILE: &str = "file";
@@ -66,10 +67,10 @@ fn markdown(row: &KeyRow) -> String {
         words => format!(", {words}"),
     };
     let is_word = |text: &str| text.starts_with('"') || ["true", "false"].contains(&text);
-    let default = match row.default {
+    let default = match row.default.map(|default| default()) {
         _ if row.is_required => "required".to_owned(),
-        Some(text) if is_word(text) => format!("`{text}`"),
-        other => other.unwrap_or_default().to_owned(),
+        Some(text) if is_word(&text) => format!("`{text}`"),
+        other => other.unwrap_or_default(),
     };
     let equation = match row.equation {
         Some((EquationKind::Elasticity, _)) => "*Elasticity.* ",
@@ -292,5 +293,59 @@ fn keys_are_completed_where_they_stand() {
         let keys = at(&format!("{text}[material]\n"));
         let has = |key: &str| keys.contains(&key.to_owned());
         assert_eq!((has("conductivity"), has("young")), (is_poisson, !is_poisson), "{text}");
+    }
+}
+
+/// A key that is written with its default means what it means where it is left out, in the first
+/// table of its name of each example, or in an empty one where there is none.
+#[test]
+fn defaults_are_what_is_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let parse = |text: &str| {
+        let problem = Problem::parse(text, "example.toml", &folder).ok()?;
+        Some(format!("{:?}", ProblemData { text: None, ..problem.into_data() }))
+    };
+    let mut shown = BTreeSet::new();
+    for entry in std::fs::read_dir(&folder).expect("examples") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|end| end != "toml") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).expect("an example");
+        for row in ROOT.keys {
+            // an accuracy has steps of its own
+            let is_other = row.name == "adaptivity" && text.contains("\naccuracy");
+            let Some(table) = row.kind.table().filter(|_| !is_other) else { continue };
+            let (text, at) = with_table(&text, row.name);
+            let plain = parse(&text);
+            let body = text[at..].split("\n[").next().unwrap_or_default();
+            let is_given = |key: &str| {
+                body.lines().any(|line| line.split('=').next().map(str::trim) == Some(key))
+            };
+            for key in table.keys.iter().filter(|key| !is_given(key.name)) {
+                let Some(default) = key.default.map(|default| default()) else { continue };
+                let line = format!("\n{} = {default}", key.name);
+                if line.parse::<toml::Table>().is_err() {
+                    continue;
+                }
+                // some tables need keys without a default, some keys others beside them
+                let written = parse(&format!("{}{line}{}", &text[..at], &text[at..]));
+                if written.is_some() {
+                    assert_eq!(written, plain, "{}: {}.{}", path.display(), row.name, key.name);
+                    shown.insert(format!("{}.{}", row.name, key.name));
+                }
+            }
+        }
+    }
+    assert!(shown.len() > 25, "{shown:?}");
+}
+
+/// The text with a table of a name, and the end of the header of the first.
+fn with_table(text: &str, name: &str) -> (String, usize) {
+    let headers = [format!("\n[{name}]"), format!("\n[[{name}]]")];
+    let ends = headers.iter().filter_map(|header| Some(text.find(header.as_str())? + header.len()));
+    match ends.min() {
+        Some(end) => (text.to_owned(), end),
+        None => (format!("{text}{}", headers[0]), text.len() + headers[0].len()),
     }
 }

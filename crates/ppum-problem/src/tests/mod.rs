@@ -34,8 +34,8 @@ fn edited(text: &str, old: &str, new: &str) -> String {
     text.replace(old, new)
 }
 
-fn good(text: &str) -> Problem {
-    parse(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
+fn good(text: &str) -> ProblemData {
+    parse(text).unwrap_or_else(|error| panic!("{error}\n{text}")).into_data()
 }
 
 fn mistakes(text: &str) -> Vec<String> {
@@ -52,10 +52,10 @@ fn plate() {
     let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
     let neumann = "1 + x^2".parse().map(Condition::Neumann).expect("a formula");
     let dirichlet = Condition::Dirichlet(0.0.into());
-    let expected = Problem {
+    let expected = ProblemData {
         title: "Centre crack".to_owned(),
         text: Some(PLATE.to_owned()),
-        ..Problem::elasticity(domain, material, Discretization::new(Cells::Level(4)))
+        ..ProblemData::elasticity(domain, material, Discretization::new(Cells::Level(4)))
             .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
             .with_boundary(Edge::Bottom, vec![dirichlet, Condition::Free])
             .with_boundary(Edge::Top, vec![Condition::Neumann(0.0.into()), neumann])
@@ -130,8 +130,8 @@ fn good_variants_of_the_plate() {
 #[test]
 fn ends_of_cracks() {
     let text = edited(PLATE, "[[-0.5, 0.0], [0.5, 0.0]]", "[[-1.0, 0.0], [0.0, 0.1], [0.5, 0.0]]");
-    assert_eq!(good(&text).cracks[0].ends, [CrackEnd::Mouth, CrackEnd::Tip]);
-    assert_eq!(good(PLATE).cracks[0].ends, [CrackEnd::Tip, CrackEnd::Tip]);
+    assert_eq!(good(&text).cracks()[0].ends, [CrackEnd::Mouth, CrackEnd::Tip]);
+    assert_eq!(good(PLATE).cracks()[0].ends, [CrackEnd::Tip, CrackEnd::Tip]);
 }
 
 #[test]
@@ -161,7 +161,10 @@ fn files_and_their_points() {
         |text: &str| std::fs::write(folder.path().join("cloud.csv"), text).expect("written");
     cloud("0.5, 0.25 # first\n-1,1\n");
     let points = vec![vec2(0.5, 0.25), vec2(-1.0, 1.0)];
-    assert_eq!(read().map(|problem| problem.discretization.cells), Ok(Cells::Points(points)));
+    assert_eq!(
+        read().map(|problem| problem.into_data().discretization.cells),
+        Ok(Cells::Points(points))
+    );
     cloud("0.5, 0.25\n1,y\n");
     wrong("cloud.csv:2:3: `y` is not a finite number");
     cloud("# none\n");
@@ -218,7 +221,7 @@ fn a_file_that_cannot_be_read() {
 #[test]
 fn problems_built_in_code_are_checked_alike() {
     let domain = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
-    let problem = Problem::poisson(domain, 0.0, Discretization::new(Cells::Level(12)))
+    let problem = ProblemData::poisson(domain, 0.0, Discretization::new(Cells::Level(12)))
         .with_crack(&[[0.5, 0.5], [2.0, 0.5]])
         .with_boundary(Edge::Top, vec![Condition::Free; 2]);
     let error = problem.check().expect_err("much is wrong");

@@ -41,16 +41,16 @@ cells = [9, 9]
 #[test]
 fn everything_about_outlines() {
     let problem = good(BRACKET);
-    let [slot, outside] = &problem.domain.holes[..] else { panic!("a hole and the outside") };
-    assert_eq!(problem.domain.outline(), Some(1));
+    let [slot, outside] = &problem.domain().holes[..] else { panic!("a hole and the outside") };
+    assert_eq!(problem.domain().outline(), Some(1));
     assert!(outside.is_outside() && !slot.is_outside());
     // cells of the half, beyond the body: it has 8 of the 9
-    assert_eq!(problem.domain.bounds, Rect::new(vec2(-0.25, -0.25), vec2(4.25, 4.25)));
-    let body = |p| problem.domain.contains(p);
+    assert_eq!(problem.domain().bounds, Rect::new(vec2(-0.25, -0.25), vec2(4.25, 4.25)));
+    let body = |p| problem.domain().contains(p);
     assert!([[0.5, 3.9], [3.9, 0.5], [1.2, 1.3]].map(Vec2::from).into_iter().all(body));
     assert!(![[2.0, 2.0], [2.5, 0.5], [-0.1, 1.0]].map(Vec2::from).into_iter().any(body));
-    assert_eq!(problem.cracks[0].ends, [CrackEnd::Mouth, CrackEnd::Tip]);
-    let [slot, foot, head] = &problem.pieces[..] else { panic!("three names") };
+    assert_eq!(problem.cracks()[0].ends, [CrackEnd::Mouth, CrackEnd::Tip]);
+    let [slot, foot, head] = problem.pieces() else { panic!("three names") };
     assert_eq!([slot, foot, head].map(|piece| piece.name.as_str()), ["slot", "foot", "head"]);
     // one corner of the foot is on a straight line
     assert_eq!(foot.runs, [SideRun { hole: 1, from: 0, to: 3 }]);
@@ -126,12 +126,12 @@ fn straight_sides_have_no_corners() {
              [discretization]\nlevel = 2\n"
         );
         let problem = good(&text);
-        let Hole::Polygon { points, .. } = &problem.domain.holes[0] else { panic!("a polygon") };
+        let Hole::Polygon { points, .. } = &problem.domain().holes[0] else { panic!("a polygon") };
         assert_eq!(points.len(), 4, "{points:?}");
         let piece = |k: usize| Piece {
             name: format!("side {k}"),
             runs: vec![SideRun { hole: 0, from: k, to: k + 1 }],
         };
-        assert_eq!(problem.pieces, [0, 1, 2, 3].map(piece));
+        assert_eq!(problem.pieces(), [0, 1, 2, 3].map(piece));
     }
 }

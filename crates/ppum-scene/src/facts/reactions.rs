@@ -33,8 +33,8 @@ pub fn reactions(dataset: &Dataset, step: &Step) -> Vec<Reaction> {
     let about = dataset.domain.bounds.center();
     let names_piece = step.reactions.iter().any(|reaction| reaction.on.starts_with("piece "));
     let problem = names_piece.then(|| Problem::of_dataset(dataset).ok().flatten()).flatten();
-    let pieces = problem.as_ref().map_or(&[][..], |problem| &problem.pieces);
-    let domain = problem.as_ref().map_or(&dataset.domain, |problem| &problem.domain);
+    let pieces = problem.as_ref().map_or(&[][..], |problem| problem.pieces());
+    let domain = problem.as_ref().map_or(&dataset.domain, |problem| problem.domain());
     let row = |reaction: &dataset::Reaction| {
         let dataset::Reaction { on, held, force, moment } = reaction;
         let held = names.iter().zip(held).filter(|(_, held)| **held);

@@ -26,9 +26,9 @@ pub struct Adviser<'a> {
 
 /// Tips, and what else is singular: functions times a few polynomials do not make the rest smooth.
 pub(super) fn singular_points(problem: &Problem) -> Placed<Vec2> {
-    let place = |tip: TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
+    let place = |tip: TipId| problem.cracks()[tip.crack as usize].end_point(tip.end);
     // where tips have their series, the rest of the field is smooth
-    let bare_tips = tips(&problem.cracks).filter(|_| !problem.has_series()).map(place);
+    let bare_tips = tips(problem.cracks()).filter(|_| !problem.has_series()).map(place);
     let others = corners(problem).into_iter().map(|corner| corner.at);
     Placed::new(bare_tips.chain(others).map(|point| (around(&[point]), point)))
 }

@@ -17,9 +17,9 @@ impl BorderConditions {
     /// The parts of edges, the rims, and the faces of cracks.
     pub(super) fn all(problem: &Problem) -> Vec<Self> {
         let edges = Edge::ALL.into_iter().flat_map(|edge| pieces(problem, edge));
-        let rims = (0..problem.domain.holes.len()).flat_map(|hole| sides(problem, hole));
+        let rims = (0..problem.domain().holes.len()).flat_map(|hole| sides(problem, hole));
         let sides = [Side::Above, Side::Below];
-        let faces = (0..problem.cracks.len())
+        let faces = (0..problem.cracks().len())
             .flat_map(|crack| sides.map(|side| BorderPart::Crack { crack, face: Some(side) }));
         edges.chain(rims).chain(faces).map(|on| Self::new(problem, on)).collect()
     }
@@ -78,11 +78,9 @@ impl BorderConditions {
     }
 }
 
-/// The pieces of an edge between the ends of its conditions, without the faces of cracks.
+/// The pieces of an edge between the ends of its conditions.
 fn pieces(problem: &Problem, edge: Edge) -> Vec<BorderPart> {
-    let faces: Vec<_> = problem.faces_on(edge).collect();
-    let mut ends = edge.range(&problem.domain.bounds).to_vec();
-    ends.extend(faces.iter().flatten());
+    let mut ends = edge.range(&problem.domain().bounds).to_vec();
     for condition in &problem.boundary {
         if let BorderPart::Edge { edge: own, from, to } = condition.on
             && own == edge
@@ -92,9 +90,7 @@ fn pieces(problem: &Problem, edge: Edge) -> Vec<BorderPart> {
     }
     ends.sort_by(f64::total_cmp);
     ends.dedup();
-    let is_face = |s: &[f64]| faces.iter().any(|[from, to]| *from <= s[0] && s[1] <= *to);
-    let pieces = ends.windows(2).filter(|s| !is_face(s));
-    pieces.map(|s| BorderPart::Edge { edge, from: s[0], to: s[1] }).collect()
+    ends.windows(2).map(|s| BorderPart::Edge { edge, from: s[0], to: s[1] }).collect()
 }
 
 /// The rim of a hole between the ends of its pieces with conditions.
@@ -102,7 +98,7 @@ fn sides(problem: &Problem, hole: usize) -> Vec<BorderPart> {
     let on = problem.boundary.iter().map(|condition| condition.on);
     let parts: Vec<_> =
         on.filter(|on| matches!(on, BorderPart::Sides(_) | BorderPart::Piece(_))).collect();
-    let count = problem.domain.holes[hole].sides().count();
+    let count = problem.domain().holes[hole].sides().count();
     let of = |side: usize| parts.iter().map(move |part| problem.is_on(*part, hole, side));
     let is_end = |side: &usize| *side == 0 || !of(*side).eq(of(side - 1));
     let mut ends: Vec<_> = (0..count).filter(is_end).collect();
@@ -115,21 +111,9 @@ fn sides(problem: &Problem, hole: usize) -> Vec<BorderPart> {
 }
 
 fn bounds(problem: &Problem, on: BorderPart) -> Rect {
-    let domain = &problem.domain;
     match on {
-        BorderPart::Edge { edge, from, to } => {
-            around(&[from, to].map(|s| edge.point(&domain.bounds, s)))
-        }
-        BorderPart::Hole(hole) => domain.holes[hole].rim_bounds(),
-        BorderPart::Sides(SideRun { hole, from, to }) => {
-            let sides = domain.holes[hole].sides().skip(from).take(to - from);
-            around(&sides.flatten().collect::<Vec<_>>())
-        }
-        BorderPart::Piece(piece) => {
-            let runs = problem.pieces[piece].runs.iter();
-            let all = runs.map(|run| bounds(problem, BorderPart::Sides(*run)));
-            all.reduce(|all, run| all.union(&run)).unwrap_or(around(&[]))
-        }
-        BorderPart::Crack { crack, .. } => around(&problem.cracks[crack].points),
+        BorderPart::Hole(hole) => problem.domain().holes[hole].rim_bounds(),
+        BorderPart::Crack { crack, .. } => around(&problem.cracks()[crack].points),
+        _ => around(&problem.segments_of(on).flatten().collect::<Vec<_>>()),
     }
 }

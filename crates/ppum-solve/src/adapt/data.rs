@@ -3,10 +3,10 @@
 use super::border::BorderConditions;
 use super::span::unseen;
 use crate::assembly::border_rules;
-use crate::contact::ContactLaw;
 use crate::law::Law;
 use crate::quadrature::{EdgeRule, Quadrature, Rule};
 use crate::space::Space;
+use crate::terms::{face_law, known_fields};
 use crate::watched::{Halt, Stage, in_batches};
 use ppum::crack::Side;
 use ppum::field::Field;
@@ -15,9 +15,9 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Problem;
 use std::f64::consts::PI;
 
-/// Part of a cell around a force within which borders are not looked at: its field is all there,
+/// Part of a cell around a singular point of a known field within which borders are not looked at: its field is all there,
 /// with no tractions but those of the rounding of places, which have no bound.
-const AT_FORCE: f64 = 1e-6;
+const AT_POINT: f64 = 1e-6;
 
 /// The squares of what each cell misses of the data. Advances the stage by their number.
 ///
@@ -27,6 +27,7 @@ pub(super) fn unseen_data(
     problem: &Problem,
     field: &Field<'_>,
     space: &Space<'_>,
+    law: &Law<'_>,
     stage: &Stage<'_>,
 ) -> Result<Vec<f64>, Halt> {
     let n = space.partition().len();
@@ -34,12 +35,11 @@ pub(super) fn unseen_data(
         problem,
         field,
         space,
-        law: space.law(),
+        law,
         quadrature: space.quadrature(0),
         border: BorderConditions::all(problem),
+        known: known_fields(problem).into_iter().map(|field| field.at).collect(),
         has_source: problem.source.iter().any(|f| f.formula().constant().is_none()),
-        has_eigenstrain: space.temperature().is_some()
-            || problem.equation.eigenstrains().any(|(_, e)| e.constant().is_none()),
     };
     let mut squares = Vec::with_capacity(n);
     let work = |(): &mut (), cell: usize| Ok(data.in_cell(cell));
@@ -52,12 +52,13 @@ struct DataResidual<'a> {
     problem: &'a Problem,
     field: &'a Field<'a>,
     space: &'a Space<'a>,
-    law: Law<'a>,
+    law: &'a Law<'a>,
     quadrature: Quadrature<'a>,
     border: Vec<BorderConditions>,
+    /// Singular points of known fields.
+    known: Vec<Vec2>,
     /// True if the source varies: a constant is a polynomial.
     has_source: bool,
-    has_eigenstrain: bool,
 }
 
 impl DataResidual<'_> {
@@ -70,42 +71,44 @@ impl DataResidual<'_> {
             unseen +=
                 rules.iter().map(|rule| self.on_border(part, rule, (rect, order))).sum::<f64>();
         }
-        let inside = if self.has_source { self.of_source(cell, rect, order) } else { 0.0 };
-        unseen + inside + self.of_eigenstrain(cell, rect, order)
+        unseen + self.of_source(cell) + self.of_initial_stress(cell)
     }
 
-    /// ∫ |C ε⁰ − Π C ε⁰|² / C with the best polynomials of a degree below the order p, which the
-    /// strains of polynomials have: what the rest of the given strains does to the energy. Nothing
-    /// is said of cells with other functions, which may see it.
-    fn of_eigenstrain(&self, cell: usize, rect: &Rect, order: usize) -> f64 {
+    /// ∫ |σ⁰ − Π σ⁰|² / C of the stress where the body does not deform, with the best polynomials of
+    /// a degree below the order p, which the strains of polynomials have: what the rest of it does
+    /// to the energy. Nothing is said of cells with other functions, which may see it.
+    fn of_initial_stress(&self, cell: usize) -> f64 {
         let data = &self.space.step().fields[0];
         let has_others = |&patch: &u32| data.blocks(patch as usize).len() > 1;
-        if !self.has_eigenstrain || self.space.coverers[cell].iter().any(has_others) {
+        if !self.law.has_varying_strains() || self.space.coverers[cell].iter().any(has_others) {
             return 0.0;
         }
-        let rules = self.space.rules(&self.quadrature, cell);
-        let given = |x| {
-            let [[xx, xy], [_, yy]] = self.law.at(x).prestress();
+        self.unseen_in_cell(cell, &|x| {
+            let [[xx, xy], [_, yy]] = self.law.initial_stress(x);
             [xx, yy, std::f64::consts::SQRT_2 * xy]
-        };
-        let (places, mut values) = values_in_cell(&rules, rect, &given);
-        unseen(&places, order, &mut values) / self.law.at(rect.center()).modulus(0)
+        })
     }
 
     /// (d/(π p))² ∫ |f − Π f|² / C with the cell's diagonal d and the best polynomial Π f of a
     /// degree below the order p: of order 1 the bound of Payne and Weinberger (1960) for what the
     /// rest of the source does to the energy. Nothing is said of cells with user-defined functions:
     /// they are there to see what polynomials do not.
-    fn of_source(&self, cell: usize, rect: &Rect, order: usize) -> f64 {
+    fn of_source(&self, cell: usize) -> f64 {
         let mut patches = self.space.coverers[cell].iter();
-        if patches.any(|&patch| self.space.has_user_functions(patch as usize)) {
+        if !self.has_source || patches.any(|&k| self.space.has_user_functions(k as usize)) {
             return 0.0;
         }
-        let rules = self.space.rules(&self.quadrature, cell);
-        let source = |x| self.problem.source_at(x);
-        let (places, mut values) = values_in_cell(&rules, rect, &source);
+        let (rect, order) = (&self.space.partition().cell[cell], self.space.order(cell));
         let d = rect.size().length() / (PI * order.max(1) as f64);
-        d * d * unseen(&places, order, &mut values) / self.law.at(rect.center()).modulus(0)
+        d * d * self.unseen_in_cell(cell, &|x| self.problem.source_at(x))
+    }
+
+    /// ∫ |f − Π f|² / C over a cell.
+    fn unseen_in_cell<const N: usize>(&self, cell: usize, f: &dyn Fn(Vec2) -> [f64; N]) -> f64 {
+        let (rect, order) = (&self.space.partition().cell[cell], self.space.order(cell));
+        let rules = self.space.rules(&self.quadrature, cell);
+        let (places, mut values) = values_in_cell(&rules, rect, f);
+        unseen(&places, order, &mut values) / self.law.at(rect.center()).modulus(0)
     }
 
     /// The squares of what the field misses of the tractions and values at the points of a
@@ -122,9 +125,8 @@ impl DataResidual<'_> {
             Some(face) => (self.field.on(face.segment, rule.anchor), face.side),
             None => (self.field.at(rule.anchor), Side::Above),
         };
-        let contact = rule.face.and_then(|face| self.problem.contacts.get(&face.segment.crack));
-        let between = contact
-            .map(|&friction| ContactLaw { friction, size: h }.states(self.field, &self.law, rule));
+        let law = rule.face.and_then(|face| face_law(self.problem, face.segment.crack));
+        let between = law.map(|law| law.tractions(self.field, self.law, rule, h));
         let mut sum = 0.0;
         for (q, (&offset, &weight)) in rule.offsets.iter().zip(&rule.weights).enumerate() {
             let (mut u, x, n) = ([Jet::constant(0.0); 2], rule.anchor + offset, rule.normals[q]);
@@ -134,7 +136,7 @@ impl DataResidual<'_> {
                 continue;
             }
             let law = self.law.on(x, rule.face.map(|face| (face.segment, face.side)));
-            let flux = law.flux(&u.map(|jet| vec2(jet.x, jet.y)));
+            let flux = law.stress(&u.map(|jet| vec2(jet.x, jet.y)));
             let (held, axes, mut given) = part.given(self.problem, (x, n), u.map(|u| u.v));
             if let Some(between) = &between {
                 let state = between[q];
@@ -144,12 +146,11 @@ impl DataResidual<'_> {
             }
             let nearest = |p: f64, place: Vec2| p.min((x - place).length());
             let to_tip = tips.iter().copied().fold(f64::INFINITY, nearest);
-            let forces = self.problem.forces.iter().map(|force| force.at);
-            let to_force = forces.fold(f64::INFINITY, nearest);
-            if to_force < AT_FORCE * h {
+            let to_point = self.known.iter().copied().fold(f64::INFINITY, nearest);
+            if to_point < AT_POINT * h {
                 continue;
             }
-            let width = (h / (2.0 * (p + 1.0))).min(to_tip).min(to_force);
+            let width = (h / (2.0 * (p + 1.0))).min(to_tip).min(to_point);
             let missed = [0, 1].map(|i| u[i].v - given[i]);
             let excess = [0, 1].map(|i| flux[i][0] * n.x + flux[i][1] * n.y - given[i]);
             for i in 0..law.components() {

@@ -58,7 +58,7 @@ pub fn estimated(
     stage: &Stage<'_>,
 ) -> Result<Estimated, Halt> {
     let (energy, products) = disagreements(local, &singular_points(problem), stage)?;
-    let unseen = unseen_data(problem, field, local.space, stage)?;
+    let unseen = unseen_data(problem, field, local.space, local.law, stage)?;
     let squares = products.iter().zip(&unseen).map(|(own, unseen)| own[(0, 0)] + unseen).collect();
     Ok(Estimated { energy, squares, products })
 }

@@ -17,7 +17,7 @@ use crate::space::Space;
 use crate::watched::{Halt, Stage, in_batches};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
-use ppum::vec2::Vec2;
+use ppum::vec2::{Vec2, vec2};
 use ppum_problem::geometry::Placed;
 use std::ops::Range;
 
@@ -29,6 +29,8 @@ const LEAST: f64 = 1e-10;
 pub struct LocalFields<'a> {
     /// The space of the fields.
     pub space: &'a Space<'a>,
+    /// Its stresses.
+    pub law: &'a Law<'a>,
     /// Of each patch, the coefficients of the functions that the solver evaluates: a row for each
     /// component of each field.
     pub coefficients: &'a [Mat<f64>],
@@ -48,8 +50,8 @@ pub(super) fn disagreements(
     singular: &Placed<Vec2>,
     stage: &Stage<'_>,
 ) -> Result<(f64, Vec<Mat<f64>>), Halt> {
-    let LocalFields { space, coefficients, .. } = fields;
-    let (law, quadrature) = (space.law(), space.quadrature(0));
+    let LocalFields { space, law, coefficients, .. } = fields;
+    let quadrature = space.quadrature(0);
     let n = coefficients.first().map_or(0, Mat::nrows) / law.components;
     let (mut energy, mut all) = (0.0, Vec::with_capacity(coefficients.len()));
     let share = |patch: usize| {
@@ -62,8 +64,7 @@ pub(super) fn disagreements(
         let (mut energy, mut sum) = (0.0, Mat::zeros(n, n));
         for rule in space.rules(&quadrature, cell).iter() {
             evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
-            energy +=
-                SampledFields { fields, shares: &shares, law: &law, rule, shapes }.add(&mut sum);
+            energy += SampledFields { fields, shares: &shares, law, rule, shapes }.add(&mut sum);
         }
         Ok((energy, sum))
     };
@@ -108,11 +109,6 @@ impl SampledFields<'_> {
     fn add(&self, sum: &mut Mat<f64>) -> f64 {
         let mut products = self.products();
         let whole = [0, 1].map(|axis| total(&products, axis));
-        let mut energy = Mat::zeros(1, 1);
-        let first = self.law.components * self.shapes.points;
-        let mut own = whole.each_ref().map(|slopes| slopes[..first].to_vec());
-        let through = self.take_eigenstrain(&mut own);
-        self.add_products(&self.rule.weights, own.each_ref().map(Vec::as_slice), &mut energy);
         if products.len() > 1 {
             for part in &mut products {
                 let weights = self.weights(part);
@@ -121,23 +117,20 @@ impl SampledFields<'_> {
                 self.add_products(&weights, slopes, sum);
             }
         }
-        0.5 * (energy[(0, 0)] + through)
+        0.5 * self.energy(&whole)
     }
 
-    /// Leaves the elastic part of the slopes of one field; returns twice the energy of the third
-    /// direction.
-    fn take_eigenstrain(&self, slopes: &mut [Vec<f64>; 2]) -> f64 {
-        let (points, mut through) = (self.shapes.points, 0.0);
-        for (q, (&offset, weight)) in self.rule.offsets.iter().zip(&self.rule.weights).enumerate() {
-            let x = self.rule.anchor + offset;
-            let Some(given) = self.law.eigenstrain(x) else { return 0.0 };
-            for (component, given) in given.into_iter().enumerate() {
-                slopes[0][component * points + q] -= given.x;
-                slopes[1][component * points + q] -= given.y;
-            }
-            through += weight * self.law.energy_through(x);
-        }
-        through
+    /// Twice the energy of the first field, given the slopes of all.
+    fn energy(&self, [dx, dy]: &[Vec<f64>; 2]) -> f64 {
+        let (points, components) = (self.shapes.points, self.law.components);
+        let at = |(q, (&offset, weight)): (usize, (&Vec2, &f64))| {
+            let gradient = |j: usize| match j < components {
+                true => vec2(dx[j * points + q], dy[j * points + q]),
+                false => Vec2::ZERO,
+            };
+            weight * self.law.at(self.rule.anchor + offset).energy(&[0, 1].map(gradient))
+        };
+        self.rule.offsets.iter().zip(&self.rule.weights).enumerate().map(at).sum()
     }
 
     /// Adds ∫ σ:∇v of all pairs of fields. Slopes have a row for each component of each field.

@@ -19,8 +19,8 @@
 //! traction      B_(a,j)(b,k) = ∫_Γ t_i(N_a e_j) t_i(N_b e_k)
 //! ```
 //!
-//! summed over the components i that are held. Where strains ε⁰ are given, t_i(u) is less by (C ε⁰
-//! n)_i, which goes to the load. β must be chosen so that v·K v > 0. By Cauchy's
+//! summed over the components i that are held. What t_i(u) has where the body does not deform goes to
+//! the load. β must be chosen so that v·K v > 0. By Cauchy's
 //! inequality 2 ∫ t_i(v) v_i ≤ ε ∫ t_i(v)² + ε⁻¹ ∫ v_i², and ∫ t_i(v)² ≤ λ a(v, v) with the largest
 //! λ of the pencil B x = λ A x, A the cell's stiffness before the terms above: any β > λ will do.
 //! β = 2 λ, and a cell cut into slivers so gets the larger value it needs (Griebel & Schweitzer
@@ -45,11 +45,10 @@ use super::reaction::{CellReaction, Restraint};
 use crate::basis::{BasisEvaluator, Shapes};
 use crate::equilibrium::RigidModes;
 use crate::quadrature::EdgeRule;
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par};
+use faer::{Mat, MatRef};
 use ppum::expression::Expression;
 use ppum::vec2::{Vec2, vec2};
-use ppum_linear::{EigenError, add_at, largest_eigenvalue};
+use ppum_linear::{EigenError, add_at, largest_eigenvalue, product};
 use ppum_problem::in_plane;
 
 /// β in units of λ_max: below 1 the system is indefinite, 2 to 10 give the same error.
@@ -229,7 +228,7 @@ impl<'a> Border<'a> {
     ) {
         let Trace { values, value_rows, tractions, .. } = trace;
         let values = values.as_ref();
-        let (n, minus) = (self.value_load.len(), product(values, tractions.as_ref()));
+        let (n, minus) = (self.value_load.len(), product(values, tractions.transpose()));
         let exchange = self.exchange.get_or_insert_with(|| Mat::zeros(n, n));
         add_at(exchange, value_rows, value_rows, &(faer::Scale(-1.0) * minus));
         let given = given(piece, rule, trace.component);
@@ -259,19 +258,18 @@ impl<'a> Border<'a> {
         let points = rule.offsets.iter().zip(&rule.normals).zip(&rule.weights);
         let at = |((&o, &normal), &weight): ((&Vec2, &Vec2), &f64)| {
             let (x, values) = (rule.anchor + o, (piece.values)(rule.anchor + o, normal));
-            // the traction of the unknown, C ε n − C ε⁰ n, stands where a value is held
-            let lacking = piece.axes.map(|axis| axis.dot(self.lacking(x, normal)));
-            let load = |i: usize| weight * if piece.held[i] { -lacking[i] } else { values[i] };
+            // where a value is held stands the traction of the unknown, of which this is known
+            let initial = piece.axes.map(|axis| axis.dot(self.initial_traction(x, normal)));
+            let load = |i: usize| weight * if piece.held[i] { initial[i] } else { values[i] };
             in_plane([0, 1].map(load), piece.axes)
         };
         let loads: Vec<[f64; 2]> = points.map(at).collect();
         shapes.add_loads(&loads, numbers, self.assembly.components(), load);
     }
 
-    /// C ε⁰ n
-    fn lacking(&self, x: Vec2, normal: Vec2) -> Vec2 {
-        let law = self.assembly.law;
-        let stress = law.eigenstrain(x).map_or([[0.0; 2]; 2], |_| law.at(x).prestress());
+    /// The traction where the body does not deform.
+    fn initial_traction(&self, x: Vec2, normal: Vec2) -> Vec2 {
+        let stress = self.assembly.law.initial_stress(x);
         stress.map(|row| row[0] * normal.x + row[1] * normal.y).into()
     }
 
@@ -318,8 +316,13 @@ impl<'a> Border<'a> {
         self.measure(trace.component, rule);
         let Trace { values, value_rows, tractions, traction_rows, .. } = trace;
         let (values, tractions) = (values.as_ref(), tractions.as_ref());
-        add_at(&mut self.mass, value_rows, value_rows, &product(values, values));
-        add_at(&mut self.consistency, value_rows, traction_rows, &product(values, tractions));
+        add_at(&mut self.mass, value_rows, value_rows, &product(values, values.transpose()));
+        add_at(
+            &mut self.consistency,
+            value_rows,
+            traction_rows,
+            &product(values, tractions.transpose()),
+        );
         for column in tractions.col_iter() {
             let first = self.tractions.len();
             self.tractions.resize(first + self.value_load.len(), 0.0);
@@ -363,7 +366,7 @@ impl<'a> Border<'a> {
         }
         let points = rule.offsets.iter().zip(&rule.normals).zip(&rule.weights);
         let lacking = |((&o, &normal), w): ((&Vec2, &Vec2), &f64)| {
-            self.lacking(rule.anchor + o, normal).dot(trace.axis) * w.sqrt()
+            -self.initial_traction(rule.anchor + o, normal).dot(trace.axis) * w.sqrt()
         };
         let lacking: Vec<f64> = points.map(lacking).collect();
         let restraint = self.restraint(piece.condition);
@@ -426,13 +429,6 @@ impl<'a> Border<'a> {
     pub(crate) fn reactions(self, beta: f64) -> Vec<CellReaction> {
         self.restraints.into_iter().map(|restraint| restraint.finish(beta)).collect()
     }
-}
-
-/// The products of all rows: left · rightᵀ.
-fn product(left: MatRef<'_, f64>, right: MatRef<'_, f64>) -> Mat<f64> {
-    let mut out = Mat::zeros(left.nrows(), right.nrows());
-    matmul(out.as_mut(), Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
-    out
 }
 
 /// The values g_i at the points of a rule, times the roots of the weights.

@@ -161,14 +161,14 @@ impl<'s> CellAssembler<'s> {
     fn prestress(&mut self, rule: &Rule, system: &mut CellSystem) {
         let law = self.assembly.law;
         let known = self.known_gradients(rule);
-        if !law.has_eigenstrain() && known.is_empty() {
+        if !law.has_initial_stress() && known.is_empty() {
             return;
         }
         self.evaluator.apply(&rule.patches, &mut self.shapes);
         let points = rule.offsets.iter().zip(&rule.weights).enumerate();
         let stress = |(q, (&o, &weight)): (usize, (&Vec2, &f64))| {
             let gradient = known.get(q).unwrap_or(&[Vec2::ZERO; 2]);
-            law.at(rule.anchor + o).flux(gradient).map(|row| row.map(|s| -weight * s))
+            law.at(rule.anchor + o).stress(gradient).map(|row| row.map(|s| -weight * s))
         };
         let stresses: Vec<[[f64; 2]; 2]> = points.map(stress).collect();
         let numbers = system.functions.numbers(&rule.patches);

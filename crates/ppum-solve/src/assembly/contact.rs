@@ -28,11 +28,11 @@
 //! its interval the term is that of Nitsche for a tie, at others that of a known traction c:
 //!
 //! ```text
-//! tied      K += (p pᵀ − σ σᵀ)/β     f −= (σ⁰ σ − σ⁰ p)/β
-//! loaded    K −= σ σᵀ/β              f −= (σ⁰ σ + c p)/β
+//! tied      K += (p pᵀ − σ σᵀ)/β     f += (σ⁰ σ − σ⁰ p)/β
+//! loaded    K −= σ σᵀ/β              f += (σ⁰ σ − c p)/β
 //! ```
 //!
-//! with the functions' σ_d and P_d as columns σ and p, and σ_d of the strains that are given, σ⁰.
+//! with the functions' σ_d and P_d as columns σ and p, and σ_d where the body does not deform, σ⁰.
 //! The stress is that of the side on which more of the cell lies: a sliver on the other one makes λ
 //! no larger.
 
@@ -43,6 +43,7 @@ use super::functions::CellFunctions;
 use crate::basis::{BasisEvaluator, Shapes};
 use crate::quadrature::{EdgeRule, Face, Quadrature};
 use crate::report::SolverReport;
+use crate::terms::face_law;
 use crate::watched::{Halt, Stage, in_batches};
 use faer::{Mat, MatRef};
 use ppum::crack::Side;
@@ -80,14 +81,14 @@ struct ContactCell {
 #[derive(Clone, Copy, Debug)]
 struct FaceRow {
     weight: f64,
-    /// σ_d of the strains that are given, which the body lacks.
-    lacking: f64,
+    /// σ_d where the body does not deform.
+    initial: f64,
     /// μ of the tangent, whose row follows that of the normal.
     friction: Option<f64>,
 }
 
 /// A cell in which contact ends: faces touch in a part of it.
-pub struct ContactError {
+pub struct CellErrors {
     /// Its number.
     pub cell: usize,
     /// ∫ |σ_m − min(P_m, 0)| |P_m(z)|/β of each dual solution z.
@@ -127,7 +128,8 @@ impl FaceContacts {
     pub fn new(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
         let (mut cells, space) = (Vec::new(), assembly.space);
         let quadrature = space.quadrature(0);
-        let is_wanted = !assembly.problem.contacts.is_empty();
+        let mut cracks = 0..assembly.problem.cracks().len() as u32;
+        let is_wanted = cracks.any(|crack| face_law(assembly.problem, crack).is_some());
         in_batches(
             stage,
             if is_wanted { assembly.n_cells() } else { 0 },
@@ -189,7 +191,7 @@ impl FaceContacts {
     /// P_d of a field at each row.
     pub fn projections(&self, matrix: &BlockMatrix, field: &[f64]) -> Vec<f64> {
         let changes = self.changes(matrix, field);
-        self.rows().zip(changes).map(|((row, _), change)| change - row.lacking).collect()
+        self.rows().zip(changes).map(|((row, _), change)| change + row.initial).collect()
     }
 
     /// How much P_d changes at each row where a field is added.
@@ -243,7 +245,7 @@ impl FaceContacts {
     }
 
     /// The cells in which contact ends, by the solution and the dual solutions of a system.
-    pub fn errors(&self, matrix: &BlockMatrix, fields: &[Vec<f64>]) -> Vec<ContactError> {
+    pub fn errors(&self, matrix: &BlockMatrix, fields: &[Vec<f64>]) -> Vec<CellErrors> {
         let of_cell = |cell: &ContactCell| cell.errors(matrix, fields);
         self.cells.iter().filter_map(of_cell).collect()
     }
@@ -290,10 +292,10 @@ impl FaceState {
         self == Self::Tied
     }
 
-    /// σ_d at rows where the fields vanish, less that of given strains if it is not known.
-    fn constant(self, lacking: f64) -> f64 {
+    /// The known part of the traction: that of a body that does not deform, or all.
+    fn constant(self, initial: f64) -> f64 {
         match self {
-            Self::Tied => -lacking,
+            Self::Tied => initial,
             Self::Loaded(traction) => traction,
         }
     }
@@ -341,14 +343,14 @@ impl ContactCell {
         let of = |columns| self.values(columns, matrix, solution);
         let both = of(&self.stresses).into_iter().zip(of(&self.projections));
         let less = |((stress, projection), row): (_, &FaceRow)| FaceStress {
-            stress: stress - row.lacking,
-            projection: projection - row.lacking,
+            stress: stress + row.initial,
+            projection: projection + row.initial,
         };
         both.zip(&self.rows).map(less).collect()
     }
 
     /// None where all faces touch, or none.
-    fn errors(&self, matrix: &BlockMatrix, fields: &[Vec<f64>]) -> Option<ContactError> {
+    fn errors(&self, matrix: &BlockMatrix, fields: &[Vec<f64>]) -> Option<CellErrors> {
         let (at, rows) = (self.stresses(matrix, &fields[0]), 0..self.rows.len());
         let normal: Vec<_> = rows.filter(|&k| self.rows[k].friction.is_none()).collect();
         let is_closed = |k: &usize| at[*k].projection < 0.0;
@@ -362,7 +364,7 @@ impl ContactCell {
             normal.iter().map(part).sum()
         };
         let errors = || fields[1..].iter().map(of_dual).collect();
-        ends.then(|| ContactError { cell: self.cell, errors: errors() })
+        ends.then(|| CellErrors { cell: self.cell, errors: errors() })
     }
 
     fn add(&self, states: &[FaceState], matrix: &mut BlockMatrix, load: &mut [f64]) {
@@ -382,11 +384,11 @@ impl ContactCell {
         }
         for (k, (row, state)) in self.rows.iter().zip(states).enumerate() {
             let root = row.weight.sqrt() / self.beta;
-            let [stress, projection] = [root * row.lacking, root * state.constant(row.lacking)];
+            let [stress, projection] = [root * row.initial, root * state.constant(row.initial)];
             let own = self.stresses.col_as_slice(k).iter().zip(self.projections.col_as_slice(k));
             let places = self.patches.iter().flat_map(|&p| matrix.unknowns(p as usize));
             for (place, (s, p)) in places.zip(own) {
-                load[place] -= stress * s + projection * p;
+                load[place] -= projection * p - stress * s;
             }
         }
     }
@@ -432,15 +434,16 @@ impl FaceTrace {
     fn add(&mut self, assembly: &Assembly<'_>, point: &FacePoint<'_>, n: usize) {
         let FacePoint { rule, q, .. } = *point;
         let (law, normal) = (assembly.law.at(rule.anchor + rule.offsets[q]), -rule.normals[q]);
-        let friction =
-            rule.face.and_then(|face| assembly.problem.contacts.get(&face.segment.crack).copied());
-        let along = friction.filter(|mu| *mu > 0.0).map(|mu| (-normal.left(), Some(mu)));
+        let law_of_faces =
+            rule.face.and_then(|face| face_law(assembly.problem, face.segment.crack));
+        let along = law_of_faces.map(|law| law.friction).filter(|mu| *mu > 0.0);
+        let along = along.map(|mu| (-normal.left(), Some(mu)));
         self.modulus = self.modulus.max(law.modulus(0));
         let weight = rule.weights[q];
         for (d, friction) in [(normal, None)].into_iter().chain(along) {
-            let lacking = law.prestress().map(|row| row[0] * normal.x + row[1] * normal.y);
-            let lacking = d.x * lacking[0] + d.y * lacking[1];
-            self.rows.push(FaceRow { weight, lacking, friction });
+            let initial = law.stress(&[Vec2::ZERO; 2]).map(|row| normal.dot(row.into()));
+            let initial = d.dot(initial.into());
+            self.rows.push(FaceRow { weight, initial, friction });
             let first = self.stresses.len();
             self.stresses.resize(first + n, 0.0);
             self.jumps.resize(first + n, 0.0);
@@ -489,8 +492,8 @@ fn other_side(rule: &EdgeRule) -> EdgeRule {
 fn faces(assembly: Assembly<'_>, quadrature: &Quadrature<'_>, cell: usize) -> Vec<EdgeRule> {
     let Assembly { problem, space, .. } = assembly;
     let (rect, coverers) = (&space.partition().cell[cell], &space.coverers[cell]);
-    let touching = problem.contacts.keys().map(|&crack| crack as usize);
-    let all = touching.flat_map(|k| Face::of(&problem.cracks[k], k, Side::Above));
+    let touching = (0..problem.cracks().len()).filter(|&k| face_law(problem, k as u32).is_some());
+    let all = touching.flat_map(|k| Face::of(&problem.cracks()[k], k, Side::Above));
     all.flat_map(|face| quadrature.face(rect, coverers, face)).collect()
 }
 

@@ -10,9 +10,10 @@ use crate::equilibrium::{Balance, BodyPieces};
 use crate::quadrature::{EdgeRule, Face, Quadrature, Rule};
 use crate::report::Unresolved;
 use crate::space::Space;
+use crate::terms::{is_held_exactly, known_fields};
 use crate::watched::{Halt, Stage, in_batches};
 use ppum::vec2::Vec2;
-use ppum_problem::{BoundaryCondition, ForcePlace, Problem, held_directions};
+use ppum_problem::{BoundaryCondition, Problem, held_directions};
 
 /// A source as a function of position.
 type Values<'p> = Box<dyn Fn(Vec2) -> [f64; 2] + Sync + Send + 'p>;
@@ -136,10 +137,9 @@ impl<'p> Given<'p> {
             },
             |_, part| sum.iter_mut().zip(&part).for_each(|(sum, part)| sum.add(part)),
         )?;
-        for force in &self.problem.forces {
-            let face = self.problem.place_of(force).ok().and_then(ForcePlace::face).map(Face::from);
-            let (_, rule) = point_rule(space, (force.at, face));
-            sum[pieces.of_border(&rule, 0)].add_load(force.at, &<[f64; 2]>::from(force.value), 1.0);
+        for field in known_fields(self.problem) {
+            let (_, rule) = point_rule(space, (field.at, field.face.map(Face::from)));
+            sum[pieces.of_border(&rule, 0)].add_load(field.at, &<[f64; 2]>::from(field.load), 1.0);
         }
         Ok(sum)
     }
@@ -166,7 +166,7 @@ impl<'p> GivenCondition<'p> {
         own: LoadRules<EdgeRule>,
     ) -> Self {
         let values = Box::new(|x, normal| condition.values(x, normal));
-        let is_exact = problem.exact_line(condition).is_some();
+        let is_exact = is_held_exactly(problem, condition);
         Self { number, condition, values, own, is_exact }
     }
 

@@ -6,6 +6,7 @@
 //! divided until it resolves the formula. Where they agree the rule of the system stays, else the
 //! other one takes its place for this load.
 
+use crate::law::Law;
 use crate::quadrature::{Doubt, EdgeRule, Face, Kink, Quadrature, Rule};
 use crate::smoothness::{Smoothness, box_of};
 use crate::space::Space;
@@ -149,13 +150,7 @@ pub(super) fn unresolved_strains(
     space: &Space<'_>,
     stage: &Stage<'_>,
 ) -> Result<Vec<(f64, Vec2)>, Halt> {
-    let mut strains: Vec<&Expression> = Vec::new();
-    for (_, strain) in problem.equation.eigenstrains() {
-        // a temperature gives the same one in all directions
-        if !strains.iter().any(|known| known.text() == strain.text()) {
-            strains.push(strain);
-        }
-    }
+    let strains = Law::new(&problem.equation).strain_formulas();
     let doubt = |&strain: &&Expression| {
         let rules = Load {
             formulas: vec![strain],
@@ -322,24 +317,24 @@ pub(crate) fn border_rules(
 ) -> Vec<EdgeRule> {
     match on {
         BorderPart::Edge { edge, from, to } => {
-            let ends = [from, to].map(|s| edge.point(&problem.domain.bounds, s));
+            let ends = [from, to].map(|s| edge.point(&problem.domain().bounds, s));
             quadrature.edge(rect, coverers, ends, edge.normal())
         }
         BorderPart::Hole(hole) => {
-            quadrature.rim(rect, coverers, &problem.domain.holes[hole], |_| true)
+            quadrature.rim(rect, coverers, &problem.domain().holes[hole], |_| true)
         }
         BorderPart::Sides(run) => {
             let is_wanted = |side| run.holds(run.hole, side);
-            quadrature.rim(rect, coverers, &problem.domain.holes[run.hole], is_wanted)
+            quadrature.rim(rect, coverers, &problem.domain().holes[run.hole], is_wanted)
         }
         BorderPart::Piece(piece) => {
-            let runs = problem.pieces[piece].runs.iter().map(|run| BorderPart::Sides(*run));
+            let runs = problem.pieces()[piece].runs.iter().map(|run| BorderPart::Sides(*run));
             runs.flat_map(|run| border_rules(problem, run, quadrature, rect, coverers)).collect()
         }
         BorderPart::Crack { crack, face } => {
             let both = [Side::Above, Side::Below];
             let sides = both.into_iter().filter(|side| face.is_none_or(|face| face == *side));
-            let faces = sides.flat_map(|side| Face::of(&problem.cracks[crack], crack, side));
+            let faces = sides.flat_map(|side| Face::of(&problem.cracks()[crack], crack, side));
             faces.flat_map(|face| quadrature.face(rect, coverers, face)).collect()
         }
     }

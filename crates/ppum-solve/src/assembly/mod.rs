@@ -26,7 +26,7 @@ mod system;
 mod template;
 
 pub use cell::Functionals;
-pub use contact::{ContactError, FaceContacts, FaceState, RowFactors};
+pub use contact::{CellErrors, FaceContacts, FaceState, RowFactors};
 pub use dual::{Duals, FACTORS, Kernel, LinearFunctional};
 pub use functions::Assembly;
 pub use gauge::{FreeModes, Gauge};

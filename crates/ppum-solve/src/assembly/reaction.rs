@@ -17,7 +17,7 @@ use ppum_problem::{BoundaryCondition, Problem, restraint_words};
 
 /// The modes that reactions do work on: the moment is about the centre of the box.
 pub(crate) fn modes(problem: &Problem) -> RigidModes {
-    RigidModes::new(problem.domain.bounds.center(), 1.0, problem.components())
+    RigidModes::new(problem.domain().bounds.center(), 1.0, problem.components())
 }
 
 /// Integrals over the border of a cell where one condition gives values, for every rigid-body
@@ -131,7 +131,7 @@ impl Reactions {
         }
         let holding = problem.boundary.iter().zip(sums).filter(|(c, _)| c.held().contains(&true));
         let reaction = |(condition, sum): (&BoundaryCondition, PerMode)| Reaction {
-            on: restraint_words(condition.on, &problem.domain, &problem.pieces),
+            on: restraint_words(condition.on, problem.domain(), problem.pieces()),
             held: condition.coordinates_of(condition.held())[..components].to_vec(),
             force: sum[..components].to_vec(),
             moment: sum[2],

@@ -143,7 +143,7 @@ impl System {
                 let source = given.source(cell);
                 let template = templates.of(cell);
                 let shares_rules = source.is_some_and(|source| source.rules.is_none())
-                    || assembly.law.has_eigenstrain();
+                    || assembly.law.has_initial_stress();
                 let rules = match &template {
                     Some(_) if !shares_rules && !functionals.are_of(cell) => Cow::default(),
                     _ => space.rules(&quadrature, cell),

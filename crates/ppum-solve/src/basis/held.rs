@@ -15,7 +15,8 @@
 
 use super::tie::VectorField;
 use super::transform::{CUT_OFF, Transform};
-use crate::space::{HeldLine, Space};
+use crate::space::Space;
+use crate::terms::HeldLine;
 use faer::Mat;
 use ppum::dataset::monomials;
 use ppum::function::FunctionKind;

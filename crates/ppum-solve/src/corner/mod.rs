@@ -126,9 +126,9 @@ impl Nature {
 /// The singular points of a problem, in the order: box, edges, holes, cracks. Its cost is quadratic
 /// in their number.
 pub fn corners(problem: &Problem) -> Vec<Corner> {
-    let touch = touch(&problem.domain.bounds);
-    let tips: Vec<_> = tips(&problem.cracks)
-        .map(|tip| problem.cracks[tip.crack as usize].end_point(tip.end))
+    let touch = touch(&problem.domain().bounds);
+    let tips: Vec<_> = tips(problem.cracks())
+        .map(|tip| problem.cracks()[tip.crack as usize].end_point(tip.end))
         .collect();
     let mut places = distinct(places(problem), touch);
     // symmetries end at tips on edges
@@ -216,7 +216,7 @@ fn wedge(
         (_, 1) => (None, room),
         (Nature::Kink(crack), 2) if fills => {
             let inside = at + vec2(bisector.cos(), bisector.sin()) * (LOOK * room);
-            let (own, bounds) = (&problem.cracks[crack], &problem.domain.bounds);
+            let (own, bounds) = (&problem.cracks()[crack], &problem.domain().bounds);
             let seen = LocalCrack::new(own, inside);
             let side =
                 if seen.side([0.0, 0.0], Side::Above) > 0.0 { Side::Above } else { Side::Below };
@@ -240,20 +240,12 @@ fn values_jump(sector: &Sector, scale: f64) -> bool {
 /// The size of the values given on edges, at their ends and quarters, and at corners of rims.
 fn scale_of_values(problem: &Problem) -> f64 {
     let sizes = problem.boundary.iter().flat_map(|condition| {
-        let bounds = &problem.domain.bounds;
+        let bounds = &problem.domain().bounds;
         let all: Vec<Vec2> = match condition.on {
             BorderPart::Edge { edge, from, to } => (0..=4)
                 .map(|k| edge.point(bounds, from + (to - from) * f64::from(k) / 4.0))
                 .collect(),
-            part => {
-                let holes = problem.domain.holes.iter().enumerate();
-                let rims = holes.flat_map(|(k, hole)| {
-                    let sides = hole.sides().enumerate();
-                    let own = sides.filter(move |(side, _)| problem.is_on(part, k, *side));
-                    own.flat_map(|(_, ends)| ends)
-                });
-                rims.collect()
-            }
+            part => problem.segments_of(part).flatten().collect(),
         };
         let held = condition.fixed();
         // values, unlike pressures, do not depend on the normal
@@ -269,7 +261,7 @@ fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> Nature {
         let inner = &crack.points[1..crack.points.len() - 1];
         inner.iter().any(|p| (*p - at).length() <= touch)
     };
-    match problem.cracks.iter().position(inner) {
+    match problem.cracks().iter().position(inner) {
         Some(crack) => Nature::Kink(crack),
         None if (sector.held[0], sector.axes[0]) == (sector.held[1], sector.axes[1]) => {
             Nature::Corner
@@ -280,7 +272,7 @@ fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> Nature {
 
 /// Points at which the border turns or its conditions may change: not all of them do, some twice.
 fn places(problem: &Problem) -> Vec<Vec2> {
-    let bounds = &problem.domain.bounds;
+    let bounds = &problem.domain().bounds;
     let mut all = bounds.corners().to_vec();
     for condition in &problem.boundary {
         if let BorderPart::Edge { edge, from, to } = condition.on {
@@ -288,16 +280,16 @@ fn places(problem: &Problem) -> Vec<Vec2> {
         }
         all.extend(jumps(condition, problem));
     }
-    let holes = &problem.domain.holes;
+    let holes = &problem.domain().holes;
     all.extend(holes.iter().flat_map(Hole::sides).map(|[a, _]| a));
-    let cracks = problem.cracks.iter().flat_map(|crack| crack.points.windows(2));
+    let cracks = problem.cracks().iter().flat_map(|crack| crack.points.windows(2));
     let straight = cracks.map(|s| [s[0], s[1]]).chain(bounds.sides());
     let crossings = straight.flat_map(|s| holes.iter().flat_map(move |hole| crossing(s, hole)));
     all.extend(crossings);
     for (k, hole) in holes.iter().enumerate() {
         all.extend(holes[..k].iter().flat_map(|other| rims_crossing(hole, other)));
     }
-    all.extend(problem.cracks.iter().flat_map(vertices));
+    all.extend(problem.cracks().iter().flat_map(vertices));
     all
 }
 
@@ -326,27 +318,19 @@ fn curves(part: BorderPart, problem: &Problem) -> Vec<BorderCurve<'_>> {
         |[a, b]: [Vec2; 2]| -> BorderCurve<'_> { (Box::new(move |s| a + (b - a) * s), [0.0, 1.0]) };
     match part {
         BorderPart::Edge { edge, from, to } => {
-            let bounds = &problem.domain.bounds;
+            let bounds = &problem.domain().bounds;
             vec![(Box::new(move |s| edge.point(bounds, s)), [from, to])]
         }
         BorderPart::Crack { crack, .. } => {
-            problem.cracks[crack].points.windows(2).map(|s| straight([s[0], s[1]])).collect()
+            problem.cracks()[crack].points.windows(2).map(|s| straight([s[0], s[1]])).collect()
         }
-        _ => {
-            let holes = problem.domain.holes.iter().enumerate();
-            let of_hole = |(k, hole): (usize, &Hole)| match *hole {
-                Hole::Circle { center, radius } => {
-                    let is_on = problem.is_on(part, k, 0);
-                    let at = move |angle: f64| center + vec2(angle.cos(), angle.sin()) * radius;
-                    is_on.then(|| (Box::new(at) as Box<_>, [0.0, TAU])).into_iter().collect()
-                }
-                Hole::Polygon { .. } => {
-                    let own = hole.sides().enumerate().filter(|(s, _)| problem.is_on(part, k, *s));
-                    own.map(|(_, ends)| straight(ends)).collect::<Vec<_>>()
-                }
-            };
-            holes.flat_map(of_hole).collect()
+        BorderPart::Hole(hole)
+            if let Hole::Circle { center, radius } = problem.domain().holes[hole] =>
+        {
+            let at = move |angle: f64| center + vec2(angle.cos(), angle.sin()) * radius;
+            vec![(Box::new(at), [0.0, TAU])]
         }
+        _ => problem.segments_of(part).map(straight).collect(),
     }
 }
 

@@ -88,7 +88,7 @@ impl Surroundings<'_> {
     /// Distance of a point to the nearest part of the border and of cracks that does not go through
     /// it. A circle that does is as far as its radius.
     pub(super) fn distance(&self, p: Vec2) -> f64 {
-        let domain = &self.problem.domain;
+        let domain = self.problem.domain();
         let edges = Edge::ALL.map(|edge| edge.depth(&domain.bounds, p).abs());
         let circles = domain.holes.iter().filter_map(|hole| match hole {
             Hole::Circle { radius, .. } if self.is_on(hole.rim_distance(p)) => Some(*radius),
@@ -96,7 +96,7 @@ impl Surroundings<'_> {
             Hole::Polygon { .. } => None,
         });
         let sides = domain.holes.iter().flat_map(Hole::sides);
-        let cracks = self.problem.cracks.iter().flat_map(|c| c.points.windows(2));
+        let cracks = self.problem.cracks().iter().flat_map(|c| c.points.windows(2));
         let segments =
             sides.chain(cracks.map(|s| [s[0], s[1]])).map(|[a, b]| segment::distance([a, b], p));
         let all = edges.into_iter().chain(circles).chain(segments);
@@ -162,7 +162,7 @@ impl Surroundings<'_> {
 
     fn is_material(&self, p: Vec2, sector: &Sector, reach: f64) -> bool {
         let middle = sector.from + 0.5 * sector.opening;
-        self.problem.domain.contains(p + vec2(middle.cos(), middle.sin()) * reach)
+        self.problem.domain().contains(p + vec2(middle.cos(), middle.sin()) * reach)
     }
 
     fn rays(&self, p: Vec2, room: f64) -> Vec<Ray> {
@@ -170,10 +170,10 @@ impl Surroundings<'_> {
         for edge in Edge::ALL {
             rays.extend(self.along_edge(edge, p, LOOK * room));
         }
-        for (index, hole) in self.problem.domain.holes.iter().enumerate() {
+        for (index, hole) in self.problem.domain().holes.iter().enumerate() {
             rays.extend(self.along_rim((index, hole), p));
         }
-        for (crack, index) in self.problem.cracks.iter().zip(0..) {
+        for (crack, index) in self.problem.cracks().iter().zip(0..) {
             for segment in crack.points.windows(2) {
                 let on = |way: Vec2| On::Crack {
                     crack: index,
@@ -188,7 +188,7 @@ impl Surroundings<'_> {
 
     /// The rays along an edge.
     fn along_edge(&self, edge: Edge, p: Vec2, step: f64) -> Vec<Ray> {
-        let bounds = &self.problem.domain.bounds;
+        let bounds = &self.problem.domain().bounds;
         if !self.is_on(edge.depth(bounds, p).abs()) {
             return Vec::new();
         }

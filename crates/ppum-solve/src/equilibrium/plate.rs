@@ -46,7 +46,7 @@ impl Plate {
         problem: &Problem,
     ) -> Result<Self, PlateError> {
         let free = balances.iter().map(Balance::free).collect::<Result<_, _>>()?;
-        let touches = touches(&pieces, &problem.contacts);
+        let touches = touches(&pieces, problem);
         let (groups, motions) = (groups(&pieces, &touches), Vec::new());
         let mut plate = Self { pieces, balances, free, groups, motions, imbalance: 0.0 };
         for group in 0..plate.groups.len() {

@@ -15,10 +15,11 @@
 use super::balance::{Balance, FREE, UnbalancedError};
 use super::pieces::BodyPieces;
 use super::rigid::{MODES, PerMode};
+use crate::terms::{FaceLaw, face_law};
 use faer::Mat;
 use ppum::vec2::Vec2;
 use ppum_linear::{EigenError, SymmetricEigen, nonnegative_residual, product};
-use std::collections::BTreeMap;
+use ppum_problem::Problem;
 
 /// Part of the loads' magnitude that may remain unbalanced: quadrature of the data, not more.
 const BALANCE: f64 = 1e-6;
@@ -34,10 +35,11 @@ pub(super) struct Touch {
 }
 
 /// The forces between pieces, of cracks with their coefficients of friction.
-pub(super) fn touches(pieces: &BodyPieces, contacts: &BTreeMap<u32, f64>) -> Vec<Touch> {
+pub(super) fn touches(pieces: &BodyPieces, problem: &Problem) -> Vec<Touch> {
     let mut all = Vec::new();
-    for (&crack, &friction) in contacts {
-        for edge in pieces.shared_edges(crack as usize) {
+    for crack in 0..problem.cracks().len() {
+        let Some(FaceLaw { friction }) = face_law(problem, crack as u32) else { continue };
+        for edge in pieces.shared_edges(crack) {
             let along = (edge.ends[1] - edge.ends[0]).unit();
             let ways = [-friction, friction].map(|shear| along.left() + along * shear);
             let ways = if friction > 0.0 { &ways[..] } else { &ways[..1] };

@@ -96,8 +96,8 @@ fn demands(problem: &Problem) -> Placed<Demand<'_>> {
     let mut known: BTreeMap<(bool, usize), Sides> = BTreeMap::new();
     let mut sides = |is_hole: bool, index: usize| {
         let all: &dyn Fn() -> Sides = &|| match is_hole {
-            true => placed(problem.domain.holes[index].sides()),
-            false => placed(problem.cracks[index].points.windows(2).map(|s| [s[0], s[1]])),
+            true => placed(problem.domain().holes[index].sides()),
+            false => placed(problem.cracks()[index].points.windows(2).map(|s| [s[0], s[1]])),
         };
         known.entry((is_hole, index)).or_insert_with(all).clone()
     };
@@ -107,11 +107,11 @@ fn demands(problem: &Problem) -> Placed<Demand<'_>> {
             RefinementRegion::Box(rect) => Lines::Box(rect),
             RefinementRegion::Disc { center, radius } => Lines::Disc(center, radius),
             RefinementRegion::Hole(hole) => {
-                Lines::Rim(&problem.domain.holes[hole], sides(true, hole))
+                Lines::Rim(&problem.domain().holes[hole], sides(true, hole))
             }
             RefinementRegion::Crack(crack) => Lines::Crack(sides(false, crack)),
         };
-        let bounds = refinement.bounds(&problem.domain, &problem.cracks);
+        let bounds = refinement.bounds(problem.domain(), problem.cracks());
         (bounds, (index, bounds, lines))
     };
     let all: Vec<_> = problem.refinements.iter().enumerate().map(demand).collect();

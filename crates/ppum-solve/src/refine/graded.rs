@@ -65,16 +65,16 @@ enum GradedShape {
 /// The demands of the singular points and the round rims of a problem on a base cover with cells of
 /// the given size.
 pub(super) fn graded(problem: &Problem, corners: &[Corner], size: f64) -> Vec<Graded> {
-    let plate = problem.domain.bounds.size();
+    let plate = problem.domain().bounds.size();
     let bits = |p: Vec2| [p.x.to_bits(), p.y.to_bits()];
     let on_curves: BTreeSet<_> =
-        problem.domain.holes.iter().flat_map(bends).map(|bend| bits(bend.at)).collect();
+        problem.domain().holes.iter().flat_map(bends).map(|bend| bits(bend.at)).collect();
     // what follows a curve has its radius, and is no corner; what is given may end there
     let sharp = corners
         .iter()
         .filter(|corner| corner.nature != Nature::Corner || !on_curves.contains(&bits(corner.at)));
     let at_corners = sharp.filter_map(|c| Graded::corner(c, plate.x.min(plate.y)));
-    let rims = problem.domain.holes.iter().flat_map(|hole| Graded::rim(hole, problem));
+    let rims = problem.domain().holes.iter().flat_map(|hole| Graded::rim(hole, problem));
     let mut all: Vec<_> = at_corners.chain(rims).collect();
     all.iter_mut().for_each(|graded| graded.finest = graded.finest.max(SMALLEST * size));
     all

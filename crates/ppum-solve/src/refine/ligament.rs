@@ -35,7 +35,7 @@ enum Other<'p> {
 
 /// The ligaments of a problem that ask for cells smaller than `size`.
 pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
-    let (bounds, holes) = (&problem.domain.bounds, &problem.domain.holes);
+    let (bounds, holes) = (&problem.domain().bounds, &problem.domain().holes);
     let plate = bounds.size();
     let thinnest = THINNEST * plate.x.min(plate.y);
     let mut found = Vec::new();
@@ -44,7 +44,7 @@ pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
         let edges = Edge::ALL.into_iter().filter(|_| !hole.is_outside());
         let edges = edges.map(|edge| Other::Edge(edge, bounds));
         let others = holes[..k].iter().map(Other::Hole);
-        let cracks = problem.cracks.iter().map(|crack| Other::Crack(&crack.points));
+        let cracks = problem.cracks().iter().map(|crack| Other::Crack(&crack.points));
         let all = edges.chain(others).chain(cracks);
         let mut own: Vec<_> = all
             .filter_map(|other| {

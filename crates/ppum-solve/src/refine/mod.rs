@@ -11,7 +11,7 @@
 //! - No patch is crossed twice by the rim of a polygon, down to a part of its size: it has no
 //!   functions of their own for the two sides. Cracks may cross it and each other as they like, up
 //!   to what [`Jumps`] can look at.
-//! - Patches at forces reach no farther than the fields of these ([`ForceField`]).
+//! - Patches at singular points of known fields reach no farther than these ([`KnownField`]).
 //! - Three cells lie across what is left between a hole and its neighbours.
 //!
 //! Enrichment does the rest at tips, and at corners that turn inwards between free sides: grading
@@ -24,8 +24,8 @@ mod ligament;
 mod rim;
 
 use crate::corner::corners;
-use crate::forces::{ForceField, force_fields};
 use crate::smoothness::Interfaces;
+use crate::terms::{KnownField, known_fields};
 use crate::watched::Stage;
 use graded::{Graded, graded};
 use ligament::{Ligament, ligaments};
@@ -153,9 +153,9 @@ pub(crate) fn cover(
     let mut wishes = Wishes::new(problem, &cells);
     wishes.most_cells += cover.n_cells() - cells.len();
     let rims = Rims::new(problem);
-    let bounds = &problem.domain.bounds;
-    let jumps = Jumps::new(&problem.cracks, &problem.domain, touch(bounds));
-    let forces = force_fields(problem);
+    let bounds = &problem.domain().bounds;
+    let jumps = Jumps::new(problem.cracks(), problem.domain(), touch(bounds));
+    let known = known_fields(problem);
     let must = |cell: &Rect| {
         let patch = patch_of(cell, problem);
         needs.asks(cell, &patch)
@@ -174,10 +174,10 @@ pub(crate) fn cover(
         // who is to stop asks for nothing
         let asks = |cell: Rect, level: u8| {
             let goes_on = stage.advance(0).is_ok();
-            let of_force = |force: &ForceField| !force.fits_in(&patch_of(&cell, problem), bounds);
+            let is_beyond = |field: &KnownField| !field.fits_in(&patch_of(&cell, problem), bounds);
             goes_on
                 && (must(&cell)
-                    || forces.iter().any(of_force)
+                    || known.iter().any(is_beyond)
                     || affordable && wishes.asks(&cell, level))
         };
         let divided = cover.refine(asks)?;
@@ -200,16 +200,16 @@ struct Needs {
 
 impl Needs {
     fn new(problem: &Problem) -> Self {
-        let tip = |tip: TipId| problem.cracks[tip.crack as usize].end_point(tip.end);
+        let tip = |tip: TipId| problem.cracks()[tip.crack as usize].end_point(tip.end);
         let reach = |id: TipId| {
-            let room = TipClearance::among_cracks(&problem.cracks, &problem.domain, id).radius;
+            let room = TipClearance::among_cracks(problem.cracks(), problem.domain(), id).radius;
             problem.enrichment_radius(id).min(0.5 * room)
         };
-        let points: Vec<_> = tips(&problem.cracks).map(|id| (id, tip(id), reach(id))).collect();
-        let numbered = problem.cracks.iter().enumerate();
+        let points: Vec<_> = tips(problem.cracks()).map(|id| (id, tip(id), reach(id))).collect();
+        let numbered = problem.cracks().iter().enumerate();
         let cracks = Placed::new(numbered.map(|crack| (around(&crack.1.points), crack)));
-        let at_tips = tips(&problem.cracks).map(|tip| Need::new(problem, &cracks, tip));
-        let all = at_tips.chain(problem.cracks.iter().flat_map(|crack| mouths(crack, problem)));
+        let at_tips = tips(problem.cracks()).map(|tip| Need::new(problem, &cracks, tip));
+        let all = at_tips.chain(problem.cracks().iter().flat_map(|crack| mouths(crack, problem)));
         let place = |need: Need| (wider(&around(&[need.tip]), need.near), need);
         Self {
             needs: Placed::new(all.map(place)),
@@ -272,7 +272,7 @@ impl<'p> Wishes<'p> {
             graded: Placed::new(graded.into_iter().map(|graded| (graded.place(), graded))),
             ligaments: Placed::new(ligaments.into_iter().map(|lig| (lig.place(), lig))),
             interfaces: resolves_interfaces(problem)
-                .then(|| Interfaces::new(problem.constants(), &problem.domain, &problem.cracks)),
+                .then(|| Interfaces::new(problem.constants(), problem.domain(), problem.cracks())),
             at_interfaces: lowest + AT_INTERFACES,
             most_cells: cells.len() + budget + budget / 2,
         }
@@ -287,7 +287,7 @@ impl<'p> Wishes<'p> {
 
     /// True if a patch holds a singular point of an interface.
     fn at_interface(&self, cell: &Rect) -> bool {
-        let part = patch_of(cell, self.problem).intersection(&self.problem.domain.bounds);
+        let part = patch_of(cell, self.problem).intersection(&self.problem.domain().bounds);
         self.interfaces.as_ref().is_some_and(|all| all.trouble(&part).is_some())
     }
 }
@@ -300,9 +300,9 @@ pub(crate) fn resolves_interfaces(problem: &Problem) -> bool {
 
 fn base(problem: &Problem) -> Result<Cover, CoverError> {
     match &problem.discretization.cells {
-        Cells::Points(points) => Cover::scattered(problem.domain.bounds, [1, 1], points.clone()),
+        Cells::Points(points) => Cover::scattered(problem.domain().bounds, [1, 1], points.clone()),
         cells => {
-            let bounds = problem.domain.bounds;
+            let bounds = problem.domain().bounds;
             let (roots, halvings) = cells.roots(&bounds).unwrap_or(([1, 1], 0));
             let mut cover = Cover::grid(bounds, roots)?;
             while cover.refine(|_, level| u32::from(level) < halvings)? > 0 {}
@@ -328,7 +328,7 @@ pub struct Rims<'p> {
 
 impl<'p> Rims<'p> {
     fn new(problem: &'p Problem) -> Self {
-        let rims = problem.domain.holes.iter().filter_map(|hole| match hole {
+        let rims = problem.domain().holes.iter().filter_map(|hole| match hole {
             Hole::Circle { .. } => None,
             Hole::Polygon { points, .. } => {
                 let size = hole.rim_bounds().size();
@@ -337,7 +337,7 @@ impl<'p> Rims<'p> {
             }
         });
         let overlap = problem.discretization.overlap;
-        Self { domain: problem.domain.bounds, overlap, rims: Placed::new(rims) }
+        Self { domain: problem.domain().bounds, overlap, rims: Placed::new(rims) }
     }
 
     /// True if a patch, as far as the domain reaches, holds several runs of a rim and is larger
@@ -365,13 +365,13 @@ struct Need {
 
 impl Need {
     fn new(problem: &Problem, cracks: &Placed<(usize, &Crack)>, id: TipId) -> Self {
-        let crack = &problem.cracks[id.crack as usize];
+        let crack = &problem.cracks()[id.crack as usize];
         let share = crack.length() / crack.tips().count() as f64;
         let tip = crack.end_point(id.end);
         // what is farther away asks for nothing
         let reach = AMPLE_CLEARANCE * LARGEST * share;
         let near = cracks.near(&wider(&around(&[tip]), reach)).copied();
-        let clearance = TipClearance::among(near, &problem.domain, (crack, id)).radius.min(reach);
+        let clearance = TipClearance::among(near, problem.domain(), (crack, id)).radius.min(reach);
         let elastic = problem.equation.elastic();
         // beyond the other end there is nothing of it
         let mut apart = bent_part(crack, id.end);
@@ -401,9 +401,9 @@ fn mouths(crack: &Crack, problem: &Problem) -> Vec<Need> {
     let ends = [End::Start, End::Last].into_iter().zip(crack.ends);
     let at_hole = ends.filter_map(|(end, kind)| {
         let p = crack.end_point(end);
-        let reach = crack.growth_direction(end) * problem.domain.bounds.size().length();
+        let reach = crack.growth_direction(end) * problem.domain().bounds.size().length();
         let beyond =
-            (kind == CrackEnd::Mouth).then(|| behind_holes(p, reach, &problem.domain))??;
+            (kind == CrackEnd::Mouth).then(|| behind_holes(p, reach, problem.domain()))??;
         Some(Need {
             tip: p,
             largest: f64::INFINITY,

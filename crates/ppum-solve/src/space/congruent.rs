@@ -1,11 +1,12 @@
 //! Finds the cells of a space that are alike.
 
 use super::alike::{Alike, Member, PatchKind, ReferenceCell};
-use super::trial::{Space, block_size};
+use super::trial::Space;
 use ppum::dataset::{BoxPartition, FieldData, Step};
-use ppum::function::{Function, FunctionKind, FunctionTable};
+use ppum::function::{Function, FunctionKind};
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
@@ -90,8 +91,8 @@ impl ReferenceCell {
         self.rules = quadrature.cell(&space.partition().cell[0], &space.coverers[0]);
     }
 
-    /// The space of the cell at the origin and its patches: its first cell is the one, and its
-    /// patches stand in the order of their seats.
+    /// The space of the cell at the origin and its patches, with the quadrature of another one: its
+    /// first cell is the one, and its patches, which all cover it, stand in the order of their seats.
     pub(crate) fn space<'d>(&self, like: &Space<'d>) -> Space<'d> {
         let (size, seats) = self.measures.split_at(2);
         let size = vec2(f64::from_bits(size[0] as u64), f64::from_bits(size[1] as u64));
@@ -119,39 +120,18 @@ impl ReferenceCell {
         seats.iter().for_each(|seat| data.push_patch(&[(0, seat.degree)]));
         let mut step = Step::new(partition).with_field(data);
         step.functions = vec![Function { name: "one".into(), kind: FunctionKind::One }];
-        like.alone(step)
+        let (equation, every) = (like.equation(), vec![(0..n as u32).collect()]);
+        let mut space = Space::of_cells(Cow::Owned(step), (equation, &[]), every, like.orders)
+            .expect("the constant one compiles");
+        space.caches.alike = OnceLock::from(Alike::default());
+        space
     }
 }
 
 impl<'d> Space<'d> {
     /// The cells that are alike.
     pub(crate) fn alike(&self) -> &Alike {
-        self.alike.get_or_init(|| Alike::new(self))
-    }
-
-    /// The space of a step with polynomials only, in which all patches cover the first cell, with
-    /// the quadrature of this one.
-    fn alone(&self, step: Step) -> Space<'d> {
-        let n = step.partition.len();
-        let size = |patch: usize| block_size(&step.fields[0], patch);
-        Space {
-            holes: &[],
-            functions: FunctionTable::new(&step.functions, 0, &[])
-                .expect("the constant one compiles"),
-            coverers: vec![(0..n as u32).collect()],
-            sizes: (0..n).map(size).collect(),
-            shifts: vec![0.0; n],
-            series: Vec::new(),
-            held: Default::default(),
-            known: Default::default(),
-            equation: self.equation,
-            temperature: OnceLock::new(),
-            smoothness: Default::default(),
-            orders: self.orders,
-            rules: Vec::new(),
-            alike: OnceLock::from(Alike::default()),
-            step: std::borrow::Cow::Owned(step),
-        }
+        self.caches.alike.get_or_init(|| Alike::new(self))
     }
 }
 

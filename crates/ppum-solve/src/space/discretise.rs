@@ -37,12 +37,12 @@ pub fn discretise_on(
     let set = &problem.discretization;
     let partition =
         mesh.cover.partition(set.overlap, set.weight.clone()).map_err(RefineError::from)?;
-    let (partition, raised) = inner_part(partition, &mesh.raised, &problem.domain.bounds);
-    let (partition, raised) = solid_part(partition, &raised, &problem.domain.holes)?;
+    let (partition, raised) = inner_part(partition, &mesh.raised, &problem.domain().bounds);
+    let (partition, raised) = solid_part(partition, &raised, &problem.domain().holes)?;
     let mut enrichments = Enrichments::new(problem);
     enrichments.add_interfaces(&partition, stage)?;
     enrichments.add_corners(&partition);
-    enrichments.add_forces(&partition);
+    enrichments.add_known(&partition);
     let mut blocks = Vec::with_capacity(partition.len());
     for (patch, raised) in raised.into_iter().enumerate() {
         stage.advance(0)?;
@@ -51,10 +51,10 @@ pub fn discretise_on(
         blocks.push(enrichments.blocks(&partition, patch, degree));
     }
     let mut step = Step::new(partition).with_field(field(problem, &blocks));
-    step.cracks.clone_from(&problem.cracks);
+    step.cracks = problem.cracks().to_vec();
     step.functions = enrichments.table;
     step.attributes = attributes(&blocks);
-    inspect(&step, &problem.domain, &problem.tables)?;
+    inspect(&step, problem.domain(), &problem.tables)?;
     Ok(step)
 }
 

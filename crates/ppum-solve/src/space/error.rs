@@ -22,7 +22,7 @@ pub enum SpaceError {
     /// A function that cannot be used.
     #[error(transparent)]
     Function(#[from] InspectError),
-    /// A force beside what its field cannot go on beyond.
+    /// A known field beside what it cannot go on beyond.
     #[error(
         "the force at [{}, {}] is too near to a border, a crack or a tip for the cells there: patches may reach {} \
          from it, but reach farther; {}",
@@ -32,7 +32,7 @@ pub enum SpaceError {
             false => "leave out `refine = false`, or divide the cells there by [[refine]]",
         }
     )]
-    Force {
+    Reach {
         /// The point.
         at: Vec2,
         /// The distance that patches may reach.

@@ -1,10 +1,10 @@
 //! Functions of patches whose coefficients are known: the fields of forces at points.
 
 use super::williams::SeriesFunctions;
-use crate::forces::force_fields;
+use crate::terms::known_fields;
 use ppum::dataset::{Step, monomials};
-use ppum::function::{Function, Role};
 use ppum_problem::Problem;
+use ppum_problem::geometry::is_known;
 use std::collections::BTreeMap;
 
 /// A function of a patch whose coefficients are known.
@@ -25,19 +25,20 @@ pub(crate) type KnownFunctions = BTreeMap<u32, Vec<KnownFunction>>;
 pub(crate) fn known_functions(
     problem: &Problem,
     step: &Step,
-    series: &dyn Fn(usize) -> Vec<SeriesFunctions>,
+    series: &[Vec<SeriesFunctions>],
 ) -> KnownFunctions {
-    // in the table they have the order of the forces
-    let is_of_force = |(_, f): &(u32, &Function)| f.kind.role() == Some(Role::Force);
-    let numbers = (0..).zip(&step.functions).filter(is_of_force).map(|(number, _)| number);
-    let known = force_fields(problem).into_iter().flat_map(|field| field.coefficients);
+    // in the table they have the order of the fields
+    let known = (0..).zip(&step.functions).filter(|(_, function)| is_known(function));
+    let numbers = known.map(|(number, _)| number);
+    let known = known_fields(problem).into_iter().flat_map(|field| field.coefficients);
     let coefficients: BTreeMap<u32, [f64; 2]> = numbers.zip(known).collect();
     let mut all = BTreeMap::new();
     if coefficients.is_empty() {
         return all;
     }
     for patch in 0..step.partition.len() {
-        let own = of_patch(step, patch, &coefficients, &series(patch));
+        let own =
+            of_patch(step, patch, &coefficients, series.get(patch).map_or(&[], Vec::as_slice));
         if !own.is_empty() {
             all.insert(patch as u32, own);
         }

@@ -1,13 +1,12 @@
 //! A step with the lists that the solver needs to walk over it.
 
 use super::alike::Alike;
-use super::held::{HeldLine, held_lines};
 use super::known::{KnownFunction, KnownFunctions, known_functions};
 use super::williams::{self, SeriesFunctions};
-use crate::heat::{Temperature, joined};
-use crate::law::Law;
+use crate::law::joined;
 use crate::quadrature::{Orders, Quadrature, Rule};
 use crate::smoothness::Smoothness;
+use crate::terms::{HeldLine, held_lines};
 use ppum::box_tree::BoxTree;
 use ppum::crack::{LocalCrack, Side};
 use ppum::dataset::{BoxPartition, Equation, FieldData, Step, monomials};
@@ -57,13 +56,17 @@ pub struct Space<'d> {
     /// Functions of patches whose coefficients are known: they have no unknowns.
     pub(super) known: KnownFunctions,
     pub(super) equation: &'d Equation,
-    /// The temperature that strains the body, once it is known.
-    pub(super) temperature: OnceLock<Temperature>,
     pub(super) smoothness: Smoothness,
     pub(super) orders: Orders,
-    /// Of each cell, its rules once they are made; none of cells that are alike.
-    pub(super) rules: Vec<OnceLock<Vec<Rule>>>,
-    /// The cells that are alike, once somebody asks.
+    pub(super) caches: Caches,
+}
+
+/// What is computed of a space when it is first asked for.
+#[derive(Debug, Default)]
+pub(super) struct Caches {
+    /// Of each cell, its rules; none of cells that are alike.
+    rules: Vec<OnceLock<Vec<Rule>>>,
+    /// The cells that are alike.
     pub(super) alike: OnceLock<Alike>,
 }
 
@@ -95,19 +98,18 @@ impl<'d> Space<'d> {
         step: Step,
         heat: Option<&Step>,
     ) -> Result<Self, FunctionError> {
-        let Problem { domain, equation, tables, .. } = problem;
         let body = problem.dataset_equation();
         let heat = heat.map(|heat| (heat, &*body));
-        let mut space = Self::on(Cow::Owned(step), heat, domain, (equation, tables))?;
-        space.series = williams::series(problem, &space.step);
-        space.held = held_lines(problem, space.partition());
-        let series = |patch| space.series(patch).to_vec();
-        space.known = known_functions(problem, &space.step, &series);
-        if !problem.solver.kernels {
-            let Step { functions, cracks, .. } = &*space.step;
-            space.functions = FunctionTable::of_formulas(functions, cracks.len(), tables)?;
-        }
-        Ok(space)
+        let series = williams::series(problem, &step);
+        let held = held_lines(problem, step.partition.boxes());
+        let known = known_functions(problem, &step, &series);
+        let formulas = (!problem.solver.kernels).then(|| {
+            FunctionTable::of_formulas(&step.functions, step.cracks.len(), &problem.tables)
+        });
+        let constants = (&problem.equation, problem.tables.as_slice());
+        let space = Self::on(Cow::Owned(step), heat, problem.domain(), constants)?;
+        let functions = formulas.transpose()?.unwrap_or(space.functions);
+        Ok(Self { series, held, known, functions, ..space })
     }
 
     fn on(
@@ -116,46 +118,42 @@ impl<'d> Space<'d> {
         domain: &'d Domain,
         (equation, tables): (&'d Equation, &[Arc<Table>]),
     ) -> Result<Self, FunctionError> {
-        let (partition, data) = (step.partition.boxes(), &step.fields[0]);
-        let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
         let smoothness = match heat.map(|(heat, body)| (joined(&step, heat), body)) {
             Some((both, body)) => Smoothness::new(&both, &both.fields[0], body, tables)?,
             // elements are integrated by their own coordinates
             None if step.partition.mesh().is_some() => Smoothness::default(),
-            None => Smoothness::new(&step, data, equation, tables)?,
+            None => Smoothness::new(&step, &step.fields[0], equation, tables)?,
         };
+        let partition = step.partition.boxes();
+        let (coverers, orders) = (coverers(partition), orders(partition, smoothness.degree()));
+        let space = Self::of_cells(step, (equation, tables), coverers, orders)?;
+        Ok(Self { holes: &domain.holes, smoothness, ..space })
+    }
+
+    /// The space of a step whose cells nothing cuts.
+    pub(super) fn of_cells(
+        step: Cow<'d, Step>,
+        (equation, tables): (&'d Equation, &[Arc<Table>]),
+        coverers: Vec<Vec<u32>>,
+        orders: Orders,
+    ) -> Result<Self, FunctionError> {
+        let (n, data) = (step.partition.len(), &step.fields[0]);
+        let size = |patch: usize| data.blocks(patch).map(|b| block_size(data, b)).sum();
         Ok(Self {
-            holes: &domain.holes,
+            holes: &[],
             functions: FunctionTable::new(&step.functions, step.cracks.len(), tables)?,
-            coverers: coverers(partition),
-            sizes: (0..partition.len()).map(size).collect(),
+            sizes: (0..n).map(size).collect(),
             shifts: shifts(&step, data),
             series: Vec::new(),
             held: BTreeMap::new(),
             known: KnownFunctions::new(),
+            smoothness: Smoothness::default(),
+            caches: Caches { rules: vec![OnceLock::new(); n], ..Caches::default() },
+            coverers,
+            orders,
             equation,
-            temperature: OnceLock::new(),
-            orders: orders(partition, smoothness.degree()),
-            rules: vec![OnceLock::new(); partition.len()],
-            smoothness,
-            alike: OnceLock::new(),
             step,
         })
-    }
-
-    /// Takes a temperature that strains the body; the first one stays.
-    pub fn heat(&self, temperature: Temperature) {
-        self.temperature.get_or_init(|| temperature);
-    }
-
-    /// The temperature that strains the body, if one does and is known.
-    pub fn temperature(&self) -> Option<&Temperature> {
-        self.temperature.get()
-    }
-
-    /// The law of the equation in a body that the temperature strains.
-    pub fn law(&self) -> Law<'_> {
-        Law::new(self.equation).heated(self.temperature().map(Temperature::field))
     }
 
     /// The functions of a patch whose coefficients are known.
@@ -202,7 +200,7 @@ impl<'d> Space<'d> {
             return Cow::Owned(rules);
         }
         let rules = || quadrature.cell(&self.partition().cell[cell], &self.coverers[cell]);
-        Cow::Borrowed(self.rules[cell].get_or_init(rules))
+        Cow::Borrowed(self.caches.rules[cell].get_or_init(rules))
     }
 
     /// Operations of all formulas that quadrature looks at.
@@ -313,7 +311,7 @@ fn orders(partition: &BoxPartition, degree: usize) -> Orders {
     Orders::for_weight(degree, stretch, weight.breakpoints(), &value, WEIGHT_ACCURACY).0
 }
 
-pub(super) fn block_size(data: &FieldData, block: usize) -> usize {
+fn block_size(data: &FieldData, block: usize) -> usize {
     monomials(data.block_degree[block] as usize)
 }
 

@@ -2,7 +2,7 @@
 //! them only.
 
 use crate::corner::{Corner, WedgeTerm, corners};
-use crate::forces::on_side;
+use crate::terms::{on_side, symmetry_of_field};
 use ppum::crack::TipId;
 use ppum::dataset::{Equation, Step, monomials};
 use ppum::function::{Declared, Frame, Function, FunctionKind, GROUP, Role, WESTERGAARD};
@@ -111,7 +111,7 @@ fn of_tips(problem: &Problem, step: &Step) -> Groups {
     let mut known = BTreeSet::new();
     let mut first = |kind: &FunctionKind| match *kind {
         FunctionKind::Formula { frame: Frame::Tip(tip), role: Role::Tip, .. } => {
-            let origin = Origin::Tip(tip, problem.symmetry_at(tip));
+            let origin = Origin::Tip(tip, symmetry_of_field(problem, tip));
             known.insert(tip).then_some((origin, WESTERGAARD.len()))
         }
         _ => None,

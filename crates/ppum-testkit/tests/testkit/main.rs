@@ -2,6 +2,7 @@
 
 mod architecture;
 mod circles;
+mod features;
 mod formulas;
 mod hostile_formulas;
 mod names;

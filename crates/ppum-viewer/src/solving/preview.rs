@@ -33,7 +33,7 @@ impl Preview {
     /// That of a problem.
     #[must_use]
     pub fn new(problem: &Problem) -> Self {
-        let size = problem.domain.bounds.size();
+        let size = problem.domain().bounds.size();
         let stations = problem.stations(SPACING * size.x.max(size.y));
         let support = |&Station { at, outward, held, axis, exchanges, .. }: &Station| Support {
             at,
@@ -47,9 +47,9 @@ impl Preview {
         let held =
             stations.iter().filter(|station| station.exchanges || station.held != [false; 2]);
         let loaded = stations.iter().filter(|station| station.traction != Vec2::ZERO);
-        let mut domain = problem.domain.clone();
+        let mut domain = problem.domain().clone();
         domain.holes.truncate(MOST);
-        let cracks = problem.cracks.iter().take(MOST).cloned().collect();
+        let cracks = problem.cracks().iter().take(MOST).cloned().collect();
         let (supports, loads) = (held.map(support).collect(), loaded.map(load).collect());
         Self { domain, cracks, supports, loads }
     }

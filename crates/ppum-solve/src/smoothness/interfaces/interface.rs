@@ -66,10 +66,10 @@ impl<'e> Interfaces<'e> {
         if new.all.is_empty() { new } else { Self { largest: new.largest_given(), ..new } }
     }
 
-    /// The entries of the given strains, and the coefficient of expansion by a temperature of
+    /// The entries of minus the given strains, and the coefficient of expansion by a temperature of
     /// the field.
     pub(super) fn given(&self, p: Vec2) -> [[f64; 4]; 2] {
-        let [x, y] = self.law.eigenstrain(p).unwrap_or([Vec2::ZERO; 2]);
+        let [x, y] = self.law.at(p).elastic(&[Vec2::ZERO; 2]);
         let expansion = self.expansion.map_or(0.0, |expansion| expansion.value(p));
         [[x.x, x.y, y.x, y.y], [expansion, 0.0, 0.0, 0.0]]
     }

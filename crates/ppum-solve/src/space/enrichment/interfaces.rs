@@ -10,7 +10,7 @@ use ppum::dataset::BoxPartition;
 use ppum::function::{Declared, Frame, Function, FunctionError, FunctionKind, Role};
 use ppum::progress::Cancelled;
 use ppum::vec2::Vec2;
-use ppum_problem::{Enrichment, Problem};
+use ppum_problem::Enrichment;
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -39,7 +39,7 @@ impl Enrichments<'_> {
         if !set.interfaces || set.enrichment == Enrichment::None {
             return Ok(());
         }
-        let Problem { domain, cracks, .. } = self.problem;
+        let (domain, cracks) = (self.problem.domain(), self.problem.cracks());
         let interfaces = Interfaces::new(self.problem.constants(), domain, cracks);
         if interfaces.all.is_empty() {
             return Ok(());
@@ -52,7 +52,7 @@ impl Enrichments<'_> {
         let cuts: Vec<Vec<Cut>> =
             (0..partition.len()).into_par_iter().map(cuts).collect::<Result<_, Cancelled>>()?;
         for (index, interface) in interfaces.all.iter().enumerate() {
-            let cracks = (0..self.problem.cracks.len()).map(Some);
+            let cracks = (0..self.problem.cracks().len()).map(Some);
             for crack in [None].into_iter().chain(cracks) {
                 let listed = |patch: &u32| cuts[*patch as usize].contains(&(index, crack));
                 let patches: Vec<u32> = (0..partition.len() as u32).filter(listed).collect();
@@ -91,7 +91,7 @@ impl Enrichments<'_> {
             found.push(index);
             cuts.push((index, None));
             let cracks = through().into_iter().map(|crack| crack as usize);
-            let parted = cracks.filter(|&k| parts(&self.problem.cracks[k], &places));
+            let parted = cracks.filter(|&k| parts(&self.problem.cracks()[k], &places));
             cuts.extend(parted.map(|k| (index, Some(k))));
         }
         cuts
@@ -99,7 +99,7 @@ impl Enrichments<'_> {
 
     /// The functions of the problem's own, as quadrature sees them.
     fn own_probes(&self) -> Result<Vec<Probe>, FunctionError> {
-        let cracks: Arc<[Crack]> = self.problem.cracks.as_slice().into();
+        let cracks: Arc<[Crack]> = self.problem.cracks().into();
         let own = self.instances[self.own.clone()].iter().flat_map(|new| new.functions.clone());
         own.map(|index| {
             let function = &self.table[index as usize];

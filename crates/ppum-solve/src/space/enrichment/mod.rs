@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 
 use super::williams::of_corner;
 use crate::corner::corners;
-use crate::forces::force_fields;
+use crate::terms::known_fields;
 use ppum::border::touch;
 use ppum::crack::{Crack, End, SegmentId, TipId, tips};
 use ppum::dataset::BoxPartition;
@@ -142,7 +142,7 @@ impl<'p> Enrichments<'p> {
 
     /// The sides of all cracks, first of the table but for the function 1.
     fn add_jumps(&mut self) {
-        let Problem { cracks, domain, .. } = self.problem;
+        let (cracks, domain) = (self.problem.cracks(), self.problem.domain());
         let side = |crack: u32| Function {
             name: format!("side of crack {crack}"),
             kind: FunctionKind::Side { crack },
@@ -185,7 +185,7 @@ impl<'p> Enrichments<'p> {
     /// Gives the patches of a partition in the rooms of corners that turn inwards the functions
     /// of these.
     pub(crate) fn add_corners(&mut self, partition: &BoxPartition) {
-        let bounds = self.problem.domain.bounds;
+        let bounds = self.problem.domain().bounds;
         for corner in corners(self.problem) {
             let has = |&k: &u32| {
                 corner.has_room_for(&partition.support(k as usize).intersection(&bounds))
@@ -199,10 +199,10 @@ impl<'p> Enrichments<'p> {
         }
     }
 
-    /// Gives patches of a partition the fields of forces.
-    pub(crate) fn add_forces(&mut self, partition: &BoxPartition) {
-        let bounds = self.problem.domain.bounds;
-        for field in force_fields(self.problem) {
+    /// Gives patches of a partition the fields that are known.
+    pub(crate) fn add_known(&mut self, partition: &BoxPartition) {
+        let bounds = self.problem.domain().bounds;
+        for field in known_fields(self.problem) {
             let patches = Patches::Listed(field.patches(partition, &bounds));
             self.push(field.functions, patches, Degree::Fixed(0));
         }
@@ -211,7 +211,7 @@ impl<'p> Enrichments<'p> {
     /// Gives the functions of each tip, so far the only instances, to the patches along its part of
     /// the crack too.
     fn extend_along_cracks(&mut self) {
-        let at_tips = self.instances.iter().zip(tips(&self.problem.cracks));
+        let at_tips = self.instances.iter().zip(tips(self.problem.cracks()));
         let behind = |(instance, tip): (&Instance, TipId)| Instance {
             functions: instance.functions.clone(),
             tip: instance.tip,
@@ -314,12 +314,12 @@ impl Enrichments<'_> {
 impl Patches {
     /// A box that all of the patches meet.
     fn zone(&self, problem: &Problem) -> Rect {
-        let everywhere = wider(&problem.domain.bounds, problem.domain.bounds.size().length());
+        let everywhere = wider(&problem.domain().bounds, problem.domain().bounds.size().length());
         match self {
             Patches::All | Patches::Listed(_) | Patches::Where(_) => everywhere,
             Patches::Near(ZoneCore::Point(p), radius) => wider(&around(&[*p]), *radius),
             Patches::Near(ZoneCore::Segment(ends), radius) => wider(&around(ends), *radius),
-            Patches::Behind(tip, _) => around(&problem.cracks[tip.crack as usize].points),
+            Patches::Behind(tip, _) => around(&problem.cracks()[tip.crack as usize].points),
         }
     }
 }
@@ -358,12 +358,12 @@ fn zones(problem: &Problem, site: Site) -> Vec<EnrichmentZone> {
             let frame = Frame::Fixed { origin: a, angle: (b.y - a.y).atan2(b.x - a.x) };
             vec![zone(frame, Some(ZoneCore::Segment([a, b])), name)]
         }
-        Site::Tips => tips(&problem.cracks).map(|tip| at_tip(problem, tip)).collect(),
+        Site::Tips => tips(problem.cracks()).map(|tip| at_tip(problem, tip)).collect(),
     }
 }
 
 fn at_tip(problem: &Problem, tip: TipId) -> EnrichmentZone {
-    let point = problem.cracks[tip.crack as usize].end_point(tip.end);
+    let point = problem.cracks()[tip.crack as usize].end_point(tip.end);
     EnrichmentZone {
         frame: Frame::Tip(tip),
         shape: Some(ZoneCore::Point(point)),
@@ -409,10 +409,10 @@ impl<'p> Patch<'p> {
         let (support, half) = (partition.support(patch), partition.half[patch]);
         Self {
             index: patch as u32,
-            cracks: &problem.cracks,
-            holes: &problem.domain.holes,
+            cracks: problem.cracks(),
+            holes: &problem.domain().holes,
             support,
-            open: support.intersection(&problem.domain.bounds),
+            open: support.intersection(&problem.domain().bounds),
             shortest: LEAST_CUT * half.x.min(half.y),
         }
     }

@@ -2,7 +2,7 @@ use super::*;
 use ppum::cover::Cover;
 use ppum::weight::WeightFunction;
 
-use ppum_problem::{Cells, Discretization};
+use ppum_problem::{Cells, Discretization, ProblemData};
 
 #[test]
 fn clipped_lengths_and_distances() {
@@ -23,19 +23,20 @@ fn clipped_lengths_and_distances() {
 }
 
 /// [0, 8]² with unit cells and patches 1.5 wide.
-fn problem() -> Problem {
+fn problem() -> ProblemData {
     let domain = Rect::new(vec2(0.0, 0.0), vec2(8.0, 8.0));
     let mut set = Discretization::new(Cells::Grid([8, 8]));
     set.enrichment = Enrichment::None;
-    Problem::poisson(domain, 1.0, set)
+    ProblemData::poisson(domain, 1.0, set)
 }
 
 /// The patches of a problem that have a function of this name, by the lower left corner of their
 /// cells, with the degrees.
-fn having(problem: &Problem, name: &str) -> Vec<([i32; 2], u8)> {
-    let cover = Cover::grid(problem.domain.bounds, [8, 8]).expect("a cover");
+fn having(problem: &ProblemData, name: &str) -> Vec<([i32; 2], u8)> {
+    let cover = Cover::grid(problem.domain().bounds, [8, 8]).expect("a cover");
     let partition = cover.partition(1.5, WeightFunction::Linear).expect("a partition");
-    let mut all = Enrichments::new(problem);
+    let problem = Problem::new(problem.clone()).expect("a problem in order");
+    let mut all = Enrichments::new(&problem);
     let function = all.table.iter().position(|f| f.name == name).expect("a function") as u32;
     let mut found = Vec::new();
     for patch in 0..partition.len() {
@@ -50,8 +51,8 @@ fn having(problem: &Problem, name: &str) -> Vec<([i32; 2], u8)> {
     found
 }
 
-fn with(new: LocalEnrichment) -> Problem {
-    Problem { enrichments: vec![new], ..problem() }
+fn with(new: LocalEnrichment) -> ProblemData {
+    ProblemData { enrichments: vec![new], ..problem() }
 }
 
 #[test]
@@ -130,5 +131,10 @@ fn additive_only() {
     let end: Vec<_> = columns("westergaard 4 of crack 0 end").collect();
     // the last one begins 0.05 behind the tip
     assert_eq!(end, [(4, 4, 0), (5, 4, 0), (6, 4, 0), (7, 4, 0)]);
-    assert!(Enrichments::new(&problem).table.iter().all(|f| !f.name.contains("side")));
+    assert!(
+        Enrichments::new(&Problem::new(problem.clone()).expect("in order"))
+            .table
+            .iter()
+            .all(|f| !f.name.contains("side"))
+    );
 }

@@ -1,6 +1,6 @@
-//! The constitutive law as tensors: elasticity and Poisson share every line of the assembly.
+//! The stress of a gradient, as tensors: elasticity and Poisson share every line of the assembly.
 
-use crate::heat::{FacePoint, TemperatureField};
+use super::heat::{FacePoint, Temperature, TemperatureField};
 use ppum::dataset::Equation;
 use ppum::equation::Moduli;
 use ppum::expression::Expression;
@@ -20,16 +20,19 @@ type Tensor = [[[[f64; 2]; 2]; 2]; 2];
 pub struct Law<'e> {
     /// Components of u.
     pub components: usize,
-    equation: &'e Equation,
+    pub(super) equation: &'e Equation,
     /// A temperature that strains the body, beside what the equation gives.
-    temperature: Option<Arc<TemperatureField<'e>>>,
+    pub(super) temperature: Option<Arc<TemperatureField<'e>>>,
     /// The terms' tensors.
     pub(crate) terms: Vec<LawAt>,
     uniform: bool,
 }
 
 /// Largest number of terms.
-pub(crate) const TERMS: usize = 2;
+const TERMS: usize = 2;
+
+/// The coefficients of the terms.
+pub type Coefficients<R = f64> = [R; TERMS];
 
 impl<'e> Law<'e> {
     /// The law of an equation.
@@ -46,13 +49,14 @@ impl<'e> Law<'e> {
 
     /// The law of the same body, strained by a temperature if there is one.
     #[must_use]
-    pub(crate) fn heated(self, temperature: Option<TemperatureField<'e>>) -> Self {
-        Self { temperature: temperature.map(Arc::new), ..self }
+    pub fn heated(self, temperature: Option<&'e Temperature>) -> Self {
+        Self { temperature: temperature.map(|heat| Arc::new(heat.field())), ..self }
     }
 
-    /// The coefficient of expansion by a temperature that is solved for.
-    pub fn expansion(&self) -> Option<&Expression> {
-        self.temperature.as_ref()?.expansion()
+    /// The formulas of the body: its equation's, and the coefficient of expansion by a temperature
+    /// that is solved for.
+    pub fn constants(&self) -> (&'e Equation, Option<&Expression>) {
+        (self.equation, self.temperature.as_ref().and_then(|heat| heat.expansion()))
     }
 
     /// The law at a point.
@@ -63,38 +67,46 @@ impl<'e> Law<'e> {
 
     /// The law at a point, on the face of a crack if it lies on one.
     #[must_use]
-    pub(crate) fn on(&self, x: Vec2, face: FacePoint) -> LawAt {
+    pub fn on(&self, x: Vec2, face: FacePoint) -> LawAt {
         let law = self.linear_at(x);
-        self.eigenstrain_on(x, face).map_or(law, |eigenstrain| LawAt { eigenstrain, ..law })
+        if !self.has_initial_stress() {
+            return law;
+        }
+        let moduli = self.moduli(x, face);
+        let ([xx, yy, xy], [.., zz]) = (moduli.plane_eigenstrain(), moduli.eigenstrain);
+        let eigenstrain = [vec2(xx, xy), vec2(xy, yy)];
+        LawAt { eigenstrain, through: moduli.young * zz * zz, ..law }
     }
 
-    /// The strains ε⁰ that are given in the plane at a point, if any are.
-    pub fn eigenstrain(&self, x: Vec2) -> Option<[Vec2; 2]> {
-        self.eigenstrain_on(x, None)
-    }
-
-    /// These strains on the face of a crack, if the point lies on one.
-    pub fn eigenstrain_on(&self, x: Vec2, face: FacePoint) -> Option<[Vec2; 2]> {
-        let [xx, yy, xy] =
-            self.has_eigenstrain().then(|| self.moduli(x, face).plane_eigenstrain())?;
-        Some([vec2(xx, xy), vec2(xy, yy)])
-    }
-
-    /// The derivative along `axis` of the strains that a temperature gives in the plane, zero
-    /// without one.
-    pub fn temperature_slope(&self, x: Vec2, axis: Vec2) -> [Vec2; 2] {
-        self.temperature.as_ref().map_or([Vec2::ZERO; 2], |heat| heat.strain_slope(x, axis))
-    }
-
-    /// True if strains are given.
-    pub fn has_eigenstrain(&self) -> bool {
+    /// True if the body may have stresses where it does not deform.
+    pub fn has_initial_stress(&self) -> bool {
         self.temperature.is_some() || self.equation.eigenstrains().next().is_some()
     }
 
-    /// E (ε⁰_zz)², twice the energy of the strain that the third direction does not take.
-    pub(crate) fn energy_through(&self, x: Vec2) -> f64 {
-        let Moduli { young, eigenstrain: [.., zz], .. } = self.moduli(x, None);
-        young * zz * zz
+    /// True if these stresses vary for other reasons than the material.
+    pub(crate) fn has_varying_strains(&self) -> bool {
+        let is_varying = |(_, e): (_, &Expression)| e.constant().is_none();
+        self.temperature.is_some() || self.equation.eigenstrains().any(is_varying)
+    }
+
+    /// The stress −C ε⁰ at a point of a body that does not deform.
+    pub(crate) fn initial_stress(&self, x: Vec2) -> [[f64; 2]; 2] {
+        match self.has_initial_stress() {
+            true => self.at(x).stress(&[Vec2::ZERO; 2]),
+            false => [[0.0; 2]; 2],
+        }
+    }
+
+    /// The formulas that make it, each of them once: a temperature gives the same strain in all
+    /// directions.
+    pub(crate) fn strain_formulas(&self) -> Vec<&'e Expression> {
+        let mut all: Vec<&Expression> = Vec::new();
+        for (_, strain) in self.equation.eigenstrains() {
+            if !all.iter().any(|known| known.text() == strain.text()) {
+                all.push(strain);
+            }
+        }
+        all
     }
 
     fn moduli(&self, x: Vec2, face: FacePoint) -> Moduli<f64> {
@@ -113,11 +125,11 @@ impl<'e> Law<'e> {
             let parts = term.tensor.as_flattened().as_flattened().as_flattened();
             entries.iter_mut().zip(parts).for_each(|(entry, part)| *entry += a * part);
         }
-        LawAt { components: self.components, tensor, eigenstrain: [Vec2::ZERO; 2] }
+        LawAt { tensor, ..LawAt::zero(self.components) }
     }
 
     /// The coefficients a_m at a point, one per term.
-    pub fn coefficients(&self, x: Vec2) -> [f64; TERMS] {
+    pub fn coefficients(&self, x: Vec2) -> Coefficients {
         if self.uniform {
             return [1.0, 0.0];
         }
@@ -160,7 +172,7 @@ fn units(components: usize) -> Vec<LawAt> {
                 std::array::from_fn(|j| std::array::from_fn(|l| entry(i, k, j, l)))
             })
         });
-        LawAt { components, tensor, eigenstrain: [Vec2::ZERO; 2] }
+        LawAt { tensor, ..LawAt::zero(components) }
     };
     if components == 1 {
         return vec![term(&|i, k, j, l| delta(i, 0) * delta(j, 0) * delta(k, l))];
@@ -178,9 +190,16 @@ pub struct LawAt {
     tensor: Tensor,
     /// ε⁰
     eigenstrain: [Vec2; 2],
+    /// E (ε⁰_zz)², twice the energy of the strain that the third direction does not take.
+    through: f64,
 }
 
 impl LawAt {
+    fn zero(components: usize) -> Self {
+        let (tensor, eigenstrain) = (Tensor::default(), [Vec2::ZERO; 2]);
+        Self { components, tensor, eigenstrain, through: 0.0 }
+    }
+
     /// Components of u.
     #[must_use]
     pub(crate) fn components(&self) -> usize {
@@ -228,27 +247,30 @@ impl LawAt {
         self.tensor[0][0][1][1]
     }
 
-    /// The flux σ of a gradient, `g[j] = ∇u_j`; rows beyond the components are zero.
+    /// The stress (flux) σ of a gradient, `g[j] = ∇u_j`; rows beyond the components are zero.
     #[must_use]
-    pub fn flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
-        self.linear_flux(&self.elastic(g))
+    pub fn stress(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
+        self.linear_stress(&self.elastic(g))
     }
 
-    /// A gradient without the strains that are given.
+    /// The part of a gradient that has stress.
     #[must_use]
     pub fn elastic(&self, g: &[Vec2; 2]) -> [Vec2; 2] {
         std::array::from_fn(|j| g[j] - self.eigenstrain[j])
     }
 
-    /// C ε⁰: the stress that the body lacks where it takes the given strains.
+    /// Twice the energy that a gradient stores, per area.
     #[must_use]
-    pub(crate) fn prestress(&self) -> [[f64; 2]; 2] {
-        self.linear_flux(&self.eigenstrain)
+    pub(crate) fn energy(&self, g: &[Vec2; 2]) -> f64 {
+        let (e, s) = (self.elastic(g), self.stress(g));
+        let row = |i: usize| s[i][0] * e[i].x + s[i][1] * e[i].y;
+        (0..self.components).map(row).sum::<f64>() + self.through
     }
 
-    /// The flux C g of a gradient where no strains are given.
+    /// The change of the stress by a change of the gradient: that of a body without stresses of
+    /// its own.
     #[must_use]
-    pub fn linear_flux(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
+    pub fn linear_stress(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
         let entry = |i: usize, k: usize| {
             (0..self.components)
                 .map(|j| self.tensor[i][k][j][0] * g[j].x + self.tensor[i][k][j][1] * g[j].y)

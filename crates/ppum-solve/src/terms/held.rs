@@ -8,11 +8,12 @@
 
 use ppum::border::BorderLine;
 use ppum::border::touch;
+use ppum::crack::TipId;
 use ppum::dataset::BoxPartition;
 use ppum::segment::Segment;
 use ppum::vec2::Vec2;
 use ppum_problem::geometry::{clipped, solid_part, wider};
-use ppum_problem::{BoundaryCondition, Problem, held_directions};
+use ppum_problem::{BoundaryCondition, Problem, Symmetry, held_directions};
 use std::collections::BTreeMap;
 
 /// Length of a line in a patch, in half-sizes of the patch, up to which nothing of it is seen.
@@ -28,8 +29,18 @@ pub(crate) struct HeldLine {
     pub(crate) at: f64,
 }
 
+/// The symmetry of the field to the axis of a tip beside which one half alone is in the body.
+pub fn symmetry_of_field(problem: &Problem, tip: TipId) -> Option<Symmetry> {
+    problem.symmetry_at(tip)
+}
+
+/// True if all fields have what a condition gives.
+pub(crate) fn is_held_exactly(problem: &Problem, condition: &BoundaryCondition) -> bool {
+    problem.exact_line(condition).is_some()
+}
+
 /// The lines of each patch that sees some.
-pub(super) fn held_lines(
+pub(crate) fn held_lines(
     problem: &Problem,
     partition: &BoxPartition,
 ) -> BTreeMap<u32, Vec<HeldLine>> {
@@ -59,7 +70,7 @@ fn seen_length(
     line: &BorderLine,
     (problem, partition, patch): (&Problem, &BoxPartition, usize),
 ) -> f64 {
-    let domain = &problem.domain;
+    let domain = problem.domain();
     let near =
         wider(&partition.support(patch).intersection(&domain.bounds), 1e-3 * touch(&domain.bounds));
     let others = domain.holes.iter().enumerate().filter(|(k, _)| line.hole != Some(*k));

@@ -10,44 +10,45 @@ use ppum::crack::{SegmentId, Side};
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
+use ppum_problem::Problem;
 
-/// What decides what acts between faces.
+/// What acts between the faces of a crack.
 #[derive(Clone, Copy, Debug)]
-pub struct ContactLaw {
+pub struct FaceLaw {
     /// Coulomb's coefficient of friction.
-    pub friction: f64,
-    /// Size of the cells.
-    pub size: f64,
+    pub(crate) friction: f64,
 }
 
 /// What acts on a face at a point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ContactState {
+pub struct FaceTraction {
     /// The traction on the face.
-    pub(crate) traction: Vec2,
+    pub traction: Vec2,
     /// The opening of faces that are closed, the overlap of others: zero of an exact field.
     pub(crate) gap: f64,
 }
 
-impl ContactState {
+impl FaceTraction {
     /// Of a point with nothing behind it.
     const OPEN: Self = Self { traction: Vec2::ZERO, gap: 0.0 };
 }
 
-impl ContactLaw {
-    /// The tractions at the points of a rule on a face of a crack that may touch; zero on others.
-    pub fn tractions(self, field: &Field<'_>, law: &Law<'_>, rule: &EdgeRule) -> Vec<Vec2> {
-        self.states(field, law, rule).into_iter().map(|state| state.traction).collect()
+impl FaceLaw {
+    /// That of a crack of a problem, if its faces may touch.
+    pub(super) fn of(problem: &Problem, crack: u32) -> Option<Self> {
+        problem.body.contact(crack).map(|friction| Self { friction })
     }
 
-    /// The same with what the opening should not be.
-    pub(crate) fn states(
+    /// The tractions at the points of a rule on a face in a cell of a size, and what the opening
+    /// should not be.
+    pub fn tractions(
         self,
         field: &Field<'_>,
         law: &Law<'_>,
         rule: &EdgeRule,
-    ) -> Vec<ContactState> {
-        let Some(face) = rule.face else { return vec![ContactState::OPEN; rule.offsets.len()] };
+        size: f64,
+    ) -> Vec<FaceTraction> {
+        let Some(face) = rule.face else { return vec![FaceTraction::OPEN; rule.offsets.len()] };
         let local = field.on(face.segment, rule.anchor);
         let [above, below] = [Side::Above, Side::Below].map(|side| {
             let mut jets = vec![Jet::constant(0.0); 2 * rule.offsets.len()];
@@ -57,7 +58,8 @@ impl ContactLaw {
         let points = rule.offsets.iter().zip(&rule.normals);
         let sides = above.chunks_exact(2).zip(below.chunks_exact(2));
         let at = |((&offset, &normal), (above, below)): ((&Vec2, &Vec2), _)| {
-            self.state(&law.at(rule.anchor + offset), [above, below], face.side, normal)
+            let law = law.at(rule.anchor + offset);
+            self.state(&law, [above, below], face.side, (normal, size))
         };
         points.zip(sides).map(at).collect()
     }
@@ -68,6 +70,7 @@ impl ContactLaw {
         field: &Field<'_>,
         law: &Law<'_>,
         (segment, at): (SegmentId, Vec2),
+        size: f64,
     ) -> f64 {
         let mut local: LocalField<'_> = field.on(segment, at);
         let crack = &field.step.cracks[segment.crack as usize].points;
@@ -78,7 +81,8 @@ impl ContactLaw {
             local.evaluate::<1>(Vec2::ZERO, side, &mut u).then_some(u)
         };
         let (Some(above), Some(below)) = (on(Side::Above), on(Side::Below)) else { return 0.0 };
-        self.state(&law.at(at), [&above, &below], Side::Below, normal).traction.dot(normal)
+        let side = Side::Below;
+        self.state(&law.at(at), [&above, &below], side, (normal, size)).traction.dot(normal)
     }
 
     /// The state of one face with its normal out of the body there, of the fields on both.
@@ -87,9 +91,9 @@ impl ContactLaw {
         law: &LawAt,
         [above, below]: [&[Jet<f64>]; 2],
         side: Side,
-        normal: Vec2,
-    ) -> ContactState {
-        let flux = |u: &[Jet<f64>]| law.flux(&[0, 1].map(|i| vec2(u[i].x, u[i].y)));
+        (normal, size): (Vec2, f64),
+    ) -> FaceTraction {
+        let flux = |u: &[Jet<f64>]| law.stress(&[0, 1].map(|i| vec2(u[i].x, u[i].y)));
         let [one, other] = [above, below].map(flux);
         let on = |i: usize| {
             0.5 * ((one[i][0] + other[i][0]) * normal.x + (one[i][1] + other[i][1]) * normal.y)
@@ -99,12 +103,12 @@ impl ContactLaw {
         let opening = if side == Side::Below { jump.dot(normal) } else { -jump.dot(normal) };
         let stress = traction.dot(normal);
         // false where there are no values
-        let is_closed = stress + law.modulus(0) / self.size * opening < 0.0;
+        let is_closed = stress + law.modulus(0) / size * opening < 0.0;
         let traction = match () {
             () if !is_closed => Vec2::ZERO,
             () if self.friction > 0.0 => traction,
             () => normal * stress,
         };
-        ContactState { traction, gap: if is_closed { opening } else { opening.min(0.0) } }
+        FaceTraction { traction, gap: if is_closed { opening } else { opening.min(0.0) } }
     }
 }

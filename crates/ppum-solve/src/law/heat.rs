@@ -15,7 +15,6 @@ use ppum::formula::FormulaJets;
 use ppum::function::Function;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
-use ppum_problem::without_expansion;
 
 /// Components of a displacement.
 const DISPLACEMENT: usize = 2;
@@ -38,13 +37,17 @@ pub struct Temperature {
 
 impl Temperature {
     /// A temperature, the first field of a dataset's only step, in a body with an equation that has
-    /// a coefficient of expansion.
+    /// a coefficient of expansion, with what its solution tells beside the field.
     ///
     /// # Errors
     /// A field that does not compile.
-    pub fn new(heat: Dataset, equation: Equation) -> Result<Self, FieldError> {
+    pub fn new(
+        heat: Dataset,
+        equation: Equation,
+        report: SolverReport,
+        unresolved: Vec<Unresolved>,
+    ) -> Result<Self, FieldError> {
         Field::new(&heat, 0)?;
-        let (report, unresolved) = (SolverReport::default(), Vec::new());
         Ok(Self { heat, equation, report, unresolved })
     }
 
@@ -58,24 +61,14 @@ impl Temperature {
         dataset
     }
 
-    /// The temperature with what its solution tells beside the field.
-    pub fn with_report(self, report: SolverReport, unresolved: Vec<Unresolved>) -> Self {
-        Self { report, unresolved, ..self }
-    }
-
     /// The temperature, ready to be evaluated.
-    pub(crate) fn field(&self) -> TemperatureField<'_> {
+    pub(super) fn field(&self) -> TemperatureField<'_> {
         let field = Field::new(&self.heat, 0).expect("it was compiled when it was made");
         let slope = |e: &Expression| FormulaJets::new(&[e.formula()], 1).ok();
         let body = self.equation.elastic();
         let slopes = [self.equation.expansion(), body.map(|body| &body.poisson)]
             .map(|e| e.filter(|e| e.constant().is_none()).and_then(slope));
         TemperatureField { field, equation: &self.equation, slopes }
-    }
-
-    /// The equation of the body, with the coefficient of expansion.
-    pub fn equation(&self) -> &Equation {
-        &self.equation
     }
 
     /// The dataset of displacement and temperature, with quantities of both.
@@ -115,9 +108,10 @@ impl Temperature {
             part.with_step(step)
         };
         let plain =
-            part("displacement", 0..DISPLACEMENT, without_expansion(dataset.equation.clone()));
+            part("displacement", 0..DISPLACEMENT, dataset.equation.clone().without_expansion());
         let heat = part(TEMPERATURE, DISPLACEMENT..DISPLACEMENT + 1, Equation::None);
-        Ok(Some((plain, Self::new(heat, dataset.equation.clone())?)))
+        let (equation, report) = (dataset.equation.clone(), SolverReport::default());
+        Ok(Some((plain, Self::new(heat, equation, report, Vec::new())?)))
     }
 }
 
@@ -174,7 +168,7 @@ fn copy(to: &mut FieldData, (place, c): (usize, usize), from: &FieldData, at: (u
 
 /// A temperature that can be evaluated, and the body that it strains.
 #[derive(Debug)]
-pub(crate) struct TemperatureField<'t> {
+pub(super) struct TemperatureField<'t> {
     field: Field<'t>,
     equation: &'t Equation,
     /// α and ν with their first derivatives; none of a constant.
@@ -183,7 +177,7 @@ pub(crate) struct TemperatureField<'t> {
 
 impl TemperatureField<'_> {
     /// The coefficient of expansion.
-    pub(crate) fn expansion(&self) -> Option<&Expression> {
+    pub(super) fn expansion(&self) -> Option<&Expression> {
         self.equation.expansion()
     }
 
@@ -203,13 +197,13 @@ impl TemperatureField<'_> {
     }
 
     /// The moduli of the body at a point, with the strains of the temperature.
-    pub(crate) fn moduli(&self, x: Vec2, face: FacePoint) -> Moduli<f64> {
+    pub(super) fn moduli(&self, x: Vec2, face: FacePoint) -> Moduli<f64> {
         self.equation.moduli(x, [0.0; 2]).heated(self.jet::<0>(x, face).v)
     }
 
     /// The derivative along `axis` of the strains in the plane that the temperature gives,
     /// (1 + ν) α T in plane strain and α T in plane stress.
-    pub(crate) fn strain_slope(&self, x: Vec2, axis: Vec2) -> [Vec2; 2] {
+    pub(super) fn strain_slope(&self, x: Vec2, axis: Vec2) -> [Vec2; 2] {
         let along = |jets: &Option<FormulaJets>| {
             jets.as_ref().map_or(0.0, |jets| {
                 let mut out = [0.0; 3];
