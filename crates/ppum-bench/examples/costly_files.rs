@@ -1,4 +1,4 @@
-//! Writes the small files that ask for much into a folder: `costly_files FOLDER [NAME …]`.
+//! Writes the small files that ask for much into a folder: `costly_files FOLDER`.
 
 use std::error::Error;
 use std::path::Path;
@@ -6,16 +6,12 @@ use std::path::Path;
 use ppum_testkit::costly;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [folder, names @ ..] = arguments.as_slice() else {
-        return Err("usage: costly_files FOLDER [NAME …]".into());
-    };
-    std::fs::create_dir_all(folder)?;
-    let is_wanted = |name: &str| names.is_empty() || names.iter().any(|wanted| wanted == name);
-    for file in costly::chosen(|name, _| is_wanted(name)) {
-        let bytes = ppum_format::damage::unchecked(&file.dataset)?;
-        println!("{:>7} bytes  {}", bytes.len(), file.name);
-        std::fs::write(Path::new(folder).join(format!("{}.h5", file.name)), bytes)?;
+    let folder = std::env::args().nth(1).ok_or("usage: costly_files FOLDER")?;
+    std::fs::create_dir_all(&folder)?;
+    for (name, dataset) in costly::all() {
+        let bytes = ppum_format::to_bytes(&dataset)?;
+        println!("{:>7} bytes  {name}", bytes.len());
+        std::fs::write(Path::new(&folder).join(format!("{name}.h5")), bytes)?;
     }
     Ok(())
 }

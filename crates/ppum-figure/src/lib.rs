@@ -16,10 +16,4 @@ pub mod text;
 pub mod ticks;
 
 #[cfg(test)]
-mod tests {
-    #[test]
-    fn errors_cross_threads() {
-        fn check<E: std::error::Error + Send + Sync + 'static>() {}
-        check::<super::figure::FigureError>();
-    }
-}
+ppum_testkit::errors_cross_threads!(figure::FigureError);

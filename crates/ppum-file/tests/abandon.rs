@@ -4,7 +4,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::channel;
 use std::thread;
-use std::time::{Duration, Instant};
 
 #[test]
 fn writing_stops_and_leaves_nothing() {
@@ -38,9 +37,7 @@ fn writing_stops_and_leaves_nothing() {
     assert_eq!((count(), locks()), (1, 0));
     go_on.send(()).expect("it waits");
     resumed.recv().expect("it goes on");
-    let start = Instant::now();
     while !writer.is_finished() && !is_asleep(&thread) {
-        assert!(start.elapsed() < Duration::from_secs(300), "it neither waits nor ends");
         thread::yield_now();
     }
     assert!(!writer.is_finished(), "it would report an error while the program ends");

@@ -163,12 +163,7 @@ pub enum RenderError {
 mod tests {
     use super::*;
 
-    #[test]
-    fn errors_cross_threads() {
-        fn check<E: std::error::Error + Send + Sync + 'static>() {}
-        check::<GpuError>();
-        check::<RenderError>();
-    }
+    ppum_testkit::errors_cross_threads!(GpuError, RenderError);
 
     #[test]
     fn a_missing_adapter_says_what_to_install() {

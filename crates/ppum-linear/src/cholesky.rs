@@ -324,11 +324,8 @@ mod tests {
             let found = fill(&grid(n), &sizes);
             let factor = Cholesky::new(&matrix).unwrap();
             // strips have their triangles in full
-            let ratio = 8.0 * found.values / factor.factor.bytes() as f64;
+            let ratio = 8.0 * found / factor.factor.bytes() as f64;
             assert!((0.7..=1.0).contains(&ratio), "{n}: {ratio}");
-            // a dense matrix takes n³/3 multiplications and as many additions
-            let unknowns = matrix.n_unknowns() as f64;
-            assert!(found.operations <= unknowns.powi(3) + 1.0, "{n}: {}", found.operations);
         }
     }
 

@@ -38,20 +38,12 @@ pub(super) struct Elimination {
     pub(super) fronts: Vec<Front>,
     /// Subtrees of fronts; what is left of the fronts comes behind them all.
     pub(super) subtrees: Vec<Range<usize>>,
-    pub(super) fill: Fill,
-}
-
-/// The factor that elimination makes of a pattern of blocks.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Fill {
     /// Values of the factor.
-    pub values: f64,
-    /// Operations of the factorisation.
-    pub operations: f64,
+    pub(super) fill: f64,
 }
 
-/// The factor of a matrix with `sizes[i]` unknowns in block i, counted without its values.
-pub fn fill(pattern: &BlockPattern, sizes: &[usize]) -> Fill {
+/// The number of values in the factor of a matrix with `sizes[i]` unknowns in block i.
+pub fn fill(pattern: &BlockPattern, sizes: &[usize]) -> f64 {
     Elimination::new(&Neighbours::new(pattern), sizes).fill
 }
 
@@ -82,11 +74,7 @@ impl Elimination {
                 fronts[child].runs = runs(&fronts[child], &fronts[parent]);
             }
         }
-        let shapes = || sequence.iter().map(|&draft| drafts[draft].shape);
-        let fill = Fill {
-            values: shapes().map(FrontSize::values).sum(),
-            operations: shapes().map(FrontSize::operations).sum(),
-        };
+        let fill = sequence.iter().map(|&draft| drafts[draft].shape.values()).sum();
         Self { order, places, offsets, fronts, subtrees, fill }
     }
 

@@ -33,7 +33,7 @@ pub use cholesky::Cholesky;
 pub use conjugate::Course;
 pub use dense::{add_at, product, taken, times};
 pub use eigen::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
-pub use elimination::{Fill, fill};
+pub use elimination::fill;
 pub use multilevel::{Coarse, Multilevel};
 pub use nonnegative::nonnegative_residual;
 pub use pencil::largest_eigenvalue;

@@ -3,7 +3,6 @@
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::Watcher;
-use ppum_fracture::diagnostics::effort::check_effort;
 use ppum_fracture::diagnostics::{RecomputeError, recompute};
 use ppum_fracture::intensity::{CircleError, TipOutcome, on_circle};
 use ppum_problem::Problem;
@@ -55,8 +54,6 @@ fn all(
     problem: Option<&Problem>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(Vec<Tip>, Vec<String>)> {
-    let effort = long(py, None, None, |_| check_effort(dataset, step, problem))?;
-    effort.map_err(|error| SolveError::new_err(error.to_string()))?;
     let found = |watcher: &dyn Watcher| recompute(dataset, step, problem, watcher);
     let (outcomes, warnings) = long(py, None, progress, found)?.map_err(|error| match error {
         RecomputeError::Cancelled(error) => cancelled(error),

@@ -57,12 +57,8 @@ pub mod shades;
 pub use ppum_raster::{RenderError, pixels, raster, reference, scatter, view};
 
 #[cfg(test)]
-mod tests {
-    #[test]
-    fn errors_cross_threads() {
-        fn check<E: std::error::Error + Send + Sync + 'static>() {}
-        check::<super::animation::AnimationError>();
-        check::<super::colormap::ColormapError>();
-        check::<super::range::RangeError>();
-    }
-}
+ppum_testkit::errors_cross_threads!(
+    animation::AnimationError,
+    colormap::ColormapError,
+    range::RangeError
+);

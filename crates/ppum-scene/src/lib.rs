@@ -50,10 +50,4 @@ mod whole;
 mod written;
 
 #[cfg(test)]
-mod tests {
-    #[test]
-    fn errors_cross_threads() {
-        fn check<E: std::error::Error + Send + Sync + 'static>() {}
-        check::<super::layers::LayersError>();
-    }
-}
+ppum_testkit::errors_cross_threads!(layers::LayersError);

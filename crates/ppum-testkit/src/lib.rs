@@ -33,3 +33,15 @@ pub mod skipped;
 pub mod synthetic;
 #[cfg(feature = "wgsl")]
 pub mod wgsl;
+
+/// A test that error types can be sent to other threads and kept for ever.
+#[macro_export]
+macro_rules! errors_cross_threads {
+    ($($error:ty),+ $(,)?) => {
+        #[test]
+        fn errors_cross_threads() {
+            fn check<E: std::error::Error + Send + Sync + 'static>() {}
+            $(check::<$error>();)+
+        }
+    };
+}

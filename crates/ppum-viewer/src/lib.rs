@@ -36,10 +36,4 @@ pub mod window;
 pub use app::Viewer;
 
 #[cfg(test)]
-mod tests {
-    #[test]
-    fn errors_cross_threads() {
-        fn check<E: std::error::Error + Send + Sync + 'static>() {}
-        check::<super::window::WindowError>();
-    }
-}
+ppum_testkit::errors_cross_threads!(window::WindowError);

@@ -17,7 +17,6 @@ mod partition;
 mod ranks;
 mod results;
 mod tiling;
-mod work;
 
 use crate::dataset::{Dataset, Equation, Partition, Step};
 pub use errors::CheckError;
@@ -68,9 +67,6 @@ impl Dataset {
             });
         }
         formulas::check_quantities(self, &mut errors);
-        if errors.is_empty() {
-            errors.add(work::check(self));
-        }
         errors.into_list()
     }
 
@@ -306,6 +302,29 @@ mod tests {
         assert_eq!(place(|f| f.coefficients[1][2] = f64::NAN), "coefficients[1][2]");
         assert_eq!(place(|f| f.coefficients[1].truncate(3)), "coefficients[1]");
         assert_eq!(place(|f| f.exact.push("x".into())), "exact");
+    }
+
+    /// Blocks share no coefficients, and what could be multiplied by something else has a limit.
+    #[test]
+    fn sizes_that_multiply_have_limits() {
+        let twice = |d: &mut Dataset| {
+            let field = &mut d.steps[0].fields[0];
+            field.block_offset.fill(0);
+            field.coefficients.iter_mut().for_each(|component| component.truncate(3));
+        };
+        assert_eq!(place_after(twice), "steps[0].fields[0].block_offset[1]");
+        let components = |d: &mut Dataset| {
+            let field = &mut d.steps[0].fields[0];
+            field.name = "values".into();
+            field.components = (0..65).map(|k| format!("v{k}")).collect();
+            field.coefficients = vec![field.coefficients[0].clone(); 65];
+        };
+        assert_eq!(place_after(components), "steps[0].fields[0].components");
+        let rings = |d: &mut Dataset| {
+            let rings = &mut d.steps[0].intensities[0].rings;
+            *rings = vec![rings[0]; 65];
+        };
+        assert_eq!(place_after(rings), "steps[0].intensities[0].rings");
     }
 
     #[test]

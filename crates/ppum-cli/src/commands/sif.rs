@@ -7,7 +7,6 @@ use anyhow::{bail, ensure};
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity, Warning};
 use ppum::text::Places;
-use ppum_fracture::diagnostics::effort::{EffortError, check_effort};
 use ppum_fracture::diagnostics::{kind, recompute};
 use ppum_fracture::intensity::TipOutcome;
 use ppum_problem::Problem;
@@ -127,20 +126,12 @@ fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<facts:
 }
 
 /// The factors of the field of the only step at hand; those that the solver stored where the loads
-/// near the tips are not known, or it takes too much.
+/// near the tips are not known.
 fn recomputed(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
     match Problem::of_step(dataset, 0) {
         // What the solver found while it knew the loads.
-        Err(_) => known(name, dataset, 0, UNKNOWN),
-        Ok(problem) => match check_effort(dataset, 0, problem.as_ref()) {
-            Err(error @ EffortError::TooMuch { .. }) => {
-                known(name, dataset, 0, ("too-costly", &error.to_string()))
-            }
-            effort => {
-                effort?;
-                computed(dataset, 0, problem.as_ref())
-            }
-        },
+        Err(_) => known(name, dataset, 0),
+        Ok(problem) => computed(dataset, 0, problem.as_ref()),
     }
 }
 
@@ -164,27 +155,14 @@ fn computed(
     Ok((outcomes.iter().map(tip).collect(), warnings))
 }
 
-/// The reason why factors cannot be found again: a word for the kind of the warning, and
-/// the message.
-type Reason<'a> = (&'a str, &'a str);
-
-const UNKNOWN: Reason<'static> = (
-    "loads-unknown",
-    "the stored problem cannot be read, so the loads near the tips are not known",
-);
-
-/// The factors that the solver stored in a step, whose factors cannot be found again.
-fn known(
-    file: &str,
-    dataset: &Dataset,
-    index: usize,
-    (kind, reason): Reason<'_>,
-) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
+/// The factors that the solver stored in a step whose loads are not known.
+fn known(file: &str, dataset: &Dataset, index: usize) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
     let (step, tips) = (&dataset.steps[index], all_tips(dataset, index));
+    let reason = "the stored problem cannot be read, so the loads near the tips are not known";
     if step.intensities.is_empty() && !tips.is_empty() {
         bail!("{file}: {reason}, and no factors are stored; solve the problem again");
     }
     let message = format!("{file}: {reason}; these are the factors that the solver stored");
-    let told = Warning { kind: kind.into(), at: None, value: 0.0, limit: 0.0, message };
+    let told = Warning { kind: "loads-unknown".into(), at: None, value: 0.0, limit: 0.0, message };
     Ok((tips, step.warnings.iter().cloned().chain([told]).collect()))
 }

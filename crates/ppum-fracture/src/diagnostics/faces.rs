@@ -11,7 +11,7 @@ use ppum_problem::{Problem, Symmetry};
 use ppum_solve::terms::{face_law, symmetry_of_field};
 
 /// Places along a crack at which its opening is looked at.
-pub(super) const SAMPLES: usize = 96;
+const SAMPLES: usize = 96;
 
 /// Part of a crack's scale by which faces may overlap where they should just touch.
 const NOISE: f64 = 5e-3;

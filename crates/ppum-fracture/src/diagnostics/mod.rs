@@ -8,7 +8,6 @@
 mod corners;
 mod curves;
 mod digits;
-pub mod effort;
 mod faces;
 mod interfaces;
 mod locking;
@@ -87,8 +86,6 @@ pub enum RecomputeError {
 /// The stress intensity factors of a step's first field, and the warnings about it. `problem` is
 /// what it solves, on the cracks of the step: its loads act near the tips. Without one none do.
 ///
-/// [`check_effort`](effort::check_effort) tells before whether it takes too much.
-///
 /// # Errors
 /// A step that is not there, functions that do not compile; cancelled, within the time of one cell.
 pub fn recompute(
@@ -99,7 +96,7 @@ pub fn recompute(
 ) -> Result<(Vec<TipOutcome>, Vec<Warning>), RecomputeError> {
     Field::new(dataset, step)?;
     let has_cells = dataset.steps[step].partition.boxes().has_cells();
-    let (cells, number) = with_cells(dataset, step);
+    let (cells, number) = with_cells(dataset, step)?;
     let (dataset, step) = (&*cells, number);
     match Temperature::split(dataset, step)? {
         Some((plain, heat)) => {

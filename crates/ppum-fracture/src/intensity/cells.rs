@@ -3,6 +3,7 @@
 use ppum::box_tree::BoxTree;
 use ppum::cover::{Cover, CoverError};
 use ppum::dataset::{BoxPartition, Dataset, Partition};
+use ppum::field::FieldError;
 use ppum::vec2::{Rect, Vec2};
 use std::borrow::Cow;
 
@@ -13,21 +14,48 @@ const PART: f64 = 0.75;
 const DEEPEST: u8 = 16;
 const MOST: usize = 16;
 
+/// Most pairs of a cell and a patch over it, which are kept in lists of 256 MiB. A million patches of
+/// a cover have nine million.
+const MOST_PAIRS: usize = 1 << 26;
+
 /// A dataset with the step, and its number there, with cells to integrate over if its patches are
 /// boxes that have none. They are not those of the patches: nothing else may look at them.
-pub(crate) fn with_cells(dataset: &Dataset, step: usize) -> (Cow<'_, Dataset>, usize) {
+///
+/// # Errors
+/// Too many patches over cells.
+pub(crate) fn with_cells(
+    dataset: &Dataset,
+    step: usize,
+) -> Result<(Cow<'_, Dataset>, usize), FieldError> {
     let boxes = dataset.steps.get(step).map(|step| &step.partition);
     let Some(Partition::Boxes(boxes)) = boxes.filter(|boxes| !boxes.is_empty()) else {
-        return (Cow::Borrowed(dataset), step);
+        return Ok((Cow::Borrowed(dataset), step));
     };
     if boxes.has_cells() {
-        return (Cow::Borrowed(dataset), step);
+        check_pairs(boxes)?;
+        return Ok((Cow::Borrowed(dataset), step));
     }
     let cell = cells(boxes, dataset.domain.bounds).unwrap_or(vec![dataset.domain.bounds]);
     let mut copy = dataset.clone();
     copy.steps = vec![dataset.steps[step].clone()];
-    copy.steps[0].partition = BoxPartition { cell, ..boxes.clone() }.into();
-    (Cow::Owned(copy), 0)
+    let boxes = BoxPartition { cell, ..boxes.clone() };
+    check_pairs(&boxes)?;
+    copy.steps[0].partition = boxes.into();
+    Ok((Cow::Owned(copy), 0))
+}
+
+fn check_pairs(boxes: &BoxPartition) -> Result<(), FieldError> {
+    let supports: Vec<Rect> = (0..boxes.len()).map(|patch| boxes.support(patch)).collect();
+    let (tree, mut pairs, mut near) = (BoxTree::new(&supports), 0, Vec::new());
+    for cell in &boxes.cell {
+        near.clear();
+        tree.query_box(cell, &mut near);
+        pairs += near.len();
+        if pairs > MOST_PAIRS {
+            return Err(FieldError::TooManyOverlaps { most: MOST_PAIRS });
+        }
+    }
+    Ok(())
 }
 
 /// Cells that tile the domain and are a little smaller than the patches that they meet.

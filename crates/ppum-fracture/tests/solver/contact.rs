@@ -1,6 +1,6 @@
 //! Faces that touch, against closed forms and what must hold whatever the cells.
 
-use crate::studies::support::{checked, parsed, quantity, record, solved};
+use crate::studies::support::{SQUARE_BODY, checked, parsed, quantity, record, solved};
 use ppum::dataset::{Dataset, Fate, Material, StressState, TipIntensity};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -154,12 +154,13 @@ fn open_cracks_are_as_without_contact() {
     assert_eq!(record(of_touching, "closed faces"), 0.0);
 }
 
-/// K_II = σ √(πa) (sin β cos β − μ cos² β), a = 1, in a plate that is ten times as large, where
-/// factors are 1 % larger; K_I is zero, and J is what K_II releases.
+/// K_II = σ √(πa) (sin β cos β − μ cos² β), a = 1, of the infinite plate; one that is 60 times as
+/// large as the crack has factors that are larger by about (a/60)². K_I is zero, and J is what K_II
+/// releases.
 #[test]
 fn slanted_cracks_slide() {
     let solved_at = |degrees: f64, friction: f64| {
-        solved(&touching(plate(10.0, 40, &[slanted(degrees)], PRESSED_ALONG_Y), friction))
+        solved(&touching(plate(60.0, 40, &[slanted(degrees)], PRESSED_ALONG_Y), friction))
     };
     for (degrees, friction) in [(45.0, 0.0), (60.0, 0.0), (45.0, 0.3), (60.0, 0.5)] {
         let dataset = solved_at(degrees, friction);
@@ -167,7 +168,7 @@ fn slanted_cracks_slide() {
         let expected = PI.sqrt() * cos * (sin - friction * cos);
         let modulus = MATERIAL.effective_young();
         for tip in tips(&dataset) {
-            assert!((tip.k2 / -expected - 1.009).abs() < 4e-3, "{degrees}, {friction}: {tip:?}");
+            assert!((tip.k2 / -expected - 1.0).abs() < 1.5e-3, "{degrees}, {friction}: {tip:?}");
             assert!(tip.k1.abs() < 1e-3 * expected, "{degrees}, {friction}: {tip:?}");
             let released = tip.k2 * tip.k2 / modulus;
             assert!((tip.j.expect("J") / released - 1.0).abs() < 2e-3, "{tip:?}");
@@ -344,9 +345,7 @@ fn pressed_cracks_grow_wings() {
 fn closed_tips_grow_by_what_slides_alone() {
     let fates = |friction: f64| {
         let text = format!(
-            "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n\
-             [material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
-             [[crack]]\npoints = [[-0.35, -0.35], [0.35, 0.35]]\ncontact = true\nfriction = {friction}\n\
+            "{SQUARE_BODY}[[crack]]\npoints = [[-0.35, -0.35], [0.35, 0.35]]\ncontact = true\nfriction = {friction}\n\
              [[boundary]]\non = \"top\"\ntraction = [0, -1]\n\
              [[boundary]]\non = \"bottom\"\ntraction = [0, 1]\n\
              [discretization]\ncells = [8, 8]\nenrichment = \"zone\"\n[growth]\nsteps = 1\nincrement = 0.1\n"

@@ -4,7 +4,7 @@
 //! geometrically towards every singular point (NGSolve 6.2.2608), right to 1e-7. Cells that are not
 //! refined towards these points had errors of 0.1 to 3.7 % in the energy and up to 5.6 % in K.
 
-use crate::studies::support::{checked, parsed};
+use crate::studies::support::{SQUARE_BODY, checked, parsed};
 use ppum::crack::End;
 use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
@@ -34,10 +34,7 @@ traction = [0.3, 1.0]
 /// The plate [-1, 1]² of E = 1, ν = 0.3 in plane strain with more tables and the keys
 /// of `[discretization]`.
 fn plate(tables: &str, keys: &str) -> ProblemData {
-    let text = format!(
-        "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
-         state = \"plane-strain\"\n{tables}\n[discretization]\n{keys}\n"
-    );
+    let text = format!("{SQUARE_BODY}{tables}\n[discretization]\n{keys}\n");
     parsed(&text)
 }
 

@@ -3,7 +3,7 @@
 
 use crate::studies::factors::{errors_of_factors, plates};
 use crate::studies::plates::{Known, Plate, centre_cracks, end_shear, slanted_cracks};
-use crate::studies::support::{parsed, solved};
+use crate::studies::support::{SQUARE_BODY, parsed, solved};
 use ppum::vec2::vec2;
 use ppum_fracture::diagnostics::kind;
 use ppum_problem::{Adaptivity, Cells, Order, ProblemData};
@@ -57,8 +57,7 @@ fn random_plate(random: &mut Random) -> ProblemData {
     let load =
         |(on, t): (&str, [f64; 2])| format!("[[boundary]]\non = \"{on}\"\ntraction = {t:?}\n");
     parsed(&format!(
-        "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[material]\nyoung = 1\npoisson = 0.3\nstate = \"plane-strain\"\n\
-         [[crack]]\npoints = [[{ax}, {ay}], [{bx}, {by}]]\n{}[discretization]\ncells = [5, 5]\nrefine = false\n",
+        "{SQUARE_BODY}[[crack]]\npoints = [[{ax}, {ay}], [{bx}, {by}]]\n{}[discretization]\ncells = [5, 5]\nrefine = false\n",
         edges.map(load).concat()
     ))
 }

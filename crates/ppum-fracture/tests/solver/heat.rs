@@ -357,7 +357,7 @@ fn places_of_mistakes() {
     assert_eq!(places.collect::<Vec<_>>(), expected.collect::<Vec<_>>(), "{error}");
 }
 
-/// The estimate of the effort has that of the temperature in it.
+/// The memory that is estimated has that of the temperature in it.
 #[test]
 fn estimates_include_the_temperature() {
     let body = Body::random(&mut Random(183), STATES[0]);
@@ -375,7 +375,6 @@ fn estimates_include_the_temperature() {
         let heat = heat_text(&body, &conditions).replace("level = 1", "cells = [6, 6]\norder = 3");
         let heat = estimate(&parsed(&heat));
         assert_eq!(both.unknowns, plain.unknowns);
-        assert!((both.seconds - plain.seconds - heat.seconds).abs() < 1e-12 * both.seconds);
         assert_eq!(heat.memory > plain.memory, is_larger, "{heat} {plain}");
         assert!(both.memory >= heat.memory && both.memory > plain.memory, "{both}");
         assert!(both.memory < heat.memory + plain.memory, "{both}");

@@ -4,7 +4,7 @@
 //! The reactions of the restraints balance the loads as they were integrated, to rounding
 //! (see [`reactions`](super::reactions)): they tell of quadrature alone, however coarse the cells.
 
-use crate::studies::support::{parsed, solved};
+use crate::studies::support::{SQUARE_BODY, parsed, solved};
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Warning};
 use ppum::field::Field;
@@ -27,8 +27,7 @@ fn plate(rest: &str, level: u32, order: u32) -> Dataset {
 
 fn solution(rest: &str, discretization: &str) -> Dataset {
     let text = format!(
-        "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
-         state = \"plane-strain\"\n[[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n{rest}\n\
+        "{SQUARE_BODY}[[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n{rest}\n\
          [discretization]\n{discretization}\n"
     );
     solved(&parsed(&text))

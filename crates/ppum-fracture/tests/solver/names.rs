@@ -1,6 +1,6 @@
 //! Names of functions are for reports: what a function is does not depend on them.
 
-use crate::studies::support::{checked, parsed, record, solved};
+use crate::studies::support::{SQUARE_BODY, checked, parsed, record, solved};
 use ppum::progress::unwatched;
 use ppum_fracture::diagnostics::recompute;
 use ppum_problem::ProblemData;
@@ -69,8 +69,7 @@ fn names_change_no_bit() {
 fn forces_see_no_source() {
     let estimate = |rest: &str| {
         let problem = parsed(&format!(
-            "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
-             state = \"plane-strain\"\n[discretization]\ncells = [4, 4]\norder = 2\n\
+            "{SQUARE_BODY}[discretization]\ncells = [4, 4]\norder = 2\n\
              [body_force]\nvalue = [\"exp(-40*(x^2 + y^2))*sin(20*x)\", 0]\n\
              [[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n{rest}"
         ));

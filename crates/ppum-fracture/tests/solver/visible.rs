@@ -97,13 +97,13 @@ fn phases_tell_unknowns_and_bytes() {
     assert_eq!(of(&report.bytes, Phase::Intensity), None);
 }
 
-/// All cells together take no longer than the phase on all cores, and each one some time.
+/// The seconds of all cells are those of the phase on all cores, or less.
 #[test]
 fn cells_tell_seconds() {
     let dataset = plate("discretization = { level = 4, order = 2, refine = false }");
     let step = &dataset.steps[0];
     let seconds = values(step, ASSEMBLY_SECONDS);
-    assert!(seconds.len() == 256 && seconds.iter().all(|s| *s > 0.0 && s.is_finite()));
+    assert!(seconds.len() == 256 && seconds.iter().all(|s| *s >= 0.0 && s.is_finite()));
     let threads = rayon::current_num_threads() as f64;
     let report = SolverReport::of(&step.history);
     let phase = report.seconds.iter().find(|(phase, _)| *phase == Phase::Assembly);

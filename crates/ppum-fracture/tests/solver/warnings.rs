@@ -1,6 +1,6 @@
 //! Warnings: each is provoked, and good problems are silent.
 
-use crate::studies::support::{parsed, solved};
+use crate::studies::support::{SQUARE_BODY, parsed, solved};
 use ppum::dataset::{Dataset, Warning};
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
@@ -10,8 +10,7 @@ use ppum_testkit::random::Random;
 /// A plate with a crack, 8 × 8 cells.
 fn text(points: &str, loads: &str, discretization: &str) -> String {
     format!(
-        "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
-         state = \"plane-strain\"\n[[crack]]\npoints = {points}\n{loads}\n[discretization]\n\
+        "{SQUARE_BODY}[[crack]]\npoints = {points}\n{loads}\n[discretization]\n\
          cells = [8, 8]\n{discretization}\n"
     )
 }

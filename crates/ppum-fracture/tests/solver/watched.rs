@@ -1,12 +1,10 @@
 //! Long calls told of, stopped, and run on threads of the caller's.
 
-use std::error::Error;
 use std::sync::Mutex;
 
 use crate::studies::support::{checked, parsed};
 use ppum::dataset::Dataset;
 use ppum::progress::{Cancelled, Phase, Progress, Verdict, Watcher, unwatched};
-use ppum_fracture::diagnostics::effort::EffortError;
 use ppum_fracture::diagnostics::{RecomputeError, recompute};
 use ppum_fracture::solve::{
     EigenError, LinearError, Plan, SolveError, UnbalancedError, solve, spectrum,
@@ -169,19 +167,23 @@ fn other_long_calls_can_be_cancelled() {
     assert!(matches!(found, Err(SpaceError::Cancelled(Cancelled))));
 }
 
-/// Errors can be sent to other threads and kept for ever.
+/// Patches that all lie over each other are refused before lists of pairs fill the memory.
 #[test]
-fn errors_are_free_to_travel() {
-    fn travels<E: Error + Send + Sync + 'static>() {}
-    travels::<SolveError>();
-    travels::<SpaceError>();
-    travels::<RefineError>();
-    travels::<InspectError>();
-    travels::<LinearError>();
-    travels::<EigenError>();
-    travels::<UnbalancedError>();
-    travels::<RecomputeError>();
-    travels::<EffortError>();
-    travels::<ProblemError>();
-    travels::<OrderError>();
+fn patches_over_each_other_have_no_factors() {
+    let piled = ppum_testkit::costly::named("patches-piled");
+    let error = recompute(&piled, 0, None, unwatched()).expect_err("too many pairs").to_string();
+    assert!(error.contains("let fewer patches overlap"), "{error}");
 }
+
+ppum_testkit::errors_cross_threads!(
+    SolveError,
+    SpaceError,
+    RefineError,
+    InspectError,
+    LinearError,
+    EigenError,
+    UnbalancedError,
+    RecomputeError,
+    ProblemError,
+    OrderError,
+);

@@ -5,6 +5,7 @@ use super::orders::{Active, Orders};
 use super::polygon::{Polygon, SegmentCut, line_side};
 use super::rule::{Rule, Rules};
 use super::singular::PieceQuadrature;
+use super::split::TOLERANCE;
 use super::{adapt, curve, holes, split};
 use ppum::crack::Crack;
 use ppum::domain::Hole;
@@ -14,11 +15,8 @@ use ppum_problem::geometry::is_on_rim;
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// Lengths below this part of a cell are rounding.
-pub(super) const TOLERANCE: f64 = 1e-12;
-
 /// Pieces smaller than this part of their cell are dropped. Slivers that have an area are kept.
-const LEAST_AREA: f64 = 1e-24;
+const LEAST_AREA: f64 = TOLERANCE * TOLERANCE;
 
 /// Singular points nearer than this part of a rectangle's diameter to each other count as one.
 pub(super) const SAME_POINT: f64 = 1e-9;

@@ -12,8 +12,8 @@
 
 use super::chart::{Chart, LevelOn, Strip, UNIT, range};
 use super::geometry::LevelFunction;
-use super::roots::sign_changes;
-use super::split::breaks;
+use super::roots::{ZERO, sign_changes};
+use super::split::{TOLERANCE, breaks};
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::rc::Rc;
 
@@ -30,9 +30,6 @@ const EVEN: f64 = 0.25;
 /// Differences below this part of a level function's size are rounding.
 const FLAT: f64 = 1e-11;
 
-/// Values below this part of a level function's size are zero.
-const ZERO: f64 = 1e-14;
-
 /// Distances to a curve below this part of the coordinates are rounding: of two level functions
 /// with the same zero set one has such values where the other is zero, and must not cut slivers
 /// off there.
@@ -44,9 +41,6 @@ const ROUNDED: f64 = 4.0;
 /// Neighbours in a grid that are nearer to each other than this part of the largest distance of two
 /// do not say how steep a level function is.
 const PINCHED: f64 = 1e-3;
-
-/// Distances of crossings below this part of a window are rounding.
-const COINCIDENT: f64 = 1e-12;
 
 /// Most divisions in four, one inside the other: where curves cross or have a corner, the part of a
 /// piece that is left undivided is 4⁻¹⁶ ≈ 2e-10.
@@ -191,7 +185,7 @@ fn strips<'c>(
     let leaves = |h: f64| sign_changes(&|part| value(h, along(part)), 0.0, 1.0);
     let ends = [bottom, top].into_iter().flat_map(leaves).map(along).collect();
     let (mut parts, mut any) = (Vec::new(), false);
-    for interval in breaks(lo, hi, ends, COINCIDENT * (hi - lo)).windows(2) {
+    for interval in breaks(lo, hi, ends, TOLERANCE * (hi - lo)).windows(2) {
         let mut part = window.part(window.range);
         match base {
             0 => (part.range.min.x, part.range.max.x) = (interval[0], interval[1]),

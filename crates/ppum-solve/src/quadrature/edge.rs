@@ -1,16 +1,16 @@
 //! Rules along segments: parts of the boundary, faces of cracks.
 
 use super::adapt::{Demand, Refined, Subregion as _, refined};
-use super::cell::{Quadrature, SAME_POINT, TOLERANCE, distinct, straight_cut};
+use super::cell::{Quadrature, SAME_POINT, distinct, straight_cut};
 use super::doubt::Doubt;
 use super::gauss::gauss;
 use super::geometry::{Face, Kink, LevelFunction, Singular};
 use super::orders::Active;
 use super::polygon::SegmentCut;
 use super::polygon::line_side;
-use super::roots::{sign_changes, tame};
+use super::roots::{ZERO, sign_changes, tame};
 use super::singular::panels;
-use super::split::{breaks, component, divided, kinks, varies};
+use super::split::{TOLERANCE, breaks, component, divided, kinks, varies};
 use super::stretch::{Path, Stretch};
 use ppum::border::{TOUCH, touch};
 use ppum::crack::Side;
@@ -18,9 +18,6 @@ use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2};
 use ppum_problem::geometry::{around, without};
 use std::cell::Cell;
-
-/// Values of a level function below this part of its size on a segment are zero.
-const ZERO: f64 = 1e-14;
 
 /// Distances from the line of a segment below this part of its length count as zero.
 const ON_LINE: f64 = 1e-14;

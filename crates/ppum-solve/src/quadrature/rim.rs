@@ -1,13 +1,13 @@
 //! Rules along the rims of holes.
 
 use super::adapt::{Demand, Refined, Subregion, refined};
-use super::cell::{Quadrature, SAME_POINT, TOLERANCE, distinct, straight_cut};
+use super::cell::{Quadrature, SAME_POINT, distinct, straight_cut};
 use super::edge::EdgeRule;
 use super::gauss::{MAX_POINTS, Rules1d, gauss};
 use super::geometry::{Kink, Singular};
 use super::orders::Active;
 use super::roots::{sign_changes, tame};
-use super::split::{breaks, component, divided, kinks};
+use super::split::{TOLERANCE, breaks, component, divided, kinks};
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::wider;

@@ -10,6 +10,9 @@ const TOUCHES: usize = 8;
 /// bisection alone 60.
 const EVALUATIONS: usize = 120;
 
+/// Values of a level function below this part of its size are zero.
+pub(super) const ZERO: f64 = 1e-14;
+
 /// A function value that is a number: what is not, or is infinite, still has a side.
 pub(crate) fn tame(value: f64) -> f64 {
     if value.is_nan() { 1.0 } else { value.clamp(-1e100, 1e100) }

@@ -3,8 +3,8 @@
 use ppum::dataset::BoxPartition;
 use ppum::vec2::{Rect, Vec2};
 
-/// Borders closer than this part of a cell count as one.
-const COINCIDENT: f64 = 1e-12;
+/// Lengths below this part of a cell are rounding.
+pub(super) const TOLERANCE: f64 = 1e-12;
 
 /// Splits a cell into rectangles with a constant set of covering patches and no kink of their
 /// partition functions, each of these where several patches meet into `parts` in every direction in
@@ -17,7 +17,7 @@ pub(super) fn rectangles(
     visit: &mut dyn FnMut(&Rect, &[u32]),
 ) {
     let size = cell.size();
-    let splitter = Splitter { partition, parts, tolerance: COINCIDENT * size.x.min(size.y) };
+    let splitter = Splitter { partition, parts, tolerance: TOLERANCE * size.x.min(size.y) };
     splitter.constant_sets(cell, coverers, visit);
 }
 
@@ -130,7 +130,7 @@ fn frame(partition: &BoxPartition, patch: u32, axis: usize) -> (f64, f64) {
 /// factors w then cancel in W_i / Σ W_l, kinks and all.
 pub(super) fn varies(partition: &BoxPartition, patches: &[u32], axis: usize) -> bool {
     let same =
-        |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs().max((a.1 - b.1).abs()) <= COINCIDENT * a.1;
+        |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs().max((a.1 - b.1).abs()) <= TOLERANCE * a.1;
     let frame = |patch| frame(partition, patch, axis);
     patches.windows(2).any(|pair| !same(frame(pair[0]), frame(pair[1])))
 }

@@ -1,6 +1,6 @@
 //! Cells divided where a problem says so, whatever else it leaves to the program.
 
-use super::RefineError;
+use super::{RefineError, at_most};
 use crate::watched::Stage;
 use ppum::cover::Cover;
 use ppum::domain::Hole;
@@ -39,8 +39,7 @@ pub(super) fn divide(
         match wrong {
             Some(error) => return Err(error),
             None if divided == 0 => return Ok(()),
-            None if cover.n_cells() > most => return Err(RefineError::TooMany { most }),
-            None => {}
+            None => at_most(most, cover)?,
         }
     }
     too_fine(&demands, cover).map_or(Ok(()), Err)

@@ -123,8 +123,8 @@ pub enum RefineError {
     },
     /// More cells than the memory holds.
     #[error(
-        "the cover needs more than {most} cells, and the memory does not hold the system on them; leave out \
-         cracks, or what asks for small cells, or give more memory"
+        "the cover needs more than {most} cells, and the memory does not hold the system on them; use fewer \
+         cells or a lower order, leave out cracks or what asks for small cells, or give more memory"
     )]
     TooMany {
         /// Cells that the memory holds.
@@ -144,6 +144,7 @@ pub(crate) fn cover(
 ) -> Result<Cover, RefineError> {
     let mut cover = base(problem)?;
     let cells = cover.cells();
+    at_most(most, &cover)?;
     by_hand::divide(&mut cover, problem, most, stage)?;
     if !problem.discretization.refine {
         return Ok(cover);
@@ -167,9 +168,7 @@ pub(crate) fn cover(
     // begins near its end
     let finds_itself = problem.adaptivity.as_ref().is_some_and(|set| set.accuracy.is_none());
     for _ in 0..DEEPEST {
-        if cover.n_cells() > most {
-            return Err(RefineError::TooMany { most });
-        }
+        at_most(most, &cover)?;
         let affordable = !finds_itself && cover.n_cells() < wishes.most_cells;
         // who is to stop asks for nothing
         let asks = |cell: Rect, level: u8| {
@@ -189,6 +188,10 @@ pub(crate) fn cover(
     // what is only wished for may remain
     let unresolved = cover.cells().iter().map(|(cell, _)| *cell).find(must);
     unresolved.map_or(Ok(cover), |cell| Err(RefineError::Unresolved { at: cell.center() }))
+}
+
+fn at_most(most: usize, cover: &Cover) -> Result<(), RefineError> {
+    if cover.n_cells() > most { Err(RefineError::TooMany { most }) } else { Ok(()) }
 }
 
 /// The needs of tips and of the mouths of cracks, and all tips.

@@ -6,7 +6,6 @@ use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::Watcher;
 use ppum::vec2::Vec2;
-use ppum_fracture::diagnostics::effort::check_effort;
 use ppum_fracture::intensity::{CircleError, clearance, on_circle};
 use ppum_problem::Problem;
 use ppum_scene::facts::{HEADS, Tip};
@@ -96,9 +95,6 @@ impl Asked {
         let Ok(problem) = Problem::of_step(&self.dataset, self.step) else {
             return Some(Err(UNKNOWN.into()));
         };
-        if let Err(error) = check_effort(&self.dataset, self.step, problem.as_ref()) {
-            return Some(Err(error.to_string()));
-        }
         match on_circle(&self.dataset, self.step, self.tip, self.radius, problem.as_ref(), watcher)
         {
             Err(CircleError::Cancelled(_)) => None,

@@ -55,6 +55,14 @@ pub enum FieldError {
         /// The step asked for.
         step: usize,
     },
+    /// Too many patches over cells for integrals over them.
+    #[error(
+        "more than {most} pairs of a cell and a patch over it: let fewer patches overlap there"
+    )]
+    TooManyOverlaps {
+        /// The largest number of pairs.
+        most: usize,
+    },
     /// No such field.
     #[error("there is no field `{name}`; the step has {known}")]
     Name {

@@ -11,9 +11,6 @@ use crate::vec2::{Rect, Vec2, vec2};
 /// the elements at an anchor finds those beside it, too.
 const BESIDE: f64 = 1.0 / 32.0;
 
-/// Steps of Newton's method for the place of a point in an element.
-const NEWTON: usize = 4;
-
 /// The elements of a mesh as patches. Structure of arrays; vectors have one entry per patch where
 /// nothing else is said.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -100,12 +97,6 @@ impl Mesh {
 
     pub(super) fn map(&self, patch: usize) -> Map {
         Map::new(self.map_space[patch], self.map_degree[patch], self.map_of(patch))
-    }
-
-    /// Operations that it may take to see whether a patch holds a point, without its clips.
-    pub(crate) fn search_work(&self, patch: usize) -> usize {
-        let columns = self.map_range(patch).len();
-        NEWTON * 2 * columns + self.map(patch).search_work(columns)
     }
 
     /// x = origin + M(ξ), and det DM(ξ).

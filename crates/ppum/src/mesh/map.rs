@@ -105,14 +105,6 @@ impl Map {
         self
     }
 
-    /// Operations that halving may take, on a shape where the linear part does not decide alone:
-    /// one for each column of a part. Expanding a part about its centre takes more, but most parts
-    /// are left at once.
-    pub(super) fn search_work(&self, columns: usize) -> usize {
-        let is_bent = self.bounds().is_some_and(|bounds| bounds.lipschitz > CONTRACTION);
-        if is_bent { MOST_PARTS * columns } else { 0 }
-    }
-
     fn bounds(&self) -> Option<Bounds> {
         let inverse = self.linear().inverse()?;
         let mut bounds = Bounds { inverse, kappa: 0.0, lipschitz: 0.0, curvature: 0.0 };

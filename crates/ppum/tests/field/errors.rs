@@ -1,7 +1,5 @@
 //! Errors are data that any program can carry from thread to thread.
 
-use std::error::Error;
-
 use ppum::check::CheckError;
 use ppum::cover::CoverError;
 use ppum::decompose::PartError;
@@ -13,22 +11,20 @@ use ppum::quantity::{QuantityError, QuantityFormulaError};
 use ppum::replace::ReplaceError;
 use ppum::weight::WeightError;
 
-#[test]
-fn errors_cross_threads() {
-    fn check<E: Error + Send + Sync + 'static>() {}
-    check::<Cancelled>();
-    check::<CheckError>();
-    check::<CoverError>();
-    check::<DerivativeError>();
-    check::<FieldError>();
-    check::<FormulaError>();
-    check::<FunctionError>();
-    check::<PartError>();
-    check::<QuantityError>();
-    check::<QuantityFormulaError>();
-    check::<ReplaceError>();
-    check::<ScopeError>();
-    check::<TableError>();
-    check::<WeightError>();
-    check::<WgslError>();
-}
+ppum_testkit::errors_cross_threads!(
+    Cancelled,
+    CheckError,
+    CoverError,
+    DerivativeError,
+    FieldError,
+    FormulaError,
+    FunctionError,
+    PartError,
+    QuantityError,
+    QuantityFormulaError,
+    ReplaceError,
+    ScopeError,
+    TableError,
+    WeightError,
+    WgslError,
+);

@@ -12,7 +12,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use std::sync::Arc;
 
 /// Points in each direction at which two level functions are compared.
-pub const COMPARED: usize = 24;
+const COMPARED: usize = 24;
 
 /// Part of a level function's size that is rounding.
 const ROUNDING: f64 = 1e-12;

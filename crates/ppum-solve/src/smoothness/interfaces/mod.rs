@@ -15,8 +15,7 @@ mod interface;
 mod place;
 mod trouble;
 
-pub use interface::{COMPARED, Interfaces};
-pub(crate) use interface::{Interface, proportional};
+pub(crate) use interface::{Interface, Interfaces, proportional};
 pub(crate) use place::{BESIDE, InterfacePoint};
 pub use trouble::{Cause, Trouble};
 
