@@ -291,7 +291,7 @@ def write_fixture(name, state, program):
 
     mpmath.mp.dps = 60
     path = FIXTURES / f"{name}.h5"
-    write(path, ppum.arrays(state, title=name, program=program), libver="latest", gzip=True)
+    write(path, ppum.build.arrays(state, title=name, program=program), libver="latest", gzip=True)
     points, values = (part[:POINTS] for part in reference(state))
     with h5py.File(path) as file:
         field = Field(file, numbers=Extended)

@@ -40,7 +40,7 @@ def getfem():
     elastic = ppum.Elastic(young=1.0, poisson=0.3, state="plane-strain")
     crack = Crack(levelset, base, jump, (hats, near))
     options = {"name": "displacement", "components": ["ux", "uy"], "equation": elastic, "title": "XFEM of GetFEM"}
-    ppum.from_getfem(mf, u, crack, **options).save("out/gallery-getfem.h5")
+    ppum.meshes.from_getfem(mf, u, crack, **options).save("out/gallery-getfem.h5")
     pieces = cut.cut_mesh()
     exported = gf.MeshFem(pieces, 2)
     exported.set_classical_discontinuous_fem(2, 0.001)
@@ -78,7 +78,7 @@ def ngsolve():
     mesh.Curve(8)
     field = ngs.GridFunction(ngs.H1(mesh, order=8))
     field.Set(ngs.sin(9 * ngs.x * ngs.y) + ngs.cos(7 * ngs.x))
-    ppum.from_ngsolve(field, name="u", title="Order 8 of NGSolve").save("out/gallery-ngsolve.h5")
+    ppum.meshes.from_ngsolve(field, name="u", title="Order 8 of NGSolve").save("out/gallery-ngsolve.h5")
     ngs.VTKOutput(mesh, [field], ["u"], filename="out/gallery-ngsolve", subdivision=2).Do()
 
 
@@ -112,7 +112,7 @@ def vtk():
     writer.SetFileName("out/gallery-vtk.vtu")
     writer.SetInputData(grid)
     writer.Write()
-    ppum.from_vtu("out/gallery-vtk.vtu", title="VTU of order 4").save("out/gallery-vtk.h5")
+    ppum.meshes.from_vtu("out/gallery-vtk.vtu", title="VTU of order 4").save("out/gallery-vtk.h5")
 
 
 def draw(name, _, out, array, view, limits):

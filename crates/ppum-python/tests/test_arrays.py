@@ -155,7 +155,7 @@ def test_names(f):
 
 
 def test_repr_is_one_line(ds, f):
-    for thing in (ds, ds.steps[0], f, f.at(0, 0), ds.tips[0], ds.cracks[0], f.figure(), ds.history, f.quantities):
+    for thing in (ds, ds.steps[0], f, f.at(0, 0), ds.tips[0], ds.cracks[0], f.draw.figure(), ds.history, f.quantities):
         text = repr(thing)
         assert "\n" not in text and text.startswith("<ppum"), text
     assert ast.literal_eval(repr(ds.title)) in repr(ds)

@@ -54,17 +54,17 @@ def random_cover(rng):
     overlap = rng.uniform(1.1, 1.9)
     kind = rng.integers(4)
     if kind == 0:
-        return ppum.Cover.uniform(domain, tuple(rng.integers(2, 6, 2).tolist()), overlap, name)
+        return ppum.build.Cover.uniform(domain, tuple(rng.integers(2, 6, 2).tolist()), overlap, name)
     if kind == 1:
-        return ppum.Cover.from_points(domain, low + size * rng.random((9, 2)), overlap, name)
+        return ppum.build.Cover.from_points(domain, low + size * rng.random((9, 2)), overlap, name)
     if kind == 2:
-        return ppum.Cover(domain, *scattered_boxes(rng, low, size), name)
-    grid = ppum.Cover.uniform(domain, (4, 3))
+        return ppum.build.Cover(domain, *scattered_boxes(rng, low, size), name)
+    grid = ppum.build.Cover.uniform(domain, (4, 3))
     center = grid.center + 0.2 * grid.half * rng.uniform(-1, 1, (12, 2))
     half = grid.half * rng.uniform(1.2, 1.6, (12, 2))
     origin, scale = center + 0.3 * half * rng.uniform(-1, 1, (12, 2)), half * rng.uniform(0.6, 1.5, (12, 2))
     order = rng.permutation(12)
-    return ppum.Cover(domain, center[order], half[order], name, origin=origin[order], scale=scale[order])
+    return ppum.build.Cover(domain, center[order], half[order], name, origin=origin[order], scale=scale[order])
 
 
 def scattered_boxes(rng, low, size):
@@ -103,13 +103,13 @@ def random_functions(rng, cover):
     theirs = {"across": side, "wave": lambda x, y: np.sin(3 * x) * np.exp(-y)}
     theirs["data"] = lambda x, y: np.interp(x, [-9, 9], [-18.0, 36.0])
     theirs["turned"] = lambda x, y: 2.5 * np.hypot(x - 0.1, y - 0.2) + np.cos(0.3) * (x - 0.1) + np.sin(0.3) * (y - 0.2)
-    tips = ppum.tip_functions(0, end)
+    tips = ppum.build.tip_functions(0, end)
     theirs |= {n: lambda x, y, f=f: f(*polar(x, y)) for n, f in zip(tips, shapes)}
     ours = {
-        "across": ppum.Jump(0),
+        "across": ppum.build.Jump(0),
         "wave": "sin(3*x)*exp(-y)",
-        "data": ppum.Formula("table(line, x)"),
-        "turned": ppum.Formula("k*r + x", origin=(0.1, 0.2), angle=0.3, parameters={"k": 2.5}),
+        "data": ppum.build.Formula("table(line, x)"),
+        "turned": ppum.build.Formula("k*r + x", origin=(0.1, 0.2), angle=0.3, parameters={"k": 2.5}),
         **tips,
     }
     return crack, ours, theirs | {"one": lambda x, y: np.ones_like(x)}
@@ -144,9 +144,9 @@ def random_dataset(seed):
         evaluate = lambda x, y, blocks=blocks: evaluated(cover, blocks, theirs, x, y)[0]
         x, y = (cover.domain[0] + np.ptp(cover.domain, axis=0) * rng.random((200, 2))).T
         sizes.append(evaluated(cover, blocks, theirs, x, y)[1])
-        fields.append(ppum.Coefficients(f"field {k}", blocks, verify=evaluate, components=[f"v{c}" for c in range(components)]))
-    state = ppum.State(cover, fields, cracks=[crack], functions=ours)
-    return ppum.build(state, title="Ünicode", tables=TABLE, tolerance=1e-12), state
+        fields.append(ppum.build.Coefficients(f"field {k}", blocks, verify=evaluate, components=[f"v{c}" for c in range(components)]))
+    state = ppum.build.State(cover, fields, cracks=[crack], functions=ours)
+    return ppum.build.dataset(state, title="Ünicode", tables=TABLE, tolerance=1e-12), state
 
 
 @pytest.mark.parametrize("seed", range(24))
@@ -193,12 +193,12 @@ def test_the_program_reads_them(tmp_path, program):
 def test_boxes_that_do_not_tile(tmp_path, program, capsys):
     """Without cells there are values, pictures and all facts; what needs cells says so."""
     rng = np.random.default_rng(3)
-    cover = ppum.Cover(domain(), *scattered_boxes(rng, np.zeros(2), np.array([2, 1])), "quadratic")
+    cover = ppum.build.Cover(domain(), *scattered_boxes(rng, np.zeros(2), np.array([2, 1])), "quadratic")
     assert cover.cell is None and len(cover) > 20
     blocks = {"one": {k: rng.normal(size=(6, 1)) for k in range(len(cover))}}
     evaluate = lambda x, y: evaluated(cover, blocks, {"one": lambda x, y: np.ones_like(x)}, x, y)[0][:, 0]
-    ds = ppum.build(ppum.State(cover, ppum.Coefficients("u", blocks, verify=evaluate)), tolerance=1e-12)
-    raster = ds.field.render(size=(80, 40))
+    ds = ppum.build.dataset(ppum.build.State(cover, ppum.build.Coefficients("u", blocks, verify=evaluate)), tolerance=1e-12)
+    raster = ds.field.draw.render(size=(80, 40))
     x, y = np.meshgrid((np.arange(80) + 0.5) / 40, 1 - (np.arange(40) + 0.5) / 40)
     wanted = evaluate(x.ravel(), y.ravel()).reshape(x.shape)
     assert np.abs(raster - wanted).max() <= 1e-12 * np.abs(wanted).max()
@@ -209,25 +209,25 @@ def test_boxes_that_do_not_tile(tmp_path, program, capsys):
     assert "within" not in program("export", path, "-o", tmp_path / "boxes.vtu"), "all points are within the tolerance"
     assert f"{evaluate(np.array([0.7]), np.array([0.4]))[0]:.6f}"[:8] in program("probe", path, "--at", "0.7,0.4")
     capsys.readouterr()
-    ds.field.figure(overlays=["patches", "centers", "cells"]).save(tmp_path / "boxes.png")
+    ds.field.draw.figure(overlays=["patches", "centers", "cells"]).save(tmp_path / "boxes.png")
     weight = lambda t: np.where(t < 1 / 3, 1 - 3 * t**2, 1.5 * np.maximum(1 - t, 0) ** 2)
     t = np.abs(np.stack([x, y], -1)[:, :, None] - cover.center) / cover.half
     owner = weight(t).prod(axis=-1).argmax(axis=-1)
-    mine = ppum.State(cover, ppum.Coefficients("u", blocks), attributes={"mine": np.arange(len(cover)) ** 2.0})
-    assert (ppum.build(mine).field.render("mine", size=(80, 40)) == owner**2.0).mean() > 0.999, "but for ties"
+    mine = ppum.build.State(cover, ppum.build.Coefficients("u", blocks), attributes={"mine": np.arange(len(cover)) ** 2.0})
+    assert (ppum.build.dataset(mine).field.draw.render("mine", size=(80, 40)) == owner**2.0).mean() > 0.999, "but for ties"
     with pytest.raises(ppum.PpumError, match="`level` is that of cells, and this cover has none"):
-        ds.field.render("level")
+        ds.field.draw.render("level")
     with pytest.raises(ppum.PpumError, match="no cells"):
-        ds.field.resampled("u", method="cells")
+        ds.field.compare.resample("u", method="cells")
 
 
 def test_gaps_between_boxes_are_named():
     """A box that is left out leaves a place uncovered, in a hole or not."""
-    grid = ppum.Cover.uniform(domain(), (8, 4))
+    grid = ppum.build.Cover.uniform(domain(), (8, 4))
     kept = np.arange(32) != 18
-    cover = ppum.Cover(domain(), grid.center[kept], grid.half[kept])
-    make = lambda radius: ppum.build(
-        ppum.State(cover, field({"one": np.ones((31, 1))})), holes=[ppum.Hole(tuple(grid.center[18]), radius, None)]
+    cover = ppum.build.Cover(domain(), grid.center[kept], grid.half[kept])
+    make = lambda radius: ppum.build.dataset(
+        ppum.build.State(cover, field({"one": np.ones((31, 1))})), holes=[ppum.Hole(tuple(grid.center[18]), radius, None)]
     )
     assert np.isnan(float(make(0.2).field.at(*grid.center[18]).u))
     with pytest.raises(ppum.BuildError, match=r"half.*no support holds"):
@@ -241,17 +241,17 @@ def domain():
 def smooth(weight="quadratic", **changes):
     """A field of degree 2 on 8 × 4 patches and its evaluation in numpy, which changes do not touch."""
     rng = np.random.default_rng(5)
-    cover = ppum.Cover.uniform(domain(), (8, 4), 1.5, "quadratic")
+    cover = ppum.build.Cover.uniform(domain(), (8, 4), 1.5, "quadratic")
     c = rng.normal(size=(32, 6))
     reference = lambda x, y: evaluated(cover, {"one": dict(enumerate(c[:, :, None]))}, {"one": lambda x, y: 1 + 0 * x}, x, y)[0][:, 0]
-    other = ppum.Cover(cover.domain, **{**dict(center=cover.center, half=cover.half, weight=weight, cell=cover.cell), **changes})
+    other = ppum.build.Cover(cover.domain, **{**dict(center=cover.center, half=cover.half, weight=weight, cell=cover.cell), **changes})
     return other, c, reference
 
 
 def test_no_wrong_order_passes():
     """Each exchange of two coefficients, of patches, another frame, weight, sign."""
     cover, c, reference = smooth()
-    make = lambda cover, c: ppum.build(ppum.State(cover, ppum.Coefficients("u", {"one": c}, verify=reference)))
+    make = lambda cover, c: ppum.build.dataset(ppum.build.State(cover, ppum.build.Coefficients("u", {"one": c}, verify=reference)))
     assert make(cover, c).history["verified u"] < 1e-14
     wrong = []
     for a, b in itertools.combinations(range(6), 2):
@@ -272,16 +272,16 @@ def test_sides_of_cracks_are_compared():
     cover, c, reference = smooth()
     crack = [(0.5, 0.5), (1.5, 0.6)]
     at = lambda x, y: np.where(np.abs(y - 0.5 - (x - 0.5) / 10) < 1e-6, 9.0, 0.0) * (x > 0.5) * (x < 1.5) * (y > 0.5 + (x - 0.5) / 10)
-    make = lambda verify: ppum.State(cover, ppum.Coefficients("u", {"one": c}, verify=verify), cracks=[crack])
-    ppum.build(make(reference))
+    make = lambda verify: ppum.build.State(cover, ppum.build.Coefficients("u", {"one": c}, verify=verify), cracks=[crack])
+    ppum.build.dataset(make(reference))
     with pytest.raises(ppum.BuildError, match="verify"):
-        ppum.build(make(lambda x, y: reference(x, y) + at(x, y)))
+        ppum.build.dataset(make(lambda x, y: reference(x, y) + at(x, y)))
 
 
 def test_points_and_values_verify():
     cover, c, reference = smooth()
     points = np.random.default_rng(0).random((50, 2))
-    make = lambda *verify: ppum.build(ppum.State(cover, ppum.Coefficients("u", {"one": c}, verify=verify)))
+    make = lambda *verify: ppum.build.dataset(ppum.build.State(cover, ppum.build.Coefficients("u", {"one": c}, verify=verify)))
     assert make(points, reference(*points.T)).history["verified u"] < 1e-14
     for bad, said in (
         ((points, np.zeros(50) + 1), "a difference of"),
@@ -295,12 +295,12 @@ def test_points_and_values_verify():
 
 
 def field(blocks, name="u", **others):
-    return ppum.Coefficients(name, blocks, **others)
+    return ppum.build.Coefficients(name, blocks, **others)
 
 
 def state(blocks=None, **others):
-    cover = ppum.Cover.uniform(domain(), (4, 2))
-    return ppum.State(cover, field({"one": np.zeros((8, 3))} if blocks is None else blocks), **others)
+    cover = ppum.build.Cover.uniform(domain(), (4, 2))
+    return ppum.build.State(cover, field({"one": np.zeros((8, 3))} if blocks is None else blocks), **others)
 
 
 ONE = np.zeros((8, 3))
@@ -323,40 +323,40 @@ MISTAKES = {
     "differ": (lambda: state({"one": ONE, "f": np.zeros((8, 1, 2))}, functions={"f": "x"}), r"differ in the number of components"),
     "function": (lambda: state({"jmp": ONE}, functions={"jump": "x"}), r"\['jmp'\]: did you mean 'jump'\? there are the functions one, jump"),
     "empty": (lambda: state({}), r"blocks: is empty"),
-    "names": (lambda: ppum.State(ppum.Cover.uniform(domain(), (4, 2)), field({"one": ONE}, components=["a", "b"])), r"components: has 2 names, but"),
-    "fields": (lambda: ppum.State(ppum.Cover.uniform(domain(), (4, 2)), []), r"fields: a step needs at least one"),
+    "names": (lambda: ppum.build.State(ppum.build.Cover.uniform(domain(), (4, 2)), field({"one": ONE}, components=["a", "b"])), r"components: has 2 names, but"),
+    "fields": (lambda: ppum.build.State(ppum.build.Cover.uniform(domain(), (4, 2)), []), r"fields: a step needs at least one"),
     "one": (lambda: state(functions={"one": "x"}), r"functions\['one'\]: is the function 1 already"),
     "kind": (lambda: state(functions={"f": 3}), r"functions\['f'\]: is int; give a Jump"),
-    "crack": (lambda: state(functions={"f": ppum.Jump(1)}, cracks=[LINE]), r"\['f'\]: names crack 1, but there is 1 crack, counted from 0"),
-    "tip": (lambda: state(functions={"f": ppum.Formula("r", (0, "first"))}, cracks=[LINE]), r"tip: \(0, 'first'\) is no tip; give the number of a crack, and 'start' or 'end'"),
-    "frames": (lambda: state(functions={"f": ppum.Formula("r", (0, "last"), angle=1)}, cracks=[LINE]), r"has several frames"),
-    "origin": (lambda: state(functions={"f": ppum.Formula("r", origin=(1, 2, 3))}), r"origin: has the shape \(3,\), expected \(2,\)"),
-    "segment": (lambda: state(functions={"f": ppum.Component([(0, 1, -1, -2)])}, cracks=[LINE]), r"cuts\[0\]: names segment 1, but crack 0 has 1"),
-    "cut": (lambda: state(functions={"f": ppum.Component([(0, 0, 5, -2)])}, cracks=[LINE]), r"functions\['f'\].cuts\[0\]\[2\]: index 5"),
+    "crack": (lambda: state(functions={"f": ppum.build.Jump(1)}, cracks=[LINE]), r"\['f'\]: names crack 1, but there is 1 crack, counted from 0"),
+    "tip": (lambda: state(functions={"f": ppum.build.Formula("r", (0, "first"))}, cracks=[LINE]), r"tip: \(0, 'first'\) is no tip; give the number of a crack, and 'start' or 'end'"),
+    "frames": (lambda: state(functions={"f": ppum.build.Formula("r", (0, "last"), angle=1)}, cracks=[LINE]), r"has several frames"),
+    "origin": (lambda: state(functions={"f": ppum.build.Formula("r", origin=(1, 2, 3))}), r"origin: has the shape \(3,\), expected \(2,\)"),
+    "segment": (lambda: state(functions={"f": ppum.build.Component([(0, 1, -1, -2)])}, cracks=[LINE]), r"cuts\[0\]: names segment 1, but crack 0 has 1"),
+    "cut": (lambda: state(functions={"f": ppum.build.Component([(0, 0, 5, -2)])}, cracks=[LINE]), r"functions\['f'\].cuts\[0\]\[2\]: index 5"),
     "formula": (lambda: state(functions={"f": "sin(z)"}), r"^functions\['f'\].text: line 1, column 5: unknown name `z`"),
     "short": (lambda: state(cracks=[[(0, 0)]]), r"cracks\[0\]: has 1 points; a crack needs two"),
     "double": (lambda: state(cracks=[[(0, 0), (1, 1), (1, 1)]]), r"cracks\[0\]\[2\]: is the point before it"),
     "flat": (lambda: state(cracks=[[0, 0, 1, 1]]), r"cracks\[0\]: has the shape \(4,\), expected \(n, 2\)"),
     "attribute": (lambda: state(attributes={"mine": [1, 2]}), r"attributes\['mine'\]: has the shape \(2,\), expected \(8,\)"),
-    "domain": (lambda: ppum.Cover([(0, 0), (0, 1)], **GIVEN), r"domain: .* has no area"),
-    "support": (lambda: ppum.Cover(domain(), GIVEN["center"], [(0.7, 0.7), (0.7, 0)]), r"half\[1\]: the extent 0.0 in y must be positive"),
-    "halves": (lambda: ppum.Cover(domain(), GIVEN["center"], [(0.7, 0.7)]), r"half: has the shape \(1, 2\), expected \(2, 2\)"),
-    "outside": (lambda: ppum.Cover(domain(), [(0.5, 0.5), (4, 4)], GIVEN["half"]), r"center\[1\]: the support around \(4.0, 4.0\) lies outside"),
-    "nan": (lambda: ppum.Cover(domain(), [(0.5, np.nan), (1, 1)], GIVEN["half"]), r"center\[0\]\[1\]: is nan"),
-    "overlap": (lambda: ppum.Cover.uniform(domain(), (4, 2), 2.5), r"overlap: 2.5 is not in 1.01 to 1.99"),
-    "cells": (lambda: ppum.Cover.uniform(domain(), (0, 2)), r"cells: \(0, 2\) has no cells"),
-    "huge": (lambda: ppum.Cover.uniform(domain(), (200_000, 200_000)), r"cells: .* are 40,000,000,000 patches, of at most"),
-    "level": (lambda: ppum.Cover(domain(), **GIVEN, level=1), r"level: is that of cells; give the cells too"),
-    "flipped": (lambda: ppum.Cover.uniform([(1, 1), (0, 2)], (1, 1)), r"domain: .*give the lower left corner first"),
+    "domain": (lambda: ppum.build.Cover([(0, 0), (0, 1)], **GIVEN), r"domain: .* has no area"),
+    "support": (lambda: ppum.build.Cover(domain(), GIVEN["center"], [(0.7, 0.7), (0.7, 0)]), r"half\[1\]: the extent 0.0 in y must be positive"),
+    "halves": (lambda: ppum.build.Cover(domain(), GIVEN["center"], [(0.7, 0.7)]), r"half: has the shape \(1, 2\), expected \(2, 2\)"),
+    "outside": (lambda: ppum.build.Cover(domain(), [(0.5, 0.5), (4, 4)], GIVEN["half"]), r"center\[1\]: the support around \(4.0, 4.0\) lies outside"),
+    "nan": (lambda: ppum.build.Cover(domain(), [(0.5, np.nan), (1, 1)], GIVEN["half"]), r"center\[0\]\[1\]: is nan"),
+    "overlap": (lambda: ppum.build.Cover.uniform(domain(), (4, 2), 2.5), r"overlap: 2.5 is not in 1.01 to 1.99"),
+    "cells": (lambda: ppum.build.Cover.uniform(domain(), (0, 2)), r"cells: \(0, 2\) has no cells"),
+    "huge": (lambda: ppum.build.Cover.uniform(domain(), (200_000, 200_000)), r"cells: .* are 40,000,000,000 patches, of at most"),
+    "level": (lambda: ppum.build.Cover(domain(), **GIVEN, level=1), r"level: is that of cells; give the cells too"),
+    "flipped": (lambda: ppum.build.Cover.uniform([(1, 1), (0, 2)], (1, 1)), r"domain: .*give the lower left corner first"),
     "legendre": (lambda: ppum.basis.legendre(500), r"degree: is 500, expected 0 to 8"),
     "bernstein": (lambda: ppum.basis.bernstein(500), r"degree: is 500, expected 0 to 8"),
     "lagrange": (lambda: ppum.basis.lagrange(np.arange(200.0)), r"degree: is 199, expected 0 to 8"),
     "monomials": (lambda: ppum.basis.monomials(-1), r"degree: is -1, expected 0 to 8"),
-    "points": (lambda: ppum.Cover.from_points(domain(), [(3, 3)]), r"points: .*outside"),
-    "level": (lambda: ppum.Cover(domain(), level=[0.5, 1], cell=CELLS, **GIVEN), r"level\[0\]: is 0.5; give whole numbers"),
-    "level alone": (lambda: ppum.Cover(domain(), level=[0, 1], **GIVEN), r"level: is that of cells; give the cells too"),
-    "gap": (lambda: ppum.State(ppum.Cover(domain(), GIVEN["center"], [(0.4, 0.7)] * 2), field({"one": ONE[:2]})), r"^cover(\.\w+)?(\[\d+\])*: "),
-    "weight": (lambda: ppum.State(ppum.Cover(domain(), weight="1 - t/2", **GIVEN), field({"one": ONE[:2]})), r"^cover.weight: .*vanish"),
+    "points": (lambda: ppum.build.Cover.from_points(domain(), [(3, 3)]), r"points: .*outside"),
+    "level": (lambda: ppum.build.Cover(domain(), level=[0.5, 1], cell=CELLS, **GIVEN), r"level\[0\]: is 0.5; give whole numbers"),
+    "level alone": (lambda: ppum.build.Cover(domain(), level=[0, 1], **GIVEN), r"level: is that of cells; give the cells too"),
+    "gap": (lambda: ppum.build.State(ppum.build.Cover(domain(), GIVEN["center"], [(0.4, 0.7)] * 2), field({"one": ONE[:2]})), r"^cover(\.\w+)?(\[\d+\])*: "),
+    "weight": (lambda: ppum.build.State(ppum.build.Cover(domain(), weight="1 - t/2", **GIVEN), field({"one": ONE[:2]})), r"^cover.weight: .*vanish"),
     "text": (lambda: state(attributes={"a\0b": np.zeros(8)}), r"^attributes\['a.*b'\]: .* NUL"),
 }  # fmt: skip
 
@@ -365,7 +365,7 @@ MISTAKES = {
 def test_mistakes(name):
     make, said = MISTAKES[name]
     with pytest.raises(ppum.BuildError, match=said) as error:
-        ppum.build(make())
+        ppum.build.dataset(make())
     assert isinstance(error.value, ValueError) and isinstance(error.value, ppum.PpumError)
 
 
@@ -382,28 +382,28 @@ def test_mistakes(name):
 )
 def test_mistakes_of_datasets(options, said):
     with pytest.raises(ppum.BuildError, match=said):
-        ppum.build(state(), **options)
+        ppum.build.dataset(state(), **options)
     with pytest.raises(ppum.BuildError, match="at least one step"):
-        ppum.build([])
-    other = ppum.State(ppum.Cover.uniform([(0, 0), (1, 1)], (4, 2)), field({"one": ONE}))
+        ppum.build.dataset([])
+    other = ppum.build.State(ppum.build.Cover.uniform([(0, 0), (1, 1)], (4, 2)), field({"one": ONE}))
     with pytest.raises(ppum.BuildError, match=r"states\[1\].cover.domain"):
-        ppum.build([state(), other])
+        ppum.build.dataset([state(), other])
 
 
 def test_all_that_a_dataset_holds(tmp_path):
     """Series, holes, tables, quantities, attributes, ends of cracks, an equation."""
-    cover = ppum.Cover.uniform([(0, 0), (2, 2)], (4, 4), weight="cubic")
+    cover = ppum.build.Cover.uniform([(0, 0), (2, 2)], (4, 4), weight="cubic")
     c = np.zeros((16, 3, 2))
     c[:, 0], c[:, 1, 0], c[:, 2, 1] = np.column_stack([cover.center[:, 0], 0 * cover.center[:, 1]]), cover.half[:, 0], 0
     cracks = [[(0, 1), (0.9, 1)], [(0.5, 1), (0.5, 1.8)], [(1.2, 0.5), (1.5, 0.5), (1.6, 0.3)]]
-    make = lambda load: ppum.State(
+    make = lambda load: ppum.build.State(
         cover,
-        [ppum.Coefficients("displacement", {"one": load * c}, exact=(f"{load}*x", "0")), ppum.Coefficients("t", {"one": c[:, :, 0]})],
+        [ppum.build.Coefficients("displacement", {"one": load * c}, exact=(f"{load}*x", "0")), ppum.build.Coefficients("t", {"one": c[:, :, 0]})],
         cracks=cracks, load=load, attributes={"mine": np.arange(16.0)},
     )  # fmt: skip
     hole = ppum.Hole((1.6, 0.1), 0.2, None)
     polygon = ppum.Hole(None, None, np.array([(1.5, 1.5), (1.8, 1.5), (1.6, 1.8)]))
-    ds = ppum.build(
+    ds = ppum.build.dataset(
         [make(1.0), make(2.0)], title="All", program="mine 1", holes=[hole, polygon],
         equation=ppum.Elastic("1 + table(stiff, x)", 0.25, "plane-stress"),
         tables={"stiff": ([0, 2], [0, 0.0]), "plane": ([0, 1], [0, 1, 2], np.zeros((3, 2)))},
@@ -416,15 +416,15 @@ def test_all_that_a_dataset_holds(tmp_path):
     assert float(ds.field.at(0.7, 0.3)["error"]) < 1e-14 and np.isnan(float(ds.field.at(1.6, 1.6).ux))
     assert ds.steps[1].attributes["mine"].tolist() == list(range(16))
     given = [ppum.Crack(0, np.array(cracks[0], float), ("tip", "tip"))]
-    explicit = ppum.State(cover, ppum.Coefficients("u", {"one": c[:, :, 0]}), cracks=given)
-    assert ppum.build(explicit).cracks[0].ends == ("tip", "tip")
+    explicit = ppum.build.State(cover, ppum.build.Coefficients("u", {"one": c[:, :, 0]}), cracks=given)
+    assert ppum.build.dataset(explicit).cracks[0].ends == ("tip", "tip")
 
 
 def test_given_strains_are_taken_off():
-    cover = ppum.Cover.uniform([(0, 0), (2, 2)], (4, 4))
-    fields = [ppum.Coefficients("displacement", {"one": np.zeros((16, 1, 2))})]
+    cover = ppum.build.Cover.uniform([(0, 0), (2, 2)], (4, 4))
+    fields = [ppum.build.Coefficients("displacement", {"one": np.zeros((16, 1, 2))})]
     material = ppum.Elastic(2.0, 0.25, "plane-strain", eigenstrain=("x", "x", 0.0, "x"))
-    ds = ppum.build(ppum.State(cover, fields), equation=material)
+    ds = ppum.build.dataset(ppum.build.State(cover, fields), equation=material)
     # all three held: −E ε⁰/(1 − 2ν)
     assert float(ds.field.at(0.7, 0.3)["sxx"]) == pytest.approx(-2.0 * 0.7 / 0.5, rel=1e-14)
     assert float(ds.field.at(0.7, 0.3)["szz"]) == pytest.approx(-2.0 * 0.7 / 0.5, rel=1e-14)
@@ -436,11 +436,11 @@ def test_given_strains_are_taken_off():
 
 
 def test_temperatures_are_components(tmp_path):
-    cover = ppum.Cover.uniform([(0, 0), (2, 2)], (4, 4))
+    cover = ppum.build.Cover.uniform([(0, 0), (2, 2)], (4, 4))
     rng = np.random.default_rng(5)
     blocks = {"one": rng.normal(size=(16, 3, 3))}
     material = ppum.Elastic(2.0, 0.25, "plane-stress", expansion="0.5 + x", eigenstrain=(0.1, "y", 0.0, 0.0))
-    ds = ppum.build(ppum.State(cover, ppum.Coefficients("displacement", blocks)), equation=material)
+    ds = ppum.build.dataset(ppum.build.State(cover, ppum.build.Coefficients("displacement", blocks)), equation=material)
     assert ds.field.components == ("ux", "uy", "temperature")
     ds.save(tmp_path / "heated.h5")
     at = ppum.open(tmp_path / "heated.h5").field.at(0.7, 0.3)
@@ -449,17 +449,17 @@ def test_temperatures_are_components(tmp_path):
     assert [xx, yy] == pytest.approx([0.1 + 1.2 * t, 0.3 + 1.2 * t], rel=1e-14)
     assert sxx == pytest.approx(2.0 / (1 - 0.0625) * (exx - xx + 0.25 * (eyy - yy)), rel=1e-12)
     plain = ppum.Elastic(2.0, 0.25, expansion=1e-5)
-    only = ppum.build(ppum.State(cover, ppum.Coefficients("displacement", blocks)), equation=plain)
+    only = ppum.build.dataset(ppum.build.State(cover, ppum.build.Coefficients("displacement", blocks)), equation=plain)
     assert float(only.field.at(0.7, 0.3)["eigenstrain_xy"]) == 0.0
     with pytest.raises(ppum.BuildError, match="temperature"):
-        ppum.build(ppum.State(cover, ppum.Coefficients("displacement", {"one": np.zeros((16, 1, 2))})), equation=plain)
+        ppum.build.dataset(ppum.build.State(cover, ppum.build.Coefficients("displacement", {"one": np.zeros((16, 1, 2))})), equation=plain)
 
 
 def test_outlines_are_holes_outside_of_a_polygon(tmp_path):
-    cover = ppum.Cover.uniform([(0, 0), (2, 2)], (4, 4))
+    cover = ppum.build.Cover.uniform([(0, 0), (2, 2)], (4, 4))
     outline = np.array([(0.1, 0.2), (1.9, 0.3), (1.0, 1.8)])
-    state = ppum.State(cover, ppum.Coefficients("u", {"one": np.ones((16, 1))}))
-    ds = ppum.build(state, holes=[ppum.Hole((1.0, 0.7), 0.2, None), ppum.Hole(None, None, outline, True)])
+    state = ppum.build.State(cover, ppum.build.Coefficients("u", {"one": np.ones((16, 1))}))
+    ds = ppum.build.dataset(state, holes=[ppum.Hole((1.0, 0.7), 0.2, None), ppum.Hole(None, None, outline, True)])
     assert [hole.is_outside for hole in ds.holes] == [False, True]
     values = ds.field.at([0.5, 1.0, 1.0, 0.3], [0.4, 0.7, 1.7, 1.5])["u"]
     assert np.isnan(values).tolist() == [False, True, False, True]
@@ -473,7 +473,7 @@ def test_outlines_are_holes_outside_of_a_polygon(tmp_path):
 def test_forms_of_blocks_are_the_same():
     rng = np.random.default_rng(2)
     c = rng.normal(size=(8, 6))
-    make = lambda block: ppum.build(state({"one": block}))
+    make = lambda block: ppum.build.dataset(state({"one": block}))
     same = make(c)
     assert make(list(c)) == same == make({k: row for k, row in reversed(list(enumerate(c)))}) == make(c[:, :, None])
     some = make([None if k == 3 else row for k, row in enumerate(c)])
@@ -481,14 +481,14 @@ def test_forms_of_blocks_are_the_same():
 
 
 def test_arrays_by_paths():
-    built = ppum.build(state())
+    built = ppum.build.dataset(state())
     with pytest.raises(ppum.BuildError) as error:
-        ppum.from_arrays({"@title": "x", "@program": "y", "equation@kind": "none", "domain@kind": "box", "domain@min": [0, 0], "domain@max": [1, 1], "steps/0000@load": 1.0})
+        ppum.build.from_arrays({"@title": "x", "@program": "y", "equation@kind": "none", "domain@kind": "box", "domain@min": [0, 0], "domain@max": [1, 1], "steps/0000@load": 1.0})
     assert "steps/0000/partition" in str(error.value) and len(str(error.value).splitlines()) > 1
     with pytest.raises(ppum.BuildError, match=r"block_degree\[1\]: is 300, which is no number of the type uint8"):
-        ppum.from_arrays({"steps/0000/fields/0000/block_degree": [1, 300]})
+        ppum.build.from_arrays({"steps/0000/fields/0000/block_degree": [1, 300]})
     with pytest.raises(ppum.BuildError, match="center: is complex; give its .real"):
-        ppum.from_arrays({"steps/0000/partition/center": [1j]})
+        ppum.build.from_arrays({"steps/0000/partition/center": [1j]})
     assert built.equation == "none" and set(built.quantities) >= {"u", "du_dx", "magnitude", "gradient"}
     assert not {"energy", "von_mises", "sxx"} & set(built.quantities)
 

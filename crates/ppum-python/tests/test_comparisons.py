@@ -29,7 +29,7 @@ def test_a_field_is_no_different_from_itself(f, holed):
     for field in (f, holed.field):
         found = field.compare(field, "von_mises", size=(83, 71))
         assert found.absolute == found.relative == (0, 0, 0)
-        assert np.array_equal(np.isnan(found.values), np.isnan(field.render("von_mises", size=(83, 71))))
+        assert np.array_equal(np.isnan(found.values), np.isnan(field.draw.render("von_mises", size=(83, 71))))
         assert np.nanmax(np.abs(found.values)) == 0 and found.warnings == ()
 
 
@@ -53,7 +53,7 @@ def test_values_and_norms_are_those_of_numpy(f, name):
         assert np.array_equal(np.isfinite(found.values), np.isfinite(own - its))
         # the norms of the values as they are, and those of the field that was taken away from an evaluation of our own
         assert np.allclose(found.absolute, norms(found.values), rtol=1e-12)
-        field = norms(np.where(off, its, g.render(name, view=view)))
+        field = norms(np.where(off, its, g.draw.render(name, view=view)))
         assert np.allclose(found.relative, norms(found.values) / field, rtol=1e-9)
         assert found.compared == np.isfinite(found.values).sum() and found.view == view
 
@@ -85,11 +85,11 @@ def test_what_cannot_be_compared_is_told(f, potential):
         ({"quantity": "level"}, "constant in each cell"),
     ]:
         with pytest.raises(ValueError, match=message):
-            f.resampled(**wrong)
+            f.compare.resample(**wrong)
 
 
 def test_results_are_frozen_rows_and_pickled(f):
-    found = f.resampled("uy", grid=(9, 17), size=(20, 40))
+    found = f.compare.resample("uy", grid=(9, 17), size=(20, 40))
     with pytest.raises(AttributeError):
         found.compared = 0
     for values in (found.values, found.resampled):
@@ -115,7 +115,7 @@ def interpolated(f, name, view, nx, ny):
 
 def test_bilinear_is_that_of_numpy(f):
     view = f.view_at(size=(73, 91), center=(0.1, 0.3), width=1.3)
-    found = f.resampled("uy", grid=(20, 31), view=view)
+    found = f.compare.resample("uy", grid=(20, 31), view=view)
     expected, direct = interpolated(f, "uy", view, 20, 31), f.at(*centers(view)).uy
     off, size = off_cracks([f], view, "uy"), np.abs(expected).max()
     assert np.abs(found.resampled - expected).max() < ROUNDING * size
@@ -125,19 +125,19 @@ def test_bilinear_is_that_of_numpy(f):
 
 
 def test_cells_have_one_value_each(potential):
-    found = potential.field.resampled("u", method="cells", size=(64, 64))
+    found = potential.field.compare.resample("u", method="cells", size=(64, 64))
     assert found.grid is None and found.bytes == 8 * potential.steps[0].patches == 8 * 16
     assert np.all(np.ptp(found.resampled.reshape(4, 16, 4, 16), axis=(1, 3)) == 0) and found.absolute.l2 > 0
 
 
 def test_the_grid_for_an_error(f):
     at = {"center": (0.6, 1.5), "width": 0.3, "size": (50, 50)}
-    l1, l2, most = f.resampled("uy", error=1e-3, over="view", **at).needed
+    l1, l2, most = f.compare.resample("uy", error=1e-3, over="view", **at).needed
     assert l1.kind == "measured" and l1.reason is None and l2.kind == most.kind == "measured"
     grid = tuple(int(n) for n in most.grid)
-    assert f.resampled("uy", grid=grid, over="view", **at).relative.max < 2e-3
-    assert f.resampled("uy", error=1e-3, size=(50, 100)).needed[2] == ppum.Needed("none", None, "jump")
-    assert f.resampled("syy", error=1e-3, size=(50, 100)).needed[2].reason == "singular"
+    assert f.compare.resample("uy", grid=grid, over="view", **at).relative.max < 2e-3
+    assert f.compare.resample("uy", error=1e-3, size=(50, 100)).needed[2] == ppum.results.Needed("none", None, "jump")
+    assert f.compare.resample("syy", error=1e-3, size=(50, 100)).needed[2].reason == "singular"
 
 
 def test_numbers_are_those_of_the_program(ds, f, program, tmp_path):
@@ -147,7 +147,7 @@ def test_numbers_are_those_of_the_program(ds, f, program, tmp_path):
     assert [row["method"] for row in theirs["resampled"]] == ["nearest", "bilinear", "bicubic", "cells"]
     view = ppum.View(tuple(theirs["center"]), theirs["width"], tuple(theirs["pixels"]))
     for row in theirs["resampled"]:
-        ours = f.resampled("syy", grid=(40, 30), method=row["method"], error=1e-2, view=view)
+        ours = f.compare.resample("syy", grid=(40, 30), method=row["method"], error=1e-2, view=view)
         for name in ("absolute", "relative"):
             assert list(getattr(ours, name)) == row[name]
         for name in ("bytes", "compared", "infinite", "lost", "invented"):

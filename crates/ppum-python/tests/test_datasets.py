@@ -50,7 +50,7 @@ def test_supports_and_holes(holed):
 def test_potentials(potential):
     v = potential.field.at([0.0, 1.0], 0.5)
     assert v.u == pytest.approx([0.0, 1.5], abs=1e-6) and not hasattr(v, "ux")
-    assert potential.field.render(size=(8, 8)).shape == (8, 8)
+    assert potential.field.draw.render(size=(8, 8)).shape == (8, 8)
 
 
 def test_a_series_of_growth():
@@ -80,9 +80,9 @@ def test_a_series_in_a_file_is_that_in_memory(grown, tmp_path):
         assert np.array_equal(ours.attributes["order"], theirs.attributes["order"])
     assert stored == grown and hash(stored) == hash(grown) and stored.field == grown.field
     assert pickle.loads(pickle.dumps(stored)) == grown and stored.to_bytes() == grown.to_bytes()
-    assert stored.steps[0].field.figure("uy").png() == grown.steps[0].field.figure("uy").png()
-    assert stored.field.animate("uy", size=(300, 240)).apng() == grown.field.animate("uy", size=(300, 240)).apng()
-    assert stored.steps[1].field.to_html() == grown.steps[1].field.to_html()
+    assert stored.steps[0].field.draw.figure("uy").png() == grown.steps[0].field.draw.figure("uy").png()
+    assert stored.field.draw.animate("uy", size=(300, 240)).apng() == grown.field.draw.animate("uy", size=(300, 240)).apng()
+    assert stored.steps[1].field.export.to_html() == grown.steps[1].field.export.to_html()
     for kind in (ppum.plots.history, ppum.plots.series):
         assert kind(stored).svg() == kind(grown).svg()
     with pytest.raises(IndexError, match="there is no step 3; the dataset has 3"):

@@ -14,9 +14,12 @@ from conftest import ROOT
 
 PUBLIC = {
     "ppum": [*ppum.__all__, "open"],
+    "ppum.build": ppum.build.__all__,
+    "ppum.results": ppum.results.__all__,
     "ppum.basis": ppum.basis.__all__,
     "ppum.plots": ppum.plots.__all__,
     "ppum._widget": ["Viewer"],
+    **{f"ppum._{name.lower()}": [name] for name in ("Sample", "Draw", "Export", "Compare")},
 }
 PAGE = ROOT / "docs/python.md"
 
@@ -47,8 +50,8 @@ def test_docstrings(name, ds, f, problem, tmp_path, monkeypatch):
 
 
 def test_examples_of_methods_are_run():
-    names = {test.name for test in examples(ppum)}
-    assert {"Field", "Evaluation.at", "Drawing.figure", "Sampling.line", "Field.intensities", "open"} <= names
+    names = {test.name for name in PUBLIC for test in examples(importlib.import_module(name))}
+    assert {"Field", "Field.at", "Draw.figure", "Sample.line", "Field.intensities", "Cover.uniform", "open"} <= names
 
 
 def test_everything_is_documented():

@@ -40,19 +40,19 @@ def test_quantities(f):
     assert isinstance(error, ppum.QuantityError) and "did you mean" in str(error)
     for wrong in ("1 +", "", "sin(", "phi:99999", "error", "nothing", "ux;uy"):
         assert isinstance(caught(lambda: f.at(0, 0)[wrong]), ppum.QuantityError), wrong
-        assert isinstance(caught(lambda: f.render(wrong or " ")), ppum.QuantityError), wrong
+        assert isinstance(caught(lambda: f.draw.render(wrong or " ")), ppum.QuantityError), wrong
 
 
 def test_problems_name_keys(problem):
     wrong = problem.crack((0, 0)).boundary("nowhere", traction=(0, 1)).section("discretization", ordr=3)
     error = caught(lambda: ppum.solve(wrong))
     assert type(error) is ppum.ProblemError and isinstance(error, ValueError)
-    assert error.findings == list(wrong.check())
-    places = [finding.place for finding in error.findings]
+    assert error.diagnostics == list(wrong.check())
+    places = [finding.place for finding in error.diagnostics]
     assert places and all(p.split(".")[0].split("[")[0] in ("crack", "boundary", "discretization") for p in places)
-    assert all(finding.line is None and finding.message for finding in error.findings)
+    assert all(finding.line is None and finding.message for finding in error.diagnostics)
     again = pickle.loads(pickle.dumps(error))
-    assert again.findings == error.findings
+    assert again.findings == error.diagnostics
 
 
 def test_files_of_problems_name_lines(tmp_path, problem):
@@ -61,10 +61,10 @@ def test_files_of_problems_name_lines(tmp_path, problem):
     findings = ppum.Problem.read(path).check()
     assert findings[0].place == str(path) and findings[0].line and "young" in str(findings[0])
     error = caught(lambda: ppum.solve(path))
-    assert error.findings[0] == findings[0]
+    assert error.diagnostics[0] == findings[0]
     path.write_text("title = ")
     error = caught(lambda: ppum.Problem.read(path))
-    assert type(error) is ppum.ProblemError and error.findings[0].line == 1
+    assert type(error) is ppum.ProblemError and error.diagnostics[0].line == 1
     assert isinstance(caught(lambda: ppum.solve(tmp_path / "none.toml")), FileNotFoundError)
 
 
@@ -80,7 +80,7 @@ def test_solutions(problem):
 
 def test_pictures(f):
     for wrong in ({"center": (0, 0), "width": -1.0}, {"center": (0.3, 0), "width": 1e-17}, {"size": (0, 5)}):
-        assert isinstance(caught(lambda: f.render("ux", **wrong)), ppum.RenderError)
+        assert isinstance(caught(lambda: f.draw.render("ux", **wrong)), ppum.RenderError)
     for options, kind in [
         ({"cmap": "nothing"}, ppum.RenderError),
         ({"norm": "log", "clim": (-1, 1)}, ppum.RenderError),
@@ -92,11 +92,11 @@ def test_pictures(f):
         ({"nonsense": 1}, TypeError),
         ({"width": 1.0, "zoom": 2.0}, ValueError),
     ]:
-        assert isinstance(caught(lambda: f.figure("ux", **options).png()), kind), options
-    assert isinstance(caught(lambda: f.figure("ux").to_bytes("gif")), ValueError)
-    assert isinstance(caught(lambda: f.extrema("ux", center=(50, 50), width=1.0)), ppum.RenderError)
+        assert isinstance(caught(lambda: f.draw.figure("ux", **options).png()), kind), options
+    assert isinstance(caught(lambda: f.draw.figure("ux").to_bytes("gif")), ValueError)
+    assert isinstance(caught(lambda: f.sample.extrema("ux", center=(50, 50), width=1.0)), ppum.RenderError)
     with pytest.raises(IndexError):
-        f.figure("ux", tip=9)
+        f.draw.figure("ux", tip=9)
 
 
 @pytest.mark.parametrize("on_pool", [False, True])
@@ -121,10 +121,10 @@ def test_the_version_is_that_of_the_crates():
 @pytest.mark.parametrize(
     "package, remedy, use",
     [
-        ("xarray", "xarray", lambda f: f.line((0, 0), (1, 1))),
-        ("xarray", "xarray", lambda f: f.grid(3, 3)),
+        ("xarray", "xarray", lambda f: f.sample.line((0, 0), (1, 1))),
+        ("xarray", "xarray", lambda f: f.sample.grid(3, 3)),
         ("xarray", "xarray", lambda f: ppum.sweep(lambda a: 1 / 0, a=[1]).run()),
-        ("matplotlib", "matplotlib xarray", lambda f: f.plot()),
+        ("matplotlib", "matplotlib xarray", lambda f: f.draw.plot()),
         ("pandas", "pandas", lambda f: f.step.tips.to_pandas()),
         ("anywidget", "anywidget", lambda f: f.view()),
     ],
@@ -140,9 +140,9 @@ def test_warnings_are_of_the_line_that_calls(f):
     """However deep in the package they arise."""
     twice = {"center": [(0.5, 0.5)] * 2, "half": [(0.7, 0.7)] * 2}
     calls = [
-        lambda: ppum.Cover([(0, 0), (1, 1)], **twice),
-        lambda: f.figure("ux", layout=(2, 2), size=(700, 900)).png(),
-        lambda: f.triangles(["uy"], tolerance=1e-9, max_cells=20_000),
+        lambda: ppum.build.Cover([(0, 0), (1, 1)], **twice),
+        lambda: f.draw.figure("ux", layout=(2, 2), size=(700, 900)).png(),
+        lambda: f.export.triangles(["uy"], tolerance=1e-9, max_cells=20_000),
         lambda: ppum.basis.legendre(4, interval=(1, 1.001)).convert(np.ones((1, 15))),
     ]
     for call in calls:

@@ -18,7 +18,7 @@ def places(mesh, random, number):
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 def test_triangles_resolve_a_field_to_a_tolerance(holed, tolerance):
-    mesh = holed.field.triangles(["displacement", "ux", "von_mises"], tolerance=tolerance)
+    mesh = holed.field.export.triangles(["displacement", "ux", "von_mises"], tolerance=tolerance)
     cells, weights, points = places(mesh, np.random.default_rng(7), 4000)
     found = holed.field.at(*points.T)
     inside = np.isfinite(found.ux) & (
@@ -36,7 +36,7 @@ def test_triangles_resolve_a_field_to_a_tolerance(holed, tolerance):
 
 
 def test_cells_cover_the_plate_and_cracks_are_open(f):
-    mesh = f.triangles(tolerance=0.01)
+    mesh = f.export.triangles(tolerance=0.01)
     a, b, c = (mesh.points[mesh.cells[:, k]] for k in range(3))
     areas = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
     assert (areas > 0).all() and areas.sum() == pytest.approx(8, rel=1e-12)
@@ -51,7 +51,7 @@ def test_cells_cover_the_plate_and_cracks_are_open(f):
 
 def test_files_are_those_of_the_program(ds, program, tmp_path):
     ds.save(tmp_path / "plate.h5")
-    mesh = ds.field.triangles(["uy", "displacement"], tolerance=0.01, order=2)
+    mesh = ds.field.export.triangles(["uy", "displacement"], tolerance=0.01, order=2)
     mesh.save(tmp_path / "ours.vtu")
     mesh.save(tmp_path / "ours.vtkhdf")
     asked = ["-q", "uy,displacement", "--tolerance", "0.01", "--order", "2"]
@@ -84,14 +84,14 @@ def test_all_steps_are_saved(grown, program, tmp_path):
 
 
 def test_averages_share_points(f):
-    torn, mesh = (f.triangles(tolerance=0.05, average=average) for average in (False, True))
+    torn, mesh = (f.export.triangles(tolerance=0.05, average=average) for average in (False, True))
     assert len(mesh.cells) == len(torn.cells) and 2 * len(mesh.points) < len(torn.points)
     assert mesh.tip_radii.shape == (len(mesh.singular),) and mesh.accuracy["stress"].largest >= torn.accuracy["stress"].largest
 
 
 def test_what_triangles_cannot_be_is_said(f):
     with pytest.warns(UserWarning, match="not kept: uy differs by up to .* is allowed; raise max_cells"):
-        mesh = f.triangles(["uy"], tolerance=1e-6, max_cells=6000)
+        mesh = f.export.triangles(["uy"], tolerance=1e-6, max_cells=6000)
     assert not mesh.is_complete and len(mesh.cells) <= 6000
     for options, error, words in [
         ({"order": 5}, ValueError, "order: 5 is not one of 1, 2, 3 and 4"),
@@ -104,7 +104,7 @@ def test_what_triangles_cannot_be_is_said(f):
         ({"quantities": ["uz"]}, ppum.QuantityError, "uz"),
     ]:
         with pytest.raises(error, match=words):
-            f.triangles(**options)
+            f.export.triangles(**options)
     with pytest.raises(ValueError, match="cannot draw 'stl': triangles are vtu or vtkhdf$"):
         mesh.save("plate.stl")
     for end, maker in {"pvd": "triangles", "png": "figure", "gif": "animate", "csv": "line", "html": "to_html"}.items():
@@ -115,8 +115,8 @@ def test_what_triangles_cannot_be_is_said(f):
 @pytest.mark.parametrize("order", [1, 2, 4])
 def test_pyvista_has_the_same_numbers(f, order):
     pytest.importorskip("pyvista")
-    mesh = f.triangles(tolerance=0.02, order=order)
-    grid = f.to_pyvista(tolerance=0.02, order=order)
+    mesh = f.export.triangles(tolerance=0.02, order=order)
+    grid = f.export.to_pyvista(tolerance=0.02, order=order)
     assert mesh.cells.shape[1] == (order + 1) * (order + 2) // 2
     assert (grid.n_points, grid.n_cells) == (len(mesh.points), len(mesh.cells))
     assert np.array_equal(grid.cell_connectivity.reshape(mesh.cells.shape), mesh.cells)
@@ -131,7 +131,7 @@ def embedded(page, name):
 
 
 def test_pages_hold_the_dataset(f, tmp_path):
-    assert f.to_html(tmp_path / "plate.html", "uy", cmap="magma_r", tip=1, zoom=50) is None
+    assert f.export.to_html(tmp_path / "plate.html", "uy", cmap="magma_r", tip=1, zoom=50) is None
     page = (tmp_path / "plate.html").read_text(encoding="utf-8")
     assert base64.b64decode(embedded(page, "dataset")) == f.dataset.to_bytes()
     start = json.loads(embedded(page, "start"))
@@ -150,8 +150,8 @@ def test_what_pages_do_not_have_is_said(f, tmp_path):
         ({"overlays": "supports"}, "supports and loads"),
     ]:
         with pytest.raises(ppum.RenderError, match=words):
-            f.to_html(**options)
+            f.export.to_html(**options)
     with pytest.raises(TypeError, match="samples"):
-        f.to_html(samples=2)
+        f.export.to_html(samples=2)
     with pytest.raises(FileNotFoundError):
-        f.to_html(tmp_path / "none" / "plate.html")
+        f.export.to_html(tmp_path / "none" / "plate.html")

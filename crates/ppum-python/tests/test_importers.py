@@ -28,9 +28,9 @@ def has(library):
 
 
 def knows_meshes():
-    mesh = ppum.Mesh.from_nodes([[(0, 0), (1, 0), (0, 1)]])
+    mesh = ppum.build.Mesh.from_nodes([[(0, 0), (1, 0), (0, 1)]])
     try:
-        ppum.build(ppum.State(mesh, ppum.Coefficients("u", {"one": [[1.0]]})))
+        ppum.build.dataset(ppum.build.State(mesh, ppum.build.Coefficients("u", {"one": [[1.0]]})))
     except ppum.BuildError:
         return False
     return True
@@ -41,7 +41,7 @@ def test_libraries(library, tmp_path):
     if not has(library):
         pytest.skip(f"{library} is not installed")
     for name, state in LIBRARIES[library]():
-        write(tmp_path / "mesh.h5", ppum.arrays(state))
+        write(tmp_path / "mesh.h5", ppum.build.arrays(state))
         with h5py.File(tmp_path / "mesh.h5") as file:
             field = Field(file)
         points, values = (part[:POINTS] for part in reference(state))
@@ -51,10 +51,10 @@ def test_libraries(library, tmp_path):
 
 
 MISSING = {
-    "dolfinx": (lambda: ppum.from_dolfinx(None), "fields of DOLFINx need dolfinx: conda install -c conda-forge fenics"),
-    "meshio": (lambda: ppum.from_meshio(None), "meshes of meshio need meshio: pip install meshio"),
-    "skfem": (lambda: ppum.from_skfem(None, None), "fields of scikit-fem need skfem: pip install scikit-fem"),
-    "vtk": (lambda: ppum.from_vtu("none.vtkhdf"), "files of VTK need vtk: pip install vtk"),
+    "dolfinx": (lambda: ppum.meshes.from_dolfinx(None), "fields of DOLFINx need dolfinx: conda install -c conda-forge fenics"),
+    "meshio": (lambda: ppum.meshes.from_meshio(None), "meshes of meshio need meshio: pip install meshio"),
+    "skfem": (lambda: ppum.meshes.from_skfem(None, None), "fields of scikit-fem need skfem: pip install scikit-fem"),
+    "vtk": (lambda: ppum.meshes.from_vtu("none.vtkhdf"), "files of VTK need vtk: pip install vtk"),
 }
 
 

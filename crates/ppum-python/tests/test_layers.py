@@ -9,15 +9,15 @@ import ppum
 #: From the compiled part upwards; the package itself, which imports all, is above them.
 LAYERS = {
     "compiled": ["_core"],
-    "errors, units, text": ["_errors", "_units", "_text", "_options", "_files"],
+    "errors, units, text": ["_warnings", "_errors", "_units", "_text", "_options", "_files"],
     "data": ["_tables", "_facts"],
-    "field": ["_views", "_values", "_styles", "_evaluation"],
-    "accessors": ["_pictures", "_sample", "_compare", "_axes", "_draw", "_export"],
-    "datasets": ["_field", "_dataset"],
+    "field": ["_views", "_values", "_styles", "_field"],
+    "accessors": ["_images", "_sample", "_compare", "_axes", "_draw", "_export"],
+    "datasets": ["_dataset", "results"],
     "problem": ["_sections", "_curves", "_problem", "_sweep"],
     "arrays": [
         "_checks", "_arrays", "_shapes", "_blocks", "_functions", "_cover", "_mesh", "_state", "_places", "_head", "_verify",
-        "_build", "basis",
+        "build", "basis",
     ],
     "libraries": [
         "meshes._elements", "meshes.dolfinx", "meshes.getfem", "meshes.mfem", "meshes.ngsolve", "meshes.ngsxfem",

@@ -47,7 +47,7 @@ def largest(found, exact):
 
 def pixels(field, size, center, width):
     """Values and derivatives at the pixels of an image, and their centres from the middle."""
-    drawn = [field.render(name, size=size, center=center, width=width).ravel() for name in names_of(field)]
+    drawn = [field.draw.render(name, size=size, center=center, width=width).ravel() for name in names_of(field)]
     across, down = np.meshgrid(np.arange(size[0]) + 0.5 - size[0] / 2, np.arange(size[1]) + 0.5 - size[1] / 2)
     return np.stack(drawn, axis=1), np.column_stack([across.ravel(), -down.ravel()]) * width / size[0]
 

@@ -33,7 +33,7 @@ def test_pictures_are_those_of_the_program(grown, program, tmp_path, options, wa
     grown.save(tmp_path / "grown.h5")
     field = grown.field.part("tip") if "--part" in options else grown.field
     steps = [] if "--steps" in options else ["--steps", "all"]
-    moving = field.animate(**wanted)
+    moving = field.draw.animate(**wanted)
     for form in ("gif", "apng"):
         program("render", tmp_path / "grown.h5", "-o", tmp_path / f"theirs.{form}", *options, *steps)
         moving.save(tmp_path / f"ours.{form}")
@@ -45,10 +45,10 @@ def test_pictures_are_those_of_the_program(grown, program, tmp_path, options, wa
 
 def test_steps_have_one_range_and_their_numbers(grown):
     """With the range given, each is the figure of its step."""
-    shown, time = frames(grown.field.animate("uy", clim=(-3.0, 3.0), size=(360, 280), fps=4).apng())
+    shown, time = frames(grown.field.draw.animate("uy", clim=(-3.0, 3.0), size=(360, 280), fps=4).apng())
     assert time == 250 and len(shown) == len(grown.steps)
     for step, image in zip(grown.steps, shown, strict=True):
-        figure = step.field.figure("uy", clim=(-3.0, 3.0), size=(360, 280))
+        figure = step.field.draw.figure("uy", clim=(-3.0, 3.0), size=(360, 280))
         assert f"Grown, step {step.number}" in figure.svg()
         alone = np.array(Image.open(io.BytesIO(figure.png())).convert("RGBA"))
         # bars of a series show what lies beyond them in any of its steps
@@ -64,13 +64,13 @@ def test_what_is_no_moving_picture_is_refused(grown, f, tmp_path):
         ({"speed": 3}, TypeError, "animate.. has no option `speed`"),
     ]:
         with pytest.raises(error, match=message):
-            grown.field.animate(**wrong)
+            grown.field.draw.animate(**wrong)
     with pytest.raises(ppum.RenderError, match="do not fit into memory"):
-        grown.field.animate(size=(20000, 20000)).gif()
+        grown.field.draw.animate(size=(20000, 20000)).gif()
     with pytest.raises(ppum.QuantityError, match="nonsense"):
-        grown.field.animate("nonsense").gif()
-    moving = grown.field.animate("uy", size=(320, 200), steps=[0, -1])
+        grown.field.draw.animate("nonsense").gif()
+    moving = grown.field.draw.animate("uy", size=(320, 200), steps=[0, -1])
     with pytest.raises(ValueError, match="animations are gif or apng"):
         moving.save(tmp_path / "grown.mp4")
     assert repr(moving) == "<ppum.Animation of uy, 2 steps, 320x200>" and not list(tmp_path.iterdir())
-    assert moving._repr_png_()[:4] == b"\x89PNG" and len(frames(f.animate(size=(320, 300)).gif())[0]) == 1
+    assert moving._repr_png_()[:4] == b"\x89PNG" and len(frames(f.draw.animate(size=(320, 300)).gif())[0]) == 1

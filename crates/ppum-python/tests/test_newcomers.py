@@ -37,23 +37,23 @@ def test_a_problem_solved_twice_gives_equal_datasets():
 
 
 def test_ranges_in_matplotlib(f):
-    assert f.plot("ux", vmin=0, vmax=2).get_clim() == (0, 2)
-    auto = f.plot("ux").get_clim()
-    assert f.plot("ux", vmin=-7).get_clim() == (-7, auto[1])
-    finite = f.plot("ux", clim=("10%", "90%")).get_clim()
+    assert f.draw.plot("ux", vmin=0, vmax=2).get_clim() == (0, 2)
+    auto = f.draw.plot("ux").get_clim()
+    assert f.draw.plot("ux", vmin=-7).get_clim() == (-7, auto[1])
+    finite = f.draw.plot("ux", clim=("10%", "90%")).get_clim()
     assert auto[0] < finite[0] < finite[1] < auto[1]
     x, _ = f.step.tips[1].xy
-    assert f.plot("ux", tip=1, zoom=4, ax=plt.figure().gca()).axes.get_xlim() == pytest.approx((x - 0.25, x + 0.25))
+    assert f.draw.plot("ux", tip=1, zoom=4, ax=plt.figure().gca()).axes.get_xlim() == pytest.approx((x - 0.25, x + 0.25))
 
 
 def test_colour_maps_are_known_in_matplotlib(f):
     for name in ppum.COLORMAPS:
         for cmap in (name, f"{name}_r"):
-            assert f.plot("ux", cmap=cmap, colorbar=False).cmap.name == cmap
+            assert f.draw.plot("ux", cmap=cmap, colorbar=False).cmap.name == cmap
     for name in ("batlow", "vik", "roma"):
         # those of the program, which draws a ramp with them
         colors = plt.get_cmap(name)(np.array([0.0, 1.0]), bytes=True)[:, :3]
-        image = f.rgba("x", center=(0, 1), width=0.2, size=(256, 1), cmap=name, clim=(-0.1, 0.1))
+        image = f.draw.image("x", center=(0, 1), width=0.2, size=(256, 1), cmap=name, clim=(-0.1, 0.1))
         assert np.abs(image[0, [0, -1], :3].astype(int) - colors).max() <= 2
 
 
@@ -61,7 +61,7 @@ def test_points_without_a_value_have_a_colour(f):
     figure = plt.figure(figsize=(1, 2), dpi=50)
     ax = figure.add_axes((0, 0, 1, 1))
     ax.set_axis_off()
-    f.plot("sqrt(x)", ax=ax, colorbar=False, cracks=False, cmap="gray", nan_color=(1, 0, 0))
+    f.draw.plot("sqrt(x)", ax=ax, colorbar=False, cracks=False, cmap="gray", nan_color=(1, 0, 0))
     file = io.BytesIO()
     with np.errstate(invalid="ignore"):
         figure.savefig(file, dpi=50)
@@ -78,12 +78,12 @@ def test_cracks_are_arrays_too():
 
 def test_angles_are_radians(ds, f):
     tip = ds.tips[1]
-    ray = f.ray(1, angle=tip.growth_angle, num=5, quantities=["ux"])
+    ray = f.sample.ray(1, angle=tip.growth_angle, num=5, quantities=["ux"])
     way = np.arctan2(ray.y.values[-1] - tip.xy[1], ray.x.values[-1] - tip.xy[0])
     assert way == pytest.approx(tip.angle + tip.growth_angle, abs=1e-9)
-    around = f.around(1, num=5, quantities=["ux"])
+    around = f.sample.around(1, num=5, quantities=["ux"])
     assert np.allclose(around.theta, np.linspace(-np.pi, np.pi, 5)) and around.theta.attrs["units"] == "rad"
-    for wrong in (lambda: f.ray(1, angle=45.0), lambda: ppum.plots.ray(f, 1, 45.0)):
+    for wrong in (lambda: f.sample.ray(1, angle=45.0), lambda: ppum.plots.ray(f, 1, 45.0)):
         with pytest.raises(ValueError, match="angles are in radians"):
             wrong()
 
@@ -105,29 +105,29 @@ def test_curves_take_radians():
 
 def test_points_without_a_value_have_a_colour_in_figures(f):
     look = {"center": (0, 0), "width": 2, "size": (80, 40), "cmap": "magma"}
-    plain, red = f.rgba("sqrt(x)", **look), f.rgba("sqrt(x)", nan_color="#f01020", **look)
+    plain, red = f.draw.image("sqrt(x)", **look), f.draw.image("sqrt(x)", nan_color="#f01020", **look)
     without = (red[..., :3] == (0xF0, 0x10, 0x20)).all(axis=-1)
     assert without[:, :40].mean() > 0.98 and not without[:, 41:].any()
     assert np.array_equal(plain[~without], red[~without]) and not np.array_equal(plain, red)
-    named = f.rgba("sqrt(x)", nan_color="white", **look)
-    assert (named[without] == 255).all() and np.array_equal(red, f.rgba("sqrt(x)", nan_color=(0xF0 / 255, 0x10 / 255, 0x20 / 255), **look))
+    named = f.draw.image("sqrt(x)", nan_color="white", **look)
+    assert (named[without] == 255).all() and np.array_equal(red, f.draw.image("sqrt(x)", nan_color=(0xF0 / 255, 0x10 / 255, 0x20 / 255), **look))
     with pytest.raises(ValueError, match="nan_color: 'gray17x'"):
-        f.figure("sqrt(x)", nan_color="gray17x")
+        f.draw.figure("sqrt(x)", nan_color="gray17x")
 
 
 def test_labels_are_mathtext(f):
-    line = f.line((-1, 0.1), (1, 0.1), num=5, quantities=["syy"])
+    line = f.sample.line((-1, 0.1), (1, 0.1), num=5, quantities=["syy"])
     assert line.syy.attrs["long_name"] == "σ$_{yy}$"
-    assert f.grid(3, 3, quantities=["syy"]).syy.attrs["long_name"] == "σ$_{yy}$"
+    assert f.sample.grid(3, 3, quantities=["syy"]).syy.attrs["long_name"] == "σ$_{yy}$"
     axis = plt.figure().gca()
     line.syy.plot(ax=axis)
     assert "$_{yy}$" in axis.get_ylabel()
 
 
 def test_pictures_and_plots_are_pickled(f):
-    figure = f.figure("ux", tip=1, zoom=3, size=(400, 300))
+    figure = f.draw.figure("ux", tip=1, zoom=3, size=(400, 300))
     assert pickle.loads(pickle.dumps(figure)).png() == figure.png()
-    moving = f.animate("ux", size=(60, 80), bare=True, progress=lambda *_: None)
+    moving = f.draw.animate("ux", size=(60, 80), bare=True, progress=lambda *_: None)
     assert pickle.loads(pickle.dumps(moving)).gif() == moving.gif()
     plot = ppum.plots.line(f, (-1, 0.1), (1, 0.1), ["ux"])
     assert pickle.loads(pickle.dumps(plot)).svg() == plot.svg()
@@ -137,7 +137,7 @@ def test_stars_leave_names_of_python(tmp_path):
     names = {}
     exec("from ppum import *", names)
     assert names.get("open", builtins.open) is builtins.open and names.get("Warning", Warning) is Warning
-    assert names["solve"] is ppum.solve and ppum.open is not builtins.open and ppum.Warning is not Warning
+    assert names["solve"] is ppum.solve and ppum.open is not builtins.open and ppum.results.Warning is not Warning
 
 
 def test_a_quantity_of_the_name_of_a_method(potential):
@@ -157,17 +157,17 @@ def test_a_quantity_of_the_name_of_a_method(potential):
         (lambda ds, p: ppum.Problem(((0, 0), (1, 1)), {"young": 1}), TypeError, "ppum.Elastic or ppum.Poisson is needed, not dict"),
         (lambda ds, p: ppum.Problem((0, 0), (1, 1)), TypeError, "ppum.Elastic or ppum.Poisson is needed, not tuple"),
         (lambda ds, p: ppum.Problem((0, 0), ppum.Poisson()), TypeError, "two corners are needed"),
-        (lambda ds, p: ds.field.render("ux", zoom=0), ppum.RenderError, "zoom: 0 does not enlarge"),
-        (lambda ds, p: ds.field.render("ux", size=(-1, 5)), ppum.RenderError, "-1x5 cannot be drawn"),
-        (lambda ds, p: ds.field.figure("ux").save(p / "no/x.png"), FileNotFoundError, "no such folder: '.*no'"),
-        (lambda ds, p: ds.field.figure("ux").save(p / "x"), ValueError, "'x' has no end.*png, svg or pdf"),
-        (lambda ds, p: ds.field.figure("ux").save(p / "x.jpg"), ValueError, "'jpg': figures are png, svg or pdf"),
+        (lambda ds, p: ds.field.draw.render("ux", zoom=0), ppum.RenderError, "zoom: 0 does not enlarge"),
+        (lambda ds, p: ds.field.draw.render("ux", size=(-1, 5)), ppum.RenderError, "-1x5 cannot be drawn"),
+        (lambda ds, p: ds.field.draw.figure("ux").save(p / "no/x.png"), FileNotFoundError, "no such folder: '.*no'"),
+        (lambda ds, p: ds.field.draw.figure("ux").save(p / "x"), ValueError, "'x' has no end.*png, svg or pdf"),
+        (lambda ds, p: ds.field.draw.figure("ux").save(p / "x.jpg"), ValueError, "'jpg': figures are png, svg or pdf"),
         (lambda ds, p: ds.quantities["vonmises"], KeyError, "no quantity is called `vonmises`; did you mean `von-mises`"),
         (lambda ds, p: ds.history["unknown"], KeyError, "did you mean `unknowns`"),
         (lambda ds, p: ds.tips[7], IndexError, "no tip 7: there are 2 tips, numbered from 0"),
         (lambda ds, p: ds.steps[3], IndexError, "no step 3: there is 1 step, numbered from 0"),
         (lambda ds, p: ds.cracks[-2], IndexError, "no crack -2: there is 1 crack"),
-        (lambda ds, p: ds.field.figure(tip=9), IndexError, "no tip 9"),
+        (lambda ds, p: ds.field.draw.figure(tip=9), IndexError, "no tip 9"),
         (lambda ds, p: ds.field.intensities(9), IndexError, "no tip 9"),
     ],
 )

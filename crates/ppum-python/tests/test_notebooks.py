@@ -33,7 +33,7 @@ def assert_shows(canvas, field, quantity, center, width, **options):
     """Pixel by pixel."""
     found = pixels(canvas)
     size = found.shape[1::-1]
-    expected = field.rgba(quantity, center=center, width=width, size=size, overlays=["cracks"], **options)
+    expected = field.draw.image(quantity, center=center, width=width, size=size, overlays=["cracks"], **options)
     assert np.array_equal(found[..., 3], expected[..., 3])
     opaque = expected[..., 3] == 255
     assert opaque.any() and np.array_equal(found[opaque], expected[opaque])

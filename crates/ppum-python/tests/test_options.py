@@ -17,15 +17,16 @@ from conftest import ROOT
 from ppum import _core
 from ppum import _sections as sections
 from ppum import _styles as styles
+from ppum._draw import Draw
 from ppum._options import UNSET, options_of
 
 pytest.importorskip("matplotlib").use("agg")
 
 FUNCTIONS = [
-    (ppum.Field.figure, styles.FigureOptions),
-    (ppum.Field.rgba, styles.RgbaOptions),
-    (ppum.Field.animate, styles.AnimationOptions),
-    (ppum.Field.plot, styles.PlotOptions),
+    (Draw.figure, styles.FigureOptions),
+    (Draw.image, styles.ImageOptions),
+    (Draw.animate, styles.AnimationOptions),
+    (Draw.plot, styles.PlotOptions),
     (ppum.Field.view, styles.ViewerOptions),
     (ppum.Dataset.view, styles.ViewerOptions),
     (ppum.Problem.hole, sections.HoleOptions),
@@ -56,16 +57,16 @@ def test_options_have_the_texts_of_the_program(_, kind):
         assert option.text[0] in "`[4" or option.text[0].isupper(), name
         assert len(option.text) > 4 and "--" not in option.text, name
         shared = theirs.get(names.get(name, name), "")
-        if kind is styles.RgbaOptions and name not in ("view", "vmin", "vmax", "size"):
+        if kind is styles.ImageOptions and name not in ("view", "vmin", "vmax", "size"):
             assert shared and option.text.startswith(re.split("--| \\[default", shared)[0]), name
 
 
 def test_consoles_complete_options(f, problem):
     shell = pytest.importorskip("IPython.core.completer").IPCompleter(namespace={"f": f, "plate": problem})
     for line, option in {
-        "f.figure('ux', cli": "clim=",
-        "f.plot('ux', vmi": "vmin=",
-        "f.render('ux', zo": "zoom=",
+        "f.draw.figure('ux', cli": "clim=",
+        "f.draw.plot('ux', vmi": "vmin=",
+        "f.draw.render('ux', zo": "zoom=",
         "plate.boundary('top', trac": "traction=",
         "plate.discretization(overl": "overlap=",
     }.items():
@@ -78,9 +79,9 @@ def test_jedi_completes_options(f, problem):
     """What IPython asks by itself, and editors that see the objects."""
     jedi = pytest.importorskip("jedi")
     for line, option in {
-        "f.figure('ux', cli": "clim=",
-        "f.plot('ux', vmi": "vmin=",
-        "f.render('ux', zo": "zoom=",
+        "f.draw.figure('ux', cli": "clim=",
+        "f.draw.plot('ux', vmi": "vmin=",
+        "f.draw.render('ux', zo": "zoom=",
         "plate.boundary('top', trac": "traction=",
         "plate.discretization(overl": "overlap=",
     }.items():
@@ -91,17 +92,17 @@ def test_jedi_completes_options(f, problem):
 @pytest.mark.parametrize(
     "use, meant",
     [
-        (lambda f, p: f.figure("ux", centre=(0, 0)), "center"),
-        (lambda f, p: f.figure("ux", colormap="magma"), "cmap"),
-        (lambda f, p: f.rgba("ux", overlay=["cells"]), "overlays"),
-        (lambda f, p: f.render("ux", zom=3), "zoom"),
-        (lambda f, p: f.extrema("ux", widht=3), "width"),
-        (lambda f, p: f.animate("ux", figsize=(3, 3)), "inches"),
-        (lambda f, p: f.plot("ux", cbar_kwargs={}), "colorbar"),
+        (lambda f, p: f.draw.figure("ux", centre=(0, 0)), "center"),
+        (lambda f, p: f.draw.figure("ux", colormap="magma"), "cmap"),
+        (lambda f, p: f.draw.image("ux", overlay=["cells"]), "overlays"),
+        (lambda f, p: f.draw.render("ux", zom=3), "zoom"),
+        (lambda f, p: f.sample.extrema("ux", widht=3), "width"),
+        (lambda f, p: f.draw.animate("ux", figsize=(3, 3)), "inches"),
+        (lambda f, p: f.draw.plot("ux", cbar_kwargs={}), "colorbar"),
         (lambda f, p: f.view("ux", range=(0, 1)), "clim"),
         (lambda f, p: f.dataset.view("ux", clim=(0, 1), colormap="magma"), "cmap"),
         (lambda f, p: f.view("ux").figure(them="dark"), "theme"),
-        (lambda f, p: f.figure("ux", labels={"titel": "a"}), "title"),
+        (lambda f, p: f.draw.figure("ux", labels={"titel": "a"}), "title"),
         (lambda f, p: p.hole(centre=(0, 0), radius=1), "center"),
         (lambda f, p: p.boundary("top", tracton=(0, 1)), "traction"),
         (lambda f, p: p.discretization(ordr=3), "order"),
@@ -140,27 +141,27 @@ def test_unknown_options_are_refused_at_the_call(f, problem, use, meant):
 def test_wrong_values_are_refused_at_the_call(f, options, message):
     """Without a place in a text that nobody wrote."""
     with pytest.raises(ValueError, match=message) as info:
-        f.figure("ux", **options)
+        f.draw.figure("ux", **options)
     assert "column" not in str(info.value)
 
 
 def test_values_of_wrong_types_are_refused(f):
     for options in ({"arrows": "x"}, {"bands": 1.5}, {"symmetric": "yes"}, {"width": "wide"}):
         with pytest.raises(TypeError, match=f"{next(iter(options))}: .* is needed, not"):
-            f.figure("ux", **options)
-    assert f.figure("ux", bands=np.int64(3), arrows=np.float32(40), symmetric=np.True_, size=np.array([90, 90]))
+            f.draw.figure("ux", **options)
+    assert f.draw.figure("ux", bands=np.int64(3), arrows=np.float32(40), symmetric=np.True_, size=np.array([90, 90]))
 
 
 @pytest.mark.parametrize(
     "use, message",
     [
-        (lambda f: f.figure("ux", ticks=3), "ticks: a dictionary of x, y, colorbar is needed, not 3"),
-        (lambda f: f.figure("ux", labels="A"), "labels: a dictionary of title, x, y, colorbar is needed, not 'A'"),
-        (lambda f: f.figure("ux", layout=2), "layout: 2 is not two whole numbers, columns and rows"),
-        (lambda f: f.figure("ux", layout=(0, 1)), "layout: 0x1 cannot be drawn"),
-        (lambda f: f.figure("ux", dpi=1e9), "dpi: give 1 to 100000 pixels per inch"),
-        (lambda f: f.figure("ux", inches=1e9), "inches|write a width above zero, up to 1000"),
-        (lambda f: f.animate(["ux", "uy"]), "quantity: an animation shows one"),
+        (lambda f: f.draw.figure("ux", ticks=3), "ticks: a dictionary of x, y, colorbar is needed, not 3"),
+        (lambda f: f.draw.figure("ux", labels="A"), "labels: a dictionary of title, x, y, colorbar is needed, not 'A'"),
+        (lambda f: f.draw.figure("ux", layout=2), "layout: 2 is not two whole numbers, columns and rows"),
+        (lambda f: f.draw.figure("ux", layout=(0, 1)), "layout: 0x1 cannot be drawn"),
+        (lambda f: f.draw.figure("ux", dpi=1e9), "dpi: give 1 to 100000 pixels per inch"),
+        (lambda f: f.draw.figure("ux", inches=1e9), "inches|write a width above zero, up to 1000"),
+        (lambda f: f.draw.animate(["ux", "uy"]), "quantity: an animation shows one"),
         (lambda f: f.part(3), "part: 'smooth', .* is needed, not 3"),
         (lambda f: f.with_weight(3), "weight: a name or a formula of t is needed, not 3"),
         (lambda f: f.with_function({0: 3}), "0: a formula is needed, such as 'r\\*theta', not 3"),
@@ -181,11 +182,11 @@ def test_functions_are_replaced_by_number(f):
 
 
 def test_empty_rows_of_a_layout_are_told(f):
-    figure = f.figure(["ux", "uy", "sxx"], layout=(2, 2), size=(700, 900))
+    figure = f.draw.figure(["ux", "uy", "sxx"], layout=(2, 2), size=(700, 900))
     figure.png()
     assert figure.warnings == ()
     with pytest.warns(UserWarning, match="the layout 2x2 has rows or columns that 1 image does not fill"):
-        f.figure("ux", layout=(2, 2), size=(700, 900)).png()
+        f.draw.figure("ux", layout=(2, 2), size=(700, 900)).png()
 
 
 def test_one_end_of_a_range(f):
@@ -193,38 +194,38 @@ def test_one_end_of_a_range(f):
     facts = _core.frame(f._core, styles.to_json(styles.request(f, "ux", {}, None)), ((0.0, 0.0), 4.0), (64, 64))[1]
     low, high = facts["range"]
     view = ppum.View((0, 0), 4.0, (64, 64))
-    assert not np.array_equal(f.rgba("ux", view=view), f.rgba("ux", view=view, vmin=0.0))
-    assert np.array_equal(f.rgba("ux", view=view, vmin=low, vmax=0.1), f.rgba("ux", view=view, clim=(low, 0.1)))
+    assert not np.array_equal(f.draw.image("ux", view=view), f.draw.image("ux", view=view, vmin=0.0))
+    assert np.array_equal(f.draw.image("ux", view=view, vmin=low, vmax=0.1), f.draw.image("ux", view=view, clim=(low, 0.1)))
     made = styles.request(f, "ux", {"vmin": 0.0}, ((0.0, 0.0), 4.0))
     assert made["colors"]["range"].startswith("0.0,")
     assert float(made["colors"]["range"].split(",")[1]) == pytest.approx(high, rel=1e-2)
     for options in ({"vmin": 0, "clim": (0, 1)}, {"vmax": 0, "clim": "full"}):
         with pytest.raises(TypeError, match="not both"):
-            f.figure("ux", **options)
+            f.draw.figure("ux", **options)
     with pytest.raises(ValueError, match="give both vmin and vmax"):
-        f.animate("ux", vmin=0)
+        f.draw.animate("ux", vmin=0)
 
 
 def test_a_width_on_paper_has_the_height_of_the_picture(f):
     """A plate of 2 by 4 in a column of a journal, and what is beside it."""
     plt = pytest.importorskip("matplotlib.pyplot")
-    image = plt.imread(io.BytesIO(f.figure("ux", inches=3.4, dpi=100, cmap="magma").png()))
+    image = plt.imread(io.BytesIO(f.draw.figure("ux", inches=3.4, dpi=100, cmap="magma").png()))
     dark = np.abs(image[..., :3] - image[..., :1]).max(axis=-1) > 0.1
     rows, columns = (np.flatnonzero(dark.mean(axis=axis) > 0.3) for axis in (1, 0))
     assert image.shape[1] == 340 and len(columns) >= 0.6 * 340 and len(rows) >= 1.9 * len(columns)
-    beside = f.figure("ux", inches=3.4, dpi=100, colorbar="right")
+    beside = f.draw.figure("ux", inches=3.4, dpi=100, colorbar="right")
     assert "340 pixels wide" in repr(beside) and plt.imread(io.BytesIO(beside.png())).shape[0] < image.shape[0]
 
 
 def test_a_view_is_taken_by_all_that_draw(f):
     pytest.importorskip("anywidget")
     view = ppum.View((0.1, 0.2), 0.5, (80, 60))
-    assert f.figure("ux", view=view).png() == f.figure("ux", center=(0.1, 0.2), width=0.5).png()
+    assert f.draw.figure("ux", view=view).png() == f.draw.figure("ux", center=(0.1, 0.2), width=0.5).png()
     assert f.view("ux", view=view).view.width == 0.5 and f.view("ux", view=view).center == (0.1, 0.2)
-    assert np.array_equal(f.render("ux", view=view), f.render("ux", center=(0.1, 0.2), width=0.5, size=(80, 60)), equal_nan=True)
-    assert f.render("ux", view=view, size=(20, 10)).shape == (10, 20)
+    assert np.array_equal(f.draw.render("ux", view=view), f.draw.render("ux", center=(0.1, 0.2), width=0.5, size=(80, 60)), equal_nan=True)
+    assert f.draw.render("ux", view=view, size=(20, 10)).shape == (10, 20)
     with pytest.raises(TypeError, match="leave out width"):
-        f.render("ux", view=view, width=1.0)
+        f.draw.render("ux", view=view, width=1.0)
 
 
 KEYS = {
@@ -268,7 +269,7 @@ def test_figures_have_all_options_of_requests(f):
     given |= dict(precision="f64", dpi=100, font_size=9, colorbar="right", labels={"title": "t"})
     panels, alone = dict(parts=["all", "jump"], layout=(2, 1), size=(900, 600)), dict(deformed=2.0, inches=4)
     made = [{**given, **panels, "center": (0, 0), "width": 1.0}, {**given, **alone, "tip": 0, "zoom": 4.0}]
-    asked = set().union(*(paths(json.loads(f.figure("ux", **options)._made_of[1])) for options in made))
+    asked = set().union(*(paths(json.loads(f.draw.figure("ux", **options)._made_of[1])) for options in made))
     every = paths(json.loads(_core.default_request()))
     elsewhere = {path for path in every if path.startswith("subject.")} | {"place.view", "backend", "look.cm"}
     assert every - asked == elsewhere
@@ -282,7 +283,7 @@ def test_overlays_are_those_of_the_libraries(f):
         _core.rgba(f._core, json.dumps(scene), ((0.0, 0.0), 1.0), (2, 2))
     assert set(re.findall(r"`(\w+)`", str(info.value))) - {"clouds"} == set(get_args(styles.Overlay))
     for norm in get_args(styles.Norm):
-        f.figure("von_mises", norm=norm)
+        f.draw.figure("von_mises", norm=norm)
 
 
 RIGHT = """
@@ -300,20 +301,20 @@ plate = (
 )
 ds: ppum.Dataset = ppum.open("plate.h5")
 f = ds.field
-f.figure("ux", tip=0, zoom=10, norm="log", vmin=0, overlays=["cracks"], colorbar="right").save("a.png")
-f.plot("ux", vmin=0, vmax=1, cmap="batlow")
+f.draw.figure("ux", tip=0, zoom=10, norm="log", vmin=0, overlays=["cracks"], colorbar="right").save("a.png")
+f.draw.plot("ux", vmin=0, vmax=1, cmap="batlow")
 ds.view("ux", clim=(0, 1), cmap="magma")
 k1: float = f.intensities(0).k1
-tips: ppum.Table[ppum.Tip] = f.intensities()
+tips: ppum.results.Table[ppum.Tip] = f.intensities()
 """
 
 WRONG = {
-    'f.figure("ux", centre=(0, 0))': "call-arg",
-    'f.figure("ux", norm="Log")': "arg-type",
-    'f.figure("ux", overlays=["cell"])': "list-item",
-    'f.plot("ux", colormap="magma")': "call-arg",
+    'f.draw.figure("ux", centre=(0, 0))': "call-arg",
+    'f.draw.figure("ux", norm="Log")': "arg-type",
+    'f.draw.figure("ux", overlays=["cell"])': "list-item",
+    'f.draw.plot("ux", colormap="magma")': "call-arg",
     'ds.view("ux", range=(0, 1))': "call-arg",
-    'f.render("ux", zom=3)': "call-arg",
+    'f.draw.render("ux", zom=3)': "call-arg",
     'plate.boundary("top", tracton=(0, 1))': "call-arg",
     "plate.hole(centre=(0, 0))": "call-arg",
     "plate.discretization(order=2.5)": "arg-type",
@@ -342,20 +343,20 @@ def test_mypy_finds_wrong_options(tmp_path):
 @pytest.mark.parametrize("inches", [0, -1, float("nan"), float("inf"), (3, 0), (1, 2, 3), ()])
 def test_sizes_on_paper_are_checked_at_the_call(f, inches):
     with pytest.raises(ValueError, match="inches: .* give a width"):
-        f.figure("ux", inches=inches)
+        f.draw.figure("ux", inches=inches)
 
 
 def test_what_figures_cannot_be_is_said_at_the_call(f):
     with pytest.raises(TypeError, match="not both"):
-        f.figure("ux", inches=2.2, size=(300, 300))
+        f.draw.figure("ux", inches=2.2, size=(300, 300))
     with pytest.raises(ValueError, match="give one at least"):
-        f.figure([])
+        f.draw.figure([])
 
 
 def test_panels_are_as_high_as_they_need(f):
     """Two plates twice as high as wide beside each other: no more above and below than labels need."""
     plt = pytest.importorskip("matplotlib.pyplot")
-    image = plt.imread(io.BytesIO(f.figure(["ux", "uy"], inches=7, layout=(2, 1), dpi=100).png()))
+    image = plt.imread(io.BytesIO(f.draw.figure(["ux", "uy"], inches=7, layout=(2, 1), dpi=100).png()))
     high, wide = image.shape[:2]
     drawn = np.flatnonzero((image[:, :, :3] < 0.9).any(axis=(1, 2)))
     assert wide == 700 and drawn[0] < 0.1 * high and drawn[-1] > 0.9 * high

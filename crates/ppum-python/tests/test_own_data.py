@@ -9,10 +9,11 @@ import numpy as np
 import ppum
 import pytest
 from ppum._blocks import exponents
+from ppum._options import defaults
 from ppum._shapes import TRIANGLE, vandermonde
-from ppum.meshes._elements import Group, Labels, compared, smooth
+from ppum.meshes._elements import FieldOptions, Group, compared, smooth
 
-COVER = ppum.Cover.uniform([(0, 0), (2, 1)], (8, 4))
+COVER = ppum.build.Cover.uniform([(0, 0), (2, 1)], (8, 4))
 ONE = np.ones((32, 1))
 TIP = np.array([1.0, 0.5])
 NEAR = [k for k in range(32) if np.abs(COVER.center[k] - TIP).max() < 0.3]
@@ -22,8 +23,8 @@ CORNER = "sqrt(r)*sin(theta/2)"
 def state(name="u", blocks=None, cover=COVER, **more):
     components = more.pop("components", None)
     verify = more.pop("verify", None)
-    field = ppum.Coefficients(name, {"one": ONE} if blocks is None else blocks, components=components, verify=verify)
-    return ppum.State(cover, field, **more)
+    field = ppum.build.Coefficients(name, {"one": ONE} if blocks is None else blocks, components=components, verify=verify)
+    return ppum.build.State(cover, field, **more)
 
 
 def enriched(x, y):
@@ -42,29 +43,29 @@ def with_corner(f, verify=enriched, **more):
 
 
 def test_hints_name_functions_and_patches():
-    ppum.build(with_corner(ppum.Formula(CORNER, origin=TIP)))
+    ppum.build.dataset(with_corner(ppum.build.Formula(CORNER, origin=TIP)))
     for wrong in (
-        ppum.Formula(CORNER, origin=TIP, angle=0.5),
-        ppum.Formula("2*" + CORNER, origin=TIP),
-        ppum.Formula(CORNER.replace("theta/2", "(theta + pi)/2"), origin=TIP),
-        ppum.Formula(CORNER, origin=TIP + 0.01),
+        ppum.build.Formula(CORNER, origin=TIP, angle=0.5),
+        ppum.build.Formula("2*" + CORNER, origin=TIP),
+        ppum.build.Formula(CORNER.replace("theta/2", "(theta + pi)/2"), origin=TIP),
+        ppum.build.Formula(CORNER, origin=TIP + 0.01),
     ):
         with pytest.raises(ppum.BuildError) as error:
-            ppum.build(with_corner(wrong))
+            ppum.build.dataset(with_corner(wrong))
         said = str(error.value)
         assert "on patches with 'corner'" in said and "radians" in said and "order of the coeff" not in said
         named = re.search(r"such as ([\d, ]+)", said)[1].strip(", ").split(", ")
         assert set(map(int, named)) <= set(NEAR)
     with pytest.raises(ppum.BuildError, match=r"angle: 45 is more than a turn; angles are in radians"):
-        ppum.build(with_corner(ppum.Formula(CORNER, origin=TIP, angle=45)))
+        ppum.build.dataset(with_corner(ppum.build.Formula(CORNER, origin=TIP, angle=45)))
     # a Heaviside function, taken for a jump
     blocks, crack = {"one": ONE, "across": {k: [0.5] for k in NEAR}}, [[(0, 0.5), (2, 0.5)]]
-    jump = state(blocks=blocks, functions={"across": ppum.Jump(0)}, cracks=crack, verify=lambda x, y: 1 + 0 * x)
+    jump = state(blocks=blocks, functions={"across": ppum.build.Jump(0)}, cracks=crack, verify=lambda x, y: 1 + 0 * x)
     with pytest.raises(ppum.BuildError, match=r"on patches with 'across', .* look at the direction of its crack.*\(1 \+ jump\)/2$"):
-        ppum.build(jump)
+        ppum.build.dataset(jump)
     # everywhere wrong: the polynomials are, and the function may be
     with pytest.raises(ppum.BuildError, match=r"Look at the order of the coefficients.*; and of 'corner' at"):
-        ppum.build(with_corner(ppum.Formula(CORNER, origin=TIP), lambda x, y: enriched(x, y) + x))
+        ppum.build.dataset(with_corner(ppum.build.Formula(CORNER, origin=TIP), lambda x, y: enriched(x, y) + x))
 
 
 def test_ends_of_cracks_have_one_vocabulary():
@@ -73,51 +74,51 @@ def test_ends_of_cracks_have_one_vocabulary():
     crack, built = [[(0.6, 0.5), TIP]], {}
     assert [tip.end for tip in solved.tips] == ["start", "end"]
     for end in ["last", *(tip.end for tip in solved.tips)]:
-        functions = ppum.tip_functions(0, end)
+        functions = ppum.build.tip_functions(0, end)
         blocks = {"one": ONE} | {name: {k: [1.0] for k in NEAR} for name in functions}
-        built[end] = ppum.build(state(blocks=blocks, functions=functions, cracks=crack))
+        built[end] = ppum.build.dataset(state(blocks=blocks, functions=functions, cracks=crack))
     assert built["last"] == built["end"] != built["start"]
-    assert ppum.arrays(with_corner(ppum.Formula(CORNER, tip=(0, "end")), cracks=crack))["steps/0000/functions/frame_end"][1] == "last"
+    assert ppum.build.arrays(with_corner(ppum.build.Formula(CORNER, tip=(0, "end")), cracks=crack))["steps/0000/functions/frame_end"][1] == "last"
 
 
 @pytest.mark.parametrize("name", ["order", "level", "blocks", "functions", "element", "u", "du_dx", "magnitude", "x", "pi"])
 def test_attributes_have_names_of_their_own(name):
     with pytest.raises(ppum.BuildError, match=re.escape(f"attributes['{name}']: is the name of a quantity") + ".*give another"):
-        ppum.build(state(attributes={name: np.arange(32.0)}))
-    ds = ppum.build(state(attributes={f"my {name}": np.arange(32.0)}))
-    assert ds.field.render(f"my {name}", size=(8, 4))[::-1].ravel().tolist() == list(range(32))
+        ppum.build.dataset(state(attributes={name: np.arange(32.0)}))
+    ds = ppum.build.dataset(state(attributes={f"my {name}": np.arange(32.0)}))
+    assert ds.field.draw.render(f"my {name}", size=(8, 4))[::-1].ravel().tolist() == list(range(32))
 
 
 def test_attributes_of_equations():
-    displacement = ppum.State(COVER, ppum.Coefficients("displacement", {"one": np.zeros((32, 1, 2))}), attributes={"von-mises": np.ones(32)})
+    displacement = ppum.build.State(COVER, ppum.build.Coefficients("displacement", {"one": np.zeros((32, 1, 2))}), attributes={"von-mises": np.ones(32)})
     with pytest.raises(ppum.BuildError, match=r"attributes\['von-mises'\]: is the name"):
-        ppum.build(displacement, equation=ppum.Elastic(1.0, 0.3))
+        ppum.build.dataset(displacement, equation=ppum.Elastic(1.0, 0.3))
 
 
 @pytest.mark.parametrize("names", [("v x", "1v"), ("sin", "exp"), ("x", "y"), ("vx-1", "vx"), ("let", "u"), ("pi", "u"), ("", "u"), ("u;v", "u")])
 def test_components_have_names_of_formulas(names):
     blocks = {"one": np.ones((32, 1, 2))}
     with pytest.raises(ppum.BuildError, match=r"^fields\['u'\]\.components\[0\]: .*give another one, of letters, digits"):
-        ppum.build(state(blocks=blocks, components=names))
-    assert ppum.build(state("v-1 x", blocks=blocks)).field.components == ("v_1_x0", "v_1_x1")
+        ppum.build.dataset(state(blocks=blocks, components=names))
+    assert ppum.build.dataset(state("v-1 x", blocks=blocks)).field.components == ("v_1_x0", "v_1_x1")
     with pytest.raises(ppum.BuildError, match=r"'sxx' has a meaning in formulas already"):
-        field = ppum.Coefficients("displacement", blocks, components=["u", "sxx"])
-        ppum.build(ppum.State(COVER, field), equation=ppum.Elastic(1.0, 0.3))
+        field = ppum.build.Coefficients("displacement", blocks, components=["u", "sxx"])
+        ppum.build.dataset(ppum.build.State(COVER, field), equation=ppum.Elastic(1.0, 0.3))
 
 
 def test_what_lies_outside_or_is_there_twice():
     for outside in ([(3, 0.5), (4, 0.5)], [(-1, -1), (-0.5, 2)], [(0, 2), (1, 3), (2, 2)]):
         with pytest.raises(ppum.BuildError, match=r"cracks\[0\]: lies outside of the domain, \(0, 0\) to \(2, 1\)"):
-            ppum.build(state(cracks=[outside]))
-    ppum.build(state(cracks=[[(-1, 0.5), (3, 0.5)]]))
+            ppum.build.dataset(state(cracks=[outside]))
+    ppum.build.dataset(state(cracks=[[(-1, 0.5), (3, 0.5)]]))
     again = [*range(32), 5]
     with pytest.warns(UserWarning, match=r"center\[32\]: the support is that of patch 5 again"):
-        ppum.Cover(COVER.domain, COVER.center[again], COVER.half[again])
+        ppum.build.Cover(COVER.domain, COVER.center[again], COVER.half[again])
     corners = np.array([[(0, 0), (1, 0), (0, 1)], [(1, 0), (1, 1), (0, 1)]])
     with pytest.raises(ppum.BuildError, match=r"map\[2\]: the element is that of patch 1; leave one out"):
-        ppum.Mesh.from_nodes(corners[[0, 1, 1]])
+        ppum.build.Mesh.from_nodes(corners[[0, 1, 1]])
     halves = {0: [("phi", 1)], 1: [("phi", -1)]}
-    assert len(ppum.Mesh.from_nodes(corners[[0, 0]], element=[0, 0], clips=halves)) == 2
+    assert len(ppum.build.Mesh.from_nodes(corners[[0, 0]], element=[0, 0], clips=halves)) == 2
 
 
 def test_series_name_the_state():
@@ -125,35 +126,35 @@ def test_series_name_the_state():
     bad = state(blocks={"one": ONE, "f": ONE}, functions=functions)
     for states, prefix in (([good, bad], r"states\[1\]\."), (bad, "")):
         with pytest.raises(ppum.BuildError, match=rf"^{prefix}functions\['f'\]\.text: line 1"):
-            ppum.build(states)
+            ppum.build.dataset(states)
     ragged = state(blocks={"one": np.ones((32, 2))})
     wrong = state(verify=lambda x, y: 2 + 0 * x)
     for one, place in ((ragged, "blocks"), (wrong, "verify")):
         with pytest.raises(ppum.BuildError, match=rf"^states\[1\]\.fields\['u'\]\.{place}"):
-            ppum.build([good, one])
+            ppum.build.dataset([good, one])
 
 
 #: Mistakes that only the compiled part finds, and their places.
 COMPILED = {
-    "equation.poisson: ": lambda: ppum.build(
+    "equation.poisson: ": lambda: ppum.build.dataset(
         state("displacement", {"one": np.zeros((32, 1, 2))}), equation=ppum.Elastic(1.0, 0.7)
     ),
-    "equation.young: ": lambda: ppum.build(
+    "equation.young: ": lambda: ppum.build.dataset(
         state("displacement", {"one": np.zeros((32, 1, 2))}), equation=ppum.Elastic("1 + q", 0.3)
     ),
-    "quantities['q']: ": lambda: ppum.build(state(), quantities={"q": "v + 1"}),
-    "functions['f'].text: ": lambda: ppum.build(with_corner("1") and state(functions={"f": "r^"})),
-    "functions['g'].cuts[1][2]: ": lambda: ppum.build(
+    "quantities['q']: ": lambda: ppum.build.dataset(state(), quantities={"q": "v + 1"}),
+    "functions['f'].text: ": lambda: ppum.build.dataset(with_corner("1") and state(functions={"f": "r^"})),
+    "functions['g'].cuts[1][2]: ": lambda: ppum.build.dataset(
         state(
-            functions={"f": ppum.Component([(0, 0, -1, -2)]), "g": ppum.Component([(0, 0, 1, -2), (0, 0, 9, -1)])},
+            functions={"f": ppum.build.Component([(0, 0, -1, -2)]), "g": ppum.build.Component([(0, 0, 1, -2), (0, 0, 9, -1)])},
             cracks=[[(0, 0.5), (1, 0.5)]],
         )
     ),
-    "cover.weight: ": lambda: ppum.build(
-        state(cover=ppum.Cover(COVER.domain, COVER.center, COVER.half, "1 - t/2"))
+    "cover.weight: ": lambda: ppum.build.dataset(
+        state(cover=ppum.build.Cover(COVER.domain, COVER.center, COVER.half, "1 - t/2"))
     ),
-    "fields['u'].exact[0]: ": lambda: ppum.build(ppum.State(COVER, ppum.Coefficients("u", {"one": ONE}, exact=["q"]))),
-    "holes[1].radius: ": lambda: ppum.build(state(), holes=[ppum.Hole((1, 0.5), 0.1), ppum.Hole((1, 0.2), -0.1)]),
+    "fields['u'].exact[0]: ": lambda: ppum.build.dataset(ppum.build.State(COVER, ppum.build.Coefficients("u", {"one": ONE}, exact=["q"]))),
+    "holes[1].radius: ": lambda: ppum.build.dataset(state(), holes=[ppum.Hole((1, 0.5), 0.1), ppum.Hole((1, 0.2), -0.1)]),
 }
 
 
@@ -166,14 +167,14 @@ def test_places_are_arguments(place):
 
 def test_python_in_formulas():
     with pytest.raises(ppum.BuildError, match=r"`np.sqrt`: names have no module before them; write `sqrt`"):
-        ppum.build(with_corner(ppum.Formula("np.sqrt(r)", origin=TIP)))
+        ppum.build.dataset(with_corner(ppum.build.Formula("np.sqrt(r)", origin=TIP)))
 
 
 def test_files_without_cells(tmp_path):
     """Both arrays of cells may be taken out of a file; of one alone the error says that the other goes too."""
     h5py = pytest.importorskip("h5py")
     for gone in (("cell", "level"), ("cell",), ("level",)):
-        ppum.build(state()).save(tmp_path / "own.h5")
+        ppum.build.dataset(state()).save(tmp_path / "own.h5")
         with h5py.File(tmp_path / "own.h5", "r+") as file:
             for name in gone:
                 del file[f"steps/0000/partition/{name}"]
@@ -188,20 +189,20 @@ def test_files_without_cells(tmp_path):
 
 
 def test_options_that_are_no_switches():
-    field = ppum.build(state()).field
+    field = ppum.build.dataset(state()).field
     for name in ("arrows", "isolines", "deformed", "crosses", "bands"):
         with pytest.raises(TypeError, match=rf"^{name}: .*number.* is needed, not True"):
-            field.figure("u", **{name: True})
+            field.draw.figure("u", **{name: True})
     plt = pytest.importorskip("matplotlib.pyplot")
-    with pytest.raises(TypeError, match="^cmap: a name such as 'viridis'.*`Field.plot`"):
-        field.figure("u", cmap=plt.get_cmap("RdBu"))
+    with pytest.raises(TypeError, match="^cmap: a name such as 'viridis'.*`field.draw.plot`"):
+        field.draw.figure("u", cmap=plt.get_cmap("RdBu"))
     with pytest.raises(TypeError, match=r"`ppum.open` opens files"):
         ppum.Dataset("plate.h5")
 
 
 def test_complex_numbers_have_no_meaning_elsewhere():
     """In problems, points, views and curves."""
-    empty, field = ppum.Problem(((0, 0), (2, 1)), ppum.Elastic(1.0, 0.3)), ppum.build(state()).field
+    empty, field = ppum.Problem(((0, 0), (2, 1)), ppum.Elastic(1.0, 0.3)), ppum.build.dataset(state()).field
     points = np.array([(0.5, 0.5), (1.0, 0.5)])
     masked = np.ma.array(points, mask=[(0, 0), (1, 0)])
     for use, said in (
@@ -210,10 +211,10 @@ def test_complex_numbers_have_no_meaning_elsewhere():
         (lambda: empty.hole(center=(1j, 0.5), radius=0.1), r"^hole\[0\].center\[0\]: is complex"),
         (lambda: empty.boundary("top", traction=(0, 1j)), r"^boundary\[0\].traction\[1\]: is complex"),
         (lambda: ppum.Problem(((0, 0), (2, 1)), ppum.Elastic(1j, 0.3)), r"^material.young: is complex"),
-        (lambda: field.circle((0.5, 0.5), 1j), r"^curve.circle.radius: is complex"),
-        (lambda: field.render("u", view=ppum.View((1j, 0), 1)), "real numbers, not complex128"),
+        (lambda: field.sample.circle((0.5, 0.5), 1j), r"^curve.circle.radius: is complex"),
+        (lambda: field.draw.render("u", view=ppum.View((1j, 0), 1)), "real numbers, not complex128"),
         (lambda: field.at([1j], 0.5).u, "real numbers, not complex128"),
-        (lambda: field.grid(x=[1j], y=[0.5]), "real numbers, not complex128"),
+        (lambda: field.sample.grid(x=[1j], y=[0.5]), "real numbers, not complex128"),
     ):
         with pytest.raises(TypeError, match=said):
             use()
@@ -238,7 +239,7 @@ def test_importers_take_little_time():
     """All that importers share, of 100,000 curved triangles: at most 3 s of the processor, as 32 in a loop's time."""
     sample = triangles(224, lambda p: p[..., :1] * p[..., 1:])
     start = time.process_time()
-    ppum.build(smooth(sample, Labels("u"), 2, 2, compared(sample, 1000)))
+    ppum.build.dataset(smooth(sample, defaults(FieldOptions), 2, 2, compared(sample, 1000)))
     taken = time.process_time() - start
     print(f"{taken:.2f} s")
     assert taken <= 3
@@ -247,7 +248,7 @@ def test_importers_take_little_time():
 def test_hints_of_importers():
     sample = triangles(6, lambda p: np.sin(9 * p[..., :1]))
     with pytest.raises(ppum.BuildError, match="not a polynomial of this degree on elements; interpolate it into L2"):
-        ppum.build(smooth(sample, Labels("u"), 3, 2, compared(sample, 100)))
+        ppum.build.dataset(smooth(sample, defaults(FieldOptions), 3, 2, compared(sample, 100)))
 
 
 def grid(**data):
@@ -263,7 +264,7 @@ def test_vectors_of_vtk_have_three_components(tmp_path):
     mesh = grid(U=plane, W=lambda p: plane(p) + [0, 0, 1.0], S=lambda p: p[:, :1] * np.arange(9.0))
     material = {"name": "displacement", "equation": ppum.Elastic(1.0, 0.3)}
     mesh.write(tmp_path / "u.vtu")
-    for call, of in ((ppum.from_meshio, mesh), (ppum.from_vtu, tmp_path / "u.vtu")):
+    for call, of in ((ppum.meshes.from_meshio, mesh), (ppum.meshes.from_vtu, tmp_path / "u.vtu")):
         assert float(call(of, "U", **material).field.at(0.3, 0.4).exx) == pytest.approx(1, abs=1e-12)
         assert call(of, "W").field.components == ("W0", "W1", "W2")
         assert call(of, "U", components=["a", "b", "c"]).field.components == ("a", "b", "c")
@@ -279,12 +280,12 @@ def test_wrong_meshes_of_meshio(tmp_path):
     meshio = pytest.importorskip("meshio")
     good = grid(U=lambda p: p)
     with pytest.raises(ppum.BuildError, match="mesh: is str; give a meshio.Mesh, as by meshio.read"):
-        ppum.from_meshio("u.vtu")
+        ppum.meshes.from_meshio("u.vtu")
     far = meshio.Mesh(good.points, [("quad", good.cells[0].data + 1)], good.point_data)
     with pytest.raises(ppum.BuildError, match=r"cells\[3\]: has the nodes \[5, 6, 9, 8\], but there are 9 points"):
-        ppum.from_meshio(far)
+        ppum.meshes.from_meshio(far)
     with pytest.raises(ppum.BuildError, match="data 'U': is complex"):
-        ppum.from_meshio(meshio.Mesh(good.points, good.cells, {"U": good.points * 1j}))
+        ppum.meshes.from_meshio(meshio.Mesh(good.points, good.cells, {"U": good.points * 1j}))
 
 
 def test_wrong_files_of_vtk(tmp_path, capfd):
@@ -292,7 +293,7 @@ def test_wrong_files_of_vtk(tmp_path, capfd):
     for name, said in (("a.vtp", "ends in neither .vtu nor .vtkhdf"), ("a.vtu", "holds no unstructured grid")):
         (tmp_path / name).write_text("<VTKFile>")
         with pytest.raises(ppum.BuildError, match=said):
-            ppum.from_vtu(tmp_path / name)
+            ppum.meshes.from_vtu(tmp_path / name)
     assert capfd.readouterr().err == ""
 
 
@@ -301,12 +302,12 @@ def test_degrees_of_freedom_of_another_basis():
     mesh = skfem.MeshTri().refined(2)
     basis, other = skfem.Basis(mesh, skfem.ElementTriP2()), skfem.Basis(mesh, skfem.ElementTriP1())
     u = basis.project(lambda x: x[0])
-    ppum.from_skfem(basis, u)
+    ppum.meshes.from_skfem(basis, u)
     for wrong in (other.project(lambda x: x[0]), np.append(u, 0.0)):
         with pytest.raises(ppum.BuildError, match=r"u: has the shape \(\d+,\), but the basis has 81 degrees of freedom"):
-            ppum.from_skfem(basis, wrong)
+            ppum.meshes.from_skfem(basis, wrong)
     with pytest.raises(ppum.BuildError, match="u: is complex"):
-        ppum.from_skfem(basis, u + 1j)
+        ppum.meshes.from_skfem(basis, u + 1j)
 
 
 def test_compound_fields_of_ngsolve():
@@ -316,10 +317,10 @@ def test_compound_fields_of_ngsolve():
     mesh = MakeStructured2DMesh(quads=False, nx=2, ny=2)
     both = ngs.GridFunction(ngs.H1(mesh, order=2) * ngs.L2(mesh, order=1))
     with pytest.raises(ppum.BuildError, match=r"gf: is compound; give one of its parts, such as gf.components\[0\]"):
-        ppum.from_ngsolve(both)
-    ppum.from_ngsolve(ngs.GridFunction(ngs.VectorH1(mesh, order=2)))
+        ppum.meshes.from_ngsolve(both)
+    ppum.meshes.from_ngsolve(ngs.GridFunction(ngs.VectorH1(mesh, order=2)))
     with pytest.raises(ppum.BuildError, match="not a polynomial of this degree"):
-        ppum.from_ngsolve(ngs.sin(3 * ngs.x), order=4, mesh=mesh)
+        ppum.meshes.from_ngsolve(ngs.sin(3 * ngs.x), order=4, mesh=mesh)
 
 
 def test_fields_of_mfem_by_their_degrees_of_freedom():
@@ -335,11 +336,11 @@ def test_fields_of_mfem_by_their_degrees_of_freedom():
         space = mfem.FiniteElementSpace(mesh, collection, count, order)
         gf = mfem.GridFunction(space)
         gf.Assign(rng.normal(size=gf.Size()))
-        assert len(ppum.from_mfem(gf).field.components) == count
+        assert len(ppum.meshes.from_mfem(gf).field.components) == count
 
 
 def test_nothing_is_warned_of_without_reason():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        ds = ppum.build(state(load=k, verify=lambda x, y: 1 + 0 * x) for k in (1.0, 2.0))
+        ds = ppum.build.dataset(state(load=k, verify=lambda x, y: 1 + 0 * x) for k in (1.0, 2.0))
     assert len(ds.steps) == 2 and all("verified u" in step.history for step in ds.steps)

@@ -26,7 +26,7 @@ def centers(view):
 def test_pixels_are_values(f, name):
     for seen in ({}, {"tip": 1, "zoom": 50}, {"center": (0.1, 0.2), "width": 0.7}):
         view = f.view_at(size=(61, 47), **seen)
-        found = f.render(name, view=view)
+        found = f.draw.render(name, view=view)
         expected = f.at(*centers(view))[name]
         assert found.shape == (47, 61) and found.dtype == np.float64
         assert np.array_equal(np.isnan(found), np.isnan(expected))
@@ -34,20 +34,20 @@ def test_pixels_are_values(f, name):
         # on the crack a picture takes the side that rounding finds
         off = np.ptp(f.at(*centers(view), side="both")[name], axis=-1) == 0
         assert off[np.isfinite(found)].mean() > 0.8 and np.abs(found - expected)[off].max() < 1e-11 * size
-        single = f.render(name, view=view, dtype=np.float32)
+        single = f.draw.render(name, view=view, dtype=np.float32)
         assert single.dtype == np.float32
         # pixels beside a crack may be on its other side in single precision
         assert np.nanquantile(np.abs(single - expected), 0.99) < 1e-4 * size
 
 
 def test_values_of_cells(f):
-    level = f.render("level", size=(40, 80))
+    level = f.draw.render("level", size=(40, 80))
     assert set(np.unique(level[np.isfinite(level)])) <= set(range(20))
 
 
 def test_pictures_are_those_of_the_program(ds, f, program, tmp_path):
     ds.save(tmp_path / "plate.h5")
-    figure = f.figure("von_mises", size=(640, 480))
+    figure = f.draw.figure("von_mises", size=(640, 480))
     figure.save(tmp_path / "python.png")
     program("render", tmp_path / "plate.h5", "-o", tmp_path / "program.png", "--figure", "-q", "von-mises", "--size", "640x480")
     ours, theirs = (matplotlib.image.imread(tmp_path / f"{name}.png") for name in ("python", "program"))
@@ -59,7 +59,7 @@ def test_what_is_said_of_a_figure_is_what_the_program_says(ds, f, program, tmp_p
     ds.save(tmp_path / "plate.h5")
     options = ["--figure", "-q", "sqrt(x)", "--size", "500x400", "--samples", "2", "--isolines", "1e9,", "--labels", "title=\u2603"]
     program("render", tmp_path / "plate.h5", "-o", tmp_path / "theirs.png", *options)
-    figure = f.figure("sqrt(x)", size=(500, 400), samples=2, isolines=[1e9], labels={"title": "\u2603"})
+    figure = f.draw.figure("sqrt(x)", size=(500, 400), samples=2, isolines=[1e9], labels={"title": "\u2603"})
     with pytest.warns(UserWarning) as caught:
         figure.save(tmp_path / "ours.png")
     ours, theirs = (matplotlib.image.imread(tmp_path / f"{name}.png") for name in ("ours", "theirs"))
@@ -84,7 +84,7 @@ def test_what_is_said_of_a_figure_is_what_the_program_says(ds, f, program, tmp_p
 def test_panels_marks_and_places_are_those_of_the_program(ds, f, program, tmp_path, options, wanted):
     ds.save(tmp_path / "plate.h5")
     program("render", tmp_path / "plate.h5", "-o", tmp_path / "theirs.png", *options.split())
-    figure = f.figure(**wanted)
+    figure = f.draw.figure(**wanted)
     figure.save(tmp_path / "ours.png")
     ours, theirs = (matplotlib.image.imread(tmp_path / f"{name}.png") for name in ("ours", "theirs"))
     assert np.array_equal(ours, theirs)
@@ -105,29 +105,29 @@ def test_panels_that_there_are_not(f):
         ({"quantity": "ux", "ticks": {"x": 0}}, ValueError, "1 to 100"),
     ]:
         with pytest.raises(error, match=message):
-            f.figure(**wrong).png()
-    assert repr(f.figure(["ux", "uy"])) == "<ppum.Figure ux, uy, panels>"
-    assert repr(f.figure("ux", parts=["all", "tip"], size=(700, 500))) == "<ppum.Figure ux, all, tip, 700x500>"
+            f.draw.figure(**wrong).png()
+    assert repr(f.draw.figure(["ux", "uy"])) == "<ppum.Figure ux, uy, panels>"
+    assert repr(f.draw.figure("ux", parts=["all", "tip"], size=(700, 500))) == "<ppum.Figure ux, all, tip, 700x500>"
 
 
 def test_figures(f, tmp_path):
-    figure = f.figure("uy", cmap="coolwarm", isolines=7, overlays=["cells"], deformed="auto", outline=True, size=(400, 500))
+    figure = f.draw.figure("uy", cmap="coolwarm", isolines=7, overlays=["cells"], deformed="auto", outline=True, size=(400, 500))
     assert figure._repr_png_() == figure.png() and figure.png()[:4] == b"\x89PNG"
     assert figure.svg().startswith("<") and figure.pdf()[:5] == b"%PDF-"
     for end, start in (("png", b"\x89PNG"), ("svg", b"<"), ("pdf", b"%PDF")):
         figure.save(tmp_path / f"a.{end}")
         assert (tmp_path / f"a.{end}").read_bytes().startswith(start)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.pdf", "a.png", "a.svg"]
-    paper = f.figure("s1", inches=(3.4, 2.6), dpi=100, clim=("2%", "98%"), norm="symlog", theme="dark", colorbar="bottom")
+    paper = f.draw.figure("s1", inches=(3.4, 2.6), dpi=100, clim=("2%", "98%"), norm="symlog", theme="dark", colorbar="bottom")
     assert matplotlib.image.imread(io.BytesIO(paper.png())).shape[:2] == (260, 340)
-    deep = f.figure("von_mises", tip=1, zoom=1e12, norm="log", size=(400, 300))
+    deep = f.draw.figure("von_mises", tip=1, zoom=1e12, norm="log", size=(400, 300))
     assert len(deep.png()) > 1000
 
 
 def test_colours(f):
-    rgba = f.rgba("ux", size=(30, 20), cmap="viridis", clim="full")
+    rgba = f.draw.image("ux", size=(30, 20), cmap="viridis", clim="full")
     assert rgba.shape == (20, 30, 4) and rgba.dtype == np.uint8
-    values = f.render("ux", size=(30, 20))
+    values = f.draw.render("ux", size=(30, 20))
     assert np.array_equal(rgba[..., 3] == 0, np.isnan(values))
     inside = np.isfinite(values)
     order = np.argsort(values[inside])
@@ -138,13 +138,13 @@ def test_colours(f):
 
 
 def test_extrema(ds, f):
-    low, high = f.extrema("von_mises")
+    low, high = f.sample.extrema("von_mises")
     assert high.value == np.inf and high.on == "singular"
     assert min(np.hypot(*np.subtract(high.xy, tip.xy)) for tip in ds.tips) < 1e-12
-    assert 0 < low.value < np.nanmin(f.render("von_mises")) * 1.001
+    assert 0 < low.value < np.nanmin(f.draw.render("von_mises")) * 1.001
     view = f.view_at(center=(0.6, -0.9), width=0.3)
-    low, high = f.extrema("ux", view=view)
-    values = f.render("ux", view=view)
+    low, high = f.sample.extrema("ux", view=view)
+    values = f.draw.render("ux", view=view)
     assert low.value <= np.nanmin(values) + 1e-9 and high.value >= np.nanmax(values) - 1e-9
     assert f.at(*high.xy).ux == pytest.approx(high.value, rel=1e-6)
 
@@ -154,7 +154,7 @@ def drawn(f, name, dpi, limits=None, **options):
     figure = plt.figure(figsize=(1, 2), dpi=dpi)
     ax = figure.add_axes((0, 0, 1, 2 / 2))
     ax.set_axis_off()
-    artist = f.plot(name, ax=ax, colorbar=False, cracks=False, cmap="gray", clim="full", **options)
+    artist = f.draw.plot(name, ax=ax, colorbar=False, cracks=False, cmap="gray", clim="full", **options)
     ax.set_xlim(limits[0] if limits else (-1, 1))
     ax.set_ylim(limits[1] if limits else (-2, 2))
     file = io.BytesIO()
@@ -184,7 +184,7 @@ def test_matplotlib_around_a_tip(ds, f):
 
 def test_matplotlib_axes(f, tmp_path):
     figure, ax = plt.subplots()
-    artist = f.plot("von_mises", ax=ax, alpha=0.5)
+    artist = f.draw.plot("von_mises", ax=ax, alpha=0.5)
     assert ax.get_aspect() == 1.0 and ax.get_xlim()[0] <= -1 and ax.get_ylim()[1] >= 2
     assert len(figure.axes) == 2 and figure.axes[1].get_ylabel() == "von Mises stress"
     figure.savefig(tmp_path / "a.pdf")
@@ -201,7 +201,7 @@ def test_matplotlib_axes(f, tmp_path):
     figure.savefig(tmp_path / "d.png")
     plt.close(figure)
     with pytest.raises(ppum.QuantityError):
-        f.plot("nothing")
+        f.draw.plot("nothing")
     with pytest.raises(ValueError):
-        f.plot("ux", clim="most")
+        f.draw.plot("ux", clim="most")
     plt.close("all")

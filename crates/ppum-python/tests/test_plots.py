@@ -29,11 +29,11 @@ def test_points_are_values(ds, f):
         assert steps[0] < 0.1 * steps.max() and steps[-1] < 0.1 * steps.max()
     angles = ppum.plots.around(f, 1, 0.01, ["sxx", "syy"], num=73).curves
     assert [label for label, _ in angles] == ["sxx", "syy"]
-    assert np.allclose(angles[1][1][:, 1], f.around(1, 0.01, num=73, quantities=["syy"]).syy, rtol=1e-11)
+    assert np.allclose(angles[1][1][:, 1], f.sample.around(1, 0.01, num=73, quantities=["syy"]).syy, rtol=1e-11)
     # stresses fall with the root of the distance, as the legend tells
     ((label, points),) = ppum.plots.ray(f, 1, quantities=["syy"]).curves
     assert float(re.search(r"[−-]0\.\d+", label)[0].replace("−", "-")) == pytest.approx(-0.5, abs=2e-3), label
-    assert np.allclose(points[:, 1], f.ray(1, quantities=["syy"]).syy, rtol=1e-11)
+    assert np.allclose(points[:, 1], f.sample.ray(1, quantities=["syy"]).syy, rtol=1e-11)
 
 
 def test_curves_break_at_cracks(f):

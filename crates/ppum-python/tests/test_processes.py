@@ -34,7 +34,7 @@ def test_datasets_and_fields_can_be_pickled(ds, f, problem, tmp_path):
 def work(data):
     dataset = pickle.loads(data)
     values = dataset.field.evaluate(X, Y, ["uy", "s1"])
-    return values, dataset.field.render("ux", size=(64, 128)), ppum.solve(plate((6, 12))).tips[0].k1
+    return values, dataset.field.draw.render("ux", size=(64, 128)), ppum.solve(plate((6, 12))).tips[0].k1
 
 
 @pytest.mark.parametrize("method", ["fork", "spawn", "forkserver"])
@@ -143,7 +143,7 @@ try:
     elif what == "evaluate":
         ds.field.evaluate(*big, ["s1", "von_mises", "s1*s2^2 + exp(sxy)"])
     else:
-        ds.field.figure("von_mises", size=(12000, 12000)).png()
+        ds.field.draw.figure("von_mises", size=(12000, 12000)).png()
 except KeyboardInterrupt:
     print("interrupted", time.process_time() - interrupted_at[0], flush=True)
     # all goes on as before

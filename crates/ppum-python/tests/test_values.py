@@ -147,35 +147,35 @@ def test_replacements(ds, f, holed):
 
 
 def test_tables_of_curves(ds, f):
-    line = f.line((-0.9, 0.13), (0.8, 1.1), num=33, quantities=["uy", "sxx + syy"])
+    line = f.sample.line((-0.9, 0.13), (0.8, 1.1), num=33, quantities=["uy", "sxx + syy"])
     assert line.uy.dims == ("s",) and line.s.size == 33
     expected = f.at(line.x, line.y).uy
     assert np.abs(line.uy.values - expected).max() < 1e-13
     assert line["sxx + syy"].size == 33
-    through = f.line((0, -1), (0, 1), num=21, quantities=["uy"])
+    through = f.sample.line((0, -1), (0, 1), num=21, quantities=["uy"])
     assert through.s.size == 22 and set(through.side.values) == {-1.0, 0.0, 1.0}
-    faces = f.along(ds.cracks[0], num=11)
+    faces = f.sample.crack(ds.cracks[0], num=11)
     assert faces.opening.size == 11 and faces.opening[5] > 0.1
     assert np.allclose(faces.uy_above - faces.uy_below, faces.jump_uy)
-    assert f.around(0, num=9).sizes == {"theta": 9}
-    ray = f.ray(1, 0.0, num=13, quantities=["syy"])
+    assert f.sample.around(0, num=9).sizes == {"theta": 9}
+    ray = f.sample.ray(1, 0.0, num=13, quantities=["syy"])
     assert ray.r.size == 13 and ray.r[0] == pytest.approx(1e-6 * float(ray.r[-1]))
-    assert f.circle((0.0, 0.5), 0.2, num=8).ux.size == 8
+    assert f.sample.circle((0.0, 0.5), 0.2, num=8).ux.size == 8
     with pytest.raises(IndexError):
-        f.along(7)
+        f.sample.crack(7)
     with pytest.raises(IndexError):
-        f.around(9)
+        f.sample.around(9)
     assert line.to_pandas().shape[0] == 33
 
 
 def test_grids(f):
-    grid = f.grid(7, 5, quantities=["ux", "von-mises"])
+    grid = f.sample.grid(7, 5, quantities=["ux", "von-mises"])
     assert grid.ux.dims == ("y", "x") and (np.diff(grid.y) > 0).all()
     assert float(grid.ux.sel(x=1, y=-2)) == float(f.at(1.0, -2.0).ux)
     assert "von_mises" in grid and grid.von_mises.attrs["long_name"] == "von Mises stress"
-    given = f.grid(x=[0.0, 0.1], ny=3, side="both")
+    given = f.sample.grid(x=[0.0, 0.1], ny=3, side="both")
     assert given.uy.dims == ("y", "x", "side") and given.x.values.tolist() == [0.0, 0.1]
     assert float(given.uy.sel(x=0, y=0, side="above") - given.uy.sel(x=0, y=0, side="below")) > 0.1
     for wrong in ({"nx": 3}, {"nx": 3, "ny": 3, "x": [0.0]}, {"nx": 3, "y": [[0.0]]}):
         with pytest.raises(ValueError):
-            f.grid(**wrong)
+            f.sample.grid(**wrong)

@@ -62,8 +62,8 @@ def browser(view):
 def test_frames_are_pictures_of_the_field(view, browser, f):
     content, buffers = browser.ask()
     assert content["kind"] == "frame" and not view.error
-    assert same(buffers, f.rgba("von_mises", center=view.center, width=view.width, size=SIZE, overlays=["cracks"]))
-    cells = f.rgba("ux", center=(0.1, 0.2), width=0.3, size=(64, 48), norm="symlog", cmap="vik", clim=(-2, 3), overlays=["cracks"])
+    assert same(buffers, f.draw.image("von_mises", center=view.center, width=view.width, size=SIZE, overlays=["cracks"]))
+    cells = f.draw.image("ux", center=(0.1, 0.2), width=0.3, size=(64, 48), norm="symlog", cmap="vik", clim=(-2, 3), overlays=["cracks"])
     view.center, view.width, view.cmap = (0.1, 0.2), 0.3, "vik"
     content, buffers = browser.ask(size=(64, 48), set={"quantity": "ux", "norm": "symlog", "clim": [-2, 3]})
     assert same(buffers, cells) and content["state"]["quantity"] == "ux"
@@ -135,7 +135,7 @@ def test_colours_rest_while_views_move(view, browser, f):
     assert moving["bar"]["range"] == first
     at = dict(center=view.center, width=view.width, size=SIZE, overlays=["cracks"])
     rested, buffers = browser.ask()
-    assert rested["bar"]["range"] != first and same(buffers, f.rgba("von_mises", **at))
+    assert rested["bar"]["range"] != first and same(buffers, f.draw.image("von_mises", **at))
     other, _ = browser.ask(set={"quantity": "ux"}, moving=True)
     assert other["bar"]["range"] not in (first, rested["bar"]["range"])
 
@@ -256,7 +256,7 @@ def test_steps():
     browser = Browser(view)
     for step in range(len(grows.steps)):
         content, buffers = browser.ask(set={"step": step})
-        assert same(buffers, grows.steps[step].field.rgba("uy", center=view.center, width=view.width, size=SIZE, overlays=["cracks"]))
+        assert same(buffers, grows.steps[step].field.draw.image("uy", center=view.center, width=view.width, size=SIZE, overlays=["cracks"]))
     assert view._offers["steps"] == len(grows.steps) > 1
     part = grows.field.part("jump").view("uy")
     part.step = 0
@@ -300,7 +300,7 @@ def test_values_of_cells_are_told_too(holed):
     for pixel in ([columns / 2, SIZE[1] / 2], [10, 20]):
         text = browser.ask(probe=pixel)[0]["text"]
         at = [float(part.split(" = ")[1]) for part in text.split(": ")[0].split(", ")]
-        assert float(text.split(": ")[1]) == holed.field.render("level", center=at, width=1e-9, size=(1, 1))[0, 0]
+        assert float(text.split(": ")[1]) == holed.field.draw.render("level", center=at, width=1e-9, size=(1, 1))[0, 0]
 
 
 @pytest.mark.parametrize("factor", [-2.0, 0.0, 0.25, "auto"])
@@ -325,7 +325,7 @@ def test_a_deformed_view_tells_the_values_of_points_of_the_plate(f, factor):
 
 def told_factor(f):
     """What `auto` is, of a figure's title."""
-    title = re.search(r"deformed ×([0-9.e-]+)", f.figure("ux", deformed="auto").svg())
+    title = re.search(r"deformed ×([0-9.e-]+)", f.draw.figure("ux", deformed="auto").svg())
     return float(title[1])
 
 

@@ -8,7 +8,7 @@ import ppum
 import pytest
 
 PATCHES = 8
-COVER = ppum.Cover.uniform([(0, 0), (2, 1)], (4, 2))
+COVER = ppum.build.Cover.uniform([(0, 0), (2, 1)], (4, 2))
 ONE = np.ones((PATCHES, 1))
 BOXES = {"domain": [(0, 0), (2, 1)], "center": [(0.5, 0.5), (1.5, 0.5)], "half": [(0.7, 0.7), (0.7, 0.7)]}
 CELLS = [(0, 0, 1, 1), (1, 0, 2, 1)]
@@ -40,14 +40,14 @@ DEFAULT = {"none"}
 
 
 def field(block=ONE, name="u", **more):
-    return ppum.Coefficients(name, {"one": block}, **more)
+    return ppum.build.Coefficients(name, {"one": block}, **more)
 
 
 def build(fields=None, functions=None, cracks=(LINE,), attributes=None, cover=COVER, load=1.0, **more):
     blocks = {"one": ONE, "f": ONE} if functions else {"one": ONE}
-    fields = ppum.Coefficients("u", blocks) if fields is None else fields
-    state = ppum.State(cover, fields, cracks=cracks, functions=functions or {}, attributes=attributes or {}, load=load)
-    return ppum.build(state, **more)
+    fields = ppum.build.Coefficients("u", blocks) if fields is None else fields
+    state = ppum.build.State(cover, fields, cracks=cracks, functions=functions or {}, attributes=attributes or {}, load=load)
+    return ppum.build.dataset(state, **more)
 
 
 def elastic(**more):
@@ -57,7 +57,7 @@ def elastic(**more):
 
 
 def element(**more):
-    return ppum.Mesh(**{"shape": "triangle", "origin": [(0, 0)], "map": [np.eye(2)], **more})
+    return ppum.build.Mesh(**{"shape": "triangle", "origin": [(0, 0)], "map": [np.eye(2)], **more})
 
 
 def function(f):
@@ -65,14 +65,14 @@ def function(f):
 
 
 def covers(name, **more):
-    return lambda value: ppum.Cover(**BOXES | more | {name: value})
+    return lambda value: ppum.build.Cover(**BOXES | more | {name: value})
 
 
-ARRAYS = ppum.arrays(ppum.State(COVER, field()))
+ARRAYS = ppum.build.arrays(ppum.build.State(COVER, field()))
 #: By the place that messages name: a call with the argument, and the kinds of WRONG that it takes.
 ARGUMENTS = {
     "fields['u'].blocks['one']": (lambda v: build(field(v)), set()),
-    "fields['u'].blocks": (lambda v: build(ppum.Coefficients("u", v)), set()),
+    "fields['u'].blocks": (lambda v: build(ppum.build.Coefficients("u", v)), set()),
     "fields['u'].components": (lambda v: build(field(components=v)), DEFAULT),
     "fields['u'].components[0]": (lambda v: build(field(components=[v])), set()),
     "fields['u'].exact": (lambda v: build(field(exact=v)), set()),
@@ -87,24 +87,24 @@ ARGUMENTS = {
     "fields": (lambda v: build(fields=() if v is None else v), set()),
     "cover": (lambda v: build(cover=v), set()),
     "load": (lambda v: build(load=v), NUMBER),
-    "states": (ppum.build, set()),
+    "states": (ppum.build.dataset, set()),
     "cracks": (lambda v: build(cracks=v), set()),
     "cracks[0]": (lambda v: build(cracks=[v]), set()),
-    "attributes": (lambda v: ppum.build(ppum.State(COVER, field(), attributes=v)), set()),
+    "attributes": (lambda v: ppum.build.dataset(ppum.build.State(COVER, field(), attributes=v)), set()),
     "attributes['a']": (lambda v: build(attributes={"a": v}), set()),
-    "functions": (lambda v: ppum.build(ppum.State(COVER, field(), functions=v)), set()),
+    "functions": (lambda v: ppum.build.dataset(ppum.build.State(COVER, field(), functions=v)), set()),
     "functions['f']": (function, set()),
-    "functions['f'] ": (lambda v: function(ppum.Jump(v)), set()),
-    "functions['f'].text": (lambda v: function(ppum.Formula(v)), set()),
-    "functions['f'].cuts": (lambda v: function(ppum.Component(v)), set()),
-    "functions['f'].tip": (lambda v: function(ppum.Formula("r", tip=v)), DEFAULT),
-    "functions['f'].origin": (lambda v: function(ppum.Formula("r", origin=v)), DEFAULT),
-    "functions['f'].angle": (lambda v: function(ppum.Formula("r", angle=v)), NUMBER),
-    "functions['f'].levels": (lambda v: function(ppum.Formula("r", levels=v)), DEFAULT),
-    "functions['f'].parameters": (lambda v: function(ppum.Formula("r", parameters=v)), {"dictionary"}),
-    "functions['f'].parameters['a']": (lambda v: function(ppum.Formula("r", parameters={"a": v})), NUMBER),
-    "functions['f'].kinks": (lambda v: function(ppum.Formula("r", kinks=v)), set()),
-    "functions['f'].singular": (lambda v: function(ppum.Formula("r", singular=v)), set()),
+    "functions['f'] ": (lambda v: function(ppum.build.Jump(v)), set()),
+    "functions['f'].text": (lambda v: function(ppum.build.Formula(v)), set()),
+    "functions['f'].cuts": (lambda v: function(ppum.build.Component(v)), set()),
+    "functions['f'].tip": (lambda v: function(ppum.build.Formula("r", tip=v)), DEFAULT),
+    "functions['f'].origin": (lambda v: function(ppum.build.Formula("r", origin=v)), DEFAULT),
+    "functions['f'].angle": (lambda v: function(ppum.build.Formula("r", angle=v)), NUMBER),
+    "functions['f'].levels": (lambda v: function(ppum.build.Formula("r", levels=v)), DEFAULT),
+    "functions['f'].parameters": (lambda v: function(ppum.build.Formula("r", parameters=v)), {"dictionary"}),
+    "functions['f'].parameters['a']": (lambda v: function(ppum.build.Formula("r", parameters={"a": v})), NUMBER),
+    "functions['f'].kinks": (lambda v: function(ppum.build.Formula("r", kinks=v)), set()),
+    "functions['f'].singular": (lambda v: function(ppum.build.Formula("r", singular=v)), set()),
     "title": (lambda v: build(title=v), {"text"}),
     "program": (lambda v: build(program=v), {"text"}),
     "tolerance": (lambda v: build(field(verify=lambda x, y: 1 + 0 * x), tolerance=v), NUMBER),
@@ -132,8 +132,8 @@ ARGUMENTS = {
     "level": (covers("level", cell=CELLS), DEFAULT | NUMBER),
     "points": (covers("points"), set()),
     "point": (covers("point"), NUMBER),
-    "cells": (lambda v: ppum.Cover.uniform(BOXES["domain"], v), set()),
-    "overlap": (lambda v: ppum.Cover.uniform(BOXES["domain"], (2, 2), v), set()),
+    "cells": (lambda v: ppum.build.Cover.uniform(BOXES["domain"], v), set()),
+    "overlap": (lambda v: ppum.build.Cover.uniform(BOXES["domain"], (2, 2), v), set()),
     "shape": (lambda v: element(shape=v), set()),
     "origin ": (lambda v: element(origin=v), set()),
     "map": (lambda v: element(map=v), set()),
@@ -142,9 +142,9 @@ ARGUMENTS = {
     "element": (lambda v: element(element=v), DEFAULT),
     "clips": (lambda v: element(clips=v), DEFAULT),
     "clips[0]": (lambda v: element(clips={0: v}), set()),
-    "nodes": (ppum.Mesh.from_nodes, set()),
-    "at": (lambda v: ppum.Mesh.from_nodes([CORNERS], v), DEFAULT),
-    "order": (lambda v: ppum.Mesh.lattice("square", v), NUMBER),
+    "nodes": (ppum.build.Mesh.from_nodes, set()),
+    "at": (lambda v: ppum.build.Mesh.from_nodes([CORNERS], v), DEFAULT),
+    "order": (lambda v: ppum.build.Mesh.lattice("square", v), NUMBER),
     "coefficients": (ppum.basis.legendre(2).convert, set()),
     "degree": (ppum.basis.legendre, NUMBER),
     "order ": (lambda v: ppum.basis.legendre(2, v), set()),
@@ -152,9 +152,9 @@ ARGUMENTS = {
     "nodes ": (ppum.basis.lagrange, NUMBER),
     "function": (lambda v: ppum.basis.fit(COVER, 2, lambda patch, x, y: v), set()),
     "cover ": (lambda v: ppum.basis.fit(v, 1, lambda patch, x, y: x), set()),
-    "arrays": (lambda v: ppum.from_arrays(ARRAYS if isinstance(v, dict) else v), {"dictionary"}),
-    "steps/0000/partition/center": (lambda v: ppum.from_arrays(ARRAYS | {"steps/0000/partition/center": v}), set()),
-    "end": (lambda v: ppum.tip_functions(0, v), set()),
+    "arrays": (lambda v: ppum.build.from_arrays(ARRAYS if isinstance(v, dict) else v), {"dictionary"}),
+    "steps/0000/partition/center": (lambda v: ppum.build.from_arrays(ARRAYS | {"steps/0000/partition/center": v}), set()),
+    "end": (lambda v: ppum.build.tip_functions(0, v), set()),
 }  # fmt: skip
 #: Words of a remedy.
 REMEDY = re.compile(r"give|expected|convert|fill|there (is|are)|Look at|but|none of|neither|unknown")

@@ -8,36 +8,29 @@ Example:
     (2,)
 """
 
+import sys as _sys
 from typing import Any as _Any
 
-from . import _core, basis, plots
-from ._build import arrays, build, from_arrays
-from ._compare import Comparison, Needed, Norms, Resampling
-from ._cover import Cover
+from . import _core, basis, build, meshes, plots, results
+from ._compare import Compare as _Compare
 from ._curves import arc, ellipse
 from ._dataset import Dataset, Step, from_bytes
+from ._draw import Draw as _Draw
 from ._errors import (
-    BuildError, Finding, FormatError, InternalError, PpumError, ProblemError, QuantityError, RenderError, SolveError,
+    BuildError, Diagnostic, FormatError, InternalError, PpumError, ProblemError, QuantityError, RenderError, SolveError,
 )  # fmt: skip
-from ._export import ArrayAccuracy, Triangles
-from ._facts import Advance, Crack, Growth, Hole, Reaction, Tip
+from ._export import Export as _Export, TriangleMesh
+from ._facts import Crack, Hole, Tip
 from ._field import Field
-from ._functions import Component, Formula, Jump, Level, tip_functions
+from ._images import Animation, Figure
 from ._links import link
-from ._mesh import Mesh
-from ._pictures import Animation, Extremum, Figure
 from ._problem import Elastic, Poisson, Problem, solve
-from ._state import Coefficients, State
+from ._sample import Sample as _Sample
 from ._sweep import Sweep, sweep
-from ._tables import History, Table
-from ._values import Quantity, Values
 from ._views import View
-from .meshes import (
-    from_dolfinx, from_getfem, from_meshio, from_mfem, from_ngsolve, from_ngsxfem, from_skfem, from_vtu,
-)  # fmt: skip
+from ._warnings import renamed as _renamed
 
-# both are of `ppum.` alone: `from ppum import *` leaves Python's own as they are
-from ._facts import Warning as Warning
+# of `ppum.` alone: `from ppum import *` leaves Python's own as it is
 from ._dataset import open as open
 
 __version__ = _core.VERSION
@@ -46,14 +39,25 @@ __version__ = _core.VERSION
 COLORMAPS: tuple[str, ...] = tuple(_core.colormaps())
 
 __all__ = [
-    "COLORMAPS", "Advance", "Animation", "ArrayAccuracy", "BuildError", "Coefficients", "Comparison", "Component",
-    "Cover", "Crack", "Dataset", "Elastic", "Extremum", "Field", "Figure", "Finding", "FormatError", "Formula",
-    "Growth", "History", "Hole", "InternalError", "Jump", "Level", "Mesh", "Needed", "Norms", "Poisson", "PpumError",
-    "Problem", "ProblemError", "Quantity", "QuantityError", "Reaction", "RenderError", "Resampling", "SolveError",
-    "State", "Step", "Sweep", "Table", "Tip", "Triangles", "Values", "View", "arc", "arrays", "basis", "build",
-    "ellipse", "from_arrays", "from_bytes", "from_dolfinx", "from_getfem", "from_meshio", "from_mfem", "from_ngsolve",
-    "from_ngsxfem", "from_skfem", "from_vtu", "link", "plots", "solve", "sweep", "tip_functions",
+    "COLORMAPS", "Animation", "BuildError", "Crack", "Dataset", "Diagnostic", "Elastic", "Field", "Figure", "FormatError",
+    "Hole", "InternalError", "Poisson", "PpumError", "Problem", "ProblemError", "QuantityError", "RenderError", "SolveError",
+    "Step", "Sweep", "Tip", "TriangleMesh", "View", "arc", "basis", "build", "ellipse", "from_bytes", "link", "meshes",
+    "plots", "results", "solve", "sweep",
 ]  # fmt: skip
+
+
+def __getattr__(name: str) -> _Any:
+    return _renamed("ppum", name, _sys.modules[__name__])
+
+
+class _Accessor:
+    """An attribute of fields that holds the field; of the class, the class of the attribute."""
+
+    def __init__(self, kind: type) -> None:
+        self._kind, self.__doc__ = kind, kind.__doc__
+
+    def __get__(self, field: Field | None, owner: type) -> _Any:
+        return self._kind if field is None else self._kind(field)
 
 
 def _viewer(*args: _Any, **options: _Any) -> _Any:
@@ -62,10 +66,13 @@ def _viewer(*args: _Any, **options: _Any) -> _Any:
     return Viewer(*args, **options)
 
 
-# methods of lower layers that make things of upper ones
+# attributes of lower layers that are of upper ones
 Dataset._parsed, Field._viewer = staticmethod(Problem.parse), staticmethod(_viewer)
+for _kind in (_Sample, _Draw, _Export, _Compare):
+    setattr(Field, _kind.__name__.lower(), _Accessor(_kind))
 
-# people and pickles find all that is public here
-for _name in (*__all__, "Warning", "open"):
-    if getattr(globals()[_name], "__module__", "").startswith("ppum._"):
-        globals()[_name].__module__ = "ppum"
+# people and pickles find all that is public where it is offered
+for _module in (results, build, _sys.modules[__name__]):
+    for _name in (*_module.__all__, "open"):
+        if getattr(_thing := getattr(_module, _name, None), "__module__", "").startswith("ppum."):
+            _thing.__module__ = _module.__name__

@@ -2,7 +2,7 @@
 
 `plot` puts an artist into axes. Whenever matplotlib draws, the artist evaluates the field at the pixels that are drawn: on screen, in
 a PNG of any resolution, in a PDF, zoomed or not. Colour maps, norms, colour bars and masks are matplotlib's own. Axes know
-places as double precision has them: below some 1e-12 of the coordinates use `Field.figure`.
+places as double precision has them: below some 1e-12 of the coordinates use `field.draw.figure`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ._errors import QuantityError
 from ._options import takes
 from ._styles import PlotOptions, span
 from ._text import math_text
-from ._views import Spot, spot
+from ._views import Window, window
 
 if TYPE_CHECKING:
     from ._field import Field
@@ -37,7 +37,7 @@ ROBUST = (0.5, 99.5)
 
 @takes(PlotOptions)
 def plot(field: Field, quantity: str | None = None, **options: Unpack[PlotOptions]) -> FieldImage:
-    """Draws a quantity into axes, see `Field.plot`.
+    """Draws a quantity into axes, see `field.draw.plot`.
 
     Returns:
         The artist.
@@ -67,7 +67,7 @@ def plot(field: Field, quantity: str | None = None, **options: Unpack[PlotOption
     return image
 
 
-def _show(ax: Any, field: Field, seen: Spot | None) -> None:
+def _show(ax: Any, field: Field, seen: Window | None) -> None:
     """Equal scales, and limits that show a place or all of the plate."""
     (x0, y0), (x1, y1) = field.dataset.domain
     ax.set_aspect("equal")
@@ -148,7 +148,7 @@ class FieldImage(AxesImage):
         field._core.check(quantity)
         longest = max(x1 - x0, y1 - y0)
         size = tuple(max(1, round(COARSE * d / longest)) for d in (x1 - x0, y1 - y0))
-        at = spot(field.dataset.domain, size)  # type: ignore[arg-type]
+        at = window(field.dataset.domain, size)  # type: ignore[arg-type]
         coarse = _core.render(field._core, quantity, at, size, False, None)  # type: ignore[arg-type]
         self.set_data(np.ma.masked_invalid(coarse))
         self.set_clip_path(ax.patch)

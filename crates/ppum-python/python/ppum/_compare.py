@@ -1,24 +1,25 @@
 """How far fields are from each other, and from what resampling makes of them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Unpack
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Unpack
 
 import numpy as np
 
 from . import _core
 from ._errors import RenderError
-from ._evaluation import Evaluation
-from ._options import takes
-from ._text import one_of
+from ._options import Option, takes
 from ._units import Floats
-from ._views import PixelOptions, View
+from ._views import RasterOptions, View
 
 if TYPE_CHECKING:
     from ._field import Field
 
 ResamplingMethod = Literal["nearest", "bilinear", "bicubic", "cells"]
+GRID = "points of the grid, borders included: as many columns as rows, or both"
+METHOD = (
+    "the nearest point's value; ``bilinear`` of four points; ``bicubic`` of sixteen; or ``cells``: the value at the centre of "
+    "each cell of the cover, without a grid"
+)
 
 
 class Norms(NamedTuple):
@@ -37,7 +38,7 @@ class Norms(NamedTuple):
 
 @dataclass(frozen=True)
 class Comparison:
-    """How far a field is from another at the pixels of a view. Made by `Field.compare`.
+    """How far a field is from another at the pixels of a view. Made by `field.compare`.
 
     Attributes:
         quantity: What was compared.
@@ -103,7 +104,7 @@ class Needed:
 
 @dataclass(frozen=True, repr=False)
 class Resampling(Comparison):
-    """How far what resampling makes of a field is from the field. Made by `Field.resampled`.
+    """How far what resampling makes of a field is from the field. Made by `field.compare.resample`.
 
     The differences are what resampling gives minus the field.
 
@@ -126,14 +127,8 @@ class Resampling(Comparison):
     def to_dict(self) -> dict[str, Any]:
         """The numbers, for a row of a table: those of `Comparison.to_dict`, method, ``nx``, ``ny``, bytes."""
         nx, ny = self.grid or (None, None)
-        return {
-            **super().to_dict(),
-            "method": self.method,
-            "nx": nx,
-            "ny": ny,
-            "bytes": self.bytes,
-            "direct_bytes": self.direct_bytes,
-        }
+        own = {"method": self.method, "nx": nx, "ny": ny, "bytes": self.bytes, "direct_bytes": self.direct_bytes}
+        return super().to_dict() | own
 
     def _words(self) -> str:
         if self.grid is None:
@@ -141,25 +136,31 @@ class Resampling(Comparison):
         return f"{self.method}, {self.grid[0]}x{self.grid[1]}"
 
 
-class Comparing(Evaluation):
-    """The comparisons of a `Field`."""
+class ResamplingOptions(RasterOptions, total=False):
+    """How a field is resampled, and where the result is compared."""
 
-    @takes(PixelOptions)
-    def compare(
-        self, other: Field, quantity: str | None = None, *, progress: Any = None, **options: Unpack[PixelOptions]
-    ) -> Comparison:
-        """This field minus another at the pixels of a view: how far they are from each other, and where.
+    grid: Annotated[int | tuple[int, int], Option(64, GRID)]
+    method: Annotated[ResamplingMethod, Option("bilinear", METHOD)]
+    over: Annotated[Literal["domain", "view"], Option("domain", "the rectangle of the grid: the box of the domain, or the view")]
+    error: Annotated[float | None, Option(None, "a relative error for which the grid is looked for, see `Resampling.needed`")]
 
-        Both are evaluated at the centre of each pixel; covers, functions and steps may be any.
 
-        Args:
-            other: A field, of this dataset or another: another step, part, weight or cover.
-            quantity: A quantity or formula that both have, or a value of cells; by default as in `render`.
-            progress: As in `render`.
+@dataclass(frozen=True)
+class Compare:
+    """How far a field is from another, or from what other programs make of it, at the pixels of a view.
 
-        Raises:
-            QuantityError: One of them does not have the quantity.
-            RenderError: No pixel has a value in both.
+    Raises:
+        QuantityError: A quantity that one of them does not have.
+        RenderError: No pixel has a value in both, or there is no such grid.
+    """
+
+    _field: "Field"
+
+    @takes(RasterOptions)
+    def __call__(self, other: "Field", quantity: str | None = None, **options: Unpack[RasterOptions]) -> Comparison:
+        """The field minus another, of this dataset or another: another step, part, weight or cover.
+
+        Both are evaluated at the centre of each pixel; a quantity is one that both have, by default as in `Draw`.
 
         Example:
             >>> found = f.compare(f.part("smooth"), "uy", size=(100, 200))
@@ -168,56 +169,34 @@ class Comparing(Evaluation):
             >>> f.compare(f).absolute
             Norms(l1=0.0, l2=0.0, max=0.0)
         """
-        view, name = self._seen(options), quantity or self._core.default_quantity()
-        values, norms, warnings = _core.compare(self._core, other._core, name, view._spot, view.size, progress)
+        view = self._field._seen(options)
+        name, window, size = self._field._asked(quantity, options)
+        values, norms, warnings = _core.compare(self._field._core, other._core, name, window, size, options["progress"])
         if np.isnan(values).all():
             raise RenderError(
                 f"there is no pixel where `{name}` has a value in both fields: show a part of the plane where both plates are"
             )
         return Comparison(name, view, **_norms(norms), warnings=tuple(warnings), values=_frozen(values))
 
-    @takes(PixelOptions)
-    def resampled(
-        self,
-        quantity: str | None = None,
-        *,
-        grid: int | tuple[int, int] = 64,
-        method: ResamplingMethod = "bilinear",
-        over: Literal["domain", "view"] = "domain",
-        error: float | None = None,
-        progress: Any = None,
-        **options: Unpack[PixelOptions],
-    ) -> Resampling:
+    @takes(ResamplingOptions)
+    def resample(self, quantity: str | None = None, **options: Unpack[ResamplingOptions]) -> Resampling:
         """What resampling makes of the field, as other programs draw it, and how far that is from it.
 
         Exact values at the points of a grid are interpolated at the pixels of a view, as `ppum compare` does.
 
-        Args:
-            quantity: A quantity or formula; by default as in `render`.
-            grid: Points of the grid, borders included: as many columns as rows, or both.
-            method: The nearest point's value; ``bilinear`` of four points; ``bicubic`` of sixteen; or ``cells``: the value at
-                the centre of each cell of the cover, without a grid.
-            over: The rectangle of the grid: the box of the domain, or what the view shows.
-            error: A relative error for which the grid is looked for too, see `Resampling.needed`.
-            progress: As in `render`.
-
-        Raises:
-            QuantityError: No quantity of the field.
-            RenderError: No grid: fewer than 2x2 points, or too many.
-            ValueError: No such method, no such rectangle.
-
         Example:
-            >>> coarse, fine = (f.resampled("uy", grid=n, size=(100, 200)) for n in (16, 256))
+            >>> coarse, fine = (f.compare.resample("uy", grid=n, size=(100, 200)) for n in (16, 256))
             >>> fine.relative.l1 < coarse.relative.l1, fine.bytes
             (True, 524288)
         """
-        one_of("over", over, ("domain", "view"))
+        grid, method, error = options["grid"], options["method"], options["error"]
         if error is not None and not error > 0:
             raise ValueError(f"error: {error!r} cannot be reached; give a positive number, e.g. 0.01")
         points: Any = (grid, grid) if isinstance(grid, int) else tuple(grid)
-        way = {"method": method, "grid": points, "over_view": over == "view", "error": error}
-        view, name = self._seen(options), quantity or self._core.default_quantity()
-        values, found, norms, facts = _core.resample(self._core, name, way, view._spot, view.size, progress)
+        how = {"method": method, "grid": points, "over_view": options["over"] == "view", "error": error}
+        view = self._field._seen(options)
+        name, window, size = self._field._asked(quantity, options)
+        values, found, norms, facts = _core.resample(self._field._core, name, how, window, size, options["progress"])
         return Resampling(
             name,
             view,

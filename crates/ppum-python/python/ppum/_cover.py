@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._checks import column, integers, numbers, positive, repeated, rows, scalar
-from ._errors import BuildError, warn
+from ._errors import BuildError
 from ._text import plural
 from ._units import Floats
+from ._warnings import warn
 
 
 #: Weight functions with a name, and where a derivative of them jumps; any other text is a formula of t.
@@ -42,9 +43,9 @@ class Cover:
         points, point: Scattered points that the cover was made from, and the index of each patch's, -1 for none.
 
     Example:
-        >>> cover = ppum.Cover([(0, 0), (2, 1)], center=[(0.5, 0.5), (1.5, 0.5)], half=[(0.7, 0.7), (0.7, 0.7)])
+        >>> cover = ppum.build.Cover([(0, 0), (2, 1)], center=[(0.5, 0.5), (1.5, 0.5)], half=[(0.7, 0.7), (0.7, 0.7)])
         >>> cover
-        <ppum.Cover, 2 patches, linear>
+        <ppum.build.Cover, 2 patches, linear>
         >>> cover.cell is None
         True
     """
@@ -102,7 +103,7 @@ class Cover:
         from the lower left corner. A support is its cell enlarged by `overlap`, 1.01 to 1.99.
 
         Example:
-            >>> ppum.Cover.uniform([(0, 0), (1, 1)], cells=(8, 8), overlap=1.5).half[0].tolist()
+            >>> ppum.build.Cover.uniform([(0, 0), (1, 1)], cells=(8, 8), overlap=1.5).half[0].tolist()
             [0.09375, 0.09375]
         """
         (x0, y0), (x1, y1) = rows("domain", domain, 2, 2).tolist()
@@ -144,8 +145,8 @@ class Cover:
         at most, and cells that touch differ by one level at most. `point` has the point of each patch.
 
         Example:
-            >>> ppum.Cover.from_points([(0, 0), (1, 1)], [(0.1, 0.1), (0.2, 0.1), (0.7, 0.6)])
-            <ppum.Cover, 10 patches, linear>
+            >>> ppum.build.Cover.from_points([(0, 0), (1, 1)], [(0.1, 0.1), (0.2, 0.1), (0.7, 0.6)])
+            <ppum.build.Cover, 10 patches, linear>
         """
         low, high = rows("domain", domain, 2, 2).tolist()
         of = rows("points", points, 2)
@@ -185,7 +186,7 @@ class Cover:
         return len(self.center)
 
     def __repr__(self) -> str:
-        return f"<ppum.Cover, {plural(len(self), 'patch', 'patches')}, {self.weight}>"
+        return f"<ppum.build.Cover, {plural(len(self), 'patch', 'patches')}, {self.weight}>"
 
 
 def _look(center: Floats, half: Floats, domain: Floats) -> None:

@@ -151,7 +151,7 @@ class Dataset:
     def __init__(self, core: _core.Dataset) -> None:
         if not isinstance(core, _core.Dataset):
             kind = type(core).__name__
-            raise TypeError(f"a dataset is not made of {kind}: `ppum.open` opens files, `ppum.build` takes arrays")
+            raise TypeError(f"a dataset is not made of {kind}: `ppum.open` opens files, `ppum.build.dataset` takes arrays")
         self._core = core
         # a field holds the data of its step, which those of a file need not
         most = KEPT if core.is_stored() else None
@@ -253,7 +253,7 @@ class Dataset:
         """Writes a file. What was there stays until the new one is complete.
 
         A name that ends in ``.vtkhdf``, or in ``.vtu`` if there is one step, is for programs that interpolate, such as
-        ParaView: the triangles of all steps, with the arguments of `Field.triangles`.
+        ParaView: the triangles of all steps, with the arguments of `field.export.triangles`.
 
         Raises:
             OSError: The system refuses; `FileNotFoundError` where there is no such folder.
@@ -315,15 +315,15 @@ class Dataset:
         return f"<p><b>{html.escape(self.title)}</b></p><table><tbody>{body}</tbody></table>{tips}"
 
 
-_PICTURES = "`Field.figure` draws pictures, `Field.animate` animations"
-_MESHES = "`Dataset.save` makes .vtkhdf and .vtu files, with the triangles of `Field.triangles`"
-_TABLES = "`Field.line` and others make tables"
+_PICTURES = "`field.draw.figure` draws pictures, `field.draw.animate` animations"
+_MESHES = "`Dataset.save` makes .vtkhdf and .vtu files, with the triangles of `field.export.triangles`"
+_TABLES = "`field.sample.line` and others make tables"
 #: Ends of the names of other files, and what makes these.
 _OTHER_FILES = {
     **dict.fromkeys((".png", ".svg", ".pdf", ".jpg", ".gif", ".apng"), _PICTURES),
     **dict.fromkeys((".pvd", ".vtk", ".vtp"), _MESHES),
     **dict.fromkeys((".csv", ".npy", ".npz", ".txt"), _TABLES),
-    **dict.fromkeys((".html", ".htm"), "`Field.to_html` makes pages"),
+    **dict.fromkeys((".html", ".htm"), "`field.export.to_html` makes pages"),
     **dict.fromkeys((".toml",), "`Problem.to_toml` is the text of a problem file"),
 }
 

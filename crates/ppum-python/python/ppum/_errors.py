@@ -6,15 +6,10 @@ Each is a `PpumError` and, beside that, one of the classes that people catch. Al
 from __future__ import annotations
 
 import importlib
-import os
-import sys
-import warnings
 from dataclasses import dataclass
 from typing import Any
 
-#: The folder of the package, which warnings are never located in.
-PACKAGE = os.path.join(os.path.dirname(__file__), "")
-
+from ._warnings import with_old_names
 
 class PpumError(Exception):
     """What all exceptions of ppum are, but for those of files (`OSError`) and of numbers of steps, cracks and
@@ -53,7 +48,7 @@ class MissingKey(KeyError):
 
 
 @dataclass(frozen=True)
-class Finding:
+class Diagnostic:
     """One thing that is wrong in a problem.
 
     Attributes:
@@ -73,16 +68,16 @@ class Finding:
         return f"{':'.join(where)}: {self.message}"
 
 
+@with_old_names
 class ProblemError(PpumError, ValueError):
-    """A problem with mistakes, all of which are in `findings`."""
+    """A problem with mistakes, all of which are in `diagnostics`."""
 
-    def __init__(self, message: str, findings: list[Any] | None = None) -> None:
+    def __init__(self, message: str, diagnostics: list[Any] | None = None) -> None:
         #: The mistakes, in the order of the problem.
-        self.findings: list[Finding] = [f if isinstance(f, Finding) else Finding(**f) for f in findings or []]
-        super().__init__(message, self.findings)
+        self.diagnostics: list[Diagnostic] = [f if isinstance(f, Diagnostic) else Diagnostic(**f) for f in diagnostics or []]
+        super().__init__(message, self.diagnostics)
 
-    def __str__(self) -> str:
-        return str(self.args[0])
+    __str__ = MissingKey.__str__
 
 
 def require(package: str, remedy: str, what: str, by: str = "pip install") -> Any:
@@ -91,12 +86,3 @@ def require(package: str, remedy: str, what: str, by: str = "pip install") -> An
         return importlib.import_module(package)
     except ImportError as error:
         raise ImportError(f"{what} need {package.split('.')[0]}: {by} {remedy}") from error
-
-
-def warn(*texts: str) -> None:
-    """Warns at the line outside of the package that led here."""
-    level, frame = 1, sys._getframe()
-    while frame.f_code.co_filename.startswith(PACKAGE) and frame.f_back:
-        level, frame = level + 1, frame.f_back
-    for text in texts:
-        warnings.warn(text, stacklevel=level)

@@ -1,7 +1,5 @@
 """Triangles and pages of a field, for programs and people that have no ppum."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 from collections.abc import Mapping, Sequence
@@ -9,21 +7,22 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, TypedDict, Unpack
+from typing import TYPE_CHECKING, Annotated, Any, Unpack
 
 import numpy as np
 
 from . import _core
-from ._errors import require, warn
-from ._evaluation import Evaluation
+from ._errors import require
 from ._files import Drawn, folder_of, replace
 from ._options import Option, passes, takes
 from ._styles import HtmlOptions, request, request_text
 from ._units import Floats, positive
-from ._views import SIZE
+from ._views import SIZE, ProgressOptions
+from ._warnings import warn
 
 if TYPE_CHECKING:
     from ._dataset import Dataset
+    from ._field import Field
 
 #: Degrees of the polynomials in triangles.
 ORDERS = range(1, 5)
@@ -43,7 +42,7 @@ AVERAGE = (
 )
 
 
-class TriangleOptions(TypedDict, total=False):
+class TriangleOptions(ProgressOptions, total=False):
     """How fine triangles are."""
 
     tolerance: Annotated[float, Option(1e-3, "largest difference from the field, in parts of the range of each array")]
@@ -51,7 +50,6 @@ class TriangleOptions(TypedDict, total=False):
     max_cells: Annotated[int, Option(1_000_000, "most triangles, of each step")]
     order: Annotated[int, Option(1, ORDER)]
     average: Annotated[bool, Option(False, AVERAGE)]
-    progress: Annotated[Any, Option(None, "as in `render`")]
 
 
 @dataclass(frozen=True)
@@ -73,9 +71,9 @@ class ArrayAccuracy:
     is_singular: bool
 
 
-class Triangles(Drawn):
+class TriangleMesh(Drawn):
     """Triangles that resolve a field to a tolerance: between points values are linear, or polynomials of a higher order. Made
-    by `Field.triangles`.
+    by `field.export.triangles`.
 
     No triangle crosses a crack; a point on one is there twice, with the values of both sides. They are saved as ``vtu``
     or ``vtkhdf``.
@@ -92,7 +90,7 @@ class Triangles(Drawn):
         is_complete: Whether the work was not ended by the limit of triangles.
 
     Example:
-        >>> mesh = f.triangles(["displacement", "uy"], tolerance=0.01)
+        >>> mesh = f.export.triangles(["displacement", "uy"], tolerance=0.01)
         >>> mesh.values["uy"].shape == (len(mesh.points),)
         True
         >>> mesh.save("plate.vtu")
@@ -135,8 +133,8 @@ class Triangles(Drawn):
         grid = pyvista.UnstructuredGrid(cells.ravel(), np.full(len(cells), kind, np.uint8), points)
         for name, rows in self.values.items():
             grid.point_data[name] = rows
-        for name, told in self.accuracy.items():
-            grid.field_data[f"{name} largest difference"] = np.array([told.largest])
+        for name, found in self.accuracy.items():
+            grid.field_data[f"{name} largest difference"] = np.array([found.largest])
         return grid
 
     def _draw(self, form: str) -> bytes:
@@ -146,32 +144,32 @@ class Triangles(Drawn):
         raise TypeError("triangles cannot be pickled; pickle the field, or save them")
 
     def __repr__(self) -> str:
-        return f"<ppum.Triangles {len(self.cells)} on {len(self.points)} points, {', '.join(self.accuracy)}>"
+        return f"<ppum.TriangleMesh {len(self.cells)} on {len(self.points)} points, {', '.join(self.accuracy)}>"
 
 
-class Exporting(Evaluation):
-    """What is made of a `Field` for others."""
+@dataclass(frozen=True)
+class Export:
+    """A field for programs and people that have no ppum."""
+
+    _field: "Field"
 
     @takes(TriangleOptions)
-    def triangles(self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]) -> Triangles:
+    def triangles(self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]) -> TriangleMesh:
         """Triangles for programs that interpolate, fine enough for a tolerance. Warns where the tolerance is not kept.
 
-        Args:
-            quantities: Quantities and formulas, ``displacement`` and ``stress`` among them; by default the displacement, the
-                stress tensor and von Mises' stress, of a potential itself and its gradient.
+        Quantities are names and formulas, ``displacement`` and ``stress`` among them; by default the displacement, the stress
+        tensor and von Mises' stress, of a potential itself and its gradient.
 
         Raises:
-            QuantityError: No quantity of the field.
             RenderError: More triangles are needed along cracks and borders alone.
-            ValueError: A number that is not positive, no such order, no quantities.
 
         Example:
-            >>> f.triangles(["uy"], tolerance=0.01).accuracy["uy"].largest < 0.05
+            >>> f.export.triangles(["uy"], tolerance=0.01).accuracy["uy"].largest < 0.05
             True
         """
-        return self._triangles(quantities, hash_of(self.dataset), options)
+        return self._triangles(quantities, hash_of(self._field.dataset), options)
 
-    def _triangles(self, quantities: Sequence[str] | None, hashed: str, options: TriangleOptions) -> Triangles:
+    def _triangles(self, quantities: Sequence[str] | None, hashed: str, options: TriangleOptions) -> TriangleMesh:
         for name in ("tolerance", "tip_radius"):
             positive(name, options[name])
         if options["order"] not in ORDERS:
@@ -181,7 +179,7 @@ class Exporting(Evaluation):
         if quantities is not None and not quantities:
             raise ValueError("quantities: give one at least, or none for those that suit")
         made = _core.triangles(
-            self._core,
+            self._field._core,
             None if quantities is None else list(quantities),
             float(options["tolerance"]),
             options["tip_radius"],
@@ -192,17 +190,12 @@ class Exporting(Evaluation):
             options["progress"],
         )
         if text := made.complaint():
-            remedy = "" if made.is_complete() else "; raise max_cells or tolerance"
-            warn(text + remedy)
-        return Triangles(made)
+            warn(text + ("" if made.is_complete() else "; raise max_cells or tolerance"))
+        return TriangleMesh(made)
 
     @passes(TriangleOptions)
     def to_pyvista(self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]) -> Any:
-        """The field as a `pyvista.UnstructuredGrid`, to a tolerance: `triangles`, whose arguments these are.
-
-        Raises:
-            ImportError: The package pyvista is not installed.
-        """
+        """The field as a `pyvista.UnstructuredGrid`, to a tolerance: `triangles`, whose arguments these are."""
         require("pyvista", "pyvista", "grids of PyVista")
         return self.triangles(quantities, **options).to_pyvista()
 
@@ -210,56 +203,45 @@ class Exporting(Evaluation):
     def to_html(
         self, path: str | os.PathLike[str] | None = None, quantity: str | None = None, **options: Unpack[HtmlOptions]
     ) -> str | None:
-        """A page that shows and explores the field exactly in a browser of 2024 or later: one file, without network and server.
-
-        Options say what is seen first; people change it in the page.
-
-        Args:
-            path: The file to write; without one the page is returned.
-            quantity: As in `render`.
-
-        Raises:
-            TypeError: No such option.
-            ValueError: No such value of an option, or one that pages do not have; `RenderError` is of this kind.
-            OSError: The system refuses.
+        """A page that shows and explores the field exactly in a browser of 2024 or later: one file, without network and
+        server, or its text if there is no path. Quantity and options say what is seen first; people change it in the page.
 
         Example:
-            >>> f.to_html("plate.html", "uy", tip=0, zoom=100)
-            >>> f.to_html()[:15]
+            >>> f.export.to_html("plate.html", "uy", tip=0, zoom=100)
+            >>> f.export.to_html()[:15]
             '<!doctype html>'
         """
         if quantity is not None and not isinstance(quantity, str):
             raise TypeError("quantity: a page shows one first; give its name")
-        target = None if path is None else Path(path)
+        field, target = self._field, None if path is None else Path(path)
         if target is not None:
             folder_of(target)
-        at = self._place(options, SIZE)
-        name = f"{target.stem}.h5" if target is not None else "dataset.h5"
-        asked = request_text(self, request(self, quantity, options, at))
-        page = _core.page(self._core, self.dataset._core, asked, at, name)
+        at = field._place(options, SIZE)
+        asked = request_text(field, request(field, quantity, options, at))
+        page = _core.page(field._core, field.dataset._core, asked, at, f"{target.stem if target else 'dataset'}.h5")
         if target is None:
             return page
         replace(target, page.encode())
         return None
 
 
-def hash_of(dataset: Dataset) -> str:
+def hash_of(dataset: "Dataset") -> str:
     """SHA-256 of a dataset's file, in hexadecimal digits."""
     return hashlib.sha256(dataset.to_bytes()).hexdigest()
 
 
 @takes(TriangleOptions)
 def save_triangles(
-    dataset: Dataset, path: Path, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]
+    dataset: "Dataset", path: Path, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]
 ) -> None:
     """Writes the triangles of all steps to a ``.vtkhdf`` file, or of the only one to a ``.vtu`` file: `Dataset.save`."""
     steps = list(dataset.steps)
     if path.suffix.lower() == ".vtu" and len(steps) > 1:
-        words = "end its name in .vtkhdf, or save `Field.triangles` of one"
+        words = "end its name in .vtkhdf, or save `field.export.triangles` of one"
         raise ValueError(f"{path.name}: a .vtu file has one step, this dataset has {len(steps)}; {words}")
     folder_of(path)
     hashed = hash_of(dataset)
-    meshes = [step.field._triangles(quantities, hashed, options) for step in steps]
+    meshes = [step.field.export._triangles(quantities, hashed, options) for step in steps]
     if path.suffix.lower() == ".vtu":
         meshes[0].save(path)
     else:

@@ -1,33 +1,43 @@
-"""Fields of steps: parts, other functions and weights, stress intensity factors, and all that is made of a field."""
+"""Fields of steps: evaluated at points, changed in parts; accessors sample, draw, export and compare them."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Unpack, overload
 
+from numpy.typing import ArrayLike
+
 from . import _core
-from ._compare import Comparing
-from ._draw import Drawing
-from ._errors import require, warn
-from ._export import Exporting
+from ._errors import QuantityError, require
 from ._facts import Tip, tips_of
-from ._options import passes
-from ._sample import Sampling
+from ._options import passes, takes
 from ._styles import ViewerOptions
 from ._tables import Table
+from ._units import Floats, pair, pixels
+from ._values import Quantities, Quantity, SideName, Values
+from ._views import SIZE, PixelOptions, PlaceOptions, View, Window, view_of, window
+from ._warnings import warn, with_old_names
 
 if TYPE_CHECKING:
+    from ._compare import Compare
+    from ._dataset import Dataset, Step
+    from ._draw import Draw
+    from ._export import Export
+    from ._sample import Sample
     from ._widget import Viewer
 
 #: Fields of a series in a file that are kept ready.
 KEPT = 4
 
 
-class Field(Sampling, Comparing, Drawing, Exporting):
+@with_old_names
+class Field:
     """A field of one step, to be evaluated exactly wherever one likes. Made by `Step.field` and `Dataset.field`.
 
-    It never changes: `part`, `with_function`, `with_weight` and `with_quantity` give others. It can be pickled.
+    It never changes: `part`, `with_function`, `with_weight` and `with_quantity` give others. It can be pickled. `sample`
+    gives values along curves and on grids, `draw` images, `export` files for other programs, `compare` differences.
 
     Example:
         >>> f = ds.field
@@ -35,15 +45,108 @@ class Field(Sampling, Comparing, Drawing, Exporting):
         1.276572
     """
 
-    #: Makes views, which are of an upper layer; bound by the package.
+    # accessors and views are of upper layers; bound by the package
+    sample: Sample
+    draw: Draw
+    export: Export
+    compare: Compare
     _viewer: ClassVar[Any]
+
     _tips: Table[Tip] | None = None
+
+    def __init__(self, dataset: Dataset, step: int = -1, _subject: Mapping[str, Any] | None = None) -> None:
+        count = len(dataset.steps)
+        #: The dataset.
+        self.dataset = dataset
+        self._number = step if step >= 0 else count + step
+        self._subject = dict(_subject or {})
+        self._core = _core.Field(dataset._core, self._number, json.dumps(self._subject))
+
+    @property
+    def step(self) -> Step:
+        """The step that the field belongs to."""
+        return self.dataset.steps[self._number]
+
+    @cached_property
+    def components(self) -> tuple[str, ...]:
+        """Names of the components: ``ux``, ``uy``, or ``u``."""
+        return tuple(self._core.components())
+
+    @cached_property
+    def quantities(self) -> Mapping[str, Quantity]:
+        """All quantities that have a name. Formulas of them are quantities too."""
+        return Quantities([Quantity(**q) for q in self._core.known()])
+
+    def at(self, x: ArrayLike, y: ArrayLike, *, side: SideName = "above", anchor: ArrayLike | None = None) -> Values:
+        """The field at points.
+
+        A value depends on its point alone, to the last bit, whatever other points there are.
+
+        Args:
+            x, y: Coordinates, lengths; numbers or arrays, which are broadcast against each other.
+            side: Of points on a crack the side that is meant: ``above`` is on the left of the crack's
+                direction; ``both`` gives both along a last axis. Elsewhere sides are equal.
+            anchor: Where x and y are offsets from. They are not rounded by it: 1e-20 from a tip
+                is as exact as 1.
+
+        Raises:
+            TypeError: Coordinates that are no real numbers.
+            ValueError: Shapes that cannot be broadcast; no such side.
+
+        Example:
+            >>> f.at(0.0, 0.0, side="both").uy.shape
+            (2,)
+            >>> near = f.at(1e-20, 0.0, anchor=ds.tips[1].xy)
+            >>> bool(near.von_mises > 1e9)
+            True
+        """
+        return Values(self, x, y, side, anchor)
+
+    def evaluate(
+        self,
+        x: ArrayLike,
+        y: ArrayLike,
+        quantities: Sequence[str],
+        *,
+        side: SideName = "above",
+        anchor: ArrayLike | None = None,
+        gradient: bool = False,
+        out: Floats | None = None,
+    ) -> Any:
+        """Several quantities in one pass over the points.
+
+        Args:
+            x, y, side, anchor: As in `at`.
+            quantities: q names or formulas.
+            gradient: Whether gradients are wanted too.
+            out: An array for the result, float64 in C order, which is returned; not with gradients or both sides.
+
+        Returns:
+            Shape (..., q), or with both sides (..., 2, q). With `gradient` two arrays: this, and the gradients
+            of shape (..., q, 2).
+
+        Example:
+            >>> f.evaluate([0.0, 0.1], 0.5, ["ux", "sxx + syy"]).shape
+            (2, 2)
+        """
+        if isinstance(quantities, str):
+            raise TypeError("quantities: give a list of names; `at(x, y)[name]` takes one")
+        if out is not None and (gradient or side == "both"):
+            raise ValueError("`out` takes values of one side, without gradients")
+        values = self.at(x, y, side=side, anchor=anchor)
+        found = values._evaluate(list(quantities), gradient, out)
+        return (found[..., 0], found[..., 1:]) if gradient else found
+
+    def _is_quantity(self, name: str) -> bool:
+        """Whether points have values by this name: those of cells and what there is not have none."""
+        try:
+            self._core.check(name)
+        except QuantityError:
+            return False
+        return True
 
     def part(self, part: str) -> Field:
         """A part of the field: ``smooth``, ``jump``, ``tip``, ``other``, or ``patch:N``. The parts add up to the whole.
-
-        Raises:
-            QuantityError: No such part.
 
         Example:
             >>> parts = [f.part(name).at(0.3, 0.1).ux for name in ("smooth", "jump", "tip")]
@@ -58,9 +161,6 @@ class Field(Sampling, Comparing, Drawing, Exporting):
         """The field with other functions in place of its own, by name or number: formulas of x, y, r, theta. The
         coefficients stay.
 
-        Raises:
-            QuantityError: No such function, no formula.
-
         Example:
             >>> g = f.with_function({"westergaard 1": "r"})
             >>> bool(g.at(0.4, 0.3).uy == f.at(0.4, 0.3).uy)
@@ -71,9 +171,6 @@ class Field(Sampling, Comparing, Drawing, Exporting):
     def with_weight(self, weight: str) -> Field:
         """The field with another weight function: one of the library by name, or a formula of t. The coefficients stay.
 
-        Raises:
-            QuantityError: No weight.
-
         Example:
             >>> bool(f.with_weight("bump").at(0.26, 0.1).ux != f.at(0.26, 0.1).ux)
             True
@@ -83,11 +180,7 @@ class Field(Sampling, Comparing, Drawing, Exporting):
         return self._changed(weight=weight)
 
     def with_quantity(self, quantities: Mapping[str, str]) -> Field:
-        """The field with other formulas for quantities that the dataset names.
-
-        Raises:
-            QuantityError: No such quantity, no formula.
-        """
+        """The field with other formulas for quantities that the dataset names."""
         return self._with_formulas("quantities", quantities)
 
     def _with_formulas(self, what: str, formulas: Mapping[Any, str]) -> Field:
@@ -96,10 +189,9 @@ class Field(Sampling, Comparing, Drawing, Exporting):
             if not isinstance(text, str):
                 raise TypeError(f"{which}: a formula is needed, such as 'r*theta', not {text!r}")
         known = [tuple(pair) for pair in self._subject.get(what, [])]
-        more = [(str(which), text) for which, text in formulas.items()]
-        return self._changed(**{what: [*known, *more]})
+        return self._changed(**{what: [*known, *((str(which), text) for which, text in formulas.items())]})
 
-    def _of_step(self, number: int) -> Field:
+    def _at_step(self, number: int) -> Field:
         """The field of another step, changed as this one is."""
         if not self._subject:
             return self.dataset.steps[number].field
@@ -125,7 +217,7 @@ class Field(Sampling, Comparing, Drawing, Exporting):
         Args:
             tip: The number of a tip; by default all.
             radius: That of the largest disc; by default nine tenths of the largest one that nothing disturbs.
-            progress: As in `render`.
+            progress: A function that is called with phase, parts done, all parts and step.
 
         Returns:
             The tip, or a table of all. `error` is NaN: only the solver knows it.
@@ -154,22 +246,14 @@ class Field(Sampling, Comparing, Drawing, Exporting):
     def _found_tips(self, progress: Any) -> Table[Tip]:
         """The factors of all tips, found once."""
         if self._tips is None:
-            found, ends, told = _core.intensities(self._core, None, progress)
-            warn(*told)
+            found, ends, messages = _core.intensities(self._core, None, progress)
+            warn(*messages)
             self._tips = tips_of(json.loads(found), ends)
         return self._tips
 
     @passes(ViewerOptions)
     def view(self, quantity: str | None = None, **options: Unpack[ViewerOptions]) -> Viewer:
-        """Shows the field in a notebook: pan, zoom, read values, exact in every frame.
-
-        Args:
-            quantity: As in `render`.
-
-        Raises:
-            ImportError: The package anywidget is not installed.
-            TypeError: No such option.
-            traitlets.TraitError: No such value.
+        """Shows the field in a notebook: pan, zoom, read values, exact in every frame. Needs the package anywidget.
 
         Example:
             >>> view = f.view("uy", width=0.5, center=(0, 0), clim=(0, 1))
@@ -180,6 +264,43 @@ class Field(Sampling, Comparing, Drawing, Exporting):
         require("anywidget", "anywidget", "views in notebooks")
         made: Viewer = self._viewer(self, quantity, **options)
         return made
+
+    @takes(PixelOptions)
+    def view_at(self, **options: Unpack[PixelOptions]) -> View:
+        """What an image with these options shows: all of the plate, a width around a center, or a tip enlarged.
+
+        Example:
+            >>> f.view_at(tip=1, zoom=4, size=(100, 100)).width
+            1.0
+        """
+        return self._seen(options)
+
+    def _seen(self, options: PixelOptions) -> View:
+        """What an image in pixels shows."""
+        if (view := options.get("view")) is not None:
+            return view_of(view, options)
+        size = options.get("size")
+        size = pixels(SIZE if size is None else size)
+        return View(*self._window(size, options), size)
+
+    def _asked(self, quantity: str | None, options: PixelOptions) -> tuple[str, Window, tuple[int, int]]:
+        """The quantity, by default the one that suits, and what an image in pixels shows."""
+        seen = self._seen(options)
+        return quantity or self._core.default_quantity(), seen._window, seen.size
+
+    def _place(self, options: PlaceOptions, size: tuple[int, int]) -> Window | None:
+        """Center and width of what a page of this size shows; None where nothing is said."""
+        seen: Any = {name: options.get(name) for name in PlaceOptions.__annotations__}
+        return None if all(value is None for value in seen.values()) else self._seen(seen | {"size": size})._window
+
+    def _window(self, size: tuple[int, int], options: PlaceOptions) -> Window:
+        center, tip = options.get("center"), options.get("tip")
+        if tip is not None and center is not None:
+            raise TypeError("give a tip or a center, not both")
+        at = None if center is None else pair(center)
+        if tip is not None:
+            at = self.step.tips[tip].xy
+        return window(self.dataset.domain, size, at, options.get("width"), options.get("zoom"))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Field):

@@ -8,7 +8,7 @@ import secrets
 from pathlib import Path
 from typing import ClassVar
 
-from ._errors import warn
+from ._warnings import warn
 
 
 class Drawn:

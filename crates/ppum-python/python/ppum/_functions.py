@@ -58,7 +58,7 @@ class Formula:
         role: What it stands for: ``tip``, ``corner``, ``force``, ``interface`` or ``user``; values do not depend on it.
 
     Example:
-        >>> ppum.Formula("r^a*sin(a*theta)", tip=(0, "end"), parameters={"a": 0.7}).tip
+        >>> ppum.build.Formula("r^a*sin(a*theta)", tip=(0, "end"), parameters={"a": 0.7}).tip
         (0, 'end')
     """
 
@@ -92,7 +92,7 @@ def tip_functions(crack: int = 0, end: str = "end") -> dict[str, Formula]:
     the tip; `end` is ``start`` or ``end``, as `Tip.end` has it.
 
     Example:
-        >>> list(ppum.tip_functions(0, "end"))[0]
+        >>> list(ppum.build.tip_functions(0, "end"))[0]
         'sqrt(r) cos of crack 0 end'
     """
     if str(end) not in ENDS:

@@ -1,10 +1,8 @@
 """What all steps of a dataset share: the domain, holes, the equation, tables, quantities; and the ends of cracks in it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import Annotated, Any, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,10 +13,39 @@ from ._cover import Cover
 from ._errors import BuildError
 from ._facts import Crack, Hole
 from ._mesh import Mesh
+from ._options import Option
 from ._problem import Elastic, Poisson
 from ._state import State
 
 Arrays = dict[str, Any]
+
+EQUATION = (
+    "the material, if there are to be stresses or energy: then the first field is ``displacement`` or ``potential``. Without "
+    "one there are values, derivatives and the dataset's own quantities"
+)
+TABLES = "data that formulas read, by name: (x, values), or (x, y, values) with a row of values for each y"
+
+
+class DatasetOptions(TypedDict, total=False):
+    """What all steps of a dataset share."""
+
+    title: Annotated[str, Option("", "one line that names the problem")]
+    program: Annotated[str, Option("", "name and version of the code that the arrays come from")]
+    equation: Annotated[Elastic | Poisson | None, Option(None, EQUATION)]
+    holes: Annotated[Sequence[Hole], Option((), "holes of the domain, with `center` and `radius` or with `points`")]
+    tables: Annotated[Mapping[str, Sequence[ArrayLike]] | None, Option(None, TABLES)]
+    quantities: Annotated[
+        Mapping[str, str | tuple[str, str]] | None,
+        Option(None, "formulas of components and derivatives by name, or pairs of formula and unit"),
+    ]
+
+
+class BuildOptions(DatasetOptions, total=False):
+    """What all steps share, and how exactly fields are verified."""
+
+    tolerance: Annotated[
+        float, Option(1e-10, "largest difference from `Coefficients.verify` that is no error, in parts of the largest value")
+    ]
 
 
 def listed(place: str, given: Any, kind: Any, remedy: str) -> list[Any]:
@@ -38,32 +65,25 @@ def of_state(number: int, count: int) -> Iterator[None]:
         raise BuildError(f"states[{number}].{error}" if count > 1 else str(error)) from None
 
 
-def shared(
-    series: Sequence[State],
-    title: str,
-    program: str,
-    equation: Elastic | Poisson | None,
-    holes: Sequence[Hole],
-    tables: Mapping[str, Sequence[ArrayLike]] | None = None,
-    quantities: Mapping[str, str | tuple[str, str]] | None = None,
-) -> Arrays:
+def shared(series: Sequence[State], options: DatasetOptions) -> Arrays:
     """The arrays of what all steps share."""
+    holes, tables, quantities = options["holes"], options["tables"], options["quantities"]
     named = _tables({} if tables is None else tables) | _quantities({} if quantities is None else quantities)
     for k, state in enumerate(series):
         with of_state(k, len(series)):
-            check_type("cover", state.cover, isinstance(state.cover, (Cover, Mesh)), "a ppum.Cover or a ppum.Mesh")
+            check_type("cover", state.cover, isinstance(state.cover, (Cover, Mesh)), "a ppum.build.Cover or a ppum.build.Mesh")
     low, high = domain = series[0].cover.domain
     for k, state in enumerate(series):
         if not np.array_equal(state.cover.domain, domain):
             raise BuildError(f"states[{k}].cover.domain: differs from that of states[0]; a series has one domain")
     arrays = {
-        "@title": text("title", title),
-        "@program": text("program", program) or f"ppum {_core.VERSION}, arrays",
+        "@title": text("title", options["title"]),
+        "@program": text("program", options["program"]) or f"ppum {_core.VERSION}, arrays",
         "domain@min": low,
         "domain@max": high,
         "domain@kind": _domain(series[0].cover, holes),
     }
-    return arrays | (_holes(holes) if holes else {}) | _equation(equation) | named
+    return arrays | (_holes(holes) if holes else {}) | _equation(options["equation"]) | named
 
 
 def _domain(cover: Cover | Mesh, holes: Sequence[Hole]) -> str:

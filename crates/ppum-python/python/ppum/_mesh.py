@@ -40,9 +40,9 @@ class Mesh:
 
     Example:
         >>> corners = np.array([[(0, 0), (1, 0), (0, 1)], [(1, 0), (1, 1), (0, 1)]])
-        >>> mesh = ppum.Mesh.from_nodes(corners)
+        >>> mesh = ppum.build.Mesh.from_nodes(corners)
         >>> mesh, mesh.domain.tolist()
-        (<ppum.Mesh, 2 triangles>, [[0.0, 0.0], [1.0, 1.0]])
+        (<ppum.build.Mesh, 2 triangles>, [[0.0, 0.0], [1.0, 1.0]])
     """
 
     #: What places polynomials, in the words of messages.
@@ -89,9 +89,9 @@ class Mesh:
             element, clips: As of the class.
 
         Example:
-            >>> bent = ppum.Mesh.lattice("square", 2)
+            >>> bent = ppum.build.Mesh.lattice("square", 2)
             >>> bent[:, 1] += 0.1 * bent[:, 0] ** 2
-            >>> ppum.Mesh.from_nodes([bent]).degree.tolist()
+            >>> ppum.build.Mesh.from_nodes([bent]).degree.tolist()
             [2]
         """
         given = numbers("nodes", nodes)
@@ -233,7 +233,7 @@ class Mesh:
         counts = [(int((self.shape == k).sum()), name) for name, k in SHAPES.items()]
         words = [plural(count, name) for count, name in counts if count]
         cut = sum(map(bool, self.clips))
-        return f"<ppum.Mesh, {', '.join(words)}{f', {cut} cut' if cut else ''}>"
+        return f"<ppum.build.Mesh, {', '.join(words)}{f', {cut} cut' if cut else ''}>"
 
 
 def _around(box: list[Floats], points: Floats) -> list[Floats]:

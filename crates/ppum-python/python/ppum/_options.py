@@ -14,7 +14,7 @@ import numbers
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints, is_typeddict
+from typing import Any, Literal, TypeVar, get_args, get_origin, is_typeddict
 
 import numpy as np
 
@@ -73,15 +73,11 @@ class Option:
 
 
 def options_of(kind: type) -> dict[str, tuple[Any, Option]]:
-    """The types and options of a dictionary, by their names."""
-    hints = get_type_hints(kind, include_extras=True)
-    return {name: _split(name, hint) for name, hint in hints.items()}
+    """The types and options of a dictionary, by their names; its module has no annotations as texts."""
+    return {name: _split(name, *get_args(hint)) for name, hint in kind.__annotations__.items()}
 
 
-def _split(name: str, hint: Any) -> tuple[Any, Option]:
-    if get_origin(hint) is not Annotated:
-        hint = get_args(hint)[0]
-    kind, option = get_args(hint)
+def _split(name: str, kind: Any, option: Option) -> tuple[Any, Option]:
     shared, bracket, default = ("" if option.text else _shared_text(name)).partition(" [default")
     text = option.text or "; ".join(filter(None, [shared, option.more])) + bracket + default
     return kind, replace(option, text=text[:1].upper() + text[1:])
@@ -94,11 +90,14 @@ def _shared_text(name: str) -> str:
     return re.sub(r"--([a-z-]+)", lambda found: f"`{FOREIGN.get(found[1], found[1])}`", text)
 
 
+def defaults(kind: type) -> Any:
+    """The defaults of a dictionary's options."""
+    return {name: option.default for name, (_, option) in options_of(kind).items() if option.default is not UNSET}
+
+
 def takes(kind: type) -> Callable[[_F], _F]:
     """Makes a function check the options of a dictionary, and know their defaults, see the head of the module."""
-    known = options_of(kind)
-    defaults = {name: o.default for name, (_, o) in known.items() if o.default is not UNSET}
-    return lambda function: _checking(function, known, defaults)
+    return lambda function: _checking(function, options_of(kind), defaults(kind))
 
 
 def passes(kind: type) -> Callable[[_F], _F]:
@@ -111,9 +110,12 @@ def _checking(function: _F, known: Mapping[str, tuple[Any, Option]], defaults: M
     own = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
     names = [*known, *(p.name for p in own if p.name != "self")]
 
+    # operators have the name of their class
+    called = function.__name__ if function.__name__[0] != "_" else function.__qualname__.split(".")[0].lower()
+
     @functools.wraps(function)
     def checked(*args: Any, **given: Any) -> Any:
-        refuse_unknown(f"{function.__name__}()", given, names)
+        refuse_unknown(f"{called}()", given, names)
         for name in given.keys() & known.keys():
             _check(name, known[name][0], given[name])
         return function(*args, **{**defaults, **given})

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._dataset import Dataset
-from ._errors import Finding, ProblemError
+from ._errors import Diagnostic, ProblemError
 from ._options import takes
 from ._sections import (
     AdaptivityOptions, BoundaryOptions, CrackOptions, DiscretizationOptions, GrowthOptions, HoleOptions, SpaceOptions,
@@ -119,7 +119,7 @@ class Problem:
             text = data.decode()
         except UnicodeDecodeError as error:
             message = f"byte {error.start} is no UTF-8; write the file in this encoding"
-            raise _error_of([Finding(str(path), None, None, message)]) from None
+            raise _error_of([Diagnostic(str(path), None, None, message)]) from None
         return cls._parse(text.replace("\r\n", "\n"), str(path), path.parent)
 
     @classmethod
@@ -133,8 +133,8 @@ class Problem:
             spec = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
             # the library says it with line and column
-            findings = [Finding(**f) for f in _core.check(text, name, folder)]
-            raise _error_of(findings or [Finding(name, None, None, str(error))]) from None
+            diagnostics = [Diagnostic(**f) for f in _core.check(text, name, folder)]
+            raise _error_of(diagnostics or [Diagnostic(name, None, None, str(error))]) from None
         return cls._of(spec, text, name, folder)
 
     @classmethod
@@ -290,10 +290,10 @@ class Problem:
     def _with(self, spec: dict[str, Any]) -> Problem:
         return self._of(plain(spec), folder=self._folder)
 
-    def check(self) -> tuple[Finding, ...]:
+    def check(self) -> tuple[Diagnostic, ...]:
         """What is wrong; nothing if the problem can be solved as far as its text tells.
 
-        Findings of problems made in Python name keys, those of files lines. Where a table is missing, others are looked into
+        Diagnostics of problems made in Python name keys, those of files lines. Where a table is missing, others are looked into
         once it is there.
 
         Example:
@@ -301,8 +301,8 @@ class Problem:
             'boundary[2].on'
         """
         text, keys = (self._text, None) if self._text is not None else toml_lines(self._spec)
-        found = (Finding(**f) for f in _core.check(text, self._name, self._folder))
-        return tuple(found if keys is None else (_of_key(finding, keys) for finding in found))
+        found = (Diagnostic(**f) for f in _core.check(text, self._name, self._folder))
+        return tuple(found if keys is None else (_of_key(diagnostic, keys) for diagnostic in found))
 
     def solve(
         self, *, threads: int | None = None, memory: int | None = None, progress: bool | Progress = False
@@ -346,16 +346,16 @@ def _domain(domain: Any) -> Mapping[str, Any]:
         raise TypeError(f"{message}, not {domain!r}") from None
 
 
-def _error_of(findings: Iterable[Finding]) -> ProblemError:
-    return ProblemError("\n".join(map(str, findings)), list(findings))
+def _error_of(diagnostics: Iterable[Diagnostic]) -> ProblemError:
+    return ProblemError("\n".join(map(str, diagnostics)), list(diagnostics))
 
 
-def _of_key(finding: Finding, keys: list[str]) -> Finding:
-    """The finding with a key in place of the line of a text that nobody wrote."""
-    if finding.line is None:
-        return finding
-    key = keys[min(finding.line, len(keys)) - 1] if keys else finding.place
-    return Finding(key, None, None, finding.message)
+def _of_key(diagnostic: Diagnostic, keys: list[str]) -> Diagnostic:
+    """The diagnostic with a key in place of the line of a text that nobody wrote."""
+    if diagnostic.line is None:
+        return diagnostic
+    key = keys[min(diagnostic.line, len(keys)) - 1] if keys else diagnostic.place
+    return Diagnostic(key, None, None, diagnostic.message)
 
 
 def solve(
@@ -377,7 +377,7 @@ def solve(
             are done, all parts and the step. What it raises ends the solution and is raised.
 
     Raises:
-        ProblemError: Mistakes in the problem, all in `findings`.
+        ProblemError: Mistakes in the problem, all in `diagnostics`.
         SolveError: What cannot be solved, e.g. loads that nothing holds.
         OSError: A file that cannot be read.
         KeyboardInterrupt: Ctrl-C.
@@ -401,10 +401,10 @@ def solve(
     try:
         return Dataset(_core.solve(text, problem._name, problem._folder, memory, threads, told))
     except ProblemError:
-        findings = problem.check() if problem._text is None else ()
-        if not findings:
+        diagnostics = problem.check() if problem._text is None else ()
+        if not diagnostics:
             raise
-        raise _error_of(findings) from None
+        raise _error_of(diagnostics) from None
     finally:
         if isinstance(told, _Line):
             told.clear()

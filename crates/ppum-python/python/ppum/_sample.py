@@ -1,105 +1,110 @@
 """Values of a field along curves and on grids, as xarray datasets."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._errors import require
-from ._evaluation import Evaluation
+from . import _core
+from ._errors import RenderError, require
+from ._images import Extremum
+from ._options import Option, takes
 from ._text import math_text, plain
 from ._units import Floats, degrees, floats, pair
 from ._values import SideName
+from ._views import PixelOptions
 
-#: Points of a curve where no number is given, as the program has it.
-POINTS = 201
+if TYPE_CHECKING:
+    from ._field import Field
+
+STRESSES = ("sxx", "syy", "sxy", "von-mises")
 
 
-class Sampling(Evaluation):
-    """The curves and grids of a `Field`."""
+class CurveOptions(TypedDict, total=False):
+    """What is evaluated along a curve."""
 
-    def line(self, start: ArrayLike, end: ArrayLike, *, num: int = POINTS, quantities: Sequence[str] | None = None) -> Any:
-        """Values along a line, as an `xarray.Dataset` over the distance `s` from its start.
+    num: Annotated[int, Option(201, "number of points")]
+    quantities: Annotated[
+        Sequence[str] | None, Option(None, "names or formulas; by default the components, for elasticity also the stresses")
+    ]
 
-        Coordinates are `x`, `y` and `side`: where the line meets a crack there are two rows, above (1) and below (-1).
+
+@dataclass(frozen=True)
+class Sample:
+    """Values of a field along curves and on grids, each an `xarray.Dataset`, and its extreme values.
+
+    The coordinates along a curve are `x`, `y` and `side`: where it meets a crack there are two rows, above (1) and below (-1).
+    """
+
+    _field: "Field"
+
+    @takes(CurveOptions)
+    def line(self, start: ArrayLike, end: ArrayLike, **options: Unpack[CurveOptions]) -> Any:
+        """Values along a line, over the distance `s` from its start.
 
         Example:
-            >>> line = f.line((-1, 0), (1, 0), num=5, quantities=["uy"])
+            >>> line = f.sample.line((-1, 0), (1, 0), num=5, quantities=["uy"])
             >>> line.side.values
             array([ 0.,  0.,  1., -1.,  0.,  0.])
         """
-        along = {"line": {"from": pair(start), "to": pair(end)}}
-        return self._curve(along, num, quantities)
+        return self._curve(line(start, end), options)
 
-    def circle(
-        self, center: ArrayLike, radius: float, *, num: int = POINTS, quantities: Sequence[str] | None = None
-    ) -> Any:
-        """Values on a circle, as an `xarray.Dataset` over the angle `theta` from the x axis, radians.
+    @takes(CurveOptions)
+    def circle(self, center: ArrayLike, radius: float, **options: Unpack[CurveOptions]) -> Any:
+        """Values on a circle, over the angle `theta` from the x axis, radians.
 
         Example:
-            >>> f.circle((0, 0), 0.6, num=5, quantities=["uy"]).theta.values
+            >>> f.sample.circle((0, 0), 0.6, num=5, quantities=["uy"]).theta.values
             array([-3.14159265, -1.57079633,  0.        ,  1.57079633,  3.14159265])
         """
-        along = {"circle": {"center": pair(center), "radius": radius}}
-        return self._curve(along, num, quantities)
+        return self._curve(circle(center, radius), options)
 
-    def along(self, crack: Any, *, num: int = POINTS, quantities: Sequence[str] | None = None) -> Any:
-        """Values on both sides of a crack, as an `xarray.Dataset` over the arc length `s`: of each quantity
-        `…_above` and `…_below`, and of a displacement the jumps `jump_ux` and `jump_uy`, `opening` and `sliding`.
-
-        Args:
-            crack: A `Crack` or its number.
+    @takes(CurveOptions)
+    def crack(self, crack: Any = 0, **options: Unpack[CurveOptions]) -> Any:
+        """Values on both sides of a crack, a `Crack` or its number, over the arc length `s`: of each quantity `…_above` and
+        `…_below`, and of a displacement the jumps `jump_ux` and `jump_uy`, `opening` and `sliding`.
 
         Example:
-            >>> sorted(f.along(0, quantities=["ux", "uy"]))
+            >>> sorted(f.sample.crack(0, quantities=["ux", "uy"]))
             ['jump_ux', 'jump_uy', 'opening', 'sliding', 'ux_above', 'ux_below', 'uy_above', 'uy_below']
         """
-        return self._curve({"crack": {"index": getattr(crack, "index", crack)}}, num, quantities)
+        return self._curve(along_crack(crack), options)
 
-    def around(
-        self, tip: int, radius: float | None = None, *, num: int = POINTS, quantities: Sequence[str] | None = None
-    ) -> Any:
-        """Values on a circle around a tip, as an `xarray.Dataset` over the angle `theta` from the crack's extension,
-        radians; by default a hundredth of the crack's length away.
+    @takes(CurveOptions)
+    def around(self, tip: int, radius: float | None = None, **options: Unpack[CurveOptions]) -> Any:
+        """Values on a circle around a tip, over the angle `theta` from the crack's extension, radians; by default a hundredth
+        of the crack's length away.
 
         Example:
-            >>> f.around(1, num=5, quantities=["syy"]).sizes["theta"]
+            >>> f.sample.around(1, num=5, quantities=["syy"]).sizes["theta"]
             5
         """
-        return self._curve({"around": {"tip": tip, "radius": radius}}, num, quantities)
+        return self._curve(around(tip, radius), options)
 
+    @takes(CurveOptions)
     def ray(
-        self,
-        tip: int,
-        angle: float = 0.0,
-        length: float | None = None,
-        *,
-        num: int = POINTS,
-        quantities: Sequence[str] | None = None,
+        self, tip: int, angle: float = 0.0, length: float | None = None, **options: Unpack[CurveOptions]
     ) -> Any:
-        """Values on a ray from a tip, as an `xarray.Dataset` over the distance `r` in steps of its logarithm.
+        """Values on a ray from a tip, over the distance `r` in steps of its logarithm.
 
         Args:
-            tip: The number of a tip.
             angle: That from the crack's extension, radians, as `Tip.growth_angle`.
             length: The largest distance; by default a tenth of the crack's length.
 
         Example:
-            >>> ahead = f.ray(1, angle=ds.tips[1].growth_angle, quantities=["syy"])
+            >>> ahead = f.sample.ray(1, angle=ds.tips[1].growth_angle, quantities=["syy"])
             >>> bool(ahead.syy[0] > ahead.syy[-1] > 0)
             True
         """
-        along = {"ray": {"tip": tip, "angle": degrees(angle), "far": length}}
-        return self._curve(along, num, quantities)
+        return self._curve(ray(tip, angle, length), options)
 
-    def _curve(self, along: Any, num: int, quantities: Sequence[str] | None) -> Any:
+    def _curve(self, along: Any, options: CurveOptions) -> Any:
         """The table of a curve: the first column is the dimension, x, y and side are coordinates."""
-        xarray, names = _xarray(), self._names(quantities)
-        heads, rows = self._core.table(json.dumps(plain(along, "curve")), num, names)
+        xarray, names = _xarray(), self._names(options["quantities"])
+        heads, rows = self._field._core.table(curve_text(along), options["num"], names)
         dimension = heads[0][0]
         coords: dict[str, Any] = {}
         variables: dict[str, Any] = {}
@@ -111,7 +116,7 @@ class Sampling(Evaluation):
         for name in names:
             if (variable := variables.get(_attribute(name))) is not None:
                 variable[2].update(self._labels(name))
-        return xarray.Dataset(variables, coords, {"title": self.dataset.title})
+        return xarray.Dataset(variables, coords, {"title": self._field.dataset.title})
 
     def grid(
         self,
@@ -123,39 +128,87 @@ class Sampling(Evaluation):
         quantities: Sequence[str] | None = None,
         side: SideName = "above",
     ) -> Any:
-        """Values on a grid, as an `xarray.Dataset` over y and x, both rising.
+        """Values on a grid, over y and x, both rising.
 
         Args:
             nx, ny: Numbers of columns and rows, from border to border of the domain's box.
             x, y: Or the coordinates themselves.
-            quantities: By default the components, for elasticity also the stresses.
-            side: As in `at`; ``both`` adds a dimension `side`.
+            quantities: As along curves.
+            side: As in `Field.at`; ``both`` adds a dimension `side`.
 
         Example:
-            >>> f.grid(3, 5, quantities=["s1"]).s1.dims
+            >>> f.sample.grid(3, 5, quantities=["s1"]).s1.dims
             ('y', 'x')
         """
         xarray, names = _xarray(), self._names(quantities)
-        (x0, y0), (x1, y1) = self.dataset.domain
+        (x0, y0), (x1, y1) = self._field.dataset.domain
         x, y = _axis("x", nx, x, x0, x1), _axis("y", ny, y, y0, y1)
-        found: Floats = self.evaluate(x[None, :], y[:, None], names, side=side)
+        found: Floats = self._field.evaluate(x[None, :], y[:, None], names, side=side)
         dims = ("y", "x", "side") if side == "both" else ("y", "x")
         coords = {"x": x, "y": y, **({"side": ["above", "below"]} if side == "both" else {})}
         variables = {_attribute(n): (dims, found[..., k], self._labels(n)) for k, n in enumerate(names)}
-        return xarray.Dataset(variables, coords, {"title": self.dataset.title})
+        return xarray.Dataset(variables, coords, {"title": self._field.dataset.title})
+
+    @takes(PixelOptions)
+    def extrema(self, quantity: str | None = None, **options: Unpack[PixelOptions]) -> tuple[Extremum, Extremum]:
+        """The smallest and the largest value of a quantity in a view, also between its pixels, at tips infinite.
+
+        Raises:
+            RenderError: There is no value in the view.
+
+        Example:
+            >>> low, high = f.sample.extrema("uy")
+            >>> low.value < 0 < high.value
+            True
+        """
+        name, window, size = self._field._asked(quantity, options)
+        found = _core.extrema(self._field._core, name, window, size)
+        if found is None:
+            raise RenderError(f"`{name}` has no value in the view; show some of the plate")
+        low, high = (Extremum(**one) for one in found)
+        return low, high
 
     def _names(self, quantities: Sequence[str] | None) -> list[str]:
-        if isinstance(quantities, str):
-            raise TypeError("quantities: give a list of names")
         if quantities is not None:
-            return list(quantities)
-        stresses = ["sxx", "syy", "sxy", "von-mises"]
-        return [*self.components, *(stresses if self.dataset.equation == "elasticity" else [])]
+            return names_of(quantities)
+        return [*self._field.components, *(STRESSES if self._field.dataset.equation == "elasticity" else ())]
 
     def _labels(self, name: str) -> dict[str, str]:
-        symbol, unit = self._core.words(name)
+        symbol, unit = self._field._core.words(name)
         words = {"long_name": math_text(symbol), "units": unit}
         return {key: value for key, value in words.items() if value}
+
+
+def line(start: ArrayLike, end: ArrayLike) -> dict[str, Any]:
+    return {"line": {"from": pair(start), "to": pair(end)}}
+
+
+def circle(center: ArrayLike, radius: float) -> dict[str, Any]:
+    return {"circle": {"center": pair(center), "radius": radius}}
+
+
+def along_crack(crack: Any) -> dict[str, Any]:
+    return {"crack": {"index": getattr(crack, "index", crack)}}
+
+
+def around(tip: int, radius: float | None) -> dict[str, Any]:
+    return {"around": {"tip": tip, "radius": radius}}
+
+
+def ray(tip: int, angle: float, length: float | None) -> dict[str, Any]:
+    return {"ray": {"tip": tip, "angle": degrees(angle), "far": length}}
+
+
+def curve_text(curve: dict[str, Any]) -> str:
+    """A curve as the libraries read it."""
+    return json.dumps(plain(curve, "curve"))
+
+
+def names_of(names: Sequence[str], what: str = "quantities") -> list[str]:
+    """A list of names, which a single text is not."""
+    if isinstance(names, str):
+        raise TypeError(f"{what}: give a list of names")
+    return list(names)
 
 
 def _xarray() -> Any:

@@ -1,7 +1,5 @@
 """The keys of problem files as options of `Problem`; what has no default here has that of docs/problem-file.md."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, TypedDict

@@ -49,9 +49,9 @@ class Coefficients:
             ``total`` degree; or ``tensor``.
 
     Example:
-        >>> cover = ppum.Cover.uniform([(0, 0), (2, 1)], cells=(2, 1))
+        >>> cover = ppum.build.Cover.uniform([(0, 0), (2, 1)], cells=(2, 1))
         >>> c = np.column_stack([cover.center[:, 0], cover.half[:, 0], np.zeros(2)])
-        >>> made = ppum.build(ppum.State(cover, ppum.Coefficients("u", {"one": c}, verify=lambda x, y: x)))
+        >>> made = ppum.build.dataset(ppum.build.State(cover, ppum.build.Coefficients("u", {"one": c}, verify=lambda x, y: x)))
         verified: field 'u' at 1000 points, largest difference ... of its largest value
         >>> float(made.field.at(1.25, 0.5).u)
         1.25

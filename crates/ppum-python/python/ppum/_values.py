@@ -14,7 +14,7 @@ from ._text import hint
 from ._units import Floats, check_out, floats, pair
 
 if TYPE_CHECKING:
-    from ._evaluation import Evaluation
+    from ._field import Field
 
 SideName = Literal["above", "below", "both"]
 SIDES = ("above", "below", "both")
@@ -73,7 +73,7 @@ class Values:
 
     __slots__ = ("_anchor", "_field", "_is_one", "_shape", "_side", "_x", "_y")
 
-    def __init__(self, field: Evaluation, x: ArrayLike, y: ArrayLike, side: str, anchor: ArrayLike | None) -> None:
+    def __init__(self, field: Field, x: ArrayLike, y: ArrayLike, side: str, anchor: ArrayLike | None) -> None:
         if side not in SIDES:
             raise ValueError(f"side: {side!r} is none; there are above, below, both")
         self._field, self._side = field, side

@@ -1,7 +1,5 @@
 """The part of the plane that is seen."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,7 +11,7 @@ from ._errors import RenderError
 from ._options import Option
 from ._units import floats, pair, pixels
 
-Spot = tuple[tuple[float, float], float]
+Window = tuple[tuple[float, float], float]
 Box = tuple[tuple[float, float], tuple[float, float]]
 
 #: Columns and rows of a picture where none are given.
@@ -47,8 +45,14 @@ class View:
         return self.width * self.size[1] / self.size[0]
 
     @property
-    def _spot(self) -> Spot:
+    def _window(self) -> Window:
         return pair(self.center), float(floats(self.width))
+
+
+class ProgressOptions(TypedDict, total=False):
+    """Who hears of the progress of a long call."""
+
+    progress: Annotated[Any, Option(None, "a function that is called with phase, parts done, all parts and step")]
 
 
 class PlaceOptions(TypedDict, total=False):
@@ -64,19 +68,16 @@ class PlaceOptions(TypedDict, total=False):
 class PixelOptions(PlaceOptions, total=False):
     """What is seen, and in how many pixels."""
 
-    size: Annotated[
-        tuple[int, int] | None,
-        Option(None, "columns and rows of pixels; by default those of `view`, else 1024 and 768"),
-    ]
+    size: Annotated[tuple[int, int] | None, Option(None, "columns and rows of pixels; by default those of `view`, else 1024 and 768")]
 
 
-def spot(
-    domain: Box,
-    size: tuple[int, int],
-    center: tuple[float, float] | None = None,
-    width: float | None = None,
-    zoom: float | None = None,
-) -> Spot:
+class RasterOptions(PixelOptions, ProgressOptions, total=False):
+    """What is seen, in how many pixels, and who hears of the progress."""
+
+
+def window(
+    domain: Box, size: tuple[int, int], center: Any = None, width: float | None = None, zoom: float | None = None
+) -> Window:
     """Center and width of a view, by default of all of the plate.
 
     Raises:

@@ -23,9 +23,9 @@ from . import _core
 from ._errors import PpumError
 from ._field import KEPT
 from ._options import passes, takes
-from ._pictures import Figure
+from ._images import Figure
 from ._styles import FigureOptions, Norm, ViewerOptions, request, span, to_json
-from ._views import PlaceOptions, Spot, View, spot
+from ._views import PlaceOptions, View, Window, window
 
 if TYPE_CHECKING:
     from ._field import Field
@@ -112,7 +112,7 @@ class Viewer(anywidget.AnyWidget):
         self._version, self._is_answering = 0, False
         #: The field; its step is that of `step`.
         self.field = field
-        self._other = lru_cache(KEPT)(field._of_step)
+        self._other = lru_cache(KEPT)(field._at_step)
         # what the center has beyond double precision
         self._rest = (0.0, 0.0)
         # the last range that was found, for frames of moving views
@@ -179,7 +179,7 @@ class Viewer(anywidget.AnyWidget):
 
     @property
     def view(self) -> View:
-        """What is seen at the moment, for `Field.figure` and all that take a `view`."""
+        """What is seen at the moment, for `field.draw.figure` and all that take a `view`."""
         return View(self.center, self.width, self._size)
 
     def home(self) -> None:
@@ -188,7 +188,7 @@ class Viewer(anywidget.AnyWidget):
         self._is_whole = True
 
     def _whole(self) -> tuple[tuple[float, float], float]:
-        center, width = spot(self.field.dataset.domain, self._size)
+        center, width = window(self.field.dataset.domain, self._size)
         return center, MARGIN * width
 
     def go_to_tip(self, tip: int, zoom: float = 10.0) -> None:
@@ -197,7 +197,7 @@ class Viewer(anywidget.AnyWidget):
         Raises:
             IndexError: There is no such tip.
         """
-        self.center, self.width = self._at_step()._spot(self._size, {"tip": tip, "zoom": zoom})
+        self.center, self.width = self._at_step()._window(self._size, {"tip": tip, "zoom": zoom})
 
     @passes(FigureOptions)
     def figure(self, **options: Unpack[FigureOptions]) -> Figure:
@@ -212,7 +212,7 @@ class Viewer(anywidget.AnyWidget):
             del own["clim"]
         if not PlaceOptions.__annotations__.keys() & options.keys():
             own["view"] = self.view
-        return self._at_step().figure(self.quantity, **{**own, **options})
+        return self._at_step().draw.figure(self.quantity, **{**own, **options})
 
     def _look(self) -> dict[str, Any]:
         cmap, overlays = None if self.cmap == "auto" else self.cmap, ["cracks"] if self.cracks else []
@@ -328,7 +328,7 @@ class Viewer(anywidget.AnyWidget):
         """The quantity at a point; of cells that of the cell."""
         field = self._at_step()
         if not field._is_quantity(self.quantity):
-            return float(field.render(self.quantity, center=anchor + offset, width=side, size=(1, 1))[0, 0])
+            return float(field.draw.render(self.quantity, center=anchor + offset, width=side, size=(1, 1))[0, 0])
         return float(field.at(*offset, anchor=anchor)[self.quantity])
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
@@ -367,7 +367,7 @@ def _offers(field: Field) -> dict[str, Any]:
     return {"quantities": list(field.quantities), "cmaps": ["auto", *_core.colormaps()], "tips": tips, "steps": steps}
 
 
-def _clim(field: Field, quantity: str, options: ViewerOptions, at: Spot) -> Any:
+def _clim(field: Field, quantity: str, options: ViewerOptions, at: Window) -> Any:
     """The range that options say; an end that they leave is that of an automatic one."""
     found = span(options)
     if isinstance(found, str) or None not in found:

@@ -21,8 +21,9 @@ from numpy.typing import ArrayLike
 from ._blocks import DEGREES, MAX_DEGREE, exponents
 from ._checks import check_shape, check_type, numbers, rows, short
 from ._cover import Cover
-from ._errors import BuildError, warn
+from ._errors import BuildError
 from ._units import Floats
+from ._warnings import warn
 
 __all__ = ["Basis", "bernstein", "chebyshev", "fit", "lagrange", "legendre", "monomials", "reframe"]
 
@@ -187,11 +188,11 @@ def fit(
         BuildError: The function of a patch is no polynomial of this degree.
 
     Example:
-        >>> cover = ppum.Cover.uniform([(0, 0), (1, 1)], cells=(2, 2))
+        >>> cover = ppum.build.Cover.uniform([(0, 0), (1, 1)], cells=(2, 2))
         >>> ppum.basis.fit(cover, 2, lambda patch, x, y: x * y).shape
         (4, 6)
     """
-    check_type("cover", cover, isinstance(cover, Cover), "a ppum.Cover")
+    check_type("cover", cover, isinstance(cover, Cover), "a ppum.build.Cover")
     count = _bounded(degree) + 3
     nodes = np.cos(np.pi * (np.arange(count) + 0.5) / count)
     xi, eta = (a.reshape(-1) for a in np.meshgrid(nodes, nodes))

@@ -9,12 +9,5 @@ from .skfem import from_skfem
 from .vtk import from_meshio, from_vtu
 
 __all__ = [
-    "from_dolfinx",
-    "from_getfem",
-    "from_meshio",
-    "from_mfem",
-    "from_ngsolve",
-    "from_ngsxfem",
-    "from_skfem",
-    "from_vtu",
-]
+    "from_dolfinx", "from_getfem", "from_meshio", "from_mfem", "from_ngsolve", "from_ngsxfem", "from_skfem", "from_vtu",
+]  # fmt: skip

@@ -1,23 +1,23 @@
 """What all importers share: elements and polynomials from the values that a library gives at reference places."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._blocks import MAX_DEGREE, exponents
-from .._build import build
 from .._checks import Ragged
 from .._dataset import Dataset
 from .._errors import BuildError
+from .._head import BuildOptions
 from .._mesh import Clip, Mesh
+from .._options import Option
 from .._shapes import SQUARE, TRIANGLE, interpolated, nodes
 from .._state import Coefficients, Sampled, State
 from .._units import Floats
+from ..build import dataset
 
 #: Reference places of each shape, (k, 2).
 Places = Mapping[int, Floats]
@@ -54,13 +54,22 @@ Sampler = Callable[[Places], list[Group]]
 Values = Callable[[NDArray[np.int64], Floats], tuple[Floats, Floats]]
 
 
-@dataclass(frozen=True)
-class Labels:
-    """Name, components and unit of an imported field."""
+class FieldOptions(TypedDict, total=False):
+    """Labels of an imported field, and how it is verified."""
 
-    name: str
-    components: Sequence[str] | None = None
-    unit: str = ""
+    name: Annotated[str | None, Option(None, "name of the field; by default `u`, of files that of the data")]
+    components: Annotated[list[str] | None, Option(None, "names of its components, see `Coefficients`")]
+    unit: Annotated[str, Option("", "its unit, for labels")]
+    verify: Annotated[int, Option(1000, "number of random points at which the dataset is compared with the library")]
+
+
+class ImportOptions(FieldOptions, BuildOptions, total=False):
+    """Labels of an imported field, and what is said of its dataset."""
+
+
+def of_field(options: ImportOptions) -> FieldOptions:
+    """The options of the field among those of an importer."""
+    return {name: options[name] for name in FieldOptions.__annotations__}  # type: ignore[literal-required, return-value]
 
 
 class Elements:
@@ -171,20 +180,21 @@ def random_places(random: np.random.Generator, shape: int, count: int) -> Floats
     return 0.75 * np.where(at.sum(axis=1, keepdims=True) > 0, -at, at) + 0.25
 
 
-def smooth(sampler: Sampler, labels: Labels, order: int, geometry: int, verify: Sampled | None) -> State:
+def smooth(sampler: Sampler, options: FieldOptions, order: int, geometry: int, verify: Sampled | None) -> State:
     """The state of a field that is one polynomial on each element; `verify` are points and values of the library."""
     elements = Elements(sampler, order, geometry)
-    return State(elements.mesh(), labelled(labels, {"one": elements.polynomials(order)}, verify))
+    return State(elements.mesh(), labelled(options, {"one": elements.polynomials(order)}, verify))
 
 
-def labelled(labels: Labels, blocks: Mapping[str, Any], verify: Sampled | None) -> Coefficients:
+def labelled(options: FieldOptions, blocks: Mapping[str, Any], verify: Sampled | None) -> Coefficients:
     """A field of blocks with its labels."""
-    return Coefficients(labels.name, blocks, components=labels.components, unit=labels.unit, verify=verify)
+    return Coefficients(options["name"] or "u", blocks, options["components"], options["unit"], verify=verify)
 
 
-def built(state: State, library: str, version: str, options: Mapping[str, Any]) -> Dataset:
+def built(state: State, library: str, version: str, options: ImportOptions) -> Dataset:
     """The dataset of a state, by the name of its library."""
-    return build(state, **({"program": f"{library} {version}".strip()} | dict(options)))
+    others: Any = {name: value for name, value in options.items() if name not in FieldOptions.__annotations__}
+    return dataset(state, **others | {"program": options["program"] or f"{library} {version}".strip()})
 
 
 def group_by_shape(shapes: NDArray[np.int64], among: NDArray[np.int64], places: Places, values: Values) -> list[Group]:

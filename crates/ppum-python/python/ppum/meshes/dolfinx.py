@@ -1,8 +1,6 @@
 """Fields of DOLFINx."""
 
-from __future__ import annotations
-
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,10 +8,11 @@ from numpy.typing import NDArray
 from .._checks import real
 from .._dataset import Dataset
 from .._errors import BuildError, require
+from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
 from .._units import Floats
-from ._elements import Group, Labels, Places, Sampler, built, compared, smooth, to_unit
+from ._elements import FieldOptions, Group, ImportOptions, Places, Sampler, built, compared, of_field, smooth, to_unit
 
 __all__ = ["from_dolfinx", "state"]
 
@@ -22,27 +21,26 @@ SHAPES = {"triangle": TRIANGLE, "quadrilateral": SQUARE}
 REMEDY = "interpolate the field into discontinuous Lagrange elements of its degree"
 
 
-def from_dolfinx(
-    u: Any, *, name: str = "u", components: list[str] | None = None, unit: str = "", verify: int = 1000, **options: Any
-) -> Dataset:
+@takes(ImportOptions)
+def from_dolfinx(u: Any, **options: Unpack[ImportOptions]) -> Dataset:
     """The dataset of a Function of DOLFINx in a Lagrange space, continuous or not, of scalars or vectors: degrees of
     freedom times basix's shape functions, on triangles or quadrilaterals of any order.
 
     Args:
         u: The Function; parts of mixed ones by ``u.sub(k).collapse()``.
-        name, components, unit, verify, options: As of `from_ngsolve`.
     """
     version = require("dolfinx", "fenics-dolfinx", "fields of DOLFINx", CONDA).__version__
-    return built(state(u, labels=Labels(name, components, unit), verify=verify), "DOLFINx", version, options)
+    return built(state(u, **of_field(options)), "DOLFINx", version, options)
 
 
-def state(u: Any, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
+@takes(FieldOptions)
+def state(u: Any, **options: Unpack[FieldOptions]) -> State:
     """The state of `from_dolfinx`."""
     mesh, element = u.function_space.mesh, _element(u)
     if mesh.comm.size > 1:
         raise BuildError(f"u: is spread over {mesh.comm.size} processes; run the import on one")
     order, geometry = _degree(element), int(_geometry_map(mesh).degree)
-    return smooth(sampler(u, False), labels, order, geometry, compared(sampler(u, True), verify))
+    return smooth(sampler(u, False), options, order, geometry, compared(sampler(u, True), options["verify"]))
 
 
 def _element(u: Any) -> Any:

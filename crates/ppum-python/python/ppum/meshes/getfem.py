@@ -1,10 +1,8 @@
 """Fields of GetFEM, also of its extended finite elements."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +12,13 @@ from .._checks import check_type, real
 from .._dataset import Dataset
 from .._errors import BuildError, require
 from .._functions import Formula
+from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import Coefficients, State
 from .._units import Floats
-from ._elements import Elements, Group, Labels, Places, built, compared, labelled, random_places, to_unit
+from ._elements import (
+    Elements, FieldOptions, Group, ImportOptions, Places, built, compared, labelled, of_field, random_places, to_unit,
+)  # fmt: skip
 
 __all__ = ["Crack", "from_getfem", "state"]
 
@@ -53,17 +54,8 @@ class Crack:
     functions: Sequence[str] = TIP
 
 
-def from_getfem(
-    mf: Any,
-    u: Any,
-    crack: Crack | None = None,
-    *,
-    name: str = "u",
-    components: list[str] | None = None,
-    unit: str = "",
-    verify: int = 1000,
-    **options: Any,
-) -> Dataset:
+@takes(ImportOptions)
+def from_getfem(mf: Any, u: Any, crack: Crack | None = None, **options: Unpack[ImportOptions]) -> Dataset:
     """The dataset of a field of GetFEM: degrees of freedom times the shape functions of the elements, tip functions in the
     frame of the interpolated level sets. Cut elements are two patches.
 
@@ -71,24 +63,23 @@ def from_getfem(
         mf: The MeshFem of the field.
         u: Its basic degrees of freedom.
         crack: The parts of an extended space.
-        name, components, unit, verify, options: As of `from_ngsolve`.
     """
     _library()
-    made = state(mf, u, crack, labels=Labels(name, components, unit), verify=verify)
-    return built(made, "GetFEM", "", options)
+    return built(state(mf, u, crack, **of_field(options)), "GetFEM", "", options)
 
 
-def state(mf: Any, u: Any, crack: Crack | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
+@takes(FieldOptions)
+def state(mf: Any, u: Any, crack: Crack | None = None, **options: Unpack[FieldOptions]) -> State:
     """The state of `from_getfem`."""
     check_type("mf", mf, hasattr(mf, "linked_mesh"), "a MeshFem of GetFEM")
     source = _Source(mf, real("u", u).ravel(), crack)
     elements = Elements(source.sample, source.order, source.geometry)
-    known = compared(source.evaluate, verify, source.off)
+    known = compared(source.evaluate, options["verify"], source.off)
     if known is not None:
         known = known._replace(values=known.values[:, : source.count])
     smooth = elements.polynomials(source.order, source.columns(0))
     if crack is None:
-        return State(elements.mesh(), labelled(labels, {"one": smooth}, known))
+        return State(elements.mesh(), labelled(options, {"one": smooth}, known))
     sides = np.array(source.sides)[elements.order]
     clips = {k: [("phi", int(side))] for k, side in enumerate(sides) if side}
     blocks: dict[str, Any] = {"one": smooth}
@@ -102,7 +93,7 @@ def state(mf: Any, u: Any, crack: Crack | None = None, *, labels: Labels = Label
         Coefficients(level, {"one": elements.polynomials(source.level, slice(at, at + 1))})
         for level, at in source.levels()
     ]
-    return State(elements.mesh(None, clips), [labelled(labels, blocks, known), *levels], functions=functions)
+    return State(elements.mesh(None, clips), [labelled(options, blocks, known), *levels], functions=functions)
 
 
 def _library() -> Any:

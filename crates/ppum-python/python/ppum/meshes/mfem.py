@@ -1,9 +1,7 @@
 """Fields of MFEM, by PyMFEM."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,38 +9,30 @@ from numpy.typing import NDArray
 from .._checks import check_type, real
 from .._dataset import Dataset
 from .._errors import BuildError, require
+from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
 from .._units import Floats
-from ._elements import SEED, Labels, Sampler, built, compared, group_by_shape, smooth
+from ._elements import SEED, FieldOptions, ImportOptions, Sampler, built, compared, group_by_shape, of_field, smooth
 
 __all__ = ["from_mfem", "state"]
 
 
-def from_mfem(
-    gf: Any,
-    order: int | None = None,
-    *,
-    name: str = "u",
-    components: list[str] | None = None,
-    unit: str = "",
-    verify: int = 1000,
-    **options: Any,
-) -> Dataset:
+@takes(ImportOptions)
+def from_mfem(gf: Any, order: int | None = None, **options: Unpack[ImportOptions]) -> Dataset:
     """The dataset of a GridFunction of MFEM, sampled at reference points of each element: H1 and L2 of any order on
     straight and curved meshes, with hanging nodes too.
 
     Args:
         gf: A GridFunction of PyMFEM.
         order: Degree of the polynomials, on squares in each variable; by default the highest of the space.
-        name, components, unit, verify, options: As of `from_ngsolve`.
     """
     package = require("mfem", "mfem", "fields of MFEM")
-    made = state(gf, order, labels=Labels(name, components, unit), verify=verify)
-    return built(made, "MFEM", getattr(package, "__version__", ""), options)
+    return built(state(gf, order, **of_field(options)), "MFEM", getattr(package, "__version__", ""), options)
 
 
-def state(gf: Any, order: int | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
+@takes(FieldOptions)
+def state(gf: Any, order: int | None = None, **options: Unpack[FieldOptions]) -> State:
     """The state of `from_mfem`."""
     check_type("gf", gf, hasattr(gf, "FESpace"), "a GridFunction of MFEM")
     space = gf.FESpace()
@@ -52,7 +42,7 @@ def state(gf: Any, order: int | None = None, *, labels: Labels = Labels("u"), ve
     curve = mesh.GetNodes()
     geometry = int(curve.FESpace().GetMaxElementOrder()) if curve is not None else 1
     order = int(space.GetMaxElementOrder()) if order is None else order
-    return smooth(sampler(gf, mesh), labels, order, geometry, compared(evaluator(gf, mesh, verify), verify))
+    return smooth(sampler(gf, mesh), options, order, geometry, compared(evaluator(gf, mesh, options["verify"]), options["verify"]))
 
 
 def _shapes(mesh: Any) -> NDArray[np.int64]:

@@ -1,31 +1,23 @@
 """Fields of NGSolve."""
 
-from __future__ import annotations
-
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
 from .._checks import check_type, real
 from .._dataset import Dataset
 from .._errors import BuildError, require
+from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
-from ._elements import Group, Labels, Places, Sampler, built, compared, smooth, to_unit
+from ._elements import FieldOptions, Group, ImportOptions, Places, Sampler, built, compared, of_field, smooth, to_unit
 
 __all__ = ["from_ngsolve", "state"]
 
 
+@takes(ImportOptions)
 def from_ngsolve(
-    gf: Any,
-    order: int | None = None,
-    *,
-    mesh: Any = None,
-    name: str = "u",
-    components: list[str] | None = None,
-    unit: str = "",
-    verify: int = 1000,
-    **options: Any,
+    gf: Any, order: int | None = None, *, mesh: Any = None, **options: Unpack[ImportOptions]
 ) -> Dataset:
     """The dataset of a field of NGSolve, sampled at reference points of each element and exact for any space whose
     functions are polynomials there: H1, L2, VectorH1, facet bubbles, hp; H(div) and H(curl) on straight elements.
@@ -34,24 +26,21 @@ def from_ngsolve(
         gf: A GridFunction, or a CoefficientFunction that is polynomial on each element.
         order: Degree of the polynomials, on squares in each variable; by default the order of the space.
         mesh: The mesh of a CoefficientFunction.
-        name, components, unit: Of the field, see `Coefficients`.
-        verify: Number of random points at which the dataset is compared with NGSolve.
-        options: As of `build`, such as `equation` and `title`.
     """
     version = require("ngsolve", "ngsolve", "fields of NGSolve").__version__
-    made = state(gf, order, mesh=mesh, labels=Labels(name, components, unit), verify=verify)
-    return built(made, "NGSolve", version, options)
+    return built(state(gf, order, mesh=mesh, **of_field(options)), "NGSolve", version, options)
 
 
+@takes(FieldOptions)
 def state(
-    gf: Any, order: int | None = None, *, mesh: Any = None, labels: Labels = Labels("u"), verify: int = 1000
+    gf: Any, order: int | None = None, *, mesh: Any = None, **options: Unpack[FieldOptions]
 ) -> State:
     """The state of `from_ngsolve`, to be built with others or with more fields."""
     mesh = mesh_of(gf, mesh)
     if order is None:
         order = order_of(gf)
     sample = sampler(mesh, [gf])
-    return smooth(sample, labels, order, int(mesh.GetCurveOrder()), compared(sample, verify))
+    return smooth(sample, options, order, int(mesh.GetCurveOrder()), compared(sample, options["verify"]))
 
 
 def mesh_of(gf: Any, mesh: Any) -> Any:

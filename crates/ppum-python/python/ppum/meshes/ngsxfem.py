@@ -1,16 +1,15 @@
 """Fields of ngsxfem: two fields of NGSolve on the sides of a level set."""
 
-from __future__ import annotations
-
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
 from .._dataset import Dataset
 from .._errors import require
+from .._options import takes
 from .._state import Coefficients, Sampled, State
 from .._units import Floats
-from ._elements import Elements, Labels, built, compared, labelled
+from ._elements import Elements, FieldOptions, ImportOptions, built, compared, labelled, of_field
 from .ngsolve import mesh_of, order_of, sampler
 
 __all__ = ["from_ngsxfem", "state"]
@@ -19,17 +18,9 @@ __all__ = ["from_ngsxfem", "state"]
 CLOSE = 1e-9
 
 
+@takes(ImportOptions)
 def from_ngsxfem(
-    negative: Any,
-    positive: Any,
-    levelset: Any,
-    order: int | None = None,
-    *,
-    name: str = "u",
-    components: list[str] | None = None,
-    unit: str = "",
-    verify: int = 1000,
-    **options: Any,
+    negative: Any, positive: Any, levelset: Any, order: int | None = None, **options: Unpack[ImportOptions]
 ) -> Dataset:
     """The dataset of a field of ngsxfem, which is one field of NGSolve where a level set is negative and another one where
     it is positive: cut elements are two patches, on each side with the field's own polynomial.
@@ -39,21 +30,15 @@ def from_ngsxfem(
         levelset: The interpolant of degree 1 that was integrated with, a GridFunction of H1, order 1. The dataset has it
             as a field ``level``.
         order: Degree of the polynomials; by default the higher one of the spaces.
-        name, components, unit, verify, options: As of `from_ngsolve`.
     """
     version = require("ngsolve", "xfem", "fields of ngsxfem").__version__
-    made = state(negative, positive, levelset, order, labels=Labels(name, components, unit), verify=verify)
+    made = state(negative, positive, levelset, order, **of_field(options))
     return built(made, "ngsxfem, NGSolve", version, options)
 
 
+@takes(FieldOptions)
 def state(
-    negative: Any,
-    positive: Any,
-    levelset: Any,
-    order: int | None = None,
-    *,
-    labels: Labels = Labels("u"),
-    verify: int = 1000,
+    negative: Any, positive: Any, levelset: Any, order: int | None = None, **options: Unpack[FieldOptions]
 ) -> State:
     """The state of `from_ngsxfem`."""
     mesh = mesh_of(negative, None)
@@ -66,9 +51,9 @@ def state(
     patches = _patches(_signs(mesh, levelset))
     clips = {k: [("level", 1 if side else -1)] for k, (_, side, cut) in enumerate(patches) if cut}
     of = [element for element, *_ in patches]
-    known = compared(sides, verify, _off)
+    known = compared(sides, options["verify"], _off)
     blocks = {"one": [fields[side][element] for element, side, _ in patches]}
-    field = labelled(labels, blocks, known and _halves(known, count))
+    field = labelled(options, blocks, known and _halves(known, count))
     levels = Coefficients("level", {"one": level.at(of)})
     return State(elements.mesh(of, clips), [field, levels])
 

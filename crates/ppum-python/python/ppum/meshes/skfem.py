@@ -1,53 +1,42 @@
 """Fields of scikit-fem."""
 
-from __future__ import annotations
-
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
 from .._checks import real
 from .._dataset import Dataset
 from .._errors import BuildError, require
+from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
 from .._units import Floats
-from ._elements import Group, Labels, Places, Sampler, built, compared, smooth, to_unit
+from ._elements import FieldOptions, Group, ImportOptions, Places, Sampler, built, compared, of_field, smooth, to_unit
 
 __all__ = ["from_skfem", "state"]
 
 
-def from_skfem(
-    basis: Any,
-    u: Any,
-    order: int | None = None,
-    *,
-    name: str = "u",
-    components: list[str] | None = None,
-    unit: str = "",
-    verify: int = 1000,
-    **options: Any,
-) -> Dataset:
+@takes(ImportOptions)
+def from_skfem(basis: Any, u: Any, order: int | None = None, **options: Unpack[ImportOptions]) -> Dataset:
     """The dataset of a field of scikit-fem: degrees of freedom times the shape functions of the elements.
 
     Args:
         basis: A Basis on triangles or quadrilaterals.
         u: The degrees of freedom.
         order: Degree of the polynomials, on squares in each variable; by default the one of the element.
-        name, components, unit, verify, options: As of `from_ngsolve`.
     """
     version = require("skfem", "scikit-fem", "fields of scikit-fem").__version__
-    made = state(basis, u, order, labels=Labels(name, components, unit), verify=verify)
-    return built(made, "scikit-fem", version, options)
+    return built(state(basis, u, order, **of_field(options)), "scikit-fem", version, options)
 
 
-def state(basis: Any, u: Any, order: int | None = None, *, labels: Labels = Labels("u"), verify: int = 1000) -> State:
+@takes(FieldOptions)
+def state(basis: Any, u: Any, order: int | None = None, **options: Unpack[FieldOptions]) -> State:
     """The state of `from_skfem`."""
     shape = shape_of(basis.mesh)
     if order is None:
         order = _degree(basis.elem, shape)
     sample = sampler(basis, u)
-    return smooth(sample, labels, order, _degree(basis.mesh.elem(), shape), compared(sample, verify))
+    return smooth(sample, options, order, _degree(basis.mesh.elem(), shape), compared(sample, options["verify"]))
 
 
 def shape_of(mesh: Any) -> int:

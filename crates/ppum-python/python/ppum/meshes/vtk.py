@@ -1,12 +1,10 @@
 """Fields of files of VTK, and of meshio."""
 
-from __future__ import annotations
-
 import importlib.util
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +14,11 @@ from .._checks import check_type, numbers, sequence
 from .._dataset import Dataset
 from .._errors import BuildError, require
 from .._head import components_of
+from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import Coefficients, Sampled, State
 from .._units import Floats
-from ._elements import SEED, Group, Labels, Places, built, compared, from_unit, smooth, to_unit
+from ._elements import SEED, FieldOptions, Group, ImportOptions, Places, built, compared, from_unit, of_field, smooth, to_unit
 
 __all__ = ["from_meshio", "from_vtu", "meshio_state", "vtu_state"]
 
@@ -49,72 +48,58 @@ class Kind:
     nodes: NDArray[np.int64]
 
 
+@takes(ImportOptions)
 def from_vtu(
     path: str | os.PathLike[str],
     data: str | None = None,
     *,
     columns: Sequence[int] | None = None,
-    name: str | None = None,
-    components: list[str] | None = None,
-    unit: str = "",
-    verify: int = 1000,
-    **options: Any,
+    **options: Unpack[ImportOptions],
 ) -> Dataset:
     """The dataset of point data of a file .vtu or .vtkhdf: linear, quadratic and Lagrange cells of orders up to 8, with the
-    values of the nodes. Needs vtk, or for .vtu meshio.
+    values of the nodes. Needs vtk, or for .vtu meshio, with which the dataset is compared at nodes.
 
     Args:
         path: The file.
         data: Name of the point data; may be left out if there is one array.
         columns: The numbers of the data's columns that are the components, from 0; by default all, but the third one of a
             vector where that is zero, since VTK's vectors have three.
-        name: Of the field, by default that of the data.
-        components, unit, verify, options: As of `from_ngsolve`. Without vtk the dataset is compared at nodes.
     """
-    made = vtu_state(path, data, columns=columns, labels=Labels(name or "", components, unit), verify=verify)
+    made = vtu_state(path, data, columns=columns, **of_field(options))
     _check_columns(made, options.get("equation"))
     return built(made, "VTK file", os.path.basename(os.fspath(path)), options)
 
 
+@takes(ImportOptions)
 def from_meshio(
     mesh: Any,
     data: str | None = None,
     *,
     columns: Sequence[int] | None = None,
-    name: str | None = None,
-    components: list[str] | None = None,
-    unit: str = "",
-    verify: int = 1000,
-    **options: Any,
+    **options: Unpack[ImportOptions],
 ) -> Dataset:
     """The dataset of point data of a mesh of meshio: triangles and quadrilaterals, linear, quadratic and of VTK's Lagrange
-    cells.
-
-    Args:
-        mesh: A `meshio.Mesh`.
-        data: Name of the point data; may be left out if there is one array.
-        columns, name, components, unit, options: As of `from_vtu`.
-        verify: Number of nodes at which the dataset is compared; meshio evaluates no fields.
+    cells. Data and columns are as of `from_vtu`; the dataset is compared at nodes, since meshio evaluates no fields.
     """
     version = require("meshio", "meshio", "meshes of meshio").__version__
-    made = meshio_state(mesh, data, columns=columns, labels=Labels(name or "", components, unit), verify=verify)
+    made = meshio_state(mesh, data, columns=columns, **of_field(options))
     _check_columns(made, options.get("equation"))
     return built(made, "meshio", version, options)
 
 
+@takes(FieldOptions)
 def vtu_state(
     path: str | os.PathLike[str],
     data: str | None = None,
     *,
     columns: Sequence[int] | None = None,
-    labels: Labels = Labels(""),
-    verify: int = 1000,
+    **options: Unpack[FieldOptions],
 ) -> State:
     """The state of `from_vtu`."""
     check_type("path", path, isinstance(path, (str, os.PathLike)), "the path of a file .vtu or .vtkhdf")
     if importlib.util.find_spec("vtk") is None and not os.fspath(path).endswith(".vtkhdf"):
         mesh = require("meshio", "vtk", "files of VTK").read(path)
-        return meshio_state(mesh, data, columns=columns, labels=labels, verify=verify)
+        return meshio_state(mesh, data, columns=columns, **options)
     grid = _grid(path)
     arrays = grid.GetPointData()
     known = [arrays.GetAbstractArray(k).GetName() for k in range(arrays.GetNumberOfArrays())]
@@ -122,24 +107,24 @@ def vtu_state(
     points = _numpy(grid.GetPoints().GetData())
     if arrays.GetArray(chosen) is None:
         raise BuildError(f"data: {chosen!r} has texts; give one of numbers")
-    values = _values(chosen, _numpy(arrays.GetArray(chosen)), labels, columns)
+    values = _values(chosen, _numpy(arrays.GetArray(chosen)), options, columns)
     kinds = _kinds_of(grid)
-    reference = compared(lambda places: _interpolated(grid, kinds, points, values, places), verify)
-    return _state(points, kinds, values, _named(labels, chosen), reference)
+    reference = compared(lambda places: _interpolated(grid, kinds, points, values, places), options["verify"])
+    return _state(points, kinds, values, _named(options, chosen), reference)
 
 
+@takes(FieldOptions)
 def meshio_state(
     mesh: Any,
     data: str | None = None,
     *,
     columns: Sequence[int] | None = None,
-    labels: Labels = Labels(""),
-    verify: int = 1000,
+    **options: Unpack[FieldOptions],
 ) -> State:
     """The state of `from_meshio`."""
     check_type("mesh", mesh, hasattr(mesh, "point_data"), "a meshio.Mesh, as by meshio.read(path)")
     chosen = _chosen(data, list(mesh.point_data))
-    points, values = numbers("mesh.points", mesh.points), _values(chosen, mesh.point_data[chosen], labels, columns)
+    points, values = numbers("mesh.points", mesh.points), _values(chosen, mesh.point_data[chosen], options, columns)
     unknown = [part.type for part in mesh.cells if part.type not in NAMES and part.dim == 2]
     if unknown:
         raise BuildError(f"mesh: has cells of the type {unknown[0]}; there are {', '.join(NAMES)}")
@@ -150,17 +135,17 @@ def meshio_state(
             kinds.append(Kind(NAMES[part.type], first + np.arange(len(nodes)), nodes))
         first += len(part.data)
     _check_nodes(kinds, len(points))
-    return _state(points, kinds, values, _named(labels, chosen), _at_nodes(points, kinds, values, verify))
+    return _state(points, kinds, values, _named(options, chosen), _at_nodes(points, kinds, values, options["verify"]))
 
 
-def _values(name: str, given: Any, labels: Labels, columns: Sequence[int] | None) -> Floats:
+def _values(name: str, given: Any, options: FieldOptions, columns: Sequence[int] | None) -> Floats:
     """The columns of point data that are the components, (n, c)."""
     place = f"data {name!r}"
     values = numbers(place, given)
     values = values.reshape(len(values), -1)
     count = values.shape[1]
     if columns is None:
-        is_plane = count == 3 and not values[:, 2].any() and len(labels.components or ()) != 3
+        is_plane = count == 3 and not values[:, 2].any() and len(options["components"] or ()) != 3
         return values[:, :2] if is_plane else values
     chosen = [int(k) for k in sequence("columns", columns, "numbers")]
     if not chosen or not all(0 <= k < count for k in chosen):
@@ -190,8 +175,8 @@ def _check_nodes(kinds: Sequence[Kind], count: int) -> None:
             raise BuildError(f"cells[{kind.cells[k]}]: has the nodes {nodes}, but there are {count} points, from 0")
 
 
-def _named(labels: Labels, data: str) -> Labels:
-    return labels if labels.name else Labels(data, labels.components, labels.unit)
+def _named(options: FieldOptions, data: str) -> FieldOptions:
+    return {**options, "name": options["name"] or data}
 
 
 def _chosen(data: str | None, known: Sequence[str]) -> str:
@@ -242,13 +227,13 @@ def _kinds_of(grid: Any) -> list[Kind]:
     return kinds
 
 
-def _state(points: Floats, kinds: Sequence[Kind], values: Floats, labels: Labels, verify: Sampled | None) -> State:
+def _state(points: Floats, kinds: Sequence[Kind], values: Floats, options: FieldOptions, verify: Sampled | None) -> State:
     """The state of nodes and their values."""
     if np.ptp(points[:, 2:]) if points.shape[1] > 2 else 0:
         raise BuildError("points: do not lie in a plane z = constant; give a mesh of the x-y plane")
     groups = [_group(kind, points, values) for kind in _plane(kinds)]
     order = max(group.order for group in groups)
-    return smooth(lambda _: groups, labels, order, order, verify)
+    return smooth(lambda _: groups, options, order, order, verify)
 
 
 def _plane(kinds: Sequence[Kind]) -> list[Kind]:

@@ -1,4 +1,4 @@
-"""Figures, moving pictures and extreme values."""
+"""Figures, animations and extreme values."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ._text import plural
 from ._views import SIZE
 
 if TYPE_CHECKING:
-    from ._evaluation import Evaluation
+    from ._field import Field
 
 
 @dataclass(frozen=True)
@@ -36,9 +36,9 @@ class Extremum:
 
 
 class Figure(Page):
-    """A figure; drawn when its bytes are asked for. Made by `Field.figure`. Notebooks show it; it can be pickled."""
+    """A figure; drawn when its bytes are asked for. Made by `field.draw.figure`. Notebooks show it; it can be pickled."""
 
-    def __init__(self, field: Evaluation, request: str) -> None:
+    def __init__(self, field: Field, request: str) -> None:
         super().__init__()
         self._made_of = field, request
 
@@ -67,7 +67,7 @@ def _size(look: dict[str, Any]) -> str:
 
 
 class Animation(Drawn):
-    """A moving picture; drawn when its bytes are asked for. Made by `Field.animate`. Notebooks show it.
+    """An animation; drawn when its bytes are asked for. Made by `field.draw.animate`. Notebooks show it.
 
     Its forms are ``gif``, in 256 colours, which is the default, and ``apng``, without loss. It can be pickled, but for a
     function that is told of the progress.
@@ -75,7 +75,7 @@ class Animation(Drawn):
 
     _forms = ("gif", "apng")
 
-    def __init__(self, field: Evaluation, what: tuple[str, list[int]], milliseconds: int, progress: Any) -> None:
+    def __init__(self, field: Field, what: tuple[str, list[int]], milliseconds: int, progress: Any) -> None:
         super().__init__()
         self._made_of = field, what, milliseconds, progress
 

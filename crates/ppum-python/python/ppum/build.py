@@ -1,11 +1,11 @@
-"""Datasets from the arrays of one's own code."""
-
-from __future__ import annotations
+"""Datasets from the arrays of one's own code: `dataset` takes states, each a cover or mesh with its fields and functions."""
 
 import re
+import sys
 from collections.abc import Mapping, Sequence
 from functools import lru_cache, partial
-from typing import Any
+from types import ModuleType
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,54 +18,42 @@ from ._cover import Cover
 from ._dataset import Dataset
 from ._errors import BuildError, QuantityError
 from ._facts import Crack, Hole
-from ._functions import columns
-from ._head import Arrays, components_of, crack_arrays, listed, of_state, shared
+from ._functions import Component, Formula, Jump, Level, columns, tip_functions
+from ._head import Arrays, BuildOptions, DatasetOptions, components_of, crack_arrays, listed, of_state, shared
 from ._mesh import Mesh
+from ._options import defaults, takes
 from ._places import in_arguments
 from ._problem import Elastic, Poisson
 from ._state import Coefficients, State
 from ._verify import verified
+from ._warnings import warn
+
+__all__ = [
+    "Coefficients", "Component", "Cover", "Formula", "Jump", "Level", "Mesh", "State", "arrays", "dataset", "from_arrays",
+    "tip_functions",
+]  # fmt: skip
 
 TAKEN = "has a meaning in formulas already"
 #: Values of patches that each field has.
 OF_PATCHES = ("level", "element", "order", "blocks", "functions")
 
 
-def build(
-    states: State | Sequence[State],
-    *,
-    title: str = "",
-    program: str = "",
-    equation: Elastic | Poisson | None = None,
-    holes: Sequence[Hole] = (),
-    tables: Mapping[str, Sequence[ArrayLike]] | None = None,
-    quantities: Mapping[str, str | tuple[str, str]] | None = None,
-    tolerance: float = 1e-10,
-) -> Dataset:
-    """The dataset of arrays. It is in memory, draws, evaluates and saves as any other.
+@takes(BuildOptions)
+def dataset(states: State | Sequence[State], **options: Unpack[BuildOptions]) -> Dataset:
+    """The dataset of arrays: one step, or the steps of a series on one domain. It is in memory, draws, evaluates and saves as
+    any other.
 
-    Args:
-        states: One step, or the steps of a series, on one domain.
-        title: One line that names the problem.
-        program: Name and version of the code that the arrays come from.
-        equation: The material, if there are to be stresses or energy: then the first field is ``displacement`` or
-            ``potential``. Without one there are values, derivatives and the dataset's own quantities.
-        holes: Holes of the domain: `ppum.Hole` with `center` and `radius`, or with `points`.
-        tables: Data that formulas read, by name: (x, values), or (x, y, values) with a row of values for each y.
-        quantities: Formulas of components and derivatives by name, or pairs of formula and unit.
-        tolerance: Largest difference from `Coefficients.verify` that is no error, in parts of the largest value.
+    `Coefficients.verify` is compared at 1000 random points, spread over the patches, and at 100 points close to both
+    sides of each crack. The largest difference is printed, and kept in `Step.history`, as ``verified NAME``.
 
     Raises:
         BuildError: What is wrong, with the array, the row and the remedy, before anything is written; or a field that is
             not the one of its `verify`.
-
-    `Coefficients.verify` is compared at 1000 random points, spread over the patches, and at 100 points close to both
-    sides of each crack. The largest difference is printed, and kept in `Step.history`, as ``verified NAME``.
     """
     series, records = _series(states), dict[str, Any]()
-    named = arrays(
-        series, title=title, program=program, equation=equation, holes=holes, tables=tables, quantities=quantities
-    )
+    shared_options: Any = dict(options)
+    tolerance = scalar("tolerance", shared_options.pop("tolerance"))
+    named = arrays(series, **shared_options)
     try:
         made = from_arrays(named)
     except BuildError as error:
@@ -74,33 +62,25 @@ def build(
         with of_state(k, len(series)):
             if state.attributes:
                 _check_attributes(state, made.steps[k].field)
-            found = verified(partial(_field_of, made, named, k), state, scalar("tolerance", tolerance))
+            found = verified(partial(_field_of, made, named, k), state, tolerance)
         records |= _history(f"steps/{k:04}/history", found)
     return from_arrays(named | records) if records else made
 
 
-def arrays(
-    states: State | Sequence[State],
-    *,
-    title: str = "",
-    program: str = "",
-    equation: Elastic | Poisson | None = None,
-    holes: Sequence[Hole] = (),
-    tables: Mapping[str, Sequence[ArrayLike]] | None = None,
-    quantities: Mapping[str, str | tuple[str, str]] | None = None,
-) -> Arrays:
+@takes(DatasetOptions)
+def arrays(states: State | Sequence[State], **options: Unpack[DatasetOptions]) -> Arrays:
     """The arrays and attributes of a dataset by their paths in the file format (FORMAT.md, section 3), for files that are
-    written elsewhere: `build` hands them to `from_arrays`. Arguments are as of `build`; nothing is verified.
+    written elsewhere: `dataset` hands them to `from_arrays`. Nothing is verified.
 
     Example:
-        >>> mesh = ppum.Mesh.from_nodes([[(0, 0), (2, 0), (0, 1)]])
-        >>> made = ppum.arrays(ppum.State(mesh, ppum.Coefficients("u", {"one": [[1.0]]})))
+        >>> mesh = ppum.build.Mesh.from_nodes([[(0, 0), (2, 0), (0, 1)]])
+        >>> made = ppum.build.arrays(ppum.build.State(mesh, ppum.build.Coefficients("u", {"one": [[1.0]]})))
         >>> made["steps/0000/partition/map"].tolist()
         [[1.3333333333333333, 0.0], [0.0, 0.6666666666666666]]
     """
-    series = _series(states)
-    holes = listed("holes", holes, Hole, "ppum.Hole(center, radius)")
-    named = shared(series, title, program, equation, holes, tables, quantities)
+    series, equation = _series(states), options["equation"]
+    holes = options["holes"] = listed("holes", options["holes"], Hole, "ppum.Hole(center, radius)")
+    named = shared(series, options)
     for k, state in enumerate(series):
         with of_state(k, len(series)):
             named |= _step(f"steps/{k:04}", state, equation, holes)
@@ -110,7 +90,7 @@ def arrays(
 
 def _series(states: Any) -> list[State]:
     given = [states] if isinstance(states, State) else states
-    series: list[State] = listed("states", given, State, "ppum.State(cover, fields)")
+    series: list[State] = listed("states", given, State, "ppum.build.State(cover, fields)")
     if not series:
         raise BuildError("states: a dataset needs at least one step")
     return series
@@ -118,7 +98,7 @@ def _series(states: Any) -> list[State]:
 
 def from_arrays(arrays: Mapping[str, Any]) -> Dataset:
     """The dataset of arrays and attributes by the paths that the file format has for them (FORMAT.md, section 3), such as
-    ``steps/0000/partition/center`` and ``steps/0000@load``. `build` makes such arrays.
+    ``steps/0000/partition/center`` and ``steps/0000@load``. `arrays` makes such arrays.
 
     Numbers become those of the format's types; objects that are not optional have to be there, but for ``@format`` and
     ``@format_version``.
@@ -127,13 +107,13 @@ def from_arrays(arrays: Mapping[str, Any]) -> Dataset:
         BuildError: All that is wrong, a line for each array.
 
     Example:
-        >>> ppum.from_arrays({"@title": "Nothing"})
+        >>> ppum.build.from_arrays({"@title": "Nothing"})
         Traceback (most recent call last):
         ...
         ppum.BuildError: @program: is missing
         ...
     """
-    named = mapping("arrays", arrays, "arrays, such as those of `ppum.arrays`")
+    named = mapping("arrays", arrays, "arrays, such as those of `ppum.build.arrays`")
     return Dataset(_core.build([packed(path, value) for path, value in named.items()]))
 
 
@@ -156,9 +136,9 @@ def _step(path: str, state: State, equation: Elastic | Poisson | None, holes: Se
     fields = state.fields
     if isinstance(fields, Coefficients):
         fields = [fields]
-    fields = listed("fields", fields, Coefficients, "ppum.Coefficients(name, blocks)")
+    fields = listed("fields", fields, Coefficients, "ppum.build.Coefficients(name, blocks)")
     if not fields:
-        raise BuildError("fields: a step needs at least one field; give ppum.Coefficients(name, blocks)")
+        raise BuildError("fields: a step needs at least one field; give ppum.build.Coefficients(name, blocks)")
     cracks = [
         rows(f"cracks[{k}]", c.points if isinstance(c, Crack) else c, 2)
         for k, c in enumerate(sequence("cracks", state.cracks, "cracks, each its points"))
@@ -264,7 +244,7 @@ def _nameless(equation: str) -> Any:
     count, name = (2, "displacement") if equation == "Elastic" else (1, "potential")
     field = Coefficients(name, {"one": np.zeros((1, 1, count))}, [f"__{k}" for k in range(count)])
     state = State(Cover.uniform([(0, 0), (1, 1)], (1, 1)), field)
-    return from_arrays(shared([state], "", "", material, ()) | _step("steps/0000", state, material, ())).field
+    return from_arrays(shared([state], defaults(DatasetOptions) | {"equation": material}) | _step("steps/0000", state, material, ())).field
 
 
 def _attributes(attributes: Mapping[str, ArrayLike], patches: int) -> Arrays:
@@ -291,3 +271,14 @@ def _history(path: str, found: Mapping[str, float]) -> Arrays:
         return {}
     names = [f"verified {name}" for name in found]
     return {f"{path}/name": names, f"{path}/value": list(found.values()), f"{path}/unit": [""] * len(names)}
+
+
+class _Callable(ModuleType):
+    """The module as the function that had its name."""
+
+    def __call__(self, states: Any, **options: Any) -> Dataset:
+        warn("ppum.build.dataset(…) is now ppum.build.dataset(…); the old name goes with the next version", kind=DeprecationWarning)
+        return dataset(states, **options)
+
+
+sys.modules[__name__].__class__ = _Callable
