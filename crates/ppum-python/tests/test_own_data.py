@@ -11,7 +11,7 @@ import pytest
 from ppum._blocks import exponents
 from ppum._options import defaults
 from ppum._shapes import TRIANGLE, vandermonde
-from ppum.meshes._elements import FieldOptions, Group, compared, smooth
+from ppum.meshes._elements import Group, ImportOptions, compared, smooth
 
 COVER = ppum.build.Cover.uniform([(0, 0), (2, 1)], (8, 4))
 ONE = np.ones((32, 1))
@@ -239,7 +239,7 @@ def test_importers_take_little_time():
     """All that importers share, of 100,000 curved triangles: at most 3 s of the processor, as 32 in a loop's time."""
     sample = triangles(224, lambda p: p[..., :1] * p[..., 1:])
     start = time.process_time()
-    ppum.build.dataset(smooth(sample, defaults(FieldOptions), 2, 2, compared(sample, 1000)))
+    ppum.build.dataset(smooth(sample, defaults(ImportOptions), 2, 2, compared(sample, 1000)))
     taken = time.process_time() - start
     print(f"{taken:.2f} s")
     assert taken <= 3
@@ -248,7 +248,7 @@ def test_importers_take_little_time():
 def test_hints_of_importers():
     sample = triangles(6, lambda p: np.sin(9 * p[..., :1]))
     with pytest.raises(ppum.BuildError, match="not a polynomial of this degree on elements; interpolate it into L2"):
-        ppum.build.dataset(smooth(sample, defaults(FieldOptions), 3, 2, compared(sample, 100)))
+        ppum.build.dataset(smooth(sample, defaults(ImportOptions), 3, 2, compared(sample, 100)))
 
 
 def grid(**data):

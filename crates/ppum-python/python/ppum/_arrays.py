@@ -1,13 +1,11 @@
 """Arrays as the file format has them: types, shapes, texts."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._checks import known
+from ._checks import indexed, known
 from ._errors import BuildError
 
 #: Types of arrays that are not f64 or texts, by the last part of their paths.
@@ -40,8 +38,7 @@ def packed(path: str, value: Any) -> tuple[str, list[int], NDArray[Any] | list[s
     wrong = np.argwhere(array != given) if kind != "f8" else np.empty((0, 0))
     if len(wrong):
         at = tuple(wrong[0])
-        place = path + "".join(f"[{k}]" for k in at)
-        raise BuildError(f"{place}: is {given[at]}, which is no number of the type {np.dtype(kind)}")
+        raise BuildError(f"{indexed(path, at)}: is {given[at]}, which is no number of the type {np.dtype(kind)}")
     return path, list(given.shape), array.reshape(-1)
 
 

@@ -5,9 +5,7 @@ a PNG of any resolution, in a PDF, zoomed or not. Colour maps, norms, colour bar
 places as double precision has them: below some 1e-12 of the coordinates use `field.draw.figure`.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any, Unpack, get_args
 
 import matplotlib
 import numpy as np
@@ -18,7 +16,7 @@ from matplotlib.transforms import Bbox
 from . import _core
 from ._errors import QuantityError
 from ._options import takes
-from ._styles import PlotOptions, span
+from ._styles import Norm, PlotOptions, request, to_json
 from ._text import math_text
 from ._views import Window, window
 
@@ -31,12 +29,9 @@ COARSE = 256
 #: Columns of a view of the plate that places are counted in.
 FINE = 1 << 20
 
-#: Percentiles that colours span by default where the field may be infinite.
-ROBUST = (0.5, 99.5)
-
 
 @takes(PlotOptions)
-def plot(field: Field, quantity: str | None = None, **options: Unpack[PlotOptions]) -> FieldImage:
+def plot(field: "Field", quantity: str | None = None, **options: Unpack[PlotOptions]) -> "FieldImage":
     """Draws a quantity into axes, see `field.draw.plot`.
 
     Returns:
@@ -51,13 +46,13 @@ def plot(field: Field, quantity: str | None = None, **options: Unpack[PlotOption
     (x0, y0), (x1, y1) = field.dataset.domain
     # as wide and high as the plate, so that a zoom is counted from all of it
     shape = FINE, max(1, round(FINE * (y1 - y0) / (x1 - x0)))
-    found, seen = span(options), field._place(options, shape)
+    seen = field._place(options, shape)
     ax = options["ax"] if options["ax"] is not None else plt.gca()
     name = quantity or field._core.default_quantity()
     artist = {key: options[key] for key in ("alpha", "zorder", "label", "visible", "rasterized", "gid")}
     cmap, norm = options["cmap"], options["norm"]
     image = FieldImage(ax, field, name, options["nan_color"], cmap=cmap, norm=norm, **artist)
-    image.set_clim(*_limits(image.get_array(), found))
+    image.set_clim(*_limits(field, name, options))
     ax.add_image(image)
     _show(ax, field, seen)
     if options["cracks"]:
@@ -67,7 +62,7 @@ def plot(field: Field, quantity: str | None = None, **options: Unpack[PlotOption
     return image
 
 
-def _show(ax: Any, field: Field, seen: Window | None) -> None:
+def _show(ax: Any, field: "Field", seen: Window | None) -> None:
     """Equal scales, and limits that show a place or all of the plate."""
     (x0, y0), (x1, y1) = field.dataset.domain
     ax.set_aspect("equal")
@@ -80,7 +75,7 @@ def _show(ax: Any, field: Field, seen: Window | None) -> None:
     ax.set(xlim=(x - half, x + half), ylim=(y - tall, y + tall))
 
 
-def _draw_bar(ax: Any, image: FieldImage, location: str) -> None:
+def _draw_bar(ax: Any, image: "FieldImage", location: str) -> None:
     bar = ax.figure.colorbar(image, ax=ax, location=location)
     symbol, unit = image._field._core.words(image._quantity)
     bar.set_label(f"{math_text(symbol)} [{unit}]" if unit else math_text(symbol))
@@ -96,25 +91,24 @@ def _register() -> None:
         known.register(ListedColormap(colors[::-1], name=f"{name}_r"))
 
 
-def _limits(values: Any, found: Any) -> tuple[float, float]:
-    """The ends of the colours for values of a coarse picture."""
-    finite = values.compressed()
-    finite = finite[np.isfinite(finite)]
-    if finite.size == 0:
-        finite = np.array([0.0, 1.0])
-    ends = np.percentile(finite, (0, 100) if found == "full" else ROBUST)
-    given = (None, None) if isinstance(found, str) else found
-    low, high = (_end(end, auto, finite) for end, auto in zip(given, ends, strict=True))
+def _limits(field: "Field", quantity: str, options: PlotOptions) -> tuple[float, float]:
+    """The ends of the colours of all of the plate, as of a figure."""
+    asked: Any = {name: options.get(name) for name in ("clim", "vmin", "vmax")}
+    if options.get("norm") in get_args(Norm):
+        asked["norm"] = options["norm"]
+    seen = _coarse(field)
+    low, high = _core.frame(field._core, to_json(request(field, quantity, asked, seen[0])), *seen)[1]["range"]
     return low, high
 
 
-def _end(end: Any, auto: Any, finite: Any) -> float:
-    if isinstance(end, str):
-        return float(np.percentile(finite, float(end.removesuffix("%"))))
-    return float(auto if end is None else end)
+def _coarse(field: "Field") -> tuple[Window, tuple[int, int]]:
+    """A view of all of the plate in few pixels."""
+    (x0, y0), (x1, y1) = field.dataset.domain
+    columns, rows = (max(1, round(COARSE * d / max(x1 - x0, y1 - y0))) for d in (x1 - x0, y1 - y0))
+    return window(field.dataset.domain, (columns, rows)), (columns, rows)
 
 
-def _draw_lines(field: Field, ax: Any) -> None:
+def _draw_lines(field: "Field", ax: Any) -> None:
     for crack in field.step.cracks:
         ax.plot(*_fine(crack.points).T, color="black", linewidth=1.0, scalex=False, scaley=False)
     for hole in field.dataset.holes:
@@ -140,17 +134,13 @@ class FieldImage(AxesImage):
     Its array is a coarse picture of the plate, for norms and colour bars to begin with.
     """
 
-    def __init__(self, ax: Any, field: Field, quantity: str, nan_color: Any = None, **properties: Any) -> None:
+    def __init__(self, ax: Any, field: "Field", quantity: str, nan_color: Any = None, **properties: Any) -> None:
         (x0, y0), (x1, y1) = field.dataset.domain
         super().__init__(ax, interpolation="nearest", origin="upper", extent=(x0, x1, y0, y1), **properties)
         self._field, self._quantity = field, quantity
         self._nan_color = None if nan_color is None else to_rgba(nan_color)
         field._core.check(quantity)
-        longest = max(x1 - x0, y1 - y0)
-        size = tuple(max(1, round(COARSE * d / longest)) for d in (x1 - x0, y1 - y0))
-        at = window(field.dataset.domain, size)  # type: ignore[arg-type]
-        coarse = _core.render(field._core, quantity, at, size, False, None)  # type: ignore[arg-type]
-        self.set_data(np.ma.masked_invalid(coarse))
+        self.set_data(np.ma.masked_invalid(_core.render(field._core, quantity, *_coarse(field), False, None)))
         self.set_clip_path(ax.patch)
 
     def get_cursor_data(self, event: Any) -> Any:

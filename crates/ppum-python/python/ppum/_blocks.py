@@ -1,8 +1,5 @@
 """Blocks of fields: coefficients by function and patch, as the compressed rows of the file format."""
 
-from __future__ import annotations
-
-import difflib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._checks import Ragged, gathered, index, known, real, sequence, short
 from ._errors import BuildError
+from ._text import hint
 from ._units import Floats
 
 Block = NDArray[Any] | Sequence[ArrayLike | None] | Mapping[int, ArrayLike] | Ragged
@@ -65,9 +63,7 @@ def arranged(
         raise BuildError(f"{place}.blocks: is empty; give the coefficients of a function, such as 'one'")
     for name in blocks:
         if name not in functions:
-            close = difflib.get_close_matches(name, functions, 1)
-            hint = f"did you mean {close[0]!r}? " if close else ""
-            raise BuildError(f"{place}.blocks[{name!r}]: {hint}there are the functions {', '.join(functions)}")
+            raise BuildError(f"{place}.blocks[{name!r}]: is no function of the state; {hint(name, functions)}")
     parts = [_part(f"{place}.blocks[{name!r}]", block, tensor[name]) for name, block in blocks.items()]
     counts = {part.values.shape[1]: name for part, name in zip(parts, blocks)}
     if len(counts) > 1:

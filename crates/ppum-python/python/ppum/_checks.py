@@ -1,7 +1,5 @@
 """Arrays that are given: real numbers without masks, which nothing casts in silence; and lists of arrays."""
 
-from __future__ import annotations
-
 import reprlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -67,7 +65,7 @@ def numbers(name: str, values: ArrayLike) -> Floats:
     array = real(name, values)
     if not np.isfinite(array).all():
         place = _first(~np.isfinite(array))
-        raise BuildError(f"{_at(name, place)}: is {array[place]}; give finite numbers")
+        raise BuildError(f"{indexed(name, place)}: is {array[place]}; give finite numbers")
     return array
 
 
@@ -166,7 +164,7 @@ def _refuse_mask(name: str, values: Any) -> None:
     if isinstance(values, np.ma.MaskedArray):
         mask = np.ma.getmaskarray(values)
         if mask.any():
-            raise BuildError(f"{_at(name, _first(mask))}: is masked; fill the gaps, as by .filled(0)")
+            raise BuildError(f"{indexed(name, _first(mask))}: is masked; fill the gaps, as by .filled(0)")
     elif isinstance(values, (list, tuple)):
         for k, part in enumerate(values):
             if isinstance(part, (list, tuple, np.ma.MaskedArray)):
@@ -177,14 +175,15 @@ def _refuse_objects(name: str, array: NDArray[Any]) -> None:
     """Objects that Python would make numbers of, though they are none, or none that is real."""
     for place, item in np.ndenumerate(array):
         if isinstance(item, (str, bytes, complex, np.complexfloating)) or not hasattr(item, "__float__"):
-            raise BuildError(f"{_at(name, place)}: is {short(item)}; give a real number")
+            raise BuildError(f"{indexed(name, place)}: is {short(item)}; give a real number")
 
 
 def _first(wrong: NDArray[np.bool_]) -> tuple[int, ...]:
     return tuple(int(k) for k in np.argwhere(wrong)[0])
 
 
-def _at(name: str, place: tuple[int, ...]) -> str:
+def indexed(name: str, place: Sequence[int]) -> str:
+    """The place of an entry of an array."""
     return name + "".join(f"[{k}]" for k in place)
 
 
@@ -201,7 +200,7 @@ class Ragged:
     sizes: NDArray[np.int64]
 
     @classmethod
-    def joined(cls, parts: Sequence[Floats]) -> Ragged:
+    def joined(cls, parts: Sequence[Floats]) -> "Ragged":
         """The arrays of parts (n, m, c), each with one length."""
         sizes = np.concatenate([np.full(len(part), part.shape[1]) for part in parts])
         return cls(np.concatenate([part.reshape(-1, part.shape[2]) for part in parts]), sizes)
@@ -212,7 +211,7 @@ class Ragged:
         starts: NDArray[np.int64] = np.cumsum(self.sizes) - self.sizes
         return starts
 
-    def at(self, order: ArrayLike) -> Ragged:
+    def at(self, order: ArrayLike) -> "Ragged":
         """The arrays with these numbers."""
         order = np.asarray(order, np.int64)
         return Ragged(self.values[gathered(self.starts[order], self.sizes[order])], self.sizes[order])

@@ -156,7 +156,7 @@ class Compare:
 
     _field: "Field"
 
-    @takes(RasterOptions)
+    @takes(RasterOptions, "compare()")
     def __call__(self, other: "Field", quantity: str | None = None, **options: Unpack[RasterOptions]) -> Comparison:
         """The field minus another, of this dataset or another: another step, part, weight or cover.
 

@@ -1,7 +1,5 @@
 """Covers: the boxes of a partition of unity, and its weight function."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -98,7 +96,7 @@ class Cover:
                 array.flags.writeable = False
 
     @classmethod
-    def uniform(cls, domain: ArrayLike, cells: tuple[int, int], overlap: float = 1.3, weight: str = "linear") -> Cover:
+    def uniform(cls, domain: ArrayLike, cells: tuple[int, int], overlap: float = 1.3, weight: str = "linear") -> "Cover":
         """The cover of a grid of `cells` = (columns, rows) cells; patch j · columns + i is that of column i and row j
         from the lower left corner. A support is its cell enlarged by `overlap`, 1.01 to 1.99.
 
@@ -122,7 +120,7 @@ class Cover:
     @classmethod
     def from_cells(
         cls, domain: ArrayLike, cell: ArrayLike, overlap: float = 1.3, weight: str = "linear", **others: ArrayLike
-    ) -> Cover:
+    ) -> "Cover":
         """The cover of cells that tile the domain, such as the leaves of a quadtree: shape (n, 4), rows x_min, y_min,
         x_max, y_max. A support is its cell enlarged by `overlap`."""
         if not 1.01 <= scalar("overlap", overlap) <= 1.99:
@@ -140,7 +138,7 @@ class Cover:
         overlap: float = 1.3,
         weight: str = "linear",
         cells: tuple[int, int] = (1, 1),
-    ) -> Cover:
+    ) -> "Cover":
         """The cover that scattered points make: the cells of a grid are halved, as quadtrees, until each holds one point
         at most, and cells that touch differ by one level at most. `point` has the point of each patch.
 

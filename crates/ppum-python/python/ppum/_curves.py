@@ -1,7 +1,5 @@
 """Curves of cracks and holes, with angles in radians as everywhere in Python; tables of problem files have degrees."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from numpy.typing import ArrayLike

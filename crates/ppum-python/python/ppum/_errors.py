@@ -3,8 +3,6 @@
 Each is a `PpumError` and, beside that, one of the classes that people catch. All can be pickled.
 """
 
-from __future__ import annotations
-
 import importlib
 from dataclasses import dataclass
 from typing import Any

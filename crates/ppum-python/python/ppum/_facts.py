@@ -1,7 +1,5 @@
 """Rows of the facts of datasets: cracks, tips, warnings, reactions, growth."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields
@@ -197,11 +195,11 @@ def _numbers(values: Sequence[Any]) -> tuple[float, ...]:
 
 
 _READERS: dict[Any, Callable[[Any], Any]] = {
-    "float": number,
-    "Point": tuple,
-    "Point | None": lambda point: None if point is None else tuple(point),
-    "tuple[bool, ...]": tuple,
-    "tuple[float, ...]": _numbers,
+    float: number,
+    Point: tuple,
+    Point | None: lambda point: None if point is None else tuple(point),
+    tuple[bool, ...]: tuple,
+    tuple[float, ...]: _numbers,
 }
 
 

@@ -1,7 +1,5 @@
 """Files that are drawn when they are asked for, and how files are replaced."""
 
-from __future__ import annotations
-
 import errno
 import os
 import secrets

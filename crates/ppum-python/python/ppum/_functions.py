@@ -1,7 +1,5 @@
 """Functions that polynomials are multiplied with, as arrays of the file format."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import accumulate

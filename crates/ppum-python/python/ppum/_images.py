@@ -1,7 +1,5 @@
 """Figures, animations and extreme values."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -38,7 +36,7 @@ class Extremum:
 class Figure(Page):
     """A figure; drawn when its bytes are asked for. Made by `field.draw.figure`. Notebooks show it; it can be pickled."""
 
-    def __init__(self, field: Field, request: str) -> None:
+    def __init__(self, field: "Field", request: str) -> None:
         super().__init__()
         self._made_of = field, request
 
@@ -75,7 +73,7 @@ class Animation(Drawn):
 
     _forms = ("gif", "apng")
 
-    def __init__(self, field: Field, what: tuple[str, list[int]], milliseconds: int, progress: Any) -> None:
+    def __init__(self, field: "Field", what: tuple[str, list[int]], milliseconds: int, progress: Any) -> None:
         super().__init__()
         self._made_of = field, what, milliseconds, progress
 

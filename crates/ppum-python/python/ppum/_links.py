@@ -1,7 +1,5 @@
 """Views that show the same place."""
 
-from __future__ import annotations
-
 from contextlib import ExitStack
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Meshes: elements as images of a triangle or a square, whole or cut by level fields."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -80,7 +78,7 @@ class Mesh:
         *,
         element: ArrayLike | None = None,
         clips: Mapping[int, Sequence[Clip]] | None = None,
-    ) -> Mesh:
+    ) -> "Mesh":
         """Elements by the places of their nodes: 3, 6, 10, … nodes make triangles of order 1, 2, 3, …, 4, 9, 16, … squares.
 
         Args:

@@ -6,8 +6,6 @@ refuses names and words that there are not, fills in defaults, and gives the fun
 passes options on to another one has the decorator `passes`, which fills in nothing.
 """
 
-from __future__ import annotations
-
 import functools
 import inspect
 import numbers
@@ -95,27 +93,26 @@ def defaults(kind: type) -> Any:
     return {name: option.default for name, (_, option) in options_of(kind).items() if option.default is not UNSET}
 
 
-def takes(kind: type) -> Callable[[_F], _F]:
-    """Makes a function check the options of a dictionary, and know their defaults, see the head of the module."""
-    return lambda function: _checking(function, options_of(kind), defaults(kind))
+def takes(kind: type, called: str = "") -> Callable[[_F], _F]:
+    """Makes a function check the options of a dictionary, and know their defaults, see the head of the module; messages call
+    it by its name, or as is said."""
+    return lambda function: _checking(function, options_of(kind), defaults(kind), called)
 
 
 def passes(kind: type) -> Callable[[_F], _F]:
     """Makes a function check the options of a dictionary, and get those alone that are given."""
-    return lambda function: _checking(function, options_of(kind), {})
+    return lambda function: _checking(function, options_of(kind), {}, "")
 
 
-def _checking(function: _F, known: Mapping[str, tuple[Any, Option]], defaults: Mapping[str, Any]) -> _F:
+def _checking(function: _F, known: Mapping[str, Any], defaults: Mapping[str, Any], called: str) -> _F:
     signature = inspect.signature(function)
     own = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
     names = [*known, *(p.name for p in own if p.name != "self")]
 
-    # operators have the name of their class
-    called = function.__name__ if function.__name__[0] != "_" else function.__qualname__.split(".")[0].lower()
 
     @functools.wraps(function)
     def checked(*args: Any, **given: Any) -> Any:
-        refuse_unknown(f"{called}()", given, names)
+        refuse_unknown(called or f"{function.__name__}()", given, names)
         for name in given.keys() & known.keys():
             _check(name, known[name][0], given[name])
         return function(*args, **{**defaults, **given})

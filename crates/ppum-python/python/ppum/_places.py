@@ -1,12 +1,12 @@
 """Places of mistakes: those in the arrays of the file format as the arguments that `build` makes them of."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+
+from ._checks import indexed
 
 #: A path in the file format, indices in its array, and a name between back ticks.
 PLACE = re.compile(r"(?:steps/(\d{4})[/@]?)?([\w/@]*)((?:\[\d+\])*)(?: `([^`]*)`)?(?=: )")
@@ -43,7 +43,7 @@ def _argument(path: str, numbers: Sequence[int], name: str | None, array: Any) -
     key = rest[-1] if rest else ""
     ours = ARGUMENTS.get(key, key)
     if group == "partition":
-        return _at(f"cover.{ours}".rstrip("."), [] if ours != key else numbers)
+        return indexed(f"cover.{ours}".rstrip("."), [] if ours != key else numbers)
     if group == "domain" and rest[:1] != ["holes"]:
         return "cover.domain"
     if group == "equation":
@@ -51,16 +51,16 @@ def _argument(path: str, numbers: Sequence[int], name: str | None, array: Any) -
     if group == "fields" and rest:
         place = f"fields[{array(f'fields/{rest[0]}@name')!r}]"
         is_given = key in ("components", "exact", "unit")
-        return _at(f"{place}.{key}", numbers) if is_given else place if key in (rest[0], "name") else f"{place}.blocks"
+        return indexed(f"{place}.{key}", numbers) if is_given else place if key in (rest[0], "name") else f"{place}.blocks"
     if group == "tables" and rest:
-        return _at(f"tables[{array(f'tables/{rest[0]}@name')!r}]" + (f".{key}" if len(rest) > 1 else ""), numbers)
+        return indexed(f"tables[{array(f'tables/{rest[0]}@name')!r}]" + (f".{key}" if len(rest) > 1 else ""), numbers)
     if group in ("attributes", "functions", "quantities") and (name or numbers):
         return _entry(group, key, list(numbers), name, array)
     if group in ("cracks", "domain") and numbers:
         place, list_ = ("cracks", "cracks") if group == "cracks" else ("domain/holes", "holes")
         k, inner = _part(place, key, list(numbers), array)
-        return _at(f"{list_}[{k}]" + (f".{ours}" if key and (list_, key) != ("cracks", "points") else ""), inner)
-    return _at(path, numbers) + (f" `{name}`" if name else "")
+        return indexed(f"{list_}[{k}]" + (f".{ours}" if key and (list_, key) != ("cracks", "points") else ""), inner)
+    return indexed(path, numbers) + (f" `{name}`" if name else "")
 
 
 def _entry(group: str, key: str, numbers: list[int], name: str | None, array: Any) -> str:
@@ -71,7 +71,7 @@ def _entry(group: str, key: str, numbers: list[int], name: str | None, array: An
         name = str(array(f"{group}/name")[k])
     place, ours = f"{group}[{name!r}]", ARGUMENTS.get(key, key)
     is_plain = group != "functions" or key in ("", "name", "kind", "levels") or ours == "parameters"
-    return place if is_plain else _at(f"{place}.{ours}", inner if key in OFFSETS else [])
+    return place if is_plain else indexed(f"{place}.{ours}", inner if key in OFFSETS else [])
 
 
 def _part(group: str, key: str, numbers: list[int], array: Any) -> tuple[int, list[int]]:
@@ -81,7 +81,3 @@ def _part(group: str, key: str, numbers: list[int], array: Any) -> tuple[int, li
     offsets = np.asarray(array(f"{group}/{OFFSETS[key]}"))
     k = int(np.searchsorted(offsets, numbers[0], side="right")) - 1
     return k, [numbers[0] - int(offsets[k]), *numbers[1:]]
-
-
-def _at(place: str, numbers: Sequence[int]) -> str:
-    return place + "".join(f"[{k}]" for k in numbers)

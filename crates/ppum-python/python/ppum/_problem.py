@@ -1,11 +1,8 @@
 """Problems: built in Python, from dictionaries or from problem files."""
 
-from __future__ import annotations
-
 import os
-import sys
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Unpack
@@ -16,13 +13,11 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._dataset import Dataset
 from ._errors import Diagnostic, ProblemError
-from ._options import takes
+from ._options import passes, takes
 from ._sections import (
-    AdaptivityOptions, BoundaryOptions, CrackOptions, DiscretizationOptions, GrowthOptions, HoleOptions, SpaceOptions,
+    AdaptivityOptions, BoundaryOptions, CrackOptions, DiscretizationOptions, GrowthOptions, HoleOptions, SolveOptions, SpaceOptions,
 )  # fmt: skip
-from ._text import plain, plural, toml_lines
-
-Progress = Callable[[str, int, int, int], object]
+from ._text import ProgressLine, plain, plural, toml_lines
 
 
 @dataclass(frozen=True)
@@ -79,7 +74,7 @@ class Problem:
         self, domain: Iterable[Iterable[float]] | Mapping[str, Any], material: Elastic | Poisson, *, title: str = ""
     ) -> None:
         if not isinstance(material, (Elastic, Poisson)):
-            raise TypeError(f"material: ppum.Elastic or ppum.Poisson is needed, not {_kind(material)}")
+            raise TypeError(f"material: ppum.Elastic or ppum.Poisson is needed, not {type(material).__name__}")
         spec: dict[str, Any] = {"title": title} if title else {}
         spec["domain"] = _domain(domain)
         # those that are None are left out
@@ -97,13 +92,13 @@ class Problem:
     _folder: Path
 
     @classmethod
-    def _of(cls, spec: dict[str, Any], text: str | None = None, name: str = "problem", folder: Path = Path()) -> Problem:
+    def _of(cls, spec: dict[str, Any], text: str | None = None, name: str = "problem", folder: Path = Path()) -> "Problem":
         problem = cls.__new__(cls)
         problem._spec, problem._text, problem._name, problem._folder = spec, text, name, folder
         return problem
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Problem:
+    def read(cls, path: str | os.PathLike[str]) -> "Problem":
         """The problem of a file; files that it names are looked for beside it. Mistakes are found by `check` and `solve`.
 
         Raises:
@@ -123,12 +118,12 @@ class Problem:
         return cls._parse(text.replace("\r\n", "\n"), str(path), path.parent)
 
     @classmethod
-    def parse(cls, text: str) -> Problem:
+    def parse(cls, text: str) -> "Problem":
         """The problem of a text, as `read`; files that it names are looked for in the working folder."""
         return cls._parse(text, "problem", Path())
 
     @classmethod
-    def _parse(cls, text: str, name: str, folder: Path) -> Problem:
+    def _parse(cls, text: str, name: str, folder: Path) -> "Problem":
         try:
             spec = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
@@ -138,7 +133,7 @@ class Problem:
         return cls._of(spec, text, name, folder)
 
     @classmethod
-    def from_dict(cls, spec: Mapping[str, Any]) -> Problem:
+    def from_dict(cls, spec: Mapping[str, Any]) -> "Problem":
         """The problem of a dictionary with the sections and keys of problem files.
 
         Example:
@@ -157,7 +152,7 @@ class Problem:
         return self._text if self._text is not None else toml_lines(self._spec)[0]
 
     @takes(CrackOptions)
-    def crack(self, *points: ArrayLike, **options: Unpack[CrackOptions]) -> Problem:
+    def crack(self, *points: ArrayLike, **options: Unpack[CrackOptions]) -> "Problem":
         """One more crack, through points or an array of them; or by one of the options.
 
         Example:
@@ -170,7 +165,7 @@ class Problem:
         return self.add("crack", **({"points": points} if points else {}), **options)
 
     @takes(HoleOptions)
-    def hole(self, **options: Unpack[HoleOptions]) -> Problem:
+    def hole(self, **options: Unpack[HoleOptions]) -> "Problem":
         """One more hole.
 
         Example:
@@ -180,7 +175,7 @@ class Problem:
         return self.add("hole", **options)
 
     @takes(BoundaryOptions)
-    def boundary(self, on: str | Mapping[str, Any], **options: Unpack[BoundaryOptions]) -> Problem:
+    def boundary(self, on: str | Mapping[str, Any], **options: Unpack[BoundaryOptions]) -> "Problem":
         """One more condition.
 
         Args:
@@ -193,7 +188,7 @@ class Problem:
         """
         return self.add("boundary", on=on, **options)
 
-    def force(self, at: ArrayLike, value: ArrayLike, face: str | None = None) -> Problem:
+    def force(self, at: ArrayLike, value: ArrayLike, face: str | None = None) -> "Problem":
         """One more force at a point; on a crack with the face that it acts on.
 
         Example:
@@ -202,7 +197,7 @@ class Problem:
         """
         return self.add("force", at=at, value=value, **({"face": face} if face else {}))
 
-    def support(self, at: ArrayLike, displacement: Iterable[float | str] = (0, 0)) -> Problem:
+    def support(self, at: ArrayLike, displacement: Iterable[float | str] = (0, 0)) -> "Problem":
         """One more point that is held against rigid motion; components may be ``free``.
 
         Example:
@@ -211,7 +206,7 @@ class Problem:
         """
         return self.add("support", at=at, displacement=displacement)
 
-    def quantity(self, name: str, formula: str, unit: str = "") -> Problem:
+    def quantity(self, name: str, formula: str, unit: str = "") -> "Problem":
         """One more quantity with a name.
 
         Example:
@@ -221,7 +216,7 @@ class Problem:
         return self.add("quantity", name=name, formula=formula, **({"unit": unit} if unit else {}))
 
     @takes(DiscretizationOptions)
-    def discretization(self, **options: Unpack[DiscretizationOptions]) -> Problem:
+    def discretization(self, **options: Unpack[DiscretizationOptions]) -> "Problem":
         """Cells and functions.
 
         Options that were given before stay, unless they are given anew. `level`, `cells`, `points` and `accuracy` each replace
@@ -238,7 +233,7 @@ class Problem:
         return self.section("discretization", **{**old, **options})
 
     @takes(SpaceOptions)
-    def accuracy(self, error: float, **options: Unpack[SpaceOptions]) -> Problem:
+    def accuracy(self, error: float, **options: Unpack[SpaceOptions]) -> "Problem":
         """Cells and orders that give K to a relative error, in place of a number of cells.
 
         Example:
@@ -248,7 +243,7 @@ class Problem:
         return self.discretization(accuracy=error, **options)
 
     @takes(GrowthOptions)
-    def growth(self, steps: int, **options: Unpack[GrowthOptions]) -> Problem:
+    def growth(self, steps: int, **options: Unpack[GrowthOptions]) -> "Problem":
         """Lets the cracks grow, in so many steps at most.
 
         Example:
@@ -258,7 +253,7 @@ class Problem:
         return self.section("growth", steps=steps, **options)
 
     @takes(AdaptivityOptions)
-    def adaptivity(self, **options: Unpack[AdaptivityOptions]) -> Problem:
+    def adaptivity(self, **options: Unpack[AdaptivityOptions]) -> "Problem":
         """Improves cells until the field is good enough.
 
         Example:
@@ -267,7 +262,7 @@ class Problem:
         """
         return self.section("adaptivity", **options)
 
-    def section(self, name: str, /, **keys: Any) -> Problem:
+    def section(self, name: str, /, **keys: Any) -> "Problem":
         """The problem with a section of this name, e.g. ``solver``, ``body_force``, in place of what it had. `check` finds keys
         that there are not.
 
@@ -277,7 +272,7 @@ class Problem:
         """
         return self._with({**self._spec, name: keys})
 
-    def add(self, name: str, /, **keys: Any) -> Problem:
+    def add(self, name: str, /, **keys: Any) -> "Problem":
         """The problem with one more section of a kind that there may be several of, e.g. ``refine``, ``table``. `check` finds
         keys that there are not.
 
@@ -287,7 +282,7 @@ class Problem:
         """
         return self._with({**self._spec, name: [*self._spec.get(name, ()), keys]})
 
-    def _with(self, spec: dict[str, Any]) -> Problem:
+    def _with(self, spec: dict[str, Any]) -> "Problem":
         return self._of(plain(spec), folder=self._folder)
 
     def check(self) -> tuple[Diagnostic, ...]:
@@ -304,11 +299,10 @@ class Problem:
         found = (Diagnostic(**f) for f in _core.check(text, self._name, self._folder))
         return tuple(found if keys is None else (_of_key(diagnostic, keys) for diagnostic in found))
 
-    def solve(
-        self, *, threads: int | None = None, memory: int | None = None, progress: bool | Progress = False
-    ) -> Dataset:
+    @passes(SolveOptions)
+    def solve(self, **options: Unpack[SolveOptions]) -> Dataset:
         """Solves the problem, see `ppum.solve`."""
-        return solve(self, threads=threads, memory=memory, progress=progress)
+        return solve(self, **options)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Problem):
@@ -324,10 +318,6 @@ class Problem:
     def __repr__(self) -> str:
         title, cracks = self._spec.get("title", ""), self._spec.get("crack", ())
         return f"<ppum.Problem {title!r}, {plural(len(cracks), 'crack')}>"
-
-
-def _kind(value: Any) -> str:
-    return type(value).__name__
 
 
 def _domain(domain: Any) -> Mapping[str, Any]:
@@ -358,23 +348,15 @@ def _of_key(diagnostic: Diagnostic, keys: list[str]) -> Diagnostic:
     return Diagnostic(key, None, None, diagnostic.message)
 
 
+@takes(SolveOptions)
 def solve(
-    problem: Problem | Mapping[str, Any] | str | os.PathLike[str],
-    *,
-    threads: int | None = None,
-    memory: int | None = None,
-    progress: bool | Progress = False,
+    problem: Problem | Mapping[str, Any] | str | os.PathLike[str], **options: Unpack[SolveOptions]
 ) -> Dataset:
     """Solves a problem; a problem with growing cracks gives a dataset of all steps. Ctrl-C ends it within moments.
 
     The result depends on the problem alone, not on the number of threads.
 
-    Args:
-        problem: A `Problem`, a dictionary as for `Problem.from_dict`, or the path of a problem file.
-        threads: How many to work on; by default as many as there are processors, which all calls share.
-        memory: Bytes that may be used; a solution that needs more is refused before it begins.
-        progress: True for a line on standard error; or a function that is called now and then with the phase, the parts that
-            are done, all parts and the step. What it raises ends the solution and is raised.
+    The problem is a `Problem`, a dictionary as for `Problem.from_dict`, or the path of a problem file.
 
     Raises:
         ProblemError: Mistakes in the problem, all in `diagnostics`.
@@ -393,36 +375,18 @@ def solve(
     elif isinstance(problem, Dataset):
         raise TypeError("problem: this is a dataset, which is solved already; its `problem` is what was solved")
     elif not isinstance(problem, Problem):
-        raise TypeError(f"problem: a ppum.Problem, a dictionary or a path is needed, not {_kind(problem)}")
+        raise TypeError(f"problem: a ppum.Problem, a dictionary or a path is needed, not {type(problem).__name__}")
+    threads, progress, line = options["threads"], options["progress"], ProgressLine()
     if threads is not None and threads < 1:
         raise ValueError("threads: one or more")
-    told = _Line() if progress is True else progress or None
-    text = problem.to_toml()
+    hears = line.solving if progress is True else progress or None
     try:
-        return Dataset(_core.solve(text, problem._name, problem._folder, memory, threads, told))
+        return Dataset(_core.solve(problem.to_toml(), problem._name, problem._folder, options["memory"], threads, hears))
     except ProblemError:
         diagnostics = problem.check() if problem._text is None else ()
         if not diagnostics:
             raise
         raise _error_of(diagnostics) from None
     finally:
-        if isinstance(told, _Line):
-            told.clear()
-
-
-class _Line:
-    """Progress on one line of standard error, which is gone afterwards."""
-
-    def __init__(self) -> None:
-        self._width = 0
-
-    def __call__(self, phase: str, done: int, total: int, step: int) -> None:
-        of = f" {100 * done // max(total, 1):3d} %" if total > 1 else ""
-        text = f"{f'step {step}  ' if step else ''}{phase}{of}"
-        sys.stderr.write("\r" + text.ljust(self._width))
-        sys.stderr.flush()
-        self._width = len(text)
-
-    def clear(self) -> None:
-        sys.stderr.write("\r" + " " * self._width + "\r")
-        sys.stderr.flush()
+        if progress is True:
+            line.clear()

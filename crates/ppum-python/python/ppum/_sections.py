@@ -1,7 +1,7 @@
 """The keys of problem files as options of `Problem`; what has no default here has that of docs/problem-file.md."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, Literal, TypedDict
 
 from numpy.typing import ArrayLike
@@ -11,32 +11,37 @@ from ._options import UNSET, Option
 #: A number, or a formula of x and y.
 Value = float | str
 Table = Mapping[str, Any]
+PROGRESS = (
+    "True for a line on standard error; or a function that is called with phase, parts done, all parts and step, and ends the "
+    "solution by what it raises"
+)
 
 
 def _key(text: str) -> Option:
     return Option(UNSET, text)
 
 
-class HoleOptions(TypedDict, total=False):
-    """A circle, a polygon, an ellipse, a closed curve or a path of pieces."""
+class CurveOptions(TypedDict, total=False):
+    """A curve, which is closed around a hole."""
+
+    ellipse: Annotated[Table, _key("an ellipse, of a crack a part of one: `ppum.ellipse`, or a table of problem files")]
+    spline: Annotated[ArrayLike, _key("points of a smooth curve, shape (n, 2)")]
+    path: Annotated[Sequence[Table], _key("several curves, each from where the one before ends; those of holes have names")]
+    segments: Annotated[int, _key("the number of segments of each curve")]
+
+
+class HoleOptions(CurveOptions, total=False):
+    """A circle, a polygon, or a curve."""
 
     center: Annotated[ArrayLike, _key("the centre of a circle")]
     radius: Annotated[float, _key("its radius")]
     points: Annotated[ArrayLike, _key("the corners of a polygon, shape (n, 2)")]
-    ellipse: Annotated[Table, _key("an ellipse: `ppum.ellipse`, or a table of problem files")]
-    spline: Annotated[ArrayLike, _key("points of a smooth closed curve, shape (n, 2)")]
-    path: Annotated[Sequence[Table], _key("several curves, each from where the one before ends, with names")]
-    segments: Annotated[int, _key("the number of segments of each curve")]
 
 
-class CrackOptions(TypedDict, total=False):
+class CrackOptions(CurveOptions, total=False):
     """A curve in place of points, and what faces that touch do."""
 
     arc: Annotated[Table, _key("an arc of a circle: `ppum.arc`, or a table of problem files")]
-    ellipse: Annotated[Table, _key("a part of an ellipse: `ppum.ellipse`, or a table of problem files")]
-    spline: Annotated[ArrayLike, _key("points of a smooth curve, shape (n, 2)")]
-    path: Annotated[Sequence[Table], _key("several curves, each from where the one before ends")]
-    segments: Annotated[int, _key("the number of segments of each curve")]
     contact: Annotated[bool, _key("whether its faces press on each other where they touch, instead of overlapping")]
     friction: Annotated[float, _key("the coefficient of friction between faces that touch")]
 
@@ -78,6 +83,14 @@ class DiscretizationOptions(SpaceOptions, total=False):
     cells: Annotated[tuple[int, int], _key("columns and rows of cells")]
     points: Annotated[str | os.PathLike[str], _key("a file of points that cells are made around")]
     accuracy: Annotated[float, _key("the relative error of K that is wanted")]
+
+
+class SolveOptions(TypedDict, total=False):
+    """How a problem is solved."""
+
+    threads: Annotated[int | None, Option(None, "how many to work on; by default as many as there are processors")]
+    memory: Annotated[int | None, Option(None, "bytes that may be used; a solution that needs more is refused")]
+    progress: Annotated[bool | Callable[[str, int, int, int], object], Option(False, PROGRESS)]
 
 
 class GrowthOptions(TypedDict, total=False):

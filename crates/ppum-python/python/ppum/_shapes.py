@@ -1,7 +1,5 @@
 """Polynomials on reference shapes by their values."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

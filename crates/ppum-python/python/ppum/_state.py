@@ -1,7 +1,5 @@
 """States of a series in arrays: a cover or a mesh, and fields on it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple

@@ -198,7 +198,7 @@ class ViewerOptions(PlaceOptions, ColorOptions, total=False):
 
 
 class PlotOptions(PlaceOptions, RangeOptions, total=False):
-    """Options of matplotlib; percentiles of a range are those of a coarse image of the plate, so `auto` is robust against tips."""
+    """Options of matplotlib; the range of colours is that of a figure of all of the plate."""
 
     ax: Annotated[Any, Option(None, "axes; by default the current ones, which get equal scales")]
     cmap: Annotated[Any, Option(None, "a map of matplotlib or of `ppum.COLORMAPS`")]

@@ -1,11 +1,8 @@
 """Many problems: all combinations of parameters, on this machine or on a cluster, as one xarray dataset."""
 
-from __future__ import annotations
-
 import hashlib
 import itertools
 import os
-import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,19 +13,13 @@ from . import _core
 from ._dataset import Dataset, open as open_dataset
 from ._errors import PpumError, require
 from ._problem import Problem, solve
+from ._text import ProgressLine
 
-#: What is kept of each tip, see `Tip`.
-TIPS = ("k1", "k2", "t_stress", "j", "g", "growth_angle", "error")
-#: What plots write at axes.
-LABELS = {
-    "k1": {"long_name": "$K_{I}$"},
-    "k2": {"long_name": "$K_{II}$"},
-    "t_stress": {"long_name": "$T$"},
-    "j": {"long_name": "$J$"},
-    "g": {"long_name": "$G$"},
-    "growth_angle": {"long_name": "angle of growth", "units": "rad"},
-    "error": {"long_name": "estimated error of $K$"},
-}
+#: What is kept of each tip, see `Tip`, with what plots write at axes.
+TIPS = {
+    "k1": "$K_{I}$", "k2": "$K_{II}$", "t_stress": "$T$", "j": "$J$", "g": "$G$", "growth_angle": "angle of growth",
+    "error": "estimated error of $K$",
+}  # fmt: skip
 #: What is kept of each solution beside it.
 PLAIN = ("energy", "unknowns", "patches", "warnings")
 
@@ -36,7 +27,7 @@ _Make = Callable[..., Problem | Mapping[str, Any]]
 _Row = dict[str, Any]
 
 
-def sweep(make: _Make, **parameters: Sequence[Any]) -> Sweep:
+def sweep(make: _Make, **parameters: Sequence[Any]) -> "Sweep":
     """All combinations of parameters, each a problem.
 
     Args:
@@ -131,10 +122,10 @@ class Sweep:
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
         made, rows = self._made()
-        tell = _counting(progress, len(rows))
+        tell = ProgressLine().solved if progress is True else progress or (lambda done, total: None)
         for done, (k, row) in enumerate(_rows_of(made, client, folder, threads), 1 + len(rows) - len(made)):
             rows[k] = row
-            tell(done)
+            tell(done, len(rows))
         return self._gathered(rows, xarray)
 
     def _made(self) -> tuple[dict[int, Problem], list[_Row]]:
@@ -164,7 +155,9 @@ class Sweep:
         plain = {name: np.array([row.get(name, np.nan) for row in rows]).reshape(shape) for name in (*PLAIN, "status")}
         variables: dict[str, Any] = {name: (dims, values) for name, values in plain.items()}
         for n, name in enumerate((*TIPS, "x", "y")):
-            variables[name] = (*dims, "tip"), per_tip[..., n].reshape(*shape, count), LABELS.get(name, {})
+            words = {"long_name": TIPS[name]} if name in TIPS else {}
+            words |= {"units": "rad"} if name == "growth_angle" else {}
+            variables[name] = (*dims, "tip"), per_tip[..., n].reshape(*shape, count), words
         return xarray.Dataset(variables, {**self._values, "tip": np.arange(count)})
 
 
@@ -220,17 +213,3 @@ def _row(dataset: Dataset) -> _Row:
 
 def _failed(error: BaseException) -> _Row:
     return {"status": f"{type(error).__name__}: {error}"}
-
-
-def _counting(progress: bool | Callable[[int, int], object], total: int) -> Callable[[int], object]:
-    if callable(progress):
-        return lambda done: progress(done, total)
-    if not progress:
-        return lambda done: None
-
-    def line(done: int) -> None:
-        end = "\n" if done == total else ""
-        sys.stderr.write(f"\r{done} of {total} solved{end}")
-        sys.stderr.flush()
-
-    return line

@@ -1,7 +1,5 @@
 """Things of one kind in tables, and numbers by name."""
 
-from __future__ import annotations
-
 import operator
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields

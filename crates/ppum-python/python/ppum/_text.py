@@ -1,12 +1,11 @@
 """Texts: words that are near others, counts, labels; problems as the text of problem files."""
 
-from __future__ import annotations
-
 import difflib
 import html
 import json
 import os
 import re
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -107,6 +106,28 @@ def _value(value: Any) -> str:
     if isinstance(value, dict):
         return "{" + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + "}"
     return "[" + ", ".join(_value(v) for v in value) + "]"
+
+
+class ProgressLine:
+    """A line of standard error that is written again and again."""
+
+    def __init__(self) -> None:
+        self._width = 0
+
+    def write(self, text: str, end: str = "") -> None:
+        sys.stderr.write("\r" + text.ljust(self._width) + end)
+        sys.stderr.flush()
+        self._width = len(text)
+
+    def solving(self, phase: str, done: int, total: int, step: int) -> None:
+        of = f" {100 * done // max(total, 1):3d} %" if total > 1 else ""
+        self.write(f"{f'step {step}  ' if step else ''}{phase}{of}")
+
+    def solved(self, done: int, total: int) -> None:
+        self.write(f"{done} of {total} solved", "\n" if done == total else "")
+
+    def clear(self) -> None:
+        self.write("", "\r")
 
 
 def html_row(cells: Iterable[str], kind: str = "td") -> str:

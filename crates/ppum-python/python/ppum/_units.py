@@ -1,7 +1,5 @@
 """Numbers that calls are given: coordinates, angles, sizes."""
 
-from __future__ import annotations
-
 import math
 import operator
 

@@ -1,10 +1,8 @@
 """Values of fields at points, and the quantities that there are."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +15,7 @@ if TYPE_CHECKING:
     from ._field import Field
 
 SideName = Literal["above", "below", "both"]
-SIDES = ("above", "below", "both")
+SIDES = get_args(SideName)
 
 
 @dataclass(frozen=True)
@@ -73,7 +71,7 @@ class Values:
 
     __slots__ = ("_anchor", "_field", "_is_one", "_shape", "_side", "_x", "_y")
 
-    def __init__(self, field: Field, x: ArrayLike, y: ArrayLike, side: str, anchor: ArrayLike | None) -> None:
+    def __init__(self, field: "Field", x: ArrayLike, y: ArrayLike, side: str, anchor: ArrayLike | None) -> None:
         if side not in SIDES:
             raise ValueError(f"side: {side!r} is none; there are above, below, both")
         self._field, self._side = field, side

@@ -1,7 +1,5 @@
 """Fields that are built compared with the evaluation of the code that they come from."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 

@@ -4,8 +4,6 @@ A view draws where the field is, in this process; the browser gets finished pixe
 does. At most two frames are on their way at a time and what happens in between becomes one, so nothing piles up. Needs anywidget.
 """
 
-from __future__ import annotations
-
 import base64
 import math
 import os
@@ -106,8 +104,8 @@ class Viewer(anywidget.AnyWidget):
     #: A picture for pages without a kernel.
     _still = traitlets.Bytes(b"").tag(sync=True)
 
-    @takes(ViewerOptions)
-    def __init__(self, field: Field, quantity: str | None = None, **options: Unpack[ViewerOptions]) -> None:
+    @takes(ViewerOptions, "view()")
+    def __init__(self, field: "Field", quantity: str | None = None, **options: Unpack[ViewerOptions]) -> None:
         # counts what is seen; views in browsers ask for a frame if it is not the one that they show
         self._version, self._is_answering = 0, False
         #: The field; its step is that of `step`.
@@ -218,7 +216,7 @@ class Viewer(anywidget.AnyWidget):
         cmap, overlays = None if self.cmap == "auto" else self.cmap, ["cracks"] if self.cracks else []
         return {"cmap": cmap, "norm": self.norm, "clim": self.clim, "overlays": overlays, "deformed": self.deformed}
 
-    def _at_step(self) -> Field:
+    def _at_step(self) -> "Field":
         return self.field if self.step == self.field._number else self._other(self.step)
 
     def _hear(self, _: Any, content: Any, buffers: Any) -> None:
@@ -361,13 +359,13 @@ def _is_unattended() -> bool:
     return not answers and "voila" not in os.environ.get("SERVER_SOFTWARE", "").lower()
 
 
-def _offers(field: Field) -> dict[str, Any]:
+def _offers(field: "Field") -> dict[str, Any]:
     tips = [f"tip {k}" for k in range(len(field.step.tips))]
     steps = len(field.dataset.steps) if len(field.dataset.steps) > 1 else 0
     return {"quantities": list(field.quantities), "cmaps": ["auto", *_core.colormaps()], "tips": tips, "steps": steps}
 
 
-def _clim(field: Field, quantity: str, options: ViewerOptions, at: Window) -> Any:
+def _clim(field: "Field", quantity: str, options: ViewerOptions, at: Window) -> Any:
     """The range that options say; an end that they leave is that of an automatic one."""
     found = span(options)
     if isinstance(found, str) or None not in found:
@@ -392,7 +390,7 @@ def _sum(high: float, low: float, more: float) -> tuple[float, float]:
     return again, lacks - (again - total)
 
 
-def _nearest(field: Field, anchor: Any, offset: Any, reach: float) -> Any:
+def _nearest(field: "Field", anchor: Any, offset: Any, reach: float) -> Any:
     """The point of a crack within reach, as an offset from the nearer vertex of its segment, not rounded; None without."""
     found = None
     for crack in field.step.cracks:

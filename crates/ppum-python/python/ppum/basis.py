@@ -7,11 +7,9 @@ Example:
     [[-1.0, 0.0, 0.0, 3.0, 0.0, 0.0]]
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from math import comb
+from math import comb, prod
 from numbers import Integral
 from typing import Any
 
@@ -27,8 +25,8 @@ from ._warnings import warn
 
 __all__ = ["Basis", "bernstein", "chebyshev", "fit", "lagrange", "legendre", "monomials", "reframe"]
 
-#: A polynomial of one variable, from the constant on.
-Poly = list[Fraction]
+#: The polynomial ξ; all that is computed of it is exact.
+X: Any = np.polynomial.Polynomial(np.array([Fraction(0), Fraction(1)], object))
 
 #: A conversion that loses more than this is told.
 LARGE = 1e6
@@ -45,13 +43,13 @@ class Basis:
         condition: Its condition number: how much relative errors of coefficients may grow.
     """
 
-    def __init__(self, x: Sequence[Poly], y: Sequence[Poly], indices: Sequence[tuple[int, int]]) -> None:
+    def __init__(self, x: Sequence[Any], y: Sequence[Any], indices: Sequence[tuple[int, int]]) -> None:
         self.indices = tuple((int(i), int(j)) for i, j in indices)
         for k, (i, j) in enumerate(self.indices):
             if not (0 <= i < len(x) and 0 <= j < len(y)):
                 raise BuildError(f"order[{k}]: {(i, j)} is no product of {len(x)} × {len(y)} polynomials")
         products = [(x[i], y[j]) for i, j in self.indices]
-        self.degree = max(_degree(p) + _degree(q) for p, q in products)
+        self.degree = max(p.trim().degree() + q.trim().degree() for p, q in products)
         if self.degree > MAX_DEGREE:
             raise BuildError(
                 f"the products have the total degree {self.degree}, a block at most {MAX_DEGREE}: "
@@ -107,13 +105,7 @@ def bernstein(degree: int, order: Any = "tensor", interval: tuple[float, float] 
         >>> ppum.basis.bernstein(1).convert([[1.0, 1.0, 1.0, 1.0]]).tolist()
         [[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]]
     """
-    one = [Fraction(1)]
-    all_ = []
-    for k in range(_bounded(degree) + 1):
-        p = [Fraction(comb(degree, k))]
-        for factor in [[Fraction(0), Fraction(1)]] * k + [[Fraction(1), Fraction(-1)]] * (degree - k):
-            p = _times(p, factor)
-        all_.append(p or one)
+    all_ = [comb(degree, k) * X**k * (1 - X) ** (degree - k) for k in range(_bounded(degree) + 1)]
     return _basis(all_, order, interval)
 
 
@@ -123,19 +115,13 @@ def lagrange(nodes: ArrayLike, order: Any = "tensor", interval: tuple[float, flo
     if len(set(at)) < len(at):
         raise BuildError("nodes: two are equal; leave one out")
     _bounded(len(at) - 1)
-    all_ = []
-    for i, a in enumerate(at):
-        p = [Fraction(1)]
-        for b in at[:i] + at[i + 1 :]:
-            p = _times(p, [-b / (a - b), 1 / (a - b)])
-        all_.append(p)
+    all_ = [prod(((X - b) / (a - b) for b in at if b != a), start=X**0) for a in at]
     return _basis(all_, order, interval)
 
 
 def monomials(degree: int, order: Any = "total-y", interval: tuple[float, float] = (-1, 1)) -> Basis:
     """Monomials in another order or of another coordinate; arguments as of `legendre`."""
-    all_ = [[Fraction(0)] * k + [Fraction(1)] for k in range(_bounded(degree) + 1)]
-    return _basis(all_, order, interval)
+    return _basis([X**k for k in range(_bounded(degree) + 1)], order, interval)
 
 
 def reframe(
@@ -232,23 +218,22 @@ def _bounded(degree: int) -> int:
     return int(degree)
 
 
-def _recurrent(degree: int, factors: Callable[[int], tuple[Fraction, Fraction]]) -> list[Poly]:
+def _recurrent(degree: int, factors: Callable[[int], tuple[Fraction, Fraction]]) -> list[Any]:
     """Polynomials with p_{k+1} = a ξ p_k − b p_{k−1}."""
-    all_: list[Poly] = [[Fraction(1)]]
+    all_ = [X**0]
     for k in range(_bounded(degree)):
         a, b = factors(k)
-        raised = [Fraction(0), *(a * v for v in all_[-1])]
-        lowered = all_[-2] if k else []
-        all_.append([v - b * (lowered[i] if i < len(lowered) else 0) for i, v in enumerate(raised)])
+        all_.append(a * X * all_[-1] - (b * all_[-2] if k else 0))
     return all_
 
 
-def _basis(polynomials: Sequence[Poly], order: Any, interval: tuple[float, float]) -> Basis:
+def _basis(polynomials: Sequence[Any], order: Any, interval: tuple[float, float]) -> Basis:
     ends = numbers("interval", interval)
     if ends.shape != (2,) or ends[0] == ends[1]:
         raise BuildError(f"interval: {short(interval)} has no length; give two ends, such as (-1, 1)")
     low, high = map(Fraction, ends.tolist())
-    moved = [_composed(p, (low + high) / 2, (high - low) / 2) for p in polynomials]
+    line = (low + high) / 2 + (high - low) / 2 * X
+    moved = [sum((v * line**k for k, v in enumerate(p.coef)), start=0 * X) for p in polynomials]
     return Basis(moved, moved, _order(order, len(polynomials) - 1))
 
 
@@ -267,26 +252,5 @@ def _order(order: Any, degree: int) -> Sequence[tuple[int, int]]:
     return known[order]
 
 
-def _degree(p: Poly) -> int:
-    return max((k for k, v in enumerate(p) if v), default=0)
-
-
-def _at(p: Poly, k: int) -> Fraction:
-    return p[k] if k < len(p) else Fraction(0)
-
-
-def _times(p: Poly, q: Poly) -> Poly:
-    product = [Fraction(0)] * (len(p) + len(q) - 1)
-    for i, a in enumerate(p):
-        for j, b in enumerate(q):
-            product[i + j] += a * b
-    return product
-
-
-def _composed(p: Poly, shift: Fraction, factor: Fraction) -> Poly:
-    """p(shift + factor ξ), by Horner's scheme."""
-    result = [Fraction(0)]
-    for v in reversed(p):
-        result = _times(result, [shift, factor])
-        result[0] += v
-    return result
+def _at(p: Any, k: int) -> Any:
+    return p.coef[k] if k < len(p.coef) else 0

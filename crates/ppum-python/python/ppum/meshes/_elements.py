@@ -1,8 +1,9 @@
 """What all importers share: elements and polynomials from the values that a library gives at reference places."""
 
+import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, TypedDict
+from typing import Annotated, Any, ParamSpec
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,8 @@ from .._shapes import SQUARE, TRIANGLE, interpolated, nodes
 from .._state import Coefficients, Sampled, State
 from .._units import Floats
 from ..build import dataset
+
+_P = ParamSpec("_P")
 
 #: Reference places of each shape, (k, 2).
 Places = Mapping[int, Floats]
@@ -54,8 +57,8 @@ Sampler = Callable[[Places], list[Group]]
 Values = Callable[[NDArray[np.int64], Floats], tuple[Floats, Floats]]
 
 
-class FieldOptions(TypedDict, total=False):
-    """Labels of an imported field, and how it is verified."""
+class ImportOptions(BuildOptions, total=False):
+    """Labels of an imported field, how it is verified, and what is said of its dataset."""
 
     name: Annotated[str | None, Option(None, "name of the field; by default `u`, of files that of the data")]
     components: Annotated[list[str] | None, Option(None, "names of its components, see `Coefficients`")]
@@ -63,13 +66,21 @@ class FieldOptions(TypedDict, total=False):
     verify: Annotated[int, Option(1000, "number of random points at which the dataset is compared with the library")]
 
 
-class ImportOptions(FieldOptions, BuildOptions, total=False):
-    """Labels of an imported field, and what is said of its dataset."""
+def importer(
+    state: Callable[_P, State], name: str, library: str, version: Callable[..., str] = lambda *_, **__: ""
+) -> Callable[_P, Dataset]:
+    """The function of this name that builds the dataset of a state, and has its arguments."""
 
+    def load(*args: _P.args, **options: _P.kwargs) -> Dataset:
+        # a library that is missing is said first
+        program = f"{library} {version(*args, **options)}".strip()
+        made = state(*args, **options)
+        others: Any = {key: options[key] for key in BuildOptions.__annotations__ if key in options}
+        return dataset(made, **{"program": program} | others)
 
-def of_field(options: ImportOptions) -> FieldOptions:
-    """The options of the field among those of an importer."""
-    return {name: options[name] for name in FieldOptions.__annotations__}  # type: ignore[literal-required, return-value]
+    load.__signature__ = inspect.signature(state).replace(return_annotation=Dataset)  # type: ignore[attr-defined]
+    load.__name__, load.__qualname__, load.__module__, load.__doc__ = name, name, state.__module__, state.__doc__
+    return load
 
 
 class Elements:
@@ -180,21 +191,15 @@ def random_places(random: np.random.Generator, shape: int, count: int) -> Floats
     return 0.75 * np.where(at.sum(axis=1, keepdims=True) > 0, -at, at) + 0.25
 
 
-def smooth(sampler: Sampler, options: FieldOptions, order: int, geometry: int, verify: Sampled | None) -> State:
+def smooth(sampler: Sampler, options: ImportOptions, order: int, geometry: int, verify: Sampled | None) -> State:
     """The state of a field that is one polynomial on each element; `verify` are points and values of the library."""
     elements = Elements(sampler, order, geometry)
     return State(elements.mesh(), labelled(options, {"one": elements.polynomials(order)}, verify))
 
 
-def labelled(options: FieldOptions, blocks: Mapping[str, Any], verify: Sampled | None) -> Coefficients:
+def labelled(options: ImportOptions, blocks: Mapping[str, Any], verify: Sampled | None) -> Coefficients:
     """A field of blocks with its labels."""
     return Coefficients(options["name"] or "u", blocks, options["components"], options["unit"], verify=verify)
-
-
-def built(state: State, library: str, version: str, options: ImportOptions) -> Dataset:
-    """The dataset of a state, by the name of its library."""
-    others: Any = {name: value for name, value in options.items() if name not in FieldOptions.__annotations__}
-    return dataset(state, **others | {"program": options["program"] or f"{library} {version}".strip()})
 
 
 def group_by_shape(shapes: NDArray[np.int64], among: NDArray[np.int64], places: Places, values: Values) -> list[Group]:

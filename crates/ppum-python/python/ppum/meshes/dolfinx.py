@@ -6,41 +6,38 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._checks import real
-from .._dataset import Dataset
 from .._errors import BuildError, require
 from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
 from .._units import Floats
-from ._elements import FieldOptions, Group, ImportOptions, Places, Sampler, built, compared, of_field, smooth, to_unit
+from ._elements import Group, ImportOptions, Places, Sampler, compared, importer, smooth, to_unit
 
 __all__ = ["from_dolfinx", "state"]
 
-CONDA = "conda install -c conda-forge"
+BY = "conda install -c conda-forge"
 SHAPES = {"triangle": TRIANGLE, "quadrilateral": SQUARE}
 REMEDY = "interpolate the field into discontinuous Lagrange elements of its degree"
 
 
-@takes(ImportOptions)
-def from_dolfinx(u: Any, **options: Unpack[ImportOptions]) -> Dataset:
+@takes(ImportOptions, "from_dolfinx()")
+def state(u: Any, **options: Unpack[ImportOptions]) -> State:
     """The dataset of a Function of DOLFINx in a Lagrange space, continuous or not, of scalars or vectors: degrees of
     freedom times basix's shape functions, on triangles or quadrilaterals of any order.
 
     Args:
         u: The Function; parts of mixed ones by ``u.sub(k).collapse()``.
     """
-    version = require("dolfinx", "fenics-dolfinx", "fields of DOLFINx", CONDA).__version__
-    return built(state(u, **of_field(options)), "DOLFINx", version, options)
-
-
-@takes(FieldOptions)
-def state(u: Any, **options: Unpack[FieldOptions]) -> State:
-    """The state of `from_dolfinx`."""
     mesh, element = u.function_space.mesh, _element(u)
     if mesh.comm.size > 1:
         raise BuildError(f"u: is spread over {mesh.comm.size} processes; run the import on one")
     order, geometry = _degree(element), int(_geometry_map(mesh).degree)
     return smooth(sampler(u, False), options, order, geometry, compared(sampler(u, True), options["verify"]))
+
+
+from_dolfinx = importer(
+    state, "from_dolfinx", "DOLFINx", lambda *_, **__: require("dolfinx", "fenics-dolfinx", "fields of DOLFINx", BY).__version__
+)
 
 
 def _element(u: Any) -> Any:

@@ -9,16 +9,13 @@ from numpy.typing import NDArray
 
 from .._blocks import MAX_DEGREE, exponents
 from .._checks import check_type, real
-from .._dataset import Dataset
 from .._errors import BuildError, require
 from .._functions import Formula
 from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import Coefficients, State
 from .._units import Floats
-from ._elements import (
-    Elements, FieldOptions, Group, ImportOptions, Places, built, compared, labelled, of_field, random_places, to_unit,
-)  # fmt: skip
+from ._elements import Elements, Group, ImportOptions, Places, compared, importer, labelled, random_places, to_unit
 
 __all__ = ["Crack", "from_getfem", "state"]
 
@@ -54,8 +51,8 @@ class Crack:
     functions: Sequence[str] = TIP
 
 
-@takes(ImportOptions)
-def from_getfem(mf: Any, u: Any, crack: Crack | None = None, **options: Unpack[ImportOptions]) -> Dataset:
+@takes(ImportOptions, "from_getfem()")
+def state(mf: Any, u: Any, crack: Crack | None = None, **options: Unpack[ImportOptions]) -> State:
     """The dataset of a field of GetFEM: degrees of freedom times the shape functions of the elements, tip functions in the
     frame of the interpolated level sets. Cut elements are two patches.
 
@@ -64,13 +61,6 @@ def from_getfem(mf: Any, u: Any, crack: Crack | None = None, **options: Unpack[I
         u: Its basic degrees of freedom.
         crack: The parts of an extended space.
     """
-    _library()
-    return built(state(mf, u, crack, **of_field(options)), "GetFEM", "", options)
-
-
-@takes(FieldOptions)
-def state(mf: Any, u: Any, crack: Crack | None = None, **options: Unpack[FieldOptions]) -> State:
-    """The state of `from_getfem`."""
     check_type("mf", mf, hasattr(mf, "linked_mesh"), "a MeshFem of GetFEM")
     source = _Source(mf, real("u", u).ravel(), crack)
     elements = Elements(source.sample, source.order, source.geometry)
@@ -94,6 +84,9 @@ def state(mf: Any, u: Any, crack: Crack | None = None, **options: Unpack[FieldOp
         for level, at in source.levels()
     ]
     return State(elements.mesh(None, clips), [labelled(options, blocks, known), *levels], functions=functions)
+
+
+from_getfem = importer(state, "from_getfem", "GetFEM", lambda *_, **__: str(_library() and ""))
 
 
 def _library() -> Any:

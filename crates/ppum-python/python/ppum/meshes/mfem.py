@@ -7,19 +7,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._checks import check_type, real
-from .._dataset import Dataset
 from .._errors import BuildError, require
 from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
 from .._units import Floats
-from ._elements import SEED, FieldOptions, ImportOptions, Sampler, built, compared, group_by_shape, of_field, smooth
+from ._elements import SEED, ImportOptions, Sampler, compared, group_by_shape, importer, smooth
 
 __all__ = ["from_mfem", "state"]
 
 
-@takes(ImportOptions)
-def from_mfem(gf: Any, order: int | None = None, **options: Unpack[ImportOptions]) -> Dataset:
+@takes(ImportOptions, "from_mfem()")
+def state(gf: Any, order: int | None = None, **options: Unpack[ImportOptions]) -> State:
     """The dataset of a GridFunction of MFEM, sampled at reference points of each element: H1 and L2 of any order on
     straight and curved meshes, with hanging nodes too.
 
@@ -27,13 +26,6 @@ def from_mfem(gf: Any, order: int | None = None, **options: Unpack[ImportOptions
         gf: A GridFunction of PyMFEM.
         order: Degree of the polynomials, on squares in each variable; by default the highest of the space.
     """
-    package = require("mfem", "mfem", "fields of MFEM")
-    return built(state(gf, order, **of_field(options)), "MFEM", getattr(package, "__version__", ""), options)
-
-
-@takes(FieldOptions)
-def state(gf: Any, order: int | None = None, **options: Unpack[FieldOptions]) -> State:
-    """The state of `from_mfem`."""
     check_type("gf", gf, hasattr(gf, "FESpace"), "a GridFunction of MFEM")
     space = gf.FESpace()
     mesh = space.GetMesh()
@@ -42,7 +34,13 @@ def state(gf: Any, order: int | None = None, **options: Unpack[FieldOptions]) ->
     curve = mesh.GetNodes()
     geometry = int(curve.FESpace().GetMaxElementOrder()) if curve is not None else 1
     order = int(space.GetMaxElementOrder()) if order is None else order
-    return smooth(sampler(gf, mesh), options, order, geometry, compared(evaluator(gf, mesh, options["verify"]), options["verify"]))
+    known = compared(evaluator(gf, mesh, options["verify"]), options["verify"])
+    return smooth(sampler(gf, mesh), options, order, geometry, known)
+
+
+from_mfem = importer(
+    state, "from_mfem", "MFEM", lambda *_, **__: getattr(require("mfem", "mfem", "fields of MFEM"), "__version__", "")
+)
 
 
 def _shapes(mesh: Any) -> NDArray[np.int64]:

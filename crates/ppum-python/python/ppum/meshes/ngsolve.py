@@ -5,20 +5,17 @@ from typing import Any, Unpack
 import numpy as np
 
 from .._checks import check_type, real
-from .._dataset import Dataset
 from .._errors import BuildError, require
 from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
-from ._elements import FieldOptions, Group, ImportOptions, Places, Sampler, built, compared, of_field, smooth, to_unit
+from ._elements import Group, ImportOptions, Places, Sampler, compared, importer, smooth, to_unit
 
 __all__ = ["from_ngsolve", "state"]
 
 
-@takes(ImportOptions)
-def from_ngsolve(
-    gf: Any, order: int | None = None, *, mesh: Any = None, **options: Unpack[ImportOptions]
-) -> Dataset:
+@takes(ImportOptions, "from_ngsolve()")
+def state(gf: Any, order: int | None = None, *, mesh: Any = None, **options: Unpack[ImportOptions]) -> State:
     """The dataset of a field of NGSolve, sampled at reference points of each element and exact for any space whose
     functions are polynomials there: H1, L2, VectorH1, facet bubbles, hp; H(div) and H(curl) on straight elements.
 
@@ -27,20 +24,16 @@ def from_ngsolve(
         order: Degree of the polynomials, on squares in each variable; by default the order of the space.
         mesh: The mesh of a CoefficientFunction.
     """
-    version = require("ngsolve", "ngsolve", "fields of NGSolve").__version__
-    return built(state(gf, order, mesh=mesh, **of_field(options)), "NGSolve", version, options)
-
-
-@takes(FieldOptions)
-def state(
-    gf: Any, order: int | None = None, *, mesh: Any = None, **options: Unpack[FieldOptions]
-) -> State:
-    """The state of `from_ngsolve`, to be built with others or with more fields."""
     mesh = mesh_of(gf, mesh)
     if order is None:
         order = order_of(gf)
     sample = sampler(mesh, [gf])
     return smooth(sample, options, order, int(mesh.GetCurveOrder()), compared(sample, options["verify"]))
+
+
+from_ngsolve = importer(
+    state, "from_ngsolve", "NGSolve", lambda *_, **__: require("ngsolve", "ngsolve", "fields of NGSolve").__version__
+)
 
 
 def mesh_of(gf: Any, mesh: Any) -> Any:

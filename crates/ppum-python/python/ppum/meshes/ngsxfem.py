@@ -4,12 +4,11 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from .._dataset import Dataset
 from .._errors import require
 from .._options import takes
 from .._state import Coefficients, Sampled, State
 from .._units import Floats
-from ._elements import Elements, FieldOptions, ImportOptions, built, compared, labelled, of_field
+from ._elements import Elements, ImportOptions, compared, importer, labelled
 from .ngsolve import mesh_of, order_of, sampler
 
 __all__ = ["from_ngsxfem", "state"]
@@ -18,10 +17,10 @@ __all__ = ["from_ngsxfem", "state"]
 CLOSE = 1e-9
 
 
-@takes(ImportOptions)
-def from_ngsxfem(
+@takes(ImportOptions, "from_ngsxfem()")
+def state(
     negative: Any, positive: Any, levelset: Any, order: int | None = None, **options: Unpack[ImportOptions]
-) -> Dataset:
+) -> State:
     """The dataset of a field of ngsxfem, which is one field of NGSolve where a level set is negative and another one where
     it is positive: cut elements are two patches, on each side with the field's own polynomial.
 
@@ -31,16 +30,6 @@ def from_ngsxfem(
             as a field ``level``.
         order: Degree of the polynomials; by default the higher one of the spaces.
     """
-    version = require("ngsolve", "xfem", "fields of ngsxfem").__version__
-    made = state(negative, positive, levelset, order, **of_field(options))
-    return built(made, "ngsxfem, NGSolve", version, options)
-
-
-@takes(FieldOptions)
-def state(
-    negative: Any, positive: Any, levelset: Any, order: int | None = None, **options: Unpack[FieldOptions]
-) -> State:
-    """The state of `from_ngsxfem`."""
     mesh = mesh_of(negative, None)
     order = max(order_of(negative), order_of(positive)) if order is None else order
     level_order, count = order_of(levelset), int(negative.dim)
@@ -56,6 +45,11 @@ def state(
     field = labelled(options, blocks, known and _halves(known, count))
     levels = Coefficients("level", {"one": level.at(of)})
     return State(elements.mesh(of, clips), [field, levels])
+
+
+from_ngsxfem = importer(
+    state, "from_ngsxfem", "ngsxfem, NGSolve", lambda *_, **__: require("ngsolve", "xfem", "fields of ngsxfem").__version__
+)
 
 
 def _signs(mesh: Any, levelset: Any) -> list[tuple[bool, bool]]:

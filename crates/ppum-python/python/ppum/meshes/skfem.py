@@ -5,19 +5,18 @@ from typing import Any, Unpack
 import numpy as np
 
 from .._checks import real
-from .._dataset import Dataset
 from .._errors import BuildError, require
 from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
 from .._units import Floats
-from ._elements import FieldOptions, Group, ImportOptions, Places, Sampler, built, compared, of_field, smooth, to_unit
+from ._elements import Group, ImportOptions, Places, Sampler, compared, importer, smooth, to_unit
 
 __all__ = ["from_skfem", "state"]
 
 
-@takes(ImportOptions)
-def from_skfem(basis: Any, u: Any, order: int | None = None, **options: Unpack[ImportOptions]) -> Dataset:
+@takes(ImportOptions, "from_skfem()")
+def state(basis: Any, u: Any, order: int | None = None, **options: Unpack[ImportOptions]) -> State:
     """The dataset of a field of scikit-fem: degrees of freedom times the shape functions of the elements.
 
     Args:
@@ -25,18 +24,16 @@ def from_skfem(basis: Any, u: Any, order: int | None = None, **options: Unpack[I
         u: The degrees of freedom.
         order: Degree of the polynomials, on squares in each variable; by default the one of the element.
     """
-    version = require("skfem", "scikit-fem", "fields of scikit-fem").__version__
-    return built(state(basis, u, order, **of_field(options)), "scikit-fem", version, options)
-
-
-@takes(FieldOptions)
-def state(basis: Any, u: Any, order: int | None = None, **options: Unpack[FieldOptions]) -> State:
-    """The state of `from_skfem`."""
     shape = shape_of(basis.mesh)
     if order is None:
         order = _degree(basis.elem, shape)
     sample = sampler(basis, u)
     return smooth(sample, options, order, _degree(basis.mesh.elem(), shape), compared(sample, options["verify"]))
+
+
+from_skfem = importer(
+    state, "from_skfem", "scikit-fem", lambda *_, **__: require("skfem", "scikit-fem", "fields of scikit-fem").__version__
+)
 
 
 def shape_of(mesh: Any) -> int:

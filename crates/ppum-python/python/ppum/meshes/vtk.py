@@ -4,21 +4,20 @@ import importlib.util
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Unpack
+from typing import Annotated, Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._blocks import MAX_DEGREE, exponents
 from .._checks import check_type, numbers, sequence
-from .._dataset import Dataset
 from .._errors import BuildError, require
 from .._head import components_of
-from .._options import takes
+from .._options import Option, takes
 from .._shapes import SQUARE, TRIANGLE
-from .._state import Coefficients, Sampled, State
+from .._state import Sampled, State
 from .._units import Floats
-from ._elements import SEED, FieldOptions, Group, ImportOptions, Places, built, compared, from_unit, of_field, smooth, to_unit
+from ._elements import SEED, Group, ImportOptions, Places, compared, from_unit, importer, smooth, to_unit
 
 __all__ = ["from_meshio", "from_vtu", "meshio_state", "vtu_state"]
 
@@ -48,58 +47,28 @@ class Kind:
     nodes: NDArray[np.int64]
 
 
-@takes(ImportOptions)
-def from_vtu(
-    path: str | os.PathLike[str],
-    data: str | None = None,
-    *,
-    columns: Sequence[int] | None = None,
-    **options: Unpack[ImportOptions],
-) -> Dataset:
+class PointOptions(ImportOptions, total=False):
+    """The columns of point data, and the options of all importers."""
+
+    columns: Annotated[
+        Sequence[int] | None,
+        Option(None, "numbers of the data's columns that are the components; by default all, but a third one that is zero"),
+    ]
+
+
+@takes(PointOptions, "from_vtu()")
+def vtu_state(path: str | os.PathLike[str], data: str | None = None, **options: Unpack[PointOptions]) -> State:
     """The dataset of point data of a file .vtu or .vtkhdf: linear, quadratic and Lagrange cells of orders up to 8, with the
     values of the nodes. Needs vtk, or for .vtu meshio, with which the dataset is compared at nodes.
 
     Args:
         path: The file.
         data: Name of the point data; may be left out if there is one array.
-        columns: The numbers of the data's columns that are the components, from 0; by default all, but the third one of a
-            vector where that is zero, since VTK's vectors have three.
     """
-    made = vtu_state(path, data, columns=columns, **of_field(options))
-    _check_columns(made, options.get("equation"))
-    return built(made, "VTK file", os.path.basename(os.fspath(path)), options)
-
-
-@takes(ImportOptions)
-def from_meshio(
-    mesh: Any,
-    data: str | None = None,
-    *,
-    columns: Sequence[int] | None = None,
-    **options: Unpack[ImportOptions],
-) -> Dataset:
-    """The dataset of point data of a mesh of meshio: triangles and quadrilaterals, linear, quadratic and of VTK's Lagrange
-    cells. Data and columns are as of `from_vtu`; the dataset is compared at nodes, since meshio evaluates no fields.
-    """
-    version = require("meshio", "meshio", "meshes of meshio").__version__
-    made = meshio_state(mesh, data, columns=columns, **of_field(options))
-    _check_columns(made, options.get("equation"))
-    return built(made, "meshio", version, options)
-
-
-@takes(FieldOptions)
-def vtu_state(
-    path: str | os.PathLike[str],
-    data: str | None = None,
-    *,
-    columns: Sequence[int] | None = None,
-    **options: Unpack[FieldOptions],
-) -> State:
-    """The state of `from_vtu`."""
     check_type("path", path, isinstance(path, (str, os.PathLike)), "the path of a file .vtu or .vtkhdf")
     if importlib.util.find_spec("vtk") is None and not os.fspath(path).endswith(".vtkhdf"):
         mesh = require("meshio", "vtk", "files of VTK").read(path)
-        return meshio_state(mesh, data, columns=columns, **options)
+        return meshio_state(mesh, data, **options)
     grid = _grid(path)
     arrays = grid.GetPointData()
     known = [arrays.GetAbstractArray(k).GetName() for k in range(arrays.GetNumberOfArrays())]
@@ -107,24 +76,20 @@ def vtu_state(
     points = _numpy(grid.GetPoints().GetData())
     if arrays.GetArray(chosen) is None:
         raise BuildError(f"data: {chosen!r} has texts; give one of numbers")
-    values = _values(chosen, _numpy(arrays.GetArray(chosen)), options, columns)
+    values = _values(chosen, _numpy(arrays.GetArray(chosen)), options)
     kinds = _kinds_of(grid)
     reference = compared(lambda places: _interpolated(grid, kinds, points, values, places), options["verify"])
     return _state(points, kinds, values, _named(options, chosen), reference)
 
 
-@takes(FieldOptions)
-def meshio_state(
-    mesh: Any,
-    data: str | None = None,
-    *,
-    columns: Sequence[int] | None = None,
-    **options: Unpack[FieldOptions],
-) -> State:
-    """The state of `from_meshio`."""
+@takes(PointOptions, "from_meshio()")
+def meshio_state(mesh: Any, data: str | None = None, **options: Unpack[PointOptions]) -> State:
+    """The dataset of point data of a mesh of meshio: triangles and quadrilaterals, linear, quadratic and of VTK's Lagrange
+    cells. Data and columns are as of `from_vtu`; the dataset is compared at nodes, since meshio evaluates no fields.
+    """
     check_type("mesh", mesh, hasattr(mesh, "point_data"), "a meshio.Mesh, as by meshio.read(path)")
     chosen = _chosen(data, list(mesh.point_data))
-    points, values = numbers("mesh.points", mesh.points), _values(chosen, mesh.point_data[chosen], options, columns)
+    points, values = numbers("mesh.points", mesh.points), _values(chosen, mesh.point_data[chosen], options)
     unknown = [part.type for part in mesh.cells if part.type not in NAMES and part.dim == 2]
     if unknown:
         raise BuildError(f"mesh: has cells of the type {unknown[0]}; there are {', '.join(NAMES)}")
@@ -138,12 +103,18 @@ def meshio_state(
     return _state(points, kinds, values, _named(options, chosen), _at_nodes(points, kinds, values, options["verify"]))
 
 
-def _values(name: str, given: Any, options: FieldOptions, columns: Sequence[int] | None) -> Floats:
+from_vtu = importer(vtu_state, "from_vtu", "VTK file", lambda path, *_, **__: os.path.basename(os.fspath(path)))
+from_meshio = importer(
+    meshio_state, "from_meshio", "meshio", lambda *_, **__: require("meshio", "meshio", "meshes of meshio").__version__
+)
+
+
+def _values(name: str, given: Any, options: PointOptions) -> Floats:
     """The columns of point data that are the components, (n, c)."""
     place = f"data {name!r}"
     values = numbers(place, given)
     values = values.reshape(len(values), -1)
-    count = values.shape[1]
+    count, columns = values.shape[1], options["columns"]
     if columns is None:
         is_plane = count == 3 and not values[:, 2].any() and len(options["components"] or ()) != 3
         return values[:, :2] if is_plane else values
@@ -153,11 +124,9 @@ def _values(name: str, given: Any, options: FieldOptions, columns: Sequence[int]
     return values[:, chosen]
 
 
-def _check_columns(made: State, equation: Any) -> None:
+def _check_columns(count: int, equation: Any) -> None:
     """Refuses data with more or fewer columns than the equation has components."""
-    wanted, field = components_of(equation), made.fields
-    assert isinstance(field, Coefficients)
-    count = field.blocks["one"].values.shape[1]  # type: ignore[union-attr]
+    wanted = components_of(equation)
     if wanted and count != len(wanted):
         raise BuildError(
             f"data: has {count} columns, but the equation has {len(wanted)} components, {', '.join(wanted)}; choose by "
@@ -175,7 +144,7 @@ def _check_nodes(kinds: Sequence[Kind], count: int) -> None:
             raise BuildError(f"cells[{kind.cells[k]}]: has the nodes {nodes}, but there are {count} points, from 0")
 
 
-def _named(options: FieldOptions, data: str) -> FieldOptions:
+def _named(options: PointOptions, data: str) -> PointOptions:
     return {**options, "name": options["name"] or data}
 
 
@@ -227,10 +196,11 @@ def _kinds_of(grid: Any) -> list[Kind]:
     return kinds
 
 
-def _state(points: Floats, kinds: Sequence[Kind], values: Floats, options: FieldOptions, verify: Sampled | None) -> State:
+def _state(points: Floats, kinds: Sequence[Kind], values: Floats, options: PointOptions, verify: Sampled | None) -> State:
     """The state of nodes and their values."""
     if np.ptp(points[:, 2:]) if points.shape[1] > 2 else 0:
         raise BuildError("points: do not lie in a plane z = constant; give a mesh of the x-y plane")
+    _check_columns(values.shape[1], options["equation"])
     groups = [_group(kind, points, values) for kind in _plane(kinds)]
     order = max(group.order for group in groups)
     return smooth(lambda _: groups, options, order, order, verify)
