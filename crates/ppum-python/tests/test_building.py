@@ -156,7 +156,7 @@ def test_arrays_evaluate_as_numpy_does(seed, capsys):
     history = ds.steps[0].history
     assert all(0 <= history[f"verified field {k}"] <= 1e-12 for k in range(2))
     assert capsys.readouterr().out.count("verified: field") == 2
-    assert ppum.from_bytes(ds.to_bytes()) == ds and ds.equation == "none"
+    assert ppum.open(ds.to_bytes()) == ds and ds.equation == "none"
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -321,7 +321,7 @@ MISTAKES = {
     "numbers": (lambda: state({"one": {0: ["a"]}}), r"\['one'\]\[0\]: has texts; convert them"),
     "components": (lambda: state({"one": {0: [[1.0, 2.0]], 1: [[1.0]]}}), r"\[1\]: has 1 components, patch 0 2"),
     "differ": (lambda: state({"one": ONE, "f": np.zeros((8, 1, 2))}, functions={"f": "x"}), r"differ in the number of components"),
-    "function": (lambda: state({"jmp": ONE}, functions={"jump": "x"}), r"\['jmp'\]: did you mean 'jump'\? there are the functions one, jump"),
+    "function": (lambda: state({"jmp": ONE}, functions={"jump": "x"}), r"\['jmp'\]: is no function of the state; did you mean `jump`"),
     "empty": (lambda: state({}), r"blocks: is empty"),
     "names": (lambda: ppum.build.State(ppum.build.Cover.uniform(domain(), (4, 2)), field({"one": ONE}, components=["a", "b"])), r"components: has 2 names, but"),
     "fields": (lambda: ppum.build.State(ppum.build.Cover.uniform(domain(), (4, 2)), []), r"fields: a step needs at least one"),

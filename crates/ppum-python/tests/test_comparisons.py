@@ -78,7 +78,7 @@ def test_what_cannot_be_compared_is_told(f, potential):
     with pytest.raises(ppum.QuantityError, match="no quantity `von_mises`"):
         f.compare(potential.field, "von_mises")
     for wrong, message in [
-        ({"method": "linear"}, "method: `linear` is none; there are nearest"),
+        ({"method": "linear"}, "method: 'linear' is not one of 'nearest', .*; did you mean 'bilinear'"),
         ({"over": "plate"}, "over: 'plate' is not one of 'domain', 'view'"),
         ({"error": -1.0}, "give a positive number"),
         ({"grid": 1}, "at least 2x2"),

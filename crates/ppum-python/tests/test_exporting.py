@@ -105,7 +105,7 @@ def test_what_triangles_cannot_be_is_said(f):
     ]:
         with pytest.raises(error, match=words):
             f.export.triangles(**options)
-    with pytest.raises(ValueError, match="cannot draw 'stl': triangles are vtu or vtkhdf$"):
+    with pytest.raises(ValueError, match="cannot draw 'stl': the forms of TriangleMesh are vtu, vtkhdf$"):
         mesh.save("plate.stl")
     for end, maker in {"pvd": "triangles", "png": "figure", "gif": "animate", "csv": "line", "html": "to_html"}.items():
         with pytest.raises(ValueError, match=rf"end its name in \.h5; .*Field\.{maker}"):
@@ -138,8 +138,8 @@ def test_pages_hold_the_dataset(f, tmp_path):
     assert start["scene"]["quantity"] == "uy" and start["scene"]["colors"]["colormap"] == "magma_r"
     assert start["view"]["center"] == pytest.approx(f.dataset.tips[1].xy)
     assert start["file"] == "plate.h5" and "Slanted crack" in page
-    part = f.part("jump").to_html()
-    changed = ppum.from_bytes(base64.b64decode(embedded(part, "dataset")))
+    part = f.part("jump").export.to_html()
+    changed = ppum.open(base64.b64decode(embedded(part, "dataset")))
     assert changed.field.at(0.6, 0.4).uy == f.part("jump").at(0.6, 0.4).uy
     assert json.loads(embedded(part, "start"))["view"] is None
 

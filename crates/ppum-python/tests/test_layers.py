@@ -12,11 +12,11 @@ LAYERS = {
     "errors, units, text": ["_warnings", "_errors", "_units", "_text", "_options", "_files"],
     "data": ["_tables", "_facts"],
     "field": ["_views", "_values", "_styles", "_field"],
-    "accessors": ["_images", "_sample", "_compare", "_axes", "_draw", "_export"],
+    "accessors": ["_sample", "_compare", "_axes", "_draw", "_export"],
     "datasets": ["_dataset", "results"],
-    "problem": ["_sections", "_curves", "_problem", "_sweep"],
+    "problem": ["_sections", "_problem", "_sweep"],
     "arrays": [
-        "_checks", "_arrays", "_shapes", "_blocks", "_functions", "_cover", "_mesh", "_state", "_places", "_head", "_verify",
+        "_checks", "_arrays", "_shapes", "_blocks", "_functions", "_cover", "_mesh", "_state", "_head", "_verify",
         "build", "basis",
     ],
     "libraries": [

@@ -70,7 +70,7 @@ def test_what_is_no_moving_picture_is_refused(grown, f, tmp_path):
     with pytest.raises(ppum.QuantityError, match="nonsense"):
         grown.field.draw.animate("nonsense").gif()
     moving = grown.field.draw.animate("uy", size=(320, 200), steps=[0, -1])
-    with pytest.raises(ValueError, match="animations are gif or apng"):
+    with pytest.raises(ValueError, match="forms of Animation are gif, apng"):
         moving.save(tmp_path / "grown.mp4")
     assert repr(moving) == "<ppum.Animation of uy, 2 steps, 320x200>" and not list(tmp_path.iterdir())
     assert moving._repr_png_()[:4] == b"\x89PNG" and len(frames(f.draw.animate(size=(320, 300)).gif())[0]) == 1

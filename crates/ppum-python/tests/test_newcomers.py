@@ -20,7 +20,7 @@ def no_figures_stay():
 
 
 def test_equal_datasets_have_equal_hashes(ds, grown, potential):
-    copy = ppum.from_bytes(ds.to_bytes())
+    copy = ppum.open(ds.to_bytes())
     assert copy == ds and hash(copy) == hash(ds) and len({ds, copy}) == 1
     assert len({ds, grown, potential}) == 3 and grown != ds
     assert copy.field == ds.field and len({copy.field, ds.field}) == 1
@@ -160,8 +160,8 @@ def test_a_quantity_of_the_name_of_a_method(potential):
         (lambda ds, p: ds.field.draw.render("ux", zoom=0), ppum.RenderError, "zoom: 0 does not enlarge"),
         (lambda ds, p: ds.field.draw.render("ux", size=(-1, 5)), ppum.RenderError, "-1x5 cannot be drawn"),
         (lambda ds, p: ds.field.draw.figure("ux").save(p / "no/x.png"), FileNotFoundError, "no such folder: '.*no'"),
-        (lambda ds, p: ds.field.draw.figure("ux").save(p / "x"), ValueError, "'x' has no end.*png, svg or pdf"),
-        (lambda ds, p: ds.field.draw.figure("ux").save(p / "x.jpg"), ValueError, "'jpg': figures are png, svg or pdf"),
+        (lambda ds, p: ds.field.draw.figure("ux").save(p / "x"), ValueError, "'x' has no end.*png, svg, pdf"),
+        (lambda ds, p: ds.field.draw.figure("ux").save(p / "x.jpg"), ValueError, "'jpg': the forms of Figure are png, svg, pdf"),
         (lambda ds, p: ds.quantities["vonmises"], KeyError, "no quantity is called `vonmises`; did you mean `von-mises`"),
         (lambda ds, p: ds.history["unknown"], KeyError, "did you mean `unknowns`"),
         (lambda ds, p: ds.tips[7], IndexError, "no tip 7: there are 2 tips, numbered from 0"),

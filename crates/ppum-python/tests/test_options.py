@@ -25,7 +25,7 @@ pytest.importorskip("matplotlib").use("agg")
 FUNCTIONS = [
     (Draw.figure, styles.FigureOptions),
     (Draw.image, styles.ImageOptions),
-    (Draw.animate, styles.AnimationOptions),
+    (Draw.animate, styles.SeriesOptions),
     (Draw.plot, styles.PlotOptions),
     (ppum.Field.view, styles.ViewerOptions),
     (ppum.Dataset.view, styles.ViewerOptions),
@@ -214,7 +214,7 @@ def test_a_width_on_paper_has_the_height_of_the_picture(f):
     rows, columns = (np.flatnonzero(dark.mean(axis=axis) > 0.3) for axis in (1, 0))
     assert image.shape[1] == 340 and len(columns) >= 0.6 * 340 and len(rows) >= 1.9 * len(columns)
     beside = f.draw.figure("ux", inches=3.4, dpi=100, colorbar="right")
-    assert "340 pixels wide" in repr(beside) and plt.imread(io.BytesIO(beside.png())).shape[0] < image.shape[0]
+    assert "3.4 inches" in repr(beside) and plt.imread(io.BytesIO(beside.png())).shape[0] < image.shape[0]
 
 
 def test_a_view_is_taken_by_all_that_draw(f):

@@ -260,7 +260,7 @@ def test_steps():
     assert view._offers["steps"] == len(grows.steps) > 1
     part = grows.field.part("jump").view("uy")
     part.step = 0
-    expected = grows.steps[0].field.part("jump").rgba("uy", center=part.center, width=part.width, size=SIZE, overlays=["cracks"])
+    expected = grows.steps[0].field.part("jump").draw.image("uy", center=part.center, width=part.width, size=SIZE, overlays=["cracks"])
     assert same(Browser(part).ask()[1], expected)
 
 

@@ -13,19 +13,18 @@ from typing import Any as _Any
 
 from . import _core, basis, build, meshes, plots, results
 from ._compare import Compare as _Compare
-from ._curves import arc, ellipse
-from ._dataset import Dataset, Step, from_bytes
-from ._draw import Draw as _Draw
+from ._dataset import Dataset, Step
+from ._draw import Animation, Draw as _Draw, Figure
 from ._errors import (
     BuildError, Diagnostic, FormatError, InternalError, PpumError, ProblemError, QuantityError, RenderError, SolveError,
 )  # fmt: skip
 from ._export import Export as _Export, TriangleMesh
 from ._facts import Crack, Hole, Tip
 from ._field import Field
-from ._images import Animation, Figure
 from ._links import link
 from ._problem import Elastic, Poisson, Problem, solve
 from ._sample import Sample as _Sample
+from ._sections import arc, ellipse
 from ._sweep import Sweep, sweep
 from ._views import View
 from ._warnings import renamed as _renamed
@@ -41,7 +40,7 @@ COLORMAPS: tuple[str, ...] = tuple(_core.colormaps())
 __all__ = [
     "COLORMAPS", "Animation", "BuildError", "Crack", "Dataset", "Diagnostic", "Elastic", "Field", "Figure", "FormatError",
     "Hole", "InternalError", "Poisson", "PpumError", "Problem", "ProblemError", "QuantityError", "RenderError", "SolveError",
-    "Step", "Sweep", "Tip", "TriangleMesh", "View", "arc", "basis", "build", "ellipse", "from_bytes", "link", "meshes",
+    "Step", "Sweep", "Tip", "TriangleMesh", "View", "arc", "basis", "build", "ellipse", "link", "meshes",
     "plots", "results", "solve", "sweep",
 ]  # fmt: skip
 

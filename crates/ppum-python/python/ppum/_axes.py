@@ -35,12 +35,7 @@ def plot(field: "Field", quantity: str | None = None, **options: Unpack[PlotOpti
     """Draws a quantity into axes, see `field.draw.plot`.
 
     Returns:
-        The artist.
-
-    Raises:
-        QuantityError: No quantity of the field.
-        TypeError: No such option.
-    """
+        The artist."""
     import matplotlib.pyplot as plt
 
     (x0, y0), (x1, y1) = field.dataset.domain

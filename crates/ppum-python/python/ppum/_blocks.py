@@ -28,22 +28,6 @@ def exponents(degree: int, tensor: bool = False) -> list[tuple[int, int]]:
 
 
 @dataclass(frozen=True)
-class Blocks:
-    """The arrays of a field."""
-
-    patch_blocks: NDArray[Any]
-    block_function: NDArray[Any]
-    block_degree: NDArray[Any]
-    block_offset: NDArray[Any]
-    block_space: NDArray[np.bool_]
-    coefficients: Floats
-
-    def arrays(self) -> dict[str, NDArray[Any]]:
-        plain = {name: array for name, array in vars(self).items() if name != "block_space"}
-        return plain | ({"block_space": self.block_space} if self.block_space.any() else {})
-
-
-@dataclass(frozen=True)
 class _Part:
     """The blocks of one function: the patches that have it, and their coefficients one after the other, shape (m, c)."""
 
@@ -56,7 +40,7 @@ class _Part:
 
 def arranged(
     place: str, blocks: Mapping[str, Block], tensor: Mapping[str, NDArray[np.bool_]], functions: list[str]
-) -> Blocks:
+) -> dict[str, NDArray[Any]]:
     """The arrays of blocks, patch by patch, in each one in the order of the functions; `tensor` tells of each block on
     which patches its polynomials are tensor products."""
     if not blocks:
@@ -72,23 +56,21 @@ def arranged(
     return _merged(parts, [functions.index(name) for name in blocks], len(next(iter(tensor.values()))))
 
 
-def _merged(parts: list[_Part], functions: list[int], patches: int) -> Blocks:
-    patch = np.concatenate([part.patches for part in parts])
-    function = np.repeat(functions, [len(part.patches) for part in parts])
-    sizes = np.concatenate([part.sizes for part in parts])
-    starts = np.cumsum(sizes) - sizes
-    order = np.lexsort((function, patch))
-    sizes, starts = sizes[order], starts[order]
-    offsets = np.cumsum(sizes) - sizes
-    values = np.concatenate([part.values for part in parts])
-    return Blocks(
-        patch_blocks=np.searchsorted(patch[order], np.arange(patches + 1)),
-        block_function=function[order],
-        block_degree=np.concatenate([part.degrees for part in parts])[order],
-        block_offset=offsets,
-        block_space=np.concatenate([part.tensor for part in parts])[order],
-        coefficients=values[gathered(starts, sizes)].T,
+def _merged(parts: list[_Part], functions: list[int], patches: int) -> dict[str, NDArray[Any]]:
+    patch, sizes, degrees, tensor = (
+        np.concatenate([getattr(part, name) for part in parts]) for name in ("patches", "sizes", "degrees", "tensor")
     )
+    function = np.repeat(functions, [len(part.patches) for part in parts])
+    order = np.lexsort((function, patch))
+    starts, sizes = (np.cumsum(sizes) - sizes)[order], sizes[order]
+    arrays = {
+        "patch_blocks": np.searchsorted(patch[order], np.arange(patches + 1)),
+        "block_function": function[order],
+        "block_degree": degrees[order],
+        "block_offset": np.cumsum(sizes) - sizes,
+        "coefficients": np.concatenate([part.values for part in parts])[gathered(starts, sizes)].T,
+    }
+    return arrays | ({"block_space": tensor[order]} if tensor.any() else {})
 
 
 def _part(place: str, block: Any, tensor: NDArray[np.bool_]) -> _Part:

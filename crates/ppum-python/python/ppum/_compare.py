@@ -207,13 +207,11 @@ class Compare:
             grid=None if method == "cells" else points,
             bytes=facts["bytes"],
             direct_bytes=facts["direct_bytes"],
-            needed=facts["needed"] and tuple(_needed(one) for one in facts["needed"]),
+            needed=facts["needed"] and tuple(
+                Needed(one["kind"], one["grid"] and tuple(one["grid"]), one["reason"]) for one in facts["needed"]
+            ),
             resampled=_frozen(found),
         )
-
-
-def _needed(found: dict[str, Any]) -> Needed:
-    return Needed(found["kind"], found["grid"] and tuple(found["grid"]), found["reason"])
 
 
 def _norms(norms: dict[str, Any]) -> dict[str, Any]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import html
 import json
+import operator
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, lru_cache, partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, ClassVar, Unpack
@@ -25,6 +26,16 @@ from ._text import plural
 if TYPE_CHECKING:
     from ._problem import Problem
     from ._widget import Viewer
+
+
+def _fact(name: str, doc: str, kind: Callable[[Any], Any] = lambda value: value) -> Any:
+    """An attribute that is one of the facts."""
+    return property(lambda self: kind(self._facts[name]), doc=doc)
+
+
+def _of_last_step(name: str) -> Any:
+    """An attribute of a dataset that its last step has."""
+    return property(lambda self: operator.attrgetter(name)(self.steps[-1]), doc=f"`Step.{name}` of the last step.")
 
 
 class Step:
@@ -47,25 +58,10 @@ class Step:
     def _facts(self) -> dict[str, Any]:
         return dict(json.loads(self.dataset._core.step(self.number)))
 
-    @property
-    def load(self) -> float:
-        """Load factor or pseudo-time."""
-        return float(self._facts["load"])
-
-    @property
-    def patches(self) -> int:
-        """Number of patches."""
-        return int(self._facts["patches"])
-
-    @property
-    def unknowns(self) -> int:
-        """Number of unknowns of the solution."""
-        return int(self._facts["unknowns"])
-
-    @property
-    def functions(self) -> tuple[str, ...]:
-        """Names of the functions that polynomials are multiplied with; `Field.with_function` takes them."""
-        return tuple(self._facts["functions"])
+    load: float = _fact("load", "Load factor or pseudo-time.", float)
+    patches: int = _fact("patches", "Number of patches.")
+    unknowns: int = _fact("unknowns", "Number of unknowns of the solution.")
+    functions: tuple[str, ...] = _fact("functions", "Names of the functions of the field, which `Field.with_function` takes.", tuple)
 
     @cached_property
     def cracks(self) -> tuple[Crack, ...]:
@@ -141,7 +137,7 @@ class Dataset:
         <ppum.Dataset 'Slanted crack', elasticity, 1 step, 512 patches, 2 tips>
         >>> ds.tips[0]
         <ppum.Tip at (-0.353553, -0.353553), K_I = 0.766738, K_II = 0.684074>
-        >>> ppum.from_bytes(ds.to_bytes()) == ds
+        >>> ppum.open(ds.to_bytes()) == ds
         True
     """
 
@@ -161,15 +157,8 @@ class Dataset:
     def _facts(self) -> dict[str, Any]:
         return dict(json.loads(self._core.about()))
 
-    @property
-    def title(self) -> str:
-        """One line that names the problem."""
-        return str(self._facts["title"])
-
-    @property
-    def program(self) -> str:
-        """Name and version of the program that made it."""
-        return str(self._facts["program"])
+    title: str = _fact("title", "One line that names the problem.")
+    program: str = _fact("program", "Name and version of the program that made it.")
 
     @property
     def equation(self) -> str:
@@ -212,30 +201,11 @@ class Dataset:
         """The field of the last step."""
         return self.steps[-1].field
 
-    @property
-    def cracks(self) -> tuple[Crack, ...]:
-        """The cracks of the last step."""
-        return self.steps[-1].cracks
-
-    @property
-    def tips(self) -> Table[Tip]:
-        """The tips of the last step."""
-        return self.steps[-1].tips
-
-    @property
-    def warnings(self) -> Table[Warning]:
-        """The warnings of the last step."""
-        return self.steps[-1].warnings
-
-    @property
-    def history(self) -> History:
-        """The solver's report of the last step."""
-        return self.steps[-1].history
-
-    @property
-    def quantities(self) -> Mapping[str, Any]:
-        """All named quantities of the last step's field, see `Field.quantities`."""
-        return self.field.quantities
+    cracks: tuple[Crack, ...] = _of_last_step("cracks")
+    tips: Table[Tip] = _of_last_step("tips")
+    warnings: Table[Warning] = _of_last_step("warnings")
+    history: History = _of_last_step("history")
+    quantities: Mapping[str, Any] = _of_last_step("field.quantities")
 
     @passes(ViewerOptions)
     def view(self, quantity: str | None = None, *, step: int = -1, **options: Unpack[ViewerOptions]) -> Viewer:
@@ -278,7 +248,7 @@ class Dataset:
         return self._core.to_bytes()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return from_bytes, (self.to_bytes(),)
+        return open, (self.to_bytes(),)
 
     def __eq__(self, other: object) -> bool:
         return self._core == other._core if isinstance(other, Dataset) else NotImplemented
@@ -346,7 +316,7 @@ def open(source: str | os.PathLike[str] | bytes | IO[bytes]) -> Dataset:
         True
     """
     if isinstance(source, (bytes, bytearray, memoryview)):
-        return from_bytes(bytes(source))
+        return Dataset(_core.from_bytes(bytes(source)))
     if isinstance(source, (str, os.PathLike)):
         return Dataset(_core.read(Path(source)))
     if not hasattr(source, "read"):
@@ -354,7 +324,7 @@ def open(source: str | os.PathLike[str] | bytes | IO[bytes]) -> Dataset:
     data = source.read()
     if not isinstance(data, bytes):
         raise TypeError("the file is open for text: open it with mode 'rb', or give its path")
-    return from_bytes(data)
+    return Dataset(_core.from_bytes(data))
 
 
 def _remedy(source: Any) -> str:
@@ -362,16 +332,3 @@ def _remedy(source: Any) -> str:
     if isinstance(name, str):
         return f", not by a {type(source).__name__} of h5py; close it, and give {name!r}"
     return f", not by {type(source).__name__!r}"
-
-
-def from_bytes(data: bytes) -> Dataset:
-    """The dataset of a file's bytes.
-
-    Raises:
-        FormatError: They are no dataset, or a damaged one.
-
-    Example:
-        >>> ppum.from_bytes(ds.to_bytes()).title
-        'Slanted crack'
-    """
-    return Dataset(_core.from_bytes(data))

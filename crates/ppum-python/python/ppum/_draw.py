@@ -1,5 +1,6 @@
 """Images of a field: values at pixels, colours, figures, animations, axes of matplotlib."""
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Unpack
@@ -9,15 +10,82 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._errors import require
-from ._images import Animation, Figure
+from ._files import Drawn, Page
 from ._options import passes, takes
-from ._styles import AnimationOptions, FigureOptions, ImageOptions, PlotOptions, quantities, request, request_text
+from ._styles import (
+    AnimationOptions, FigureOptions, ImageOptions, PlotOptions, SeriesOptions, quantities, request, request_text,
+)  # fmt: skip
+from ._text import plural
 from ._units import milliseconds, pixels
 from ._views import SIZE, RasterOptions
 from ._warnings import warn
 
 if TYPE_CHECKING:
     from ._field import Field
+
+
+class Figure(Page):
+    """A figure; drawn when its bytes are asked for. Made by `field.draw.figure`. Notebooks show it; it can be pickled."""
+
+    def __init__(self, field: "Field", request: str) -> None:
+        super().__init__()
+        self._made_of = field, request
+
+    def _draw(self, form: str) -> bytes:
+        field, request = self._made_of
+        return self._told(_core.figure(field._core, request, form))
+
+    def __repr__(self) -> str:
+        asked = json.loads(self._made_of[1])
+        look, (quantities, parts) = asked["look"], (asked["panels"].get(name, []) for name in ("quantities", "parts"))
+        names = [*(quantities or [asked.get("quantity") or "of a field"]), *parts]
+        size = "panels" if quantities + parts and not {"size", "inches"} & look.keys() else _size(look)
+        return f"<ppum.Figure {', '.join(names)}, {size}>"
+
+
+def _size(look: dict[str, Any]) -> str:
+    """The size of a page, in words."""
+    return f"{look['inches']} inches" if "inches" in look else "{}x{}".format(*look.get("size", SIZE))
+
+
+class Animation(Drawn):
+    """An animation; drawn when its bytes are asked for. Made by `field.draw.animate`. Notebooks show it.
+
+    Its forms are ``gif``, in 256 colours, which is the default, and ``apng``, without loss. It can be pickled, but for a
+    function that is told of the progress.
+    """
+
+    _forms = ("gif", "apng")
+
+    def __init__(self, field: "Field", what: tuple[str, list[int]], milliseconds: int, progress: Any) -> None:
+        super().__init__()
+        self._made_of = field, what, milliseconds, progress
+
+    def _draw(self, form: str) -> bytes:
+        field, what, time, progress = self._made_of
+        core, changes = field.dataset._core, json.dumps(field._subject)
+        return self._told(_core.animation(field._core, core, changes, *what, time, form, progress))
+
+    def gif(self) -> bytes:
+        """In 256 colours, for programs that know no other."""
+        return self.to_bytes("gif")
+
+    def apng(self) -> bytes:
+        """Without loss."""
+        return self.to_bytes("apng")
+
+    def _repr_png_(self) -> bytes:
+        return self.apng()
+
+    def __getstate__(self) -> dict[str, Any]:
+        field, what, time, _ = self._made_of
+        return {**self.__dict__, "_made_of": (field, what, time, None)}
+
+    def __repr__(self) -> str:
+        request, numbers = self._made_of[1]
+        asked = json.loads(request)
+        quantity, steps = asked.get("quantity") or "a field", plural(len(numbers), "step")
+        return f"<ppum.Animation of {quantity}, {steps}, {_size(asked['look'])}>"
 
 
 @dataclass(frozen=True)
@@ -87,24 +155,9 @@ class Draw:
             raise ValueError(f"parts: {parts!r} is no list of several parts; `Field.part` gives one")
         return Figure(self._field, self._request(quantity, options, is_one=not (parts or quantities(quantity)[1])))
 
-    @takes(AnimationOptions)
-    def animate(
-        self,
-        quantity: str | None = None,
-        *,
-        steps: Sequence[int] | slice | None = None,
-        fps: float = 5.0,
-        bare: bool = False,
-        progress: Any = None,
-        **options: Unpack[AnimationOptions],
-    ) -> Animation:
+    @takes(SeriesOptions)
+    def animate(self, quantity: str | None = None, **options: Unpack[SeriesOptions]) -> Animation:
         """An animation of the steps of a series, as the program's: one range of colours, one factor of deformation, one place.
-
-        Args:
-            steps: Numbers of steps, or a slice of them; by default all.
-            fps: Steps shown in a second, up to 50.
-            bare: Whether axes and colour bar are left out: the image has the size in pixels.
-            progress: As in `render`.
 
         Example:
             >>> moving = f.draw.animate("uy", deformed="auto", size=(320, 400))
@@ -114,14 +167,15 @@ class Draw:
         """
         if quantities(quantity)[1]:
             raise ValueError("quantity: an animation shows one; `figure` has panels for those of one step")
-        made, known = self._request(quantity, options, is_one=False, is_figure=not bare), self._field.dataset.steps
+        known, steps = self._field.dataset.steps, options["steps"]
+        made = self._request(quantity, options, is_one=False, is_figure=not options["bare"])
         if steps is None or isinstance(steps, slice):
             numbers = list(range(len(known))[steps or slice(None)])
         else:
             numbers = [known[step].number for step in steps]
         if not numbers:
             raise ValueError("steps: an animation needs one step at least")
-        return Animation(self._field, (made, numbers), milliseconds(fps), progress)
+        return Animation(self._field, (made, numbers), milliseconds(options["fps"]), options["progress"])
 
     @passes(PlotOptions)
     def plot(self, quantity: str | None = None, **options: Unpack[PlotOptions]) -> Any:

@@ -119,11 +119,7 @@ class TriangleMesh(Drawn):
         return MappingProxyType({name: rows[:, 0] if rows.shape[1] == 1 else rows for name, rows in arrays.items()})
 
     def to_pyvista(self) -> Any:
-        """The same as a `pyvista.UnstructuredGrid`.
-
-        Raises:
-            ImportError: The package pyvista is not installed.
-        """
+        """The same as a `pyvista.UnstructuredGrid`."""
         pyvista = require("pyvista", "pyvista", "grids of PyVista")
         points = np.column_stack([self.points, np.zeros(len(self.points))])
         types = pyvista.CellType

@@ -45,31 +45,22 @@ class Drawn:
         """
         form = self._forms[0] if form is None else form
         if form not in self._forms:
-            raise ValueError(f"cannot draw {form!r}: {self._plural()}")
+            raise ValueError(f"cannot draw {form!r}: {self._known_forms()}")
         if form not in self._known:
             self._known[form] = self._draw(form)
         return self._known[form]
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file, of the form that its name ends in. What was there stays until it is complete.
-
-        Raises:
-            QuantityError, RenderError: What cannot be drawn.
-            ValueError: Another end than the forms that there are.
-            OSError: The system refuses; `FileNotFoundError` where there is no such folder.
-        """
+        """Writes a file, of the form that its name ends in. What was there stays until it is complete."""
         path = Path(path)
         folder_of(path)
         form = path.suffix[1:].lower()
         if not form:
-            raise ValueError(f"the name {path.name!r} has no end that says a form: {self._plural()}")
+            raise ValueError(f"the name {path.name!r} has no end that says a form: {self._known_forms()}")
         replace(path, self.to_bytes(form))
 
-    @classmethod
-    def _plural(cls) -> str:
-        *others, last = cls._forms
-        name = cls.__name__.lower().removesuffix("s")
-        return f"{name}s are {', '.join(others)}{' or ' if others else ''}{last}"
+    def _known_forms(self) -> str:
+        return f"the forms of {type(self).__name__} are {', '.join(self._forms)}"
 
 
 class Page(Drawn):
@@ -94,11 +85,7 @@ class Page(Drawn):
 
 
 def folder_of(path: Path) -> Path:
-    """The folder that a file is to lie in.
-
-    Raises:
-        FileNotFoundError: There is none.
-    """
+    """The folder that a file is to lie in."""
     if not path.parent.is_dir():
         raise FileNotFoundError(errno.ENOENT, "there is no such folder", str(path.parent))
     return path.parent

@@ -77,7 +77,7 @@ Function = Jump | Component | Level | Formula | str
 ENDS = {"start": "start", "end": "last", "last": "last"}
 
 #: The square-root functions of a crack tip, r and theta in its frame.
-_TIP = {
+TIP = {
     "sqrt(r) cos": "sqrt(r)*cos(theta/2)",
     "sqrt(r) sin": "sqrt(r)*sin(theta/2)",
     "sqrt(r) sin sin": "sqrt(r)*sin(theta)*sin(theta/2)",
@@ -96,7 +96,7 @@ def tip_functions(crack: int = 0, end: str = "end") -> dict[str, Formula]:
     if str(end) not in ENDS:
         raise BuildError(f"end: {short(end)} is no end of a crack; give 'start' or 'end'")
     end = "end" if end == "last" else end
-    return {f"{name} of crack {crack} {end}": Formula(text, (crack, end), role="tip") for name, text in _TIP.items()}
+    return {f"{name} of crack {crack} {end}": Formula(text, (crack, end), role="tip") for name, text in TIP.items()}
 
 
 def columns(functions: Mapping[str, Function], cracks: Sequence[int], fields: Sequence[str] = ()) -> dict[str, Any]:

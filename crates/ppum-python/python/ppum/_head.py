@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Annotated, Any, TypedDict
+from typing import Annotated, Any, SupportsFloat, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -44,7 +44,7 @@ class BuildOptions(DatasetOptions, total=False):
     """What all steps share, and how exactly fields are verified."""
 
     tolerance: Annotated[
-        float, Option(1e-10, "largest difference from `Coefficients.verify` that is no error, in parts of the largest value")
+        SupportsFloat, Option(1e-10, "largest difference from `Coefficients.verify` that is no error, in parts of the largest value")
     ]
 
 

@@ -10,7 +10,7 @@ from ._blocks import MAX_DEGREE, degrees, exponents
 from ._checks import Ragged, check_shape, check_type, index, integers, known, numbers, repeated, rows, sequence, short
 from ._errors import BuildError
 from ._functions import level_field
-from ._shapes import CORNERS, SQUARE, TRIANGLE, Powers, interpolated, lattice, vandermonde
+from ._shapes import CORNERS, SQUARE, TRIANGLE, Powers, interpolated, lattice, random_places, vandermonde
 from ._text import plural
 from ._units import Floats
 
@@ -156,7 +156,7 @@ class Mesh:
         """Random points of the patches, which are taken in turn; those of cut elements on either side."""
         points = []
         for patch in np.resize(random.permutation(len(self))[:count], count).tolist():
-            points.append(self.places(patch, _anywhere(random, int(self.shape[patch]))))
+            points.append(self.places(patch, random_places(random, int(self.shape[patch]), 1)))
         return np.concatenate(points)
 
     def _alike(self) -> Iterator[tuple[NDArray[np.int64], Powers, Floats]]:
@@ -307,12 +307,3 @@ def _clips(clips: Mapping[int, Sequence[Clip]], n: int) -> list[list[Clip]]:
             if clip[1] not in (1, -1):
                 raise BuildError(f"clips[{patch}][{k}]: the side {clip[1]!r} is neither 1 (≥ 0) nor -1 (< 0)")
     return [list(clips.get(patch, ())) for patch in range(n)]
-
-
-def _anywhere(random: np.random.Generator, shape: int) -> Floats:
-    """A random place of a reference shape."""
-    at = random.uniform(-1, 1, (1, 2))
-    if shape == TRIANGLE:
-        at = np.where(at.sum() > 0, -at, at)
-        at = 0.75 * at + 0.25
-    return at

@@ -23,23 +23,11 @@ _F = TypeVar("_F", bound=Callable[..., Any])
 
 #: The names that other packages have for options.
 FOREIGN = {
-    "axes": "ax",
-    "bar": "colorbar",
-    "cbar_kwargs": "colorbar",
-    "centre": "center",
-    "color_map": "cmap",
-    "colormap": "cmap",
-    "contours": "isolines",
-    "extremes": "contrast",
-    "figsize": "inches",
-    "fontsize": "font_size",
-    "levels": "isolines",
-    "log_scale": "norm",
-    "overlay": "overlays",
-    "range": "clim",
-    "scale": "norm",
-    "warp": "deformed",
-}
+    "axes": "ax", "bar": "colorbar", "cbar_kwargs": "colorbar", "centre": "center", "color_map": "cmap",
+    "colormap": "cmap", "contours": "isolines", "extremes": "contrast", "figsize": "inches",
+    "fontsize": "font_size", "levels": "isolines", "log_scale": "norm", "overlay": "overlays", "range": "clim",
+    "scale": "norm", "warp": "deformed",
+}  # fmt: skip
 
 
 _TEXTS = _core.option_texts()
@@ -126,11 +114,7 @@ def _checking(function: _F, known: Mapping[str, Any], defaults: Mapping[str, Any
 
 
 def refuse_unknown(what: str, given: Iterable[str], known: Iterable[str]) -> None:
-    """Refuses names that are not known.
-
-    Raises:
-        TypeError: With the name that was meant, or all that there are.
-    """
+    """Refuses names that are not known."""
     names = sorted(known)
     for name in given:
         if name in names:

@@ -321,11 +321,7 @@ class Problem:
 
 
 def _domain(domain: Any) -> Mapping[str, Any]:
-    """The table of a domain, which may be two corners.
-
-    Raises:
-        TypeError: There are not two.
-    """
+    """The table of a domain, which may be two corners."""
     if isinstance(domain, Mapping):
         return domain
     try:
@@ -349,9 +345,7 @@ def _of_key(diagnostic: Diagnostic, keys: list[str]) -> Diagnostic:
 
 
 @takes(SolveOptions)
-def solve(
-    problem: Problem | Mapping[str, Any] | str | os.PathLike[str], **options: Unpack[SolveOptions]
-) -> Dataset:
+def solve(problem: Problem | Mapping[str, Any] | str | os.PathLike[str], **options: Unpack[SolveOptions]) -> Dataset:
     """Solves a problem; a problem with growing cracks gives a dataset of all steps. Ctrl-C ends it within moments.
 
     The result depends on the problem alone, not on the number of threads.

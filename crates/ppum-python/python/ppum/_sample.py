@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._errors import RenderError, require
-from ._images import Extremum
 from ._options import Option, takes
 from ._text import math_text, plain
 from ._units import Floats, degrees, floats, pair
@@ -23,13 +22,46 @@ if TYPE_CHECKING:
 STRESSES = ("sxx", "syy", "sxy", "von-mises")
 
 
-class CurveOptions(TypedDict, total=False):
-    """What is evaluated along a curve."""
+@dataclass(frozen=True)
+class Extremum:
+    """An extreme value.
 
-    num: Annotated[int, Option(201, "number of points")]
+    Attributes:
+        value: To about 1e-6 of its size; infinite at a singular point.
+        xy: Its place.
+        offset: The way there from the middle of the view, in all digits.
+        on: What it lies on: ``inside``, ``border``, ``face``, ``rim``, ``interface``, ``singular``, ``pixel``,
+            ``everywhere`` (one value but for rounding).
+        side: Of a face, ``above`` or ``below``.
+    """
+
+    value: float
+    xy: tuple[float, float]
+    offset: tuple[float, float]
+    on: str
+    side: str | None
+
+
+class ValueOptions(TypedDict, total=False):
+    """What is evaluated."""
+
     quantities: Annotated[
         Sequence[str] | None, Option(None, "names or formulas; by default the components, for elasticity also the stresses")
     ]
+
+
+class CurveOptions(ValueOptions, total=False):
+    """What is evaluated along a curve, and where."""
+
+    num: Annotated[int, Option(201, "number of points")]
+
+
+class GridOptions(ValueOptions, total=False):
+    """What is evaluated on a grid, and where."""
+
+    x: Annotated[ArrayLike | None, Option(None, "coordinates of the columns, in place of their number")]
+    y: Annotated[ArrayLike | None, Option(None, "coordinates of the rows, in place of their number")]
+    side: Annotated[SideName, Option("above", "as in `Field.at`; ``both`` adds a dimension `side`")]
 
 
 @dataclass(frozen=True)
@@ -85,9 +117,7 @@ class Sample:
         return self._curve(around(tip, radius), options)
 
     @takes(CurveOptions)
-    def ray(
-        self, tip: int, angle: float = 0.0, length: float | None = None, **options: Unpack[CurveOptions]
-    ) -> Any:
+    def ray(self, tip: int, angle: float = 0.0, length: float | None = None, **options: Unpack[CurveOptions]) -> Any:
         """Values on a ray from a tip, over the distance `r` in steps of its logarithm.
 
         Args:
@@ -118,31 +148,17 @@ class Sample:
                 variable[2].update(self._labels(name))
         return xarray.Dataset(variables, coords, {"title": self._field.dataset.title})
 
-    def grid(
-        self,
-        nx: int | None = None,
-        ny: int | None = None,
-        *,
-        x: ArrayLike | None = None,
-        y: ArrayLike | None = None,
-        quantities: Sequence[str] | None = None,
-        side: SideName = "above",
-    ) -> Any:
-        """Values on a grid, over y and x, both rising.
-
-        Args:
-            nx, ny: Numbers of columns and rows, from border to border of the domain's box.
-            x, y: Or the coordinates themselves.
-            quantities: As along curves.
-            side: As in `Field.at`; ``both`` adds a dimension `side`.
+    @takes(GridOptions)
+    def grid(self, nx: int | None = None, ny: int | None = None, **options: Unpack[GridOptions]) -> Any:
+        """Values on a grid, over y and x, both rising: `nx` columns and `ny` rows from border to border of the domain's box.
 
         Example:
             >>> f.sample.grid(3, 5, quantities=["s1"]).s1.dims
             ('y', 'x')
         """
-        xarray, names = _xarray(), self._names(quantities)
+        xarray, names, side = _xarray(), self._names(options["quantities"]), options["side"]
         (x0, y0), (x1, y1) = self._field.dataset.domain
-        x, y = _axis("x", nx, x, x0, x1), _axis("y", ny, y, y0, y1)
+        x, y = _axis("x", nx, options["x"], x0, x1), _axis("y", ny, options["y"], y0, y1)
         found: Floats = self._field.evaluate(x[None, :], y[:, None], names, side=side)
         dims = ("y", "x", "side") if side == "both" else ("y", "x")
         coords = {"x": x, "y": y, **({"side": ["above", "below"]} if side == "both" else {})}
@@ -153,14 +169,10 @@ class Sample:
     def extrema(self, quantity: str | None = None, **options: Unpack[PixelOptions]) -> tuple[Extremum, Extremum]:
         """The smallest and the largest value of a quantity in a view, also between its pixels, at tips infinite.
 
-        Raises:
-            RenderError: There is no value in the view.
-
         Example:
             >>> low, high = f.sample.extrema("uy")
             >>> low.value < 0 < high.value
-            True
-        """
+            True"""
         name, window, size = self._field._asked(quantity, options)
         found = _core.extrema(self._field._core, name, window, size)
         if found is None:

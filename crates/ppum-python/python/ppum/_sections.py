@@ -1,4 +1,7 @@
-"""The keys of problem files as options of `Problem`; what has no default here has that of docs/problem-file.md."""
+"""The keys of problem files as options of `Problem`; what has no default here has that of docs/problem-file.md.
+
+Curves have angles in radians, as everywhere in Python; tables of problem files have degrees.
+"""
 
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -7,6 +10,8 @@ from typing import Annotated, Any, Literal, TypedDict
 from numpy.typing import ArrayLike
 
 from ._options import UNSET, Option
+from ._text import plain
+from ._units import degrees, pair
 
 #: A number, or a formula of x and y.
 Value = float | str
@@ -90,7 +95,7 @@ class SolveOptions(TypedDict, total=False):
 
     threads: Annotated[int | None, Option(None, "how many to work on; by default as many as there are processors")]
     memory: Annotated[int | None, Option(None, "bytes that may be used; a solution that needs more is refused")]
-    progress: Annotated[bool | Callable[[str, int, int, int], object], Option(False, PROGRESS)]
+    progress: Annotated[bool | Callable[..., object], Option(False, PROGRESS)]
 
 
 class GrowthOptions(TypedDict, total=False):
@@ -112,3 +117,41 @@ class AdaptivityOptions(TypedDict, total=False):
     max_unknowns: Annotated[int, _key("most unknowns of a step")]
     tolerance: Annotated[float, _key("the relative error in the energy norm that is small enough")]
     keep: Annotated[Literal["last", "all"], _key("the steps that the dataset keeps")]
+
+
+def arc(center: ArrayLike, radius: float, start: float, end: float) -> dict[str, Any]:
+    """An arc of a circle, for `Problem.crack`.
+
+    Args:
+        center: Of the circle.
+        radius: Of the circle.
+        start: The angle of the first point from the x axis, radians.
+        end: That of the last point; the arc goes there counter-clockwise if it is larger, else clockwise.
+
+    Example:
+        >>> bent = plate.crack(arc=ppum.arc((0, 1), 0.4, np.pi, 1.5 * np.pi))
+        >>> bent == plate.crack(arc={"center": (0, 1), "radius": 0.4, "from": 180, "to": 270})
+        True
+    """
+    return {"center": pair(center), "radius": plain(radius), "from": degrees(start), "to": degrees(end)}
+
+
+def ellipse(
+    center: ArrayLike, axes: ArrayLike, angle: float = 0.0, *, start: float | None = None, end: float | None = None
+) -> dict[str, Any]:
+    """An ellipse, for `Problem.hole`; with `start` and `end` a part of one, for `Problem.crack`.
+
+    Args:
+        center: Its centre.
+        axes: Its half axes.
+        angle: Of the first axis to the x axis, radians.
+        start: The angle t of the first point `center + a cos t + b sin t`, a and b the half axes, radians.
+        end: That of the last one.
+
+    Example:
+        >>> plate.hole(ellipse=ppum.ellipse((0.5, 1.2), (0.2, 0.1), np.pi / 4)).check()
+        ()
+    """
+    ends = {"from": start, "to": end}
+    part = {name: degrees(value) for name, value in ends.items() if value is not None}
+    return {"center": pair(center), "axes": pair(axes), "angle": degrees(angle), **part}

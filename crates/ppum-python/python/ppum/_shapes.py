@@ -65,3 +65,9 @@ def interpolated(values: ArrayLike, places: Floats, powers: Powers) -> Floats:
     # zeros are zeros
     wide[np.abs(wide) < 1e-18 * np.abs(wide).max()] = 0
     return np.asarray(np.einsum("mk,nkc->nmc", wide, np.asarray(values, np.longdouble)), float)
+
+
+def random_places(random: np.random.Generator, shape: int, count: int) -> Floats:
+    """Random places inside of a reference shape."""
+    at = random.uniform(-0.999, 0.999, (count, 2))
+    return at if shape == SQUARE else 0.75 * np.where(at.sum(axis=1, keepdims=True) > 0, -at, at) + 0.25

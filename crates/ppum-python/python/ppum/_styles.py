@@ -13,7 +13,7 @@ from . import _core
 from ._options import Option, options_of, refuse_unknown
 from ._text import plain
 from ._units import pixels
-from ._views import SIZE, PixelOptions, PlaceOptions, Window, window
+from ._views import SIZE, PixelOptions, PlaceOptions, ProgressOptions, Window, window
 
 if TYPE_CHECKING:
     from ._field import Field
@@ -175,7 +175,15 @@ class PageOptions(TypedDict, total=False):
 
 
 class AnimationOptions(PlaceOptions, ComputedOptions, PageOptions, total=False):
-    """All options of an animation."""
+    """What an animation and a figure show, and their pages."""
+
+
+class SeriesOptions(AnimationOptions, ProgressOptions, total=False):
+    """All options of an animation and of its steps."""
+
+    steps: Annotated[Sequence[int] | slice | None, Option(None, "numbers of steps, or a slice of them; by default all")]
+    fps: Annotated[float, Option(5.0, "steps shown in a second, up to 50")]
+    bare: Annotated[bool, Option(False, "whether axes and colour bar are left out: the image has the size in pixels")]
 
 
 class FigureOptions(AnimationOptions, total=False):
@@ -219,12 +227,7 @@ REQUEST_OPTIONS = {name: option for name, (_, option) in options_of(FigureOption
 
 
 def span(options: RangeOptions) -> str | Ends:
-    """The range of the colours, as `clim` or `vmin` and `vmax` say it; an end that is not given is None.
-
-    Raises:
-        TypeError: Both ways at once.
-        ValueError: No range.
-    """
+    """The range of the colours, as `clim` or `vmin` and `vmax` say it; an end that is not given is None."""
     clim, low, high = options.get("clim", "auto"), options.get("vmin"), options.get("vmax")
     if low is not None or high is not None:
         if not (isinstance(clim, str) and clim == "auto"):

@@ -129,11 +129,7 @@ class Sweep:
         return self._gathered(rows, xarray)
 
     def _made(self) -> tuple[dict[int, Problem], list[_Row]]:
-        """The problems by the numbers of their combinations, and the rows of those that cannot be made.
-
-        Raises:
-            Exception: That of the first combination, if none can be made.
-        """
+        """The problems by the numbers of their combinations, and the rows of those that cannot be made."""
         made: dict[int, Problem] = {}
         errors: dict[int, Exception] = {}
         for k, chosen in enumerate(self._combinations()):

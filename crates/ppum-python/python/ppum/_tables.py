@@ -34,11 +34,7 @@ class Numbered(tuple[_Row, ...], Generic[_Row]):
         return super().__getitem__(key if isinstance(key, slice) else self._number(key))
 
     def _number(self, key: SupportsIndex) -> int:
-        """A number counted from the first one.
-
-        Raises:
-            IndexError: There is no such one.
-        """
+        """A number counted from the first one."""
         number, count = operator.index(key), len(self)
         if not -count <= number < count:
             one, more = self._called

@@ -27,11 +27,7 @@ def hint(name: str, known: Iterable[str]) -> str:
 
 
 def one_of(name: str, value: str, words: Sequence[str], others: str = "") -> None:
-    """Refuses a word that is not among those that there are.
-
-    Raises:
-        ValueError: With the words, and the one that was meant.
-    """
+    """Refuses a word that is not among those that there are."""
     if value in words:
         return
     known = ", ".join(repr(word) for word in words)
@@ -54,10 +50,8 @@ def plain(value: Any, place: str = "a problem") -> Any:
     """Values that TOML has; frozen data are copied. `place` is that of the value, for messages."""
     if isinstance(value, Mapping):
         return {str(k): plain(v, f"{place}.{k}".removeprefix("a problem.")) for k, v in value.items() if v is not None}
-    if isinstance(value, np.ndarray):
+    if isinstance(value, (np.ndarray, np.generic)):
         return plain(value.tolist(), place)
-    if isinstance(value, np.generic):
-        return plain(value.item(), place)
     if isinstance(value, (bool, int, float, str)):
         return value
     if isinstance(value, os.PathLike):
@@ -97,15 +91,11 @@ def _key(name: str) -> str:
 
 
 def _value(value: Any) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, (int, float)):
-        return repr(value)
-    if isinstance(value, str):
-        return _text(value)
     if isinstance(value, dict):
         return "{" + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + "}"
-    return "[" + ", ".join(_value(v) for v in value) + "]"
+    if isinstance(value, list):
+        return "[" + ", ".join(_value(v) for v in value) + "]"
+    return repr(value) if isinstance(value, float) else _text(value)
 
 
 class ProgressLine:
@@ -135,6 +125,6 @@ def html_row(cells: Iterable[str], kind: str = "td") -> str:
     return f"<tr>{''.join(f'<{kind}>{html.escape(cell)}</{kind}>' for cell in cells)}</tr>"
 
 
-def _text(text: str) -> str:
-    """A basic string: that of JSON, which leaves one character of control as it is."""
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+def _text(value: Any) -> str:
+    """A basic string, integer or truth value: that of JSON, which leaves one character of control as it is."""
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -33,11 +33,7 @@ def pair(point: ArrayLike) -> tuple[float, float]:
 
 
 def degrees(angle: float) -> float:
-    """An angle in degrees, which the libraries take.
-
-    Raises:
-        ValueError: An angle of more than a turn, which is likely to be one in degrees.
-    """
+    """An angle in degrees, which the libraries take."""
     if not abs(angle) <= 2 * math.pi:
         raise ValueError(f"angle: {angle!r} is more than a turn; angles are in radians, see math.radians")
     return math.degrees(angle)
@@ -52,11 +48,7 @@ def check_out(out: Floats, shape: tuple[int, ...]) -> None:
 
 
 def pixels(size: tuple[int, int], name: str = "size") -> tuple[int, int]:
-    """Columns and rows, both positive, of an option of this name.
-
-    Raises:
-        RenderError: They are not.
-    """
+    """Columns and rows, both positive, of an option of this name."""
     try:
         columns, rows = (operator.index(n) for n in size)
     except (TypeError, ValueError):

@@ -76,20 +76,15 @@ class Values:
             raise ValueError(f"side: {side!r} is none; there are above, below, both")
         self._field, self._side = field, side
         self._anchor = None if anchor is None else pair(anchor)
-        self._x: Any
-        self._y: Any
-        self._is_one: bool
-        self._shape: tuple[int, ...]
-        if isinstance(x, (float, int)) and isinstance(y, (float, int)):
-            self._x, self._y, self._shape = x, y, ()
-            self._is_one = anchor is None and side != "both"
-            return
-        self._is_one = False
-        x, y = floats(x), floats(y)
-        if x.shape != y.shape:
-            x, y = np.broadcast_arrays(x, y)
-        self._shape = x.shape
-        self._x, self._y = np.ravel(x), np.ravel(y)
+        self._x: Any = x
+        self._y: Any = y
+        self._shape: tuple[int, ...] = ()
+        is_point = isinstance(x, (float, int)) and isinstance(y, (float, int))
+        self._is_one = is_point and anchor is None and side != "both"
+        if not is_point:
+            x, y = floats(x), floats(y)
+            x, y = (x, y) if x.shape == y.shape else np.broadcast_arrays(x, y)
+            self._shape, self._x, self._y = x.shape, np.ravel(x), np.ravel(y)
 
     def __getattr__(self, name: str) -> Floats:
         if name.startswith("_"):

@@ -78,11 +78,7 @@ class RasterOptions(PixelOptions, ProgressOptions, total=False):
 def window(
     domain: Box, size: tuple[int, int], center: Any = None, width: float | None = None, zoom: float | None = None
 ) -> Window:
-    """Center and width of a view, by default of all of the plate.
-
-    Raises:
-        RenderError: A zoom that enlarges nothing.
-    """
+    """Center and width of a view, by default of all of the plate."""
     (x0, y0), (x1, y1) = domain
     whole = max(x1 - x0, (y1 - y0) * size[0] / max(size[1], 1))
     if width is not None and zoom is not None:
@@ -97,11 +93,7 @@ def window(
 
 
 def view_of(view: View, options: PixelOptions) -> View:
-    """The view that is given, in as many pixels as are asked for.
-
-    Raises:
-        TypeError: What else is said of the place.
-    """
+    """The view that is given, in as many pixels as are asked for."""
     if not isinstance(view, View):
         raise TypeError(f"view: a ppum.View is needed, not {type(view).__name__}")
     others = [n for n in ("center", "width", "tip", "zoom") if options.get(n) is not None]

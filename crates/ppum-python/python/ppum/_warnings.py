@@ -28,18 +28,14 @@ def _listed(places: dict[str, str]) -> dict[str, str]:
 
 #: The new names by the old ones, of the package and of its classes.
 NAMES = {
-    "ppum": _listed(_MOVED) | {"Finding": "Diagnostic", "Triangles": "TriangleMesh"},
+    "ppum": _listed(_MOVED) | {"Finding": "Diagnostic", "Triangles": "TriangleMesh", "from_bytes": "open"},
     "Field": _listed(_ACCESSORS) | {"along": "sample.crack", "rgba": "draw.image", "resampled": "compare.resample"},
     "ProblemError": {"findings": "diagnostics"},
 }
 
 
 def renamed(owner: str, name: str, thing: Any) -> Any:
-    """The attribute of a thing that an old name stands for.
-
-    Raises:
-        AttributeError: The name is no old one.
-    """
+    """The attribute of a thing that an old name stands for."""
     if name not in NAMES[owner]:
         raise AttributeError(f"{owner} has no attribute {name!r}", name=name, obj=thing)
     new = NAMES[owner][name]

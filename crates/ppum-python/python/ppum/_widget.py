@@ -18,10 +18,10 @@ import numpy as np
 import traitlets
 
 from . import _core
+from ._draw import Figure
 from ._errors import PpumError
 from ._field import KEPT
 from ._options import passes, takes
-from ._images import Figure
 from ._styles import FigureOptions, Norm, ViewerOptions, request, span, to_json
 from ._views import PlaceOptions, View, Window, window
 
@@ -61,18 +61,8 @@ class Viewer(anywidget.AnyWidget):
     Drag to pan, turn the wheel to zoom about the mouse, point to read values: near a crack those of both faces. With the
     picture in focus the arrows, ``+``, ``-`` and ``0`` do the same. All that is shown are traits, to be read, set and observed.
 
-    Attributes:
-        center: The middle of the picture, lengths.
-        width: From the left border to the right one, a length.
-        quantity: A quantity or a formula.
-        clim: What the colours span: ``auto``, ``full``, or two values. An automatic one follows when the mouse rests.
-        norm: ``linear``, ``log`` or ``symlog``.
-        cmap: One of `COLORMAPS`, or ``auto`` for that of the quantity.
-        step: Number of the step.
-        cracks: Whether cracks are drawn.
-        deformed: None, ``auto`` or a factor: the plate moved by its displacement.
-        height: Of the picture on the page, pixels; its width is that of the cell.
-        error: What is wrong with the last frame, in words; empty if nothing is.
+    The traits `center`, `width`, `quantity`, `step`, `clim`, `norm`, `cmap`, `cracks`, `deformed` and `height` are the options
+    that it is made by; a cmap of None is ``auto`` here. `error` says what is wrong with the last frame, and is empty if nothing is.
 
     Raises:
         traitlets.TraitError: A value that a trait cannot have, such as a center that is not finite.
@@ -137,17 +127,13 @@ class Viewer(anywidget.AnyWidget):
         self._is_whole = seen is None
         self.on_msg(self._hear)
 
-    @traitlets.validate("center")
+    @traitlets.validate("center", "width")
     def _finite(self, proposal: Any) -> Any:
-        if not all(math.isfinite(x) for x in proposal["value"]):
-            raise traitlets.TraitError(f"center: {proposal['value']} is not two finite numbers")
-        return proposal["value"]
-
-    @traitlets.validate("width")
-    def _positive(self, proposal: Any) -> Any:
-        if not (math.isfinite(proposal["value"]) and proposal["value"] > 0):
-            raise traitlets.TraitError(f"width: {proposal['value']} is not a positive length")
-        return proposal["value"]
+        name, value = proposal["trait"].name, proposal["value"]
+        if not np.isfinite(value).all() or name == "width" and value <= 0:
+            needed = "two finite numbers" if name == "center" else "a positive length"
+            raise traitlets.TraitError(f"{name}: {value} is not {needed}")
+        return value
 
     @traitlets.validate("step")
     def _known_step(self, proposal: Any) -> Any:
@@ -190,11 +176,7 @@ class Viewer(anywidget.AnyWidget):
         return center, MARGIN * width
 
     def go_to_tip(self, tip: int, zoom: float = 10.0) -> None:
-        """Shows a tip, enlarged `zoom` times.
-
-        Raises:
-            IndexError: There is no such tip.
-        """
+        """Shows a tip, enlarged `zoom` times."""
         self.center, self.width = self._at_step()._window(self._size, {"tip": tip, "zoom": zoom})
 
     @passes(FigureOptions)

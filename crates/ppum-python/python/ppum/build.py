@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arrays import packed
-from ._blocks import Blocks, arranged
+from ._arrays import in_arguments, packed
+from ._blocks import arranged
 from ._checks import check_shape, mapping, real, rows, scalar, sequence, text
 from ._cover import Cover
 from ._dataset import Dataset
@@ -22,7 +22,6 @@ from ._functions import Component, Formula, Jump, Level, columns, tip_functions
 from ._head import Arrays, BuildOptions, DatasetOptions, components_of, crack_arrays, listed, of_state, shared
 from ._mesh import Mesh
 from ._options import defaults, takes
-from ._places import in_arguments
 from ._problem import Elastic, Poisson
 from ._state import Coefficients, State
 from ._verify import verified
@@ -177,9 +176,9 @@ def _field(
     if unknown := sorted(spaces.keys() - given_blocks.keys()):
         raise BuildError(f"{place}.space[{unknown[0]!r}]: there are blocks of {', '.join(given_blocks)} alone")
     tensor = {name: cover.in_space(f"{place}.space", spaces.get(name, "shape")) for name in given.blocks}
-    blocks: Blocks = arranged(place, given.blocks, tensor, functions)
-    names = _components(place, given, len(blocks.coefficients), equation)
-    arrays = {"@name": given.name, "@unit": text(f"{place}.unit", given.unit), "components": names, **blocks.arrays()}
+    blocks = arranged(place, given.blocks, tensor, functions)
+    names = _components(place, given, len(blocks["coefficients"]), equation)
+    arrays = {"@name": given.name, "@unit": text(f"{place}.unit", given.unit), "components": names, **blocks}
     exact = [text(f"{place}.exact[{k}]", f) for k, f in enumerate(sequence(f"{place}.exact", given.exact, "formulas"))]
     return arrays | ({"exact": exact} if exact else {})
 

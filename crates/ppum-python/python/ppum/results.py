@@ -3,7 +3,7 @@
 from ._compare import Comparison, Needed, Norms, Resampling
 from ._export import ArrayAccuracy
 from ._facts import Advance, Growth, Reaction, Warning
-from ._images import Extremum
+from ._sample import Extremum
 from ._tables import History, Table
 from ._values import Quantity, Values
 

@@ -15,7 +15,7 @@ from .._errors import BuildError
 from .._head import BuildOptions
 from .._mesh import Clip, Mesh
 from .._options import Option
-from .._shapes import SQUARE, TRIANGLE, interpolated, nodes
+from .._shapes import SQUARE, TRIANGLE, interpolated, nodes, random_places
 from .._state import Coefficients, Sampled, State
 from .._units import Floats
 from ..build import dataset
@@ -184,11 +184,9 @@ def compared(sampler: Sampler, count: int, keep: Callable[[Floats], Any] | None 
     return Sampled(points[kept], values[kept])
 
 
-def random_places(random: np.random.Generator, shape: int, count: int) -> Floats:
-    at = random.uniform(-0.999, 0.999, (count, 2))
-    if shape == SQUARE:
-        return at
-    return 0.75 * np.where(at.sum(axis=1, keepdims=True) > 0, -at, at) + 0.25
+def off_level(level: Floats) -> Any:
+    """True for points that do not lie on a level set, where rounding decides their side."""
+    return np.abs(level) > 1e-9 * np.abs(level).max()
 
 
 def smooth(sampler: Sampler, options: ImportOptions, order: int, geometry: int, verify: Sampled | None) -> State:

@@ -10,24 +10,17 @@ from numpy.typing import NDArray
 from .._blocks import MAX_DEGREE, exponents
 from .._checks import check_type, real
 from .._errors import BuildError, require
-from .._functions import Formula
+from .._functions import TIP, Formula
 from .._options import takes
-from .._shapes import SQUARE, TRIANGLE
+from .._shapes import SQUARE, TRIANGLE, random_places
 from .._state import Coefficients, State
 from .._units import Floats
-from ._elements import Elements, Group, ImportOptions, Places, compared, importer, labelled, random_places, to_unit
+from ._elements import Elements, Group, ImportOptions, Places, compared, importer, labelled, off_level, to_unit
 
 __all__ = ["Crack", "from_getfem", "state"]
 
 #: GetFEM's global functions ``crack`` 0 to 3.
-TIP = (
-    "sqrt(r)*sin(theta/2)",
-    "sqrt(r)*cos(theta/2)",
-    "sqrt(r)*sin(theta)*sin(theta/2)",
-    "sqrt(r)*sin(theta)*cos(theta/2)",
-)
-#: Points closer to the level set than this part of its largest value are not compared: rounding decides their side.
-CLOSE = 1e-9
+TIPS = tuple(TIP[name] for name in ("sqrt(r) sin", "sqrt(r) cos", "sqrt(r) sin sin", "sqrt(r) sin cos"))
 #: Places at which a side of a cut element is looked for.
 TRIED = 4000
 
@@ -48,7 +41,7 @@ class Crack:
     base: Any
     jump: Any
     tip: tuple[Any, Sequence[int]] | None = None
-    functions: Sequence[str] = TIP
+    functions: Sequence[str] = TIPS
 
 
 @takes(ImportOptions, "from_getfem()")
@@ -306,8 +299,7 @@ class _Source:
         """True for points that do not lie on the crack or its extension."""
         if self.crack is None:
             return np.ones(len(values), bool)
-        level = np.abs(values[:, self.count])
-        return level > CLOSE * level.max()
+        return off_level(values[:, self.count])
 
 
 def _shape(geotrans: Any) -> int:

@@ -8,13 +8,10 @@ from .._errors import require
 from .._options import takes
 from .._state import Coefficients, Sampled, State
 from .._units import Floats
-from ._elements import Elements, ImportOptions, compared, importer, labelled
+from ._elements import Elements, ImportOptions, compared, importer, labelled, off_level
 from .ngsolve import mesh_of, order_of, sampler
 
 __all__ = ["from_ngsxfem", "state"]
-
-#: Points closer to the level set than this part of its largest value are not compared: rounding decides their side.
-CLOSE = 1e-9
 
 
 @takes(ImportOptions, "from_ngsxfem()")
@@ -40,7 +37,7 @@ def state(
     patches = _patches(_signs(mesh, levelset))
     clips = {k: [("level", 1 if side else -1)] for k, (_, side, cut) in enumerate(patches) if cut}
     of = [element for element, *_ in patches]
-    known = compared(sides, options["verify"], _off)
+    known = compared(sides, options["verify"], lambda values: off_level(values[:, -1]))
     blocks = {"one": [fields[side][element] for element, side, _ in patches]}
     field = labelled(options, blocks, known and _halves(known, count))
     levels = Coefficients("level", {"one": level.at(of)})
@@ -63,11 +60,6 @@ def _signs(mesh: Any, levelset: Any) -> list[tuple[bool, bool]]:
 def _patches(signs: list[tuple[bool, bool]]) -> list[tuple[int, int, bool]]:
     """Element, side and whether it is cut, for each patch."""
     return [(k, side, all(has)) for k, has in enumerate(signs) for side in (0, 1) if has[side]]
-
-
-def _off(values: Floats) -> Any:
-    level = np.abs(values[:, -1])
-    return level > CLOSE * level.max()
 
 
 def _halves(known: Sampled, count: int) -> Sampled:
