@@ -107,8 +107,9 @@ def test_what_triangles_cannot_be_is_said(f):
             f.export.triangles(**options)
     with pytest.raises(ValueError, match="cannot draw 'stl': the forms of TriangleMesh are vtu, vtkhdf$"):
         mesh.save("plate.stl")
-    for end, maker in {"pvd": "triangles", "png": "figure", "gif": "animate", "csv": "line", "html": "to_html"}.items():
-        with pytest.raises(ValueError, match=rf"end its name in \.h5; .*Field\.{maker}"):
+    makers = {"pvd": "export.triangles", "png": "draw.figure", "gif": "draw.animate", "csv": "sample.line", "html": "export.to_html"}
+    for end, maker in makers.items():
+        with pytest.raises(ValueError, match=rf"end its name in \.h5; .*field\.{maker}"):
             f.dataset.save(f"plate.{end}")
 
 

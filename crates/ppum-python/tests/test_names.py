@@ -29,7 +29,7 @@ def test_old_names_work_and_say_the_new_one(owner, name, f):
 def test_the_function_that_was_called_build_works():
     cover = ppum.build.Cover.uniform([(0, 0), (1, 1)], (1, 1))
     state = ppum.build.State(cover, ppum.build.Coefficients("u", {"one": [[1.0]]}))
-    with pytest.warns(DeprecationWarning, match="ppum.build.dataset"):
+    with pytest.warns(DeprecationWarning, match=r"^ppum\.build\(…\) is now ppum\.build\.dataset"):
         assert ppum.build(state, title="one") == ppum.build.dataset(state, title="one")
 
 

@@ -23,7 +23,7 @@ from ._views import Window, window
 if TYPE_CHECKING:
     from ._field import Field
 
-#: Longer side of the picture that colours are chosen from, in pixels.
+#: Longer side of the image that colours are chosen from, in pixels.
 COARSE = 256
 
 #: Columns of a view of the plate that places are counted in.
@@ -126,7 +126,7 @@ def _fine(points: Any) -> Any:
 class FieldImage(AxesImage):
     """A quantity of a field as an image that is never resampled: it is evaluated at the pixels that are drawn.
 
-    Its array is a coarse picture of the plate, for norms and colour bars to begin with.
+    Its array is a coarse image of the plate, for norms and colour bars to begin with.
     """
 
     def __init__(self, ax: Any, field: "Field", quantity: str, nan_color: Any = None, **properties: Any) -> None:

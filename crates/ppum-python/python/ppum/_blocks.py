@@ -51,8 +51,8 @@ def arranged(
     parts = [_part(f"{place}.blocks[{name!r}]", block, tensor[name]) for name, block in blocks.items()]
     counts = {part.values.shape[1]: name for part, name in zip(parts, blocks)}
     if len(counts) > 1:
-        told = ", ".join(f"{count} in {name!r}" for count, name in counts.items())
-        raise BuildError(f"{place}.blocks: differ in the number of components: {told}")
+        listed = ", ".join(f"{count} in {name!r}" for count, name in counts.items())
+        raise BuildError(f"{place}.blocks: differ in the number of components: {listed}")
     return _merged(parts, [functions.index(name) for name in blocks], len(next(iter(tensor.values()))))
 
 

@@ -61,7 +61,7 @@ class Step:
     load: float = _fact("load", "Load factor or pseudo-time.", float)
     patches: int = _fact("patches", "Number of patches.")
     unknowns: int = _fact("unknowns", "Number of unknowns of the solution.")
-    functions: tuple[str, ...] = _fact("functions", "Names of the functions of the field, which `Field.with_function` takes.", tuple)
+    functions: tuple[str, ...] = _fact("functions", "Names of functions, which `Field.with_function` takes.", tuple)
 
     @cached_property
     def cracks(self) -> tuple[Crack, ...]:
@@ -285,12 +285,12 @@ class Dataset:
         return f"<p><b>{html.escape(self.title)}</b></p><table><tbody>{body}</tbody></table>{tips}"
 
 
-_PICTURES = "`field.draw.figure` draws pictures, `field.draw.animate` animations"
+_IMAGES = "`field.draw.figure` draws images, `field.draw.animate` animations"
 _MESHES = "`Dataset.save` makes .vtkhdf and .vtu files, with the triangles of `field.export.triangles`"
 _TABLES = "`field.sample.line` and others make tables"
 #: Ends of the names of other files, and what makes these.
 _OTHER_FILES = {
-    **dict.fromkeys((".png", ".svg", ".pdf", ".jpg", ".gif", ".apng"), _PICTURES),
+    **dict.fromkeys((".png", ".svg", ".pdf", ".jpg", ".gif", ".apng"), _IMAGES),
     **dict.fromkeys((".pvd", ".vtk", ".vtp"), _MESHES),
     **dict.fromkeys((".csv", ".npy", ".npz", ".txt"), _TABLES),
     **dict.fromkeys((".html", ".htm"), "`field.export.to_html` makes pages"),

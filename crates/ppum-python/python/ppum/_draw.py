@@ -33,7 +33,7 @@ class Figure(Page):
 
     def _draw(self, form: str) -> bytes:
         field, request = self._made_of
-        return self._told(_core.figure(field._core, request, form))
+        return self._with_warnings(_core.figure(field._core, request, form))
 
     def __repr__(self) -> str:
         asked = json.loads(self._made_of[1])
@@ -52,7 +52,7 @@ class Animation(Drawn):
     """An animation; drawn when its bytes are asked for. Made by `field.draw.animate`. Notebooks show it.
 
     Its forms are ``gif``, in 256 colours, which is the default, and ``apng``, without loss. It can be pickled, but for a
-    function that is told of the progress.
+    function that is called with the progress.
     """
 
     _forms = ("gif", "apng")
@@ -64,7 +64,7 @@ class Animation(Drawn):
     def _draw(self, form: str) -> bytes:
         field, what, time, progress = self._made_of
         core, changes = field.dataset._core, json.dumps(field._subject)
-        return self._told(_core.animation(field._core, core, changes, *what, time, form, progress))
+        return self._with_warnings(_core.animation(field._core, core, changes, *what, time, form, progress))
 
     def gif(self) -> bytes:
         """In 256 colours, for programs that know no other."""

@@ -27,7 +27,7 @@ class QuantityError(PpumError, ValueError):
 
 
 class RenderError(PpumError, ValueError):
-    """A picture that cannot be drawn: a view without width, a range that does not fit."""
+    """An image that cannot be drawn: a view without width, a range that does not fit."""
 
 
 class SolveError(PpumError, RuntimeError):

@@ -23,7 +23,7 @@ class Drawn:
         self._known: dict[str, bytes] = {}
         self.warnings: tuple[str, ...] = ()
 
-    def _told(self, made: tuple[bytes, list[str]]) -> bytes:
+    def _with_warnings(self, made: tuple[bytes, list[str]]) -> bytes:
         data, texts = made
         new = [text for text in dict.fromkeys(texts) if text not in self.warnings]
         self.warnings += tuple(new)

@@ -44,7 +44,7 @@ class BuildOptions(DatasetOptions, total=False):
     """What all steps share, and how exactly fields are verified."""
 
     tolerance: Annotated[
-        SupportsFloat, Option(1e-10, "largest difference from `Coefficients.verify` that is no error, in parts of the largest value")
+        SupportsFloat, Option(1e-10, "largest difference from `Coefficients.verify` that is no error, relative to the largest value")
     ]
 
 

@@ -115,8 +115,8 @@ class Mesh:
         known = {"total": (False, False), "tensor": (True, True), "shape": (False, True)}
         unknown = [word for word in words if word not in known]
         if unknown or len(words) != len(self):
-            told = f"{unknown[0]!r} is none of {', '.join(known)}" if unknown else f"expected {len(self)} words"
-            raise BuildError(f"{place}: {told}")
+            wrong = f"{unknown[0]!r} is none of {', '.join(known)}" if unknown else f"expected {len(self)} words"
+            raise BuildError(f"{place}: {wrong}")
         return np.array([known[word][shape] for word, shape in zip(words, self.shape.tolist())])
 
     def places(self, patch: int, xi: ArrayLike) -> Floats:

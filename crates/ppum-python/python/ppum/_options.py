@@ -48,7 +48,7 @@ class Option:
     """The default and the description of an option; one without a default is left out where it is not given.
 
     An option without a text has that of the program's option, by the name of `FOREIGN` if theirs differ, and `more`.
-    Options of pictures stand `at` a place of a request, such as ``colors.bands``, as what `written` makes of them.
+    Options of images stand `at` a place of a request, such as ``colors.bands``, as what `written` makes of them.
     """
 
     default: Any

@@ -70,7 +70,7 @@ class State:
 
     Attributes:
         cover: The partition of unity, or the elements.
-        fields: One field or several; pictures and quantities are of the first.
+        fields: One field or several; images and quantities are of the first.
         cracks: Points of each crack, shape (k, 2), or `ppum.Crack`. By default an end on the border of the domain or of a
             hole is a ``mouth``, one on another crack a ``junction``, any other a ``tip``; values do not depend on it.
         functions: Functions beside ``one`` by name: `Jump`, `Component`, `Level`, `Formula` or the text of a formula of x and y.

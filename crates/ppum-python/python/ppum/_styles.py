@@ -296,7 +296,7 @@ def request(
 
 def to_json(made: Mapping[str, Any]) -> str:
     """The text of a request."""
-    return json.dumps(plain(made, "picture"))
+    return json.dumps(plain(made, "image"))
 
 
 def request_text(field: "Field", made: Mapping[str, Any]) -> str:

@@ -65,7 +65,7 @@ def positive(name: str, value: float | None) -> None:
 
 
 def milliseconds(fps: float) -> int:
-    """The time for which a picture is shown, where so many are shown in a second."""
+    """The time for which an image is shown, where so many are shown in a second."""
     if not 1 / 60 <= fps <= 50:
         raise ValueError(f"fps: {fps} is not a rate; give a number of steps a second, from 1/60 to 50")
     return int(1000 / fps + 0.5)

@@ -14,7 +14,7 @@ from ._units import floats, pair, pixels
 Window = tuple[tuple[float, float], float]
 Box = tuple[tuple[float, float], tuple[float, float]]
 
-#: Columns and rows of a picture where none are given.
+#: Columns and rows of an image where none are given.
 SIZE = (1024, 768)
 
 #: How much a point or a tip is enlarged where nothing says it.
@@ -23,10 +23,10 @@ ZOOM = 10.0
 
 @dataclass(frozen=True)
 class View:
-    """The part of the plane that a picture shows; all functions that draw take it as `view`.
+    """The part of the plane that an image shows; all functions that draw take it as `view`.
 
     Attributes:
-        center: The middle of the picture.
+        center: The middle of the image.
         width: From the left border to the right one, a length; down to 1e-12 of the plate.
         size: Columns and rows of pixels; they are squares, so the height follows.
 
@@ -68,7 +68,7 @@ class PlaceOptions(TypedDict, total=False):
 class PixelOptions(PlaceOptions, total=False):
     """What is seen, and in how many pixels."""
 
-    size: Annotated[tuple[int, int] | None, Option(None, "columns and rows of pixels; by default those of `view`, else 1024 and 768")]
+    size: Annotated[tuple[int, int] | None, Option(None, "columns and rows of pixels; by default of `view`, or 1024 and 768")]
 
 
 class RasterOptions(PixelOptions, ProgressOptions, total=False):

@@ -18,8 +18,10 @@ _RESULTS = (
 )
 _MOVED = {"build": _BUILD, "meshes": _MESHES, "results": _RESULTS}
 _ACCESSORS = {
-    "sample": "line circle around ray grid extrema", "draw": "render figure animate plot", "export": "triangles to_pyvista to_html",
-}  # fmt: skip
+    "sample": "line circle around ray grid extrema",
+    "draw": "render figure animate plot",
+    "export": "triangles to_pyvista to_html",
+}
 
 
 def _listed(places: dict[str, str]) -> dict[str, str]:

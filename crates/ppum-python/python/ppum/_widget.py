@@ -46,7 +46,7 @@ MARGIN = 1.04
 #: Reach of the mouse to cracks, pixels.
 REACH = 6.0
 
-#: What makes another picture of the same place.
+#: What makes another image of the same place.
 _LOOK = ("quantity", "norm", "cmap", "step", "clim", "cracks", "deformed")
 
 #: What the controls may set.
@@ -59,10 +59,10 @@ class Viewer(anywidget.AnyWidget):
     """Shows a field in a notebook; made by `Dataset.view` and `Field.view`. What is seen at the moment is its `view`, a `View`.
 
     Drag to pan, turn the wheel to zoom about the mouse, point to read values: near a crack those of both faces. With the
-    picture in focus the arrows, ``+``, ``-`` and ``0`` do the same. All that is shown are traits, to be read, set and observed.
+    image in focus the arrows, ``+``, ``-`` and ``0`` do the same. All that is shown are traits, to be read, set and observed.
 
     The traits `center`, `width`, `quantity`, `step`, `clim`, `norm`, `cmap`, `cracks`, `deformed` and `height` are the options
-    that it is made by; a cmap of None is ``auto`` here. `error` says what is wrong with the last frame, and is empty if nothing is.
+    that it is made by; a cmap of None is ``auto`` here. `error` says what is wrong with the last frame, if anything.
 
     Raises:
         traitlets.TraitError: A value that a trait cannot have, such as a center that is not finite.
@@ -91,7 +91,7 @@ class Viewer(anywidget.AnyWidget):
     deformed = traitlets.Any(None, allow_none=True)
     error = traitlets.Unicode("")
 
-    #: A picture for pages without a kernel.
+    #: An image for pages without a kernel.
     _still = traitlets.Bytes(b"").tag(sync=True)
 
     @takes(ViewerOptions, "view()")
@@ -224,10 +224,10 @@ class Viewer(anywidget.AnyWidget):
             png, facts = self._frame(size, bool(content.get("moving")))
             self.error = ""
             colors = bytes(facts.pop("colors"))
-            return {"kind": "frame", "bar": facts, **self._told()}, [png, colors]
+            return {"kind": "frame", "bar": facts, **self._controls()}, [png, colors]
         except (PpumError, traitlets.TraitError, ValueError, TypeError, KeyError, IndexError) as error:
             self.error = str(error)
-            return {"kind": "error", "error": self.error, **self._told()}, []
+            return {"kind": "error", "error": self.error, **self._controls()}, []
 
     def _obey(self, content: Mapping[str, Any], size: tuple[int, int]) -> None:
         for name, value in dict(content.get("set") or {}).items():
@@ -272,7 +272,7 @@ class Viewer(anywidget.AnyWidget):
         self._held = facts["range"] if is_found else None
         return png, facts
 
-    def _told(self) -> dict[str, Any]:
+    def _controls(self) -> dict[str, Any]:
         """What the controls show."""
         place = f"({self.center[0]:.9g}, {self.center[1]:.9g}), {self.width:.3g} wide"
         return {"state": {name: getattr(self, name) for name in _SETTABLE}, "place": place}
@@ -300,9 +300,9 @@ class Viewer(anywidget.AnyWidget):
             return "the deformed plate is not here"
         anchor, offset = np.array(found["anchor"]), np.array(found["offset"])
         x, y = anchor + offset
-        told = f"{self._value(anchor, offset, side):.9g}, moved from x = {x:.12g}, y = {y:.12g}"
+        text = f"{self._value(anchor, offset, side):.9g}, moved from x = {x:.12g}, y = {y:.12g}"
         others = found["count"] - 1
-        return f"{told}, over {others} more point{'s' if others > 1 else ''} of the plate" if others else told
+        return f"{text}, over {others} more point{'s' if others > 1 else ''} of the plate" if others else text
 
     def _value(self, anchor: Any, offset: Any, side: float) -> float:
         """The quantity at a point; of cells that of the cell."""
@@ -312,11 +312,8 @@ class Viewer(anywidget.AnyWidget):
         return float(field.at(*offset, anchor=anchor)[self.quantity])
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
-        """The widget, and a picture for where there is no kernel: pages with the widget's state show `_still`.
-
-        Where nobody is there the picture alone: nobody could touch the widget, and a page with it would load code from the
-        network, and be empty without that.
-        """
+        """The widget, and an image for where there is no kernel: pages with the widget's state show `_still`. Where a program
+        runs the notebook the image is alone: nobody could touch the widget, whose code would come from the network."""
         try:
             self._still = self.figure(size=(640, 480)).png()
         except (PpumError, ValueError) as error:

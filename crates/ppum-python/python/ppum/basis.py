@@ -28,7 +28,7 @@ __all__ = ["Basis", "bernstein", "chebyshev", "fit", "lagrange", "legendre", "mo
 #: The polynomial ξ; all that is computed of it is exact.
 X: Any = np.polynomial.Polynomial(np.array([Fraction(0), Fraction(1)], object))
 
-#: A conversion that loses more than this is told.
+#: A conversion that loses more than this is warned of.
 LARGE = 1e6
 
 
@@ -64,15 +64,14 @@ class Basis:
 
     def convert(self, coefficients: ArrayLike, axis: int = 1) -> Floats:
         """The coefficients of monomials: `axis` has those of the basis, the others are kept. A condition number above
-        1e6 is told as a warning."""
+        1e6 is warned of."""
         given, count = numbers("coefficients", coefficients), len(self.indices)
         if not -given.ndim <= axis < given.ndim or given.shape[axis] != count:
             one = "; give axis=0 for those of one patch" if given.shape[:1] == (count,) else ""
             raise BuildError(f"coefficients: has the shape {given.shape}, expected {count} on axis {axis}: {self}{one}")
         if self.condition > LARGE:
             digits = np.log10(self.condition)
-            told = f"the condition number of the conversion is {self.condition:.1e}: up to {digits:.0f} digits are lost"
-            warn(told)
+            warn(f"the condition number of the conversion is {self.condition:.1e}: up to {digits:.0f} digits are lost")
         product = np.tensordot(np.moveaxis(given, axis, -1).astype(np.longdouble), self._extended, (-1, 1))
         return np.ascontiguousarray(np.moveaxis(product, -1, axis), float)
 

@@ -243,7 +243,8 @@ def _nameless(equation: str) -> Any:
     count, name = (2, "displacement") if equation == "Elastic" else (1, "potential")
     field = Coefficients(name, {"one": np.zeros((1, 1, count))}, [f"__{k}" for k in range(count)])
     state = State(Cover.uniform([(0, 0), (1, 1)], (1, 1)), field)
-    return from_arrays(shared([state], defaults(DatasetOptions) | {"equation": material}) | _step("steps/0000", state, material, ())).field
+    common = shared([state], defaults(DatasetOptions) | {"equation": material})
+    return from_arrays(common | _step("steps/0000", state, material, ())).field
 
 
 def _attributes(attributes: Mapping[str, ArrayLike], patches: int) -> Arrays:
@@ -276,7 +277,8 @@ class _Callable(ModuleType):
     """The module as the function that had its name."""
 
     def __call__(self, states: Any, **options: Any) -> Dataset:
-        warn("ppum.build.dataset(…) is now ppum.build.dataset(…); the old name goes with the next version", kind=DeprecationWarning)
+        text = "ppum.build(…) is now ppum.build.dataset(…); the old name goes with the next version"
+        warn(text, kind=DeprecationWarning)
         return dataset(states, **options)
 
 

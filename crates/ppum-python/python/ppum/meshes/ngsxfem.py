@@ -7,7 +7,6 @@ import numpy as np
 from .._errors import require
 from .._options import takes
 from .._state import Coefficients, Sampled, State
-from .._units import Floats
 from ._elements import Elements, ImportOptions, compared, importer, labelled, off_level
 from .ngsolve import mesh_of, order_of, sampler
 
