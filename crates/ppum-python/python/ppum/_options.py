@@ -108,8 +108,8 @@ def _checking(function: _F, known: Mapping[str, Any], defaults: Mapping[str, Any
     only = inspect.Parameter.KEYWORD_ONLY
     more = [inspect.Parameter(n, only, default=o.default, annotation=kind) for n, (kind, o) in known.items()]
     checked.__signature__ = signature.replace(parameters=[*own, *more])  # type: ignore[attr-defined]
-    lines = "\n".join(f"            {name}: {option.text}" for name, (_, option) in known.items())
-    checked.__doc__ = f"{(function.__doc__ or '').rstrip()}\n\n        Options:\n{lines}\n        "
+    lines = "\n".join(f"    {name}: {option.text}" for name, (_, option) in known.items())
+    checked.__doc__ = f"{inspect.cleandoc(function.__doc__ or '')}\n\nOptions:\n{lines}\n"
     return checked  # type: ignore[return-value]
 
 
