@@ -30,4 +30,4 @@ pub use messages::{
     Choice, Description, Frame, Legend, PointQuestion, Reading, Rows, Side, Tick, View,
 };
 #[cfg(not(target_arch = "wasm32"))]
-pub use page::{LARGEST, Start, StartError, html};
+pub use page::{LARGEST, SHAPE, Start, StartError, html};

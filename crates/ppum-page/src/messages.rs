@@ -25,6 +25,12 @@ impl View {
     }
 }
 
+impl From<view::View> for View {
+    fn from(view::View { center, width, pixels }: view::View) -> Self {
+        Self { center: center.into(), width, pixels }
+    }
+}
+
 /// An image: what it shows, and where.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Frame {

@@ -1,11 +1,12 @@
 //! The page as a text.
 
 use ppum::dataset::Dataset;
-use ppum::field::Field;
 use ppum_figure::canvas::base64::base64;
 use ppum_render::colormap::{Colormap, ColormapError};
+use ppum_render::view;
 use ppum_scene::overlays::Overlay;
 use ppum_scene::scene::{Scene, default_quantity};
+use ppum_scene::shot::{FieldSource, ShotError};
 use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 
@@ -21,6 +22,9 @@ const EVALUATOR: &[u8] = include_bytes!("../evaluator.wasm.gz");
 
 /// Longest dataset of a page, in bytes: browsers hold no text of more than half a gigabyte.
 pub const LARGEST: u64 = 256 << 20;
+
+/// The shape of the first view; a window of another shape shows more.
+pub const SHAPE: [u32; 2] = [1024, 768];
 
 /// What a page shows first.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -43,36 +47,42 @@ pub enum StartError {
     /// Supports and loads.
     #[error("pages show no supports and loads, which are those of a problem file")]
     Stations,
-    /// The deformed plate.
-    #[error("pages show the plate as it was before it was loaded")]
-    Deformed,
+    /// Lines of symmetry, or the deformed body.
+    #[error(transparent)]
+    Body(#[from] ShotError),
 }
 
 impl Start {
-    /// What a page shows first of a scene of a field: its cracks are drawn unless they are left
+    /// What a page shows first of a scene of a field, with its lines of symmetry named: its cracks are drawn unless they are left
     /// out, and a quantity that would be shown anyway is left out, so that other steps show it too.
     ///
     /// # Errors
     /// What pages do not have.
     pub fn new(
-        mut scene: Scene,
-        field: &Field<'_>,
+        scene: Scene,
+        source: FieldSource<'_>,
         view: Option<View>,
         file: String,
     ) -> Result<Self, StartError> {
+        let mut scene = source.settled(scene).map_err(ShotError::from)?;
         if let Some(name) = &scene.colors.colormap {
             Colormap::named(name).map_err(StartError::Colormap)?;
         }
         if scene.overlays.have_stations() {
             return Err(StartError::Stations);
         }
-        if scene.deformed.is_some() {
-            return Err(StartError::Deformed);
-        }
         if !scene.overlays.no_cracks && !scene.overlays.shown.contains(&Overlay::Cracks) {
             scene.overlays.shown.push(Overlay::Cracks);
         }
-        scene.quantity = scene.quantity.filter(|text| text != default_quantity(field));
+        scene.quantity = scene.quantity.filter(|text| text != default_quantity(source.field));
+        // the script knows the box of the undeformed part alone
+        let view = match view {
+            None if scene.deformed.is_some() || scene.mirror.is_some() => {
+                let bounds = source.seen_bounds(&scene)?;
+                Some(view::View::fit(bounds, SHAPE).map_err(ShotError::from)?.into())
+            }
+            view => view,
+        };
         Ok(Self { scene, view, file })
     }
 

@@ -64,11 +64,12 @@ pub(crate) fn compare<'py>(
     let right = Side { field: this.owned.field(), shown: &own };
     let minus = Minus { right, left: Side { field: other.owned.field(), shown: &its } };
     let drawn = |watcher: &dyn Watcher| minus.draw(&view, watcher);
-    let apart = long(py, None, progress.as_ref(), drawn)?.map_err(rendering)?;
-    let RasterValues::Double(raster) = apart.drawn.values else {
+    let drawn = long(py, None, progress.as_ref(), drawn)?.map_err(rendering)?;
+    let norms = NormsFacts::new(&drawn.norms.unwrap_or_default());
+    let RasterValues::Double(raster) = drawn.values else {
         unreachable!("differences are of double precision")
     };
-    Ok((rows(py, raster)?, NormsFacts::new(&apart.norms), minus.warnings()))
+    Ok((rows(py, raster)?, norms, minus.warnings()))
 }
 
 /// A way of resampling, as Python's layer says it.

@@ -152,7 +152,7 @@ pub(crate) fn page(
     let dataset = whole.as_deref().unwrap_or(changed);
     scene.subject = Subject { step: Some(step), ..Subject::default() };
     let view = at.map(|((x, y), width)| View { center: [x, y], width, pixels: SHAPE });
-    let start = Start::new(scene, this.owned.field(), view, file);
+    let start = Start::new(scene, this.source(), view, file);
     let start = start.map_err(|error| RenderError::new_err(error.to_string()))?;
     let bytes = long(py, None, None, |_| to_bytes(dataset))?.map_err(unwritable)?;
     if bytes.len() as u64 > LARGEST {

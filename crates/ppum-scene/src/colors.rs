@@ -62,7 +62,7 @@ pub struct Colors {
 #[cfg(feature = "clap")]
 fn maps() -> String {
     format!(
-        "Colour map: {}; reversed with _r; or a file, CSV or JSON, as ParaView, Plotly and others write it \
+        "Colour map: {}; reversed with _r; or a file: a preset of ParaView, JSON, or CSV with red, green, blue \
          [default: viridis; of directions twilight]",
         ppum_render::colormap::NAMES.join(", ")
     )

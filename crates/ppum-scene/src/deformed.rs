@@ -13,7 +13,8 @@ use ppum_render::extrema::BodyRegion;
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
 
-use crate::drawing::{BodyView, Drawn, PROCESSOR, Shown};
+use crate::body::BodyView;
+use crate::drawing::{Drawn, PROCESSOR, Shown};
 
 /// How many times its displacement a plate is drawn with: written as a number, or `auto`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,16 +117,12 @@ impl BodyView<'_> {
         &self,
         field: &Field<'_>,
     ) -> Result<Vec<(Reflection, BodyRegion)>, DeformError> {
-        let Self::Moved(body) = self else {
-            let images = self.images(&field.domain.body_bounds()).into_iter();
-            let views = images.map(|image| (image.reflection, image.view));
-            let all = [(Reflection::NONE, *self.view())].into_iter().chain(views);
-            let regions = all.filter_map(|(by, view)| Some((by, BodyRegion::seen(field, &view)?)));
-            return Ok(regions.collect());
-        };
-        let regions = body.parts().map(|(by, points)| {
-            let region = region(points)?;
-            Ok(region.map(|region| (by, region)))
+        let regions = self.parts().map(|part| {
+            let region = match &part.points {
+                Some(points) => region(points)?,
+                None => BodyRegion::seen(field, &part.view),
+            };
+            Ok(region.map(|region| (part.reflection, region)))
         });
         regions.filter_map(Result::transpose).collect()
     }
@@ -167,7 +164,7 @@ pub fn draw(
     let overlap = (0..).zip(&raster.overlap).filter(|(_, is)| **is).map(|(pixel, _)| pixel);
     let (view, overlap, by) = (points.view.view, overlap.collect(), PROCESSOR.into());
     let values = raster.values.into();
-    Ok(Drawn { view, values, by, without, overlap, opacity: None })
+    Ok(Drawn { view, values, by, without, overlap, opacity: None, norms: None })
 }
 
 /// The pixels of the plate without a value.

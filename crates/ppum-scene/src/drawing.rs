@@ -1,79 +1,19 @@
-//! What is seen of a plate, and its values once they are drawn; colours come afterwards.
+//! What a picture shows, and its values once they are drawn; colours come afterwards.
 
-use ppum::crack::Crack;
 use ppum::dataset::Step;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::text::trimmed_to;
-use ppum::vec2::Rect;
 use ppum_render::cells;
-use ppum_render::deform::DeformedPoints;
 use ppum_render::extrema::Extrema;
 use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{RangeError, ValueSpan};
 use ppum_render::raster::{Raster, Sample, Statistics};
+use ppum_render::resample::norms::Norms;
 use ppum_render::samples::{Means, Samples};
 use ppum_render::view::View;
 use rayon::prelude::*;
-
-use crate::mirror::{MirrorImage, MirrorLines};
-use crate::moved_body::MovedBody;
-
-/// A view of the undeformed or the deformed body.
-pub enum BodyView<'f> {
-    /// The plate as it was before it was loaded.
-    Plate(View),
-    /// The plate as it was, and its images beyond lines of symmetry.
-    Mirrored(View, MirrorLines),
-    /// The body moved by its displacements, and its images.
-    Moved(MovedBody<'f>),
-}
-
-impl<'f> BodyView<'f> {
-    /// The view.
-    pub fn view(&self) -> &View {
-        match self {
-            Self::Plate(view) | Self::Mirrored(view, _) => view,
-            Self::Moved(body) => &body.own.view.view,
-        }
-    }
-
-    /// The deformed plate, if it is that.
-    pub fn moved(&self) -> Option<&DeformedPoints<'f>> {
-        match self {
-            Self::Plate(_) | Self::Mirrored(..) => None,
-            Self::Moved(body) => Some(&body.own),
-        }
-    }
-
-    /// The cracks where they are seen.
-    pub fn cracks(&self, field: &Field<'_>) -> Vec<Crack> {
-        match self {
-            Self::Plate(_) => field.step.cracks.clone(),
-            Self::Mirrored(_, lines) => lines.cracks(&field.step.cracks),
-            Self::Moved(body) => body.cracks(),
-        }
-    }
-
-    /// The images that are seen of a body in a box.
-    pub fn images(&self, bounds: &Rect) -> Vec<MirrorImage> {
-        match self {
-            Self::Plate(_) => Vec::new(),
-            Self::Mirrored(view, lines) => lines.images(view, bounds),
-            Self::Moved(body) => body.images.iter().map(|one| one.image).collect(),
-        }
-    }
-
-    /// The lines of symmetry beyond which it is seen; none but of a mirrored body.
-    pub fn lines(&self) -> MirrorLines {
-        match self {
-            Self::Plate(_) => MirrorLines::default(),
-            Self::Mirrored(_, lines) => *lines,
-            Self::Moved(body) => body.lines,
-        }
-    }
-}
 
 /// What a picture shows.
 #[derive(Clone, Debug)]
@@ -196,6 +136,8 @@ pub struct Drawn {
     pub overlap: Vec<u32>,
     /// Of values that are means, of so many samples a pixel: how much of each pixel is plate.
     pub opacity: Option<(Samples, Vec<u8>)>,
+    /// Of a difference how large it is, also in parts of the side that was taken away.
+    pub norms: Option<Norms>,
 }
 
 /// Values in the precision that they were computed in.
@@ -276,7 +218,7 @@ impl Drawn {
             RasterValues::Single(raster) => undefined(raster, field, view),
         };
         let (by, overlap) = (by.to_owned(), Vec::new());
-        Self { view: *view, values, by, without, overlap, opacity: None }
+        Self { view: *view, values, by, without, overlap, opacity: None, norms: None }
     }
 
     /// One value per patch.
@@ -291,7 +233,7 @@ impl Drawn {
     {
         let (without, opacity) = (means.undefined(), Some((means.samples, means.opacity())));
         let (values, by) = (means.raster.into(), by.to_owned());
-        Self { view: *job.view, values, by, without, overlap: Vec::new(), opacity }
+        Self { view: *job.view, values, by, without, overlap: Vec::new(), opacity, norms: None }
     }
 
     /// The range of the values, with the extrema of the view if these are known.

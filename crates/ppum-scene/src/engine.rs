@@ -8,8 +8,9 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::{Mutex, PoisonError};
 
+use ppum::field::Field;
 use ppum::progress::{Watcher, unwatched};
-use ppum::quantity::Source;
+use ppum::quantity::{Quantity, Source};
 use ppum_render::RenderError;
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::samples::{Samples, means};
@@ -38,6 +39,14 @@ pub enum Backend {
 impl Backend {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Auto, Self::Cpu, Self::Gpu, Self::Splat];
+
+    /// True for what no graphics device draws, and by `auto` for what it does not draw well.
+    #[must_use]
+    pub fn needs_processor(self, field: &Field<'_>, quantity: &Quantity) -> bool {
+        quantity.source() == Source::Exact
+            || field.step.partition.mesh().is_some()
+            || self == Self::Auto && single_precision_warning(field.step).is_some()
+    }
 }
 
 impl fmt::Display for Backend {
@@ -216,10 +225,9 @@ impl<'a> Engine<'a> {
 
     /// True for what no graphics device can do, or not well.
     fn needs_processor(&self, job: DrawingInput<'_>) -> bool {
-        self.precision == Some(Precision::F64)
-            || job.quantity.source() == Source::Exact
-            || job.field.step.partition.mesh().is_some()
-            || self.precision.is_none() && single_precision_warning(job.field.step).is_some()
+        // who asks for single precision has it
+        let backend = if self.precision.is_none() { Backend::Auto } else { Backend::Gpu };
+        self.precision == Some(Precision::F64) || backend.needs_processor(job.field, job.quantity)
     }
 
     fn on_processor(&self, job: DrawingInput<'_>, samples: Samples) -> Result<Drawn, RenderError> {

@@ -12,15 +12,14 @@ use ppum_figure::overlay::{self, LegendEntry, Room};
 use ppum_figure::ticks::Notation;
 use ppum_render::RenderError;
 use ppum_render::cells;
-use ppum_render::deform::{DeformError, DeformedView};
+use ppum_render::deform::DeformError;
 use ppum_render::glyph::Lattice;
 use ppum_render::isoline::Isoline;
 use ppum_render::picture::Picture;
 use ppum_render::view::View;
 
-use crate::drawing::{BodyView, DrawingInput, RasterValues};
-use crate::mirror::{MirrorImage, MirrorLines};
-use crate::moved_body::{MovedBody, MovedImage};
+use crate::body::{BodyPart, BodyView};
+use crate::drawing::RasterValues;
 use crate::notice::Notice;
 use crate::overlays::{Levels, Overlay, Overlays};
 use crate::stations::Stations;
@@ -61,16 +60,13 @@ impl Ground<'_> {
     /// Isolines, found on the exact field; the picture's values say where to look for them.
     pub(crate) fn isolines(
         &self,
+        seen: &BodyView<'_>,
         quantity: &Quantity,
         levels: &[f64],
-        lines: MirrorLines,
         watcher: &dyn Watcher,
     ) -> Result<Vec<Isoline>, RenderError> {
-        let Self { field, picture: Picture { view, .. }, values, .. } = *self;
-        let job = (DrawingInput { field, view, quantity }, lines);
-        whole::between_ends(levels, self.ends(), |levels| match values {
-            RasterValues::Double(raster) => whole::isolines(job, levels, raster, watcher),
-            RasterValues::Single(raster) => whole::isolines(job, levels, raster, watcher),
+        whole::between_ends(levels, self.ends(), |levels| {
+            whole::isolines(self.field, seen, quantity, levels, self.values, watcher)
         })
     }
 
@@ -158,61 +154,98 @@ impl Overlays {
         }
         let scale = scale(ground.design, ground.picture.view.pixels);
         let layers = Layers::default();
-        let lines = seen.lines();
-        let images = seen.images(&ground.field.domain.body_bounds());
-        let mut drawing = Drawing { overlays: self, ground, lines, images, scale, watcher, layers };
-        match seen {
-            BodyView::Plate(_) | BodyView::Mirrored(..) => drawing.plate()?,
-            BodyView::Moved(body) => drawing.moved(body, outline)?,
-        }
+        let mut drawing = Drawing { overlays: self, ground, seen, scale, watcher, layers };
+        drawing.draw(outline)?;
         Ok(drawing.with_legend())
     }
 }
 
 /// Layers while they are drawn.
-struct Drawing<'a> {
+struct Drawing<'a, 'f> {
     overlays: &'a Overlays,
     ground: Ground<'a>,
-    /// The lines at which the body is mirrored, and its images that are seen.
-    lines: MirrorLines,
-    images: Vec<MirrorImage>,
+    /// The body and its images, as they are seen.
+    seen: &'a BodyView<'f>,
     scale: f64,
     watcher: &'a dyn Watcher,
     layers: Layers,
 }
 
-impl<'a> Drawing<'a> {
-    /// Draws over the plate as it was before it was loaded.
-    fn plate(&mut self) -> Result<(), LayersError> {
-        let Ground { field, picture, .. } = self.ground;
-        let view = &picture.view;
+impl<'a> Drawing<'a, '_> {
+    /// Draws all of them; with `outline` the border of the undeformed body below a deformed one.
+    fn draw(&mut self, outline: bool) -> Result<(), LayersError> {
+        if self.seen.factor().is_some() {
+            if let Some(overlay) = self.overlays.undeformable() {
+                return Err(LayersError::Deformed(overlay));
+            }
+            if outline {
+                self.undeformed_outline()?;
+            }
+        }
         let wanted = self.wanted();
-        let glyphs = self
-            .glyphs(|reflection, spacing| Lattice::reflected(field, view, reflection, spacing))?;
-        let (mut centers, mut boxes) = (Vec::new(), Vec::new());
-        let mut entries = Vec::new();
-        if wanted.contains(&Overlay::Boxes) {
-            (boxes, entries) = overlay::boxes(view, self.scale, field);
-            boxes.extend(self.reflected(|view| overlay::boxes(view, self.scale, field).0));
-        }
-        if wanted.contains(&Overlay::Centers) {
-            // the same colours
-            (centers, entries) = overlay::centers(view, self.scale, field);
-            centers.extend(self.reflected(|view| overlay::centers(view, self.scale, field).0));
-        }
-        self.layers.legend.extend(entries);
+        let glyphs = self.glyphs()?;
+        let stations = self.stations();
+        // of boxes and centres the colours are the same
+        let mut meaning = Vec::new();
+        let overlays = wanted.into_iter().map(|wanted| match wanted {
+            Overlay::Boxes | Overlay::Centers => {
+                let (items, entries) = self.enrichments(wanted);
+                meaning = entries;
+                items
+            }
+            other => self.overlay(other, &stations),
+        });
+        let overlays: Vec<Item> = overlays.collect::<Vec<_>>().concat();
+        self.layers.legend.extend(meaning);
         self.isolines()?;
         self.layers.items.extend(glyphs);
-        let stations = self.stations();
-        for wanted in wanted {
-            let items = match wanted {
-                Overlay::Boxes => std::mem::take(&mut boxes),
-                Overlay::Centers => std::mem::take(&mut centers),
-                other => self.overlay(other, &stations),
-            };
-            self.layers.items.extend(items);
-        }
+        self.layers.items.extend(overlays);
         Ok(())
+    }
+
+    /// What is drawn of the body and, flipped, of its images.
+    fn of_parts(&self, mut draw: impl FnMut(&BodyPart<'_>) -> Vec<Item>) -> Vec<Item> {
+        let mut items = draw(&self.seen.own);
+        for image in &self.seen.images {
+            let (flips, size) = (image.flips(), image.view.pixels);
+            items.extend(draw(image).into_iter().map(|item| item.flipped(flips, size)));
+        }
+        items
+    }
+
+    /// The border of the undeformed body.
+    fn undeformed_outline(&mut self) -> Result<(), DeformError> {
+        let mirrors = self.seen.lines.at();
+        let mut failed = None;
+        let items = self.of_parts(|part| {
+            let outline = part
+                .points
+                .as_ref()
+                .map(|points| overlay::undeformed_outline(&points.view, mirrors, self.scale));
+            outline
+                .transpose()
+                .unwrap_or_else(|error| {
+                    failed = Some(error);
+                    None
+                })
+                .unwrap_or_default()
+        });
+        self.layers.items.extend(items);
+        failed.map_or(Ok(()), Err)
+    }
+
+    /// The centres or the boxes of cells by their enrichments, and what their colours mean.
+    fn enrichments(&self, wanted: Overlay) -> (Vec<Item>, Vec<LegendEntry>) {
+        let draw = if wanted == Overlay::Boxes { overlay::boxes } else { overlay::centers };
+        let mut entries = Vec::new();
+        let items = self.of_parts(|part| {
+            let (items, meaning) = draw(&part.view, self.scale, self.ground.field);
+            if part.reflection == Reflection::NONE {
+                entries = meaning;
+            }
+            items
+        });
+        (items, entries)
     }
 
     /// The overlays in their order, each once; a notice says which need cells that there are not.
@@ -233,34 +266,38 @@ impl<'a> Drawing<'a> {
     /// An overlay of the body and of its images.
     fn overlay(&self, wanted: Overlay, stations: &Stations) -> Vec<Item> {
         let Ground { field, picture, .. } = self.ground;
-        let (view, scale) = (&picture.view, self.scale);
+        let (view, scale, mirrors) = (&picture.view, self.scale, self.seen.lines.at());
         match wanted {
             Overlay::Supports => overlay::supports(view, scale, &stations.supports),
             Overlay::Loads => overlay::loads(view, scale, &stations.loads),
             Overlay::Cracks => {
-                let mirrors = self.lines.at();
-                let edges = |view: &View| {
-                    let rims = overlay::rims(view, scale, &field.domain.holes, mirrors);
-                    [rims, overlay::cuts(view, scale, field)].concat()
+                let edges = self.of_parts(|part| match &part.points {
+                    Some(points) => [
+                        overlay::deformed_outline(&points.view, mirrors, scale),
+                        overlay::faces(&points.view, scale),
+                    ]
+                    .concat(),
+                    None => [
+                        overlay::rims(&part.view, scale, &field.domain.holes, mirrors),
+                        overlay::cuts(&part.view, scale, field),
+                    ]
+                    .concat(),
+                });
+                // faces of deformed cracks are edges
+                let cracks = match self.seen.factor() {
+                    Some(_) => Vec::new(),
+                    None => overlay::cracks(view, scale, &self.seen.cracks(field)),
                 };
-                let cracks = self.lines.cracks(&field.step.cracks);
-                let cracks = overlay::cracks(view, scale, &cracks);
-                [edges(view), self.reflected(edges), cracks].concat()
+                [edges, cracks].concat()
             }
-            wanted => {
-                let images = self.reflected(|view| self.of_cover(wanted, view));
-                [self.of_cover(wanted, view), images].concat()
-            }
+            wanted => self.of_parts(|part| match &part.points {
+                Some(points) if wanted == Overlay::Cells => {
+                    overlay::deformed_cells(&points.view, mirrors, scale)
+                }
+                Some(_) => Vec::new(),
+                None => self.of_cover(wanted, &part.view),
+            }),
         }
-    }
-
-    /// What is drawn of the body in the reflected views, where its images are.
-    fn reflected(&self, draw: impl Fn(&View) -> Vec<Item>) -> Vec<Item> {
-        let of = |image: &MirrorImage| {
-            let (flips, size) = (image.flips(), image.view.pixels);
-            draw(&image.view).into_iter().map(move |item| item.flipped(flips, size))
-        };
-        self.images.iter().flat_map(of).collect()
     }
 
     /// An overlay of the cover.
@@ -280,58 +317,17 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// Draws over the deformed plate.
-    fn moved(&mut self, body: &MovedBody<'_>, outline: bool) -> Result<(), LayersError> {
-        if let Some(overlay) = self.overlays.undeformable() {
-            return Err(LayersError::Deformed(overlay));
-        }
-        let (scale, mirrors) = (self.scale, self.lines.at());
-        if outline {
-            let items = of_parts(body, |view| overlay::undeformed_outline(view, mirrors, scale))?;
-            self.layers.items.extend(items);
-        }
-        let glyphs = self.glyphs(|reflection, spacing| {
-            let image = body.images.iter().find(|one| one.image.reflection == *reflection);
-            let points = image.map_or(&body.own, |image| &image.points);
-            Lattice::deformed(points, reflection, spacing)
-        })?;
-        self.deformed_isolines(body)?;
-        self.layers.items.extend(glyphs);
-        let wanted = self.wanted();
-        if wanted.contains(&Overlay::Cells) {
-            let cells = |view: &DeformedView<'_>| overlay::deformed_cells(view, mirrors, scale);
-            self.layers.items.extend(of_parts(body, |view| Ok(cells(view)))?);
-        }
-        if wanted.contains(&Overlay::Cracks) {
-            let edges = |view: &DeformedView<'_>| {
-                let outline = overlay::deformed_outline(view, mirrors, scale);
-                [outline, overlay::faces(view, scale)].concat()
-            };
-            self.layers.items.extend(of_parts(body, |view| Ok(edges(view)))?);
-        }
-        Ok(())
-    }
-
     fn isolines(&mut self) -> Result<(), LayersError> {
         let Some((quantity, levels)) = self.levels() else { return Ok(()) };
-        let lines = self.ground.isolines(quantity, &levels, self.lines, self.watcher)?;
+        let lines = self.ground.isolines(self.seen, quantity, &levels, self.watcher)?;
         let Ground { field, picture, .. } = self.ground;
-        let room = self.room(&picture.view, &self.lines.cracks(&field.step.cracks));
+        let cracks = match self.seen.factor() {
+            // they have opened, or closed: nothing can be said of their lines
+            Some(_) => Vec::new(),
+            None => self.seen.cracks(field),
+        };
+        let room = self.room(&picture.view, &cracks);
         self.add_isolines(&picture.view, &lines, room);
-        Ok(())
-    }
-
-    /// Isolines of the plate as it was, where they have moved to.
-    fn deformed_isolines(&mut self, body: &MovedBody<'_>) -> Result<(), LayersError> {
-        let Some((quantity, levels)) = self.levels() else { return Ok(()) };
-        let watcher = self.watcher;
-        let lines = whole::between_ends(&levels, self.ground.ends(), |levels| {
-            whole::moved_isolines(body, quantity, levels, watcher)
-        })?;
-        let view = &body.own.view.view;
-        // cracks have opened, or closed: nothing can be said of their lines
-        let room = self.room(view, &[]);
-        self.add_isolines(view, &lines, room);
         Ok(())
     }
 
@@ -370,20 +366,15 @@ impl<'a> Drawing<'a> {
         Some((quantity, self.ground.levels(wanted)))
     }
 
-    /// Arrows and crosses with what their lengths mean in the legend. `lattice` makes points of an
-    /// image with a spacing.
-    fn glyphs<'f>(
-        &mut self,
-        lattice: impl Fn(&Reflection, f64) -> Lattice<'f>,
-    ) -> Result<Vec<Item>, LayersError> {
+    /// Arrows and crosses with what their lengths mean in the legend.
+    fn glyphs(&mut self) -> Result<Vec<Item>, LayersError> {
         let Ground { field, picture: Picture { view, .. }, .. } = self.ground;
         let mut items = Vec::new();
         if let Some(spacing) = self.overlays.crosses {
             let mut found = Vec::new();
-            for reflection in self.reflections() {
-                let points = lattice(&reflection, spacing * self.scale);
-                let crosses = points.principal(self.watcher)?.into_iter();
-                found.extend(crosses.map(|cross| cross.reflected(&reflection)));
+            for part in self.seen.parts() {
+                let crosses = self.lattice(part, spacing).principal(self.watcher)?.into_iter();
+                found.extend(crosses.map(|cross| cross.reflected(&part.reflection)));
             }
             self.notice_of_none(found.len(), Notice::NoCross);
             let (more, meaning) = overlay::crosses(view, self.scale, &found, spacing);
@@ -398,10 +389,9 @@ impl<'a> Drawing<'a> {
                 _ => [Quantity::Derivative(0, Axis::X), Quantity::Derivative(0, Axis::Y)],
             };
             let mut found = Vec::new();
-            for reflection in self.reflections() {
-                let points = lattice(&reflection, spacing * self.scale);
-                let arrows = points.vectors(&shown, self.watcher)?.into_iter();
-                found.extend(arrows.map(|arrow| arrow.reflected(&reflection)));
+            for part in self.seen.parts() {
+                let arrows = self.lattice(part, spacing).vectors(&shown, self.watcher)?.into_iter();
+                found.extend(arrows.map(|arrow| arrow.reflected(&part.reflection)));
             }
             self.notice_of_none(found.len(), Notice::NoArrow);
             let (more, meaning) = overlay::arrows(view, self.scale, &found, spacing);
@@ -411,10 +401,13 @@ impl<'a> Drawing<'a> {
         Ok(items)
     }
 
-    /// The body as it is, and its images.
-    fn reflections(&self) -> Vec<Reflection> {
-        let images = self.images.iter().map(|image| image.reflection);
-        [Reflection::NONE].into_iter().chain(images).collect()
+    /// The points of a part with glyphs.
+    fn lattice<'b>(&'b self, part: &'b BodyPart<'_>, spacing: f64) -> Lattice<'b> {
+        let (by, spacing) = (&part.reflection, spacing * self.scale);
+        match &part.points {
+            Some(points) => Lattice::deformed(points, by, spacing),
+            None => Lattice::reflected(self.ground.field, self.seen.view(), by, spacing),
+        }
     }
 
     /// Points along the border with supports and loads; none if nobody asks for them.
@@ -427,7 +420,7 @@ impl<'a> Drawing<'a> {
             self.layers.notices.push(notice);
             Stations::default()
         });
-        stations.mirrored(&self.lines)
+        stations.mirrored(&self.seen.lines)
     }
 
     /// The layers, with their legend over them if it has room.
@@ -440,17 +433,4 @@ impl<'a> Drawing<'a> {
         layers.items.extend(inside);
         layers
     }
-}
-
-/// What is drawn of the deformed body and, flipped, of its images.
-fn of_parts(
-    body: &MovedBody<'_>,
-    draw: impl Fn(&DeformedView<'_>) -> Result<Vec<Item>, DeformError>,
-) -> Result<Vec<Item>, DeformError> {
-    let mut items = draw(&body.own.view)?;
-    for MovedImage { image, points } in &body.images {
-        let (flips, size) = (image.flips(), image.view.pixels);
-        items.extend(draw(&points.view)?.into_iter().map(|item| item.flipped(flips, size)));
-    }
-    Ok(items)
 }

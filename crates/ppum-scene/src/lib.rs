@@ -1,7 +1,7 @@
 //! What a picture of a dataset shows, as data, and what is drawn of it.
 //!
 //! A picture comes about in four steps, each of which is a value of its own, so that a program can
-//! keep what has not changed: the [view](drawing::BodyView) of the body; the values
+//! keep what has not changed: the [view](body::BodyView) of the body; the values
 //! [`Drawn`](drawing::Drawn) of what is [`Shown`](drawing::Shown); their colours, a range
 //! ([`range::value_span`]) and a style ([`Colors`](colors::Colors)); the
 //! [`Layers`](layers::Layers) of its [`Overlays`](overlays::Overlays). What people choose is plain
@@ -10,6 +10,7 @@
 
 #[cfg(feature = "clap")]
 pub mod arguments;
+pub mod body;
 pub mod colors;
 pub mod command;
 pub mod compare;
@@ -24,18 +25,20 @@ pub mod facts;
 pub mod help;
 pub mod layers;
 pub mod look;
+pub mod material;
 pub mod minus;
 pub mod mirror;
-pub mod moved_body;
 pub mod moving;
 pub mod notice;
 pub mod overlays;
+pub mod owner;
 pub mod panels;
 pub mod paper;
 pub mod place;
 pub mod placing;
 #[cfg(feature = "problem")]
 pub mod plots;
+pub mod probe;
 pub mod profile;
 pub mod range;
 pub mod request;

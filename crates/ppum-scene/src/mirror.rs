@@ -13,7 +13,6 @@ use ppum::dataset::Dataset;
 use ppum::domain::Domain;
 use ppum::quantity::{Reflection, ValueChange};
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_render::view::View;
 
 /// What is asked of the whole: written `auto`, or as edges with commas between.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,12 +61,6 @@ pub enum MirrorError {
         "mirror: the body does not reach the {0} edge of its box; lines of symmetry are edges of the box around the body"
     )]
     Away(&'static str),
-    /// The deformed body in the window.
-    #[error(
-        "mirror: the window does not mirror the deformed body, `ppum render` does; leave mirror or \
-         deformed out"
-    )]
-    Deformed,
     /// A difference.
     #[error("mirror: differences are not mirrored; leave mirror out")]
     Difference,
@@ -241,15 +234,6 @@ pub struct MirrorLines {
     lines: [Option<(f64, bool)>; 2],
 }
 
-/// A mirrored part of the whole in an image.
-#[derive(Clone, Copy, Debug)]
-pub struct MirrorImage {
-    /// Its reflections.
-    pub reflection: Reflection,
-    /// The view of the body itself whose reflection it is.
-    pub view: View,
-}
-
 impl MirrorLines {
     /// The lines through edges of a box.
     #[must_use]
@@ -277,16 +261,6 @@ impl MirrorLines {
         let [only_x, only_y] = [x.map(|_| of(x, None)), y.map(|_| of(None, y))];
         let both = x.and(y).map(|_| of(x, y));
         [only_x, only_y, both].into_iter().flatten()
-    }
-
-    /// The reflections that a view shows of a body in a box.
-    pub fn images(&self, view: &View, bounds: &Rect) -> Vec<MirrorImage> {
-        let image = |reflection: Reflection| {
-            let view = view.reflected(reflection.lines);
-            MirrorImage { reflection, view }
-        };
-        let all = self.reflections().map(image);
-        all.filter(|image| image.view.rect().overlaps(bounds)).collect()
     }
 
     /// The box of the whole.
@@ -323,14 +297,6 @@ pub fn slope_sign(change: ValueChange) -> f64 {
     match change {
         ValueChange::Negated | ValueChange::Turned { is_reversed: true, .. } => -1.0,
         _ => 1.0,
-    }
-}
-
-impl MirrorImage {
-    /// True for coordinates that are reflected.
-    #[must_use]
-    pub fn flips(&self) -> [bool; 2] {
-        self.reflection.lines.map(|line| line.is_some())
     }
 }
 

@@ -9,7 +9,8 @@ use ppum_figure::figure::{
 use ppum_render::png::Text;
 use ppum_render::range::ValueSpan;
 
-use crate::drawing::{BodyView, Drawn};
+use crate::body::BodyView;
+use crate::drawing::Drawn;
 use crate::engine::Engine;
 use crate::look::{DEFAULT_SIZE, Look, SHAPE};
 use crate::notice::Notice;
@@ -244,7 +245,7 @@ impl<'a> PanelFigure<'a> {
         }
         let map = colors.map(inputs[0].shown.quantity())?;
         let style = colors.style_of(all.clone().map(|(i, drawn)| (i.shown, &drawn.values)), map);
-        let spans = all.map(|(input, drawn)| input.span(drawn, &style, engine));
+        let spans = all.map(|(input, drawn)| input.span(drawn, &style, engine.watcher));
         let spans = spans.collect::<Result<Vec<_>, _>>()?;
         let span = ValueSpan::shared(&spans, style.colormap.diverging);
         let span = span.ok_or(PanelsError::Shared)?;

@@ -4,8 +4,8 @@ use ppum::vec2::Rect;
 use ppum_figure::figure::Design;
 use ppum_render::deform::{Deformation, DeformedView};
 
+use crate::body::BodyView;
 use crate::deformed::Factor;
-use crate::drawing::BodyView;
 use crate::engine::Engine;
 use crate::layers::scale;
 use crate::moving::{FrameView, Frames};
@@ -64,9 +64,10 @@ impl<'a> Placing<'a> {
         engine: &Engine<'_>,
     ) -> Result<BodyView<'f>, ShotError> {
         let Some((factor, bounds)) = self.deformed else {
-            let whole = source.lines(scene)?.whole(source.field.domain.bounds);
-            let view = self.place.seen(whole, source.field, self.extent)?;
-            return source.undeformed(scene, view);
+            let (lines, field) = (source.lines(scene)?, source.field);
+            let whole = lines.whole(field.domain.bounds);
+            let view = self.place.seen(whole, field, self.extent)?;
+            return Ok(BodyView::new(field, view, lines));
         };
         source.moved(scene, &self.moved(source, factor, bounds)?, engine)
     }

@@ -13,7 +13,8 @@ use ppum_render::picture::{Picture, Style};
 use ppum_render::range::{Basis, ValueSpan};
 use ppum_render::scale::Scale;
 
-use crate::drawing::{BodyView, Drawn};
+use crate::body::BodyView;
+use crate::drawing::Drawn;
 use crate::whole;
 
 /// The range of what was drawn; one that has to be found with the extrema of what is seen of the
@@ -35,7 +36,7 @@ pub fn value_span(
     }
     // a deformed body that is drawn has displacements
     let regions = seen.regions(field).unwrap_or_default();
-    let parts = (regions.as_slice(), &seen.lines());
+    let parts = (regions.as_slice(), &seen.lines);
     Ok(drawn.span(style, whole::extrema(field, parts, quantity, watcher)?))
 }
 
@@ -216,6 +217,7 @@ const KNOWN: f64 = 1e-5;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mirror::MirrorLines;
     use ppum::progress::unwatched;
     use ppum_render::range::Range;
     use ppum_render::scatter::render;
@@ -239,7 +241,7 @@ mod tests {
                 Drawn::new(raster, &field, view, "test")
             };
             let (drawn, style) = (draw(&view), Style { range: Range::Auto, ..Style::default() });
-            let seen = BodyView::Plate(view);
+            let seen = BodyView::new(&field, view, MirrorLines::default());
             let span = value_span(&field, &seen, &quantity, &drawn, &style, unwatched()).unwrap();
             let by = vec2(random.between(-0.2, 0.2), random.between(-0.2, 0.2)) * view.width;
             let moved = draw(&View { center: view.center + by, ..view });

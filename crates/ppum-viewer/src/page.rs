@@ -7,6 +7,7 @@ use ppum::dataset::Dataset;
 use ppum_page::{LARGEST, Start, View, html};
 use ppum_scene::overlays::Overlay;
 use ppum_scene::scene::Subject;
+use ppum_scene::shot::FieldSource;
 
 use crate::files::kept::replace;
 use crate::session::Pane;
@@ -20,7 +21,6 @@ pub(crate) struct PageOrder {
 
 const NO_PICTURE: &str = "there is no picture yet";
 const NO_DIFFERENCE: &str = "a page is of one view: switch the difference off (Shift+V)";
-const NO_WHOLE: &str = "a page shows the part that was solved: switch `mirrored` off";
 const NO_SUBJECT: &str =
     "a page shows the whole field with the functions of its file: choose these";
 
@@ -34,23 +34,17 @@ impl PageOrder {
         if frame.left().is_some() {
             return Err(NO_DIFFERENCE.into());
         }
-        if pane.scene.mirror.is_some() {
-            return Err(NO_WHOLE.into());
-        }
         let mut scene = pane.scene.clone();
         if (Subject { step: scene.subject.step, ..Subject::default() }) != scene.subject {
             return Err(NO_SUBJECT.into());
         }
         scene.overlays.no_cracks = !scene.overlays.shown.contains(&Overlay::Cracks);
         let view = stage.view.filter(|_| pane.place.is_some());
-        let view = view.map(|view| View {
-            center: view.center.into(),
-            width: view.width,
-            pixels: view.pixels,
-        });
+        let view = view.map(View::from);
         let path = stage.opened.as_ref().and_then(|opened| opened.path.as_deref());
         let file = path.map_or("dataset.h5".to_owned(), crate::files::name);
-        let start = Start::new(scene, frame.field.field(), view, file);
+        let source = FieldSource::of(frame.field.dataset(), frame.field.field());
+        let start = Start::new(scene, source, view, file);
         let start = start.map_err(|error| error.to_string())?;
         Ok(Self { dataset: Arc::clone(&frame.wanted.dataset), start })
     }

@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum_page::{LARGEST, Start, StartError, View, html};
-use ppum_scene::colors::Colors;
+use ppum_page::{LARGEST, SHAPE, Start, StartError, View, html};
 use ppum_scene::overlays::Overlays;
 use ppum_scene::place::{ImageExtent, Place};
 use ppum_scene::scene::{Scene, Subject};
+use ppum_scene::shot::FieldSource;
 
 use crate::dataset::{check_shown, field, named};
 use crate::given::{self, Given, parts};
@@ -53,9 +53,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     place: Place,
     #[command(flatten)]
-    colors: Colors,
-    #[command(flatten)]
-    overlays: Overlays,
+    scene: Scene,
     #[command(flatten)]
     accuracy: mesh::Options,
 }
@@ -66,15 +64,13 @@ Examples:
   ppum export plate.h5 -o tip.html --tip 1 --zoom 1e6 --scale log
   ppum export plate.h5 -o uy.html -q uy --colormap coolwarm --isolines auto
   ppum export growth.h5 -o growth.html --step 0
+  ppum export half.h5 -o whole.html --mirror --deformed auto
   ppum solve plate.toml -o - | ppum export - -o plate.html
   ppum export plate.h5 -o plate.vtu --tolerance 1e-4
   ppum export growth.h5 -o growth.vtkhdf
   ppum export plate.h5 -o plate.vtu --tolerance 1e-6 --order 3
   ppum export plate.h5 -o lines.vtp -q von-mises --isolines auto
   ppum export growth.h5 -o growth.pvd -q 'displacement,s1'";
-
-/// The shape of the first view; a window of another shape shows more.
-const SHAPE: [u32; 2] = [1024, 768];
 
 impl Args {
     pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
@@ -107,7 +103,7 @@ impl Args {
             hash: &hash,
             output: &self.output,
             quantities: self.quantity.as_deref(),
-            isolines: self.overlays.isolines.as_ref(),
+            isolines: self.scene.overlays.isolines.as_ref(),
         };
         if !mesh::is_collection(&self.output) {
             return self.accuracy.write(&job, self.step, out);
@@ -118,13 +114,13 @@ impl Args {
 
     /// Refuses options that only pages have; lines may have isolines.
     fn check_no_look(&self) -> anyhow::Result<()> {
-        let isolines = self.overlays.isolines.clone().filter(|_| mesh::is_lines(&self.output));
+        let isolines = self.scene.overlays.isolines.clone();
+        let isolines = isolines.filter(|_| mesh::is_lines(&self.output));
+        let overlays = Overlays { isolines, ..Overlays::default() };
         ensure!(
-            !self.place.is_given()
-                && self.colors == Colors::default()
-                && self.overlays == Overlays { isolines, ..Overlays::default() },
-            "a mesh has no view, colours and overlays: these options are for pages, --isolines for \
-             lines too; end -o in .html or .vtp"
+            !self.place.is_given() && self.scene == Scene { overlays, ..Scene::default() },
+            "a mesh has no view, colours, overlays, deformed or mirrored bodies: these options are \
+             for pages, --isolines for lines too; end -o in .html or .vtp"
         );
         Ok(())
     }
@@ -151,16 +147,15 @@ impl Args {
             _ => "dataset.h5".to_owned(),
         };
         let (scene, view) = (self.scene(&field)?, self.view(&field)?);
-        Start::new(scene, &field, view, file).map_err(explained)
+        Start::new(scene, FieldSource::of(dataset, &field), view, file).map_err(explained)
     }
 
     fn scene(&self, field: &Field<'_>) -> anyhow::Result<Scene> {
         let quantity = self.quantity.as_deref().map(Given::read).transpose()?;
         quantity.iter().try_for_each(|given| check_shown(field, given))?;
-        let (colors, overlays) = (self.colors.clone(), self.overlays.clone());
         let quantity = quantity.map(|given| given.text.trim().to_owned());
         let subject = Subject { step: self.step, ..Subject::default() };
-        Ok(Scene { subject, quantity, colors, overlays, ..Scene::default() })
+        Ok(Scene { subject, quantity, ..self.scene.clone() })
     }
 
     /// The view, if one is asked for.
@@ -169,9 +164,7 @@ impl Args {
             return Ok(None);
         }
         let frame = ImageExtent { pixels: SHAPE, may_shrink: false, margin: 0.0 };
-        let ppum_render::view::View { center, width, pixels } =
-            self.place.seen(field.domain.bounds, field, frame)?;
-        Ok(Some(View { center: center.into(), width, pixels }))
+        Ok(Some(self.place.seen(field.domain.bounds, field, frame)?.into()))
     }
 }
 
@@ -180,6 +173,7 @@ fn explained(error: StartError) -> anyhow::Error {
     let option = match error {
         StartError::Colormap(_) => "--colormap",
         StartError::Stations => "--overlay",
+        StartError::Body(_) => "--deformed, --mirror",
         _ => "-o",
     };
     anyhow::Error::from(error).context(option)

@@ -7,10 +7,11 @@ mod probe;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::progress::unwatched;
-use ppum::quantity::QuantityGradient;
 use ppum_render::range::ValueSpan;
 use ppum_render::scatter::{BAND, render_rows};
 use ppum_scene::colors::Colors;
+use ppum_scene::mirror::Mirror;
+use ppum_scene::probe::PointReader;
 use ppum_scene::scene::Scene;
 use ppum_scene::shot::Asked;
 
@@ -29,10 +30,11 @@ pub struct Evaluator<'d> {
 struct Subject<'d> {
     step: usize,
     text: Option<String>,
+    mirror: Option<Mirror>,
     field: Field<'d>,
     asked: Asked,
-    /// Found at the first question for values at a point.
-    gradient: Option<Option<QuantityGradient>>,
+    /// Made at the first question for values at a point.
+    reader: Option<PointReader>,
 }
 
 /// The range of an image, and what it was found for.
@@ -48,11 +50,13 @@ impl<'d> Subject<'d> {
         let step = scene.subject.step_of(dataset);
         let field = Field::new(dataset, step)?;
         let asked = Asked::new(scene, &field).map_err(PageError::shot)?;
-        Ok(Self { step, text: scene.quantity.clone(), field, asked, gradient: None })
+        let mirror = scene.mirror.clone();
+        Ok(Self { step, text: scene.quantity.clone(), mirror, field, asked, reader: None })
     }
 
     fn is_of(&self, dataset: &Dataset, scene: &Scene) -> bool {
-        self.step == scene.subject.step_of(dataset) && self.text == scene.quantity
+        self.step == scene.subject.step_of(dataset)
+            && (&self.text, &self.mirror) == (&scene.quantity, &scene.mirror)
     }
 }
 
@@ -64,7 +68,7 @@ impl<'d> Evaluator<'d> {
     }
 
     /// Values of some rows, from the top, with the bits that they have in the whole image; none of
-    /// values of cells, which [`paint`](Self::paint) finds by itself.
+    /// values of cells and of a deformed or mirrored body, which [`paint`](Self::paint) finds.
     ///
     /// # Errors
     /// What the dataset does not have; rows that are not in the image.
@@ -76,7 +80,9 @@ impl<'d> Evaluator<'d> {
         }
         let subject = prepared(&mut self.subject, self.dataset, &frame.scene)?;
         let Subject { field, asked, .. } = subject;
-        let Some(quantity) = asked.shown.quantity() else { return Ok(Vec::new()) };
+        let is_whole = frame.scene.deformed.is_some() || frame.scene.mirror.is_some();
+        let quantity = asked.shown.quantity().filter(|_| !is_whole);
+        let Some(quantity) = quantity else { return Ok(Vec::new()) };
         render_rows(field, &view, quantity, *first..*end, unwatched()).map_err(PageError::shot)
     }
 }

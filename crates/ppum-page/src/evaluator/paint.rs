@@ -1,6 +1,5 @@
 //! Images: values in colours, with what lies over them, and their colour bar.
 
-use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
 use ppum::text::trimmed;
 use ppum_figure::figure::{axis_label, bare};
@@ -10,15 +9,18 @@ use ppum_render::image::{Image, Rgba};
 use ppum_render::picture::Picture;
 use ppum_render::range::ValueSpan;
 use ppum_render::raster::Raster;
+use ppum_render::samples::Samples;
+use ppum_render::view::View;
 use ppum_scene::command;
-use ppum_scene::drawing::{BodyView, Drawn, PROCESSOR, RasterValues, Shown};
+use ppum_scene::drawing::{DrawingInput, Drawn, PROCESSOR, RasterValues};
 use ppum_scene::engine::Engine;
-use ppum_scene::layers::{Ground, Layers};
+use ppum_scene::layers::Ground;
+use ppum_scene::mirror::MirrorLines;
 use ppum_scene::place::Place;
 use ppum_scene::range::Telling;
 use ppum_scene::request::Request;
 use ppum_scene::shared::Coloring;
-use ppum_scene::shot::Input;
+use ppum_scene::shot::{FieldSource, Input};
 use ppum_scene::spot::number;
 
 use super::{Evaluator, KnownRange, Subject, prepared};
@@ -51,17 +53,29 @@ impl Evaluator<'_> {
     /// What the dataset does not have; values that are not one for each pixel; a range that does
     /// not fit the scale.
     pub fn paint(&mut self, frame: &Frame, values: Vec<f64>) -> Result<Painted, PageError> {
-        let seen = &BodyView::Plate(frame.view.checked().map_err(PageError::shot)?);
+        let view = frame.view.checked().map_err(PageError::shot)?;
         let subject = &*prepared(&mut self.subject, self.dataset, &frame.scene)?;
-        let engine = Engine::processor(unwatched());
-        let painting = Painting { dataset: self.dataset, subject, frame, seen, engine: &engine };
-        let drawn = painting.drawn(values)?;
+        let (engine, scene) = (Engine::processor(unwatched()), &frame.scene);
+        let source = FieldSource::of(self.dataset, &subject.field);
+        let seen = source.seen(scene, &view, &engine).map_err(PageError::shot)?;
+        let input = source.input(&subject.asked, &seen);
+        let drawn = drawn(&input, values, &engine)?;
         let known = self.last.take().filter(|found| found.is_kept(subject, frame));
-        let coloring = painting.coloring(&drawn, known)?;
+        let coloring = match known {
+            None => input.coloring(&scene.colors, &drawn, &engine),
+            Some(KnownRange { span, .. }) => {
+                let style = source.style(input.shown, &scene.colors, &drawn);
+                Ok(Coloring { style: style.map_err(PageError::shot)?, span, ends: None })
+            }
+        };
+        let coloring = coloring.map_err(PageError::shot)?;
         let picture = coloring.picture(&drawn).map_err(PageError::shot)?;
-        let layers = painting.layers(&picture, &drawn.values)?;
-        let mut legend = painting.legend(&picture);
-        legend.notices = engine.into_notices().iter().map(ToString::to_string).collect();
+        let ground = Ground { has_bar: true, ..input.ground(&picture, &drawn.values) };
+        let layers = input.layers(scene, ground, unwatched());
+        let layers = layers.map_err(|error| PageError::shot(Box::new(error)))?;
+        layers.notices.into_iter().for_each(|notice| engine.tell(notice));
+        let notices = engine.into_notices().iter().map(ToString::to_string).collect();
+        let legend = Legend { notices, command: command(frame, &view), ..legend(&input, &picture) };
         self.last = Some(KnownRange::new(subject, frame, coloring.span));
         let image = bare(&picture, layers.items).image();
         let values = match drawn.values {
@@ -86,99 +100,61 @@ impl KnownRange {
     }
 }
 
-/// An image while it is made.
-struct Painting<'a> {
-    dataset: &'a Dataset,
-    subject: &'a Subject<'a>,
-    frame: &'a Frame,
-    seen: &'a BodyView<'a>,
-    engine: &'a Engine<'a>,
+/// The values of an image: those that are given where they are known by rows.
+fn drawn(input: &Input<'_>, values: Vec<f64>, engine: &Engine<'_>) -> Result<Drawn, PageError> {
+    let (view, field) = (*input.seen.view(), input.source.field);
+    let is_by_rows = input.seen.factor().is_none() && input.seen.lines == MirrorLines::default();
+    let drawn = match input.shown.quantity().filter(|_| is_by_rows) {
+        None => input.values(Samples::CENTER, engine),
+        Some(_) => {
+            let pixels = view.pixels[0] as usize * view.pixels[1] as usize;
+            if values.len() != pixels {
+                return Err(PageError::Values(values.len(), pixels));
+            }
+            let mut values = Some(values);
+            let given = &mut |_: DrawingInput<'_>, _| {
+                let raster = Raster::new(view.pixels, values.take().unwrap_or_default());
+                Ok(Drawn::new(raster, field, &view, PROCESSOR))
+            };
+            input.values_by(Samples::CENTER, given, unwatched())
+        }
+    };
+    let drawn = drawn.map_err(PageError::shot)?;
+    input.tell_values(&drawn, engine);
+    Ok(drawn)
 }
 
-impl Painting<'_> {
-    fn input(&self) -> Input<'_> {
-        let Self { dataset, subject: Subject { field, asked, .. }, seen, .. } = self;
-        Input { dataset, field, shown: &asked.shown, name: &asked.name, seen, left: None }
-    }
+/// The command that draws an image.
+fn command(Frame { scene, file, .. }: &Frame, view: &View) -> String {
+    let mut request = Request::from(scene.clone());
+    (request.place, request.look.size) = (Place::of(view), Some(view.pixels));
+    command::line(&command::render(&request, file, "image.png"))
+}
 
-    fn drawn(&self, values: Vec<f64>) -> Result<Drawn, PageError> {
-        let (view, Subject { field, asked, .. }) = (self.seen.view(), self.subject);
-        let drawn = match &asked.shown {
-            Shown::Cells(_, values) => Drawn::of_cells(values, field, view),
-            Shown::Quantity(_) => {
-                let pixels = view.pixels[0] as usize * view.pixels[1] as usize;
-                if values.len() != pixels {
-                    return Err(PageError::Values(values.len(), pixels));
-                }
-                Drawn::new(Raster::new(view.pixels, values), field, view, PROCESSOR)
-            }
-        };
-        self.input().tell_values(&drawn, self.engine);
-        Ok(drawn)
-    }
-
-    /// The colours, of the range that is known, or of one that is found.
-    fn coloring(&self, drawn: &Drawn, known: Option<KnownRange>) -> Result<Coloring, PageError> {
-        let (colors, shown) = (&self.frame.scene.colors, &self.subject.asked.shown);
-        let Some(KnownRange { span, .. }) = known else {
-            let found = self.input().coloring(colors, drawn, self.engine);
-            return found.map_err(PageError::shot);
-        };
-        let map = colors.map(shown.quantity()).map_err(PageError::shot)?;
-        let style = colors.style_of([(shown, &drawn.values)], map);
-        Ok(Coloring { style, span, ends: None })
-    }
-
-    fn layers(&self, picture: &Picture, values: &RasterValues) -> Result<Layers, PageError> {
-        let Subject { field, asked, .. } = self.subject;
-        let ground = Ground {
-            dataset: self.dataset,
-            field,
-            quantity: asked.shown.quantity(),
-            picture,
-            values,
-            design: None,
-            has_bar: true,
-        };
-        let overlays = &self.frame.scene.overlays;
-        let layers = overlays.layers(ground, self.seen, false, unwatched());
-        let layers = layers.map_err(|error| PageError::shot(Box::new(error)))?;
-        layers.notices.iter().for_each(|notice| self.engine.tell(notice.clone()));
-        Ok(layers)
-    }
-
-    fn command(&self) -> String {
-        let (Frame { scene, file, .. }, view) = (self.frame, self.seen.view());
-        let mut request = Request::from(scene.clone());
-        (request.place, request.look.size) = (Place::of(view), Some(view.pixels));
-        command::line(&command::render(&request, file, "image.png"))
-    }
-
-    /// The colour bar, without notices.
-    fn legend(&self, picture: &Picture) -> Legend {
-        let Subject { field, asked, .. } = self.subject;
-        let (norm, map) = (&picture.normalization, &picture.colormap);
-        let ticks = match picture.one_value {
-            None => ticks::bar(norm, LABELS),
-            Some(value) => ticks::of_one_value(norm, value),
-        };
-        let [name, unit] = asked.shown.words(field);
-        let beyond = |has: bool, color: Rgba| has.then(|| hex(color));
-        let extreme = |value: Option<f64>| value.map(|value| number(value, DIGITS));
-        Legend {
-            label: axis_label(&name, &ticks, &unit),
-            range: [norm.min(), norm.max()],
-            colors: colors(map),
-            beyond: [beyond(picture.has_below, map.below), beyond(picture.has_above, map.above)],
-            extremes: picture.span.beyond().map(extreme),
-            sentence: Telling::new(self.dataset, field).colors(picture),
-            command: self.command(),
-            notices: Vec::new(),
-            ticks: match map.classes() {
-                [] => ticks.major.into_iter().map(|t| Tick { at: t.at, label: t.label }).collect(),
-                classes => class_ticks(classes),
-            },
-        }
+/// The colour bar, without notices and command.
+fn legend(input: &Input<'_>, picture: &Picture) -> Legend {
+    let FieldSource { dataset, field, .. } = input.source;
+    let (norm, map) = (&picture.normalization, &picture.colormap);
+    let ticks = match picture.one_value {
+        None => ticks::bar(norm, LABELS),
+        Some(value) => ticks::of_one_value(norm, value),
+    };
+    let [name, unit] = input.source.words(input.shown);
+    let beyond = |has: bool, color: Rgba| has.then(|| hex(color));
+    let extreme = |value: Option<f64>| value.map(|value| number(value, DIGITS));
+    Legend {
+        label: axis_label(&name, &ticks, &unit),
+        range: [norm.min(), norm.max()],
+        colors: colors(map),
+        beyond: [beyond(picture.has_below, map.below), beyond(picture.has_above, map.above)],
+        extremes: picture.span.beyond().map(extreme),
+        sentence: Telling::new(dataset, field).colors(picture),
+        command: String::new(),
+        notices: Vec::new(),
+        ticks: match map.classes() {
+            [] => ticks.major.into_iter().map(|t| Tick { at: t.at, label: t.label }).collect(),
+            classes => class_ticks(classes),
+        },
     }
 }
 

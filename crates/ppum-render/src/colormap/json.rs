@@ -1,92 +1,45 @@
-//! Colour maps as JSON: ParaView's presets, Plotly's colour scales, plain lists of colours.
+//! Colour maps as JSON: presets of ParaView.
 
 use serde_json::{Map, Value};
 
-use super::paint::{numbers, word};
 use super::space::Space;
-use super::stops::{ColorFileError, ColorStop, Paint, Stops};
+use super::stops::{ColorFileError, ColorStop, Stops};
 use crate::image::Rgba;
 
-const FORMS: &str = "write a list of [red, green, blue] or \"#rrggbb\", of [position, \"#rrggbb\"], \
-    or a preset of ParaView with RGBPoints";
-
-/// Keys under which services put their lists.
-const LISTS: [&str; 3] = ["colors", "colours", "colorscale"];
-
-/// Reads a map of any of the forms.
+/// Reads a preset, or a list of one.
 pub(super) fn read(text: &str) -> Result<Stops, ColorFileError> {
     let value: Value = serde_json::from_str(text).map_err(|error| {
         let place = format!("line {}, column {}", error.line(), error.column());
         ColorFileError::new(place, format!("this is not JSON: {error}"))
     })?;
-    match &value {
-        Value::Object(map) => object(map, ""),
-        Value::Array(items) if items.iter().any(Value::is_object) => presets(items),
-        Value::Array(items) => list(items, ""),
-        _ => Err(ColorFileError::new("the whole file", format!("holds no colours; {FORMS}"))),
-    }
-}
-
-/// ParaView writes a list of presets, most often of one.
-fn presets(items: &[Value]) -> Result<Stops, ColorFileError> {
-    match items {
-        [Value::Object(map)] => object(map, "[0]"),
-        _ => {
-            let mistake = format!("there are {} maps; keep the one you want", items.len());
-            Err(ColorFileError::new("the whole file", mistake))
-        }
-    }
-}
-
-fn object(map: &Map<String, Value>, place: &str) -> Result<Stops, ColorFileError> {
-    if let Some(points) = map.get("RGBPoints") {
-        return preset(map, points, place);
-    }
-    let list_of = |key| Some((key, map.get(key)?.as_array()?));
-    match LISTS.into_iter().find_map(list_of) {
-        Some((key, items)) => list(items, &format!("{place}.{key}")),
-        None if map.contains_key("IndexedColors") => {
-            let mistake =
-                "IndexedColors are colours of categories, not of values; take a map with RGBPoints";
-            Err(ColorFileError::new(place_of(place), mistake))
-        }
-        None => Err(ColorFileError::new(place_of(place), format!("holds no colours; {FORMS}"))),
-    }
-}
-
-fn place_of(place: &str) -> &str {
-    if place.is_empty() { "the whole file" } else { place }
-}
-
-fn list(items: &[Value], place: &str) -> Result<Stops, ColorFileError> {
-    let stop = |(k, item): (usize, &Value)| stop(item, format!("{place}[{k}]"));
-    Ok(items.iter().enumerate().map(stop).collect::<Result<Vec<_>, _>>()?.into())
-}
-
-/// A colour, or `[position, colour]`.
-fn stop(item: &Value, place: String) -> Result<ColorStop, ColorFileError> {
-    let found = match item.as_array().map(Vec::as_slice) {
-        Some([at, paint]) => at.as_f64().zip(color(paint)).map(|(at, paint)| (Some(at), paint)),
-        _ => color(item).map(|paint| (None, paint)),
+    let (map, place) = match &value {
+        Value::Object(map) => (map, ""),
+        Value::Array(items) => match &items[..] {
+            [Value::Object(map)] => (map, "[0]"),
+            [Value::Object(_), ..] => {
+                return Err(fault(format!(
+                    "there are {} maps; keep the one you want",
+                    items.len()
+                )));
+            }
+            _ => return Err(fault(FORMS)),
+        },
+        _ => return Err(fault(FORMS)),
     };
-    match found {
-        Some((at, paint)) => Ok(ColorStop { at, paint, place }),
-        None => {
-            let text: String = item.to_string().chars().take(60).collect();
-            Err(ColorFileError::new(place, format!("{text} is not a colour; {FORMS}")))
-        }
+    match map.get("RGBPoints") {
+        Some(points) => preset(map, points, place),
+        None if map.contains_key("IndexedColors") => Err(fault(
+            "IndexedColors are colours of categories, not of values; take a map with RGBPoints",
+        )),
+        None => Err(fault(FORMS)),
     }
 }
 
-fn color(value: &Value) -> Option<Paint> {
-    match value {
-        Value::String(text) => word(text),
-        Value::Array(items) => {
-            let values: Option<Vec<f64>> = items.iter().map(Value::as_f64).collect();
-            numbers(values?.try_into().ok()?)
-        }
-        _ => None,
-    }
+const FORMS: &str = "holds no preset of ParaView with RGBPoints, which is all that is read of JSON; \
+    write other maps as red, green and blue on each line, with or without a position in front";
+
+fn fault(text: impl Into<String>) -> ColorFileError {
+    ColorFileError::new("the whole file", text)
 }
 
 /// A preset of ParaView: `RGBPoints` holds position, red, green, blue, again and again. What is
@@ -105,7 +58,7 @@ fn preset(map: &Map<String, Value>, points: &Value, place: &str) -> Result<Stops
     let stop = |(k, &[at, r, g, b]): (usize, &[f64; 4])| {
         let place = format!("{place}[{}]", 4 * k);
         match unit([r, g, b]) {
-            Some(color) => Ok(ColorStop { at: Some(at), paint: Paint::Bytes(color), place }),
+            Some(color) => Ok(ColorStop { at: Some(at), color, place }),
             None => {
                 Err(ColorFileError::new(place, "red, green and blue of ParaView lie within 0 to 1"))
             }
@@ -116,9 +69,9 @@ fn preset(map: &Map<String, Value>, points: &Value, place: &str) -> Result<Stops
     Ok(Stops { stops, space: space(map)?, below, above })
 }
 
-/// Bytes of a colour of ParaView.
+/// A colour of ParaView.
 fn unit(color: [f64; 3]) -> Option<[f64; 3]> {
-    color.iter().all(|c| (0.0..=1.0).contains(c)).then(|| color.map(|c| 255.0 * c))
+    color.iter().all(|c| (0.0..=1.0).contains(c)).then_some(color)
 }
 
 /// The colour of values beyond the range, if it is to be used.
@@ -135,7 +88,7 @@ fn beyond(map: &Map<String, Value>, which: &str) -> Result<Option<Rgba>, ColorFi
         .ok_or_else(|| {
             ColorFileError::new(key, "is to be used, but is not three numbers within 0 to 1")
         })?
-        .map(|c| c.round() as u8);
+        .map(|c| (255.0 * c).round() as u8);
     Ok(Some([r, g, b, 255]))
 }
 

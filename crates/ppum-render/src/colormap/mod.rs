@@ -15,7 +15,7 @@
 //! grows they are black (slate blue in the maps that begin with black) and white; turbo has grey
 //! and white, coolwarm, vik and twilight cyan and yellow.
 //!
-//! [Files](Colormap::from_text) of other programs are read in the common forms, JSON and text.
+//! [Files](Colormap::from_text) are presets of ParaView, or text.
 
 mod json;
 mod paint;
@@ -126,12 +126,11 @@ impl Colormap {
 
     /// A map from the text of a file; its form is found from the content.
     ///
-    /// - A colour on each line: red, green and blue, or `#rrggbb`, or either with a position in
-    ///   front, apart by commas, semicolons, tabs or blanks; a first line may name the columns,
-    ///   then in any order and among others. `#` begins a comment.
-    /// - JSON: a list of `[red, green, blue]` or `"#rrggbb"`, also under `colors`; Plotly's list of
-    ///   `[position, "rgb(r, g, b)"]`; a preset of ParaView, in RGB, HSV, Lab or Diverging, with
-    ///   the colours below and above if it uses them. A diverging one has zero in its middle.
+    /// - Text: red, green and blue on each line, with or without a position in front, apart by
+    ///   commas, semicolons, tabs or blanks; a first line may name the columns, and `#` begins a
+    ///   comment.
+    /// - JSON: a preset of ParaView, in RGB, HSV, Lab or Diverging, with the colours below and above
+    ///   if it uses them. A diverging one has zero in its middle.
     ///
     /// The numbers of colours lie all within 0 to 1 or all within 0 to 255. Positions may be of any
     /// range and uneven, and are scaled to 0 … 1; where two are equal the map jumps. Below and

@@ -1,9 +1,7 @@
-//! Single colours: `#rrggbb`, `#rgb`, `rgb(r, g, b)`, three numbers.
+//! Single colours: `#rrggbb`, `#rgb`, `rgb(r, g, b)`.
 
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
-
-use super::stops::Paint;
 
 /// An opaque colour: red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,13 +26,6 @@ impl Display for Rgb {
     }
 }
 
-/// `#rrggbb`, `#rgb`, `rrggbb` or `rgb(r, g, b)`; an opacity behind it, `#rrggbbaa` or `rgba(…)`,
-/// is left out.
-pub(super) fn word(text: &str) -> Option<Paint> {
-    let text = text.trim().trim_matches('"').trim();
-    hex(text).or_else(|| function(text)).map(Paint::Bytes)
-}
-
 fn hex(text: &str) -> Option<[f64; 3]> {
     let digits = text.strip_prefix('#').unwrap_or(text);
     let values: Option<Vec<u32>> = digits.chars().map(|c| c.to_digit(16)).collect();
@@ -56,11 +47,6 @@ fn function(text: &str) -> Option<[f64; 3]> {
     let values = numbers.collect::<Option<Vec<f64>>>()?;
     let color = [*values.first()?, *values.get(1)?, *values.get(2)?];
     (values.len() <= 4 && color.iter().all(in_range)).then_some(color)
-}
-
-/// Three numbers, each 0 to 255.
-pub(super) fn numbers(color: [f64; 3]) -> Option<Paint> {
-    color.iter().all(in_range).then_some(Paint::Numbers(color))
 }
 
 fn in_range(value: &f64) -> bool {

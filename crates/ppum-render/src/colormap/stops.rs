@@ -24,20 +24,12 @@ impl ColorFileError {
     }
 }
 
-/// A colour as a file gives it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Paint {
-    /// 0 to 255, from a form that leaves no doubt.
-    Bytes([f64; 3]),
-    /// 0 to 255 or 0 to 1, as all the file's numbers are.
-    Numbers([f64; 3]),
-}
-
 /// A colour at a position, which is missing where the file gives none.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ColorStop {
     pub(super) at: Option<f64>,
-    pub(super) paint: Paint,
+    /// Red, green and blue, 0 to 255 or 0 to 1 as all the file's numbers are.
+    pub(super) color: [f64; 3],
     pub(super) place: String,
 }
 
@@ -79,14 +71,9 @@ impl Stops {
     }
 
     fn colors(&self) -> Vec<[f64; 3]> {
-        let small =
-            |paint: &Paint| !matches!(paint, Paint::Numbers(c) if c.iter().any(|&c| c > 1.0));
-        let scale = if self.stops.iter().all(|stop| small(&stop.paint)) { 255.0 } else { 1.0 };
-        let color = |stop: &ColorStop| match stop.paint {
-            Paint::Bytes(color) => color,
-            Paint::Numbers(color) => color.map(|c| c * scale),
-        };
-        self.stops.iter().map(color).collect()
+        let is_small = self.stops.iter().flat_map(|stop| stop.color).all(|c| c <= 1.0);
+        let scale = if is_small { 255.0 } else { 1.0 };
+        self.stops.iter().map(|stop| stop.color.map(|c| c * scale)).collect()
     }
 
     /// Positions scaled to 0 … 1; none if the file gives none.
@@ -94,12 +81,6 @@ impl Stops {
         let given: Vec<f64> = self.stops.iter().filter_map(|stop| stop.at).collect();
         if given.is_empty() {
             return Ok(given);
-        }
-        if let Some(stop) = self.stops.iter().find(|stop| stop.at.is_none()) {
-            return Err(ColorFileError::new(
-                &stop.place,
-                "has no position, but others have; give all or none",
-            ));
         }
         for (pair, stop) in given.windows(2).zip(&self.stops[1..]) {
             if pair[1] < pair[0] {

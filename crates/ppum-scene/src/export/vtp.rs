@@ -13,10 +13,11 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use super::borders::{Border, LineRequest, SAME, borders, longest, with_polygons};
 use super::torn::Torn;
 use super::vtu::{About, array, flat, numbers, write_texts};
+use crate::body::BodyView;
 use crate::colors::Colors;
-use crate::drawing::BodyView;
 use crate::engine::Engine;
 use crate::look::DEFAULT_SIZE;
+use crate::mirror::MirrorLines;
 use crate::overlays::Levels;
 use crate::place::{ImageExtent, Place};
 use crate::shot::{Asked, FieldSource, ShotError};
@@ -164,7 +165,8 @@ impl Lines {
     ) -> Result<(), ShotError> {
         let extent = ImageExtent { pixels: DEFAULT_SIZE, may_shrink: false, margin: 0.0 };
         let view = Place::default().seen(source.field.domain.bounds, source.field, extent)?;
-        let (seen, engine) = (BodyView::Plate(view), Engine::processor(watcher));
+        let (seen, engine) =
+            (BodyView::new(source.field, view, MirrorLines::default()), Engine::processor(watcher));
         let found = source.input(asked, &seen).isolines(levels, &Colors::default(), &engine)?;
         self.lines.extend(found.iter().map(|line| Feature {
             kind: FeatureKind::Isoline(line.level),

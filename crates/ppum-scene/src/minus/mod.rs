@@ -12,7 +12,7 @@ use ppum_render::extrema::Extrema;
 use ppum_render::picture::Style;
 use ppum_render::range::ValueSpan;
 use ppum_render::raster::Raster;
-use ppum_render::resample::norms::{Norms, difference, norms};
+use ppum_render::resample::norms::{difference, norms};
 use ppum_render::scale::Scale;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
@@ -27,15 +27,6 @@ pub struct Side<'a> {
     pub field: &'a Field<'a>,
     /// What is shown.
     pub shown: &'a Shown,
-}
-
-/// A difference.
-#[derive(Clone, Debug)]
-pub struct Apart {
-    /// The values, where both sides have one.
-    pub drawn: Drawn,
-    /// How large they are, also in parts of the side that was taken away.
-    pub norms: Norms,
 }
 
 /// Two sides, and what is said of them: `right` − `left`.
@@ -68,7 +59,7 @@ impl Minus<'_> {
     ///
     /// # Errors
     /// A quantity that a field does not have; a watcher that stops it.
-    pub fn draw(&self, view: &View, watcher: &dyn Watcher) -> Result<Apart, RenderError> {
+    pub fn draw(&self, view: &View, watcher: &dyn Watcher) -> Result<Drawn, RenderError> {
         let left = self.left.raster(view, watcher)?;
         let right = self.right.raster(view, watcher)?;
         let apart = difference(&left, &right);
@@ -76,7 +67,8 @@ impl Minus<'_> {
         let here = undefined(&apart, self.left.field, view);
         let mut drawn = Drawn::new(apart, self.right.field, view, PROCESSOR);
         drawn.without.retain(|pixel| here.binary_search(pixel).is_ok());
-        Ok(Apart { drawn, norms: norms(&left, &right) })
+        drawn.norms = Some(norms(&left, &right));
+        Ok(drawn)
     }
 
     /// The way in which its values become colours.

@@ -23,8 +23,8 @@ fn view(random: &mut Random, dataset: &Dataset) -> View {
     View::new(center, 10f64.powf(random.between(-9.0, 0.5)), PIXELS).unwrap()
 }
 
-fn values(apart: &Apart) -> &[f64] {
-    match &apart.drawn.values {
+fn values(apart: &Drawn) -> &[f64] {
+    match &apart.values {
         RasterValues::Double(raster) => &raster.values,
         RasterValues::Single(_) => panic!("differences are of double precision"),
     }
@@ -55,7 +55,7 @@ impl Pair {
     }
 }
 
-fn draw(right: Side<'_>, left: Side<'_>, view: &View) -> Apart {
+fn draw(right: Side<'_>, left: Side<'_>, view: &View) -> Drawn {
     Minus { right, left }.draw(view, unwatched()).unwrap()
 }
 
@@ -69,9 +69,9 @@ fn a_picture_minus_itself_is_zero_at_every_pixel() {
             for (apart, own) in values(&apart).iter().zip(&own.values) {
                 assert!(if own.is_finite() { *apart == 0.0 } else { apart.is_nan() }, "{seed}");
             }
-            assert_eq!(apart.norms.absolute, [0.0; 3]);
+            assert_eq!(apart.norms.unwrap().absolute, [0.0; 3]);
             // hatched is what has no value, and nothing else
-            assert_eq!(apart.drawn.without, {
+            assert_eq!(apart.without, {
                 let raster = difference(&own, &own);
                 raster.undefined(side.field.domain, &pair.view)
             });
@@ -88,8 +88,8 @@ fn exchanged_sides_change_the_sign_and_nothing_else() {
             for (a, b) in values(&there).iter().zip(values(&back)) {
                 assert!(a == &-b || a.is_nan() && b.is_nan(), "{seed}: {a} {b}");
             }
-            assert_eq!(there.norms.absolute, back.norms.absolute);
-            assert_eq!(there.drawn.without, back.drawn.without);
+            assert_eq!(there.norms.unwrap().absolute, back.norms.unwrap().absolute);
+            assert_eq!(there.without, back.without);
         });
     }
 }
@@ -104,7 +104,7 @@ fn each_pixel_is_the_difference_of_two_evaluations() {
         let mut random = Random(77 + seed);
         pair.with(|right, left| {
             let apart = draw(right, left, &pair.view);
-            let size = apart.norms.field[1];
+            let size = apart.norms.unwrap().field[1];
             for _ in 0..60 {
                 let [i, j] = PIXELS.map(|n| random.below(n as usize) as u32);
                 let at = |side: Side<'_>| {
@@ -176,8 +176,8 @@ fn the_difference_is_where_both_plates_are() {
         assert_eq!(!value.is_nan(), is_inside, "{at:?}");
         counts[usize::from(is_inside)] += 1;
     }
-    assert!(counts[0] > 500 && counts[1] > 500 && apart.drawn.without.is_empty());
-    assert_eq!(apart.norms.compared, counts[1]);
+    assert!(counts[0] > 500 && counts[1] > 500 && apart.without.is_empty());
+    assert_eq!(apart.norms.unwrap().compared, counts[1]);
     let warnings = Minus { right, left }.warnings();
     assert!(warnings.len() == 1 && warnings[0].contains("where both are"), "{warnings:?}");
 }
@@ -212,7 +212,7 @@ fn what_is_subtracted_is_named_and_what_does_not_fit_is_told() {
     pair.with(|right, left| {
         let minus = Minus { right, left };
         assert!(minus.warnings()[0].contains("no point in common"), "{:?}", minus.warnings());
-        assert_eq!(draw(right, left, &pair.view).norms.compared, 0);
+        assert_eq!(draw(right, left, &pair.view).norms.unwrap().compared, 0);
     });
 }
 
@@ -224,7 +224,7 @@ fn colours_are_even_around_zero_unless_chosen() {
         let pair = Pair::random(seed);
         pair.with(|right, left| {
             let minus = Minus { right, left };
-            let drawn = draw(right, left, &pair.view).drawn;
+            let drawn = draw(right, left, &pair.view);
             for range in [Range::Auto, Range::Full, Range::Percentiles(2.0, 98.0)] {
                 let colors = Colors { range, ..Colors::default() };
                 let style = minus.style(&colors).unwrap();
@@ -264,7 +264,7 @@ fn a_function_in_its_own_place_is_no_difference() {
         subject.replace(&name, Some(format!("({text})")));
         subject.apply(&mut pair.datasets[1]).unwrap();
         pair.with(|right, left| {
-            let norms = draw(right, left, &pair.view).norms;
+            let norms = draw(right, left, &pair.view).norms.unwrap();
             assert!(norms.absolute[1] <= 1e-12 * norms.field[1], "{seed} {name}: {norms:?}");
             assert!(norms.compared > 0);
         });

@@ -107,7 +107,7 @@ impl First {
             (self.is_of_cells, self.colors) = (quantity.is_none(), colors.clone());
         }
         if let Some(style) = &self.style {
-            self.found.add(input.span(&drawn, style, engine)?, &drawn, style.scale);
+            self.found.add(input.span(&drawn, style, engine.watcher)?, &drawn, style.scale);
         }
         self.classes.push(classes([(input.shown, &drawn.values)]));
         self.views.push(drawn.view);

@@ -8,8 +8,8 @@ use ppum_render::animation::AnimationError;
 use ppum_render::deform::AutomaticFactor;
 use ppum_render::view::View;
 
+use crate::body::BodyView;
 use crate::deformed::Factor;
-use crate::drawing::BodyView;
 use crate::engine::Engine;
 use crate::request::Request;
 use crate::scene::SubjectError;
@@ -115,14 +115,7 @@ pub trait Frames {
     fn bounds(&self) -> Result<Option<Rect>, Self::Error> {
         let mut all: Option<Rect> = None;
         self.each(&mut |source, Request { scene, .. }| {
-            let field = source.field;
-            let bounds = match scene.deformed {
-                None => field.domain.bounds,
-                Some(factor) => {
-                    let factor = factor.number(&[field]).map_err(ShotError::from)?;
-                    source.moved_bounds(scene, factor)?
-                }
-            };
+            let bounds = source.seen_bounds(scene)?;
             all = Some(all.map_or(bounds, |all| all.union(&bounds)));
             Ok(())
         })?;

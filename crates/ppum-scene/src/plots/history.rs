@@ -8,6 +8,7 @@ use super::{Named, PlotError, label};
 
 /// The measure of the solver's work that is plotted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum SolverWork {
     /// Seconds of the phases, of a series their sums
     #[default]

@@ -10,6 +10,7 @@ use super::{Named, PlotError, label, title};
 
 /// The horizontal axis of a plot of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum SeriesAxis {
     /// Their numbers
     #[default]

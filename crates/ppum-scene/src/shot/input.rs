@@ -1,7 +1,7 @@
 //! From values to colours to a picture, step by step.
 
-use ppum::dataset::Dataset;
-use ppum::field::Field;
+use ppum::progress::Watcher;
+use ppum::quantity::Quantity;
 use ppum_figure::figure::{BarPlace, Design};
 use ppum_render::RenderError;
 use ppum_render::image::Image;
@@ -10,14 +10,14 @@ use ppum_render::picture::{Picture, Style};
 use ppum_render::range::ValueSpan;
 use ppum_render::raster::{Raster, Sample};
 use ppum_render::samples::{Means, SampleImage, Samples};
-use ppum_render::view::View;
 
-use super::{Shot, ShotError};
+use super::{FieldSource, Shot, ShotError};
+use crate::body::{BodyPart, BodyView};
 use crate::colors::Colors;
-use crate::drawing::{BodyView, DrawingInput, Drawn, RasterValues, Shown};
-use crate::engine::Engine;
-use crate::layers::{Ground, Layers};
-use crate::minus::{self, Minus, Side};
+use crate::deformed;
+use crate::drawing::{DrawingInput, Drawn, RasterValues, Shown};
+use crate::engine::{Engine, EngineError};
+use crate::layers::{Ground, Layers, LayersError};
 use crate::mirror::{Mirror, MirrorLines};
 use crate::notice::Notice;
 use crate::overlays::Levels;
@@ -30,83 +30,92 @@ use crate::whole;
 /// What a picture is made of: what is shown of a field, and where it is seen.
 #[derive(Clone, Copy)]
 pub struct Input<'a> {
-    /// The dataset.
-    pub dataset: &'a Dataset,
-    /// Its field.
-    pub field: &'a Field<'a>,
+    /// The field, and what is subtracted.
+    pub source: FieldSource<'a>,
     /// What is shown.
     pub shown: &'a Shown,
     /// Its name in notices and in the file.
     pub name: &'a str,
     /// Where it is seen.
     pub seen: &'a BodyView<'a>,
-    /// What is subtracted, in the plate as it was.
-    pub left: Option<Side<'a>>,
 }
 
 impl<'a> Input<'a> {
-    fn minus(&self) -> Option<Minus<'a>> {
-        let right = Side { field: self.field, shown: self.shown };
-        self.left.map(|left| Minus { right, left })
-    }
-
     /// The values, each the mean of so many samples.
     ///
     /// # Errors
     /// A quantity that the field does not have; what the engine or the samples do not fit; a
     /// watcher that stops it.
     pub fn values(&self, samples: Samples, engine: &Engine<'_>) -> Result<Drawn, ShotError> {
-        let Self { field, shown, seen, .. } = *self;
-        let centers = |what| match samples {
-            Samples::CENTER => Ok(()),
-            _ => Err(ShotError::Samples(what)),
-        };
-        Ok(match (self.minus(), seen, shown) {
-            (Some(minus), seen, _) => {
-                centers("differences are")?;
-                minus.draw(seen.view(), engine.watcher)?.drawn
+        let draw = &mut |job: DrawingInput<'_>, samples| engine.draw(job, samples);
+        self.values_by(samples, draw, engine.watcher)
+    }
+
+    /// The values, where `evaluate` computes those of the undeformed body in a view.
+    ///
+    /// # Errors
+    /// As [`Self::values`].
+    pub fn values_by(
+        &self,
+        samples: Samples,
+        evaluate: &mut Evaluate<'_>,
+        watcher: &dyn Watcher,
+    ) -> Result<Drawn, ShotError> {
+        let Self { shown, seen, .. } = *self;
+        let is_center = samples == Samples::CENTER;
+        let minus = self.source.minus(shown);
+        match (&minus, seen.factor(), shown.quantity()) {
+            _ if is_center => {}
+            (Some(_), ..) => return Err(ShotError::Samples("differences are")),
+            (_, Some(_), _) => return Err(ShotError::Samples("the deformed plate is")),
+            (.., None) => return Err(ShotError::Samples("values of cells are")),
+            (.., Some(quantity)) if seen.lines != MirrorLines::default() => {
+                return self.means_of_whole(quantity, samples, evaluate, watcher);
             }
-            (None, BodyView::Plate(view), Shown::Quantity(quantity)) => {
-                engine.draw(DrawingInput { field, view, quantity }, samples)?
-            }
-            (None, BodyView::Plate(view), Shown::Cells(_, values)) => {
-                centers("values of cells are")?;
-                Drawn::of_cells(values, field, view)
-            }
-            (None, BodyView::Mirrored(view, lines), _) => {
-                self.whole((view, lines), samples, engine)?
-            }
-            (None, BodyView::Moved(body), shown) => {
-                centers("the deformed plate is")?;
-                engine.check_deformed()?;
-                whole::draw_moved::<ShotError>(body, (field, shown), engine.watcher)?
-            }
+            _ => {}
+        }
+        match minus {
+            Some(minus) => Ok(minus.draw(seen.view(), watcher)?),
+            None => self.parts(seen, samples, evaluate, watcher),
+        }
+    }
+
+    /// The values of the body and its images.
+    fn parts(
+        &self,
+        seen: &BodyView<'_>,
+        samples: Samples,
+        evaluate: &mut Evaluate<'_>,
+        watcher: &dyn Watcher,
+    ) -> Result<Drawn, ShotError> {
+        let (field, shown) = (self.source.field, self.shown);
+        whole::draw(field, seen, shown, &mut |BodyPart { view, points, .. }, shown| {
+            Ok(match (points, shown) {
+                (Some(points), shown) => deformed::draw(points, shown, watcher)?,
+                (None, Shown::Cells(_, values)) => Drawn::of_cells(values, field, view),
+                (None, Shown::Quantity(quantity)) => {
+                    evaluate(DrawingInput { field, view, quantity }, samples)?
+                }
+            })
         })
     }
 
-    /// The values of the whole of a body that is mirrored.
-    fn whole(
+    /// The means of samples of the whole of a body that is mirrored.
+    fn means_of_whole(
         &self,
-        (view, lines): (&View, &MirrorLines),
+        quantity: &Quantity,
         samples: Samples,
-        engine: &Engine<'_>,
+        evaluate: &mut Evaluate<'_>,
+        watcher: &dyn Watcher,
     ) -> Result<Drawn, ShotError> {
-        let Self { field, shown, .. } = *self;
-        let centers = |view: &View, samples: Samples| {
-            whole::draw((field, shown), (view, lines), |view: &View, shown: &Shown| {
-                let seen = &BodyView::Plate(*view);
-                Input { shown, seen, ..*self }.values(samples, engine)
-            })
-        };
-        let Some(quantity) = shown.quantity().filter(|_| samples != Samples::CENTER) else {
-            return centers(view, samples);
-        };
+        let (field, view) = (self.source.field, self.seen.view());
         let finer = view.finer(samples.side())?;
         let [columns, rows] = finer.pixels.map(u64::from);
         if columns * rows > MOST_SAMPLES {
             return Err(ShotError::MirroredSamples);
         }
-        let drawn = centers(&finer, Samples::CENTER)?;
+        let finer = BodyView::new(field, finer, self.seen.lines);
+        let drawn = self.parts(&finer, Samples::CENTER, evaluate, watcher)?;
         let job = DrawingInput { field, view, quantity };
         Ok(match &drawn.values {
             RasterValues::Double(raster) => averaged(job, samples, raster, &drawn),
@@ -133,12 +142,8 @@ impl<'a> Input<'a> {
         drawn: &Drawn,
         engine: &Engine<'_>,
     ) -> Result<Coloring, ShotError> {
-        let quantity = self.shown.quantity();
-        let style = match self.minus() {
-            Some(minus) => minus.style(colors)?,
-            None => colors.style_of([(self.shown, &drawn.values)], colors.map(quantity)?),
-        };
-        let span = self.span(drawn, &style, engine)?;
+        let style = self.source.style(self.shown, colors, drawn)?;
+        let span = self.span(drawn, &style, engine.watcher)?;
         Ok(Coloring { style, span, ends: None })
     }
 
@@ -150,15 +155,14 @@ impl<'a> Input<'a> {
         &self,
         drawn: &Drawn,
         style: &Style,
-        engine: &Engine<'_>,
+        watcher: &dyn Watcher,
     ) -> Result<ValueSpan, RenderError> {
-        Ok(match (self.left, self.shown.quantity()) {
-            (Some(_), _) => minus::span(drawn, style),
-            (None, None) => drawn.span(style, None),
-            (None, Some(quantity)) => {
-                range::value_span(self.field, self.seen, quantity, drawn, style, engine.watcher)?
+        match self.quantity() {
+            Some(quantity) => {
+                range::value_span(self.source.field, self.seen, quantity, drawn, style, watcher)
             }
-        })
+            None => Ok(self.source.pixel_span(drawn, style)),
+        }
     }
 
     /// The picture with colours for it alone.
@@ -191,10 +195,21 @@ impl<'a> Input<'a> {
         engine: &Engine<'_>,
     ) -> Result<Shot, ShotError> {
         let mut picture = coloring.picture(drawn)?;
-        let layers = self.layers(&request.scene, drawn, &picture, design, engine)?;
+        let scene = &request.scene;
+        let centers = match self.quantity() {
+            // isolines are found between the centres of pixels
+            Some(_) if drawn.opacity.is_some() && scene.overlays.isolines.is_some() => {
+                Some(self.values(Samples::CENTER, engine)?)
+            }
+            _ => None,
+        };
+        let values = &centers.as_ref().unwrap_or(drawn).values;
+        let has_bar = design.is_some_and(|design| design.bar != BarPlace::None);
+        let ground = Ground { design, has_bar, ..self.ground(&picture, values) };
+        let layers = self.layers(scene, ground, engine.watcher).map_err(Box::new)?;
         layers.notices.iter().for_each(|notice| engine.tell(notice.clone()));
-        let step = request.scene.subject.step_of(self.dataset);
-        let step = Some((step, self.field.step.load));
+        let step = request.scene.subject.step_of(self.source.dataset);
+        let step = Some((step, self.source.field.step.load));
         if request.blank {
             blank(&mut picture.image);
         }
@@ -203,12 +218,15 @@ impl<'a> Input<'a> {
             name: self.name.to_owned(),
             picture,
             layers,
-            cracks: self.seen.cracks(self.field),
+            cracks: self.seen.cracks(self.source.field),
             by: drawn.by.clone(),
             overlaps: drawn.overlap.len(),
-            factor: self.seen.moved().map(|points| points.view.factor()),
+            factor: self.seen.factor(),
             mirrored: request.scene.mirror.as_ref().map(Mirror::to_string),
-            dataset: (self.dataset.title.clone(), step.filter(|_| self.dataset.steps.len() > 1)),
+            dataset: (
+                self.source.dataset.title.clone(),
+                step.filter(|_| self.source.dataset.steps.len() > 1),
+            ),
         })
     }
 
@@ -222,47 +240,43 @@ impl<'a> Input<'a> {
         colors: &Colors,
         engine: &Engine<'_>,
     ) -> Result<Vec<Isoline>, ShotError> {
-        let Self { dataset, field, .. } = *self;
         let quantity = self.shown.quantity().ok_or(ShotError::NoIsolines)?;
         let drawn = self.values(Samples::CENTER, engine)?;
-        let picture = &self.coloring(colors, &drawn, engine)?.picture(&drawn)?;
-        let ground = Ground {
-            dataset,
-            field,
-            quantity: Some(quantity),
-            picture,
-            values: &drawn.values,
-            design: None,
-            has_bar: false,
-        };
-        let lines = self.seen.lines();
-        Ok(ground.isolines(quantity, &ground.levels(wanted), lines, engine.watcher)?)
+        let picture = self.coloring(colors, &drawn, engine)?.picture(&drawn)?;
+        let ground = self.ground(&picture, &drawn.values);
+        Ok(ground.isolines(self.seen, quantity, &ground.levels(wanted), engine.watcher)?)
     }
 
-    fn layers(
+    /// The quantity of which extrema and isolines are found: they are those of one field.
+    fn quantity(&self) -> Option<&'a Quantity> {
+        self.shown.quantity().filter(|_| self.source.left.is_none())
+    }
+
+    /// What overlays of a bare picture, without a bar beside it, are drawn on.
+    #[must_use]
+    pub fn ground<'b>(&'b self, picture: &'b Picture, values: &'b RasterValues) -> Ground<'b> {
+        let FieldSource { dataset, field, .. } = self.source;
+        let quantity = self.quantity();
+        Ground { dataset, field, quantity, picture, values, design: None, has_bar: false }
+    }
+
+    /// What a scene draws over the picture.
+    ///
+    /// # Errors
+    /// As [`Overlays::layers`](crate::overlays::Overlays::layers).
+    pub fn layers(
         &self,
         scene: &Scene,
-        drawn: &Drawn,
-        picture: &Picture,
-        design: Option<&Design>,
-        engine: &Engine<'_>,
-    ) -> Result<Layers, ShotError> {
-        let Self { dataset, field, .. } = *self;
-        // isolines are found of one field, and between the centres of pixels
-        let quantity = self.shown.quantity().filter(|_| self.left.is_none());
-        let centers = match quantity {
-            Some(_) if drawn.opacity.is_some() && scene.overlays.isolines.is_some() => {
-                Some(self.values(Samples::CENTER, engine)?)
-            }
-            _ => None,
-        };
-        let values = &centers.as_ref().unwrap_or(drawn).values;
-        let has_bar = design.is_some_and(|design| design.bar != BarPlace::None);
-        let ground = Ground { dataset, field, quantity, picture, values, design, has_bar };
-        let layers = scene.overlays.layers(ground, self.seen, scene.outline, engine.watcher);
-        Ok(layers.map_err(Box::new)?)
+        ground: Ground<'_>,
+        watcher: &dyn Watcher,
+    ) -> Result<Layers, LayersError> {
+        scene.overlays.layers(ground, self.seen, scene.outline, watcher)
     }
 }
+
+/// Computes the means of so many samples a pixel of an undeformed body: an engine, a card that
+/// stays open, or what knows the values.
+pub type Evaluate<'e> = dyn FnMut(DrawingInput<'_>, Samples) -> Result<Drawn, EngineError> + 'e;
 
 /// Most samples of an image of the whole, all of which are held at once: 512 MiB.
 const MOST_SAMPLES: u64 = 1 << 26;

@@ -8,6 +8,6 @@ mod source;
 
 pub use drawn::{Shot, tell_legend};
 pub use error::ShotError;
-pub use input::Input;
-pub use pages::{page, page_in, page_seen, reshaped, shot, view_in};
+pub use input::{Evaluate, Input};
+pub use pages::{page, page_seen, reshaped, shot, view_in};
 pub use source::{Asked, FieldSource, of_step, title};

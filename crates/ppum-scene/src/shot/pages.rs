@@ -5,7 +5,7 @@ use ppum_figure::figure::{Design, plot_area};
 use ppum_render::view::{View, ViewError};
 
 use super::{Asked, FieldSource, Shot, ShotError, title};
-use crate::drawing::BodyView;
+use crate::body::BodyView;
 use crate::engine::Engine;
 use crate::request::Request;
 
@@ -61,29 +61,14 @@ pub fn page(
 ) -> Result<(Canvas, Shot), ShotError> {
     let of_design = |design| view_in(source, request, view, design);
     let view = design.map_or(Ok(*view), of_design)?;
-    page_in(source, request, &view, design, engine)
-}
-
-/// The page of a picture, which is that of the view, pixel for pixel: it need not fill the
-/// design's room.
-///
-/// # Errors
-/// As [`page`]; a picture that is larger than its room.
-pub fn page_in(
-    source: FieldSource<'_>,
-    request: &Request,
-    view: &View,
-    design: Option<&Design>,
-    engine: &Engine<'_>,
-) -> Result<(Canvas, Shot), ShotError> {
-    let seen = source.seen(&request.scene, view, engine)?;
+    let seen = source.seen(&request.scene, &view, engine)?;
     page_seen(source, request, &seen, design, engine)
 }
 
 /// The page of a picture of what is seen.
 ///
 /// # Errors
-/// As [`page_in`].
+/// As [`page`]; a picture that is larger than its room.
 pub fn page_seen(
     source: FieldSource<'_>,
     request: &Request,

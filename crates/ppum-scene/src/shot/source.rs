@@ -9,15 +9,18 @@ use ppum::vec2::Rect;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{Design, Labels};
 use ppum_render::deform::{DeformError, Deformation, DeformedView};
+use ppum_render::picture::Style;
+use ppum_render::range::ValueSpan;
 use ppum_render::view::View;
 
 use super::{Input, Shot, ShotError};
+use crate::body::{BodyView, whole_box};
+use crate::colors::{Colors, MapError};
 use crate::deformed::{self, words};
-use crate::drawing::{BodyView, Shown};
+use crate::drawing::{Drawn, Shown};
 use crate::engine::Engine;
-use crate::minus::{Minus, Side};
+use crate::minus::{self, Minus, Side};
 use crate::mirror::{MirrorError, MirrorLines};
-use crate::moved_body::{MovedBody, whole_box};
 use crate::request::Request;
 use crate::scene::{Scene, ShownError, default_quantity, shown};
 
@@ -67,8 +70,46 @@ impl<'a> FieldSource<'a> {
     where
         'a: 'b,
     {
-        let Self { dataset, field, left } = self;
-        Input { dataset, field, shown: &asked.shown, name: &asked.name, seen, left }
+        Input { source: self, shown: &asked.shown, name: &asked.name, seen }
+    }
+
+    /// The difference, if something is subtracted from what is shown.
+    #[must_use]
+    pub fn minus(self, shown: &'a Shown) -> Option<Minus<'a>> {
+        let right = Side { field: self.field, shown };
+        self.left.map(|left| Minus { right, left })
+    }
+
+    /// The words for what is shown, or for the difference, and the unit.
+    #[must_use]
+    pub fn words(self, shown: &'a Shown) -> [String; 2] {
+        let minus = self.minus(shown);
+        minus.map_or_else(|| shown.words(self.field), |minus| minus.words())
+    }
+
+    /// The way values become colours, but for the range.
+    ///
+    /// # Errors
+    /// A map that there is not.
+    pub fn style(
+        self,
+        shown: &'a Shown,
+        colors: &Colors,
+        drawn: &Drawn,
+    ) -> Result<Style, MapError> {
+        match self.minus(shown) {
+            Some(minus) => minus.style(colors),
+            None => Ok(colors.style_of([(shown, &drawn.values)], colors.map(shown.quantity())?)),
+        }
+    }
+
+    /// The range of the colours as far as the pixels tell.
+    #[must_use]
+    pub fn pixel_span(self, drawn: &Drawn, style: &Style) -> ValueSpan {
+        match self.left {
+            Some(_) => minus::span(drawn, style),
+            None => drawn.span(style, None),
+        }
     }
 
     /// The lines at which it is mirrored; none if nobody asks for the whole.
@@ -102,16 +143,12 @@ impl<'a> FieldSource<'a> {
         self.lines(scene).unwrap_or_default().whole(self.field.domain.bounds)
     }
 
-    /// What is seen of it in a view as it was before it was loaded.
-    pub(crate) fn undeformed(self, scene: &Scene, view: View) -> Result<BodyView<'a>, ShotError> {
-        Ok(match scene.mirror {
-            None => BodyView::Plate(view),
-            Some(_) => BodyView::Mirrored(view, self.lines(scene)?),
-        })
-    }
-
     /// What is seen of it in a view.
-    pub(crate) fn seen(
+    ///
+    /// # Errors
+    /// Fields that are no displacements, a dataset that does not know its lines, an engine that
+    /// does not draw deformed bodies.
+    pub fn seen(
         self,
         scene: &Scene,
         view: &View,
@@ -119,7 +156,9 @@ impl<'a> FieldSource<'a> {
     ) -> Result<BodyView<'a>, ShotError> {
         let deformed = scene.deformed.filter(|_| self.left.is_none());
         let factor = deformed.map(|factor| factor.number(&[self.field])).transpose()?;
-        let Some(factor) = factor else { return self.undeformed(scene, *view) };
+        let Some(factor) = factor else {
+            return Ok(BodyView::new(self.field, *view, self.lines(scene)?));
+        };
         self.moved(scene, &Deformation::new(self.field, factor)?.seen(view), engine)
     }
 
@@ -132,13 +171,18 @@ impl<'a> FieldSource<'a> {
     ) -> Result<BodyView<'a>, ShotError> {
         let lines = self.lines(scene)?;
         engine.check_deformed()?;
-        Ok(BodyView::Moved(MovedBody::new(view, lines, engine.watcher)?))
+        Ok(BodyView::deformed(view, lines, engine.watcher)?)
     }
 
-    /// A box around all that a scene shows of it, deformed by a factor.
-    pub(crate) fn moved_bounds(self, scene: &Scene, factor: f64) -> Result<Rect, ShotError> {
-        let lines = self.lines(scene)?;
-        let bounds = |sign: f64| deformed::bounds(self.field, sign * factor, scene.outline);
+    /// A box around all that a scene shows of it, deformed or not.
+    ///
+    /// # Errors
+    /// A field that is no displacement, a factor that is too large, lines that nobody knows.
+    pub fn seen_bounds(self, scene: &Scene) -> Result<Rect, ShotError> {
+        let (lines, field) = (self.lines(scene)?, self.field);
+        let Some(factor) = scene.deformed else { return Ok(lines.whole(field.domain.bounds)) };
+        let factor = factor.number(&[field])?;
+        let bounds = |sign: f64| deformed::bounds(field, sign * factor, scene.outline);
         Ok(whole_box(&lines, bounds)?)
     }
 
@@ -149,10 +193,7 @@ impl<'a> FieldSource<'a> {
     /// Fields that are no displacements.
     pub fn labels(self, shown: &Shown, request: &Request) -> Result<Labels, DeformError> {
         let title = title(self, request)?;
-        let [quantity, unit] = match self.left {
-            None => shown.words(self.field),
-            Some(left) => Minus { right: Side { field: self.field, shown }, left }.words(),
-        };
+        let [quantity, unit] = FieldSource::words(self, shown);
         let labels = Labels { title, quantity, unit, ..Labels::default() };
         let labels = request.labels.applied(labels);
         let filled = |text: &str| self.filled(text, &request.scene);

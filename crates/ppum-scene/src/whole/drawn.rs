@@ -1,37 +1,47 @@
 //! Values of the whole: those of the body, and those of reflected views where it is not.
 
 use ppum::field::Field;
-use ppum::quantity::ValueChange;
+use ppum::quantity::{Reflection, ValueChange};
 use ppum_render::RenderError;
 use ppum_render::raster::{Raster, Sample};
-use ppum_render::view::View;
 
+use crate::body::{BodyPart, BodyView};
 use crate::drawing::{Drawn, RasterValues, Shown};
-use crate::mirror::{MirrorImage, MirrorLines};
 
-/// Draws the whole at the centres of pixels; `part` draws the body in a view.
+/// Draws the parts of the whole at the centres of pixels; `draw_part` draws the body itself in the
+/// view of a part. Where parts of a deformed body lie over each other the body itself is seen.
 pub(crate) fn draw<E: From<RenderError>>(
-    (field, shown): (&Field<'_>, &Shown),
-    (view, lines): (&View, &MirrorLines),
-    part: impl Fn(&View, &Shown) -> Result<Drawn, E>,
+    field: &Field<'_>,
+    body: &BodyView<'_>,
+    shown: &Shown,
+    draw_part: &mut dyn FnMut(&BodyPart<'_>, &Shown) -> Result<Drawn, E>,
 ) -> Result<Drawn, E> {
-    let mut whole = part(view, shown)?;
-    for image in lines.images(view, &field.domain.body_bounds()) {
-        let (shown, change) = reflected(shown, &image, field)?;
-        whole.fill(part(&image.view, &shown)?.flipped(image.flips(), change));
+    let mut whole = draw_part(&body.own, shown)?;
+    for image in &body.images {
+        let (shown, change) = reflected(shown, &image.reflection, field)?;
+        let part = draw_part(image, &shown)?.flipped(image.flips(), change);
+        if image.points.is_some() {
+            let columns = whole.view.pixels[0];
+            let both = whole.pixels_with(&part).filter(|&[i, j]| !body.is_on_line(i, j));
+            let overlap: Vec<u32> = both.map(|[i, j]| j * columns + i).collect();
+            whole.overlap.extend(overlap);
+        }
+        whole.fill(part);
     }
+    whole.overlap.sort_unstable();
+    whole.overlap.dedup();
     Ok(whole)
 }
 
 /// What has the values of something that is shown in a mirrored part, and their change.
-pub(super) fn reflected(
+pub(crate) fn reflected(
     shown: &Shown,
-    image: &MirrorImage,
+    reflection: &Reflection,
     field: &Field<'_>,
 ) -> Result<(Shown, ValueChange), RenderError> {
     Ok(match shown {
         Shown::Quantity(quantity) => {
-            let found = quantity.reflected(&image.reflection, field)?;
+            let found = quantity.reflected(reflection, field)?;
             (Shown::Quantity(found.quantity), found.change)
         }
         cells @ Shown::Cells(..) => (cells.clone(), ValueChange::Same),
@@ -40,7 +50,7 @@ pub(super) fn reflected(
 
 impl Drawn {
     /// The image of what is drawn in the reflected view.
-    pub(super) fn flipped(mut self, flips: [bool; 2], change: ValueChange) -> Self {
+    fn flipped(mut self, flips: [bool; 2], change: ValueChange) -> Self {
         use RasterValues::{Double, Single};
         self.values = match &self.values {
             Double(raster) => Double(flipped(raster, flips, change)),
@@ -55,10 +65,7 @@ impl Drawn {
     }
 
     /// The columns and rows at which both have values.
-    pub(super) fn pixels_with<'a>(
-        &'a self,
-        other: &'a Self,
-    ) -> impl Iterator<Item = [u32; 2]> + 'a {
+    fn pixels_with<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = [u32; 2]> + 'a {
         let [columns, rows] = self.view.pixels;
         let all = (0..rows).flat_map(move |j| (0..columns).map(move |i| [i, j]));
         all.filter(move |[i, j]| {
@@ -68,7 +75,7 @@ impl Drawn {
     }
 
     /// Takes the values of an image where there are none.
-    pub(super) fn fill(&mut self, part: Self) {
+    fn fill(&mut self, part: Self) {
         use RasterValues::{Double, Single};
         match (&mut self.values, &part.values) {
             (Double(own), Double(other)) => fill(own, other),
@@ -89,6 +96,20 @@ impl Drawn {
 }
 
 impl RasterValues {
+    /// Of values of the whole those of a part, as the body has them at the pixels of the reflected
+    /// view; none outside of the body's box.
+    pub(super) fn restricted(
+        &self,
+        part: &BodyPart<'_>,
+        change: ValueChange,
+        field: &Field<'_>,
+    ) -> Self {
+        match self {
+            Self::Double(raster) => Self::Double(restricted(raster, part, change, field)),
+            Self::Single(raster) => Self::Single(restricted(raster, part, change, field)),
+        }
+    }
+
     fn widened(&self) -> Raster<f64> {
         match self {
             Self::Double(raster) => raster.clone(),
@@ -126,16 +147,14 @@ fn fill<T: Sample>(own: &mut Raster<T>, other: &Raster<T>) {
     }
 }
 
-/// Of values of the whole those of a mirrored part, as the body has them at the pixels of the
-/// reflected view; none outside of the body's box.
-pub(crate) fn restricted<T: Sample>(
+fn restricted<T: Sample>(
     whole: &Raster<T>,
-    image: &MirrorImage,
+    part: &BodyPart<'_>,
     change: ValueChange,
     field: &Field<'_>,
 ) -> Raster<T> {
-    let mut values = flipped(whole, image.flips(), change);
-    let [columns, rows] = image.view.inside(&field.domain.body_bounds());
+    let mut values = flipped(whole, part.flips(), change);
+    let [columns, rows] = part.view.inside(&field.domain.body_bounds());
     let width = values.size[0] as usize;
     for (k, value) in values.values.iter_mut().enumerate() {
         if !columns.contains(&(k % width)) || !rows.contains(&(k / width)) {

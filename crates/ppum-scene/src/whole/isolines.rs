@@ -1,58 +1,77 @@
 //! Isolines of the whole: those of the body and those of its images.
 
+use std::borrow::Cow;
+
+use ppum::field::Field;
 use ppum::progress::Watcher;
-use ppum::quantity::{Reflection, ValueChange};
+use ppum::quantity::{Quantity, Reflection, ValueChange};
+use ppum_figure::overlay::carried;
 use ppum_render::RenderError;
 use ppum_render::isoline::{Isoline, isolines as isolines_of_body};
-use ppum_render::raster::{Raster, Sample};
+use ppum_render::scatter::render;
 
-use super::drawn::restricted;
 use super::zero_line;
-use crate::drawing::DrawingInput;
-use crate::mirror::{MirrorImage, MirrorLines, slope_sign};
+use crate::body::{BodyPart, BodyView};
+use crate::drawing::RasterValues;
+use crate::mirror::{MirrorLines, slope_sign};
 
-/// The lines on which a quantity has one of some values, of a body and of its images, if it is
-/// mirrored. The values at the pixels are given.
-pub(crate) fn isolines<T: Sample>(
-    (job, lines): (DrawingInput<'_>, MirrorLines),
+/// The lines on which a quantity has one of some values, where they are seen of the body and of
+/// its images. The values at the pixels of an undeformed body are given.
+pub(crate) fn isolines(
+    field: &Field<'_>,
+    body: &BodyView<'_>,
+    quantity: &Quantity,
     levels: &[f64],
-    raster: &Raster<T>,
+    values: &RasterValues,
     watcher: &dyn Watcher,
 ) -> Result<Vec<Isoline>, RenderError> {
-    let DrawingInput { field, view, quantity } = job;
-    if lines == MirrorLines::default() {
-        return isolines_of_body(field, view, quantity, levels, raster, watcher);
-    }
-    let own = MirrorImage { reflection: Reflection::NONE, view: *view };
+    let is_mirrored = body.lines != MirrorLines::default();
+    // of images one level after the other: each keeps its number, however it is rounded
+    let together = if is_mirrored { 1 } else { levels.len().max(1) };
     let mut all = Vec::new();
-    for image in [own].into_iter().chain(lines.images(view, &field.domain.body_bounds())) {
-        let reflected = quantity.reflected(&image.reflection, field)?;
-        let part = restricted(raster, &image, reflected.change, field);
-        // one level after the other: each keeps its number, however it is rounded
-        for &level in levels {
-            let there = [reflected.change.apply(level)];
-            let of = (field, &image.view, &reflected.quantity);
-            let found = isolines_of_body(of.0, of.1, of.2, &there, &part, watcher)?;
-            let line = |line: Isoline| reflected_line(line, level, &image, reflected.change);
-            all.extend(found.into_iter().map(line));
+    for part in body.parts() {
+        let reflected = quantity.reflected(&part.reflection, field)?;
+        let (view, known) = match &part.points {
+            None if is_mirrored => {
+                (part.view, Cow::Owned(values.restricted(part, reflected.change, field)))
+            }
+            None => (part.view, Cow::Borrowed(values)),
+            Some(points) => {
+                let Some(view) = points.material_view() else { continue };
+                let raster = render::<f64>(field, &view, &reflected.quantity, watcher)?;
+                (view, Cow::Owned(raster.into()))
+            }
+        };
+        for levels in levels.chunks(together) {
+            let there: Vec<f64> = levels.iter().map(|&l| reflected.change.apply(l)).collect();
+            let found = match &*known {
+                RasterValues::Double(raster) => {
+                    isolines_of_body(field, &view, &reflected.quantity, &there, raster, watcher)?
+                }
+                RasterValues::Single(raster) => {
+                    isolines_of_body(field, &view, &reflected.quantity, &there, raster, watcher)?
+                }
+            };
+            let found = part.points.as_ref().map(|p| carried(&p.view, &found)).unwrap_or(found);
+            all.extend(found.into_iter().map(|line| {
+                let level = if let [only] = levels { *only } else { line.level };
+                reflected_line(line, level, part, reflected.change)
+            }));
         }
     }
-    if levels.contains(&0.0) {
-        zero_line::complete(field, (view, &lines), quantity, &mut all)?;
+    if is_mirrored && body.factor().is_none() && levels.contains(&0.0) {
+        zero_line::complete(field, (body.view(), &body.lines), quantity, &mut all)?;
     }
     Ok(all)
 }
 
-/// A line of the body as one of an image; larger values stay on the left.
-pub(super) fn reflected_line(
-    line: Isoline,
-    level: f64,
-    image: &MirrorImage,
-    change: ValueChange,
-) -> Isoline {
+/// A line of the body as one of a part; larger values stay on the left.
+fn reflected_line(line: Isoline, level: f64, part: &BodyPart<'_>, change: ValueChange) -> Isoline {
     let mut points = line.points;
-    points.iter_mut().for_each(|p| *p = image.reflection.vector(*p));
-    let [across, down] = image.flips();
+    if part.reflection != Reflection::NONE {
+        points.iter_mut().for_each(|p| *p = part.reflection.vector(*p));
+    }
+    let [across, down] = part.flips();
     if (across != down) != (slope_sign(change) < 0.0) {
         points.reverse();
     }

@@ -5,11 +5,9 @@ mod drawn;
 mod extrema;
 mod isolines;
 mod levels;
-mod moved;
 mod zero_line;
 
-pub(crate) use drawn::draw;
+pub(crate) use drawn::{draw, reflected};
 pub(crate) use extrema::extrema;
 pub(crate) use isolines::isolines;
 pub(crate) use levels::between_ends;
-pub(crate) use moved::{draw_moved, moved_isolines};

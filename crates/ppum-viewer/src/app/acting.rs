@@ -16,7 +16,6 @@ use crate::actions::Action;
 use crate::app::Viewer;
 use crate::controls::swing::Swing;
 use crate::export::{ExportChoice, ExportKind, Order, PageSize};
-use crate::panels::deformation::{UNDEFORMED, UNMIRRORED};
 use crate::panels::export::Exporter;
 use crate::panels::palette::Palette;
 use crate::player;
@@ -122,14 +121,6 @@ impl Viewer {
             Action::Isolines => toggle(&mut pane.scene.overlays.isolines, Levels::Auto),
             Action::Deform | Action::Swing if stage.is_rigid() && pane.scene.deformed.is_none() => {
                 stage.tell("Nothing is deformed: a potential has no displacements");
-            }
-            Action::Deform | Action::Swing
-                if pane.scene.mirror.is_some() && pane.scene.deformed.is_none() =>
-            {
-                stage.tell(UNDEFORMED);
-            }
-            Action::Mirror if pane.scene.deformed.is_some() && pane.scene.mirror.is_none() => {
-                stage.tell(UNMIRRORED);
             }
             Action::Deform => toggle(&mut pane.scene.deformed, Factor::Auto),
             Action::Swing => {

@@ -38,3 +38,15 @@ pub struct Failure {
     /// The reason, with the remedy.
     pub message: String,
 }
+
+impl Failure {
+    /// A failure of a stage, in words.
+    pub(super) fn new(fault: Fault, message: impl Into<String>) -> Self {
+        Self { fault, message: message.into() }
+    }
+
+    /// What an error means that arose in some place.
+    pub(super) fn at<E: std::error::Error>(fault: Fault) -> impl Fn(E) -> Self {
+        move |error| Self::new(fault, error.to_string())
+    }
+}

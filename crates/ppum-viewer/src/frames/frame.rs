@@ -70,10 +70,8 @@ impl Frame {
     /// The symbol of what its colours mean, or the words for it, and the unit.
     #[must_use]
     pub fn words(&self) -> [String; 2] {
-        match self.minus() {
-            Some(minus) => minus.words(),
-            None => self.shown.words(self.field.field()),
-        }
+        let minus = self.minus();
+        minus.map_or_else(|| self.shown.words(self.field.field()), |minus| minus.words())
     }
 
     /// The map of its colours where none is chosen.

@@ -8,9 +8,7 @@ use ppum::progress::{Progress, Verdict, Watcher};
 use ppum_render::picture::Style;
 use ppum_render::range::ValueSpan;
 use ppum_render::scale::Scale;
-use ppum_scene::drawing::{Drawn, RasterValues as Pixels, Shown, single_precision_warning};
-use ppum_scene::minus;
-use ppum_scene::range;
+use ppum_scene::drawing::{Drawn, RasterValues as Pixels, single_precision_warning};
 
 use super::ease::Eased;
 use super::laid::Laid;
@@ -22,7 +20,7 @@ use super::resampled::{Other, Resampling};
 use super::stop::{Ask, Claim, StageEnd};
 use super::subject::{FrameSubject, Left, SubjectView, Subjects};
 use super::values::ValueCache;
-use super::{Fault, Frame, Minus, Subtracted, Wanted};
+use super::{Failure, Fault, Frame, Minus, Subtracted, Wanted};
 
 /// What is wanted, and when one who moves will be at rest.
 #[derive(Clone, Debug)]
@@ -107,6 +105,19 @@ impl FrameMaker {
         now: Instant,
         claim: Ask<'_>,
     ) -> Result<StepResult, StageEnd> {
+        self.next_stage(wish, now, claim).map_err(|failure| match claim() {
+            Claim::Wanted => StageEnd::Failed(failure),
+            // the work was stopped, or why it failed is no news
+            Claim::Replaced | Claim::Gone => StageEnd::Cancelled,
+        })
+    }
+
+    fn next_stage(
+        &mut self,
+        wish: &Wish,
+        now: Instant,
+        claim: Ask<'_>,
+    ) -> Result<StepResult, Failure> {
         let wanted = &wish.wanted;
         self.values.renderer.look();
         let target = SubjectView { subject: self.subjects.find(wanted)?, view: wanted.view };
@@ -116,7 +127,7 @@ impl FrameMaker {
         let goal = self.goal(&target, (&drawn, is_whole), &style);
         if let Some(goal) = &goal {
             // what cannot be used is refused before it is shown, or anything glides there
-            goal.normalization(style.scale).map_err(StageEnd::at(Fault::Colors))?;
+            goal.normalization(style.scale).map_err(Failure::at(Fault::Colors))?;
         }
         let (span, is_there) =
             self.span(wanted, (&target.subject, &drawn), &style, goal.as_ref(), now);
@@ -148,7 +159,7 @@ impl FrameMaker {
         wish: &Wish,
         target: &SubjectView,
         claim: Ask<'_>,
-    ) -> Result<(Arc<Drawn>, bool), StageEnd> {
+    ) -> Result<(Arc<Drawn>, bool), Failure> {
         if let Some(whole) = self.values.whole.get(target) {
             return Ok((whole, true));
         }
@@ -167,7 +178,7 @@ impl FrameMaker {
         Ok((drawn, !is_rough))
     }
 
-    fn draw_whole(&mut self, target: &SubjectView, watcher: &dyn Watcher) -> Result<(), StageEnd> {
+    fn draw_whole(&mut self, target: &SubjectView, watcher: &dyn Watcher) -> Result<(), Failure> {
         let start = Instant::now();
         self.values.draw_whole(target, watcher)?;
         self.seconds = start.elapsed().as_secs_f64();
@@ -180,14 +191,11 @@ impl FrameMaker {
         wanted: &Wanted,
         target: &SubjectView,
         drawn: &Arc<Drawn>,
-    ) -> Result<Style, StageEnd> {
-        let (colors, shown): (_, &Shown) = (&wanted.scene.colors, &target.subject.shown.0);
+    ) -> Result<Style, Failure> {
+        let (colors, subject) = (&wanted.scene.colors, &target.subject);
         self.styles.get_or((Same::of(drawn), colors.clone()), || {
-            if let Some(minus) = target.subject.minus() {
-                return minus.style(colors).map_err(StageEnd::at(Fault::Colors));
-            }
-            let map = colors.map(shown.quantity()).map_err(StageEnd::at(Fault::Colors))?;
-            Ok(colors.style_of([(shown, &drawn.values)], map))
+            let style = subject.source().style(&subject.shown.0, colors, drawn);
+            style.map_err(Failure::at(Fault::Colors))
         })
     }
 
@@ -206,7 +214,7 @@ impl FrameMaker {
             None => subject.shown.0.quantity().is_none(),
         };
         if is_of_pixels || !style.range.is_found() {
-            return Some(span_of(subject, drawn, style));
+            return Some(subject.source().pixel_span(drawn, style));
         }
         self.ranges.get(&ranged(drawn, style)).filter(|_| is_whole)
     }
@@ -232,7 +240,7 @@ impl FrameMaker {
             }
             None => {
                 let span = self.eased.shown(&about).cloned();
-                let span = span.unwrap_or_else(|| span_of(subject, drawn, style));
+                let span = span.unwrap_or_else(|| subject.source().pixel_span(drawn, style));
                 self.eased.set(about, span.clone());
                 (span, true)
             }
@@ -244,12 +252,10 @@ impl FrameMaker {
         target: &SubjectView,
         (drawn, style): (&Arc<Drawn>, &Style),
         watcher: &dyn Watcher,
-    ) -> Result<(), StageEnd> {
+    ) -> Result<(), Failure> {
         let seen = self.values.seen(target, watcher)?;
-        let Some(quantity) = target.subject.shown.0.quantity() else { return Ok(()) };
-        let field = target.subject.field.0.field();
-        let found = || range::value_span(field, seen.seen(), quantity, drawn, style, watcher);
-        let found = found().map_err(StageEnd::at(Fault::Colors))?;
+        let found = target.subject.input(seen.seen()).span(drawn, style, watcher);
+        let found = found.map_err(Failure::at(Fault::Colors))?;
         self.ranges.set(ranged(drawn, style), found);
         Ok(())
     }
@@ -267,10 +273,10 @@ impl FrameMaker {
         drawn: &Arc<Drawn>,
         style: &Style,
         span: ValueSpan,
-    ) -> Result<Arc<Painted>, StageEnd> {
+    ) -> Result<Arc<Painted>, Failure> {
         let key = (Same::of(drawn), style.clone(), span.clone());
         let paint = || Painted::of(drawn, style, span).map(Arc::new);
-        self.painted.get_or(key, || paint().map_err(StageEnd::at(Fault::Colors)))
+        self.painted.get_or(key, || paint().map_err(Failure::at(Fault::Colors)))
     }
 
     /// What is left when the picture is there: layers, then the comparison.
@@ -280,7 +286,7 @@ impl FrameMaker {
         target: &SubjectView,
         (drawn, painted, style): (Arc<Drawn>, Arc<Painted>, &Style),
         watcher: &dyn Watcher,
-    ) -> Result<StepResult, StageEnd> {
+    ) -> Result<StepResult, Failure> {
         let Some(newest) = self.newest.clone() else {
             return Ok(self.show(wanted, target, (drawn, painted), Next::More));
         };
@@ -370,14 +376,6 @@ fn about(wanted: &Wanted, style: &Style) -> (Quantity, Scale) {
     ((Same::of(&wanted.dataset), quantity, wanted.minus.clone()), style.scale)
 }
 
-/// The range of values as far as the pixels tell.
-fn span_of(subject: &FrameSubject, drawn: &Drawn, style: &Style) -> ValueSpan {
-    match subject.minus {
-        Some(_) => minus::span(drawn, style),
-        None => drawn.span(style, None),
-    }
-}
-
 fn ranged(drawn: &Arc<Drawn>, style: &Style) -> Ranged {
     (Same::of(drawn), style.scale, style.range.to_string(), style.colormap.diverging)
 }
@@ -399,8 +397,8 @@ impl Patience {
     fn with<T>(
         &mut self,
         claim: Ask<'_>,
-        work: impl FnOnce(&dyn Watcher) -> Result<T, StageEnd>,
-    ) -> Result<T, StageEnd> {
+        work: impl FnOnce(&dyn Watcher) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
         let (start, most) = (Instant::now(), self.0);
         let is_over = || match claim() {
             Claim::Wanted => false,
@@ -409,7 +407,7 @@ impl Patience {
         };
         let done = work(&|_: Progress| Verdict::go_on_unless(is_over()));
         self.0 = match &done {
-            Err(StageEnd::Cancelled) => most.saturating_mul(2),
+            Err(_) if is_over() => most.saturating_mul(2),
             _ => PATIENCE,
         };
         done

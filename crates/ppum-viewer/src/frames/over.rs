@@ -3,16 +3,16 @@
 use std::sync::Arc;
 
 use ppum::progress::Watcher;
-use ppum_scene::drawing::{BodyView, Drawn};
+use ppum_scene::body::BodyView;
+use ppum_scene::drawing::Drawn;
 use ppum_scene::layers::Ground;
 use ppum_scene::overlays::Overlays;
 
 use super::laid::Laid;
 use super::memo::{Memo, Same};
 use super::paint::Painted;
-use super::stop::StageEnd;
 use super::subject::SubjectView;
-use super::{Fault, Wanted};
+use super::{Failure, Fault, Wanted};
 
 /// What layers are made from: of the picture below no more than they see of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,23 +47,15 @@ impl LayerCache {
         target: &SubjectView,
         (drawn, picture, seen): (&Drawn, &Arc<Painted>, &BodyView<'_>),
         watcher: &dyn Watcher,
-    ) -> Result<Arc<Laid>, StageEnd> {
-        let ground = Ground {
-            dataset: &wanted.dataset,
-            field: target.subject.field.0.field(),
-            // isolines are found of one field
-            quantity: target.subject.shown.0.quantity().filter(|_| target.subject.minus.is_none()),
-            picture,
-            values: &drawn.values,
-            design: None,
-            has_bar: true,
-        };
+    ) -> Result<Arc<Laid>, Failure> {
+        let input = target.subject.input(seen);
         let scene = &wanted.scene;
         self.layers.get_or(Below::new(wanted, target, picture), || {
-            let layers = scene.overlays.layers(ground, seen, scene.outline, watcher);
+            let ground = Ground { has_bar: true, ..input.ground(picture, &drawn.values) };
+            let layers = input.layers(scene, ground, watcher);
             let size = picture.view.pixels;
             let laid = layers.map(|layers| Arc::new(Laid::new(layers, size)));
-            laid.map_err(StageEnd::at(Fault::Overlays))
+            laid.map_err(Failure::at(Fault::Overlays))
         })
     }
 }

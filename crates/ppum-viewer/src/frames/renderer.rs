@@ -1,11 +1,9 @@
 //! What computes the values: the processor or a graphics card, as `ppum render --backend` has it.
 
 use ppum::progress::Watcher;
-use ppum::quantity::Quantity;
 use ppum_render::RenderError;
 use ppum_render::scatter::render;
-use ppum_render::view::View;
-use ppum_scene::drawing::{Drawn, PROCESSOR};
+use ppum_scene::drawing::{DrawingInput, Drawn, PROCESSOR};
 pub use ppum_scene::engine::Backend;
 
 use super::subject::FrameSubject;
@@ -44,12 +42,11 @@ impl Renderer {
     pub(super) fn draw(
         &mut self,
         subject: &FrameSubject,
-        view: &View,
-        quantity: &Quantity,
+        job: DrawingInput<'_>,
         watcher: &dyn Watcher,
     ) -> Result<Drawn, RenderError> {
-        let field = subject.field.0.field();
-        if let Some((raster, by)) = self.cards.draw(subject, view, quantity) {
+        let DrawingInput { field, view, quantity } = job;
+        if let Some((raster, by)) = self.cards.draw(subject, job) {
             return Ok(Drawn::new(raster, field, view, &by));
         }
         Ok(Drawn::new(render::<f64>(field, view, quantity, watcher)?, field, view, PROCESSOR))
@@ -61,10 +58,11 @@ mod cards {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::thread::{self, JoinHandle};
 
-    use ppum::quantity::{Quantity, Source};
+    use ppum::quantity::Quantity;
     use ppum_gpu::{AdapterChoice, GpuError, Method, Program, RenderError, Renderer, Values};
     use ppum_render::raster::Raster;
     use ppum_render::view::View;
+    use ppum_scene::drawing::DrawingInput;
     use self_cell::self_cell;
 
     use super::Backend;
@@ -131,11 +129,10 @@ mod cards {
         pub(super) fn draw(
             &mut self,
             subject: &FrameSubject,
-            view: &View,
-            quantity: &Quantity,
+            DrawingInput { field, view, quantity }: DrawingInput<'_>,
         ) -> Option<(Raster<f32>, String)> {
-            let is_auto = self.backend == Backend::Auto;
-            if quantity.source() == Source::Exact || is_auto && !subject.bears_single() {
+            // each part of the whole of a half has a quantity of its own
+            if subject.is_mirrored() || self.backend.needs_processor(field, quantity) {
                 return None;
             }
             if self.compiled.as_ref().is_none_or(|(known, _)| known != subject) {

@@ -13,11 +13,10 @@ use ppum_render::view::View;
 use ppum_scene::compare::{Compare, Resampled, signed};
 use ppum_scene::drawing::{Drawn, RasterValues};
 
-use super::Fault;
 use super::memo::{Memo, Same};
 use super::paint::Painted;
-use super::stop::StageEnd;
 use super::subject::{FrameSubject, SubjectView};
+use super::{Failure, Fault};
 
 /// What resampling gives in a view, beside the direct picture.
 #[derive(Debug)]
@@ -59,7 +58,7 @@ impl Resampling {
         target: &SubjectView,
         (drawn, picture, style): (&Arc<Drawn>, &Arc<Painted>, &Style),
         watcher: &dyn Watcher,
-    ) -> Result<Arc<Other>, StageEnd> {
+    ) -> Result<Arc<Other>, Failure> {
         let key = (Same::of(picture), compare);
         if let Some(known) = self.others.get(&key) {
             return Ok(known);
@@ -87,7 +86,7 @@ impl Resampling {
         compare: Compare,
         subject: &FrameSubject,
         watcher: &dyn Watcher,
-    ) -> Result<Sampled, StageEnd> {
+    ) -> Result<Sampled, Failure> {
         let Some(quantity) = subject.shown.0.quantity() else { return Err(refused(OF_CELLS)) };
         if subject.factor.is_some() {
             return Err(refused(DEFORMED));
@@ -98,9 +97,9 @@ impl Resampling {
         let field = subject.field.0.field();
         self.samples.get_or((subject.clone(), compare.grid), || {
             let start = Instant::now();
-            let grid = compare.grid_over(field).map_err(StageEnd::at(Fault::Compare))?;
+            let grid = compare.grid_over(field).map_err(Failure::at(Fault::Compare))?;
             let samples =
-                grid.sample(field, quantity, watcher).map_err(StageEnd::at(Fault::Compare))?;
+                grid.sample(field, quantity, watcher).map_err(Failure::at(Fault::Compare))?;
             Ok((Arc::new(samples), start.elapsed().as_secs_f64()))
         })
     }
@@ -110,11 +109,11 @@ const OF_CELLS: &str = "values of cells are not resampled; choose a quantity to 
 const DEFORMED: &str = "the deformed plate is not resampled; compare without the deformation";
 const MINUS: &str = "the difference of two views is not resampled; compare each of them";
 
-fn refused(message: &str) -> StageEnd {
-    StageEnd::failed(Fault::Compare, message)
+fn refused(message: &str) -> Failure {
+    Failure::new(Fault::Compare, message)
 }
 
-fn find(compare: Compare, samples: &Samples, drawn: &Drawn) -> Result<ResampledFrame, StageEnd> {
+fn find(compare: Compare, samples: &Samples, drawn: &Drawn) -> Result<ResampledFrame, Failure> {
     let (start, view) = (Instant::now(), &drawn.view);
     let narrow;
     let direct = match &drawn.values {
@@ -128,7 +127,7 @@ fn find(compare: Compare, samples: &Samples, drawn: &Drawn) -> Result<ResampledF
     let resampled = Resampled::on_grid(samples, compare.method, view, direct);
     let seconds = start.elapsed().as_secs_f64();
     let apart = signed(&difference(direct, &resampled.raster), view);
-    let apart = apart.map_err(StageEnd::at(Fault::Compare))?;
+    let apart = apart.map_err(Failure::at(Fault::Compare))?;
     Ok((Arc::new(resampled), Arc::new(Painted::new(apart)), seconds))
 }
 
@@ -138,9 +137,9 @@ fn in_colors_of(
     style: &Style,
     raster: &Raster,
     view: &View,
-) -> Result<Painted, StageEnd> {
+) -> Result<Painted, Failure> {
     let norm = &picture.normalization;
     let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..style.clone() };
     let painted = Picture::bare(raster, view, &fixed).map(Painted::new);
-    painted.map_err(StageEnd::at(Fault::Compare))
+    painted.map_err(Failure::at(Fault::Compare))
 }

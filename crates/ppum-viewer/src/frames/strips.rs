@@ -107,7 +107,15 @@ pub(super) fn moved<E>(
     }
     let values = RasterValues::from(Raster::new(view.pixels, new.values));
     let by = format!("{}, moved", old.by);
-    Ok(Drawn { view, values, by, without: new.without, overlap: Vec::new(), opacity: None })
+    Ok(Drawn {
+        view,
+        values,
+        by,
+        without: new.without,
+        overlap: Vec::new(),
+        opacity: None,
+        norms: None,
+    })
 }
 
 /// A picture while it is put together.

@@ -6,17 +6,17 @@ use ppum::dataset::Dataset;
 use ppum::progress::Watcher;
 use ppum_render::deform::{DeformError, Deformation};
 use ppum_render::view::View;
+use ppum_scene::body::BodyView;
 use ppum_scene::deformed::Factor;
-use ppum_scene::drawing::{BodyView, Shown, single_precision_error};
-use ppum_scene::minus::{self, Side};
+use ppum_scene::drawing::{Shown, single_precision_error};
+use ppum_scene::minus::Side;
 use ppum_scene::mirror::{Mirror, MirrorError, MirrorLines};
 use ppum_scene::scene::{self, default_quantity, shown};
-use ppum_scene::shot::FieldSource;
+use ppum_scene::shot::{FieldSource, Input};
 use self_cell::self_cell;
 
 use super::memo::{Memo, Same};
-use super::stop::StageEnd;
-use super::{Fault, Minus, Wanted};
+use super::{Failure, Fault, Minus, Wanted};
 use crate::field::OwnedField;
 
 /// The field and the quantity that are shown, whatever the view.
@@ -50,12 +50,26 @@ impl FrameSubject {
         self.lines != MirrorLines::default()
     }
 
-    /// The two sides of a difference, if it is one.
-    pub(super) fn minus(&self) -> Option<minus::Minus<'_>> {
-        let left = self.minus.as_ref()?;
-        let right = Side { field: self.field.0.field(), shown: &self.shown.0 };
-        let left = Side { field: left.field.0.field(), shown: &left.shown.0 };
-        Some(minus::Minus { right, left })
+    /// The field, and what is subtracted from what is shown of it.
+    pub(super) fn source(&self) -> FieldSource<'_> {
+        let left = self.minus.as_ref();
+        let left = left.map(|left| Side { field: left.field.0.field(), shown: &left.shown.0 });
+        FieldSource { dataset: self.field.0.dataset(), field: self.field.0.field(), left }
+    }
+
+    /// What pictures of it are made of.
+    pub(super) fn input<'a>(&'a self, seen: &'a BodyView<'a>) -> Input<'a> {
+        Input { source: self.source(), shown: &self.shown.0, name: "", seen }
+    }
+
+    /// Where a mistake lies that keeps its values from being drawn.
+    pub(super) fn fault(&self) -> Fault {
+        match self {
+            Self { minus: Some(_), .. } => Fault::Minus,
+            Self { factor: Some(_), .. } => Fault::Deformed,
+            _ if self.is_mirrored() => Fault::Mirror,
+            _ => Fault::Quantity,
+        }
     }
 }
 
@@ -79,11 +93,11 @@ impl Fields {
         &mut self,
         field: &Arc<OwnedField>,
         quantity: Option<&String>,
-    ) -> Result<Arc<Shown>, StageEnd> {
+    ) -> Result<Arc<Shown>, Failure> {
         self.shown.get_or((Same::of(field), quantity.cloned()), || {
             let field = field.field();
             let text = quantity.map_or(default_quantity(field), String::as_str);
-            shown(text, field).map(Arc::new).map_err(StageEnd::at(Fault::Quantity))
+            shown(text, field).map(Arc::new).map_err(Failure::at(Fault::Quantity))
         })
     }
 }
@@ -102,37 +116,35 @@ const DEFORMED: &str = "of the deformed plate there is no difference; press d";
 
 impl Subjects {
     /// The subject of what is wanted.
-    pub(super) fn find(&mut self, wanted: &Wanted) -> Result<FrameSubject, StageEnd> {
+    pub(super) fn find(&mut self, wanted: &Wanted) -> Result<FrameSubject, Failure> {
         let scene = &wanted.scene;
         let key = (Same::of(&wanted.dataset), scene.subject.clone());
         let field = self.own.fields.get_or(key, || field(&wanted.dataset, &scene.subject))?;
         let shown = self.own.shown(&field, scene.quantity.as_ref())?;
         if wanted.minus.is_some() && scene.deformed.is_some() {
-            return Err(StageEnd::failed(Fault::Minus, DEFORMED));
+            return Err(Failure::new(Fault::Minus, DEFORMED));
         }
         let number = || scene.deformed.map(|factor| factor.number(&[field.field()])).transpose();
         let key = (Same::of(&field), scene.deformed);
-        let factor = self
-            .factors
-            .get_or(key, || number().map_err(StageEnd::at::<DeformError>(Fault::Deformed)))?;
+        let factor = self.factors.get_or(key, || number().map_err(Failure::at(Fault::Deformed)))?;
         let lines = self.lines(&field, wanted)?;
         if wanted.minus.is_none() {
             // what was subtracted before may have been closed
             self.minus = Fields::default();
         }
         let other = wanted.minus.as_ref().map(|minus| self.other(minus)).transpose();
-        let minus = other.map_err(|stop| stop.of(Fault::Minus, "on the left: "))?;
+        let of_left = |Failure { message, .. }: Failure| format!("on the left: {message}");
+        let minus = other.map_err(|failure| Failure::new(Fault::Minus, of_left(failure)))?;
         Ok(FrameSubject { field: Same(field), shown: Same(shown), factor, lines, minus })
     }
 
     /// The lines at which a field is mirrored.
-    fn lines(&mut self, field: &Arc<OwnedField>, wanted: &Wanted) -> Result<MirrorLines, StageEnd> {
+    fn lines(&mut self, field: &Arc<OwnedField>, wanted: &Wanted) -> Result<MirrorLines, Failure> {
         let scene = &wanted.scene;
-        let failed = |error: MirrorError| StageEnd::failed(Fault::Mirror, error.to_string());
+        let failed = |error: MirrorError| Failure::new(Fault::Mirror, error.to_string());
         match &scene.mirror {
             None => return Ok(MirrorLines::default()),
             Some(_) if wanted.minus.is_some() => return Err(failed(MirrorError::Difference)),
-            Some(_) if scene.deformed.is_some() => return Err(failed(MirrorError::Deformed)),
             Some(_) => {}
         }
         let lines = || FieldSource::of(field.dataset(), field.field()).lines(scene);
@@ -141,7 +153,7 @@ impl Subjects {
     }
 
     /// What is subtracted; a field that is looked at anyway is not made twice.
-    fn other(&mut self, wanted: &Minus) -> Result<Left, StageEnd> {
+    fn other(&mut self, wanted: &Minus) -> Result<Left, Failure> {
         let key = (Same::of(&wanted.dataset), wanted.subject.clone());
         let field = match self.own.fields.get(&key) {
             Some(field) => field,
@@ -153,17 +165,17 @@ impl Subjects {
 }
 
 /// The field of a dataset with what is replaced in it.
-fn field(dataset: &Arc<Dataset>, subject: &scene::Subject) -> Result<Arc<OwnedField>, StageEnd> {
+fn field(dataset: &Arc<Dataset>, subject: &scene::Subject) -> Result<Arc<OwnedField>, Failure> {
     let dataset = match subject.is_whole() {
         true => Arc::clone(dataset),
         false => {
             let mut changed = Dataset::clone(dataset);
-            subject.apply(&mut changed).map_err(StageEnd::at(Fault::Subject))?;
+            subject.apply(&mut changed).map_err(Failure::at(Fault::Subject))?;
             Arc::new(changed)
         }
     };
     let step = subject.step_of(&dataset);
-    OwnedField::new(dataset, step).map(Arc::new).map_err(StageEnd::at(Fault::Subject))
+    OwnedField::new(dataset, step).map(Arc::new).map_err(Failure::at(Fault::Subject))
 }
 
 self_cell!(
@@ -182,12 +194,10 @@ impl OwnedSeen {
     pub(super) fn new(target: &SubjectView, watcher: &dyn Watcher) -> Result<Self, DeformError> {
         let SubjectView { subject, view } = target;
         Both::try_new(Arc::clone(&subject.field.0), |field| match subject.factor {
-            None if subject.is_mirrored() => Ok(BodyView::Mirrored(*view, subject.lines)),
-            None => Ok(BodyView::Plate(*view)),
+            None => Ok(BodyView::new(field.field(), *view, subject.lines)),
             Some(factor) => {
-                let deformation = Deformation::new(field.field(), factor)?;
-                let points = deformation.seen(view).points(watcher)?;
-                Ok(BodyView::Moved(points.into()))
+                let seen = Deformation::new(field.field(), factor)?.seen(view);
+                BodyView::deformed(&seen, subject.lines, watcher)
             }
         })
         .map(Self)

@@ -4,22 +4,17 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ppum::progress::Watcher;
-use ppum_render::RenderError;
 use ppum_render::resample::norms::Norms;
 use ppum_render::samples::Samples;
-use ppum_render::scatter::render;
 use ppum_render::view::View;
-use ppum_scene::deformed;
-use ppum_scene::drawing::{BodyView, Drawn, PROCESSOR, Shown};
-use ppum_scene::engine::Engine;
-use ppum_scene::shot::{Asked, FieldSource};
+use ppum_scene::drawing::{DrawingInput, Drawn};
+use ppum_scene::engine::{Backend, Engine, Precision};
 
-use super::Fault;
 use super::memo::Memo;
 use super::renderer::Renderer;
-use super::stop::StageEnd;
 use super::strips::{Shift, moved};
 use super::subject::{FrameSubject, OwnedSeen, SubjectView};
+use super::{Failure, Fault};
 
 /// What may take longer has a rough picture first \[s\].
 const QUICK: f64 = 0.02;
@@ -34,8 +29,6 @@ pub(super) struct ValueCache {
     /// Pixels of rough pictures that were drawn.
     pub(super) pixels: usize,
     seen: Memo<SubjectView, Arc<OwnedSeen>>,
-    /// How far the two sides of the last difference are from each other.
-    norms: Memo<FrameSubject, Norms>,
     pace: Pace,
 }
 
@@ -55,7 +48,6 @@ impl ValueCache {
             rough: Memo::default(),
             pixels: 0,
             seen: Memo::default(),
-            norms: Memo::default(),
             pace: Pace::default(),
         }
     }
@@ -76,62 +68,23 @@ impl ValueCache {
         &mut self,
         target: &SubjectView,
         watcher: &dyn Watcher,
-    ) -> Result<Arc<Drawn>, StageEnd> {
-        let start = Instant::now();
-        if target.subject.minus.is_none() {
-            self.norms = Memo::default();
-        }
-        let FrameSubject { field, shown, factor, .. } = &target.subject;
-        let drawn = match (&*shown.0, factor) {
-            _ if target.subject.minus.is_some() => self.draw_minus(target, watcher)?,
-            _ if target.subject.is_mirrored() => self.draw_mirrored(target, watcher)?,
-            (shown, Some(_)) => {
-                let seen = self.seen(target, watcher)?;
-                deform(seen.seen(), shown, watcher)?
-            }
-            (Shown::Quantity(quantity), None) => {
-                let drawn = self.renderer.draw(&target.subject, &target.view, quantity, watcher);
-                drawn.map_err(StageEnd::at(Fault::Quantity))?
-            }
-            (Shown::Cells(_, values), None) => {
-                Drawn::of_cells(values, field.0.field(), &target.view)
-            }
-        };
-        self.pace.of_mut(&target.subject).whole = Some(per_pixel(start, &target.view));
-        let drawn = Arc::new(drawn);
+    ) -> Result<Arc<Drawn>, Failure> {
+        let (start, subject) = (Instant::now(), &target.subject);
+        let seen = self.seen(target, watcher)?;
+        let renderer = &mut self.renderer;
+        let draw = &mut |job: DrawingInput<'_>, _| Ok(renderer.draw(subject, job, watcher)?);
+        let drawn = subject.input(seen.seen()).values_by(Samples::CENTER, draw, watcher);
+        let drawn = Arc::new(drawn.map_err(Failure::at(subject.fault()))?);
+        self.pace.of_mut(subject).whole = Some(per_pixel(start, &target.view));
         self.whole.set(target.clone(), Arc::clone(&drawn));
         Ok(drawn)
-    }
-
-    /// The whole of a half, by the processor.
-    fn draw_mirrored(
-        &mut self,
-        target: &SubjectView,
-        watcher: &dyn Watcher,
-    ) -> Result<Drawn, StageEnd> {
-        let (seen, owned) = (self.seen(target, watcher)?, &target.subject.field.0);
-        let source = FieldSource::of(owned.dataset(), owned.field());
-        let asked = Asked { shown: Shown::clone(&target.subject.shown.0), name: String::new() };
-        let input = source.input(&asked, seen.seen());
-        let drawn = input.values(Samples::CENTER, &Engine::processor(watcher));
-        drawn.map_err(StageEnd::at(Fault::Mirror))
-    }
-
-    fn draw_minus(
-        &mut self,
-        target: &SubjectView,
-        watcher: &dyn Watcher,
-    ) -> Result<Drawn, StageEnd> {
-        let minus = target.subject.minus().expect("a subject with something to subtract");
-        let apart = minus.draw(&target.view, watcher).map_err(StageEnd::at(Fault::Minus))?;
-        self.norms.set(target.subject.clone(), apart.norms);
-        Ok(apart.drawn)
     }
 
     /// How far the two sides of a difference are from each other, in the view that was last
     /// drawn whole.
     pub(super) fn norms(&self, subject: &FrameSubject) -> Option<Norms> {
-        self.norms.get(subject)
+        let (known, drawn) = self.whole.last()?;
+        drawn.norms.filter(|_| known.subject == *subject)
     }
 
     /// Draws what is soon done: strips beside what was seen before, all in single precision, or a
@@ -140,50 +93,25 @@ impl ValueCache {
         &mut self,
         target: &SubjectView,
         watcher: &dyn Watcher,
-    ) -> Result<Arc<Drawn>, StageEnd> {
-        let drawn = match (&*target.subject.shown.0, target.subject.factor) {
-            _ if target.subject.minus.is_some() => self.draw_soon(target, |subject, view| {
-                let minus = subject.minus().expect("a subject with something to subtract");
-                minus.draw(view, watcher).map(|apart| apart.drawn)
-            })?,
-            _ if target.subject.is_mirrored() => {
-                let coarse = SubjectView { view: coarse(&target.view), ..target.clone() };
-                self.draw_mirrored(&coarse, watcher)?
-            }
-            (Shown::Quantity(quantity), None) => self.draw_soon(target, |subject, view| {
-                let field = subject.field.0.field();
-                if !subject.bears_single() {
-                    let raster = render::<f64>(field, view, quantity, watcher)?;
-                    return Ok(Drawn::new(raster, field, view, PROCESSOR));
-                }
-                let raster = render::<f32>(field, view, quantity, watcher)?;
-                Ok(Drawn::new(raster, field, view, "cpu f32"))
-            })?,
-            (Shown::Cells(_, values), None) => {
-                Drawn::of_cells(values, target.subject.field.0.field(), &coarse(&target.view))
-            }
-            (shown, Some(_)) => {
-                let coarse = SubjectView { view: coarse(&target.view), ..target.clone() };
-                let seen =
-                    OwnedSeen::new(&coarse, watcher).map_err(StageEnd::at(Fault::Deformed))?;
-                deform(seen.seen(), shown, watcher)?
-            }
+    ) -> Result<Arc<Drawn>, Failure> {
+        let subject = &target.subject;
+        let is_whole = subject.factor.is_some() || subject.is_mirrored();
+        let is_of_cells = subject.minus.is_none() && subject.shown.0.quantity().is_none();
+        let drawn = match is_whole || is_of_cells {
+            true => soon(subject, &coarse(&target.view), watcher)?,
+            false => self.draw_soon(target, watcher)?,
         };
         let drawn = Arc::new(drawn);
         self.rough.set(target.clone(), Arc::clone(&drawn));
         Ok(drawn)
     }
 
-    /// Draws strips, all of it or a coarse picture, by what draws the pixels of a view.
-    fn draw_soon(
-        &mut self,
-        target: &SubjectView,
-        pixels_of: impl Fn(&FrameSubject, &View) -> Result<Drawn, RenderError>,
-    ) -> Result<Drawn, StageEnd> {
+    /// Draws strips, all of it or a coarse picture.
+    fn draw_soon(&mut self, target: &SubjectView, watcher: &dyn Watcher) -> Result<Drawn, Failure> {
         let mut pixels = 0;
-        let mut draw = |view: &View| -> Result<Drawn, RenderError> {
+        let mut draw = |view: &View| {
             pixels += view.pixels.iter().map(|&n| n as usize).product::<usize>();
-            pixels_of(&target.subject, view)
+            soon(&target.subject, view, watcher)
         };
         let (start, beside) = (Instant::now(), self.beside(target));
         let view = self.affordable(target);
@@ -191,7 +119,7 @@ impl ValueCache {
             Some((old, shift)) => (moved(old, *shift, &mut draw), true),
             None => (draw(&view), false),
         };
-        let drawn = drawn.map_err(StageEnd::at(Fault::Quantity))?;
+        let drawn = drawn?;
         self.pixels += pixels;
         if !is_beside {
             self.pace.of_mut(&target.subject).single = Some(per_pixel(start, &view));
@@ -224,9 +152,9 @@ impl ValueCache {
         &mut self,
         target: &SubjectView,
         watcher: &dyn Watcher,
-    ) -> Result<Arc<OwnedSeen>, StageEnd> {
+    ) -> Result<Arc<OwnedSeen>, Failure> {
         let make = || OwnedSeen::new(target, watcher).map(Arc::new);
-        self.seen.get_or(target.clone(), || make().map_err(StageEnd::at(Fault::Deformed)))
+        self.seen.get_or(target.clone(), || make().map_err(Failure::at(Fault::Deformed)))
     }
 }
 
@@ -246,9 +174,15 @@ impl Pace {
     }
 }
 
-fn deform(seen: &BodyView<'_>, shown: &Shown, watcher: &dyn Watcher) -> Result<Drawn, StageEnd> {
-    let points = seen.moved().expect("a subject with a factor is deformed");
-    deformed::draw(points, shown, watcher).map_err(StageEnd::at(Fault::Deformed))
+/// Draws a view by the processor, in single precision where that shows the field.
+fn soon(subject: &FrameSubject, view: &View, watcher: &dyn Watcher) -> Result<Drawn, Failure> {
+    let target = SubjectView { subject: subject.clone(), view: *view };
+    let seen = OwnedSeen::new(&target, watcher).map_err(Failure::at(Fault::Deformed))?;
+    let precision = subject.bears_single().then_some(Precision::F32);
+    let engine = Engine::new(Backend::Cpu, precision, None, watcher);
+    let engine = engine.map_err(Failure::at(Fault::Quantity))?;
+    let drawn = subject.input(seen.seen()).values(Samples::CENTER, &engine);
+    drawn.map_err(Failure::at(subject.fault()))
 }
 
 fn count(view: &View) -> f64 {

@@ -1,6 +1,6 @@
 //! The deformed plate: how much, at rest or in motion.
 
-use egui::{Checkbox, Slider, Ui};
+use egui::{Slider, Ui};
 use ppum::text::trimmed_to;
 use ppum_scene::deformed::{Factor, words};
 use ppum_scene::help::tooltip;
@@ -19,8 +19,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     let (pane, stage) = desk.active();
     let is_elastic = stage.controls.facts.is_elastic;
     let is_off = pane.scene.deformed.is_none();
-    let is_free = is_elastic && pane.scene.mirror.is_none();
-    ui.add_enabled_ui(is_free || !is_off, |ui| {
+    ui.add_enabled_ui(is_elastic || !is_off, |ui| {
         kinds(ui, pane, &stage.controls);
         if pane.scene.deformed.is_some() {
             factor(ui, pane, &stage.controls);
@@ -29,8 +28,6 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     });
     if !is_elastic && is_off {
         ui.weak("A potential has no displacements");
-    } else if !is_free && is_off {
-        ui.weak(UNDEFORMED);
     }
     mirror(ui, pane);
     factor_note(ui, stage);
@@ -41,19 +38,10 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
 /// The whole of a half or quarter model.
 fn mirror(ui: &mut Ui, pane: &mut Pane) {
     let mut is_on = pane.scene.mirror.is_some();
-    let is_possible = is_on || pane.scene.deformed.is_none();
-    let checkbox = ui.add_enabled(is_possible, Checkbox::new(&mut is_on, "mirrored"));
-    let checkbox = checkbox.on_hover_text(tooltip("mirror")).on_disabled_hover_text(UNMIRRORED);
-    if checkbox.changed() {
+    if ui.checkbox(&mut is_on, "mirrored").on_hover_text(tooltip("mirror")).changed() {
         pane.scene.mirror = is_on.then_some(Mirror::Auto);
     }
 }
-
-/// Why there is no deformation, and no mirror.
-pub(crate) const UNDEFORMED: &str =
-    "A mirrored body is shown undeformed: switch mirrored off first";
-pub(crate) const UNMIRRORED: &str =
-    "A deformed body is not mirrored: switch the deformation off first";
 
 fn kinds(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {
     let deformed = &mut pane.scene.deformed;

@@ -6,7 +6,6 @@
 
 pub mod integral;
 pub mod output;
-pub mod owner;
 pub mod plotted;
 pub mod probe;
 pub mod question;

@@ -4,8 +4,8 @@ pub use ppum_scene::spot::{Places, number};
 
 use ppum::mesh::Shape;
 
-use super::owner::{Element, Owner};
 use super::probe::{Probed, Sided};
+use ppum_scene::owner::{Element, Owner};
 
 /// Digits of values, and of those that stand beside them.
 pub const DIGITS: usize = 7;
@@ -73,19 +73,9 @@ pub fn terms(probed: &Probed) -> Option<String> {
 /// other. None where there is none.
 #[must_use]
 pub fn gradients(probed: &Probed) -> Option<String> {
-    let words = |sided: &Sided| {
-        let (size, g) = (sided.gradient.length(), sided.gradient);
-        match size {
-            0.0 => "0".into(),
-            _ if size.is_finite() => {
-                let angle = number(g.y.atan2(g.x).to_degrees().round(), 3);
-                format!("{} at {angle}°", number(size, 5))
-            }
-            _ => "∞".into(),
-        }
-    };
     let is_known = probed.sides.iter().any(|sided| !sided.gradient.x.is_nan());
-    let all: Vec<String> = probed.sides.iter().map(words).collect();
+    let all: Vec<_> =
+        probed.sides.iter().map(|s| s.slope().unwrap_or_else(|| "∞".into())).collect();
     (is_known && !probed.is_outside()).then(|| format!("gradient {}", all.join(", ")))
 }
 

@@ -7,7 +7,6 @@ mod fallback;
 pub mod flight;
 pub mod locator;
 mod marks;
-pub mod material;
 mod opened;
 mod pipeline;
 pub mod pixels;
@@ -25,11 +24,10 @@ use ppum::crack::tips;
 use ppum::dataset::Dataset;
 use ppum::decompose::Part;
 use ppum::vec2::Vec2;
-use ppum_render::deform::DeformError;
 use ppum_render::view::View;
 use ppum_scene::compare::Compare;
-use ppum_scene::deformed::{self, Factor};
-use ppum_scene::scene::default_quantity;
+use ppum_scene::scene::{Scene, default_quantity};
+use ppum_scene::shot::{FieldSource, ShotError};
 use ppum_scene::spot::Spot;
 
 use crate::controls::Controls;
@@ -37,7 +35,6 @@ use crate::field::OwnedField;
 use crate::frames::{Backend, Frame, Frames, Wanted};
 use crate::plate::{bounded, view, zoomed};
 use crate::reading::Reading;
-use crate::reading::owner::Owner;
 use crate::reading::question::Question;
 use crate::session::{Pane, VisibleRegion};
 use crate::undo::{Rest, Undo};
@@ -46,6 +43,7 @@ use difference::Pair;
 use flight::Flight;
 use locator::Locator;
 pub use opened::Opened;
+use ppum_scene::owner::Owner;
 use sight::Sight;
 use texture::{Sheet, Texture};
 
@@ -89,26 +87,23 @@ pub struct Stage {
     now: f64,
 }
 
-/// What a box is looked for around: the deformed plate, and its border as it was if that is
+/// What a box is looked for around: the deformed whole, and its border as it was if that is
 /// drawn too.
 #[derive(Clone)]
 struct Moved {
     field: Arc<OwnedField>,
-    factor: Factor,
-    outline: bool,
+    scene: Scene,
 }
 
 impl PartialEq for Moved {
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.field, &other.field)
-            && (self.factor, self.outline) == (other.factor, other.outline)
+        Arc::ptr_eq(&self.field, &other.field) && self.scene == other.scene
     }
 }
 
 impl Moved {
-    fn bounds(&self) -> Result<ppum::vec2::Rect, DeformError> {
-        let field = self.field.field();
-        deformed::bounds(field, self.factor.number(&[field])?, self.outline)
+    fn bounds(&self) -> Result<ppum::vec2::Rect, ShotError> {
+        FieldSource::of(self.field.dataset(), self.field.field()).seen_bounds(&self.scene)
     }
 }
 
@@ -259,9 +254,11 @@ impl Stage {
     /// the background.
     fn whole(&mut self, ctx: &egui::Context, pane: &Pane, dataset: &Dataset) -> ppum::vec2::Rect {
         match (pane.scene.deformed, self.frames.newest()) {
-            (Some(factor), Some(frame)) => {
-                let (field, outline) = (Arc::clone(&frame.field), pane.scene.outline);
-                let asked = Moved { field, factor, outline };
+            (Some(_), Some(frame)) => {
+                let Scene { deformed, outline, ref mirror, .. } = pane.scene;
+                let mirror = mirror.clone();
+                let scene = Scene { deformed, outline, mirror, ..Scene::default() };
+                let asked = Moved { field: Arc::clone(&frame.field), scene };
                 let theirs = asked.clone();
                 self.moved.ask(&asked, false, ctx, move |_| {
                     Some(theirs.bounds().map_err(|error| error.to_string()))

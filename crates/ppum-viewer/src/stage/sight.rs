@@ -6,12 +6,12 @@ use std::sync::Arc;
 use egui::{Pos2, Rect, pos2};
 use ppum::line::Line;
 use ppum::vec2::{Vec2, vec2};
-use ppum_render::deform::Deformation;
 use ppum_render::view::View;
+use ppum_scene::material::DeformedWhole;
+use ppum_scene::mirror::MirrorLines;
 
 use crate::field::OwnedField;
 use crate::frames::Frame;
-use crate::stage::material::material;
 use ppum_scene::spot::Spot;
 
 /// A view in a rectangle of the window, of the plate as it was or deformed.
@@ -20,8 +20,8 @@ pub struct Sight {
     pub view: View,
     /// The rectangle.
     pub rect: Rect,
-    /// The deformed plate with its factor.
-    moved: Option<(Arc<OwnedField>, f64)>,
+    /// The deformed body with its factor and the lines at which it is mirrored.
+    moved: Option<(Arc<OwnedField>, f64, MirrorLines)>,
 }
 
 /// Points of a polyline on the deformed plate, where it has fewer corners.
@@ -34,8 +34,10 @@ impl Sight {
     /// A view in a rectangle; of the deformed plate if the picture shows that.
     #[must_use]
     pub fn new(view: View, rect: Rect, frame: Option<&Frame>) -> Self {
-        let moved = frame.and_then(|frame| Some((Arc::clone(&frame.field), frame.factor?)));
-        Self { view, rect, moved: moved.filter(|(_, factor)| *factor != 0.0) }
+        let moved = frame.and_then(|frame| {
+            Some((Arc::clone(&frame.field), frame.factor.filter(|f| *f != 0.0)?, frame.lines))
+        });
+        Self { view, rect, moved }
     }
 
     /// Points of the window per pixel of the view.
@@ -54,21 +56,22 @@ impl Sight {
     pub fn spot(&self, at: Pos2) -> Option<Spot> {
         let pixel = (at - self.rect.min) / self.scale() as f32;
         let offset = self.view.offset_at(vec2(f64::from(pixel.x), f64::from(pixel.y)));
-        let Some((field, factor)) = &self.moved else {
-            return Some(Spot::new(self.view.center, offset));
-        };
-        let pixel = self.view.pixel_size();
-        material(field.field(), *factor, [self.view.center, offset], pixel)
+        match self.deformed() {
+            None => Some(Spot::new(self.view.center, offset)),
+            Some(whole) => whole.spot(&self.view, offset),
+        }
+    }
+
+    fn deformed(&self) -> Option<DeformedWhole<'_>> {
+        let (field, factor, lines) = self.moved.as_ref()?;
+        Some(DeformedWhole { field: field.field(), factor: *factor, lines: *lines })
     }
 
     /// Where a point lies, in points of the window from the rectangle's corner; it may be far away.
     fn place(&self, spot: &Spot) -> Vec2 {
-        let offset = match &self.moved {
-            Some((field, factor)) => match Deformation::new(field.field(), *factor) {
-                Ok(deformation) => deformation.place(spot.point()) - self.view.center,
-                Err(_) => spot.from(self.view.center),
-            },
+        let offset = match self.deformed() {
             None => spot.from(self.view.center),
+            Some(whole) => whole.offset(&self.view, spot),
         };
         self.view.pixel_of_offset(offset) * self.scale()
     }

@@ -11,10 +11,10 @@ use ppum::mesh::Shape;
 use ppum::polynomial::PolynomialSpace::Total;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
+use ppum_scene::owner::Owner;
 use ppum_testkit::meshes::{Elements, Polynomial, field, random_polynomial};
 use ppum_testkit::random::Random;
 use ppum_viewer::Viewer;
-use ppum_viewer::reading::owner::Owner;
 use ppum_viewer::reading::tool::Tool;
 
 use crate::kit::{at, hover, settle, window};

@@ -13,9 +13,9 @@ use ppum::quantity::{Quantity, QuantityGradient};
 use ppum::vec2::{Vec2, vec2 as v};
 use ppum_fracture::solve::solve;
 use ppum_problem::Problem;
+use ppum_scene::owner::Owner;
 use ppum_scene::spot::Spot;
 use ppum_viewer::Viewer;
-use ppum_viewer::reading::owner::Owner;
 use ppum_viewer::reading::probe::Probed;
 use ppum_viewer::session::VisibleRegion;
 

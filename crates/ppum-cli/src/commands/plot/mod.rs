@@ -37,13 +37,13 @@ pub(crate) struct Args {
     /// The solver's work: seconds of its phases, or --history=residuals and others
     #[arg(long, group = "where", value_enum, value_name = "WHAT", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "seconds")]
-    history: Option<SolverWorkArg>,
+    history: Option<plots::SolverWork>,
     /// Stress intensity factors of all tips in the steps of a series
     #[arg(long, group = "where", conflicts_with = "step")]
     series: bool,
     /// What --series is drawn over
     #[arg(long, value_enum, requires = "series", default_value = "step")]
-    over: SeriesAxisArg,
+    over: plots::SeriesAxis,
     /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: those that suit]; with
     /// --series of k1, k2, load, length and extension [default: k1,k2]
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
@@ -81,60 +81,6 @@ enum LogAxisArg {
     X,
     /// The vertical axis
     Y,
-}
-
-/// The measure of the solver's work that is plotted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum SolverWorkArg {
-    /// Seconds of the phases, of a series their sums
-    #[default]
-    Seconds,
-    /// Megabytes that the phases make and keep, of a series the most
-    Bytes,
-    /// Residuals after each iteration of the multilevel solver; of one file those that reach each
-    /// level too
-    Residuals,
-    /// Patches, unknowns and values of the matrix on each level of the multilevel solver
-    Levels,
-}
-
-impl From<SolverWorkArg> for plots::SolverWork {
-    fn from(what: SolverWorkArg) -> Self {
-        match what {
-            SolverWorkArg::Seconds => Self::Seconds,
-            SolverWorkArg::Bytes => Self::Bytes,
-            SolverWorkArg::Residuals => Self::Residuals,
-            SolverWorkArg::Levels => Self::Levels,
-        }
-    }
-}
-
-/// The horizontal axis of a plot of steps.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum SeriesAxisArg {
-    /// Their numbers
-    #[default]
-    Step,
-    /// Their load factors or times
-    Load,
-    /// The length of all cracks
-    Length,
-    /// The growth of the tip since the first step, of load and length that of all tips
-    Extension,
-    /// Load cycles
-    Cycles,
-}
-
-impl From<SeriesAxisArg> for plots::SeriesAxis {
-    fn from(over: SeriesAxisArg) -> Self {
-        match over {
-            SeriesAxisArg::Step => Self::Step,
-            SeriesAxisArg::Load => Self::Load,
-            SeriesAxisArg::Length => Self::Length,
-            SeriesAxisArg::Extension => Self::Extension,
-            SeriesAxisArg::Cycles => Self::Cycles,
-        }
-    }
 }
 
 /// A dataset with the name of its file.
@@ -179,8 +125,8 @@ impl Args {
         let named = Named::all(datasets);
         let plot = match (self.convergence, self.history) {
             (true, _) => plots::convergence(&named, self.step),
-            (_, Some(what)) => plots::history(&named, what.into(), self.step),
-            _ if self.series => plots::series(&named, &self.numbers()?, self.over.into()),
+            (_, Some(what)) => plots::history(&named, what, self.step),
+            _ if self.series => plots::series(&named, &self.numbers()?, self.over),
             _ => return self.profiles(&named),
         };
         plot.map_err(plot_error)

@@ -7,9 +7,13 @@
 use ppum::crack::{Side, tips};
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
+use ppum::quantity::Reflection;
 use ppum::vec2::{Vec2, vec2};
+use ppum_render::deform::Deformation;
+use ppum_render::view::View;
 
-use ppum_scene::spot::Spot;
+use crate::mirror::MirrorLines;
+use crate::spot::Spot;
 
 /// Steps from one start, and halvings of a step.
 const STEPS: usize = 25;
@@ -21,10 +25,48 @@ const NEAR: f64 = 1e-3;
 /// What is missed at most, in pixels.
 const MISS: f64 = 1e-3;
 
+/// A body that is deformed by a factor, and its images at lines of symmetry: points of the
+/// undeformed whole and where they are seen.
+#[derive(Clone, Copy)]
+pub struct DeformedWhole<'a> {
+    /// The field.
+    pub field: &'a Field<'a>,
+    /// How many times its displacement it is drawn with.
+    pub factor: f64,
+    /// The lines at which it is mirrored.
+    pub lines: MirrorLines,
+}
+
+impl DeformedWhole<'_> {
+    /// The point that is seen at an offset from the centre of a view; none where no part is.
+    #[must_use]
+    pub fn spot(&self, view: &View, offset: Vec2) -> Option<Spot> {
+        let point = |by: Reflection| {
+            let there = [by.point(view.center), by.vector(offset)];
+            let factor = self.factor * by.sign();
+            let spot = material(self.field, factor, there, view.pixel_size())?;
+            Some(Spot::new(by.point(spot.anchor()), by.vector(spot.offset())))
+        };
+        point(Reflection::NONE).or_else(|| self.lines.reflections().find_map(point))
+    }
+
+    /// The offset from the centre of a view at which a point is seen.
+    #[must_use]
+    pub fn offset(&self, view: &View, spot: &Spot) -> Vec2 {
+        let (point, body) = (spot.point(), self.field.domain.body_bounds());
+        let is_there = |by: &Reflection| body.contains(by.point(point));
+        let image = self.lines.reflections().find(is_there).filter(|_| !body.contains(point));
+        let by = image.unwrap_or(Reflection::NONE);
+        match Deformation::new(self.field, self.factor * by.sign()) {
+            Ok(map) => by.point(map.place(by.point(point))) - view.center,
+            Err(_) => spot.from(view.center),
+        }
+    }
+}
+
 /// The point that `factor` times its displacement moves to `center + offset`, to a thousandth of a
 /// pixel; none if no point of the plate lies there.
-#[must_use]
-pub fn material(
+fn material(
     field: &Field<'_>,
     factor: f64,
     [center, offset]: [Vec2; 2],

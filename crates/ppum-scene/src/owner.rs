@@ -54,7 +54,7 @@ impl Owner {
     }
 
     /// The owner of a point of the plate, of the patches that cover it; none if no patch does.
-    pub(super) fn of(
+    pub(crate) fn of(
         field: &Field<'_>,
         local: &mut LocalField<'_>,
         offset: Vec2,
