@@ -8,6 +8,7 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Vec2, vec2};
 use ppum_scene::colors::Colors;
+use ppum_scene::deformed::Factor;
 use ppum_scene::engine::Engine;
 use ppum_scene::overlays::{Levels, Overlay, Overlays};
 use ppum_scene::scene::Scene;
@@ -73,6 +74,52 @@ fn images_are_those_of_the_program() {
             assert!(page.image() == painted.image, "{frame:?}");
             assert!(painted.legend.command.starts_with("ppum render plate.h5 -o image.png"));
             assert!(!painted.legend.colors.is_empty());
+        }
+    }
+}
+
+/// Deformed bodies, mirrored ones and both are drawn whatever rows are given, and a pixel of an
+/// image shows what is read there.
+#[test]
+fn deformed_and_mirrored_bodies_are_those_of_the_program() {
+    let mut random = Random(54);
+    for seed in 0..4 {
+        let dataset = dataset(seed);
+        let (field, bounds) = (Field::new(&dataset, 0).unwrap(), dataset.domain.bounds);
+        let mut evaluator = Evaluator::new(&dataset);
+        for (deformed, mirror) in [(true, false), (false, true), (true, true)] {
+            let mut frame = frame(&mut random, &dataset);
+            frame.scene.overlays.shown = vec![Overlay::Cracks, Overlay::Cells];
+            frame.scene.quantity = Some("ux".to_owned());
+            frame.scene.deformed = deformed.then_some(Factor::Given(0.04));
+            frame.scene.mirror = mirror.then(|| "left,bottom:antisymmetric".parse().unwrap());
+            frame.view.center = bounds.min.into();
+            frame.view.width = 2.3 * bounds.size().x;
+            let values = values(&mut evaluator, &frame);
+            assert!(values.is_empty());
+            let painted = evaluator.paint(&frame, values).unwrap();
+            let (source, request) = (FieldSource::of(&dataset, &field), frame.scene.clone().into());
+            let engine = Engine::processor(unwatched());
+            let view = frame.view.checked().unwrap();
+            let (page, shot) = shot::page(source, &request, &view, None, &engine).unwrap();
+            assert!(page.image() == painted.image, "{frame:?}");
+            let [columns, rows] = view.pixels;
+            let mut read = 0;
+            for _ in 0..60 {
+                let [i, j] = [random.below(columns as usize), random.below(rows as usize)];
+                let pixel = [i as f64 + 0.5, j as f64 + 0.5];
+                let question = PointQuestion { frame: frame.clone(), pixel, reach: 0.0 };
+                let reading = evaluator.probe(&question).unwrap();
+                let drawn = painted.values[j * columns as usize + i];
+                if !reading.is_inside || reading.sides.len() != 1 || drawn.is_nan() {
+                    continue;
+                }
+                let value: f64 = reading.sides[0].exact.parse().unwrap();
+                let size = shot.picture.normalization.max().abs();
+                // of parts that lie over each other either may be read
+                read += usize::from((value - drawn).abs() <= 1e-3 * size.max(value.abs()));
+            }
+            assert!(read > 15, "{deformed} {mirror}: {read}");
         }
     }
 }

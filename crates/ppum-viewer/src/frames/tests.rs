@@ -13,11 +13,14 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::body::BodyView;
 use ppum_scene::compare::Compare;
+use ppum_scene::deformed::Factor;
 use ppum_scene::drawing::{Drawn, RasterValues};
+use ppum_scene::engine::Engine;
 use ppum_scene::mirror::MirrorLines;
 use ppum_scene::overlays::{Levels, Overlay};
 use ppum_scene::range;
 use ppum_scene::scene::Scene;
+use ppum_scene::shot::{FieldSource, shot};
 use ppum_testkit::synthetic::Recipe;
 
 use super::maker::{FrameMaker, Next, Patience, Wish};
@@ -112,6 +115,27 @@ fn the_final_picture_is_that_of_ppum_render() {
     assert!(last.picture.picture == picture);
     assert_eq!(last.picture.texture().size, PIXELS.map(|n| n as usize));
     assert_eq!(values(&last.drawn).values.len(), values(&drawn).values.len());
+}
+
+/// Plain, deformed and mirrored bodies, and both: each final picture is that of the command.
+#[test]
+fn bodies_of_all_kinds_are_those_of_ppum_render() {
+    let (dataset, mut maker) = (dataset(), maker());
+    for (deformed, mirror) in [(true, false), (false, true), (true, true)] {
+        let mut wanted = wanted(&dataset);
+        wanted.scene.deformed = deformed.then_some(Factor::Given(0.05));
+        wanted.scene.mirror = mirror.then(|| "left,bottom:antisymmetric".parse().unwrap());
+        wanted.scene.overlays.shown = vec![Overlay::Cracks, Overlay::Cells];
+        wanted.view.center = dataset.domain.bounds.min;
+        let frames = finished(&mut maker, &wanted);
+        let last = frames.last().unwrap();
+        let source = FieldSource::of(last.field.dataset(), last.field.field());
+        let (request, engine) = (wanted.scene.clone().into(), Engine::default());
+        let made = shot(source, &request, &wanted.view, None, &engine).unwrap();
+        assert!(last.picture.picture == made.picture, "{deformed} {mirror}");
+        assert_eq!(last.layers.items.len(), made.layers.items.len());
+        assert!(last.picture.has_values && last.is_final);
+    }
 }
 
 #[test]
