@@ -49,7 +49,13 @@ pub enum StartError {
     Stations,
     /// Lines of symmetry, or the deformed body.
     #[error(transparent)]
-    Body(#[from] ShotError),
+    Body(Box<ShotError>),
+}
+
+impl From<ShotError> for StartError {
+    fn from(error: ShotError) -> Self {
+        Self::Body(Box::new(error))
+    }
 }
 
 impl Start {

@@ -55,7 +55,9 @@ impl Evaluator<'_> {
     pub fn paint(&mut self, frame: &Frame, values: Vec<f64>) -> Result<Painted, PageError> {
         let view = frame.view.checked().map_err(PageError::shot)?;
         let subject = &*prepared(&mut self.subject, self.dataset, &frame.scene)?;
-        let (engine, scene) = (Engine::processor(unwatched()), &frame.scene);
+        let engine = Engine::processor(unwatched());
+        // of a deformed body the overlays that it has
+        let scene = &frame.scene.drawn();
         let source = FieldSource::of(self.dataset, &subject.field);
         let seen = source.seen(scene, &view, &engine).map_err(PageError::shot)?;
         let input = source.input(&subject.asked, &seen);
@@ -126,7 +128,7 @@ fn drawn(input: &Input<'_>, values: Vec<f64>, engine: &Engine<'_>) -> Result<Dra
 
 /// The command that draws an image.
 fn command(Frame { scene, file, .. }: &Frame, view: &View) -> String {
-    let mut request = Request::from(scene.clone());
+    let mut request = Request::from(scene.drawn());
     (request.place, request.look.size) = (Place::of(view), Some(view.pixels));
     command::line(&command::render(&request, file, "image.png"))
 }

@@ -27,7 +27,7 @@ use ppum::vec2::Vec2;
 use ppum_render::view::View;
 use ppum_scene::compare::Compare;
 use ppum_scene::scene::{Scene, default_quantity};
-use ppum_scene::shot::{FieldSource, ShotError};
+use ppum_scene::shot::FieldSource;
 use ppum_scene::spot::Spot;
 
 use crate::controls::Controls;
@@ -102,8 +102,9 @@ impl PartialEq for Moved {
 }
 
 impl Moved {
-    fn bounds(&self) -> Result<ppum::vec2::Rect, ShotError> {
-        FieldSource::of(self.field.dataset(), self.field.field()).seen_bounds(&self.scene)
+    fn bounds(&self) -> Result<ppum::vec2::Rect, String> {
+        let source = FieldSource::of(self.field.dataset(), self.field.field());
+        source.seen_bounds(&self.scene).map_err(|error| error.to_string())
     }
 }
 
@@ -260,9 +261,7 @@ impl Stage {
                 let scene = Scene { deformed, outline, mirror, ..Scene::default() };
                 let asked = Moved { field: Arc::clone(&frame.field), scene };
                 let theirs = asked.clone();
-                self.moved.ask(&asked, false, ctx, move |_| {
-                    Some(theirs.bounds().map_err(|error| error.to_string()))
-                });
+                self.moved.ask(&asked, false, ctx, move |_| Some(theirs.bounds()));
             }
             _ => self.moved.forget(),
         }
